@@ -1,0 +1,1 @@
+"""Carpus without windows: from pictures to angles and files. Imports no Qt."""

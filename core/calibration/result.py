@@ -1,0 +1,81 @@
+"""What calibration hands on: the clicks, the measured palm or hand, the neutral pose, the verdict."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Literal
+
+from core.hand.protocols import MarkerProtocol
+from core.types import FloatArray, Side
+
+FindingKind = Literal[
+    "click_on_no_marker", "two_clicks_on_one", "swapped", "wrong_side", "no_depth", "residual", "hand_length",
+    "tilt", "distance", "moved", "few_frames", "depth_off",
+]
+
+
+@dataclass(frozen=True, slots=True)
+class Clicks:
+    """A person's clicks on the first colour frame: ``pixel`` (M, 2), in the order of the protocol."""
+
+    side: Side
+    protocol: MarkerProtocol
+    pixel: FloatArray
+
+
+@dataclass(frozen=True, slots=True)
+class Finding:
+    """One thing that is not as it should be. ``value`` in ``unit`` against ``limit``; words are elsewhere."""
+
+    kind: FindingKind
+    markers: tuple[str, ...] = ()
+    value: float = float("nan")
+    limit: float = float("nan")
+    unit: str = ""
+    blocks: bool = False
+    """True when no tracking can start from it (a click with no blob, a marker with no depth)."""
+
+
+@dataclass(frozen=True, slots=True)
+class Verdict:
+    """Plain values on which a person judges the calibration.
+
+    ``residual_mm`` (M,) distance of each disc from the fitted place, averaged over the frames used;
+    ``hand_length_mm`` estimated from the palm; ``tilt_deg`` of the palm's normal to the camera's axis;
+    ``distance_m`` of WRIST; ``frames_used`` still frames averaged.
+    """
+
+    residual_mm: FloatArray
+    hand_length_mm: float
+    tilt_deg: float
+    distance_m: float
+    frames_used: int
+    findings: tuple[Finding, ...]
+
+    @property
+    def is_good(self) -> bool:
+        return not self.findings
+
+    @property
+    def can_start(self) -> bool:
+        return not any(finding.blocks for finding in self.findings)
+
+
+@dataclass(frozen=True, slots=True)
+class Calibration:
+    """The measured hand at its neutral pose.
+
+    ``marker_position_w0_m`` (M, 3) disc centres in W0; ``rotation_w0_cam`` (3, 3) and
+    ``translation_w0_cam_m`` (3,) the pose g_w0c of the wrist paper; ``neutral_cov_rad2`` (3, 3)
+    covariance of the neutral orientation (small turn in W0), which every later angle inherits;
+    ``start_angles_rad`` (3,) deviation, flexion, pronosupination given by the therapist for a patient who
+    cannot lie neutral, zero otherwise.
+    """
+
+    clicks: Clicks
+    marker_position_w0_m: FloatArray
+    rotation_w0_cam: FloatArray
+    translation_w0_cam_m: FloatArray
+    neutral_cov_rad2: FloatArray
+    start_angles_rad: FloatArray
+    verdict: Verdict

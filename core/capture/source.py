@@ -1,0 +1,40 @@
+"""What every source of frames looks like to the rest of Carpus."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field
+from typing import Protocol
+
+from core.camera import Camera
+from core.types import Frame
+
+
+@dataclass(frozen=True, slots=True)
+class SourceInfo:
+    """Facts about a source. ``frame_count`` is None for a live camera; ``has_depth`` whether depth comes at all.
+
+    ``settings`` (sensor name, driver, modes, registration ...) goes into the session's parameters.
+    """
+
+    name: str
+    camera: Camera
+    has_depth: bool
+    frame_count: int | None
+    nominal_fps: float
+    settings: Mapping[str, str] = field(default_factory=dict)
+
+
+class FrameSource(Protocol):
+    """Frames in order, each with its own time; iterating raises a typed fault, never yields a wrong picture."""
+
+    @property
+    def info(self) -> SourceInfo: ...
+
+    def frames(self) -> Iterator[Frame]:
+        """Frames from the first on. A stored recording may be walked through again; a camera may not."""
+        ...
+
+    def close(self) -> None:
+        """Give back the device or files; may be called twice."""
+        ...

@@ -1,0 +1,94 @@
+"""What can go wrong, as facts. The words for each kind are in :mod:`core.words`."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+
+class CarpusFault(Exception):
+    """Something the person at the desk must be told; carries facts, no prose.
+
+    ``subject`` is the file, folder, device or marker concerned; ``detail`` the measured fact
+    (a number, a name, a line). Neither ever holds a patient's name.
+    """
+
+    def __init__(self, subject: str | Path = "", detail: str = "") -> None:
+        super().__init__(f"{type(self).__name__}: {subject} {detail}".strip())
+        self.subject = str(subject)
+        self.detail = detail
+
+
+class RecordingMissing(CarpusFault):
+    """There is nothing at the recording's path."""
+
+
+class RecordingUnreadable(CarpusFault):
+    """A recording is there but its lists or headers cannot be read."""
+
+
+class RecordingEmpty(CarpusFault):
+    """A recording holds no picture."""
+
+
+class PictureDamaged(CarpusFault):
+    """One picture of a recording is missing or cannot be decoded."""
+
+
+class PictureSizeChanged(CarpusFault):
+    """Pictures of one recording differ in size, or colour and depth do."""
+
+
+class TimesUnordered(CarpusFault):
+    """The times of a recording do not rise strictly."""
+
+
+class DepthMissing(CarpusFault):
+    """A recording has no depth pictures although depth was asked for."""
+
+
+class CameraFileUnreadable(CarpusFault):
+    """The camera's intrinsics file cannot be used."""
+
+
+class ClicksUnreadable(CarpusFault):
+    """The file of clicks is missing, not JSON, or not of the agreed form."""
+
+
+class ProtocolUnknown(CarpusFault):
+    """No marker protocol has this name."""
+
+
+class ClickOutsidePicture(CarpusFault):
+    """A click lies outside the first picture."""
+
+
+class ClickOnNoMarker(CarpusFault):
+    """There is no blob under a click."""
+
+
+class MarkerWithoutDepth(CarpusFault):
+    """A clicked marker has no usable depth."""
+
+
+class CalibrationImpossible(CarpusFault):
+    """The clicked markers do not fix a palm (too few, in one line, or not a hand)."""
+
+
+class OutputExists(CarpusFault):
+    """The output file is there already and is never overwritten."""
+
+
+class OutputNotWritable(CarpusFault):
+    """The output's folder cannot be written to."""
+
+
+class DiskFull(CarpusFault):
+    """No room was left while writing; what was written is kept."""
+
+
+class SessionUnreadable(CarpusFault):
+    """A file is not a session that this version reads."""
+
+
+class SettingsInvalid(CarpusFault):
+    """A settings file has an unknown key or a value out of range."""

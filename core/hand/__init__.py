@@ -1,0 +1,1 @@
+"""The hand: marker protocols, anatomy, kinematics, clinical angles."""

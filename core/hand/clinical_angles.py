@@ -1,0 +1,80 @@
+"""Rotation matrices to clinical angles and back (clinical reference 1.2 to 1.4).
+
+``sign`` is +1 for a right hand and -1 for a left one. All angles in radians.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from core.types import FloatArray, Side
+
+ZYZ_UNDEFINED_BELOW_RAD = math.radians(3.0)
+"""Below this beta only alpha + gamma is defined (reference 1.4)."""
+
+
+def side_sign(side: Side) -> float:
+    """+1 for the right hand, -1 for the left."""
+    return 1.0 if side == "right" else -1.0
+
+
+def angles_from_rotation(rotation_w2_w0: FloatArray, side: Side) -> FloatArray:
+    """Deviation (+ radial), flexion (+ flexion), pro/supination (+ supination), shape (..., 3).
+
+    ZYX Euler angles psi, theta, phi of R = Rz(psi) Ry(theta) Rx(phi) with clinical signs.
+
+    >>> angles_from_rotation(np.eye(3), "right")
+    array([0., 0., 0.])
+    """
+    r = rotation_w2_w0
+    s = side_sign(side)
+    psi = np.arctan2(r[..., 1, 0], r[..., 0, 0])
+    theta = np.arcsin(np.clip(-r[..., 2, 0], -1.0, 1.0))
+    phi = np.arctan2(r[..., 2, 1], r[..., 2, 2])
+    return np.stack((s * psi, theta + 0.0, s * phi), axis=-1)
+
+
+def rotation_from_angles(angles_rad: FloatArray, side: Side) -> FloatArray:
+    """Inverse of :func:`angles_from_rotation`; angles (..., 3) to R (..., 3, 3)."""
+    s = side_sign(side)
+    psi, theta, phi = s * angles_rad[..., 0], angles_rad[..., 1], s * angles_rad[..., 2]
+    cz, sz, cy, sy, cx, sx = np.cos(psi), np.sin(psi), np.cos(theta), np.sin(theta), np.cos(phi), np.sin(phi)
+    rows = (
+        np.stack((cz * cy, cz * sy * sx - sz * cx, cz * sy * cx + sz * sx), axis=-1),
+        np.stack((sz * cy, sz * sy * sx + cz * cx, sz * sy * cx - cz * sx), axis=-1),
+        np.stack((-sy, cy * sx, cy * cx), axis=-1),
+    )
+    return np.stack(rows, axis=-2)
+
+
+def angle_rates_matrix(rotation_w2_w0: FloatArray, side: Side) -> FloatArray:
+    """Derivative of the clinical angles for a small turn delta in W2, R Exp(delta); shape (..., 3, 3).
+
+    Grows without bound as flexion nears 90 degrees (noise gain 1/cos theta, reference 1.2).
+    """
+    angles = angles_from_rotation(rotation_w2_w0, "right")
+    theta, phi = angles[..., 1], angles[..., 2]
+    s = side_sign(side)
+    sx, cx = np.sin(phi), np.cos(phi)
+    c = np.cos(theta)
+    c = np.where(np.abs(c) < 1e-6, 1e-6, c)
+    t = np.sin(theta) / c
+    zero, one = np.zeros_like(c), np.ones_like(c)
+    rows = (
+        np.stack((zero, s * sx / c, s * cx / c), axis=-1),
+        np.stack((zero, cx, -sx), axis=-1),
+        np.stack((s * one, s * sx * t, s * cx * t), axis=-1),
+    )
+    return np.stack(rows, axis=-2)
+
+
+def zyz_from_rotation(rotation_w2_w0: FloatArray) -> FloatArray:
+    """ZYZ angles alpha, beta, gamma of the wrist paper, shape (..., 3); NaN where beta < 3 degrees."""
+    r = rotation_w2_w0
+    beta = np.arctan2(np.hypot(r[..., 0, 2], r[..., 1, 2]), r[..., 2, 2])
+    alpha = np.arctan2(r[..., 1, 2], r[..., 0, 2])
+    gamma = np.arctan2(r[..., 2, 1], -r[..., 2, 0])
+    zyz = np.stack((alpha, beta, gamma), axis=-1)
+    return np.where((beta < ZYZ_UNDEFINED_BELOW_RAD)[..., None], np.nan, zyz)

@@ -1,0 +1,113 @@
+"""Values that travel between the stages; frozen, arrays read-only.
+
+Frames of reference: ``cam`` is the colour camera (x right, y down, z forward), ``w0`` the wrist frame
+at the neutral pose (origin WRIST disc, X to MCP3, Z out of the back of the hand, Y = Z x X),
+``w2`` the moving wrist frame. ``rotation_a_b`` maps vectors of a into b.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from enum import IntEnum
+from typing import Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+FloatArray = NDArray[np.float64]
+ByteImage = NDArray[np.uint8]
+DepthImage = NDArray[np.uint16]
+
+Side = Literal["right", "left"]
+
+
+class TrackStatus(IntEnum):
+    """State of one tracked frame, as stored in ``/frames/status``."""
+
+    TRACKED = 0
+    PREDICTED = 1
+    LOST = 2
+
+
+@dataclass(frozen=True, slots=True)
+class Frame:
+    """One colour picture and the depth picture that belongs to it.
+
+    ``color_rgb`` (H, W, 3) uint8; ``depth_raw`` (H, W) uint16 registered to colour, 0 = no reading,
+    None when no depth picture was near enough in time; ``depth_unit_m`` metres per count;
+    ``dropped_before`` frames missing between the previous one and this one.
+    """
+
+    index: int
+    timestamp_s: float
+    color_rgb: ByteImage
+    depth_raw: DepthImage | None
+    depth_unit_m: float
+    dropped_before: int = 0
+
+
+@dataclass(frozen=True, slots=True)
+class Detections:
+    """Blobs of one frame, D of them, in no particular order.
+
+    ``pixel`` (D, 2) centre, u right, v down; ``depth_m`` (D,) along the camera's z, NaN when unknown;
+    ``depth_sd_m`` (D,) its standard deviation; ``area_px`` (D,); ``similarity`` (D,) Bhattacharyya
+    coefficient to the reference colour, 0 to 1.
+    """
+
+    pixel: FloatArray
+    depth_m: FloatArray
+    depth_sd_m: FloatArray
+    area_px: FloatArray
+    similarity: FloatArray
+
+    def __len__(self) -> int:
+        return int(self.pixel.shape[0])
+
+    @staticmethod
+    def none() -> Detections:
+        """No blob at all."""
+        empty = np.empty(0)
+        return Detections(np.empty((0, 2)), empty, empty, empty, empty)
+
+
+@dataclass(frozen=True, slots=True)
+class TrackedFrame:
+    """What Carpus knows about one frame; the row of every dataset of the session file.
+
+    M markers of the protocol, J joint angles (0 for ``wrist6``). Unknown is NaN.
+    ``position_m`` and ``velocity_m_s`` (3,) of W2's origin in W0; ``rotation_w2_w0`` (3, 3);
+    ``angular_velocity_rad_s`` (3,) in W2; ``angles_rad`` and ``angles_sd_rad`` (3,) deviation,
+    flexion, pronosupination with clinical signs; ``angles_zyz_rad`` (3,).
+    ``joint_*`` (J,); ``joint_position_m`` (M, 3) in W0;
+    ``marker_position_cam_m`` (M, 3); ``marker_predicted_px`` (M, 2) before the update, with its
+    covariance ``marker_predicted_cov_px2`` (M, 2, 2); ``marker_measured_px`` (M, 2) and
+    ``marker_measured_depth_m`` (M,) the blob taken for the marker.
+    ``measured_share`` (3,) or (J,) share of direct measurement in the last second; ``nis`` normalised
+    innovation squared and ``nis_dof`` its degrees of freedom.
+    """
+
+    index: int
+    timestamp_s: float
+    status: TrackStatus
+    position_m: FloatArray
+    velocity_m_s: FloatArray
+    rotation_w2_w0: FloatArray
+    angular_velocity_rad_s: FloatArray
+    angles_rad: FloatArray
+    angles_sd_rad: FloatArray
+    angles_zyz_rad: FloatArray
+    joint_angles_rad: FloatArray
+    joint_angles_sd_rad: FloatArray
+    joint_velocity_rad_s: FloatArray
+    joint_position_m: FloatArray
+    marker_position_cam_m: FloatArray
+    marker_predicted_px: FloatArray
+    marker_predicted_cov_px2: FloatArray
+    marker_measured_px: FloatArray
+    marker_measured_depth_m: FloatArray
+    detections: Detections
+    dropped_before: int
+    measured_share: FloatArray
+    nis: float
+    nis_dof: int
