@@ -64,7 +64,9 @@ class Camera:
         if not self.is_distorted or pixel.size == 0:
             return pixel
         rays = self.back_project(pixel, np.ones(pixel.shape[:-1]))
-        out, _ = cv2.projectPoints(rays.reshape(-1, 1, 3), np.zeros(3), np.zeros(3), self.matrix, np.array(self.distortion))
+        out, _ = cv2.projectPoints(
+            rays.reshape(-1, 1, 3), np.zeros(3), np.zeros(3), self.matrix, np.array(self.distortion)
+        )
         return np.asarray(out, dtype=np.float64).reshape(-1, 2)
 
 

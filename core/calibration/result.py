@@ -9,8 +9,18 @@ from core.hand.protocols import MarkerProtocol
 from core.types import FloatArray, Side
 
 FindingKind = Literal[
-    "click_on_no_marker", "two_clicks_on_one", "swapped", "wrong_side", "no_depth", "residual", "hand_length",
-    "tilt", "distance", "moved", "few_frames", "depth_off",
+    "click_on_no_marker",
+    "two_clicks_on_one",
+    "swapped",
+    "wrong_side",
+    "no_depth",
+    "residual",
+    "hand_length",
+    "tilt",
+    "distance",
+    "moved",
+    "few_frames",
+    "depth_off",
 ]
 
 

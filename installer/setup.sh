@@ -1,0 +1,115 @@
+#!/usr/bin/env bash
+# Makes this checkout ready to run (`setup.sh run`) or to run and test (`setup.sh test`).
+# Installs missing system libraries by apt, creates .venv, installs the locked packages and Carpus itself.
+# A stamp in .venv makes every later call return at once until a lock, pyproject.toml or this script changes.
+set -euo pipefail
+cd "$(dirname "${BASH_SOURCE[0]}")/.."
+
+purpose=${1:-run}
+case "$purpose" in
+    run) lock=requirements.lock ;;
+    test) lock=requirements-dev.lock ;;
+    *) echo "usage: installer/setup.sh [run|test]" >&2; exit 2 ;;
+esac
+
+say() { printf 'setup: %s\n' "$*"; }
+fail() { printf 'setup: %s\n' "$@" >&2; exit 1; }
+
+# --- done before? -------------------------------------------------------------------------------
+mark() { { pwd; cat "$1" pyproject.toml installer/setup.sh; } | sha256sum | cut -d' ' -f1; }
+ready() { [ -x .venv/bin/carpus ] && [ "$(cat ".venv/.ready-for-$1" 2>/dev/null)" = "$(mark "$2")" ]; }
+if ready "$purpose" "$lock" || { [ "$purpose" = run ] && ready test requirements-dev.lock; }; then
+    exit 0
+fi
+
+# --- Python -------------------------------------------------------------------------------------
+python=""
+for candidate in ${PYTHON:-python3 python3.13 python3.12 python3.11}; do
+    if "$candidate" -c 'import sys; sys.exit(sys.version_info < (3, 11))' 2>/dev/null; then
+        python=$candidate
+        break
+    fi
+done
+[ -n "$python" ] || fail "Python 3.11 or newer is needed and was not found." \
+    "Install it (Debian 12, Ubuntu 24.04 and later: apt-get install python3 python3-venv) or name it: make run PYTHON=/path/to/python3"
+
+# --- system libraries -----------------------------------------------------------------------------
+# "what is looked for" "Debian package that brings it". Libraries are looked for by name, not by package, so that
+# renamed packages (t64) and other distributions are recognised too.
+libraries="
+libGL.so.1 libgl1
+libEGL.so.1 libegl1
+libglib-2.0.so.0 libglib2.0-0
+libdbus-1.so.3 libdbus-1-3
+libfontconfig.so.1 libfontconfig1
+libgssapi_krb5.so.2 libgssapi-krb5-2
+libX11-xcb.so.1 libx11-xcb1
+libxkbcommon.so.0 libxkbcommon0
+libxkbcommon-x11.so.0 libxkbcommon-x11-0
+libxcb-cursor.so.0 libxcb-cursor0
+libxcb-icccm.so.4 libxcb-icccm4
+libxcb-image.so.0 libxcb-image0
+libxcb-keysyms.so.1 libxcb-keysyms1
+libxcb-randr.so.0 libxcb-randr0
+libxcb-render-util.so.0 libxcb-render-util0
+libxcb-shape.so.0 libxcb-shape0
+libxcb-sync.so.1 libxcb-sync1
+libxcb-xfixes.so.0 libxcb-xfixes0
+libxcb-xkb.so.1 libxcb-xkb1
+libOpenNI2.so.0 libopenni2-0
+"
+programs=""
+[ "$purpose" = test ] && programs="
+pdftotext poppler-utils
+Xvfb xvfb
+xdotool xdotool
+"
+
+missing_packages() {
+    local known name package
+    known=$(PATH="$PATH:/sbin:/usr/sbin" ldconfig -p 2>/dev/null || true)
+    while read -r name package; do
+        [ -z "$name" ] || grep -qF "$name " <<<"$known" || echo "$package"
+    done <<<"$libraries"
+    while read -r name package; do
+        [ -z "$name" ] || command -v "$name" >/dev/null || echo "$package"
+    done <<<"$programs"
+    "$python" -c 'import ensurepip, venv' 2>/dev/null || echo python3-venv
+}
+
+as_root() { if [ "$(id -u)" = 0 ]; then "$@"; else sudo "$@"; fi; }
+
+missing=$(missing_packages | sort -u | tr '\n' ' ')
+if [ -n "$missing" ]; then
+    if command -v apt-get >/dev/null && { [ "$(id -u)" = 0 ] || command -v sudo >/dev/null; }; then
+        say "installing system packages by apt-get: $missing"
+        export DEBIAN_FRONTEND=noninteractive
+        as_root apt-get update -qq || say "the list of packages could not be renewed; going on with the old one"
+        # shellcheck disable=SC2086  # a list of words
+        as_root env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends $missing >/dev/null \
+            || say "apt-get did not install everything"
+        hash -r
+        missing=$(missing_packages | sort -u | tr '\n' ' ')
+    fi
+    case " $missing " in
+        "  ") ;;
+        *" python3-venv "*)
+            fail "these system packages are missing: $missing" "Without python3-venv no environment can be made. Install them and start again." ;;
+        *)
+            [ "$purpose" = run ] || fail "the tests need these system packages: $missing" "Install them and start again."
+            say "these system packages are missing: $missing"
+            say "going on: tracking files works without them, the window or a live camera may not" ;;
+    esac
+fi
+
+# --- the environment ------------------------------------------------------------------------------
+if ! .venv/bin/python -c 'import sys; sys.exit(sys.version_info < (3, 11))' 2>/dev/null; then
+    say "creating .venv with $("$python" --version)"
+    "$python" -m venv --clear .venv
+fi
+rm -f .venv/.ready-for-*
+say "installing the packages of $lock"
+.venv/bin/python -m pip install --quiet --disable-pip-version-check -r "$lock"
+.venv/bin/python -m pip install --quiet --disable-pip-version-check --no-deps -e .
+mark "$lock" >".venv/.ready-for-$purpose"
+say "ready"

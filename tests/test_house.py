@@ -1,0 +1,113 @@
+"""The house rules that no linter knows: what is imported is declared, what is declared is pinned, core stays bare."""
+
+from __future__ import annotations
+
+import ast
+import re
+import subprocess
+import sys
+import tomllib
+from pathlib import Path
+
+import pytest
+from threadpoolctl import threadpool_info
+
+ROOT = Path(__file__).parents[1]
+OWN = ("app", "core", "ui", "resources")
+PROGRAM = ("app", "core", "ui")
+"""What runs at the user's; ``resources`` also keeps the scripts that made its files."""
+BROUGHT_BY = {
+    "cv2": "opencv-python-headless",
+    "yaml": "pyyaml",
+    "PySide6": "pyside6-essentials",
+    "shiboken6": "pyside6-essentials",
+}
+LEGAL_SENTENCE = (
+    "For research and education. Not a medical device, not CE-marked or FDA-cleared; values support, and do not "
+    "replace, the judgement of a qualified clinician; do not use as the only basis for diagnosis or treatment."
+)
+
+
+def modules() -> list[Path]:
+    return sorted(path for package in PROGRAM for path in (ROOT / package).rglob("*.py"))
+
+
+def imported_packages(path: Path) -> set[str]:
+    """Top-level names of every absolute import of a file, also those inside functions."""
+    names: set[str] = set()
+    for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+        if isinstance(node, ast.Import):
+            names |= {alias.name.split(".")[0] for alias in node.names}
+        elif isinstance(node, ast.ImportFrom) and node.level == 0 and node.module:
+            names.add(node.module.split(".")[0])
+    return names
+
+
+def declared() -> set[str]:
+    project = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]
+    return {re.split(r"[<>=!~ \[;]", line)[0].lower() for line in project["dependencies"]}
+
+
+def pinned(lock: str) -> dict[str, str]:
+    lines = (ROOT / lock).read_text(encoding="utf-8").splitlines()
+    return dict(line.split("#")[0].strip().split("==") for line in lines if line.split("#")[0].strip())
+
+
+def test_every_import_is_declared_as_a_run_time_need() -> None:
+    foreign = {
+        name for path in modules() for name in imported_packages(path) if name not in sys.stdlib_module_names | set(OWN)
+    }
+    assert "numpy" in foreign
+    undeclared = {name for name in foreign if BROUGHT_BY.get(name, name.lower()) not in declared()}
+    assert not undeclared
+
+
+@pytest.mark.parametrize("lock", ["requirements.lock", "requirements-dev.lock"])
+def test_every_need_is_pinned_and_the_lock_names_no_place(lock: str) -> None:
+    assert declared() <= set(pinned(lock))
+    text = (ROOT / lock).read_text(encoding="utf-8")
+    assert "://" not in text
+    assert "/" not in text.replace(" / ", "")
+
+
+def test_both_locks_agree() -> None:
+    run, dev = pinned("requirements.lock"), pinned("requirements-dev.lock")
+    assert {name: dev[name] for name in run} == run
+
+
+def test_core_loads_no_window_and_no_command_line() -> None:
+    names = [
+        ".".join(path.relative_to(ROOT).with_suffix("").parts)
+        for path in modules()
+        if path.is_relative_to(ROOT / "core")
+    ]
+    program = "import importlib, sys\n" + "".join(f"importlib.import_module({name!r})\n" for name in names)
+    program += "print(sorted({'PySide6', 'shiboken6', 'pyqtgraph'} & set(sys.modules)))"
+    done = subprocess.run([sys.executable, "-c", program], cwd=ROOT, capture_output=True, text=True, check=True)
+    assert done.stdout.strip() == "[]"
+
+
+def test_readme_tells_the_two_commands_the_limits_and_the_map() -> None:
+    text = (ROOT / "README.md").read_text(encoding="utf-8")
+    assert LEGAL_SENTENCE in " ".join(text.replace("> ", "").split())
+    assert "make run" in text
+    assert "make test" in text
+    for package in sorted((ROOT / "core").iterdir()):
+        if (package / "__init__.py").exists():
+            assert f"{package.name}/" in text, f"the map misses core/{package.name}"
+
+
+def test_no_file_names_a_place_of_one_machine() -> None:
+    places = re.compile(r"/(?:home|root|work|Users)/\w")
+    for path in [*modules(), *(ROOT / "installer").glob("*"), ROOT / "README.md", ROOT / "Makefile"]:
+        if path.is_file():
+            assert not places.search(path.read_text(encoding="utf-8", errors="replace")), path
+
+
+def test_linear_algebra_runs_on_one_thread() -> None:
+    import numpy.linalg  # noqa: F401  (loads the library that is asked about)
+    import scipy.linalg  # noqa: F401
+
+    pools = [pool for pool in threadpool_info() if pool["user_api"] == "blas"]
+    assert pools
+    assert {pool["num_threads"] for pool in pools} == {1}
