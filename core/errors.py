@@ -92,3 +92,63 @@ class SessionUnreadable(CarpusFault):
 
 class SettingsInvalid(CarpusFault):
     """A settings file has an unknown key or a value out of range."""
+
+
+class DriverMissing(CarpusFault):
+    """The OpenNI2 library is not on this computer or cannot be loaded."""
+
+
+class DriverFailed(CarpusFault):
+    """The OpenNI2 library died or no longer answers; it ran in a process of its own."""
+
+
+class CameraMissing(CarpusFault):
+    """The driver sees no camera."""
+
+
+class CameraBusy(CarpusFault):
+    """Another program holds the camera."""
+
+
+class CameraPermission(CarpusFault):
+    """A camera is plugged in, but this user may not open it."""
+
+
+class CameraUnsuited(CarpusFault):
+    """The camera does not offer the pictures that Carpus needs."""
+
+
+class CameraLost(CarpusFault):
+    """The camera was unplugged or sends no more pictures. Told when it happens, raised when it does not come back."""
+
+
+class CameraReturned(CarpusFault):
+    """Told, never raised: the lost camera delivers again; ``detail`` is how long it was away."""
+
+
+class RecordingDamaged(CarpusFault):
+    """An .oni file whose structure is broken, so that the library could die on it or never end."""
+
+
+class RecordingUnsupported(CarpusFault):
+    """A sound recording, but of a kind of pictures that Carpus does not use."""
+
+
+class PicturesLost(CarpusFault):
+    """Told, never raised: damaged pictures of a recording were left out; ``detail`` counts them."""
+
+
+class PicturesEnlarged(CarpusFault):
+    """Told, never raised: pictures of one kind were smaller and have been enlarged."""
+
+
+class RegistrationAssumed(CarpusFault):
+    """Told, never raised: nothing says whether depth lies on colour; it is taken as so."""
+
+
+class DepthNotRegistered(CarpusFault):
+    """Told, never raised: depth is known not to lie on colour, so depths are read beside the markers."""
+
+
+class DiskTooSlow(CarpusFault):
+    """Pictures came faster than they could be stored; what was stored is kept."""
