@@ -1,0 +1,142 @@
+"""The intrinsics file: ROS camera calibration YAML, read and written."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import yaml
+
+from core.camera import DEFAULT_CAMERA, Camera
+from core.errors import CameraFileUnreadable, OutputExists, OutputNotWritable
+
+CAMERA_FILE = "camera_info.yaml"
+DISTORTION_MODEL = "plumb_bob"
+
+
+@dataclass(frozen=True, slots=True)
+class CameraInfo:
+    """What the file says. ``registered`` and ``mirrored`` are None where it does not say."""
+
+    camera: Camera
+    registered: bool | None = None
+    mirrored: bool | None = None
+
+
+def read_camera_info(path: Path) -> CameraInfo:
+    """Read a ROS camera calibration file; raises :class:`CameraFileUnreadable`."""
+    try:
+        content = yaml.safe_load(path.read_text(encoding="utf-8-sig"))
+    except OSError as cause:
+        raise CameraFileUnreadable(path, cause.strerror or "cannot be opened") from cause
+    except UnicodeDecodeError as cause:
+        raise CameraFileUnreadable(path, "not a text file") from cause
+    except yaml.YAMLError as cause:
+        mark = getattr(cause, "problem_mark", None)
+        raise CameraFileUnreadable(path, "not YAML" + (f", line {mark.line + 1}" if mark else "")) from cause
+    if not isinstance(content, dict):
+        raise CameraFileUnreadable(path, "not a camera calibration")
+    return CameraInfo(_camera(path, content), _flag(path, content, "registered"), _flag(path, content, "mirrored"))
+
+
+def write_camera_info(
+    path: Path,
+    camera: Camera,
+    *,
+    camera_name: str = "carpus",
+    registered: bool | None = None,
+    mirrored: bool | None = None,
+) -> None:
+    """Write ``camera`` as a ROS camera calibration file; a file that is there already is kept."""
+    k = [camera.fx_px, 0.0, camera.cx_px, 0.0, camera.fy_px, camera.cy_px, 0.0, 0.0, 1.0]
+    content: dict[str, Any] = {
+        "image_width": camera.width_px,
+        "image_height": camera.height_px,
+        "camera_name": camera_name,
+        "camera_matrix": _matrix(3, 3, k),
+        "distortion_model": DISTORTION_MODEL,
+        "distortion_coefficients": _matrix(1, 5, list(camera.distortion)),
+        "rectification_matrix": _matrix(3, 3, [1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0]),
+        "projection_matrix": _matrix(3, 4, [*k[0:3], 0.0, *k[3:6], 0.0, *k[6:9], 0.0]),
+    }
+    for name, value in (("registered", registered), ("mirrored", mirrored)):
+        if value is not None:
+            content[name] = value
+    text = yaml.safe_dump(content, sort_keys=False, default_flow_style=None, width=120)
+    try:
+        with path.open("x", encoding="utf-8") as file:
+            file.write(text)
+    except FileExistsError as cause:
+        raise OutputExists(path) from cause
+    except OSError as cause:
+        raise OutputNotWritable(path, cause.strerror or "") from cause
+
+
+def default_camera(width_px: int, height_px: int) -> Camera | None:
+    """The nominal Xtion scaled to pictures of this size; None for another shape than 4:3, which cannot be guessed."""
+    nominal = DEFAULT_CAMERA
+    if width_px * nominal.height_px != height_px * nominal.width_px:
+        return None
+    scale = width_px / nominal.width_px
+    return Camera(
+        nominal.fx_px * scale,
+        nominal.fy_px * scale,
+        (nominal.cx_px + 0.5) * scale - 0.5,
+        (nominal.cy_px + 0.5) * scale - 0.5,
+        width_px,
+        height_px,
+        origin=nominal.origin,
+    )
+
+
+def _matrix(rows: int, columns: int, data: list[float]) -> dict[str, Any]:
+    return {"rows": rows, "cols": columns, "data": [float(value) for value in data]}
+
+
+def _camera(path: Path, content: dict[str, Any]) -> Camera:
+    model = content.get("distortion_model", DISTORTION_MODEL)
+    if model != DISTORTION_MODEL:
+        raise CameraFileUnreadable(path, f"distortion_model {model}, {DISTORTION_MODEL} expected")
+    width, height = (_size(path, content, key) for key in ("image_width", "image_height"))
+    k = _data(path, content, "camera_matrix")
+    if len(k) != 9:
+        raise CameraFileUnreadable(path, f"camera_matrix has {len(k)} numbers, 9 expected")
+    fx, skew, cx, zero, fy, cy, *last = k
+    if fx <= 0.0 or fy <= 0.0 or [skew, zero, *last] != [0.0, 0.0, 0.0, 0.0, 1.0]:
+        raise CameraFileUnreadable(path, "camera_matrix is not [fx, 0, cx, 0, fy, cy, 0, 0, 1]")
+    distortion = _data(path, content, "distortion_coefficients") if "distortion_coefficients" in content else []
+    if len(distortion) not in (0, 4, 5):
+        raise CameraFileUnreadable(path, f"distortion_coefficients has {len(distortion)} numbers, 5 expected")
+    k1, k2, p1, p2, k3 = [*distortion, *[0.0] * (5 - len(distortion))]
+    return Camera(fx, fy, cx, cy, width, height, (k1, k2, p1, p2, k3), origin="file")
+
+
+def _size(path: Path, content: dict[str, Any], key: str) -> int:
+    value = content.get(key)
+    if isinstance(value, bool) or not isinstance(value, int) or value <= 0:
+        raise CameraFileUnreadable(path, f"{key} is not a number of pixels")
+    return value
+
+
+def _flag(path: Path, content: dict[str, Any], key: str) -> bool | None:
+    value = content.get(key)
+    if value is None or isinstance(value, bool):
+        return value
+    raise CameraFileUnreadable(path, f"{key} is neither true nor false")
+
+
+def _data(path: Path, content: dict[str, Any], key: str) -> list[float]:
+    block = content.get(key)
+    data = block.get("data") if isinstance(block, dict) else None
+    if not isinstance(data, list):
+        raise CameraFileUnreadable(path, f"{key} has no data")
+    try:
+        # YAML 1.1 takes 1e-05 for a word, so words are read as numbers too
+        numbers = [float(value) for value in data if not isinstance(value, bool)]
+    except (TypeError, ValueError) as cause:
+        raise CameraFileUnreadable(path, f"{key} holds something that is not a number") from cause
+    if len(numbers) != len(data) or not all(math.isfinite(value) for value in numbers):
+        raise CameraFileUnreadable(path, f"{key} holds something that is not a number")
+    return numbers

@@ -1,0 +1,117 @@
+"""The ROS camera file: what is written is read back, and by a plain YAML reader too."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+import yaml
+
+from core.camera import DEFAULT_CAMERA, Camera
+from core.capture.camera_info import default_camera, read_camera_info, write_camera_info
+from core.errors import CameraFileUnreadable, OutputExists, OutputNotWritable
+
+CAMERA = Camera(570.3, 571.9, 314.2, 235.1, 640, 480, (0.041, -0.12, 1e-5, -3e-4, 0.07), origin="file")
+
+ROS_FILE = """\
+image_width: 640
+image_height: 480
+camera_name: rgb_PS1080
+camera_matrix:
+  rows: 3
+  cols: 3
+  data: [537.5, 0, 321.25, 0, 538.0, 240.5, 0, 0, 1]
+distortion_model: plumb_bob
+distortion_coefficients:
+  rows: 1
+  cols: 5
+  data: [1e-05, -2.5e-1, 0.001, -0.002, 0.0]
+rectification_matrix:
+  rows: 3
+  cols: 3
+  data: [1, 0, 0, 0, 1, 0, 0, 0, 1]
+registered: true
+mirrored: false
+"""
+
+
+def test_a_written_camera_is_read_back_exactly(tmp_path: Path) -> None:
+    path = tmp_path / "camera_info.yaml"
+    write_camera_info(path, CAMERA, registered=True)
+    info = read_camera_info(path)
+    assert info.camera == CAMERA
+    assert (info.registered, info.mirrored) == (True, None)
+
+
+def test_the_written_file_has_the_fields_of_ros(tmp_path: Path) -> None:
+    path = tmp_path / "camera_info.yaml"
+    write_camera_info(path, CAMERA)
+    content = yaml.safe_load(path.read_text())
+    np.testing.assert_array_equal(np.reshape(content["camera_matrix"]["data"], (3, 3)), CAMERA.matrix)
+    assert content["distortion_model"] == "plumb_bob"
+    assert len(content["distortion_coefficients"]["data"]) == 5
+    assert np.reshape(content["projection_matrix"]["data"], (3, 4))[0].tolist() == [570.3, 0.0, 314.2, 0.0]
+
+
+def test_a_file_of_ros_is_read(tmp_path: Path) -> None:
+    path = tmp_path / "camera_info.yaml"
+    path.write_text(ROS_FILE)
+    info = read_camera_info(path)
+    expected = Camera(537.5, 538.0, 321.25, 240.5, 640, 480, (1e-5, -0.25, 0.001, -0.002, 0.0), origin="file")
+    assert info.camera == expected
+    assert (info.registered, info.mirrored) == (True, False)
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "fact"),
+    [
+        ("image_width: 640", "", "image_width"),
+        ("image_height: 480", "image_height: tall", "image_height"),
+        ("plumb_bob", "rational_polynomial", "rational_polynomial"),
+        ("0, 0, 1]\ndist", "0, 0]\ndist", "8 numbers"),
+        ("[537.5,", "[-537.5,", "camera_matrix"),
+        ("[537.5,", "[.nan,", "camera_matrix"),
+        ("[537.5,", "[wide,", "camera_matrix"),
+        ("0.0]\nrect", "0.0\nrect", "not YAML, line"),
+        ("[1e-05, -2.5e-1, 0.001,", "[", "2 numbers"),
+        ("registered: true", "registered: perhaps", "registered"),
+        ("image_width: 640", "\timage_width: 640", "YAML"),
+    ],
+)
+def test_a_wrong_file_names_what_is_wrong(tmp_path: Path, old: str, new: str, fact: str) -> None:
+    path = tmp_path / "camera_info.yaml"
+    assert old in ROS_FILE
+    path.write_text(ROS_FILE.replace(old, new))
+    with pytest.raises(CameraFileUnreadable) as caught:
+        read_camera_info(path)
+    assert fact in caught.value.detail
+    assert caught.value.subject == str(path)
+
+
+@pytest.mark.parametrize("content", [b"", b"just words", b"- 1\n- 2\n", b"\xff\xfe\x00"])
+def test_something_else_is_no_camera_file(tmp_path: Path, content: bytes) -> None:
+    path = tmp_path / "camera_info.yaml"
+    path.write_bytes(content)
+    with pytest.raises(CameraFileUnreadable):
+        read_camera_info(path)
+
+
+def test_a_camera_file_is_never_overwritten(tmp_path: Path) -> None:
+    path = tmp_path / "camera_info.yaml"
+    path.write_text("mine")
+    with pytest.raises(OutputExists):
+        write_camera_info(path, CAMERA)
+    assert path.read_text() == "mine"
+    with pytest.raises(OutputNotWritable):
+        write_camera_info(tmp_path / "nowhere" / "camera_info.yaml", CAMERA)
+
+
+def test_the_default_camera_sees_the_same_field_at_every_size() -> None:
+    assert default_camera(640, 480) == DEFAULT_CAMERA
+    half = default_camera(320, 240)
+    assert half is not None
+    corner = np.array([-0.5, -0.5])  # outer corner of the top left pixel, the same ray at every size
+    ray = DEFAULT_CAMERA.back_project(corner, np.array(1.0))
+    np.testing.assert_allclose(half.back_project(corner, np.array(1.0)), ray, atol=1e-12)
+    assert default_camera(1280, 720) is None

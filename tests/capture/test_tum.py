@@ -1,0 +1,298 @@
+"""TUM folders: every colour picture once, the right depth with it, and one typed fault for each bad input."""
+
+from __future__ import annotations
+
+import threading
+from collections.abc import Callable
+from pathlib import Path
+
+import cv2
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from core.camera import DEFAULT_CAMERA, Camera
+from core.capture.camera_info import write_camera_info
+from core.capture.source import FrameSource
+from core.capture.tum import TumFolder, missing_before, nearest_pairs
+from core.errors import (
+    CameraFileUnreadable,
+    CarpusFault,
+    DepthMissing,
+    PictureDamaged,
+    PictureSizeChanged,
+    RecordingEmpty,
+    RecordingMissing,
+    RecordingUnreadable,
+    TimesUnordered,
+)
+
+WIDTH, HEIGHT = 64, 48
+TIMES_S = [1305031102.175304 + 0.033 * k for k in (0, 1, 2, 5, 6)]
+
+
+def color_picture(index: int) -> np.ndarray:
+    rng = np.random.default_rng(index)
+    return rng.integers(0, 256, (HEIGHT, WIDTH, 3), dtype=np.uint8)
+
+
+def depth_picture(index: int) -> np.ndarray:
+    rng = np.random.default_rng(1000 + index)
+    return rng.integers(0, 65536, (HEIGHT, WIDTH), dtype=np.uint16)
+
+
+def write_recording(folder: Path, times_s: list[float] = TIMES_S, depth_late_s: float = 0.004) -> Path:
+    """A folder written by hand: colour, and depth a few milliseconds later."""
+    (folder / "rgb").mkdir(parents=True)
+    (folder / "depth").mkdir()
+    color_lines, depth_lines = ["# color images", "# timestamp filename"], ["# depth maps"]
+    for k, time_s in enumerate(times_s):
+        color, depth = f"rgb/{time_s:.6f}.png", f"depth/{time_s + depth_late_s:.6f}.png"
+        cv2.imwrite(str(folder / color), color_picture(k)[..., ::-1])
+        cv2.imwrite(str(folder / depth), depth_picture(k))
+        color_lines.append(f"{time_s:.6f} {color}")
+        depth_lines.append(f"{time_s + depth_late_s:.6f} {depth}")
+    (folder / "rgb.txt").write_text("\n".join(color_lines) + "\n")
+    (folder / "depth.txt").write_text("\n".join(depth_lines) + "\n")
+    return folder
+
+
+def edit(path: Path, change: Callable[[list[str]], list[str]]) -> None:
+    path.write_text("\n".join(change(path.read_text().splitlines())) + "\n")
+
+
+@pytest.mark.parametrize("read_ahead", [0, 3])
+def test_every_picture_comes_back_bit_for_bit(tmp_path: Path, read_ahead: int) -> None:
+    source: FrameSource = TumFolder(write_recording(tmp_path / "take"), read_ahead=read_ahead)
+    for _ in range(2):  # may be walked through again
+        frames = list(source.frames())
+        assert [frame.index for frame in frames] == [0, 1, 2, 3, 4]
+        assert [frame.timestamp_s for frame in frames] == [round(time_s, 6) for time_s in TIMES_S]
+        assert [frame.dropped_before for frame in frames] == [0, 0, 0, 2, 0]
+        for k, frame in enumerate(frames):
+            np.testing.assert_array_equal(frame.color_rgb, color_picture(k))
+            np.testing.assert_array_equal(frame.depth_raw, depth_picture(k))
+            assert frame.depth_unit_m == pytest.approx(1 / 5000)
+            assert not frame.color_rgb.flags.writeable
+            assert frame.depth_raw is not None
+            assert not frame.depth_raw.flags.writeable
+    source.close()
+    source.close()
+
+
+def test_facts_of_the_source(tmp_path: Path) -> None:
+    info = TumFolder(write_recording(tmp_path / "take")).info
+    assert (info.name, info.frame_count, info.has_depth) == ("take", 5, True)
+    assert info.nominal_fps == pytest.approx(1 / 0.033, rel=1e-4)
+    assert info.camera.origin == "default"
+    assert info.camera.fx_px == pytest.approx(DEFAULT_CAMERA.fx_px * WIDTH / 640)
+
+
+def test_the_camera_file_is_taken(tmp_path: Path) -> None:
+    folder = write_recording(tmp_path / "take")
+    camera = Camera(52.0, 53.0, 31.0, 24.0, WIDTH, HEIGHT, (0.1, 0.0, 0.0, 0.0, 0.0), origin="file")
+    write_camera_info(folder / "camera_info.yaml", camera)
+    assert TumFolder(folder).info.camera == camera
+
+
+def test_a_colour_picture_without_depth_is_kept(tmp_path: Path) -> None:
+    folder = write_recording(tmp_path / "take")
+    edit(folder / "depth.txt", lambda lines: [*lines[:2], *lines[3:]])
+    frames = list(TumFolder(folder).frames())
+    assert [frame.depth_raw is None for frame in frames] == [False, True, False, False, False]
+    np.testing.assert_array_equal(frames[2].depth_raw, depth_picture(2))
+
+
+def test_lists_with_windows_line_ends_and_blank_lines_are_read(tmp_path: Path) -> None:
+    folder = write_recording(tmp_path / "take")
+    for name in ("rgb.txt", "depth.txt"):
+        text = (folder / name).read_text()
+        (folder / name).write_bytes(b"\xef\xbb\xbf" + text.replace("\n", "\r\n\r\n").encode())
+    assert len(list(TumFolder(folder).frames())) == 5
+
+
+def test_a_folder_of_colour_only_is_read_when_depth_is_not_needed(tmp_path: Path) -> None:
+    folder = write_recording(tmp_path / "take")
+    (folder / "depth.txt").unlink()
+    source = TumFolder(folder, need_depth=False)
+    assert not source.info.has_depth
+    assert all(frame.depth_raw is None for frame in source.frames())
+
+
+def test_an_abandoned_read_ahead_leaves_no_thread(tmp_path: Path) -> None:
+    frames = TumFolder(write_recording(tmp_path / "take"), read_ahead=2).frames()
+    next(frames)
+    assert any(thread.name.startswith("read-ahead") for thread in threading.enumerate())
+    frames.close()  # type: ignore[attr-defined]
+    assert not any(thread.name.startswith("read-ahead") for thread in threading.enumerate())
+
+
+def replace_picture(folder: Path, kind: str, index: int, picture: np.ndarray) -> Path:
+    path = sorted((folder / kind).iterdir())[index]
+    cv2.imwrite(str(path), picture)
+    return path
+
+
+def cut(folder: Path, kind: str, keep: float) -> Path:
+    path = sorted((folder / kind).iterdir())[2]
+    data = path.read_bytes()
+    path.write_bytes(data[: int(len(data) * keep)])
+    return path
+
+
+def flip_a_bit(folder: Path) -> Path:
+    path = sorted((folder / "rgb").iterdir())[2]
+    data = bytearray(path.read_bytes())
+    data[len(data) // 2] ^= 1
+    path.write_bytes(bytes(data))
+    return path
+
+
+def swap_lines(lines: list[str]) -> list[str]:
+    return [*lines[:-2], lines[-1], lines[-2]]
+
+
+def repeat_last(lines: list[str]) -> list[str]:
+    return [*lines, lines[-1]]
+
+
+BAD: dict[str, tuple[Callable[[Path], object], type[CarpusFault], str]] = {
+    "no colour list": (lambda f: (f / "rgb.txt").unlink(), RecordingUnreadable, "missing"),
+    "colour list is a folder": (lambda f: ((f / "rgb.txt").unlink(), (f / "rgb.txt").mkdir()), RecordingUnreadable, ""),
+    "colour list is binary": (lambda f: (f / "rgb.txt").write_bytes(b"\xff\x00\xfe"), RecordingUnreadable, "text"),
+    "colour list empty": (lambda f: (f / "rgb.txt").write_text("# nothing\n"), RecordingEmpty, "rgb.txt"),
+    "no depth list": (lambda f: (f / "depth.txt").unlink(), DepthMissing, "depth.txt"),
+    "depth list empty": (lambda f: (f / "depth.txt").write_text(""), DepthMissing, "depth.txt"),
+    "garbage line": (lambda f: edit(f / "rgb.txt", lambda t: [*t, "hello there"]), RecordingUnreadable, "line 8"),
+    "line without a name": (
+        lambda f: edit(f / "rgb.txt", lambda t: [*t, "1305031109.0"]),
+        RecordingUnreadable,
+        "line 8",
+    ),
+    "time not a number": (lambda f: edit(f / "depth.txt", lambda t: [*t, "nan x.png"]), RecordingUnreadable, "line 7"),
+    "times swapped": (lambda f: edit(f / "rgb.txt", swap_lines), TimesUnordered, "line 7"),
+    "a time twice": (lambda f: edit(f / "rgb.txt", repeat_last), TimesUnordered, "line 8"),
+    "depth times swapped": (lambda f: edit(f / "depth.txt", swap_lines), TimesUnordered, "line 6"),
+    "colour picture gone": (lambda f: sorted((f / "rgb").iterdir())[3].unlink(), PictureDamaged, "missing"),
+    "depth picture gone": (lambda f: sorted((f / "depth").iterdir())[3].unlink(), PictureDamaged, "missing"),
+    "colour picture cut": (lambda f: cut(f, "rgb", 0.5), PictureDamaged, "cut off"),
+    "depth picture cut": (lambda f: cut(f, "depth", 0.9), PictureDamaged, "cut off"),
+    "picture empty": (lambda f: cut(f, "rgb", 0.0), PictureDamaged, "empty"),
+    "picture is text": (
+        lambda f: sorted((f / "rgb").iterdir())[1].write_text("a picture"),
+        PictureDamaged,
+        "not a picture",
+    ),
+    "one bit altered": (flip_a_bit, PictureDamaged, "altered"),
+    "depth of 8 bits": (
+        lambda f: replace_picture(f, "depth", 2, np.zeros((HEIGHT, WIDTH), np.uint8)),
+        PictureDamaged,
+        "8 bits",
+    ),
+    "depth in colour": (lambda f: replace_picture(f, "depth", 2, color_picture(0)), PictureDamaged, "in colour"),
+    "colour of 16 bits": (
+        lambda f: replace_picture(f, "rgb", 2, np.zeros((HEIGHT, WIDTH, 3), np.uint16)),
+        PictureDamaged,
+        "16 bits",
+    ),
+    "colour is grey": (
+        lambda f: replace_picture(f, "rgb", 0, np.zeros((HEIGHT, WIDTH), np.uint8)),
+        PictureDamaged,
+        "grey",
+    ),
+    "colour size changes": (
+        lambda f: replace_picture(f, "rgb", 2, np.zeros((24, 32, 3), np.uint8)),
+        PictureSizeChanged,
+        "32 x 24",
+    ),
+    "depth of another size": (
+        lambda f: replace_picture(f, "depth", 0, np.zeros((24, 32), np.uint16)),
+        PictureSizeChanged,
+        "32 x 24",
+    ),
+    "camera file of another size": (
+        lambda f: write_camera_info(f / "camera_info.yaml", DEFAULT_CAMERA),
+        CameraFileUnreadable,
+        "640 x 480",
+    ),
+    "mirrored": (
+        lambda f: write_camera_info(
+            f / "camera_info.yaml", Camera(52.0, 52.0, 31.5, 23.5, WIDTH, HEIGHT), mirrored=True
+        ),
+        CameraFileUnreadable,
+        "mirrored",
+    ),
+    "depth at other times": (
+        lambda f: edit(f / "depth.txt", lambda t: [line.replace("13050311", "14050311", 1) for line in t]),
+        DepthMissing,
+        "20 ms",
+    ),
+}
+
+
+@pytest.mark.parametrize("read_ahead", [0, 2])
+@pytest.mark.parametrize("case", BAD)
+def test_bad_input_is_one_typed_fault(tmp_path: Path, case: str, read_ahead: int) -> None:
+    spoil, kind, fact = BAD[case]
+    folder = write_recording(tmp_path / "take")
+    spoil(folder)
+    with pytest.raises(kind) as caught:
+        list(TumFolder(folder, read_ahead=read_ahead).frames())
+    assert type(caught.value) is kind
+    assert fact in caught.value.detail
+    assert caught.value.subject.startswith(str(folder))
+
+
+def test_the_pictures_before_a_damaged_one_are_still_yielded(tmp_path: Path) -> None:
+    folder = write_recording(tmp_path / "take")
+    cut(folder, "rgb", 0.5)
+    frames = TumFolder(folder, read_ahead=4).frames()
+    assert [next(frames).index for _ in range(2)] == [0, 1]
+    with pytest.raises(PictureDamaged):
+        next(frames)
+
+
+def test_nothing_or_a_file_is_no_folder(tmp_path: Path) -> None:
+    with pytest.raises(RecordingMissing):
+        TumFolder(tmp_path / "nowhere")
+    (tmp_path / "file").write_text("")
+    with pytest.raises(RecordingUnreadable):
+        TumFolder(tmp_path / "file")
+
+
+def test_a_single_picture_is_a_recording(tmp_path: Path) -> None:
+    source = TumFolder(write_recording(tmp_path / "take", [12.5]))
+    assert source.info.nominal_fps > 0
+    assert [frame.dropped_before for frame in source.frames()] == [0]
+
+
+rising = st.lists(st.integers(0, 400), unique=True, max_size=12).map(lambda ms: np.array(sorted(ms)) * 1e-3)
+
+
+@given(rising, rising)
+def test_pairing_keeps_the_limit_uses_each_depth_once_and_leaves_no_better_pair(
+    color_s: np.ndarray, depth_s: np.ndarray
+) -> None:
+    partner = nearest_pairs(color_s, depth_s)
+    used = [d for d in partner if d is not None]
+    assert len(used) == len(set(used))
+    for c, d in enumerate(partner):
+        if d is not None:
+            assert abs(color_s[c] - depth_s[d]) <= 0.020 + 1e-5
+        for other in range(len(depth_s)):
+            gap = abs(color_s[c] - depth_s[other])
+            if gap > 0.020 - 1e-5 or other == d:
+                continue
+            # a nearer depth picture is left alone only where its own colour picture is at least as near
+            mine = np.inf if d is None else abs(color_s[c] - depth_s[d])
+            owner = partner.index(other) if other in used else None
+            theirs = np.inf if owner is None else abs(color_s[owner] - depth_s[other])
+            assert mine <= gap + 1e-9 or theirs <= gap + 1e-9
+
+
+def test_missing_frames_are_judged_by_the_median_period() -> None:
+    times = np.array([0.0, 0.033, 0.067, 0.1, 0.232, 0.266, 0.36])
+    assert missing_before(times) == [0, 0, 0, 0, 3, 0, 2]
+    assert missing_before(np.array([0.0, 0.03, 0.07, 0.10, 0.145])) == [0, 0, 0, 0, 0]
+    assert missing_before(np.empty(0)) == []
