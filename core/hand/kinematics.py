@@ -45,10 +45,10 @@ def joint_centres(anatomy: HandAnatomy, angles_rad: FloatArray) -> FloatArray:
     """
     out = np.empty((*angles_rad.shape[:-1], 21, 3))
     out[..., _PALM, :] = anatomy.palm_joint_m
-    thumb = _Thumb.at(anatomy, angles_rad)
+    thumb = _Thumb.at(anatomy.fan_rad[0], anatomy.thumb_roll_rad, anatomy.thumb_length_m, angles_rad[..., :5])
     out[..., 2:5, :] = anatomy.palm_joint_m[1] + thumb.joints @ thumb.metacarpal
-    finger = _Finger.at(anatomy, angles_rad)
-    _put_fingers(out, anatomy, finger, finger.along, finger.up)
+    finger = _Finger.at(anatomy.fan_rad[1:], anatomy.finger_length_m, finger_angles(angles_rad))
+    _rays(out)[..., 1:, :] = finger.placed(anatomy.palm_joint_m[2:], finger.along, finger.up)
     return _on_its_side(anatomy, out)
 
 
@@ -59,16 +59,67 @@ def disc_centres(anatomy: HandAnatomy, angles_rad: FloatArray) -> FloatArray:
     the fingers stay with theirs; IP1, PIP and DIP stand on the bisector of the dorsal normals of the two segments
     that meet there; TIP stands on the normal of the last segment.
     """
+    hand = anatomy
     out = np.empty((*angles_rad.shape[:-1], 21, 3))
-    out[..., _PALM, :] = anatomy.palm_disc_m
-    thumb = _Thumb.at(anatomy, angles_rad)
-    discs = thumb.joints + anatomy.thumb_offset_m[:, None] * thumb.disc_normals(angles_rad[..., 4])
-    out[..., 2:5, :] = anatomy.palm_joint_m[1] + discs @ thumb.metacarpal
-    finger = _Finger.at(anatomy, angles_rad)
-    along = finger.along + anatomy.finger_offset_m * np.sin(finger.disc_pitch)
-    up = finger.up + anatomy.finger_offset_m * np.cos(finger.disc_pitch)
-    _put_fingers(out, anatomy, finger, along, up)
-    return _on_its_side(anatomy, out)
+    out[..., _PALM, :] = hand.palm_disc_m
+    out[..., 2:5, :] = thumb_discs(
+        hand.palm_joint_m[1],
+        hand.fan_rad[0],
+        hand.thumb_roll_rad,
+        hand.thumb_length_m,
+        hand.thumb_offset_m,
+        angles_rad[..., :5],
+    )
+    _rays(out)[..., 1:, :] = finger_discs(
+        hand.palm_joint_m[2:], hand.fan_rad[1:], hand.finger_length_m, hand.finger_offset_m, finger_angles(angles_rad)
+    )
+    return _on_its_side(hand, out)
+
+
+def finger_angles(angles_rad: FloatArray) -> FloatArray:
+    """Abduction, MCP, PIP and DIP flexion of fingers 2 to 5, (..., 4, 4), from all the joint angles."""
+    per_finger = (angles_rad.shape[-1] - 5) // 4
+    angles = angles_rad[..., 5:].reshape(*angles_rad.shape[:-1], 4, per_finger)
+    if per_finger == 4:
+        return angles
+    return np.concatenate((angles, DIP_PER_PIP * angles[..., 2:]), axis=-1)
+
+
+def finger_discs(
+    knuckle_m: FloatArray, fan_rad: FloatArray, length_m: FloatArray, offset_m: FloatArray, angles_rad: FloatArray
+) -> FloatArray:
+    """Discs PIP, DIP, TIP of right long fingers, (..., 3 discs, 3) in W; all leading shapes broadcast.
+
+    ``knuckle_m`` (..., 3) MCP joint centre; ``fan_rad`` (...); ``length_m`` (..., 3) PP MP DP; ``offset_m``
+    (..., 3) of the three discs; ``angles_rad`` (..., 4) abduction, MCP, PIP, DIP flexion.
+    """
+    finger = _Finger.at(fan_rad, length_m, angles_rad)
+    normal_pitch = finger.pitch + 0.0
+    normal_pitch[..., :2] = 0.5 * (finger.pitch[..., :2] + finger.pitch[..., 1:])
+    along = finger.along + offset_m * np.sin(normal_pitch)
+    up = finger.up + offset_m * np.cos(normal_pitch)
+    return finger.placed(knuckle_m, along, up)
+
+
+def thumb_discs(
+    cmc_m: FloatArray,
+    fan_rad: float | FloatArray,
+    roll_rad: float | FloatArray,
+    length_m: FloatArray,
+    offset_m: FloatArray,
+    angles_rad: FloatArray,
+) -> FloatArray:
+    """Discs MCP1, IP1, TIP1 of a right thumb, (..., 3 discs, 3) in W; all leading shapes broadcast.
+
+    ``cmc_m`` (..., 3) CMC joint centre; ``fan_rad`` rho1 and ``roll_rad`` tau (...); ``length_m`` (..., 3) MC PP DP;
+    ``offset_m`` (..., 3) of the three discs; ``angles_rad`` (..., 5).
+    """
+    thumb = _Thumb.at(fan_rad, roll_rad, length_m, angles_rad)
+    half = 0.5 / np.cos(0.5 * angles_rad[..., 4, None])
+    stand = thumb.normals.copy()
+    stand[..., 1, :] = half * (thumb.normals[..., 1, :] + thumb.normals[..., 2, :])
+    discs = (thumb.joints + offset_m[..., None] * stand) @ thumb.metacarpal
+    return np.asarray(cmc_m[..., None, :] + discs)
 
 
 def segment_frames(anatomy: HandAnatomy, angles_rad: FloatArray) -> SegmentFrames:
@@ -79,52 +130,46 @@ def segment_frames(anatomy: HandAnatomy, angles_rad: FloatArray) -> SegmentFrame
     wrist, mcp3 = HAND21.markers.index("WRIST"), HAND21.markers.index("MCP3")
     start[..., 0, :], end[..., 0, :] = joints[..., wrist, :], joints[..., mcp3, :]
     start[..., 1:4, :], end[..., 1:4, :] = joints[..., 1:4, :], joints[..., 2:5, :]
-    rays = joints[..., 5:, :].reshape(*shape, 4, 4, 3)
-    start[..., 4:, :] = rays[..., :3, :].reshape(*shape, 12, 3)
-    end[..., 4:, :] = rays[..., 1:, :].reshape(*shape, 12, 3)
+    start[..., 4:, :] = _rays(joints)[..., :3, :].reshape(*shape, 12, 3)
+    end[..., 4:, :] = _rays(joints)[..., 1:, :].reshape(*shape, 12, 3)
 
     normal = np.empty((*shape, 16, 3))
     normal[..., 0, :] = (0.0, 0.0, 1.0)
-    thumb = _Thumb.at(anatomy, angles_rad)
+    thumb = _Thumb.at(anatomy.fan_rad[0], anatomy.thumb_roll_rad, anatomy.thumb_length_m, angles_rad[..., :5])
     normal[..., 1:4, :] = thumb.normals @ thumb.metacarpal
-    finger = _Finger.at(anatomy, angles_rad)
-    sine = np.sin(finger.pitch)
-    dorsal = np.stack((finger.cos_azimuth * sine, finger.sin_azimuth * sine, np.cos(finger.pitch)), axis=-1)
+    finger = _Finger.at(anatomy.fan_rad[1:], anatomy.finger_length_m, finger_angles(angles_rad))
+    dorsal = finger.placed(np.zeros(3), np.sin(finger.pitch), np.cos(finger.pitch))
     normal[..., 4:, :] = dorsal.reshape(*shape, 12, 3)
     return SegmentFrames(start, end, _on_its_side(anatomy, normal))
 
 
 @dataclass(frozen=True, slots=True)
 class _Finger:
-    """Fingers 2 to 5 in their own planes, arrays (..., 4, 1) and (..., 4, 3 segments).
+    """Long fingers in their own planes, arrays (..., 1) and (..., 3 segments).
 
-    ``pitch`` of each segment below the palm plane; ``along`` and ``up`` the ends of the segments from the MCP joint;
-    ``disc_pitch`` pitch of the bisectors on which PIP and DIP discs stand, and of the last segment for TIP.
+    ``pitch`` of each segment below the palm plane; ``along`` and ``up`` the ends of the segments from the MCP joint.
     """
 
     cos_azimuth: FloatArray
     sin_azimuth: FloatArray
     pitch: FloatArray
-    disc_pitch: FloatArray
     along: FloatArray
     up: FloatArray
 
     @staticmethod
-    def at(anatomy: HandAnatomy, angles_rad: FloatArray) -> _Finger:
-        per_finger = (angles_rad.shape[-1] - 5) // 4
-        angles = angles_rad[..., 5:].reshape(*angles_rad.shape[:-1], 4, per_finger)
-        azimuth = (anatomy.fan_rad[1:] + angles[..., 0])[..., None]
-        pip = angles[..., 2]
-        dip = angles[..., 3] if per_finger == 4 else DIP_PER_PIP * pip
-        pitch, disc_pitch = np.empty((2, *angles.shape[:-1], 3))
-        pitch[..., 0] = angles[..., 1]
-        pitch[..., 1] = pitch[..., 0] + pip
-        pitch[..., 2] = pitch[..., 1] + dip
-        disc_pitch[..., :2] = 0.5 * (pitch[..., :2] + pitch[..., 1:])
-        disc_pitch[..., 2] = pitch[..., 2]
-        along = np.cumsum(anatomy.finger_length_m * np.cos(pitch), axis=-1)
-        up = -np.cumsum(anatomy.finger_length_m * np.sin(pitch), axis=-1)
-        return _Finger(np.cos(azimuth), np.sin(azimuth), pitch, disc_pitch, along, up)
+    def at(fan_rad: FloatArray, length_m: FloatArray, angles_rad: FloatArray) -> _Finger:
+        azimuth = (fan_rad + angles_rad[..., 0])[..., None]
+        pitch = np.cumsum(angles_rad[..., 1:], axis=-1)
+        along = np.cumsum(length_m * np.cos(pitch), axis=-1)
+        up = -np.cumsum(length_m * np.sin(pitch), axis=-1)
+        return _Finger(np.cos(azimuth), np.sin(azimuth), pitch, along, up)
+
+    def placed(self, knuckle_m: FloatArray, along: FloatArray, up: FloatArray) -> FloatArray:
+        """Points (..., 3, 3) in W from their places in the finger's plane."""
+        knuckle = knuckle_m[..., None, :]
+        x = knuckle[..., 0] + self.cos_azimuth * along
+        y = knuckle[..., 1] + self.sin_azimuth * along
+        return np.stack((x, y, knuckle[..., 2] + up), axis=-1)
 
 
 @dataclass(frozen=True, slots=True)
@@ -140,14 +185,18 @@ class _Thumb:
     normals: FloatArray
 
     @staticmethod
-    def at(anatomy: HandAnatomy, angles_rad: FloatArray) -> _Thumb:
-        turned = angles_rad[..., :5] + (anatomy.fan_rad[0], 0.0, 0.0, 0.0, 0.0)
-        c0, c1, c2, c3, c4 = np.moveaxis(np.cos(turned), -1, 0)
-        s0, s1, s2, s3, s4 = np.moveaxis(np.sin(turned), -1, 0)
-        ct, st = np.cos(anatomy.thumb_roll_rad), np.sin(anatomy.thumb_roll_rad)
+    def at(
+        fan_rad: float | FloatArray, roll_rad: float | FloatArray, length_m: FloatArray, angles_rad: FloatArray
+    ) -> _Thumb:
+        azimuth = fan_rad + angles_rad[..., 0]
+        c0, s0 = np.cos(azimuth), np.sin(azimuth)
+        c1, c2, c3, c4 = np.moveaxis(np.cos(angles_rad[..., 1:]), -1, 0)
+        s1, s2, s3, s4 = np.moveaxis(np.sin(angles_rad[..., 1:]), -1, 0)
+        ct, st = np.cos(roll_rad), np.sin(roll_rad)
+        shape = np.broadcast_shapes(c0.shape, np.shape(ct), length_m.shape[:-1])
 
         # Rows 1 and 2 of the table: swing in the palm plane, palmar abduction, roll by tau.
-        metacarpal = np.empty((*angles_rad.shape[:-1], 3, 3))
+        metacarpal = np.empty((*shape, 3, 3))
         metacarpal[..., 0, 0], metacarpal[..., 0, 1], metacarpal[..., 0, 2] = c1 * c0, c1 * s0, -s1
         metacarpal[..., 1, 0] = ct * s1 * c0 - st * s0
         metacarpal[..., 1, 1] = ct * s1 * s0 + st * c0
@@ -158,13 +207,13 @@ class _Thumb:
 
         # Rows 3 to 5: MCP flexion, MCP abduction about the new dorsal normal, IP flexion.
         x, y, z = c2 * c3, -s2 * c3, s3  # direction of PP1
-        normals = np.zeros((*angles_rad.shape[:-1], 3, 3))
+        normals = np.zeros((*shape, 3, 3))
         normals[..., 0, 1] = 1.0
         normals[..., 1, 0], normals[..., 1, 1] = s2, c2
         normals[..., 2, 0], normals[..., 2, 1], normals[..., 2, 2] = s4 * x + c4 * s2, s4 * y + c4 * c2, s4 * z
 
-        mc, pp, dp = anatomy.thumb_length_m
-        joints = np.zeros((*angles_rad.shape[:-1], 3, 3))
+        mc, pp, dp = np.moveaxis(length_m, -1, 0)
+        joints = np.zeros((*shape, 3, 3))
         joints[..., 0, 0] = mc
         joints[..., 1, 0], joints[..., 1, 1], joints[..., 1, 2] = mc + pp * x, pp * y, pp * z
         joints[..., 2, 0] = joints[..., 1, 0] + dp * (c4 * x - s4 * s2)
@@ -172,21 +221,10 @@ class _Thumb:
         joints[..., 2, 2] = joints[..., 1, 2] + dp * c4 * z
         return _Thumb(metacarpal, joints, normals)
 
-    def disc_normals(self, ip_flexion_rad: FloatArray) -> FloatArray:
-        """Normals on which the discs MCP1, IP1, TIP1 stand, (..., 3, 3) in the axes of the metacarpal."""
-        normals = self.normals.copy()
-        half = 0.5 / np.cos(0.5 * ip_flexion_rad)[..., None]
-        normals[..., 1, :] = half * (normals[..., 1, :] + normals[..., 2, :])
-        return normals
 
-
-def _put_fingers(out: FloatArray, anatomy: HandAnatomy, finger: _Finger, along: FloatArray, up: FloatArray) -> None:
-    """Write PIP, DIP, TIP of fingers 2 to 5 from their places in the finger's plane (..., 4, 3)."""
-    rays = out[..., 5:, :].reshape(*out.shape[:-2], 4, 4, 3)[..., 1:, :]
-    knuckle = anatomy.palm_joint_m[2:, None, :]
-    rays[..., 0] = knuckle[..., 0] + finger.cos_azimuth * along
-    rays[..., 1] = knuckle[..., 1] + finger.sin_azimuth * along
-    rays[..., 2] = knuckle[..., 2] + up
+def _rays(points: FloatArray) -> FloatArray:
+    """The points of fingers 2 to 5 as a view (..., 4 fingers, 4 points, 3) into (..., 21, 3)."""
+    return points[..., 5:, :].reshape(*points.shape[:-2], 4, 4, 3)
 
 
 def _on_its_side(anatomy: HandAnatomy, vectors: FloatArray) -> FloatArray:
