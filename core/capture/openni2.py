@@ -1,0 +1,510 @@
+"""The OpenNI2 C library: types, calls, statuses, nothing else.
+
+One thread makes all calls. The library can take its process down (a close in the wrong order, a bad file), so it
+is used in a process of its own: see :mod:`core.capture.xtion_process`. Seeking is left out on purpose: in the
+builds that systems ship, the call never returns.
+"""
+
+from __future__ import annotations
+
+import ctypes
+import os
+import sys
+import time
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
+from ctypes import POINTER, byref, c_char, c_char_p, c_float, c_int, c_uint16, c_uint64, c_void_p
+from dataclasses import dataclass
+from enum import IntEnum
+from pathlib import Path
+from typing import Any
+
+from core.errors import DriverMissing
+
+API_VERSION = 2002
+LIBRARY_NAMES = {"win32": ("OpenNI2.dll",), "darwin": ("libOpenNI2.dylib",)}
+LINUX_NAMES = ("libOpenNI2.so.0", "libOpenNI2.so")
+SETTLE_S = 0.08
+"""Pause between stopping streams and destroying them. The drivers do not wait for their own threads: the player's
+may be 10 ms, the dummy device's 33 ms behind, and then touches memory that is gone."""
+
+
+class Status(IntEnum):
+    """What a call returns."""
+
+    OK = 0
+    ERROR = 1
+    NOT_IMPLEMENTED = 2
+    NOT_SUPPORTED = 3
+    BAD_PARAMETER = 4
+    OUT_OF_FLOW = 5
+    NO_DEVICE = 6
+    TIME_OUT = 102
+
+
+class Sensor(IntEnum):
+    """Kinds of streams."""
+
+    IR = 1
+    COLOR = 2
+    DEPTH = 3
+
+
+class PixelFormat(IntEnum):
+    """Pixel formats that occur."""
+
+    DEPTH_1_MM = 100
+    DEPTH_100_UM = 101
+    RGB888 = 200
+    YUV422 = 201
+    GRAY8 = 202
+    GRAY16 = 203
+    JPEG = 204
+    YUYV = 205
+
+
+class DeviceState(IntEnum):
+    """States that a device reports by callback; END_OF_FILE only comes from recordings."""
+
+    OK = 0
+    ERROR = 1
+    NOT_READY = 2
+    END_OF_FILE = 3
+
+
+class DeviceProperty(IntEnum):
+    """Properties of a device."""
+
+    FIRMWARE_VERSION = 0
+    DRIVER_VERSION = 1
+    HARDWARE_VERSION = 2
+    SERIAL_NUMBER = 3
+    IMAGE_REGISTRATION = 5
+    PLAYBACK_SPEED = 100
+    PLAYBACK_REPEAT = 101
+
+
+class StreamProperty(IntEnum):
+    """Properties of a stream."""
+
+    HORIZONTAL_FOV = 1
+    VERTICAL_FOV = 2
+    VIDEO_MODE = 3
+    MIRRORING = 7
+    NUMBER_OF_FRAMES = 8
+    AUTO_WHITE_BALANCE = 100
+    AUTO_EXPOSURE = 101
+
+
+class CallFailed(Exception):
+    """A call of the library that did not succeed; ``reason`` is the library's own text."""
+
+    def __init__(self, call: str, status: int, reason: str) -> None:
+        super().__init__(f"{call}: {status}: {reason}")
+        self.call = call
+        self.status = status
+        self.reason = reason
+
+
+class _Version(ctypes.Structure):
+    _fields_ = [("major", c_int), ("minor", c_int), ("maintenance", c_int), ("build", c_int)]
+
+
+class _VideoMode(ctypes.Structure):
+    _fields_ = [("pixel_format", c_int), ("width", c_int), ("height", c_int), ("fps", c_int)]
+
+
+class _SensorInfo(ctypes.Structure):
+    _fields_ = [("sensor", c_int), ("mode_count", c_int), ("modes", POINTER(_VideoMode))]
+
+
+class _DeviceInfo(ctypes.Structure):
+    _fields_ = [
+        ("uri", c_char * 256),
+        ("vendor", c_char * 256),
+        ("name", c_char * 256),
+        ("vendor_id", c_uint16),
+        ("product_id", c_uint16),
+    ]
+
+
+class _Frame(ctypes.Structure):
+    _fields_ = [
+        ("data_size", c_int),
+        ("data", c_void_p),
+        ("sensor", c_int),
+        ("timestamp_us", c_uint64),
+        ("index", c_int),
+        ("width", c_int),
+        ("height", c_int),
+        ("mode", _VideoMode),
+        ("cropping", c_int),
+        ("crop_x", c_int),
+        ("crop_y", c_int),
+        ("stride", c_int),
+    ]
+
+
+_DeviceCallback = ctypes.CFUNCTYPE(None, POINTER(_DeviceInfo), c_void_p)
+_StateCallback = ctypes.CFUNCTYPE(None, POINTER(_DeviceInfo), c_int, c_void_p)
+
+
+class _Callbacks(ctypes.Structure):
+    _fields_ = [("connected", _DeviceCallback), ("disconnected", _DeviceCallback), ("state", _StateCallback)]
+
+
+_SIGNATURES: dict[str, tuple[Any, list[Any]]] = {
+    "oniInitialize": (c_int, [c_int]),
+    "oniShutdown": (None, []),
+    "oniGetVersion": (_Version, []),
+    "oniGetExtendedError": (c_char_p, []),
+    "oniGetDeviceList": (c_int, [POINTER(POINTER(_DeviceInfo)), POINTER(c_int)]),
+    "oniReleaseDeviceList": (c_int, [POINTER(_DeviceInfo)]),
+    "oniRegisterDeviceCallbacks": (c_int, [POINTER(_Callbacks), c_void_p, POINTER(c_void_p)]),
+    "oniUnregisterDeviceCallbacks": (None, [c_void_p]),
+    "oniDeviceOpen": (c_int, [c_char_p, POINTER(c_void_p)]),
+    "oniDeviceClose": (c_int, [c_void_p]),
+    "oniDeviceGetInfo": (c_int, [c_void_p, POINTER(_DeviceInfo)]),
+    "oniDeviceGetSensorInfo": (POINTER(_SensorInfo), [c_void_p, c_int]),
+    "oniDeviceCreateStream": (c_int, [c_void_p, c_int, POINTER(c_void_p)]),
+    "oniDeviceEnableDepthColorSync": (c_int, [c_void_p]),
+    "oniDeviceSetProperty": (c_int, [c_void_p, c_int, c_void_p, c_int]),
+    "oniDeviceGetProperty": (c_int, [c_void_p, c_int, c_void_p, POINTER(c_int)]),
+    "oniDeviceIsImageRegistrationModeSupported": (c_int, [c_void_p, c_int]),
+    "oniStreamDestroy": (None, [c_void_p]),
+    "oniStreamStart": (c_int, [c_void_p]),
+    "oniStreamStop": (None, [c_void_p]),
+    "oniStreamSetProperty": (c_int, [c_void_p, c_int, c_void_p, c_int]),
+    "oniStreamGetProperty": (c_int, [c_void_p, c_int, c_void_p, POINTER(c_int)]),
+    "oniStreamReadFrame": (c_int, [c_void_p, POINTER(POINTER(_Frame))]),
+    "oniFrameRelease": (None, [POINTER(_Frame)]),
+    "oniWaitForAnyStream": (c_int, [POINTER(c_void_p), c_int, POINTER(c_int), c_int]),
+}
+
+
+@dataclass(frozen=True, slots=True)
+class VideoMode:
+    """Size, rate and pixel format of a stream."""
+
+    pixel_format: int
+    width_px: int
+    height_px: int
+    fps: int
+
+    def __str__(self) -> str:
+        names = {int(item): item.name for item in PixelFormat}
+        return f"{self.width_px}x{self.height_px} {names.get(self.pixel_format, self.pixel_format)} {self.fps} fps"
+
+
+@dataclass(frozen=True, slots=True)
+class DeviceInfo:
+    """A device as the library lists it."""
+
+    uri: str
+    vendor: str
+    name: str
+    vendor_id: int
+    product_id: int
+
+
+@dataclass(frozen=True, slots=True)
+class Picture:
+    """One picture of a stream. ``address`` points into the library's memory, valid until the picture is released."""
+
+    sensor: int
+    index: int
+    timestamp_us: int
+    width_px: int
+    height_px: int
+    stride_bytes: int
+    pixel_format: int
+    is_cropped: bool
+    size_bytes: int
+    address: int
+
+
+StateHandler = Callable[[str, int], None]
+GoneHandler = Callable[[str], None]
+
+
+def load_library() -> ctypes.CDLL:
+    """The library with all signatures set; raises :class:`DriverMissing`.
+
+    Looked for where the system's loader looks, then where the vendors' installers say
+    (``OPENNI2_REDIST64``, ``OPENNI2_REDIST``).
+    """
+    names = LIBRARY_NAMES.get(sys.platform, LINUX_NAMES)
+    folders = [os.environ[key] for key in ("OPENNI2_REDIST64", "OPENNI2_REDIST") if os.environ.get(key)]
+    candidates = [*names, *(str(Path(folder) / name) for folder in folders for name in names)]
+    complaint = ""
+    for candidate in candidates:
+        try:
+            library = ctypes.CDLL(candidate)
+        except OSError as cause:
+            complaint = complaint or str(cause)
+            continue
+        try:
+            for name, (result, arguments) in _SIGNATURES.items():
+                function = getattr(library, name)
+                function.restype = result
+                function.argtypes = arguments
+        except AttributeError as cause:
+            raise DriverMissing(candidate, str(cause)) from cause
+        return library
+    raise DriverMissing(names[0], complaint)
+
+
+class Context:
+    """The initialised library. Use as ``with Context() as library:``; one per process."""
+
+    def __init__(self) -> None:
+        self._c = load_library()
+        self._callbacks: _Callbacks | None = None
+        self._callback_handle = c_void_p()
+        self.check("oniInitialize", self._c.oniInitialize(API_VERSION))
+
+    def __enter__(self) -> Context:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self.shutdown()
+
+    @property
+    def c(self) -> ctypes.CDLL:
+        """The raw library."""
+        return self._c
+
+    @property
+    def version(self) -> str:
+        """Version of the library."""
+        found = self._c.oniGetVersion()
+        return f"{found.major}.{found.minor}.{found.maintenance}.{found.build}"
+
+    def check(self, call: str, status: int) -> None:
+        """Raise :class:`CallFailed` unless ``status`` is OK."""
+        if status != Status.OK:
+            text = self._c.oniGetExtendedError() or b""
+            raise CallFailed(call, status, text.decode("utf-8", "replace").strip())
+
+    def devices(self) -> list[DeviceInfo]:
+        """The devices plugged in at this moment."""
+        first, count = POINTER(_DeviceInfo)(), c_int()
+        self.check("oniGetDeviceList", self._c.oniGetDeviceList(byref(first), byref(count)))
+        try:
+            return [_device_info(first[i]) for i in range(count.value)]
+        finally:
+            self._c.oniReleaseDeviceList(first)
+
+    def watch(self, on_state: StateHandler, on_gone: GoneHandler) -> None:
+        """Hear of state changes and unplugged devices, by uri.
+
+        The handlers run on threads of the library: they may only note the fact, never call back.
+        """
+
+        def state(info: Any, value: int, _cookie: int | None) -> None:
+            on_state(info[0].uri.decode("utf-8", "replace"), value)
+
+        def gone(info: Any, _cookie: int | None) -> None:
+            on_gone(info[0].uri.decode("utf-8", "replace"))
+
+        # kept as an attribute: the library calls into it as long as it lives
+        self._callbacks = _Callbacks(_DeviceCallback(_quiet), _DeviceCallback(gone), _StateCallback(state))
+        status = self._c.oniRegisterDeviceCallbacks(byref(self._callbacks), None, byref(self._callback_handle))
+        self.check("oniRegisterDeviceCallbacks", status)
+
+    def open(self, uri: str | bytes) -> Device:
+        """Open a device or a recording. A path must be plain ASCII and shorter than 256 bytes, or the library dies."""
+        name = uri.encode() if isinstance(uri, str) else uri
+        if not name.isascii() or len(name) >= 256:
+            raise ValueError(f"not a name that OpenNI2 survives: {name!r}")
+        handle = c_void_p()
+        self.check("oniDeviceOpen", self._c.oniDeviceOpen(name, byref(handle)))
+        return Device(self, handle)
+
+    def wait(self, streams: Sequence[Stream], timeout_ms: int) -> int | None:
+        """Position in ``streams`` of one that has a picture; None when none came in time."""
+        handles = (c_void_p * len(streams))(*[stream.handle for stream in streams])
+        ready = c_int(-1)
+        status = self._c.oniWaitForAnyStream(handles, len(streams), byref(ready), timeout_ms)
+        if status == Status.TIME_OUT:
+            return None
+        self.check("oniWaitForAnyStream", status)
+        return ready.value
+
+    def shutdown(self) -> None:
+        """Leave the library; every device must be closed."""
+        if self._callback_handle.value:
+            self._c.oniUnregisterDeviceCallbacks(self._callback_handle)
+            self._callback_handle = c_void_p()
+        self._c.oniShutdown()
+
+
+class Device:
+    """An open device or recording."""
+
+    def __init__(self, context: Context, handle: c_void_p) -> None:
+        self.context = context
+        self.handle = handle
+        self.streams: list[Stream] = []
+
+    def info(self) -> DeviceInfo:
+        """Name, vendor and uri."""
+        found = _DeviceInfo()
+        self.context.check("oniDeviceGetInfo", self.context.c.oniDeviceGetInfo(self.handle, byref(found)))
+        return _device_info(found)
+
+    def modes(self, sensor: Sensor) -> list[VideoMode]:
+        """Modes offered for ``sensor``; empty when the device has no such sensor."""
+        found = self.context.c.oniDeviceGetSensorInfo(self.handle, sensor)
+        return [_video_mode(found[0].modes[i]) for i in range(found[0].mode_count)] if found else []
+
+    def create_stream(self, sensor: Sensor) -> Stream:
+        """A stream, not yet started. Create only what will be started: in lockstep it would eat pictures."""
+        handle = c_void_p()
+        status = self.context.c.oniDeviceCreateStream(self.handle, sensor, byref(handle))
+        self.context.check("oniDeviceCreateStream", status)
+        stream = Stream(self.context, handle, sensor)
+        self.streams.append(stream)
+        return stream
+
+    def text(self, key: DeviceProperty) -> str:
+        """A property that is text; empty when the device does not have it."""
+        buffer = ctypes.create_string_buffer(256)
+        size = c_int(len(buffer))
+        status = self.context.c.oniDeviceGetProperty(self.handle, key, buffer, byref(size))
+        return buffer.value.decode("utf-8", "replace") if status == Status.OK else ""
+
+    def version(self, key: DeviceProperty) -> str:
+        """A property that is a version; empty when the device does not have it."""
+        found = _Version()
+        size = c_int(ctypes.sizeof(found))
+        status = self.context.c.oniDeviceGetProperty(self.handle, key, byref(found), byref(size))
+        return f"{found.major}.{found.minor}.{found.maintenance}.{found.build}" if status == Status.OK else ""
+
+    def set_int(self, key: DeviceProperty, value: int) -> bool:
+        """Whether the device took the value."""
+        return self._set(key, c_int(value))
+
+    def set_float(self, key: DeviceProperty, value: float) -> bool:
+        """Whether the device took the value."""
+        return self._set(key, c_float(value))
+
+    def can_register(self) -> bool:
+        """Whether depth can be laid on colour by the device."""
+        return bool(self.context.c.oniDeviceIsImageRegistrationModeSupported(self.handle, 1))
+
+    def enable_sync(self) -> bool:
+        """Ask for depth and colour at the same instants; whether the device can."""
+        return bool(self.context.c.oniDeviceEnableDepthColorSync(self.handle) == Status.OK)
+
+    def close(self) -> None:
+        """Stop and destroy all streams, then close; in the one order that the library survives."""
+        for stream in self.streams:
+            stream.stop()
+        if self.streams:
+            time.sleep(SETTLE_S)
+        for stream in self.streams:
+            stream.destroy()
+        self.streams.clear()
+        self.context.c.oniDeviceClose(self.handle)
+
+    def _set(self, key: DeviceProperty, value: c_int | c_float) -> bool:
+        status = self.context.c.oniDeviceSetProperty(self.handle, key, byref(value), ctypes.sizeof(value))
+        return bool(status == Status.OK)
+
+
+class Stream:
+    """One stream of a device."""
+
+    def __init__(self, context: Context, handle: c_void_p, sensor: Sensor) -> None:
+        self.context = context
+        self.handle = handle
+        self.sensor = sensor
+
+    def start(self) -> None:
+        """Let pictures come."""
+        self.context.check("oniStreamStart", self.context.c.oniStreamStart(self.handle))
+
+    def stop(self) -> None:
+        """No more pictures. Stop all streams of a device before destroying any: see :meth:`Device.close`."""
+        self.context.c.oniStreamStop(self.handle)
+
+    def destroy(self) -> None:
+        """Give the stream back."""
+        self.context.c.oniStreamDestroy(self.handle)
+
+    def mode(self) -> VideoMode:
+        """The mode in force."""
+        found = _VideoMode()
+        size = c_int(ctypes.sizeof(found))
+        status = self.context.c.oniStreamGetProperty(self.handle, StreamProperty.VIDEO_MODE, byref(found), byref(size))
+        self.context.check("oniStreamGetProperty", status)
+        return _video_mode(found)
+
+    def set_mode(self, mode: VideoMode) -> bool:
+        """Whether the stream took the mode."""
+        return self._set(
+            StreamProperty.VIDEO_MODE, _VideoMode(mode.pixel_format, mode.width_px, mode.height_px, mode.fps)
+        )
+
+    def get_int(self, key: StreamProperty) -> int | None:
+        """A property that is a number; None when the stream does not have it."""
+        found = c_int()
+        return int(found.value) if self._get(key, found) else None
+
+    def get_float(self, key: StreamProperty) -> float | None:
+        """A property that is a real number; None when the stream does not have it."""
+        found = c_float()
+        return float(found.value) if self._get(key, found) else None
+
+    def set_int(self, key: StreamProperty, value: int) -> bool:
+        """Whether the stream took the value."""
+        return self._set(key, c_int(value))
+
+    @contextmanager
+    def read(self) -> Iterator[Picture | None]:
+        """The next picture, released on leaving; call only after :meth:`Context.wait` named this stream."""
+        pointer = POINTER(_Frame)()
+        status = self.context.c.oniStreamReadFrame(self.handle, byref(pointer))
+        self.context.check("oniStreamReadFrame", status)
+        if not bool(pointer):
+            yield None
+            return
+        try:
+            frame = pointer[0]
+            yield Picture(
+                frame.sensor,
+                frame.index,
+                frame.timestamp_us,
+                frame.width,
+                frame.height,
+                frame.stride,
+                frame.mode.pixel_format,
+                bool(frame.cropping),
+                frame.data_size,
+                frame.data or 0,
+            )
+        finally:
+            self.context.c.oniFrameRelease(pointer)
+
+    def _get(self, key: StreamProperty, value: c_int | c_float) -> bool:
+        size = c_int(ctypes.sizeof(value))
+        status = self.context.c.oniStreamGetProperty(self.handle, key, byref(value), byref(size))
+        return bool(status == Status.OK)
+
+    def _set(self, key: StreamProperty, value: c_int | _VideoMode) -> bool:
+        status = self.context.c.oniStreamSetProperty(self.handle, key, byref(value), ctypes.sizeof(value))
+        return bool(status == Status.OK)
+
+
+def _quiet(_info: Any, _cookie: int | None) -> None:
+    """A device came: the next enumeration sees it."""
+
+
+def _device_info(found: _DeviceInfo) -> DeviceInfo:
+    uri, vendor, name = (text.decode("utf-8", "replace") for text in (found.uri, found.vendor, found.name))
+    return DeviceInfo(uri, vendor, name, found.vendor_id, found.product_id)
+
+
+def _video_mode(found: _VideoMode) -> VideoMode:
+    return VideoMode(found.pixel_format, found.width, found.height, found.fps)
