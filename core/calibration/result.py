@@ -76,8 +76,8 @@ class Calibration:
     """The measured hand at its neutral pose.
 
     ``marker_position_w0_m`` (M, 3) disc centres in W0; ``rotation_w0_cam`` (3, 3) and
-    ``translation_w0_cam_m`` (3,) the pose g_w0c of the wrist paper; ``neutral_cov_rad2`` (3, 3)
-    covariance of the neutral orientation (small turn in W0), which every later angle inherits;
+    ``translation_w0_cam_m`` (3,) the pose g_w0c of the wrist paper; ``marker_covariance_w0_m2`` (M, 3, 3)
+    how well each disc's place is known, which every later angle inherits;
     ``start_angles_rad`` (3,) deviation, flexion, pronosupination given by the therapist for a patient who
     cannot lie neutral, zero otherwise.
     """
@@ -86,6 +86,6 @@ class Calibration:
     marker_position_w0_m: FloatArray
     rotation_w0_cam: FloatArray
     translation_w0_cam_m: FloatArray
-    neutral_cov_rad2: FloatArray
+    marker_covariance_w0_m2: FloatArray
     start_angles_rad: FloatArray
     verdict: Verdict

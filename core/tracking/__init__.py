@@ -1,0 +1,1 @@
+"""The tracker: motion and measurement models, unscented filter, association, smoother."""

@@ -1,0 +1,92 @@
+"""Finding the palm again without any prediction: its constellation of discs in space is its name tag."""
+
+from __future__ import annotations
+
+from itertools import combinations
+
+import numpy as np
+
+from core.tracking.measurement import View
+from core.tracking.settings import TrackerSettings
+from core.tracking.so3 import nearest_rotation
+from core.types import Detections, FloatArray
+
+DISTANCE_TOLERANCE_M = 0.007
+"""Two discs' distance may differ from the calibrated one by this much (depth noise of both)."""
+FIT_TOLERANCE_M = 0.008
+LEAST_MATCHED = 4
+MOST_BLOBS = 40
+
+
+def find_palm(
+    detections: Detections, view: View, settings: TrackerSettings
+) -> tuple[FloatArray, FloatArray, int] | None:
+    """Position (3,) and rotation (3, 3) of the body in W0 and the number of discs matched, or None.
+
+    Triples of discs with the distances of the palm fix a pose; the pose that most other discs confirm
+    wins if it is confirmed by at least four in all and no other, different pose by as many.
+    Needs depth; the back of the hand must face the camera.
+    """
+    known = np.flatnonzero(np.isfinite(detections.depth_m) & (detections.similarity > 0.0))
+    if known.size < LEAST_MATCHED:
+        return None
+    if known.size > MOST_BLOBS:
+        known = known[np.argsort(-detections.similarity[known])[:MOST_BLOBS]]
+    points = view.camera.back_project(detections.pixel[known], detections.depth_m[known])
+    model = view.geometry.palm_m
+    best: list[tuple[int, float, FloatArray, FloatArray]] = []
+    blob_distance = np.linalg.norm(points[:, None] - points[None], axis=-1)
+    model_distance = np.linalg.norm(model[:, None] - model[None], axis=-1)
+    for triple in combinations(range(model.shape[0]), 3):
+        a, b, c = triple
+        ab = np.abs(blob_distance - model_distance[a, b]) < DISTANCE_TOLERANCE_M
+        ac = np.abs(blob_distance - model_distance[a, c]) < DISTANCE_TOLERANCE_M
+        bc = np.abs(blob_distance - model_distance[b, c]) < DISTANCE_TOLERANCE_M
+        i, j, k = np.nonzero(ab[:, :, None] & ac[:, None, :] & bc[None, :, :])
+        if i.size == 0:
+            continue
+        chosen = np.stack((i, j, k), axis=1)
+        rotation, translation = _rigid_fits(model[list(triple)], points[chosen])
+        # The dorsal side looks at the camera: Z of the palm has a negative component along its axis.
+        facing = rotation[:, 2, 2] < 0.0
+        rotation, translation = rotation[facing], translation[facing]
+        placed = model @ np.swapaxes(rotation, -1, -2) + translation[:, None, :]
+        gaps = np.linalg.norm(placed[:, :, None, :] - points[None, None], axis=-1)
+        nearest = gaps.min(axis=-1)
+        matched = nearest < FIT_TOLERANCE_M
+        count = matched.sum(axis=1)
+        cost = np.where(matched, nearest, 0.0).sum(axis=1)
+        for n in np.flatnonzero(count >= LEAST_MATCHED):
+            best.append((int(count[n]), float(cost[n]), rotation[n], translation[n]))
+    if not best:
+        return None
+    best.sort(key=lambda one: (-one[0], one[1] / one[0]))
+    count, _, rotation_cam, translation_cam = best[0]
+    rotation_cam, translation_cam = _refit(model, points, rotation_cam, translation_cam)
+    for other_count, _, other, other_at in best[1:]:
+        apart = np.linalg.norm((model @ other.T + other_at) - (model @ rotation_cam.T + translation_cam), axis=1)
+        if other_count >= count and float(np.median(apart)) > 2 * FIT_TOLERANCE_M:
+            return None
+    rotation = view.rotation_w0_cam.T @ rotation_cam
+    position = view.rotation_w0_cam.T @ (translation_cam - view.translation_w0_cam_m)
+    return position, rotation, count
+
+
+def _rigid_fits(model_m: FloatArray, points_m: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Least-squares poses (N, 3, 3), (N, 3) that carry model points (P, 3) to (N, P, 3) (Kabsch)."""
+    model_mean, point_mean = model_m.mean(axis=0), points_m.mean(axis=1)
+    cross = np.einsum("npi,pj->nij", points_m - point_mean[:, None], model_m - model_mean)
+    rotation = nearest_rotation(cross)
+    return rotation, point_mean - rotation @ model_mean
+
+
+def _refit(
+    model: FloatArray, points: FloatArray, rotation: FloatArray, translation: FloatArray
+) -> tuple[FloatArray, FloatArray]:
+    """The pose fitted again to all discs that confirm it."""
+    placed = model @ rotation.T + translation
+    gaps = np.linalg.norm(placed[:, None] - points[None], axis=-1)
+    blob = gaps.argmin(axis=1)
+    matched = gaps[np.arange(model.shape[0]), blob] < FIT_TOLERANCE_M
+    fitted_rotation, fitted_translation = _rigid_fits(model[matched], points[blob[matched]][None])
+    return fitted_rotation[0], fitted_translation[0]

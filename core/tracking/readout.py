@@ -1,0 +1,198 @@
+"""From the filter's belief to what people read: wrist frame, clinical angles, standard deviations.
+
+The filter tracks the discs as a body whose axes are those of W0 as calibrated. While the palm's shape is
+refined, the true axes of W follow from the better known discs; the readout turns the result into them.
+The covariance of an angle holds both the pose's and the calibration's part.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from core.calibration.result import Calibration
+from core.hand import clinical_angles
+from core.hand.wrist_frame import wrist_axes_sensitivity
+from core.tracking import so3
+from core.tracking.measurement import View
+from core.tracking.state import Belief, StateLayout
+from core.types import Detections, FloatArray, TrackedFrame, TrackStatus
+
+_DORSAL = np.array([0.0, 0.0, 1.0])
+_SHAPE_MOVED_M = 2e-5
+"""The axes are computed anew when a disc's refined place has moved by this much."""
+
+
+@dataclass(frozen=True, slots=True)
+class WristReading:
+    """Wrist quantities in the refined W0 and W2, as in :class:`core.types.TrackedFrame`."""
+
+    position_m: FloatArray
+    velocity_m_s: FloatArray
+    rotation_w2_w0: FloatArray
+    angular_velocity_rad_s: FloatArray
+    angles_rad: FloatArray
+    angles_sd_rad: FloatArray
+    angles_zyz_rad: FloatArray
+
+
+class Readout:
+    """Reads beliefs of one calibrated hand; remembers only the axes of the last shape."""
+
+    def __init__(self, calibration: Calibration, layout: StateLayout) -> None:
+        self._calibration = calibration
+        self._layout = layout
+        self._side = calibration.clicks.side
+        self._palm = np.array(calibration.clicks.protocol.palm)
+        self._start = clinical_angles.rotation_from_angles(calibration.start_angles_rad, self._side)
+        self._has_start = bool(np.any(calibration.start_angles_rad))
+        self._axes_shape: FloatArray | None = None
+        self._axes = np.eye(3)
+        self._sensitivity = np.zeros((3, 18))
+        self._unrefined_turn = _neutral_turn_covariance(calibration)
+
+    def _axes_of(self, shape: FloatArray) -> tuple[FloatArray, FloatArray]:
+        palm_shape = shape.reshape(-1, 3)[self._palm]
+        if self._axes_shape is None or np.max(np.abs(palm_shape - self._axes_shape)) > _SHAPE_MOVED_M:
+            discs = self._calibration.marker_position_w0_m[self._palm] + palm_shape
+            self._axes, self._sensitivity = wrist_axes_sensitivity(discs, _DORSAL)
+            self._axes_shape = palm_shape.copy()
+        return self._axes, self._sensitivity
+
+    def wrist(self, belief: Belief) -> WristReading:
+        """Wrist pose, rates, angles and their standard deviations of a single belief."""
+        layout, p = self._layout, belief.covariance
+        if layout.shape_count:
+            axes, sensitivity = self._axes_of(belief.shape)
+            wrist_disc = (
+                self._calibration.marker_position_w0_m[self._palm[0]]
+                + belief.shape[3 * self._palm[0] : 3 * self._palm[0] + 3]
+            )
+            lever = belief.rotation_w2_w0 @ wrist_disc
+            position = axes.T @ (belief.position_m + lever - wrist_disc)
+            rotation = axes.T @ belief.rotation_w2_w0 @ axes
+            error = np.zeros((3, layout.size))
+            error[:, layout.turn] = axes.T
+            columns = (layout.shape.start + 3 * self._palm[:, None] + np.arange(3)).ravel()
+            # The turn of the axes enters before and after: R' = Exp(-a) R Exp(a).
+            error[:, columns] = (np.eye(3) - rotation.T) @ sensitivity
+            turn_covariance = error @ p @ error.T
+        else:
+            axes, position, rotation = np.eye(3), belief.position_m, belief.rotation_w2_w0
+            turn_covariance = p[layout.turn, layout.turn] + rotation.T @ self._unrefined_turn @ rotation
+        velocity = axes.T @ belief.velocity_m_s
+        # In eq. (1) the angular velocity is white: there is none to report.
+        rate = axes.T @ belief.rate_rad_s if layout.has_rates else np.full(3, np.nan)
+        shown = self._start @ rotation if self._has_start else rotation
+        angles = clinical_angles.angles_from_rotation(shown, self._side)
+        by_turn = clinical_angles.angle_rates_matrix(shown, self._side)
+        variance = np.einsum("ij,jk,ik->i", by_turn, turn_covariance, by_turn)
+        return WristReading(
+            position,
+            velocity,
+            shown,
+            rate,
+            angles,
+            np.sqrt(np.maximum(variance, 0.0)),
+            clinical_angles.zyz_from_rotation(shown),
+        )
+
+    def frame(
+        self,
+        index: int,
+        timestamp_s: float,
+        status: TrackStatus,
+        belief: Belief,
+        view: View,
+        *,
+        predicted_px: FloatArray,
+        predicted_cov_px2: FloatArray,
+        measured_px: FloatArray,
+        measured_depth_m: FloatArray,
+        detections: Detections,
+        dropped_before: int,
+        measured_share: FloatArray,
+        nis: float,
+        nis_dof: int,
+    ) -> TrackedFrame:
+        """The whole row of a tracked or predicted frame."""
+        wrist = self.wrist(belief)
+        discs = view.markers_cam_m(belief.position_m, belief.rotation_w2_w0, belief.joints_rad, belief.shape)
+        none = np.empty(0)
+        return TrackedFrame(
+            index,
+            timestamp_s,
+            status,
+            wrist.position_m,
+            wrist.velocity_m_s,
+            wrist.rotation_w2_w0,
+            wrist.angular_velocity_rad_s,
+            wrist.angles_rad,
+            wrist.angles_sd_rad,
+            wrist.angles_zyz_rad,
+            belief.joints_rad,
+            none,
+            none,
+            np.empty((0, 3)),
+            discs,
+            predicted_px,
+            predicted_cov_px2,
+            measured_px,
+            measured_depth_m,
+            detections,
+            dropped_before,
+            measured_share,
+            nis,
+            nis_dof,
+        )
+
+
+def _neutral_turn_covariance(calibration: Calibration) -> FloatArray:
+    """Covariance (3, 3) of the turn that the discs' calibration errors give the whole palm."""
+    palm = np.array(calibration.clicks.protocol.palm)
+    discs = calibration.marker_position_w0_m[palm]
+    centred = so3.skew(discs - discs.mean(axis=0))
+    inverse = np.linalg.inv(np.einsum("mji,mjk->ik", centred, centred))
+    by_disc = inverse @ centred  # (M, 3, 3)
+    covariance = calibration.marker_covariance_w0_m2[palm]
+    return np.asarray(np.einsum("mij,mjk,mlk->il", by_disc, covariance, by_disc))
+
+
+def lost_readout(
+    index: int,
+    timestamp_s: float,
+    detections: Detections,
+    dropped_before: int,
+    marker_count: int,
+    measured_share: FloatArray,
+) -> TrackedFrame:
+    """The row of a frame in which the hand is lost: nothing is known but the blobs."""
+    three, square = np.full(3, np.nan), np.full((3, 3), np.nan)
+    per_marker = np.full((marker_count, 2), np.nan)
+    return TrackedFrame(
+        index,
+        timestamp_s,
+        TrackStatus.LOST,
+        three,
+        three,
+        square,
+        three,
+        three,
+        three,
+        three,
+        np.empty(0),
+        np.empty(0),
+        np.empty(0),
+        np.empty((0, 3)),
+        np.full((marker_count, 3), np.nan),
+        per_marker,
+        np.full((marker_count, 2, 2), np.nan),
+        per_marker,
+        np.full(marker_count, np.nan),
+        detections,
+        dropped_before,
+        measured_share,
+        float("nan"),
+        0,
+    )

@@ -1,0 +1,65 @@
+"""What can be chosen about the tracker, with its defaults and where they come from."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import Literal
+
+from core.tracking.association import AssociationSettings
+from core.tracking.motion import MotionModel, MotionNoise
+from core.tracking.state import InitialSd
+from core.tracking.unscented import Spread
+
+Profile = Literal["slow", "standard", "brisk"]
+
+PROFILES: dict[Profile, MotionNoise] = {
+    "slow": MotionNoise(0.7, 2.0, 0.75, 6.0, 1.0),
+    "standard": MotionNoise(2.0, 8.0, 1.5, 12.0, 2.5),
+    "brisk": MotionNoise(6.0, 40.0, 4.0, 60.0, 5.0),
+}
+"""Process noise by reference 4.5: wrist acceleration, turning acceleration and rate, the same of joints."""
+
+
+@dataclass(frozen=True, slots=True)
+class MeasurementNoise:
+    """``pixel_sd_px`` of a whole, well lit disc's centre; ``depth_sd_m`` added to each blob's own.
+
+    ``shade_share``: how far the centre of a partly covered disc may wander, as a share of its radius times
+    the missing share of its area. ``depth_outlier``: chance that a blob's depth is of something else.
+    """
+
+    pixel_sd_px: float = 0.15
+    depth_sd_m: float = 0.0006
+    shade_share: float = 0.7
+    depth_outlier: float = 1e-3
+
+
+@dataclass(frozen=True, slots=True)
+class TrackerSettings:
+    """Defaults of the tracker; all of it is stored with every session.
+
+    ``form``: the reduced filter or the papers' augmented one; ``motion``: constant rate or the papers'
+    model (1); ``mode_scales``: the motion modes run side by side, as factors on the process noise;
+    ``refine_shape``: keep measuring the palm while it moves; ``marker_radius_m`` of the paper discs;
+    ``lost_after_s`` without three palm markers the hand is lost; ``rate_memory_s``: how long an unseen hand
+    is taken to go on as it moved.
+    """
+
+    form: Literal["reduced", "augmented"] = "reduced"
+    motion: MotionModel = "constant_rate"
+    profile: Profile = "standard"
+    use_depth: bool = True
+    refine_shape: bool = True
+    mode_scales: tuple[float, ...] = (0.5, 4.0)
+    mode_dwell_s: float = 0.5
+    spread: Spread = field(default_factory=Spread)
+    initial: InitialSd = field(default_factory=InitialSd)
+    noise: MeasurementNoise = field(default_factory=MeasurementNoise)
+    association: AssociationSettings = field(default_factory=AssociationSettings)
+    marker_radius_m: float = 0.006
+    lost_after_s: float = 1.5
+    rate_memory_s: float = 0.2
+
+    @property
+    def motion_noise(self) -> MotionNoise:
+        return PROFILES[self.profile]

@@ -1,0 +1,114 @@
+"""Rotations without angles: exponential and logarithm on SO(3), batched.
+
+A turn is a vector (..., 3) in radians: axis times angle. Perturbations stand on the right, ``R Exp(d)``,
+so ``d`` is in the axes of the moving frame, as the angular velocity of eq. (1) of the wrist paper is.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from core.types import FloatArray
+
+_SMALL = 1e-8
+
+
+def skew(vector: FloatArray) -> FloatArray:
+    """Matrix (..., 3, 3) of the cross product with ``vector`` (..., 3)."""
+    out = np.zeros((*vector.shape[:-1], 3, 3))
+    out[..., 0, 1] = -vector[..., 2]
+    out[..., 0, 2] = vector[..., 1]
+    out[..., 1, 0] = vector[..., 2]
+    out[..., 1, 2] = -vector[..., 0]
+    out[..., 2, 0] = -vector[..., 1]
+    out[..., 2, 1] = vector[..., 0]
+    return out
+
+
+def exp(turn_rad: FloatArray) -> FloatArray:
+    """Rotation matrices (..., 3, 3) of turns (..., 3); Rodrigues' formula.
+
+    >>> exp(np.array([0.0, 0.0, np.pi / 2])).round(6) + 0.0
+    array([[ 0., -1.,  0.],
+           [ 1.,  0.,  0.],
+           [ 0.,  0.,  1.]])
+    """
+    x, y, z = turn_rad[..., 0], turn_rad[..., 1], turn_rad[..., 2]
+    angle2 = x * x + y * y + z * z
+    angle = np.sqrt(angle2)
+    small = angle2 < _SMALL
+    safe = np.where(small, 1.0, angle2)
+    a = np.where(small, 1.0 - angle2 / 6.0, np.sin(angle) / np.sqrt(safe))
+    b = np.where(small, 0.5 - angle2 / 24.0, (1.0 - np.cos(angle)) / safe)
+    out = np.empty((*turn_rad.shape[:-1], 3, 3))
+    out[..., 0, 0] = 1.0 - b * (y * y + z * z)
+    out[..., 1, 1] = 1.0 - b * (x * x + z * z)
+    out[..., 2, 2] = 1.0 - b * (x * x + y * y)
+    bxy, bxz, byz = b * x * y, b * x * z, b * y * z
+    ax, ay, az = a * x, a * y, a * z
+    out[..., 0, 1] = bxy - az
+    out[..., 1, 0] = bxy + az
+    out[..., 0, 2] = bxz + ay
+    out[..., 2, 0] = bxz - ay
+    out[..., 1, 2] = byz - ax
+    out[..., 2, 1] = byz + ax
+    return out
+
+
+def log(rotation: FloatArray) -> FloatArray:
+    """Turns (..., 3) of rotation matrices (..., 3, 3), length at most pi."""
+    r = rotation
+    vee = 0.5 * np.stack((r[..., 2, 1] - r[..., 1, 2], r[..., 0, 2] - r[..., 2, 0], r[..., 1, 0] - r[..., 0, 1]), -1)
+    sine = np.linalg.norm(vee, axis=-1)
+    cosine = 0.5 * (np.trace(r, axis1=-2, axis2=-1) - 1.0)
+    angle = np.arctan2(sine, cosine)
+    scale = np.where(sine < 1e-7, 1.0, angle / np.where(sine < 1e-7, 1.0, sine))
+    out: FloatArray = vee * scale[..., None]
+    half_turn = (sine < 1e-4) & (cosine < 0.0)
+    if np.any(half_turn):
+        # Near pi the antisymmetric part vanishes: the axis is the dominant column of R + I.
+        for index in np.argwhere(half_turn):
+            where = tuple(index)
+            symmetric = r[where] + np.eye(3)
+            axis = symmetric[:, int(np.argmax(np.diag(symmetric)))]
+            axis = axis / np.linalg.norm(axis)
+            if axis @ vee[where] < 0.0:
+                axis = -axis
+            out[where] = angle[where] * axis
+    return out
+
+
+def right_jacobian(turn_rad: FloatArray) -> FloatArray:
+    """Jr with Exp(t + d) = Exp(t) Exp(Jr d) to first order; (..., 3) to (..., 3, 3)."""
+    angle2 = np.sum(turn_rad * turn_rad, axis=-1)
+    angle = np.sqrt(angle2)
+    small = angle2 < 1e-6
+    safe = np.where(small, 1.0, angle2)
+    b = np.where(small, 0.5 - angle2 / 24.0, (1.0 - np.cos(angle)) / safe)
+    c = np.where(small, 1.0 / 6.0 - angle2 / 120.0, (angle - np.sin(angle)) / (safe * np.sqrt(safe)))
+    k = skew(turn_rad)
+    return np.asarray(np.eye(3) - b[..., None, None] * k + c[..., None, None] * (k @ k))
+
+
+def nearest_rotation(matrix: FloatArray) -> FloatArray:
+    """Rotation matrices (..., 3, 3) nearest to ``matrix`` in the least-squares sense."""
+    u, _, vt = np.linalg.svd(matrix)
+    sign = np.linalg.det(u @ vt)
+    u = u.copy()
+    u[..., :, 2] *= sign[..., None]
+    return np.asarray(u @ vt)
+
+
+def mean_rotation(rotation: FloatArray, weight: FloatArray) -> FloatArray:
+    """Weighted mean on the manifold of rotations (N, 3, 3) with weights (N,) summing to 1.
+
+    Gauss-Newton on the tangent space, started at the first rotation; weights may be negative
+    (unscented transform) as long as the rotations lie within a quarter turn of each other.
+    """
+    mean = rotation[0]
+    for _ in range(8):
+        step = weight @ log(mean.T @ rotation)
+        mean = mean @ exp(step)
+        if float(step @ step) < 1e-20:
+            break
+    return np.asarray(mean)
