@@ -1,0 +1,111 @@
+"""What may be called a change between two sessions (clinical reference 6)."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import Literal
+
+from core.measures.motion_range import FEWEST_FOR_SPREAD
+from core.types import Side
+
+MDC95_FACTOR = 1.96 * math.sqrt(2.0)
+"""Minimal detectable change at 95 % per standard error of measurement: 2.77."""
+TOTAL_ACTIVE_MOTION = "TAM"
+
+_LIMIT_DEG = {
+    "flexion": 10.0,
+    "deviation": 8.0,
+    "pronosupination": 15.0,
+    "MCP_flexion": 12.0,
+    "PIP_flexion": 12.0,
+    "DIP_flexion": 12.0,
+    "MCP_abduction": 8.0,
+    "CMC1": 15.0,
+    "MCP1": 15.0,
+    "IP1": 15.0,
+    TOTAL_ACTIVE_MOTION: 22.0,
+}
+
+Obstacle = Literal["side", "protocol", "exercise", "few_repetitions_before", "few_repetitions_after", "unknown"]
+
+
+@dataclass(frozen=True, slots=True)
+class MeasuredMean:
+    """One session's figure for one angle, with what decides whether another session compares."""
+
+    mean_rad: float
+    repetitions: int
+    side: Side
+    protocol: str
+    exercise: str
+
+
+@dataclass(frozen=True, slots=True)
+class Change:
+    """``difference_rad`` = after - before, against ``limit_rad``. ``obstacles`` say why the two do not compare."""
+
+    difference_rad: float
+    limit_rad: float
+    obstacles: tuple[Obstacle, ...]
+
+    @property
+    def comparable(self) -> bool:
+        """Whether anything may be said at all."""
+        return not self.obstacles
+
+    @property
+    def beyond_error(self) -> bool:
+        """Whether this may be called larger than measurement error."""
+        return self.comparable and abs(self.difference_rad) > self.limit_rad
+
+
+def change_limit_rad(angle_name: str) -> float:
+    """Difference of two sessions' means above which it exceeds measurement error, for an angle of the session file.
+
+    Defaults of the reference until a clinic has test-retest data of its own; the free DIP takes the PIP's. Raises
+    KeyError for an unknown name.
+
+    >>> round(math.degrees(change_limit_rad("MCP4_flexion")))
+    12
+    """
+    joint, _, motion = angle_name.partition("_")
+    for key in (angle_name, joint, f"{joint.rstrip('2345')}_{motion}"):
+        if key in _LIMIT_DEG:
+            return math.radians(_LIMIT_DEG[key])
+    raise KeyError(angle_name)
+
+
+def minimal_detectable_change(first: tuple[float, ...], second: tuple[float, ...]) -> float:
+    """MDC95 from the same people measured twice: 2.77 SEM with SEM = sd(differences)/sqrt(2); unit of the values.
+
+    NaN for fewer than 10 people, as the reference asks.
+    """
+    if len(first) != len(second):
+        raise ValueError("each person needs both measurements")
+    n = len(first)
+    if n < 10:
+        return math.nan
+    differences = [b - a for a, b in zip(first, second, strict=True)]
+    mean = sum(differences) / n
+    sd = math.sqrt(sum((d - mean) ** 2 for d in differences) / (n - 1))
+    return MDC95_FACTOR * sd / math.sqrt(2.0)
+
+
+def change_between(before: MeasuredMean, after: MeasuredMean, angle_name: str) -> Change:
+    """Compares the means of two sessions, never their bests."""
+    obstacles: list[Obstacle] = []
+    if before.side != after.side:
+        obstacles.append("side")
+    if before.protocol != after.protocol:
+        obstacles.append("protocol")
+    if before.exercise != after.exercise:
+        obstacles.append("exercise")
+    if before.repetitions < FEWEST_FOR_SPREAD:
+        obstacles.append("few_repetitions_before")
+    if after.repetitions < FEWEST_FOR_SPREAD:
+        obstacles.append("few_repetitions_after")
+    difference = after.mean_rad - before.mean_rad
+    if not math.isfinite(difference):
+        obstacles.append("unknown")
+    return Change(difference, change_limit_rad(angle_name), tuple(obstacles))

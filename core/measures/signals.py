@@ -1,0 +1,114 @@
+"""Signals fit for measuring: valid samples on an even time base, low-passed without delay."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy import signal as sps
+
+from core.types import FloatArray
+
+BoolArray = NDArray[np.bool_]
+
+LONGEST_GAP_S = 0.2
+"""Gaps up to this are filled by straight lines, longer ones stay gaps (reference 5)."""
+SPEED_CUTOFF_HZ = 6.0
+"""Low-pass before any speed or smoothness is taken (reference 4.4)."""
+_SHORTEST_FILTERED = 4
+"""Samples between two gaps below which there is nothing to filter."""
+
+
+@dataclass(frozen=True, slots=True)
+class Signal:
+    """Evenly spaced samples: ``time_s`` (n,), ``value`` (n,) or (n, k) with NaN in gaps, ``rate_hz``.
+
+    ``valid_share`` is the share of the original frames that were valid; ``gaps_s`` (g, 2) the first and last time of
+    each gap, also of one before the first or after the last valid sample.
+    """
+
+    time_s: FloatArray
+    value: FloatArray
+    rate_hz: float
+    valid_share: float
+    gaps_s: FloatArray
+
+    @property
+    def finite(self) -> BoolArray:
+        """Samples (n,) that are no gap."""
+        flat = self.value.reshape(len(self.value), math.prod(self.value.shape[1:]))
+        return np.asarray(np.isfinite(flat).all(axis=1), dtype=np.bool_)
+
+    def column(self, k: int) -> Signal:
+        """One of several values sampled together."""
+        return replace(self, value=self.value[:, k])
+
+    def beside_gap(self, time_s: float, reach_s: float = LONGEST_GAP_S) -> bool:
+        """Whether a gap begins or ends within ``reach_s`` of a time."""
+        return bool((np.abs(self.gaps_s - time_s) <= reach_s).any())
+
+    def between(self, start_s: float, end_s: float) -> Signal:
+        """The samples from ``start_s`` to ``end_s``, both included."""
+        half = 0.25 / self.rate_hz
+        inside = (self.time_s >= start_s - half) & (self.time_s <= end_s + half)
+        return replace(self, time_s=self.time_s[inside], value=self.value[inside])
+
+
+def even_signal(timestamp_s: FloatArray, value: FloatArray, valid: BoolArray | None = None) -> Signal:
+    """Puts samples with their own times (N,) on an even base at the recording's median rate.
+
+    ``value`` (N,) or (N, k); ``valid`` bool (N,), a sample with a NaN is invalid anyway. The base runs from the first
+    to the last valid sample. Times must rise strictly.
+    """
+    columns = value.reshape(len(timestamp_s), math.prod(value.shape[1:]))
+    good = np.isfinite(columns).all(axis=1)
+    if valid is not None:
+        good = good & valid
+    count = int(good.sum())
+    if count < 2:
+        whole = np.array([[timestamp_s[0], timestamp_s[-1]]]) if len(timestamp_s) else np.empty((0, 2))
+        return Signal(np.empty(0), np.empty((0, *value.shape[1:])), math.nan, count / max(len(timestamp_s), 1), whole)
+    period = float(np.median(np.diff(timestamp_s)))
+    known, samples = timestamp_s[good], columns[good]
+    steps = math.floor((known[-1] - known[0]) / period + 1e-6) + 1
+    base = known[0] + period * np.arange(steps)
+    even = np.column_stack([np.interp(base, known, column) for column in samples.T])
+    edges = np.concatenate(([timestamp_s[0]], known, [timestamp_s[-1]]))
+    wide = np.flatnonzero(np.diff(edges) > LONGEST_GAP_S + 1.5 * period)
+    gaps = np.column_stack((edges[wide], edges[wide + 1]))
+    for start, end in gaps:
+        even[(base > start + 0.25 * period) & (base < end - 0.25 * period)] = np.nan
+    return Signal(base, even.reshape(steps, *value.shape[1:]), 1.0 / period, count / len(timestamp_s), gaps)
+
+
+def low_pass(signal: Signal, cutoff_hz: float = SPEED_CUTOFF_HZ) -> Signal:
+    """Second-order Butterworth forwards and backwards (no delay), each stretch between gaps on its own.
+
+    Stretches of fewer than 4 samples become gaps. A recording too slow for the cut-off is left as it is.
+    """
+    if len(signal.time_s) == 0 or cutoff_hz >= 0.45 * signal.rate_hz:
+        return signal
+    b, a = sps.butter(2, cutoff_hz, fs=signal.rate_hz)
+    out = np.full_like(signal.value, np.nan)
+    for part in stretches(signal.finite):
+        length = part.stop - part.start
+        if length >= _SHORTEST_FILTERED:
+            out[part] = sps.filtfilt(b, a, signal.value[part], axis=0, padlen=min(9, length - 1))
+    return replace(signal, value=out)
+
+
+def rate_of_change(signal: Signal) -> Signal:
+    """Central differences (one-sided at the ends of a stretch), unit of the value per second."""
+    out = np.full_like(signal.value, np.nan)
+    for part in stretches(signal.finite):
+        if part.stop - part.start >= 2:
+            out[part] = np.gradient(signal.value[part], 1.0 / signal.rate_hz, axis=0)
+    return replace(signal, value=out)
+
+
+def stretches(flag: BoolArray) -> list[slice]:
+    """Runs of True in a bool array (n,), as slices in order."""
+    edges = np.flatnonzero(np.diff(np.concatenate(([False], flag, [False])).astype(np.int8)))
+    return [slice(int(start), int(stop)) for start, stop in edges.reshape(-1, 2)]

@@ -1,0 +1,71 @@
+"""What may be called a change."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from core.hand.protocols import WRIST_ANGLES, joint_angle_names
+from core.measures.change import MeasuredMean, change_between, change_limit_rad, minimal_detectable_change
+
+BEFORE = MeasuredMean(math.radians(40.0), 5, "right", "wrist6", "WRIST_FE")
+
+
+def after(mean_deg: float) -> MeasuredMean:
+    return replace(BEFORE, mean_rad=math.radians(mean_deg))
+
+
+@pytest.mark.parametrize("name", [*WRIST_ANGLES, *joint_angle_names(dip_free=True), "TAM"])
+def test_every_angle_has_a_limit(name: str) -> None:
+    assert 8.0 <= round(math.degrees(change_limit_rad(name)), 6) <= 22.0
+
+
+def test_limits_of_the_reference() -> None:
+    limits = {"flexion": 10, "deviation": 8, "pronosupination": 15, "TAM": 22}
+    limits |= {"MCP2_flexion": 12, "PIP5_flexion": 12, "MCP3_abduction": 8}
+    limits |= {"CMC1_extension": 15, "MCP1_flexion": 15, "MCP1_abduction": 15, "IP1_flexion": 15}
+    assert {name: round(math.degrees(change_limit_rad(name))) for name in limits} == limits
+    with pytest.raises(KeyError):
+        change_limit_rad("elbow")
+
+
+@pytest.mark.parametrize(("mean_deg", "beyond"), [(49.9, False), (50.1, True), (29.9, True), (30.1, False)])
+def test_only_above_the_limit(mean_deg: float, beyond: bool) -> None:
+    change = change_between(BEFORE, after(mean_deg), "flexion")
+    assert change.beyond_error == beyond
+    assert math.degrees(change.difference_rad) == pytest.approx(mean_deg - 40.0)
+
+
+@pytest.mark.parametrize(
+    ("other", "obstacle"),
+    [
+        (replace(after(90.0), side="left"), "side"),
+        (replace(after(90.0), protocol="hand21"), "protocol"),
+        (replace(after(90.0), exercise="WRIST_RU"), "exercise"),
+        (replace(after(90.0), repetitions=2), "few_repetitions_after"),
+        (after(math.nan), "unknown"),
+    ],
+)
+def test_what_does_not_compare_is_no_change(other: MeasuredMean, obstacle: str) -> None:
+    change = change_between(BEFORE, other, "flexion")
+    assert change.obstacles == (obstacle,)
+    assert not change.beyond_error
+
+
+def test_few_repetitions_before() -> None:
+    assert change_between(replace(BEFORE, repetitions=1), after(90.0), "flexion").obstacles == (
+        "few_repetitions_before",
+    )
+
+
+def test_minimal_detectable_change_of_known_error() -> None:
+    rng = np.random.default_rng(5)
+    truth = rng.normal(60.0, 10.0, 4000)
+    first, second = truth + rng.normal(0.0, 3.0, 4000), truth + rng.normal(0.0, 3.0, 4000)
+    assert minimal_detectable_change(tuple(first), tuple(second)) == pytest.approx(8.3, abs=0.3)
+    assert math.isnan(minimal_detectable_change(tuple(first[:9]), tuple(second[:9])))
+    with pytest.raises(ValueError, match="both"):
+        minimal_detectable_change((1.0,), ())

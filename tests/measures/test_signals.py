@@ -1,0 +1,109 @@
+"""Even time base, gaps and the low-pass."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+from scipy import signal as sps
+
+from core.measures.signals import even_signal, low_pass, rate_of_change, stretches
+
+RATE = 30.0
+
+
+def test_even_samples_stay_as_they_are() -> None:
+    t = 1000.0 + np.arange(90) / RATE
+    value = np.sin(t)
+    signal = even_signal(t, value)
+    np.testing.assert_allclose(signal.value, value, atol=1e-9)
+    np.testing.assert_allclose(signal.time_s, t, atol=1e-9)
+    assert signal.rate_hz == pytest.approx(RATE)
+    assert signal.valid_share == 1.0
+    assert len(signal.gaps_s) == 0
+
+
+def test_dropped_frames_keep_the_clock() -> None:
+    t = np.delete(np.arange(90) / RATE, [20, 21, 50])
+    signal = even_signal(t, 3.0 * t)
+    assert len(signal.time_s) == 90
+    np.testing.assert_allclose(signal.value, 3.0 * signal.time_s, atol=1e-9)
+
+
+@pytest.mark.parametrize(("missing", "filled"), [(5, True), (6, True), (8, False)])
+def test_only_short_gaps_are_filled(missing: int, filled: bool) -> None:
+    t = np.arange(90) / RATE
+    value = t.copy()
+    value[40 : 40 + missing] = np.nan
+    signal = even_signal(t, value)
+    assert bool(np.isfinite(signal.value).all()) == filled
+    assert np.isfinite(signal.value).sum() == (90 if filled else 90 - missing)
+    assert signal.valid_share == pytest.approx(1.0 - missing / 90)
+    if not filled:
+        np.testing.assert_allclose(signal.gaps_s, [[39 / RATE, (40 + missing) / RATE]])
+        assert signal.beside_gap(39 / RATE - 0.1)
+        assert not signal.beside_gap(39 / RATE - 0.3)
+
+
+def test_hidden_start_and_end_are_gaps_outside_the_base() -> None:
+    t = np.arange(90) / RATE
+    valid = (t > 1.0) & (t < 2.0)
+    signal = even_signal(t, np.column_stack((t, -t)), valid)
+    assert signal.time_s[0] > 1.0
+    assert signal.time_s[-1] < 2.0
+    assert len(signal.gaps_s) == 2
+    np.testing.assert_allclose(signal.value[:, 0], -signal.value[:, 1])
+
+
+@pytest.mark.parametrize("known", [0, 1])
+def test_nothing_known_is_an_empty_signal(known: int) -> None:
+    t = np.arange(30) / RATE
+    value = np.full(30, np.nan)
+    value[:known] = 1.0
+    signal = even_signal(t, value)
+    assert len(signal.time_s) == 0
+    assert signal.beside_gap(0.0)
+    assert len(low_pass(signal).time_s) == 0
+    assert len(even_signal(np.empty(0), np.empty(0)).time_s) == 0
+
+
+def test_low_pass_does_not_delay_and_stops_fast_noise() -> None:
+    t = np.arange(0.0, 8.0, 1.0 / RATE)
+    slow = low_pass(even_signal(t, np.sin(2 * math.pi * 0.5 * t))).value
+    np.testing.assert_allclose(slow[30:-30], np.sin(2 * math.pi * 0.5 * t)[30:-30], atol=2e-3)
+    fast = low_pass(even_signal(t, np.sin(2 * math.pi * 13.0 * t))).value
+    assert np.abs(fast[30:-30]).max() < 0.02
+
+
+def test_each_stretch_is_filtered_on_its_own() -> None:
+    t = np.arange(0.0, 4.0, 1.0 / RATE)
+    value = np.sin(t)
+    value[50:60] = np.nan
+    value[63:80] = np.nan
+    smooth = low_pass(even_signal(t, value))
+    b, a = sps.butter(2, 6.0, fs=RATE)
+    np.testing.assert_allclose(smooth.value[:50], sps.filtfilt(b, a, value[:50]), atol=1e-9)
+    assert np.isnan(smooth.value[50:80]).all()
+    assert np.isfinite(smooth.value[80:]).all()
+
+
+def test_slow_recording_is_left_alone() -> None:
+    t = np.arange(0.0, 4.0, 0.1)
+    signal = even_signal(t, np.sin(t))
+    assert low_pass(signal) is signal
+
+
+def test_rate_of_change_keeps_gaps() -> None:
+    t = np.arange(0.0, 3.0, 1.0 / RATE)
+    value = 2.0 * t
+    value[30:45] = np.nan
+    rate = rate_of_change(even_signal(t, value)).value
+    np.testing.assert_allclose(rate[:30], 2.0, atol=1e-9)
+    assert np.isnan(rate[30:45]).all()
+
+
+def test_stretches() -> None:
+    flag = np.array([True, True, False, True, False, False, True])
+    assert stretches(flag) == [slice(0, 2), slice(3, 4), slice(6, 7)]
+    assert stretches(np.zeros(3, dtype=bool)) == []

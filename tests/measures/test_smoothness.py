@@ -1,0 +1,96 @@
+"""Smoothness against the published vectors and the cases where nothing may be said."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+
+from core.measures.signals import even_signal, low_pass
+from core.measures.smoothness import log_dimensionless_jerk, sparc, speed_peaks
+from core.types import FloatArray
+
+
+def min_jerk_speed(duration_s: float, rate_hz: float) -> FloatArray:
+    """Bell-shaped speed of one minimum-jerk movement of unit length."""
+    tau = np.arange(0.0, 1.0 + 1e-9, 1.0 / (duration_s * rate_hz))
+    return 30.0 * tau**2 * (1.0 - tau) ** 2 / duration_s
+
+
+def serial(parts: int, rate_hz: float = 30.0) -> FloatArray:
+    return np.concatenate([min_jerk_speed(1.0, rate_hz)[:-1]] * parts)
+
+
+def test_reference_vector() -> None:
+    t = np.arange(-1.0, 1.0, 0.01)
+    speed = np.exp(-5.0 * t**2)
+    assert sparc(speed, 100.0) == pytest.approx(-1.41403, abs=5e-6)
+    assert log_dimensionless_jerk(speed, 100.0) == pytest.approx(-5.81636, abs=5e-6)
+
+
+def test_minimum_jerk_at_thirty_frames() -> None:
+    assert sparc(min_jerk_speed(1.0, 30.0), 30.0) == pytest.approx(-1.401, abs=0.02)
+    assert log_dimensionless_jerk(min_jerk_speed(1.0, 30.0), 30.0) == pytest.approx(-5.25, abs=0.06)
+    assert log_dimensionless_jerk(min_jerk_speed(0.6, 30.0), 30.0) == pytest.approx(-5.20, abs=0.08)
+
+
+@pytest.mark.parametrize(("parts", "arc_length", "jerk"), [(2, -2.26, -8.0), (3, -2.70, -9.6), (4, -3.10, -10.8)])
+def test_more_submovements_are_less_smooth(parts: int, arc_length: float, jerk: float) -> None:
+    assert sparc(serial(parts), 30.0) == pytest.approx(arc_length, abs=0.08)
+    assert log_dimensionless_jerk(serial(parts), 30.0) == pytest.approx(jerk, abs=0.15)
+
+
+@pytest.mark.parametrize("measure", [sparc, log_dimensionless_jerk])
+def test_smoothness_depends_on_shape_not_on_size(measure: object) -> None:
+    assert callable(measure)
+    speed = min_jerk_speed(1.0, 30.0)
+    assert measure(7.0 * speed, 30.0) == pytest.approx(measure(speed, 30.0), rel=1e-9)
+
+
+def test_filtering_brings_noisy_smoothness_back() -> None:
+    rng = np.random.default_rng(3)
+    t = np.arange(0.0, 3.0, 1.0 / 30.0)
+    tau = np.clip(t - 1.0, 0.0, 1.0)
+    path = 10 * tau**3 - 15 * tau**4 + 6 * tau**5
+    raw, filtered = [], []
+    for _ in range(40):
+        noisy = path + rng.normal(0.0, 0.01, len(t))
+        signal = even_signal(t, noisy)
+        window = slice(30, 61)
+        raw.append(sparc(np.abs(np.gradient(noisy, t))[window], 30.0))
+        filtered.append(sparc(np.abs(np.gradient(low_pass(signal).value, t))[window], 30.0))
+    assert np.mean(raw) < np.mean(filtered) - 0.2
+    assert np.mean(filtered) == pytest.approx(-1.52, abs=0.12)
+
+
+@pytest.mark.parametrize(
+    "speed",
+    [np.ones(7), np.zeros(40), np.full(40, np.nan), np.concatenate((np.ones(20), [np.nan], np.ones(20)))],
+    ids=["too short", "no motion", "unknown", "gap"],
+)
+def test_undefined_is_nan(speed: FloatArray) -> None:
+    assert math.isnan(sparc(speed, 30.0))
+    assert math.isnan(log_dimensionless_jerk(speed, 30.0))
+
+
+def test_too_slow_to_judge() -> None:
+    speed = 0.01 * min_jerk_speed(1.0, 30.0)
+    assert math.isnan(sparc(speed, 30.0, least_peak=0.05))
+    assert math.isfinite(sparc(speed, 30.0, least_peak=0.01))
+
+
+@pytest.mark.parametrize("parts", [1, 2, 3, 4])
+def test_one_peak_for_each_submovement(parts: int) -> None:
+    assert speed_peaks(serial(parts), 30.0, 0.02) == parts
+
+
+def test_small_ripples_and_close_neighbours_are_no_peaks() -> None:
+    speed = serial(1)
+    ripple = speed.copy()
+    ripple[20] += 0.01 + speed[19] - speed[20]
+    assert speed_peaks(ripple, 30.0, 0.02) == 1
+    twin = np.array([0.0, 1.0, 0.2, 0.9, 0.0])
+    assert speed_peaks(twin, 30.0, 0.02) == 1
+    assert speed_peaks(twin, 10.0, 0.02) == 2
+    assert speed_peaks(np.full(20, np.nan), 30.0, 0.02) == 0
