@@ -1,0 +1,1 @@
+"""What leaves Carpus: reports and open formats."""

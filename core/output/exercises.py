@@ -1,0 +1,47 @@
+"""What is asked of the hand in each exercise, as facts (clinical reference 8.2); the words are the screen's."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Literal
+
+DEVIATION, FLEXION, PRONOSUPINATION = 0, 1, 2
+"""Columns of the wrist angles, as in every file."""
+
+Movement = Literal["radial", "ulnar", "flexion", "extension", "supination", "pronation", "arc"]
+
+SIDES: tuple[tuple[Movement, Movement], ...] = (
+    ("radial", "ulnar"), ("flexion", "extension"), ("supination", "pronation"),
+)  # fmt: skip
+"""Name of the positive and of the negative direction of each angle."""
+
+AXIS_TICK_DEG = (40.0, 80.0, 80.0)
+AXIS_LIMIT_DEG = (50.0, 86.0, 86.0)
+"""Outermost tick and end of the fixed axis of each angle on every screen and page."""
+
+
+@dataclass(frozen=True, slots=True)
+class Exercise:
+    """One exercise. ``angle`` is the trained column or None (free movement: all three are reported);
+    ``trick_limit_deg`` within which the other angles should stay, NaN for none."""
+
+    id: str
+    angle: int | None
+    repetitions: int
+    trick_limit_deg: float
+    pure_wrist: bool
+    """Whether the forearm must lie still (WRIST disc within a ball of 15 mm)."""
+
+
+EXERCISES = (
+    Exercise("WRIST_FE", FLEXION, 10, 10.0, True),
+    Exercise("WRIST_RU", DEVIATION, 10, 10.0, True),
+    Exercise("FOREARM_PS", PRONOSUPINATION, 10, float("nan"), False),
+    Exercise("FREE", None, 0, float("nan"), False),
+)
+STILL_RADIUS_MM = 15.0
+
+
+def exercise_named(name: str) -> Exercise:
+    """The exercise of that id; anything unknown is free movement, so every old session can be opened."""
+    return next((exercise for exercise in EXERCISES if exercise.id == name), EXERCISES[-1])

@@ -1,0 +1,110 @@
+"""The palette's figures, recomputed from the hex values: WCAG 2 contrast and CIEDE2000 under Machado 2009."""
+
+from __future__ import annotations
+
+import itertools
+import math
+
+import numpy as np
+import pytest
+
+from ui.theme import DARK, LIGHT, Tokens
+
+MACHADO_2009 = {
+    "normal": np.eye(3),
+    "protan": np.array(
+        [[0.152286, 1.052583, -0.204868], [0.114503, 0.786281, 0.099216], [-0.003882, -0.048116, 1.051998]]
+    ),
+    "deutan": np.array(
+        [[0.367322, 0.860646, -0.227968], [0.280085, 0.672501, 0.047413], [-0.011820, 0.042940, 0.968881]]
+    ),
+    "tritan": np.array(
+        [[1.255528, -0.076749, -0.178779], [-0.078411, 0.930809, 0.147602], [0.004733, 0.691367, 0.303900]]
+    ),
+}
+RGB_TO_XYZ = np.array(
+    [[0.4124564, 0.3575761, 0.1804375], [0.2126729, 0.7151522, 0.0721750], [0.0193339, 0.1191920, 0.9503041]]
+)
+TEXT_PAIRS = [
+    ("text", "surface"), ("text", "soft"), ("text", "canvas"), ("text2", "surface"), ("text2", "sunken"), ("text2", "soft"),
+    ("text2", "canvas"), ("accent", "surface"), ("accent", "canvas"), ("accent", "soft"), ("on_accent", "accent"),
+    ("on_accent", "accent_hover"), ("on_accent", "accent_pressed"), ("good", "surface"), ("good", "good_soft"),
+    ("warn", "surface"), ("warn", "warn_soft"), ("bad", "surface"), ("bad", "bad_soft"),
+    ("on_band_warn", "band_warn"), ("on_band_bad", "band_bad"),
+]  # fmt: skip
+PART_PAIRS = [("border", "surface"), ("border", "canvas"), ("curve_a", "surface"), ("curve_b", "surface"), ("curve_c", "surface"),
+              ("curve_a", "soft"), ("curve_b", "soft")]  # fmt: skip
+
+
+def linear(hex_color: str) -> np.ndarray:
+    value = np.array([int(hex_color[i : i + 2], 16) / 255 for i in (1, 3, 5)])
+    return np.where(value <= 0.04045, value / 12.92, ((value + 0.055) / 1.055) ** 2.4)
+
+
+def contrast(first: str, second: str) -> float:
+    light = sorted((float(linear(color) @ (0.2126, 0.7152, 0.0722)) for color in (first, second)), reverse=True)
+    return (light[0] + 0.05) / (light[1] + 0.05)
+
+
+def lab(hex_color: str, eye: str) -> np.ndarray:
+    seen = np.clip(MACHADO_2009[eye] @ linear(hex_color), 0.0, 1.0)
+    scaled = RGB_TO_XYZ @ seen / np.array([0.95047, 1.0, 1.08883])
+    f = np.where(scaled > 0.008856, np.cbrt(scaled), 7.787 * scaled + 16 / 116)
+    return np.array([116 * f[1] - 16, 500 * (f[0] - f[1]), 200 * (f[1] - f[2])])
+
+
+def ciede2000(one: np.ndarray, two: np.ndarray) -> float:
+    """Sharma, Wu and Dalal 2005."""
+    (l1, a1, b1), (l2, a2, b2) = one, two
+    mean_c = (math.hypot(a1, b1) + math.hypot(a2, b2)) / 2
+    g = 0.5 * (1 - math.sqrt(mean_c**7 / (mean_c**7 + 25**7)))
+    a1, a2 = (1 + g) * a1, (1 + g) * a2
+    c1, c2 = math.hypot(a1, b1), math.hypot(a2, b2)
+    h1, h2 = math.degrees(math.atan2(b1, a1)) % 360, math.degrees(math.atan2(b2, a2)) % 360
+    dh = h2 - h1
+    if c1 * c2 == 0:
+        dh = 0.0
+    elif abs(dh) > 180:
+        dh -= math.copysign(360, dh)
+    dl, dc = l2 - l1, c2 - c1
+    dbig_h = 2 * math.sqrt(c1 * c2) * math.sin(math.radians(dh) / 2)
+    lm, cm = (l1 + l2) / 2, (c1 + c2) / 2
+    hm = h1 + h2 if c1 * c2 == 0 else (h1 + h2 + (360 if abs(h1 - h2) > 180 else 0)) / 2
+    t = (1 - 0.17 * math.cos(math.radians(hm - 30)) + 0.24 * math.cos(math.radians(2 * hm))
+         + 0.32 * math.cos(math.radians(3 * hm + 6)) - 0.20 * math.cos(math.radians(4 * hm - 63)))  # fmt: skip
+    sl = 1 + 0.015 * (lm - 50) ** 2 / math.sqrt(20 + (lm - 50) ** 2)
+    sc, sh = 1 + 0.045 * cm, 1 + 0.015 * cm * t
+    turn = 60 * math.exp(-(((hm - 275) / 25) ** 2))
+    rt = -2 * math.sqrt(cm**7 / (cm**7 + 25**7)) * math.sin(math.radians(turn))
+    return math.sqrt((dl / sl) ** 2 + (dc / sc) ** 2 + (dbig_h / sh) ** 2 + rt * (dc / sc) * (dbig_h / sh))
+
+
+def test_ciede2000_gives_the_published_pairs() -> None:
+    assert ciede2000(np.array([50, 2.6772, -79.7751]), np.array([50, 0, -82.7485])) == pytest.approx(2.0425, abs=1e-4)
+    assert ciede2000(np.array([50, 2.49, -0.001]), np.array([50, -2.49, 0.0011])) == pytest.approx(7.2195, abs=1e-4)
+
+
+@pytest.mark.parametrize("tokens", [LIGHT, DARK], ids=["light", "dark"])
+@pytest.mark.parametrize(("front", "back"), TEXT_PAIRS)
+def test_text_is_readable(tokens: Tokens, front: str, back: str) -> None:
+    assert contrast(getattr(tokens, front), getattr(tokens, back)) >= 4.5
+
+
+@pytest.mark.parametrize("tokens", [LIGHT, DARK], ids=["light", "dark"])
+@pytest.mark.parametrize(("front", "back"), PART_PAIRS)
+def test_parts_of_the_interface_are_seen(tokens: Tokens, front: str, back: str) -> None:
+    assert contrast(getattr(tokens, front), getattr(tokens, back)) >= 3.0
+
+
+@pytest.mark.parametrize(("tokens", "least"), [(LIGHT, 22.5), (DARK, 27.0)], ids=["light", "dark"])
+@pytest.mark.parametrize("eye", list(MACHADO_2009))
+def test_curves_differ_for_every_eye(tokens: Tokens, least: float, eye: str) -> None:
+    curves = [lab(color, eye) for color in (tokens.curve_a, tokens.curve_b, tokens.curve_c)]
+    assert min(ciede2000(a, b) for a, b in itertools.combinations(curves, 2)) >= least
+
+
+@pytest.mark.parametrize(("tokens", "least"), [(LIGHT, 25.0), (DARK, 15.5)], ids=["light", "dark"])
+@pytest.mark.parametrize("eye", list(MACHADO_2009))
+def test_bands_of_the_tracking_light_differ_for_every_eye(tokens: Tokens, least: float, eye: str) -> None:
+    bands = [lab(color, eye) for color in (tokens.good_soft, tokens.band_warn, tokens.band_bad)]
+    assert min(ciede2000(a, b) for a, b in itertools.combinations(bands, 2)) >= least

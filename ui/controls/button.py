@@ -1,0 +1,131 @@
+"""Buttons of three kinds, painted from the tokens; mnemonics and shortcuts are shown on them."""
+
+from __future__ import annotations
+
+from typing import Literal
+
+from PySide6.QtCore import QPointF, QRectF, QSize, Qt
+from PySide6.QtGui import QColor, QFont, QFontMetricsF, QPainter, QPaintEvent, QPen
+from PySide6.QtWidgets import QPushButton, QSizePolicy
+
+from ui.fonts import MEDIUM, SEMIBOLD, font
+from ui.icons import paint_icon
+from ui.theme import CONTROL_RADIUS_PX, Theme
+
+Kind = Literal["primary", "plain", "quiet", "well"]
+HEIGHT_PX = {"primary": 52, "plain": 44, "quiet": 44, "well": 40}
+
+
+class Button(QPushButton):
+    """``primary`` one per screen, ``plain`` outlined, ``quiet`` without outline, ``well`` a filled small one.
+
+    ``hint`` is the key shown beside the text; ``icon`` a line icon before it; a mnemonic (&) is underlined.
+    """
+
+    def __init__(
+        self, theme: Theme, text: str = "", kind: Kind = "plain", *, icon: str = "", hint: str = "", height_px: int = 0
+    ) -> None:
+        super().__init__(text)
+        self._theme, self._kind, self._icon, self._hint = theme, kind, icon, hint
+        self._height_px = height_px or HEIGHT_PX[kind]
+        self.setCursor(Qt.CursorShape.PointingHandCursor)
+        self.setSizePolicy(QSizePolicy.Policy.Minimum, QSizePolicy.Policy.Fixed)
+        self.setAccessibleName(text.replace("&", ""))
+        self.setAutoDefault(False)
+        theme.changed.connect(self._take_theme)
+
+    def set_face(self, text: str, *, icon: str | None = None, hint: str | None = None) -> None:
+        """Change text, icon and key hint together."""
+        icon = self._icon if icon is None else icon
+        hint = self._hint if hint is None else hint
+        if (text, icon, hint) != (self.text(), self._icon, self._hint):
+            self._icon, self._hint = icon, hint
+            self.setText(text)
+            self.setAccessibleName(text.replace("&", ""))
+            self._take_theme()
+
+    def _take_theme(self) -> None:
+        self.updateGeometry()
+        self.update()
+
+    def _text_font(self) -> QFont:
+        big = self._kind == "primary" and self._height_px >= 50
+        return font((16 if big else 14) * self._theme.text_scale, SEMIBOLD)
+
+    def _hint_font(self) -> QFont:
+        return font(12 * self._theme.text_scale, MEDIUM)
+
+    def _parts_px(self) -> tuple[float, float, float]:
+        shown = self.text().replace("&&", "\0").replace("&", "").replace("\0", "&")
+        text = QFontMetricsF(self._text_font()).horizontalAdvance(shown) if shown else 0.0
+        icon = float(self._theme.px(18)) if self._icon else 0.0
+        hint = QFontMetricsF(self._hint_font()).horizontalAdvance(self._hint) if self._hint else 0.0
+        return icon, text, hint
+
+    def sizeHint(self) -> QSize:
+        icon, text, hint = self._parts_px()
+        gaps = (8 if icon and text else 0) + (12 if hint else 0)
+        pad = 11 if not text else 16 if self._kind != "primary" else 20
+        return QSize(round(icon + text + hint + gaps + 2 * pad), self._theme.px(self._height_px))
+
+    def minimumSizeHint(self) -> QSize:
+        return self.sizeHint()
+
+    def _colors(self) -> tuple[QColor, QColor, QColor | None, QColor]:
+        """Body, text, outline, hint."""
+        color = self._theme.color
+        if self._kind == "primary":
+            if not self.isEnabled():
+                return color("sunken"), color("text2"), color("line"), color("text2")
+            body = "accent_pressed" if self.isDown() else "accent_hover" if self.underMouse() else "accent"
+            return color(body), color("on_accent"), None, color("on_accent")
+        body = "sunken" if self.isDown() or self.isChecked() else "canvas" if self.underMouse() else "surface"
+        text = "text" if self.isEnabled() else "text2"
+        if self._kind == "quiet":
+            clear = QColor(0, 0, 0, 0)
+            lit = self.isDown() or self.underMouse() or self.isChecked()
+            return (color("sunken") if lit else clear), color(text), None, color("text2")
+        if self._kind == "well":
+            return color("sunken"), color(text), color("border"), color("text2")
+        return color(body), color(text), color("border" if self.isEnabled() else "line"), color("text2")
+
+    def paintEvent(self, event: QPaintEvent) -> None:
+        painter = QPainter(self)
+        painter.setRenderHint(QPainter.RenderHint.Antialiasing)
+        body, text_color, outline, hint_color = self._colors()
+        box = QRectF(self.rect()).adjusted(0.5, 0.5, -0.5, -0.5)
+        painter.setPen(QPen(outline, 1) if outline is not None else Qt.PenStyle.NoPen)
+        painter.setBrush(body)
+        painter.drawRoundedRect(box, CONTROL_RADIUS_PX, CONTROL_RADIUS_PX)
+        icon, text, hint = self._parts_px()
+        gap_icon, gap_hint = (8.0 if icon and text else 0.0), (12.0 if hint else 0.0)
+        left = max(8.0, (self.width() - icon - text - hint - gap_icon - gap_hint) / 2)
+        middle = self.height() / 2
+        if self._icon:
+            paint_icon(
+                painter,
+                self._icon,
+                QRectF(QPointF(left, middle - icon / 2), QPointF(left + icon, middle + icon / 2)),
+                text_color,
+            )
+        left += icon + gap_icon
+        painter.setFont(self._text_font())
+        painter.setPen(text_color)
+        flags = Qt.AlignmentFlag.AlignVCenter | Qt.AlignmentFlag.AlignLeft | Qt.TextFlag.TextShowMnemonic
+        painter.drawText(QRectF(left, 0, text + 4, self.height()), int(flags), self.text())
+        if self._hint:
+            painter.setFont(self._hint_font())
+            painter.setPen(hint_color)
+            painter.drawText(
+                QRectF(left + text + gap_hint, 0, hint + 4, self.height()),
+                int(Qt.AlignmentFlag.AlignVCenter),
+                self._hint,
+            )
+
+
+def icon_button(theme: Theme, icon: str, name: str, kind: Kind = "quiet") -> Button:
+    """A 40 px square without text; its name is tooltip and accessible name."""
+    button = Button(theme, "", kind, icon=icon, height_px=40)
+    button.setToolTip(name)
+    button.setAccessibleName(name)
+    return button

@@ -1,0 +1,94 @@
+"""Surfaces: the white card, the separator line, and the row of key caps."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from PySide6.QtCore import QRectF, QSize, Qt
+from PySide6.QtGui import QFontMetricsF, QPainter, QPaintEvent, QPen
+from PySide6.QtWidgets import QSizePolicy, QVBoxLayout, QWidget
+
+from ui.fonts import MEDIUM, font
+from ui.theme import CARD_PADDING_PX, CARD_RADIUS_PX, Theme
+
+
+class Card(QWidget):
+    """A rounded surface with a 1 px line; its layout is vertical and already there as ``body``."""
+
+    def __init__(
+        self, theme: Theme, padding_px: int = CARD_PADDING_PX, fill: str = "surface", edge: str = "line"
+    ) -> None:
+        super().__init__()
+        self._theme, self._fill, self._edge, self._edge_px = theme, fill, edge, 1.0
+        self.body = QVBoxLayout(self)
+        self.body.setContentsMargins(padding_px, padding_px, padding_px, padding_px)
+        self.body.setSpacing(8)
+        theme.changed.connect(self.update)
+
+    def set_colors(self, fill: str, edge: str, edge_px: float = 1.0) -> None:
+        """Change the surface, as a message of another rank does."""
+        self._fill, self._edge, self._edge_px = fill, edge, edge_px
+        self.update()
+
+    def paintEvent(self, event: QPaintEvent) -> None:
+        painter = QPainter(self)
+        painter.setRenderHint(QPainter.RenderHint.Antialiasing)
+        half = self._edge_px / 2
+        painter.setPen(QPen(self._theme.color(self._edge), self._edge_px))
+        painter.setBrush(self._theme.color(self._fill))
+        painter.drawRoundedRect(QRectF(self.rect()).adjusted(half, half, -half, -half), CARD_RADIUS_PX, CARD_RADIUS_PX)
+
+
+class Line(QWidget):
+    """A 1 px separator."""
+
+    def __init__(self, theme: Theme, token: str = "line", *, vertical: bool = False) -> None:
+        super().__init__()
+        self._theme, self._token = theme, token
+        if vertical:
+            self.setFixedWidth(1)
+        else:
+            self.setFixedHeight(1)
+        theme.changed.connect(self.update)
+
+    def paintEvent(self, event: QPaintEvent) -> None:
+        QPainter(self).fillRect(self.rect(), self._theme.color(self._token))
+
+
+class KeyCaps(QWidget):
+    """Keys and what they do, in one line: ``[("Space", "accept"), ...]``."""
+
+    def __init__(self, theme: Theme, keys: Sequence[tuple[str, str]], gap_px: int = 16) -> None:
+        super().__init__()
+        self._theme, self._keys, self._gap_px = theme, tuple(keys), gap_px
+        self.setSizePolicy(QSizePolicy.Policy.Fixed, QSizePolicy.Policy.Fixed)
+        theme.changed.connect(self.updateGeometry)
+
+    def sizeHint(self) -> QSize:
+        metrics = self._metrics()
+        width = sum(
+            metrics.horizontalAdvance(cap) + 12 + 7 + metrics.horizontalAdvance(word) for cap, word in self._keys
+        )
+        return QSize(round(width + self._gap_px * (len(self._keys) - 1)) + 2, round(metrics.height()) + 8)
+
+    def _metrics(self) -> QFontMetricsF:
+        return QFontMetricsF(font(12 * self._theme.text_scale, MEDIUM))
+
+    def paintEvent(self, event: QPaintEvent) -> None:
+        painter = QPainter(self)
+        painter.setRenderHint(QPainter.RenderHint.Antialiasing)
+        painter.setFont(font(12 * self._theme.text_scale, MEDIUM))
+        metrics = self._metrics()
+        left = 0.5
+        for cap, word in self._keys:
+            width = metrics.horizontalAdvance(cap) + 12
+            key = QRectF(left, 1.5, width, self.height() - 3)
+            painter.setPen(QPen(self._theme.color("border"), 1))
+            painter.setBrush(self._theme.color("surface"))
+            painter.drawRoundedRect(key, 4, 4)
+            painter.setPen(self._theme.color("text"))
+            painter.drawText(key, Qt.AlignmentFlag.AlignCenter, cap)
+            left += width + 7
+            painter.setPen(self._theme.color("text2"))
+            painter.drawText(QRectF(left, 0, 400, self.height()), Qt.AlignmentFlag.AlignVCenter, word)
+            left += metrics.horizontalAdvance(word) + self._gap_px

@@ -1,0 +1,108 @@
+"""Fields: the search line with its icon, the labelled field, the row of exclusive choices."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from PySide6.QtCore import QRectF, Qt, Signal
+from PySide6.QtGui import QPainter, QPaintEvent
+from PySide6.QtWidgets import QButtonGroup, QHBoxLayout, QLineEdit, QVBoxLayout, QWidget
+
+from ui.controls.button import Button
+from ui.controls.text import MEDIUM, Text
+from ui.fonts import font
+from ui.icons import paint_icon
+from ui.theme import Theme
+
+
+class SearchField(QLineEdit):
+    """A line with a magnifier before and a key hint behind the text."""
+
+    def __init__(self, theme: Theme, placeholder: str, hint: str) -> None:
+        super().__init__()
+        self._theme, self._hint = theme, hint
+        self.setPlaceholderText(placeholder)
+        self.setAccessibleName(placeholder)
+        theme.changed.connect(self._take_theme)
+        self._take_theme()
+
+    def _take_theme(self) -> None:
+        self.setFont(font(16 * self._theme.text_scale))
+        self.setTextMargins(self._theme.px(30), 0, self._theme.px(60), 0)
+        self.setFixedHeight(self._theme.px(44))
+
+    def paintEvent(self, event: QPaintEvent) -> None:
+        super().paintEvent(event)
+        painter = QPainter(self)
+        size = self._theme.px(18)
+        paint_icon(painter, "search", QRectF(15, (self.height() - size) / 2, size, size), self._theme.color("text2"))
+        if not self.text():
+            painter.setFont(font(12 * self._theme.text_scale, MEDIUM))
+            painter.setPen(self._theme.color("text2"))
+            box = QRectF(0, 0, self.width() - 16, self.height())
+            painter.drawText(box, int(Qt.AlignmentFlag.AlignVCenter | Qt.AlignmentFlag.AlignRight), self._hint)
+
+
+class Labelled(QWidget):
+    """A field under its caption, with room for one sentence of what is wrong."""
+
+    def __init__(self, theme: Theme, label: str, field: QWidget) -> None:
+        super().__init__()
+        self.field = field
+        column = QVBoxLayout(self)
+        column.setContentsMargins(0, 0, 0, 0)
+        column.setSpacing(4)
+        name = Text(theme, label, 14, MEDIUM, "text2")
+        name.setBuddy(field)
+        field.setAccessibleName(label.replace("&", ""))
+        column.addWidget(name)
+        column.addWidget(field)
+
+
+class Choices(QWidget):
+    """Exclusive choices side by side; arrow keys move, the chosen one is filled and says so by its check state."""
+
+    chosen = Signal(object)
+
+    def __init__(self, theme: Theme, options: Sequence[tuple[object, str]], current: object = None) -> None:
+        super().__init__()
+        row = QHBoxLayout(self)
+        row.setContentsMargins(0, 0, 0, 0)
+        row.setSpacing(8)
+        self._group = QButtonGroup(self)
+        self._values: list[object] = []
+        for number, (value, text) in enumerate(options):
+            button = ChoiceButton(theme, text)
+            self._group.addButton(button, number)
+            self._values.append(value)
+            row.addWidget(button)
+        row.addStretch(1)
+        self._group.idClicked.connect(lambda number: self.chosen.emit(self._values[number]))
+        self.choose(current if current in self._values else self._values[0])
+
+    def choose(self, value: object) -> None:
+        """Select without a signal."""
+        self._group.button(self._values.index(value)).setChecked(True)
+
+    def value(self) -> object:
+        """What is chosen."""
+        return self._values[self._group.checkedId()]
+
+    def buttons(self) -> list[ChoiceButton]:
+        """The buttons in order."""
+        return [self._group.button(number) for number in range(len(self._values))]  # type: ignore[misc]
+
+
+class ChoiceButton(Button):
+    """One of several; chosen = accent outline, soft fill and a check."""
+
+    def __init__(self, theme: Theme, text: str) -> None:
+        super().__init__(theme, text, "plain", height_px=40)
+        self.setCheckable(True)
+        self.toggled.connect(lambda on: self.set_face(self.text(), icon="check" if on else ""))
+
+    def _colors(self):  # type: ignore[no-untyped-def]
+        if self.isChecked():
+            color = self._theme.color
+            return color("soft"), color("text"), color("accent"), color("text2")
+        return super()._colors()

@@ -1,0 +1,129 @@
+"""Text in one of the design's sizes, following theme and text scale."""
+
+from __future__ import annotations
+
+from PySide6.QtCore import QRectF, Qt
+from PySide6.QtGui import QFontMetricsF, QPainter, QPaintEvent, QPalette
+from PySide6.QtWidgets import QLabel, QSizePolicy, QWidget
+
+from ui.fonts import MEDIUM, REGULAR, SEMIBOLD, font
+from ui.icons import State, paint_icon, paint_state
+from ui.theme import Theme
+
+__all__ = ["MEDIUM", "REGULAR", "SEMIBOLD", "StateText", "Text", "caption", "heading", "paint_status"]
+
+
+class Text(QLabel):
+    """A label with size, weight and colour by token; plain text only, so nothing typed is ever markup."""
+
+    def __init__(
+        self,
+        theme: Theme,
+        text: str = "",
+        size_px: int = 14,
+        weight: int = REGULAR,
+        token: str = "text",
+        *,
+        wrap: bool = False,
+    ) -> None:
+        super().__init__(text)
+        self._theme, self._size_px, self._weight, self._token = theme, size_px, weight, token
+        self.setTextFormat(Qt.TextFormat.PlainText)
+        self.setWordWrap(wrap)
+        if wrap:
+            self.setSizePolicy(QSizePolicy.Policy.Preferred, QSizePolicy.Policy.Minimum)
+        theme.changed.connect(self._take_theme)
+        self._take_theme()
+
+    def set_token(self, token: str) -> None:
+        """Change the colour, as a state does."""
+        if token != self._token:
+            self._token = token
+            self._take_theme()
+
+    def _take_theme(self) -> None:
+        self.setFont(font(self._size_px * self._theme.text_scale, self._weight))
+        palette = self.palette()
+        palette.setColor(QPalette.ColorRole.WindowText, self._theme.color(self._token))
+        self.setPalette(palette)
+
+
+def heading(theme: Theme, text: str = "", *, wrap: bool = False) -> Text:
+    """The 28 px title of a page."""
+    return Text(theme, text, 28, SEMIBOLD, wrap=wrap)
+
+
+def caption(theme: Theme, text: str = "", weight: int = MEDIUM, *, wrap: bool = False) -> Text:
+    """Small secondary text."""
+    return Text(theme, text, 12, weight, "text2", wrap=wrap)
+
+
+STATE_TOKENS: dict[State, str] = {
+    "good": "good", "warn": "warn", "bad": "bad", "open": "border", "partly": "warn", "predicted": "border",
+    "none": "text2",
+}  # fmt: skip
+
+
+def paint_status(painter: QPainter, theme: Theme, state: State, box: QRectF) -> None:
+    """A state icon in its usual colours on a card."""
+    paint_state(painter, state, box, theme.color(STATE_TOKENS[state]), theme.color("surface"))
+
+
+class StateText(QWidget):
+    """A state icon (or a line icon) with its word: colour never speaks alone."""
+
+    def __init__(self, theme: Theme, size_px: int = 14, weight: int = MEDIUM, icon_px: int = 18) -> None:
+        super().__init__()
+        self._theme, self._size_px, self._weight, self._icon_px = theme, size_px, weight, icon_px
+        self._state: State = "none"
+        self._icon = ""
+        self._text = ""
+        self._token = "text2"
+        self.setSizePolicy(QSizePolicy.Policy.Fixed, QSizePolicy.Policy.Fixed)
+        theme.changed.connect(self._resize)
+
+    def show_state(self, state: State, text: str, icon: str = "", token: str = "text2") -> None:
+        """Set icon and word; ``icon`` names a line icon for a neutral fact."""
+        if (state, text, icon, token) != (self._state, self._text, self._icon, self._token):
+            self._state, self._text, self._icon, self._token = state, text, icon, token
+            self.setAccessibleName(text)
+            self._resize()
+
+    def text(self) -> str:
+        """The word shown."""
+        return self._text
+
+    @property
+    def state(self) -> State:
+        """The state shown."""
+        return self._state
+
+    def _resize(self) -> None:
+        metrics = QFontMetricsF(self._font())
+        icon = self._theme.px(self._icon_px) + 8 if self._has_icon() else 0
+        self.setFixedSize(
+            int(icon + metrics.horizontalAdvance(self._text) + 2), int(max(icon, metrics.height(), 20)) + 4
+        )
+        self.setVisible(bool(self._text))
+        self.update()
+
+    def _has_icon(self) -> bool:
+        return self._state != "none" or bool(self._icon)
+
+    def _font(self):  # type: ignore[no-untyped-def]
+        return font(self._size_px * self._theme.text_scale, self._weight)
+
+    def paintEvent(self, event: QPaintEvent) -> None:
+        painter = QPainter(self)
+        size = self._theme.px(self._icon_px)
+        box = QRectF(0, (self.height() - size) / 2, size, size)
+        left = 0.0
+        if self._has_icon():
+            if self._state != "none":
+                paint_status(painter, self._theme, self._state, box)
+            else:
+                paint_icon(painter, self._icon, box, self._theme.color(self._token))
+            left = size + 8.0
+        painter.setFont(self._font())
+        painter.setPen(self._theme.color(self._token))
+        painter.drawText(QRectF(left, 0, self.width() - left, self.height()), Qt.AlignmentFlag.AlignVCenter, self._text)

@@ -1,0 +1,36 @@
+"""The bundled typeface. Figures are tabular in the files themselves (resources/fonts/make_fonts.py)."""
+
+from __future__ import annotations
+
+from functools import lru_cache
+from importlib.resources import files
+
+from PySide6.QtCore import QByteArray
+from PySide6.QtGui import QFont, QFontDatabase
+
+TEXT_FAMILY = "Carpus Inter"
+DISPLAY_FAMILY = "Carpus Inter Display"
+DISPLAY_FROM_PX = 28
+REGULAR, MEDIUM, SEMIBOLD = 400, 500, 600
+
+
+@lru_cache(maxsize=1)
+def load_fonts() -> tuple[str, ...]:
+    """Register the bundled faces with Qt; the families found. Needs a QGuiApplication, costs nothing twice."""
+    families: set[str] = set()
+    for entry in sorted(files("resources").joinpath("fonts").iterdir(), key=lambda item: item.name):
+        if entry.name.endswith(".otf"):
+            number = QFontDatabase.addApplicationFontFromData(QByteArray(entry.read_bytes()))
+            families.update(QFontDatabase.applicationFontFamilies(number))
+    return tuple(sorted(families))
+
+
+def font(size_px: float, weight: int = REGULAR) -> QFont:
+    """The face for a size already scaled: the display cut from 28 px up."""
+    face = QFont(DISPLAY_FAMILY if size_px >= DISPLAY_FROM_PX else TEXT_FAMILY)
+    if size_px >= DISPLAY_FROM_PX:
+        weight = max(weight, MEDIUM)
+    face.setPixelSize(max(1, round(size_px)))
+    face.setWeight(QFont.Weight(weight))
+    face.setHintingPreference(QFont.HintingPreference.PreferVerticalHinting)
+    return face

@@ -1,0 +1,111 @@
+"""How figures, times and dates are written on the screen; one rule each, by the person's locale for dates."""
+
+from __future__ import annotations
+
+import math
+from datetime import date, datetime
+
+from PySide6.QtCore import QCoreApplication, QDate, QLocale
+
+NARROW_GAP = "\N{NO-BREAK SPACE}"
+UNKNOWN = "\N{EN DASH}"
+
+
+def tr(text: str) -> str:
+    """Translate a text of this module."""
+    return QCoreApplication.translate("Numbers", text)
+
+
+def degrees(value_deg: float) -> str:
+    """``42°`` without sign (the word carries it); a dash when unknown.
+
+    >>> degrees(-41.6), degrees(float("nan"))
+    ('42°', '–')
+    """
+    return f"{_whole(abs(value_deg))}°" if math.isfinite(value_deg) else UNKNOWN
+
+
+def with_spread(value_deg: float, spread_deg: float) -> str:
+    """``57° ± 2°`` with no-break spaces; without the spread when that is unknown."""
+    if not math.isfinite(value_deg) or not math.isfinite(spread_deg):
+        return degrees(value_deg)
+    return f"{degrees(value_deg)}{NARROW_GAP}{spread(spread_deg)}"
+
+
+def spread(spread_deg: float) -> str:
+    """``± 2°``; empty when unknown. A spread below half a degree still says one, never none."""
+    if not math.isfinite(spread_deg):
+        return ""
+    return f"±{NARROW_GAP}{max(1, _whole(spread_deg))}°"
+
+
+def speed(value_deg_s: float) -> str:
+    """``38°/s``."""
+    return f"{_whole(abs(value_deg_s))}°/s" if math.isfinite(value_deg_s) else UNKNOWN
+
+
+def millimetres(value_mm: float) -> str:
+    """``12 mm``."""
+    return f"{_whole(value_mm)}{NARROW_GAP}mm" if math.isfinite(value_mm) else UNKNOWN
+
+
+def clock(seconds: float) -> str:
+    """``01:24``, hours only when there are some.
+
+    >>> clock(84.9), clock(3661)
+    ('01:24', '1:01:01')
+    """
+    if not math.isfinite(seconds):
+        return UNKNOWN
+    whole = int(max(0.0, seconds))
+    hours, rest = divmod(whole, 3600)
+    return (f"{hours}:" if hours else "") + f"{rest // 60:02d}:{rest % 60:02d}"
+
+
+def clock_tenths(seconds: float) -> str:
+    """``00:20.6``."""
+    tenths = int(max(0.0, seconds) * 10 + 1e-6)
+    return f"{clock(tenths // 10)}.{tenths % 10}"
+
+
+def short_date(when: date | datetime) -> str:
+    """``Fri 13 Nov`` in the person's language."""
+    return QLocale().toString(_qdate(when), "ddd d MMM")
+
+
+def day_month(when: date | datetime) -> str:
+    """``13 Nov``."""
+    return QLocale().toString(_qdate(when), "d MMM")
+
+
+def long_date(when: date | datetime) -> str:
+    """``Friday 20 November 2026``."""
+    return QLocale().toString(_qdate(when), "dddd d MMMM yyyy")
+
+
+def report_date(when: datetime) -> str:
+    """``20 Nov 2026, 11:36``."""
+    return f"{QLocale().toString(_qdate(when), 'd MMM yyyy')}, {when:%H:%M}"
+
+
+def days_ago(when: date | datetime, today: date) -> str:
+    """``yesterday``, ``7 days ago``; empty for the future."""
+    days = (today - (when.date() if isinstance(when, datetime) else when)).days
+    if days < 0:
+        return ""
+    return {0: tr("today"), 1: tr("yesterday")}.get(days, tr("{days} days ago").format(days=days))
+
+
+def ordinal(number: int) -> str:
+    """``6th``; other languages translate the whole pattern."""
+    last = 0 if number % 100 in (11, 12, 13) else number % 10
+    pattern = {1: tr("{number}st"), 2: tr("{number}nd"), 3: tr("{number}rd")}.get(last, tr("{number}th"))
+    return pattern.format(number=number)
+
+
+def _whole(value: float) -> int:
+    return math.floor(value + 0.5)
+
+
+def _qdate(when: date | datetime) -> QDate:
+    return QDate(when.year, when.month, when.day)

@@ -1,0 +1,145 @@
+"""The chosen patient: all the therapist must recall, then the one button that matters."""
+
+from __future__ import annotations
+
+from PySide6.QtCore import Signal
+from PySide6.QtWidgets import QHBoxLayout, QVBoxLayout, QWidget
+
+from ui import numbers, terms
+from ui.controls.button import Button
+from ui.controls.card import Card, Line
+from ui.controls.text import MEDIUM, REGULAR, SEMIBOLD, Text, caption, heading
+from ui.picture.photo import Photo
+from ui.ports import PRACTICE_PATIENT, PatientCard, ResultLine
+from ui.theme import Theme
+from ui.verdicts import change_since_first, verdict_token
+
+
+class PatientCardView(Card):
+    """Right column of the first screen."""
+
+    start = Signal()
+    change = Signal()
+    review = Signal()
+    progress = Signal()
+
+    def __init__(self, theme: Theme) -> None:
+        super().__init__(theme, 24)
+        self._theme = theme
+        self._name = heading(theme)
+        self._hand = Text(theme, "", 14, REGULAR, "text2")
+        self._photo = Photo(theme)
+        self._exercise = Text(theme, "", 16, SEMIBOLD)
+        self._last = Text(theme, "", 14, REGULAR, "text2", wrap=True)
+        self._results = QVBoxLayout()
+        self._results.setSpacing(0)
+        self._note_when = caption(theme)
+        self._note = Text(theme, "", 14, wrap=True)
+        self.start_button = Button(
+            theme, self.tr("Start session, same set-up"), "primary", icon="play", hint=self.tr("Enter")
+        )
+        self.change_button = Button(theme, self.tr("&Change…"))
+        self.review_button = Button(theme, self.tr("&Review"))
+        self.progress_button = Button(theme, self.tr("&Progress"))
+        self.body.setSpacing(0)
+        for widget, gap in (
+            (self._name, 2),
+            (self._hand, 12),
+            (self._photo, 14),
+            (self._exercise, 2),
+            (self._last, 12),
+        ):
+            self.body.addWidget(widget)
+            self.body.addSpacing(gap)
+        self.body.addLayout(self._results)
+        self.body.addSpacing(14)
+        self.body.addWidget(self._note_when)
+        self.body.addWidget(self._note)
+        self.body.addStretch(1)
+        self.body.addSpacing(16)
+        self.body.addWidget(self.start_button)
+        self.body.addSpacing(12)
+        row = QHBoxLayout()
+        row.setSpacing(12)
+        for button in (self.change_button, self.review_button, self.progress_button):
+            row.addWidget(button)
+        self.body.addLayout(row)
+        for button, signal in (
+            (self.start_button, self.start), (self.change_button, self.change),
+            (self.review_button, self.review), (self.progress_button, self.progress),
+        ):  # fmt: skip
+            button.clicked.connect(signal)
+
+    def show_card(self, card: PatientCard | None, camera_ready: bool) -> None:
+        """Show one patient, or hide when none is chosen."""
+        self.setVisible(card is not None)
+        if card is None:
+            return
+        row = card.row
+        practice = row.patient_id == PRACTICE_PATIENT
+        self._name.setText(row.pseudonym)
+        self._hand.setText(
+            self.tr("Simulated camera: nothing here counts")
+            if practice
+            else terms.affected_phrase(row.side, row.dominance)
+        )
+        day = numbers.day_month(row.last_session) if row.last_session else ""
+        self._photo.show_picture(card.marker_picture_rgb, self.tr("Markers as on {day}").format(day=day) if day else "")
+        self._exercise.setText(terms.exercise_name(row.exercise) if row.exercise else self.tr("No session yet"))
+        self._last.setText(self._last_words(card, practice))
+        self._show_results(card)
+        self._note_when.setText(
+            self.tr("Note of {day}").format(day=numbers.day_month(card.note_when)) if card.note_when else ""
+        )
+        self._note.setText(card.note)
+        self._note_when.setVisible(bool(card.note and card.note_when))
+        self._note.setVisible(bool(card.note))
+        same = row.session_count > 0 and not practice
+        self.start_button.set_face(self._start_words(practice, same, camera_ready))
+        self.review_button.setEnabled(row.session_count > 0)
+        self.progress_button.setEnabled(row.session_count > 0)
+
+    def _start_words(self, practice: bool, same: bool, camera_ready: bool) -> str:
+        if practice:
+            return self.tr("Start practice")
+        if not camera_ready:
+            return self.tr("Start from a file · no camera")
+        return self.tr("Start session, same set-up") if same else self.tr("Start first session")
+
+    def _last_words(self, card: PatientCard, practice: bool) -> str:
+        row = card.row
+        if row.last_session is None:
+            if practice:
+                return self.tr(
+                    "A simulated patient moves in front of a simulated camera. Try every step without a patient."
+                )
+            return self.tr("Put the markers on, then start.")
+        number = self.tr("{ordinal} session").format(ordinal=numbers.ordinal(row.session_count))
+        parts = (number + ", " + numbers.short_date(row.last_session), card.last_set)
+        return " · ".join(part for part in parts if part)
+
+    def _show_results(self, card: PatientCard) -> None:
+        while (item := self._results.takeAt(0)) is not None:
+            if (widget := item.widget()) is not None:
+                widget.hide()
+                widget.deleteLater()
+        for line in card.results:
+            self._results.addWidget(Line(self._theme))
+            self._results.addWidget(_ResultRow(self._theme, line))
+        if card.results:
+            self._results.addWidget(Line(self._theme))
+
+
+class _ResultRow(QWidget):
+    def __init__(self, theme: Theme, line: ResultLine) -> None:
+        super().__init__()
+        row = QHBoxLayout(self)
+        row.setContentsMargins(0, 10, 0, 10)
+        name = Text(theme, terms.movement_name(line.movement), 14, REGULAR, "text2")
+        name.setFixedWidth(theme.px(88))
+        row.addWidget(name)
+        row.addWidget(Text(theme, numbers.with_spread(line.mean_deg, line.sd_deg), 16, SEMIBOLD))
+        row.addStretch(1)
+        row.addWidget(
+            Text(theme, change_since_first(line.verdict, line.change_deg), 12, MEDIUM, verdict_token(line.verdict))
+        )

@@ -1,0 +1,105 @@
+"""The form for a new patient, or for changing one: four things, none of them a real name."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+from PySide6.QtCore import Qt, Signal
+from PySide6.QtWidgets import QHBoxLayout, QLineEdit, QPlainTextEdit, QWidget
+
+from ui import terms
+from ui.controls.button import Button
+from ui.controls.field import Choices, Labelled
+from ui.controls.sheet import Sheet
+from ui.controls.text import SEMIBOLD, Text
+from ui.ports import PatientEntry
+from ui.theme import Theme
+
+NOTE_HEIGHT_PX = 84
+
+
+class PatientForm(Sheet):
+    """Emits ``accepted`` with the entry; Enter in any line accepts, Esc closes."""
+
+    accepted = Signal(PatientEntry)
+
+    def __init__(self, host: QWidget, theme: Theme, suggest: Callable[[], str]) -> None:
+        super().__init__(host, theme, 560)
+        self._suggest = suggest
+        self._title = Text(theme, "", 20, SEMIBOLD)
+        self.name = QLineEdit()
+        another = Button(theme, self.tr("&Another"), "plain", height_px=40)
+        another.clicked.connect(lambda: self.name.setText(suggest()))
+        name_row = QWidget()
+        row = QHBoxLayout(name_row)
+        row.setContentsMargins(0, 0, 0, 0)
+        row.addWidget(self.name, 1)
+        row.addWidget(another)
+        name_row.setFocusProxy(self.name)
+        self.side = Choices(theme, [(side, terms.side_name(side)) for side in ("right", "left", "both")])
+        self.dominance = Choices(
+            theme,
+            [("right", self.tr("Right")), ("left", self.tr("Left")), ("unknown", self.tr("Not known"))],
+        )  # fmt: skip
+        self.note = QPlainTextEdit()
+        self.note.setTabChangesFocus(True)
+        self.note.setFixedHeight(theme.px(NOTE_HEIGHT_PX))
+        self._fault = Text(theme, "", 14, SEMIBOLD, "bad", wrap=True)
+        self.save = Button(theme, "", "primary", hint=self.tr("Enter"))
+        cancel = Button(theme, self.tr("Close without saving"), "plain", hint=self.tr("Esc"), height_px=52)
+        self.body = self.card.body
+        self.body.setSpacing(16)
+        self.body.addWidget(self._title)
+        self.body.addWidget(
+            Text(
+                theme,
+                self.tr("A made-up name that can be spoken aloud. No real name, no initials, no date of birth."),
+                14,
+                token="text2",
+                wrap=True,
+            )  # fmt: skip
+        )
+        self.body.addWidget(Labelled(theme, self.tr("&Name in Carpus"), name_row))
+        self.body.addWidget(Labelled(theme, self.tr("Affected hand"), self.side))
+        self.body.addWidget(Labelled(theme, self.tr("Writes with"), self.dominance))
+        self.body.addWidget(Labelled(theme, self.tr("N&ote (no diagnosis, no names)"), self.note))
+        self.body.addWidget(self._fault)
+        buttons = QHBoxLayout()
+        buttons.addStretch(1)
+        buttons.addWidget(cancel)
+        buttons.addWidget(self.save)
+        self.body.addLayout(buttons)
+        self.name.returnPressed.connect(self._accept)
+        self.save.clicked.connect(self._accept)
+        cancel.clicked.connect(self.close_sheet)
+        self._taken: frozenset[str] = frozenset()
+
+    def begin(self, entry: PatientEntry | None, taken: frozenset[str], name: str = "") -> None:
+        """Open for a new patient (optionally with a name already typed) or with an entry to change."""
+        self._taken = taken
+        self._title.setText(self.tr("New patient") if entry is None else self.tr("Change patient"))
+        self.save.set_face(self.tr("Add patient") if entry is None else self.tr("Keep changes"))
+        entry = entry or PatientEntry(name or self._suggest(), "right", "right")
+        self.name.setText(entry.pseudonym)
+        self.side.choose(entry.side)
+        self.dominance.choose(entry.dominance if entry.dominance != "both" else "unknown")
+        self.note.setPlainText(entry.note)
+        self._fault.hide()
+        self.open(self.name)
+        self.name.selectAll()
+
+    def _accept(self) -> None:
+        name = " ".join(self.name.text().split())
+        if not name or name.casefold() in self._taken:
+            words = (
+                self.tr("Give the patient a name.")
+                if not name
+                else self.tr("“{name}” is taken. Choose another name.").format(name=name)
+            )
+            self._fault.setText(words)
+            self._fault.show()
+            self.name.setFocus(Qt.FocusReason.OtherFocusReason)
+            return
+        self.close_sheet()
+        side, dominance = str(self.side.value()), str(self.dominance.value())
+        self.accepted.emit(PatientEntry(name, side, dominance, self.note.toPlainText().strip()))  # type: ignore[arg-type]

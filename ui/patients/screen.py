@@ -1,0 +1,220 @@
+"""The first screen: search, list, the chosen patient."""
+
+from __future__ import annotations
+
+from datetime import date
+
+from PySide6.QtCore import QEvent, QModelIndex, QObject, Qt, Signal
+from PySide6.QtGui import QKeyEvent
+from PySide6.QtWidgets import QHBoxLayout, QVBoxLayout, QWidget
+
+from ui import numbers, terms
+from ui.controls.button import Button
+from ui.controls.card import KeyCaps, Line
+from ui.controls.field import SearchField
+from ui.controls.text import MEDIUM, REGULAR, Text, heading
+from ui.patients.card import PatientCardView
+from ui.patients.entry import PatientForm
+from ui.patients.listing import ListHeader, PatientList
+from ui.ports import PRACTICE_PATIENT, PatientCard, PatientEntry, PatientRow, PatientStore
+from ui.theme import GAP_PX, MARGIN_PX, Theme
+
+LIST_WIDTH_PX = 824
+LIST_KEYS = (Qt.Key.Key_Up, Qt.Key.Key_Down, Qt.Key.Key_PageUp, Qt.Key.Key_PageDown)
+
+
+class PatientsScreen(QWidget):
+    """Signals carry the patient's identity; ``start`` keeps the last set-up, ``set_up`` asks for another."""
+
+    start = Signal(str)
+    set_up = Signal(str)
+    review = Signal(str)
+    progress = Signal(str)
+
+    def __init__(self, theme: Theme, store: PatientStore, today: date) -> None:
+        super().__init__()
+        self._theme, self._store, self._today = theme, store, today
+        self._rows: tuple[PatientRow, ...] = ()
+        self._camera_ready = False
+        self.search = SearchField(theme, self.tr("Name or exercise"), self.tr("Ctrl+F"))
+        self.new_button = Button(theme, self.tr("New patient"), icon="plus", hint=self.tr("Ctrl+N"))
+        self.header = ListHeader(theme)
+        self.list = PatientList(theme, today)
+        self.card = PatientCardView(theme)
+        self.notice_place = QVBoxLayout()
+        self._nobody = _Nobody(theme)
+        self.form = PatientForm(self, theme, store.suggest_pseudonym)
+        self._changing = ""
+        self._lay_out()
+        self._connect()
+
+    def _lay_out(self) -> None:
+        theme = self._theme
+        title = QHBoxLayout()
+        title.addWidget(heading(theme, self.tr("Patients")))
+        title.addStretch(1)
+        title.addWidget(
+            Text(theme, numbers.long_date(self._today), 14, REGULAR, "text2"), 0, Qt.AlignmentFlag.AlignBottom
+        )
+        finding = QHBoxLayout()
+        finding.setSpacing(GAP_PX)
+        finding.addWidget(self.search, 1)
+        finding.addWidget(self.new_button)
+        left = QVBoxLayout()
+        left.setSpacing(0)
+        left.addLayout(title)
+        left.addSpacing(8)
+        left.addLayout(finding)
+        left.addSpacing(14)
+        left.addWidget(self.header)
+        left.addWidget(self.list, 1)
+        left.addWidget(self._nobody)
+        left.addStretch(0)
+        columns = QHBoxLayout()
+        columns.setSpacing(MARGIN_PX)
+        columns.addLayout(left, 824)
+        columns.addWidget(self.card, 384)
+        page = QVBoxLayout()
+        page.setContentsMargins(MARGIN_PX, GAP_PX, MARGIN_PX, 12)
+        page.setSpacing(GAP_PX)
+        page.addLayout(self.notice_place)
+        page.addLayout(columns, 1)
+        foot = QHBoxLayout()
+        foot.setContentsMargins(MARGIN_PX, 6, MARGIN_PX, 6)
+        foot.setSpacing(32)
+        foot.addWidget(Text(theme, terms.LEGAL_SENTENCE, 12, REGULAR, "text2", wrap=True), 1)
+        foot.addWidget(
+            KeyCaps(theme, [("↑ ↓", self.tr("choose")), (self.tr("Enter"), self.tr("start")), ("F1", self.tr("help"))])
+        )
+        whole = QVBoxLayout(self)
+        whole.setContentsMargins(0, 0, 0, 0)
+        whole.setSpacing(0)
+        whole.addLayout(page, 1)
+        whole.addWidget(Line(theme))
+        whole.addLayout(foot)
+
+    def _connect(self) -> None:
+        self.search.installEventFilter(self)
+        self.list.installEventFilter(self)
+        self.search.textChanged.connect(lambda: self._filter(self._chosen_id()))
+        self.new_button.clicked.connect(self.new_patient)
+        self._nobody.create.connect(lambda: self.new_patient(self.search.text()))
+        self.list.selectionModel().currentChanged.connect(self._show_chosen)
+        self.list.doubleClicked.connect(lambda: self._start())
+        self.card.start.connect(self._start)
+        self.card.change.connect(lambda: self.set_up.emit(self._chosen_id()))
+        self.card.review.connect(lambda: self.review.emit(self._chosen_id()))
+        self.card.progress.connect(lambda: self.progress.emit(self._chosen_id()))
+        self.form.accepted.connect(self._store_entry)
+
+    def refresh(self, choose: str = "") -> None:
+        """Read the register again and keep, or set, the choice."""
+        practice = PatientRow(PRACTICE_PATIENT, self.tr("Practice patient"), "right")
+        self._rows = (*self._store.patients(), practice)
+        self._filter(choose or self._chosen_id())
+
+    def set_camera_ready(self, ready: bool) -> None:
+        """Whether a camera answers; without one the button says that only files can be used."""
+        if ready != self._camera_ready:
+            self._camera_ready = ready
+            self._show_chosen()
+
+    def new_patient(self, name: str = "") -> None:
+        """Open the form."""
+        self._changing = ""
+        taken = frozenset(row.pseudonym.casefold() for row in self._rows)
+        self.form.begin(None, taken, name if isinstance(name, str) else "")
+
+    def change_patient(self, patient_id: str) -> None:
+        """Open the form with a patient's entry."""
+        row = next(row for row in self._rows if row.patient_id == patient_id)
+        self._changing = patient_id
+        taken = frozenset(other.pseudonym.casefold() for other in self._rows if other is not row)
+        self.form.begin(PatientEntry(row.pseudonym, row.side, row.dominance, row.note), taken)
+
+    def _store_entry(self, entry: PatientEntry) -> None:
+        if self._changing:
+            self._store.change(self._changing, entry)
+            chosen = self._changing
+        else:
+            chosen = self._store.add(entry)
+        self.search.clear()
+        self.refresh(chosen)
+        self.search.setFocus(Qt.FocusReason.OtherFocusReason)
+
+    def _filter(self, choose: str) -> None:
+        wanted = self.search.text().casefold().split()
+        shown = [row for row in self._rows if _matches(row, wanted)]
+        self.list.rows.show_rows(shown)
+        self.list.setVisible(bool(shown))
+        self.header.setVisible(bool(shown))
+        only_practice = len(self._rows) == 1
+        self._nobody.show_for("" if shown and not only_practice else self.search.text(), only_practice, bool(shown))
+        row = max(0, self.list.rows.find(choose))
+        if shown:
+            self.list.setCurrentIndex(self.list.rows.index(row))
+        self._show_chosen()
+
+    def _chosen_id(self) -> str:
+        index: QModelIndex = self.list.currentIndex()
+        return self.list.rows.row(index.row()).patient_id if index.isValid() else ""
+
+    def _show_chosen(self, *_: object) -> None:
+        chosen = self._chosen_id()
+        if not chosen:
+            self.card.show_card(None, self._camera_ready)
+        elif chosen == PRACTICE_PATIENT:
+            self.card.show_card(PatientCard(self._rows[-1]), self._camera_ready)
+        else:
+            self.card.show_card(self._store.card(chosen), self._camera_ready)
+
+    def _start(self) -> None:
+        if chosen := self._chosen_id():
+            self.start.emit(chosen)
+
+    def eventFilter(self, watched: QObject, event: QEvent) -> bool:
+        """The arrows move the choice and Enter starts although the search field has the keyboard."""
+        if event.type() == QEvent.Type.KeyPress and isinstance(event, QKeyEvent):
+            if watched is self.search and event.key() in LIST_KEYS and self.list.isVisible():
+                self.list.keyPressEvent(event)
+                return True
+            if event.key() in (Qt.Key.Key_Return, Qt.Key.Key_Enter):
+                if self._chosen_id():
+                    self._start()
+                elif self._nobody.isVisible():
+                    self.new_patient(self.search.text())
+                return True
+        return False
+
+
+class _Nobody(QWidget):
+    """What stands in place of an empty list."""
+
+    create = Signal()
+
+    def __init__(self, theme: Theme) -> None:
+        super().__init__()
+        row = QHBoxLayout(self)
+        row.setContentsMargins(20, 24, 20, 24)
+        self._words = Text(theme, "", 16, MEDIUM, wrap=True)
+        self.button = Button(theme, "", icon="plus")
+        row.addWidget(self._words, 1)
+        row.addWidget(self.button)
+        self.button.clicked.connect(self.create)
+
+    def show_for(self, search: str, register_empty: bool, rows_shown: bool) -> None:
+        """Choose the sentence, or hide."""
+        self.setVisible(register_empty or not rows_shown)
+        if not rows_shown:
+            self._words.setText(self.tr("No patient “{name}”.").format(name=search.strip()))
+            self.button.set_face(self.tr("Create “{name}”").format(name=search.strip()))
+        else:
+            self._words.setText(
+                self.tr("No patients yet. Add the first one, or try everything with the practice patient.")
+            )
+            self.button.set_face(self.tr("New patient"))
+
+
+def _matches(row: PatientRow, wanted: list[str]) -> bool:
+    text = f"{row.pseudonym} {terms.exercise_name(row.exercise) if row.exercise else ''}".casefold()
+    return all(word in text for word in wanted)

@@ -1,0 +1,1 @@
+"""The camera picture and what is drawn over it."""

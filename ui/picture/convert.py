@@ -1,0 +1,15 @@
+"""Camera arrays to Qt pictures."""
+
+from __future__ import annotations
+
+import numpy as np
+from PySide6.QtGui import QImage
+
+from core.types import ByteImage
+
+
+def image_of(color_rgb: ByteImage) -> QImage:
+    """A QImage that owns its pixels. A QImage over the array itself would outlive it: a use after free."""
+    picture = np.ascontiguousarray(color_rgb)
+    height, width = picture.shape[:2]
+    return QImage(picture.data, width, height, 3 * width, QImage.Format.Format_RGB888).copy()

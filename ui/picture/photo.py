@@ -1,0 +1,67 @@
+"""A still picture in a rounded frame, cropped to fill it, with a label on it."""
+
+from __future__ import annotations
+
+from PySide6.QtCore import QRectF, QSize, Qt
+from PySide6.QtGui import QColor, QFontMetricsF, QImage, QPainter, QPainterPath, QPaintEvent
+from PySide6.QtWidgets import QSizePolicy, QWidget
+
+from core.types import ByteImage
+from ui.fonts import SEMIBOLD, font
+from ui.picture.convert import image_of
+from ui.theme import CARD_RADIUS_PX, ON_PICTURE_LABEL, Theme
+
+LABEL_ALPHA = 180
+
+
+def paint_label(painter: QPainter, theme: Theme, text: str, left: float, top: float) -> QRectF:
+    """White words on a dark plate over the picture; returns the plate."""
+    painter.setFont(font(12 * theme.text_scale, SEMIBOLD))
+    metrics = QFontMetricsF(painter.font())
+    plate = QRectF(left, top, metrics.horizontalAdvance(text) + 12, metrics.height() + 5)
+    color = QColor(ON_PICTURE_LABEL)
+    color.setAlpha(LABEL_ALPHA)
+    painter.setPen(Qt.PenStyle.NoPen)
+    painter.setBrush(color)
+    painter.drawRoundedRect(plate, 4, 4)
+    painter.setPen(QColor("#FFFFFF"))
+    painter.drawText(plate, Qt.AlignmentFlag.AlignCenter, text)
+    return plate
+
+
+class Photo(QWidget):
+    """Shows one picture that does not change."""
+
+    def __init__(self, theme: Theme, height_px: int = 185) -> None:
+        super().__init__()
+        self._theme, self._height_px = theme, height_px
+        self._image: QImage | None = None
+        self._label = ""
+        self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Preferred)
+
+    def show_picture(self, color_rgb: ByteImage | None, label: str) -> None:
+        """Show a picture; without one the widget takes no room."""
+        self._image = None if color_rgb is None else image_of(color_rgb)
+        self._label = label
+        self.setVisible(self._image is not None)
+        self.setAccessibleName(label)
+        self.update()
+
+    def sizeHint(self) -> QSize:
+        return QSize(280, self._height_px)
+
+    def paintEvent(self, event: QPaintEvent) -> None:
+        if self._image is None:
+            return
+        painter = QPainter(self)
+        painter.setRenderHints(QPainter.RenderHint.Antialiasing | QPainter.RenderHint.SmoothPixmapTransform)
+        frame = QPainterPath()
+        frame.addRoundedRect(QRectF(self.rect()), CARD_RADIUS_PX, CARD_RADIUS_PX)
+        painter.setClipPath(frame)
+        source = QRectF(self._image.rect())
+        scale = max(self.width() / source.width(), self.height() / source.height())
+        width, height = self.width() / scale, self.height() / scale
+        part = QRectF((source.width() - width) / 2, (source.height() - height) / 2, width, height)
+        painter.drawImage(QRectF(self.rect()), self._image, part)
+        if self._label:
+            paint_label(painter, self._theme, self._label, 10, 10)

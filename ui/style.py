@@ -1,0 +1,76 @@
+"""The style sheet for Qt's own controls (fields, lists, scroll bars), made from the tokens."""
+
+from __future__ import annotations
+
+from importlib.resources import as_file, files
+
+from PySide6.QtGui import QPalette
+from PySide6.QtWidgets import QApplication
+
+from ui.fonts import font
+from ui.theme import Theme
+
+_SHEET = """
+QLineEdit, QPlainTextEdit, QSpinBox, QDoubleSpinBox, QComboBox, QKeySequenceEdit {{
+  background: {surface}; color: {text}; border: 1px solid {border}; border-radius: 8px; padding: 0 {pad}px;
+  selection-background-color: {accent}; selection-color: {on_accent}; min-height: {field}px;
+  placeholder-text-color: {text2}; }}
+QPlainTextEdit {{ padding: 8px; }}
+QLineEdit:focus, QPlainTextEdit:focus, QSpinBox:focus, QDoubleSpinBox:focus {{ border: 2px solid {accent}; padding: 0 {pad_focus}px; }}
+QPlainTextEdit:focus {{ padding: 7px; }}
+QComboBox {{ font-weight: 500; padding-right: 28px; }}
+QComboBox:hover {{ background: {canvas}; }}
+QComboBox::drop-down {{ border: 0; width: 28px; }}
+QComboBox::down-arrow {{ image: url({chevron}); width: 16px; height: 16px; }}
+QComboBox QAbstractItemView {{ background: {surface}; color: {text}; border: 1px solid {border}; outline: 0;
+  selection-background-color: {soft}; selection-color: {text}; padding: 4px; }}
+QComboBox QAbstractItemView::item {{ min-height: {row}px; padding: 0 8px; }}
+QSpinBox::up-button, QSpinBox::down-button, QDoubleSpinBox::up-button, QDoubleSpinBox::down-button {{ width: 0; border: 0; }}
+QScrollArea {{ border: 0; background: transparent; }}
+QScrollArea > QWidget > QWidget {{ background: transparent; }}
+QScrollBar:vertical {{ background: transparent; width: 12px; margin: 2px; }}
+QScrollBar::handle:vertical {{ background: {border}; border-radius: 4px; min-height: 32px; }}
+QScrollBar:horizontal {{ height: 0; }}
+QScrollBar::add-line, QScrollBar::sub-line {{ width: 0; height: 0; }}
+QScrollBar::add-page, QScrollBar::sub-page {{ background: transparent; }}
+QToolTip {{ background: {text}; color: {surface}; border: 0; padding: 6px 8px; }}
+QMenu {{ background: {surface}; color: {text}; border: 1px solid {border}; padding: 4px; }}
+QMenu::item {{ padding: 8px 16px; border-radius: 4px; }}
+QMenu::item:selected {{ background: {soft}; }}
+"""
+
+
+def apply_style(application: QApplication, theme: Theme) -> None:
+    """Give the application the theme's palette, base font and style sheet."""
+    tokens = theme.tokens
+    palette = QPalette()
+    pairs = {
+        QPalette.ColorRole.Window: tokens.canvas, QPalette.ColorRole.WindowText: tokens.text,
+        QPalette.ColorRole.Base: tokens.surface, QPalette.ColorRole.Text: tokens.text,
+        QPalette.ColorRole.Button: tokens.surface, QPalette.ColorRole.ButtonText: tokens.text,
+        QPalette.ColorRole.Highlight: tokens.accent, QPalette.ColorRole.HighlightedText: tokens.on_accent,
+        QPalette.ColorRole.PlaceholderText: tokens.text2, QPalette.ColorRole.ToolTipBase: tokens.text,
+        QPalette.ColorRole.ToolTipText: tokens.surface,
+    }  # fmt: skip
+    for role, value in pairs.items():
+        palette.setColor(role, value)
+    application.setPalette(palette)
+    application.setFont(font(14 * theme.text_scale))
+    with as_file(files("resources").joinpath("icons", f"chevron-down-{theme.name}.svg")) as chevron:
+        application.setStyleSheet(
+            _SHEET.format(
+                surface=tokens.surface,
+                text=tokens.text,
+                text2=tokens.text2,
+                border=tokens.border,
+                accent=tokens.accent,
+                on_accent=tokens.on_accent,
+                soft=tokens.soft,
+                canvas=tokens.canvas,
+                pad=12,
+                pad_focus=11,
+                field=theme.px(38),
+                row=theme.px(36),
+                chevron=chevron.as_posix(),
+            )  # fmt: skip
+        )

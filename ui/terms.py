@@ -1,0 +1,85 @@
+"""Words of the clinic for exercises, movements, hands and marker places."""
+
+from __future__ import annotations
+
+from PySide6.QtCore import QCoreApplication
+
+LEGAL_SENTENCE = (
+    "For research and education. Not a medical device, not CE-marked or FDA-cleared; values support, and do not "
+    "replace, the judgement of a qualified clinician; do not use as the only basis for diagnosis or treatment."
+)
+"""Verbatim on the first screen and every report; never translated by meaning, only by an approved text."""
+
+
+def tr(text: str) -> str:
+    """Translate a text of this module."""
+    return QCoreApplication.translate("Terms", text)
+
+
+def exercise_name(exercise_id: str) -> str:
+    """``Wrist flexion–extension``."""
+    return {
+        "WRIST_FE": tr("Wrist flexion–extension"),
+        "WRIST_RU": tr("Wrist side to side"),
+        "FOREARM_PS": tr("Palm up – palm down"),
+        "FREE": tr("Free movement"),
+    }.get(exercise_id, exercise_id)
+
+
+def exercise_instruction(exercise_id: str) -> str:
+    """What the patient is asked to do."""
+    return {
+        "WRIST_FE": tr("Lift the back of the hand up, then let it drop as far as comfortable."),
+        "WRIST_RU": tr("Slide the hand to the thumb side, then to the little-finger side. Keep it flat."),
+        "FOREARM_PS": tr("Turn the palm up as far as the markers stay visible, then back."),
+        "FREE": tr("Move the wrist freely. All three angles are recorded; no repetitions are counted."),
+    }.get(exercise_id, "")
+
+
+def exercise_position(exercise_id: str) -> str:
+    """How the arm lies before the start."""
+    return {
+        "WRIST_FE": tr("Forearm on a 10 cm wedge, palm down, hand over the edge, fingers relaxed."),
+        "WRIST_RU": tr("Palm flat on a smooth sheet, forearm strapped."),
+        "FOREARM_PS": tr("Elbow at the side, forearm free, palm down under the camera."),
+        "FREE": tr("Hand in view of the camera, back of the hand up."),
+    }.get(exercise_id, "")
+
+
+def movement_name(movement: str) -> str:
+    """``Flexion``, ``Radial``, ``Whole arc``."""
+    return {
+        "radial": tr("Radial"),
+        "ulnar": tr("Ulnar"),
+        "flexion": tr("Flexion"),
+        "extension": tr("Extension"),
+        "supination": tr("Supination"),
+        "pronation": tr("Pronation"),
+        "arc": tr("Whole arc"),
+    }.get(movement, movement)
+
+
+def movement_long_name(movement: str) -> str:
+    """As :func:`movement_name`, with the noun where the short word alone is not one."""
+    return {"radial": tr("Radial deviation"), "ulnar": tr("Ulnar deviation")}.get(movement, movement_name(movement))
+
+
+def hand_name(side: str) -> str:
+    """``Right hand``."""
+    return {"right": tr("Right hand"), "left": tr("Left hand"), "both": tr("Both hands")}.get(side, side)
+
+
+def side_name(side: str) -> str:
+    """``Right``."""
+    return {"right": tr("Right"), "left": tr("Left"), "both": tr("Both")}.get(side, side)
+
+
+def affected_phrase(side: str, dominance: str) -> str:
+    """``Right hand affected · right-handed``."""
+    affected = {
+        "right": tr("Right hand affected"),
+        "left": tr("Left hand affected"),
+        "both": tr("Both hands affected"),
+    }.get(side, "")
+    handed = {"right": tr("right-handed"), "left": tr("left-handed"), "both": tr("both-handed")}.get(dominance, "")
+    return " · ".join(part for part in (affected, handed) if part)

@@ -1,0 +1,232 @@
+"""The bar at the top: who is measured, where in the journey, what the camera does."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from PySide6.QtCore import QPointF, QRectF, QSize, Qt, Signal
+from PySide6.QtGui import QFontMetricsF, QPainter, QPaintEvent, QPen
+from PySide6.QtWidgets import QHBoxLayout, QSizePolicy, QVBoxLayout, QWidget
+
+from ui.controls.button import Button, icon_button
+from ui.controls.card import Line
+from ui.controls.pill import RecordingPill
+from ui.controls.text import MEDIUM, REGULAR, SEMIBOLD, StateText, Text
+from ui.fonts import font
+from ui.icons import paint_mark, paint_state
+from ui.theme import MARGIN_PX, Theme
+
+BAR_PX = 56
+RECORDING_LINE_PX = 3
+
+
+class TopBar(QWidget):
+    """Signals: ``back``, ``tab`` (number), ``step`` (number of a step already done), ``help``, ``settings``."""
+
+    back = Signal()
+    tab = Signal(int)
+    step = Signal(int)
+    help = Signal()
+    settings = Signal()
+
+    def __init__(self, theme: Theme) -> None:
+        super().__init__()
+        self._theme = theme
+        self.brand = _Brand(theme)
+        self._bar_line = Line(theme, vertical=True)
+        self._bar_line.setFixedHeight(24)
+        self.back_button = Button(theme, "", "quiet", icon="chevron-left", height_px=40)
+        self.back_button.clicked.connect(self.back)
+        self.where = Text(theme, "", 14, REGULAR, "text2")
+        self.camera = StateText(theme)
+        self.disk = StateText(theme)
+        self.pill = RecordingPill(theme)
+        self.help_button = icon_button(theme, "circle-help", self.tr("Help (F1)"))
+        self.settings_button = icon_button(theme, "settings", self.tr("Settings (Ctrl+,)"))
+        self.help_button.clicked.connect(self.help)
+        self.settings_button.clicked.connect(self.settings)
+        self._middle = QHBoxLayout()
+        self._middle.setSpacing(4)
+        self._way: list[WayButton] = []
+        self._left, self._right = QWidget(), QWidget()
+        left = _row(self._left, 8, self.brand, self._bar_line, self.back_button, self.where)
+        left.addStretch(1)
+        right = _row(self._right, 16, self.camera, self.disk, self.pill)
+        right.insertStretch(0, 1)
+        right.addSpacing(-4)
+        right.addWidget(self.help_button)
+        right.addSpacing(-12)
+        right.addWidget(self.settings_button)
+        row = QHBoxLayout()
+        row.setContentsMargins(MARGIN_PX - 4, 0, MARGIN_PX - 10, 0)
+        row.setSpacing(8)
+        row.addWidget(self._left, 1)
+        row.addLayout(self._middle)
+        row.addWidget(self._right, 1)
+        whole = QVBoxLayout(self)
+        whole.setContentsMargins(0, 0, 0, 0)
+        whole.setSpacing(0)
+        whole.addLayout(row, 1)
+        self._under = _UnderLine(theme)
+        whole.addWidget(self._under)
+        theme.changed.connect(self._take_theme)
+        self._take_theme()
+        self.show_place("", "")
+
+    def _take_theme(self) -> None:
+        self.setFixedHeight(self._theme.px(BAR_PX) + RECORDING_LINE_PX - 2)
+        self.update()
+
+    def show_place(self, pseudonym: str, where: str) -> None:
+        """Whose session this is, and hand and exercise; empty on the first screen."""
+        self.back_button.set_face(pseudonym)
+        self.back_button.setAccessibleName(self.tr("Back from {name}").format(name=pseudonym))
+        for widget in (self._bar_line, self.back_button, self.where):
+            widget.setVisible(bool(pseudonym))
+        self.where.setText(where)
+
+    def show_steps(self, names: Sequence[str], current: int) -> None:
+        """The way through the set-up: done, here, to come."""
+        self._show_way([WayButton(self._theme, name, number, current, True) for number, name in enumerate(names)])
+        for number, button in enumerate(self._way):
+            button.setEnabled(number < current)
+            button.clicked.connect(lambda _=False, number=number: self.step.emit(number))
+
+    def show_tabs(self, names: Sequence[str], current: int) -> None:
+        """The views of an open patient."""
+        self._show_way([WayButton(self._theme, name, number, current, False) for number, name in enumerate(names)])
+        for number, button in enumerate(self._way):
+            button.clicked.connect(lambda _=False, number=number: self.tab.emit(number))
+
+    def show_nothing(self) -> None:
+        """Neither steps nor tabs."""
+        self._show_way([])
+
+    def way(self) -> list[WayButton]:
+        """The steps or tabs shown."""
+        return self._way
+
+    def _show_way(self, buttons: list[WayButton]) -> None:
+        for old in self._way:
+            self._middle.removeWidget(old)
+            old.hide()
+            old.deleteLater()
+        self._way = buttons
+        for button in buttons:
+            self._middle.addWidget(button)
+            button.show()
+
+    def show_recording(self, recording: bool) -> None:
+        """The red line that is seen from afar."""
+        self._under.recording = recording
+        self._under.update()
+
+    def paintEvent(self, event: QPaintEvent) -> None:
+        QPainter(self).fillRect(self.rect(), self._theme.color("surface"))
+
+
+class WayButton(Button):
+    """A step with its number or check, or a tab with a line under it."""
+
+    def __init__(self, theme: Theme, text: str, number: int, current: int, is_step: bool) -> None:
+        super().__init__(theme, text, "quiet", height_px=40)
+        self._number, self._current, self._is_step = number, current, is_step
+        self.setSizePolicy(QSizePolicy.Policy.Fixed, QSizePolicy.Policy.Expanding)
+        done = is_step and number < current
+        here = self.tr("{name}, you are here").format(name=text)
+        self.setAccessibleName(
+            here if number == current else self.tr("{name}, done").format(name=text) if done else text
+        )
+        self.setCursor(Qt.CursorShape.PointingHandCursor if done or not is_step else Qt.CursorShape.ArrowCursor)
+
+    @property
+    def is_current(self) -> bool:
+        """Whether this is where the person is."""
+        return self._number == self._current
+
+    def _face(self):  # type: ignore[no-untyped-def]
+        return font(14 * self._theme.text_scale, SEMIBOLD if self.is_current else MEDIUM)
+
+    def sizeHint(self) -> QSize:
+        bold = QFontMetricsF(font(14 * self._theme.text_scale, SEMIBOLD)).horizontalAdvance(self.text())
+        return QSize(round(bold) + (self._theme.px(20) + 32 if self._is_step else 24), self._theme.px(40))
+
+    def paintEvent(self, event: QPaintEvent) -> None:
+        painter = QPainter(self)
+        painter.setRenderHint(QPainter.RenderHint.Antialiasing)
+        color = self._theme.color
+        left = 12.0
+        if self._is_step:
+            size = float(self._theme.px(20))
+            box = QRectF(left, (self.height() - size) / 2, size, size)
+            self._paint_number(painter, box)
+            left += size + 8
+        painter.setFont(self._face())
+        painter.setPen(color("text" if self.is_current or (self.underMouse() and self.isEnabled()) else "text2"))
+        painter.drawText(
+            QRectF(left, 0, self.width() - left, self.height()), int(Qt.AlignmentFlag.AlignVCenter), self.text()
+        )
+        if not self._is_step and self.is_current:
+            painter.setPen(Qt.PenStyle.NoPen)
+            painter.setBrush(color("accent"))
+            painter.drawRoundedRect(QRectF(10, self.height() - 3, self.width() - 20, 3), 1.5, 1.5)
+
+    def _paint_number(self, painter: QPainter, box: QRectF) -> None:
+        color = self._theme.color
+        if self._number < self._current:
+            paint_state(painter, "good", box, color("accent"), color("on_accent"))
+            return
+        here = self.is_current
+        painter.setPen(Qt.PenStyle.NoPen if here else QPen(color("border"), 1))
+        painter.setBrush(color("accent") if here else Qt.BrushStyle.NoBrush)
+        painter.drawEllipse(box.center(), box.width() / 2 - 0.5, box.width() / 2 - 0.5)
+        painter.setFont(font(12 * self._theme.text_scale, SEMIBOLD))
+        painter.setPen(color("on_accent" if here else "text2"))
+        painter.drawText(box.translated(QPointF(0, 0)), Qt.AlignmentFlag.AlignCenter, str(self._number + 1))
+
+
+class _Brand(QWidget):
+    def __init__(self, theme: Theme) -> None:
+        super().__init__()
+        self._theme = theme
+        self.setAccessibleName("Carpus")
+        theme.changed.connect(self._take_theme)
+        self._take_theme()
+
+    def _take_theme(self) -> None:
+        word = QFontMetricsF(font(16 * self._theme.text_scale, SEMIBOLD)).horizontalAdvance("Carpus")
+        self.setFixedSize(round(word) + self._theme.px(22) + 20, self._theme.px(32))
+        self.update()
+
+    def paintEvent(self, event: QPaintEvent) -> None:
+        painter = QPainter(self)
+        size = self._theme.px(22)
+        paint_mark(painter, QRectF(0, (self.height() - size) / 2, size, size), self._theme.color("accent"))
+        painter.setFont(font(16 * self._theme.text_scale, SEMIBOLD))
+        painter.setPen(self._theme.color("text"))
+        painter.drawText(QRectF(size + 10, 0, 200, self.height()), int(Qt.AlignmentFlag.AlignVCenter), "Carpus")
+
+
+class _UnderLine(QWidget):
+    def __init__(self, theme: Theme) -> None:
+        super().__init__()
+        self._theme = theme
+        self.recording = False
+        self.setFixedHeight(RECORDING_LINE_PX)
+
+    def paintEvent(self, event: QPaintEvent) -> None:
+        painter = QPainter(self)
+        if self.recording:
+            painter.fillRect(self.rect(), self._theme.color("band_bad"))
+        else:
+            painter.fillRect(0, 0, self.width(), 1, self._theme.color("line"))
+            painter.fillRect(0, 1, self.width(), self.height() - 1, self._theme.color("canvas"))
+
+
+def _row(host: QWidget, spacing_px: int, *widgets: QWidget) -> QHBoxLayout:
+    row = QHBoxLayout(host)
+    row.setContentsMargins(0, 0, 0, 0)
+    row.setSpacing(spacing_px)
+    for widget in widgets:
+        row.addWidget(widget)
+    return row

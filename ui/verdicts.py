@@ -1,0 +1,56 @@
+"""Sentences about change. A change is named as one only beyond the measurement error."""
+
+from __future__ import annotations
+
+from PySide6.QtCore import QCoreApplication
+
+from ui import numbers
+
+
+def tr(text: str) -> str:
+    """Translate a text of this module."""
+    return QCoreApplication.translate("Verdicts", text)
+
+
+def verdict_token(verdict: str) -> str:
+    """Colour of a verdict: green and red only for what is beyond error."""
+    return {"improved": "good", "worse": "bad"}.get(verdict, "text2")
+
+
+def verdict_word(verdict: str) -> str:
+    """The verdict as the table says it."""
+    return {
+        "improved": tr("improved"),
+        "worse": tr("worse"),
+        "no_change": tr("no change"),
+        "not_judged": tr("not judged"),
+    }.get(verdict, "")
+
+
+def difference(change_deg: float) -> str:
+    """``23° more`` or ``3° less``; ``the same`` when it rounds to nothing."""
+    size = numbers.degrees(change_deg)
+    if size == "0°":
+        return tr("the same")
+    return (tr("{size} more") if change_deg > 0 else tr("{size} less")).format(size=size)
+
+
+def change_since_first(verdict: str, change_deg: float) -> str:
+    """The short form on the patient's card."""
+    if verdict in ("improved", "worse"):
+        return tr("{difference} since the first").format(difference=difference(change_deg))
+    if verdict == "no_change":
+        return tr("no change beyond error")
+    return ""
+
+
+def change_with_limit(verdict: str, change_deg: float, limit_deg: float) -> str:
+    """``2° more: within measurement error (10°)``, the long form of tables."""
+    if verdict == "not_judged" or change_deg != change_deg:
+        return ""
+    pattern = (
+        tr("{difference}: within measurement error ({limit})")
+        if verdict == "no_change"
+        else tr("{difference}: beyond measurement error ({limit})")
+    )
+    return pattern.format(difference=difference(change_deg), limit=numbers.degrees(limit_deg))
