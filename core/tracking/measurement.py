@@ -10,9 +10,10 @@ from dataclasses import dataclass, replace
 from typing import Protocol
 
 import numpy as np
+from numpy.typing import NDArray
 
+from core import so3
 from core.camera import Camera
-from core.tracking import so3
 from core.tracking.motion import MotionNoise, advance, predict
 from core.tracking.state import Belief, StateLayout
 from core.tracking.unscented import Spread, deviations, weights_for
@@ -211,7 +212,7 @@ class Innovation:
 
 
 def update(
-    forecast: Forecast, rows: FloatArray, measured: FloatArray, noise_variance: FloatArray, layout: StateLayout
+    forecast: Forecast, rows: NDArray[np.int64], measured: FloatArray, noise_variance: FloatArray, layout: StateLayout
 ) -> tuple[Belief, Innovation]:
     """Kalman correction by ``measured`` (m,), the components ``rows`` (m,) of the flattened (M, 3) markers.
 

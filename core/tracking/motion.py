@@ -11,7 +11,7 @@ from typing import Literal
 
 import numpy as np
 
-from core.tracking import so3
+from core import so3
 from core.tracking.state import Belief, StateLayout
 from core.types import FloatArray
 

@@ -6,9 +6,9 @@ from itertools import combinations
 
 import numpy as np
 
+from core.so3 import nearest_rotation
 from core.tracking.measurement import View
 from core.tracking.settings import TrackerSettings
-from core.tracking.so3 import nearest_rotation
 from core.types import Detections, FloatArray
 
 DISTANCE_TOLERANCE_M = 0.007

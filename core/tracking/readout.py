@@ -11,10 +11,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from core import so3
 from core.calibration.result import Calibration
 from core.hand import clinical_angles
 from core.hand.wrist_frame import wrist_axes_sensitivity
-from core.tracking import so3
 from core.tracking.measurement import View
 from core.tracking.state import Belief, StateLayout
 from core.types import Detections, FloatArray, TrackedFrame, TrackStatus

@@ -12,7 +12,7 @@ from typing import Self
 import numpy as np
 from numpy.typing import NDArray
 
-from core.tracking import so3
+from core import so3
 from core.types import FloatArray
 
 
@@ -67,7 +67,7 @@ class StateLayout:
     @property
     def seen(self) -> NDArray[np.int64]:
         """Indices of the states on which a measurement depends: position, turn, joints, shape."""
-        return np.r_[0:3, 6:9, self.joints.start : self.joints.stop, self.shape.start : self.shape.stop]
+        return np.asarray(np.r_[0:3, 6:9, self.joints.start : self.joints.stop, self.shape.start : self.shape.stop])
 
 
 @dataclass(frozen=True, slots=True)

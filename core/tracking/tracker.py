@@ -10,6 +10,7 @@ from collections import deque
 from dataclasses import dataclass, replace
 
 import numpy as np
+from numpy.typing import NDArray
 
 from core.calibration.result import Calibration
 from core.camera import Camera
@@ -189,7 +190,7 @@ class Tracker:
 
     def _choose(
         self, marker_mean: FloatArray, marker_covariance: FloatArray, ideal: Detections
-    ) -> tuple[FloatArray, FloatArray, FloatArray, FloatArray]:
+    ) -> tuple[NDArray[np.int64], FloatArray, FloatArray, NDArray[np.int64]]:
         """Rows, values and variances of the measurements taken, and the blob of every marker."""
         settings = self.settings
         noise, use_depth = settings.noise, settings.use_depth

@@ -1,0 +1,311 @@
+"""From a person's clicks to a measured hand at its neutral pose (wrist paper II-C and III-D)."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.optimize import linear_sum_assignment
+
+from core.calibration.neutral_pose import pose_by_least_squares
+from core.calibration.plausibility import looks_like_other_side, plan_view, swapped_markers
+from core.calibration.result import Calibration, Clicks, Finding, Verdict
+from core.calibration.settings import CalibrationSettings
+from core.camera import Camera
+from core.detection.appearance import REACH, MarkerAppearance, expected_radius_px, learn_appearance
+from core.detection.detector import Detector, Region
+from core.detection.settings import DetectionSettings
+from core.errors import CalibrationImpossible, ClickOnNoMarker, MarkerWithoutDepth
+from core.hand.wrist_frame import wrist_axes
+from core.types import Detections, FloatArray, Frame
+
+_MCP3_OVER_HAND_LENGTH = 0.446
+"""Wrist crease to middle knuckle over hand length (reference 3.3)."""
+_TOWARDS_CAMERA = np.array([0.0, 0.0, -1.0])
+
+
+@dataclass(frozen=True, slots=True)
+class NeutralCapture:
+    """The discs over the still first frames: pixels (F, M, 2) and depths (F, M), NaN where not seen."""
+
+    pixel: FloatArray
+    depth_m: FloatArray
+
+    @property
+    def frames(self) -> int:
+        return int(self.pixel.shape[0])
+
+
+@dataclass(frozen=True, slots=True)
+class CalibrationOutcome:
+    """What there is to judge: the verdict always, the calibration unless a finding blocks.
+
+    ``pixel`` (M, 2) where the discs were found, NaN where not; ``capture_frames`` still frames used, from
+    the first on; ``pixel_sd_px`` and ``depth_sd_m`` the noise of one picture, as measured on the still hand,
+    NaN when there were too few.
+    """
+
+    verdict: Verdict
+    appearance: MarkerAppearance
+    pixel: FloatArray
+    calibration: Calibration | None
+    capture_frames: int
+    pixel_sd_px: float
+    depth_sd_m: float
+
+
+def calibrate(
+    clicks: Clicks,
+    frames: Sequence[Frame],
+    camera: Camera,
+    settings: CalibrationSettings,
+    detection: DetectionSettings,
+    start_angles_rad: FloatArray | None = None,
+) -> CalibrationOutcome:
+    """Find the clicked discs, average them while the hand is still, measure the palm, judge the result.
+
+    ``frames``: the clicked frame first, then those that follow it.
+    """
+    first = frames[0]
+    appearance, _ = learn_appearance(first, clicks.pixel, camera, detection)
+    detector = Detector(appearance, camera, detection)
+    radius_px = np.array([expected_radius_px(first, click, camera, detection) for click in clicks.pixel])
+    region = _around(clicks.pixel, 3.0 * float(radius_px.max()) + 12.0, camera)
+    blobs = detector.detect(first, region)
+    taken, findings = _named(clicks, blobs, radius_px)
+    found_px = np.where((taken >= 0)[:, None], _rows(blobs.pixel, taken), np.nan)
+    if np.any(taken < 0):
+        verdict = _no_verdict(clicks, findings)
+        return CalibrationOutcome(verdict, appearance, found_px, None, 0, np.nan, np.nan)
+    capture = _still_capture(frames, detector, region, blobs, taken, settings)
+    return _measured(clicks, capture, camera, settings, appearance, found_px, findings, start_angles_rad)
+
+
+def require_calibration(outcome: CalibrationOutcome) -> Calibration:
+    """The calibration, or the typed fault of the first finding that blocks it."""
+    for finding in outcome.verdict.findings:
+        if finding.blocks:
+            fault = MarkerWithoutDepth if finding.kind == "no_depth" else ClickOnNoMarker
+            raise fault(", ".join(finding.markers))
+    if outcome.calibration is None:
+        raise CalibrationImpossible()
+    return outcome.calibration
+
+
+def _rows(values: FloatArray, index: NDArray[np.int64]) -> FloatArray:
+    if values.shape[0] == 0:
+        return np.full((index.size, *values.shape[1:]), np.nan)
+    return values[np.maximum(index, 0)]
+
+
+def _around(pixel: FloatArray, margin_px: float, camera: Camera) -> Region:
+    low, high = pixel.min(axis=0) - margin_px, pixel.max(axis=0) + margin_px
+    return Region(int(low[0]), int(low[1]), int(high[0]) + 1, int(high[1]) + 1).clipped(
+        camera.width_px, camera.height_px
+    )
+
+
+def _named(clicks: Clicks, blobs: Detections, radius_px: FloatArray) -> tuple[NDArray[np.int64], list[Finding]]:
+    """Blob of every click (M,), -1 for none, each blob once, nearest overall; and what was wrong."""
+    names = clicks.protocol.markers
+    taken = np.full(len(names), -1, dtype=np.int64)
+    findings: list[Finding] = []
+    distance = np.linalg.norm(clicks.pixel[:, None] - blobs.pixel[None], axis=-1)
+    far = distance > REACH * radius_px[:, None]
+    rows, columns = linear_sum_assignment(np.where(far, 1e6, distance))
+    good = ~far[rows, columns]
+    taken[rows[good]] = columns[good]
+    for marker in np.flatnonzero(taken < 0):
+        rivals = [int(r) for r in range(len(names)) if taken[r] >= 0 and not far[marker, taken[r]]]
+        if rivals:
+            rival = min(rivals, key=lambda r: float(distance[marker, taken[r]]))
+            findings.append(Finding("two_clicks_on_one", (names[rival], names[marker]), blocks=True))
+        else:
+            findings.append(Finding("click_on_no_marker", (names[marker],), blocks=True))
+    return taken, findings
+
+
+def _still_capture(
+    frames: Sequence[Frame],
+    detector: Detector,
+    region: Region,
+    first_blobs: Detections,
+    taken: NDArray[np.int64],
+    settings: CalibrationSettings,
+) -> NeutralCapture:
+    start_px = first_blobs.pixel[taken]
+    pixels, depths = [start_px], [first_blobs.depth_m[taken]]
+    for frame in frames[1:]:
+        if frame.timestamp_s - frames[0].timestamp_s > settings.still_s:
+            break
+        blobs = detector.detect(frame, region)
+        if not len(blobs):
+            continue
+        distance = np.linalg.norm(start_px[:, None] - blobs.pixel[None], axis=-1)
+        nearest = distance.argmin(axis=1)
+        near = distance[np.arange(len(start_px)), nearest] < 4.0
+        if np.count_nonzero(near) < 3:
+            continue
+        moved_px = np.median(blobs.pixel[nearest[near]] - start_px[near], axis=0)
+        if float(np.hypot(*moved_px)) > settings.still_px:
+            break
+        pixels.append(np.where(near[:, None], blobs.pixel[nearest], np.nan))
+        depths.append(np.where(near, blobs.depth_m[nearest], np.nan))
+    return NeutralCapture(np.stack(pixels), np.stack(depths))
+
+
+def _measured(
+    clicks: Clicks,
+    capture: NeutralCapture,
+    camera: Camera,
+    settings: CalibrationSettings,
+    appearance: MarkerAppearance,
+    found_px: FloatArray,
+    findings: list[Finding],
+    start_angles_rad: FloatArray | None,
+) -> CalibrationOutcome:
+    names = clicks.protocol.markers
+    palm = np.array(clicks.protocol.palm)
+    depth_count = np.isfinite(capture.depth_m).sum(axis=0)
+    for marker in np.flatnonzero(depth_count == 0):
+        findings.append(Finding("no_depth", (names[marker],), blocks=bool(marker in palm)))
+    if np.any(depth_count[palm] == 0):
+        verdict = _no_verdict(clicks, findings)
+        return CalibrationOutcome(verdict, appearance, found_px, None, capture.frames, np.nan, np.nan)
+    with np.errstate(all="ignore"):
+        pixel = camera.undistort(np.nanmean(capture.pixel, axis=0))
+        depth_m = _nanmean(capture.depth_m)
+    pixel_sd_px, depth_sd_m = _noise(capture)
+    point_cam = camera.back_project(pixel, depth_m)
+    axes_cam = wrist_axes(point_cam[palm], _TOWARDS_CAMERA)
+    origin_cam = point_cam[palm[0]]
+    marker_w0_m = (point_cam - origin_cam) @ axes_cam
+    seen = np.isfinite(depth_m)
+    if not np.all(np.isfinite(axes_cam)):
+        raise CalibrationImpossible(", ".join(names))
+    rotation, translation = pose_by_least_squares(
+        camera, marker_w0_m[seen], pixel[seen], depth_m[seen], axes_cam, origin_cam
+    )
+    covariance = _disc_covariances(
+        point_cam,
+        rotation,
+        np.isfinite(capture.pixel[..., 0]).sum(axis=0),
+        depth_count,
+        pixel_sd_px,
+        depth_sd_m,
+        camera,
+        settings,
+    )
+    residual_mm = _residuals_mm(capture, camera, marker_w0_m, rotation, translation, palm)
+    hand_length_mm = 1e3 * float(np.linalg.norm(marker_w0_m[palm[3]])) / _MCP3_OVER_HAND_LENGTH
+    view_axis = -origin_cam / np.linalg.norm(origin_cam)
+    tilt_deg = float(np.degrees(np.arccos(np.clip(rotation[:, 2] @ view_axis, -1.0, 1.0))))
+    verdict = Verdict(residual_mm, hand_length_mm, tilt_deg, float(origin_cam[2]), capture.frames, ())
+    plan = plan_view(point_cam)
+    findings += _judged(clicks, verdict, plan, settings)
+    calibration = Calibration(
+        clicks,
+        marker_w0_m,
+        rotation,
+        translation,
+        covariance,
+        np.zeros(3) if start_angles_rad is None else start_angles_rad,
+        replace(verdict, findings=tuple(findings)),
+    )
+    return CalibrationOutcome(
+        calibration.verdict, appearance, found_px, calibration, capture.frames, pixel_sd_px, depth_sd_m
+    )
+
+
+def _nanmean(values: FloatArray) -> FloatArray:
+    count = np.isfinite(values).sum(axis=0)
+    total = np.nansum(values, axis=0)
+    return np.asarray(np.where(count > 0, total / np.maximum(count, 1), np.nan))
+
+
+def _noise(capture: NeutralCapture) -> tuple[float, float]:
+    """Standard deviation of one picture's centres (px) and depths (m) on the still hand, common drift removed."""
+    if capture.frames < 4:
+        return float("nan"), float("nan")
+    with np.errstate(all="ignore"):
+        drift = capture.pixel - np.nanmedian(capture.pixel, axis=1, keepdims=True)
+        # Six discs share the median that is taken away: a little of their own scatter goes with it.
+        pixel_sd = float(np.sqrt(np.nanmean(np.nanvar(drift, axis=0, ddof=1)) * 6.0 / 5.0))
+        depth_sd = float(np.sqrt(np.nanmean(np.nanvar(capture.depth_m, axis=0, ddof=1))))
+    return pixel_sd, depth_sd
+
+
+def _disc_covariances(
+    point_cam: FloatArray,
+    rotation: FloatArray,
+    pixel_count: NDArray[np.int64],
+    depth_count: NDArray[np.int64],
+    pixel_sd_px: float,
+    depth_sd_m: float,
+    camera: Camera,
+    settings: CalibrationSettings,
+) -> FloatArray:
+    """Covariance (M, 3, 3) in W0 of the averaged disc places: across by the pixels, along the ray by the depth."""
+    z = point_cam[:, 2]
+    pattern_m = settings.depth_pattern_per_m * z**2
+    scatter_m = depth_sd_m if np.isfinite(depth_sd_m) else 2.0 * pattern_m
+    along = scatter_m**2 / np.maximum(depth_count, 1) + pattern_m**2
+    pixel_sd = pixel_sd_px if np.isfinite(pixel_sd_px) else 0.3
+    across_m = np.hypot(pixel_sd / np.sqrt(np.maximum(pixel_count, 1)), 0.1) * z / camera.fx_px
+    ray = point_cam / z[:, None]
+    flat = np.diag([1.0, 1.0, 0.0])
+    in_cam = across_m[:, None, None] ** 2 * flat + along[:, None, None] * (ray[:, :, None] * ray[:, None, :])
+    return np.asarray(rotation.T @ in_cam @ rotation)
+
+
+def _residuals_mm(
+    capture: NeutralCapture,
+    camera: Camera,
+    marker_w0_m: FloatArray,
+    rotation: FloatArray,
+    translation: FloatArray,
+    palm: NDArray[np.int64],
+) -> FloatArray:
+    """Root mean square distance (M,) of each disc from its fitted place over the captured frames."""
+    placed = marker_w0_m @ rotation.T + translation
+    flat = capture.pixel.reshape(-1, 2)
+    ideal = camera.undistort(np.nan_to_num(flat)).reshape(capture.pixel.shape)
+    seen = camera.back_project(ideal, capture.depth_m)
+    squared = np.sum((seen - placed) ** 2, axis=-1)
+    squared[~np.isfinite(capture.pixel[..., 0])] = np.nan
+    return np.asarray(1e3 * np.sqrt(_nanmean(squared)))
+
+
+def _judged(clicks: Clicks, verdict: Verdict, plan: FloatArray, settings: CalibrationSettings) -> list[Finding]:
+    names = clicks.protocol.markers
+    out: list[Finding] = []
+    seen = np.isfinite(plan[:, 0])
+    if seen.all():
+        if looks_like_other_side(clicks.protocol, clicks.side, plan):
+            out.append(Finding("wrong_side"))
+        else:
+            pair = swapped_markers(clicks.protocol, clicks.side, plan)
+            if pair is not None:
+                out.append(Finding("swapped", pair))
+    for marker in np.flatnonzero(verdict.residual_mm > settings.most_residual_mm):
+        out.append(
+            Finding("residual", (names[marker],), float(verdict.residual_mm[marker]), settings.most_residual_mm, "mm")
+        )
+    low, high = settings.hand_length_mm
+    if not low <= verdict.hand_length_mm <= high:
+        limit = low if verdict.hand_length_mm < low else high
+        out.append(Finding("hand_length", (), verdict.hand_length_mm, limit, "mm"))
+    if verdict.tilt_deg > settings.most_tilt_deg:
+        out.append(Finding("tilt", (), verdict.tilt_deg, settings.most_tilt_deg, "deg"))
+    if verdict.distance_m < settings.least_distance_m:
+        out.append(Finding("distance", (), verdict.distance_m, settings.least_distance_m, "m"))
+    if verdict.frames_used < settings.enough_frames:
+        out.append(Finding("few_frames", (), verdict.frames_used, settings.enough_frames, "frames"))
+    return out
+
+
+def _no_verdict(clicks: Clicks, findings: list[Finding]) -> Verdict:
+    unknown = np.full(len(clicks.protocol.markers), np.nan)
+    return Verdict(unknown, np.nan, np.nan, np.nan, 0, tuple(findings))

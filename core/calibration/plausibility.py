@@ -1,0 +1,68 @@
+"""Is the clicked constellation a hand, the hand it claims to be, and are the names in their places?"""
+
+from __future__ import annotations
+
+from functools import lru_cache
+from itertools import combinations
+
+import numpy as np
+
+from core.hand.anatomy import anatomy_from_size
+from core.hand.kinematics import disc_centres
+from core.hand.protocols import HAND21, MarkerProtocol
+from core.types import FloatArray, Side
+
+_CLEARLY = 0.6
+"""Another reading must leave less than this share of the misfit to be called the likelier one."""
+_GOOD_MISFIT = 0.05
+"""Misfit, as a share of the constellation's size, below which nothing is questioned."""
+
+
+@lru_cache(maxsize=4)
+def _average_plan(protocol_name: str, side: Side) -> FloatArray:
+    anatomy = anatomy_from_size(0.18)
+    discs = disc_centres(anatomy, np.zeros(17))
+    names = HAND21.markers if protocol_name == HAND21.name else None
+    if names is None:
+        discs = discs[list(HAND21.palm)]
+    plan = discs[:, :2].copy()
+    if side == "left":
+        plan[:, 1] = -plan[:, 1]
+    return plan
+
+
+def _misfit(plan: FloatArray, seen: FloatArray) -> float:
+    """Residual share of the best similarity (turn, scale, shift; no mirror) of plans (M, 2)."""
+    a = (plan - plan.mean(axis=0)) @ np.array([1.0, 1j])
+    b = (seen - seen.mean(axis=0)) @ np.array([1.0, 1j])
+    factor = np.vdot(a, b) / np.vdot(a, a)
+    return float(np.linalg.norm(b - factor * a) / np.linalg.norm(b))
+
+
+def plan_view(point_cam_m: FloatArray) -> FloatArray:
+    """Points (M, 3) of the camera as a drawing (M, 2) seen from the camera, y up."""
+    return np.stack((point_cam_m[:, 0], -point_cam_m[:, 1]), axis=1)
+
+
+def swapped_markers(protocol: MarkerProtocol, side: Side, plan: FloatArray) -> tuple[str, str] | None:
+    """The two names whose exchange makes a clear hand out of an unclear one, or None. ``plan`` (M, 2)."""
+    average = _average_plan(protocol.name, side)
+    misfit = _misfit(average, plan)
+    if misfit < _GOOD_MISFIT:
+        return None
+    best, pair = misfit, None
+    for i, j in combinations(range(len(protocol.markers)), 2):
+        other = plan.copy()
+        other[[i, j]] = other[[j, i]]
+        value = _misfit(average, other)
+        if value < best:
+            best, pair = value, (protocol.markers[i], protocol.markers[j])
+    return pair if best < _CLEARLY * misfit else None
+
+
+def looks_like_other_side(protocol: MarkerProtocol, side: Side, plan: FloatArray) -> bool:
+    """Whether the constellation is clearly the other hand's."""
+    other: Side = "left" if side == "right" else "right"
+    own = _misfit(_average_plan(protocol.name, side), plan)
+    mirrored = _misfit(_average_plan(protocol.name, other), plan)
+    return own >= _GOOD_MISFIT and mirrored < _CLEARLY * own

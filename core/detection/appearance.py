@@ -1,0 +1,183 @@
+"""What the markers look like today: learnt from the clicked discs, so it follows light, paper and skin."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import cv2
+import numpy as np
+from numpy.typing import NDArray
+
+from core.camera import Camera
+from core.detection import color_histogram
+from core.detection.settings import DetectionSettings
+from core.types import ByteImage, FloatArray, Frame
+
+_FALLBACK_RADIUS_PX = 5.0
+_ROUNDS = 3
+
+
+@dataclass(frozen=True, slots=True)
+class MarkerAppearance:
+    """Colours of paper and skin and the discs' size.
+
+    ``paper_histogram`` (BINS, BINS) is the reference of the Bhattacharyya coefficient; ``paper_lookup`` and
+    ``skin_lookup`` (BINS, BINS) are 0-255 tables for back-projection: how much likelier than the other a
+    colour is; ``darkest_value`` 0-255; ``area_m2`` apparent area of a disc facing the camera, its colour
+    threshold included; ``least_similarity`` that a blob needs.
+    """
+
+    paper_histogram: FloatArray
+    paper_lookup: NDArray[np.float32]
+    skin_lookup: NDArray[np.float32]
+    darkest_value: float
+    area_m2: float
+    least_similarity: float
+
+
+def disc_mask(shape: tuple[int, ...], centre_px: FloatArray, radius_px: float) -> NDArray[np.bool_]:
+    """Pixels (H, W) within a radius of a centre (u, v)."""
+    v, u = np.ogrid[: shape[0], : shape[1]]
+    return np.asarray((u - centre_px[0]) ** 2 + (v - centre_px[1]) ** 2 <= radius_px**2)
+
+
+def expected_radius_px(frame: Frame, pixel: FloatArray, camera: Camera, settings: DetectionSettings) -> float:
+    """Radius of a disc facing the camera at the depth found about ``pixel``; a guess where there is none."""
+    if frame.depth_raw is None:
+        return _FALLBACK_RADIUS_PX
+    near = disc_mask(frame.depth_raw.shape, pixel, 12.0)
+    depth_raw = frame.depth_raw[near]
+    depth_raw = depth_raw[depth_raw > 0]
+    if depth_raw.size == 0:
+        return _FALLBACK_RADIUS_PX
+    return float(camera.fx_px * settings.marker_radius_m / (float(np.median(depth_raw)) * frame.depth_unit_m))
+
+
+def learn_appearance(
+    frame: Frame, click_px: FloatArray, camera: Camera, settings: DetectionSettings
+) -> tuple[MarkerAppearance, FloatArray]:
+    """Learn from clicks (M, 2) near the discs; also the discs' rough centres (M, 2), NaN where none was found.
+
+    First the colours right under the clicks, most of which are paper, against the ring around them, most of
+    which is not; then again from the blobs so found, until they settle.
+    """
+    hsv = color_histogram.to_hsv(frame.color_rgb)
+    shape = hsv.shape[:2]
+    radius_px = np.array([expected_radius_px(frame, click, camera, settings) for click in click_px])
+    on_paper = np.zeros(shape, dtype=bool)
+    ring = np.zeros(shape, dtype=bool)
+    for click, radius in zip(click_px, radius_px, strict=True):
+        on_paper |= disc_mask(shape, click, 0.6 * radius)
+        ring |= disc_mask(shape, click, 5.0 * radius) & ~disc_mask(shape, click, 2.4 * radius)
+    ring &= ~on_paper
+    centre = np.full(click_px.shape, np.nan)
+    looks = _appearance(hsv, on_paper, ring, settings)
+    for _ in range(_ROUNDS):
+        labels, blobs = _blobs(hsv, looks, settings)
+        found = np.array([_blob_under(click, r, blobs) for click, r in zip(click_px, radius_px, strict=True)])
+        if not np.any(found > 0):
+            break
+        centre = np.where((found > 0)[:, None], blobs[np.maximum(found, 0), 5:7], np.nan)
+        on_paper = np.isin(labels, found[found > 0])
+        core = cv2.erode(on_paper.astype(np.uint8), np.ones((3, 3), np.uint8)) > 0
+        if core.sum() >= 5 * len(click_px):
+            on_paper = core
+        blue = labels > 0
+        around = np.zeros(shape, dtype=bool)
+        for point, radius in zip(centre, radius_px, strict=True):
+            if np.isfinite(point[0]):
+                around |= disc_mask(shape, point, 2.2 * radius) & ~disc_mask(shape, point, 1.45 * radius)
+        looks = _appearance(hsv, on_paper, around & ~_grown(blue), settings)
+    area_m2 = _facing_area_m2(centre, radius_px, hsv, looks, settings)
+    least = _least_similarity(centre, hsv, looks, settings)
+    return MarkerAppearance(
+        looks.paper_histogram, looks.paper_lookup, looks.skin_lookup, looks.darkest_value, area_m2, least
+    ), centre
+
+
+def paper_mask(hsv: ByteImage, looks: MarkerAppearance, settings: DetectionSettings) -> ByteImage:
+    """1 where a pixel has the colour of the paper, speckle removed."""
+    _, lit = cv2.threshold(cv2.extractChannel(hsv, 2), looks.darkest_value, 255.0, cv2.THRESH_BINARY)
+    likely = color_histogram.back_project(hsv, looks.paper_lookup)
+    _, blue = cv2.threshold(likely, 255.0 * settings.paper_share, 255.0, cv2.THRESH_BINARY)
+    mask = cv2.bitwise_and(blue, lit)
+    return np.asarray(cv2.morphologyEx(mask, cv2.MORPH_OPEN, _CROSS), dtype=np.uint8)
+
+
+_CROSS = cv2.getStructuringElement(cv2.MORPH_CROSS, (3, 3))
+
+
+def _grown(mask: NDArray[np.bool_]) -> NDArray[np.bool_]:
+    return np.asarray(cv2.dilate(mask.astype(np.uint8), np.ones((3, 3), np.uint8)) > 0)
+
+
+def _appearance(
+    hsv: ByteImage, on_paper: NDArray[np.bool_], ring: NDArray[np.bool_], settings: DetectionSettings
+) -> MarkerAppearance:
+    paper = color_histogram.histogram(hsv, on_paper, smooth_bins=1.2)
+    skin = color_histogram.histogram(hsv, ring, smooth_bins=1.2)
+    floor = 0.02 / paper.size  # a colour never seen is neither
+    paper_share = paper / (paper + skin + floor)
+    skin_share = skin / (paper + skin + floor)
+    value = hsv[..., 2][on_paper]
+    darkest = settings.darkest * float(np.median(value)) if value.size else 0.0
+    return MarkerAppearance(
+        paper,
+        (255.0 * paper_share).astype(np.float32),
+        (255.0 * skin_share).astype(np.float32),
+        darkest,
+        np.pi * settings.marker_radius_m**2,
+        settings.least_similarity,
+    )
+
+
+def _blobs(
+    hsv: ByteImage, looks: MarkerAppearance, settings: DetectionSettings
+) -> tuple[NDArray[np.int32], FloatArray]:
+    """Labels (H, W) and per label: left, top, width, height, area, centre u, v."""
+    count, labels, stats, centres = cv2.connectedComponentsWithStats(paper_mask(hsv, looks, settings))
+    return np.asarray(labels, dtype=np.int32), np.column_stack((stats, centres))[:count].astype(np.float64)
+
+
+def _blob_under(click: FloatArray, radius_px: float, blobs: FloatArray) -> int:
+    """Label of the disc-sized blob nearest to a click, 0 when none is within its reach."""
+    full = np.pi * radius_px**2
+    fits = (blobs[:, 4] > 0.2 * full) & (blobs[:, 4] < 3.0 * full)
+    fits[0] = False
+    if not fits.any():
+        return 0
+    distance = np.where(fits, np.hypot(blobs[:, 5] - click[0], blobs[:, 6] - click[1]), np.inf)
+    best = int(np.argmin(distance))
+    return best if distance[best] <= REACH * radius_px else 0
+
+
+REACH = 2.2
+"""A click finds a disc whose centre is within this many radii (about 10 px at 0.7 m)."""
+
+
+def _facing_area_m2(
+    centre: FloatArray, radius_px: FloatArray, hsv: ByteImage, looks: MarkerAppearance, settings: DetectionSettings
+) -> float:
+    """Median apparent area of the found discs over that of an ideal one, as an area."""
+    _, blobs = _blobs(hsv, looks, settings)
+    ratios: list[float] = []
+    for point, radius in zip(centre, radius_px, strict=True):
+        if np.isfinite(point[0]):
+            near = np.hypot(blobs[1:, 5] - point[0], blobs[1:, 6] - point[1])
+            if near.size and near.min() < radius:
+                ratios.append(blobs[1 + int(np.argmin(near)), 4] / (np.pi * radius**2))
+    ratio = float(np.median(ratios)) if ratios else 1.0
+    return ratio * np.pi * settings.marker_radius_m**2
+
+
+def _least_similarity(
+    centre: FloatArray, hsv: ByteImage, looks: MarkerAppearance, settings: DetectionSettings
+) -> float:
+    """Half of what the least alike of the clicked discs reaches, at most the setting."""
+    labels, blobs = _blobs(hsv, looks, settings)
+    reached: list[float] = []
+    for point in centre[np.isfinite(centre[:, 0])] if blobs.shape[0] > 1 else ():
+        label = 1 + int(np.argmin(np.hypot(blobs[1:, 5] - point[0], blobs[1:, 6] - point[1])))
+        own = color_histogram.histogram(hsv, labels == label)
+        reached.append(float(color_histogram.bhattacharyya(own.ravel(), looks.paper_histogram.ravel())))
+    return min(settings.least_similarity, 0.5 * min(reached)) if reached else settings.least_similarity
