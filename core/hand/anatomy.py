@@ -12,7 +12,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from core.hand.protocols import HAND21, PALM_MARKERS
+from core.hand.protocols import HAND21
+from core.hand.wrist_frame import wrist_axes
 from core.types import FloatArray, Side
 
 BREADTH_SHARE = 0.45
@@ -147,20 +148,10 @@ def anatomy_from_size(
 
 
 def palm_axes(palm_disc_m: FloatArray, side: Side) -> FloatArray:
-    """Axes X, Y, Z of W as columns (3, 3) for palm discs (6, 3) in any frame (reference 1.1).
-
-    Z is the normal of the least-squares plane through WRIST and MCP2 to MCP5, freed of its part along X, on the
-    side of the back of a hand of that side.
-    """
-    row = {name: palm_disc_m[i] for i, name in enumerate(PALM_MARKERS)}
-    x = row["MCP3"] - row["WRIST"]
-    x = x / np.linalg.norm(x)
-    plane = np.delete(palm_disc_m, PALM_MARKERS.index("CMC1"), axis=0)
-    normal = np.linalg.svd(plane - plane.mean(axis=0))[2][2]
-    dorsal = np.cross(x, row["MCP2"] - row["MCP5"]) * (1.0 if side == "right" else -1.0)
-    z = normal - (normal @ x) * x
-    z = z * np.sign(z @ dorsal) / np.linalg.norm(z)
-    return np.column_stack((x, np.cross(z, x), z))
+    """Axes X, Y, Z of W as columns (3, 3) for palm discs (6, 3) in any frame, Z by the side of the hand."""
+    wrist, _, mcp2, mcp3, _, mcp5 = palm_disc_m
+    dorsal = np.cross(mcp3 - wrist, mcp2 - mcp5)
+    return wrist_axes(palm_disc_m, towards=dorsal if side == "right" else -dorsal)
 
 
 def joint_limits_rad(names: Sequence[str], angles_rad: FloatArray) -> tuple[FloatArray, FloatArray]:

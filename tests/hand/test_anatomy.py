@@ -10,6 +10,7 @@ import pytest
 
 from core.hand.anatomy import HARD_LIMITS_RAD, anatomy_from_size, joint_limits_rad, palm_axes
 from core.hand.protocols import HAND21, PALM_MARKERS, joint_angle_names
+from core.hand.wrist_frame import wrist_axes
 
 
 def test_flat_hand_without_offsets_is_the_chain_of_the_papers() -> None:
@@ -41,7 +42,7 @@ def test_offsets_grow_with_the_hand(length_m: float) -> None:
 @pytest.mark.parametrize("arch", [0.0, 0.5, 1.0, 2.0])
 def test_palm_discs_define_the_wrist_frame_they_are_given_in(arch: float) -> None:
     discs = anatomy_from_size(0.175, arch=arch).palm_disc_m
-    assert np.allclose(palm_axes(discs, "right"), np.eye(3), atol=1e-12)
+    assert np.allclose(wrist_axes(discs, np.array([0.0, 0.0, 1.0])), np.eye(3), atol=1e-12)
     assert np.allclose(discs[PALM_MARKERS.index("WRIST")], 0.0)
     assert np.allclose(discs[PALM_MARKERS.index("MCP3"), 1:], 0.0, atol=1e-12)
 

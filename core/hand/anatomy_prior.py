@@ -1,0 +1,153 @@
+"""What is known of a hand before it is measured: the average hand of its size and the scatter between people.
+
+Means from the anatomical table (clinical reference 2 and 3.3). Constants of a ray are those of
+:mod:`core.hand.ray_fitting`, thumb first, then fingers 2 to 5; axes of a right hand.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from core.hand.anatomy import HandAnatomy, anatomy_from_size
+from core.hand.kinematics import DIP_PER_PIP
+from core.hand.protocols import HAND21
+from core.hand.ray_fitting import Gaussian
+from core.types import FloatArray, Side
+
+RAY_DISCS = ((2, 3, 4), (6, 7, 8), (10, 11, 12), (14, 15, 16), (18, 19, 20))
+"""Places in ``hand21`` of the three moving discs of the thumb and of fingers 2 to 5."""
+
+_PALM = list(HAND21.palm)
+
+# Scatter of the depth of joint centres between adults, a quarter of the ranges of reference 2.
+_DEPTH_SD_M = np.array([0.0015, 0.001, 0.0006, 0.0005])  # CMC1, MCP1, IP1, TIP1
+_FINGER_DEPTH_SD_M = np.array([0.00125, 0.00075, 0.0006, 0.0005])  # MCP, PIP, DIP, TIP
+_FIXED = 1e-6
+_DOWN = np.array([1.0, 1.0, -1.0])
+
+
+@dataclass(frozen=True, slots=True)
+class AnatomyPrior:
+    """How far a hand may differ from the average one of its size; standard deviations.
+
+    ``bone_share`` of a bone's length; ``last_bone_share`` of the last one, which ends under a disc whose place on the
+    nail varies; ``height_scale`` common to all offsets of a ray, besides the scatter of each in the table;
+    ``start_ahead_m`` and ``start_aside_m`` of the first joint centre (MCP, CMC1) from the place under its disc.
+    """
+
+    bone_share: float = 0.06
+    last_bone_share: float = 0.20
+    fan_rad: float = math.radians(4.0)
+    thumb_fan_rad: float = math.radians(8.0)
+    thumb_roll_rad: float = math.radians(8.0)
+    height_scale: float = 0.35
+    start_ahead_m: float = 0.0015
+    start_aside_m: float = 0.0007
+    neutral_abduction_rad: float = math.radians(2.0)
+    neutral_flexion_rad: float = math.radians(6.0)
+    neutral_thumb_rad: float = math.radians(8.0)
+    dip_free_rad: float = math.radians(10.0)
+
+
+def average_hand(disc_m: FloatArray, side: Side, skin_offsets: bool) -> HandAnatomy:
+    """The average hand of the size seen, with the palm's discs as measured (canonical right hand)."""
+    unit = anatomy_from_size(1.0, 1.0, arch=0.0, skin_offsets=False)
+    palm = disc_m[_PALM]
+    flat = disc_m[..., :2]
+    ratios = list(palm[2:, 0] / unit.palm_disc_m[2:, 0])
+    for own, bones in zip(RAY_DISCS[1:], unit.finger_length_m, strict=True):
+        places = flat[[own[0] - 1, *own[:2]]]
+        ratios += list(np.linalg.norm(np.diff(places, axis=0), axis=-1) / bones[:2])
+    length_m = float(np.nanmedian(ratios))
+    lateral = unit.palm_disc_m[:, 1]
+    breadth_m = float(lateral @ palm[:, 1] / (lateral @ lateral))
+    average = anatomy_from_size(length_m, breadth_m, side=side, skin_offsets=skin_offsets)
+    half_nail = anatomy_from_size(length_m, breadth_m, nail_discs=True)
+    return replace(
+        average,
+        palm_disc_m=palm,
+        palm_joint_m=palm - np.outer(average.skin_offset_m[_PALM], [0.0, 0.0, 1.0]),
+        finger_length_m=0.5 * (average.finger_length_m + half_nail.finger_length_m),
+        thumb_length_m=0.5 * (average.thumb_length_m + half_nail.thumb_length_m),
+    )
+
+
+def constants_prior(
+    average: HandAnatomy, prior: AnatomyPrior, lateral_sd_m: FloatArray, depth_sd_m: FloatArray
+) -> Gaussian:
+    """Constants of the five rays of the average hand, (5, 11), with the scatter between people.
+
+    ``lateral_sd_m`` and ``depth_sd_m`` (5,) tell how well the discs CMC1 and MCP2 to MCP5, from which the rays start,
+    were measured: an error there stays in the joint centres below them.
+    """
+    mean, covariance = constants_of(average), np.zeros((5, 11, 11))
+    shares = np.array([prior.bone_share, prior.bone_share, prior.last_bone_share])
+    has_offsets = bool(np.any(average.skin_offset_m))
+    for ray in range(5):
+        sd = np.full(11, _FIXED)
+        sd[:3] = shares * mean[ray, :3]
+        sd[3] = prior.fan_rad if ray else prior.thumb_fan_rad
+        if not ray:
+            sd[4] = prior.thumb_roll_rad
+        heights = np.zeros(11)
+        if has_offsets:
+            sd[5] = math.hypot(prior.start_ahead_m, lateral_sd_m[ray])
+            sd[6] = math.hypot(prior.start_aside_m, lateral_sd_m[ray])
+            sd[7:] = _FINGER_DEPTH_SD_M if ray else _DEPTH_SD_M
+            sd[7] = math.hypot(sd[7], depth_sd_m[ray])
+            heights[7:] = mean[ray, 7:]
+        covariance[ray] = np.diag(sd**2) + prior.height_scale**2 * np.outer(heights, heights)
+    return Gaussian(mean, covariance)
+
+
+def constants_of(hand: HandAnatomy) -> FloatArray:
+    """The constants (5, 11) of a hand's rays, in the order of ``RAY_CONSTANTS``."""
+    constants = np.zeros((5, 11))
+    constants[:, :3] = np.vstack((hand.thumb_length_m, hand.finger_length_m))
+    constants[:, 3] = hand.fan_rad
+    constants[0, 4] = hand.thumb_roll_rad
+    constants[:, 5:8] = (hand.palm_joint_m[1:] - hand.palm_disc_m[1:]) * _DOWN
+    constants[:, 8:] = np.vstack((hand.thumb_offset_m, hand.finger_offset_m))
+    return constants
+
+
+def with_constants(hand: HandAnatomy, constants: FloatArray) -> HandAnatomy:
+    """The hand with these constants (5, 11) of its rays."""
+    joints = hand.palm_joint_m.copy()
+    joints[1:] = hand.palm_disc_m[1:] + constants[:, 5:8] * _DOWN
+    return replace(
+        hand,
+        palm_joint_m=joints,
+        fan_rad=constants[:, 3],
+        thumb_roll_rad=float(constants[0, 4]),
+        thumb_length_m=constants[0, :3],
+        finger_length_m=constants[1:, :3],
+        thumb_offset_m=constants[0, 8:],
+        finger_offset_m=constants[1:, 8:],
+    )
+
+
+def neutral_prior(ray: int, prior: AnatomyPrior, dip_free: bool) -> Gaussian:
+    """Angles of one ray at the neutral pose, straight on average; (1, 4 or 5)."""
+    if ray == 0:
+        sd = np.full(5, prior.neutral_thumb_rad)
+        sd[3] = 0.5 * prior.neutral_thumb_rad
+    else:
+        sd = np.full(4, prior.neutral_flexion_rad)
+        sd[0] = prior.neutral_abduction_rad
+    covariance = angles_covariance(sd, ray, dip_free, prior.dip_free_rad)
+    return Gaussian(np.zeros((1, len(sd))), covariance[None])
+
+
+def angles_covariance(sd_rad: FloatArray, ray: int, dip_free: bool, dip_sd_rad: float) -> FloatArray:
+    """Covariance of one ray's angles where DIP is 2/3 PIP, exactly or give or take ``dip_sd_rad``."""
+    if ray == 0:
+        return np.diag(sd_rad**2)
+    follow = np.eye(4)
+    follow[3, 2] = DIP_PER_PIP
+    own = sd_rad.copy()
+    own[3] = dip_sd_rad if dip_free else math.radians(0.05)
+    return np.asarray(follow @ np.diag(own**2) @ follow.T)

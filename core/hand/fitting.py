@@ -1,0 +1,212 @@
+"""One subject's anatomy from the measured discs: at the neutral pose first, then from movement.
+
+The anatomical table is the prior (clinical reference 2 and 3.3). The neutral chain is not taken as straight: the
+discs of one finger stand at different heights over the bones, and a patient may not be able to stretch a finger.
+Each ray is fitted on its own, the palm's discs being given.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from core.hand.anatomy import HandAnatomy
+from core.hand.anatomy_prior import (
+    RAY_DISCS,
+    AnatomyPrior,
+    angles_covariance,
+    average_hand,
+    constants_prior,
+    neutral_prior,
+    with_constants,
+)
+from core.hand.kinematics import finger_angles
+from core.hand.protocols import HAND21
+from core.hand.ray_fitting import Gaussian, RayModel, finger_model, fit_ray, thumb_model
+from core.types import FloatArray, Side
+
+_ABSURD_COST = 30.0
+_ABSURD_GAIN = 12.0
+_MOVING_RAD = math.radians(25.0)
+
+
+@dataclass(frozen=True, slots=True)
+class SeenDiscs:
+    """Discs measured in F poses, in W of the hand's own side (W2 of each pose).
+
+    ``disc_m`` (F, 21, 3), NaN when not seen; without a depth, any point on the line of sight. ``view`` (F, 21, 3)
+    unit line of sight; ``lateral_sd_m`` and ``depth_sd_m`` (F, 21) across and along it, infinite without a depth.
+    """
+
+    disc_m: FloatArray
+    view: FloatArray
+    lateral_sd_m: FloatArray
+    depth_sd_m: FloatArray
+
+    def information_m2(self) -> FloatArray:
+        """Inverse covariance of each disc, (F, 21, 3, 3), zero where not seen."""
+        along = np.where(np.isfinite(self.view), self.view, 0.0)
+        outer = along[..., :, None] * along[..., None, :]
+        across, depth = self.lateral_sd_m[..., None, None] ** -2, self.depth_sd_m[..., None, None] ** -2
+        information = across * (np.eye(3) - outer) + depth * outer
+        is_seen = np.asarray(np.isfinite(self.disc_m).all(axis=-1))
+        return np.where(is_seen[..., None, None], information, 0.0)
+
+
+@dataclass(frozen=True, slots=True)
+class NeutralBasis:
+    """What a refinement starts from again, in axes of a right hand: the prior of the ``rays`` (5, 11), and the neutral
+    pose's ``disc_m`` (1, 21, 3) and ``information_m2`` (1, 21, 3, 3) without the absurd depths."""
+
+    prior: AnatomyPrior
+    rays: Gaussian
+    disc_m: FloatArray
+    information_m2: FloatArray
+
+
+@dataclass(frozen=True, slots=True)
+class AnatomyFit:
+    """A subject's hand and how well it is known.
+
+    ``rays`` constants of the thumb and of fingers 2 to 5, mean (5, 11) and covariance (5, 11, 11), in the order of
+    ``RAY_CONSTANTS``; ``neutral_angles_rad`` and ``neutral_angles_sd_rad`` (J,) at the
+    neutral pose (zero is the straight chain); ``residual_m`` (21, 3) model minus measurement at the neutral pose;
+    ``absurd_depth`` markers whose depth was left out.
+    """
+
+    anatomy: HandAnatomy
+    rays: Gaussian
+    neutral_angles_rad: FloatArray
+    neutral_angles_sd_rad: FloatArray
+    residual_m: FloatArray
+    absurd_depth: tuple[str, ...]
+    dip_free: bool
+    basis: NeutralBasis
+
+
+def fit_anatomy(
+    seen: SeenDiscs, side: Side, *, dip_free: bool = False, skin_offsets: bool = True, prior: AnatomyPrior | None = None
+) -> AnatomyFit:
+    """The hand whose discs were measured at the neutral pose (F = 1); the palm's discs are taken as measured.
+
+    With ``skin_offsets=False`` discs are joints, as in the papers.
+    """
+    prior = prior or AnatomyPrior()
+    disc, information = _right_handed(seen, side)
+    blind = replace(seen, depth_sd_m=np.full_like(seen.depth_sd_m, np.inf))
+    across = _right_handed(blind, side)[1]
+    average = average_hand(disc[0], side, skin_offsets)
+    starts = list(HAND21.palm[1:])
+    rays = constants_prior(average, prior, seen.lateral_sd_m[0, starts], seen.depth_sd_m[0, starts])
+    absurd: list[str] = []
+    for ray, discs in enumerate(RAY_DISCS):
+        own = list(discs)
+        known = Gaussian(rays.mean[ray], rays.covariance[ray])
+        angles = neutral_prior(ray, prior, dip_free)
+        model = _ray_model(average, ray)
+        for i in _absurd_depths(model, known, angles, disc[:, own], information[:, own], across[:, own]):
+            information[:, own[i]] = across[:, own[i]]
+            absurd.append(HAND21.markers[own[i]])
+    basis = NeutralBasis(prior, rays, disc, information)
+    return _fitted(average, basis, tuple(absurd), dip_free, [])
+
+
+def refine_anatomy(fit: AnatomyFit, seen: SeenDiscs, angles_rad: FloatArray) -> AnatomyFit:
+    """The same hand from the neutral pose and F poses of movement, all that there are so far, not only new ones.
+
+    ``angles_rad`` (F, J) as tracked start the search and hold it within 25 degrees (one standard deviation).
+    """
+    disc, information = _right_handed(seen, fit.anatomy.side)
+    tracked = [angles_rad[:, :5], *np.moveaxis(finger_angles(angles_rad), 1, 0)]
+    movement = [
+        (angles, disc[:, list(own)], information[:, list(own)]) for angles, own in zip(tracked, RAY_DISCS, strict=True)
+    ]
+    return _fitted(fit.anatomy, fit.basis, fit.absurd_depth, fit.dip_free, movement)
+
+
+def _fitted(
+    hand: HandAnatomy,
+    basis: NeutralBasis,
+    absurd_depth: tuple[str, ...],
+    dip_free: bool,
+    movement: list[tuple[FloatArray, FloatArray, FloatArray]],
+) -> AnatomyFit:
+    """Fit each ray to the neutral pose and, where given, to its angles, discs and information of F poses more."""
+    fits = []
+    for ray, discs in enumerate(RAY_DISCS):
+        own = list(discs)
+        angles = neutral_prior(ray, basis.prior, dip_free)
+        disc, information = basis.disc_m[:, own], basis.information_m2[:, own]
+        if movement:
+            tracked, more_disc, more_information = movement[ray]
+            wide = angles_covariance(np.full(tracked.shape[1], _MOVING_RAD), ray, dip_free, _MOVING_RAD)
+            wide = np.broadcast_to(wide, (len(tracked), *wide.shape))
+            angles = Gaussian(np.concatenate((angles.mean, tracked)), np.concatenate((angles.covariance, wide)))
+            disc = np.concatenate((disc, more_disc))
+            information = np.concatenate((information, more_information))
+        known = Gaussian(basis.rays.mean[ray], basis.rays.covariance[ray])
+        fits.append(fit_ray(_ray_model(hand, ray), known, angles, disc, information))
+    rays = Gaussian(
+        np.stack([fit.constants.mean for fit in fits]), np.stack([fit.constants.covariance for fit in fits])
+    )
+    residual = np.zeros((21, 3))
+    for discs, fit in zip(RAY_DISCS, fits, strict=True):
+        residual[list(discs)] = fit.residual_m[0]
+    residual[~np.isfinite(basis.disc_m[0])] = np.nan
+    return AnatomyFit(
+        anatomy=with_constants(hand, rays.mean),
+        rays=rays,
+        neutral_angles_rad=_all_angles([fit.angles.mean[0] for fit in fits], dip_free),
+        neutral_angles_sd_rad=_all_angles([np.sqrt(np.diagonal(fit.angles.covariance[0])) for fit in fits], dip_free),
+        residual_m=residual * _mirror(hand.side),
+        absurd_depth=absurd_depth,
+        dip_free=dip_free,
+        basis=basis,
+    )
+
+
+def _mirror(side: Side) -> FloatArray:
+    return np.array([1.0, 1.0 if side == "right" else -1.0, 1.0])
+
+
+def _right_handed(seen: SeenDiscs, side: Side) -> tuple[FloatArray, FloatArray]:
+    """Discs (F, 21, 3) and their information (F, 21, 3, 3) in axes of a right hand."""
+    mirror = _mirror(side)
+    return seen.disc_m * mirror, seen.information_m2() * mirror[:, None] * mirror
+
+
+def _ray_model(hand: HandAnatomy, ray: int) -> RayModel:
+    disc = hand.palm_disc_m[1 + ray]
+    return finger_model(disc) if ray else thumb_model(disc)
+
+
+def _absurd_depths(
+    model: RayModel,
+    constants: Gaussian,
+    angles: Gaussian,
+    disc_m: FloatArray,
+    information_m2: FloatArray,
+    across_m2: FloatArray,
+) -> list[int]:
+    """Which of the three depths of a neutral ray no likely hand explains."""
+    absurd: list[int] = []
+    cost = fit_ray(model, constants, angles, disc_m, information_m2).cost
+    while cost > _ABSURD_COST and len(absurd) < 3:
+        without = {}
+        for i in set(range(3)) - set(absurd):
+            lighter = information_m2.copy()
+            lighter[:, [*absurd, i]] = across_m2[:, [*absurd, i]]
+            without[i] = fit_ray(model, constants, angles, disc_m, lighter).cost
+        best = min(without, key=lambda i: without[i])
+        if cost - without[best] < _ABSURD_GAIN:
+            break
+        cost = without[best]
+        absurd.append(best)
+    return absurd
+
+
+def _all_angles(per_ray: list[FloatArray], dip_free: bool) -> FloatArray:
+    """The 17 (21) angles from those of the five rays."""
+    return np.concatenate([per_ray[0]] + [ray if dip_free else ray[:3] for ray in per_ray[1:]])

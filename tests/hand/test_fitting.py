@@ -1,0 +1,252 @@
+"""Anatomy recovered from measured discs of synthetic hands: children to large, both sides, noise, gaps."""
+
+from __future__ import annotations
+
+import dataclasses
+import functools
+import math
+
+import numpy as np
+import pytest
+from scipy.optimize import least_squares
+
+from core.hand.anatomy import HandAnatomy, anatomy_from_size
+from core.hand.anatomy_prior import constants_of, with_constants
+from core.hand.fitting import AnatomyFit, SeenDiscs, fit_anatomy, refine_anatomy
+from core.hand.kinematics import disc_centres
+from core.hand.protocols import HAND21, joint_angle_names
+from core.types import FloatArray, Side
+
+NAMES = joint_angle_names()
+COUNT = 12
+LATERAL_M = 0.0003
+
+
+def _columns(prefix: str, suffix: str) -> list[int]:
+    return [i for i, name in enumerate(NAMES) if name.startswith(prefix) and name.endswith(suffix) and name[3] != "1"]
+
+
+def _person(seed: int, skin_offsets: bool = True) -> HandAnatomy:
+    """A hand with its own bones, fan, thumb and skin, 130 to 205 mm long."""
+    rng = np.random.default_rng(seed)
+    side: Side = "right" if seed % 2 else "left"
+    length_m = 0.130 + 0.075 * (seed % COUNT) / (COUNT - 1)
+    arch = float(rng.uniform(0.5, 1.5))
+    hand = anatomy_from_size(length_m, side=side, arch=arch, skin_offsets=skin_offsets, nail_discs=bool(seed % 3))
+    depth = (hand.palm_disc_m - hand.palm_joint_m)[:, 2] * rng.normal(1.0, 0.15, 6)
+    return dataclasses.replace(
+        hand,
+        palm_joint_m=hand.palm_disc_m - np.outer(depth, [0.0, 0.0, 1.0]),
+        finger_length_m=hand.finger_length_m * rng.normal(1.0, 0.06, (4, 3)),
+        thumb_length_m=hand.thumb_length_m * rng.normal(1.0, 0.06, 3),
+        fan_rad=hand.fan_rad + np.radians(rng.normal(0.0, [5.0, 3.0, 3.0, 3.0, 3.0])),
+        thumb_roll_rad=hand.thumb_roll_rad + math.radians(rng.normal(0.0, 6.0)),
+        finger_offset_m=hand.finger_offset_m * rng.normal(1.0, 0.15, (4, 3)),
+        thumb_offset_m=hand.thumb_offset_m * rng.normal(1.0, 0.15, 3),
+    )
+
+
+def _neutral(seed: int) -> FloatArray:
+    """Angles of a hand lying almost straight."""
+    rng = np.random.default_rng(1000 + seed)
+    angles = np.zeros(17)
+    angles[:5] = np.radians(rng.normal(0.0, [3.0, 5.0, 6.0, 2.0, 5.0]))
+    angles[_columns("MCP", "abduction")] = np.radians(rng.normal(0.0, 1.0, 4))
+    angles[_columns("MCP", "flexion")] = np.radians(rng.normal(3.0, 4.0, 4))
+    angles[_columns("PIP", "flexion")] = np.radians(np.abs(rng.normal(4.0, 4.0, 4)))
+    return angles
+
+
+def _fist(count: int) -> FloatArray:
+    """A composite fist and a moving thumb, opened again; (count, 17)."""
+    closing = np.sin(np.pi * np.linspace(0.0, 1.0, count)) ** 2
+    angles = np.zeros((count, 17))
+    angles[:, _columns("MCP", "flexion")] = (math.radians(70.0) * closing)[:, None]
+    angles[:, _columns("PIP", "flexion")] = (math.radians(80.0) * closing)[:, None]
+    angles[:, 0] = math.radians(15.0) * np.sin(2.0 * np.pi * np.linspace(0.0, 1.0, count))
+    angles[:, 1:5] = closing[:, None] * np.radians([30.0, 40.0, 0.0, 50.0])
+    return angles
+
+
+def _seen(hand: HandAnatomy, angles: FloatArray, seed: int, depth_sd_m: float) -> SeenDiscs:
+    """The discs as a camera above the hand measures them; the wrist frame is given by WRIST and MCP3."""
+    discs = disc_centres(hand, np.atleast_2d(angles))
+    noise = np.random.default_rng(2000 + seed).normal(0.0, [LATERAL_M, LATERAL_M, depth_sd_m], discs.shape)
+    noise[:, [HAND21.markers.index("WRIST"), HAND21.markers.index("MCP3")]] = 0.0
+    ones = np.ones(discs.shape[:2])
+    view = np.broadcast_to([0.0, 0.0, -1.0], discs.shape)
+    return SeenDiscs(discs + noise, view, LATERAL_M * ones, depth_sd_m * ones)
+
+
+@functools.cache
+def _calibrated(seed: int, depth_sd_m: float = 0.001) -> AnatomyFit:
+    hand = _person(seed)
+    return fit_anatomy(_seen(hand, _neutral(seed), seed, depth_sd_m), hand.side)
+
+
+@functools.cache
+def _refined(seed: int) -> AnatomyFit:
+    tracked = _fist(16) + np.random.default_rng(seed).normal(0.0, 0.08, (16, 17))
+    return refine_anatomy(_calibrated(seed), _seen(_person(seed), _fist(16), seed + 500, 0.002), tracked)
+
+
+def _angle_errors_deg(truth: HandAnatomy, found: HandAnatomy) -> FloatArray:
+    """What the found hand reads from perfectly measured discs of the true one, minus the truth; (3 poses, 17)."""
+    errors = []
+    for angles in _fist(7)[[1, 2, 3]]:
+        discs = disc_centres(truth, angles)
+        read = least_squares(lambda q, discs=discs: (1e3 * (disc_centres(found, q) - discs)).ravel(), angles).x
+        errors.append(np.degrees(read - angles))
+    return np.array(errors)
+
+
+def _pooled_deg(fits: list[AnatomyFit], truths: list[HandAnatomy], columns: list[int]) -> float:
+    errors = [_angle_errors_deg(truth, fit.anatomy) for truth, fit in zip(truths, fits, strict=True)]
+    return float(np.sqrt(np.mean(np.square(np.array(errors)[:, :, columns]))))
+
+
+@pytest.mark.parametrize("depth_sd_m", [0.0005, 0.0015])
+def test_flexion_read_after_one_neutral_pose(depth_sd_m: float) -> None:
+    truths = [_person(seed) for seed in range(COUNT)]
+    fits = [_calibrated(seed, depth_sd_m) for seed in range(COUNT)]
+    assert _pooled_deg(fits, truths, _columns("MCP", "flexion")) < 2.5
+    assert _pooled_deg(fits, truths, _columns("PIP", "flexion")) < 4.2
+
+
+def test_movement_sharpens_the_hand() -> None:
+    truths = [_person(seed) for seed in range(COUNT)]
+    before, after = [_calibrated(seed) for seed in range(COUNT)], [_refined(seed) for seed in range(COUNT)]
+    for columns, limit_deg in [
+        (_columns("MCP", "flexion"), 1.6),
+        (_columns("PIP", "flexion"), 2.4),
+        ([NAMES.index("MCP1_flexion"), NAMES.index("IP1_flexion")], 3.0),
+    ]:
+        refined_deg = _pooled_deg(after, truths, columns)
+        assert refined_deg < limit_deg
+        assert refined_deg < _pooled_deg(before, truths, columns)
+
+
+@pytest.mark.parametrize("refined", [False, True])
+def test_stated_uncertainty_of_lengths_covers_the_truth(refined: bool) -> None:
+    scores = []
+    for seed in range(COUNT):
+        fit = _refined(seed) if refined else _calibrated(seed)
+        sd = np.sqrt(np.diagonal(fit.rays.covariance, axis1=1, axis2=2))
+        scores.append(((fit.rays.mean - constants_of(_person(seed))) / sd)[1:, :3])
+    assert 0.5 < np.sqrt(np.mean(np.square(scores))) < 1.4
+    assert np.mean(np.abs(scores) < 2.0) > 0.9
+
+
+def test_stated_uncertainty_of_the_neutral_angles_covers_the_truth() -> None:
+    fits = [_calibrated(seed) for seed in range(COUNT)]
+    scores = [(fit.neutral_angles_rad - _neutral(seed)) / fit.neutral_angles_sd_rad for seed, fit in enumerate(fits)]
+    assert np.mean(np.abs(scores) < 2.0) > 0.9
+    assert np.sqrt(np.mean(np.square(scores))) > 0.4
+
+
+def test_bent_neutral_pose_is_not_taken_as_straight() -> None:
+    hand, angles = _person(5), _neutral(5)
+    angles[NAMES.index("PIP3_flexion")] = math.radians(25.0)
+    fit = fit_anatomy(_seen(hand, angles, 5, 0.0005), hand.side)
+    assert np.degrees(fit.neutral_angles_rad[NAMES.index("PIP3_flexion")]) == pytest.approx(25.0, abs=6.0)
+    assert fit.absurd_depth == ()
+
+
+def test_left_hand_is_the_mirror_of_the_right() -> None:
+    seen = _seen(_person(3), _neutral(3), 3, 0.001)
+    mirrored = dataclasses.replace(seen, disc_m=seen.disc_m * [1.0, -1.0, 1.0])
+    right, left = fit_anatomy(seen, "right"), fit_anatomy(mirrored, "left")
+    assert np.allclose(right.neutral_angles_rad, left.neutral_angles_rad, atol=1e-9)
+    assert np.allclose(right.anatomy.finger_length_m, left.anatomy.finger_length_m, atol=1e-9)
+    assert np.allclose(right.residual_m * [1.0, -1.0, 1.0], left.residual_m, atol=1e-9)
+
+
+def test_missing_depth_and_missing_disc_are_told_by_the_uncertainty() -> None:
+    hand, seen = _person(7), _seen(_person(7), _neutral(7), 7, 0.0005)
+    no_depth, no_disc = HAND21.markers.index("DIP3"), HAND21.markers.index("TIP4")
+    depth_sd, disc = seen.depth_sd_m.copy(), seen.disc_m.copy()
+    depth_sd[:, no_depth] = np.inf
+    disc[:, no_depth, 2] += 0.030  # anywhere on the line of sight
+    disc[:, no_disc] = np.nan
+    whole = fit_anatomy(seen, hand.side)
+    partial = fit_anatomy(dataclasses.replace(seen, disc_m=disc, depth_sd_m=depth_sd), hand.side)
+    assert np.all(np.isfinite(partial.neutral_angles_rad))
+    assert np.isnan(partial.residual_m[no_disc]).all()
+    assert partial.absurd_depth == ()
+    for name in ("PIP3_flexion", "PIP4_flexion"):
+        joint = NAMES.index(name)
+        assert partial.neutral_angles_sd_rad[joint] > whole.neutral_angles_sd_rad[joint]
+        assert abs(partial.neutral_angles_rad[joint] - whole.neutral_angles_rad[joint]) < math.radians(8.0)
+    ring, last_bone = 3, 2
+    assert partial.rays.covariance[ring, last_bone, last_bone] > 4.0 * whole.rays.covariance[ring, last_bone, last_bone]
+
+
+@pytest.mark.parametrize("marker", ["TIP2", "DIP4", "TIP1"])
+def test_absurd_depth_is_left_out_and_named(marker: str) -> None:
+    hand, seen = _person(8), _seen(_person(8), _neutral(8), 8, 0.0005)
+    disc = seen.disc_m.copy()
+    disc[:, HAND21.markers.index(marker), 2] -= 0.035  # the table instead of the finger
+    fit = fit_anatomy(dataclasses.replace(seen, disc_m=disc), hand.side)
+    assert fit.absurd_depth == (marker,)
+    off_deg = np.degrees(fit.neutral_angles_rad - _neutral(8))
+    assert np.max(np.abs(off_deg[5:])) < 12.0
+
+
+def test_chain_of_the_papers_has_no_offsets() -> None:
+    hand = _person(9, skin_offsets=False)
+    fit = fit_anatomy(_seen(hand, _neutral(9), 9, 0.0003), hand.side, skin_offsets=False)
+    assert np.allclose(fit.anatomy.skin_offset_m, 0.0, atol=1e-5)
+    flexions = _columns("MCP", "flexion") + _columns("PIP", "flexion")
+    assert np.allclose(fit.neutral_angles_rad[flexions], _neutral(9)[flexions], atol=math.radians(2.0))
+
+
+def test_movement_finds_that_discs_lie_in_the_joints() -> None:
+    """A hand drawn by the papers' chain, tracked with the default offsets, reads right once it has moved."""
+    hands = [_person(seed, skin_offsets=False) for seed in (1, 6, 10)]
+    fits = []
+    for seed, hand in zip((1, 6, 10), hands, strict=True):
+        neutral = fit_anatomy(_seen(hand, _neutral(seed), seed, 0.0005), hand.side)
+        fits.append(refine_anatomy(neutral, _seen(hand, _fist(16), seed + 500, 0.002), _fist(16)))
+    assert _pooled_deg(fits, hands, _columns("MCP", "flexion")) < 1.5
+    assert _pooled_deg(fits, hands, _columns("PIP", "flexion")) < 2.0
+
+
+def test_swapped_discs_do_not_spoil_a_refinement() -> None:
+    hand, fit = _person(4), _calibrated(4)
+    seen = _seen(hand, _fist(16), 504, 0.002)
+    disc = seen.disc_m.copy()
+    swap = [HAND21.markers.index("DIP2"), HAND21.markers.index("DIP3")]
+    disc[[5, 9]] = np.where(np.isin(np.arange(21), swap)[:, None], disc[[5, 9]][:, _swapped(swap)], disc[[5, 9]])
+    refined = refine_anatomy(fit, dataclasses.replace(seen, disc_m=disc), _fist(16))
+    assert _pooled_deg([refined], [hand], _columns("PIP", "flexion")) < 3.0
+    assert _pooled_deg([refined], [hand], _columns("MCP", "flexion")) < 3.0
+
+
+def _swapped(pair: list[int]) -> list[int]:
+    order = list(range(21))
+    order[pair[0]], order[pair[1]] = pair[1], pair[0]
+    return order
+
+
+def test_constants_and_anatomy_are_two_forms_of_one_hand() -> None:
+    hand = _person(2)
+    again = with_constants(hand, constants_of(hand))
+    for field in dataclasses.fields(hand):
+        value = getattr(hand, field.name)
+        assert value == again.side if field.name == "side" else np.allclose(value, getattr(again, field.name)), (
+            field.name
+        )
+    moved = constants_of(hand)
+    moved[2, 5] += 0.004
+    assert np.linalg.norm(with_constants(hand, moved).palm_joint_m[3] - hand.palm_joint_m[3]) == pytest.approx(0.004)
+
+
+def test_free_end_joint_is_found_beside_the_middle_one() -> None:
+    hand, free = _person(11), np.zeros(21)
+    names = joint_angle_names(dip_free=True)
+    free[names.index("DIP2_flexion")] = math.radians(20.0)
+    fit = fit_anatomy(_seen(hand, free, 11, 0.0005), hand.side, dip_free=True)
+    assert fit.neutral_angles_rad.shape == (21,)
+    bent, straight = names.index("DIP2_flexion"), names.index("DIP3_flexion")
+    assert fit.neutral_angles_rad[bent] - fit.neutral_angles_rad[straight] > math.radians(7.0)
+    assert np.all(np.abs(fit.neutral_angles_rad - free) < 3.0 * fit.neutral_angles_sd_rad)
