@@ -34,20 +34,30 @@ class AssociationSettings:
     depth_range_m: float = 0.5
 
 
-def _inverse_and_log_det(s: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Inverse and log-determinant of symmetric (..., d, d), d = 2 or 3, in closed form."""
+def _distance2(s: FloatArray, difference: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Squared Mahalanobis distances and log-determinants for symmetric (..., d, d), d = 2 or 3, closed form."""
+    x, y = difference[..., 0], difference[..., 1]
+    a, b, d = s[..., 0, 0], s[..., 0, 1], s[..., 1, 1]
     if s.shape[-1] == 2:
-        a, b, d = s[..., 0, 0], s[..., 0, 1], s[..., 1, 1]
         det = a * d - b * b
-        inverse = np.stack((np.stack((d, -b), -1), np.stack((-b, a), -1)), -2) / det[..., None, None]
-        return inverse, np.log(det)
-    a, b, c = s[..., 0, 0], s[..., 0, 1], s[..., 0, 2]
-    d, e, f = s[..., 1, 1], s[..., 1, 2], s[..., 2, 2]
+        return (d * x * x - 2.0 * b * x * y + a * y * y) / det, np.log(det)
+    z, c, e, f = difference[..., 2], s[..., 0, 2], s[..., 1, 2], s[..., 2, 2]
     aa, bb, cc = d * f - e * e, c * e - b * f, b * e - c * d
-    det = a * aa + b * bb + c * cc
     dd, ee, ff = a * f - c * c, b * c - a * e, a * d - b * b
-    rows = (np.stack((aa, bb, cc), -1), np.stack((bb, dd, ee), -1), np.stack((cc, ee, ff), -1))
-    return np.stack(rows, -2) / det[..., None, None], np.log(det)
+    det = a * aa + b * bb + c * cc
+    square = aa * x * x + dd * y * y + ff * z * z + 2.0 * (bb * x * y + cc * x * z + ee * y * z)
+    return square / det, np.log(det)
+
+
+@dataclass(frozen=True, slots=True)
+class LogOdds:
+    """Log of (12) for marker j over (12) for clutter, (M, D); ``IMPOSSIBLE`` outside the gate.
+
+    ``with_depth``: whether the blob's depth is believed; where not, it is the depth of something else.
+    """
+
+    value: FloatArray
+    with_depth: NDArray[np.bool_]
 
 
 def log_odds(
@@ -56,31 +66,34 @@ def log_odds(
     measured: FloatArray,
     noise_variance: FloatArray,
     resolution_px2: float,
+    depth_outlier: float,
     settings: AssociationSettings,
-) -> FloatArray:
-    """Log of (12) for marker j over (12) for clutter, (M, D); ``IMPOSSIBLE`` outside the gate.
+) -> LogOdds:
+    """Odds of every marker and blob.
 
     ``predicted`` (M, 3) and ``covariance`` (M, 3, 3): pixel u, v and depth m; ``measured`` (D, 3), its depth
     NaN where unknown (then only the pixel counts, and clutter's density is 1/RES);
-    ``noise_variance`` (D, 3).
+    ``noise_variance`` (D, 3). A disc whose depth is of something before or behind it is still that disc,
+    with the chance ``depth_outlier``.
     """
-    out = np.full((predicted.shape[0], measured.shape[0]), IMPOSSIBLE)
+    s = covariance[:, None] + np.zeros((1, measured.shape[0], 1, 1))
+    axes = np.arange(3)
+    s[..., axes, axes] += noise_variance
+    difference = measured - predicted[:, None, :]
     has_depth = np.isfinite(measured[:, 2])
     prior = np.log(settings.prior_marker) - np.log(settings.prior_clutter)
-    for mask, d in ((has_depth, 3), (~has_depth, 2)):
-        if not mask.any():
-            continue
-        s = covariance[:, None, :d, :d] + np.zeros((1, int(mask.sum()), 1, 1))
-        axes = np.arange(d)
-        s[..., axes, axes] += noise_variance[mask][None, :, :d]
-        inverse, log_det = _inverse_and_log_det(s)
-        difference = measured[mask][None, :, :d] - predicted[:, None, :d]
-        distance2 = np.einsum("mdi,mdij,mdj->md", difference, inverse, difference)
-        log_normal = -0.5 * (distance2 + log_det + d * np.log(2.0 * np.pi))
-        log_clutter = -np.log(resolution_px2) - (np.log(settings.depth_range_m) if d == 3 else 0.0)
-        odds = log_normal - log_clutter + prior
-        out[:, mask] = np.where(distance2 <= settings.gate_sd**2, odds, IMPOSSIBLE)
-    return out
+    flat2, flat_log_det = _distance2(s[..., :2, :2], difference[..., :2])
+    flat = prior + np.log(resolution_px2) - 0.5 * (flat2 + flat_log_det) - np.log(2.0 * np.pi)
+    flat = np.where(has_depth, flat + np.log(depth_outlier), flat)
+    gate2 = settings.gate_sd**2
+    flat = np.where(flat2 <= gate2, flat, IMPOSSIBLE)
+    if not has_depth.any():
+        return LogOdds(flat, np.zeros(flat.shape, dtype=bool))
+    full2, full_log_det = _distance2(s, np.where(has_depth[:, None], difference, 0.0))
+    full = prior + np.log(resolution_px2 * settings.depth_range_m) - 0.5 * (full2 + full_log_det)
+    full = full - 1.5 * np.log(2.0 * np.pi)
+    full = np.where(has_depth & (full2 <= gate2), full, IMPOSSIBLE)
+    return LogOdds(np.maximum(full, flat), full >= flat)
 
 
 def posterior(odds: FloatArray) -> FloatArray:

@@ -16,6 +16,7 @@ from core.calibration.result import Calibration
 from core.camera import Camera
 from core.tracking import association, modes
 from core.tracking.geometry import geometry_for
+from core.tracking.joint_association import associate_jointly, holds_together
 from core.tracking.measurement import Forecast, View, forecast_augmented, forecast_of, forecast_reduced, update
 from core.tracking.reacquire import find_palm
 from core.tracking.readout import Readout, lost_readout
@@ -49,6 +50,27 @@ class FilterStep:
     linked: bool
 
 
+@dataclass(frozen=True, slots=True)
+class _Measurable:
+    value: FloatArray
+    variance: FloatArray
+
+
+@dataclass(frozen=True, slots=True)
+class _Names:
+    taken: NDArray[np.int64]
+    with_depth: NDArray[np.bool_]
+
+
+@dataclass(frozen=True, slots=True)
+class _Corrected:
+    beliefs: Belief
+    probability: FloatArray
+    names: _Names
+    nis: float
+    nis_dof: int
+
+
 class Tracker:
     """Tracks one calibrated hand through frames in order of time."""
 
@@ -70,7 +92,6 @@ class Tracker:
         self._probability = np.ones(self._scales.size) / self._scales.size
         self._time_s: float | None = None
         self._seen_s = 0.0
-        self._unsure_frames = 0
         self._forecast: tuple[float, Forecast, FloatArray] | None = None
         self.history: list[FilterStep] = []
         self.begin_at_neutral()
@@ -144,17 +165,27 @@ class Tracker:
             return lost_readout(index, timestamp_s, detections, dropped_before, marker_count, self._share())
         forecast, predicted = self._forecast_at(timestamp_s)
         marker_mean, marker_covariance = _merged_markers(forecast, predicted)
-        rows, values, variances, taken = self._choose(marker_mean, marker_covariance, ideal)
-        beliefs, innovation = update(forecast, rows, values, variances, self.layout)
-        probability = modes.reweigh(predicted, innovation.log_likelihood) if rows.size else predicted
-        self._beliefs, self._probability = beliefs, probability
+        blobs = self._measurable(marker_mean, ideal)
+        corrected = self._associate(forecast, predicted, marker_mean, marker_covariance, blobs)
+        seen = self._palm_seen(corrected)
+        if seen <= LEAST_PALM_MARKERS and len(ideal) > seen:
+            # Too little of the palm is where it was expected: perhaps it is plainly elsewhere.
+            found = find_palm(ideal, self.view, self.settings)
+            if found is not None and found[2] > seen:
+                self._begin(self._belief_found(*found[:2]))
+                forecast = forecast_of(self._beliefs, self.layout, self.view, self.settings.spread)
+                predicted, linked = self._probability, False
+                marker_mean, marker_covariance = _merged_markers(forecast, predicted)
+                corrected = self._associate(forecast, predicted, marker_mean, marker_covariance, blobs)
+        taken, probability = corrected.names.taken, corrected.probability
+        self._beliefs, self._probability = corrected.beliefs, probability
         self._forecast = None
-        merged = modes.merge(beliefs, probability, self.layout)
+        merged = modes.merge(corrected.beliefs, probability, self.layout)
         self._shape, self._shape_covariance = merged.shape, merged.covariance[self.layout.shape, self.layout.shape]
         used = np.flatnonzero(taken >= 0)
         measured_px[used] = detections.pixel[taken[used]]
         measured_depth_m[used] = detections.depth_m[taken[used]]
-        palm_seen = int(np.count_nonzero(taken[self._palm] >= 0))
+        palm_seen = self._palm_seen(corrected)
         status = TrackStatus.TRACKED if palm_seen >= LEAST_PALM_MARKERS else TrackStatus.PREDICTED
         dt_s = 0.0 if self._time_s is None else timestamp_s - self._time_s
         self._time_s = timestamp_s
@@ -179,51 +210,73 @@ class Tracker:
             detections=detections,
             dropped_before=dropped_before,
             measured_share=self._share(),
-            nis=float(probability @ innovation.nis) if rows.size else float("nan"),
-            nis_dof=innovation.dof,
+            nis=corrected.nis,
+            nis_dof=corrected.nis_dof,
         )
-        self._look_out(timestamp_s, status, ideal, palm_seen)
-        if self._beliefs is None and status is TrackStatus.PREDICTED:
+        if timestamp_s - self._seen_s > self.settings.lost_after_s:
+            self._beliefs = None
             self.history[-1] = FilterStep(timestamp_s, None, 1.0, False)
             return lost_readout(index, timestamp_s, detections, dropped_before, marker_count, self._share())
         return tracked
 
-    def _choose(
-        self, marker_mean: FloatArray, marker_covariance: FloatArray, ideal: Detections
-    ) -> tuple[NDArray[np.int64], FloatArray, FloatArray, NDArray[np.int64]]:
-        """Rows, values and variances of the measurements taken, and the blob of every marker."""
-        settings = self.settings
-        noise, use_depth = settings.noise, settings.use_depth
-        depth = ideal.depth_m if use_depth else np.full_like(ideal.depth_m, np.nan)
-        radius_px = self.view.camera.fx_px * settings.marker_radius_m / np.maximum(marker_mean[:, 2], 0.1)
-        shown = np.clip(ideal.area_px / (np.pi * float(np.median(radius_px)) ** 2), 0.0, 1.0)
-        wander_px = noise.shade_share * float(np.median(radius_px)) * np.clip(0.6 - shown, 0.0, None)
+    def _measurable(self, marker_mean: FloatArray, ideal: Detections) -> _Measurable:
+        """Blobs as measurements (D, 3) with their noise variances (D, 3)."""
+        noise = self.settings.noise
+        depth = ideal.depth_m if self.settings.use_depth else np.full_like(ideal.depth_m, np.nan)
+        radius_px = self.view.camera.fx_px * self.settings.marker_radius_m / max(float(marker_mean[0, 2]), 0.1)
+        shown = ideal.area_px / (np.pi * radius_px**2)
+        wander_px = noise.shade_share * radius_px * np.maximum(0.6 - shown, 0.0)
         pixel_variance = noise.pixel_sd_px**2 + wander_px**2
         depth_variance = np.where(np.isfinite(depth), ideal.depth_sd_m, 1.0) ** 2 + noise.depth_sd_m**2
         variance = np.stack((pixel_variance, pixel_variance, depth_variance), axis=1)
-        measured = np.column_stack((ideal.pixel, depth))
+        return _Measurable(np.column_stack((ideal.pixel, depth)), variance)
+
+    def _corrected(self, forecast: Forecast, predicted: FloatArray, blobs: _Measurable, names: _Names) -> _Corrected:
+        """All modes corrected by the blobs as named, and how well the whole hangs together."""
+        marker = np.flatnonzero(names.taken >= 0)
+        axes = np.array([0, 1, 2])
+        used = (axes[None, :] < 2) | names.with_depth[marker, None]
+        rows = (3 * marker[:, None] + axes)[used]
+        blob = names.taken[marker]
+        beliefs, innovation = update(forecast, rows, blobs.value[blob][used], blobs.variance[blob][used], self.layout)
+        if rows.size == 0:
+            return _Corrected(beliefs, predicted, names, float("nan"), 0)
+        probability = modes.reweigh(predicted, innovation.log_likelihood)
+        return _Corrected(beliefs, probability, names, float(probability @ innovation.nis), innovation.dof)
+
+    def _associate(
+        self, forecast: Forecast, predicted: FloatArray, mean: FloatArray, covariance: FloatArray, blobs: _Measurable
+    ) -> _Corrected:
+        """Names by (12); where they do not hold together, the most probable names of all blobs jointly."""
+        settings = self.settings
         odds = association.log_odds(
-            marker_mean, marker_covariance, measured, variance, self._resolution_px2, settings.association
+            mean,
+            covariance,
+            blobs.value,
+            blobs.variance,
+            self._resolution_px2,
+            settings.noise.depth_outlier,
+            settings.association,
         )
-        without_depth = np.column_stack((ideal.pixel, np.full(len(ideal), np.nan)))
-        rows: list[int] = []
-        values: list[float] = []
-        variances: list[float] = []
-        odds_flat = association.log_odds(
-            marker_mean, marker_covariance, without_depth, variance, self._resolution_px2, settings.association
+        taken = association.resolve(odds.value)
+        with_depth = odds.with_depth[np.arange(taken.size), taken] if len(blobs.value) else np.zeros(taken.size, bool)
+        simple = self._corrected(forecast, predicted, blobs, _Names(taken, with_depth & (taken >= 0)))
+        missing = np.count_nonzero(taken < 0)
+        free = len(blobs.value) - (taken.size - missing)
+        enough = np.count_nonzero(taken[self._palm] >= 0) > LEAST_PALM_MARKERS or free == 0
+        if holds_together(simple.nis, simple.nis_dof) and enough:
+            return simple
+        all_mean, all_covariance = _joint_markers(forecast, predicted)
+        found = associate_jointly(
+            all_mean,
+            all_covariance,
+            blobs.value,
+            blobs.variance,
+            self._resolution_px2,
+            settings.noise.depth_outlier,
+            settings.association,
         )
-        # A disc whose depth is of something before or behind it is still that disc, if rarely.
-        astray = np.where(odds_flat > association.IMPOSSIBLE, odds_flat + np.log(noise.depth_outlier), odds_flat)
-        taken = association.resolve(np.maximum(odds, astray))
-        for marker, blob in enumerate(taken):
-            if blob < 0:
-                continue
-            with_depth = bool(np.isfinite(depth[blob])) and odds[marker, blob] >= astray[marker, blob]
-            for axis in range(3 if with_depth else 2):
-                rows.append(3 * marker + axis)
-                values.append(measured[blob, axis])
-                variances.append(variance[blob, axis])
-        return np.array(rows, dtype=np.int64), np.array(values), np.array(variances), taken
+        return self._corrected(forecast, predicted, blobs, _Names(found.taken, found.with_depth))
 
     def _fade(self, dt_s: float) -> None:
         """An unseen hand is not taken to go on for ever: its velocity fades, its uncertainty grows."""
@@ -235,20 +288,8 @@ class Tracker:
             rate_rad_s=self._beliefs.rate_rad_s * keep,
         )
 
-    def _look_out(self, timestamp_s: float, status: TrackStatus, ideal: Detections, palm_seen: int) -> None:
-        """Give up a track that no picture supports, and take up a better one where the palm plainly is."""
-        if status is TrackStatus.TRACKED and palm_seen >= LEAST_PALM_MARKERS + 1:
-            self._unsure_frames = 0
-            return
-        self._unsure_frames += 1
-        if timestamp_s - self._seen_s > self.settings.lost_after_s:
-            self._beliefs = None
-            return
-        if self._unsure_frames >= 3 and len(ideal) > palm_seen + 1:
-            found = find_palm(ideal, self.view, self.settings)
-            if found is not None and found[2] > max(palm_seen, LEAST_PALM_MARKERS):
-                self._begin(self._belief_found(*found[:2]))
-                self._unsure_frames = 0
+    def _palm_seen(self, corrected: _Corrected) -> int:
+        return int(np.count_nonzero(corrected.names.taken[self._palm] >= 0))
 
     def _belief_found(self, position_m: FloatArray, rotation_w2_w0: FloatArray) -> Belief:
         initial = replace(self.settings.initial, position_m=0.004, turn_rad=0.08, velocity_m_s=0.5, rate_rad_s=2.0)
@@ -276,6 +317,16 @@ def _merged_markers(forecast: Forecast, probability: FloatArray) -> tuple[FloatA
     apart = forecast.marker_mean - mean
     between = np.einsum("k,kmi,kmj->mij", probability, apart, apart)
     return mean, np.tensordot(probability, forecast.marker_covariance, axes=1) + between
+
+
+def _joint_markers(forecast: Forecast, probability: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Mean (3M,) and covariance (3M, 3M) of all markers' measurements together."""
+    flat = forecast.marker_deviation.reshape(*forecast.marker_deviation.shape[:-2], -1)
+    covariance = np.swapaxes(flat * forecast.weight[:, None], -1, -2) @ flat
+    means = forecast.marker_mean.reshape(probability.size, -1)
+    mean = probability @ means
+    apart = means - mean
+    return mean, np.tensordot(probability, covariance, axes=1) + (apart.T * probability) @ apart
 
 
 def _stack_forecasts(forecasts: list[Forecast]) -> Forecast:
