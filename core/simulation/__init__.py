@@ -1,0 +1,1 @@
+"""The simulated patient: synthetic RGB-D recordings and measurements with their true values."""

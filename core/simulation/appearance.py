@@ -1,0 +1,126 @@
+"""Colours, light and table of one recording, in linear light."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import cv2
+import numpy as np
+
+from core.camera import Camera
+from core.simulation.scene import Scene
+from core.simulation.spec import Stream
+from core.simulation.trace import FloatImage
+from core.types import FloatArray
+
+# Skin of Fitzpatrick types I to VI, sRGB.
+SKIN_TONES_SRGB = np.array(
+    [[238, 200, 180], [226, 178, 150], [202, 149, 117], [166, 112, 82], [118, 77, 55], [80, 53, 41]], dtype=np.float64
+)
+PAPER_BLUE_SRGB = np.array([38.0, 72.0, 165.0])
+_SLEEVES_SRGB = {"grey": (95.0, 98.0, 104.0), "white": (215.0, 213.0, 207.0), "blue": (40.0, 66.0, 140.0)}
+_WOODS_SRGB = np.array([[170.0, 128.0, 88.0], [120.0, 84.0, 56.0], [205.0, 175.0, 135.0]])
+_PLAIN_SRGB = np.array([[205.0, 205.0, 200.0], [140.0, 146.0, 148.0], [92.0, 100.0, 96.0]])
+
+# Brightness of the picture and electrons at full scale: how much light there is, and so how much noise.
+LIGHTS = {"bright": (0.95, 7000.0), "normal": (0.72, 3000.0), "dim": (0.34, 900.0)}
+READ_NOISE_ELECTRONS = 9.0
+
+
+def linear(srgb: FloatArray) -> FloatArray:
+    """Linear light 0 to 1 of sRGB values 0 to 255."""
+    c = np.asarray(srgb) / 255.0
+    return np.asarray(np.where(c <= 0.04045, c / 12.92, ((c + 0.055) / 1.055) ** 2.4))
+
+
+@dataclass(frozen=True, slots=True)
+class Appearance:
+    """Linear colours (3,) of skin, paper, sleeve and thing; ``sleeve_start_m`` from the wrist along the forearm,
+    None without sleeve; unit ``light_cam`` (3,) from the surface to the lamp; ``lamp`` and ``ambient`` (3,)
+    strengths; ``electrons`` at full scale; ``blur_px`` of the lens."""
+
+    skin: FloatArray
+    paper: FloatArray
+    sleeve: FloatArray
+    sleeve_start_m: float | None
+    thing: FloatArray
+    light_cam: FloatArray
+    lamp: FloatArray
+    ambient: FloatArray
+    electrons: float
+    blur_px: float
+    table: FloatImage
+    table_depth_m: FloatImage
+
+
+def appearance_of(scene: Scene) -> Appearance:
+    """Draw the looks of a recording; the table is painted once."""
+    spec = scene.spec
+    rng = np.random.default_rng([spec.seed, Stream.SCENE, 1])
+    tone = int(rng.integers(6)) if spec.skin_tone is None else spec.skin_tone
+    light = ("bright", "normal", "normal", "dim")[int(rng.integers(4))] if spec.light == "drawn" else spec.light
+    sleeve_drawn = ("none", "grey", "white")[int(rng.integers(3))]
+    sleeve = sleeve_drawn if spec.sleeve == "drawn" else spec.sleeve
+    sleeve_start = rng.uniform(0.045, 0.09)
+    level, electrons = LIGHTS[light]
+    warmth = rng.uniform(-0.08, 0.10)
+    white = np.array([1.0 + warmth, 1.0, 1.0 - warmth])
+    side = rng.uniform(0.25, 0.75)
+    heading = rng.uniform(0.0, 2.0 * math.pi)
+    to_lamp = np.array([side * math.cos(heading), side * math.sin(heading), -1.0])
+    to_lamp = to_lamp / np.linalg.norm(to_lamp)
+    lamp_share = rng.uniform(0.45, 0.65)
+    depth = table_depth(scene.camera, scene)
+    table = _table_albedo(scene, depth, rng)
+    return Appearance(
+        skin=linear(SKIN_TONES_SRGB[tone] * rng.uniform(0.96, 1.04, 3)),
+        paper=linear(PAPER_BLUE_SRGB * rng.uniform(0.85, 1.15, 3)),
+        sleeve=linear(np.array(_SLEEVES_SRGB.get(sleeve, _SLEEVES_SRGB["grey"])) * rng.uniform(0.85, 1.1)),
+        sleeve_start_m=None if sleeve == "none" else sleeve_start,
+        thing=linear(np.array([150.0, 140.0, 130.0]) * rng.uniform(0.4, 1.3)),
+        light_cam=to_lamp,
+        lamp=level * lamp_share * 1.25 * white,
+        ambient=level * (1.0 - lamp_share) * 1.25 * white,
+        electrons=electrons,
+        blur_px=rng.uniform(0.5, 0.75),
+        table=table,
+        table_depth_m=depth,
+    )
+
+
+def table_depth(camera: Camera, scene: Scene) -> FloatImage:
+    """Depth of the table along z in every pixel, (H, W)."""
+    x = (np.arange(camera.width_px) - camera.cx_px) / camera.fx_px
+    y = (np.arange(camera.height_px) - camera.cy_px) / camera.fy_px
+    normal = scene.rotation_w0_cam[:, 2]
+    point = scene.to_camera(np.array([0.0, 0.0, scene.table_height_m]))
+    slope = normal[0] * x[None, :] + normal[1] * y[:, None] + normal[2]
+    return np.asarray((normal @ point) / slope, dtype=np.float32)
+
+
+def _table_albedo(scene: Scene, depth_m: FloatImage, rng: np.random.Generator) -> FloatImage:
+    """Painted table: wood, or plain with a fine grain, fixed in the room; (H, W, 3) linear."""
+    camera = scene.camera
+    kind = int(rng.integers(3))
+    u, v = np.meshgrid(np.arange(camera.width_px, dtype=np.float64), np.arange(camera.height_px, dtype=np.float64))
+    points = camera.back_project(np.stack((u, v), axis=-1), depth_m.astype(np.float64))
+    room = (points - scene.translation_w0_cam_m) @ scene.rotation_w0_cam
+    along, across = room[..., 0], room[..., 1]
+    turn = rng.uniform(0.0, math.pi)
+    along, across = math.cos(turn) * along - math.sin(turn) * across, math.sin(turn) * along + math.cos(turn) * across
+    if kind < 2:
+        base = linear(_WOODS_SRGB[int(rng.integers(3))])
+        bend = 0.01 * np.sin(along * 11.0 + rng.uniform(0, 6)) + 0.004 * np.sin(along * 37.0 + rng.uniform(0, 6))
+        grain = sum(
+            rng.uniform(0.3, 1.0) * np.sin((across + bend) * rate + rng.uniform(0.0, 6.0))
+            for rate in rng.uniform(90.0, 900.0, 6)
+        )
+        pattern = 1.0 + 0.055 * np.asarray(grain)
+    else:
+        base = linear(_PLAIN_SRGB[int(rng.integers(3))])
+        pattern = np.ones_like(along)
+    fine = cv2.GaussianBlur(rng.normal(size=along.shape).astype(np.float32), (0, 0), 1.2)
+    broad = cv2.GaussianBlur(rng.normal(size=along.shape).astype(np.float32), (0, 0), 25.0)
+    pattern = pattern + 0.06 * fine + 1.5 * broad
+    return np.asarray(base * pattern[..., None], dtype=np.float32)

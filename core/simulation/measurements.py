@@ -1,0 +1,147 @@
+"""Measurements without pictures: true projections and depths with the noise that the detector has on pictures.
+
+Thousands of frames a second, for statistics over many recordings. The constants were fitted to the detector's
+results on rendered pictures by :func:`core.simulation.noise_fit.fitted_noise`.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from core.simulation.patient import DISC_RADIUS_M
+from core.simulation.scene import Scene
+from core.simulation.sensor import depth_scale
+from core.simulation.spec import RecordingSpec, Stream
+from core.simulation.trouble import covered_discs, false_blobs, frame_times, passing_thing
+from core.simulation.truth import Truth, protocol_rows, truth_of
+from core.simulation.visibility import coarse_visibility
+from core.types import Detections, FloatArray
+
+CENTER_SD_PX = 0.10
+"""Of a blob's centre, per axis, independent from frame to frame."""
+CENTER_BIAS_PX = 0.08
+"""Of a marker's centre, per axis, constant over a recording (shading, lens, chroma)."""
+DEPTH_SD_PER_M2 = 1.1e-3
+"""Of a blob's depth, times the square of its distance, independent from frame to frame."""
+DEPTH_PATTERN_PER_M2 = 0.5e-3
+"""Of the pattern that stays with the place in the picture, times the square of the distance."""
+DEPTH_BIAS_M = 0.0005
+"""Of a marker's depth, constant over a recording: the matching window flattens knuckles."""
+_SIMILARITY = (0.93, 0.03)
+_PATTERN_CELL_PX = 9.0
+
+IntArray = NDArray[np.int64]
+
+
+@dataclass(frozen=True, slots=True)
+class MeasurementSequence:
+    """``detections`` of N frames, ``marker`` the row of the protocol each blob belongs to (-1: a false blob), the
+    true values, and the time of each frame."""
+
+    truth: Truth
+    detections: tuple[Detections, ...]
+    marker: tuple[IntArray, ...]
+
+
+def measurement_sequence(spec: RecordingSpec) -> MeasurementSequence:
+    """The blobs a detector would find in the recording of ``spec``, with its troubles, without rendering it.
+
+    In the first frame every disc is found, as the calibration needs it.
+    """
+    scene = Scene(spec)
+    times = frame_times(spec)
+    truth = truth_of(scene, times)
+    t = times.color_s
+    count, markers = truth.disc_pixel.shape[:2]
+    rng = spec.random(Stream.MEASUREMENTS)
+    rows = protocol_rows(spec)
+    pose = scene.pose(t)
+    share, facing = coarse_visibility(scene, pose, t, passing_thing(scene))
+    share, facing = share[:, rows], facing[:, rows]
+    seen = (share > 0.5) & ~covered_discs(spec, t)[:, rows]
+    truth = dataclasses.replace(truth, visible_share=np.where(seen, share, 0.0))
+
+    noise = _Noise(spec, scene, rng)
+    bias_px = rng.normal(0.0, CENTER_BIAS_PX, (markers, 2))
+    bias_m = rng.normal(0.0, DEPTH_BIAS_M, markers)
+    depth_pose = scene.pose(times.depth_s)
+    depth_true = scene.to_camera(scene.discs_w0_m(depth_pose)[:, rows])[..., 2]
+    pixel = noise.pixel(truth.disc_pixel + bias_px)
+    depth = noise.depth(truth.disc_pixel, depth_true + bias_m)
+    area = noise.area(truth.disc_position_cam_m[..., 2], DISC_RADIUS_M) * facing
+
+    false_px, false_z, false_radius, false_there = _false_places(scene, t)
+    false_pixel, false_depth = noise.pixel(false_px), noise.depth(false_px, false_z)
+    false_area = noise.area(false_z, false_radius)
+    detections, labels = [], []
+    for i in range(count):
+        real, spare = np.flatnonzero(seen[i]), np.flatnonzero(false_there[i])
+        order = rng.permutation(len(real) + len(spare))
+        pixels = np.concatenate((pixel[i, real], false_pixel[i, spare]))[order]
+        depths = np.concatenate((depth[i, real], false_depth[i, spare]))[order]
+        detections.append(
+            Detections(
+                pixel=pixels,
+                depth_m=depths,
+                depth_sd_m=DEPTH_SD_PER_M2 * depths**2,
+                area_px=np.concatenate((area[i, real], false_area[i, spare]))[order],
+                similarity=np.clip(rng.normal(*_SIMILARITY, len(order)), 0.0, 1.0),
+            )
+        )
+        labels.append(np.concatenate((real, np.full(len(spare), -1)))[order].astype(np.int64))
+    return MeasurementSequence(truth, tuple(detections), tuple(labels))
+
+
+class _Noise:
+    """Noise of one recording; the depth's pattern stays with the place in the picture."""
+
+    def __init__(self, spec: RecordingSpec, scene: Scene, rng: np.random.Generator) -> None:
+        self._rng = rng
+        self._on = 1.0 if spec.sensor_noise else 0.0
+        self._camera = scene.camera
+        self._scale = depth_scale(spec)
+        cells = (int(self._camera.height_px / _PATTERN_CELL_PX) + 1, int(self._camera.width_px / _PATTERN_CELL_PX) + 1)
+        self._pattern = rng.normal(size=cells)
+
+    def pixel(self, true_px: FloatArray) -> FloatArray:
+        return np.asarray(true_px + self._on * CENTER_SD_PX * self._rng.normal(size=true_px.shape))
+
+    def depth(self, true_px: FloatArray, true_m: FloatArray) -> FloatArray:
+        cell = np.nan_to_num(true_px / _PATTERN_CELL_PX).astype(np.int64)
+        column = np.clip(cell[..., 0], 0, self._pattern.shape[1] - 1)
+        row = np.clip(cell[..., 1], 0, self._pattern.shape[0] - 1)
+        random = (
+            DEPTH_SD_PER_M2 * self._rng.normal(size=true_m.shape) + DEPTH_PATTERN_PER_M2 * self._pattern[row, column]
+        )
+        return np.asarray(self._scale * (true_m + self._on * random * true_m**2))
+
+    def area(self, depth_m: FloatArray, radius_m: FloatArray | float) -> FloatArray:
+        """Pixels of a disc that faces the camera."""
+        facing = math.pi * np.square(radius_m / depth_m) * self._camera.fx_px * self._camera.fy_px
+        return np.asarray(facing * np.exp(0.05 * self._rng.normal(size=np.shape(facing))))
+
+
+def _false_places(scene: Scene, time_s: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray, NDArray[np.bool_]]:
+    """Pixels (N, B, 2), depths (N, B), radii (B,) and presence (N, B) of the false blobs."""
+    blobs = false_blobs(scene)
+    count = len(time_s)
+    if not blobs:
+        return np.empty((count, 0, 2)), np.empty((count, 0)), np.empty(0), np.empty((count, 0), dtype=bool)
+    pose = scene.pose(time_s)
+    places, there = [], []
+    for blob in blobs:
+        if blob.place == "skin":
+            places.append(scene.to_camera(pose.rotation_w2_w0 @ blob.center_m + pose.position_m))
+        else:
+            places.append(np.broadcast_to(scene.to_camera(blob.center_m), (count, 3)))
+        there.append((time_s >= blob.start_s) & (time_s <= blob.end_s))
+    center = np.stack(places, axis=1)
+    pixel = scene.camera.project(center)
+    inside = (pixel >= 2.0).all(axis=-1)
+    inside &= (pixel[..., 0] < scene.camera.width_px - 3) & (pixel[..., 1] < scene.camera.height_px - 3)
+    return pixel, center[..., 2], np.array([blob.radius_m for blob in blobs]), np.stack(there, axis=1) & inside

@@ -1,0 +1,66 @@
+"""Who is simulated: the bones and discs of one hand, drawn around the average hand of its size."""
+
+from __future__ import annotations
+
+import dataclasses
+from dataclasses import dataclass
+
+import numpy as np
+
+from core.hand.anatomy import HandAnatomy, anatomy_from_size
+from core.hand.wrist_frame import wrist_axes
+from core.simulation.spec import RecordingSpec, Stream
+from core.types import FloatArray
+
+WRIST_JOINT_DEPTH_M = 0.015
+"""Depth of the wrist's centre of rotation under the WRIST disc of a hand 180 mm long (reference 2)."""
+
+DISC_RADIUS_M = 0.006
+"""The paper discs are 12 mm wide (reference 2)."""
+
+_LENGTH_RANGE_M = (0.130, 0.200)
+_SEGMENT_SD, _OFFSET_SD = 0.05, 0.08
+_DISC_PLACE_SD_M = np.array([0.0015, 0.0015, 0.001])
+
+
+@dataclass(frozen=True, slots=True)
+class Patient:
+    """``anatomy`` in W with its side; ``wrist_joint_m`` (3,) centre of the wrist's rotation in W;
+    ``size`` hand length over 180 mm."""
+
+    anatomy: HandAnatomy
+    wrist_joint_m: FloatArray
+    size: float
+
+
+def patient_of(spec: RecordingSpec) -> Patient:
+    """Draw a patient; lengths vary by 5 %, disc places by 1.5 mm around the reference's table."""
+    rng = spec.random(Stream.PATIENT)
+    drawn_m = rng.uniform(*_LENGTH_RANGE_M)
+    length_m = drawn_m if spec.hand_length_mm is None else spec.hand_length_mm / 1000.0
+    size = length_m / 0.180
+    breadth_m = length_m * rng.uniform(0.43, 0.47)
+    average = anatomy_from_size(
+        length_m,
+        breadth_m,
+        side=spec.hand,
+        arch=rng.uniform(0.8, 1.25),
+        skin_offsets=spec.skin_offsets,
+        nail_discs=True,
+    )
+    discs = average.palm_disc_m + size * _DISC_PLACE_SD_M * rng.normal(size=(6, 3))
+    discs = discs - discs[0]
+    discs = discs @ wrist_axes(discs, towards=np.array([0.0, 0.0, 1.0]))
+    depth = (average.palm_disc_m - average.palm_joint_m)[:, 2] * rng.normal(1.0, _OFFSET_SD, 6)
+    anatomy = dataclasses.replace(
+        average,
+        palm_disc_m=discs,
+        palm_joint_m=discs - np.outer(depth, [0.0, 0.0, 1.0]),
+        fan_rad=average.fan_rad + np.radians(rng.normal(0.0, [3.0, 1.5, 1.0, 1.5, 1.5])),
+        thumb_roll_rad=average.thumb_roll_rad + np.radians(rng.normal(0.0, 4.0)),
+        thumb_length_m=average.thumb_length_m * rng.normal(1.0, _SEGMENT_SD, 3),
+        finger_length_m=average.finger_length_m * rng.normal(1.0, _SEGMENT_SD, (4, 3)),
+        thumb_offset_m=average.thumb_offset_m * rng.normal(1.0, _OFFSET_SD, 3),
+        finger_offset_m=average.finger_offset_m * rng.normal(1.0, _OFFSET_SD, (4, 3)),
+    )
+    return Patient(anatomy, np.array([0.0, 0.0, -WRIST_JOINT_DEPTH_M * size]), size)

@@ -1,0 +1,219 @@
+"""Writes a simulated recording as a TUM RGB-D folder with clicks, camera file and true values."""
+
+from __future__ import annotations
+
+import dataclasses
+import json
+import os
+import shutil
+import tempfile
+from collections.abc import Callable, Iterator
+from concurrent.futures import Future, ThreadPoolExecutor
+from importlib.metadata import PackageNotFoundError, version
+from pathlib import Path
+
+import cv2
+import numpy as np
+import platformdirs
+
+from core.calibration.result import Clicks
+from core.capture.camera_info import CAMERA_FILE, write_camera_info
+from core.capture.tum import COLOR_LIST, DEPTH_LIST, DEPTH_UNIT_M
+from core.errors import OutputExists, OutputNotWritable
+from core.simulation.render import CleanPicture, Renderer
+from core.simulation.scene import Scene
+from core.simulation.sensor import ColorSensor, DepthSensor
+from core.simulation.spec import RecordingSpec, Stream
+from core.simulation.trouble import FrameTimes, covered_discs, frame_times
+from core.simulation.truth import RECORDING_EPOCH_S, Truth, truth_of
+from core.simulation.truth_file import read_visible_share, write_truth
+from core.types import ByteImage, DepthImage, Frame
+
+CLICKS_FILE, TRUTH_FILE = "calibration.json", "truth.h5"
+
+_LARGEST_CLICK_ERROR_PX = 3.5
+_BLUR_STEP_PX = 1.3
+_MOST_SUBFRAMES = 5
+_PNG_LEVEL = [cv2.IMWRITE_PNG_COMPRESSION, 1]
+
+Progress = Callable[[int, int], None]
+"""Called with frames done and frames in all."""
+
+
+def version_of_program() -> str:
+    """The installed version, as written into files."""
+    try:
+        return version("carpus")
+    except PackageNotFoundError:
+        return "unknown"
+
+
+class SimulatedPictures:
+    """All pictures of one spec: any frame by its number, each the same whenever it is asked for."""
+
+    def __init__(self, spec: RecordingSpec) -> None:
+        self.spec = spec
+        self.scene = Scene(spec)
+        self.times: FrameTimes = frame_times(spec)
+        self.truth: Truth = truth_of(self.scene, self.times)
+        self._renderer = Renderer(self.scene)
+        camera = self.scene.camera
+        self._color_sensor = ColorSensor(spec, self._renderer.looks)
+        self._depth_sensor = DepthSensor(spec, (camera.height_px, camera.width_px))
+        self._covered = covered_discs(spec, self.times.color_s)
+
+    def __len__(self) -> int:
+        return len(self.times.color_s)
+
+    def clean(self, i: int) -> CleanPicture:
+        """Frame i without the sensor's noise; depth at its own, later time."""
+        t = float(self.times.color_s[i])
+        picture = self._renderer.picture(t, self._covered[i])
+        for offset_s in self._blur_offsets(i):
+            other = self._renderer.picture(t + offset_s, self._covered[i])
+            picture = dataclasses.replace(picture, color=picture.color + other.color)
+        count = 1 + len(self._blur_offsets(i))
+        if count > 1:
+            picture = dataclasses.replace(picture, color=picture.color / np.float32(count))
+        depth_time = float(self.times.depth_s[i])
+        if self._shift_m(t, depth_time) > 1e-4:
+            picture = dataclasses.replace(picture, depth_m=self._renderer.depth(depth_time))
+        return picture
+
+    def sensed(self, i: int, clean: CleanPicture) -> tuple[ByteImage, DepthImage]:
+        """What the camera makes of a clean picture."""
+        return self._color_sensor.expose(clean.color, i), self._depth_sensor.measure(clean.depth_m, i)
+
+    def frames(self) -> Iterator[Frame]:
+        """Frames in order, as a source would give them."""
+        for i in range(len(self)):
+            color, depth = self.sensed(i, self.clean(i))
+            yield Frame(
+                i, float(self.truth.timestamp_s[i]), color, depth, DEPTH_UNIT_M, int(self.times.dropped_before[i])
+            )
+
+    def _shift_m(self, from_s: float, to_s: float) -> float:
+        """How far the fastest disc moves between two times."""
+        discs = self.scene.discs_w0_m(self.scene.pose(np.array([from_s, to_s])))
+        return float(np.linalg.norm(discs[1] - discs[0], axis=-1).max())
+
+    def _blur_offsets(self, i: int) -> list[float]:
+        """Times around the middle of the exposure, besides the middle itself, that blur the picture."""
+        exposure_s = self.spec.exposure_s
+        if exposure_s <= 0.0:
+            return []
+        t = float(self.times.color_s[i])
+        blur_px = self._shift_m(t - 0.5 * exposure_s, t + 0.5 * exposure_s) * self.scene.camera.fx_px
+        blur_px /= float(self.scene.translation_w0_cam_m[2])
+        pairs = min(int(blur_px / (2.0 * _BLUR_STEP_PX) + 0.5), _MOST_SUBFRAMES // 2)
+        steps = [exposure_s * k / (2 * pairs + 1) for k in range(1, pairs + 1)]
+        return [sign * step for step in steps for sign in (-1.0, 1.0)]
+
+
+def clicks_of(truth: Truth) -> Clicks:
+    """A person's clicks on the first frame: the true places, off by ``spec.click_error_px``."""
+    spec = truth.spec
+    rng = spec.random(Stream.CLICKS)
+    error = rng.normal(0.0, 1.0, truth.disc_pixel[0].shape) * spec.click_error_px
+    limit = max(_LARGEST_CLICK_ERROR_PX, spec.click_error_px)
+    return Clicks(spec.hand, spec.marker_protocol, np.round(truth.disc_pixel[0] + np.clip(error, -limit, limit), 1))
+
+
+def clicks_json(clicks: Clicks) -> str:
+    """Clicks in the agreed form (interface 3)."""
+    markers = {name: [float(u), float(v)] for name, (u, v) in zip(clicks.protocol.markers, clicks.pixel, strict=True)}
+    return json.dumps({"hand": clicks.side, "protocol": clicks.protocol.name, "markers": markers}, indent=2) + "\n"
+
+
+def simulate(spec: RecordingSpec, folder: Path, progress: Progress | None = None) -> Truth:
+    """Make the recording of a spec in ``folder``, which must not hold one yet, and return its true values.
+
+    Raises :class:`OutputExists` or :class:`OutputNotWritable`.
+    """
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+        for name in ("rgb", "depth"):
+            (folder / name).mkdir()
+    except FileExistsError as cause:
+        raise OutputExists(folder) from cause
+    except OSError as cause:
+        raise OutputNotWritable(folder, os.strerror(cause.errno) if cause.errno else "") from cause
+    pictures = SimulatedPictures(spec)
+    truth = pictures.truth
+    count = len(pictures)
+    visible = np.empty_like(truth.visible_share)
+    lists: dict[str, list[str]] = {"rgb": [], "depth": []}
+    with ThreadPoolExecutor(2) as pool:
+        waiting: list[Future[None]] = []
+        for i in range(count):
+            clean = pictures.clean(i)
+            visible[i] = clean.visible_share
+            names = {
+                "rgb": f"rgb/{truth.timestamp_s[i]:.6f}.png",
+                "depth": f"depth/{RECORDING_EPOCH_S + pictures.times.depth_s[i]:.6f}.png",
+            }
+            for kind, name in names.items():
+                lists[kind].append(f"{Path(name).stem} {name}")
+            waiting.append(
+                pool.submit(_write_pictures, pictures, i, clean, folder / names["rgb"], folder / names["depth"])
+            )
+            if len(waiting) > 4:
+                waiting.pop(0).result()
+            if progress is not None:
+                progress(i + 1, count)
+        for future in waiting:
+            future.result()
+    truth = dataclasses.replace(truth, visible_share=visible)
+    _write_lists(folder, lists)
+    write_camera_info(folder / CAMERA_FILE, truth.camera, registered=True, mirrored=False)
+    clicks = clicks_of(truth)
+    (folder / CLICKS_FILE).write_text(clicks_json(clicks), encoding="utf-8")
+    write_truth(folder / TRUTH_FILE, truth, clicks, version_of_program())
+    return truth
+
+
+def truth_in(spec: RecordingSpec, folder: Path) -> Truth:
+    """The true values of a recording made earlier from the same spec."""
+    return dataclasses.replace(truth_of(Scene(spec)), visible_share=read_visible_share(folder / TRUTH_FILE))
+
+
+def cached_recording(spec: RecordingSpec, progress: Progress | None = None, cache: Path | None = None) -> Path:
+    """Folder with the recording of a spec, rendered only when the user's cache does not hold it yet."""
+    root = Path(platformdirs.user_cache_dir("carpus", appauthor=False)) / "simulated" if cache is None else cache
+    folder = root / spec.cache_key
+    if (folder / TRUTH_FILE).exists():
+        return folder
+    root.mkdir(parents=True, exist_ok=True)
+    part = Path(tempfile.mkdtemp(prefix=f"{spec.cache_key}.", dir=root))
+    try:
+        simulate(spec, part, progress)
+        try:
+            part.rename(folder)
+        except OSError:
+            # Another process finished the same recording meanwhile.
+            if not (folder / TRUTH_FILE).exists():
+                raise
+    finally:
+        shutil.rmtree(part, ignore_errors=True)
+    return folder
+
+
+def _write_pictures(
+    pictures: SimulatedPictures, i: int, clean: CleanPicture, color_path: Path, depth_path: Path
+) -> None:
+    color, depth = pictures.sensed(i, clean)
+    for path, picture in ((color_path, cv2.cvtColor(color, cv2.COLOR_RGB2BGR)), (depth_path, depth)):
+        is_coded, data = cv2.imencode(".png", picture, _PNG_LEVEL)
+        if not is_coded:
+            raise OutputNotWritable(path, "picture cannot be coded")
+        try:
+            path.write_bytes(data.tobytes())
+        except OSError as cause:
+            raise OutputNotWritable(path, os.strerror(cause.errno) if cause.errno else "") from cause
+
+
+def _write_lists(folder: Path, lists: dict[str, list[str]]) -> None:
+    titles = {"rgb": ("color images", COLOR_LIST), "depth": ("depth maps", DEPTH_LIST)}
+    for kind, (title, name) in titles.items():
+        text = "\n".join([f"# {title}", "# simulated by Carpus", "# timestamp filename", *lists[kind], ""])
+        (folder / name).write_text(text, encoding="utf-8")

@@ -1,0 +1,143 @@
+"""Where things are: the camera over the table, the neutral hand under it, and the hand at any time."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from core.camera import Camera
+from core.hand.clinical_angles import rotation_from_angles, side_sign
+from core.hand.kinematics import disc_centres, joint_centres
+from core.hand.protocols import HAND21
+from core.simulation.motions import HandMotion, motion_of
+from core.simulation.patient import Patient, patient_of
+from core.simulation.skin import Cones, HandSkin, joined
+from core.simulation.spec import RecordingSpec, Stream
+from core.types import FloatArray
+
+_FROM_ABOVE = np.array([[0.0, -1.0, 0.0], [-1.0, 0.0, 0.0], [0.0, 0.0, -1.0]])
+"""W0 seen by a camera that looks straight down, fingers up in the picture (reference 1.1)."""
+
+_LOWEST_GAP_M = 0.006
+_PICTURE_MARGIN_PX = 22.0
+_FULL_FLEXION_RAD = math.radians(50.0)
+_SKIN_MOVEMENT_SHARE = np.array([1.0, 0.6, 0.5, 0.5, 0.5, 0.5])
+"""Movement of WRIST, CMC1, MCP2 to MCP5 over the bones as a share of that of WRIST (reference 2)."""
+
+
+@dataclass(frozen=True, slots=True)
+class HandPose:
+    """Pose at N times: ``rotation_w2_w0`` (N, 3, 3), ``position_m`` (N, 3) of W2 in W0, clinical wrist angles
+    ``angles_rad`` (N, 3), ``joint_angles_rad`` (N, J), displacement of the arm ``carry_m`` (N, 3)."""
+
+    rotation_w2_w0: FloatArray
+    position_m: FloatArray
+    angles_rad: FloatArray
+    joint_angles_rad: FloatArray
+    carry_m: FloatArray
+
+
+class Scene:
+    """One patient under one camera. ``table_height_m`` is the table's z in W0 (negative)."""
+
+    def __init__(self, spec: RecordingSpec) -> None:
+        self.spec = spec
+        self.patient: Patient = patient_of(spec)
+        self.motion: HandMotion = motion_of(spec)
+        self.skin = HandSkin(self.patient)
+        rng = spec.random(Stream.SCENE)
+        focal_px = 525.0 * rng.uniform(0.98, 1.02)
+        self.camera = Camera(
+            focal_px, focal_px * rng.uniform(0.998, 1.002), 319.5 + rng.uniform(-5, 5), 239.5 + rng.uniform(-5, 5),
+            origin="file",
+        )  # fmt: skip
+        self.table_height_m = self._lowest_m() - _LOWEST_GAP_M
+        self.rotation_w0_cam = self._orientation(rng)
+        self.translation_w0_cam_m = self._placement(rng)
+
+    def pose(self, time_s: FloatArray) -> HandPose:
+        """The hand at times (N,) after the first frame."""
+        angles = self.motion.wrist_angles_rad(time_s)
+        carry = self.motion.carry_m(time_s)
+        rotation = rotation_from_angles(angles, self.spec.hand)
+        joint = self.patient.wrist_joint_m
+        position = joint - rotation @ joint + carry
+        return HandPose(rotation, position, angles, self.motion.joint_angles_rad(time_s), carry)
+
+    def discs_w0_m(self, pose: HandPose) -> FloatArray:
+        """All 21 disc centres in W0, (N, 21, 3)."""
+        local = disc_centres(self.patient.anatomy, pose.joint_angles_rad)
+        if self.spec.skin_movement_mm > 0.0:
+            palm = list(HAND21.palm)
+            share = np.clip(pose.angles_rad[:, 1] / _FULL_FLEXION_RAD, -1.0, 1.0)
+            along = 0.5e-3 * self.spec.skin_movement_mm * share[:, None] * _SKIN_MOVEMENT_SHARE
+            local[:, palm, 0] += along
+        return _moved(local, pose)
+
+    def joints_w0_m(self, pose: HandPose) -> FloatArray:
+        """All 21 joint centres and tips in W0, (N, 21, 3)."""
+        return _moved(joint_centres(self.patient.anatomy, pose.joint_angles_rad), pose)
+
+    def to_camera(self, point_w0_m: FloatArray) -> FloatArray:
+        """Points (..., 3) of W0 in camera axes."""
+        return np.asarray(point_w0_m @ self.rotation_w0_cam.T + self.translation_w0_cam_m)
+
+    def cones_cam(self, pose: HandPose, i: int) -> Cones:
+        """Skin of hand and forearm at the i-th time, in camera axes."""
+        hand = self.skin.cones_w(pose.joint_angles_rad[i]).moved(pose.rotation_w2_w0[i], pose.position_m[i])
+        supination = side_sign(self.spec.hand) * float(pose.angles_rad[i, 2])
+        forearm = self.skin.forearm_w0(supination).moved(np.eye(3), pose.carry_m[i])
+        return joined(hand, forearm).moved(self.rotation_w0_cam, self.translation_w0_cam_m)
+
+    def _lowest_m(self) -> float:
+        """Height in W0 of the lowest point that the skin reaches."""
+        times = np.arange(0.0, self.spec.seconds, 0.05)
+        pose = self.pose(times)
+        lowest = -0.040 * self.patient.size
+        for i in range(len(times)):
+            cones = self.skin.cones_w(pose.joint_angles_rad[i]).moved(pose.rotation_w2_w0[i], pose.position_m[i])
+            lower_a = cones.a_m[:, 2] - cones.radius_a_m - cones.half_width_m * np.abs(cones.lateral[:, 2])
+            lower_b = cones.b_m[:, 2] - cones.radius_b_m - cones.half_width_m * np.abs(cones.lateral[:, 2])
+            lowest = min(lowest, float(lower_a.min()), float(lower_b.min()))
+        return lowest
+
+    def _orientation(self, rng: np.random.Generator) -> FloatArray:
+        yaw = math.radians(rng.uniform(-20.0, 20.0) if self.spec.yaw_deg is None else self.spec.yaw_deg)
+        drawn_tilt = rng.uniform(0.0, 10.0)
+        tilt = math.radians(drawn_tilt if self.spec.tilt_deg is None else self.spec.tilt_deg)
+        heading = rng.uniform(0.0, 2.0 * math.pi)
+        c, s = math.cos(yaw), math.sin(yaw)
+        turned = np.array([[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]])
+        axis = np.array([math.cos(heading), math.sin(heading), 0.0])
+        cross = np.array([[0.0, -axis[2], axis[1]], [axis[2], 0.0, -axis[0]], [-axis[1], axis[0], 0.0]])
+        tilted = np.eye(3) + math.sin(tilt) * cross + (1.0 - math.cos(tilt)) * (cross @ cross)
+        return np.asarray(tilted @ _FROM_ABOVE @ turned)
+
+    def _placement(self, rng: np.random.Generator) -> FloatArray:
+        """Put the middle of all that the discs do near the middle of the picture, far enough to see it all."""
+        reaches = self.spec.motion.startswith("reach")
+        drawn = rng.uniform(0.84, 0.90) if reaches else rng.uniform(0.62, 0.88)
+        distance_m = drawn if self.spec.distance_m is None else self.spec.distance_m
+        shift_m = rng.uniform(-0.025, 0.025, 2)
+        times = np.arange(0.0, self.spec.seconds, 0.05)
+        pose = self.pose(times)
+        if self.spec.leaves_picture:
+            pose = self.pose(times[times < 0.4 * self.spec.seconds])
+        discs = self.discs_w0_m(pose).reshape(-1, 3) @ self.rotation_w0_cam.T
+        middle = 0.5 * (discs.min(axis=0) + discs.max(axis=0))
+        wrist = self.discs_w0_m(pose)[0, 0] @ self.rotation_w0_cam.T
+        translation = np.array([-middle[0], -middle[1], distance_m - wrist[2]])
+        translation[:2] += shift_m
+        pixel = self.camera.project(discs + translation)
+        size = np.array([self.camera.width_px, self.camera.height_px])
+        too_low = np.maximum(_PICTURE_MARGIN_PX - pixel.min(axis=0), 0.0)
+        too_high = np.maximum(pixel.max(axis=0) - (size - 1 - _PICTURE_MARGIN_PX), 0.0)
+        translation[:2] += (too_low - too_high) * distance_m / self.camera.fx_px
+        return translation
+
+
+def _moved(point_m: FloatArray, pose: HandPose) -> FloatArray:
+    """Points (N, K, 3) of W2 in W0."""
+    return np.asarray(point_m @ pose.rotation_w2_w0.transpose(0, 2, 1) + pose.position_m[:, None, :])

@@ -1,0 +1,146 @@
+"""What the Xtion makes of a scene: its colour noise and chroma, its structured-light depth.
+
+Depth (clinical reference 7.2): disparity d = f b / z is found by matching a 9 x 9 window and given in steps of
+1/8 pixel; with f b = 43.1 px m a step is 2.85e-3 z^2 and the whole standard deviation half a step, 1.425e-3 z^2.
+"""
+
+from __future__ import annotations
+
+import cv2
+import numpy as np
+from numpy.typing import NDArray
+
+from core.simulation.appearance import READ_NOISE_ELECTRONS, Appearance
+from core.simulation.spec import RecordingSpec, Stream
+from core.simulation.trace import FloatImage
+from core.types import ByteImage, DepthImage
+
+DISPARITY_PX_M = 575.0 * 0.075
+"""Focal length of the depth camera in pixels times the baseline in metres."""
+DISPARITY_STEP_PX = 1.0 / 8.0
+
+# Noise before rounding to steps: sqrt(0.5^2 - 1/12) steps in all, a part of it a pattern that stays.
+_TEMPORAL_STEPS, _FIXED_STEPS = 0.37, 0.17
+_WINDOW_PX = 9
+_EDGE_DISPARITY_PX = 0.9
+"""A window in which disparity differs by more than this holds two surfaces."""
+_EDGE_JITTER_PX = 1.6
+_NEAREST_M, _FARTHEST_M = 0.40, 3.5
+_DEPTH_COUNTS_PER_M = 5000.0
+
+_GAMMA = np.concatenate(
+    [np.round(255.0 * (lambda c: np.where(c <= 0.0031308, 12.92 * c, 1.055 * c ** (1 / 2.4) - 0.055))(
+        np.linspace(0.0, 1.0, 4096)))]
+).astype(np.uint8)  # fmt: skip
+
+
+class ColorSensor:
+    """Turns linear light into the 8-bit picture of the camera; one per recording."""
+
+    def __init__(self, spec: RecordingSpec, looks: Appearance) -> None:
+        self._seed = spec.seed
+        self._looks = looks
+        self._noisy = spec.sensor_noise
+
+    def expose(self, color: FloatImage, frame: int) -> ByteImage:
+        """(H, W, 3) linear to RGB uint8: lens blur, shot and read noise, gamma, YUV 4:2:2 and back.
+
+        The noise depends on seed and frame number alone."""
+        light = color
+        if self._noisy:
+            light = _blurred(light, self._looks.blur_px)
+            rng = np.random.default_rng([self._seed, Stream.COLOR_NOISE, frame])
+            noise = rng.standard_normal(light.shape, dtype=np.float32)
+            # The demosaicing filter shares noise between neighbours.
+            noise = _blurred(noise, 0.55) * np.float32(1.6)
+            electrons = np.float32(self._looks.electrons)
+            light = np.maximum(light, np.float32(0.0))
+            variance = light / electrons + np.float32((READ_NOISE_ELECTRONS / self._looks.electrons) ** 2)
+            light = light + noise * np.sqrt(variance)
+        index = np.clip(light * np.float32(4095.0), 0.0, 4095.0).astype(np.uint16)
+        rgb = _GAMMA[index]
+        return _through_yuv422(rgb) if self._noisy else rgb
+
+
+def _blurred(image: FloatImage, sigma_px: float) -> FloatImage:
+    return np.asarray(cv2.GaussianBlur(image, (0, 0), sigma_px), dtype=np.float32)
+
+
+def _through_yuv422(rgb: ByteImage) -> ByteImage:
+    """Two neighbours in a row share their chroma, as in the camera's UYVY stream."""
+    ycc = cv2.cvtColor(rgb, cv2.COLOR_RGB2YCrCb)
+    chroma = ycc[..., 1:].astype(np.uint16)
+    shared = ((chroma[:, 0::2] + chroma[:, 1::2] + 1) >> 1).astype(np.uint8)
+    ycc[:, 0::2, 1:] = shared
+    ycc[:, 1::2, 1:] = shared
+    return np.asarray(cv2.cvtColor(ycc, cv2.COLOR_YCrCb2RGB), dtype=np.uint8)
+
+
+def depth_scale(spec: RecordingSpec) -> float:
+    """Measured over true depth of the simulated unit, within ``spec.depth_scale_error`` of 1."""
+    if not spec.sensor_noise:
+        return 1.0
+    return 1.0 + spec.depth_scale_error * float(spec.random(Stream.DEPTH_NOISE).uniform(-1.0, 1.0))
+
+
+class DepthSensor:
+    """Turns true depth into the registered depth picture; one per recording, which has its own scale and pattern."""
+
+    def __init__(self, spec: RecordingSpec, shape: tuple[int, int]) -> None:
+        rng = np.random.default_rng([spec.seed, Stream.DEPTH_NOISE, 1, 0])
+        self._seed = spec.seed
+        self._noisy = spec.sensor_noise
+        self._scale = depth_scale(spec)
+        self._shape = shape
+        self._fixed = np.float32(_FIXED_STEPS * DISPARITY_STEP_PX) * self._window_noise(rng)
+        self._shadow_side = 1 if rng.random() < 0.5 else -1
+
+    def measure(self, depth_m: FloatImage, frame: int) -> DepthImage:
+        """(H, W) true metres to counts of 1/5000 m, 0 where there is no reading.
+
+        The noise depends on seed and frame number alone."""
+        if not self._noisy:
+            return _counts(depth_m)
+        rng = np.random.default_rng([self._seed, Stream.DEPTH_NOISE, frame])
+        disparity = np.float32(DISPARITY_PX_M) / depth_m
+        window = np.ones((5, 5), np.uint8)
+        spread = cv2.dilate(disparity, window) - cv2.erode(disparity, window)
+        at_edge = spread > _EDGE_DISPARITY_PX
+        smooth = cv2.blur(disparity, (7, 7))
+        wobble = [np.float32(_EDGE_JITTER_PX) * self._window_noise(rng, 5) for _ in range(2)]
+        v, u = np.indices(self._shape, dtype=np.float32)
+        torn = cv2.remap(disparity, u + wobble[0], v + wobble[1], cv2.INTER_NEAREST, borderMode=cv2.BORDER_REPLICATE)
+        wide = cv2.dilate(at_edge.astype(np.uint8), np.ones((3, 3), np.uint8)).astype(bool)
+        mixed = cv2.blur(disparity, (3, 3))
+        chance = self._window_noise(rng, 5)
+        seen = np.where(wide, np.where(chance > 0.9, mixed, torn), smooth)
+        seen = seen + self._fixed + np.float32(_TEMPORAL_STEPS * DISPARITY_STEP_PX) * self._window_noise(rng)
+        seen = np.round(seen / np.float32(DISPARITY_STEP_PX)) * np.float32(DISPARITY_STEP_PX)
+        depth = np.float32(DISPARITY_PX_M * self._scale) / np.maximum(seen, 1.0)
+        lost = at_edge & (self._window_noise(rng, 5) > 0.35)
+        lost |= self._in_shadow(disparity)
+        lost |= (depth < _NEAREST_M) | (depth > _FARTHEST_M)
+        lost |= rng.random(self._shape, dtype=np.float32) < 2e-4
+        # The sensor itself speaks in whole millimetres.
+        depth = np.round(depth * 1000.0) / 1000.0
+        return np.where(lost, np.uint16(0), _counts(depth))
+
+    def _window_noise(self, rng: np.random.Generator, window_px: int = _WINDOW_PX) -> FloatImage:
+        """Noise (H, W) of standard deviation 1, correlated over the matching window."""
+        white = rng.standard_normal(self._shape, dtype=np.float32)
+        return np.asarray(cv2.blur(white, (window_px, window_px)) * np.float32(window_px))
+
+    def _in_shadow(self, disparity: FloatImage) -> NDArray[np.bool_]:
+        """Pixels that the projector, beside the camera, cannot light past a nearer surface."""
+        column = np.arange(self._shape[1], dtype=np.float32)[None]
+        if self._shadow_side > 0:
+            lit = column + disparity
+            reached = np.maximum.accumulate(lit, axis=1)
+            return np.asarray(reached > lit + 1.5)
+        lit = column - disparity
+        reached = np.minimum.accumulate(lit[:, ::-1], axis=1)[:, ::-1]
+        return np.asarray(reached < lit - 1.5)
+
+
+def _counts(depth_m: FloatImage) -> DepthImage:
+    return np.clip(np.round(depth_m * _DEPTH_COUNTS_PER_M), 0.0, 65535.0).astype(np.uint16)

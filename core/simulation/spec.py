@@ -1,0 +1,135 @@
+"""Everything that decides a simulated recording, in one value."""
+
+from __future__ import annotations
+
+import dataclasses
+import hashlib
+import json
+from collections.abc import Mapping
+from dataclasses import dataclass
+from enum import IntEnum
+from typing import Any, Literal
+
+import numpy as np
+
+from core.errors import SettingsInvalid
+from core.hand.protocols import MarkerProtocol, protocol_named
+from core.types import Side
+
+RENDERER_VERSION = 1
+"""Part of the cache key: raise it whenever the same spec gives other pictures than before."""
+
+Light = Literal["drawn", "bright", "normal", "dim"]
+Sleeve = Literal["drawn", "none", "grey", "white", "blue"]
+
+
+class Stream(IntEnum):
+    """Independent random streams of one seed, so that one option does not change what another draws."""
+
+    PATIENT = 1
+    SCENE = 2
+    MOTION = 3
+    TROUBLE = 4
+    COLOR_NOISE = 5
+    DEPTH_NOISE = 6
+    CLICKS = 7
+    TIMES = 8
+    MEASUREMENTS = 9
+
+
+@dataclass(frozen=True, slots=True)
+class RecordingSpec:
+    """A simulated recording; ``None`` and ``"drawn"`` mean: drawn from the seed.
+
+    Motion: ``motion`` is a name of :data:`core.simulation.motions.MOTIONS`; ``speed_hz`` repetitions a second;
+    ``range_share`` scales the motion's range; ``repetitions`` ends the motion early; ``pain_limited`` stops strokes
+    short, in several sub-movements. ``skin_movement_mm`` shifts the WRIST disc along X between full flexion and
+    extension. ``skin_offsets=False`` puts the joint centres into the discs (the papers' chain).
+
+    Trouble: ``false_blobs`` mean number in each frame; ``hidden_share`` of the time each disc is covered, for
+    ``hidden_mean_s`` on average; ``dropped_share`` of the frames. ``click_error_px`` standard deviation per axis.
+
+    Sensor: ``depth_scale_error`` largest scale error of the unit (the seed draws it between minus and plus this);
+    ``depth_delay_s`` of the depth picture after the colour picture; ``exposure_s`` blurs moving things over that
+    time, 0 not at all; ``sensor_noise=False`` gives clean pictures for tests.
+    """
+
+    seed: int = 0
+    hand: Side = "right"
+    protocol: str = "wrist6"
+    motion: str = "flexion"
+    seconds: float = 8.0
+    fps: float = 30.0
+    speed_hz: float | None = None
+    range_share: float = 1.0
+    repetitions: int | None = None
+    pain_limited: bool = False
+    tremor_deg: float = 0.0
+    tremor_hz: float = 5.0
+    dip: Literal["coupled", "free"] = "coupled"
+    hand_length_mm: float | None = None
+    skin_offsets: bool = True
+    skin_movement_mm: float = 0.0
+    skin_tone: int | None = None
+    light: Light = "drawn"
+    sleeve: Sleeve = "drawn"
+    distance_m: float | None = None
+    yaw_deg: float | None = None
+    tilt_deg: float | None = None
+    false_blobs: float = 0.0
+    hidden_share: float = 0.0
+    hidden_mean_s: float = 0.4
+    object_passes: bool = False
+    leaves_picture: bool = False
+    dropped_share: float = 0.0
+    click_error_px: float = 1.5
+    depth_scale_error: float = 0.01
+    depth_delay_s: float = 0.004
+    exposure_s: float = 0.008
+    sensor_noise: bool = True
+
+    def __post_init__(self) -> None:
+        protocol_named(self.protocol)
+        checks = {
+            "seconds": self.seconds > 0.0,
+            "fps": self.fps > 0.0,
+            "speed_hz": self.speed_hz is None or self.speed_hz > 0.0,
+            "range_share": 0.0 <= self.range_share <= 1.5,
+            "hand_length_mm": self.hand_length_mm is None or 100.0 <= self.hand_length_mm <= 240.0,
+            "skin_tone": self.skin_tone is None or 0 <= self.skin_tone <= 5,
+            "hidden_share": 0.0 <= self.hidden_share <= 0.9,
+            "hidden_mean_s": self.hidden_mean_s > 0.0,
+            "dropped_share": 0.0 <= self.dropped_share <= 0.9,
+            "false_blobs": self.false_blobs >= 0.0,
+            "hand": self.hand in ("right", "left"),
+        }
+        for name, is_good in checks.items():
+            if not is_good:
+                raise SettingsInvalid("simulation", f"{name} = {getattr(self, name)}")
+
+    @property
+    def marker_protocol(self) -> MarkerProtocol:
+        return protocol_named(self.protocol)
+
+    def random(self, stream: Stream) -> np.random.Generator:
+        """The generator of one concern; always the same for the same seed."""
+        return np.random.default_rng([self.seed, int(stream)])
+
+    def to_json(self) -> str:
+        """All options, as stored beside a recording."""
+        return json.dumps(dataclasses.asdict(self), sort_keys=True)
+
+    @staticmethod
+    def from_json(text: str) -> RecordingSpec:
+        """Inverse of :meth:`to_json`; raises :class:`SettingsInvalid` for an unknown key."""
+        values: Mapping[str, Any] = json.loads(text)
+        known = {field.name for field in dataclasses.fields(RecordingSpec)}
+        unknown = sorted(set(values) - known)
+        if unknown:
+            raise SettingsInvalid("simulation", ", ".join(unknown))
+        return RecordingSpec(**values)
+
+    @property
+    def cache_key(self) -> str:
+        """Name under which a rendering of this spec is kept."""
+        return hashlib.sha256(f"{RENDERER_VERSION} {self.to_json()}".encode()).hexdigest()[:24]

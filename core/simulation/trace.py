@@ -1,0 +1,222 @@
+"""Where camera rays meet the skin: sphere tracing of the smooth union of :mod:`core.simulation.skin`.
+
+Plain NumPy on rectangles of the picture: each cone is evaluated only where its bounding sphere can be seen.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from core.camera import Camera
+from core.simulation.skin import BLEND_M, FINGER_BLEND_M, Cones, Part
+from core.types import FloatArray
+
+FloatImage = NDArray[np.float32]
+
+_STEPS = 7
+_SLOWEST_APPROACH = np.float32(0.35)
+"""A grazing ray's distance shrinks slowly; steps are lengthened up to the inverse of this."""
+_FAR_M = np.float32(9.0)
+
+
+@dataclass(frozen=True, slots=True)
+class Box:
+    """Rows and columns of a part of a picture, ends excluded."""
+
+    top: int
+    bottom: int
+    left: int
+    right: int
+
+    @property
+    def slices(self) -> tuple[slice, slice]:
+        return slice(self.top, self.bottom), slice(self.left, self.right)
+
+    @property
+    def is_empty(self) -> bool:
+        return self.bottom <= self.top or self.right <= self.left
+
+    def within(self, outer: Box) -> tuple[slice, slice]:
+        """Slices of this box inside arrays that cover ``outer``."""
+        return (
+            slice(self.top - outer.top, self.bottom - outer.top),
+            slice(self.left - outer.left, self.right - outer.left),
+        )
+
+    def around(self, other: Box) -> Box:
+        """Smallest box that holds both."""
+        if other.is_empty:
+            return self
+        if self.is_empty:
+            return other
+        return Box(
+            min(self.top, other.top), max(self.bottom, other.bottom),
+            min(self.left, other.left), max(self.right, other.right),
+        )  # fmt: skip
+
+
+@dataclass(frozen=True, slots=True)
+class Surface:
+    """The seen surface inside ``box``: ``depth_m`` along z, ``coverage`` 0 to 1 of each pixel, ``part`` (of the
+    nearest cone's :class:`Part`) as uint8."""
+
+    box: Box
+    depth_m: FloatImage
+    coverage: FloatImage
+    part: NDArray[np.uint8]
+
+
+def box_around(camera: Camera, center_m: FloatArray, radius_m: FloatArray, margin_px: float = 1.0) -> Box:
+    """Box of the picture that holds spheres (K, 3) of radii (K,) in camera axes."""
+    near = np.maximum(center_m[:, 2] - radius_m, 0.05)
+    reach_px = radius_m / near * camera.fx_px * 1.15 + margin_px
+    pixel = camera.project(np.column_stack((center_m[:, :2], np.maximum(center_m[:, 2], 0.05))))
+    low = np.floor((pixel - reach_px[:, None]).min(axis=0))
+    high = np.ceil((pixel + reach_px[:, None]).max(axis=0)) + 1
+    return Box(
+        int(max(low[1], 0)),
+        int(min(high[1], camera.height_px)),
+        int(max(low[0], 0)),
+        int(min(high[0], camera.width_px)),
+    )
+
+
+class _SeenCone:
+    """One cone prepared for a picture: the ray's components along its axes, over its box."""
+
+    def __init__(self, cones: Cones, i: int, x: FloatImage, y: FloatImage, box: Box) -> None:
+        axis = cones.b_m[i] - cones.a_m[i]
+        self.length = np.float32(np.linalg.norm(axis))
+        axis = axis / self.length
+        lateral = cones.lateral[i] - (cones.lateral[i] @ axis) * axis
+        lateral = lateral / np.linalg.norm(lateral)
+        axes = (axis, lateral, np.cross(axis, lateral))
+        rows, columns = box.slices
+        self.ray = [
+            (np.float32(e[0]) * x[None, columns] + (np.float32(e[1]) * y[rows, None] + np.float32(e[2]))) for e in axes
+        ]
+        self.origin = [np.float32(cones.a_m[i] @ e) for e in axes]
+        self.half_width = np.float32(cones.half_width_m[i])
+        self.radius = np.float32(cones.radius_a_m[i])
+        taper = (cones.radius_a_m[i] - cones.radius_b_m[i]) / float(self.length)
+        self.taper = np.float32(taper)
+        self.lean = np.float32(taper / np.sqrt(1.0 - taper * taper))
+        self.box = box
+        self.part = Part(int(cones.part[i]))
+
+    def distance(self, z: FloatImage) -> FloatImage:
+        """Signed distance at depth z (over the box) along each ray; see :func:`skin.cone_distance`."""
+        along = z * self.ray[0]
+        along -= self.origin[0]
+        side = z * self.ray[1]
+        side -= self.origin[1]
+        side -= np.clip(side, -self.half_width, self.half_width)
+        up = z * self.ray[2]
+        up -= self.origin[2]
+        up *= up
+        side *= side
+        up += side
+        radial = np.sqrt(up)
+        foot = np.clip(along - self.lean * radial, np.float32(0.0), self.length)
+        along -= foot
+        along *= along
+        along += up
+        np.sqrt(along, out=along)
+        foot *= self.taper
+        along += foot
+        along -= self.radius
+        return along
+
+
+def _fillet(a: FloatImage, b: FloatImage, reach: float) -> FloatImage:
+    near = np.abs(a - b)
+    np.subtract(np.float32(reach), near, out=near)
+    np.maximum(near, np.float32(0.0), out=near)
+    near *= near
+    near *= np.float32(0.25 / reach)
+    return np.asarray(np.minimum(a, b) - near)
+
+
+def trace(camera: Camera, cones: Cones) -> Surface | None:
+    """The skin as the camera sees it; None when none of it is in the picture."""
+    x = ((np.arange(camera.width_px) - camera.cx_px) / camera.fx_px).astype(np.float32)
+    y = ((np.arange(camera.height_px) - camera.cy_px) / camera.fy_px).astype(np.float32)
+    seen: list[_SeenCone] = []
+    whole = Box(0, 0, 0, 0)
+    part_box: dict[Part, Box] = {}
+    for i in range(len(cones)):
+        width = cones.half_width_m[i]
+        margin = max(BLEND_M.values())
+        radius = np.array([cones.radius_a_m[i], cones.radius_b_m[i]]) + width + margin
+        box = box_around(camera, np.array([cones.a_m[i], cones.b_m[i]]), radius)
+        if box.is_empty:
+            continue
+        seen.append(_SeenCone(cones, i, x, y, box))
+        whole = whole.around(box)
+        part = seen[-1].part
+        part_box[part] = part_box.get(part, Box(0, 0, 0, 0)).around(box)
+    if not seen:
+        return None
+    rows, columns = whole.slices
+    per_length = 1.0 / np.sqrt(1.0 + x[None, columns] ** 2 + y[rows, None] ** 2)
+    reach = np.maximum(cones.radius_a_m, cones.radius_b_m) + cones.half_width_m
+    near_m = float((np.minimum(cones.a_m[:, 2], cones.b_m[:, 2]) - reach).min())
+    z = np.full(per_length.shape, max(near_m, 0.1), dtype=np.float32)
+    best = np.full(z.shape, _FAR_M, dtype=np.float32)
+    depth = z.copy()
+    stretch = np.ones_like(z)
+    part_image = np.zeros(z.shape, dtype=np.uint8)
+    before = best
+    for step in range(_STEPS):
+        distance = _union(seen, part_box, whole, z, part_image if step == _STEPS - 1 else None)
+        size = np.abs(distance)
+        closer = size < best
+        np.copyto(depth, z, where=closer)
+        np.copyto(best, size, where=closer)
+        if step > 0:
+            approach = (before - distance) / np.maximum(before * stretch, np.float32(1e-6))
+            stretch = np.float32(1.0) / np.clip(approach, _SLOWEST_APPROACH, np.float32(1.0))
+        z = z + distance * stretch * per_length
+        before = distance
+    pixel_m = depth / np.float32(camera.fx_px)
+    coverage = np.clip(1.0 - best / (0.8 * pixel_m), 0.0, 1.0, dtype=np.float32)
+    return Surface(whole, depth, coverage, part_image)
+
+
+def _union(
+    seen: list[_SeenCone],
+    part_box: dict[Part, Box],
+    whole: Box,
+    z: FloatImage,
+    part_image: NDArray[np.uint8] | None,
+) -> FloatImage:
+    """Distance to the skin at depths z of every ray, as :func:`skin.skin_distance`; the nearest part into
+    ``part_image`` where one is given."""
+    palm = np.full(z.shape, _FAR_M, dtype=np.float32)
+    others = {
+        part: np.full(z[box.within(whole)].shape, _FAR_M, dtype=np.float32)
+        for part, box in part_box.items()
+        if part is not Part.PALM
+    }
+    for cone in seen:
+        place = cone.box.within(whole)
+        d = cone.distance(z[place])
+        if cone.part is Part.PALM:
+            palm[place] = _fillet(palm[place], d, BLEND_M[Part.PALM])
+        else:
+            inner = cone.box.within(part_box[cone.part])
+            np.minimum(others[cone.part][inner], d, out=others[cone.part][inner])
+    out = palm.copy()
+    for part, d in others.items():
+        place = part_box[part].within(whole)
+        np.minimum(out[place], _fillet(palm[place], d, BLEND_M.get(part, FINGER_BLEND_M)), out=out[place])
+    if part_image is not None:
+        nearest = palm.copy()
+        for part, d in others.items():
+            place = part_box[part].within(whole)
+            part_image[place][d < nearest[place]] = int(part)
+            np.minimum(nearest[place], d, out=nearest[place])
+    return out
