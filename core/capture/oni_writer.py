@@ -10,7 +10,6 @@ from pathlib import Path
 from types import TracebackType
 from typing import BinaryIO, Literal
 
-import cv2
 import numpy as np
 
 from core.camera import Camera
@@ -19,14 +18,12 @@ from core.capture.camera_info import write_camera_info
 from core.capture.oni_format import Codec, NodeType, RecordType
 from core.capture.oni_table_codec import encode_depth
 from core.capture.openni2 import PixelFormat
+from core.capture.raw_pictures import encode_color
 from core.errors import DiskFull, OutputExists, OutputNotWritable
 from core.types import ByteImage, DepthImage, Frame
 
 ColorCodec = Literal["jpeg", "raw"]
 DepthCodec = Literal["table", "raw"]
-JPEG_QUALITY = 95
-JPEG_FULL_COLOR = 0x111111
-"""No chroma subsampling: the markers' edges keep their colour."""
 MAX_DEPTH = 10000
 _DEPTH_FORMATS = ((1e-3, PixelFormat.DEPTH_1_MM), (1e-4, PixelFormat.DEPTH_100_UM))
 
@@ -103,7 +100,9 @@ class OniWriter:
         stream = self._streams[NodeType.IMAGE]
         if color_rgb.shape != (self._camera.height_px, self._camera.width_px, 3) or color_rgb.dtype != np.uint8:
             raise ValueError(f"colour picture {color_rgb.shape} {color_rgb.dtype}")
-        self._picture(stream, timestamp_s, _jpeg(color_rgb) if stream.codec == Codec.JPEG else color_rgb.tobytes())
+        self._picture(
+            stream, timestamp_s, encode_color(color_rgb) if stream.codec == Codec.JPEG else color_rgb.tobytes()
+        )
 
     def add_depth(self, depth_raw: DepthImage, timestamp_s: float) -> None:
         """Append a depth picture (H, W) in the unit given at the start."""
@@ -278,10 +277,3 @@ def _string(text: str) -> bytes:
 def _record_bytes(kind: RecordType, node: int, fields: bytes, payload_size: int, replaces: int) -> bytes:
     size = oni.RECORD_HEADER.size + len(fields)
     return oni.RECORD_HEADER.pack(oni.RECORD_MAGIC, kind, node, size, payload_size, replaces) + fields
-
-
-def _jpeg(color_rgb: ByteImage) -> bytes:
-    options = [cv2.IMWRITE_JPEG_QUALITY, JPEG_QUALITY, cv2.IMWRITE_JPEG_SAMPLING_FACTOR, JPEG_FULL_COLOR]
-    done, packed = cv2.imencode(".jpg", cv2.cvtColor(color_rgb, cv2.COLOR_RGB2BGR), options)
-    assert done
-    return packed.tobytes()

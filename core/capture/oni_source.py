@@ -1,0 +1,195 @@
+"""An .oni recording as a source of frames, played by the OpenNI2 library in a process of its own."""
+
+from __future__ import annotations
+
+import threading
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Literal
+
+import numpy as np
+
+from core.capture.camera_info import CameraInfo, read_camera_info
+from core.capture.notice import Notice, ignore
+from core.capture.oni_check import OniContents, check_recording
+from core.capture.oni_writer import sidecar_path
+from core.capture.openni2 import Sensor, VideoMode
+from core.capture.source import SourceInfo
+from core.capture.xtion_assembly import (
+    DEPTH_UNIT_M,
+    Assembler,
+    Layout,
+    camera_of_view,
+    fitted_camera,
+)
+from core.capture.xtion_link import ANSWER_S, OPEN_FILE_S, CaptureProcess
+from core.capture.xtion_messages import Arrived, Ended, FilePlan
+from core.errors import (
+    CameraFileUnreadable,
+    DepthNotRegistered,
+    DriverFailed,
+    PicturesEnlarged,
+    PicturesLost,
+    RecordingUnsupported,
+    RegistrationAssumed,
+)
+from core.types import Frame
+
+WAITING_PICTURES = 64
+"""How far apart in the file colour and depth of one moment may lie."""
+
+
+class OniSource:
+    """Frames of an .oni file, all of them, in order, as fast as they are read.
+
+    The file is checked at once; the library starts with the first call of :meth:`frames`, which may be repeated,
+    one walk at a time. ``registered`` answers for a file without a sidecar; without an answer depth is taken to lie
+    on colour and ``notice`` hears :class:`RegistrationAssumed`. Damaged pictures are left out: ``notice`` hears
+    :class:`PicturesLost` at the end.
+    """
+
+    def __init__(self, path: Path, *, registered: bool | None = None, notice: Notice = ignore) -> None:
+        self._contents = check_recording(path)
+        self._path = path
+        self._notice = notice
+        self._closing = threading.Event()
+        self._lock = threading.Lock()
+        self._process: CaptureProcess | None = None
+        sidecar = sidecar_path(path)
+        told = read_camera_info(sidecar) if sidecar.exists() else None
+        self._layout = _layout(self._contents, told)
+        times_us = self._contents.color.timestamp_us
+        self._period_us = float(np.median(np.diff(times_us))) if len(times_us) > 1 else 1e6 / self._contents.color.fps
+        self._info = self._describe(told, registered)
+
+    @property
+    def info(self) -> SourceInfo:
+        """Facts about the recording."""
+        return self._info
+
+    def frames(self) -> Iterator[Frame]:
+        """All frames from the first on; a walk under way ends when another begins."""
+        self._end()
+        if self._closing.is_set():
+            return
+        contents = self._contents
+        streams = {Sensor.COLOR: contents.color}
+        if contents.depth is not None:
+            streams[Sensor.DEPTH] = contents.depth
+        plan = FilePlan(
+            str(self._path.resolve()),
+            contents.identity,
+            {sensor: int(stream.number[-1]) for sensor, stream in streams.items()},
+        )
+        process = CaptureProcess(plan, str(self._path), max(stream.frame_bytes for stream in streams.values()))
+        self._process = process
+        modes = {
+            sensor: VideoMode(stream.pixel_format, stream.width_px, stream.height_px, stream.fps)
+            for sensor, stream in streams.items()
+        }
+        try:
+            yield from self._play(process, modes)
+        finally:
+            with self._lock:
+                process.close(gently=False)
+
+    def close(self) -> None:
+        """End playback; may be called twice, and while another thread waits for a frame."""
+        self._closing.set()
+        self._end()
+
+    def _end(self) -> None:
+        with self._lock:
+            if self._process is not None:
+                self._process.close(gently=False)
+                self._process = None
+
+    def _play(self, process: CaptureProcess, modes: dict[Sensor, VideoMode]) -> Iterator[Frame]:
+        """Frames as they come."""
+        arrived = dict.fromkeys(modes, 0)
+        assembler = Assembler(self._layout, self._period_us, WAITING_PICTURES)
+        with self._lock:
+            opened = process.wait_open(self._closing, OPEN_FILE_S)
+        if opened is None:
+            return
+        if dict(opened.modes) != modes:
+            raise DriverFailed(self._path, "the library sees other pictures than the file holds")
+        while True:
+            with self._lock:
+                if process is not self._process:
+                    return
+                report = process.report(self._closing, ANSWER_S)
+                if report is None:
+                    return
+                frames: list[Frame] = []
+                if isinstance(report, Arrived):
+                    arrived[report.sensor] += 1
+                    take = assembler.color if report.sensor == Sensor.COLOR else assembler.depth
+                    frames = take(report.timestamp_us, report.number, process.pixels(report, modes[report.sensor]))
+                    process.free(report)
+            if isinstance(report, Ended):
+                yield from assembler.finish()
+                self._tell_lost(arrived)
+                return
+            yield from frames
+
+    def _tell_lost(self, arrived: dict[Sensor, int]) -> None:
+        streams = (("colour", Sensor.COLOR, self._contents.color), ("depth", Sensor.DEPTH, self._contents.depth))
+        counts = [
+            f"{len(stream) - arrived[sensor]} of {len(stream)} {name}"
+            for name, sensor, stream in streams
+            if stream is not None and arrived[sensor] < len(stream)
+        ]
+        if counts:
+            self._notice(PicturesLost(self._path, ", ".join(counts)))
+
+    def _describe(self, told: CameraInfo | None, answer: bool | None) -> SourceInfo:
+        contents, layout = self._contents, self._layout
+        view = contents.color.field_of_view_rad or (contents.depth.field_of_view_rad if contents.depth else None)
+        camera = fitted_camera(told.camera, layout.size_px) if told else camera_of_view(layout.size_px, view)
+        if camera is None:
+            size = "{}x{}".format(*layout.size_px)
+            if told:
+                detail = f"for pictures of {told.camera.width_px}x{told.camera.height_px}, these are {size}"
+                raise CameraFileUnreadable(sidecar_path(self._path), detail)
+            raise RecordingUnsupported(self._path, f"no intrinsics for pictures of {size}")
+        settings = {"format": f".oni {contents.version}", "color": _stream_text(contents, "color")}
+        if contents.depth is not None:
+            settings["depth"] = _stream_text(contents, "depth")
+            settings["registered"] = self._registration(told.registered if told else None, answer)
+        settings["mirrored"] = "turned back" if layout.color_mirrored else "no"
+        if layout.enlarged:
+            settings["enlarged"] = layout.enlarged
+            self._notice(PicturesEnlarged(self._path, layout.enlarged))
+        has_depth, count = contents.depth is not None, len(contents.color)
+        return SourceInfo(self._path.name, camera, has_depth, count, float(contents.color.fps), settings)
+
+    def _registration(self, told: bool | None, answer: bool | None) -> str:
+        registered = told if told is not None else answer
+        if registered is None:
+            self._notice(RegistrationAssumed(self._path))
+            return "assumed"
+        if not registered:
+            self._notice(DepthNotRegistered(self._path))
+        return "yes" if registered else "no"
+
+
+def _layout(contents: OniContents, told: CameraInfo | None) -> Layout:
+    color, depth = contents.color, contents.depth
+    mirrored = told.mirrored if told else None
+    layout = Layout(
+        (color.width_px, color.height_px),
+        (depth.width_px, depth.height_px) if depth else None,
+        color.mirrored if mirrored is None else mirrored,
+        (depth.mirrored if depth else False) if mirrored is None else mirrored,
+        DEPTH_UNIT_M[depth.pixel_format] if depth else 1e-3,
+    )
+    if layout.misfit():
+        raise RecordingUnsupported(contents.path, layout.misfit())
+    return layout
+
+
+def _stream_text(contents: OniContents, name: Literal["color", "depth"]) -> str:
+    stream = contents.color if name == "color" else contents.depth
+    assert stream is not None
+    return f"{stream.width_px}x{stream.height_px} {stream.codec} {stream.fps} fps"

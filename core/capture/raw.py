@@ -1,0 +1,296 @@
+"""The application's own raw recording: colour and depth pictures in one file that only grows.
+
+Nothing that was written is touched again, so a crash or a full disk costs at most the last frame, and writing needs
+no lock that others wait for. Layout, little-endian: ``CARPUSRW``, u32 version, then records. A record is a header of
+32 bytes (4 letters, u32 check sum of all that follows, f64 time in seconds, u32 frames missing before, u32 number,
+u32 size of colour, u32 size of depth) and the two pictures as JPEG or PNG files. ``HEAD`` comes first with JSON
+instead of colour, ``FRAM`` is a frame, ``DONE`` ends a recording that was closed.
+"""
+
+from __future__ import annotations
+
+import errno
+import json
+import os
+import struct
+import zlib
+from collections.abc import Iterator, Mapping
+from contextlib import suppress
+from dataclasses import dataclass
+from pathlib import Path
+from types import TracebackType
+from typing import Any, BinaryIO
+
+from core.camera import Camera
+from core.capture.notice import Notice, ignore
+from core.capture.raw_pictures import decode_color, decode_depth, encode_color, encode_depth
+from core.capture.source import SourceInfo
+from core.errors import (
+    DiskFull,
+    OutputExists,
+    OutputNotWritable,
+    PicturesLost,
+    RecordingEmpty,
+    RecordingMissing,
+    RecordingUnreadable,
+)
+from core.types import Frame
+
+SUFFIX = ".carpusraw"
+MAGIC = b"CARPUSRW"
+VERSION = 1
+_START = struct.Struct("<8sI")
+_RECORD = struct.Struct("<4sIdIIII")
+_CHECKED_FROM = 8
+_FULL = (errno.ENOSPC, errno.EDQUOT, errno.EFBIG)
+MAX_PICTURE_BYTES = 1 << 27
+
+
+class RawWriter:
+    """Writes one raw recording. Use as a context manager, or end it by :meth:`close`."""
+
+    def __init__(self, path: Path, info: SourceInfo, *, lossless: bool = False) -> None:
+        self._path = path
+        self._info = info
+        self._lossless = lossless
+        self._depth_unit_m: float | None = None
+        self._count = 0
+        self._end = 0
+        self._file: BinaryIO | None = _create(path)
+        self._put(_START.pack(MAGIC, VERSION))
+
+    def __enter__(self) -> RawWriter:
+        return self
+
+    def __exit__(self, kind: type[BaseException] | None, fault: BaseException | None, _: TracebackType | None) -> None:
+        if kind is None:
+            self.close()
+        else:
+            self.abandon()
+
+    @property
+    def path(self) -> Path:
+        """The file."""
+        return self._path
+
+    def __len__(self) -> int:
+        """Frames written."""
+        return self._count
+
+    def append_frame(self, frame: Frame) -> None:
+        """Store one frame: depth without loss, colour as JPEG 95 or without loss. Times rise strictly."""
+        if self._count == 0:
+            self._depth_unit_m = frame.depth_unit_m
+            self._put(_packed(b"HEAD", 0.0, 0, 0, self._head(), b""))
+        depth = b"" if frame.depth_raw is None else encode_depth(frame.depth_raw)
+        if depth and frame.depth_unit_m != self._depth_unit_m:
+            raise ValueError(f"depth in steps of {frame.depth_unit_m} m after {self._depth_unit_m} m")
+        color = encode_color(frame.color_rgb, lossless=self._lossless)
+        self._put(_packed(b"FRAM", frame.timestamp_s, frame.dropped_before, self._count, color, depth))
+        self._count += 1
+
+    def close(self) -> None:
+        """Mark the recording as whole and bring it to the disk; may be called twice."""
+        if self._file is None:
+            return
+        if self._count:
+            self._put(_packed(b"DONE", 0.0, 0, self._count, b"", b""))
+        try:
+            os.fsync(self._file.fileno())
+            self._file.close()
+        except OSError as cause:
+            raise _write_fault(self._path, cause) from cause
+        finally:
+            self._file = None
+
+    def abandon(self) -> None:
+        """Stop after a fault; what is on the disk stays readable."""
+        if self._file is not None:
+            with suppress(OSError):
+                self._file.close()
+            self._file = None
+
+    def discard(self) -> None:
+        """Remove the file again: nothing was recorded."""
+        self.abandon()
+        self._path.unlink(missing_ok=True)
+
+    def _head(self) -> bytes:
+        info, camera = self._info, self._info.camera
+        content = {
+            "name": info.name,
+            "nominal_fps": info.nominal_fps,
+            "has_depth": info.has_depth,
+            "depth_unit_m": self._depth_unit_m,
+            "color": "png" if self._lossless else "jpeg",
+            "settings": dict(info.settings),
+            "camera": {
+                "fx_px": camera.fx_px,
+                "fy_px": camera.fy_px,
+                "cx_px": camera.cx_px,
+                "cy_px": camera.cy_px,
+                "width_px": camera.width_px,
+                "height_px": camera.height_px,
+                "distortion": list(camera.distortion),
+                "origin": camera.origin,
+            },
+        }
+        return json.dumps(content, ensure_ascii=False).encode()
+
+    def _put(self, data: bytes) -> None:
+        if self._file is None:
+            raise ValueError("the recording is closed")
+        try:
+            self._file.write(data)
+            self._file.flush()
+        except OSError as cause:
+            # half a record at the end would be passed over anyway, but a clean end is better
+            with suppress(OSError):
+                self._file.truncate(self._end)
+            raise _write_fault(self._path, cause) from cause
+        self._end += len(data)
+
+
+@dataclass(frozen=True, slots=True)
+class _Entry:
+    """Where one frame lies in the file."""
+
+    position: int
+    timestamp_s: float
+    dropped_before: int
+    color_size: int
+    depth_size: int
+    check: int
+
+
+class RawRecording:
+    """A raw recording as a source of frames. One that was cut short is read up to its last whole frame.
+
+    Frames that do not pass their check sum are left out: the next one counts them as missing, and ``notice`` hears
+    :class:`PicturesLost` at the end.
+    """
+
+    def __init__(self, path: Path, *, notice: Notice = ignore) -> None:
+        if not path.is_file():
+            raise RecordingMissing(path)
+        self._path = path
+        self._notice = notice
+        try:
+            with path.open("rb") as file:
+                head, self._entries, self.complete = _index(path, file)
+        except OSError as cause:
+            raise RecordingUnreadable(path, cause.strerror or "") from cause
+        if not self._entries:
+            raise RecordingEmpty(path)
+        try:
+            camera = dict(head["camera"])
+            camera["distortion"] = tuple(camera["distortion"])
+            self._depth_unit_m = float(head["depth_unit_m"])
+            self._info = SourceInfo(
+                str(head["name"]),
+                Camera(**camera),
+                bool(head["has_depth"]) and any(entry.depth_size for entry in self._entries),
+                len(self._entries),
+                float(head["nominal_fps"]),
+                {str(key): str(value) for key, value in head["settings"].items()},
+            )
+        except (KeyError, TypeError, ValueError, AttributeError) as cause:
+            raise RecordingUnreadable(path, "its head is damaged") from cause
+
+    @property
+    def info(self) -> SourceInfo:
+        """Facts about the recording and the camera it came from."""
+        return self._info
+
+    def frames(self) -> Iterator[Frame]:
+        """All frames from the first on; may be walked through again."""
+        lost = missing = index = 0
+        with self._path.open("rb") as file:
+            for entry in self._entries:
+                pictures = _read(file, entry)
+                color = decode_color(pictures[: entry.color_size])
+                depth = decode_depth(pictures[entry.color_size :])
+                if color is None or (depth is None) != (entry.depth_size == 0):
+                    lost += 1
+                    missing += 1 + entry.dropped_before
+                    continue
+                yield Frame(index, entry.timestamp_s, color, depth, self._depth_unit_m, entry.dropped_before + missing)
+                index, missing = index + 1, 0
+        if lost:
+            self._notice(PicturesLost(self._path, f"{lost} of {len(self._entries)} frames"))
+
+    def close(self) -> None:
+        """Nothing is held open between two walks."""
+
+
+def is_raw_recording(path: Path) -> bool:
+    """Whether a file begins like a raw recording."""
+    try:
+        with path.open("rb") as file:
+            return file.read(len(MAGIC)) == MAGIC
+    except OSError:
+        return False
+
+
+def _packed(kind: bytes, time_s: float, dropped: int, number: int, color: bytes, depth: bytes) -> bytes:
+    head = _RECORD.pack(kind, 0, time_s, dropped, number, len(color), len(depth))
+    rest = b"".join((head[_CHECKED_FROM:], color, depth))
+    return kind + struct.pack("<I", zlib.crc32(rest)) + rest
+
+
+def _index(path: Path, file: BinaryIO) -> tuple[Mapping[str, Any], list[_Entry], bool]:
+    """Head, frames and whether the recording was closed; a torn end is passed over."""
+    size = os.fstat(file.fileno()).st_size
+    start = file.read(_START.size)
+    if len(start) < _START.size or not start.startswith(MAGIC):
+        raise RecordingUnreadable(path, "not a raw recording")
+    version = _START.unpack(start)[1]
+    if version != VERSION:
+        raise RecordingUnreadable(path, f"format version {version}, this Carpus reads {VERSION}")
+    head: Mapping[str, Any] = {}
+    entries: list[_Entry] = []
+    position = _START.size
+    while position + _RECORD.size <= size:
+        file.seek(position)
+        kind, check, time_s, dropped, _, color_size, depth_size = _RECORD.unpack(file.read(_RECORD.size))
+        end = position + _RECORD.size + color_size + depth_size
+        if kind == b"DONE":
+            return head, entries, True
+        if kind not in (b"HEAD", b"FRAM") or end > size or max(color_size, depth_size) > MAX_PICTURE_BYTES:
+            break
+        if kind == b"HEAD":
+            head = _json(path, file.read(color_size))
+        elif not entries or time_s > entries[-1].timestamp_s:
+            entries.append(_Entry(position, time_s, dropped, color_size, depth_size, check))
+        position = end
+    return head, entries, False
+
+
+def _json(path: Path, data: bytes) -> Mapping[str, Any]:
+    try:
+        content = json.loads(data)
+    except ValueError as cause:
+        raise RecordingUnreadable(path, "its head is damaged") from cause
+    if not isinstance(content, dict):
+        raise RecordingUnreadable(path, "its head is damaged")
+    return content
+
+
+def _read(file: BinaryIO, entry: _Entry) -> bytes:
+    """Both pictures of a frame, one after the other; empty when the check sum differs."""
+    file.seek(entry.position + _CHECKED_FROM)
+    rest = file.read(_RECORD.size - _CHECKED_FROM + entry.color_size + entry.depth_size)
+    return rest[_RECORD.size - _CHECKED_FROM :] if zlib.crc32(rest) == entry.check else b""
+
+
+def _create(path: Path) -> BinaryIO:
+    try:
+        return path.open("xb")
+    except FileExistsError as cause:
+        raise OutputExists(path) from cause
+    except OSError as cause:
+        raise OutputNotWritable(path, cause.strerror or "") from cause
+
+
+def _write_fault(path: Path, cause: OSError) -> DiskFull | OutputNotWritable:
+    return DiskFull(path) if cause.errno in _FULL else OutputNotWritable(path, cause.strerror or "")

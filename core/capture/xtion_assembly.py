@@ -1,0 +1,174 @@
+"""From the driver's pictures to frames: mirrored pictures turned back, unequal sizes made equal, gaps counted."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable
+from dataclasses import dataclass
+from typing import Any
+
+import cv2
+import numpy as np
+from numpy.typing import NDArray
+
+from core.camera import Camera
+from core.capture.camera_info import default_camera
+from core.capture.openni2 import PixelFormat
+from core.capture.xtion_pairing import NearestPairing, Pair, Stamped
+from core.types import Frame
+
+AnyImage = NDArray[Any]
+
+DEPTH_UNIT_M: dict[int, float] = {PixelFormat.DEPTH_1_MM: 1e-3, PixelFormat.DEPTH_100_UM: 1e-4}
+
+
+@dataclass(frozen=True, slots=True)
+class Layout:
+    """Sizes (width, height) as they come, and which of the two are left for right; depth size None without depth."""
+
+    color_size_px: tuple[int, int]
+    depth_size_px: tuple[int, int] | None
+    color_mirrored: bool = False
+    depth_mirrored: bool = False
+    depth_unit_m: float = 1e-3
+
+    @property
+    def size_px(self) -> tuple[int, int]:
+        """Size of the frames: the larger of the two."""
+        return max(self.color_size_px, self.depth_size_px or self.color_size_px)
+
+    @property
+    def enlarged(self) -> str:
+        """What is enlarged, in figures; empty when nothing is."""
+        width, height = self.size_px
+        for name, size in (("colour", self.color_size_px), ("depth", self.depth_size_px)):
+            if size is not None and size != (width, height):
+                return f"{name} from {size[0]}x{size[1]} to {width}x{height}"
+        return ""
+
+    def misfit(self) -> str:
+        """Why these sizes cannot be brought together; empty when they can: equal, or one twice the other."""
+        width, height = self.size_px
+        for size in (self.color_size_px, self.depth_size_px or self.color_size_px):
+            if size != (width, height) and (2 * size[0], 2 * size[1]) != (width, height):
+                color, depth = self.color_size_px, self.depth_size_px or (0, 0)
+                return f"colour {color[0]}x{color[1]}, depth {depth[0]}x{depth[1]}"
+        return ""
+
+    def color(self, view: AnyImage) -> AnyImage:
+        """An own, read-only copy (H, W, 3) of a colour picture in the driver's memory."""
+        if self.color_size_px != self.size_px:
+            # half-pixel centres: pixel u of the small picture lies at 2 u + 0.5 of the large one
+            turned = view[:, ::-1] if self.color_mirrored else view
+            return _frozen(cv2.resize(np.ascontiguousarray(turned), self.size_px, interpolation=cv2.INTER_LINEAR))
+        return _frozen(cv2.flip(view, 1) if self.color_mirrored else view.copy())
+
+    def depth(self, view: AnyImage) -> AnyImage:
+        """An own, read-only copy (H, W) of a depth picture; enlarged by repetition, no depth is invented."""
+        turned = view[:, ::-1] if self.depth_mirrored else view
+        if self.depth_size_px != self.size_px:
+            return _frozen(turned.repeat(2, axis=0).repeat(2, axis=1))
+        return _frozen(turned.copy())
+
+
+class Assembler:
+    """Builds frames from pictures of one colour and one depth stream.
+
+    ``period_us`` is the time between colour pictures. Frames are numbered from 0; a colour picture that does not
+    come later than the one before is left out.
+    """
+
+    def __init__(self, layout: Layout, period_us: float, limit: int) -> None:
+        self.layout = layout
+        self._period_us = period_us
+        self._limit = limit
+        self._pairing = self._new_pairing()
+        self._offset_us = 0
+        self._index = 0
+        self._last_us: int | None = None
+        self._last_number = 0
+
+    def _new_pairing(self) -> NearestPairing[AnyImage]:
+        has_depth = self.layout.depth_size_px is not None
+        return NearestPairing(self._period_us, has_depth=has_depth, limit=self._limit)
+
+    def color(self, timestamp_us: int, number: int, view: AnyImage) -> list[Frame]:
+        """Take a colour picture; the frames that are now complete."""
+        stamped = Stamped(timestamp_us, number, self.layout.color(view))
+        return self._frames(self._pairing.add_color(stamped))
+
+    def depth(self, timestamp_us: int, number: int, view: AnyImage) -> list[Frame]:
+        """Take a depth picture; the frames that are now complete."""
+        stamped = Stamped(timestamp_us, number, self.layout.depth(view))
+        return self._frames(self._pairing.add_depth(stamped))
+
+    def finish(self) -> list[Frame]:
+        """The frames that were still waiting for depth."""
+        return self._frames(self._pairing.finish())
+
+    def restart(self, layout: Layout, first_us: int, away_us: int) -> None:
+        """The device's clock began anew at ``first_us``, ``away_us`` after the last frame: times keep rising."""
+        self.layout = layout
+        self._pairing = self._new_pairing()
+        self._last_number = 0
+        if self._last_us is not None:
+            self._offset_us = self._last_us + max(away_us, 1) - first_us
+
+    def _frames(self, pairs: Iterable[Pair[AnyImage]]) -> list[Frame]:
+        frames = []
+        for color, depth in pairs:
+            now_us = color.timestamp_us + self._offset_us
+            missing = 0
+            if self._last_us is not None:
+                if now_us <= self._last_us:
+                    continue
+                by_time = round((now_us - self._last_us) / self._period_us) - 1
+                by_number = color.number - self._last_number - 1 if self._last_number else 0
+                missing = max(by_time, by_number, 0)
+            depth_raw = None if depth is None else depth.picture
+            frames.append(
+                Frame(self._index, now_us * 1e-6, color.picture, depth_raw, self.layout.depth_unit_m, missing)
+            )
+            self._index += 1
+            self._last_us, self._last_number = now_us, color.number
+        return frames
+
+
+def camera_of_view(size_px: tuple[int, int], field_of_view_rad: tuple[float, float] | None) -> Camera | None:
+    """Intrinsics from the driver's field of view, else the nominal ones; None for a shape that cannot be guessed."""
+    width, height = size_px
+    if field_of_view_rad is None:
+        return default_camera(width, height)
+    across, down = field_of_view_rad
+    return Camera(
+        width / 2.0 / math.tan(across / 2.0),
+        height / 2.0 / math.tan(down / 2.0),
+        (width - 1) / 2.0,
+        (height - 1) / 2.0,
+        width,
+        height,
+        origin="driver",
+    )
+
+
+def fitted_camera(camera: Camera, size_px: tuple[int, int]) -> Camera | None:
+    """``camera`` for pictures enlarged to ``size_px``; None when they are of another shape."""
+    if (camera.width_px, camera.height_px) == size_px:
+        return camera
+    scale = size_px[0] / camera.width_px
+    if size_px[1] != camera.height_px * scale:
+        return None
+    return Camera(
+        camera.fx_px * scale,
+        camera.fy_px * scale,
+        (camera.cx_px + 0.5) * scale - 0.5,
+        (camera.cy_px + 0.5) * scale - 0.5,
+        *size_px,
+        camera.distortion,
+        camera.origin,
+    )
+
+
+def _frozen(image: AnyImage) -> AnyImage:
+    image.flags.writeable = False
+    return image

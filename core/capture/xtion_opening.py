@@ -1,0 +1,171 @@
+"""Opening a recording or a camera inside the capture process, and why it could not be opened."""
+
+from __future__ import annotations
+
+import os
+import tempfile
+from collections.abc import Sequence
+from pathlib import Path
+
+from core.capture.openni2 import (
+    CallFailed,
+    Context,
+    Device,
+    DeviceProperty,
+    PixelFormat,
+    Sensor,
+    Stream,
+    StreamProperty,
+    VideoMode,
+)
+from core.capture.xtion_messages import CameraPlan, FilePlan, Opened
+from core.capture.xtion_usb import usb_cameras
+from core.errors import (
+    CameraBusy,
+    CameraMissing,
+    CameraPermission,
+    CameraUnsuited,
+    CarpusFault,
+    DriverFailed,
+    RecordingDamaged,
+)
+
+LOCKSTEP = -1.0
+"""Playback speed at which the library reads on only when a picture is asked for."""
+
+
+class GaveUp(Exception):
+    """Ends the process with a fault for the owner."""
+
+    def __init__(self, fault: type[CarpusFault], detail: str) -> None:
+        super().__init__(detail)
+        self.fault = fault
+        self.detail = detail
+
+
+def open_unchanged(plan: FilePlan) -> int:
+    """The file that was checked, by descriptor."""
+    try:
+        file = os.open(plan.path, os.O_RDONLY | getattr(os, "O_BINARY", 0))
+    except OSError as cause:
+        raise GaveUp(RecordingDamaged, cause.strerror or "cannot be opened") from cause
+    found = os.fstat(file)
+    if (found.st_size, found.st_mtime_ns) != tuple(plan.identity):
+        raise GaveUp(RecordingDamaged, "the file changes while it is read")
+    return file
+
+
+def survivable_name(path: str, file: int) -> str:
+    """A name for the open file that the library survives: it dies on other letters than ASCII and on long names."""
+    by_descriptor = f"/proc/self/fd/{file}"
+    if os.path.exists(by_descriptor):  # noqa: PTH110 -- a descriptor, not a path of ours
+        return by_descriptor
+    if path.isascii() and len(path) < 256:
+        return path
+    link = Path(tempfile.mkdtemp(prefix="carpus-")) / "recording.oni"
+    link.symlink_to(path)
+    return str(link)
+
+
+def start_recording(device: Device, plan: FilePlan) -> Opened:
+    """Set up lockstep playback and start the wanted streams, and no others."""
+    # both fall back to their defaults at each opening, so they are set before any stream starts
+    if not device.set_int(DeviceProperty.PLAYBACK_REPEAT, 0) or not device.set_float(
+        DeviceProperty.PLAYBACK_SPEED, LOCKSTEP
+    ):
+        raise GaveUp(DriverFailed, "the library does not play recordings in lockstep")
+    streams = [device.create_stream(sensor) for sensor in plan.last_number]
+    modes = {stream.sensor: stream.mode() for stream in streams}
+    for stream in streams:
+        stream.start()
+    return Opened(modes, {}, None, {"library": f"OpenNI2 {device.context.version}"})
+
+
+def open_camera(library: Context, plan: CameraPlan) -> tuple[Device, Opened]:
+    """Open a live camera, start colour and depth, lay depth on colour."""
+    uri = plan.uri
+    if uri is None:
+        found = library.devices()
+        if not found:
+            raise _no_camera()
+        uri = found[0].uri
+    try:
+        device = library.open(uri)
+    except CallFailed as failure:
+        raise _why_not_opened(failure) from failure
+    streams: dict[Sensor, Stream] = {}
+    for sensor, wanted in ((Sensor.COLOR, PixelFormat.RGB888), (Sensor.DEPTH, PixelFormat.DEPTH_1_MM)):
+        mode = choose_mode(device.modes(sensor), wanted, plan.size_px, plan.fps)
+        if mode is None:
+            raise GaveUp(CameraUnsuited, f"no {wanted.name} pictures")
+        stream = streams[sensor] = device.create_stream(sensor)
+        if stream.mode() != mode and not stream.set_mode(mode):
+            raise GaveUp(CameraUnsuited, f"{sensor.name.lower()} {mode}")
+        stream.set_int(StreamProperty.MIRRORING, 0)
+    automatic = [
+        streams[Sensor.COLOR].set_int(key, 1)
+        for key in (StreamProperty.AUTO_EXPOSURE, StreamProperty.AUTO_WHITE_BALANCE)
+    ]
+    for stream in streams.values():
+        stream.start()
+    # only a running depth stream takes it
+    registered = device.can_register() and device.set_int(DeviceProperty.IMAGE_REGISTRATION, 1)
+    synchronous = device.enable_sync()
+    modes = {sensor: stream.mode() for sensor, stream in streams.items()}
+    info = device.info()
+    settings = {
+        "camera": info.name or uri,
+        "vendor": info.vendor,
+        "uri": info.uri,
+        "serial": device.text(DeviceProperty.SERIAL_NUMBER),
+        "firmware": device.version(DeviceProperty.FIRMWARE_VERSION),
+        "driver": device.version(DeviceProperty.DRIVER_VERSION),
+        "library": f"OpenNI2 {library.version}",
+        "color_mode": str(modes[Sensor.COLOR]),
+        "depth_mode": str(modes[Sensor.DEPTH]),
+        "registered": "by the camera" if registered else "no",
+        "synchronous": "yes" if synchronous else "no",
+        "automatic_exposure": "on" if all(automatic) else "not settable",
+    }
+    across, down = (
+        streams[Sensor.COLOR].get_float(key) for key in (StreamProperty.HORIZONTAL_FOV, StreamProperty.VERTICAL_FOV)
+    )
+    view = (across, down) if across and down else None
+    mirrored = {sensor: bool(stream.get_int(StreamProperty.MIRRORING)) for sensor, stream in streams.items()}
+    return device, Opened(modes, mirrored, view, {key: value for key, value in settings.items() if value})
+
+
+def choose_mode(
+    modes: Sequence[VideoMode], pixel_format: PixelFormat, size_px: tuple[int, int], fps: int
+) -> VideoMode | None:
+    """The mode of this format nearest to what is wanted: same size and rate, else the largest that is not larger.
+
+    >>> offered = [VideoMode(200, 320, 240, 60), VideoMode(200, 320, 240, 30), VideoMode(200, 1280, 1024, 30)]
+    >>> choose_mode(offered, PixelFormat.RGB888, (640, 480), 30)
+    VideoMode(pixel_format=200, width_px=320, height_px=240, fps=30)
+    """
+    width, height = size_px
+    fitting = [
+        mode
+        for mode in modes
+        if mode.pixel_format == pixel_format and mode.width_px <= width and mode.height_px <= height
+    ]
+    return max(fitting, key=lambda mode: (mode.width_px * mode.height_px, -abs(mode.fps - fps)), default=None)
+
+
+def _no_camera() -> GaveUp:
+    seen = usb_cameras()
+    if not seen:
+        return GaveUp(CameraMissing, "")
+    if not seen[0].may_open:
+        return GaveUp(CameraPermission, str(seen[0].node))
+    return GaveUp(DriverFailed, f"{seen[0].name} is plugged in, but the driver does not see it")
+
+
+def _why_not_opened(failure: CallFailed) -> GaveUp:
+    seen = usb_cameras()
+    if any(not camera.may_open for camera in seen):
+        return GaveUp(CameraPermission, str(next(camera.node for camera in seen if not camera.may_open)))
+    if any(camera.is_claimed for camera in seen) or "USB interface" in failure.reason:
+        return GaveUp(CameraBusy, failure.reason)
+    return GaveUp(CameraMissing if not seen else DriverFailed, failure.reason)
