@@ -1,0 +1,55 @@
+"""The page that explains the session file, made from the schema."""
+
+from __future__ import annotations
+
+from core.session import schema
+from core.session.schema import Field
+
+_HEAD = f"""\
+# Session file
+
+HDF5, format `{schema.FORMAT}` version {schema.FORMAT_VERSION}. Metres, radians, seconds, pixels; a value that is not \
+known is NaN, never 0. Every dataset has the attributes `unit` and `description`; one with an axis of markers, joints \
+or angles has `names` for it. This page is made from `core/session/schema.py`.
+
+Axes: {{axes}}.
+
+While a session runs it is `NAME.xxxxxxxx.part` beside its place, with `complete` false. Frame by frame the time is \
+written last: a row with a time has all the rest. `carpus recover FOLDER` finishes what was cut short; the attribute \
+`{schema.RECOVERED}` then says when.
+"""
+
+
+def format_page() -> str:
+    """Markdown text; kept in ``resources/session-format.md``."""
+    axes = ", ".join(f"{letter} {what}" for letter, what in (schema.GROWING_AXES | schema.NAMED_AXES).items())
+    parts = [_HEAD.format(axes=axes)]
+    for title, attributes in (
+        ("Attributes of `/`", schema.ROOT_ATTRIBUTES),
+        ("Attributes of `/camera`", schema.CAMERA_ATTRIBUTES),
+        ("Attributes of `/calibration`", schema.VERDICT_ATTRIBUTES),
+    ):
+        parts.append(f"## {title}\n\n| name | meaning |\n|---|---|\n" + _lines(attributes))
+    rows = "".join(map(_row, (field for field in schema.ALL_FIELDS if field not in schema.SMOOTHED_FIELDS)))
+    parts.append("## Datasets\n\n| path | shape | type | unit | meaning |\n|---|---|---|---|---|\n" + rows)
+    parts.append(
+        "`/smoothed/wrist` and `/smoothed/joints` hold what `/wrist` and `/joints` hold, by the smoother.\n"
+        "`/raw` has the attribute `depth_unit_m`: metres per count of the depth pictures.\n"
+    )
+    return "\n".join(parts)
+
+
+def _lines(attributes: dict[str, str]) -> str:
+    return "".join(f"| `{name}` | {meaning} |\n" for name, meaning in attributes.items())
+
+
+def _row(field: Field) -> str:
+    shape = ", ".join(map(str, field.shape)) + ("," if len(field.shape) == 1 else "")
+    remarks = [field.description]
+    if field.fingers_only:
+        remarks.append("`hand21` only")
+    if field.optional:
+        remarks.append("optional")
+    if field.since > 1:
+        remarks.append(f"since version {field.since}")
+    return f"| `{field.path}` | ({shape}) | {field.dtype} | {field.unit} | {'; '.join(remarks)} |\n"

@@ -1,0 +1,105 @@
+"""Lays out a new session file by the schema: header, calibration, and the datasets that will grow."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import asdict
+from pathlib import Path
+from typing import Any
+
+import h5py
+import numpy as np
+
+from core.calibration.result import Calibration
+from core.camera import Camera
+from core.session import schema
+from core.session.schema import Field, Layout
+from core.session.values import SessionHeader
+
+_CHUNK_ROWS = {"N": 1024, "D": 32768, "E": 256, "C": 1 << 23, "B": 1 << 23}
+"""Large: most flushes then fill chunks that are there already and leave HDF5's index alone. Up to 64 chunks the index
+of a dataset is one node, changed by one write; 64 x 1024 rows are 36 minutes at 30 frames a second."""
+
+
+def new_file(path: Path) -> h5py.File:
+    """An empty HDF5 file.
+
+    The oldest format has no checksums that a kill would leave wrong; without the chunk cache rows go to the file
+    when they are written, before the index that makes them visible.
+    """
+    return h5py.File(path, "x", libver="earliest", rdcc_nbytes=0)
+
+
+def write_header(file: h5py.File, header: SessionHeader, camera: Camera) -> None:
+    """The attributes of ``/`` and ``/camera``."""
+    values = {
+        "format": schema.FORMAT,
+        "format_version": schema.FORMAT_VERSION,
+        "protocol": header.protocol.name,
+        "complete": False,
+    }
+    for name in schema.ROOT_ATTRIBUTES:
+        file.attrs[name] = values[name] if name in values else getattr(header, name)
+    group = file.create_group("/camera")
+    for name, value in zip(schema.CAMERA_ATTRIBUTES, asdict(camera).values(), strict=True):
+        group.attrs[name] = value
+
+
+def write_calibration(file: h5py.File, layout: Layout, calibration: Calibration) -> None:
+    """The datasets of ``/calibration`` and the verdict as its attributes."""
+    verdict = calibration.verdict
+    elsewhere = {"clicks_px": calibration.clicks.pixel, "residual_m": verdict.residual_mm * 1e-3}
+    for field in schema.CALIBRATION_FIELDS:
+        value = elsewhere[field.attribute] if field.attribute in elsewhere else getattr(calibration, field.attribute)
+        describe(file.create_dataset(field.path, data=checked(field, value, layout.row_shape(field))), field, layout)
+    findings = json.dumps([_known(asdict(finding)) for finding in verdict.findings])
+    said = (verdict.hand_length_mm * 1e-3, np.radians(verdict.tilt_deg), verdict.distance_m, verdict.frames_used)
+    for name, value in zip(schema.VERDICT_ATTRIBUTES, (*said, findings), strict=True):
+        file["/calibration"].attrs[name] = value
+
+
+def create_growing(file: h5py.File, layout: Layout, raw_depth_unit_m: float | None) -> dict[str, h5py.Dataset]:
+    """Every dataset that grows while the session runs, still without rows; ``/raw`` only with a depth unit."""
+    raw = (*schema.RAW_STREAMS, *schema.RAW_ENDS) if raw_depth_unit_m is not None else ()
+    detections = (schema.DETECTION_FRAME, *schema.DETECTION_FIELDS, schema.DETECTION_COUNT)
+    growing: dict[str, h5py.Dataset] = {}
+    for field in (*schema.FRAME_FIELDS, *detections, *schema.EVENT_FIELDS, *raw):
+        if not layout.has(field):
+            continue
+        row = layout.row_shape(field)
+        growing[field.path] = file.create_dataset(
+            field.path,
+            shape=(0, *row),
+            maxshape=(None, *row),
+            chunks=(_CHUNK_ROWS[str(field.shape[0])], *row),
+            dtype=field.h5_dtype,
+            fillvalue=None if field.dtype == "text" else field.fill,
+            fill_time="never" if field in schema.RAW_STREAMS else "ifset",
+        )
+        describe(growing[field.path], field, layout)
+    for group, names in layout.group_names().items():
+        file[group].attrs["names"] = names
+    if raw_depth_unit_m is not None:
+        file["/raw"].attrs[schema.RAW_DEPTH_UNIT] = raw_depth_unit_m
+    return growing
+
+
+def describe(dataset: h5py.Dataset, field: Field, layout: Layout) -> None:
+    """Unit, description and names of a dataset."""
+    dataset.attrs["unit"] = field.unit
+    dataset.attrs["description"] = field.description
+    if field.named_axis:
+        dataset.attrs["names"] = layout.names(field.named_axis)
+
+
+def checked(field: Field, value: Any, shape: tuple[int, ...]) -> Any:
+    """``value`` as an array of the field's type; a wrong shape is a mistake of the caller and is not stretched."""
+    data = np.asarray(value, dtype=field.h5_dtype)
+    if data.shape != shape:
+        raise ValueError(f"{field.path} got {data.shape}, {shape} expected")
+    return data
+
+
+def _known(facts: dict[str, Any]) -> dict[str, Any]:
+    """Without NaN, which JSON does not have."""
+    return {name: value for name, value in facts.items() if value == value}

@@ -1,0 +1,240 @@
+"""Reads session files, whole or cut short, by the schema."""
+
+from __future__ import annotations
+
+import contextlib
+import json
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import h5py
+import numpy as np
+from numpy.typing import NDArray
+
+from core.calibration.result import Calibration, Clicks, Finding, Verdict
+from core.camera import Camera
+from core.errors import ProtocolUnknown, SessionUnreadable
+from core.hand.protocols import protocol_named
+from core.session import schema
+from core.session.rows import Rows, whole_rows
+from core.session.schema import Field, Layout
+from core.session.values import (
+    DetectionTable,
+    Event,
+    MarkerSeries,
+    Motion,
+    QualitySeries,
+    RawPictures,
+    Session,
+    SessionHeader,
+)
+from core.types import Detections
+
+
+def read_session(path: Path) -> Session:
+    """Read a session; of one that was cut short the whole rows. Raises :class:`SessionUnreadable`.
+
+    Blobs and pictures stay in the file: :func:`read_detections`, :func:`read_raw`.
+    """
+    with open_session(path) as file:
+        return _Source(path, file).session()
+
+
+def read_detections(path: Path) -> DetectionTable:
+    """Every blob of every frame of a session."""
+    with open_session(path) as file:
+        source = _Source(path, file)
+        blobs = {field.attribute: source.array(field) for field in schema.DETECTION_FIELDS}
+        return DetectionTable(source.array(schema.DETECTION_FRAME), Detections(**blobs))
+
+
+def has_raw(path: Path) -> bool:
+    """Whether the session kept its pictures."""
+    with open_session(path) as file:
+        return all(field.path in file for field in (*schema.RAW_STREAMS, *schema.RAW_ENDS))
+
+
+def raw_depth_unit_m(path: Path) -> float:
+    """Metres per count of the depth pictures kept."""
+    with open_session(path) as file:
+        return float(file["/raw"].attrs[schema.RAW_DEPTH_UNIT])
+
+
+def read_raw(path: Path) -> Iterator[RawPictures]:
+    """The pictures kept, frame by frame."""
+    with open_session(path) as file:
+        source = _Source(path, file)
+        color_end, depth_end = (source.array(field) for field in schema.RAW_ENDS)
+        color, depth = (file[field.path] for field in schema.RAW_STREAMS)
+        color_at, depth_at = 0, 0
+        for color_to, depth_to in zip(color_end.tolist(), depth_end.tolist(), strict=True):
+            yield RawPictures(color[color_at:color_to].tobytes(), depth[depth_at:depth_to].tobytes())
+            color_at, depth_at = color_to, depth_to
+
+
+@contextlib.contextmanager
+def open_session(path: Path) -> Iterator[h5py.File]:
+    """The open file of a session that this version reads; whatever goes wrong inside is :class:`SessionUnreadable`."""
+    if not path.is_file():
+        raise SessionUnreadable(path, "a folder" if path.is_dir() else "there is no such file")
+    try:
+        with h5py.File(path, "r") as file:
+            _check_format(path, file)
+            yield file
+    except BlockingIOError as cause:
+        raise SessionUnreadable(path, "still being recorded") from cause
+    except KeyError as cause:
+        raise SessionUnreadable(path, f"damaged: {cause.args[0] if cause.args else ''}") from cause
+    except (OSError, RuntimeError, ValueError, TypeError) as cause:
+        known = h5py.is_hdf5(path)
+        raise SessionUnreadable(path, f"damaged: {cause}" if known else "not a session file") from cause
+
+
+def _check_format(path: Path, file: h5py.File) -> None:
+    if file.attrs.get("format") != schema.FORMAT:
+        raise SessionUnreadable(path, "an HDF5 file, but not a session")
+    version = int(file.attrs.get("format_version", 0))
+    if not 1 <= version <= schema.FORMAT_VERSION:
+        raise SessionUnreadable(path, f"format version {version}, this Carpus reads up to {schema.FORMAT_VERSION}")
+
+
+class _Source:
+    """One open session: its header, and its datasets checked against the schema."""
+
+    def __init__(self, path: Path, file: h5py.File) -> None:
+        self._path = path
+        self._file = file
+        self._header = self._read_header()
+        self._layout = Layout(self._header.protocol, self._header.joint_names)
+        self._complete = bool(self._attribute("complete"))
+        self._rows = self._read_rows()
+
+    def session(self) -> Session:
+        frames = {field.attribute: self.array(field) for field in schema.FRAME_FIELDS if self._layout.has(field)}
+        return Session(
+            path=self._path,
+            header=self._header,
+            camera=self._camera(),
+            calibration=self._calibration(),
+            timestamp_s=frames["timestamp_s"],
+            status=frames["status"],
+            motion=self._motion(schema.MOTION_FIELDS),
+            markers=MarkerSeries(
+                frames["marker_position_cam_m"], frames["marker_measured_px"], frames["marker_measured_depth_m"]
+            ),
+            quality=QualitySeries(frames["dropped_before"], frames["measured_share"], frames["nis"], frames["nis_dof"]),
+            events=tuple(map(Event, *(self._list(field) for field in schema.EVENT_FIELDS))),
+            smoothed=self._motion(schema.SMOOTHED_FIELDS) if "/smoothed" in self._file else None,
+            complete=self._complete,
+            recovered=str(self._file.attrs.get(schema.RECOVERED, "")),
+        )
+
+    def array(self, field: Field) -> NDArray[Any]:
+        """A dataset with the type and shape of the schema, read-only; an optional one that is not there is unknown."""
+        expected = tuple(
+            self._rows.along(str(axis)) if axis in schema.GROWING_AXES else size
+            for axis, size in zip(field.shape, self._sizes(field), strict=True)
+        )
+        if field.path not in self._file:
+            if not field.optional:
+                raise SessionUnreadable(self._path, f"no dataset {field.path}")
+            return np.full(expected, field.fill, dtype=field.h5_dtype)
+        dataset = self._file[field.path]
+        if not self._complete and field.shape[0] in schema.GROWING_AXES and dataset.ndim == len(expected):
+            data = dataset[: expected[0]]
+        else:
+            data = dataset[()]
+        kinds = {"f": "f", "u": "iu", "i": "iu", "t": "O"}[field.dtype[0]]
+        if data.shape != expected or data.dtype.kind not in kinds:
+            raise SessionUnreadable(
+                self._path, f"{field.path} is {data.dtype} {data.shape}, {field.dtype} {expected} expected"
+            )
+        array: NDArray[Any] = data.astype(field.h5_dtype, copy=False)
+        array.setflags(write=False)
+        return array
+
+    def _sizes(self, field: Field) -> tuple[int, ...]:
+        row = self._layout.row_shape(field)
+        return (0, *row) if field.shape[0] in schema.GROWING_AXES else row
+
+    def _list(self, field: Field) -> list[Any]:
+        values = self.array(field).tolist()
+        return [value.decode("utf-8") if isinstance(value, bytes) else value for value in values]
+
+    def _attribute(self, name: str) -> Any:
+        try:
+            return self._file.attrs[name]
+        except KeyError as cause:
+            raise SessionUnreadable(self._path, f"no attribute {name}") from cause
+
+    def _read_header(self) -> SessionHeader:
+        try:
+            protocol = protocol_named(str(self._attribute("protocol")))
+        except ProtocolUnknown as cause:
+            raise SessionUnreadable(self._path, f"marker protocol {cause.subject}") from cause
+        hand = str(self._attribute("hand"))
+        if hand not in ("right", "left"):
+            raise SessionUnreadable(self._path, f"hand {hand!r}")
+        joints = self._file["/joints"].attrs["names"] if protocol.has_fingers else ()
+        return SessionHeader(
+            session_id=str(self._attribute("session_id")),
+            subject_id=str(self._attribute("subject_id")),
+            created=str(self._attribute("created")),
+            hand="right" if hand == "right" else "left",
+            protocol=protocol,
+            exercise=str(self._attribute("exercise")),
+            software_version=str(self._attribute("software_version")),
+            parameters=str(self._attribute("parameters")),
+            origin=str(self._file.attrs.get("origin", "")),
+            joint_names=tuple(str(name) for name in joints),
+        )
+
+    def _read_rows(self) -> Rows:
+        if not self._complete:
+            return whole_rows(self._file)
+        lengths = (self._file[path].shape[0] for path in ("/frames/timestamp", "/detections/frame", "/events/time"))
+        streams = (self._file[f.path].shape[0] if f.path in self._file else 0 for f in schema.RAW_STREAMS)
+        return Rows(*lengths, *streams)
+
+    def _motion(self, fields: tuple[Field, ...]) -> Motion:
+        rows = self._rows.frames
+        nothing = {2: (rows, 0), 3: (rows, 0, 3)}
+        values = {
+            field.attribute: self.array(field) if self._layout.has(field) else np.empty(nothing[len(field.shape)])
+            for field in fields
+        }
+        return Motion(**values)
+
+    def _camera(self) -> Camera:
+        said = self._file["/camera"].attrs
+        k1, k2, p1, p2, k3 = (float(value) for value in said["distortion"])
+        return Camera(
+            fx_px=float(said["fx"]),
+            fy_px=float(said["fy"]),
+            cx_px=float(said["cx"]),
+            cy_px=float(said["cy"]),
+            width_px=int(said["width"]),
+            height_px=int(said["height"]),
+            distortion=(k1, k2, p1, p2, k3),
+            origin=str(said.get("origin", "file")),
+        )
+
+    def _calibration(self) -> Calibration:
+        arrays = {field.attribute: self.array(field) for field in schema.CALIBRATION_FIELDS}
+        clicks_px, residual_m = arrays.pop("clicks_px"), arrays.pop("residual_m")
+        said = self._file["/calibration"].attrs
+        findings = []
+        for fact in json.loads(said.get("findings", "[]")):
+            findings.append(Finding(**(fact | {"markers": tuple(fact.get("markers", ()))})))
+        unknown = float("nan")
+        verdict = Verdict(
+            residual_mm=residual_m * 1e3,
+            hand_length_mm=float(said.get("hand_length_m", unknown)) * 1e3,
+            tilt_deg=float(np.degrees(said.get("tilt_rad", unknown))),
+            distance_m=float(said.get("distance_m", unknown)),
+            frames_used=int(said.get("frames_used", 0)),
+            findings=tuple(findings),
+        )
+        clicks = Clicks(self._header.hand, self._header.protocol, clicks_px)
+        return Calibration(clicks=clicks, verdict=verdict, **arrays)

@@ -1,0 +1,251 @@
+"""The session file in one table; writer, reader, recovery and the format page follow it.
+
+A change of meaning raises :data:`FORMAT_VERSION`; a field added later says so in ``since`` and is optional to read.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import h5py
+import numpy as np
+
+from core.hand.protocols import WRIST_ANGLES, MarkerProtocol
+
+FORMAT = "carpus-session"
+FORMAT_VERSION = 1
+
+ZYZ_ANGLES = ("alpha", "beta", "gamma")
+
+ROOT_ATTRIBUTES = {
+    "format": f"always {FORMAT}",
+    "format_version": f"{FORMAT_VERSION}",
+    "session_id": "UUID of this session",
+    "subject_id": "pseudonym of the patient",
+    "created": "ISO 8601 with zone",
+    "hand": "right or left",
+    "protocol": "wrist6 or hand21",
+    "exercise": "what was trained",
+    "software_version": "of the Carpus that wrote the file",
+    "parameters": "JSON of all settings",
+    "complete": "false while written, true once closed",
+    "origin": "session or recording this one was tracked again from, else empty",
+}
+RECOVERED = "recovered"
+"""Root attribute of an interrupted session that was finished later: when, ISO 8601."""
+
+CAMERA_ATTRIBUTES = {
+    "fx": "px",
+    "fy": "px",
+    "cx": "px",
+    "cy": "px",
+    "width": "px",
+    "height": "px",
+    "distortion": "plumb_bob k1 k2 p1 p2 k3",
+    "origin": "file, driver or default",
+}
+VERDICT_ATTRIBUTES = {
+    "hand_length_m": "estimated from the palm",
+    "tilt_rad": "of the palm to the camera's axis",
+    "distance_m": "of WRIST from the camera",
+    "frames_used": "still frames averaged",
+    "findings": "JSON, what was not as it should be",
+}
+
+NAMED_AXES = {"M": "markers", "J": "joint angles", "A": "wrist angles", "Z": "ZYZ angles", "Q": "joint or wrist angles"}
+"""Axes whose entries have names."""
+GROWING_AXES = {"N": "frames", "D": "blobs of all frames", "E": "events", "C": "bytes of colour", "B": "bytes of depth"}
+"""Axes that grow while a session runs; always the first of a dataset."""
+
+
+@dataclass(frozen=True, slots=True)
+class Field:
+    """One dataset. ``shape`` holds numbers and axis letters; ``dtype`` f8, u1, i4, i8 or text.
+
+    ``attribute`` names the value in the object it is written from (a frame, blobs, an event, a calibration).
+    ``fill`` stands where nothing was written; it is never a number that could be a measurement.
+    """
+
+    path: str
+    attribute: str
+    dtype: str
+    shape: tuple[str | int, ...]
+    unit: str
+    description: str
+    optional: bool = False
+    fingers_only: bool = False
+    fill: float = float("nan")
+    since: int = 1
+
+    @property
+    def h5_dtype(self) -> Any:
+        return h5py.string_dtype("utf-8") if self.dtype == "text" else np.dtype(self.dtype)
+
+    @property
+    def named_axis(self) -> str:
+        """The letter of the axis whose entries have names, or nothing."""
+        return next((str(axis) for axis in self.shape if axis in NAMED_AXES), "")
+
+
+@dataclass(frozen=True, slots=True)
+class Layout:
+    """What the axis letters mean in one file."""
+
+    protocol: MarkerProtocol
+    joint_names: tuple[str, ...]
+
+    def names(self, axis: str) -> tuple[str, ...]:
+        """Names along a named axis."""
+        by_axis = {
+            "M": self.protocol.markers,
+            "J": self.joint_names,
+            "A": WRIST_ANGLES,
+            "Z": ZYZ_ANGLES,
+            "Q": self.joint_names or WRIST_ANGLES,
+        }
+        return by_axis[axis]
+
+    def row_shape(self, field: Field) -> tuple[int, ...]:
+        """Shape without the growing axis; the whole shape of a field that is written once."""
+        axes = field.shape[1:] if field.shape[0] in GROWING_AXES else field.shape
+        return tuple(axis if isinstance(axis, int) else len(self.names(axis)) for axis in axes)
+
+    def has(self, field: Field) -> bool:
+        return self.protocol.has_fingers or not field.fingers_only
+
+    def group_names(self) -> dict[str, tuple[str, ...]]:
+        """Groups that carry ``names`` themselves."""
+        groups = {"/markers": self.protocol.markers, "/wrist": WRIST_ANGLES}
+        return groups | ({"/joints": self.joint_names} if self.protocol.has_fingers else {})
+
+
+# Two lines a row: where and what, then the words.
+# fmt: off
+CALIBRATION_FIELDS = (
+    Field("/calibration/clicks", "clicks_px", "f8", ("M", 2), "px",
+          "first-frame clicks as clicked, u right, v down"),
+    Field("/calibration/marker_position", "marker_position_w0_m", "f8", ("M", 3), "m",
+          "disc centres at the neutral pose in W0"),
+    Field("/calibration/rotation", "rotation_w0_cam", "f8", (3, 3), "1",
+          "rotation of g_w0c: vectors of W0 to the colour camera"),
+    Field("/calibration/translation", "translation_w0_cam_m", "f8", (3,), "m",
+          "translation of g_w0c: origin of W0 in the colour camera"),
+    Field("/calibration/marker_covariance", "marker_covariance_w0_m2", "f8", ("M", 3, 3), "m^2",
+          "how well the place of each disc is known, covariance in W0", optional=True),
+    Field("/calibration/start_angles", "start_angles_rad", "f8", ("A",), "rad",
+          "angles of the neutral pose as the therapist gave them, zero when none were", optional=True),
+    Field("/calibration/residual", "residual_m", "f8", ("M",), "m",
+          "distance of each disc from its fitted place", optional=True),
+)
+
+MOTION_FIELDS = (
+    Field("/wrist/position", "position_m", "f8", ("N", 3), "m", "T: origin of W2 in W0"),
+    Field("/wrist/velocity", "velocity_m_s", "f8", ("N", 3), "m/s",
+          "v: velocity of the origin of W2 in W0"),
+    Field("/wrist/rotation", "rotation_w2_w0", "f8", ("N", 3, 3), "1",
+          "R: rotation of W2 in W0, not mirrored for a left hand"),
+    Field("/wrist/angular_velocity", "angular_velocity_rad_s", "f8", ("N", 3), "rad/s",
+          "angular velocity in W2, a state of the filter"),
+    Field("/wrist/angles", "angles_rad", "f8", ("N", "A"), "rad",
+          "clinical angles: + radial, + flexion, + supination on both hands"),
+    Field("/wrist/angles_sd", "angles_sd_rad", "f8", ("N", "A"), "rad",
+          "standard deviation of the clinical angles, calibration included"),
+    Field("/wrist/angles_zyz", "angles_zyz_rad", "f8", ("N", "Z"), "rad",
+          "ZYZ angles of R; NaN where beta is below 3 degrees"),
+    Field("/joints/angles", "joint_angles_rad", "f8", ("N", "J"), "rad",
+          "joint angles, zero = straight finger", fingers_only=True),
+    Field("/joints/angles_sd", "joint_angles_sd_rad", "f8", ("N", "J"), "rad",
+          "standard deviation of the joint angles", fingers_only=True),
+    Field("/joints/velocity", "joint_velocity_rad_s", "f8", ("N", "J"), "rad/s",
+          "rate of the joint angles", fingers_only=True),
+    Field("/joints/position", "joint_position_m", "f8", ("N", "M", 3), "m",
+          "joint centres and fingertips in W0", fingers_only=True),
+)
+"""Written from a frame's and, under ``/smoothed``, from the smoother's values."""
+
+FRAME_FIELDS = (
+    Field("/frames/timestamp", "timestamp_s", "f8", ("N",), "s",
+          "time of the colour picture as in the recording, strictly rising"),
+    Field("/frames/status", "status", "u1", ("N",), "1", "0 tracked, 1 predicted, 2 lost", fill=2),
+    *MOTION_FIELDS,
+    Field("/markers/position_camera", "marker_position_cam_m", "f8", ("N", "M", 3), "m",
+          "centres of the discs as the model has them, in camera axes; finite for hidden ones too"),
+    Field("/markers/measured", "marker_measured_px", "f8", ("N", "M", 2), "px",
+          "the blob taken for the marker; NaN when none"),
+    Field("/markers/measured_depth", "marker_measured_depth_m", "f8", ("N", "M"), "m",
+          "depth of that blob along the camera's z; NaN when none"),
+    Field("/quality/dropped_frames", "dropped_before", "i4", ("N",), "1",
+          "frames missing before this one", fill=-1),
+    Field("/quality/measured_share", "measured_share", "f8", ("N", "Q"), "1",
+          "share of direct measurements in the last second"),
+    Field("/quality/nis", "nis", "f8", ("N",), "1", "normalised innovation squared"),
+    Field("/quality/nis_dof", "nis_dof", "i4", ("N",), "1",
+          "degrees of freedom of nis", optional=True, fill=-1),
+)
+
+DETECTION_FRAME = Field("/detections/frame", "frame", "i8", ("D",), "1", "row of the frame in /frames, rising", fill=-1)
+DETECTION_FIELDS = (
+    Field("/detections/pixel", "pixel", "f8", ("D", 2), "px",
+          "centre of the blob, u right, v down"),
+    Field("/detections/depth", "depth_m", "f8", ("D",), "m",
+          "depth of the blob along the camera's z; NaN when unknown"),
+    Field("/detections/depth_sd", "depth_sd_m", "f8", ("D",), "m", "standard deviation of depth"),
+    Field("/detections/area", "area_px", "f8", ("D",), "px^2", "area of the blob"),
+    Field("/detections/similarity", "similarity", "f8", ("D",), "1",
+          "Bhattacharyya coefficient to the reference colour"),
+)
+DETECTION_COUNT = Field("/detections/count", "count", "i4", ("N",), "1",
+                        "blobs of this frame", optional=True, fill=-1)
+
+RAW_STREAMS = (
+    Field("/raw/color", "color", "u1", ("C",), "1",
+          "colour pictures as files (JPEG or PNG), one after the other", optional=True, fill=0),
+    Field("/raw/depth", "depth", "u1", ("B",), "1",
+          "depth pictures as 16-bit PNG files, one after the other", optional=True, fill=0),
+)
+RAW_ENDS = (
+    Field("/raw/color_end", "color", "i8", ("N",), "1",
+          "where this frame's picture ends in /raw/color; it begins where the one before ends", optional=True, fill=-1),
+    Field("/raw/depth_end", "depth", "i8", ("N",), "1",
+          "where this frame's picture ends in /raw/depth; the same as before: no picture", optional=True, fill=-1),
+)
+RAW_DEPTH_UNIT = "depth_unit_m"
+"""Attribute of ``/raw``: metres per count of the depth pictures."""
+
+EVENT_FIELDS = (
+    Field("/events/time", "time_s", "f8", ("E",), "s",
+          "time of the event, on the clock of /frames/timestamp"),
+    Field("/events/kind", "kind", "text", ("E",), "", "repetition, note, pause, camera_lost, ..."),
+    Field("/events/text", "text", "text", ("E",), "", "words that go with it"),
+)
+# fmt: on
+
+SMOOTHED_FIELDS = tuple(
+    Field(
+        "/smoothed" + field.path,
+        field.attribute,
+        field.dtype,
+        field.shape,
+        field.unit,
+        field.description + "; by the smoother",
+        optional=True,
+        fingers_only=field.fingers_only,
+    )
+    for field in MOTION_FIELDS
+)
+
+COMMIT_FIELDS = (FRAME_FIELDS[0], EVENT_FIELDS[0])
+"""The times, written after everything else of their rows: a row counts from the moment its time is there."""
+
+ALL_FIELDS = (
+    *CALIBRATION_FIELDS,
+    *FRAME_FIELDS,
+    DETECTION_FRAME,
+    *DETECTION_FIELDS,
+    DETECTION_COUNT,
+    *EVENT_FIELDS,
+    *SMOOTHED_FIELDS,
+    *RAW_STREAMS,
+    *RAW_ENDS,
+)

@@ -1,0 +1,179 @@
+"""A session as values: what the writer takes and the reader gives. Arrays read are read-only."""
+
+from __future__ import annotations
+
+import json
+import uuid
+from collections.abc import Sequence
+from dataclasses import dataclass, fields
+from datetime import datetime
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from core.calibration.result import Calibration
+from core.camera import Camera
+from core.hand.protocols import MarkerProtocol, joint_angle_names
+from core.types import Detections, FloatArray, Side, TrackedFrame
+
+IntArray = NDArray[np.integer]
+
+
+@dataclass(frozen=True, slots=True)
+class SessionHeader:
+    """Who, when, what and with which settings; never a name or a birth date.
+
+    ``created`` ISO 8601 with zone; ``joint_names`` empty for ``wrist6``; ``parameters`` JSON of all settings;
+    ``origin`` the session this one was tracked again from, else empty.
+    """
+
+    session_id: str
+    subject_id: str
+    created: str
+    hand: Side
+    protocol: MarkerProtocol
+    exercise: str
+    software_version: str
+    parameters: str
+    origin: str = ""
+    joint_names: tuple[str, ...] = ()
+
+    def __post_init__(self) -> None:
+        if datetime.fromisoformat(self.created).utcoffset() is None:
+            raise ValueError(f"created without a time zone: {self.created}")
+        json.loads(self.parameters)
+        if bool(self.joint_names) != self.protocol.has_fingers:
+            raise ValueError(f"{self.protocol.name} with {len(self.joint_names)} joint angles")
+
+
+def new_header(
+    *,
+    hand: Side,
+    protocol: MarkerProtocol,
+    software_version: str,
+    subject_id: str = "",
+    exercise: str = "",
+    parameters: str = "{}",
+    origin: str = "",
+    dip_free: bool = False,
+    now: datetime | None = None,
+    session_id: uuid.UUID | None = None,
+) -> SessionHeader:
+    """A header for a session that begins now; ``now`` needs a zone, and is injectable as ``session_id`` is."""
+    return SessionHeader(
+        session_id=str(session_id or uuid.uuid4()),
+        subject_id=subject_id,
+        created=(now or datetime.now().astimezone()).isoformat(timespec="seconds"),
+        hand=hand,
+        protocol=protocol,
+        exercise=exercise,
+        software_version=software_version,
+        parameters=parameters,
+        origin=origin,
+        joint_names=joint_angle_names(dip_free) if protocol.has_fingers else (),
+    )
+
+
+@dataclass(frozen=True, slots=True)
+class Motion:
+    """Wrist and joints over N frames, of the filter or of the smoother; fields as in :class:`TrackedFrame`.
+
+    Each array has N rows of the shape given there; ``wrist6`` has no joints: (N, 0) and (N, 0, 3).
+    """
+
+    position_m: FloatArray
+    velocity_m_s: FloatArray
+    rotation_w2_w0: FloatArray
+    angular_velocity_rad_s: FloatArray
+    angles_rad: FloatArray
+    angles_sd_rad: FloatArray
+    angles_zyz_rad: FloatArray
+    joint_angles_rad: FloatArray
+    joint_angles_sd_rad: FloatArray
+    joint_velocity_rad_s: FloatArray
+    joint_position_m: FloatArray
+
+
+def motion_of(frames: Sequence[TrackedFrame]) -> Motion:
+    """The frames' wrist and joints, one row each."""
+    return Motion(
+        **{field.name: np.array([getattr(frame, field.name) for frame in frames]) for field in fields(Motion)}
+    )
+
+
+@dataclass(frozen=True, slots=True)
+class MarkerSeries:
+    """M markers over N frames: model position (N, M, 3) in camera axes; blob taken (N, M, 2) and its depth (N, M)."""
+
+    position_cam_m: FloatArray
+    measured_px: FloatArray
+    measured_depth_m: FloatArray
+
+
+@dataclass(frozen=True, slots=True)
+class QualitySeries:
+    """Frames missing before each frame (N,), share measured (N, 3 or J), NIS (N,) and its degrees of freedom (N,)."""
+
+    dropped_before: IntArray
+    measured_share: FloatArray
+    nis: FloatArray
+    nis_dof: IntArray
+
+
+@dataclass(frozen=True, slots=True)
+class Event:
+    """Something that happened at ``time_s`` of the recording: a repetition, a note, a pause, the camera lost."""
+
+    time_s: float
+    kind: str
+    text: str
+
+
+@dataclass(frozen=True, slots=True)
+class RawPictures:
+    """One frame's pictures as picture files: colour JPEG or PNG, depth 16-bit PNG; no bytes where there is none."""
+
+    color: bytes
+    depth: bytes
+
+
+@dataclass(frozen=True, slots=True)
+class DetectionTable:
+    """Every blob of every frame: ``frame`` (D,) row of the frame, rising; ``blobs`` all D of them."""
+
+    frame: IntArray
+    blobs: Detections
+
+    def of_frame(self, row: int) -> Detections:
+        """The blobs of one frame."""
+        begin, end = np.searchsorted(self.frame, (row, row + 1))
+        some = slice(int(begin), int(end))
+        b = self.blobs
+        return Detections(b.pixel[some], b.depth_m[some], b.depth_sd_m[some], b.area_px[some], b.similarity[some])
+
+
+@dataclass(frozen=True, slots=True)
+class Session:
+    """What a session file holds, without the blobs and pictures, which are read when asked for.
+
+    ``timestamp_s`` and ``status`` (N,); ``smoothed`` None where no smoother ran; ``complete`` False for a file
+    still open or cut short; ``recovered`` when an interrupted one was finished (ISO 8601), else empty.
+    """
+
+    path: Path
+    header: SessionHeader
+    camera: Camera
+    calibration: Calibration
+    timestamp_s: FloatArray
+    status: IntArray
+    motion: Motion
+    markers: MarkerSeries
+    quality: QualitySeries
+    events: tuple[Event, ...]
+    smoothed: Motion | None
+    complete: bool
+    recovered: str
+
+    def __len__(self) -> int:
+        return len(self.timestamp_s)

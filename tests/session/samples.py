@@ -1,0 +1,103 @@
+"""Made-up sessions: every value different, so that a mix-up of two datasets or rows shows."""
+
+from __future__ import annotations
+
+import uuid
+from datetime import UTC, datetime
+
+import numpy as np
+
+from core.calibration.result import Calibration, Clicks, Finding, Verdict
+from core.camera import Camera
+from core.hand.protocols import HAND21, WRIST6, MarkerProtocol
+from core.session.values import SessionHeader, new_header
+from core.types import Detections, TrackedFrame, TrackStatus
+
+CAMERA = Camera(570.25, 571.5, 314.0, 235.5, 640, 480, (0.04, -0.12, 0.001, -0.0003, 0.07), origin="file")
+SESSION_ID = uuid.UUID("12345678-1234-5678-1234-567812345678")
+CREATED = datetime(2026, 11, 13, 15, 30, tzinfo=UTC)
+
+
+def make_header(
+    protocol: MarkerProtocol = WRIST6,
+    session_id: uuid.UUID = SESSION_ID,
+    dip_free: bool = False,
+    subject: str = "Linden 42",
+) -> SessionHeader:
+    return new_header(
+        hand="left",
+        protocol=protocol,
+        software_version="0.1.0",
+        subject_id=subject,
+        exercise="wrist flexion",
+        parameters='{"profile": "standard"}',
+        origin="earlier.h5",
+        dip_free=dip_free,
+        now=CREATED,
+        session_id=session_id,
+    )
+
+
+def make_calibration(protocol: MarkerProtocol = WRIST6) -> Calibration:
+    rng = np.random.default_rng(5)
+    m = len(protocol.markers)
+    rotation, _ = np.linalg.qr(rng.normal(size=(3, 3)))
+    verdict = Verdict(
+        residual_mm=rng.uniform(0.1, 1.0, m),
+        hand_length_mm=183.0,
+        tilt_deg=12.5,
+        distance_m=0.7,
+        frames_used=15,
+        findings=(Finding("swapped", ("MCP2", "MCP3")), Finding("tilt", (), 22.0, 15.0, "deg")),
+    )
+    return Calibration(
+        clicks=Clicks("left", protocol, rng.uniform(100, 400, (m, 2))),
+        marker_position_w0_m=rng.normal(size=(m, 3)),
+        rotation_w0_cam=rotation,
+        translation_w0_cam_m=rng.normal(size=3),
+        marker_covariance_w0_m2=rng.normal(size=(m, 3, 3)),
+        start_angles_rad=np.array([0.1, 0.2, 0.3]),
+        verdict=verdict,
+    )
+
+
+def make_frame(row: int, protocol: MarkerProtocol = WRIST6, joints: int | None = None) -> TrackedFrame:
+    """Row ``row`` of a session at 30 frames a second; every fifth row is lost, some markers are never measured."""
+    rng = np.random.default_rng(row)
+    m = len(protocol.markers)
+    j = (17 if protocol is HAND21 else 0) if joints is None else joints
+    lost = row % 5 == 4
+    blank = np.nan if lost else 1.0
+    blobs = int(rng.integers(0, 9))
+    measured = rng.uniform(0, 480, (m, 2))
+    measured[row % m] = np.nan
+    return TrackedFrame(
+        index=row,
+        timestamp_s=time_of(row),
+        status=TrackStatus.LOST if lost else TrackStatus(row % 2),
+        position_m=blank * rng.normal(size=3),
+        velocity_m_s=blank * rng.normal(size=3),
+        rotation_w2_w0=blank * np.linalg.qr(rng.normal(size=(3, 3)))[0],
+        angular_velocity_rad_s=blank * rng.normal(size=3),
+        angles_rad=blank * rng.uniform(-1, 1, 3),
+        angles_sd_rad=blank * rng.uniform(0.01, 0.02, 3),
+        angles_zyz_rad=np.full(3, np.nan) if row % 3 == 0 else blank * rng.uniform(-1, 1, 3),
+        joint_angles_rad=blank * rng.uniform(-1, 1, j),
+        joint_angles_sd_rad=blank * rng.uniform(0.01, 0.02, j),
+        joint_velocity_rad_s=blank * rng.normal(size=j),
+        joint_position_m=blank * rng.normal(size=(m, 3)) if j else np.empty((0, 3)),
+        marker_position_cam_m=blank * rng.normal(size=(m, 3)),
+        marker_predicted_px=rng.normal(size=(m, 2)),
+        marker_predicted_cov_px2=rng.normal(size=(m, 2, 2)),
+        marker_measured_px=measured,
+        marker_measured_depth_m=rng.uniform(0.6, 0.9, m),
+        detections=Detections(*(rng.uniform(0, 1, shape) for shape in ((blobs, 2), blobs, blobs, blobs, blobs))),
+        dropped_before=row % 4,
+        measured_share=rng.uniform(0, 1, j or 3),
+        nis=float(rng.uniform(0, 20)),
+        nis_dof=int(rng.integers(0, 18)),
+    )
+
+
+def time_of(row: int) -> float:
+    return 1305031102.175304 + row / 30.0

@@ -1,0 +1,170 @@
+"""A session whose program ends without warning: the file opens, and at most the last second is missing."""
+
+from __future__ import annotations
+
+import bisect
+import io
+import random
+import signal
+import struct
+import subprocess
+import sys
+import time
+from pathlib import Path
+from typing import Any
+
+import h5py
+import numpy as np
+import pytest
+
+from core.session import new_file, writer
+from core.session.reader import read_detections, read_session
+from core.session.recovery import recover_folder
+from core.session.values import Session
+from core.session.writer import SessionWriter
+from tests.session.samples import CAMERA, make_calibration, make_frame, make_header, time_of
+
+ROOT = Path(__file__).parents[2]
+
+FRAMES_PER_SECOND = 30
+RECORDER = """
+import dataclasses, itertools, os, struct, sys
+from pathlib import Path
+from core.session.writer import SessionWriter
+from core.hand.protocols import HAND21
+from tests.session.samples import CAMERA, make_calibration, make_frame, make_header, time_of
+frames = [make_frame(row, HAND21) for row in range(50)]
+taken = os.open(sys.argv[2], os.O_RDWR | os.O_CREAT)
+now_s = 0.0
+writer = SessionWriter.create(
+    Path(sys.argv[1]), make_header(HAND21), CAMERA, make_calibration(HAND21), clock=lambda: now_s
+)
+for row in itertools.count():  # as fast as it goes, on the clock of a camera with 30 frames a second
+    now_s = row / 30
+    writer.append(dataclasses.replace(frames[row % 50], index=row, timestamp_s=time_of(row)))
+    os.pwrite(taken, struct.pack("<q", row + 1), 0)
+    if row % 100 == 99:
+        writer.add_event(time_of(row), "note", f"row {row}")
+    if row == 0:
+        print("begun", flush=True)
+"""
+
+
+def assert_rows_are_whole(session: Session) -> None:
+    """Each row carries every value of the frame it was made from."""
+    table = read_detections(session.path)
+    for row in {0, len(session) // 2, len(session) - 1}:
+        frame = make_frame(row % 50, session.header.protocol)
+        np.testing.assert_array_equal(session.motion.position_m[row], frame.position_m)
+        np.testing.assert_array_equal(session.markers.measured_px[row], frame.marker_measured_px)
+        np.testing.assert_array_equal(session.quality.measured_share[row], frame.measured_share)
+        np.testing.assert_array_equal(table.of_frame(row).pixel, frame.detections.pixel)
+        assert session.status[row] == frame.status
+
+
+@pytest.mark.parametrize("kill", range(5))
+def test_a_killed_recorder_loses_at_most_the_last_second(tmp_path: Path, kill: int) -> None:
+    target, taken = tmp_path / "session.h5", tmp_path / "taken"
+    command = [sys.executable, "-c", RECORDER, str(target), str(taken)]
+    with subprocess.Popen(command, cwd=ROOT, stdout=subprocess.PIPE, text=True) as recorder:
+        assert recorder.stdout is not None
+        assert recorder.stdout.readline() == "begun\n"
+        time.sleep(random.Random(kill).uniform(0.5, 1.5))
+        recorder.send_signal(signal.SIGKILL)
+    assert not target.exists()
+    (taken_rows,) = struct.unpack("<q", taken.read_bytes())
+    (part,) = tmp_path.glob("*.part")
+    with h5py.File(part, "r") as file:
+        assert not file.attrs["complete"]
+        stored_s = file["/frames/timestamp"][()]
+        assert len(stored_s) >= taken_rows - FRAMES_PER_SECOND
+        assert stored_s.tolist() == [time_of(row) for row in range(len(stored_s))]
+        file["/joints/angles"][()]
+        file["/events/text"].asstr()[()]
+    assert taken_rows > 2 * FRAMES_PER_SECOND
+    assert len(read_session(part)) == len(stored_s)
+
+    recovery = recover_folder(tmp_path)
+    assert (recovery.recovered, recovery.busy, recovery.faults) == ((target,), (), ())
+    assert {path.name for path in tmp_path.iterdir()} == {"session.h5", "taken"}
+    session = read_session(target)
+    assert session.complete
+    assert session.recovered
+    assert session.timestamp_s.tolist() == stored_s.tolist()
+    assert_rows_are_whole(session)
+
+
+class LoggedFile(io.FileIO):
+    """A file that notes every write, so that its state after each of them can be made again."""
+
+    def __init__(self, path: Path) -> None:
+        super().__init__(path, "x+")
+        self.log: list[tuple[int | None, Any]] = []
+
+    def write(self, data: Any) -> int:
+        self.log.append((self.tell(), bytes(data)))
+        return super().write(data)
+
+    def truncate(self, size: int | None = None) -> int:
+        self.log.append((None, size))
+        return super().truncate(size)
+
+
+def apply(image: bytearray, offset: int | None, data: Any) -> None:
+    if offset is None:
+        del image[data:]
+        image.extend(bytes(data - len(image)))
+    else:
+        image.extend(bytes(max(0, offset + len(data) - len(image))))
+        image[offset : offset + len(data)] = data
+
+
+def test_after_every_single_write_the_flushed_rows_are_there(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Not five random moments but each one: the file is cut after every write of HDF5 and recovered."""
+    recorded = tmp_path / "recorded"
+    recorded.mkdir()
+    files: list[LoggedFile] = []
+
+    def logged(path: Path) -> h5py.File:
+        files.append(LoggedFile(path))
+        return h5py.File(files[0], "w", libver="earliest", rdcc_nbytes=0)
+
+    monkeypatch.setattr(writer, "new_file", logged)
+    monkeypatch.setattr(writer, "reserve", lambda *_: None)  # the room it would take is added to the image below
+    monkeypatch.setattr(new_file, "_CHUNK_ROWS", {"N": 8, "D": 32, "E": 4})  # many new chunks: the delicate moment
+    target = recorded / "s.h5"
+    session = SessionWriter.create(target, make_header(), CAMERA, make_calibration(), clock=lambda: 0.0)
+    log = files[0].log
+    flushed = [(len(log), 0)]
+    for row in range(24):
+        session.append(make_frame(row))
+        if row % 6 == 5:
+            session.add_event(time_of(row), "note", f"after row {row}")
+            session.flush()
+            flushed.append((len(log), row + 1))
+    part_name = session.part_path.name
+    session.abandon()
+    files[0].close()
+
+    image = bytearray()
+    again = tmp_path / "again"
+    again.mkdir()
+    cuts = 0
+    for written, (offset, data) in enumerate(log, start=1):
+        apply(image, offset, data)
+        at = bisect.bisect_right([begin for begin, _ in flushed], written) - 1
+        if at < 1 or written % 5:
+            continue
+        cuts += 1
+        safe_rows = flushed[at][1]
+        (again / part_name).write_bytes(image + bytes(300_000))
+        with h5py.File(again / part_name, "r") as file:
+            assert file["/frames/timestamp"][:safe_rows].tolist() == [time_of(row) for row in range(safe_rows)]
+        recovery = recover_folder(again)
+        assert recovery.recovered == (again / "s.h5",), f"after write {written}: {recovery.faults}"
+        result = read_session(again / "s.h5")
+        assert len(result) >= safe_rows
+        assert len(result.events) >= at
+        assert_rows_are_whole(result)
+        (again / "s.h5").unlink()
+    assert cuts > 50

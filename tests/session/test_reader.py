@@ -1,0 +1,201 @@
+"""The reader gives back what was written, and refuses everything else with one typed fault."""
+
+from __future__ import annotations
+
+import dataclasses
+import shutil
+import subprocess
+import sys
+from collections.abc import Callable
+from pathlib import Path
+
+import h5py
+import numpy as np
+import pytest
+
+from core.errors import SessionUnreadable
+from core.hand.protocols import HAND21, WRIST6, MarkerProtocol
+from core.session.reader import has_raw, read_detections, read_session
+from core.session.values import Event, Motion, motion_of, new_header
+from core.session.writer import SessionWriter
+from tests.session.samples import CAMERA, make_calibration, make_frame, make_header, time_of
+
+N = 12
+
+
+def write(path: Path, protocol: MarkerProtocol = WRIST6) -> Path:
+    with SessionWriter.create(path, make_header(protocol), CAMERA, make_calibration(protocol)) as session:
+        for row in range(N):
+            session.append(make_frame(row, protocol))
+        session.add_event(time_of(2), "note", "ein Wort")
+        session.write_smoothed(motion_of([make_frame(row + 100, protocol) for row in range(N)]))
+    return path
+
+
+def assert_same(left: object, right: object) -> None:
+    """Equal in every field, NaN equal to NaN."""
+    assert type(left) is type(right)
+    for field in dataclasses.fields(left):  # type: ignore[arg-type]
+        mine, theirs = getattr(left, field.name), getattr(right, field.name)
+        if isinstance(mine, np.ndarray):
+            np.testing.assert_allclose(mine, theirs, rtol=1e-14, err_msg=field.name)
+        elif dataclasses.is_dataclass(mine) and field.name != "protocol":
+            assert_same(mine, theirs)
+        elif isinstance(mine, float):
+            assert mine == pytest.approx(theirs, nan_ok=True)
+        else:
+            assert repr(mine) == repr(theirs), field.name
+
+
+@pytest.mark.parametrize("protocol", [WRIST6, HAND21], ids=lambda protocol: protocol.name)
+def test_what_was_written_is_read(tmp_path: Path, protocol: MarkerProtocol) -> None:
+    frames = [make_frame(row, protocol) for row in range(N)]
+    session = read_session(write(tmp_path / "s.h5", protocol))
+    assert session.header == make_header(protocol)
+    assert session.camera == CAMERA
+    assert_same(session.calibration, make_calibration(protocol))
+    assert session.calibration.verdict.findings[0].markers == ("MCP2", "MCP3")
+    assert_same(session.motion, motion_of(frames))
+    assert isinstance(session.smoothed, Motion)
+    assert_same(session.smoothed, motion_of([make_frame(row + 100, protocol) for row in range(N)]))
+    assert session.status.tolist() == [frame.status for frame in frames]
+    assert session.quality.dropped_before.tolist() == [frame.dropped_before for frame in frames]
+    assert session.quality.nis_dof.tolist() == [frame.nis_dof for frame in frames]
+    assert session.events == (Event(time_of(2), "note", "ein Wort"),)
+    assert (session.complete, session.recovered) == (True, "")
+    table = read_detections(session.path)
+    for row, frame in enumerate(frames):
+        assert_same(table.of_frame(row), frame.detections)
+    assert not has_raw(session.path)
+
+
+def test_arrays_are_read_only(tmp_path: Path) -> None:
+    session = read_session(write(tmp_path / "s.h5"))
+    with pytest.raises(ValueError):
+        session.motion.angles_rad[0] = 0.0
+
+
+def test_a_lost_frame_is_unknown_everywhere_and_nowhere_zero(tmp_path: Path) -> None:
+    session = read_session(write(tmp_path / "s.h5"))
+    lost = session.status == 2
+    assert lost.any()
+    for field in dataclasses.fields(Motion):
+        values = getattr(session.motion, field.name)
+        assert np.isnan(values[lost]).all(), field.name
+    assert np.isnan(session.markers.position_cam_m[lost]).all()
+
+
+def edit(change: Callable[[h5py.File], object]) -> Callable[[Path], None]:
+    def apply(path: Path) -> None:
+        with h5py.File(path, "r+") as file:
+            change(file)
+
+    return apply
+
+
+def replace(file: h5py.File, path: str, data: object) -> None:
+    del file[path]
+    file[path] = data
+
+
+def cut(path: Path) -> None:
+    data = path.read_bytes()
+    path.write_bytes(data[: len(data) // 2])
+
+
+BAD: dict[str, tuple[Callable[[Path], object], str]] = {
+    "missing": (lambda path: path.unlink(), "no such file"),
+    "a folder": (lambda path: (path.unlink(), path.mkdir()), "a folder"),
+    "text": (lambda path: path.write_text("a session"), "not a session"),
+    "empty": (lambda path: path.write_bytes(b""), "not a session"),
+    "cut off": (cut, ""),
+    "other HDF5": (lambda path: (path.unlink(), h5py.File(path, "w").close()), "not a session"),
+    "newer": (edit(lambda file: file.attrs.modify("format_version", 2)), "version 2"),
+    "no hand": (edit(lambda file: file.attrs.__delitem__("hand")), "hand"),
+    "third hand": (edit(lambda file: file.attrs.__setitem__("hand", "middle")), "middle"),
+    "other protocol": (edit(lambda file: file.attrs.__setitem__("protocol", "foot")), "foot"),
+    "no zone": (edit(lambda file: file.attrs.__setitem__("created", "2026-11-13T15:30:00")), "zone"),
+    "settings not JSON": (edit(lambda file: file.attrs.__setitem__("parameters", "{")), ""),
+    "no angles": (edit(lambda file: file.__delitem__("/wrist/angles")), "/wrist/angles"),
+    "no camera": (edit(lambda file: file.__delitem__("/camera")), ""),
+    "no times": (edit(lambda file: file.__delitem__("/frames/timestamp")), ""),
+    "rows missing": (edit(lambda file: file["/wrist/angles"].resize(3, axis=0)), "/wrist/angles"),
+    "wrong width": (edit(lambda file: replace(file, "/wrist/position", np.zeros((N, 2)))), "/wrist/position"),
+    "words": (edit(lambda file: replace(file, "/quality/nis", [b"x"] * N)), "/quality/nis"),
+    "a group": (edit(lambda file: (file.__delitem__("/quality/nis"), file.create_group("/quality/nis"))), ""),
+}
+
+
+@pytest.mark.parametrize("case", BAD)
+def test_anything_else_is_one_typed_fault(tmp_path: Path, case: str) -> None:
+    path = write(tmp_path / "s.h5")
+    spoil, fact = BAD[case]
+    spoil(path)
+    with pytest.raises(SessionUnreadable) as caught:
+        read_session(path)
+    assert caught.value.subject == str(path)
+    assert fact in caught.value.detail
+    assert "\n" not in caught.value.detail
+
+
+def test_a_session_still_being_written_says_so(tmp_path: Path) -> None:
+    session = SessionWriter.create(tmp_path / "s.h5", make_header(), CAMERA, make_calibration())
+    program = """if True:
+        import sys
+        from pathlib import Path
+        from core.errors import SessionUnreadable
+        from core.session.reader import read_session
+        try:
+            read_session(Path(sys.argv[1]))
+        except SessionUnreadable as fault:
+            print(fault.detail)
+    """
+    command = [sys.executable, "-c", program, str(session.part_path)]
+    elsewhere = subprocess.run(command, cwd=Path(__file__).parents[2], capture_output=True, text=True, check=True)
+    assert elsewhere.stdout.strip() == "still being recorded"
+    session.discard()
+
+
+def test_a_file_with_only_what_the_contract_asks_is_read(tmp_path: Path) -> None:
+    """What Carpus stores beyond the contract is optional; other programs write sessions too."""
+    path = write(tmp_path / "s.h5")
+    extra = ("marker_covariance", "start_angles", "residual")
+    with h5py.File(path, "r+") as file:
+        for name in extra:
+            del file[f"/calibration/{name}"]
+        for name in list(file["/calibration"].attrs):
+            del file["/calibration"].attrs[name]
+        for name in ("/quality/nis_dof", "/detections/count", "/smoothed", "/camera"):
+            if name != "/camera":
+                del file[name]
+        del file["/camera"].attrs["origin"]
+        del file.attrs["origin"]
+        file["/more/to/come"] = np.zeros(3)
+    session = read_session(path)
+    assert len(session) == N
+    assert session.smoothed is None
+    assert np.isnan(session.calibration.marker_covariance_w0_m2).all()
+    assert np.isnan(session.calibration.verdict.tilt_deg)
+    assert (session.quality.nis_dof == -1).all()
+
+
+def test_a_copy_elsewhere_reads_the_same(tmp_path: Path) -> None:
+    path = write(tmp_path / "s.h5")
+    copy = Path(shutil.copy(path, tmp_path / "renamed.hdf5"))
+    assert_same(read_session(copy).motion, read_session(path).motion)
+
+
+def test_a_header_without_zone_or_with_wrong_joints_is_not_made() -> None:
+    header = make_header()
+    with pytest.raises(ValueError, match="zone"):
+        dataclasses.replace(header, created="2026-11-13T15:30:00")
+    with pytest.raises(ValueError, match="joint"):
+        dataclasses.replace(header, joint_names=("CMC1_extension",))
+    with pytest.raises(ValueError):
+        dataclasses.replace(header, parameters="not JSON")
+
+
+def test_a_new_header_has_its_own_id_and_a_zone() -> None:
+    first, second = (new_header(hand="right", protocol=HAND21, software_version="0.1.0") for _ in range(2))
+    assert first.session_id != second.session_id
+    assert len(first.joint_names) == 17

@@ -1,0 +1,313 @@
+"""The writer: nothing overwritten, nothing half-written taken for whole, a full disk loses nothing that was stored."""
+
+from __future__ import annotations
+
+import dataclasses
+import errno
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import h5py
+import numpy as np
+import pytest
+
+from core.errors import CarpusFault, DiskFull, OutputExists, OutputNotWritable, TimesUnordered
+from core.hand.protocols import HAND21
+from core.session import disk, writer
+from core.session.reader import has_raw, raw_depth_unit_m, read_detections, read_raw, read_session
+from core.session.recovery import recover_folder
+from core.session.values import RawPictures, motion_of
+from core.session.writer import FLUSH_EVERY_S, SessionWriter
+from tests.session.samples import CAMERA, make_calibration, make_frame, make_header
+
+ROOT = Path(__file__).parents[2]
+
+
+class Clock:
+    def __init__(self) -> None:
+        self.now_s = 100.0
+
+    def __call__(self) -> float:
+        return self.now_s
+
+
+def create(path: Path, clock: Clock | None = None) -> SessionWriter:
+    return SessionWriter.create(path, make_header(), CAMERA, make_calibration(), clock=clock or Clock())
+
+
+def rows_on_disk(session: SessionWriter) -> int:
+    """Read from a copy, as another program would see it."""
+    copy = session.part_path.with_suffix(".copy")
+    copy.write_bytes(session.part_path.read_bytes())
+    with h5py.File(copy, "r") as file:
+        return int(file["/frames/timestamp"].shape[0])
+
+
+def test_rows_reach_the_disk_within_a_second(tmp_path: Path) -> None:
+    clock = Clock()
+    session = create(tmp_path / "s.h5", clock)
+    for row in range(60):
+        clock.now_s += 1 / 30
+        session.append(make_frame(row))
+        assert rows_on_disk(session) >= row + 1 - 30
+    assert FLUSH_EVERY_S < 1.0
+    session.close()
+
+
+def test_memory_held_is_bounded_when_the_clock_stands_still(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(writer, "ROWS_HELD", 8)
+    session = create(tmp_path / "s.h5")
+    for row in range(20):
+        session.append(make_frame(row))
+    assert rows_on_disk(session) == 16
+    session.close()
+
+
+def test_an_existing_file_is_never_touched(tmp_path: Path) -> None:
+    target = tmp_path / "s.h5"
+    target.write_text("mine")
+    with pytest.raises(OutputExists):
+        create(target)
+    assert [path.name for path in tmp_path.iterdir()] == ["s.h5"]
+    assert target.read_text() == "mine"
+
+
+@pytest.mark.parametrize("links", [True, False])
+def test_a_file_that_appears_meanwhile_is_never_touched(
+    tmp_path: Path, links: bool, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    if not links:
+        monkeypatch.setattr(os, "link", no_links)
+    target = tmp_path / "s.h5"
+    session = create(target)
+    session.append(make_frame(0))
+    target.write_text("mine")
+    with pytest.raises(OutputExists):
+        session.close()
+    assert target.read_text() == "mine"
+    recovery = recover_folder(tmp_path)
+    assert recovery.recovered == (tmp_path / "s-2.h5",)
+    assert len(read_session(tmp_path / "s-2.h5")) == 1
+    assert target.read_text() == "mine"
+
+
+def no_links(*_: object) -> None:
+    raise OSError(errno.EPERM, "no hard links on this disk")
+
+
+def test_a_disk_without_hard_links_gets_the_file_too(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(os, "link", no_links)
+    with create(tmp_path / "s.h5") as session:
+        session.append(make_frame(0))
+    assert [path.name for path in tmp_path.iterdir()] == ["s.h5"]
+    assert read_session(tmp_path / "s.h5").complete
+
+
+def test_the_name_appears_only_when_the_session_is_whole(tmp_path: Path) -> None:
+    target = tmp_path / "s.h5"
+    session = create(target)
+    session.append(make_frame(0))
+    session.flush()
+    assert not target.exists()
+    (part,) = tmp_path.iterdir()
+    assert part.name.endswith(".part")
+    session.close()
+    session.close()
+    assert [path.name for path in tmp_path.iterdir()] == ["s.h5"]
+
+
+def test_a_fault_on_the_way_leaves_the_part_and_no_session(tmp_path: Path) -> None:
+    def interrupted() -> None:
+        with create(tmp_path / "s.h5") as session:
+            session.append(make_frame(0))
+            raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt):
+        interrupted()
+    (part,) = tmp_path.iterdir()
+    assert part.suffix == ".part"
+    assert len(read_session(part)) == 1
+
+
+def test_discarded_work_leaves_nothing(tmp_path: Path) -> None:
+    session = create(tmp_path / "s.h5")
+    session.append(make_frame(0))
+    session.discard()
+    assert list(tmp_path.iterdir()) == []
+
+
+@pytest.mark.parametrize("place", ["nowhere/s.h5", "file/s.h5"])
+def test_a_place_that_cannot_be_written(tmp_path: Path, place: str) -> None:
+    (tmp_path / "file").write_text("")
+    with pytest.raises(OutputNotWritable):
+        create(tmp_path / place)
+
+
+def test_a_folder_without_permission(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    def refuse(_: Path) -> h5py.File:  # root passes every real lock
+        raise PermissionError(errno.EACCES, "denied")
+
+    monkeypatch.setattr(writer, "new_file", refuse)
+    with pytest.raises(OutputNotWritable) as caught:
+        create(tmp_path / "s.h5")
+    assert caught.value.subject == str(tmp_path)
+
+
+def test_times_that_do_not_rise_are_refused(tmp_path: Path) -> None:
+    session = create(tmp_path / "s.h5")
+    session.append(make_frame(1))
+    with pytest.raises(TimesUnordered):
+        session.append(make_frame(0))
+    session.discard()
+
+
+def test_a_wrong_shape_is_not_stretched_to_fit(tmp_path: Path) -> None:
+    session = create(tmp_path / "s.h5")
+    session.append(dataclasses.replace(make_frame(0), position_m=np.array(0.0)))
+    with pytest.raises(ValueError, match="/wrist/position"):
+        session.flush()
+    session.discard()
+
+
+def test_a_session_without_a_frame_is_a_session(tmp_path: Path) -> None:
+    with create(tmp_path / "s.h5"):
+        pass
+    session = read_session(tmp_path / "s.h5")
+    assert len(session) == 0
+    assert session.motion.position_m.shape == (0, 3)
+    assert len(read_detections(tmp_path / "s.h5").blobs) == 0
+
+
+def test_the_smoothed_result_has_a_row_for_every_frame(tmp_path: Path) -> None:
+    session = create(tmp_path / "s.h5")
+    for row in range(3):
+        session.append(make_frame(row))
+    with pytest.raises(ValueError, match="/smoothed"):
+        session.write_smoothed(motion_of([make_frame(0)]))
+    session.discard()
+
+
+def test_pictures_come_back_byte_for_byte(tmp_path: Path) -> None:
+    path = tmp_path / "s.h5"
+    pictures = [RawPictures(b"color %d" % row * row, b"" if row == 2 else b"depth %d" % row) for row in range(5)]
+    session = SessionWriter.create(path, make_header(), CAMERA, make_calibration(), raw_depth_unit_m=0.001)
+    for row, raw in enumerate(pictures):
+        session.append(make_frame(row), raw)
+        if row % 2:
+            session.flush()
+    with pytest.raises(ValueError, match="every frame"):
+        session.append(make_frame(9))
+    session.close()
+    assert has_raw(path)
+    assert raw_depth_unit_m(path) == 0.001
+    assert list(read_raw(path)) == pictures
+
+
+BOUNDED = """
+import resource, sys
+from pathlib import Path
+from core.errors import DiskFull
+from core.hand.protocols import HAND21
+from core.session.writer import SessionWriter
+from tests.session.samples import CAMERA, make_calibration, make_frame, make_header
+target = Path(sys.argv[1])
+limit = int(sys.argv[2])
+resource.setrlimit(resource.RLIMIT_FSIZE, (limit, limit))
+session = SessionWriter.create(target, make_header(HAND21), CAMERA, make_calibration(HAND21), clock=lambda: 0.0)
+row = flushed = 0
+try:
+    while row < 5000:
+        session.append(make_frame(row, HAND21))
+        row += 1
+        if row % 25 == 0:
+            session.flush()
+            flushed = row
+except DiskFull as fault:
+    print(flushed, Path(fault.subject).name)
+    try:
+        session.append(make_frame(row, HAND21))
+    except DiskFull:
+        print("still full")
+    session.close()
+"""
+
+
+@pytest.mark.parametrize("limit_mb", [6, 7.5, 9, 13])
+def test_a_full_disk_is_told_and_what_was_stored_stays(tmp_path: Path, limit_mb: float) -> None:
+    target = tmp_path / "s.h5"
+    command = [sys.executable, "-c", BOUNDED, str(target), str(int(limit_mb * 1e6))]
+    done = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=True)
+    flushed, part_name, *rest = done.stdout.split()
+    assert rest == ["still", "full"]
+    assert int(flushed) > 0
+    assert not target.exists()
+    assert [path.name for path in tmp_path.iterdir()] == [part_name]
+    assert len(read_session(tmp_path / part_name)) == int(flushed)
+    assert recover_folder(tmp_path).recovered == (target,)
+    session = read_session(target)
+    assert len(session) == int(flushed)
+    np.testing.assert_array_equal(
+        session.motion.joint_position_m[-1], make_frame(len(session) - 1, HAND21).joint_position_m
+    )
+
+
+def test_a_disk_full_from_the_start_leaves_nothing(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    def full(*_: int) -> None:
+        raise OSError(errno.ENOSPC, "no space left")
+
+    monkeypatch.setattr(os, "posix_fallocate", full)
+    with pytest.raises(DiskFull):
+        create(tmp_path / "s.h5")
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_a_disk_that_cannot_reserve_is_asked_how_much_is_free(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    def unknown(*_: int) -> None:
+        raise OSError(errno.EOPNOTSUPP, "not here")
+
+    monkeypatch.setattr(os, "posix_fallocate", unknown)
+    session = create(tmp_path / "s.h5")
+    session.append(make_frame(0))
+    session.flush()
+    usage = disk.shutil.disk_usage(tmp_path)._replace(free=1000)
+    monkeypatch.setattr(disk.shutil, "disk_usage", lambda _: usage)
+    session.append(make_frame(1))
+    with pytest.raises(DiskFull):
+        session.flush()
+    session.close()
+    (part,) = tmp_path.iterdir()
+    assert len(read_session(part)) == 1
+
+
+@pytest.mark.parametrize(
+    ("number", "kind"), [(errno.ENOSPC, DiskFull), (errno.EDQUOT, DiskFull), (errno.EIO, OutputNotWritable)]
+)
+def test_a_failing_write_is_a_typed_fault(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, number: int, kind: type[CarpusFault]
+) -> None:
+    session = create(tmp_path / "s.h5")
+    session.append(make_frame(0))
+
+    def broken(_: int) -> None:
+        raise OSError(number, "broken")
+
+    monkeypatch.setattr(os, "fsync", broken)
+    with pytest.raises(kind):
+        session.flush()
+    monkeypatch.undo()
+    with pytest.raises(kind):
+        session.append(make_frame(1))
+    session.close()
+    assert not (tmp_path / "s.h5").exists()
+
+
+def test_a_finished_file_has_no_reserved_room_left(tmp_path: Path) -> None:
+    path = tmp_path / "s.h5"
+    with create(path) as session:
+        session.append(make_frame(0))
+    size = path.stat().st_size
+    with h5py.File(path, "r") as file:
+        assert file.id.get_filesize() == size
+    assert size < 10e6
