@@ -1,0 +1,117 @@
+"""The file of first-frame clicks: JSON with hand, protocol and one pixel for each marker."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from core.calibration.result import Clicks
+from core.errors import ClickOutsidePicture, ClicksUnreadable, OutputExists, OutputNotWritable, ProtocolUnknown
+from core.hand.protocols import protocol_named
+from core.types import FloatArray, Side
+
+_NO_PIXEL_PX = 1e9
+"""Beyond any picture; also keeps NaN, infinity and integers too long for a float out."""
+
+
+def read_clicks(path: Path, picture_size: tuple[int, int] | None = None) -> Clicks:
+    """The clicks of a file; with ``picture_size`` (width, height) each must lie inside the first picture.
+
+    Raises :class:`ClicksUnreadable`, :class:`ProtocolUnknown` or :class:`ClickOutsidePicture`.
+    """
+    content = _content(path)
+    side = _side(path, content.get("hand"))
+    name = str(content.get("protocol", ""))
+    try:
+        protocol = protocol_named(name)
+    except ProtocolUnknown as cause:
+        raise ProtocolUnknown(name, f"{path}: {cause.detail}") from cause
+    pixel = _pixels(path, content.get("markers"), protocol.markers)
+    clicks = Clicks(side, protocol, pixel)
+    if picture_size is not None:
+        check_inside(clicks, *picture_size)
+    return clicks
+
+
+def write_clicks(path: Path, clicks: Clicks) -> None:
+    """Write clicks in the agreed form; a file that is there already is kept."""
+    markers = dict(zip(clicks.protocol.markers, clicks.pixel.tolist(), strict=True))
+    text = json.dumps({"hand": clicks.side, "protocol": clicks.protocol.name, "markers": markers}, indent=1)
+    try:
+        with path.open("x", encoding="utf-8") as file:
+            file.write(text + "\n")
+    except FileExistsError as cause:
+        raise OutputExists(path) from cause
+    except OSError as cause:
+        raise OutputNotWritable(path, cause.strerror or "") from cause
+
+
+def check_inside(clicks: Clicks, width_px: int, height_px: int) -> None:
+    """Raise :class:`ClickOutsidePicture` for the first click outside; the picture begins half a pixel before 0."""
+    for name, (u, v) in zip(clicks.protocol.markers, clicks.pixel.tolist(), strict=True):
+        if not (-0.5 <= u < width_px - 0.5 and -0.5 <= v < height_px - 0.5):
+            raise ClickOutsidePicture(name, f"{u:g}, {v:g} in a picture of {width_px} x {height_px} pixels")
+
+
+def _content(path: Path) -> dict[str, Any]:
+    try:
+        content = json.loads(path.read_text(encoding="utf-8-sig"), object_pairs_hook=_without_repetition)
+    except FileNotFoundError as cause:
+        raise ClicksUnreadable(path, "there is no such file") from cause
+    except OSError as cause:
+        raise ClicksUnreadable(path, cause.strerror or "cannot be opened") from cause
+    except UnicodeDecodeError as cause:
+        raise ClicksUnreadable(path, "not a text file") from cause
+    except json.JSONDecodeError as cause:
+        raise ClicksUnreadable(path, f"not JSON, line {cause.lineno}") from cause
+    except _RepeatedError as cause:
+        raise ClicksUnreadable(path, f"{cause} is there twice") from cause
+    except (ValueError, RecursionError) as cause:
+        raise ClicksUnreadable(path, "not JSON") from cause
+    if not isinstance(content, dict):
+        raise ClicksUnreadable(path, "not an object with hand, protocol and markers")
+    return content
+
+
+class _RepeatedError(Exception):
+    """A name that a JSON object holds twice; JSON itself would silently take the second."""
+
+
+def _without_repetition(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
+    found: dict[str, Any] = {}
+    for name, value in pairs:
+        if name in found:
+            raise _RepeatedError(name)
+        found[name] = value
+    return found
+
+
+def _side(path: Path, hand: Any) -> Side:
+    if hand == "right":
+        return "right"
+    if hand == "left":
+        return "left"
+    raise ClicksUnreadable(path, f"hand is {json.dumps(hand)}, right or left expected")
+
+
+def _pixels(path: Path, markers: Any, names: tuple[str, ...]) -> FloatArray:
+    """Pixels (M, 2) in the order of the protocol."""
+    if not isinstance(markers, dict):
+        raise ClicksUnreadable(path, "no markers")
+    for problem, some in (("no click for", set(names) - set(markers)), ("unknown marker", set(markers) - set(names))):
+        if some:
+            raise ClicksUnreadable(path, f"{problem} {', '.join(sorted(some))}")
+    return np.array([_pixel(path, name, markers[name]) for name in names])
+
+
+def _pixel(path: Path, name: str, value: Any) -> tuple[float, float]:
+    if isinstance(value, list) and len(value) == 2 and all(map(_is_number, value)):
+        return float(value[0]), float(value[1])
+    raise ClicksUnreadable(path, f"{name} is {json.dumps(value)[:40]}, two pixels expected")
+
+
+def _is_number(value: Any) -> bool:
+    return isinstance(value, (int, float)) and not isinstance(value, bool) and abs(value) < _NO_PIXEL_PX

@@ -1,0 +1,146 @@
+"""The file of clicks: the agreed form is read, everything else is named."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from core.calibration.clicks import check_inside, read_clicks, write_clicks
+from core.calibration.result import Clicks
+from core.errors import (
+    CarpusFault,
+    ClickOutsidePicture,
+    ClicksUnreadable,
+    OutputExists,
+    OutputNotWritable,
+    ProtocolUnknown,
+)
+from core.hand.protocols import HAND21, WRIST6
+
+MARKERS = {
+    "MCP5": [260.5, 200],
+    "WRIST": [317.2, 301.5],
+    "CMC1": [295.0, 290.1],
+    "MCP2": [300.0, 210.0],
+    "MCP3": [310.0, 205.0],
+    "MCP4": [320.0, 207.0],
+}
+GOOD: dict[str, Any] = {"hand": "right", "protocol": "wrist6", "markers": MARKERS}
+
+
+def write(path: Path, content: Any) -> Path:
+    path.write_text(content if isinstance(content, str) else json.dumps(content))
+    return path
+
+
+def test_the_order_is_the_protocol_s_not_the_file_s(tmp_path: Path) -> None:
+    clicks = read_clicks(write(tmp_path / "c.json", GOOD), (640, 480))
+    assert (clicks.side, clicks.protocol) == ("right", WRIST6)
+    assert clicks.pixel.tolist() == [MARKERS[name] for name in ("WRIST", "CMC1", "MCP2", "MCP3", "MCP4", "MCP5")]
+    assert clicks.pixel.dtype == np.float64
+
+
+def test_what_is_written_is_read_and_has_the_agreed_form(tmp_path: Path) -> None:
+    pixel = np.random.default_rng(0).uniform(0, 480, (21, 2))
+    path = tmp_path / "c.json"
+    write_clicks(path, Clicks("left", HAND21, pixel))
+    again = read_clicks(path)
+    assert (again.side, again.protocol) == ("left", HAND21)
+    np.testing.assert_array_equal(again.pixel, pixel)
+    content = json.loads(path.read_text())
+    assert set(content) == {"hand", "protocol", "markers"}
+    assert content["markers"]["TIP5"] == pixel[20].tolist()
+
+
+def test_clicks_are_never_overwritten(tmp_path: Path) -> None:
+    path = write(tmp_path / "c.json", "mine")
+    clicks = Clicks("left", WRIST6, np.zeros((6, 2)))
+    with pytest.raises(OutputExists):
+        write_clicks(path, clicks)
+    assert path.read_text() == "mine"
+    with pytest.raises(OutputNotWritable):
+        write_clicks(tmp_path / "nowhere" / "c.json", clicks)
+
+
+def changed(**change: Any) -> dict[str, Any]:
+    return GOOD | change
+
+
+def markers(**change: Any) -> dict[str, Any]:
+    return changed(markers=MARKERS | change)
+
+
+BAD: dict[str, tuple[Any, type[CarpusFault], str]] = {
+    "empty": ("", ClicksUnreadable, "not JSON, line 1"),
+    "cut off": (json.dumps(GOOD)[:60], ClicksUnreadable, "not JSON"),
+    "no object": ([1, 2], ClicksUnreadable, "object"),
+    "nested without end": ("[" * 100_000, ClicksUnreadable, "not JSON"),
+    "third hand": (changed(hand="both"), ClicksUnreadable, '"both"'),
+    "no hand": ({"protocol": "wrist6", "markers": MARKERS}, ClicksUnreadable, "hand is null"),
+    "unknown protocol": (changed(protocol="foot26"), ProtocolUnknown, "wrist6, hand21"),
+    "no protocol": ({"hand": "right", "markers": MARKERS}, ProtocolUnknown, "wrist6"),
+    "other protocol": (changed(protocol="hand21"), ClicksUnreadable, "no click for DIP2"),
+    "no markers": (changed(markers=None), ClicksUnreadable, "no markers"),
+    "markers as a list": (changed(markers=[[1, 2]] * 6), ClicksUnreadable, "no markers"),
+    "extra marker": (markers(TIP2=[1, 2]), ClicksUnreadable, "unknown marker TIP2"),
+    "missing marker": (
+        changed(markers={k: v for k, v in MARKERS.items() if k != "MCP4"}),
+        ClicksUnreadable,
+        "no click for MCP4",
+    ),
+    "a word": (markers(MCP2=["300", 210]), ClicksUnreadable, "MCP2"),
+    "null": (markers(MCP2=None), ClicksUnreadable, "MCP2"),
+    "not a number": (markers(MCP2=[float("nan"), 210]), ClicksUnreadable, "MCP2"),
+    "without end": (markers(MCP2=[300, float("inf")]), ClicksUnreadable, "MCP2"),
+    "hundreds of digits": (markers(MCP2=[10**400, 210]), ClicksUnreadable, "MCP2"),
+    "true": (markers(MCP2=[True, 210]), ClicksUnreadable, "MCP2"),
+    "three numbers": (markers(MCP2=[1, 2, 3]), ClicksUnreadable, "MCP2"),
+    "marker twice": (
+        json.dumps(GOOD).replace('"CMC1"', '"WRIST"'),
+        ClicksUnreadable,
+        "WRIST is there twice",
+    ),
+    "left of the picture": (markers(MCP2=[-3, 210]), ClickOutsidePicture, "-3, 210"),
+    "right of the picture": (markers(MCP2=[640, 210]), ClickOutsidePicture, "640 x 480"),
+    "under the picture": (markers(MCP2=[300, 1e6]), ClickOutsidePicture, "1e+06"),
+}
+
+
+@pytest.mark.parametrize("case", BAD)
+def test_a_wrong_file_is_one_typed_fault_with_the_fact(tmp_path: Path, case: str) -> None:
+    content, kind, fact = BAD[case]
+    path = write(tmp_path / "c.json", content)
+    with pytest.raises(kind) as caught:
+        read_clicks(path, (640, 480))
+    assert type(caught.value) is kind
+    assert fact in caught.value.detail
+
+
+def test_no_file_and_no_text(tmp_path: Path) -> None:
+    with pytest.raises(ClicksUnreadable) as caught:
+        read_clicks(tmp_path / "nowhere.json")
+    assert caught.value.detail == "there is no such file"
+    (tmp_path / "binary.json").write_bytes(b"\xff\xfe\x00\x01")
+    with pytest.raises(ClicksUnreadable):
+        read_clicks(tmp_path / "binary.json")
+    with pytest.raises(ClicksUnreadable):
+        read_clicks(tmp_path)
+
+
+@pytest.mark.parametrize(
+    ("u", "v", "inside"),
+    [(-0.5, -0.5, True), (639.4, 479.4, True), (-0.6, 0, False), (639.5, 0, False), (0, 479.5, False)],
+)
+def test_the_picture_ends_at_the_edge_of_its_outer_pixels(u: float, v: float, inside: bool) -> None:
+    clicks = Clicks("right", WRIST6, np.full((6, 2), 10.0))
+    clicks.pixel[3] = u, v
+    if inside:
+        check_inside(clicks, 640, 480)
+    else:
+        with pytest.raises(ClickOutsidePicture) as caught:
+            check_inside(clicks, 640, 480)
+        assert caught.value.subject == "MCP3"
