@@ -1,0 +1,176 @@
+"""Channels between threads. Each has a bound and one policy for when it is reached; none blocks who puts.
+
+===================  ===========================  ================================================
+channel              where                        policy at the bound
+===================  ===========================  ================================================
+:class:`DropOldest`  capture -> tracking          the oldest is lost, counted, told to who takes next
+:class:`NeverDrop`   tracking or capture -> disk  :class:`ChannelFull`: the recording ends with a fault
+:class:`Newest`      anything -> screen           only the newest value is kept; who looks takes nothing away
+===================  ===========================  ================================================
+"""
+
+from __future__ import annotations
+
+import threading
+from collections import deque
+from collections.abc import Callable, Iterator
+from typing import Generic, NamedTuple, TypeVar
+
+T = TypeVar("T")
+
+
+class ChannelFull(Exception):
+    """A channel that never drops has no room; internal, turned into a fault of the recording."""
+
+
+class ChannelClosed(Exception):
+    """Something was put into a channel after its end."""
+
+
+class Taken(NamedTuple, Generic[T]):
+    """What a :class:`DropOldest` hands out: the item and how much was lost just before it."""
+
+    item: T
+    lost_before: int
+
+
+class _Bounded(Generic[T]):
+    """Room for ``capacity`` items, one or more threads putting, one taking."""
+
+    def __init__(self, capacity: int) -> None:
+        if capacity < 1:
+            raise ValueError("a channel needs room for one item")
+        self.capacity = capacity
+        self._items: deque[T] = deque()
+        self._changed = threading.Condition()
+        self._closed = False
+        self._deepest = 0
+
+    def __len__(self) -> int:
+        """Items waiting now."""
+        with self._changed:
+            return len(self._items)
+
+    @property
+    def deepest(self) -> int:
+        """Most items that ever waited."""
+        with self._changed:
+            return self._deepest
+
+    def close(self) -> None:
+        """No more items come; those that wait can still be taken. May be called twice."""
+        with self._changed:
+            self._closed = True
+            self._changed.notify_all()
+
+    def _append(self, item: T) -> None:
+        self._items.append(item)
+        self._deepest = max(self._deepest, len(self._items))
+        self._changed.notify()
+
+    def _wait_for_item(self) -> bool:
+        """Blocks until there is an item (True) or the channel is closed and empty (False)."""
+        while not self._items:
+            if self._closed:
+                return False
+            self._changed.wait()
+        return True
+
+
+class DropOldest(_Bounded[T]):
+    """Keeps the newest ``capacity`` items.
+
+    ``weight`` tells how much is lost with an item (a frame may already stand for missing ones before it).
+
+    >>> channel = DropOldest(2)
+    >>> for number in (1, 2, 3): channel.put(number)
+    >>> channel.close()
+    >>> list(channel)
+    [Taken(item=2, lost_before=1), Taken(item=3, lost_before=0)]
+    """
+
+    def __init__(self, capacity: int, weight: Callable[[T], int] = lambda _: 1) -> None:
+        super().__init__(capacity)
+        self._weight = weight
+        self._lost_before = 0
+        self._lost = 0
+
+    @property
+    def lost(self) -> int:
+        """Everything lost so far."""
+        with self._changed:
+            return self._lost
+
+    def put(self, item: T) -> None:
+        """Adds an item at once; the oldest goes when there is no room."""
+        with self._changed:
+            if self._closed:
+                raise ChannelClosed
+            if len(self._items) == self.capacity:
+                gone = self._weight(self._items.popleft())
+                self._lost_before += gone
+                self._lost += gone
+            self._append(item)
+
+    def clear(self) -> None:
+        """Forgets what waits and what was lost before it: nobody wants these any more."""
+        with self._changed:
+            self._items.clear()
+            self._lost_before = 0
+
+    def __iter__(self) -> Iterator[Taken[T]]:
+        """Items in order until the channel is closed and empty; waits for each."""
+        while True:
+            with self._changed:
+                if not self._wait_for_item():
+                    return
+                taken = Taken(self._items.popleft(), self._lost_before)
+                self._lost_before = 0
+            yield taken
+
+
+class NeverDrop(_Bounded[T]):
+    """Every item that was taken in comes out; without room :class:`ChannelFull` is raised and nothing is lost."""
+
+    def put(self, item: T) -> None:
+        """Adds an item at once or raises."""
+        with self._changed:
+            if self._closed:
+                raise ChannelClosed
+            if len(self._items) == self.capacity:
+                raise ChannelFull
+            self._append(item)
+
+    def __iter__(self) -> Iterator[T]:
+        """Items in order until the channel is closed and empty; waits for each."""
+        while True:
+            with self._changed:
+                if not self._wait_for_item():
+                    return
+                item = self._items.popleft()
+            yield item
+
+
+class Newest(Generic[T]):
+    """A mailbox for one value: putting replaces it, looking leaves it there.
+
+    >>> box = Newest()
+    >>> box.put(1); box.put(2)
+    >>> box.look()
+    2
+    """
+
+    def __init__(self) -> None:
+        self._value: T | None = None  # one reference, replaced whole: no lock needed
+
+    def put(self, value: T) -> None:
+        """Replaces the value."""
+        self._value = value
+
+    def look(self) -> T | None:
+        """The newest value, None before the first."""
+        return self._value
+
+    def clear(self) -> None:
+        """Forget the value."""
+        self._value = None

@@ -1,0 +1,457 @@
+"""The live session: capture, tracking and writing, each in its own thread; the engine behind the window.
+
+::
+
+    source -> [capture] --+--> newest picture, last 20 pictures          (screen, calibration)
+                          +--> NeverDrop  -> [pictures]  raw pictures    (before anything may be lost)
+                          +--> DropOldest -> [tracking] --+--> newest view, last 12 s   (screen, pulled by its timer)
+                                                          +--> NeverDrop -> [writing]   session file
+
+Consumers start first; a stop runs from the source to the sinks and drains. One catch at the top of each thread turns
+any exception into an event. Nothing here waits for the screen.
+"""
+
+from __future__ import annotations
+
+import logging
+import math
+import shutil
+import threading
+import time
+from collections import deque
+from collections.abc import Callable, Iterator
+from contextlib import suppress
+from dataclasses import dataclass, replace
+from pathlib import Path
+from types import TracebackType
+from typing import NamedTuple, Protocol, Self
+
+import numpy as np
+
+from core.capture.source import FrameSource, SourceInfo
+from core.errors import CameraLost, CameraReturned
+from core.pipeline.channels import DropOldest, Newest
+from core.pipeline.live_values import LiveCounters, LiveEvent, LiveEventKind, TrackedView
+from core.pipeline.recorder import Recorder, Sink
+from core.types import Frame, TrackedFrame
+
+log = logging.getLogger(__name__)
+
+_FRAME_PATIENCE_S = 0.25
+"""A stop waits this long for the capture thread to come back with a frame before it closes the source under it."""
+
+Walk = Callable[[Frame], TrackedFrame]
+
+
+class SessionSink(Sink, Protocol):
+    """The session file in the making."""
+
+    def append(self, tracked: TrackedFrame) -> None: ...
+
+    def add_event(self, time_s: float, kind: str, text: str) -> None: ...
+
+
+class PictureSink(Sink, Protocol):
+    """The raw recording in the making."""
+
+    def append_frame(self, frame: Frame) -> None: ...
+
+
+@dataclass(frozen=True, slots=True)
+class LiveSettings:
+    """Bounds of the live session.
+
+    ``tracking_waiting`` frames that may wait for the tracker before the oldest is lost; ``rows_waiting`` and
+    ``pictures_waiting`` what may wait for the disk before the recording ends (30 s of rows, 2 s of pictures);
+    ``history_s`` of tracked frames kept for curves; ``row_bytes`` and ``picture_bytes`` on the disk by experience, for
+    the time that is left; a warning comes once below ``low_disk_bytes``. ``folder`` is where sessions will go, for the
+    room on the disk before a recording runs.
+    """
+
+    tracking_waiting: int = 8
+    rows_waiting: int = 900
+    pictures_waiting: int = 64
+    recent_frames: int = 20
+    history_s: float = 12.0
+    row_bytes: int = 4_000
+    picture_bytes: int = 800_000
+    low_disk_bytes: int = 1_000_000_000
+    stop_patience_s: float = 10.0
+    folder: Path | None = None
+
+
+class _Captured(NamedTuple):
+    """A frame on its way to the tracker that was current when it was captured."""
+
+    frame: Frame
+    at_s: float
+    walk: Walk
+
+
+class _Note(NamedTuple):
+    """An event on its way to the session file."""
+
+    time_s: float
+    kind: str
+    text: str
+
+
+class LiveSession:
+    """Runs a source; previews, tracks and records it. All methods may be called from any thread.
+
+    Nothing but :meth:`start_recording`, :meth:`stop_recording` and :meth:`stop` waits for anything, and these wait for
+    the disk only. The session owns its source and closes it; where the source does not come back with a frame, it is
+    closed from the stopping thread, and its ``frames()`` must end then.
+    """
+
+    def __init__(self, source: FrameSource, settings: LiveSettings | None = None) -> None:
+        self._source = source
+        self._settings = settings or LiveSettings()
+        fps = source.info.nominal_fps if source.info.nominal_fps > 0.0 else 30.0
+        self._lock = threading.Lock()
+        self._stopping = threading.Event()
+        self._to_tracking: DropOldest[_Captured] = DropOldest(
+            self._settings.tracking_waiting, weight=lambda captured: 1 + captured.frame.dropped_before
+        )
+        self._newest_frame: Newest[Frame] = Newest()
+        self._newest_view: Newest[TrackedView] = Newest()
+        self._recent: deque[Frame] = deque(maxlen=self._settings.recent_frames)
+        self._history: deque[TrackedFrame] = deque(maxlen=math.ceil(1.25 * fps * self._settings.history_s))
+        self._events: deque[LiveEvent] = deque(maxlen=1000)
+        self._arrivals: deque[float] = deque(maxlen=math.ceil(2.0 * fps) + 1)
+        self._latencies: deque[float] = deque(maxlen=math.ceil(10.0 * fps))
+        self._captured = self._tracked = self._missing = 0
+        self._walk: Walk | None = None
+        self._rows: Recorder[SessionSink, TrackedFrame | _Note] | None = None
+        self._pictures: Recorder[PictureSink, Frame] | None = None
+        self._paused = False
+        self._disk_warned = False
+        self._disk_free: int | None = None
+        self._row_count = 0
+        self._capture_thread = threading.Thread(target=self._capture, name="capture", daemon=True)
+        self._tracking_thread = threading.Thread(target=self._track, name="tracking", daemon=True)
+
+    # --- life ---------------------------------------------------------------------------------
+    def __enter__(self) -> Self:
+        self.start()
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, value: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        self.stop()
+
+    @property
+    def info(self) -> SourceInfo:
+        """Facts of the source."""
+        return self._source.info
+
+    def start(self) -> None:
+        """Starts the threads, consumers first. A session is started once."""
+        self._tracking_thread.start()
+        self._capture_thread.start()
+
+    def stop(self) -> None:
+        """Ends everything from source to sink: what was captured is tracked, what was tracked is stored.
+
+        A running recording is finished; a fault of it is told as an event. May be called twice.
+        """
+        self._stopping.set()
+        if self._capture_thread.is_alive():
+            self._capture_thread.join(timeout=_FRAME_PATIENCE_S)
+            if self._capture_thread.is_alive():
+                self._source.close()  # a source that waits for a camera or for its next frame ends now
+                self._capture_thread.join(timeout=self._settings.stop_patience_s)
+            if self._capture_thread.is_alive():
+                self._tell("thread_stuck")
+        self._to_tracking.close()
+        if self._tracking_thread.is_alive():
+            self._tracking_thread.join()
+        self._source.close()
+        with suppress(Exception):  # already told by the recorder
+            if self.recording:
+                self.stop_recording()
+
+    @property
+    def running(self) -> bool:
+        """Whether the source still delivers."""
+        return self._capture_thread.is_alive()
+
+    # --- pictures -----------------------------------------------------------------------------
+    def newest_frame(self) -> Frame | None:
+        """The newest picture, before and during tracking."""
+        return self._newest_frame.look()
+
+    def recent_frames(self, count: int) -> list[Frame]:
+        """The last pictures, oldest first, at most ``count`` and at most about 20."""
+        with self._lock:
+            return list(self._recent)[-count:] if count > 0 else []
+
+    # --- tracking -----------------------------------------------------------------------------
+    def begin_tracking(self, walk: Walk) -> None:
+        """From the next captured frame on, ``walk`` turns frames into tracked frames, in the tracking thread.
+
+        A walk before it ends; curves and view start anew. Frames lost on the way are in the ``dropped_before`` of the
+        frame that ``walk`` is given.
+        """
+        with self._lock:
+            self._walk = walk
+            self._history.clear()
+            self._newest_view.clear()
+            self._to_tracking.clear()
+
+    def end_tracking(self) -> None:
+        """No further frame is tracked; the pictures go on."""
+        with self._lock:
+            self._walk = None
+
+    @property
+    def tracking(self) -> bool:
+        """Whether frames are being tracked."""
+        return self._walk is not None
+
+    def newest(self) -> TrackedView | None:
+        """The newest tracked frame with its picture; older ones that were not looked at are gone."""
+        return self._newest_view.look()
+
+    def tracked_since(self, index: int) -> list[TrackedFrame]:
+        """Tracked frames with an index above ``index``, oldest first, over the last 12 s or more."""
+        with self._lock:
+            return [tracked for tracked in self._history if tracked.index > index]
+
+    # --- recording ----------------------------------------------------------------------------
+    def start_recording(
+        self,
+        open_session: Callable[[], SessionSink],
+        open_pictures: Callable[[], PictureSink] | None = None,
+    ) -> None:
+        """Opens the session file (and a raw recording) and stores everything tracked from now on.
+
+        Both are opened, filled and closed in threads of their own. Raises what kept a file from opening; then nothing
+        is recorded.
+        """
+        if self.recording:
+            raise RuntimeError("a recording runs already")
+        self._row_count, self._disk_warned, self._disk_free = 0, False, None
+        rows: Recorder[SessionSink, TrackedFrame | _Note] = Recorder(
+            "writing",
+            open_session,
+            self._write_row,
+            self._settings.rows_waiting,
+            lambda cause: self._tell("recording_failed", cause),
+        )
+        rows.start()
+        pictures: Recorder[PictureSink, Frame] | None = None
+        if open_pictures is not None:
+            pictures = Recorder(
+                "pictures",
+                open_pictures,
+                lambda sink, frame: sink.append_frame(frame),
+                self._settings.pictures_waiting,
+                lambda cause: self._tell("pictures_failed", cause),
+            )
+            try:
+                pictures.start()
+            except Exception:
+                rows.discard()
+                raise
+        with self._lock:
+            self._rows, self._pictures = rows, pictures
+            self._paused = False
+
+    def pause_recording(self) -> None:
+        """Stores nothing until :meth:`resume_recording`; the pause is noted in the file."""
+        if self.recording and not self._paused:
+            self.add_event("pause", "")
+            self._paused = True
+
+    def resume_recording(self) -> None:
+        """Goes on storing."""
+        if self.recording and self._paused:
+            self._paused = False
+            self.add_event("resume", "")
+
+    def add_event(self, kind: str, text: str = "") -> bool:
+        """Notes something at the newest frame's time in the running recording; False when there is none."""
+        rows = self._rows
+        return rows is not None and rows.put(_Note(self._now_s(), kind, text))
+
+    def stop_recording(self) -> Path:
+        """Waits until all is stored and the files are closed; the session file's path.
+
+        Raises the fault that ended the recording early (what reached the disk is kept).
+        """
+        with self._lock:
+            rows, pictures = self._rows, self._pictures
+            self._rows = self._pictures = None
+            self._paused = False
+        if rows is None:
+            raise RuntimeError("no recording runs")
+        try:
+            return rows.finish()
+        finally:
+            if pictures is not None:
+                with suppress(Exception):  # told as pictures_failed
+                    pictures.finish()
+
+    @property
+    def recording(self) -> bool:
+        """Whether a recording was started and not yet stopped; also after a fault ended it."""
+        return self._rows is not None
+
+    @property
+    def paused(self) -> bool:
+        """Whether the recording is paused."""
+        return self._paused
+
+    # --- what is told -------------------------------------------------------------------------
+    def notice(self, fault: Exception) -> None:
+        """For sources that tell something while they go on: the camera lost or back, pictures left out."""
+        kind: LiveEventKind = "notice"
+        if isinstance(fault, CameraLost):
+            kind = "camera_lost"
+        elif isinstance(fault, CameraReturned):
+            kind = "camera_back"
+        self._tell(kind, fault)
+        if kind != "notice":
+            self.add_event(kind, str(getattr(fault, "detail", "")))
+
+    def drain_events(self) -> list[LiveEvent]:
+        """Everything told since the last call, oldest first."""
+        drained = []
+        with suppress(IndexError):
+            while True:
+                drained.append(self._events.popleft())
+        return drained
+
+    def counters(self) -> LiveCounters:
+        """Figures of the moment; cheap enough for a timer."""
+        with self._lock:
+            latencies = np.array(self._latencies)
+            arrivals = [at_s for at_s in self._arrivals if at_s > time.monotonic() - 2.0]
+            rows, pictures = self._rows, self._pictures
+            captured, tracked, missing = self._captured, self._tracked, self._missing
+        p50, p95 = np.percentile(latencies, (50.0, 95.0)) if len(latencies) else (math.nan, math.nan)
+        span_s = arrivals[-1] - arrivals[0] if len(arrivals) > 1 else 0.0
+        fps = (len(arrivals) - 1) / span_s if span_s > 0.0 else 0.0
+        free = self._disk_free if rows else _free_bytes(self._settings.folder)
+        return LiveCounters(
+            captured=captured,
+            tracked=tracked,
+            dropped=self._to_tracking.lost,
+            missing=missing,
+            fps=fps,
+            latency_p50_ms=1e3 * float(p50),
+            latency_p95_ms=1e3 * float(p95),
+            waiting_tracking=len(self._to_tracking),
+            waiting_writing=rows.waiting if rows else 0,
+            waiting_pictures=pictures.waiting if pictures else 0,
+            rows_written=rows.written if rows else 0,
+            pictures_written=pictures.written if pictures else 0,
+            recording=rows is not None,
+            paused=self._paused,
+            recording_path=rows.path if rows else None,
+            disk_free_bytes=free,
+            disk_minutes_left=math.nan if free is None else free / self._bytes_per_s(fps, pictures is not None) / 60.0,
+        )
+
+    # --- the threads --------------------------------------------------------------------------
+    def _capture(self) -> None:
+        frames: Iterator[Frame] | None = None
+        try:
+            frames = self._source.frames()
+            for frame in frames:
+                if self._stopping.is_set():
+                    break
+                self._take(frame)
+            else:
+                if not self._stopping.is_set():
+                    self._tell("source_ended")
+        except Exception as cause:  # the one catch at the top of this thread
+            if not self._stopping.is_set():
+                self._tell("source_failed", cause)
+        finally:
+            close = getattr(frames, "close", None)  # a generator gives its files back here, in its own thread
+            if close is not None:
+                close()
+
+    def _take(self, frame: Frame) -> None:
+        at_s = time.monotonic()
+        with self._lock:
+            pictures, walk = self._pictures, self._walk
+            self._recent.append(frame)
+            self._arrivals.append(at_s)
+            self._captured += 1
+            self._missing += frame.dropped_before
+        if pictures is not None and not self._paused:
+            pictures.put(frame)
+        self._newest_frame.put(frame)
+        if walk is not None:
+            self._to_tracking.put(_Captured(frame, at_s, walk))
+
+    def _track(self) -> None:
+        for captured, lost_before in self._to_tracking:
+            if captured.walk is not self._walk:
+                continue  # captured for a walk that has ended
+            try:
+                self._track_one(captured, lost_before)
+            except Exception as cause:  # the one catch at the top of this thread
+                with self._lock:
+                    if self._walk is captured.walk:
+                        self._walk = None
+                self._tell("tracking_failed", cause)
+
+    def _track_one(self, captured: _Captured, lost_before: int) -> None:
+        frame = captured.frame
+        if lost_before:
+            frame = replace(frame, dropped_before=frame.dropped_before + lost_before)
+        tracked = captured.walk(frame)
+        with self._lock:
+            if self._walk is not captured.walk:
+                return
+            rows, paused = self._rows, self._paused
+            self._history.append(tracked)
+            self._tracked += 1
+            self._latencies.append(time.monotonic() - captured.at_s)
+            self._newest_view.put(TrackedView(frame, tracked, captured.at_s))
+        if rows is not None and not paused:
+            rows.put(tracked)
+
+    # --- small things -------------------------------------------------------------------------
+    def _tell(self, kind: LiveEventKind, cause: Exception | None = None, value: float = math.nan) -> None:
+        if cause is not None:
+            log.warning("%s", kind, exc_info=cause)
+        self._events.append(LiveEvent(kind, self._now_s(), cause, value))
+
+    def _now_s(self) -> float:
+        """Time of the newest frame, in the recording's own time."""
+        frame = self._newest_frame.look()
+        return math.nan if frame is None else frame.timestamp_s
+
+    def _bytes_per_s(self, fps: float, with_pictures: bool) -> float:
+        frame_bytes = self._settings.row_bytes + (self._settings.picture_bytes if with_pictures else 0)
+        return frame_bytes * (fps if fps > 0.0 else 30.0)
+
+    def _write_row(self, sink: SessionSink, item: TrackedFrame | _Note) -> None:
+        """In the writing thread, which alone may be held up by a slow disk; looks at the room left now and then."""
+        if self._row_count % 30 == 0:
+            self._disk_free = _free_bytes(sink.path.parent)
+            low = self._disk_free is not None and self._disk_free < self._settings.low_disk_bytes
+            if low and not self._disk_warned:
+                self._disk_warned = True
+                self._tell("disk_low", value=float(self._disk_free or 0))
+        self._row_count += 1
+        if isinstance(item, _Note):
+            sink.add_event(item.time_s, item.kind, item.text)
+        else:
+            sink.append(item)
+
+
+def _free_bytes(folder: Path | None) -> int | None:
+    """Room on the disk of a folder, None when unknown."""
+    if folder is None:
+        return None
+    try:
+        return shutil.disk_usage(folder).free
+    except OSError:
+        return None

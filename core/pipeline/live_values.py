@@ -1,0 +1,75 @@
+"""What the live session tells: the newest view, events, counters."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Literal
+
+from core.types import Frame, TrackedFrame
+
+LiveEventKind = Literal[
+    "camera_lost",
+    "camera_back",
+    "notice",
+    "source_ended",
+    "source_failed",
+    "tracking_failed",
+    "recording_failed",
+    "pictures_failed",
+    "disk_low",
+    "thread_stuck",
+]
+
+
+@dataclass(frozen=True, slots=True)
+class TrackedView:
+    """A picture and what was tracked in that same picture; ``captured_at_s`` on the clock of :func:`time.monotonic`."""
+
+    frame: Frame
+    tracked: TrackedFrame
+    captured_at_s: float
+
+
+@dataclass(frozen=True, slots=True)
+class LiveEvent:
+    """Something rare that the person must be told.
+
+    ``time_s`` in the recording's own time (NaN before the first frame). ``cause`` is a
+    :class:`~core.errors.CarpusFault` or, where the program itself is wrong, any other exception; None where the kind
+    says it all. ``value`` is the kind's figure: bytes left for ``disk_low``.
+    """
+
+    kind: LiveEventKind
+    time_s: float
+    cause: Exception | None = None
+    value: float = float("nan")
+
+
+@dataclass(frozen=True, slots=True)
+class LiveCounters:
+    """Figures of the moment. Unknown is NaN or None.
+
+    ``captured``, ``tracked`` frames since the start; ``dropped`` frames lost between capture and tracking, and
+    ``missing`` those that never came from the source; ``fps`` over the last two seconds; ``latency_*_ms`` from the
+    frame's arrival until it was tracked, over the last frames; ``waiting_*`` channel depths; ``rows_written`` and
+    ``pictures_written`` of the running recording; ``disk_free_bytes`` and ``disk_minutes_left`` at its rate.
+    """
+
+    captured: int
+    tracked: int
+    dropped: int
+    missing: int
+    fps: float
+    latency_p50_ms: float
+    latency_p95_ms: float
+    waiting_tracking: int
+    waiting_writing: int
+    waiting_pictures: int
+    rows_written: int
+    pictures_written: int
+    recording: bool
+    paused: bool
+    recording_path: Path | None
+    disk_free_bytes: int | None
+    disk_minutes_left: float

@@ -1,0 +1,154 @@
+"""One recording with a thread of its own: all that is put comes to the disk, or the recording ends with a fault."""
+
+from __future__ import annotations
+
+import contextlib
+import threading
+from collections.abc import Callable
+from pathlib import Path
+from typing import Generic, Protocol, TypeVar
+
+from core.errors import DiskTooSlow
+from core.pipeline.channels import ChannelClosed, ChannelFull, NeverDrop
+
+Item = TypeVar("Item")
+
+
+class Sink(Protocol):
+    """What the recording thread owns while it runs: a file in the making."""
+
+    @property
+    def path(self) -> Path:
+        """Where the finished file will be."""
+        ...
+
+    def close(self) -> None:
+        """Finish the file."""
+        ...
+
+    def abandon(self) -> None:
+        """Stop after a fault; what is on the disk stays."""
+        ...
+
+    def discard(self) -> None:
+        """Remove the file again: nothing was recorded."""
+        ...
+
+
+SinkT = TypeVar("SinkT", bound=Sink)
+
+
+class Recorder(Generic[SinkT, Item]):
+    """Opens, fills and closes one sink, all in its own thread, so that a slow disk holds up nobody else.
+
+    ``write(sink, item)`` stores one item; ``on_fault(exception)`` is called once, from whichever thread met it.
+    When items come faster than they are stored until ``capacity`` of them wait, :class:`DiskTooSlow` ends the
+    recording: what waits is still written and the file is closed in good order.
+    """
+
+    def __init__(
+        self,
+        name: str,
+        open_sink: Callable[[], SinkT],
+        write: Callable[[SinkT, Item], None],
+        capacity: int,
+        on_fault: Callable[[Exception], None],
+    ) -> None:
+        self._open_sink = open_sink
+        self._write = write
+        self._on_fault = on_fault
+        self._channel: NeverDrop[Item] = NeverDrop(capacity)
+        self._opened = threading.Event()
+        self._lock = threading.Lock()
+        self._fault: Exception | None = None
+        self._path: Path | None = None
+        self._written = 0
+        self._unwanted = False
+        self._thread = threading.Thread(target=self._run, name=name, daemon=True)
+
+    @property
+    def waiting(self) -> int:
+        """Items not yet written."""
+        return len(self._channel)
+
+    @property
+    def written(self) -> int:
+        """Items written."""
+        return self._written
+
+    @property
+    def fault(self) -> Exception | None:
+        """What ended the recording early."""
+        return self._fault
+
+    @property
+    def path(self) -> Path | None:
+        """Where the file is or will be, None until it is open."""
+        return self._path
+
+    def start(self) -> None:
+        """Starts the thread and waits until the file is open; raises what kept it from opening."""
+        self._thread.start()
+        self._opened.wait()
+        if self._path is None and self._fault is not None:
+            self._thread.join()
+            raise self._fault
+
+    def put(self, item: Item) -> bool:
+        """Hands over one item without waiting; False when the recording has ended."""
+        try:
+            self._channel.put(item)
+        except ChannelClosed:
+            return False
+        except ChannelFull:
+            self._channel.close()
+            self._fail(DiskTooSlow(self._path or "", f"{self._channel.capacity} rows waiting"))
+            return False
+        return True
+
+    def finish(self) -> Path:
+        """Waits until everything handed over is stored and the file is closed; raises the fault that ended it early."""
+        self._channel.close()
+        self._thread.join()
+        if self._fault is not None:
+            raise self._fault
+        assert self._path is not None
+        return self._path
+
+    def discard(self) -> None:
+        """Ends a recording that never began and removes its file."""
+        self._unwanted = True
+        self._channel.close()
+        self._thread.join()
+
+    def _run(self) -> None:
+        sink: SinkT | None = None
+        try:
+            sink = self._open_sink()
+            self._path = sink.path
+            self._opened.set()
+            for item in self._channel:
+                self._write(sink, item)
+                self._written += 1
+            if self._unwanted:
+                sink.discard()
+            else:
+                sink.close()
+        except Exception as cause:  # the one catch at the top of this thread
+            self._channel.close()
+            if sink is None:
+                self._fault = cause  # told to who waits in start()
+            else:
+                self._fail(cause)
+                with contextlib.suppress(Exception):  # the first fault is the one to tell
+                    sink.abandon()
+        finally:
+            self._opened.set()
+
+    def _fail(self, cause: Exception) -> None:
+        with self._lock:
+            first = self._fault is None
+            if first:
+                self._fault = cause
+        if first:
+            self._on_fault(cause)

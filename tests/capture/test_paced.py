@@ -1,0 +1,79 @@
+"""A stored source played at its own times."""
+
+from __future__ import annotations
+
+import threading
+import time
+from collections.abc import Iterator
+
+import pytest
+
+from core.camera import DEFAULT_CAMERA
+from core.capture.paced import PacedSource
+from core.capture.source import SourceInfo
+from core.types import Frame
+from tests.pipeline.live_fakes import frame, wait_until
+
+
+class Stored:
+    """Frames 0.1 s apart, at once."""
+
+    def __init__(self, gap_s: float = 0.1, count: int = 4) -> None:
+        self.info = SourceInfo("stored", DEFAULT_CAMERA, False, count, 1.0 / gap_s)
+        self.closed = 0
+        self._gap_s = gap_s
+        self._count = count
+
+    def frames(self) -> Iterator[Frame]:
+        for index in range(self._count):
+            one = frame(index)
+            yield Frame(index, 50.0 + index * self._gap_s, one.color_rgb, None, 0.001)
+
+    def close(self) -> None:
+        self.closed += 1
+
+
+def test_no_frame_comes_before_its_time() -> None:
+    source = PacedSource(Stored(), speed=2.0)
+    arrivals = []
+    for one in source.frames():
+        arrivals.append((one.index, time.monotonic()))
+    assert [index for index, _ in arrivals] == [0, 1, 2, 3]
+    for index, at_s in arrivals:
+        assert at_s - arrivals[0][1] >= index * 0.05 - 1e-3
+    assert source.info.nominal_fps == pytest.approx(20.0)
+
+
+def test_late_frames_are_not_left_out() -> None:
+    source = PacedSource(Stored(gap_s=0.001, count=5))
+    seen = []
+    for one in source.frames():
+        time.sleep(0.005)
+        seen.append(one.index)
+    assert seen == [0, 1, 2, 3, 4]
+
+
+def test_closing_ends_a_wait_and_closes_the_source_behind() -> None:
+    behind = Stored(gap_s=3600.0)
+    source = PacedSource(behind)
+    seen: list[int] = []
+    player = threading.Thread(target=lambda: seen.extend(one.index for one in source.frames()))
+    player.start()
+    wait_until(lambda: seen == [0])
+    assert behind.closed == 0
+    source.close()
+    player.join(20.0)
+    assert not player.is_alive()
+    assert seen == [0]
+    assert behind.closed >= 1
+    source.close()
+
+
+def test_it_can_be_played_again() -> None:
+    source = PacedSource(Stored(gap_s=0.001))
+    assert [one.index for one in source.frames()] == [one.index for one in source.frames()]
+
+
+def test_speed_is_above_zero() -> None:
+    with pytest.raises(ValueError, match="speed"):
+        PacedSource(Stored(), speed=0.0)

@@ -1,0 +1,422 @@
+"""The live session: policies under slow trackers and disks, nothing lost before the disk, faults become events."""
+
+from __future__ import annotations
+
+import math
+import shutil
+import threading
+import time
+from pathlib import Path
+
+import pytest
+
+from core.errors import CameraLost, CameraReturned, DiskTooSlow, OutputExists, PictureDamaged
+from core.pipeline.live import LiveSession, LiveSettings
+from core.pipeline.live_values import LiveEvent
+from core.types import Frame, TrackedFrame
+from tests.pipeline.live_fakes import FakeSession, Gate, HeldSource, tracked, wait_until
+
+OUT = Path("session.h5")
+
+
+def kinds(events: list[LiveEvent]) -> list[str]:
+    return [event.kind for event in events]
+
+
+def deliver(live: LiveSession, source: HeldSource, count: int) -> None:
+    """Lets frames out and waits until each has been captured."""
+    goal = live.counters().captured + count
+    source.let(count)
+    wait_until(lambda: live.counters().captured == goal)
+
+
+def deliver_tracked(live: LiveSession, source: HeldSource, count: int) -> None:
+    """Lets frames out one by one, so that the tracker keeps up."""
+    for _ in range(count):
+        goal = live.counters().tracked + 1
+        source.let(1)
+        wait_until(lambda goal=goal: live.counters().tracked == goal)
+
+
+# --- pictures and tracking -----------------------------------------------------------------
+def test_pictures_before_tracking() -> None:
+    source = HeldSource()
+    with LiveSession(source) as live:
+        assert live.newest_frame() is None
+        deliver(live, source, 30)
+        assert live.newest_frame().index == 29
+        assert [f.index for f in live.recent_frames(15)] == list(range(15, 30))
+        assert [f.index for f in live.recent_frames(500)] == list(range(10, 30))
+        assert live.recent_frames(0) == []
+        assert live.newest() is None
+        assert not live.tracking
+    assert source.closed >= 1
+
+
+def test_tracking_begins_with_the_next_frame_and_shows_one_picture_with_its_result() -> None:
+    source = HeldSource()
+    with LiveSession(source) as live:
+        deliver(live, source, 5)
+        live.begin_tracking(tracked)
+        assert live.tracking
+        deliver_tracked(live, source, 6)
+        view = live.newest()
+        assert view.frame.index == view.tracked.index == 10
+        assert view.captured_at_s <= time.monotonic()
+        assert [row.index for row in live.tracked_since(-1)] == [5, 6, 7, 8, 9, 10]
+        assert [row.index for row in live.tracked_since(8)] == [9, 10]
+        live.end_tracking()
+        deliver(live, source, 3)
+        assert live.newest_frame().index == 13
+        live.begin_tracking(tracked)
+        assert live.tracked_since(-1) == []
+        assert live.newest() is None
+        deliver_tracked(live, source, 1)
+        assert [row.index for row in live.tracked_since(-1)] == [14]
+
+
+def test_history_holds_twelve_seconds_and_is_bounded() -> None:
+    source = HeldSource()
+    with LiveSession(source) as live:
+        live.begin_tracking(tracked)
+        deliver_tracked(live, source, 600)
+        times = [row.timestamp_s for row in live.tracked_since(-1)]
+        assert times[-1] - times[0] >= 12.0
+        assert len(times) <= 500
+
+
+def test_a_slow_tracker_loses_the_oldest_and_every_loss_is_counted_and_stored() -> None:
+    source, gate, sink = HeldSource(), Gate(), FakeSession(OUT)
+
+    def slow(picture: Frame) -> TrackedFrame:
+        gate.pass_through()
+        return tracked(picture)
+
+    with LiveSession(source, LiveSettings(tracking_waiting=8)) as live:
+        live.begin_tracking(slow)
+        live.start_recording(lambda: sink)
+        deliver(live, source, 1)
+        wait_until(lambda: gate.waiting)
+        deliver(live, source, 50)
+        counters = live.counters()
+        assert counters.dropped == 42
+        assert counters.waiting_tracking == 8
+        gate.open()
+        wait_until(lambda: live.counters().tracked == 9)
+        assert live.stop_recording() == OUT
+    assert [row.index for row in sink.rows] == [0, *range(43, 51)]
+    assert [row.dropped_before for row in sink.rows] == [0, 42, *[0] * 7]
+
+
+def test_frames_missing_at_the_source_add_to_those_lost_here() -> None:
+    source, gate, sink = HeldSource(dropped_before=2), Gate(), FakeSession(OUT)
+
+    def slow(picture: Frame) -> TrackedFrame:
+        gate.pass_through()
+        return tracked(picture)
+
+    with LiveSession(source, LiveSettings(tracking_waiting=1)) as live:
+        live.begin_tracking(slow)
+        live.start_recording(lambda: sink)
+        deliver(live, source, 1)
+        wait_until(lambda: gate.waiting)
+        deliver(live, source, 4)
+        gate.open()
+        wait_until(lambda: live.counters().tracked == 2)
+        assert live.counters().missing == 10
+        live.stop_recording()
+    assert [row.dropped_before for row in sink.rows] == [2, 3 * 3 + 2]
+
+
+def test_a_failing_tracker_is_told_and_the_pictures_go_on() -> None:
+    source = HeldSource()
+
+    def broken(picture: Frame) -> TrackedFrame:
+        if picture.index == 3:
+            raise ZeroDivisionError("no")
+        return tracked(picture)
+
+    with LiveSession(source) as live:
+        live.begin_tracking(broken)
+        deliver_tracked(live, source, 3)
+        deliver(live, source, 5)
+        wait_until(lambda: not live.tracking)
+        event = live.drain_events()[0]
+        assert event.kind == "tracking_failed"
+        assert isinstance(event.cause, ZeroDivisionError)
+        assert live.newest_frame().index == 7
+        live.begin_tracking(tracked)
+        deliver_tracked(live, source, 2)
+        assert live.newest().tracked.index == 9
+
+
+# --- recording -----------------------------------------------------------------------------
+def test_everything_tracked_is_recorded_in_one_thread() -> None:
+    source, sink = HeldSource(), FakeSession(OUT)
+    with LiveSession(source) as live:
+        live.begin_tracking(tracked)
+        deliver_tracked(live, source, 3)
+        live.start_recording(lambda: sink)
+        deliver_tracked(live, source, 200)
+        assert live.counters().recording
+        assert live.counters().recording_path == OUT
+        assert live.stop_recording() == OUT
+        assert not live.recording
+        deliver_tracked(live, source, 3)
+    assert [row.index for row in sink.rows] == list(range(3, 203))
+    assert sink.ended == "closed"
+    assert sink.threads == {"writing"}
+
+
+def test_stop_drains_from_source_to_sink() -> None:
+    source, gate, sink = HeldSource(), Gate(), FakeSession(OUT)
+
+    def slow(picture: Frame) -> TrackedFrame:
+        gate.pass_through()
+        return tracked(picture)
+
+    live = LiveSession(source)
+    live.start()
+    live.begin_tracking(slow)
+    live.start_recording(lambda: sink)
+    deliver(live, source, 1)
+    wait_until(lambda: gate.waiting)
+    deliver(live, source, 8)
+    stopper = threading.Thread(target=live.stop)
+    stopper.start()
+    wait_until(lambda: not live.running)
+    assert sink.rows == []
+    gate.open()
+    stopper.join()
+    assert [row.index for row in sink.rows] == list(range(9))
+    assert sink.ended == "closed"
+    assert source.closed >= 1
+    assert live.drain_events() == []
+    live.stop()
+
+
+def test_a_slow_disk_holds_up_nobody_and_nothing_is_lost() -> None:
+    source, gate = HeldSource(), Gate()
+    sink = FakeSession(OUT, gate=gate)
+    with LiveSession(source) as live:
+        live.begin_tracking(tracked)
+        live.start_recording(lambda: sink)
+        deliver_tracked(live, source, 300)
+        assert live.newest().tracked.index == 299
+        assert live.counters().dropped == 0
+        assert live.counters().waiting_writing == 299
+        gate.open()
+        live.stop_recording()
+    assert [row.index for row in sink.rows] == list(range(300))
+
+
+def test_overflow_ends_the_recording_keeps_what_there_is_and_tracking_lives_on() -> None:
+    source, gate = HeldSource(), Gate()
+    sink = FakeSession(OUT, gate=gate)
+    with LiveSession(source, LiveSettings(rows_waiting=10)) as live:
+        live.begin_tracking(tracked)
+        live.start_recording(lambda: sink)
+        deliver_tracked(live, source, 1)
+        wait_until(lambda: gate.waiting)
+        deliver_tracked(live, source, 19)
+        assert live.newest().tracked.index == 19
+        events = live.drain_events()
+        assert kinds(events) == ["recording_failed"]
+        assert isinstance(events[0].cause, DiskTooSlow)
+        assert events[0].cause.subject == str(OUT)
+        assert events[0].time_s == pytest.approx(100.0 + 11 / 30.0)
+        gate.open()
+        with pytest.raises(DiskTooSlow):
+            live.stop_recording()
+        assert [row.index for row in sink.rows] == list(range(11))
+        assert sink.ended == "closed"
+        second = FakeSession(Path("second.h5"))
+        live.start_recording(lambda: second)
+        deliver_tracked(live, source, 2)
+        assert live.stop_recording() == Path("second.h5")
+        assert len(second.rows) == 2
+
+
+def test_a_failing_writer_is_told_once_and_tracking_lives_on() -> None:
+    source = HeldSource()
+    sink = FakeSession(OUT, fault_at=4)
+    with LiveSession(source) as live:
+        live.begin_tracking(tracked)
+        live.start_recording(lambda: sink)
+        deliver_tracked(live, source, 20)
+        wait_until(lambda: sink.ended != "")
+        assert kinds(live.drain_events()) == ["recording_failed"]
+        assert live.newest().tracked.index == 19
+        assert not live.add_event("note", "too late")
+        with pytest.raises(OSError, match="space"):
+            live.stop_recording()
+        assert not live.recording
+    assert len(sink.rows) == 4
+    assert sink.ended == "abandoned"
+
+
+def test_a_recording_that_fails_does_not_keep_stop_from_ending() -> None:
+    source = HeldSource()
+    with LiveSession(source) as live:
+        live.begin_tracking(tracked)
+        live.start_recording(lambda: FakeSession(OUT, fault_at=0))
+        deliver_tracked(live, source, 5)
+    assert kinds(live.drain_events()) == ["recording_failed"]
+
+
+def test_a_file_that_cannot_be_opened_is_said_at_once() -> None:
+    def refuse() -> FakeSession:
+        raise OutputExists(OUT)
+
+    source, sink = HeldSource(), FakeSession(OUT)
+    with LiveSession(source) as live:
+        with pytest.raises(OutputExists):
+            live.start_recording(refuse)
+        assert not live.recording
+        with pytest.raises(OutputExists):
+            live.start_recording(lambda: sink, refuse)
+        assert not live.recording
+        assert sink.ended == "discarded"
+        with pytest.raises(RuntimeError, match="no recording"):
+            live.stop_recording()
+        live.start_recording(lambda: FakeSession(OUT))
+        with pytest.raises(RuntimeError, match="already"):
+            live.start_recording(lambda: FakeSession(OUT))
+    assert live.drain_events() == []
+
+
+def test_pause_and_notes_are_in_the_file() -> None:
+    source, sink = HeldSource(), FakeSession(OUT)
+    with LiveSession(source) as live:
+        live.begin_tracking(tracked)
+        assert not live.add_event("note", "nobody records")
+        live.start_recording(lambda: sink)
+        deliver_tracked(live, source, 3)
+        live.pause_recording()
+        live.pause_recording()
+        assert live.counters().paused
+        deliver_tracked(live, source, 4)
+        live.resume_recording()
+        deliver_tracked(live, source, 2)
+        assert live.add_event("note", "elbow lifted")
+        live.stop_recording()
+    assert [row.index for row in sink.rows] == [0, 1, 2, 7, 8]
+    assert [(kind, text) for _, kind, text in sink.events] == [("pause", ""), ("resume", ""), ("note", "elbow lifted")]
+    assert [time_s for time_s, _, _ in sink.events] == pytest.approx([100 + 2 / 30, 100 + 6 / 30, 100 + 8 / 30])
+
+
+def test_raw_pictures_branch_off_before_anything_is_lost() -> None:
+    source, gate = HeldSource(), Gate()
+    rows, pictures = FakeSession(OUT), FakeSession(Path("pictures"))
+
+    def slow(picture: Frame) -> TrackedFrame:
+        gate.pass_through()
+        return tracked(picture)
+
+    with LiveSession(source, LiveSettings(pictures_waiting=100)) as live:
+        live.begin_tracking(slow)
+        live.start_recording(lambda: rows, lambda: pictures)
+        deliver(live, source, 60)
+        assert live.counters().dropped > 0
+        wait_until(lambda: live.counters().pictures_written == 60)
+        gate.open()
+        live.stop_recording()
+    assert [f.index for f in pictures.pictures] == list(range(60))
+    assert pictures.ended == "closed"
+    assert pictures.threads == {"pictures"}
+    assert len(rows.rows) < 60
+
+
+def test_raw_pictures_that_fail_leave_the_session_recording() -> None:
+    source = HeldSource()
+    rows, pictures = FakeSession(OUT), FakeSession(Path("pictures"), fault_at=2)
+    with LiveSession(source) as live:
+        live.begin_tracking(tracked)
+        live.start_recording(lambda: rows, lambda: pictures)
+        deliver_tracked(live, source, 10)
+        assert live.stop_recording() == OUT
+    assert kinds(live.drain_events()) == ["pictures_failed"]
+    assert len(rows.rows) == 10
+
+
+# --- what is told --------------------------------------------------------------------------
+def test_the_end_of_a_recording_is_told() -> None:
+    source, sink = HeldSource(total=12), FakeSession(OUT)
+    with LiveSession(source) as live:
+        live.begin_tracking(tracked)
+        live.start_recording(lambda: sink)
+        source.let(12)
+        wait_until(lambda: not live.running)
+        assert kinds(live.drain_events()) == ["source_ended"]
+        assert live.stop_recording() == OUT
+    assert live.counters().captured == 12
+
+
+def test_a_source_that_fails_is_told_with_its_fault() -> None:
+    source = HeldSource(total=2, fault=PictureDamaged("000003.png"))
+    with LiveSession(source) as live:
+        source.let(2)
+        wait_until(lambda: not live.running)
+        event = live.drain_events()[0]
+        assert event.kind == "source_failed"
+        assert isinstance(event.cause, PictureDamaged)
+        assert event.time_s == pytest.approx(100.0 + 1 / 30.0)
+        assert live.drain_events() == []
+
+
+def test_a_camera_lost_and_back_is_told_and_stored() -> None:
+    source, sink = HeldSource(), FakeSession(OUT)
+    with LiveSession(source) as live:
+        live.notice(CameraLost("Xtion"))
+        assert math.isnan(live.drain_events()[0].time_s)
+        live.begin_tracking(tracked)
+        live.start_recording(lambda: sink)
+        deliver_tracked(live, source, 1)
+        live.notice(CameraLost("Xtion"))
+        live.notice(CameraReturned("Xtion", "3.1 s"))
+        live.notice(PictureDamaged("one"))
+        assert kinds(live.drain_events()) == ["camera_lost", "camera_back", "notice"]
+        live.stop_recording()
+    assert [(kind, text) for _, kind, text in sink.events] == [("camera_lost", ""), ("camera_back", "3.1 s")]
+
+
+def test_little_room_on_the_disk_is_told_once(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    usage = shutil.disk_usage(tmp_path)._replace(free=30_000_000)
+    monkeypatch.setattr(shutil, "disk_usage", lambda folder: usage)
+    source, sink = HeldSource(), FakeSession(tmp_path / "session.h5")
+    with LiveSession(source, LiveSettings(folder=tmp_path)) as live:
+        assert live.counters().disk_free_bytes == 30_000_000
+        live.begin_tracking(tracked)
+        live.start_recording(lambda: sink)
+        deliver_tracked(live, source, 100)
+        wait_until(lambda: live.counters().rows_written == 100)
+        counters = live.counters()
+        assert counters.disk_free_bytes == 30_000_000
+        assert counters.disk_minutes_left == pytest.approx(30_000_000 / (4_000 * counters.fps) / 60.0)
+        live.stop_recording()
+    events = live.drain_events()
+    assert kinds(events) == ["disk_low"]
+    assert events[0].value == 30_000_000
+
+
+def test_a_missing_folder_is_unknown_room(tmp_path: Path) -> None:
+    live = LiveSession(HeldSource(), LiveSettings(folder=tmp_path / "not there"))
+    assert live.counters().disk_free_bytes is None
+    assert math.isnan(live.counters().disk_minutes_left)
+    assert math.isnan(live.counters().latency_p95_ms)
+    live.stop()
+
+
+def test_latency_counts_from_arrival_to_result() -> None:
+    source = HeldSource()
+
+    def slow(picture: Frame) -> TrackedFrame:
+        time.sleep(0.02)
+        return tracked(picture)
+
+    with LiveSession(source) as live:
+        live.begin_tracking(slow)
+        deliver_tracked(live, source, 5)
+        counters = live.counters()
+    assert counters.latency_p50_ms >= 20.0
+    assert counters.latency_p95_ms >= counters.latency_p50_ms
