@@ -155,6 +155,7 @@ class _Walk:
         self._nodes: dict[int, _Node] = {}
         self._seek_tables: dict[int, tuple[int, int]] = {}
         self._begun = False
+        self._has_pictures = False
 
     def contents(self) -> OniContents:
         head = self._file.read(oni.FILE_HEADER.size)
@@ -253,7 +254,7 @@ class _Walk:
             raise RecordingUnsupported(
                 self._path, f"codec {codec.decode('ascii', 'replace')} for {NodeType(kind).name}"
             )
-        if self._begun:
+        if self._has_pictures:
             raise self._damaged("a stream that begins late", record.position)
         self._nodes[record.node] = node
 
@@ -270,7 +271,7 @@ class _Walk:
             whole = whole and size == _GENERAL_SIZES[name]
         if not whole:
             raise self._damaged(f"property {name} of the wrong size", record.position)
-        if self._begun and name in _FIXED and node.properties.get(name) != data:
+        if self._has_pictures and name in _FIXED and node.properties.get(name) != data:
             raise RecordingUnsupported(self._path, f"{name} changes on the way")
         node.properties[name] = data
         if name == oni.PIXEL_FORMAT_2:
@@ -321,14 +322,13 @@ class _Walk:
             node.frames = frames
         if not node.has_pictures:
             raise self._damaged("pictures of a node that has none", record.position)
-        # the library reads on and on until each node is ready
-        if not all(each.ready for each in self._nodes.values()):
-            raise self._damaged("a stream that is never ready", record.position)
         self._begun = True
 
     def _picture(self, node: _Node, record: _Record) -> None:
-        if not (node.has_pictures and self._begun):
-            raise self._damaged("pictures before their stream is ready", record.position)
+        # until each node is ready the library reads on and on, over pictures too; some have no codec yet
+        if not (node.has_pictures and self._begun and all(each.ready for each in self._nodes.values())):
+            raise self._damaged("pictures before all streams are ready", record.position)
+        self._has_pictures = True
         if len(record.fields) != oni.NEW_DATA_FIELDS.size:
             raise self._damaged("fields of the wrong size", record.position)
         time_us, number = oni.NEW_DATA_FIELDS.unpack(record.fields)

@@ -25,6 +25,8 @@ from core.types import ByteImage, DepthImage, Frame
 ColorCodec = Literal["jpeg", "raw"]
 DepthCodec = Literal["table", "raw"]
 MAX_DEPTH = 10000
+NOT_KNOWN = 0xFFFFFFFFFFFFFFFF
+"""A time that is not known yet: all ones, as the library's own recorder writes it."""
 _DEPTH_FORMATS = ((1e-3, PixelFormat.DEPTH_1_MM), (1e-4, PixelFormat.DEPTH_100_UM))
 
 
@@ -72,8 +74,9 @@ class OniWriter:
         self._mirrored = mirrored
         self._streams: dict[NodeType, _Stream] = {}
         self._greatest_us = 0
+        self._stream_count = 2 if depth else 1
         self._file: BinaryIO | None = _create(path)
-        self._write(self._header(0))
+        self._write(self._header(NOT_KNOWN))
         if depth:
             codec = Codec.DEPTH_TABLE if depth == "table" else Codec.RAW
             self._add_stream("Depth", NodeType.DEPTH, codec, formats[0])
@@ -82,8 +85,7 @@ class OniWriter:
         for stream in self._streams.values():
             self._record(RecordType.NODE_READY, stream.node)
         for stream in self._streams.values():
-            # count and last time are not known yet: all ones, as the library's own recorder writes
-            fields = oni.DATA_BEGIN_FIELDS.pack(0xFFFFFFFF, 0xFFFFFFFFFFFFFFFF)
+            fields = oni.DATA_BEGIN_FIELDS.pack(0xFFFFFFFF, NOT_KNOWN)
             self._record(RecordType.DATA_BEGIN, stream.node, fields)
 
     def __enter__(self) -> OniWriter:
@@ -127,7 +129,7 @@ class OniWriter:
         self._record(RecordType.END, 0)
         for stream in self._streams.values():
             self._file.seek(stream.added_at)
-            self._write(self._added(stream, seek_at.get(stream.node, 0)))
+            self._write(self._added(stream, seek_at.get(stream.node, 0), len(stream.entries)))
         self._file.seek(0)
         self._write(self._header(self._greatest_us))
         try:
@@ -158,7 +160,7 @@ class OniWriter:
         camera = self._camera
         is_depth = kind == NodeType.DEPTH
         stream.added_at = self._tell()
-        self._write(self._added(stream, 0))
+        self._write(self._added(stream, 0, 0xFFFFFFFF))
         mode = struct.pack("<III", camera.width_px, camera.height_px, self._fps)
         self._int(stream, oni.FRAME_SIZE, camera.width_px * camera.height_px * (2 if is_depth else 3))
         self._int(stream, "xnIsGenerating", 1)
@@ -179,11 +181,11 @@ class OniWriter:
         self._int(stream, oni.MIRROR, int(self._mirrored))
 
     def _header(self, greatest_us: int) -> bytes:
-        return oni.FILE_HEADER.pack(oni.FILE_MAGIC, *oni.FILE_VERSION, greatest_us, len(self._streams))
+        return oni.FILE_HEADER.pack(oni.FILE_MAGIC, *oni.FILE_VERSION, greatest_us, self._stream_count)
 
-    def _added(self, stream: _Stream, seek_at: int) -> bytes:
+    def _added(self, stream: _Stream, seek_at: int, count: int) -> bytes:
         last_us = stream.entries[-1][0] if stream.entries else 0
-        numbers = (stream.kind, stream.codec, len(stream.entries), 0, last_us, seek_at)
+        numbers = (stream.kind, stream.codec, count, 0, last_us, seek_at)
         fields = _string(stream.name) + oni.NODE_ADDED_FIELDS.pack(*numbers)
         return _record_bytes(RecordType.NODE_ADDED, stream.node, fields, 0, 0)
 

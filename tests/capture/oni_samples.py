@@ -1,0 +1,105 @@
+"""Small recordings with pictures that tell which one they are, and the means to look inside and damage them."""
+
+from __future__ import annotations
+
+import struct
+from collections.abc import Iterator
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from core.camera import Camera
+from core.capture.oni_format import RecordType
+from core.capture.oni_writer import ColorCodec, DepthCodec, OniWriter
+from core.types import ByteImage, DepthImage
+
+WIDTH, HEIGHT = 64, 48
+CAMERA = Camera(52.5, 52.5, 31.5, 23.5, WIDTH, HEIGHT)
+PERIOD_S = 1.0 / 30.0
+START_S = 0.010
+DEPTH_LATE_S = 0.003
+
+
+def color_picture(number: int, width: int = WIDTH, height: int = HEIGHT) -> ByteImage:
+    """Not the same left for right, and different for each number."""
+    rows, columns = np.mgrid[0:height, 0:width]
+    picture = np.stack([columns * 255 // width, rows * 255 // height, (columns + rows) % 256], -1).astype(np.uint8)
+    picture[:8, :8] = (37 * number + 11) % 256
+    return picture
+
+
+def depth_picture(number: int, width: int = WIDTH, height: int = HEIGHT) -> DepthImage:
+    """Noise, steps, holes; the first pixel holds the number."""
+    rng = np.random.default_rng(number)
+    rows, columns = np.mgrid[0:height, 0:width]
+    picture = (600 + columns + 2 * rows + rng.integers(0, 4, (height, width))).astype(np.uint16)
+    picture[height // 4 : height // 2] = 2500
+    picture[rng.random((height, width)) < 0.03] = 0
+    picture[0, 0] = 5000 + number
+    return picture
+
+
+def write_sample(
+    path: Path,
+    count: int = 6,
+    *,
+    color: ColorCodec = "raw",
+    depth: DepthCodec | None = "table",
+    color_camera: Camera = CAMERA,
+    depth_unit_m: float = 1e-3,
+    mirrored: bool = False,
+    period_s: float = PERIOD_S,
+) -> Path:
+    """A recording of ``count`` colour and depth pictures; depth comes 3 ms late."""
+    width, height = color_camera.width_px, color_camera.height_px
+    writer = OniWriter(path, color_camera, color=color, depth=depth, depth_unit_m=depth_unit_m, mirrored=mirrored)
+    side = -1 if mirrored else 1
+    with writer:
+        for number in range(1, count + 1):
+            time_s = START_S + (number - 1) * period_s
+            picture = color_picture(number, width, height)[:, ::side]
+            writer.add_color(np.ascontiguousarray(picture), time_s)
+            if depth:
+                distances = depth_picture(number, width, height)[:, ::side]
+                writer.add_depth(np.ascontiguousarray(distances), time_s + DEPTH_LATE_S)
+    return path
+
+
+@dataclass(frozen=True)
+class Record:
+    """A record of a file: where it is, what it is, where its payload is."""
+
+    position: int
+    kind: RecordType
+    node: int
+    fields_size: int
+    payload_size: int
+
+    @property
+    def payload(self) -> slice:
+        start = self.position + self.fields_size
+        return slice(start, start + self.payload_size)
+
+
+def records(data: bytes) -> Iterator[Record]:
+    """All records of a sound file, by a reader of its own."""
+    position = 24
+    while True:
+        magic, kind, node, fields_size, payload_size = struct.unpack_from("<IIIII", data, position)
+        assert magic == 0x0052494E
+        yield Record(position, RecordType(kind), node, fields_size, payload_size)
+        if kind == RecordType.END:
+            return
+        position += fields_size + payload_size
+
+
+def find(data: bytes, kind: RecordType, occurrence: int = 0, node: int | None = None) -> Record:
+    """The n-th record of a kind."""
+    found = [record for record in records(data) if record.kind == kind and node in (None, record.node)]
+    return found[occurrence]
+
+
+def patched(data: bytes, position: int, new: bytes) -> bytes:
+    """``data`` with some bytes replaced."""
+    return data[:position] + new + data[position + len(new) :]

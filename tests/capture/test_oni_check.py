@@ -1,0 +1,247 @@
+"""The structural check: what is sound passes with its contents, what would kill or hang the library is refused."""
+
+from __future__ import annotations
+
+import struct
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from core.capture import oni_format as oni
+from core.capture.oni_check import check_recording
+from core.capture.oni_format import NodeType, RecordType
+from core.capture.openni2 import PixelFormat
+from core.errors import (
+    CarpusFault,
+    RecordingDamaged,
+    RecordingEmpty,
+    RecordingMissing,
+    RecordingUnreadable,
+    RecordingUnsupported,
+    TimesUnordered,
+)
+from tests.capture.oni_samples import CAMERA, HEIGHT, WIDTH, find, patched, records, write_sample
+
+DEPTH_NODE, IMAGE_NODE = 1, 2
+
+
+@pytest.fixture(scope="module")
+def sound(tmp_path_factory: pytest.TempPathFactory) -> bytes:
+    return write_sample(tmp_path_factory.mktemp("oni") / "sound.oni", color="jpeg").read_bytes()
+
+
+def check(tmp_path: Path, data: bytes) -> CarpusFault | None:
+    """The fault of a file with these bytes."""
+    path = tmp_path / "file.oni"
+    path.write_bytes(data)
+    try:
+        check_recording(path)
+    except CarpusFault as fault:
+        return fault
+    return None
+
+
+def test_contents_of_a_sound_file(tmp_path: Path) -> None:
+    path = write_sample(tmp_path / "a.oni", 5, color="jpeg", depth_unit_m=1e-4, mirrored=True)
+    found = check_recording(path)
+    assert found.depth is not None
+    for stream in (found.color, found.depth):
+        assert (stream.width_px, stream.height_px, stream.fps) == (WIDTH, HEIGHT, 30)
+        assert stream.mirrored
+        assert stream.number.tolist() == [1, 2, 3, 4, 5]
+    assert found.color.timestamp_us.tolist() == [10000, 43333, 76667, 110000, 143333]
+    assert found.depth.timestamp_us.tolist() == [13000, 46333, 79667, 113000, 146333]
+    assert (found.color.codec, found.depth.codec) == ("JPEG", "16zT")
+    assert (found.color.pixel_format, found.depth.pixel_format) == (PixelFormat.RGB888, PixelFormat.DEPTH_100_UM)
+    assert found.color.field_of_view_rad == pytest.approx(
+        (2 * np.arctan(32 / CAMERA.fx_px), 2 * np.arctan(24 / CAMERA.fy_px))
+    )
+    assert found.version == "1.0.1.0"
+
+
+def test_colour_alone_is_enough(tmp_path: Path) -> None:
+    assert check_recording(write_sample(tmp_path / "a.oni", depth=None)).depth is None
+
+
+def test_what_follows_the_end_does_not_matter(tmp_path: Path, sound: bytes) -> None:
+    assert check(tmp_path, sound + bytes(100_000)) is None
+
+
+def test_missing_and_folder(tmp_path: Path) -> None:
+    for path in (tmp_path / "none.oni", tmp_path):
+        with pytest.raises(RecordingMissing):
+            check_recording(path)
+
+
+Damage = Callable[[bytes], bytes]
+
+
+def header(position: int, new: bytes) -> Damage:
+    return lambda data: patched(data, position, new)
+
+
+def in_record(kind: RecordType, offset: int, new: bytes, occurrence: int = 0, node: int | None = None) -> Damage:
+    """Replace bytes ``offset`` after the start of a record."""
+    return lambda data: patched(data, find(data, kind, occurrence, node).position + offset, new)
+
+
+def cut_before(kind: RecordType, occurrence: int = 0, extra: int = 0) -> Damage:
+    return lambda data: data[: find(data, kind, occurrence).position + extra]
+
+
+def without(kind: RecordType, node: int) -> Damage:
+    def damage(data: bytes) -> bytes:
+        record = find(data, kind, 0, node)
+        return data[: record.position] + data[record.position + record.fields_size + record.payload_size :]
+
+    return damage
+
+
+def position_of_property(data: bytes, node: int, name: str) -> tuple[int, int, int]:
+    """Start of the record, of the value's size, and of the value."""
+    wanted = name.encode() + b"\0"
+    for record in records(data):
+        start = record.position + 28
+        if record.node == node and 3 <= record.kind <= 6 and data[start + 4 : start + 4 + len(wanted)] == wanted:
+            return record.position, start + 4 + len(wanted), start + 8 + len(wanted)
+    raise AssertionError(name)
+
+
+def with_property(node: int, name: str, value: bytes) -> Damage:
+    return lambda data: patched(data, position_of_property(data, node, name)[2], value)
+
+
+def without_property(node: int, name: str) -> Damage:
+    def damage(data: bytes) -> bytes:
+        start, _, value = position_of_property(data, node, name)
+        (size,) = struct.unpack_from("<I", data, start + 12)
+        assert start + size > value
+        return data[:start] + data[start + size :]
+
+    return damage
+
+
+def renamed_property(node: int, name: str, new: bytes) -> Damage:
+    return lambda data: patched(data, position_of_property(data, node, name)[0] + 32, new)
+
+
+def swapped_ready(data: bytes) -> bytes:
+    """The colour stream becomes ready only after its first picture."""
+    ready = find(data, RecordType.NODE_READY, 0, IMAGE_NODE)
+    first = find(data, RecordType.NEW_DATA, 0, IMAGE_NODE)
+    block = data[ready.position : ready.position + ready.fields_size]
+    end = first.position + first.fields_size + first.payload_size
+    return data[: ready.position] + data[ready.position + ready.fields_size : end] + block + data[end:]
+
+
+HUGE = struct.pack("<I", 0x7FFFFFFF)
+ADDED_CODEC = 28 + 4 + len(b"Image\0") + 4
+DAMAGED = {
+    # would kill the process that plays it
+    "more streams than memory": header(20, b"\xff\xff\xff\x7f"),
+    "record fields beyond the buffer": in_record(RecordType.NEW_DATA, 12, HUGE, 2),
+    "property fields beyond the buffer": in_record(RecordType.GENERAL_PROPERTY, 12, HUGE, 1),
+    "pictures before their codec": swapped_ready,
+    "property name outside ASCII": renamed_property(IMAGE_NODE, "xnMirror", b"xnM\xefrror"),
+    "stream name outside ASCII": in_record(RecordType.NODE_ADDED, 32, b"\xc3"),
+    "name without its end": in_record(RecordType.NODE_ADDED, 28, HUGE),
+    "property larger than its record": lambda data: patched(
+        data, position_of_property(data, 1, "xnFOV")[1], b"\x00\xff\x00\x00"
+    ),
+    # would never end
+    "no end": cut_before(RecordType.END),
+    "cut inside a picture": cut_before(RecordType.NEW_DATA, 5, 60),
+    "cut inside a record header": cut_before(RecordType.NEW_DATA, 5, 11),
+    "cut before the data": cut_before(RecordType.DATA_BEGIN),
+    "a stream that is never ready": without(RecordType.NODE_READY, DEPTH_NODE),
+    "no time at all in the header": header(12, bytes(8)),
+    # would lose pictures without a word, or be refused in the library's own words
+    "broken chain": in_record(RecordType.NEW_DATA, 0, b"XXXX", 3),
+    "unknown record": in_record(RecordType.NEW_DATA, 4, b"\x63\x00\x00\x00", 3),
+    "unknown stream": in_record(RecordType.NEW_DATA, 8, b"\x09\x00\x00\x00", 3),
+    "stream of another number": in_record(RecordType.NEW_DATA, 8, b"\x00\x00\x00\x00", 3),
+    "payload too long": in_record(RecordType.NEW_DATA, 16, b"\x00\x40\x00\x00", 3),
+    "payload beyond the buffer": in_record(RecordType.NEW_DATA, 16, HUGE, 3),
+    "payload after a property": in_record(RecordType.INT_PROPERTY, 16, b"\x04\x00\x00\x00"),
+    "picture number beyond the count": in_record(RecordType.NEW_DATA, 36, b"\x63\x00\x00\x00", 3),
+    "picture number 0": in_record(RecordType.NEW_DATA, 36, bytes(4)),
+    "count too small": in_record(RecordType.NODE_ADDED, ADDED_CODEC + 4, b"\x02\x00\x00\x00", 1),
+    "seek table beyond the file": in_record(RecordType.NODE_ADDED, ADDED_CODEC + 24, HUGE, 1),
+    "seek table inside a picture": in_record(RecordType.NODE_ADDED, ADDED_CODEC + 24, b"\x00\x20", 1),
+    "no cropping": without_property(DEPTH_NODE, oni.CROPPING),
+    "no size": without_property(IMAGE_NODE, oni.MAP_OUTPUT_MODE),
+    "no greatest depth": without_property(DEPTH_NODE, oni.MAX_DEPTH),
+    "absurd size": with_property(IMAGE_NODE, oni.MAP_OUTPUT_MODE, struct.pack("<III", 60000, 60000, 30)),
+    "frame size that does not fit": with_property(IMAGE_NODE, oni.FRAME_SIZE, struct.pack("<Q", 100)),
+    "a huge frame size": with_property(IMAGE_NODE, oni.FRAME_SIZE, struct.pack("<Q", 1 << 40)),
+    "size property of the wrong length": lambda data: patched(
+        data, position_of_property(data, IMAGE_NODE, oni.MAP_OUTPUT_MODE)[1], b"\x0b"
+    ),
+    "unknown old pixel format": with_property(IMAGE_NODE, oni.PIXEL_FORMAT_1, struct.pack("<Q", 77)),
+    "two streams of one number": in_record(RecordType.NODE_ADDED, 8, b"\x01\x00\x00\x00", 1),
+}
+
+
+@pytest.mark.parametrize("damage", DAMAGED.values(), ids=DAMAGED.keys())
+def test_damage_is_refused(tmp_path: Path, sound: bytes, damage: Damage) -> None:
+    data = damage(sound)
+    assert data != sound
+    fault = check(tmp_path, data)
+    assert isinstance(fault, RecordingDamaged)
+    assert fault.subject == str(tmp_path / "file.oni")
+    assert "at byte" in fault.detail
+
+
+UNSUPPORTED = {
+    "newer version": header(4, b"\x02"),
+    "unknown codec": in_record(RecordType.NODE_ADDED, ADDED_CODEC, b"WHAT", 1),
+    "null codec": in_record(RecordType.NODE_ADDED, ADDED_CODEC, bytes(4), 1),
+    "codec that writes without bounds": in_record(RecordType.NODE_ADDED, ADDED_CODEC, b"Im8z", 1),
+    "cropped": with_property(DEPTH_NODE, oni.CROPPING, struct.pack("<IHHHH", 1, 0, 0, 32, 24)),
+    "colour as YUV": with_property(IMAGE_NODE, oni.PIXEL_FORMAT_2, struct.pack("<Q", PixelFormat.YUV422)),
+    "unknown pixel format": with_property(IMAGE_NODE, oni.PIXEL_FORMAT_2, struct.pack("<Q", 999)),
+    "no colour": in_record(RecordType.NODE_ADDED, ADDED_CODEC - 4, struct.pack("<I4s", NodeType.IR, b"JPEG"), 1),
+}
+
+
+@pytest.mark.parametrize("damage", UNSUPPORTED.values(), ids=UNSUPPORTED.keys())
+def test_other_kinds_of_recordings_are_named(tmp_path: Path, sound: bytes, damage: Damage) -> None:
+    assert isinstance(check(tmp_path, damage(sound)), RecordingUnsupported)
+
+
+@pytest.mark.parametrize("data", [b"", b"NI10", b"NI10" + bytes(19), b"RIFF" + bytes(200), bytes(5000)])
+def test_other_files_are_not_recordings(tmp_path: Path, data: bytes) -> None:
+    assert isinstance(check(tmp_path, data), RecordingUnreadable)
+
+
+def test_no_pictures_at_all(tmp_path: Path) -> None:
+    assert isinstance(check(tmp_path, write_sample(tmp_path / "none.oni", 0).read_bytes()), RecordingEmpty)
+
+
+def test_times_that_go_back(tmp_path: Path, sound: bytes) -> None:
+    backwards = in_record(RecordType.NEW_DATA, 28, struct.pack("<Q", 1000), 2, IMAGE_NODE)(sound)
+    fault = check(tmp_path, backwards)
+    assert isinstance(fault, TimesUnordered)
+    assert fault.detail == "image picture 3"
+
+
+def test_damage_inside_a_picture_passes(tmp_path: Path, sound: bytes) -> None:
+    payload = find(sound, RecordType.NEW_DATA, 3, IMAGE_NODE).payload
+    assert check(tmp_path, patched(sound, payload.start, b"\xa5" * (payload.stop - payload.start))) is None
+
+
+def test_settings_that_change_on_the_way(tmp_path: Path, sound: bytes) -> None:
+    start, _, _ = position_of_property(sound, IMAGE_NODE, oni.MIRROR)
+    (size,) = struct.unpack_from("<I", sound, start + 12)
+    again = sound[start : start + size]
+    at = find(sound, RecordType.NEW_DATA, 4).position
+    shifted = struct.pack("<Q", 0)
+    no_tables = sound
+    for node in (DEPTH_NODE, IMAGE_NODE):
+        # positions behind the new record move: leave the seek tables out
+        no_tables = in_record(RecordType.NODE_ADDED, ADDED_CODEC + 24, shifted, 0, node)(no_tables)
+    assert check(tmp_path, no_tables[:at] + again + no_tables[at:]) is None
+    changed = again[:-8] + struct.pack("<Q", 1)
+    assert isinstance(check(tmp_path, no_tables[:at] + changed + no_tables[at:]), RecordingUnsupported)

@@ -1,0 +1,82 @@
+"""The depth codec of .oni files against a decoder written from the description."""
+
+from __future__ import annotations
+
+import struct
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from numpy.typing import NDArray
+
+from core.capture.oni_table_codec import encode_depth
+
+
+def decode(data: bytes, pixels: int) -> list[int]:
+    """Pixel by pixel, by the description of the format."""
+    (count,) = struct.unpack_from("<H", data)
+    table = struct.unpack_from(f"<{count}H", data, 2)
+    position = 2 + 2 * count
+    (index,) = struct.unpack_from("<H", data, position)
+    position += 2
+    out = [table[index]]
+    while position < len(data):
+        byte = data[position]
+        position += 1
+        if 0xE0 <= byte < 0xFF:
+            out += [table[index]] * (2 * (byte - 0xE0))
+            continue
+        if byte != 0xFF:
+            index -= (byte >> 4) - 6
+            out.append(table[index])
+            low = byte & 0x0F
+            if low == 0x0D:
+                continue
+            if low != 0x0F:
+                index -= low - 6
+                out.append(table[index])
+                continue
+        if data[position] & 0x80:
+            index -= data[position] - 192
+            position += 1
+        else:
+            index = data[position] << 8 | data[position + 1]
+            position += 2
+        out.append(table[index])
+    assert len(out) == pixels
+    return out
+
+
+def pictures() -> list[NDArray[np.uint16]]:
+    rng = np.random.default_rng(1)
+    return [
+        np.full((48, 64), 700, np.uint16),
+        np.full((1, 1), 9, np.uint16),
+        np.array([[1, 2]], np.uint16),
+        rng.integers(0, 30000, (40, 50)).astype(np.uint16),
+        (np.cumsum(rng.integers(-9, 10, (48, 64)), 1) + 3000).astype(np.uint16),
+        np.repeat(rng.integers(0, 4, 100), rng.integers(1, 80, 100)).astype(np.uint16)[None],
+    ]
+
+
+@pytest.mark.parametrize("picture", pictures(), ids=lambda picture: f"{picture.shape}")
+def test_a_decoder_written_from_the_description_gives_the_picture_back(picture: NDArray[np.uint16]) -> None:
+    assert decode(encode_depth(picture), picture.size) == picture.ravel().tolist()
+
+
+@settings(max_examples=200, deadline=None)
+@given(st.lists(st.tuples(st.integers(0, 400), st.integers(1, 40)), min_size=1, max_size=40))
+def test_any_runs_of_values_come_back(runs: list[tuple[int, int]]) -> None:
+    picture = np.repeat([value for value, _ in runs], [length for _, length in runs]).astype(np.uint16)[None]
+    assert decode(encode_depth(picture), picture.size) == picture.ravel().tolist()
+
+
+def test_unchanged_pixels_take_one_byte_for_thirty() -> None:
+    flat = encode_depth(np.full((1, 3001), 700, np.uint16))
+    assert len(flat) == 2 + 2 + 2 + 100
+
+
+def test_more_values_than_an_index_can_name_are_refused() -> None:
+    with pytest.raises(ValueError, match="32769"):
+        encode_depth(np.arange(32769, dtype=np.uint16)[None])

@@ -1,0 +1,159 @@
+"""Recordings written by Carpus: refused misuse, and what the library's own recorder makes of them."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from core.capture.camera_info import read_camera_info
+from core.capture.oni_check import check_recording
+from core.capture.oni_source import OniSource
+from core.capture.oni_writer import OniWriter, sidecar_path, write_oni
+from core.errors import DiskFull, OutputExists, OutputNotWritable, RecordingDamaged
+from core.types import Frame
+from tests.capture.oni_samples import CAMERA, PERIOD_S, color_picture, depth_picture, write_sample
+
+ROOT = Path(__file__).parents[2]
+
+
+def frames(count: int, depth_unit_m: float = 1e-3) -> list[Frame]:
+    return [Frame(i, 100.0 + i * PERIOD_S, color_picture(i), depth_picture(i), depth_unit_m) for i in range(count)]
+
+
+@pytest.mark.parametrize("mirrored", [False, True])
+def test_frames_and_their_camera_come_back(tmp_path: Path, mirrored: bool) -> None:
+    path = tmp_path / "take 1.oni"
+    assert write_oni(path, frames(5), CAMERA, color="raw", mirrored=mirrored) == 5
+    told = read_camera_info(sidecar_path(path))
+    assert (told.registered, told.mirrored) == (True, mirrored)
+    source = OniSource(path)
+    assert (source.info.camera.fx_px, source.info.camera.origin) == (CAMERA.fx_px, "file")
+    back = list(source.frames())
+    assert len(back) == 5
+    for written, read in zip(frames(5), back, strict=True):
+        assert np.array_equal(read.color_rgb, written.color_rgb)
+        assert read.depth_raw is not None
+        assert np.array_equal(read.depth_raw, written.depth_raw)
+        assert read.timestamp_s == pytest.approx(written.timestamp_s, abs=1e-6)
+
+
+def test_the_other_depth_unit(tmp_path: Path) -> None:
+    path = tmp_path / "fine.oni"
+    write_oni(path, frames(2, 1e-4), CAMERA)
+    assert {frame.depth_unit_m for frame in OniSource(path).frames()} == {1e-4}
+
+
+def test_frames_without_depth_between_others(tmp_path: Path) -> None:
+    some = [Frame(f.index, f.timestamp_s, f.color_rgb, f.depth_raw if f.index != 1 else None, 1e-3) for f in frames(3)]
+    write_oni(tmp_path / "holes.oni", some, CAMERA)
+    back = list(OniSource(tmp_path / "holes.oni").frames())
+    assert [frame.depth_raw is not None for frame in back] == [True, False, True]
+
+
+def test_the_librarys_own_recorder_agrees(tmp_path: Path) -> None:
+    """What the library reads from our file and writes again holds the same depth and colour.
+
+    Its recorder may lose a picture of its own accord; each one that it wrote must be one of ours.
+    """
+    first, second = write_sample(tmp_path / "first.oni", 6), tmp_path / "second.oni"
+    program = """
+import ctypes, sys, time
+from core.capture.openni2 import *
+with Context() as library:
+    c = library.c
+    device = library.open(sys.argv[1])
+    device.set_int(DeviceProperty.PLAYBACK_REPEAT, 0)
+    device.set_float(DeviceProperty.PLAYBACK_SPEED, -1.0)
+    streams = [device.create_stream(Sensor.COLOR), device.create_stream(Sensor.DEPTH)]
+    recorder = ctypes.c_void_p()
+    assert c.oniCreateRecorder(sys.argv[2].encode(), ctypes.byref(recorder)) == 0
+    for stream in streams:
+        assert c.oniRecorderAttachStream(recorder, stream.handle, 0) == 0
+    c.oniRecorderStart(recorder)
+    for stream in streams:
+        stream.start()
+    while (ready := library.wait(streams, 500)) is not None:
+        with streams[ready].read():
+            pass
+    time.sleep(0.3)
+    c.oniRecorderStop(recorder)
+    c.oniRecorderDestroy(ctypes.byref(recorder))
+    device.close()
+"""
+    subprocess.run([sys.executable, "-c", program, str(first), str(second)], cwd=ROOT, check=True, timeout=60)
+    back = list(OniSource(second).frames())
+    assert len(back) >= 4
+    ours = {color_picture(number).tobytes() for number in range(1, 7)}
+    assert {frame.color_rgb.tobytes() for frame in back} <= ours
+    for depth in [frame.depth_raw for frame in back if frame.depth_raw is not None]:
+        assert np.array_equal(depth, depth_picture(int(depth[0, 0]) - 5000))
+
+
+def test_an_unfinished_file_is_seen_as_such(tmp_path: Path) -> None:
+    path = tmp_path / "torn.oni"
+    writer = OniWriter(path, CAMERA)
+    writer.add_color(color_picture(1), 0.1)
+    writer.abandon()
+    with pytest.raises(RecordingDamaged) as caught:
+        check_recording(path)
+    assert "not finished" in caught.value.detail
+
+
+def test_nothing_is_overwritten(tmp_path: Path) -> None:
+    path = write_sample(tmp_path / "a.oni", 1)
+    before = path.read_bytes()
+    with pytest.raises(OutputExists):
+        OniWriter(path, CAMERA)
+    assert path.read_bytes() == before
+    sidecar_path(tmp_path / "b.oni").write_text("mine")
+    with pytest.raises(OutputExists):
+        write_oni(tmp_path / "b.oni", frames(1), CAMERA)
+    assert not (tmp_path / "b.oni").exists()
+
+
+def test_a_folder_that_is_not_there(tmp_path: Path) -> None:
+    with pytest.raises(OutputNotWritable):
+        OniWriter(tmp_path / "none" / "a.oni", CAMERA)
+
+
+@pytest.mark.parametrize("wrong", ["size", "kind", "time", "unit"])
+def test_misuse_is_refused(tmp_path: Path, wrong: str) -> None:
+    if wrong == "unit":
+        with pytest.raises(ValueError, match=r"0\.0002"):
+            OniWriter(tmp_path / "a.oni", CAMERA, depth_unit_m=0.0002)
+        return
+    with OniWriter(tmp_path / "a.oni", CAMERA) as writer:
+        writer.add_color(color_picture(1), 0.1)
+        picture, time_s = color_picture(2), 0.2
+        if wrong == "size":
+            picture = picture[:-1]
+        elif wrong == "kind":
+            picture = picture.astype(np.float32)  # type: ignore[assignment]
+        else:
+            time_s = 0.1
+        with pytest.raises(ValueError):
+            writer.add_color(picture, time_s)
+
+
+def test_a_full_disk_is_a_fault(tmp_path: Path) -> None:
+    """In a process whose files may not grow beyond 200 kB."""
+    program = """
+import resource, signal, sys
+from pathlib import Path
+from core.errors import DiskFull
+from tests.capture.oni_samples import write_sample
+signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
+resource.setrlimit(resource.RLIMIT_FSIZE, (200_000, 200_000))
+try:
+    write_sample(Path(sys.argv[1]), 200)
+except DiskFull as fault:
+    print(type(fault).__name__)
+"""
+    done = subprocess.run(
+        [sys.executable, "-c", program, str(tmp_path / "a.oni")], cwd=ROOT, capture_output=True, text=True, timeout=60
+    )
+    assert done.stdout.strip() == DiskFull.__name__, done.stderr

@@ -1,0 +1,138 @@
+"""The thin layer against the real library, in processes of their own: whatever dies there, dies alone."""
+
+from __future__ import annotations
+
+import json
+import subprocess
+import sys
+from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from core.capture import openni2
+from core.capture.openni2 import PixelFormat, VideoMode, load_library
+from core.errors import DriverMissing
+from tests.capture.oni_samples import HEIGHT, WIDTH, write_sample
+
+ROOT = Path(__file__).parents[2]
+
+
+def in_process(body: str, *arguments: str) -> Any:
+    """Run ``body`` with the library at hand; what it puts into ``result``."""
+    program = (
+        "import json, sys\nfrom core.capture.openni2 import *\nresult = None\n" + body + "\nprint(json.dumps(result))"
+    )
+    done = subprocess.run(
+        [sys.executable, "-c", program, *arguments], cwd=ROOT, capture_output=True, text=True, timeout=120
+    )
+    assert done.returncode == 0, done.stderr
+    return json.loads(done.stdout)
+
+
+def test_the_library_is_there_and_tells_its_version() -> None:
+    found = load_library().oniGetVersion()
+    assert (found.major, found.minor) == (2, 2)
+
+
+def test_a_missing_library_is_a_fault(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+    monkeypatch.setattr(openni2, "LINUX_NAMES", ("libOpenNI2-not-here.so",))
+    monkeypatch.setattr(openni2, "LIBRARY_NAMES", {})
+    monkeypatch.setenv("OPENNI2_REDIST64", str(tmp_path))
+    with pytest.raises(DriverMissing) as caught:
+        load_library()
+    assert "libOpenNI2-not-here.so" in caught.value.detail
+
+
+def test_another_library_of_that_name_is_a_fault(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(openni2, "LINUX_NAMES", ("libc.so.6",))
+    monkeypatch.setattr(openni2, "LIBRARY_NAMES", {})
+    with pytest.raises(DriverMissing):
+        load_library()
+
+
+def test_no_camera_and_no_file() -> None:
+    body = """
+with Context() as library:
+    result = [len(library.devices())]
+    for name in ("", "/nowhere/none.oni"):
+        try:
+            library.open(name)
+        except CallFailed as failure:
+            result.append([failure.call, failure.status, failure.reason])
+"""
+    devices, default, missing = in_process(body)
+    assert devices == 0
+    assert default[0] == missing[0] == "oniDeviceOpen"
+    assert missing[1] == openni2.Status.NO_DEVICE
+    assert "none.oni" in missing[2]
+
+
+@pytest.mark.parametrize("name", ["prüfung.oni", "手.oni", "a" * 256])
+def test_names_that_kill_the_library_never_reach_it(name: str) -> None:
+    body = """
+with Context() as library:
+    try:
+        library.open(sys.argv[1])
+    except ValueError:
+        result = "kept away"
+"""
+    assert in_process(body, name) == "kept away"
+
+
+def test_a_recording_in_lockstep(tmp_path: Path) -> None:
+    path = write_sample(tmp_path / "a.oni", 4)
+    body = """
+with Context() as library:
+    states = []
+    library.watch(lambda uri, state: states.append(state), lambda uri: None)
+    device = library.open(sys.argv[1])
+    assert device.set_int(DeviceProperty.PLAYBACK_REPEAT, 0)
+    assert device.set_float(DeviceProperty.PLAYBACK_SPEED, -1.0)
+    streams = [device.create_stream(Sensor.COLOR), device.create_stream(Sensor.DEPTH)]
+    for stream in streams:
+        stream.start()
+    seen = []
+    while (ready := library.wait(streams, 300)) is not None:
+        with streams[ready].read() as picture:
+            seen.append([picture.sensor, picture.index, picture.timestamp_us, picture.width_px, picture.size_bytes])
+    mode = streams[0].mode()
+    result = [seen, [mode.pixel_format, mode.width_px, mode.height_px, mode.fps], states[-1],
+              device.can_register(), streams[1].get_float(StreamProperty.HORIZONTAL_FOV),
+              streams[1].get_int(StreamProperty.NUMBER_OF_FRAMES), streams[1].set_int(StreamProperty.MIRRORING, 0)]
+    device.close()
+"""
+    seen, mode, last_state, can_register, view, count, settable = in_process(body, str(path))
+    assert [row[:2] for row in seen] == [[sensor, number] for number in (1, 2, 3, 4) for sensor in (2, 3)]
+    assert [row[2] for row in seen[:2]] == [10000, 13000]
+    assert {(row[0], row[3], row[4]) for row in seen} == {
+        (2, WIDTH, WIDTH * HEIGHT * 3),
+        (3, WIDTH, WIDTH * HEIGHT * 2),
+    }
+    assert VideoMode(*mode) == VideoMode(PixelFormat.RGB888, WIDTH, HEIGHT, 30)
+    assert last_state == openni2.DeviceState.END_OF_FILE
+    assert (can_register, count, settable) == (False, 4, False)
+    assert view == pytest.approx(1.0947857, abs=1e-5)
+
+
+CYCLES = """
+with Context() as library:
+    result = 0
+    for cycle in range(int(sys.argv[1])):
+        device = library.open("Dummy")
+        streams = [device.create_stream(Sensor.COLOR), device.create_stream(Sensor.DEPTH)]
+        for stream in streams:
+            stream.start()
+        for _ in range(2):
+            ready = library.wait(streams, 2000)
+            with streams[ready].read() as picture:
+                result += picture.size_bytes > 0
+        device.close()
+"""
+
+
+def test_two_hundred_open_and_close_cycles_of_the_dummy_device() -> None:
+    with ThreadPoolExecutor(4) as pool:
+        counts = list(pool.map(lambda _: in_process(CYCLES, "50"), range(4)))
+    assert counts == [100, 100, 100, 100]
