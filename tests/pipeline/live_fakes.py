@@ -35,10 +35,31 @@ def tracked(of: Frame) -> TrackedFrame:
     """A tracked frame that remembers which frame it came from."""
     three, none, six = np.zeros(3), np.zeros(0), np.zeros((6, 3))
     return TrackedFrame(
-        of.index, of.timestamp_s, TrackStatus.TRACKED, three, three, np.eye(3), three, three, three, three, none, none,
-        none, six, six, six[:, :2], np.zeros((6, 2, 2)), six[:, :2], six[:, 0], Detections.none(), of.dropped_before,
-        three, 1.0, 12,
-    )  # fmt: skip
+        index=of.index,
+        timestamp_s=of.timestamp_s,
+        status=TrackStatus.TRACKED,
+        position_m=three,
+        velocity_m_s=three,
+        rotation_w2_w0=np.eye(3),
+        angular_velocity_rad_s=three,
+        angles_rad=three,
+        angles_sd_rad=three,
+        angles_zyz_rad=three,
+        joint_angles_rad=none,
+        joint_angles_sd_rad=none,
+        joint_velocity_rad_s=none,
+        joint_position_m=np.zeros((0, 3)),
+        marker_position_cam_m=six,
+        marker_predicted_px=six[:, :2],
+        marker_predicted_cov_px2=np.zeros((6, 2, 2)),
+        marker_measured_px=six[:, :2],
+        marker_measured_depth_m=six[:, 0],
+        detections=Detections.none(),
+        dropped_before=of.dropped_before,
+        measured_share=three,
+        nis=1.0,
+        nis_dof=12,
+    )
 
 
 class HeldSource:

@@ -1,0 +1,48 @@
+"""The live session with the real session file, read back by plain h5py."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import h5py
+import numpy as np
+import pytest
+
+from core.errors import OutputExists
+from core.pipeline.live import LiveSession
+from core.session.writer import SessionWriter
+from tests.pipeline.live_fakes import HeldSource, tracked, wait_until
+from tests.session.samples import CAMERA, make_calibration, make_header
+
+
+def begin(path: Path) -> SessionWriter:
+    return SessionWriter.create(path, make_header(), CAMERA, make_calibration())
+
+
+def test_a_live_recording_is_a_whole_session_file(tmp_path: Path) -> None:
+    source, path = HeldSource(dropped_before=1), tmp_path / "session.h5"
+    with LiveSession(source) as live:
+        live.begin_tracking(tracked)
+        live.start_recording(lambda: begin(path))
+        for count in range(1, 41):
+            source.let(1)
+            wait_until(lambda count=count: live.counters().tracked == count)
+        live.add_event("note", "elbow lifted")
+        assert live.stop_recording() == path
+        assert live.drain_events() == []
+    with h5py.File(path) as file:
+        assert file.attrs["complete"]
+        np.testing.assert_allclose(file["frames/timestamp"][:], 100.0 + np.arange(40) / 30.0)
+        assert (file["quality/dropped_frames"][:] == 1).all()
+        assert file["events/text"].asstr()[:].tolist() == ["elbow lifted"]
+        assert file["events/time"][0] == pytest.approx(100.0 + 39 / 30.0)
+    assert [entry.name for entry in tmp_path.iterdir()] == ["session.h5"]
+
+
+def test_a_file_that_is_there_is_kept(tmp_path: Path) -> None:
+    path = tmp_path / "session.h5"
+    path.write_bytes(b"mine")
+    with LiveSession(HeldSource()) as live, pytest.raises(OutputExists):
+        live.start_recording(lambda: begin(path))
+    assert path.read_bytes() == b"mine"
+    assert [entry.name for entry in tmp_path.iterdir()] == ["session.h5"]
