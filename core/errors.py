@@ -152,3 +152,11 @@ class DepthNotRegistered(CarpusFault):
 
 class DiskTooSlow(CarpusFault):
     """Pictures came faster than they could be stored; what was stored is kept."""
+
+
+class RegisterUnreadable(CarpusFault):
+    """The register of patients cannot be opened, is damaged, or was written by a newer Carpus."""
+
+
+class PseudonymTaken(CarpusFault):
+    """Another patient of the register has this pseudonym."""

@@ -17,8 +17,8 @@ _NO_PIXEL_PX = 1e9
 """Beyond any picture; also keeps NaN, infinity and integers too long for a float out."""
 
 
-def read_clicks(path: Path, picture_size: tuple[int, int] | None = None) -> Clicks:
-    """The clicks of a file; with ``picture_size`` (width, height) each must lie inside the first picture.
+def read_clicks(path: Path, width_px: int | None = None, height_px: int | None = None) -> Clicks:
+    """The clicks of a file; where the size of the first picture is given each must lie inside it.
 
     Raises :class:`ClicksUnreadable`, :class:`ProtocolUnknown` or :class:`ClickOutsidePicture`.
     """
@@ -31,8 +31,8 @@ def read_clicks(path: Path, picture_size: tuple[int, int] | None = None) -> Clic
         raise ProtocolUnknown(name, f"{path}: {cause.detail}") from cause
     pixel = _pixels(path, content.get("markers"), protocol.markers)
     clicks = Clicks(side, protocol, pixel)
-    if picture_size is not None:
-        check_inside(clicks, *picture_size)
+    if width_px is not None and height_px is not None:
+        check_inside(clicks, width_px, height_px)
     return clicks
 
 

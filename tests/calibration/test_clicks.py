@@ -38,7 +38,7 @@ def write(path: Path, content: Any) -> Path:
 
 
 def test_the_order_is_the_protocol_s_not_the_file_s(tmp_path: Path) -> None:
-    clicks = read_clicks(write(tmp_path / "c.json", GOOD), (640, 480))
+    clicks = read_clicks(write(tmp_path / "c.json", GOOD), 640, 480)
     assert (clicks.side, clicks.protocol) == ("right", WRIST6)
     assert clicks.pixel.tolist() == [MARKERS[name] for name in ("WRIST", "CMC1", "MCP2", "MCP3", "MCP4", "MCP5")]
     assert clicks.pixel.dtype == np.float64
@@ -115,7 +115,7 @@ def test_a_wrong_file_is_one_typed_fault_with_the_fact(tmp_path: Path, case: str
     content, kind, fact = BAD[case]
     path = write(tmp_path / "c.json", content)
     with pytest.raises(kind) as caught:
-        read_clicks(path, (640, 480))
+        read_clicks(path, 640, 480)
     assert type(caught.value) is kind
     assert fact in caught.value.detail
 

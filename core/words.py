@@ -1,0 +1,364 @@
+"""The one place that speaks of faults: for each kind what happened, whether the data are safe, and what to do.
+
+Short main clauses in the present tense; the program is Carpus, the person is not blamed. ``{subject}`` and
+``{detail}`` are the facts of the fault. The texts are plain English; a window may translate them before filling.
+"""
+
+from __future__ import annotations
+
+import math
+import re
+from dataclasses import dataclass
+
+from core import errors
+from core.calibration.result import Finding
+from core.errors import CarpusFault
+from core.hand.protocols import HAND21
+
+
+@dataclass(frozen=True, slots=True)
+class Words:
+    """The three answers of every message."""
+
+    happened: str
+    safe: str
+    do: str
+
+
+@dataclass(frozen=True, slots=True)
+class FindingWords:
+    """What is not as it should be at calibration, and how to mend it."""
+
+    headline: str
+    remedy: str
+
+
+_UNTOUCHED = "Nothing has been changed, and nothing is lost."
+_NOTHING_YET = "Nothing has been recorded, so nothing is lost."
+_STORED = "Everything recorded so far is stored on this computer."
+
+FAULTS: dict[type[CarpusFault], Words] = {
+    errors.RecordingMissing: Words(
+        "There is no recording at {subject}.",
+        _UNTOUCHED,
+        "Check the name and the folder.",
+    ),
+    errors.RecordingUnreadable: Words(
+        "The recording cannot be read: {subject} ({detail}).",
+        _UNTOUCHED,
+        "Copy the recording again from where it was made, or correct the list.",
+    ),
+    errors.RecordingEmpty: Words(
+        "The recording holds no picture: {subject} ({detail}).",
+        _UNTOUCHED,
+        "Choose another recording, or record again.",
+    ),
+    errors.PictureDamaged: Words(
+        "A picture of the recording cannot be used: {subject} ({detail}).",
+        _UNTOUCHED,
+        "Copy the recording again from where it was made.",
+    ),
+    errors.PictureSizeChanged: Words(
+        "The pictures of the recording differ in size: {subject} ({detail}).",
+        _UNTOUCHED,
+        "Use a recording whose pictures all have one size.",
+    ),
+    errors.TimesUnordered: Words(
+        "The times of the recording do not rise: {subject} ({detail}).",
+        _UNTOUCHED,
+        "Put the list in the order of time with each time once, or record again.",
+    ),
+    errors.DepthMissing: Words(
+        "The recording has no usable depth: {subject} ({detail}).",
+        _UNTOUCHED,
+        "Use a recording of colour and depth.",
+    ),
+    errors.CameraFileUnreadable: Words(
+        "The file of the camera cannot be used: {subject} ({detail}).",
+        _UNTOUCHED,
+        "Calibrate the camera again, or take the file away to use the usual values.",
+    ),
+    errors.ClicksUnreadable: Words(
+        "The clicks cannot be read: {subject} ({detail}).",
+        _UNTOUCHED,
+        "Correct the file, or click the markers again.",
+    ),
+    errors.ProtocolUnknown: Words(
+        "There is no set of markers with the name {subject} ({detail}).",
+        _UNTOUCHED,
+        "Use wrist6 or hand21.",
+    ),
+    errors.ClickOutsidePicture: Words(
+        "A click lies outside the picture: {subject} ({detail}).",
+        _NOTHING_YET,
+        "Click the marker in the first picture of this recording.",
+    ),
+    errors.ClickOnNoMarker: Words(
+        "A click has no blue marker of its own: {subject}.",
+        _NOTHING_YET,
+        "Click nearer to the marker, or check the light.",
+    ),
+    errors.MarkerWithoutDepth: Words(
+        "The camera measures no depth at a marker: {subject}.",
+        _NOTHING_YET,
+        "Move the hand a little, and keep sunlight and shine off the markers.",
+    ),
+    errors.CalibrationImpossible: Words(
+        "The clicked markers do not make a hand ({subject}).",
+        _NOTHING_YET,
+        "Click every marker again under its own name.",
+    ),
+    errors.OutputExists: Words(
+        "There is a file already at {subject}.",
+        "That file is untouched; Carpus never overwrites.",
+        "Choose another name.",
+    ),
+    errors.OutputNotWritable: Words(
+        "Carpus cannot write to {subject} ({detail}).",
+        "What was stored before is safe.",
+        "Check that the folder exists and that you may write there, or choose another one.",
+    ),
+    errors.DiskFull: Words(
+        "The disk has no room left for {subject} ({detail}).",
+        "Everything stored before is safe; at most the last second is missing.",
+        "Free some space, or choose another disk.",
+    ),
+    errors.DiskTooSlow: Words(
+        "The disk is too slow for the recording, so it has ended: {subject} ({detail}).",
+        "Everything stored up to then is safe.",
+        "Record to a disk inside this computer, and close other programs.",
+    ),
+    errors.SessionUnreadable: Words(
+        "This session cannot be read: {subject} ({detail}).",
+        "The file is untouched, and all other sessions are safe.",
+        "Check that it is a session of this or an older Carpus, or take it from a backup.",
+    ),
+    errors.SettingsInvalid: Words(
+        "A setting cannot be used: {subject} ({detail}).",
+        _UNTOUCHED,
+        "Correct the setting, or take it out to use the usual value.",
+    ),
+    errors.RegisterUnreadable: Words(
+        "The list of patients cannot be opened: {subject} ({detail}).",
+        "The session files are safe; the list can be made again from them, without the names.",
+        "Start Carpus again, or move the file away and let Carpus make a new list.",
+    ),
+    errors.PseudonymTaken: Words(
+        "The name {subject} belongs to another patient.",
+        _UNTOUCHED,
+        "Choose another name.",
+    ),
+    errors.DriverMissing: Words(
+        "The driver of the camera, OpenNI2, is not on this computer ({detail}).",
+        _UNTOUCHED,
+        "Install OpenNI2; “carpus doctor” says how.",
+    ),
+    errors.DriverFailed: Words(
+        "The driver of the camera has stopped: {subject} ({detail}).",
+        _STORED,
+        "Unplug the camera, plug it in again and start once more.",
+    ),
+    errors.CameraMissing: Words(
+        "Carpus sees no camera ({detail}).",
+        _NOTHING_YET,
+        "Plug the camera straight into the computer.",
+    ),
+    errors.CameraBusy: Words(
+        "Another program uses the camera ({detail}).",
+        _NOTHING_YET,
+        "Close the other program, then try again.",
+    ),
+    errors.CameraPermission: Words(
+        "The camera is there, but you may not open it ({detail}).",
+        _NOTHING_YET,
+        "Give yourself access to it; “carpus doctor” says how.",
+    ),
+    errors.CameraUnsuited: Words(
+        "This camera does not give the pictures that Carpus needs: {subject} ({detail}).",
+        _STORED,
+        "Use a camera with colour and depth, such as the Xtion.",
+    ),
+    errors.CameraLost: Words(
+        "The camera sends no more pictures: {subject} ({detail}).",
+        _STORED,
+        "Plug the camera in again; tracking and recording then go on by themselves.",
+    ),
+    errors.CameraReturned: Words(
+        "The camera is back: {subject} (away for {detail}).",
+        _STORED,
+        "Go on; the pause is marked in the session.",
+    ),
+    errors.RecordingDamaged: Words(
+        "The recording is damaged: {subject} ({detail}).",
+        _UNTOUCHED,
+        "Copy the recording again from where it was made.",
+    ),
+    errors.RecordingUnsupported: Words(
+        "Carpus cannot use the pictures of this recording: {subject} ({detail}).",
+        _UNTOUCHED,
+        "Record again with colour and depth of one size.",
+    ),
+    errors.PicturesLost: Words(
+        "Damaged pictures of the recording are left out: {subject} ({detail}).",
+        "All other pictures are used, and the gaps are marked.",
+        "Copy the recording again if there are many.",
+    ),
+    errors.PicturesEnlarged: Words(
+        "Some pictures are smaller and have been enlarged: {subject} ({detail}).",
+        _UNTOUCHED,
+        "Set colour and depth to one size next time.",
+    ),
+    errors.RegistrationAssumed: Words(
+        "Nothing says whether depth lies on colour in {subject}; Carpus takes it so.",
+        _UNTOUCHED,
+        "Write “registered: true” or “false” into its camera_info.yaml.",
+    ),
+    errors.DepthNotRegistered: Words(
+        "Depth does not lie on colour in {subject}, so depths are less sure.",
+        _UNTOUCHED,
+        "Switch on registration in the camera next time.",
+    ),
+}
+"""Words with places for the facts; every kind of fault has its own entry."""
+
+_ABOUT_MARKERS = (
+    errors.ClickOutsidePicture,
+    errors.ClickOnNoMarker,
+    errors.MarkerWithoutDepth,
+    errors.CalibrationImpossible,
+)
+
+FINDINGS: dict[str, FindingWords] = {
+    "click_on_no_marker": FindingWords(
+        "No blue marker at the {markers}.",
+        "Click nearer to the marker, or check the light.",
+    ),
+    "two_clicks_on_one": FindingWords(
+        "The clicks for the {markers} are on one marker.",
+        "Click each of the two on its own marker.",
+    ),
+    "swapped": FindingWords(
+        "{markers} look swapped.",
+        "Swap the two names, or click both markers again.",
+    ),
+    "wrong_side": FindingWords(
+        "This looks like the other hand.",
+        "Choose the other side, or click the markers again.",
+    ),
+    "no_depth": FindingWords(
+        "The camera measures no depth at the {markers}.",
+        "Move the hand a little, and keep sunlight and shine off the marker.",
+    ),
+    "residual": FindingWords(
+        "The marker of the {markers} is {value} mm off its place (up to {limit} mm is good).",
+        "Click it again in its middle, and keep the hand still.",
+    ),
+    "hand_length": FindingWords(
+        "The hand measures {value} mm ({limit} mm is the limit).",
+        "Check that every marker is clicked under its own name.",
+    ),
+    "tilt": FindingWords(
+        "The hand is tilted {value}° to the camera (up to {limit}° is good).",
+        "Turn the back of the hand to the camera.",
+    ),
+    "distance": FindingWords(
+        "The hand is {value} m from the camera ({limit} m or more is good).",
+        "Move the camera further from the hand.",
+    ),
+    "moved": FindingWords(
+        "The hand moved in the first half second.",
+        "Keep the hand still and take the first picture again.",
+    ),
+    "few_frames": FindingWords(
+        "The hand was still for {value} pictures only ({limit} or more are good).",
+        "Keep the hand still for half a second.",
+    ),
+    "depth_off": FindingWords(
+        "Depth and colour do not lie on each other at the {markers} ({value} {unit}, up to {limit} is good).",
+        "Switch on registration in the camera, or track without depth.",
+    ),
+}
+"""Words for every kind of :class:`core.calibration.result.Finding`."""
+
+_FINGERS = {"1": "thumb", "2": "index", "3": "middle", "4": "ring", "5": "little"}
+_JOINTS = {"MCP": "knuckle", "PIP": "middle joint", "DIP": "end joint", "IP": "end joint", "TIP": "tip"}
+
+
+def words_of(fault: CarpusFault, *, marker_names: bool = False) -> Words:
+    """The three answers for this fault; ``marker_names`` adds the markers' names of the files to the clinical ones."""
+    subject = fault.subject
+    if isinstance(fault, _ABOUT_MARKERS):
+        spoken = markers_in_words(subject.split(", "))
+        subject = f"{spoken}, {subject}" if marker_names and subject else spoken
+    template = FAULTS[type(fault)]
+    return Words(*(_filled(text, subject, fault.detail) for text in (template.happened, template.safe, template.do)))
+
+
+def one_sentence(fault: CarpusFault) -> str:
+    """One line for the command line: what happened, with which file, and what to do."""
+    words = words_of(fault, marker_names=True)
+    return _joined(words.happened, words.do)
+
+
+def finding_words(finding: Finding) -> FindingWords:
+    """Headline and remedy of a finding."""
+    template = FINDINGS[finding.kind]
+    headline = template.headline
+    if math.isnan(finding.value) and " (" in headline:
+        headline = headline[: headline.index(" (")] + "."
+    text = headline.format(
+        markers=markers_in_words(finding.markers) or "hand",
+        value=f"{finding.value:.3g}",
+        limit=f"{finding.limit:.3g}",
+        unit=finding.unit,
+    )
+    return FindingWords(text[0].upper() + text[1:], template.remedy)
+
+
+def finding_sentence(finding: Finding) -> str:
+    """Headline and remedy on one line."""
+    words = finding_words(finding)
+    return _joined(words.headline, words.remedy)
+
+
+def marker_in_words(marker: str) -> str:
+    """Clinical name of a marker; any other name stays.
+
+    >>> marker_in_words("MCP2"), marker_in_words("CMC1"), marker_in_words("PIP5")
+    ('index knuckle', 'thumb base', 'little finger middle joint')
+    """
+    if marker not in HAND21.markers:
+        return marker
+    if marker == "WRIST":
+        return "wrist"
+    if marker == "CMC1":
+        return "thumb base"
+    joint, finger = marker[:-1], _FINGERS[marker[-1]]
+    if joint in ("PIP", "DIP"):
+        finger += " finger"
+    return f"{finger} {_JOINTS[joint]}"
+
+
+def markers_in_words(markers: list[str] | tuple[str, ...]) -> str:
+    """Several markers as a person says them.
+
+    >>> markers_in_words(("MCP2", "MCP3")), markers_in_words(("WRIST", "CMC1", "MCP4"))
+    ('index and middle knuckle', 'wrist, thumb base and ring knuckle')
+    """
+    names = [marker_in_words(marker) for marker in markers]
+    if len(names) > 1 and all(marker in HAND21.markers and marker.startswith("MCP") for marker in markers):
+        names = [*(name.removesuffix(" knuckle") for name in names[:-1]), names[-1]]
+    return " and ".join(part for part in (", ".join(names[:-1]), *names[-1:]) if part)
+
+
+def _filled(text: str, subject: str, detail: str) -> str:
+    """Put the facts in their places; a place without a fact goes, with what binds it to the sentence."""
+    facts = {"subject": subject, "detail": " ".join(detail.split())}
+    for name, fact in facts.items():
+        if not fact:
+            text = re.sub(rf"(: | \((away for )?| (for|at|to|in) | )\{{{name}\}}\)?", "", text)
+    return text.format(**facts)
+
+
+def _joined(happened: str, do: str) -> str:
+    return f"{happened.removesuffix('.')}; {do[0].lower()}{do[1:]}"

@@ -1,0 +1,149 @@
+"""Every fault and every finding has words, and the words keep the rules of the house."""
+
+from __future__ import annotations
+
+import importlib
+import pkgutil
+import re
+import string
+import typing
+from collections.abc import Iterator
+
+import pytest
+
+import core
+from core import errors
+from core.calibration.result import Finding, FindingKind
+from core.errors import CarpusFault
+from core.hand.protocols import HAND21, WRIST6
+from core.words import (
+    FAULTS,
+    FINDINGS,
+    finding_sentence,
+    finding_words,
+    marker_in_words,
+    markers_in_words,
+    one_sentence,
+    words_of,
+)
+
+FORBIDDEN = re.compile(
+    r"\b(error|errors|invalid|fail|fails|failed|failure|exception|fatal|abort|aborted|illegal|null|None|nan|wrong)\b",
+    re.IGNORECASE,
+)
+
+
+def kinds(of: type[CarpusFault] = CarpusFault) -> Iterator[type[CarpusFault]]:
+    for kind in of.__subclasses__():
+        yield kind
+        yield from kinds(kind)
+
+
+def all_kinds() -> set[type[CarpusFault]]:
+    """Faults are defined in core.errors, but a kind that hides in another module is found too."""
+    for module in pkgutil.walk_packages(core.__path__, "core."):
+        importlib.import_module(module.name)
+    return {kind for kind in kinds() if kind.__module__.startswith("core.")}
+
+
+def texts() -> list[str]:
+    spoken = [text for words in FAULTS.values() for text in (words.happened, words.safe, words.do)]
+    return spoken + [text for words in FINDINGS.values() for text in (words.headline, words.remedy)]
+
+
+def test_every_fault_has_words_and_no_words_are_left_over() -> None:
+    assert set(FAULTS) == all_kinds()
+
+
+def test_every_finding_has_words_and_no_words_are_left_over() -> None:
+    assert set(FINDINGS) == set(typing.get_args(FindingKind))
+
+
+@pytest.mark.parametrize("text", texts())
+def test_the_wording_keeps_the_rules(text: str) -> None:
+    assert not FORBIDDEN.search(text)
+    assert text.endswith(".")
+    assert text[0].isupper() or text.startswith("{")
+    assert len(text) < 120
+    assert {name for _, name, _, _ in string.Formatter().parse(text) if name} <= {
+        "subject",
+        "detail",
+        "markers",
+        "value",
+        "limit",
+        "unit",
+    }
+
+
+@pytest.mark.parametrize("kind", FAULTS, ids=lambda kind: kind.__name__)
+def test_with_or_without_facts_it_reads_as_a_sentence(kind: type[CarpusFault]) -> None:
+    for fault in (kind("/a/place", "line 7"), kind("/a/place"), kind(), kind("", "line\n7")):
+        words = words_of(fault)
+        for text in (words.happened, words.safe, words.do, one_sentence(fault)):
+            assert not re.search(r"\(\)|  | [.;:,)]|[{}]|\n", text), text
+            assert not re.search(r"\b(for|at|to|in|named|the)[.;,]", text), text
+        assert one_sentence(fault).endswith(".")
+    assert "{odd}" in one_sentence(kind("{odd}", "{odd}")) or "{subject}" not in FAULTS[kind].happened
+
+
+@pytest.mark.parametrize("kind", FAULTS, ids=lambda kind: kind.__name__)
+def test_the_line_for_the_terminal_says_what_where_and_what_to_do(kind: type[CarpusFault]) -> None:
+    line = one_sentence(kind("/a/place", "line 7"))
+    assert "\n" not in line
+    assert words_of(kind()).do[1:] in line
+    if kind.__name__.startswith(("Recording", "Picture", "Output", "Clicks", "Session", "DiskFull", "CameraFile")):
+        assert "/a/place" in line
+
+
+def test_a_file_and_its_line_are_named() -> None:
+    fault = errors.RecordingUnreadable("/take/rgb.txt", "line 7 is not a time and a file name: 'x'")
+    assert one_sentence(fault) == (
+        "The recording cannot be read: /take/rgb.txt (line 7 is not a time and a file name: 'x'); "
+        "copy the recording again from where it was made, or correct the list."
+    )
+
+
+def test_markers_are_called_by_their_clinical_names() -> None:
+    assert marker_in_words("WRIST") == "wrist"
+    assert marker_in_words("MCP1") == "thumb knuckle"
+    assert marker_in_words("IP1") == "thumb end joint"
+    assert marker_in_words("DIP3") == "middle finger end joint"
+    assert marker_in_words("TIP4") == "ring tip"
+    assert marker_in_words("elsewhere") == "elsewhere"
+    assert markers_in_words(("MCP4",)) == "ring knuckle"
+    assert markers_in_words(()) == ""
+    assert len({marker_in_words(name) for name in HAND21.markers}) == 21
+    assert {marker_in_words(name) for name in WRIST6.markers} == {
+        "wrist",
+        "thumb base",
+        "index knuckle",
+        "middle knuckle",
+        "ring knuckle",
+        "little knuckle",
+    }
+
+
+def test_a_fault_about_a_marker_names_it_for_the_clinic_and_for_the_file() -> None:
+    fault = errors.ClickOutsidePicture("MCP3", "700, 20 in a picture of 640 x 480 pixels")
+    assert words_of(fault).happened.startswith("A click lies outside the picture: middle knuckle (700")
+    assert "middle knuckle, MCP3 (700, 20" in one_sentence(fault)
+
+
+@pytest.mark.parametrize("kind", typing.get_args(FindingKind))
+def test_findings_tell_place_and_number(kind: FindingKind) -> None:
+    finding = Finding(kind, ("MCP2", "MCP3"), 22.26, 15.0, "mm")
+    words = finding_words(finding)
+    assert words.headline[0].isupper()
+    assert "{" not in words.headline
+    if "{value}" in FINDINGS[kind].headline:
+        assert "22.3" in words.headline
+        assert "15" in words.headline
+    if "{markers}" in FINDINGS[kind].headline:
+        assert "ndex and middle knuckle" in words.headline
+    line = finding_sentence(finding)
+    assert line.endswith(words.remedy[1:])
+    assert "\n" not in line
+
+
+def test_swapped_knuckles_read_as_in_the_design() -> None:
+    assert finding_words(Finding("swapped", ("MCP2", "MCP3"))).headline == "Index and middle knuckle look swapped."
