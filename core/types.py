@@ -72,6 +72,23 @@ class Detections:
 
 
 @dataclass(frozen=True, slots=True)
+class Moment:
+    """Wrist and joints at one moment, in the refined W0 and W2; fields as in :class:`TrackedFrame`."""
+
+    position_m: FloatArray
+    velocity_m_s: FloatArray
+    rotation_w2_w0: FloatArray
+    angular_velocity_rad_s: FloatArray
+    angles_rad: FloatArray
+    angles_sd_rad: FloatArray
+    angles_zyz_rad: FloatArray
+    joint_angles_rad: FloatArray
+    joint_angles_sd_rad: FloatArray
+    joint_velocity_rad_s: FloatArray
+    joint_position_m: FloatArray
+
+
+@dataclass(frozen=True, slots=True)
 class TrackedFrame:
     """What Carpus knows about one frame; the row of every dataset of the session file.
 

@@ -14,6 +14,7 @@ from core.calibration.plausibility import looks_like_other_side, plan_view, swap
 from core.calibration.result import Calibration, Clicks, Finding, Verdict
 from core.calibration.settings import CalibrationSettings
 from core.camera import Camera
+from core.depth_noise import pattern_sd_m, reading_sd_m
 from core.detection.appearance import REACH, MarkerAppearance, expected_radius_px, learn_appearance
 from core.detection.detector import Detector, Region
 from core.detection.settings import DetectionSettings
@@ -28,10 +29,12 @@ _TOWARDS_CAMERA = np.array([0.0, 0.0, -1.0])
 
 @dataclass(frozen=True, slots=True)
 class NeutralCapture:
-    """The discs over the still first frames: pixels (F, M, 2) and depths (F, M), NaN where not seen."""
+    """The discs over the still first frames: pixels (F, M, 2), depths (F, M) and what the detector said
+    of the depths' sd (F, M), NaN where not seen."""
 
     pixel: FloatArray
     depth_m: FloatArray
+    depth_sd_m: FloatArray
 
     @property
     def frames(self) -> int:
@@ -39,12 +42,21 @@ class NeutralCapture:
 
 
 @dataclass(frozen=True, slots=True)
+class StillNoise:
+    """Standard deviation of one picture's centres and depths on a still hand; ``depth_ratio`` of the latter
+    to that of a single reading by the book. NaN when there were too few frames."""
+
+    pixel_sd_px: float = float("nan")
+    depth_sd_m: float = float("nan")
+    depth_ratio: float = float("nan")
+
+
+@dataclass(frozen=True, slots=True)
 class CalibrationOutcome:
     """What there is to judge: the verdict always, the calibration unless a finding blocks.
 
     ``pixel`` (M, 2) where the discs were found, NaN where not; ``capture_frames`` still frames used, from
-    the first on; ``pixel_sd_px`` and ``depth_sd_m`` the noise of one picture, as measured on the still hand,
-    NaN when there were too few.
+    the first on; ``noise`` of one picture as the still hand showed it.
     """
 
     verdict: Verdict
@@ -52,8 +64,7 @@ class CalibrationOutcome:
     pixel: FloatArray
     calibration: Calibration | None
     capture_frames: int
-    pixel_sd_px: float
-    depth_sd_m: float
+    noise: StillNoise
 
 
 def calibrate(
@@ -78,7 +89,7 @@ def calibrate(
     found_px = np.where((taken >= 0)[:, None], _rows(blobs.pixel, taken), np.nan)
     if np.any(taken < 0):
         verdict = _no_verdict(clicks, findings)
-        return CalibrationOutcome(verdict, appearance, found_px, None, 0, np.nan, np.nan)
+        return CalibrationOutcome(verdict, appearance, found_px, None, 0, StillNoise())
     capture = _still_capture(frames, detector, region, blobs, taken, settings)
     return _measured(clicks, capture, camera, settings, appearance, found_px, findings, start_angles_rad)
 
@@ -136,7 +147,7 @@ def _still_capture(
     settings: CalibrationSettings,
 ) -> NeutralCapture:
     start_px = first_blobs.pixel[taken]
-    pixels, depths = [start_px], [first_blobs.depth_m[taken]]
+    pixels, depths, said = [start_px], [first_blobs.depth_m[taken]], [first_blobs.depth_sd_m[taken]]
     for frame in frames[1:]:
         if frame.timestamp_s - frames[0].timestamp_s > settings.still_s:
             break
@@ -153,7 +164,8 @@ def _still_capture(
             break
         pixels.append(np.where(near[:, None], blobs.pixel[nearest], np.nan))
         depths.append(np.where(near, blobs.depth_m[nearest], np.nan))
-    return NeutralCapture(np.stack(pixels), np.stack(depths))
+        said.append(np.where(near, blobs.depth_sd_m[nearest], np.nan))
+    return NeutralCapture(np.stack(pixels), np.stack(depths), np.stack(said))
 
 
 def _measured(
@@ -173,11 +185,11 @@ def _measured(
         findings.append(Finding("no_depth", (names[marker],), blocks=bool(marker in palm)))
     if np.any(depth_count[palm] == 0):
         verdict = _no_verdict(clicks, findings)
-        return CalibrationOutcome(verdict, appearance, found_px, None, capture.frames, np.nan, np.nan)
+        return CalibrationOutcome(verdict, appearance, found_px, None, capture.frames, StillNoise())
     with np.errstate(all="ignore"):
         pixel = camera.undistort(np.nanmean(capture.pixel, axis=0))
         depth_m = _nanmean(capture.depth_m)
-    pixel_sd_px, depth_sd_m = _noise(capture)
+    noise = _noise(capture)
     point_cam = camera.back_project(pixel, depth_m)
     axes_cam = wrist_axes(point_cam[palm], _TOWARDS_CAMERA)
     origin_cam = point_cam[palm[0]]
@@ -193,10 +205,9 @@ def _measured(
         rotation,
         np.isfinite(capture.pixel[..., 0]).sum(axis=0),
         depth_count,
-        pixel_sd_px,
-        depth_sd_m,
+        _nanmean(capture.depth_sd_m),
+        noise,
         camera,
-        settings,
     )
     residual_mm = _residuals_mm(capture, camera, marker_w0_m, rotation, translation, palm)
     hand_length_mm = 1e3 * float(np.linalg.norm(marker_w0_m[palm[3]])) / _MCP3_OVER_HAND_LENGTH
@@ -214,9 +225,7 @@ def _measured(
         np.zeros(3) if start_angles_rad is None else start_angles_rad,
         replace(verdict, findings=tuple(findings)),
     )
-    return CalibrationOutcome(
-        calibration.verdict, appearance, found_px, calibration, capture.frames, pixel_sd_px, depth_sd_m
-    )
+    return CalibrationOutcome(calibration.verdict, appearance, found_px, calibration, capture.frames, noise)
 
 
 def _nanmean(values: FloatArray) -> FloatArray:
@@ -225,16 +234,17 @@ def _nanmean(values: FloatArray) -> FloatArray:
     return np.asarray(np.where(count > 0, total / np.maximum(count, 1), np.nan))
 
 
-def _noise(capture: NeutralCapture) -> tuple[float, float]:
-    """Standard deviation of one picture's centres (px) and depths (m) on the still hand, common drift removed."""
+def _noise(capture: NeutralCapture) -> StillNoise:
+    """Noise of one picture on the still hand, common drift of the centres removed."""
     if capture.frames < 4:
-        return float("nan"), float("nan")
+        return StillNoise()
     with np.errstate(all="ignore"):
         drift = capture.pixel - np.nanmedian(capture.pixel, axis=1, keepdims=True)
         # Six discs share the median that is taken away: a little of their own scatter goes with it.
         pixel_sd = float(np.sqrt(np.nanmean(np.nanvar(drift, axis=0, ddof=1)) * 6.0 / 5.0))
         depth_sd = float(np.sqrt(np.nanmean(np.nanvar(capture.depth_m, axis=0, ddof=1))))
-    return pixel_sd, depth_sd
+        by_the_book = float(np.nanmean(reading_sd_m(capture.depth_m)))
+        return StillNoise(pixel_sd, depth_sd, depth_sd / by_the_book)
 
 
 def _disc_covariances(
@@ -242,17 +252,17 @@ def _disc_covariances(
     rotation: FloatArray,
     pixel_count: NDArray[np.int64],
     depth_count: NDArray[np.int64],
-    pixel_sd_px: float,
-    depth_sd_m: float,
+    said_sd_m: FloatArray,
+    noise: StillNoise,
     camera: Camera,
-    settings: CalibrationSettings,
 ) -> FloatArray:
     """Covariance (M, 3, 3) in W0 of the averaged disc places: across by the pixels, along the ray by the depth."""
     z = point_cam[:, 2]
-    pattern_m = settings.depth_pattern_per_m * z**2
-    scatter_m = depth_sd_m if np.isfinite(depth_sd_m) else 2.0 * pattern_m
-    along = scatter_m**2 / np.maximum(depth_count, 1) + pattern_m**2
-    pixel_sd = pixel_sd_px if np.isfinite(pixel_sd_px) else 0.3
+    book_m = reading_sd_m(z)
+    scatter_m = noise.depth_sd_m if np.isfinite(noise.depth_sd_m) else book_m
+    steep2 = np.maximum(said_sd_m**2 - book_m**2, 0.0)  # of a slope, as steep in every frame
+    along = scatter_m**2 / np.maximum(depth_count, 1) + pattern_sd_m(z) ** 2 + steep2
+    pixel_sd = noise.pixel_sd_px if np.isfinite(noise.pixel_sd_px) else 0.3
     across_m = np.hypot(pixel_sd / np.sqrt(np.maximum(pixel_count, 1)), 0.1) * z / camera.fx_px
     ray = point_cam / z[:, None]
     flat = np.diag([1.0, 1.0, 0.0])

@@ -11,7 +11,6 @@ class CalibrationSettings:
     ``least_distance_m`` of the wrist paper (II-C); ``most_tilt_deg`` of the palm to the picture;
     ``most_residual_mm`` of a disc; ``hand_length_mm`` shortest and longest believed (a child of six to a
     tall man); ``enough_frames`` for a neutral pose worth its name.
-    ``depth_pattern``: sd over z^2 (1/m) of the depth error that no averaging of a still hand removes.
     """
 
     still_s: float = 0.5
@@ -21,5 +20,4 @@ class CalibrationSettings:
     most_residual_mm: float = 4.0
     hand_length_mm: tuple[float, float] = (110.0, 225.0)
     enough_frames: int = 5
-    depth_pattern_per_m: float = 0.9e-3
     least_pixel_sd_px: float = 0.02

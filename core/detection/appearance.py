@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import cv2
 import numpy as np
 from numpy.typing import NDArray
+from scipy.optimize import linear_sum_assignment
 
 from core.camera import Camera
 from core.detection import color_histogram
+from core.detection.components import Components, components
 from core.detection.settings import DetectionSettings
 from core.types import ByteImage, FloatArray, Frame
 
@@ -23,15 +25,15 @@ class MarkerAppearance:
 
     ``paper_histogram`` (BINS, BINS) is the reference of the Bhattacharyya coefficient; ``paper_lookup`` and
     ``skin_lookup`` (BINS, BINS) are 0-255 tables for back-projection: how much likelier than the other a
-    colour is; ``darkest_value`` 0-255; ``area_m2`` apparent area of a disc facing the camera, its colour
-    threshold included; ``least_similarity`` that a blob needs.
+    colour is; ``darkest_value`` 0-255; ``area_share`` of a disc's ideal area that
+    passes the colour threshold; ``least_similarity`` that a blob needs.
     """
 
     paper_histogram: FloatArray
     paper_lookup: NDArray[np.float32]
     skin_lookup: NDArray[np.float32]
     darkest_value: float
-    area_m2: float
+    area_share: float
     least_similarity: float
 
 
@@ -72,27 +74,47 @@ def learn_appearance(
     ring &= ~on_paper
     centre = np.full(click_px.shape, np.nan)
     looks = _appearance(hsv, on_paper, ring, settings)
+    middle_radius = np.median(radius_px)
     for _ in range(_ROUNDS):
-        labels, blobs = _blobs(hsv, looks, settings)
-        found = np.array([_blob_under(click, r, blobs) for click, r in zip(click_px, radius_px, strict=True)])
-        if not np.any(found > 0):
+        blobs = components(paper_mask(hsv, looks, settings), lambda at: np.full(len(at), middle_radius))
+        found = _blobs_under(click_px, radius_px, blobs)
+        if not np.any(found >= 0):
             break
-        centre = np.where((found > 0)[:, None], blobs[np.maximum(found, 0), 5:7], np.nan)
-        on_paper = np.isin(labels, found[found > 0])
+        centre = np.where((found >= 0)[:, None], _rows(blobs.centre_px, found), np.nan)
+        on_paper = np.isin(blobs.labels, blobs.label[found[found >= 0]])
         core = cv2.erode(on_paper.astype(np.uint8), np.ones((3, 3), np.uint8)) > 0
         if core.sum() >= 5 * len(click_px):
             on_paper = core
-        blue = labels > 0
         around = np.zeros(shape, dtype=bool)
         for point, radius in zip(centre, radius_px, strict=True):
             if np.isfinite(point[0]):
                 around |= disc_mask(shape, point, 2.2 * radius) & ~disc_mask(shape, point, 1.45 * radius)
-        looks = _appearance(hsv, on_paper, around & ~_grown(blue), settings)
-    area_m2 = _facing_area_m2(centre, radius_px, hsv, looks, settings)
-    least = _least_similarity(centre, hsv, looks, settings)
-    return MarkerAppearance(
-        looks.paper_histogram, looks.paper_lookup, looks.skin_lookup, looks.darkest_value, area_m2, least
-    ), centre
+        looks = _appearance(hsv, on_paper, around & ~_grown(blobs.labels > 0), settings)
+    return _measured_by_discs(looks, hsv, centre, radius_px, settings), centre
+
+
+def _measured_by_discs(
+    looks: MarkerAppearance, hsv: ByteImage, centre: FloatArray, radius_px: FloatArray, settings: DetectionSettings
+) -> MarkerAppearance:
+    """The appearance with what the found discs reach by it: share of area, likeness to the reference."""
+    there = np.isfinite(centre[:, 0])
+    blobs = components(paper_mask(hsv, looks, settings), lambda at: np.full(len(at), np.median(radius_px)))
+    found = _blobs_under(centre[there], radius_px[there], blobs)
+    found = found[found >= 0]
+    if found.size == 0:
+        return looks
+    ratio = blobs.area_px[found] / (np.pi * np.median(radius_px) ** 2)
+    reached = [
+        float(
+            color_histogram.bhattacharyya(
+                color_histogram.histogram(hsv, blobs.labels == label).ravel(), looks.paper_histogram.ravel()
+            )
+        )
+        for label in blobs.label[found]
+    ]
+    # Half of what the least alike of the clicked discs reaches: a blob in other light still counts.
+    least = min(settings.least_similarity, 0.5 * min(reached))
+    return replace(looks, area_share=float(np.median(ratio)), least_similarity=least)
 
 
 def paper_mask(hsv: ByteImage, looks: MarkerAppearance, settings: DetectionSettings) -> ByteImage:
@@ -126,58 +148,27 @@ def _appearance(
         (255.0 * paper_share).astype(np.float32),
         (255.0 * skin_share).astype(np.float32),
         darkest,
-        np.pi * settings.marker_radius_m**2,
+        1.0,
         settings.least_similarity,
     )
 
 
-def _blobs(
-    hsv: ByteImage, looks: MarkerAppearance, settings: DetectionSettings
-) -> tuple[NDArray[np.int32], FloatArray]:
-    """Labels (H, W) and per label: left, top, width, height, area, centre u, v."""
-    count, labels, stats, centres = cv2.connectedComponentsWithStats(paper_mask(hsv, looks, settings))
-    return np.asarray(labels, dtype=np.int32), np.column_stack((stats, centres))[:count].astype(np.float64)
+def _blobs_under(click_px: FloatArray, radius_px: FloatArray, blobs: Components) -> NDArray[np.int64]:
+    """Disc-sized blob of every click (M,), -1 when none is within its reach; each blob once, nearest overall."""
+    taken = np.full(len(click_px), -1, dtype=np.int64)
+    full = np.pi * blobs.radius_px**2
+    fits = (blobs.area_px > 0.2 * full) & (blobs.area_px < 3.0 * full)
+    distance = np.linalg.norm(click_px[:, None] - blobs.centre_px[None], axis=-1)
+    far = (distance > REACH * radius_px[:, None]) | ~fits
+    rows, columns = linear_sum_assignment(np.where(far, 1e6, distance))
+    near = ~far[rows, columns]
+    taken[rows[near]] = columns[near]
+    return taken
 
 
-def _blob_under(click: FloatArray, radius_px: float, blobs: FloatArray) -> int:
-    """Label of the disc-sized blob nearest to a click, 0 when none is within its reach."""
-    full = np.pi * radius_px**2
-    fits = (blobs[:, 4] > 0.2 * full) & (blobs[:, 4] < 3.0 * full)
-    fits[0] = False
-    if not fits.any():
-        return 0
-    distance = np.where(fits, np.hypot(blobs[:, 5] - click[0], blobs[:, 6] - click[1]), np.inf)
-    best = int(np.argmin(distance))
-    return best if distance[best] <= REACH * radius_px else 0
+def _rows(values: FloatArray, index: NDArray[np.int64]) -> FloatArray:
+    return values[np.maximum(index, 0)]
 
 
 REACH = 2.2
 """A click finds a disc whose centre is within this many radii (about 10 px at 0.7 m)."""
-
-
-def _facing_area_m2(
-    centre: FloatArray, radius_px: FloatArray, hsv: ByteImage, looks: MarkerAppearance, settings: DetectionSettings
-) -> float:
-    """Median apparent area of the found discs over that of an ideal one, as an area."""
-    _, blobs = _blobs(hsv, looks, settings)
-    ratios: list[float] = []
-    for point, radius in zip(centre, radius_px, strict=True):
-        if np.isfinite(point[0]):
-            near = np.hypot(blobs[1:, 5] - point[0], blobs[1:, 6] - point[1])
-            if near.size and near.min() < radius:
-                ratios.append(blobs[1 + int(np.argmin(near)), 4] / (np.pi * radius**2))
-    ratio = float(np.median(ratios)) if ratios else 1.0
-    return ratio * np.pi * settings.marker_radius_m**2
-
-
-def _least_similarity(
-    centre: FloatArray, hsv: ByteImage, looks: MarkerAppearance, settings: DetectionSettings
-) -> float:
-    """Half of what the least alike of the clicked discs reaches, at most the setting."""
-    labels, blobs = _blobs(hsv, looks, settings)
-    reached: list[float] = []
-    for point in centre[np.isfinite(centre[:, 0])] if blobs.shape[0] > 1 else ():
-        label = 1 + int(np.argmin(np.hypot(blobs[1:, 5] - point[0], blobs[1:, 6] - point[1])))
-        own = color_histogram.histogram(hsv, labels == label)
-        reached.append(float(color_histogram.bhattacharyya(own.ravel(), looks.paper_histogram.ravel())))
-    return min(settings.least_similarity, 0.5 * min(reached)) if reached else settings.least_similarity

@@ -12,6 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from core.depth_noise import reading_sd_m
 from core.detection.settings import DetectionSettings
 from core.types import FloatArray
 
@@ -110,14 +111,14 @@ def blob_depths(
     low = ordered[row, (safe - 1) // 4]
     high = ordered[row, (3 * (safe - 1)) // 4]
     middle = ordered[row, (safe - 1) // 2]
+    middle = np.where(np.isfinite(middle), middle, 0.0)  # a blob without any reading has no middle
     near = np.abs(metres - middle[:, None]) <= settings.depth_iqr_m
     near_count = np.maximum(near.sum(axis=1), 1)
     depth = np.where(near, metres, 0.0).sum(axis=1) / near_count
     trusted = (count >= 3) & (count >= settings.depth_valid_share * core.sum(axis=(1, 2)))
     with np.errstate(invalid="ignore"):
         trusted &= (high - low) <= settings.depth_iqr_m
-        # Readings a few pixels apart share one correlation window of the sensor: they count as one.
-        sensor_sd = settings.disparity_noise_per_m * depth**2
         spread = np.where(trusted, (high - low) / 1.35, 0.0)
-    sd = np.sqrt(sensor_sd**2 + 0.1 * spread**2)
+    # Readings a few pixels apart share one correlation window of the sensor: together they count as one.
+    sd = np.sqrt(reading_sd_m(depth) ** 2 + (settings.slope_share * spread) ** 2)
     return np.where(trusted, depth, np.nan), np.where(trusted, sd, np.nan)

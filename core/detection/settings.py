@@ -14,7 +14,8 @@ class DetectionSettings:
     ``darkest``: brightness below this share of the clicked markers' is no marker;
     ``least_area``, ``most_area``: blob area over the expected area of a disc;
     ``depth_valid_share``, ``depth_iqr_m``: when a blob's depth is not trusted (reference 7.2);
-    ``disparity_noise``: sd of depth over z^2, 1/m (Khoshelham and Elberink 2012).
+    ``slope_share``: on a steep surface half a pixel between the two pictures is a depth error of this share of
+    the spread of the readings.
     """
 
     marker_radius_m: float = 0.006
@@ -27,5 +28,5 @@ class DetectionSettings:
     region_sd: float = 4.0
     depth_valid_share: float = 0.3
     depth_iqr_m: float = 0.008
-    disparity_noise_per_m: float = 1.425e-3
+    slope_share: float = 0.35
     most_blobs: int = 48

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from core.calibration.result import Calibration
 from core.camera import Camera
 from core.hand.protocols import MarkerProtocol, joint_angle_names
-from core.types import Detections, FloatArray, Side, TrackedFrame
+from core.types import Detections, FloatArray, Moment, Side, TrackedFrame
 
 IntArray = NDArray[np.integer]
 
@@ -95,7 +95,7 @@ class Motion:
     joint_position_m: FloatArray
 
 
-def motion_of(frames: Sequence[TrackedFrame]) -> Motion:
+def motion_of(frames: Sequence[TrackedFrame | Moment]) -> Motion:
     """The frames' wrist and joints, one row each."""
     return Motion(
         **{field.name: np.array([getattr(frame, field.name) for frame in frames]) for field in fields(Motion)}

@@ -202,13 +202,13 @@ def _repeat(belief: Belief, count: int) -> Belief:
 @dataclass(frozen=True, slots=True)
 class Innovation:
     """Surprise of an update: ``nis`` (...) innovation' S^-1 innovation with ``dof`` components,
-    ``log_likelihood`` (...), and the components themselves (..., m) with their sds."""
+    ``log_likelihood`` (...), and ``residual`` (..., m): how far each component lies from the corrected belief,
+    in its own standard deviations, N(0, 1) when noise and model are right."""
 
     nis: FloatArray
     log_likelihood: FloatArray
     dof: int
-    value: FloatArray
-    covariance: FloatArray
+    residual: FloatArray
 
 
 def update(
@@ -221,7 +221,7 @@ def update(
     lead = forecast.marker_mean.shape[:-2]
     if rows.size == 0:
         zero = np.zeros(lead)
-        return forecast.belief, Innovation(zero, zero, 0, np.zeros((*lead, 0)), np.zeros((*lead, 0, 0)))
+        return forecast.belief, Innovation(zero, zero, 0, np.zeros((*lead, 0)))
     flat_deviation = forecast.marker_deviation.reshape(*forecast.marker_deviation.shape[:-2], -1)[..., rows]
     value = measured - forecast.marker_mean.reshape(*lead, -1)[..., rows]
     weighted = flat_deviation * forecast.weight[:, None]
@@ -233,10 +233,10 @@ def update(
     unit = 1.0 / np.sqrt(noise_variance)
     s_unit = s * unit * unit[:, None]
     cross = swapped @ forecast.state_deviation  # (..., m, n) = P_yx
-    right = np.concatenate((cross, value[..., None]), axis=-1) * unit[:, None]
-    solved = np.linalg.solve(s_unit, right)
-    gain_t = solved[..., :-1] * unit[:, None]  # (..., m, n) = K'
-    s_inv_value = solved[..., -1] * unit
+    inverse = np.linalg.inv(s_unit)
+    gain_t = (inverse @ (cross * unit[:, None])) * unit[:, None]  # (..., m, n) = K'
+    s_inv_value_unit = (inverse @ (value * unit)[..., None])[..., 0]
+    s_inv_value = s_inv_value_unit * unit
     correction = (value[..., None, :] @ gain_t)[..., 0, :]
     covariance = forecast.belief.covariance - np.swapaxes(gain_t, -1, -2) @ cross
     covariance = 0.5 * (covariance + np.swapaxes(covariance, -1, -2))
@@ -244,4 +244,5 @@ def update(
     nis = np.sum(value * s_inv_value, axis=-1)
     log_det = np.linalg.slogdet(s_unit)[1] - 2.0 * np.sum(np.log(unit))
     log_likelihood = -0.5 * (nis + log_det + rows.size * np.log(2.0 * np.pi))
-    return belief, Innovation(nis, log_likelihood, int(rows.size), value, s)
+    residual = s_inv_value_unit / np.sqrt(inverse[..., index, index])
+    return belief, Innovation(nis, log_likelihood, int(rows.size), residual)

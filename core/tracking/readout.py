@@ -7,8 +7,6 @@ The covariance of an angle holds both the pose's and the calibration's part.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import numpy as np
 
 from core import so3
@@ -17,24 +15,12 @@ from core.hand import clinical_angles
 from core.hand.wrist_frame import wrist_axes_sensitivity
 from core.tracking.measurement import View
 from core.tracking.state import Belief, StateLayout
-from core.types import Detections, FloatArray, TrackedFrame, TrackStatus
+from core.types import Detections, FloatArray, Moment, TrackedFrame, TrackStatus
 
+_NONE = np.empty(0)
 _DORSAL = np.array([0.0, 0.0, 1.0])
 _SHAPE_MOVED_M = 2e-5
 """The axes are computed anew when a disc's refined place has moved by this much."""
-
-
-@dataclass(frozen=True, slots=True)
-class WristReading:
-    """Wrist quantities in the refined W0 and W2, as in :class:`core.types.TrackedFrame`."""
-
-    position_m: FloatArray
-    velocity_m_s: FloatArray
-    rotation_w2_w0: FloatArray
-    angular_velocity_rad_s: FloatArray
-    angles_rad: FloatArray
-    angles_sd_rad: FloatArray
-    angles_zyz_rad: FloatArray
 
 
 class Readout:
@@ -60,7 +46,7 @@ class Readout:
             self._axes_shape = palm_shape.copy()
         return self._axes, self._sensitivity
 
-    def wrist(self, belief: Belief) -> WristReading:
+    def moment(self, belief: Belief) -> Moment:
         """Wrist pose, rates, angles and their standard deviations of a single belief."""
         layout, p = self._layout, belief.covariance
         if layout.shape_count:
@@ -88,7 +74,7 @@ class Readout:
         angles = clinical_angles.angles_from_rotation(shown, self._side)
         by_turn = clinical_angles.angle_rates_matrix(shown, self._side)
         variance = np.einsum("ij,jk,ik->i", by_turn, turn_covariance, by_turn)
-        return WristReading(
+        return Moment(
             position,
             velocity,
             shown,
@@ -96,6 +82,10 @@ class Readout:
             angles,
             np.sqrt(np.maximum(variance, 0.0)),
             clinical_angles.zyz_from_rotation(shown),
+            belief.joints_rad,
+            _NONE,
+            _NONE,
+            np.empty((0, 3)),
         )
 
     def frame(
@@ -117,24 +107,23 @@ class Readout:
         nis_dof: int,
     ) -> TrackedFrame:
         """The whole row of a tracked or predicted frame."""
-        wrist = self.wrist(belief)
+        moment = self.moment(belief)
         discs = view.markers_cam_m(belief.position_m, belief.rotation_w2_w0, belief.joints_rad, belief.shape)
-        none = np.empty(0)
         return TrackedFrame(
             index,
             timestamp_s,
             status,
-            wrist.position_m,
-            wrist.velocity_m_s,
-            wrist.rotation_w2_w0,
-            wrist.angular_velocity_rad_s,
-            wrist.angles_rad,
-            wrist.angles_sd_rad,
-            wrist.angles_zyz_rad,
-            belief.joints_rad,
-            none,
-            none,
-            np.empty((0, 3)),
+            moment.position_m,
+            moment.velocity_m_s,
+            moment.rotation_w2_w0,
+            moment.angular_velocity_rad_s,
+            moment.angles_rad,
+            moment.angles_sd_rad,
+            moment.angles_zyz_rad,
+            moment.joint_angles_rad,
+            moment.joint_angles_sd_rad,
+            moment.joint_velocity_rad_s,
+            moment.joint_position_m,
             discs,
             predicted_px,
             predicted_cov_px2,
@@ -159,6 +148,12 @@ def _neutral_turn_covariance(calibration: Calibration) -> FloatArray:
     return np.asarray(np.einsum("mij,mjk,mlk->il", by_disc, covariance, by_disc))
 
 
+def lost_moment() -> Moment:
+    """Nothing is known."""
+    three = np.full(3, np.nan)
+    return Moment(three, three, np.full((3, 3), np.nan), *(three,) * 4, _NONE, _NONE, _NONE, np.empty((0, 3)))
+
+
 def lost_readout(
     index: int,
     timestamp_s: float,
@@ -168,23 +163,23 @@ def lost_readout(
     measured_share: FloatArray,
 ) -> TrackedFrame:
     """The row of a frame in which the hand is lost: nothing is known but the blobs."""
-    three, square = np.full(3, np.nan), np.full((3, 3), np.nan)
+    moment = lost_moment()
     per_marker = np.full((marker_count, 2), np.nan)
     return TrackedFrame(
         index,
         timestamp_s,
         TrackStatus.LOST,
-        three,
-        three,
-        square,
-        three,
-        three,
-        three,
-        three,
-        np.empty(0),
-        np.empty(0),
-        np.empty(0),
-        np.empty((0, 3)),
+        moment.position_m,
+        moment.velocity_m_s,
+        moment.rotation_w2_w0,
+        moment.angular_velocity_rad_s,
+        moment.angles_rad,
+        moment.angles_sd_rad,
+        moment.angles_zyz_rad,
+        moment.joint_angles_rad,
+        moment.joint_angles_sd_rad,
+        moment.joint_velocity_rad_s,
+        moment.joint_position_m,
         np.full((marker_count, 3), np.nan),
         per_marker,
         np.full((marker_count, 2, 2), np.nan),

@@ -7,12 +7,25 @@ begun anew the two stretches are smoothed each by itself.
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 
 import numpy as np
 
 from core.tracking.motion import MotionNoise, predict, transition
 from core.tracking.state import Belief, StateLayout
-from core.tracking.tracker import FilterStep
+
+
+@dataclass(frozen=True, slots=True)
+class FilterStep:
+    """One step of the filter: the corrected belief (None when lost), how it was predicted, when.
+
+    ``noise_scale`` of the process noise that led to it; ``linked`` False where the track began anew.
+    """
+
+    timestamp_s: float
+    belief: Belief | None
+    noise_scale: float
+    linked: bool
 
 
 def smooth(steps: Sequence[FilterStep], noise: MotionNoise, layout: StateLayout) -> list[Belief | None]:

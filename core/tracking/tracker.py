@@ -14,17 +14,20 @@ from numpy.typing import NDArray
 
 from core.calibration.result import Calibration
 from core.camera import Camera
+from core.depth_noise import pattern_sd_m, reading_sd_m
 from core.tracking import association, modes
 from core.tracking.geometry import geometry_for
 from core.tracking.joint_association import associate_jointly, holds_together
 from core.tracking.measurement import Forecast, View, forecast_augmented, forecast_of, forecast_reduced, update
 from core.tracking.reacquire import find_palm
-from core.tracking.readout import Readout, lost_readout
+from core.tracking.readout import Readout, lost_moment, lost_readout
 from core.tracking.settings import TrackerSettings
+from core.tracking.smoother import FilterStep, smooth
 from core.tracking.state import Belief, StateLayout, resting_belief, stack
-from core.types import Detections, FloatArray, TrackedFrame, TrackStatus
+from core.types import Detections, FloatArray, Moment, TrackedFrame, TrackStatus
 
 SHARE_WINDOW_S = 1.0
+_AXES = np.arange(3)
 LEAST_PALM_MARKERS = 3
 
 
@@ -35,19 +38,6 @@ class Expectation:
     pixel: FloatArray
     covariance_px2: FloatArray
     depth_m: FloatArray
-
-
-@dataclass(frozen=True, slots=True)
-class FilterStep:
-    """One step of the filter for the smoother: the corrected belief, how it was predicted, when.
-
-    ``noise_scale`` of the process noise that led to it; ``linked`` False where the track began anew.
-    """
-
-    timestamp_s: float
-    belief: Belief | None
-    noise_scale: float
-    linked: bool
 
 
 @dataclass(frozen=True, slots=True)
@@ -69,13 +59,18 @@ class _Corrected:
     names: _Names
     nis: float
     nis_dof: int
+    rows: NDArray[np.int64]
+    residual: FloatArray
 
 
 class Tracker:
     """Tracks one calibrated hand through frames in order of time."""
 
-    def __init__(self, calibration: Calibration, camera: Camera, settings: TrackerSettings) -> None:
+    def __init__(
+        self, calibration: Calibration, camera: Camera, settings: TrackerSettings, *, keep_history: bool = True
+    ) -> None:
         self.settings = settings
+        self._keep_history = keep_history
         self._calibration = calibration
         self._protocol = calibration.clicks.protocol
         self._palm = np.array(self._protocol.palm)
@@ -87,11 +82,14 @@ class Tracker:
         self._scales = np.array(settings.mode_scales if settings.motion == "constant_rate" else (1.0,))
         self._resolution_px2 = float(camera.width_px * camera.height_px)
         self._readout = Readout(calibration, self.layout)
+        self._noise_factor = np.ones((len(self._protocol.markers), 3))
         self._recent: deque[tuple[float, float]] = deque()
         self._beliefs: Belief | None = None
         self._probability = np.ones(self._scales.size) / self._scales.size
         self._time_s: float | None = None
-        self._seen_s = 0.0
+        self._seen_s = -np.inf
+        self._begun_s = -np.inf
+        self._anew = True
         self._forecast: tuple[float, Forecast, FloatArray] | None = None
         self.history: list[FilterStep] = []
         self.begin_at_neutral()
@@ -102,6 +100,7 @@ class Tracker:
         self._shape = np.zeros(self._shape_covariance.shape[0])
         start = resting_belief(self.layout, self.settings.initial, shape_covariance=self._shape_covariance)
         self._begin(start)
+        self._anew = True
 
     def _begin(self, belief: Belief) -> None:
         count = self._scales.size
@@ -152,7 +151,9 @@ class Tracker:
         measured_px = np.full((marker_count, 2), np.nan)
         measured_depth_m = np.full(marker_count, np.nan)
         ideal = replace(detections, pixel=self.view.camera.undistort(detections.pixel))
-        linked = True
+        linked, self._anew = not self._anew, False
+        if not linked:
+            self._begun_s = timestamp_s
         if self._beliefs is None:
             found = find_palm(ideal, self.view, self.settings)
             if found is not None:
@@ -160,7 +161,7 @@ class Tracker:
                 self._seen_s, linked, self._time_s = timestamp_s, False, timestamp_s
         if self._beliefs is None:
             self._remember(timestamp_s, 0.0)
-            self.history.append(FilterStep(timestamp_s, None, 1.0, False))
+            self._keep(FilterStep(timestamp_s, None, 1.0, False))
             self._time_s = timestamp_s
             return lost_readout(index, timestamp_s, detections, dropped_before, marker_count, self._share())
         forecast, predicted = self._forecast_at(timestamp_s)
@@ -180,6 +181,7 @@ class Tracker:
         taken, probability = corrected.names.taken, corrected.probability
         self._beliefs, self._probability = corrected.beliefs, probability
         self._forecast = None
+        self._judge_noise(corrected, timestamp_s)
         merged = modes.merge(corrected.beliefs, probability, self.layout)
         self._shape, self._shape_covariance = merged.shape, merged.covariance[self.layout.shape, self.layout.shape]
         used = np.flatnonzero(taken >= 0)
@@ -195,7 +197,7 @@ class Tracker:
             self._fade(dt_s)
         self._remember(timestamp_s, palm_seen / self._palm.size)
         scale = float(np.sqrt(probability @ self._scales**2))
-        self.history.append(FilterStep(timestamp_s, merged, scale, linked))
+        self._keep(FilterStep(timestamp_s, merged, scale, linked))
         noise_px = np.eye(2) * self.settings.noise.pixel_sd_px**2
         tracked = self._readout.frame(
             index,
@@ -213,9 +215,10 @@ class Tracker:
             nis=corrected.nis,
             nis_dof=corrected.nis_dof,
         )
-        if timestamp_s - self._seen_s > self.settings.lost_after_s:
+        if timestamp_s - max(self._seen_s, self._begun_s) > self.settings.lost_after_s:
             self._beliefs = None
-            self.history[-1] = FilterStep(timestamp_s, None, 1.0, False)
+            if self.history:
+                self.history[-1] = FilterStep(timestamp_s, None, 1.0, False)
             return lost_readout(index, timestamp_s, detections, dropped_before, marker_count, self._share())
         return tracked
 
@@ -227,22 +230,27 @@ class Tracker:
         shown = ideal.area_px / (np.pi * radius_px**2)
         wander_px = noise.shade_share * radius_px * np.maximum(0.6 - shown, 0.0)
         pixel_variance = noise.pixel_sd_px**2 + wander_px**2
-        depth_variance = np.where(np.isfinite(depth), ideal.depth_sd_m, 1.0) ** 2 + noise.depth_sd_m**2
+        known = np.isfinite(depth)
+        at_m = np.where(known, depth, 1.0)
+        book2 = reading_sd_m(at_m) ** 2
+        beyond2 = np.maximum(np.where(known, ideal.depth_sd_m, 1.0) ** 2 - book2, 0.0)
+        depth_variance = noise.depth_ratio**2 * book2 + beyond2 + pattern_sd_m(at_m) ** 2
         variance = np.stack((pixel_variance, pixel_variance, depth_variance), axis=1)
         return _Measurable(np.column_stack((ideal.pixel, depth)), variance)
 
     def _corrected(self, forecast: Forecast, predicted: FloatArray, blobs: _Measurable, names: _Names) -> _Corrected:
         """All modes corrected by the blobs as named, and how well the whole hangs together."""
         marker = np.flatnonzero(names.taken >= 0)
-        axes = np.array([0, 1, 2])
-        used = (axes[None, :] < 2) | names.with_depth[marker, None]
-        rows = (3 * marker[:, None] + axes)[used]
+        used = (_AXES < 2) | names.with_depth[marker, None]
+        rows = (3 * marker[:, None] + _AXES)[used]
         blob = names.taken[marker]
-        beliefs, innovation = update(forecast, rows, blobs.value[blob][used], blobs.variance[blob][used], self.layout)
+        variance = (blobs.variance[blob] * self._noise_factor[marker])[used]
+        beliefs, innovation = update(forecast, rows, blobs.value[blob][used], variance, self.layout)
         if rows.size == 0:
-            return _Corrected(beliefs, predicted, names, float("nan"), 0)
+            return _Corrected(beliefs, predicted, names, float("nan"), 0, rows, np.empty(0))
         probability = modes.reweigh(predicted, innovation.log_likelihood)
-        return _Corrected(beliefs, probability, names, float(probability @ innovation.nis), innovation.dof)
+        nis = float(probability @ innovation.nis)
+        return _Corrected(beliefs, probability, names, nis, innovation.dof, rows, probability @ innovation.residual)
 
     def _associate(
         self, forecast: Forecast, predicted: FloatArray, mean: FloatArray, covariance: FloatArray, blobs: _Measurable
@@ -278,6 +286,26 @@ class Tracker:
         )
         return self._corrected(forecast, predicted, blobs, _Names(found.taken, found.with_depth))
 
+    def _judge_noise(self, corrected: _Corrected, timestamp_s: float) -> None:
+        """Let each marker's noise follow its residuals: a disc half behind the rim, a blurred picture."""
+        if corrected.rows.size == 0 or self._time_s is None:
+            return
+        noise = self.settings.noise
+        weight = 1.0 - np.exp(-max(timestamp_s - self._time_s, 0.0) / noise.adapt_s)
+        marker, axis = np.divmod(corrected.rows, 3)
+        squared = np.minimum(corrected.residual**2, noise.most_adapted)
+        for axes in ((0, 1), (2,)):
+            mine = np.isin(axis, axes)
+            if not mine.any():
+                continue
+            total = np.bincount(marker[mine], squared[mine], len(self._noise_factor))
+            count = np.bincount(marker[mine], minlength=len(self._noise_factor))
+            seen = count > 0
+            grown = 1.0 + weight * (total[seen] / count[seen] - 1.0)
+            for column in axes:
+                factor = self._noise_factor[seen, column] * grown
+                self._noise_factor[seen, column] = np.clip(factor, 1.0, noise.most_adapted)
+
     def _fade(self, dt_s: float) -> None:
         """An unseen hand is not taken to go on for ever: its velocity fades, its uncertainty grows."""
         assert self._beliefs is not None
@@ -287,6 +315,19 @@ class Tracker:
             velocity_m_s=self._beliefs.velocity_m_s * keep,
             rate_rad_s=self._beliefs.rate_rad_s * keep,
         )
+
+    def would_miss(self, blobs: Detections) -> bool:
+        """Whether blobs of a narrowed search are too few to hold the palm, so that the rest is worth a look."""
+        return len(blobs) <= LEAST_PALM_MARKERS
+
+    def _keep(self, step: FilterStep) -> None:
+        if self._keep_history:
+            self.history.append(step)
+
+    def smoothed(self) -> list[Moment]:
+        """Every frame so far in the light of all the others; needs the history kept."""
+        beliefs = smooth(self.history, self.settings.motion_noise, self.layout)
+        return [lost_moment() if belief is None else self._readout.moment(belief) for belief in beliefs]
 
     def _palm_seen(self, corrected: _Corrected) -> int:
         return int(np.count_nonzero(corrected.names.taken[self._palm] >= 0))

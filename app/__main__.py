@@ -1,0 +1,74 @@
+"""``carpus`` on the command line: one subcommand per job, exit codes, one place where faults become words."""
+
+from __future__ import annotations
+
+import os
+
+# One BLAS thread, set before NumPy loads: two thread pools in one process make small steps 1000 times slower.
+for _name in ("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS"):
+    os.environ.setdefault(_name, "1")
+
+import argparse
+import sys
+from collections.abc import Sequence
+
+from app import __version__
+
+EXIT_DONE, EXIT_COULD_NOT = 0, 1
+
+
+def parser() -> argparse.ArgumentParser:
+    """The whole command line; each command's module adds its own part."""
+    from app.commands import COMMANDS
+
+    out = argparse.ArgumentParser(
+        prog="carpus",
+        description="Hand rehabilitation: tracks blue paper markers on a hand. Without a command: the desktop application.",
+        epilog="For research and education. Not a medical device.",
+    )
+    out.add_argument("--version", action="version", version=f"carpus {__version__}")
+    subparsers = out.add_subparsers(dest="command", metavar="COMMAND")
+    for command in COMMANDS:
+        sub = subparsers.add_parser(command.NAME, help=command.HELP, description=command.HELP)
+        command.add_arguments(sub)
+        sub.set_defaults(run=command.run)
+    return out
+
+
+def main(argv: Sequence[str] | None = None) -> int:
+    """Run one command; 0 done, 1 could not be done (one line on stderr), 2 wrong usage."""
+    arguments = parser().parse_args(argv)
+    from core.errors import CarpusFault
+    from core.words import one_sentence
+
+    try:
+        if arguments.command is None:
+            from app.commands import desktop
+
+            return desktop.run(arguments)
+        return int(arguments.run(arguments))
+    except CarpusFault as fault:
+        print(f"carpus: {one_sentence(fault)}", file=sys.stderr)
+    except KeyboardInterrupt:
+        print("carpus: stopped.", file=sys.stderr)
+    except BrokenPipeError:
+        # The reader of our output went away (`carpus info FILE | head`); nobody is left to tell.
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+    except Exception as cause:
+        # A fault of the program itself: still one line, with what a developer needs to find it.
+        where = cause.__traceback__
+        while where is not None and where.tb_next is not None:
+            where = where.tb_next
+        place = f"{os.path.basename(where.tb_frame.f_code.co_filename)}:{where.tb_lineno}" if where else "unknown place"
+        if os.environ.get("CARPUS_DEBUG"):
+            raise
+        print(
+            f"carpus: something unforeseen happened ({type(cause).__name__}: {cause}, {place}). Your files are as they "
+            "were. Please report it; CARPUS_DEBUG=1 shows more.",
+            file=sys.stderr,
+        )
+    return EXIT_COULD_NOT
+
+
+if __name__ == "__main__":
+    sys.exit(main())

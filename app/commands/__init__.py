@@ -1,0 +1,7 @@
+"""The commands of ``carpus``; each module has NAME, HELP, ``add_arguments(parser)`` and ``run(arguments)``."""
+
+from __future__ import annotations
+
+from app.commands import info, recover, simulate, track
+
+COMMANDS = (track, simulate, info, recover)

@@ -1,0 +1,112 @@
+"""``carpus track``: a stored recording, or an earlier session, to a session file."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+
+from app import __version__
+from app.commands.progress import bar
+from core.calibration.clicks import read_clicks
+from core.calibration.result import Verdict
+from core.pipeline.track import TrackReport, TrackSettings, retrack_session, track_recording
+from core.tracking.settings import PROFILES, TrackerSettings
+from core.words import finding_sentence
+
+NAME = "track"
+HELP = "Track a stored recording, no screen needed; or filter a session again."
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument("recording", type=Path, help="TUM RGB-D folder, .oni file, raw recording, or a session (.h5)")
+    parser.add_argument("--calibration", type=Path, metavar="CLICKS.json", help="first-frame clicks (not for a session)")
+    parser.add_argument("--output", type=Path, required=True, metavar="SESSION.h5", help="the file to write; never overwritten")
+    parser.add_argument(
+        "--depth", action=argparse.BooleanOptionalAction, default=True,
+        help="use each marker's depth (default) or colour only, as the papers do",
+    )
+    parser.add_argument("--dip", choices=("coupled", "free"), default="coupled", help="end joints bound to the middle joints, or free")
+    parser.add_argument("--profile", choices=tuple(PROFILES), default="standard", help="how lively the hand is")
+    parser.add_argument(
+        "--smooth", action=argparse.BooleanOptionalAction, default=True,
+        help="add /smoothed, every frame in the light of those after it",
+    )
+    parser.add_argument("--filter", choices=("reduced", "augmented"), default="reduced", help="the default filter, or the papers' augmented one")
+    parser.add_argument("--motion", choices=("constant-rate", "paper"), default="constant-rate", help="motion model; paper: equation (1)")
+    parser.add_argument(
+        "--start-angles", type=float, nargs=3, metavar=("DEVIATION", "FLEXION", "SUPINATION"),
+        help="degrees at the first frame, for a hand that cannot lie neutral; added to all angles and marked as given",
+    )
+    parser.add_argument("--subject", default="", metavar="PSEUDONYM", help="stored in the session; never a name")
+    parser.add_argument("--exercise", default="", help="stored in the session")
+
+
+def settings_from(arguments: argparse.Namespace) -> TrackSettings:
+    """The settings that the options name."""
+    tracker = TrackerSettings(
+        form=arguments.filter,
+        motion="paper" if arguments.motion == "paper" else "constant_rate",
+        profile=arguments.profile,
+        use_depth=arguments.depth,
+        dip=arguments.dip,
+    )
+    return replace(TrackSettings(), tracker=tracker, smooth=arguments.smooth)
+
+
+def run(arguments: argparse.Namespace) -> int:
+    settings = settings_from(arguments)
+    if arguments.recording.suffix == ".h5" and arguments.recording.is_file():
+        with bar("tracking again") as progress:
+            report = retrack_session(
+                arguments.recording, arguments.output, settings, software_version=__version__, progress=progress
+            )
+        print_report(report)
+        return 0
+    if arguments.calibration is None:
+        print("carpus track: a recording needs --calibration CLICKS.json.", file=sys.stderr)
+        return 2
+    from app.sources import open_recording
+
+    source = open_recording(arguments.recording, need_depth=True)
+    try:
+        camera = source.info.camera
+        clicks = read_clicks(arguments.calibration, camera.width_px, camera.height_px)
+        start = None if arguments.start_angles is None else np.radians(arguments.start_angles)
+        with bar("tracking") as progress:
+            report = track_recording(
+                source,
+                clicks,
+                arguments.output,
+                settings,
+                software_version=__version__,
+                subject_id=arguments.subject,
+                exercise=arguments.exercise,
+                start_angles_rad=start,
+                progress=progress,
+                on_verdict=warn,
+            )
+    finally:
+        source.close()
+    print_report(report)
+    return 0
+
+
+def warn(verdict: Verdict) -> None:
+    """Say on stderr what is doubtful about a calibration."""
+    for finding in verdict.findings:
+        print(f"carpus: {finding_sentence(finding)}", file=sys.stderr)
+
+
+def print_report(report: TrackReport) -> None:
+    """Where the session is and its main figures."""
+    degrees = np.degrees(report.angle_range_rad)
+    print(f"Session: {report.output}")
+    print(f"Frames: {report.frames}, tracked {report.tracked}, predicted {report.predicted}, lost {report.lost}")
+    pairs = (("Deviation", "ulnar", "radial"), ("Flexion", "extension", "flexion"), ("Pro/supination", "pronation", "supination"))
+    for (name, minus, plus), low, high in zip(pairs, degrees[0], degrees[1], strict=True):
+        if np.isfinite(low):
+            print(f"{name}: {minus} {max(-low, 0.0):.1f}°, {plus} {max(high, 0.0):.1f}°, arc {high - low:.1f}°")

@@ -1,0 +1,69 @@
+"""Discs that touch in the picture and come out as one blob are taken apart again."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from core.types import FloatArray
+
+_LONG_SIDE = 2.8
+"""A blob's box longer than this many radii is more than one disc facing any way."""
+_LONG_AXIS = 0.72
+"""So is one whose pixels scatter along their main axis by more than this many radii (a disc: one half)."""
+_ROUNDS = 6
+MOST_PARTS = 4
+
+
+def split_touching(
+    labels: NDArray[np.uint16], stats: NDArray[np.int32], radius_px: FloatArray
+) -> list[tuple[int, FloatArray, FloatArray]]:
+    """Take apart the blobs that are longer than a disc; ``labels`` (H, W) is changed in place.
+
+    ``stats`` (L, 5) left, top, width, height, area of every label, ``radius_px`` (L,) of a disc at its depth.
+    Returns per split blob its label, the parts' labels (P,) and their centres and areas (P, 3): u, v, area;
+    the first part keeps the label.
+    """
+    out: list[tuple[int, FloatArray, FloatArray]] = []
+    following = int(stats.shape[0])
+    longest = np.maximum(stats[:, 2], stats[:, 3])
+    for label in np.flatnonzero(longest > _LONG_SIDE * radius_px):
+        if label == 0:
+            continue
+        left, top, width, height = stats[label, :4]
+        row, column = np.nonzero(labels[top : top + height, left : left + width] == label)
+        points = np.column_stack((column + left, row + top)).astype(np.float64)
+        radius = float(radius_px[label])
+        parts = _parts(points, radius)
+        if parts is None:
+            continue
+        own = np.array([label, *range(following, following + parts.max())])
+        following += int(parts.max())
+        labels[row + top, column + left] = own[parts]
+        facts = [
+            (*points[parts == p].mean(axis=0), float(np.count_nonzero(parts == p))) for p in range(parts.max() + 1)
+        ]
+        out.append((int(label), own.astype(np.float64), np.array(facts)))
+    return out
+
+
+def _parts(points: FloatArray, radius_px: float) -> NDArray[np.int64] | None:
+    """Part of every pixel (P, 2), or None for a blob that is one disc or much more than a few of them."""
+    centred = points - points.mean(axis=0)
+    variance, axes = np.linalg.eigh(centred.T @ centred / len(points))
+    if np.sqrt(variance[1]) <= _LONG_AXIS * radius_px:
+        return None
+    along = centred @ axes[:, 1]
+    reach = float(along.max() - along.min())
+    count = max(2, round((reach - 2.0 * radius_px) / (2.0 * radius_px)) + 1)
+    if count > MOST_PARTS:
+        return None
+    ends = np.linspace(along.min() + radius_px, along.max() - radius_px, count)
+    centre = points.mean(axis=0) + ends[:, None] * axes[:, 1]
+    part = np.zeros(len(points), dtype=np.int64)
+    for _ in range(_ROUNDS):
+        part = np.linalg.norm(points[:, None] - centre[None], axis=-1).argmin(axis=1)
+        if np.bincount(part, minlength=count).min() == 0:
+            return None
+        centre = np.array([points[part == p].mean(axis=0) for p in range(count)])
+    return part
