@@ -1,0 +1,173 @@
+"""What a session or a recording holds, as plain lines for ``carpus info``."""
+
+from __future__ import annotations
+
+from collections import Counter
+from pathlib import Path
+
+import numpy as np
+
+from core.camera import Camera
+from core.capture.camera_info import CAMERA_FILE
+from core.capture.tum import TumFolder
+from core.hand.protocols import WRIST_ANGLES
+from core.session.reader import has_raw
+from core.session.values import Session
+from core.types import FloatArray, TrackStatus
+from core.words import finding_sentence
+
+_WRIST_DIRECTIONS = {
+    "deviation": ("ulnar", "radial"),
+    "flexion": ("extension", "flexion"),
+    "pronosupination": ("pronation", "supination"),
+}
+"""Words for the negative and the positive side of each wrist angle."""
+
+
+def session_summary(session: Session) -> list[str]:
+    """Everything a person asks of a session file, the identity first and the settings last."""
+    header, quality = session.header, session.quality
+    lines = [
+        _line("Session", str(session.path)),
+        _line("Identity", f"{header.session_id}, written by Carpus {header.software_version}"),
+        _line("Patient", f"{header.subject_id or 'not given'}, {header.hand} hand"),
+        _line("Exercise", header.exercise or "not given"),
+        _line("Created", header.created),
+        _line("Markers", f"{header.protocol.name}: {' '.join(header.protocol.markers)}"),
+        _line("Complete", _completeness(session)),
+        *_frames(session.timestamp_s, np.maximum(quality.dropped_before, 0)),
+        _line("Tracking", _shares(session)),
+        *_ranges(session),
+        *_calibration(session),
+        _line("Camera", camera_text(session.camera)),
+        _line("Smoothed", "yes" if session.smoothed is not None else "no"),
+        _line("Pictures", "kept" if has_raw(session.path) else "not kept"),
+        _line("Events", _events(session)),
+        _line("Settings", header.parameters),
+    ]
+    if header.origin:
+        lines.append(_line("Origin", f"tracked again from {header.origin}"))
+    return lines
+
+
+def recording_summary(folder: Path, recording: TumFolder) -> list[str]:
+    """Frames, gaps, depth and camera of a TUM folder, from its lists and its first picture."""
+    times = np.array([stored.timestamp_s for stored in recording.stored])
+    dropped = np.array([stored.dropped_before for stored in recording.stored])
+    with_depth = sum(stored.depth is not None for stored in recording.stored)
+    camera = recording.info.camera
+    return [
+        _line("Recording", f"{folder}, a TUM RGB-D folder"),
+        *_frames(times, dropped),
+        _line("Depth", f"{with_depth} of {len(times)} frames have a depth picture"),
+        _line("Camera", camera_text(camera, f"no {CAMERA_FILE}")),
+    ]
+
+
+def duration_text(duration_s: float) -> str:
+    """Minutes and seconds.
+
+    >>> duration_text(83.24)
+    '01:23.2'
+    """
+    minutes, seconds = divmod(round(duration_s, 1), 60.0)
+    return f"{int(minutes):02d}:{seconds:04.1f}"
+
+
+def camera_text(camera: Camera, without_file: str = "no camera file") -> str:
+    """Size and intrinsics, and where they come from."""
+    sources = {"file": "from a calibration", "driver": "from the driver's field of view"}
+    source = sources.get(camera.origin, f"usual values, {without_file}")
+    numbers = f"fx {camera.fx_px:.2f}, fy {camera.fy_px:.2f}, cx {camera.cx_px:.2f}, cy {camera.cy_px:.2f}"
+    distortion = ", distorted" if camera.is_distorted else ""
+    return f"{camera.width_px} x {camera.height_px} pixels, {numbers}{distortion} ({source})"
+
+
+def _line(title: str, text: str) -> str:
+    return f"{title:<12} {text}"
+
+
+def _completeness(session: Session) -> str:
+    if not session.complete:
+        return "no: still being recorded or cut short (carpus recover finishes it)"
+    if session.recovered:
+        return f"cut short and recovered {session.recovered}; at most the last second is missing"
+    return "yes"
+
+
+def _frames(timestamp_s: FloatArray, dropped: np.ndarray) -> list[str]:
+    count = len(timestamp_s)
+    if count < 2:
+        return [_line("Frames", str(count))]
+    duration_s = float(timestamp_s[-1] - timestamp_s[0])
+    rate = f"{1.0 / float(np.median(np.diff(timestamp_s))):.1f} a second"
+    missing, places = int(dropped.sum()), int(np.count_nonzero(dropped))
+    gaps = f"{_counted(missing, 'frame')} missing in {_counted(places, 'place')}" if missing else "none"
+    return [_line("Frames", f"{count} in {duration_text(duration_s)}, {rate}"), _line("Gaps", gaps)]
+
+
+def _counted(number: int, thing: str) -> str:
+    return f"{number} {thing}" + ("" if number == 1 else "s")
+
+
+def _shares(session: Session) -> str:
+    count = max(len(session), 1)
+    shares = (
+        f"{status.name.lower()} {100.0 * np.count_nonzero(session.status == status) / count:.1f} %"
+        for status in TrackStatus
+    )
+    return ", ".join(shares)
+
+
+def _ranges(session: Session) -> list[str]:
+    """Lowest, highest and arc of every angle over the tracked frames."""
+    tracked = session.status == TrackStatus.TRACKED
+    lines = ["Range of motion over the tracked frames"]
+    columns = [
+        *zip(WRIST_ANGLES, session.motion.angles_rad.T, strict=True),
+        *zip(session.header.joint_names, session.motion.joint_angles_rad.T, strict=True),
+    ]
+    for name, values_rad in columns:
+        known = np.degrees(values_rad[tracked & np.isfinite(values_rad)])
+        if not known.size:
+            lines.append(f"  {name:<18} not measured")
+            continue
+        low, high = float(known.min()), float(known.max())
+        ends = f"from {_side(name, low)} to {_side(name, high)}"
+        lines.append(f"  {name:<18} {ends}, arc {high - low:.1f}°")
+    return lines
+
+
+def _side(name: str, angle_deg: float) -> str:
+    if name not in _WRIST_DIRECTIONS:
+        return f"{angle_deg:.1f}°"
+    negative, positive = _WRIST_DIRECTIONS[name]
+    return f"{abs(angle_deg):.1f}° {positive if angle_deg >= 0.0 else negative}"
+
+
+def _calibration(session: Session) -> list[str]:
+    calibration = session.calibration
+    verdict = calibration.verdict
+    facts = [
+        (verdict.hand_length_mm, f"hand {verdict.hand_length_mm:.0f} mm"),
+        (verdict.distance_m, f"{verdict.distance_m:.2f} m from the camera"),
+        (verdict.tilt_deg, f"tilted {verdict.tilt_deg:.0f}°"),
+    ]
+    residual_mm = verdict.residual_mm[np.isfinite(verdict.residual_mm)]
+    if residual_mm.size:
+        facts.append((0.0, f"markers within {residual_mm.max():.1f} mm"))
+    known = [text for value, text in facts if np.isfinite(value)]
+    if verdict.frames_used:
+        known.append(f"from {verdict.frames_used} still pictures")
+    lines = [_line("Calibration", ", ".join(known) or "not described")]
+    lines += [f"  {finding_sentence(finding)}" for finding in verdict.findings]
+    start_deg = np.degrees(calibration.start_angles_rad)
+    if np.any(np.isfinite(start_deg) & (start_deg != 0.0)):
+        given = ", ".join(_side(name, float(angle)) for name, angle in zip(WRIST_ANGLES, start_deg, strict=True))
+        lines.append(f"  Start angles as given by the therapist: {given}.")
+    return lines
+
+
+def _events(session: Session) -> str:
+    counts = Counter(event.kind for event in session.events)
+    return ", ".join(f"{count} {kind}" for kind, count in counts.items()) or "none"

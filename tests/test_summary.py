@@ -1,0 +1,125 @@
+"""What ``carpus info`` tells of a session and of a recording."""
+
+from __future__ import annotations
+
+import dataclasses
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from core.capture.tum import TumFolder
+from core.hand.protocols import HAND21
+from core.session.reader import read_session
+from core.session.recovery import recover_folder
+from core.session.values import motion_of
+from core.session.writer import SessionWriter
+from core.summary import duration_text, recording_summary, session_summary
+from core.types import TrackStatus
+from tests.capture.test_tum import write_recording
+from tests.session.samples import CAMERA, make_calibration, make_frame, make_header, time_of
+
+
+def values(lines: list[str]) -> dict[str, str]:
+    return {line.split()[0]: line.split(maxsplit=1)[1] for line in lines if not line.startswith("  ")}
+
+
+def write(path: Path, close: bool = True) -> Path:
+    """Six frames: 3 tracked with known angles, 2 predicted and 1 lost with larger ones that must not count."""
+    angles_deg = [(0, 10, -5), (0, -20, 5), (1, 42, 0), (9, 90, 90), (-9, -90, -90), (0, 0, 0)]
+    status = [TrackStatus.TRACKED] * 3 + [TrackStatus.PREDICTED] * 2 + [TrackStatus.LOST]
+    session = SessionWriter.create(path, make_header(), CAMERA, make_calibration())
+    for row in range(6):
+        frame = dataclasses.replace(
+            make_frame(row), angles_rad=np.radians(angles_deg[row]), status=status[row], dropped_before=2 * (row == 3)
+        )
+        session.append(frame)
+    session.add_event(time_of(1), "note", "x")
+    session.add_event(time_of(2), "note", "y")
+    if close:
+        session.write_smoothed(motion_of([make_frame(row) for row in range(6)]))
+        session.close()
+    else:
+        session.abandon()
+    return path
+
+
+def test_a_session_is_told_in_plain_lines(tmp_path: Path) -> None:
+    path = write(tmp_path / "s.h5")
+    lines = session_summary(read_session(path))
+    told = values(lines)
+    assert told["Session"] == str(path)
+    assert told["Patient"] == "Linden 42, left hand"
+    assert told["Complete"] == "yes"
+    assert told["Frames"] == "6 in 00:00.2, 30.0 a second"
+    assert told["Gaps"] == "2 frames missing in 1 place"
+    assert told["Tracking"] == "tracked 50.0 %, predicted 33.3 %, lost 16.7 %"
+    assert told["Events"] == "2 note"
+    assert told["Smoothed"] == "yes"
+    assert told["Pictures"] == "not kept"
+    assert told["Settings"] == '{"profile": "standard"}'
+    assert told["Origin"] == "tracked again from earlier.h5"
+    assert "hand 183 mm, 0.70 m from the camera, tilted 12°" in told["Calibration"]
+    assert "fx 570.25" in told["Camera"]
+    ranges = {line.split()[0]: line.split(maxsplit=1)[1] for line in lines if ", arc " in line}
+    assert ranges == {
+        "deviation": "from 0.0° radial to 1.0° radial, arc 1.0°",
+        "flexion": "from 20.0° extension to 42.0° flexion, arc 62.0°",
+        "pronosupination": "from 5.0° pronation to 5.0° supination, arc 10.0°",
+    }
+    text = "\n".join(lines)
+    assert "Index and middle knuckle look swapped; swap the two names" in text
+    assert "Start angles as given by the therapist" in text
+    assert "nan" not in text
+
+
+def test_a_session_cut_short_says_so_before_and_after_recovery(tmp_path: Path) -> None:
+    write(tmp_path / "s.h5", close=False)
+    (part,) = tmp_path.iterdir()
+    assert values(session_summary(read_session(part)))["Complete"].startswith("no: ")
+    (path,) = recover_folder(tmp_path).recovered
+    assert values(session_summary(read_session(path)))["Complete"].startswith("cut short and recovered 20")
+
+
+@pytest.mark.parametrize("frames", [0, 1])
+def test_next_to_nothing_is_told_without_numbers_that_do_not_exist(tmp_path: Path, frames: int) -> None:
+    path = tmp_path / "s.h5"
+    with SessionWriter.create(path, make_header(HAND21), CAMERA, make_calibration(HAND21)) as session:
+        for row in range(frames):
+            session.append(dataclasses.replace(make_frame(row, HAND21), status=TrackStatus.LOST))
+    lines = session_summary(read_session(path))
+    assert values(lines)["Frames"] == str(frames)
+    assert sum("not measured" in line for line in lines) == 3 + 17
+    assert "nan" not in "\n".join(lines)
+
+
+def test_every_joint_of_a_hand_has_its_range(tmp_path: Path) -> None:
+    path = tmp_path / "s.h5"
+    with SessionWriter.create(path, make_header(HAND21), CAMERA, make_calibration(HAND21)) as session:
+        for row in range(4):
+            session.append(dataclasses.replace(make_frame(row, HAND21), status=TrackStatus.TRACKED))
+    lines = session_summary(read_session(path))
+    assert sum(", arc " in line for line in lines) == 3 + 17
+
+
+def test_a_recording_is_told_in_plain_lines(tmp_path: Path) -> None:
+    folder = write_recording(tmp_path / "take")
+    depth_lines = (folder / "depth.txt").read_text().splitlines()
+    (folder / "depth.txt").write_text("\n".join(depth_lines[:-1]) + "\n")
+    told = values(recording_summary(folder, TumFolder(folder)))
+    assert told["Recording"] == f"{folder}, a TUM RGB-D folder"
+    assert told["Frames"] == "5 in 00:00.2, 30.3 a second"
+    assert told["Gaps"] == "2 frames missing in 1 place"
+    assert told["Depth"] == "4 of 5 frames have a depth picture"
+    assert told["Camera"].startswith("64 x 48 pixels, fx 52.50")
+    assert told["Camera"].endswith("(usual values, no camera_info.yaml)")
+
+
+def test_durations() -> None:
+    assert [duration_text(s) for s in (0.0, 59.96, 60.0, 3599.0, 6000.04)] == [
+        "00:00.0",
+        "01:00.0",
+        "01:00.0",
+        "59:59.0",
+        "100:00.0",
+    ]
