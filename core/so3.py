@@ -66,10 +66,10 @@ def log(rotation: FloatArray) -> FloatArray:
     out: FloatArray = vee * scale[..., None]
     half_turn = (sine < 1e-4) & (cosine < 0.0)
     if np.any(half_turn):
-        # Near pi the antisymmetric part vanishes: the axis is the dominant column of R + I.
+        # Near pi the antisymmetric part vanishes: the axis is the dominant column of the symmetric part plus I.
         for index in np.argwhere(half_turn):
             where = tuple(index)
-            symmetric = r[where] + np.eye(3)
+            symmetric = 0.5 * (r[where] + r[where].T) + np.eye(3)
             axis = symmetric[:, int(np.argmax(np.diag(symmetric)))]
             axis = axis / np.linalg.norm(axis)
             if axis @ vee[where] < 0.0:

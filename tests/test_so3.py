@@ -1,0 +1,155 @@
+"""Rotations against SciPy's and against their own definitions, close to no turn and close to half a turn."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from scipy.spatial.transform import Rotation
+
+from core import so3
+from core.types import FloatArray
+
+NO_LIMIT = settings(deadline=None, max_examples=150)
+
+unit_axes = (
+    st.tuples(*(st.floats(-1.0, 1.0),) * 3)
+    .filter(lambda v: float(np.linalg.norm(v)) > 0.1)
+    .map(lambda v: np.array(v) / np.linalg.norm(v))
+)
+small_angles = st.floats(-12.0, -1.0).map(lambda power: 10.0**power)
+"""From a picoradian to a tenth of a radian, all sizes alike; the series of the code take over inside."""
+angles = st.one_of(
+    st.just(0.0),
+    small_angles,
+    st.floats(0.0, np.pi - 1e-3),
+    small_angles.map(lambda short_of: np.pi - short_of),
+)
+
+
+def random_turns(count: int, most_rad: float, seed: int = 0) -> FloatArray:
+    rng = np.random.default_rng(seed)
+    axes = rng.normal(size=(count, 3))
+    return axes / np.linalg.norm(axes, axis=1, keepdims=True) * rng.uniform(0.0, most_rad, (count, 1))
+
+
+def turn_between(a: FloatArray, b: FloatArray) -> float:
+    """Angle between two rotations, from their difference: good to the last digits also where it is tiny."""
+    return float(2.0 * np.arcsin(np.clip(np.linalg.norm(a - b) / np.sqrt(8.0), 0.0, 1.0)))
+
+
+@NO_LIMIT
+@given(unit_axes, angles)
+def test_exponential_is_scipys_rotation(axis: FloatArray, angle: float) -> None:
+    turn = axis * angle
+    rotation = so3.exp(turn)
+    assert np.allclose(rotation, Rotation.from_rotvec(turn).as_matrix(), rtol=0.0, atol=1e-14)
+    assert np.allclose(rotation @ rotation.T, np.eye(3), rtol=0.0, atol=1e-14)
+    assert np.linalg.det(rotation) == pytest.approx(1.0, abs=1e-14)
+
+
+@NO_LIMIT
+@given(unit_axes, angles)
+def test_logarithm_undoes_the_exponential(axis: FloatArray, angle: float) -> None:
+    turn = axis * angle
+    back = so3.log(so3.exp(turn))
+    # Half a turn about an axis is also half a turn about the opposite one: then the rotation is compared.
+    assert np.linalg.norm(back) <= np.pi + 1e-12
+    assert turn_between(so3.exp(back), so3.exp(turn)) < 1e-7
+    if angle < np.pi - 1e-6:
+        assert np.allclose(back, turn, rtol=1e-8, atol=1e-9)
+
+
+@NO_LIMIT
+@given(unit_axes, st.floats(0.0, np.pi - 1e-3))
+def test_logarithm_is_scipys(axis: FloatArray, angle: float) -> None:
+    rotation = Rotation.from_rotvec(axis * angle)
+    assert np.allclose(so3.log(rotation.as_matrix()), rotation.as_rotvec(), rtol=0.0, atol=1e-9)
+
+
+@pytest.mark.parametrize("short_of_pi", [1e-2, 1e-3, 2e-4, 1.01e-4, 0.99e-4, 1e-5, 1e-6, 1e-7, 1e-9, 0.0])
+def test_logarithm_near_half_a_turn_keeps_the_axis(short_of_pi: float) -> None:
+    for turn in random_turns(50, np.pi, seed=3):
+        axis = turn / np.linalg.norm(turn)
+        back = so3.log(so3.exp(axis * (np.pi - short_of_pi)))
+        assert np.linalg.norm(back) == pytest.approx(np.pi - short_of_pi, abs=1e-8)
+        across = np.linalg.norm(np.cross(axis, back / np.linalg.norm(back)))
+        assert across < 1e-7
+
+
+def test_exponential_and_logarithm_work_on_batches_as_one_by_one() -> None:
+    turns = random_turns(60, 3.1).reshape(4, 15, 3)
+    turns[0, 0] = 0.0
+    turns[1, 2] = [0.0, np.pi, 0.0]
+    rotations = so3.exp(turns)
+    assert rotations.shape == (4, 15, 3, 3)
+    assert np.array_equal(rotations[2, 7], so3.exp(turns[2, 7]))
+    assert np.array_equal(so3.log(rotations)[1, 3], so3.log(rotations[1, 3]))
+    assert np.allclose(so3.log(rotations), turns, atol=1e-8)
+
+
+@NO_LIMIT
+@given(unit_axes, st.one_of(st.just(0.0), small_angles, st.floats(0.0, 3.0)), unit_axes)
+def test_right_jacobian_against_finite_differences(axis: FloatArray, angle: float, direction: FloatArray) -> None:
+    turn, step = axis * angle, 1e-5
+    here = so3.exp(turn)
+    ahead, back = (so3.log(here.T @ so3.exp(turn + sign * step * direction)) for sign in (1.0, -1.0))
+    assert np.allclose(so3.right_jacobian(turn) @ direction, (ahead - back) / (2.0 * step), rtol=0.0, atol=1e-8)
+
+
+def test_right_jacobian_has_no_seam_where_the_series_begins() -> None:
+    for angle in (1e-3 * (1.0 - 1e-6), 1e-3 * (1.0 + 1e-6)):
+        turn = angle * np.array([0.6, 0.0, 0.8])
+        k = so3.skew(turn)
+        series = np.eye(3) - k / 2.0 + k @ k / 6.0 - k @ k @ k / 24.0
+        assert np.allclose(so3.right_jacobian(turn), series, rtol=0.0, atol=1e-12)
+
+
+def test_skew_is_the_cross_product() -> None:
+    rng = np.random.default_rng(1)
+    a, b = rng.normal(size=(2, 10, 3))
+    assert np.allclose((so3.skew(a) @ b[..., None])[..., 0], np.cross(a, b))
+
+
+@NO_LIMIT
+@given(unit_axes, st.floats(0.0, 3.0), unit_axes, st.floats(0.0, 2.5), st.floats(0.0, 1.0))
+def test_mean_of_two_lies_on_the_way_between_them(
+    axis: FloatArray, angle: float, way: FloatArray, length: float, share: float
+) -> None:
+    one = so3.exp(axis * angle)
+    two = one @ so3.exp(way * length)
+    mean = so3.mean_rotation(np.stack((one, two)), np.array([1.0 - share, share]))
+    assert turn_between(mean, one @ so3.exp(way * length * share)) < 1e-7
+
+
+def test_mean_leaves_no_weighted_turn_over_and_does_not_depend_on_the_axes() -> None:
+    """The definition of the mean on the manifold, with weights as the unscented transform has them."""
+    turns = np.concatenate((np.zeros((1, 3)), random_turns(6, 0.5, seed=5)))
+    weight = np.array([-8.0, *(9.0 / 6.0,) * 6])
+    rotations = so3.exp(turns)
+    mean = so3.mean_rotation(rotations, weight)
+    assert np.linalg.norm(weight @ so3.log(mean.T @ rotations)) < 1e-9
+    left, right = so3.exp(random_turns(2, 3.0, seed=6))
+    moved = so3.mean_rotation(left @ rotations @ right, weight)
+    assert turn_between(moved, left @ mean @ right) < 1e-8
+
+
+def test_nearest_rotation_is_the_least_squares_one() -> None:
+    rng = np.random.default_rng(7)
+    rotations = so3.exp(random_turns(30, 3.0, seed=8))
+    matrices = rotations + 0.2 * rng.normal(size=rotations.shape)
+    nearest = so3.nearest_rotation(matrices)
+    for matrix, found in zip(matrices, nearest, strict=True):
+        assert np.allclose(found @ found.T, np.eye(3), atol=1e-12)
+        assert np.linalg.det(found) == pytest.approx(1.0)
+        reached = np.linalg.norm(found - matrix)
+        for turn in random_turns(40, 0.3, seed=9):
+            assert np.linalg.norm(found @ so3.exp(turn) - matrix) >= reached - 1e-12
+
+
+def test_nearest_rotation_of_a_mirror_is_no_mirror() -> None:
+    mirror = np.diag([1.0, 1.0, -1.0])
+    mirror[2, 2] = -0.4
+    found = so3.nearest_rotation(mirror)
+    assert np.allclose(found, np.eye(3), atol=1e-12)
