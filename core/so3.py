@@ -6,6 +6,8 @@ so ``d`` is in the axes of the moving frame, as the angular velocity of eq. (1) 
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
 
 from core.types import FloatArray
@@ -25,6 +27,16 @@ def skew(vector: FloatArray) -> FloatArray:
     return out
 
 
+_GENERATORS = np.array(
+    [
+        [0.0, 0.0, 0.0, 0.0, 0.0, -1.0, 0.0, 1.0, 0.0],
+        [0.0, 0.0, 1.0, 0.0, 0.0, 0.0, -1.0, 0.0, 0.0],
+        [0.0, -1.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0],
+    ]
+)
+_DIAGONAL = np.arange(3)
+
+
 def exp(turn_rad: FloatArray) -> FloatArray:
     """Rotation matrices (..., 3, 3) of turns (..., 3); Rodrigues' formula.
 
@@ -33,26 +45,35 @@ def exp(turn_rad: FloatArray) -> FloatArray:
            [ 1.,  0.,  0.],
            [ 0.,  0.,  1.]])
     """
-    x, y, z = turn_rad[..., 0], turn_rad[..., 1], turn_rad[..., 2]
-    angle2 = x * x + y * y + z * z
+    if turn_rad.ndim == 1:
+        return _exp_one(float(turn_rad[0]), float(turn_rad[1]), float(turn_rad[2]))
+    angle2 = np.einsum("...i,...i->...", turn_rad, turn_rad)
     angle = np.sqrt(angle2)
-    small = angle2 < _SMALL
-    safe = np.where(small, 1.0, angle2)
-    a = np.where(small, 1.0 - angle2 / 6.0, np.sin(angle) / np.sqrt(safe))
-    b = np.where(small, 0.5 - angle2 / 24.0, (1.0 - np.cos(angle)) / safe)
-    out = np.empty((*turn_rad.shape[:-1], 3, 3))
-    out[..., 0, 0] = 1.0 - b * (y * y + z * z)
-    out[..., 1, 1] = 1.0 - b * (x * x + z * z)
-    out[..., 2, 2] = 1.0 - b * (x * x + y * y)
-    bxy, bxz, byz = b * x * y, b * x * z, b * y * z
-    ax, ay, az = a * x, a * y, a * z
-    out[..., 0, 1] = bxy - az
-    out[..., 1, 0] = bxy + az
-    out[..., 0, 2] = bxz + ay
-    out[..., 2, 0] = bxz - ay
-    out[..., 1, 2] = byz - ax
-    out[..., 2, 1] = byz + ax
+    a = np.sinc(angle * (1.0 / np.pi))  # sin(angle) / angle
+    half = np.sinc(angle * (0.5 / np.pi))
+    b = 0.5 * half * half  # (1 - cos(angle)) / angle^2
+    out: FloatArray = ((turn_rad @ _GENERATORS) * a[..., None]).reshape(*turn_rad.shape, 3)
+    out += (turn_rad * b[..., None])[..., :, None] * turn_rad[..., None, :]
+    out[..., _DIAGONAL, _DIAGONAL] += (1.0 - b * angle2)[..., None]
     return out
+
+
+def _exp_one(x: float, y: float, z: float) -> FloatArray:
+    """One rotation without the cost of array calls."""
+    angle2 = x * x + y * y + z * z
+    if angle2 < _SMALL:
+        a, b = 1.0 - angle2 / 6.0, 0.5 - angle2 / 24.0
+    else:
+        angle = math.sqrt(angle2)
+        a, b = math.sin(angle) / angle, (1.0 - math.cos(angle)) / angle2
+    c = 1.0 - b * angle2
+    return np.array(
+        [
+            [c + b * x * x, b * x * y - a * z, b * x * z + a * y],
+            [b * x * y + a * z, c + b * y * y, b * y * z - a * x],
+            [b * x * z - a * y, b * y * z + a * x, c + b * z * z],
+        ]
+    )
 
 
 def log(rotation: FloatArray) -> FloatArray:

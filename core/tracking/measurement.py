@@ -6,7 +6,8 @@ along the camera's axis, as in the initialisation (13).
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, fields, replace
+from functools import lru_cache
 from typing import Protocol
 
 import numpy as np
@@ -14,7 +15,8 @@ from numpy.typing import NDArray
 
 from core import so3
 from core.camera import Camera
-from core.tracking.motion import MotionNoise, advance, predict
+from core.tracking.modes import ModeBank, predicted
+from core.tracking.motion import MotionNoise, advance
 from core.tracking.state import Belief, StateLayout
 from core.tracking.unscented import Spread, deviations, weights_for
 from core.types import FloatArray
@@ -85,124 +87,141 @@ class View:
 
 @dataclass(frozen=True, slots=True)
 class Forecast:
-    """A predicted belief with the sigma points that tie it to the predicted measurements.
+    """All modes as predicted, and what the camera should see of each; 3M components u, v, z of M markers.
 
-    ``marker_mean`` (..., M, 3) is (10), ``marker_covariance`` (..., M, 3, 3) is (11) without the
-    measurement noise; ``state_deviation`` (..., S, n), ``marker_deviation`` (..., S, M, 3), ``weight`` (S,).
+    ``marker_mean`` (K, 3M) is (10), ``marker_covariance`` (K, 3M, 3M) is (11) for all markers together and
+    without the measurement noise, ``cross`` (K, 3M, n) the covariance of measurements and state.
     """
 
-    belief: Belief
+    bank: ModeBank
     marker_mean: FloatArray
     marker_covariance: FloatArray
-    state_deviation: FloatArray
-    marker_deviation: FloatArray
-    weight: FloatArray
+    cross: FloatArray
+
+    def mixture(self) -> tuple[FloatArray, FloatArray]:
+        """Mean (3M,) and covariance (3M, 3M) of the measurements over all modes."""
+        probability = self.bank.probability
+        mean = probability @ self.marker_mean
+        apart = self.marker_mean - mean
+        within = (probability @ self.marker_covariance.reshape(probability.size, -1)).reshape(mean.size, mean.size)
+        return mean, within + (apart.T * probability) @ apart
 
 
-def _forecast(
-    belief: Belief, state_deviation: FloatArray, marker: FloatArray, mean_weight: FloatArray, weight: FloatArray
-) -> Forecast:
-    mean = (
-        np.tensordot(mean_weight, marker, axes=(0, -3))
-        if marker.ndim == 3
-        else np.einsum("s,...sij->...ij", mean_weight, marker)
-    )
-    deviation = marker - mean[..., None, :, :]
-    by_marker = np.moveaxis(deviation, -3, -1)  # (..., M, 3, S)
-    covariance = (by_marker * weight) @ np.swapaxes(by_marker, -1, -2)
-    return Forecast(belief, mean, covariance, state_deviation, deviation, weight)
+@lru_cache(maxsize=8)
+def _seen(layout: StateLayout) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
+    seen = layout.seen
+    return seen, seen[:, None]
+
+
+def forecast(bank: ModeBank, layout: StateLayout, view: View, spread: Spread) -> Forecast:
+    """Sigma points of predicted modes over the states that the camera sees, pushed through the measurement.
+
+    The states that it does not see follow by linear regression on those, exact for a Gaussian: the points
+    need not spread over them.
+    """
+    seen, column = _seen(layout)
+    root = np.linalg.cholesky(bank.covariance[:, column, seen])
+    weights = weights_for(seen.size, spread)
+    count, size = root.shape[0], seen.size
+    offset = np.empty((count, 2 * size + 1, size))
+    offset[:] = bank.error[:, None, seen]
+    spread_out = np.swapaxes(root, -1, -2) * weights.scale
+    offset[:, 1 : size + 1] += spread_out
+    offset[:, size + 1 :] -= spread_out
+    nominal, joints = bank.nominal, 6 + layout.joint_count
+    marker = view.observe(
+        nominal.position_m + offset[..., 0:3],
+        nominal.rotation_w2_w0 @ so3.exp(offset[..., 3:6]),
+        nominal.joints_rad + offset[..., 6:joints],
+        nominal.shape + offset[..., joints:],
+    ).reshape(count, 2 * size + 1, -1)
+    mean = weights.mean @ marker
+    deviation = marker - mean[:, None, :]
+    covariance = np.swapaxes(deviation * weights.covariance[:, None], -1, -2) @ deviation
+    # The points lie at +-scale times the columns of the root: what they say of the whole state is root^-1 P.
+    whole = np.linalg.solve(root, bank.covariance[:, seen, :])
+    pairs = marker[:, 1 : size + 1] - marker[:, size + 1 :]
+    cross = (weights.covariance[1] * weights.scale) * (np.swapaxes(pairs, -1, -2) @ whole)
+    return Forecast(bank, mean, covariance, cross)
 
 
 def forecast_reduced(
-    belief: Belief,
+    bank: ModeBank,
     noise: MotionNoise,
-    scales: FloatArray | None,
+    scales: FloatArray,
     dt_s: float,
     layout: StateLayout,
     view: View,
     spread: Spread,
 ) -> Forecast:
-    """Linear prediction, then sigma points for the measurement only, over the states that it sees.
-
-    ``scales`` (K,) multiplies the noise of each alternative on the belief's leading axis. The states that
-    the camera does not see directly follow by linear regression, exact for a Gaussian.
-    """
-    predicted = predict(belief, noise, dt_s, layout, scales)
-    return forecast_of(predicted, layout, view, spread)
-
-
-def forecast_of(predicted: Belief, layout: StateLayout, view: View, spread: Spread) -> Forecast:
-    """Sigma points of a belief as it stands and what the camera would see of them."""
-    seen = layout.seen
-    lead = predicted.position_m.shape[:-1]
-    p_seen = predicted.covariance[..., seen[:, None], seen]
-    weights = weights_for(seen.size, spread)
-    offset = deviations(p_seen, weights.scale)
-    rotation = predicted.rotation_w2_w0[..., None, :, :] @ so3.exp(offset[..., 3:6])
-    marker = view.observe(
-        predicted.position_m[..., None, :] + offset[..., 0:3],
-        rotation,
-        predicted.joints_rad[..., None, :] + offset[..., 6 : 6 + layout.joint_count],
-        predicted.shape[..., None, :] + offset[..., 6 + layout.joint_count :],
-    )
-    marker = np.broadcast_to(marker, (*lead, offset.shape[-2], *marker.shape[-2:]))
-    regression = np.linalg.solve(p_seen, predicted.covariance[..., seen, :])
-    return _forecast(predicted, offset @ regression, marker, weights.mean, weights.covariance)
+    """Linear prediction, then sigma points for the measurement only."""
+    return forecast(predicted(bank, noise, scales, dt_s, layout), layout, view, spread)
 
 
 def forecast_augmented(
-    belief: Belief, noise: MotionNoise, scale: float, dt_s: float, layout: StateLayout, view: View, spread: Spread
+    bank: ModeBank,
+    noise: MotionNoise,
+    scales: FloatArray,
+    dt_s: float,
+    layout: StateLayout,
+    view: View,
+    spread: Spread,
 ) -> Forecast:
     """The papers' augmented filter: one set of sigma points over state and noise, through f and then h.
 
-    For a single belief. The mean orientation is taken on the manifold.
+    Mode by mode; the mean orientation is taken on the manifold.
     """
     n = layout.size
-    sd = noise.per_step(layout, dt_s) * scale
-    weights = weights_for(n + sd.size, spread)
-    joint = np.zeros((n + sd.size, n + sd.size))
-    joint[:n, :n] = belief.covariance
-    joint[n:, n:] = np.diag(sd**2)
-    offset = deviations(joint, weights.scale)
-    spread_out = _repeat(belief, offset.shape[0]).moved(offset[:, :n], layout)
-    after = advance(spread_out, offset[:, n:], dt_s, layout)
-    mean = Belief(
-        weights.mean @ after.position_m,
-        weights.mean @ after.velocity_m_s,
-        so3.mean_rotation(after.rotation_w2_w0, weights.mean),
-        weights.mean @ after.rate_rad_s,
-        weights.mean @ after.joints_rad,
-        weights.mean @ after.joint_rates_rad_s,
-        weights.mean @ after.shape,
-        belief.covariance,
+    means: list[Belief] = []
+    covariances, marker_means, marker_covariances, crosses = [], [], [], []
+    for error, covariance, scale in zip(bank.error, bank.covariance, scales, strict=True):
+        start = bank.nominal.moved(error, layout)
+        sd = noise.per_step(layout, dt_s) * scale
+        weights = weights_for(n + sd.size, spread)
+        joint = np.zeros((n + sd.size, n + sd.size))
+        joint[:n, :n] = covariance
+        joint[n:, n:] = np.diag(sd**2)
+        offset = deviations(joint, weights.scale)
+        after = advance(_repeat(start, offset.shape[0]).moved(offset[:, :n], layout), offset[:, n:], dt_s, layout)
+        mean = Belief(
+            weights.mean @ after.position_m,
+            weights.mean @ after.velocity_m_s,
+            so3.mean_rotation(after.rotation_w2_w0, weights.mean),
+            weights.mean @ after.rate_rad_s,
+            weights.mean @ after.joints_rad,
+            weights.mean @ after.joint_rates_rad_s,
+            weights.mean @ after.shape,
+            covariance,
+        )
+        deviation = _repeat(mean, offset.shape[0]).error_to(after, layout)
+        marker = view.observe(after.position_m, after.rotation_w2_w0, after.joints_rad, after.shape)
+        marker = marker.reshape(offset.shape[0], -1)
+        marker_mean = weights.mean @ marker
+        weighted = (marker - marker_mean) * weights.covariance[:, None]
+        new_covariance = (deviation.T * weights.covariance) @ deviation
+        means.append(mean)
+        covariances.append(0.5 * (new_covariance + new_covariance.T))
+        marker_means.append(marker_mean)
+        marker_covariances.append(weighted.T @ (marker - marker_mean))
+        crosses.append(weighted.T @ deviation)
+    nominal = means[0]
+    after_bank = ModeBank(
+        nominal,
+        np.stack([nominal.error_to(mean, layout) for mean in means]),
+        np.stack(covariances),
+        bank.probability,
     )
-    deviation = _repeat(mean, offset.shape[0]).error_to(after, layout)
-    covariance = (deviation.T * weights.covariance) @ deviation
-    marker = view.observe(after.position_m, after.rotation_w2_w0, after.joints_rad, after.shape)
-    predicted = replace(mean, covariance=0.5 * (covariance + covariance.T))
-    return _forecast(predicted, deviation, marker, weights.mean, weights.covariance)
+    return Forecast(after_bank, np.stack(marker_means), np.stack(marker_covariances), np.stack(crosses))
 
 
 def _repeat(belief: Belief, count: int) -> Belief:
-    def rows(a: FloatArray) -> FloatArray:
-        return np.broadcast_to(a, (count, *a.shape))
-
-    return Belief(
-        rows(belief.position_m),
-        rows(belief.velocity_m_s),
-        rows(belief.rotation_w2_w0),
-        rows(belief.rate_rad_s),
-        rows(belief.joints_rad),
-        rows(belief.joint_rates_rad_s),
-        rows(belief.shape),
-        rows(belief.covariance),
-    )
+    return Belief(*(np.broadcast_to(a, (count, *a.shape)) for a in (getattr(belief, f.name) for f in fields(Belief))))
 
 
 @dataclass(frozen=True, slots=True)
 class Innovation:
-    """Surprise of an update: ``nis`` (...) innovation' S^-1 innovation with ``dof`` components,
-    ``log_likelihood`` (...), and ``residual`` (..., m): how far each component lies from the corrected belief,
+    """Surprise of an update: ``nis`` (K,) innovation' S^-1 innovation with ``dof`` components,
+    ``log_likelihood`` (K,), and ``residual`` (K, m): how far each component lies from the corrected belief,
     in its own standard deviations, N(0, 1) when noise and model are right."""
 
     nis: FloatArray
@@ -212,37 +231,33 @@ class Innovation:
 
 
 def update(
-    forecast: Forecast, rows: NDArray[np.int64], measured: FloatArray, noise_variance: FloatArray, layout: StateLayout
-) -> tuple[Belief, Innovation]:
-    """Kalman correction by ``measured`` (m,), the components ``rows`` (m,) of the flattened (M, 3) markers.
+    forecast: Forecast, rows: NDArray[np.int64], measured: FloatArray, noise_variance: FloatArray
+) -> tuple[ModeBank, Innovation]:
+    """Kalman correction of every mode by ``measured`` (m,), the components ``rows`` (m,) of the 3M.
 
-    ``noise_variance`` (m,) px^2 for pixels, m^2 for depths. Works on all leading alternatives at once.
+    ``noise_variance`` (m,) px^2 for pixels, m^2 for depths. The modes' probabilities are left as they are.
     """
-    lead = forecast.marker_mean.shape[:-2]
+    bank = forecast.bank
     if rows.size == 0:
-        zero = np.zeros(lead)
-        return forecast.belief, Innovation(zero, zero, 0, np.zeros((*lead, 0)))
-    flat_deviation = forecast.marker_deviation.reshape(*forecast.marker_deviation.shape[:-2], -1)[..., rows]
-    value = measured - forecast.marker_mean.reshape(*lead, -1)[..., rows]
-    weighted = flat_deviation * forecast.weight[:, None]
-    swapped = np.swapaxes(weighted, -1, -2)
-    s = swapped @ flat_deviation
-    index = np.arange(rows.size)
-    s[..., index, index] += noise_variance
-    # Pixels and metres differ by orders of magnitude; solve in units of the noise.
+        zero = np.zeros(bank.probability.size)
+        return bank, Innovation(zero, zero, 0, np.zeros((zero.size, 0)))
+    # Pixels and metres differ by orders of magnitude: everything is taken in units of the noise.
     unit = 1.0 / np.sqrt(noise_variance)
-    s_unit = s * unit * unit[:, None]
-    cross = swapped @ forecast.state_deviation  # (..., m, n) = P_yx
-    inverse = np.linalg.inv(s_unit)
-    gain_t = (inverse @ (cross * unit[:, None])) * unit[:, None]  # (..., m, n) = K'
-    s_inv_value_unit = (inverse @ (value * unit)[..., None])[..., 0]
-    s_inv_value = s_inv_value_unit * unit
-    correction = (value[..., None, :] @ gain_t)[..., 0, :]
-    covariance = forecast.belief.covariance - np.swapaxes(gain_t, -1, -2) @ cross
+    value = (measured - forecast.marker_mean[:, rows]) * unit
+    s = forecast.marker_covariance[:, rows[:, None], rows] * (unit * unit[:, None])
+    index = np.arange(rows.size)
+    s[:, index, index] += 1.0
+    cross = forecast.cross[:, rows] * unit[:, None]
+    inverse = np.linalg.inv(s)
+    weighted = np.einsum("kij,kj->ki", inverse, value)
+    error = bank.error + np.einsum("ki,kin->kn", weighted, cross)
+    covariance = bank.covariance - np.swapaxes(cross, -1, -2) @ (inverse @ cross)
     covariance = 0.5 * (covariance + np.swapaxes(covariance, -1, -2))
-    belief = forecast.belief.moved(correction, layout, covariance)
-    nis = np.sum(value * s_inv_value, axis=-1)
-    log_det = np.linalg.slogdet(s_unit)[1] - 2.0 * np.sum(np.log(unit))
-    log_likelihood = -0.5 * (nis + log_det + rows.size * np.log(2.0 * np.pi))
-    residual = s_inv_value_unit / np.sqrt(inverse[..., index, index])
-    return belief, Innovation(nis, log_likelihood, int(rows.size), residual)
+    nis = np.einsum("ki,ki->k", value, weighted)
+    log_det = np.linalg.slogdet(s)[1] - 2.0 * np.log(unit).sum()
+    log_likelihood = -0.5 * (nis + log_det + rows.size * _LOG_2_PI)
+    residual = weighted / np.sqrt(inverse[:, index, index])
+    return replace(bank, error=error, covariance=covariance), Innovation(nis, log_likelihood, int(rows.size), residual)
+
+
+_LOG_2_PI = float(np.log(2.0 * np.pi))

@@ -2,18 +2,36 @@
 
 An interacting multiple model (Blom and Bar-Shalom 1988): each mode is the same filter with its process
 noise scaled; how well each foresaw the measurements decides its weight, so nobody has to choose between
-a calm curve and one that follows.
+a calm curve and one that follows. All modes are kept as small errors from one nominal belief.
 """
 
 from __future__ import annotations
 
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 import numpy as np
 
-from core.tracking.motion import REFERENCE_DT_S
+from core.tracking.motion import REFERENCE_DT_S, MotionNoise, advance, process_covariance, transition
 from core.tracking.state import Belief, StateLayout
 from core.types import FloatArray
+
+
+@dataclass(frozen=True, slots=True)
+class ModeBank:
+    """K beliefs about one hand: ``error`` (K, n) of each mode's mean from the nominal one, ``covariance``
+    (K, n, n), ``probability`` (K,). Right after :func:`merged` the nominal belief is that of the mixture."""
+
+    nominal: Belief
+    error: FloatArray
+    covariance: FloatArray
+    probability: FloatArray
+
+    @staticmethod
+    def of(belief: Belief, count: int) -> ModeBank:
+        """All modes alike and as probable."""
+        n = belief.covariance.shape[0]
+        covariance = np.broadcast_to(belief.covariance, (count, n, n)).copy()
+        return ModeBank(belief, np.zeros((count, n)), covariance, np.full(count, 1.0 / count))
 
 
 def switching(count: int, dwell_s: float, dt_s: float = REFERENCE_DT_S) -> FloatArray:
@@ -26,54 +44,59 @@ def switching(count: int, dwell_s: float, dt_s: float = REFERENCE_DT_S) -> Float
     return out
 
 
-def merge(beliefs: Belief, probability: FloatArray, layout: StateLayout) -> Belief:
-    """One Gaussian with the mean and covariance of the mixture of K beliefs."""
-    if probability.size == 1:
-        return beliefs.pick(0)
-    best = beliefs.pick(int(np.argmax(probability)))
-    error = best.error_to(beliefs, layout)
-    mean = probability @ error
-    apart = error - mean
-    covariance = np.tensordot(probability, beliefs.covariance, axes=1) + (apart.T * probability) @ apart
-    return best.moved(mean, layout, covariance)
+def mixed(bank: ModeBank, switch: FloatArray) -> ModeBank:
+    """Start of the next step: each mode's belief mixed from all that may have switched to it."""
+    if bank.probability.size == 1:
+        return bank
+    joint = switch * bank.probability[:, None]
+    probability = joint.sum(axis=0)
+    share = (joint / probability).T  # (to, from)
+    error = share @ bank.error
+    apart = bank.error - error[:, None, :]  # (to, from, n)
+    within = (share @ bank.covariance.reshape(share.shape[0], -1)).reshape(bank.covariance.shape)
+    between = np.swapaxes(apart * share[:, :, None], -1, -2) @ apart
+    return ModeBank(bank.nominal, error, within + between, probability)
 
 
-def mix(beliefs: Belief, probability: FloatArray, switch: FloatArray, layout: StateLayout) -> tuple[Belief, FloatArray]:
-    """Start of the next step: each mode's belief mixed from all, and the modes' probabilities (K,)."""
-    if probability.size == 1:
-        return beliefs, probability
-    joint = switch * probability[:, None]
-    predicted = joint.sum(axis=0)
-    share = joint / predicted  # (from, to)
-    best = beliefs.pick(int(np.argmax(probability)))
-    error = best.error_to(beliefs, layout)
-    mean = share.T @ error
-    apart = error[None, :, :] - mean[:, None, :]  # (to, from, n)
-    covariance = (
-        np.tensordot(share.T, beliefs.covariance, axes=1) + np.swapaxes(apart * share.T[:, :, None], -1, -2) @ apart
-    )
-    lead = (probability.size,)
-    base = Belief(
-        *(
-            np.broadcast_to(a, (*lead, *a.shape))
-            for a in (
-                best.position_m,
-                best.velocity_m_s,
-                best.rotation_w2_w0,
-                best.rate_rad_s,
-                best.joints_rad,
-                best.joint_rates_rad_s,
-                best.shape,
-                best.covariance,
-            )
-        )
-    )
-    return replace(base.moved(mean, layout), covariance=covariance), predicted
+def predicted(bank: ModeBank, noise: MotionNoise, scales: FloatArray, dt_s: float, layout: StateLayout) -> ModeBank:
+    """Linear prediction of all modes, the noise of each multiplied by its scale (K,): P <- F P F' + Q."""
+    f = transition(bank.nominal, dt_s, layout)
+    q = process_covariance(noise, dt_s, layout)
+    nominal = advance(bank.nominal, np.zeros(6 + layout.joint_count), dt_s, layout)
+    covariance = f @ bank.covariance @ f.T + (scales * scales)[:, None, None] * q
+    return ModeBank(nominal, bank.error @ f.T, covariance, bank.probability)
 
 
-def reweigh(predicted: FloatArray, log_likelihood: FloatArray) -> FloatArray:
+def merged(bank: ModeBank, layout: StateLayout) -> ModeBank:
+    """The bank with its nominal belief moved to the mean of the mixture and given its covariance."""
+    mean = bank.probability @ bank.error
+    apart = bank.error - mean
+    within = (bank.probability @ bank.covariance.reshape(bank.probability.size, -1)).reshape(mean.size, mean.size)
+    covariance = within + (apart.T * bank.probability) @ apart
+    turn = layout.turn
+    # The turns are measured from another rotation now: log(Exp(-m) Exp(e)) to second order.
+    error = apart.copy()
+    error[:, turn] -= 0.5 * np.cross(mean[turn], bank.error[:, turn])
+    return ModeBank(bank.nominal.moved(mean, layout, covariance), error, bank.covariance, bank.probability)
+
+
+def reweighed(predicted_probability: FloatArray, log_likelihood: FloatArray) -> FloatArray:
     """Probabilities (K,) after the measurement; none ever falls to zero."""
-    log_weight = np.log(predicted) + log_likelihood
+    log_weight = np.log(predicted_probability) + log_likelihood
     weight = np.exp(log_weight - log_weight.max())
     weight = np.maximum(weight / weight.sum(), 1e-6)
     return np.asarray(weight / weight.sum())
+
+
+def slowed(bank: ModeBank, keep: float, layout: StateLayout) -> ModeBank:
+    """The bank with all velocities multiplied by ``keep``, the modes' differences too."""
+    nominal = replace(
+        bank.nominal,
+        velocity_m_s=bank.nominal.velocity_m_s * keep,
+        rate_rad_s=bank.nominal.rate_rad_s * keep,
+        joint_rates_rad_s=bank.nominal.joint_rates_rad_s * keep,
+    )
+    error = bank.error.copy()
+    for rate in (layout.velocity, layout.rate, layout.joint_rates):
+        error[:, rate] *= keep
+    return ModeBank(nominal, error, bank.covariance, bank.probability)

@@ -7,6 +7,7 @@ continuous density q = sd^2 / 30, so that other or missing frame times keep thei
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from functools import lru_cache
 from typing import Literal
 
 import numpy as np
@@ -81,49 +82,52 @@ def advance(belief: Belief, noise: FloatArray, dt_s: float, layout: StateLayout)
 
 
 def transition(belief: Belief, dt_s: float, layout: StateLayout) -> FloatArray:
-    """F (..., n, n): how a small error travels over ``dt_s``; exact but for the turn, there first order."""
-    lead = belief.position_m.shape[:-1]
-    n = layout.size
-    f = np.zeros((*lead, n, n))
-    f[..., np.arange(n), np.arange(n)] = 1.0
-    f[..., [0, 1, 2], [3, 4, 5]] = dt_s
+    """F (n, n): how a small error of a single belief travels over ``dt_s``; the turn to first order."""
+    f = np.eye(layout.size)
+    axes = np.arange(3)
+    f[axes, 3 + axes] = dt_s
     if layout.has_rates:
         turn = belief.rate_rad_s * dt_s
-        f[..., 6:9, 6:9] = np.swapaxes(so3.exp(turn), -1, -2)
-        f[..., 6:9, 9:12] = so3.right_jacobian(turn) * dt_s
+        f[6:9, 6:9] = so3.exp(-turn)
+        f[6:9, 9:12] = so3.right_jacobian(turn) * dt_s
         j = np.arange(layout.joint_count)
-        f[..., layout.joints.start + j, layout.joint_rates.start + j] = dt_s
+        f[layout.joints.start + j, layout.joint_rates.start + j] = dt_s
     return f
 
 
-def process_covariance(noise: MotionNoise, dt_s: float, layout: StateLayout) -> FloatArray:
-    """Q (..., n, n) = G diag(sd^2) G', G the derivative of :func:`advance` by its noise inputs."""
-    sd = noise.per_step(layout, dt_s)
-    n, half = layout.size, 0.5 * dt_s * dt_s
-    g = np.zeros((n, sd.size))
-    axes, joints = np.arange(3), np.arange(layout.joint_count)
-    g[3 + axes, axes] = dt_s
+@lru_cache(maxsize=16)
+def _process_terms(noise: MotionNoise, layout: StateLayout) -> tuple[FloatArray, FloatArray, FloatArray]:
+    """Q(dt) = A dt + B dt^2 + C dt^3, from noise that holds over a step and has the density sd^2 / 30."""
+    turn = noise.turn_acceleration_rad_s2 if layout.has_rates else noise.turn_rate_rad_s
+    joint = noise.joint_acceleration_rad_s2 if layout.has_rates else noise.joint_rate_rad_s
+    linear, square, cubic = (np.zeros((layout.size, layout.size)) for _ in range(3))
+
+    def drive(value: slice, rate: slice, sd: float, moves_value: bool) -> None:
+        density = sd**2 * REFERENCE_DT_S
+        v, r = np.arange(value.start, value.stop), np.arange(rate.start, rate.stop)
+        linear[r, r] = density
+        if moves_value:
+            square[v, r] = square[r, v] = 0.5 * density
+            cubic[v, v] = 0.25 * density
+
+    drive(layout.position, layout.velocity, noise.acceleration_m_s2, layout.has_rates)
     if layout.has_rates:
-        g[axes, axes] = half
-        g[6 + axes, 3 + axes] = half
-        g[9 + axes, 3 + axes] = dt_s
-        g[layout.joints.start + joints, 6 + joints] = half
-        g[layout.joint_rates.start + joints, 6 + joints] = dt_s
+        drive(layout.turn, layout.rate, turn, True)
+        drive(layout.joints, layout.joint_rates, joint, True)
     else:
-        g[6 + axes, 3 + axes] = dt_s
-        g[layout.joints.start + joints, 6 + joints] = dt_s
-    scaled = g * sd
-    return np.asarray(scaled @ scaled.T)
+        drive(layout.turn, layout.turn, turn, False)
+        drive(layout.joints, layout.joints, joint, False)
+    return linear, square, cubic
 
 
-def predict(
-    belief: Belief, noise: MotionNoise, dt_s: float, layout: StateLayout, scales: FloatArray | None = None
-) -> Belief:
-    """Linear prediction: exact mean, P <- F P F' + Q; ``scales`` (K,) multiplies the sds per alternative."""
+def process_covariance(noise: MotionNoise, dt_s: float, layout: StateLayout) -> FloatArray:
+    """Q (n, n): what the noise inputs of :func:`advance` add to the covariance in ``dt_s``."""
+    linear, square, cubic = _process_terms(noise, layout)
+    return linear * dt_s + square * dt_s**2 + cubic * dt_s**3
+
+
+def predict(belief: Belief, noise: MotionNoise, dt_s: float, layout: StateLayout) -> Belief:
+    """Linear prediction: exact mean, P <- F P F' + Q."""
     f = transition(belief, dt_s, layout)
-    q = process_covariance(noise, dt_s, layout)
-    if scales is not None:
-        q = q * (scales**2)[:, None, None]
-    covariance = f @ belief.covariance @ np.swapaxes(f, -1, -2) + q
-    still = np.zeros(6 + layout.joint_count)
-    return replace(advance(belief, still, dt_s, layout), covariance=covariance)
+    covariance = f @ belief.covariance @ f.T + process_covariance(noise, dt_s, layout)
+    return replace(advance(belief, np.zeros(6 + layout.joint_count), dt_s, layout), covariance=covariance)

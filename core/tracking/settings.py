@@ -25,16 +25,17 @@ class MeasurementNoise:
     """``pixel_sd_px`` of a whole, well lit disc's centre, measured anew on every still hand;
     ``pixel_model_sd_px`` what a still hand does not show (shading, blur, the lens);
     ``depth_ratio`` of the depths' scatter to that of a reading by the book, likewise measured;
-
     ``adapt_s``: over which time each marker's own noise is judged by its residuals; its variance rises to at
-    most ``most_adapted`` times. ``shade_share``: how far the centre of a partly covered disc may wander, as a share of its radius times
-    the missing share of its area. ``depth_outlier``: chance that a blob's depth is of something else.
+    most ``most_adapted`` times. ``shade_share``: how far the centre of a partly covered disc may wander, as a
+    share of its radius times what is missing of its area below ``whole_from``.
+    ``depth_outlier``: chance that a blob's depth is of something else.
     """
 
     pixel_sd_px: float = 0.15
     pixel_model_sd_px: float = 0.08
     depth_ratio: float = 1.0
     shade_share: float = 0.7
+    whole_from: float = 0.6
     adapt_s: float = 0.5
     most_adapted: float = 100.0
     depth_outlier: float = 1e-3
@@ -46,10 +47,9 @@ class TrackerSettings:
 
     ``form``: the reduced filter or the papers' augmented one; ``motion``: constant rate or the papers'
     model (1); ``mode_scales``: the motion modes run side by side, as factors on the process noise;
-    ``dip``: end joints bound to
-    the middle joints or free; ``refine_shape``: keep measuring the palm while it moves; ``marker_radius_m`` of the paper discs;
-    ``lost_after_s`` without three palm markers the hand is lost; ``rate_memory_s``: how long an unseen hand
-    is taken to go on as it moved.
+    ``dip``: end joints bound to the middle joints or free; ``refine_shape``: keep measuring the palm while it
+    moves; ``marker_radius_m`` of the paper discs; ``lost_after_s`` without three palm markers the hand is lost;
+    ``rate_memory_s``: how long an unseen hand is taken to go on as it moved.
     """
 
     form: Literal["reduced", "augmented"] = "reduced"

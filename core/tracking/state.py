@@ -72,7 +72,7 @@ class StateLayout:
 
 @dataclass(frozen=True, slots=True)
 class Belief:
-    """Gaussian over the state; leading axes (...) hold alternatives, such as motion modes.
+    """Gaussian over the state; leading axes (...) hold several, such as sigma points.
 
     ``position_m``, ``velocity_m_s`` (..., 3) of W2 in W0; ``rotation_w2_w0`` (..., 3, 3);
     ``rate_rad_s`` (..., 3) in W2; ``joints_rad`` and ``joint_rates_rad_s`` (..., J);
@@ -121,33 +121,6 @@ class Belief:
             parts.append(other.joint_rates_rad_s - self.joint_rates_rad_s)
         parts.append(other.shape - self.shape)
         return np.concatenate(parts, axis=-1)
-
-    def pick(self, index: int) -> Belief:
-        """One alternative out of the leading axis."""
-        return Belief(
-            self.position_m[index],
-            self.velocity_m_s[index],
-            self.rotation_w2_w0[index],
-            self.rate_rad_s[index],
-            self.joints_rad[index],
-            self.joint_rates_rad_s[index],
-            self.shape[index],
-            self.covariance[index],
-        )
-
-
-def stack(beliefs: list[Belief]) -> Belief:
-    """Several single beliefs as one with a leading axis."""
-    return Belief(
-        np.stack([b.position_m for b in beliefs]),
-        np.stack([b.velocity_m_s for b in beliefs]),
-        np.stack([b.rotation_w2_w0 for b in beliefs]),
-        np.stack([b.rate_rad_s for b in beliefs]),
-        np.stack([b.joints_rad for b in beliefs]),
-        np.stack([b.joint_rates_rad_s for b in beliefs]),
-        np.stack([b.shape for b in beliefs]),
-        np.stack([b.covariance for b in beliefs]),
-    )
 
 
 @dataclass(frozen=True, slots=True)

@@ -1,0 +1,142 @@
+"""From blobs to named measurements: the easy association first, the joint one where that does not hold."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from core.depth_noise import pattern_sd_m, reading_sd_m
+from core.tracking import association
+from core.tracking.joint_association import associate_jointly, holds_together
+from core.tracking.measurement import Forecast, update
+from core.tracking.modes import ModeBank, reweighed
+from core.tracking.settings import TrackerSettings
+from core.types import Detections, FloatArray
+
+_AXES = np.arange(3)
+
+
+@dataclass(frozen=True, slots=True)
+class Measurable:
+    """Blobs as measurements (D, 3): pixel u, v and depth (NaN when unknown), with noise variances (D, 3)."""
+
+    value: FloatArray
+    variance: FloatArray
+
+    def __len__(self) -> int:
+        return int(self.value.shape[0])
+
+
+@dataclass(frozen=True, slots=True)
+class Corrected:
+    """All modes corrected by the blobs as named.
+
+    ``taken`` (M,) blob of every marker or -1; ``nis`` over all modes with ``dof``; ``rows`` (m,) the measured
+    components of the 3M and their ``residual`` (m,) in standard deviations.
+    """
+
+    bank: ModeBank
+    taken: NDArray[np.int64]
+    nis: float
+    dof: int
+    rows: NDArray[np.int64]
+    residual: FloatArray
+
+
+def measurable(blobs: Detections, radius_px: float, settings: TrackerSettings) -> Measurable:
+    """Blobs with the noise of each: what its picture and its depth are worth.
+
+    ``radius_px`` of a disc at the hand's distance: a blob much smaller than it is half hidden, and its centre
+    not the disc's.
+    """
+    noise = settings.noise
+    depth = blobs.depth_m if settings.use_depth else np.full_like(blobs.depth_m, np.nan)
+    shown = blobs.area_px / (np.pi * radius_px**2)
+    wander_px = noise.shade_share * radius_px * np.maximum(noise.whole_from - shown, 0.0)
+    value = np.empty((len(blobs), 3))
+    value[:, :2], value[:, 2] = blobs.pixel, depth
+    known = np.isfinite(depth)
+    at_m = np.where(known, depth, 1.0)
+    book2 = reading_sd_m(at_m) ** 2
+    beyond2 = np.maximum(np.where(known, blobs.depth_sd_m, 1.0) ** 2 - book2, 0.0)
+    variance = np.empty((len(blobs), 3))
+    variance[:, :2] = (noise.pixel_sd_px**2 + wander_px**2)[:, None]
+    variance[:, 2] = noise.depth_ratio**2 * book2 + beyond2 + pattern_sd_m(at_m) ** 2
+    return Measurable(value, variance)
+
+
+def correct(
+    forecast: Forecast,
+    blobs: Measurable,
+    taken: NDArray[np.int64],
+    with_depth: NDArray[np.bool_],
+    noise_factor: FloatArray,
+) -> Corrected:
+    """Every mode corrected by the named blobs; ``noise_factor`` (M, 3) multiplies the variances."""
+    marker = np.flatnonzero(taken >= 0)
+    blob = taken[marker]
+    used = (_AXES < 2) | with_depth[marker, None]
+    rows = (3 * marker[:, None] + _AXES)[used]
+    variance = (blobs.variance[blob] * noise_factor[marker])[used]
+    bank, innovation = update(forecast, rows, blobs.value[blob][used], variance)
+    if rows.size == 0:
+        return Corrected(bank, taken, float("nan"), 0, rows, np.empty(0))
+    probability = reweighed(bank.probability, innovation.log_likelihood)
+    return Corrected(
+        replace(bank, probability=probability),
+        taken,
+        float(probability @ innovation.nis),
+        innovation.dof,
+        rows,
+        probability @ innovation.residual,
+    )
+
+
+def name_and_correct(
+    forecast: Forecast,
+    blobs: Measurable,
+    palm: NDArray[np.int64],
+    enough_palm: int,
+    resolution_px2: float,
+    noise_factor: FloatArray,
+    settings: TrackerSettings,
+) -> Corrected:
+    """Names by (12), each marker judged by itself; where the whole does not hold together, all jointly.
+
+    Holding together: the joint NIS is credible, and ``enough_palm`` of the ``palm`` markers are named unless
+    no blob is left that could be one.
+    """
+    mean, covariance = forecast.mixture()
+    markers = mean.size // 3
+    if not len(blobs):
+        nothing = np.full(markers, -1, dtype=np.int64)
+        return correct(forecast, blobs, nothing, nothing > 0, noise_factor)
+    place = 3 * np.arange(markers)[:, None] + _AXES
+    odds = association.log_odds(
+        mean.reshape(markers, 3),
+        covariance[place[:, :, None], place[:, None, :]],
+        blobs.value,
+        blobs.variance,
+        resolution_px2,
+        settings.noise.depth_outlier,
+        settings.association,
+    )
+    taken = association.resolve(odds.value)
+    with_depth = odds.with_depth[np.arange(markers), taken]
+    simple = correct(forecast, blobs, taken, with_depth, noise_factor)
+    named = np.count_nonzero(taken >= 0)
+    enough = np.count_nonzero(taken[palm] >= 0) >= enough_palm or named == len(blobs)
+    if enough and holds_together(simple.nis, simple.dof):
+        return simple
+    found = associate_jointly(
+        mean,
+        covariance,
+        blobs.value,
+        blobs.variance,
+        resolution_px2,
+        settings.noise.depth_outlier,
+        settings.association,
+    )
+    return correct(forecast, blobs, found.taken, found.with_depth, noise_factor)

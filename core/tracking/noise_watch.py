@@ -1,0 +1,26 @@
+"""Lets each marker's measurement noise follow its residuals: a disc half behind the rim, a blurred picture."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from core.tracking.naming import Corrected
+from core.tracking.settings import MeasurementNoise
+from core.types import FloatArray
+
+
+def watched(factor: FloatArray, corrected: Corrected, dt_s: float, noise: MeasurementNoise) -> FloatArray:
+    """The variance factors (M, 3) after one more frame, 1 and more; pixels u, v of a marker share theirs.
+
+    Squared residuals should average one; the factor moves towards what makes them so over ``adapt_s``.
+    """
+    if corrected.rows.size == 0 or dt_s <= 0.0:
+        return factor
+    weight = 1.0 - np.exp(-dt_s / noise.adapt_s)
+    squared = np.ones_like(factor)
+    squared.ravel()[corrected.rows] = np.minimum(corrected.residual**2, noise.most_adapted)
+    squared[:, :2] = squared[:, :2].mean(axis=1, keepdims=True)
+    measured = np.zeros(factor.size, dtype=bool)
+    measured[corrected.rows] = True
+    grown = np.clip(factor * (1.0 + weight * (squared - 1.0)), 1.0, noise.most_adapted)
+    return np.where(measured.reshape(factor.shape), grown, factor)
