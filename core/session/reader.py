@@ -28,6 +28,7 @@ from core.session.values import (
     RawPictures,
     Session,
     SessionHeader,
+    SessionOutline,
 )
 from core.types import Detections
 
@@ -39,6 +40,12 @@ def read_session(path: Path) -> Session:
     """
     with open_session(path) as file:
         return _Source(path, file).session()
+
+
+def read_outline(path: Path) -> SessionOutline:
+    """Header, length and state of a session, without its data: quick enough for a whole folder."""
+    with open_session(path) as file:
+        return _Source(path, file).outline()
 
 
 def read_detections(path: Path) -> DetectionTable:
@@ -126,6 +133,17 @@ class _Source:
             quality=QualitySeries(frames["dropped_before"], frames["measured_share"], frames["nis"], frames["nis_dof"]),
             events=tuple(map(Event, *(self._list(field) for field in schema.EVENT_FIELDS))),
             smoothed=self._motion(schema.SMOOTHED_FIELDS) if "/smoothed" in self._file else None,
+            complete=self._complete,
+            recovered=str(self._file.attrs.get(schema.RECOVERED, "")),
+        )
+
+    def outline(self) -> SessionOutline:
+        frames = self._rows.frames
+        times = self._file["/frames/timestamp"]
+        return SessionOutline(
+            header=self._header,
+            frames=frames,
+            duration_s=float(times[frames - 1] - times[0]) if frames else 0.0,
             complete=self._complete,
             recovered=str(self._file.attrs.get(schema.RECOVERED, "")),
         )

@@ -9,7 +9,7 @@ from pathlib import Path
 
 import h5py
 
-from core.errors import CarpusFault, SessionUnreadable
+from core.errors import CarpusFault, RecordingMissing, SessionUnreadable
 from core.session import schema
 from core.session.disk import is_being_written, publish, target_of_part, write_fault
 from core.session.reader import open_session, read_session
@@ -30,12 +30,17 @@ class Recovery:
 
 
 def interrupted_sessions(folder: Path) -> list[Path]:
-    """The part files of a folder, also of sessions that are running."""
-    return sorted(path for path in folder.glob("*.part") if target_of_part(path) is not None)
+    """The part files of a folder and the folders in it, also of sessions that are running."""
+    return sorted(path for path in folder.rglob("*.part") if target_of_part(path) is not None)
 
 
 def recover_folder(folder: Path, now: datetime | None = None) -> Recovery:
-    """Finish every interrupted session of a folder. A file that cannot be finished stays as it is."""
+    """Finish every interrupted session of a folder and the folders in it; what cannot be finished stays as it is.
+
+    Raises :class:`RecordingMissing` when there is no such folder.
+    """
+    if not folder.is_dir():
+        raise RecordingMissing(folder)
     recovered, busy, faults = [], [], []
     for part in interrupted_sessions(folder):
         try:

@@ -154,6 +154,17 @@ class DetectionTable:
 
 
 @dataclass(frozen=True, slots=True)
+class SessionOutline:
+    """What a list of sessions shows; ``complete`` and ``recovered`` as in :class:`Session`."""
+
+    header: SessionHeader
+    frames: int
+    duration_s: float
+    complete: bool
+    recovered: str
+
+
+@dataclass(frozen=True, slots=True)
 class Session:
     """What a session file holds, without the blobs and pictures, which are read when asked for.
 

@@ -14,10 +14,10 @@ import h5py
 import numpy as np
 import pytest
 
-from core.errors import SessionUnreadable
+from core.errors import RecordingMissing, SessionUnreadable
 from core.session.disk import part_path, target_of_part
 from core.session.reader import read_detections, read_raw, read_session
-from core.session.recovery import interrupted_sessions, recover_folder
+from core.session.recovery import Recovery, interrupted_sessions, recover_folder
 from core.session.values import RawPictures, motion_of
 from core.session.writer import SessionWriter
 from tests.session.samples import CAMERA, make_calibration, make_frame, make_header, time_of
@@ -41,14 +41,21 @@ def interrupt(target: Path, rows: int = N, smoothed: bool = False) -> Path:
 
 
 def test_an_interrupted_session_is_finished(tmp_path: Path) -> None:
-    interrupt(tmp_path / "s.h5", smoothed=True)
+    folder = tmp_path / "Linden-42"
+    folder.mkdir()
+    interrupt(folder / "s.h5", smoothed=True)
     recovery = recover_folder(tmp_path, NOW)
-    assert recovery.recovered == (tmp_path / "s.h5",)
-    session = read_session(tmp_path / "s.h5")
+    assert recovery.recovered == (folder / "s.h5",)
+    session = read_session(folder / "s.h5")
     assert (len(session), session.complete, session.recovered) == (N, True, "2026-11-14T08:00:00+00:00")
     assert session.smoothed is not None
-    assert recover_folder(tmp_path) == recover_folder(tmp_path)  # nothing left to do, nothing done twice
-    assert [path.name for path in tmp_path.iterdir()] == ["s.h5"]
+    assert recover_folder(tmp_path) == Recovery((), (), ())  # nothing left to do
+    assert [path.name for path in folder.iterdir()] == ["s.h5"]
+
+
+def test_a_folder_that_is_not_there(tmp_path: Path) -> None:
+    with pytest.raises(RecordingMissing):
+        recover_folder(tmp_path / "nowhere")
 
 
 @pytest.mark.parametrize("short", ["/frames/timestamp", "/wrist/angles", "/markers/measured", "/quality/nis"])

@@ -234,7 +234,7 @@ except DiskFull as fault:
 """
 
 
-@pytest.mark.parametrize("limit_mb", [6, 7.5, 9, 13])
+@pytest.mark.parametrize("limit_mb", [6, 9])
 def test_a_full_disk_is_told_and_what_was_stored_stays(tmp_path: Path, limit_mb: float) -> None:
     target = tmp_path / "s.h5"
     command = [sys.executable, "-c", BOUNDED, str(target), str(int(limit_mb * 1e6))]
