@@ -10,7 +10,12 @@ from dataclasses import dataclass
 from datetime import datetime
 from typing import Literal, Protocol
 
-from core.types import ByteImage
+from core.calibration.result import Calibration, Clicks, Finding, Verdict
+from core.camera import Camera
+from core.hand.protocols import MarkerProtocol
+from core.output.exercises import Exercise
+from core.pipeline.live_values import LiveCounters, LiveEvent, TrackedView
+from core.types import ByteImage, FloatArray, Frame, Side, TrackedFrame
 
 AffectedSide = Literal["right", "left", "both"]
 Dominance = Literal["right", "left", "both", "unknown"]
@@ -100,3 +105,150 @@ class PatientStore(Protocol):
         ...
 
     def change(self, patient_id: str, entry: PatientEntry) -> None: ...
+
+
+# --- measuring --------------------------------------------------------------------------------------------
+@dataclass(frozen=True, slots=True)
+class SetUp:
+    """What was chosen before measuring. Targets in degrees of the trained angle, NaN for none."""
+
+    patient_id: str
+    pseudonym: str
+    side: Side
+    exercise: Exercise
+    repetitions: int
+    target_positive_deg: float
+    target_negative_deg: float
+    keep_pictures: bool = False
+
+
+class LiveFeed(Protocol):
+    """The running source, as :class:`core.pipeline.live.LiveSession` offers it to a screen."""
+
+    def newest_frame(self) -> Frame | None: ...
+
+    def newest(self) -> TrackedView | None: ...
+
+    def tracked_since(self, index: int) -> Sequence[TrackedFrame]: ...
+
+    def drain_events(self) -> Sequence[LiveEvent]: ...
+
+    def counters(self) -> LiveCounters: ...
+
+    def add_event(self, kind: str, text: str = "") -> bool: ...
+
+    def pause_recording(self) -> None: ...
+
+    def resume_recording(self) -> None: ...
+
+    @property
+    def recording(self) -> bool: ...
+
+    @property
+    def paused(self) -> bool: ...
+
+
+class Measuring(Protocol):
+    """An open source with a patient before it: from the first picture to the stored session.
+
+    ``start_recording`` and ``stop_recording`` may wait for the disk and are called in the background;
+    ``stop_recording`` returns the identity of the stored session.
+    """
+
+    @property
+    def feed(self) -> LiveFeed: ...
+
+    @property
+    def camera(self) -> Camera: ...
+
+    @property
+    def calibration(self) -> Calibration | None: ...
+
+    def start_recording(self) -> None: ...
+
+    def stop_recording(self) -> str: ...
+
+    def close(self) -> None: ...
+
+
+# --- words for what goes wrong ----------------------------------------------------------------------------
+@dataclass(frozen=True, slots=True)
+class Words:
+    """The three answers of every message, and one word for lists."""
+
+    what: str
+    safe: str
+    todo: str
+
+
+class Phrasebook(Protocol):
+    """The one table from fault to words (:mod:`core.words`), as the screens use it."""
+
+    def fault(self, fault: Exception) -> Words: ...
+
+    def finding(self, finding: Finding) -> Words: ...
+
+
+# --- calibration ------------------------------------------------------------------------------------------
+@dataclass(frozen=True, slots=True)
+class FoundMarker:
+    """A blob under the cursor: its centre (2,) and width in pixels of the picture."""
+
+    pixel: FloatArray
+    width_px: float
+
+
+@dataclass(frozen=True, slots=True)
+class VerdictLimits:
+    """What the calibration is judged by, shown beside each value."""
+
+    least_distance_m: float
+    most_tilt_deg: float
+    most_residual_mm: float
+    hand_length_mm: tuple[float, float]
+
+
+@dataclass(frozen=True, slots=True)
+class Judged:
+    """A verdict, and the calibration unless something blocks it."""
+
+    verdict: Verdict
+    calibration: Calibration | None
+
+
+class Calibrator(Protocol):
+    """Clicks to calibration. ``judge`` may take a while and is called in the background."""
+
+    @property
+    def side(self) -> Side: ...
+
+    @property
+    def protocol(self) -> MarkerProtocol: ...
+
+    @property
+    def limits(self) -> VerdictLimits: ...
+
+    @property
+    def is_live(self) -> bool:
+        """Whether pictures keep coming and another one can be taken; a recording has its first picture only."""
+        ...
+
+    def newest_frame(self) -> Frame | None: ...
+
+    def hold(self) -> Frame:
+        """Fix the picture on which will be clicked."""
+        ...
+
+    def hand_area(self) -> FloatArray | None:
+        """Two corners (2, 2) of where the hand lies in the held picture, as far as that is easily known."""
+        ...
+
+    def marker_at(self, pixel: FloatArray) -> FoundMarker | None:
+        """The blob under or near a pixel (2,) of the held picture."""
+        ...
+
+    def judge(self, clicks: Clicks, start_angles_rad: FloatArray) -> Judged: ...
+
+    def begin(self, calibration: Calibration) -> None:
+        """Start tracking from here."""
+        ...

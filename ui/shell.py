@@ -36,7 +36,7 @@ class Shell(QWidget):
         self.resize(*FIRST_SIZE_PX)
         self.setMinimumSize(*LEAST_SIZE_PX)
         self._shortcuts: dict[str, QShortcut] = {}
-        theme.changed.connect(self._take_theme)
+        theme.ground_changed.connect(self._take_theme)
         self._take_theme()
 
     def set_keys(self, keys: dict[str, str]) -> None:

@@ -16,7 +16,8 @@ QLineEdit, QPlainTextEdit, QSpinBox, QDoubleSpinBox, QComboBox, QKeySequenceEdit
   selection-background-color: {accent}; selection-color: {on_accent}; min-height: {field}px;
   placeholder-text-color: {text2}; }}
 QPlainTextEdit {{ padding: 8px; }}
-QLineEdit:focus, QPlainTextEdit:focus, QSpinBox:focus, QDoubleSpinBox:focus {{ border: 2px solid {accent}; padding: 0 {pad_focus}px; }}
+QLineEdit:focus, QPlainTextEdit:focus, QSpinBox:focus, QDoubleSpinBox:focus {{
+  border: 2px solid {accent}; padding: 0 {pad_focus}px; }}
 QPlainTextEdit:focus {{ padding: 7px; }}
 QComboBox {{ font-weight: 500; padding-right: 28px; }}
 QComboBox:hover {{ background: {canvas}; }}
@@ -25,7 +26,8 @@ QComboBox::down-arrow {{ image: url({chevron}); width: 16px; height: 16px; }}
 QComboBox QAbstractItemView {{ background: {surface}; color: {text}; border: 1px solid {border}; outline: 0;
   selection-background-color: {soft}; selection-color: {text}; padding: 4px; }}
 QComboBox QAbstractItemView::item {{ min-height: {row}px; padding: 0 8px; }}
-QSpinBox::up-button, QSpinBox::down-button, QDoubleSpinBox::up-button, QDoubleSpinBox::down-button {{ width: 0; border: 0; }}
+QSpinBox::up-button, QSpinBox::down-button {{ width: 0; border: 0; }}
+QDoubleSpinBox::up-button, QDoubleSpinBox::down-button {{ width: 0; border: 0; }}
 QScrollArea {{ border: 0; background: transparent; }}
 QScrollArea > QWidget > QWidget {{ background: transparent; }}
 QScrollBar:vertical {{ background: transparent; width: 12px; margin: 2px; }}
@@ -38,6 +40,8 @@ QMenu {{ background: {surface}; color: {text}; border: 1px solid {border}; paddi
 QMenu::item {{ padding: 8px 16px; border-radius: 4px; }}
 QMenu::item:selected {{ background: {soft}; }}
 """
+
+_SHEET_TOKENS = ("surface", "text", "text2", "border", "accent", "on_accent", "soft", "canvas")
 
 
 def apply_style(application: QApplication, theme: Theme) -> None:
@@ -56,21 +60,7 @@ def apply_style(application: QApplication, theme: Theme) -> None:
         palette.setColor(role, value)
     application.setPalette(palette)
     application.setFont(font(14 * theme.text_scale))
+    colors = {name: getattr(tokens, name) for name in _SHEET_TOKENS}
+    sizes = {"pad": 12, "pad_focus": 11, "field": theme.px(38), "row": theme.px(36)}
     with as_file(files("resources").joinpath("icons", f"chevron-down-{theme.name}.svg")) as chevron:
-        application.setStyleSheet(
-            _SHEET.format(
-                surface=tokens.surface,
-                text=tokens.text,
-                text2=tokens.text2,
-                border=tokens.border,
-                accent=tokens.accent,
-                on_accent=tokens.on_accent,
-                soft=tokens.soft,
-                canvas=tokens.canvas,
-                pad=12,
-                pad_focus=11,
-                field=theme.px(38),
-                row=theme.px(36),
-                chevron=chevron.as_posix(),
-            )  # fmt: skip
-        )
+        application.setStyleSheet(_SHEET.format(**colors, **sizes, chevron=chevron.as_posix()))

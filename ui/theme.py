@@ -7,6 +7,7 @@ from typing import Literal
 
 from PySide6.QtCore import QObject, Signal
 from PySide6.QtGui import QColor
+from PySide6.QtWidgets import QWidget
 
 ThemeName = Literal["light", "dark"]
 TEXT_SCALES = (1.0, 1.25, 1.5)
@@ -72,11 +73,18 @@ CARD_PADDING_PX = 16
 CARD_RADIUS_PX = 10
 CONTROL_RADIUS_PX = 8
 BAND_ALPHA = 95
+TIGHT_BELOW_PX = (1000, 620)
+"""A screen smaller than this in text-scaled pixels shows less, instead of everything cut."""
 
 
 class Theme(QObject):
-    """The chosen tokens and text scale; ``changed`` tells every widget to take them again."""
+    """The chosen tokens and text scale.
 
+    ``ground_changed`` comes first and is for the application's palette and style sheet, which would undo what a
+    widget sets for itself; ``changed`` then tells every widget to take its colours and sizes again.
+    """
+
+    ground_changed = Signal()
     changed = Signal()
 
     def __init__(self, name: ThemeName = "light", text_scale: float = 1.0) -> None:
@@ -93,6 +101,7 @@ class Theme(QObject):
         """Switch theme, text scale or both."""
         self.name = name or self.name
         self.text_scale = text_scale or self.text_scale
+        self.ground_changed.emit()
         self.changed.emit()
 
     def color(self, token: str, alpha: int = 255) -> QColor:
@@ -104,3 +113,9 @@ class Theme(QObject):
     def px(self, size: float) -> int:
         """A length that must grow with the text, in whole pixels."""
         return round(size * self.text_scale)
+
+
+def is_tight(screen: QWidget, theme: Theme) -> bool:
+    """Whether the text is too large for everything to fit."""
+    width, height = TIGHT_BELOW_PX
+    return screen.width() < width * theme.text_scale or screen.height() < height * theme.text_scale

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from PySide6.QtCore import QPointF, QRectF, QSize, Qt, Signal
-from PySide6.QtGui import QFontMetricsF, QPainter, QPaintEvent, QPen
+from PySide6.QtGui import QFontMetricsF, QPainter, QPaintEvent, QPen, QResizeEvent
 from PySide6.QtWidgets import QHBoxLayout, QSizePolicy, QVBoxLayout, QWidget
 
 from ui.controls.button import Button, icon_button
@@ -14,7 +14,7 @@ from ui.controls.pill import RecordingPill
 from ui.controls.text import MEDIUM, REGULAR, SEMIBOLD, StateText, Text
 from ui.fonts import font
 from ui.icons import paint_mark, paint_state
-from ui.theme import MARGIN_PX, Theme
+from ui.theme import MARGIN_PX, TIGHT_BELOW_PX, Theme
 
 BAR_PX = 56
 RECORDING_LINE_PX = 3
@@ -75,15 +75,26 @@ class TopBar(QWidget):
 
     def _take_theme(self) -> None:
         self.setFixedHeight(self._theme.px(BAR_PX) + RECORDING_LINE_PX - 2)
+        self._fit()
         self.update()
+
+    def resizeEvent(self, event: QResizeEvent) -> None:
+        self._fit()
+
+    def _fit(self) -> None:
+        """With large text on a narrow window the exercise and an ample disk give way to what must be seen."""
+        tight = self.width() < TIGHT_BELOW_PX[0] * self._theme.text_scale
+        self.where.setVisible(bool(self.back_button.text()) and not tight)
+        self.disk.setVisible(bool(self.disk.text()) and not (tight and self.disk.state == "none"))
 
     def show_place(self, pseudonym: str, where: str) -> None:
         """Whose session this is, and hand and exercise; empty on the first screen."""
         self.back_button.set_face(pseudonym)
         self.back_button.setAccessibleName(self.tr("Back from {name}").format(name=pseudonym))
-        for widget in (self._bar_line, self.back_button, self.where):
+        for widget in (self._bar_line, self.back_button):
             widget.setVisible(bool(pseudonym))
         self.where.setText(where)
+        self._fit()
 
     def show_steps(self, names: Sequence[str], current: int) -> None:
         """The way through the set-up: done, here, to come."""

@@ -26,14 +26,15 @@ RGB_TO_XYZ = np.array(
     [[0.4124564, 0.3575761, 0.1804375], [0.2126729, 0.7151522, 0.0721750], [0.0193339, 0.1191920, 0.9503041]]
 )
 TEXT_PAIRS = [
-    ("text", "surface"), ("text", "soft"), ("text", "canvas"), ("text2", "surface"), ("text2", "sunken"), ("text2", "soft"),
-    ("text2", "canvas"), ("accent", "surface"), ("accent", "canvas"), ("accent", "soft"), ("on_accent", "accent"),
+    ("text", "surface"), ("text", "soft"), ("text", "canvas"), ("text2", "surface"), ("text2", "sunken"),
+    ("text2", "soft"), ("text2", "canvas"), ("accent", "surface"), ("accent", "canvas"), ("accent", "soft"),
+    ("on_accent", "accent"),
     ("on_accent", "accent_hover"), ("on_accent", "accent_pressed"), ("good", "surface"), ("good", "good_soft"),
     ("warn", "surface"), ("warn", "warn_soft"), ("bad", "surface"), ("bad", "bad_soft"),
     ("on_band_warn", "band_warn"), ("on_band_bad", "band_bad"),
 ]  # fmt: skip
-PART_PAIRS = [("border", "surface"), ("border", "canvas"), ("curve_a", "surface"), ("curve_b", "surface"), ("curve_c", "surface"),
-              ("curve_a", "soft"), ("curve_b", "soft")]  # fmt: skip
+PART_PAIRS = [("border", "surface"), ("border", "canvas"), ("curve_a", "surface"), ("curve_b", "surface"),
+              ("curve_c", "surface"), ("curve_a", "soft"), ("curve_b", "soft")]  # fmt: skip
 
 
 def linear(hex_color: str) -> np.ndarray:

@@ -39,6 +39,18 @@ class Card(QWidget):
         painter.drawRoundedRect(QRectF(self.rect()).adjusted(half, half, -half, -half), CARD_RADIUS_PX, CARD_RADIUS_PX)
 
 
+class Surface(QWidget):
+    """A plain ground of one token, for bars."""
+
+    def __init__(self, theme: Theme, token: str = "surface") -> None:
+        super().__init__()
+        self._theme, self._token = theme, token
+        theme.changed.connect(self.update)
+
+    def paintEvent(self, event: QPaintEvent) -> None:
+        QPainter(self).fillRect(self.rect(), self._theme.color(self._token))
+
+
 class Line(QWidget):
     """A 1 px separator."""
 
@@ -61,8 +73,11 @@ class KeyCaps(QWidget):
     def __init__(self, theme: Theme, keys: Sequence[tuple[str, str]], gap_px: int = 16) -> None:
         super().__init__()
         self._theme, self._keys, self._gap_px = theme, tuple(keys), gap_px
-        self.setSizePolicy(QSizePolicy.Policy.Fixed, QSizePolicy.Policy.Fixed)
+        self.setSizePolicy(QSizePolicy.Policy.Maximum, QSizePolicy.Policy.Fixed)
         theme.changed.connect(self.updateGeometry)
+
+    def minimumSizeHint(self) -> QSize:
+        return QSize(0, self.sizeHint().height())
 
     def sizeHint(self) -> QSize:
         metrics = self._metrics()
@@ -82,6 +97,8 @@ class KeyCaps(QWidget):
         left = 0.5
         for cap, word in self._keys:
             width = metrics.horizontalAdvance(cap) + 12
+            if left + width + 7 + metrics.horizontalAdvance(word) > self.width() + 1:
+                break  # what does not fit is left out whole; the help names every key
             key = QRectF(left, 1.5, width, self.height() - 3)
             painter.setPen(QPen(self._theme.color("border"), 1))
             painter.setBrush(self._theme.color("surface"))

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from PySide6.QtCore import QEvent, QObject, QPoint, QRect, QRectF, Qt
 from PySide6.QtGui import QPainter, QPaintEvent, QPen
-from PySide6.QtWidgets import QApplication, QLineEdit, QPlainTextEdit, QWidget
+from PySide6.QtWidgets import QAbstractSpinBox, QApplication, QLineEdit, QPlainTextEdit, QWidget
 
 from ui.theme import CONTROL_RADIUS_PX, Theme
 
 OUTSIDE_PX = 3
-MARKS_ITSELF = (QLineEdit, QPlainTextEdit)
+MARKS_ITSELF = (QLineEdit, QPlainTextEdit, QAbstractSpinBox)
 """Text fields show focus by their own border."""
 
 

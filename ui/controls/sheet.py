@@ -17,9 +17,12 @@ class Sheet(QWidget):
 
     closed = Signal()
 
-    def __init__(self, host: QWidget, theme: Theme, width_px: int = 560, *, may_close: bool = True) -> None:
+    def __init__(
+        self, host: QWidget, theme: Theme, width_px: int = 560, *, may_close: bool = True, low: bool = False
+    ) -> None:
+        """``low``: near the lower edge and without dimming, over a screen that must stay readable."""
         super().__init__(host)
-        self._theme, self._may_close = theme, may_close
+        self._theme, self._may_close, self._dims = theme, may_close, not low
         self._width_px = width_px
         self._focus_before: QWidget | None = None
         self.card = Card(theme, 24)
@@ -28,9 +31,9 @@ class Sheet(QWidget):
         across.addWidget(self.card)
         across.addStretch(1)
         down = QVBoxLayout(self)
-        down.addStretch(2)
+        down.addStretch(12 if low else 2)
         down.addLayout(across)
-        down.addStretch(3)
+        down.addStretch(1 if low else 3)
         host.installEventFilter(self)
         theme.changed.connect(self._take_theme)
         self._take_theme()
@@ -85,4 +88,5 @@ class Sheet(QWidget):
         return False
 
     def paintEvent(self, event: QPaintEvent) -> None:
-        QPainter(self).fillRect(self.rect(), QColor(0, 0, 0, DIM_ALPHA[self._theme.name]))
+        if self._dims:
+            QPainter(self).fillRect(self.rect(), QColor(0, 0, 0, DIM_ALPHA[self._theme.name]))

@@ -100,11 +100,10 @@ class StateText(QWidget):
 
     def _resize(self) -> None:
         metrics = QFontMetricsF(self._font())
-        icon = self._theme.px(self._icon_px) + 8 if self._has_icon() else 0
-        self.setFixedSize(
-            int(icon + metrics.horizontalAdvance(self._text) + 2), int(max(icon, metrics.height(), 20)) + 4
-        )
-        self.setVisible(bool(self._text))
+        icon = self._theme.px(self._icon_px) + (8 if self._text else 0) if self._has_icon() else 0
+        width = int(icon + metrics.horizontalAdvance(self._text)) + (2 if self._text else 0)
+        self.setFixedSize(max(width, 1), int(max(icon, metrics.height(), 20)) + 4)
+        self.setVisible(bool(self._text) or self._has_icon())
         self.update()
 
     def _has_icon(self) -> bool:

@@ -50,15 +50,8 @@ class PatientForm(Sheet):
         self.body = self.card.body
         self.body.setSpacing(16)
         self.body.addWidget(self._title)
-        self.body.addWidget(
-            Text(
-                theme,
-                self.tr("A made-up name that can be spoken aloud. No real name, no initials, no date of birth."),
-                14,
-                token="text2",
-                wrap=True,
-            )  # fmt: skip
-        )
+        rule = self.tr("A made-up name that can be spoken aloud. No real name, no initials, no date of birth.")
+        self.body.addWidget(Text(theme, rule, 14, token="text2", wrap=True))
         self.body.addWidget(Labelled(theme, self.tr("&Name in Carpus"), name_row))
         self.body.addWidget(Labelled(theme, self.tr("Affected hand"), self.side))
         self.body.addWidget(Labelled(theme, self.tr("Writes with"), self.dominance))

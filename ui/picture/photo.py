@@ -8,8 +8,9 @@ from PySide6.QtWidgets import QSizePolicy, QWidget
 
 from core.types import ByteImage
 from ui.fonts import SEMIBOLD, font
+from ui.icons import paint_state
 from ui.picture.convert import image_of
-from ui.theme import CARD_RADIUS_PX, ON_PICTURE_LABEL, Theme
+from ui.theme import CARD_RADIUS_PX, LIGHT, ON_PICTURE_LABEL, Theme
 
 LABEL_ALPHA = 180
 
@@ -27,6 +28,19 @@ def paint_label(painter: QPainter, theme: Theme, text: str, left: float, top: fl
     painter.setPen(QColor("#FFFFFF"))
     painter.drawText(plate, Qt.AlignmentFlag.AlignCenter, text)
     return plate
+
+
+def paint_wrong_label(painter: QPainter, theme: Theme, text: str, plate: QRectF) -> None:
+    """Dark red words with an octagon on a light plate, for a mark that is at fault."""
+    painter.setPen(Qt.PenStyle.NoPen)
+    painter.setBrush(QColor(LIGHT.bad_soft))
+    painter.drawRoundedRect(plate, 4, 4)
+    size = plate.height() - 8
+    sign = QRectF(plate.left() + 6, plate.top() + 4, size, size)
+    paint_state(painter, "bad", sign, QColor(LIGHT.bad), QColor(LIGHT.bad_soft))
+    painter.setFont(font(12 * theme.text_scale, SEMIBOLD))
+    painter.setPen(QColor(LIGHT.bad))
+    painter.drawText(plate.adjusted(size + 10, 0, 0, 0), int(Qt.AlignmentFlag.AlignVCenter), text)
 
 
 class Photo(QWidget):

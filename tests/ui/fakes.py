@@ -1,0 +1,412 @@
+"""Stand-ins for camera, register and files: a simulated patient whose true motion plays the tracker's part."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import replace
+from datetime import datetime, timedelta, timezone
+from functools import lru_cache
+from pathlib import Path
+
+import numpy as np
+
+from core.calibration.result import Calibration, Clicks, Finding, Verdict
+from core.camera import Camera
+from core.output.exercises import exercise_named
+from core.pipeline.live_values import LiveCounters, LiveEvent, TrackedView
+from core.session.values import Event, MarkerSeries, QualitySeries, Session, SessionHeader, motion_of
+from core.simulation.recording import SimulatedPictures
+from core.simulation.spec import RecordingSpec
+from core.types import ByteImage, Detections, Frame, TrackedFrame, TrackStatus
+from ui.ports import (
+    FoundMarker,
+    Judged,
+    PatientCard,
+    PatientEntry,
+    PatientRow,
+    ResultLine,
+    SessionRow,
+    SetUp,
+    VerdictLimits,
+    Words,
+)
+
+FPS = 30.0
+NOW = datetime(2026, 11, 20, 11, 36, tzinfo=timezone(timedelta(hours=1)))
+SESSION_ID = "3f9c1e7a-0000-4000-8000-000000000007"
+SD_DEG = np.array([0.5, 1.6, 2.6])
+
+
+@lru_cache(maxsize=8)
+def simulated(
+    motion: str = "flexion", seconds: float = 20.0, speed_hz: float = 0.16, side: str = "right"
+) -> SimulatedPictures:
+    """A bright, near, large hand: pictures by their number and the true motion."""
+    return SimulatedPictures(
+        RecordingSpec(
+            seed=5,
+            hand=side,
+            motion=motion,
+            seconds=seconds,
+            speed_hz=speed_hz,
+            light="bright",
+            skin_tone=1,  # type: ignore[arg-type]
+            distance_m=0.62,
+            hand_length_mm=196.0,
+            yaw_deg=3.0,
+            tilt_deg=4.0,
+            sleeve="none",
+        )
+    )
+
+
+@lru_cache(maxsize=32)
+def picture(motion: str = "flexion", number: int = 0, seconds: float = 20.0, side: str = "right") -> ByteImage:
+    """One colour picture."""
+    pictures = simulated(motion, seconds, 0.16, side)
+    return pictures.sensed(number, pictures.clean(number))[0]
+
+
+def tracked_frames(
+    pictures: SimulatedPictures,
+    hidden: Sequence[tuple[float, float, str]] = (),
+    lost: Sequence[tuple[float, float]] = (),
+) -> list[TrackedFrame]:
+    """The true motion with noise as the tracker would tell it.
+
+    ``hidden`` (start_s, end_s, marker), ``lost`` (start_s, end_s).
+    """
+    truth = pictures.truth
+    rng = np.random.default_rng(1)
+    markers = pictures.spec.marker_protocol.markers
+    noise = np.cumsum(rng.normal(0.0, 0.12, (len(truth.time_s), 3)), axis=0)
+    noise -= np.linspace(0, 1, len(noise))[:, None] * noise[-1]
+    angles = truth.angles_rad + np.radians(np.clip(noise, -2.0, 2.0) * SD_DEG / 2.6)
+    covered_since = np.zeros(len(markers))
+    out = []
+    for k, time_s in enumerate(truth.time_s):
+        covered = np.array([any(a <= time_s < b and name == marker for a, b, marker in hidden) for name in markers])
+        covered_since = np.where(covered, covered_since + 1 / FPS, 0.0)
+        is_lost = any(a <= time_s < b for a, b in lost)
+        measured = truth.disc_pixel[k] + rng.normal(0.0, 0.2, (len(markers), 2))
+        measured[covered | is_lost] = math.nan
+        predicted_only = int(np.isfinite(measured[:, 0]).sum()) < 3
+        status = TrackStatus.LOST if is_lost else TrackStatus.PREDICTED if predicted_only else TrackStatus.TRACKED
+        growth = 1.0 + 3.0 * float(covered_since.max()) + 0.35 * abs(math.sin(time_s))
+        unknown = math.nan if is_lost else 1.0
+        out.append(
+            TrackedFrame(
+                index=k,
+                timestamp_s=float(truth.timestamp_s[k]),
+                status=status,
+                position_m=truth.position_m[k] * unknown,
+                velocity_m_s=truth.velocity_m_s[k] * unknown,
+                rotation_w2_w0=truth.rotation_w2_w0[k] * unknown,
+                angular_velocity_rad_s=truth.angular_velocity_rad_s[k] * unknown,
+                angles_rad=angles[k] * unknown,
+                angles_sd_rad=np.radians(SD_DEG) * growth * unknown,
+                angles_zyz_rad=np.full(3, math.nan),
+                joint_angles_rad=np.empty(0),
+                joint_angles_sd_rad=np.empty(0),
+                joint_velocity_rad_s=np.empty(0),
+                joint_position_m=np.empty((0, 3)),
+                marker_position_cam_m=truth.disc_position_cam_m[k] * unknown,
+                marker_predicted_px=truth.disc_pixel[k] * unknown,
+                marker_predicted_cov_px2=np.eye(2)[None] * (4.0 + 30.0 * covered_since[:, None, None]) * unknown,
+                marker_measured_px=measured,
+                marker_measured_depth_m=np.where(
+                    np.isfinite(measured[:, 0]), truth.disc_position_cam_m[k][:, 2], math.nan
+                ),
+                detections=Detections.none(),
+                dropped_before=0,
+                measured_share=np.ones(3),
+                nis=6.0,
+                nis_dof=12,
+            )
+        )
+    return out
+
+
+def calibration(pictures: SimulatedPictures) -> Calibration:
+    """A perfect calibration on the first picture."""
+    truth, spec = pictures.truth, pictures.spec
+    count = len(spec.marker_protocol.markers)
+    verdict = Verdict(np.full(count, 0.4), 184.0, 4.0, 0.66, 15, ())
+    fields = dict.fromkeys(Calibration.__dataclass_fields__)
+    known = {
+        "clicks": Clicks(spec.hand, spec.marker_protocol, truth.disc_pixel[0]),
+        "marker_position_w0_m": truth.marker_position_w0_m,
+        "rotation_w0_cam": truth.rotation_w0_cam,
+        "translation_w0_cam_m": truth.translation_w0_cam_m,
+        "neutral_cov_rad2": np.eye(3) * math.radians(1.0) ** 2,
+        "marker_covariance_w0_m2": np.tile(np.eye(3) * 1e-6, (count, 1, 1)),
+        "start_angles_rad": np.zeros(3),
+        "verdict": verdict,
+    }
+    return Calibration(**{name: known[name] for name in fields})
+
+
+def set_up(exercise: str = "WRIST_FE", target_deg: float = 60.0) -> SetUp:
+    return SetUp("linden", "Linden 42", "right", exercise_named(exercise), 10, target_deg, math.nan)
+
+
+class FakeFeed:
+    """A live session without threads: :meth:`step` lets time pass."""
+
+    def __init__(
+        self,
+        motion: str = "flexion",
+        seconds: float = 20.0,
+        hidden: Sequence[tuple[float, float, str]] = (),
+        lost: Sequence[tuple[float, float]] = (),
+    ) -> None:
+        self.pictures = simulated(motion, seconds)
+        self.frames = tracked_frames(self.pictures, hidden, lost)
+        self.place = -1
+        self.recording = False
+        self.paused = False
+        self.events: list[LiveEvent] = []
+        self.noted: list[tuple[str, str]] = []
+        self.picture_number: int | None = None
+
+    def step(self, frames: int = 1) -> None:
+        self.place = min(self.place + frames, len(self.frames) - 1)
+
+    def _frame(self, place: int) -> Frame:
+        number = place if self.picture_number is None else self.picture_number
+        color = picture(self.pictures.spec.motion, number, self.pictures.spec.seconds)
+        return Frame(place, self.frames[place].timestamp_s, color, None, 0.001)
+
+    def newest_frame(self) -> Frame | None:
+        return self._frame(max(self.place, 0))
+
+    def newest(self) -> TrackedView | None:
+        return None if self.place < 0 else TrackedView(self._frame(self.place), self.frames[self.place], 0.0)
+
+    def tracked_since(self, index: int) -> list[TrackedFrame]:
+        return [frame for frame in self.frames[: self.place + 1] if frame.index > index]
+
+    def drain_events(self) -> list[LiveEvent]:
+        events, self.events = self.events, []
+        return events
+
+    def counters(self) -> LiveCounters:
+        return LiveCounters(
+            captured=self.place,
+            tracked=self.place,
+            dropped=0,
+            missing=0,
+            fps=30.0,
+            latency_p50_ms=6.0,
+            latency_p95_ms=11.0,
+            waiting_tracking=0,
+            waiting_writing=0,
+            waiting_pictures=0,
+            rows_written=self.place,
+            pictures_written=0,
+            recording=self.recording,
+            paused=self.paused,
+            recording_path=None,
+            disk_free_bytes=2 * 10**10,
+            disk_minutes_left=212.0,
+        )
+
+    def add_event(self, kind: str, text: str = "") -> bool:
+        self.noted.append((kind, text))
+        return self.recording
+
+    def pause_recording(self) -> None:
+        self.paused = True
+
+    def resume_recording(self) -> None:
+        self.paused = False
+
+
+class FakeMeasuring:
+    """An open simulated source with a perfect calibration."""
+
+    def __init__(self, feed: FakeFeed) -> None:
+        self.feed = feed
+        self.camera: Camera = feed.pictures.truth.camera
+        self.calibration: Calibration | None = calibration(feed.pictures)
+        self.fault: Exception | None = None
+        self.closed = False
+
+    def start_recording(self) -> None:
+        if self.fault is not None:
+            raise self.fault
+        self.feed.recording = True
+
+    def stop_recording(self) -> str:
+        self.feed.recording = self.feed.paused = False
+        if self.fault is not None:
+            raise self.fault
+        return "session-7"
+
+    def close(self) -> None:
+        self.closed = True
+
+
+def session(
+    when: datetime = NOW,
+    scale: float = 1.0,
+    seconds: float = 62.0,
+    exercise: str = "WRIST_FE",
+    session_id: str = SESSION_ID,
+    side: str = "right",
+    motion: str = "flexion",
+    speed_hz: float = 0.165,
+    hidden: Sequence[tuple[float, float, str]] = (),
+    lost: Sequence[tuple[float, float]] = (),
+    events: Sequence[Event] = (),
+) -> Session:
+    """A stored session of the simulated patient, its angles scaled to a share of the full range."""
+    pictures = simulated(motion, seconds, speed_hz, side)
+    frames = [replace(frame, angles_rad=frame.angles_rad * scale) for frame in tracked_frames(pictures, hidden, lost)]
+    header = SessionHeader(
+        session_id=session_id,
+        subject_id="Linden 42",
+        created=when.isoformat(timespec="seconds"),
+        hand=pictures.spec.hand,
+        protocol=pictures.spec.marker_protocol,
+        exercise=exercise,
+        software_version="1.0.0",
+        parameters="{}",
+    )
+    cal = calibration(pictures)
+    return Session(
+        path=Path("none.h5"),
+        header=header,
+        camera=pictures.truth.camera,
+        calibration=cal,
+        timestamp_s=np.array([frame.timestamp_s for frame in frames]),
+        status=np.array([int(frame.status) for frame in frames]),
+        motion=motion_of(frames),
+        markers=MarkerSeries(
+            np.array([frame.marker_position_cam_m for frame in frames]),
+            np.array([frame.marker_measured_px for frame in frames]),
+            np.array([frame.marker_measured_depth_m for frame in frames]),
+        ),
+        quality=QualitySeries(
+            np.zeros(len(frames), int), np.ones((len(frames), 3)), np.full(len(frames), 6.0), np.full(len(frames), 12)
+        ),
+        events=tuple(events),
+        smoothed=None,
+        complete=True,
+        recovered="",
+    )
+
+
+def _rows() -> list[PatientRow]:
+    def row(key: str, name: str, side: str, exercise: str, days: int, count: int) -> PatientRow:
+        return PatientRow(key, name, side, "right", exercise, NOW - timedelta(days=days), count)  # type: ignore[arg-type]
+
+    return [
+        row("heron", "Heron 17", "left", "FOREARM_PS", 1, 3),
+        row("quartz", "Quartz 08", "right", "WRIST_RU", 1, 11),
+        row("maple", "Maple 63", "right", "WRIST_FE", 2, 2),
+        row("otter", "Otter 29", "both", "WRIST_FE", 3, 9),
+        row("cobalt", "Cobalt 54", "left", "FREE", 4, 5),
+        row("linden", "Linden 42", "right", "WRIST_FE", 7, 6),
+        row("juniper", "Juniper 31", "right", "FOREARM_PS", 8, 14),
+    ]
+
+
+class FakeStore:
+    """A register in memory."""
+
+    def __init__(self, rows: Sequence[PatientRow] | None = None) -> None:
+        self.rows = list(_rows() if rows is None else rows)
+        self.added: list[PatientEntry] = []
+
+    def patients(self) -> list[PatientRow]:
+        return list(self.rows)
+
+    def card(self, patient_id: str) -> PatientCard:
+        row = next(row for row in self.rows if row.patient_id == patient_id)
+        if row.last_session is None:
+            return PatientCard(row)
+        results = [ResultLine("flexion", 55, 3, 21, "improved"), ResultLine("extension", 43, 3, 5, "no_change")]
+        note = "Splint off since Monday. Forearm strapped, 10 cm wedge."
+        return PatientCard(row, results, "10 repetitions", note, row.last_session, picture())
+
+    def sessions(self, patient_id: str) -> list[SessionRow]:
+        return []
+
+    def suggest_pseudonym(self) -> str:
+        return f"Alder {51 + len(self.added)}"
+
+    def add(self, entry: PatientEntry) -> str:
+        self.added.append(entry)
+        key = f"new-{len(self.added)}"
+        self.rows.insert(0, PatientRow(key, entry.pseudonym, entry.side, entry.dominance, note=entry.note))
+        return key
+
+    def change(self, patient_id: str, entry: PatientEntry) -> None:
+        place = next(k for k, row in enumerate(self.rows) if row.patient_id == patient_id)
+        self.rows[place] = replace(
+            self.rows[place], pseudonym=entry.pseudonym, side=entry.side, dominance=entry.dominance
+        )
+
+
+class FakeCalibrator:
+    """Knows where the discs are; judges as it is told."""
+
+    def __init__(self, motion: str = "flexion", is_live: bool = False) -> None:
+        self.pictures = simulated(motion)
+        self.is_live = is_live
+        self.side = self.pictures.spec.hand
+        self.protocol = self.pictures.spec.marker_protocol
+        self.limits = VerdictLimits(0.6, 15.0, 4.0, (110.0, 225.0))
+        self.findings: tuple[Finding, ...] = ()
+        self.begun: Calibration | None = None
+        self.judged: list[Clicks] = []
+        self.angles: list[np.ndarray] = []
+
+    @property
+    def disc_px(self) -> np.ndarray:
+        return self.pictures.truth.disc_pixel[0]
+
+    def newest_frame(self) -> Frame:
+        return Frame(0, 0.0, picture(self.pictures.spec.motion), None, 0.001)
+
+    hold = newest_frame
+
+    def hand_area(self) -> np.ndarray:
+        return np.array([self.disc_px.min(axis=0), self.disc_px.max(axis=0)])
+
+    def marker_at(self, pixel: np.ndarray) -> FoundMarker | None:
+        distance = np.linalg.norm(self.disc_px - pixel, axis=1)
+        nearest = int(distance.argmin())
+        return FoundMarker(self.disc_px[nearest], 10.0) if distance[nearest] < 8.0 else None
+
+    def judge(self, clicks: Clicks, start_angles_rad: np.ndarray) -> Judged:
+        self.judged.append(clicks)
+        self.angles.append(start_angles_rad)
+        perfect = calibration(self.pictures)
+        verdict = replace(perfect.verdict, findings=self.findings)
+        return Judged(verdict, perfect if verdict.can_start else None)
+
+    def begin(self, calibration: Calibration) -> None:
+        self.begun = calibration
+
+
+class FakePhrasebook:
+    """Words that a test can recognise."""
+
+    def fault(self, fault: Exception) -> Words:
+        return Words(f"{type(fault).__name__} happened.", "Your data are safe.", "Do something.")
+
+    def finding(self, finding: Finding) -> Words:
+        words = {
+            "swapped": Words(
+                "Index and middle knuckle are swapped.",
+                "Nothing has been recorded, so nothing is lost.",
+                "Swap the two names, or click both markers again.",
+            ),
+            "tilt": Words(
+                "The camera looks at the hand from the side.", "", "Turn the camera until it looks straight down."
+            ),
+        }
+        return words.get(finding.kind, Words(f"{finding.kind}.", "", f"Mend {finding.kind}."))

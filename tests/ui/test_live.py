@@ -1,0 +1,290 @@
+"""The live screen: what it shows of each state, what each key does, and that nothing flickers or lies."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from PySide6.QtCore import Qt
+from PySide6.QtWidgets import QWidget
+from pytestqt.qtbot import QtBot
+
+from core.errors import DiskFull
+from core.types import TrackStatus
+from tests.ui.fakes import FakeFeed, FakeMeasuring, set_up
+from ui.background import Background
+from ui.keys import Keys
+from ui.live.curves import LiveCurves
+from ui.live.history import KEPT_S, History
+from ui.live.light import Lamp, SteadyLight, lamp_for
+from ui.live.screen import LiveScreen
+from ui.picture.overlay import axis_pixels, ellipse
+from ui.theme import Theme
+
+MARKERS = ("WRIST", "CMC1", "MCP2", "MCP3", "MCP4", "MCP5")
+
+
+def live(qtbot: QtBot, theme: Theme, feed: FakeFeed) -> tuple[LiveScreen, FakeMeasuring]:
+    screen = LiveScreen(theme, Keys(), Background())
+    qtbot.addWidget(screen)
+    screen.resize(1280, 744)
+    screen.show()
+    screen.activateWindow()
+    qtbot.waitUntil(screen.isActiveWindow)
+    measuring = FakeMeasuring(feed)
+    screen.begin(measuring, set_up())
+    screen._timer.stop()
+    feed.picture_number = 0
+    return screen, measuring
+
+
+def run(screen: LiveScreen, feed: FakeFeed, seconds: float) -> None:
+    for _ in range(round(seconds * 30 / 2)):
+        feed.step(2)
+        screen.tick()
+
+
+def key(qtbot: QtBot, screen: QWidget, name: str) -> None:
+    qtbot.keyClick(screen, {"Space": Qt.Key.Key_Space, "F4": Qt.Key.Key_F4, "F5": Qt.Key.Key_F5, "F6": Qt.Key.Key_F6, "F7": Qt.Key.Key_F7}[name])  # fmt: skip
+
+
+def record(qtbot: QtBot, screen: LiveScreen, measuring: FakeMeasuring) -> None:
+    key(qtbot, screen, "Space")
+    qtbot.waitUntil(lambda: screen._count is not None)
+    assert measuring.feed.recording
+
+
+def test_the_number_is_that_of_the_picture_shown(qtbot: QtBot, theme: Theme) -> None:
+    feed = FakeFeed()
+    screen, _ = live(qtbot, theme, feed)
+    run(screen, feed, 5.0)
+    shown = math.degrees(float(feed.newest().tracked.angles_rad[1]))  # type: ignore[union-attr]
+    screen._show_values()
+    assert screen.number.reading.value_deg == pytest.approx(shown)
+    assert screen.number.movement() == ("Flexion" if shown > 0 else "Extension")
+    assert screen.light.lamp.rank == "good"
+
+
+def test_space_records_and_space_stops_and_leads_to_the_session(qtbot: QtBot, theme: Theme) -> None:
+    feed = FakeFeed()
+    screen, measuring = live(qtbot, theme, feed)
+    run(screen, feed, 1.0)
+    record(qtbot, screen, measuring)
+    assert screen.recording_state == "recording"
+    run(screen, feed, 4.0)
+    assert screen.recorded_s == pytest.approx(4.0, abs=0.2)
+    with qtbot.waitSignal(screen.stopped) as stopped:
+        key(qtbot, screen, "Space")
+    assert stopped.args == ["session-7"]
+    assert screen.recording_state == "off"
+
+
+def test_repetitions_and_best_are_counted_from_recorded_frames_only(qtbot: QtBot, theme: Theme) -> None:
+    feed = FakeFeed(seconds=32.0)
+    screen, measuring = live(qtbot, theme, feed)
+    run(screen, feed, 6.0)
+    record(qtbot, screen, measuring)
+    run(screen, feed, 24.0)
+    assert screen._count is not None
+    assert screen._count.count() in (3, 4)
+    recorded = np.degrees(
+        [
+            f.angles_rad[1]
+            for f in feed.frames
+            if f.timestamp_s >= screen._count._times[0] - 1e-9 and f.index <= feed.place
+        ]
+    )
+    screen._show_values()
+    assert screen.number.reading.best_positive_deg == pytest.approx(recorded.max())
+    assert screen.number.reading.best_negative_deg == pytest.approx(recorded.min())
+
+
+def test_a_pause_is_not_recorded_time(qtbot: QtBot, theme: Theme) -> None:
+    feed = FakeFeed()
+    screen, measuring = live(qtbot, theme, feed)
+    run(screen, feed, 1.0)
+    record(qtbot, screen, measuring)
+    run(screen, feed, 2.0)
+    key(qtbot, screen, "F7")
+    assert screen.recording_state == "paused"
+    run(screen, feed, 3.0)
+    key(qtbot, screen, "F7")
+    run(screen, feed, 2.0)
+    assert screen.recorded_s == pytest.approx(4.0, abs=0.4)
+
+
+def test_note_and_pain_are_stored_by_keyboard(qtbot: QtBot, theme: Theme) -> None:
+    feed = FakeFeed()
+    screen, measuring = live(qtbot, theme, feed)
+    run(screen, feed, 1.0)
+    record(qtbot, screen, measuring)
+    screen._show_buttons()
+    key(qtbot, screen, "F5")
+    assert screen.note_sheet.isVisible()
+    qtbot.keyClicks(screen.note_sheet.line, "strap loose")
+    qtbot.keyClick(screen.note_sheet.line, Qt.Key.Key_Return)
+    key(qtbot, screen, "F6")
+    qtbot.keyClick(screen.pain_sheet.buttons[0], Qt.Key.Key_3)
+    assert feed.noted == [("note", "strap loose"), ("pain", "3")]
+    assert not screen.pain_sheet.isVisible()
+
+
+def test_a_recording_that_cannot_start_tells_its_fault_and_shows_no_recording(qtbot: QtBot, theme: Theme) -> None:
+    feed = FakeFeed()
+    screen, measuring = live(qtbot, theme, feed)
+    run(screen, feed, 1.0)
+    measuring.fault = DiskFull("disk")
+    with qtbot.waitSignal(screen.told) as told:
+        key(qtbot, screen, "Space")
+    assert isinstance(told.args[0], DiskFull)
+    assert screen.recording_state == "off"
+
+
+def test_lost_frames_show_no_number_and_a_red_light(qtbot: QtBot, theme: Theme) -> None:
+    feed = FakeFeed(lost=[(3.0, 20.0)])
+    screen, _ = live(qtbot, theme, feed)
+    run(screen, feed, 5.0)
+    screen._show_values()
+    assert math.isnan(screen.number.reading.value_deg)
+    assert screen.light.lamp.rank == "bad"
+    assert screen.history.angle(1).gaps_s()
+
+
+def test_predicted_frames_are_marked_and_do_not_count_as_best(qtbot: QtBot, theme: Theme) -> None:
+    hidden = [(2.0, 20.0, name) for name in MARKERS[:4]]
+    feed = FakeFeed(hidden=hidden)
+    screen, measuring = live(qtbot, theme, feed)
+    run(screen, feed, 3.0)
+    record(qtbot, screen, measuring)
+    run(screen, feed, 6.0)
+    screen._show_values()
+    assert screen.number.reading.predicted
+    assert math.isnan(screen.number.reading.best_positive_deg)
+    assert screen.light.lamp.rank == "warn"
+
+
+def test_a_lost_camera_leaves_no_old_picture_and_no_old_number(qtbot: QtBot, theme: Theme) -> None:
+    feed = FakeFeed()
+    screen, measuring = live(qtbot, theme, feed)
+    run(screen, feed, 2.0)
+    record(qtbot, screen, measuring)
+    screen.set_camera_lost(True)
+    screen.tick()
+    screen._show_values()
+    assert screen.picture.image is None
+    assert math.isnan(screen.number.reading.value_deg)
+    assert screen.light.lamp.state == "No picture"
+    assert screen.recording_state == "paused"
+
+
+def test_f4_changes_between_angles_and_speeds(qtbot: QtBot, theme: Theme) -> None:
+    feed = FakeFeed()
+    screen, _ = live(qtbot, theme, feed)
+    run(screen, feed, 2.0)
+    key(qtbot, screen, "F4")
+    assert screen.curves.shows_speeds
+    assert len(screen.curves.panels()) == 2
+    key(qtbot, screen, "F4")
+    assert len(screen.curves.panels()) == 3
+
+
+def test_large_text_on_a_small_screen_keeps_what_is_read_from_afar(qtbot: QtBot, theme: Theme) -> None:
+    feed = FakeFeed()
+    screen, _ = live(qtbot, theme, feed)
+    theme.choose(text_scale=1.5)
+    run(screen, feed, 1.0)
+    assert not screen.path.isVisible()
+    assert screen.number.isVisible()
+    assert screen.light.isVisible()
+
+
+# --- pieces -----------------------------------------------------------------------------------------------
+def test_history_keeps_ten_seconds_whatever_comes() -> None:
+    feed = FakeFeed()
+    history = History()
+    history.append(feed.frames)
+    history.append(feed.frames)
+    series = history.angle(0)
+    assert series.time_s[-1] - series.time_s[0] <= KEPT_S
+    assert np.all(np.diff(series.time_s) > 0)
+
+
+def test_the_arm_is_said_to_have_moved_only_outside_the_ball() -> None:
+    feed = FakeFeed()
+    frames = [replace(frame, position_m=np.zeros(3)) for frame in feed.frames[:30]]
+    history = History()
+    history.append(frames)
+    for distance_m, moved in ((0.0149, False), (0.0151, True)):
+        step = np.array([0.0, 0.0, distance_m])
+        history.append(
+            [replace(frames[0], index=history.last_index + 1, timestamp_s=history.now_s + 0.03, position_m=step)]
+        )
+        assert history.forearm_moved() is moved
+
+
+@pytest.mark.parametrize(("rank", "delay_s"), [("warn", 0.3), ("good", 0.5)])
+def test_the_light_changes_only_after_its_delay(rank: str, delay_s: float) -> None:
+    other = {"warn": "good", "good": "warn"}[rank]
+    light = SteadyLight()
+    light.show(Lamp(other, "a", ""), 0.0)  # type: ignore[arg-type]
+    wanted = Lamp(rank, "b", "")  # type: ignore[arg-type]
+    assert light.show(wanted, 1.0).rank == other
+    assert light.show(wanted, 1.0 + delay_s - 0.05).rank == other
+    assert light.show(wanted, 1.0 + delay_s) == wanted
+
+
+def test_a_flicker_never_reaches_the_light_and_red_does_at_once() -> None:
+    light = SteadyLight()
+    good, warn = Lamp("good", "a", ""), Lamp("warn", "b", "")
+    light.show(good, 0.0)
+    for step in range(40):
+        assert light.show(warn if step % 4 == 0 else good, 1.0 + 0.05 * step) == good
+    assert light.show(Lamp("bad", "c", ""), 4.0).rank == "bad"
+
+
+def test_the_light_names_the_one_hidden_marker_and_its_remedy() -> None:
+    frame = FakeFeed(hidden=[(0.0, 99.0, "CMC1")]).frames[10]
+    lamp = lamp_for(frame, MARKERS, False)
+    assert lamp.state == "Thumb base hidden"
+    assert lamp.remedy == "Turn the thumb side up"
+    assert lamp_for(replace(frame, status=TrackStatus.LOST), MARKERS, False).rank == "bad"
+    assert lamp_for(FakeFeed().frames[10], MARKERS, True).state == "Arm moved"
+
+
+def test_curves_scroll_on_fixed_scales(qtbot: QtBot, theme: Theme) -> None:
+    feed = FakeFeed()
+    history = History()
+    curves = LiveCurves(theme, history)
+    qtbot.addWidget(curves)
+    curves.resize(696, 396)
+    scales = []
+    for end in (60, 200, 590):
+        history.append(feed.frames[:end])
+        scales.append([(panel.scale.low, panel.scale.high, panel.box) for panel, _ in curves.panels()])
+    assert scales[0] == scales[1] == scales[2]
+
+
+def test_axes_point_along_the_hand_in_the_picture() -> None:
+    measuring = FakeMeasuring(FakeFeed())
+    frame = measuring.feed.frames[0]
+    assert measuring.calibration is not None
+    origin, x_end, y_end, _ = axis_pixels(frame, measuring.calibration, measuring.camera)
+    discs = measuring.calibration.clicks.pixel
+    along = (discs[3] - discs[0]) / np.linalg.norm(discs[3] - discs[0])
+    assert np.allclose(origin, discs[0], atol=4.0)
+    assert (x_end - origin) @ along > 0.98 * np.linalg.norm(x_end - origin)
+    assert (y_end - origin) @ (discs[2] - discs[5]) > 0
+
+
+def test_the_ellipse_is_two_standard_deviations_of_any_covariance() -> None:
+    rng = np.random.default_rng(3)
+    for _ in range(20):
+        root = rng.normal(0, 6, (2, 2))
+        covariance = root @ root.T + 9 * np.eye(2)
+        longer, shorter, turn_deg = ellipse(covariance)
+        turn = math.radians(turn_deg)
+        axes = np.array([[math.cos(turn), -math.sin(turn)], [math.sin(turn), math.cos(turn)]])
+        rebuilt = axes @ np.diag([(longer / 2) ** 2, (shorter / 2) ** 2]) @ axes.T
+        np.testing.assert_allclose(rebuilt, covariance, rtol=1e-9)

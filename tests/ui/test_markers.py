@@ -1,0 +1,199 @@
+"""The calibration screen by mouse and by keyboard, and what its verdict lets a person do."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+from PySide6.QtCore import QPoint, Qt
+from pytestqt.qtbot import QtBot
+
+from core.calibration.result import Finding
+from core.hand.protocols import WRIST6
+from tests.ui.fakes import FakeCalibrator, FakePhrasebook
+from ui.background import Background
+from ui.keys import Keys
+from ui.markers.clicking import Clicking
+from ui.markers.screen import MarkersScreen
+from ui.theme import Theme
+
+
+@pytest.fixture
+def screen(qtbot: QtBot, theme: Theme) -> MarkersScreen:
+    screen = MarkersScreen(theme, Keys(), Background(), FakePhrasebook())
+    qtbot.addWidget(screen)
+    screen.resize(1280, 720)
+    screen.show()
+    return screen
+
+
+def place_of(screen: MarkersScreen, pixel: np.ndarray) -> QPoint:
+    return screen.picture.to_screen(*map(float, pixel)).toPoint()
+
+
+def click_all(qtbot: QtBot, screen: MarkersScreen, calibrator: FakeCalibrator, off_px: float = 2.0) -> None:
+    for pixel in calibrator.disc_px:
+        spot = place_of(screen, pixel + off_px)
+        qtbot.mouseMove(screen.picture, spot)
+        qtbot.mouseClick(screen.picture, Qt.MouseButton.LeftButton, pos=spot)
+
+
+def wait_for_verdict(qtbot: QtBot, screen: MarkersScreen) -> None:
+    qtbot.waitUntil(lambda: screen.clicking is not None and screen.clicking.complete and screen.primary.isEnabled())
+
+
+def test_clicks_snap_to_the_discs_in_the_order_of_the_protocol(qtbot: QtBot, screen: MarkersScreen) -> None:
+    calibrator = FakeCalibrator()
+    screen.begin(calibrator)
+    click_all(qtbot, screen, calibrator)
+    wait_for_verdict(qtbot, screen)
+    np.testing.assert_allclose(calibrator.judged[-1].pixel, calibrator.disc_px)
+    assert calibrator.judged[-1].protocol.markers == WRIST6.markers
+    with qtbot.waitSignal(screen.started):
+        qtbot.keyClick(screen.focusWidget(), Qt.Key.Key_Return)
+    assert calibrator.begun is not None
+
+
+def test_the_whole_way_by_keyboard_alone(qtbot: QtBot, screen: MarkersScreen) -> None:
+    calibrator = FakeCalibrator()
+    screen.begin(calibrator)
+    qtbot.keyClick(screen.picture, Qt.Key.Key_Left)
+    for pixel in calibrator.disc_px:
+        cursor = screen.picture.cursor_px
+        assert cursor is not None
+        steps = np.round(pixel - cursor).astype(int)
+        for axis, (less, more) in enumerate(((Qt.Key.Key_Left, Qt.Key.Key_Right), (Qt.Key.Key_Up, Qt.Key.Key_Down))):
+            tens, ones = divmod(abs(int(steps[axis])), 10)
+            key = more if steps[axis] > 0 else less
+            for _ in range(tens):
+                qtbot.keyClick(screen.picture, key, Qt.KeyboardModifier.ShiftModifier)
+            for _ in range(ones):
+                qtbot.keyClick(screen.picture, key)
+        np.testing.assert_allclose(screen.picture.cursor_px, cursor + steps)
+        qtbot.keyClick(screen.picture, Qt.Key.Key_Space)
+    wait_for_verdict(qtbot, screen)
+    np.testing.assert_allclose(calibrator.judged[-1].pixel, calibrator.disc_px)
+    with qtbot.waitSignal(screen.started):
+        qtbot.keyClick(screen.focusWidget(), Qt.Key.Key_Return)
+
+
+def test_a_click_beside_every_disc_sets_nothing_and_says_so(qtbot: QtBot, screen: MarkersScreen) -> None:
+    screen.begin(FakeCalibrator())
+    qtbot.mouseClick(screen.picture, Qt.MouseButton.LeftButton, pos=QPoint(30, 30))
+    assert screen.clicking is not None
+    assert not screen.clicking.pixel
+    assert "No blue marker" in screen.picture.no_marker_words
+
+
+def test_backspace_takes_back_one_marker_and_asks_for_it_again(qtbot: QtBot, screen: MarkersScreen) -> None:
+    calibrator = FakeCalibrator()
+    screen.begin(calibrator)
+    for pixel in calibrator.disc_px[:3]:
+        qtbot.mouseClick(screen.picture, Qt.MouseButton.LeftButton, pos=place_of(screen, pixel))
+    assert screen.clicking is not None
+    assert screen.clicking.current == WRIST6.markers[3]
+    qtbot.keyClick(screen.picture, Qt.Key.Key_Backspace)
+    assert screen.clicking.current == WRIST6.markers[2]
+    assert set(screen.clicking.pixel) == set(WRIST6.markers[:2])
+    assert "index knuckle" in screen.title.text()
+
+
+def test_tab_chooses_which_marker_is_clicked_next(qtbot: QtBot, screen: MarkersScreen) -> None:
+    calibrator = FakeCalibrator()
+    screen.begin(calibrator)
+    qtbot.keyClick(screen.picture, Qt.Key.Key_Tab)
+    qtbot.mouseClick(screen.picture, Qt.MouseButton.LeftButton, pos=place_of(screen, calibrator.disc_px[1]))
+    assert screen.clicking is not None
+    assert list(screen.clicking.pixel) == ["CMC1"]
+    assert screen.clicking.missing[0] == "WRIST"
+
+
+def test_a_marker_can_be_dragged_to_another_disc(qtbot: QtBot, screen: MarkersScreen) -> None:
+    calibrator = FakeCalibrator()
+    screen.begin(calibrator)
+    qtbot.mouseClick(screen.picture, Qt.MouseButton.LeftButton, pos=place_of(screen, calibrator.disc_px[1]))
+    assert screen.clicking is not None
+    np.testing.assert_allclose(screen.clicking.pixel["WRIST"], calibrator.disc_px[1])
+    qtbot.mousePress(screen.picture, Qt.MouseButton.LeftButton, pos=place_of(screen, calibrator.disc_px[1]))
+    qtbot.mouseRelease(screen.picture, Qt.MouseButton.LeftButton, pos=place_of(screen, calibrator.disc_px[0]))
+    np.testing.assert_allclose(screen.clicking.pixel["WRIST"], calibrator.disc_px[0])
+
+
+def test_swapped_markers_are_exchanged_by_enter_and_judged_again(qtbot: QtBot, screen: MarkersScreen) -> None:
+    calibrator = FakeCalibrator()
+    calibrator.findings = (Finding("swapped", ("MCP2", "MCP3")),)
+    screen.begin(calibrator)
+    click_all(qtbot, screen, calibrator)
+    wait_for_verdict(qtbot, screen)
+    assert screen.panel.states()[0] == "bad"
+    assert screen.picture.wrong == {"MCP2", "MCP3"}
+    calibrator.findings = ()
+    qtbot.keyClick(screen.focusWidget(), Qt.Key.Key_Return)
+    wait_for_verdict(qtbot, screen)
+    np.testing.assert_allclose(calibrator.judged[-1].pixel[2:4], calibrator.disc_px[[3, 2]])
+    assert calibrator.begun is None
+
+
+def test_a_doubtful_calibration_starts_only_by_its_own_button(qtbot: QtBot, screen: MarkersScreen) -> None:
+    calibrator = FakeCalibrator()
+    calibrator.findings = (Finding("tilt", (), 19.0, 15.0, "deg"),)
+    screen.begin(calibrator)
+    click_all(qtbot, screen, calibrator)
+    wait_for_verdict(qtbot, screen)
+    assert screen.second.isVisible()
+    started: list[bool] = []
+    screen.started.connect(lambda: started.append(True))
+    qtbot.keyClick(screen.focusWidget(), Qt.Key.Key_Return)
+    assert not started
+    click_all(qtbot, screen, calibrator)
+    wait_for_verdict(qtbot, screen)
+    qtbot.mouseClick(screen.second, Qt.MouseButton.LeftButton)
+    assert started
+    assert calibrator.begun is not None
+
+
+def test_what_blocks_cannot_be_started_at_all(qtbot: QtBot, screen: MarkersScreen) -> None:
+    calibrator = FakeCalibrator()
+    calibrator.findings = (Finding("no_depth", ("CMC1",), blocks=True),)
+    screen.begin(calibrator)
+    click_all(qtbot, screen, calibrator)
+    wait_for_verdict(qtbot, screen)
+    assert not screen.second.isVisible()
+    qtbot.mouseClick(screen.primary, Qt.MouseButton.LeftButton)
+    assert calibrator.begun is None
+    assert screen.clicking is not None
+    assert screen.clicking.missing == ("CMC1",)
+
+
+def test_a_given_start_angle_reaches_the_calibration_with_its_sign(qtbot: QtBot, screen: MarkersScreen) -> None:
+    calibrator = FakeCalibrator()
+    screen.begin(calibrator)
+    qtbot.mouseClick(screen.start_angle, Qt.MouseButton.LeftButton)
+    direction, value = screen.angle_sheet.fields[1]
+    direction.buttons()[1].click()
+    value.setValue(20.0)
+    screen.angle_sheet.kept.emit(screen.angle_sheet.angles_rad())
+    screen.angle_sheet.close_sheet()
+    click_all(qtbot, screen, calibrator)
+    wait_for_verdict(qtbot, screen)
+    np.testing.assert_allclose(calibrator.angles[-1], [0.0, math.radians(-20.0), 0.0])
+    assert "Extension 20°" in screen.start_angle.text()
+
+
+def test_a_live_camera_shows_pictures_until_one_is_taken(qtbot: QtBot, screen: MarkersScreen) -> None:
+    calibrator = FakeCalibrator(is_live=True)
+    screen.begin(calibrator)
+    assert screen.clicking is None
+    qtbot.keyClick(screen.picture, Qt.Key.Key_Space)
+    assert screen.clicking is not None
+    qtbot.mouseClick(screen.new_picture, Qt.MouseButton.LeftButton)
+    assert screen.clicking is None
+
+
+def test_undo_walks_back_through_any_order() -> None:
+    clicking = Clicking(WRIST6, "right")
+    for name in ("MCP4", "WRIST", "MCP2"):
+        clicking.current = name
+        clicking.place(np.zeros(2), 9.0)
+    assert [clicking.undo() for _ in range(4)] == ["MCP2", "WRIST", "MCP4", ""]

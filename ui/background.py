@@ -1,0 +1,60 @@
+"""Work that may wait for the disk, done beside the window's thread; the answer comes back as a signal."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+from PySide6.QtCore import QObject, QRunnable, Qt, QThreadPool, Signal
+
+
+class _Answer(QObject):
+    done = Signal(object)
+    failed = Signal(object)
+
+
+class _Task(QRunnable):
+    def __init__(self, work: Callable[[], Any], answer: _Answer) -> None:
+        super().__init__()
+        self._work, self._answer = work, answer
+
+    def run(self) -> None:
+        try:
+            result = self._work()
+        except Exception as fault:  # the one catch at the top of this thread
+            self._answer.failed.emit(fault)
+        else:
+            self._answer.done.emit(result)
+
+
+class Background(QObject):
+    """Runs one piece of work at a time in order; ``done`` and ``failed`` are called in the window's thread."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self._pool = QThreadPool()
+        self._pool.setMaxThreadCount(1)
+        self._answers: set[_Answer] = set()
+
+    def run(self, work: Callable[[], Any], done: Callable[[Any], None], failed: Callable[[Exception], None]) -> None:
+        """Start ``work``; exactly one of the two is called later."""
+        answer = _Answer()
+        self._answers.add(answer)
+
+        def finish(call: Callable[[Any], None], value: Any) -> None:
+            self._answers.discard(answer)
+            call(value)
+
+        queued = Qt.ConnectionType.QueuedConnection
+        answer.done.connect(lambda value: finish(done, value), queued)
+        answer.failed.connect(lambda fault: finish(failed, fault), queued)
+        self._pool.start(_Task(work, answer))
+
+    @property
+    def busy(self) -> bool:
+        """Whether an answer is still awaited."""
+        return bool(self._answers)
+
+    def wait(self, timeout_ms: int = 10_000) -> bool:
+        """Wait until all work has run, as when the program ends."""
+        return self._pool.waitForDone(timeout_ms)

@@ -1,0 +1,72 @@
+"""Every key in one table; a person may give each action another key."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+
+from PySide6.QtCore import QCoreApplication, Qt
+from PySide6.QtGui import QKeySequence, QShortcut
+from PySide6.QtWidgets import QWidget
+
+DEFAULT_KEYS = {
+    "help": "F1", "settings": "Ctrl+,", "search": "Ctrl+F", "new_patient": "Ctrl+N", "report": "Ctrl+P",
+    "export": "Ctrl+E", "back": "Esc",
+    "record": "Space", "note": "F5", "pain": "F6", "pause": "F7", "overlay": "F8", "whole_picture": "F9",
+    "speeds": "F4", "next_angle": "F2",
+    "accept": "Space", "undo": "Backspace", "next_marker": "Tab", "zoom_in": "+", "zoom_out": "-", "swap": "S",
+    "new_picture": "N", "last_picture": "M", "click_again": "C",
+    "play": "Space", "frame_back": "Left", "frame_on": "Right", "repetition_back": "[", "repetition_on": "]",
+    "leave_out": "X", "edge_back": ",", "edge_on": ".",
+}  # fmt: skip
+"""While measuring only the space bar and function keys, so that no keyboard layout or language matters."""
+
+
+@dataclass(frozen=True, slots=True)
+class Keys:
+    """The default keys with what a person changed."""
+
+    changed: Mapping[str, str] = field(default_factory=dict)
+
+    def __getitem__(self, name: str) -> str:
+        return self.changed.get(name, DEFAULT_KEYS[name])
+
+
+def bind(
+    host: QWidget,
+    keys: Keys,
+    name: str,
+    action: Callable[[], object],
+    context: Qt.ShortcutContext = Qt.ShortcutContext.WidgetWithChildrenShortcut,
+) -> QShortcut:
+    """Make a key work while the host or a child of it has the keyboard."""
+    shortcut = QShortcut(QKeySequence(keys[name]), host)
+    shortcut.setContext(context)
+    shortcut.setAutoRepeat(name in ("frame_back", "frame_on", "edge_back", "edge_on"))
+    shortcut.activated.connect(action)
+    return shortcut
+
+
+def action_words(name: str) -> str:
+    """What a key does, for the help and the settings."""
+    tr = QCoreApplication.translate
+    words = {
+        "help": tr("Keys", "Help"), "settings": tr("Keys", "Settings"), "search": tr("Keys", "Search for a patient"),
+        "new_patient": tr("Keys", "New patient"), "report": tr("Keys", "Report"), "export": tr("Keys", "Export"),
+        "back": tr("Keys", "Back"), "record": tr("Keys", "Record, and stop and review"), "note": tr("Keys", "Note"),
+        "pain": tr("Keys", "Pain score"), "pause": tr("Keys", "Pause and go on"),
+        "overlay": tr("Keys", "Hide or show the marks on the picture"),
+        "whole_picture": tr("Keys", "Whole picture or hand area"), "speeds": tr("Keys", "Speeds or angles"),
+        "next_angle": tr("Keys", "Next angle as big number"), "accept": tr("Keys", "Accept the marker found"),
+        "undo": tr("Keys", "Undo the last marker"), "next_marker": tr("Keys", "Next marker"),
+        "zoom_in": tr("Keys", "Larger loupe"), "zoom_out": tr("Keys", "Smaller loupe"),
+        "swap": tr("Keys", "Swap two markers"), "new_picture": tr("Keys", "New picture"),
+        "last_picture": tr("Keys", "Last time's picture larger"), "click_again": tr("Keys", "Click again"),
+        "play": tr("Keys", "Play and stop"),
+        "frame_back": tr("Keys", "Previous picture"), "frame_on": tr("Keys", "Next picture"),
+        "repetition_back": tr("Keys", "Previous repetition"), "repetition_on": tr("Keys", "Next repetition"),
+        "leave_out": tr("Keys", "Leave a repetition out, or take it back"),
+        "edge_back": tr("Keys", "Move the repetition's edge back"),
+        "edge_on": tr("Keys", "Move the repetition's edge on"),
+    }  # fmt: skip
+    return words[name]

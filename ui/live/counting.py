@@ -1,0 +1,58 @@
+"""Repetitions, best values and time of the running recording, by the same measures as the review will use."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+
+import numpy as np
+
+from core.measures.repetitions import find_repetitions
+from core.measures.signals import even_signal
+from core.measures.validity import LARGEST_SD_RAD
+from core.output.exercises import FLEXION, Exercise
+from core.types import TrackedFrame, TrackStatus
+
+
+class RunningCount:
+    """Takes recorded frames; counts when asked. Counting is for once a second, not for each frame."""
+
+    def __init__(self, exercise: Exercise) -> None:
+        self.angle = FLEXION if exercise.angle is None else exercise.angle
+        self._counts = exercise.angle is not None
+        self._times: list[float] = []
+        self._values: list[float] = []
+        self._valid: list[bool] = []
+        self.repetitions = 0
+        self.recorded_s = 0.0
+        self.best_positive_deg = math.nan
+        self.best_negative_deg = math.nan
+
+    def append(self, frames: Sequence[TrackedFrame]) -> None:
+        """Add frames that are being recorded."""
+        for frame in frames:
+            if self._times and frame.timestamp_s <= self._times[-1]:
+                continue
+            if self._times:
+                # A pause leaves a long step between two frames; it is not recorded time.
+                self.recorded_s += min(frame.timestamp_s - self._times[-1], 0.2)
+            value, sd = float(frame.angles_rad[self.angle]), float(frame.angles_sd_rad[self.angle])
+            valid = frame.status == TrackStatus.TRACKED and math.isfinite(value) and sd <= LARGEST_SD_RAD
+            self._times.append(frame.timestamp_s)
+            self._values.append(value)
+            self._valid.append(valid)
+            if valid:
+                self._take_best(math.degrees(value))
+
+    def count(self) -> int:
+        """Full repetitions so far."""
+        if self._counts and len(self._times) > 2:
+            signal = even_signal(np.array(self._times), np.array(self._values), np.array(self._valid))
+            self.repetitions = len(find_repetitions(signal).repetitions) if len(signal.time_s) else 0
+        return self.repetitions
+
+    def _take_best(self, value_deg: float) -> None:
+        if value_deg >= 0.0:
+            self.best_positive_deg = float(np.fmax(self.best_positive_deg, value_deg))
+        else:
+            self.best_negative_deg = float(np.fmin(self.best_negative_deg, value_deg))

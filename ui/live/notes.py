@@ -1,0 +1,100 @@
+"""A note or a pain score while measuring: typed or clicked in a few seconds, the screen stays readable."""
+
+from __future__ import annotations
+
+from PySide6.QtCore import Qt, Signal
+from PySide6.QtGui import QKeyEvent
+from PySide6.QtWidgets import QHBoxLayout, QLineEdit, QWidget
+
+from ui.controls.button import Button
+from ui.controls.sheet import Sheet
+from ui.controls.text import SEMIBOLD, Text
+from ui.theme import Theme
+
+MOST_PAIN = 10
+
+
+class NoteSheet(Sheet):
+    """One line; Enter keeps it with the time of the picture."""
+
+    kept = Signal(str)
+
+    def __init__(self, host: QWidget, theme: Theme) -> None:
+        super().__init__(host, theme, 720, low=True)
+        self.line = QLineEdit()
+        self.line.setPlaceholderText(self.tr("What happened? No names."))
+        self.line.setAccessibleName(self.tr("Note"))
+        keep = Button(theme, self.tr("Keep note"), "primary", hint=self.tr("Enter"), height_px=44)
+        close = Button(theme, self.tr("Close"), "plain", hint=self.tr("Esc"))
+        self.card.body.addWidget(Text(theme, self.tr("Note at this moment"), 16, SEMIBOLD))
+        row = QHBoxLayout()
+        row.addWidget(self.line, 1)
+        row.addWidget(close)
+        row.addWidget(keep)
+        self.card.body.addLayout(row)
+        quick = QHBoxLayout()
+        for words in (
+            self.tr("Stopped for pain"),
+            self.tr("Strap loosened"),
+            self.tr("Rest"),
+            self.tr("Helped by hand"),
+        ):
+            button = Button(theme, words, "plain", height_px=36)
+            button.clicked.connect(lambda _=False, words=words: self._keep(words))
+            quick.addWidget(button)
+        quick.addStretch(1)
+        self.card.body.addLayout(quick)
+        self.line.returnPressed.connect(lambda: self._keep(self.line.text()))
+        keep.clicked.connect(lambda: self._keep(self.line.text()))
+        close.clicked.connect(self.close_sheet)
+
+    def begin(self) -> None:
+        """Open empty."""
+        self.line.clear()
+        self.open(self.line)
+
+    def _keep(self, words: str) -> None:
+        self.close_sheet()
+        if words.strip():
+            self.kept.emit(words.strip())
+
+
+class PainSheet(Sheet):
+    """Pain from 0 to 10: a click, a digit, or arrows and Enter."""
+
+    kept = Signal(int)
+
+    def __init__(self, host: QWidget, theme: Theme) -> None:
+        super().__init__(host, theme, 720, low=True)
+        self.card.body.addWidget(Text(theme, self.tr("Pain now, 0 (none) to 10 (worst)"), 16, SEMIBOLD))
+        row = QHBoxLayout()
+        row.setSpacing(6)
+        self.buttons: list[Button] = []
+        for score in range(MOST_PAIN + 1):
+            button = Button(theme, str(score), "plain", height_px=48)
+            button.clicked.connect(lambda _=False, score=score: self._keep(score))
+            row.addWidget(button)
+            self.buttons.append(button)
+        self.card.body.addLayout(row)
+        self.card.body.addWidget(
+            Text(theme, self.tr("At 5 or more, or 2 more than before: stop the exercise."), 14, token="text2")
+        )
+
+    def begin(self) -> None:
+        """Open with the keyboard on 0."""
+        self.open(self.buttons[0])
+
+    def _keep(self, score: int) -> None:
+        self.close_sheet()
+        self.kept.emit(score)
+
+    def keyPressEvent(self, event: QKeyEvent) -> None:
+        step = {Qt.Key.Key_Left: -1, Qt.Key.Key_Right: 1}.get(Qt.Key(event.key()), 0)
+        if event.text().isdigit():
+            self._keep(int(event.text()))
+        elif step:
+            now = self.window().focusWidget()
+            place = self.buttons.index(now) if now in self.buttons else 0  # type: ignore[arg-type]
+            self.buttons[(place + step) % len(self.buttons)].setFocus(Qt.FocusReason.TabFocusReason)
+        else:
+            super().keyPressEvent(event)

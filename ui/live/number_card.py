@@ -1,0 +1,212 @@
+"""What is read from 1.5 m: the movement, its angle, how sure it is, and which repetition."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+
+from PySide6.QtCore import QPointF, QRectF, QSize, Qt
+from PySide6.QtGui import QFontMetricsF, QPainter, QPainterPath, QPaintEvent, QPen
+from PySide6.QtWidgets import QSizePolicy, QWidget
+
+from core.output.exercises import AXIS_TICK_DEG, SIDES
+from ui import numbers, terms
+from ui.fonts import MEDIUM, REGULAR, SEMIBOLD, font
+from ui.plot.axes import hatch
+from ui.plot.style import CURVE_TOKENS, screen_style
+from ui.theme import CARD_RADIUS_PX, Theme
+
+NUMBER_PX, NUMBER_WIDE_PX = 128, 160
+WIDE_FROM_PX = 900
+MOST_DOTS = 12
+
+
+@dataclass(frozen=True, slots=True)
+class Reading:
+    """What the card shows. ``angle`` is the column; best values are NaN until something was measured."""
+
+    angle: int = 1
+    value_deg: float = math.nan
+    sd_deg: float = math.nan
+    predicted: bool = False
+    repetitions_done: int = 0
+    repetitions_asked: int = 0
+    repetition_running: bool = False
+    speed_deg_s: float = math.nan
+    best_positive_deg: float = math.nan
+    best_negative_deg: float = math.nan
+    target_positive_deg: float = math.nan
+    target_negative_deg: float = math.nan
+
+
+class NumberCard(QWidget):
+    """Paints a :class:`Reading`; every part has its place, whatever the figures."""
+
+    def __init__(self, theme: Theme) -> None:
+        super().__init__()
+        self._theme = theme
+        self.reading = Reading()
+        self._word = SIDES[1][0]
+        self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
+        theme.changed.connect(self.updateGeometry)
+
+    def show_reading(self, reading: Reading) -> None:
+        """Show new figures; the word for the direction stays while the angle is about zero."""
+        if reading.angle != self.reading.angle:
+            self._word = SIDES[reading.angle][0]
+        if math.isfinite(reading.value_deg) and abs(reading.value_deg) > 0.5:
+            self._word = SIDES[reading.angle][0 if reading.value_deg > 0 else 1]
+        if reading != self.reading:
+            self.reading = replace(reading)
+            self.setAccessibleName(f"{self.movement()} {numbers.with_spread(reading.value_deg, reading.sd_deg)}")
+            self.update()
+
+    def movement(self) -> str:
+        """The word shown for the present direction."""
+        return terms.movement_long_name(self._word)
+
+    def _number_px(self) -> float:
+        return (NUMBER_WIDE_PX if self.width() >= WIDE_FROM_PX * self._theme.text_scale else NUMBER_PX) * 1.0
+
+    def sizeHint(self) -> QSize:
+        return QSize(696, round(236 + (self._number_px() - NUMBER_PX) + 130 * (self._theme.text_scale - 1)))
+
+    def minimumSizeHint(self) -> QSize:
+        return QSize(520, self.sizeHint().height())
+
+    def resizeEvent(self, event) -> None:  # type: ignore[no-untyped-def]
+        self.updateGeometry()
+
+    def paintEvent(self, event: QPaintEvent) -> None:
+        theme, scale, reading = self._theme, self._theme.text_scale, self.reading
+        painter = QPainter(self)
+        painter.setRenderHint(QPainter.RenderHint.Antialiasing)
+        painter.setPen(theme.color("line"))
+        painter.setBrush(theme.color("surface"))
+        frame = QRectF(self.rect()).adjusted(0.5, 0.5, -0.5, -0.5)
+        painter.drawRoundedRect(frame, CARD_RADIUS_PX, CARD_RADIUS_PX)
+        token = CURVE_TOKENS[reading.angle]
+        painter.setPen(Qt.PenStyle.NoPen)
+        painter.setBrush(theme.color(token))
+        painter.drawRoundedRect(QRectF(24, 24, 6, 20 * scale), 3, 3)
+        painter.setFont(font(28 * scale, SEMIBOLD))
+        painter.setPen(theme.color("text"))
+        painter.drawText(
+            QRectF(40, 14, self.width() * 0.6, 40 * scale), int(Qt.AlignmentFlag.AlignVCenter), self.movement()
+        )
+        self._paint_number(painter, 24.0, 36 * scale + 20)
+        self._paint_right(painter)
+        self._paint_gauge(painter, QRectF(24, self.height() - 42 * scale, self.width() - 48, 12), token)
+
+    def _paint_number(self, painter: QPainter, left: float, top: float) -> None:
+        theme, scale, reading = self._theme, self._theme.text_scale, self.reading
+        size = self._number_px()
+        painter.setFont(font(size, SEMIBOLD))
+        metrics = QFontMetricsF(painter.font())
+        baseline = top + metrics.capHeight() + 16
+        text = numbers.degrees(reading.value_deg)
+        painter.setPen(theme.color("text2" if reading.predicted else "text"))
+        painter.drawText(QPointF(left - 0.035 * size, baseline), text)
+        beside = left + metrics.horizontalAdvance(text) + 8
+        if reading.predicted:
+            swatch = QRectF(beside + 4, baseline - 30 * scale, 28 * scale, 28 * scale)
+            hatch(painter, screen_style(theme), swatch)
+            painter.setFont(font(28 * scale, SEMIBOLD))
+            painter.setPen(theme.color("text2"))
+            painter.drawText(QPointF(swatch.right() + 10, baseline), self.tr("predicted"))
+        else:
+            painter.setFont(font(44, MEDIUM))
+            painter.setPen(theme.color("text2"))
+            painter.drawText(QPointF(beside + 4, baseline), numbers.spread(reading.sd_deg))
+
+    def _paint_right(self, painter: QPainter) -> None:
+        theme, scale, reading = self._theme, self._theme.text_scale, self.reading
+        left = self.width() - 230 * scale
+        y = 16.0
+        if reading.repetitions_asked:
+            self._text(painter, self.tr("Repetition"), left, y, 14, REGULAR, "text2")
+            number = min(reading.repetitions_done + (1 if reading.repetition_running else 0), 99)
+            painter.setFont(font(44, SEMIBOLD))
+            metrics = QFontMetricsF(painter.font())
+            baseline = y + 22 * scale + metrics.capHeight() + 6
+            painter.setPen(theme.color("text"))
+            painter.drawText(QPointF(left, baseline), str(number))
+            across = left + metrics.horizontalAdvance(str(number)) + 8
+            painter.setFont(font(28 * min(scale, 1.25), MEDIUM))
+            painter.setPen(theme.color("text2"))
+            painter.drawText(QPointF(across, baseline), self.tr("of {asked}").format(asked=reading.repetitions_asked))
+            self._paint_dots(painter, left, baseline + 19)
+        y = 118 * (0.65 + 0.35 * scale) + (self._number_px() - NUMBER_PX) / 3
+        self._text(painter, self.tr("Speed"), left, y, 14, REGULAR, "text2")
+        self._text(painter, numbers.speed(reading.speed_deg_s), left, y + 21 * scale, 20, SEMIBOLD, "text")
+        best = reading.best_positive_deg if self._word == SIDES[reading.angle][0] else reading.best_negative_deg
+        across = left + 112 * scale
+        self._text(painter, self.tr("Best today"), across, y, 14, REGULAR, "text2")
+        self._text(painter, numbers.degrees(best), across, y + 21 * scale, 20, SEMIBOLD, "text")
+
+    def _text(self, painter: QPainter, text: str, left: float, top: float, size: int, weight: int, token: str) -> None:
+        painter.setFont(font(size * self._theme.text_scale, weight))
+        painter.setPen(self._theme.color(token))
+        painter.drawText(QPointF(left, top + QFontMetricsF(painter.font()).ascent()), text)
+
+    def _paint_dots(self, painter: QPainter, left: float, middle: float) -> None:
+        reading, color = self.reading, self._theme.color
+        count = min(reading.repetitions_asked, MOST_DOTS)
+        step = min(20.5, (self.width() - left - 30) / max(count, 1))
+        for number in range(count):
+            center = QPointF(left + 6 + number * step, middle)
+            painter.setPen(Qt.PenStyle.NoPen)
+            painter.setBrush(color("accent"))
+            if number < reading.repetitions_done:
+                painter.drawEllipse(center, 6, 6)
+                continue
+            painter.setBrush(Qt.BrushStyle.NoBrush)
+            running = number == reading.repetitions_done and reading.repetition_running
+            painter.setPen(QPen(color("accent" if running else "border"), 1.3))
+            painter.drawEllipse(center, 5.4, 5.4)
+            if running:
+                half = QPainterPath(QPointF(center.x(), center.y() - 5.4))
+                half.arcTo(QRectF(center.x() - 5.4, center.y() - 5.4, 10.8, 10.8), 90, 180)
+                half.closeSubpath()
+                painter.fillPath(half, color("accent"))
+
+    def _paint_gauge(self, painter: QPainter, box: QRectF, token: str) -> None:
+        theme, scale, reading = self._theme, self._theme.text_scale, self.reading
+        top_deg = AXIS_TICK_DEG[reading.angle]
+        upper, lower = (terms.movement_name(name) for name in SIDES[reading.angle])
+
+        def x(value_deg: float) -> float:
+            return box.center().x() + max(-1.0, min(1.0, value_deg / top_deg)) * box.width() / 2
+
+        painter.setPen(Qt.PenStyle.NoPen)
+        painter.setBrush(theme.color("sunken"))
+        painter.drawRoundedRect(box, 6, 6)
+        middle = box.center().y()
+        if math.isfinite(reading.value_deg):
+            value_x = x(reading.value_deg)
+            bar = QRectF(min(value_x, box.center().x()), box.top(), abs(value_x - box.center().x()), box.height())
+            if reading.predicted:
+                hatch(painter, screen_style(theme), bar, token, 200)
+            else:
+                painter.fillRect(bar, theme.color(token))
+            painter.fillRect(QRectF(value_x - 1.5, middle - 10, 3, 20), theme.color("text"))
+        for best in (reading.best_positive_deg, reading.best_negative_deg):
+            if math.isfinite(best) and abs(best) > 1.0:
+                painter.fillRect(QRectF(x(best) - 1, middle - 7, 2, 14), theme.color("text2"))
+        painter.fillRect(QRectF(box.center().x() - 0.5, box.top(), 1, box.height()), theme.color("border"))
+        for target in (reading.target_positive_deg, reading.target_negative_deg):
+            if math.isfinite(target):
+                painter.fillRect(QRectF(x(target) - 1.5, middle - 14, 3, 28), theme.color("accent"))
+                words = self.tr("Target {angle}").format(angle=numbers.degrees(target))
+                painter.setFont(font(16 * scale, SEMIBOLD))
+                width = QFontMetricsF(painter.font()).horizontalAdvance(words)
+                left = max(box.left(), min(box.right() - width, x(target) - width + 8 if target > 0 else x(target) - 8))
+                painter.setPen(theme.color("accent"))
+                painter.drawText(QPointF(left, middle - 17), words)
+        painter.setFont(font(12 * scale, MEDIUM))
+        painter.setPen(theme.color("text2"))
+        under = QRectF(box.left(), box.bottom() + 6, box.width(), 18 * scale)
+        ends = f"{lower} {top_deg:.0f}°", f"{upper} {top_deg:.0f}°"
+        painter.drawText(under, int(Qt.AlignmentFlag.AlignLeft | Qt.AlignmentFlag.AlignTop), ends[0])
+        painter.drawText(under, int(Qt.AlignmentFlag.AlignHCenter | Qt.AlignmentFlag.AlignTop), "0°")
+        painter.drawText(under, int(Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignTop), ends[1])

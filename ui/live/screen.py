@@ -1,0 +1,376 @@
+"""The live screen: arranges picture, path, number, curves and light, and pulls the newest values by a timer."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+from typing import Literal
+
+from PySide6.QtCore import Qt, QTimer, Signal
+from PySide6.QtGui import QPainter, QResizeEvent
+from PySide6.QtWidgets import QHBoxLayout, QVBoxLayout, QWidget
+
+from core.pipeline.live_values import LiveCounters, TrackedView
+from core.types import TrackStatus
+from ui.background import Background
+from ui.controls.button import Button
+from ui.controls.card import Line, Surface
+from ui.keys import Keys, bind
+from ui.live.counting import RunningCount
+from ui.live.curves import LiveCurves
+from ui.live.history import History
+from ui.live.light import Lamp, SteadyLight, lamp_for
+from ui.live.light_view import LightView
+from ui.live.notes import NoteSheet, PainSheet
+from ui.live.number_card import NumberCard, Reading
+from ui.live.path_view import PathView
+from ui.picture import overlay
+from ui.picture.view import PictureView
+from ui.ports import Measuring, SetUp
+from ui.theme import GAP_PX, MARGIN_PX, Theme, is_tight
+
+DRAW_EVERY_MS = 50
+"""Twenty drawings a second; what arrives in between is in the curves, not drawn on its own."""
+VALUES_EVERY = 2
+SLOW_EVERY = 20
+
+RecordingState = Literal["off", "recording", "paused"]
+
+
+class LiveScreen(QWidget):
+    """``recording_changed`` (state, seconds) and ``counted`` feed the top bar; ``stopped`` carries the session."""
+
+    recording_changed = Signal(str, float)
+    counted = Signal(LiveCounters)
+    told = Signal(object)
+    stopped = Signal(str)
+    stop_failed = Signal(object)
+
+    def __init__(self, theme: Theme, keys: Keys, background: Background) -> None:
+        super().__init__()
+        self._theme, self._background = theme, background
+        self._measuring: Measuring | None = None
+        self._set_up: SetUp | None = None
+        self.history = History()
+        self._light = SteadyLight()
+        self._count: RunningCount | None = None
+        self._view: TrackedView | None = None
+        self._overlay_on = True
+        self._camera_lost = False
+        self._stopping = False
+        self._tick = 0
+        self.picture = PictureView(theme)
+        self.picture.overlay = self._paint_overlay
+        self.path = PathView(theme, self.history)
+        self.number = NumberCard(theme)
+        self.curves = LiveCurves(theme, self.history)
+        self.light = LightView(theme)
+        self.note = Button(theme, self.tr("Note"), "quiet", icon="notebook-pen", hint="F5")
+        self.pain = Button(theme, self.tr("Pain"), "quiet", hint="F6")
+        self.pause = Button(theme, self.tr("Pause"), icon="pause", hint="F7", height_px=52)
+        self.main = Button(theme, "", "primary", height_px=56)
+        self.speeds = Button(theme, self.tr("Speeds"), "quiet", hint="F4", height_px=32)
+        self.note_sheet = NoteSheet(self, theme)
+        self.pain_sheet = PainSheet(self, theme)
+        self._lay_out()
+        self._connect(keys)
+        theme.changed.connect(self._fit)
+        self._timer = QTimer(self)
+        self._timer.setInterval(DRAW_EVERY_MS)
+        self._timer.timeout.connect(self.tick)
+
+    def _lay_out(self) -> None:
+        left = QVBoxLayout()
+        left.setSpacing(12)
+        left.addWidget(self.picture, 390)
+        left.addWidget(self.path, 242)
+        right = QVBoxLayout()
+        right.setSpacing(12)
+        right.addWidget(self.number)
+        right.addWidget(self.curves, 1)
+        columns = QHBoxLayout()
+        columns.setContentsMargins(MARGIN_PX, GAP_PX, MARGIN_PX, 12)
+        columns.setSpacing(GAP_PX)
+        columns.addLayout(left, 520)
+        columns.addLayout(right, 696)
+        on_curves = QHBoxLayout(self.curves)
+        on_curves.setContentsMargins(0, 4, 6, 0)
+        on_curves.addStretch(1)
+        on_curves.addWidget(self.speeds, 0, Qt.AlignmentFlag.AlignTop)
+        bottom = QHBoxLayout()
+        bottom.setContentsMargins(0, 0, MARGIN_PX, 0)
+        bottom.setSpacing(4)
+        bottom.addWidget(self.light, 1)
+        bottom.addSpacing(8)
+        for button in (self.note, self.pain):
+            bottom.addWidget(button)
+        bottom.addSpacing(8)
+        bottom.addWidget(self.pause)
+        bottom.addSpacing(12)
+        bottom.addWidget(self.main)
+        whole = QVBoxLayout(self)
+        whole.setContentsMargins(0, 0, 0, 0)
+        whole.setSpacing(0)
+        whole.addLayout(columns, 1)
+        whole.addWidget(Line(self._theme))
+        bar = Surface(self._theme)
+        bar.setLayout(bottom)
+        whole.addWidget(bar)
+
+    def _connect(self, keys: Keys) -> None:
+        self.note.clicked.connect(self.note_sheet.begin)
+        self.pain.clicked.connect(self.pain_sheet.begin)
+        self.note_sheet.kept.connect(lambda words: self._add_event("note", words))
+        self.pain_sheet.kept.connect(lambda score: self._add_event("pain", str(score)))
+        self.pause.clicked.connect(self.toggle_pause)
+        self.main.clicked.connect(self.toggle_recording)
+        self.speeds.clicked.connect(self.toggle_speeds)
+        # The space bar (or the pedal that sends it) stops whatever has the keyboard: buttons are clicked by Enter here.
+        for button in (self.note, self.pain, self.pause, self.main, self.speeds):
+            button.setFocusPolicy(Qt.FocusPolicy.NoFocus)
+        self.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
+        self.setProperty("shows_own_focus", True)
+        actions = {
+            "record": self.toggle_recording, "note": self.note.click, "pain": self.pain.click,
+            "pause": self.toggle_pause, "overlay": self.toggle_overlay, "whole_picture": self.toggle_whole,
+            "speeds": self.toggle_speeds, "next_angle": self.next_angle,
+        }  # fmt: skip
+        for name, action in actions.items():
+            bind(self, keys, name, action)
+
+    def resizeEvent(self, event: QResizeEvent) -> None:
+        self._fit()
+
+    def _fit(self) -> None:
+        """With large text on a small screen, what is read from afar keeps its room and the path gives way."""
+        tight = is_tight(self, self._theme)
+        self.path.setVisible(not tight)
+        self.curves.show_single(tight)
+        for button, hint in ((self.note, "F5"), (self.pain, "F6"), (self.pause, "F7")):
+            button.set_face(button.text(), hint="" if tight else hint)
+        self._show_buttons()
+
+    # --- life ---------------------------------------------------------------------------------------------
+    def begin(self, measuring: Measuring, set_up: SetUp) -> None:
+        """Show a source whose tracking has begun."""
+        self._measuring, self._set_up = measuring, set_up
+        self.history.clear()
+        self._light = SteadyLight()
+        self._count = None
+        self._view = None
+        self._camera_lost = self._stopping = False
+        self.curves.set_exercise(set_up.exercise, set_up.target_positive_deg, set_up.target_negative_deg)
+        self.path.set_exercise(set_up.side, set_up.exercise.pure_wrist)
+        angle = 1 if set_up.exercise.angle is None else set_up.exercise.angle
+        self.number.show_reading(self._targets(Reading(angle=angle)))
+        calibration = measuring.calibration
+        self.picture.clear(self.tr("Waiting for the first picture"))
+        self.picture.set_hand_area(None if calibration is None else calibration.clicks.pixel)
+        self._show_buttons()
+        self._timer.start()
+        self.setFocus(Qt.FocusReason.OtherFocusReason)
+
+    def end(self) -> None:
+        """Stop drawing and let go of the source."""
+        self._timer.stop()
+        self._measuring = None
+
+    @property
+    def recording_state(self) -> RecordingState:
+        """What the pill says."""
+        feed = self._measuring.feed if self._measuring else None
+        if feed is None or not feed.recording:
+            return "off"
+        return "paused" if feed.paused or self._camera_lost else "recording"
+
+    @property
+    def recorded_s(self) -> float:
+        """Seconds stored so far."""
+        return self._count.recorded_s if self._count else 0.0
+
+    @property
+    def repetitions(self) -> int:
+        """Full repetitions so far."""
+        return self._count.repetitions if self._count else 0
+
+    # --- commands -----------------------------------------------------------------------------------------
+    def toggle_recording(self) -> None:
+        """Start a recording, or stop at once and go to the review."""
+        if self._measuring is None or self._set_up is None or self._stopping:
+            return
+        if self._measuring.feed.recording:
+            self.stop()
+            return
+        self._stopping = True
+        self._background.run(self._measuring.start_recording, lambda _: self._started(), self._not_started)
+
+    def _started(self) -> None:
+        assert self._set_up is not None
+        self._stopping = False
+        self._count = RunningCount(self._set_up.exercise)
+        self.history.set_home()
+        self._show_buttons()
+
+    def _not_started(self, fault: Exception) -> None:
+        self._stopping = False
+        self._show_buttons()
+        self.told.emit(fault)
+
+    def stop(self) -> None:
+        """Close the file in the background; the answer leads to the review."""
+        if self._measuring is None or self._stopping or not self._measuring.feed.recording:
+            return
+        self._stopping = True
+        self.main.setEnabled(False)
+        self.main.set_face(self.tr("Storing …"), icon="", hint="")
+
+        def failed(fault: Exception) -> None:
+            self._stopping = False
+            self._show_buttons()
+            self.stop_failed.emit(fault)
+
+        def done(session_id: object) -> None:
+            self._stopping = False
+            self._count = None
+            self._show_buttons()
+            self.stopped.emit(str(session_id))
+
+        self._background.run(self._measuring.stop_recording, done, failed)
+
+    def toggle_pause(self) -> None:
+        """Pause or go on."""
+        if self._measuring is not None and self._measuring.feed.recording:
+            feed = self._measuring.feed
+            (feed.resume_recording if feed.paused else feed.pause_recording)()
+            self._show_buttons()
+
+    def toggle_overlay(self) -> None:
+        """Hide or show what is drawn on the picture."""
+        self._overlay_on = not self._overlay_on
+        self.picture.update()
+
+    def toggle_whole(self) -> None:
+        """Whole picture or hand area."""
+        self.picture.show_whole(not self.picture.shows_whole)
+
+    def toggle_speeds(self) -> None:
+        """Curves of the angles or of the speeds."""
+        self.curves.show_speeds(not self.curves.shows_speeds)
+        self.speeds.set_face(self.tr("Angles") if self.curves.shows_speeds else self.tr("Speeds"))
+
+    def next_angle(self) -> None:
+        """Show the next of the three angles as the big number."""
+        reading = self.number.reading
+        self.number.show_reading(self._targets(Reading(angle=(reading.angle + 1) % 3)))
+
+    def set_camera_lost(self, lost: bool) -> None:
+        """The camera went or came back; while it is gone nothing old is shown as if it were now."""
+        self._camera_lost = lost
+        if lost:
+            self.picture.clear(self.tr("No picture"))
+
+    def _add_event(self, kind: str, text: str) -> None:
+        if self._measuring is not None:
+            self._measuring.feed.add_event(kind, text)
+
+    # --- drawing ------------------------------------------------------------------------------------------
+    def tick(self) -> None:
+        """Pull what is new and draw it."""
+        if self._measuring is None:
+            return
+        feed = self._measuring.feed
+        fresh = feed.tracked_since(self.history.last_index)
+        self.history.append(fresh)
+        if self._count is not None and feed.recording and not feed.paused:
+            self._count.append(fresh)
+        view = feed.newest()
+        if view is not None and (self._view is None or view.tracked.index != self._view.tracked.index):
+            self._view = view
+            self._camera_lost = False
+            self.picture.show_frame(view.frame.color_rgb)
+            self.curves.update()
+            self.path.update()
+        if self._tick % VALUES_EVERY == 0:
+            self._show_values()
+        if self._tick % SLOW_EVERY == 0:
+            self._show_slow()
+        self._tick += 1
+        for event in feed.drain_events():
+            self.told.emit(event)
+
+    def _show_values(self) -> None:
+        self.curves.refresh_values()
+        calibration = self._measuring.calibration if self._measuring else None
+        markers = calibration.clicks.protocol.markers if calibration else ()
+        frame = None if self._view is None or self._camera_lost else self._view.tracked
+        pure = self._set_up is not None and self._set_up.exercise.pure_wrist
+        lamp = lamp_for(frame, markers, pure and self.history.forearm_moved())
+        if self._camera_lost:
+            lamp = Lamp("bad", self.tr("No picture"), self.tr("Plug the camera in again"))
+        now = self.history.now_s
+        self.light.show_lamp(self._light.show(lamp, now if math.isfinite(now) else 0.0))
+        self.number.show_reading(self._reading())
+        self.recording_changed.emit(self.recording_state, self.recorded_s)
+
+    def _reading(self) -> Reading:
+        angle = self.number.reading.angle
+        values, sds = self.history.angles_deg, self.history.sds_deg
+        lost = self._camera_lost
+        count, asked = self._count, self._set_up.repetitions if self._set_up else 0
+        own = count is not None and count.angle == angle
+        done = count.repetitions if count else 0
+        return self._targets(
+            Reading(
+                angle=angle,
+                value_deg=math.nan if lost else float(values[angle]),
+                sd_deg=math.nan if lost else float(sds[angle]),
+                predicted=not lost and self.history.status == TrackStatus.PREDICTED,
+                repetitions_done=done,
+                repetitions_asked=asked,
+                repetition_running=self.recording_state == "recording" and done < asked,
+                speed_deg_s=math.nan if lost else float(self.history.speeds[1]),
+                best_positive_deg=count.best_positive_deg if count and own else math.nan,
+                best_negative_deg=count.best_negative_deg if count and own else math.nan,
+            )
+        )
+
+    def _targets(self, reading: Reading) -> Reading:
+        if self._set_up is None or reading.angle != self._set_up.exercise.angle:
+            return reading
+        return replace(
+            reading,
+            target_positive_deg=self._set_up.target_positive_deg,
+            target_negative_deg=self._set_up.target_negative_deg,
+        )
+
+    def _show_slow(self) -> None:
+        if self._measuring is not None:
+            self.counted.emit(self._measuring.feed.counters())
+        if self._count is not None:
+            self._count.count()
+        self._show_buttons()
+
+    def _show_buttons(self) -> None:
+        state = self.recording_state
+        recording = state != "off"
+        self.note.setEnabled(recording)
+        self.pain.setEnabled(recording)
+        self.pause.setEnabled(recording)
+        paused = state == "paused"
+        self.pause.set_face(self.tr("Go on") if paused else self.tr("Pause"), icon="play" if paused else "pause")
+        if not self._stopping:
+            self.main.setEnabled(True)
+            words = self.tr("Stop and review") if recording else self.tr("Record")
+            hint = self.tr("Space") if is_tight(self, self._theme) else self.tr("Space · pedal")
+            self.main.set_face(words, icon="square" if recording else "", hint=hint)
+
+    def _paint_overlay(self, painter: QPainter, picture: PictureView) -> None:
+        picture.paint_area_label(painter)
+        if not self._overlay_on or self._view is None or self._measuring is None:
+            return
+        calibration = self._measuring.calibration
+        frame = self._view.tracked
+        overlay.paint_links(painter, frame, self._measuring.camera, picture.to_screen)
+        overlay.paint_markers(painter, frame, picture.to_screen, picture.scale)
+        if calibration is not None and frame.status != TrackStatus.LOST:
+            overlay.paint_axes(painter, self._theme, frame, calibration, self._measuring.camera, picture.to_screen)

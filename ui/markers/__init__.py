@@ -1,0 +1,1 @@
+"""Calibration on one fixed picture: click the markers in order, read the verdict, start."""

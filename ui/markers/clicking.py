@@ -1,0 +1,91 @@
+"""Which markers are clicked, which is next: the logic of the screen without the screen."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from core.calibration.result import Clicks
+from core.hand.protocols import MarkerProtocol
+from core.types import FloatArray, Side
+
+
+@dataclass(slots=True)
+class Clicking:
+    """Pixels by marker name, in the order they were set; ``current`` is the one to be clicked next."""
+
+    protocol: MarkerProtocol
+    side: Side
+    pixel: dict[str, FloatArray] = field(default_factory=dict)
+    widths_px: dict[str, float] = field(default_factory=dict)
+    current: str = ""
+
+    def __post_init__(self) -> None:
+        self.current = self.protocol.markers[0]
+
+    @property
+    def order(self) -> tuple[str, ...]:
+        """The order in which the drawing asks for the markers: that of the protocol."""
+        return self.protocol.markers
+
+    @property
+    def missing(self) -> tuple[str, ...]:
+        """Markers not clicked yet."""
+        return tuple(name for name in self.order if name not in self.pixel)
+
+    @property
+    def complete(self) -> bool:
+        """Whether every marker has a click."""
+        return not self.missing
+
+    def place(self, pixel: FloatArray, width_px: float) -> None:
+        """Set the current marker and go on to the next one that is missing."""
+        self.pixel.pop(self.current, None)
+        self.pixel[self.current] = np.asarray(pixel, dtype=np.float64)
+        self.widths_px[self.current] = width_px
+        self._go_on()
+
+    def undo(self) -> str:
+        """Take back the marker set last; its name, empty when there is none."""
+        if not self.pixel:
+            return ""
+        name, _ = self.pixel.popitem()
+        self.current = name
+        return name
+
+    def clear(self, names: Sequence[str]) -> None:
+        """Take back some markers, to be clicked again."""
+        for name in names:
+            self.pixel.pop(name, None)
+        self._go_on()
+
+    def clear_all(self) -> None:
+        """Begin anew, as on another picture."""
+        self.pixel.clear()
+        self.current = self.order[0]
+
+    def swap(self, one: str, other: str) -> None:
+        """Exchange the names of two clicks."""
+        self.pixel[one], self.pixel[other] = self.pixel[other], self.pixel[one]
+
+    def step(self, by: int) -> None:
+        """Make the next or previous marker the current one, clicked or not."""
+        self.current = self.order[(self.order.index(self.current) + by) % len(self.order)]
+
+    def near(self, pixel: FloatArray, reach_px: float) -> str:
+        """The clicked marker within reach of a pixel, empty for none."""
+        distances = {name: float(np.hypot(*(place - pixel))) for name, place in self.pixel.items()}
+        name = min(distances, key=lambda key: distances[key], default="")
+        return name if name and distances[name] <= reach_px else ""
+
+    def clicks(self) -> Clicks:
+        """All clicks in the order of the protocol."""
+        return Clicks(self.side, self.protocol, np.array([self.pixel[name] for name in self.order]))
+
+    def _go_on(self) -> None:
+        missing = self.missing
+        if missing:
+            after = [name for name in missing if self.order.index(name) > self.order.index(self.current)]
+            self.current = (after or list(missing))[0]

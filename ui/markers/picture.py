@@ -1,0 +1,244 @@
+"""The fixed picture with clicks on it: mouse or keyboard cursor, loupe, rings and names."""
+
+from __future__ import annotations
+
+from collections.abc import Collection
+
+import numpy as np
+from PySide6.QtCore import QPointF, QRectF, Qt, Signal
+from PySide6.QtGui import QColor, QFontMetricsF, QKeyEvent, QMouseEvent, QPainter, QPaintEvent, QPen, QWheelEvent
+
+from core.types import FloatArray
+from ui.fonts import SEMIBOLD, font
+from ui.marker_words import marker_name
+from ui.markers.clicking import Clicking
+from ui.picture.overlay import haloed
+from ui.picture.photo import paint_label, paint_wrong_label
+from ui.picture.view import PictureView
+from ui.ports import FoundMarker
+from ui.theme import CARD_RADIUS_PX, ON_PICTURE_LABEL, ON_PICTURE_LINE, ON_PICTURE_PROPOSED, ON_PICTURE_WRONG, Theme
+
+LOUPE_PX, LOUPE_TIMES = 204, 8.0
+GRAB_PX = 12.0
+RING_LEAST_PX = 12.0
+ARROWS = {
+    Qt.Key.Key_Left: (-1.0, 0.0), Qt.Key.Key_Right: (1.0, 0.0),
+    Qt.Key.Key_Up: (0.0, -1.0), Qt.Key.Key_Down: (0.0, 1.0),
+}  # fmt: skip
+BIG_STEP_PX = 10.0
+LEAST_ZOOM, MOST_ZOOM, ZOOM_STEP = 1.0, 6.0, 1.25
+
+
+class MarkerPicture(PictureView):
+    """Emits ``moved`` with the cursor's pixel, ``clicked`` with the pixel, ``grabbed`` with a marker's name."""
+
+    moved = Signal(object)
+    clicked = Signal(object)
+    grabbed = Signal(str)
+
+    def __init__(self, theme: Theme) -> None:
+        super().__init__(theme, (832, 624))
+        self.clicking: Clicking | None = None
+        self.cursor_px: FloatArray | None = None
+        self.found: FoundMarker | None = None
+        self.wrong: frozenset[str] = frozenset()
+        self.no_marker_words = ""
+        self._dragging = False
+        self._zoom = LEAST_ZOOM
+        self._keyed = False
+        self.overlay = lambda painter, _: self._paint_marks(painter)
+        self.setMouseTracking(True)
+        self.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
+        self.setProperty("shows_own_focus", True)
+        self.setAccessibleName(self.tr("Picture to click the markers on"))
+
+    def show_wrong(self, names: Collection[str]) -> None:
+        """Mark clicks that are at fault."""
+        self.wrong = frozenset(names)
+        self.update()
+
+    def set_cursor(self, pixel: FloatArray) -> None:
+        """Put the cursor on a pixel, kept inside the picture."""
+        if self.image is not None:
+            limit = np.array([self.image.width() - 1.0, self.image.height() - 1.0])
+            self.cursor_px = np.clip(np.asarray(pixel, dtype=np.float64), 0.0, limit)
+            self.moved.emit(self.cursor_px)
+            self.update()
+
+    def zoom(self, by: int, around: QPointF | None = None) -> None:
+        """Larger (+1) or smaller (-1), about a place of the widget or the cursor."""
+        if self.image is None:
+            return
+        self._zoom = float(np.clip(self._zoom * ZOOM_STEP**by, LEAST_ZOOM, MOST_ZOOM))
+        if self._zoom <= LEAST_ZOOM + 1e-6:
+            self.set_area(None)
+            return
+        center = self.to_pixel(around) if around is not None else self.cursor_px
+        if center is None:
+            center = np.array([self.image.width() / 2, self.image.height() / 2])
+        width, height = self.image.width() / self._zoom, self.image.height() / self._zoom
+        share = np.array([0.5, 0.5])
+        if around is not None:
+            share = np.array([around.x() / max(self.width(), 1), around.y() / max(self.height(), 1)])
+        self.set_area(QRectF(center[0] - share[0] * width, center[1] - share[1] * height, width, height))
+
+    # --- input --------------------------------------------------------------------------------------------
+    def mouseMoveEvent(self, event: QMouseEvent) -> None:
+        self._keyed = False
+        self.set_cursor(self.to_pixel(event.position()))
+
+    def mousePressEvent(self, event: QMouseEvent) -> None:
+        if event.button() != Qt.MouseButton.LeftButton or self.clicking is None or self.image is None:
+            return
+        self.setFocus(Qt.FocusReason.MouseFocusReason)
+        pixel = self.to_pixel(event.position())
+        name = self.clicking.near(pixel, GRAB_PX / self.scale)
+        self.set_cursor(pixel)
+        if name:
+            self._dragging = True
+            self.grabbed.emit(name)
+        else:
+            self.clicked.emit(self.cursor_px)
+
+    def mouseReleaseEvent(self, event: QMouseEvent) -> None:
+        if self._dragging:
+            self._dragging = False
+            self.clicked.emit(self.to_pixel(event.position()))
+
+    def wheelEvent(self, event: QWheelEvent) -> None:
+        self.zoom(1 if event.angleDelta().y() > 0 else -1, event.position())
+
+    def keyPressEvent(self, event: QKeyEvent) -> None:
+        step = ARROWS.get(Qt.Key(event.key()))
+        if step is None or self.image is None:
+            super().keyPressEvent(event)
+            return
+        size = BIG_STEP_PX if event.modifiers() & Qt.KeyboardModifier.ShiftModifier else 1.0
+        start = self.cursor_px
+        if start is None:
+            start = np.array([self.image.width() / 2, self.image.height() / 2])
+        self._keyed = True
+        self.set_cursor(start + size * np.array(step))
+
+    # --- painting -----------------------------------------------------------------------------------------
+    def _ring_px(self, width_px: float) -> float:
+        return max(RING_LEAST_PX, 0.75 * width_px * self.scale)
+
+    def _paint_marks(self, painter: QPainter) -> None:
+        clicking = self.clicking
+        if clicking is None:
+            return
+        rings: list[tuple[str, QPointF, float]] = []
+        for name, pixel in clicking.pixel.items():
+            at = self.to_screen(*map(float, pixel))
+            radius = self._ring_px(clicking.widths_px[name])
+            wrong = name in self.wrong
+            color = ON_PICTURE_WRONG if wrong else ON_PICTURE_LINE
+            chosen = name == clicking.current and not clicking.missing
+            haloed(
+                painter, color, 3.0 if wrong or chosen else 2.0, lambda at=at, r=radius: painter.drawEllipse(at, r, r)
+            )  # type: ignore[misc]
+            haloed(painter, color, 1.5, lambda at=at: self._cross(painter, at, 5.0))  # type: ignore[misc]
+            rings.append((name, at, radius))
+        if self.cursor_px is None:
+            self._paint_names(painter, rings, "")
+            return
+        proposed = ""
+        if self.found is not None and clicking.missing:
+            at = self.to_screen(*map(float, self.found.pixel))
+            radius = self._ring_px(self.found.width_px) + 4
+            haloed(painter, ON_PICTURE_PROPOSED, 2.5, lambda: painter.drawEllipse(at, radius, radius), dash=True)
+            proposed = clicking.current
+            rings.append((proposed, at, radius))
+        self._paint_names(painter, rings, proposed)
+        if self._keyed:
+            at_cursor = self.to_screen(*map(float, self.cursor_px))
+            haloed(painter, ON_PICTURE_PROPOSED, 1.5, lambda: self._cross(painter, at_cursor, 11.0))
+        self._paint_loupe(painter)
+
+    def _cross(self, painter: QPainter, at: QPointF, arm: float) -> None:
+        painter.drawLine(QPointF(at.x() - arm, at.y()), QPointF(at.x() + arm, at.y()))
+        painter.drawLine(QPointF(at.x(), at.y() - arm), QPointF(at.x(), at.y() + arm))
+
+    def _paint_names(self, painter: QPainter, rings: list[tuple[str, QPointF, float]], proposed: str) -> None:
+        """Each name beside its ring, where it covers no ring and no other name."""
+        painter.setFont(font(12 * self._theme.text_scale, SEMIBOLD))
+        metrics = QFontMetricsF(painter.font())
+        discs = [QRectF(at.x() - r, at.y() - r, 2 * r, 2 * r) for _, at, r in rings]
+        taken = [*discs, QRectF(self.loupe_box()), QRectF(0, self.height() - 160, 176, 160)]
+        for name, at, radius in rings:
+            words = marker_name(name)
+            if name == proposed:
+                words = self.tr("{marker}?").format(marker=words)
+            wrong = name in self.wrong
+            width = metrics.horizontalAdvance(words) + (30 if wrong else 12)
+            plate = self._free_place(QRectF(0, 0, width, metrics.height() + 5), at, radius, taken)
+            taken.append(plate)
+            if wrong:
+                paint_wrong_label(painter, self._theme, words, plate)
+            else:
+                paint_label(painter, self._theme, words, plate.left(), plate.top())
+
+    def _free_place(self, plate: QRectF, at: QPointF, radius: float, taken: list[QRectF]) -> QRectF:
+        width, height, away = plate.width(), plate.height(), radius + 5
+        middle = QPointF(at.x() - width / 2, at.y() - height / 2)
+        slant = 0.75 * away
+        candidates = [
+            QPointF(at.x() - away - width, middle.y()), QPointF(at.x() + away, middle.y()),
+            QPointF(middle.x(), at.y() - away - height), QPointF(middle.x(), at.y() + away),
+            QPointF(at.x() + slant, at.y() - slant - height), QPointF(at.x() - slant - width, at.y() - slant - height),
+            QPointF(at.x() + slant, at.y() + slant), QPointF(at.x() - slant - width, at.y() + slant),
+        ]  # fmt: skip
+        inside = QRectF(self.rect()).adjusted(4, 4, -4, -4)
+        for corner in candidates:
+            box = QRectF(corner, plate.size())
+            if inside.contains(box) and not any(box.intersects(other) for other in taken):
+                return box
+        return QRectF(candidates[1], plate.size())
+
+    def loupe_box(self) -> QRectF:
+        """Where the loupe is: top right, or top left while the cursor is there."""
+        size = min(LOUPE_PX * self._theme.text_scale, 0.3 * self.width())
+        box = QRectF(self.width() - size - 14, 14, size, size)
+        if self.cursor_px is not None and box.contains(self.to_screen(*map(float, self.cursor_px))):
+            box.moveLeft(14)  # never over the place one is looking at
+        return box
+
+    def _paint_loupe(self, painter: QPainter) -> None:
+        assert self.cursor_px is not None
+        assert self.image is not None
+        box = self.loupe_box()
+        center = self.found.pixel if self.found is not None else self.cursor_px
+        span = box.width() / LOUPE_TIMES
+        source = QRectF(center[0] + 0.5 - span / 2, center[1] + 0.5 - span / 2, span, span)
+        painter.save()
+        painter.setPen(QPen(QColor(ON_PICTURE_LABEL), 3))
+        painter.setBrush(QColor(ON_PICTURE_LABEL))
+        painter.drawRoundedRect(box, CARD_RADIUS_PX, CARD_RADIUS_PX)
+        inner = box.adjusted(2, 2, -2, -2)
+        painter.setClipRect(inner.toAlignedRect(), Qt.ClipOperation.IntersectClip)
+        painter.drawImage(inner, self.image, source)
+        middle = inner.center()
+        if self.found is not None:
+            radius = 0.5 * self.found.width_px * LOUPE_TIMES
+            haloed(painter, ON_PICTURE_PROPOSED, 2.0, lambda: painter.drawEllipse(middle, radius, radius), dash=True)
+        haloed(painter, ON_PICTURE_LINE, 1.5, lambda: self._cross(painter, middle, 12.0))
+        painter.setClipping(False)
+        paint_label(painter, self._theme, f"×{LOUPE_TIMES:.0f}", inner.left() + 8, inner.top() + 8)
+        words = self.no_marker_words
+        if self.found is not None:
+            words = self.tr("Marker found · {width} px wide").format(width=f"{self.found.width_px:.0f}")
+        if words:
+            painter.setFont(font(12 * self._theme.text_scale, SEMIBOLD))
+            height = QFontMetricsF(painter.font()).height() + 5
+            paint_label(painter, self._theme, words, inner.left() + 8, inner.bottom() - height - 8)
+        painter.restore()
+
+    def paintEvent(self, event: QPaintEvent) -> None:
+        super().paintEvent(event)
+        if self.hasFocus():
+            painter = QPainter(self)
+            painter.setRenderHint(QPainter.RenderHint.Antialiasing)
+            painter.setPen(QPen(self._theme.color("accent"), 2))
+            painter.setBrush(Qt.BrushStyle.NoBrush)
+            painter.drawRoundedRect(QRectF(self.rect()).adjusted(1, 1, -1, -1), CARD_RADIUS_PX, CARD_RADIUS_PX)

@@ -1,0 +1,413 @@
+"""The calibration screen: one instruction, one picture, one verdict, one button."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+from PySide6.QtCore import QEvent, QObject, Qt, QTimer, Signal
+from PySide6.QtGui import QKeyEvent
+from PySide6.QtWidgets import QHBoxLayout, QVBoxLayout, QWidget
+
+from core.calibration.result import Finding
+from core.types import ByteImage, FloatArray
+from ui.background import Background
+from ui.controls.button import Button
+from ui.controls.card import KeyCaps
+from ui.controls.text import MEDIUM, REGULAR, StateText, Text, heading
+from ui.hand_drawing import HandDrawing, MarkerState
+from ui.keys import Keys, bind
+from ui.marker_words import click_instruction, marker_place
+from ui.markers.clicking import Clicking
+from ui.markers.last_picture import LastPicture
+from ui.markers.picture import MarkerPicture
+from ui.markers.start_angle import StartAngleSheet, start_angle_words
+from ui.markers.verdict import VerdictPanel, headline, rows_before, rows_of
+from ui.ports import Calibrator, Judged, Phrasebook
+from ui.theme import MARGIN_PX, Theme
+
+PREVIEW_EVERY_MS = 60
+
+
+class MarkersScreen(QWidget):
+    """``started`` when tracking has begun; ``told`` carries a fault that belongs to a message card."""
+
+    started = Signal()
+    told = Signal(object)
+
+    def __init__(self, theme: Theme, keys: Keys, background: Background, phrasebook: Phrasebook) -> None:
+        super().__init__()
+        self._theme, self._background, self._phrasebook = theme, background, phrasebook
+        self._calibrator: Calibrator | None = None
+        self.clicking: Clicking | None = None
+        self._judged: Judged | None = None
+        self._judging = 0
+        self._held = False
+        self._start_angles_rad = np.zeros(3)
+        self.picture = MarkerPicture(theme)
+        self.last = LastPicture(theme, self.picture)
+        self.step = StateText(theme, 14, MEDIUM)
+        self.title = heading(theme, wrap=True)
+        self.place = Text(theme, "", 14, REGULAR, "text2", wrap=True)
+        self.hand = HandDrawing(theme)
+        self.panel = VerdictPanel(theme)
+        self.primary = Button(theme, "", "primary")
+        self.second = Button(theme, "", "plain", height_px=52)
+        self.start_angle = Button(theme, self.tr("Hand cannot lie straight …"), "quiet", height_px=32)
+        self.new_picture = Button(theme, self.tr("New picture"), "quiet", hint="N", height_px=32)
+        self.hint = Text(theme, "", 14, REGULAR, "text2", wrap=True)
+        self.angle_sheet = StartAngleSheet(self, theme)
+        self._lay_out()
+        self._connect(keys)
+        self._preview = QTimer(self)
+        self._preview.setInterval(PREVIEW_EVERY_MS)
+        self._preview.timeout.connect(self._show_newest)
+
+    def _lay_out(self) -> None:
+        keys = [
+            (self.tr("Space"), self.tr("accept")), (self.tr("Backspace"), self.tr("undo")),
+            ("← ↑ → ↓", self.tr("move 1 px")), ("+ −", self.tr("zoom")), (self.tr("Tab"), self.tr("next marker")),
+            ("M", self.tr("larger last picture")),
+        ]  # fmt: skip
+        left = QVBoxLayout()
+        left.setSpacing(8)
+        left.addWidget(self.picture, 1)
+        caps = QHBoxLayout()
+        caps.addWidget(KeyCaps(self._theme, keys))
+        caps.addStretch(1)
+        left.addLayout(caps)
+        below = QHBoxLayout()
+        below.addWidget(self.hint, 1)
+        below.addWidget(self.new_picture)
+        below.addWidget(self.start_angle)
+        left.addLayout(below)
+        right = QVBoxLayout()
+        right.setSpacing(8)
+        right.addSpacing(8)
+        right.addWidget(self.step)
+        right.addWidget(self.title)
+        right.addWidget(self.place)
+        right.addWidget(self.hand, 1)
+        right.addWidget(self.panel)
+        right.addSpacing(8)
+        row = QHBoxLayout()
+        row.setSpacing(12)
+        row.addWidget(self.primary, 1)
+        row.addWidget(self.second)
+        right.addLayout(row)
+        columns = QHBoxLayout(self)
+        columns.setContentsMargins(MARGIN_PX, MARGIN_PX - 4, MARGIN_PX, MARGIN_PX - 4)
+        columns.setSpacing(MARGIN_PX)
+        columns.addLayout(left, 1)
+        self._column = QWidget()
+        right.setContentsMargins(0, 0, 0, 0)
+        self._column.setLayout(right)
+        columns.addWidget(self._column)
+        self._theme.changed.connect(self._fit)
+        self._fit()
+
+    def _fit(self) -> None:
+        """The column keeps its width whatever the words, so that the picture never moves under the cursor."""
+        self._column.setFixedWidth(self._theme.px(376))
+
+    def _connect(self, keys: Keys) -> None:
+        self.picture.moved.connect(self._look)
+        self.picture.clicked.connect(self._click)
+        self.picture.grabbed.connect(self._grab)
+        self.primary.clicked.connect(self._primary)
+        self.second.clicked.connect(self._second)
+        self.start_angle.clicked.connect(lambda: self.angle_sheet.begin(self._start_angles_rad))
+        self.angle_sheet.kept.connect(self._take_start_angles)
+        self.new_picture.clicked.connect(self.preview)
+        self.picture.installEventFilter(self)
+        actions = {
+            "undo": self.undo, "zoom_in": lambda: self.picture.zoom(1), "zoom_out": lambda: self.picture.zoom(-1),
+            "swap": self._swap_if_asked,
+        }  # fmt: skip
+        for name, action in actions.items():
+            bind(self, keys, name, action)
+        bind(self.picture, keys, "accept", self.accept, Qt.ShortcutContext.WidgetShortcut)
+        bind(self, keys, "new_picture", self.new_picture.click)
+        bind(self, keys, "last_picture", self.last.toggle)
+        bind(self, keys, "click_again", self._click_again)
+
+    # --- life ---------------------------------------------------------------------------------------------
+    def begin(self, calibrator: Calibrator, last_rgb: ByteImage | None = None, last_day: str = "") -> None:
+        """Show a source's picture and begin."""
+        self._calibrator = calibrator
+        self._start_angles_rad = np.zeros(3)
+        self._take_start_angles(self._start_angles_rad)
+        self.last.show_picture(last_rgb, last_day)
+        self.new_picture.setVisible(calibrator.is_live)
+        if calibrator.is_live:
+            self.preview()
+        else:
+            self.hold()
+
+    def end(self) -> None:
+        """Stop the preview and let go."""
+        self._preview.stop()
+        self._calibrator = None
+
+    def preview(self) -> None:
+        """Show the live picture until the hand lies right."""
+        if self._calibrator is None or not self._calibrator.is_live:
+            return
+        self._held = False
+        self._judged = None
+        self.clicking = self.picture.clicking = None
+        self.picture.set_area(None)
+        self._preview.start()
+        self._show_newest()
+        self._refresh()
+        self.picture.setFocus(Qt.FocusReason.OtherFocusReason)
+
+    def hold(self) -> None:
+        """Fix the picture and ask for the first marker."""
+        assert self._calibrator is not None
+        self._preview.stop()
+        frame = self._calibrator.hold()
+        self._held = True
+        self._judged = None
+        self.clicking = self.picture.clicking = Clicking(self._calibrator.protocol, self._calibrator.side)
+        self.picture.show_wrong(())
+        self.picture.show_frame(frame.color_rgb)
+        self.picture.set_hand_area(self._calibrator.hand_area())
+        self._refresh()
+        self.picture.setFocus(Qt.FocusReason.OtherFocusReason)
+
+    def _show_newest(self) -> None:
+        frame = self._calibrator.newest_frame() if self._calibrator else None
+        if frame is not None:
+            self.picture.show_frame(frame.color_rgb)
+
+    # --- clicking -----------------------------------------------------------------------------------------
+    def _look(self, pixel: FloatArray) -> None:
+        self.picture.no_marker_words = ""
+        self.picture.found = self._calibrator.marker_at(pixel) if self._held and self._calibrator else None
+
+    def _click(self, pixel: FloatArray) -> None:
+        if not self._held or self.clicking is None or self._calibrator is None:
+            return
+        found = self._calibrator.marker_at(pixel)
+        if found is None:
+            self.picture.no_marker_words = self.tr("No blue marker here. Click nearer.")
+            self.picture.update()
+            return
+        self.clicking.place(found.pixel, found.width_px)
+        self._changed()
+
+    def _grab(self, name: str) -> None:
+        if self.clicking is not None:
+            self.clicking.current = name
+            self._refresh()
+
+    def accept(self) -> None:
+        """Take the marker under the cursor; on a live picture, fix the picture."""
+        if not self._held:
+            if self._calibrator is not None and self.picture.image is not None:
+                self.hold()
+        elif self.picture.cursor_px is not None:
+            self._click(self.picture.cursor_px)
+
+    def undo(self) -> None:
+        """Take back the marker set last."""
+        if self.clicking is not None and self.clicking.undo():
+            self._changed()
+
+    def _changed(self) -> None:
+        """Clicks are different: the old verdict no longer counts, a new one is asked for when all are there."""
+        self._judged = None
+        self.picture.show_wrong(())
+        self._judging += 1
+        self.picture.setFocus(Qt.FocusReason.OtherFocusReason)
+        if self.clicking is not None and self.clicking.complete and self._calibrator is not None:
+            number, calibrator, clicks, angles = (
+                self._judging,
+                self._calibrator,
+                self.clicking.clicks(),
+                self._start_angles_rad,
+            )
+            self._background.run(
+                lambda: calibrator.judge(clicks, angles),
+                lambda judged: self._take_verdict(number, judged),
+                lambda fault: self._take_fault(number, fault),
+            )
+        self._refresh()
+
+    def _take_verdict(self, number: int, judged: Judged) -> None:
+        if number == self._judging:
+            self._judged = judged
+            self._refresh()
+
+    def _take_fault(self, number: int, fault: Exception) -> None:
+        if number == self._judging:
+            self.told.emit(fault)
+
+    def _take_start_angles(self, angles_rad: FloatArray) -> None:
+        self._start_angles_rad = angles_rad
+        words = start_angle_words(angles_rad)
+        pattern = self.tr("Starts at {angles} (given)")
+        self.start_angle.set_face(pattern.format(angles=words) if words else self.tr("Hand cannot lie straight …"))
+        if self.clicking is not None and self.clicking.complete:
+            self._changed()
+
+    # --- what the buttons do ------------------------------------------------------------------------------
+    def _primary(self) -> None:
+        if not self._held:
+            self.accept()
+        elif self._judged is None:
+            return
+        elif self._judged.verdict.is_good:
+            self._start()
+        elif self._pair() is not None:
+            self._swap()
+        else:
+            self._click_again()
+
+    def _second(self) -> None:
+        """Click again after a swap was offered, or start although the verdict is doubtful: only this button does."""
+        if self._judged is None:
+            return
+        if self._judged.verdict.can_start and self._pair() is None:
+            self._start()
+        else:
+            self._click_again()
+
+    def _start(self) -> None:
+        if self._judged is not None and self._judged.calibration is not None and self._calibrator is not None:
+            self._calibrator.begin(self._judged.calibration)
+            self.started.emit()
+
+    def _pair(self) -> tuple[str, str] | None:
+        findings = self._judged.verdict.findings if self._judged else ()
+        pair = next((finding.markers for finding in findings if finding.kind == "swapped"), None)
+        return (pair[0], pair[1]) if pair is not None and len(pair) == 2 else None
+
+    def _swap(self) -> None:
+        pair = self._pair()
+        if pair is not None and self.clicking is not None:
+            self.clicking.swap(*pair)
+            self._changed()
+
+    def _swap_if_asked(self) -> None:
+        self._swap()
+
+    def _click_again(self) -> None:
+        if self.clicking is None or self._judged is None:
+            return
+        wrong = self._wrong_markers()
+        if wrong:
+            self.clicking.clear(wrong)
+        else:
+            self.clicking.clear_all()
+        self._changed()
+
+    def _wrong_markers(self) -> tuple[str, ...]:
+        findings: Sequence[Finding] = self._judged.verdict.findings if self._judged else ()
+        return tuple(dict.fromkeys(name for finding in findings for name in finding.markers))
+
+    # --- showing ------------------------------------------------------------------------------------------
+    def _refresh(self) -> None:
+        if self._calibrator is None:
+            return
+        self.new_picture.setEnabled(self._held)
+        if not self._held or self.clicking is None:
+            self._show_preview()
+        elif self._judged is None:
+            self._show_clicking(self.clicking)
+        else:
+            self._show_verdict(self.clicking, self._judged)
+        self.picture.update()
+
+    def _show_preview(self) -> None:
+        assert self._calibrator is not None
+        self.step.show_state("none", self.tr("Picture"))
+        self.title.setText(self.tr("Lay the hand flat and still"))
+        self.place.setText(self.tr("Palm down, fingers straight, forearm in line. Then take the picture."))
+        order = self._calibrator.protocol.markers
+        self.hand.show_markers(self._calibrator.side, dict.fromkeys(order, "later"))
+        self.panel.show_rows(self.tr("Checks"), "none", rows_before(0, len(order), self._calibrator.limits))
+        self.primary.setEnabled(True)
+        self.primary.set_face(self.tr("Take the picture"), icon="", hint=self.tr("Space"))
+        self.second.hide()
+        self.hint.setText("")
+
+    def _show_clicking(self, clicking: Clicking) -> None:
+        assert self._calibrator is not None
+        done, asked = len(clicking.pixel), len(clicking.order)
+        number = clicking.order.index(clicking.current) + 1
+        self.step.show_state("none", self.tr("Marker {number} of {asked}").format(number=number, asked=asked))
+        self.title.setText(click_instruction(clicking.current))
+        self.place.setText(marker_place(clicking.current))
+        self.hand.show_markers(clicking.side, self._hand_states(clicking, ()))
+        words = self.tr("Checking …") if clicking.complete else self.tr("Good so far") if done else self.tr("Checks")
+        state = "good" if done and not clicking.complete else "none"
+        self.panel.show_rows(words, state, rows_before(done, asked, self._calibrator.limits))  # type: ignore[arg-type]
+        self.primary.setEnabled(False)
+        to_go = len(clicking.missing)
+        left = self.tr("1 marker to go") if to_go == 1 else self.tr("{count} markers to go").format(count=to_go)
+        words = self.tr("Start measuring · {left}").format(left=left) if to_go else self.tr("Checking the markers …")
+        self.primary.set_face(words, icon="", hint="")
+        self.second.hide()
+        self.hint.setText(self.tr("The hand lies flat and still, palm down, fingers straight."))
+
+    def _show_verdict(self, clicking: Clicking, judged: Judged) -> None:
+        assert self._calibrator is not None
+        verdict = judged.verdict
+        words, state = headline(verdict)
+        wrong = self._wrong_markers()
+        self.picture.show_wrong(wrong)
+        self.hand.show_markers(clicking.side, self._hand_states(clicking, wrong))
+        self.panel.show_rows(
+            words if verdict.is_good else self.tr("Checks"), state, rows_of(verdict, self._calibrator.limits)
+        )
+        self.primary.setEnabled(True)
+        if verdict.is_good:
+            self.step.show_state("good", self.tr("All markers found"))
+            self.title.setText(self.tr("Ready to measure"))
+            self.place.setText(self.tr("Hold the hand in this position until the measuring begins."))
+            self.primary.set_face(self.tr("Start measuring"), icon="play", hint=self.tr("Enter"))
+            self.second.hide()
+            self.primary.setFocus(Qt.FocusReason.OtherFocusReason)
+            return
+        first = max(verdict.findings, key=lambda finding: (finding.blocks, finding.kind in ("swapped", "wrong_side")))
+        said = self._phrasebook.finding(first)
+        self.step.show_state(state, words, token="bad" if state == "bad" else "warn")
+        self.title.setText(said.what.rstrip("."))
+        self.place.setText(" ".join(part for part in (said.safe, said.todo) if part))
+        pair = self._pair()
+        if pair is not None:
+            self.primary.set_face(self.tr("Swap the two"), icon="", hint=self.tr("Enter"))
+            self.second.set_face(self.tr("Click again"), hint="C")
+        else:
+            again = self.tr("Click again") if wrong else self.tr("Click all again")
+            self.primary.set_face(again, icon="", hint="C")
+            self.second.set_face(self.tr("Start although &doubtful"), hint="")
+        self.second.setVisible(pair is not None or verdict.can_start)
+        if pair is None and not wrong and self._calibrator.is_live:
+            self.hint.setText(self.tr("Or change the camera or the hand and take a new picture."))
+        self.primary.setFocus(Qt.FocusReason.OtherFocusReason)
+
+    def _hand_states(self, clicking: Clicking, wrong: Sequence[str]) -> dict[str, MarkerState]:
+        states: dict[str, MarkerState] = {}
+        for name in clicking.order:
+            states[name] = "wrong" if name in wrong else "done" if name in clicking.pixel else "later"
+        if clicking.missing:
+            states[clicking.current] = "next"
+        return states
+
+    def eventFilter(self, watched: QObject, event: QEvent) -> bool:
+        """Tab goes through the markers while the picture has the keyboard and markers are open; Enter starts."""
+        if watched is self.picture and event.type() == QEvent.Type.KeyPress and isinstance(event, QKeyEvent):
+            if event.key() in (Qt.Key.Key_Return, Qt.Key.Key_Enter):
+                self.primary.click()
+                return True
+            step = {Qt.Key.Key_Tab: 1, Qt.Key.Key_Backtab: -1}.get(Qt.Key(event.key()), 0)
+            if step and self._held and self.clicking is not None and self._judged is None:
+                self.clicking.step(step)
+                if self.clicking.current in self.clicking.pixel:
+                    self.picture.set_cursor(self.clicking.pixel[self.clicking.current])
+                self._refresh()
+                return True
+        return False

@@ -1,0 +1,94 @@
+"""The angle a hand already has when it cannot lie neutral: said by the therapist, marked as given."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from PySide6.QtCore import Qt, Signal
+from PySide6.QtWidgets import QDoubleSpinBox, QHBoxLayout, QWidget
+
+from core.output.exercises import SIDES
+from core.types import FloatArray
+from ui import numbers, terms
+from ui.controls.button import Button
+from ui.controls.field import Choices
+from ui.controls.sheet import Sheet
+from ui.controls.text import SEMIBOLD, Text
+from ui.theme import Theme
+
+LARGEST_DEG = 80.0
+ORDER = (1, 0, 2)
+"""Flexion first, as it is the one that contractures limit most."""
+
+
+class StartAngleSheet(Sheet):
+    """Three angles with the word for their direction; emits ``kept`` with (3,) radians."""
+
+    kept = Signal(object)
+
+    def __init__(self, host: QWidget, theme: Theme) -> None:
+        super().__init__(host, theme, 620)
+        body = self.card.body
+        body.setSpacing(16)
+        body.addWidget(Text(theme, self.tr("The hand cannot lie straight"), 20, SEMIBOLD))
+        words = self.tr(
+            "Measure with a goniometer how far the wrist is from straight as it lies now. Carpus adds these "
+            "angles to all it measures and says so in the report."
+        )
+        body.addWidget(Text(theme, words, 14, token="text2", wrap=True))
+        self.fields: dict[int, tuple[Choices, QDoubleSpinBox]] = {}
+        for column in ORDER:
+            direction = Choices(theme, [(name, terms.movement_name(name)) for name in SIDES[column]], SIDES[column][0])
+            value = QDoubleSpinBox()
+            value.setRange(0.0, LARGEST_DEG)
+            value.setDecimals(0)
+            value.setSuffix("°")
+            value.setFixedWidth(theme.px(90))
+            value.setAlignment(Qt.AlignmentFlag.AlignRight)
+            value.setAccessibleName(terms.movement_name(SIDES[column][0]))
+            row = QHBoxLayout()
+            row.addWidget(direction, 1)
+            row.addWidget(value)
+            body.addLayout(row)
+            self.fields[column] = (direction, value)
+        buttons = QHBoxLayout()
+        straight = Button(theme, self.tr("It lies straight"), "plain", height_px=52)
+        straight.clicked.connect(lambda: self._keep(np.zeros(3)))
+        keep = Button(theme, self.tr("Use these angles"), "primary")
+        keep.clicked.connect(lambda: self._keep(self.angles_rad()))
+        buttons.addStretch(1)
+        buttons.addWidget(straight)
+        buttons.addWidget(keep)
+        body.addLayout(buttons)
+
+    def begin(self, angles_rad: FloatArray) -> None:
+        """Open with the present angles."""
+        for column, (direction, value) in self.fields.items():
+            direction.choose(SIDES[column][0 if angles_rad[column] >= 0 else 1])
+            value.setValue(abs(math.degrees(angles_rad[column])))
+        self.open(self.fields[ORDER[0]][1])
+        self.fields[ORDER[0]][1].selectAll()
+
+    def angles_rad(self) -> FloatArray:
+        """Deviation, flexion, pro/supination (3,) as entered."""
+        out = np.zeros(3)
+        for column, (direction, value) in self.fields.items():
+            sign = 1.0 if direction.value() == SIDES[column][0] else -1.0
+            out[column] = sign * math.radians(value.value())
+        return out
+
+    def _keep(self, angles_rad: FloatArray) -> None:
+        self.close_sheet()
+        self.kept.emit(angles_rad)
+
+
+def start_angle_words(angles_rad: FloatArray) -> str:
+    """``Flexion 10°, Ulnar 5°``; empty for a straight hand."""
+    parts = [
+        f"{terms.movement_name(SIDES[column][0 if angles_rad[column] > 0 else 1])} "
+        f"{numbers.degrees(math.degrees(angles_rad[column]))}"
+        for column in ORDER
+        if abs(angles_rad[column]) > 1e-6
+    ]
+    return ", ".join(parts)

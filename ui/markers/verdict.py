@@ -1,0 +1,190 @@
+"""The verdict of the calibration as five rows: state, thing, value, limit."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from PySide6.QtCore import QCoreApplication
+from PySide6.QtWidgets import QGridLayout, QHBoxLayout
+
+from core.calibration.result import Finding, Verdict
+from ui.controls.card import Card, Line
+from ui.controls.text import MEDIUM, REGULAR, SEMIBOLD, StateText, Text
+from ui.icons import State
+from ui.numbers import NARROW_GAP, UNKNOWN
+from ui.ports import VerdictLimits
+from ui.theme import Theme
+
+MARKER_FINDINGS = (
+    "click_on_no_marker",
+    "two_clicks_on_one",
+    "swapped",
+    "wrong_side",
+    "no_depth",
+    "residual",
+    "depth_off",
+)
+STILL_FINDINGS = ("moved", "few_frames")
+
+
+def tr(text: str) -> str:
+    """Translate a text of this module."""
+    return QCoreApplication.translate("Verdict", text)
+
+
+@dataclass(frozen=True, slots=True)
+class Row:
+    """One line of the panel."""
+
+    state: State
+    thing: str
+    value: str
+    limit: str
+
+
+def rows_before(done: int, asked: int, limits: VerdictLimits) -> list[Row]:
+    """What can be said while markers are still being clicked."""
+    later = tr("after marker {number}").format(number=asked)
+    count = tr("{done} of {asked}").format(done=done, asked=asked)
+    return [
+        Row("good" if done else "open", tr("Markers"), count, _within(limits)),
+        Row("open", tr("Distance"), later, _distance(limits)),
+        Row("open", tr("Camera tilt"), later, _tilt(limits)),
+        Row("open", tr("Hand"), later, tr("flat and still")),
+        Row("open", tr("Hand length"), later, _length(limits)),
+    ]
+
+
+def rows_of(verdict: Verdict, limits: VerdictLimits) -> list[Row]:
+    """The judged calibration."""
+    kinds = {finding.kind: finding for finding in verdict.findings}
+    marker_faults = [kinds[kind] for kind in MARKER_FINDINGS if kind in kinds]
+    count = len(verdict.residual_mm)
+    worst = float(np.nanmax(verdict.residual_mm)) if np.isfinite(verdict.residual_mm).any() else math.nan
+    markers = tr("{count} of {count}").format(count=count)
+    if "swapped" in kinds or "wrong_side" in kinds:
+        markers = tr("order wrong")
+    elif any(fault.blocks for fault in marker_faults):
+        markers = tr("{count} not found").format(count=len({name for fault in marker_faults for name in fault.markers}))
+    elif math.isfinite(worst):
+        markers = tr("within {size} mm").format(size=f"{worst:.1f}")
+    still = [kinds[kind] for kind in STILL_FINDINGS if kind in kinds]
+    hand = tr("moved") if "moved" in kinds else tr("still, flat") if verdict.frames_used else UNKNOWN
+    pictures = tr("for {count} pictures").format(count=verdict.frames_used) if verdict.frames_used else ""
+    distance = _state(kinds.get("distance"), verdict.distance_m)
+    tilt = _state(kinds.get("tilt"), verdict.tilt_deg)
+    length = _state(kinds.get("hand_length"), verdict.hand_length_mm)
+    return [
+        Row(_worst(marker_faults), tr("Markers"), markers, _within(limits)),
+        Row(distance, tr("Distance"), _cm(verdict.distance_m), _distance(limits)),
+        Row(tilt, tr("Camera tilt"), _degrees(verdict.tilt_deg), _tilt(limits)),
+        Row(_worst(still) if verdict.frames_used else "open", tr("Hand"), hand, pictures),
+        Row(length, tr("Hand length"), _mm(verdict.hand_length_mm), _length(limits)),
+    ]
+
+
+class VerdictPanel(Card):
+    """Card with a headline and the rows."""
+
+    def __init__(self, theme: Theme) -> None:
+        super().__init__(theme, 16)
+        self._theme = theme
+        self.headline = Text(theme, "", 16, SEMIBOLD)
+        self.sign = StateText(theme)
+        head = QHBoxLayout()
+        head.addWidget(self.headline, 1)
+        head.addWidget(self.sign)
+        self.body.addLayout(head)
+        self.body.setSpacing(0)
+        self._grid = QGridLayout()
+        self._grid.setContentsMargins(0, 8, 0, 0)
+        self._grid.setHorizontalSpacing(10)
+        self._grid.setVerticalSpacing(0)
+        self._grid.setColumnStretch(2, 1)
+        self.body.addLayout(self._grid)
+        self._lines: list[tuple[StateText, Text, Text, Text]] = []
+
+    def show_rows(self, headline: str, state: State, rows: Sequence[Row], aside: str = "") -> None:
+        """Show the verdict; ``aside`` is a small remark at the right of the headline."""
+        self.headline.setText(headline)
+        self.sign.show_state(state if not aside else "none", aside)
+        while len(self._lines) < len(rows):
+            self._add_line()
+        for (icon, thing, value, limit), row in zip(self._lines, rows, strict=True):
+            icon.show_state(row.state, "")
+            icon.setAccessibleName(
+                {"good": tr("good"), "warn": tr("doubtful"), "bad": tr("wrong")}.get(row.state, tr("open"))
+            )
+            thing.setText(row.thing)
+            value.setText(row.value)
+            limit.setText(row.limit)
+
+    def _add_line(self) -> None:
+        place = 2 * len(self._lines)
+        line = Line(self._theme)
+        self._grid.addWidget(line, place, 0, 1, 4)
+        icon = StateText(self._theme, icon_px=16)
+        cells = (
+            icon, Text(self._theme, "", 14, REGULAR, "text2"), Text(self._theme, "", 14, SEMIBOLD),
+            Text(self._theme, "", 12, MEDIUM, "text2"),
+        )  # fmt: skip
+        for column, cell in enumerate(cells):
+            self._grid.addWidget(cell, place + 1, column)
+        self._grid.setRowMinimumHeight(place + 1, self._theme.px(29))
+        self._lines.append(cells)
+
+    def states(self) -> list[State]:
+        """State of each row."""
+        return [line[0].state for line in self._lines]
+
+
+def headline(verdict: Verdict) -> tuple[str, State]:
+    """``Ready``, ``Doubtful`` or ``Cannot start yet``."""
+    if verdict.is_good:
+        return tr("Ready"), "good"
+    return (tr("Doubtful"), "warn") if verdict.can_start else (tr("Cannot start yet"), "bad")
+
+
+def _worst(findings: Sequence[Finding]) -> State:
+    if not findings:
+        return "good"
+    serious = any(finding.blocks or finding.kind in ("swapped", "wrong_side") for finding in findings)
+    return "bad" if serious else "warn"
+
+
+def _state(finding: Finding | None, value: float) -> State:
+    if not math.isfinite(value):
+        return "open"
+    return "good" if finding is None else "bad" if finding.blocks else "warn"
+
+
+def _within(limits: VerdictLimits) -> str:
+    return tr("each within {size} mm").format(size=f"{limits.most_residual_mm:g}")
+
+
+def _distance(limits: VerdictLimits) -> str:
+    return tr("{distance} or more").format(distance=_cm(limits.least_distance_m))
+
+
+def _tilt(limits: VerdictLimits) -> str:
+    return tr("up to {angle}").format(angle=_degrees(limits.most_tilt_deg))
+
+
+def _length(limits: VerdictLimits) -> str:
+    low, high = limits.hand_length_mm
+    return tr("usual {low}–{high} mm").format(low=f"{low:.0f}", high=f"{high:.0f}")
+
+
+def _cm(value_m: float) -> str:
+    return f"{100 * value_m:.0f}{NARROW_GAP}cm" if math.isfinite(value_m) else UNKNOWN
+
+
+def _mm(value_mm: float) -> str:
+    return f"{value_mm:.0f}{NARROW_GAP}mm" if math.isfinite(value_mm) else UNKNOWN
+
+
+def _degrees(value_deg: float) -> str:
+    return f"{value_deg:.0f}°" if math.isfinite(value_deg) else UNKNOWN

@@ -1,0 +1,108 @@
+"""What is known about the hand, drawn over the camera picture: white lines with a dark halo, in picture pixels."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+
+import numpy as np
+from PySide6.QtCore import QPointF, Qt
+from PySide6.QtGui import QColor, QPainter, QPen
+
+from core.calibration.result import Calibration
+from core.camera import Camera
+from core.types import FloatArray, TrackedFrame, TrackStatus
+from ui.picture.photo import paint_label
+from ui.theme import DARK, ON_PICTURE_LINE, Theme
+
+HALO = QColor(0, 0, 0, 150)
+AXIS_LENGTH_M = 0.045
+AXES = ((0, "X", DARK.curve_c), (1, "Y", DARK.curve_a), (2, "Z", DARK.curve_b))
+ELLIPSE_SDS = 2.0
+LEAST_RING_PX = 3.0
+
+ToScreen = Callable[[float, float], QPointF]
+"""Maps a pixel of the camera picture to the widget."""
+
+
+def haloed(
+    painter: QPainter, color: QColor | str, width: float, draw: Callable[[], object], dash: bool = False
+) -> None:
+    """Draw twice: a wider dark halo, then the line."""
+    painter.setBrush(Qt.BrushStyle.NoBrush)
+    for pen in (QPen(HALO, width + 2), QPen(QColor(color), width)):
+        pen.setCapStyle(Qt.PenCapStyle.RoundCap)
+        if dash:
+            pen.setCapStyle(Qt.PenCapStyle.FlatCap)
+            pen.setDashPattern([6 / pen.widthF(), 4 / pen.widthF()])
+        painter.setPen(pen)
+        draw()
+
+
+def ellipse(covariance_px2: FloatArray) -> tuple[float, float, float]:
+    """Half axes in pixels and turn in degrees of the 2 sd ellipse of a Gaussian (2, 2) in the picture.
+
+    >>> ellipse(np.diag([25.0, 4.0]))
+    (10.0, 4.0, 0.0)
+    """
+    a, b, c = float(covariance_px2[0, 0]), float(covariance_px2[0, 1]), float(covariance_px2[1, 1])
+    mean, spread = (a + c) / 2.0, math.hypot((a - c) / 2.0, b)
+    radii = (ELLIPSE_SDS * math.sqrt(max(value, 0.0)) for value in (mean + spread, mean - spread))
+    longer, shorter = (max(radius, LEAST_RING_PX) for radius in radii)
+    return longer, shorter, math.degrees(0.5 * math.atan2(2.0 * b, a - c))
+
+
+def paint_markers(painter: QPainter, frame: TrackedFrame, to_screen: ToScreen, scale: float) -> None:
+    """Predicted places as 2 sd ellipses (dashed where no blob was taken), measured discs as dots."""
+    for k in range(len(frame.marker_predicted_px)):
+        seen = bool(np.isfinite(frame.marker_measured_px[k]).all())
+        covariance = frame.marker_predicted_cov_px2[k]
+        if np.isfinite(covariance).all() and np.isfinite(frame.marker_predicted_px[k]).all():
+            longer, shorter, turn_deg = ellipse(covariance)
+            painter.save()
+            painter.translate(to_screen(*map(float, frame.marker_predicted_px[k])))
+            painter.rotate(turn_deg)
+            box = QPointF(0, 0), longer * scale, shorter * scale
+            haloed(painter, ON_PICTURE_LINE, 1.5, lambda box=box: painter.drawEllipse(*box), dash=not seen)  # type: ignore[misc]
+            painter.restore()
+        if seen:
+            u, v = frame.marker_measured_px[k]
+            painter.setPen(QPen(HALO, 1.5))
+            painter.setBrush(QColor(ON_PICTURE_LINE))
+            painter.drawEllipse(to_screen(float(u), float(v)), 3.2, 3.2)
+
+
+def paint_links(painter: QPainter, frame: TrackedFrame, camera: Camera, to_screen: ToScreen) -> None:
+    """Thin lines from the wrist to the other palm discs, where the model has them."""
+    places = frame.marker_position_cam_m
+    if frame.status == TrackStatus.LOST or not np.isfinite(places).all():
+        return
+    pixel = camera.distort(camera.project(places))
+    wrist = to_screen(*map(float, pixel[0]))
+    painter.setPen(QPen(QColor(255, 255, 255, 150), 1.2))
+    for u, v in pixel[1:6]:
+        painter.drawLine(wrist, to_screen(float(u), float(v)))
+
+
+def axis_pixels(frame: TrackedFrame, calibration: Calibration, camera: Camera) -> FloatArray:
+    """Pixels (4, 2) of the wrist's origin and of the ends of its X, Y and Z axes."""
+    origin = calibration.rotation_w0_cam @ frame.position_m + calibration.translation_w0_cam_m
+    ends = origin + AXIS_LENGTH_M * (calibration.rotation_w0_cam @ frame.rotation_w2_w0).T
+    return camera.distort(camera.project(np.vstack((origin, ends))))
+
+
+def paint_axes(
+    painter: QPainter, theme: Theme, frame: TrackedFrame, calibration: Calibration, camera: Camera, to_screen: ToScreen
+) -> None:
+    """Axes of the wrist, each in the colour of the angle that turns about it, with its letter."""
+    pixels = axis_pixels(frame, calibration, camera)
+    if not np.isfinite(pixels).all():
+        return
+    origin = to_screen(*map(float, pixels[0]))
+    for axis, letter, color in AXES:
+        end = to_screen(*map(float, pixels[1 + axis]))
+        haloed(painter, color, 3.0, lambda end=end: painter.drawLine(origin, end))  # type: ignore[misc]
+        away = end - origin
+        length = math.hypot(away.x(), away.y()) or 1.0
+        place = end + away * (14.0 / length)
+        paint_label(painter, theme, letter, place.x() - 9, place.y() - 10)

@@ -1,0 +1,152 @@
+"""The camera picture in a rounded frame, fixed on the hand's area or whole, with an overlay on top."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import numpy as np
+from PySide6.QtCore import QPointF, QRectF, QSize, Qt
+from PySide6.QtGui import QColor, QImage, QPainter, QPainterPath, QPaintEvent
+from PySide6.QtWidgets import QSizePolicy, QWidget
+
+from core.types import ByteImage, FloatArray
+from ui.picture.convert import image_of
+from ui.picture.photo import paint_label
+from ui.theme import CARD_RADIUS_PX, Theme
+
+Overlay = Callable[[QPainter, "PictureView"], None]
+HAND_AREA_MARGIN = 2.0
+"""The hand's area is this many times as wide and high as the box of its markers: room to move."""
+
+
+class PictureView(QWidget):
+    """Shows the newest picture; ``overlay`` paints over it through :meth:`to_screen`."""
+
+    def __init__(self, theme: Theme, hint_px: tuple[int, int] = (520, 390)) -> None:
+        super().__init__()
+        self._theme, self._hint_px = theme, hint_px
+        self._image: QImage | None = None
+        self._area: QRectF | None = None
+        self._whole = False
+        self._scale, self._offset = 1.0, QPointF(0, 0)
+        self.overlay: Overlay | None = None
+        self.empty_words = ""
+        self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Expanding)
+        self.setAccessibleName(self.tr("Camera picture"))
+        theme.changed.connect(self.update)
+
+    def show_frame(self, color_rgb: ByteImage) -> None:
+        """Take a copy of the picture and show it."""
+        first = self._image is None or self._image.width() != color_rgb.shape[1]
+        self._image = image_of(color_rgb)
+        if first:
+            self._place()
+        self.update()
+
+    def clear(self, words: str = "") -> None:
+        """No picture: black with a word of why, never the last picture as if it were now."""
+        self._image = None
+        self.empty_words = words
+        self.update()
+
+    @property
+    def image(self) -> QImage | None:
+        """The picture shown."""
+        return self._image
+
+    def set_hand_area(self, pixel: FloatArray | None) -> None:
+        """Fix the view on the markers (M, 2) with room to move, or on the whole picture."""
+        self._area = None
+        if pixel is not None and np.isfinite(pixel).any():
+            low, high = np.nanmin(pixel, axis=0), np.nanmax(pixel, axis=0)
+            width, height = (high - low) * HAND_AREA_MARGIN + 40.0
+            center = (low + high) / 2
+            # The fingers lie beyond the markers of the palm: the area reaches further towards the top.
+            self._area = QRectF(center[0] - width / 2, center[1] - height * 0.6, width, height)
+        self._place()
+
+    def set_area(self, area: QRectF | None) -> None:
+        """Show a part of the picture, or as much of it as covers the widget."""
+        self._area = area
+        self._place()
+
+    def show_whole(self, whole: bool) -> None:
+        """Show everything the camera sees, or the hand's area."""
+        self._whole = whole
+        self._place()
+
+    @property
+    def shows_whole(self) -> bool:
+        """Whether everything is shown."""
+        return self._whole
+
+    @property
+    def scale(self) -> float:
+        """Screen pixels per picture pixel."""
+        return self._scale
+
+    def to_screen(self, u: float, v: float) -> QPointF:
+        """Widget place of a picture pixel's centre."""
+        return QPointF((u + 0.5) * self._scale + self._offset.x(), (v + 0.5) * self._scale + self._offset.y())
+
+    def to_pixel(self, point: QPointF) -> FloatArray:
+        """Picture pixel (2,) under a place of the widget."""
+        u = (point.x() - self._offset.x()) / self._scale - 0.5
+        v = (point.y() - self._offset.y()) / self._scale - 0.5
+        return np.array([u, v])
+
+    def _place(self) -> None:
+        """Where the picture lies: the area fills the widget, never smaller than the picture needs to cover it."""
+        if self._image is None or not self.width():
+            return
+        width, height = float(self._image.width()), float(self._image.height())
+        cover = max(self.width() / width, self.height() / height)
+        area = self._area
+        if self._whole or area is None:
+            self._scale = min(self.width() / width, self.height() / height) if self._whole else cover
+            middle = QPointF(width / 2, height / 2)
+        else:
+            self._scale = max(cover, min(self.width() / area.width(), self.height() / area.height()))
+            middle = area.center()
+        shown_w, shown_h = self.width() / self._scale, self.height() / self._scale
+        left = (width - shown_w) / 2 if shown_w >= width else min(max(middle.x() - shown_w / 2, 0), width - shown_w)
+        top = (height - shown_h) / 2 if shown_h >= height else min(max(middle.y() - shown_h / 2, 0), height - shown_h)
+        self._offset = QPointF(-left * self._scale, -top * self._scale)
+        self.update()
+
+    def sizeHint(self) -> QSize:
+        return QSize(*self._hint_px)
+
+    def minimumSizeHint(self) -> QSize:
+        return QSize(320, 240)
+
+    def resizeEvent(self, event) -> None:  # type: ignore[no-untyped-def]
+        self._place()
+
+    def paintEvent(self, event: QPaintEvent) -> None:
+        painter = QPainter(self)
+        painter.setRenderHint(QPainter.RenderHint.Antialiasing)
+        frame = QPainterPath()
+        frame.addRoundedRect(QRectF(self.rect()), CARD_RADIUS_PX, CARD_RADIUS_PX)
+        painter.setClipPath(frame)
+        painter.fillRect(self.rect(), QColor("#10181A"))
+        if self._image is None:
+            painter.setPen(QColor("#A9B6B9"))
+            painter.drawText(self.rect(), Qt.AlignmentFlag.AlignCenter, self.empty_words)
+            return
+        painter.setRenderHint(QPainter.RenderHint.SmoothPixmapTransform)
+        size = self._image.size()
+        target = QRectF(self._offset.x(), self._offset.y(), size.width() * self._scale, size.height() * self._scale)
+        visible = target.intersected(QRectF(self.rect()))
+        source = QRectF(
+            (visible.left() - target.left()) / self._scale, (visible.top() - target.top()) / self._scale,
+            visible.width() / self._scale, visible.height() / self._scale,
+        )  # fmt: skip
+        painter.drawImage(visible, self._image, source)
+        if self.overlay is not None:
+            self.overlay(painter, self)
+
+    def paint_area_label(self, painter: QPainter) -> None:
+        """``Hand area ×2.2`` or ``Whole picture`` in the corner."""
+        words = self.tr("Hand area ×{scale}").format(scale=f"{self._scale:.1f}")
+        paint_label(painter, self._theme, self.tr("Whole picture") if self._whole else words, 12, 12)

@@ -1,0 +1,46 @@
+"""How curves look: from the theme on the screen, from the light tokens in points on paper."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from PySide6.QtGui import QColor, QFont
+
+from ui.fonts import MEDIUM, REGULAR, font
+from ui.theme import LIGHT, Theme, Tokens
+
+
+@dataclass(frozen=True, slots=True)
+class PlotStyle:
+    """Colours by token, fonts, and widths in the painter's unit (px on the screen, points on paper)."""
+
+    tokens: Tokens
+    label: QFont
+    end_label: QFont
+    line_width: float
+    grid_width: float
+    unit: float
+    """One design pixel in the painter's unit; gaps and dashes are multiples of it."""
+
+    def color(self, token: str, alpha: int = 255) -> QColor:
+        """A token's colour."""
+        value = QColor(getattr(self.tokens, token))
+        value.setAlpha(alpha)
+        return value
+
+
+CURVE_TOKENS = ("curve_b", "curve_a", "curve_c")
+"""Colour of deviation, flexion, pro/supination."""
+
+
+def screen_style(theme: Theme) -> PlotStyle:
+    """The theme's style."""
+    size = 12 * theme.text_scale
+    return PlotStyle(theme.tokens, font(size, REGULAR), font(size, MEDIUM), 1.75, 1.0, 1.0)
+
+
+def paper_style(point_px: float) -> PlotStyle:
+    """Style of the printed page, always light; ``point_px`` painter units per point."""
+    return PlotStyle(
+        LIGHT, font(9 * point_px, REGULAR), font(9 * point_px, MEDIUM), 1.2 * point_px, 0.6 * point_px, 0.75 * point_px
+    )
