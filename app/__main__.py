@@ -11,6 +11,7 @@ for _name in ("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS"):
 import argparse
 import sys
 from collections.abc import Sequence
+from pathlib import Path
 
 from app import __version__
 
@@ -23,7 +24,7 @@ def parser() -> argparse.ArgumentParser:
 
     out = argparse.ArgumentParser(
         prog="carpus",
-        description="Hand rehabilitation: tracks blue paper markers on a hand. Without a command: the desktop application.",
+        description="Hand rehabilitation: tracks blue paper markers on a hand. Without a command: the desktop.",
         epilog="For research and education. Not a medical device.",
     )
     out.add_argument("--version", action="version", version=f"carpus {__version__}")
@@ -59,7 +60,7 @@ def main(argv: Sequence[str] | None = None) -> int:
         where = cause.__traceback__
         while where is not None and where.tb_next is not None:
             where = where.tb_next
-        place = f"{os.path.basename(where.tb_frame.f_code.co_filename)}:{where.tb_lineno}" if where else "unknown place"
+        place = f"{Path(where.tb_frame.f_code.co_filename).name}:{where.tb_lineno}" if where else "unknown place"
         if os.environ.get("CARPUS_DEBUG"):
             raise
         print(

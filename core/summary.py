@@ -9,6 +9,7 @@ import numpy as np
 
 from core.camera import Camera
 from core.capture.camera_info import CAMERA_FILE
+from core.capture.source import SourceInfo
 from core.capture.tum import TumFolder
 from core.hand.protocols import WRIST_ANGLES
 from core.session.reader import has_raw
@@ -61,6 +62,18 @@ def recording_summary(folder: Path, recording: TumFolder) -> list[str]:
         *_frames(times, dropped),
         _line("Depth", f"{with_depth} of {len(times)} frames have a depth picture"),
         _line("Camera", camera_text(camera, f"no {CAMERA_FILE}")),
+    ]
+
+
+def source_summary(path: Path, info: SourceInfo) -> list[str]:
+    """What a recording says of itself without being played: frames, rate, depth, camera, settings."""
+    count = "not known before it is played" if info.frame_count is None else str(info.frame_count)
+    return [
+        _line("Recording", str(path)),
+        _line("Frames", f"{count}, {info.nominal_fps:.1f} a second"),
+        _line("Depth", "yes" if info.has_depth else "no"),
+        _line("Camera", camera_text(info.camera)),
+        *(_line(name.replace("_", " ").capitalize(), value) for name, value in sorted(info.settings.items())),
     ]
 
 

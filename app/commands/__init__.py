@@ -2,6 +2,6 @@
 
 from __future__ import annotations
 
-from app.commands import info, recover, simulate, track
+from app.commands import doctor, info, record, recover, simulate, track
 
-COMMANDS = (track, simulate, info, recover)
+COMMANDS = (track, record, simulate, info, recover, doctor)

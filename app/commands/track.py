@@ -23,22 +23,45 @@ HELP = "Track a stored recording, no screen needed; or filter a session again."
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("recording", type=Path, help="TUM RGB-D folder, .oni file, raw recording, or a session (.h5)")
-    parser.add_argument("--calibration", type=Path, metavar="CLICKS.json", help="first-frame clicks (not for a session)")
-    parser.add_argument("--output", type=Path, required=True, metavar="SESSION.h5", help="the file to write; never overwritten")
     parser.add_argument(
-        "--depth", action=argparse.BooleanOptionalAction, default=True,
+        "--calibration", type=Path, metavar="CLICKS.json", help="first-frame clicks (not for a session)"
+    )
+    parser.add_argument(
+        "--output", type=Path, required=True, metavar="SESSION.h5", help="the file to write; never overwritten"
+    )
+    parser.add_argument(
+        "--depth",
+        action=argparse.BooleanOptionalAction,
+        default=True,
         help="use each marker's depth (default) or colour only, as the papers do",
     )
-    parser.add_argument("--dip", choices=("coupled", "free"), default="coupled", help="end joints bound to the middle joints, or free")
+    parser.add_argument(
+        "--dip", choices=("coupled", "free"), default="coupled", help="end joints bound to the middle joints, or free"
+    )
     parser.add_argument("--profile", choices=tuple(PROFILES), default="standard", help="how lively the hand is")
     parser.add_argument(
-        "--smooth", action=argparse.BooleanOptionalAction, default=True,
+        "--smooth",
+        action=argparse.BooleanOptionalAction,
+        default=True,
         help="add /smoothed, every frame in the light of those after it",
     )
-    parser.add_argument("--filter", choices=("reduced", "augmented"), default="reduced", help="the default filter, or the papers' augmented one")
-    parser.add_argument("--motion", choices=("constant-rate", "paper"), default="constant-rate", help="motion model; paper: equation (1)")
     parser.add_argument(
-        "--start-angles", type=float, nargs=3, metavar=("DEVIATION", "FLEXION", "SUPINATION"),
+        "--filter",
+        choices=("reduced", "augmented"),
+        default="reduced",
+        help="the default filter, or the papers' augmented one",
+    )
+    parser.add_argument(
+        "--motion",
+        choices=("constant-rate", "paper"),
+        default="constant-rate",
+        help="motion model; paper: equation (1)",
+    )
+    parser.add_argument(
+        "--start-angles",
+        type=float,
+        nargs=3,
+        metavar=("DEVIATION", "FLEXION", "SUPINATION"),
         help="degrees at the first frame, for a hand that cannot lie neutral; added to all angles and marked as given",
     )
     parser.add_argument("--subject", default="", metavar="PSEUDONYM", help="stored in the session; never a name")
@@ -62,7 +85,12 @@ def run(arguments: argparse.Namespace) -> int:
     if arguments.recording.suffix == ".h5" and arguments.recording.is_file():
         with bar("tracking again") as progress:
             report = retrack_session(
-                arguments.recording, arguments.output, settings, software_version=__version__, progress=progress
+                arguments.recording,
+                arguments.output,
+                settings,
+                software_version=__version__,
+                progress=progress,
+                on_verdict=warn,
             )
         print_report(report)
         return 0
@@ -106,7 +134,11 @@ def print_report(report: TrackReport) -> None:
     degrees = np.degrees(report.angle_range_rad)
     print(f"Session: {report.output}")
     print(f"Frames: {report.frames}, tracked {report.tracked}, predicted {report.predicted}, lost {report.lost}")
-    pairs = (("Deviation", "ulnar", "radial"), ("Flexion", "extension", "flexion"), ("Pro/supination", "pronation", "supination"))
+    pairs = (
+        ("Deviation", "ulnar", "radial"),
+        ("Flexion", "extension", "flexion"),
+        ("Pro/supination", "pronation", "supination"),
+    )
     for (name, minus, plus), low, high in zip(pairs, degrees[0], degrees[1], strict=True):
         if np.isfinite(low):
             print(f"{name}: {minus} {max(-low, 0.0):.1f}°, {plus} {max(high, 0.0):.1f}°, arc {high - low:.1f}°")

@@ -3,28 +3,32 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import asdict, dataclass, field, replace
 from itertools import chain
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeVar
 
 import numpy as np
 
 from core.calibration.calibrate import CalibrationOutcome, StillNoise, calibrate, require_calibration
-from core.calibration.result import Calibration, Clicks, Verdict
+from core.calibration.result import Clicks, Verdict
 from core.calibration.settings import CalibrationSettings
+from core.camera import Camera
 from core.capture.source import FrameSource, SourceInfo
 from core.detection.detector import Detector
 from core.detection.settings import DetectionSettings
-from core.errors import OutputExists, RecordingEmpty
+from core.errors import DiskFull, OutputExists, RecordingEmpty
 from core.pipeline.frame_walk import FrameWalk
-from core.session.reader import read_detections, read_session
+from core.pipeline.session_source import SessionPictures
+from core.session.reader import has_raw, read_detections, read_session
 from core.session.values import motion_of, new_header
 from core.session.writer import SessionWriter
 from core.tracking.settings import TrackerSettings
 from core.tracking.tracker import Tracker
 from core.types import FloatArray, Frame, TrackedFrame, TrackStatus
+
+T = TypeVar("T")
 
 Progress = Callable[[int, int | None], None]
 """Called with frames done and frames in all (None when unknown)."""
@@ -53,9 +57,32 @@ class TrackReport:
     angle_range_rad: FloatArray
 
 
-def parameters_json(settings: TrackSettings, source: Mapping[str, Any]) -> str:
-    """All settings and the facts of the source, as stored in the session."""
-    return json.dumps({"settings": asdict(settings), "source": dict(source)}, sort_keys=True)
+@dataclass(frozen=True, slots=True)
+class Learnt:
+    """What the still hand at the start taught: its noise, and until when it was still (time of the recording)."""
+
+    pixel_sd_px: float
+    depth_ratio: float
+    neutral_ends_s: float
+
+    def applied(self, settings: TrackerSettings) -> TrackerSettings:
+        """Tracker settings with this noise."""
+        noise = replace(settings.noise, pixel_sd_px=self.pixel_sd_px, depth_ratio=self.depth_ratio)
+        return replace(settings, noise=noise)
+
+
+def parameters_json(settings: TrackSettings, source: Mapping[str, Any], learnt: Learnt) -> str:
+    """All settings, what was learnt and the facts of the source, as stored in the session."""
+    content = {"settings": asdict(settings), "learnt": asdict(learnt), "source": dict(source)}
+    return json.dumps(content, sort_keys=True)
+
+
+def learnt_in(parameters: str) -> Learnt | None:
+    """What an earlier session learnt; None where its parameters do not say."""
+    try:
+        return Learnt(**json.loads(parameters)["learnt"])
+    except (KeyError, TypeError, ValueError):
+        return None
 
 
 def source_facts(info: SourceInfo) -> dict[str, Any]:
@@ -72,24 +99,40 @@ DEPTH_RATIO = (0.5, 2.0)
 """How far the still hand may correct what is said of the depths' noise; a still hand can lock to one step."""
 
 
-def learnt(settings: TrackerSettings, still: StillNoise) -> TrackerSettings:
-    """Tracker settings with the measurement noise that the still hand showed, where it was still long enough."""
+def learnt_from(still: StillNoise, neutral_ends_s: float, settings: TrackerSettings) -> Learnt:
+    """The noise of one picture as the still hand showed it, or the settings' where it was not still long enough."""
     noise = settings.noise
+    pixel_sd_px, depth_ratio = noise.pixel_sd_px, noise.depth_ratio
     if np.isfinite(still.pixel_sd_px):
-        noise = replace(noise, pixel_sd_px=float(np.hypot(still.pixel_sd_px, noise.pixel_model_sd_px)))
+        pixel_sd_px = float(np.hypot(still.pixel_sd_px, noise.pixel_model_sd_px))
     if np.isfinite(still.depth_ratio):
-        noise = replace(noise, depth_ratio=float(np.clip(still.depth_ratio, *DEPTH_RATIO)))
-    return replace(settings, noise=noise)
+        depth_ratio = float(np.clip(still.depth_ratio, *DEPTH_RATIO))
+    return Learnt(pixel_sd_px, depth_ratio, neutral_ends_s)
 
 
 def build_walk(
-    outcome: CalibrationOutcome, info: SourceInfo, settings: TrackSettings, keep_history: bool = True
+    outcome: CalibrationOutcome, camera: Camera, settings: TrackSettings, learnt: Learnt, keep_history: bool = True
 ) -> FrameWalk:
     """Detector and tracker for a calibrated hand; raises what :func:`require_calibration` does."""
     calibration = require_calibration(outcome)
-    detector = Detector(outcome.appearance, info.camera, settings.detection)
-    tracker = Tracker(calibration, info.camera, learnt(settings.tracker, outcome.noise), keep_history=keep_history)
+    detector = Detector(outcome.appearance, camera, settings.detection)
+    tracker = Tracker(calibration, camera, learnt.applied(settings.tracker), keep_history=keep_history)
     return FrameWalk(detector, tracker)
+
+
+def from_neutral(
+    frames: Iterable[T], tracker: Tracker, neutral_ends_s: float, time_of: Callable[[T], float]
+) -> Iterator[T]:
+    """The frames, the tracker set back to the neutral pose before the first that was not used to calibrate.
+
+    The still frames made the calibration; counted twice they would make it too sure of itself.
+    """
+    begun = False
+    for frame in frames:
+        if not begun and time_of(frame) > neutral_ends_s:
+            tracker.begin_at_neutral()
+            begun = True
+        yield frame
 
 
 def track_recording(
@@ -104,6 +147,7 @@ def track_recording(
     start_angles_rad: FloatArray | None = None,
     progress: Progress | None = None,
     on_verdict: Callable[[Verdict], None] | None = None,
+    origin: str = "",
 ) -> TrackReport:
     """Track a recording from its first frame to its last into ``output``; smooth it if asked.
 
@@ -120,30 +164,23 @@ def track_recording(
     calibration = require_calibration(outcome)
     if on_verdict is not None and not outcome.verdict.is_good:
         on_verdict(outcome.verdict)
-    walk = build_walk(outcome, source.info, settings, keep_history=settings.smooth)
     neutral_ends_s = opening[outcome.capture_frames - 1].timestamp_s
-
-    def tracked() -> Iterator[TrackedFrame]:
-        begun = False
-        for frame in chain(opening, frames):
-            if not begun and frame.timestamp_s > neutral_ends_s:
-                # The still frames made the calibration; counted twice they would make it too sure of itself.
-                walk.tracker.begin_at_neutral()
-                begun = True
-            yield walk(frame)
-
+    learnt = learnt_from(outcome.noise, neutral_ends_s, settings.tracker)
+    walk = build_walk(outcome, source.info.camera, settings, learnt, keep_history=settings.smooth)
+    ordered = from_neutral(chain(opening, frames), walk.tracker, neutral_ends_s, lambda frame: frame.timestamp_s)
     header = new_header(
         hand=clicks.side,
         protocol=clicks.protocol,
         software_version=software_version,
         subject_id=subject_id,
         exercise=exercise,
-        parameters=parameters_json(settings, source_facts(source.info)),
+        parameters=parameters_json(settings, source_facts(source.info), learnt),
+        origin=origin,
         dip_free=settings.tracker.dip == "free",
     )
     writer = SessionWriter.create(output, header, source.info.camera, calibration)
     return _written(
-        writer, tracked(), walk.tracker, outcome.verdict, settings.smooth, source.info.frame_count, progress
+        writer, map(walk, ordered), walk.tracker, outcome.verdict, settings.smooth, source.info.frame_count, progress
     )
 
 
@@ -154,34 +191,55 @@ def retrack_session(
     *,
     software_version: str,
     progress: Progress | None = None,
+    on_verdict: Callable[[Verdict], None] | None = None,
 ) -> TrackReport:
-    """Filter a stored session again from its detections, with its own calibration; the old file is not touched."""
+    """Track a session again, from its pictures where it kept them, else from its detections.
+
+    From detections the session's own calibration and what it learnt are used again, so that equal settings
+    give equal angles. The old file is not touched; the new one names it as its origin.
+    """
     if output.exists():
         raise OutputExists(output)
     session = read_session(origin)
+    old = session.header
+    if has_raw(origin):
+        return track_recording(
+            SessionPictures(session),
+            session.calibration.clicks,
+            output,
+            settings,
+            software_version=software_version,
+            subject_id=old.subject_id,
+            exercise=old.exercise,
+            start_angles_rad=session.calibration.start_angles_rad,
+            progress=progress,
+            on_verdict=on_verdict,
+            origin=old.session_id,
+        )
     table = read_detections(origin)
-    calibration: Calibration = session.calibration
-    tracker = Tracker(calibration, session.camera, settings.tracker, keep_history=settings.smooth)
+    learnt = learnt_in(old.parameters) or learnt_from(StillNoise(), -np.inf, settings.tracker)
+    calibration = session.calibration
+    tracker = Tracker(calibration, session.camera, learnt.applied(settings.tracker), keep_history=settings.smooth)
+    time_s = session.timestamp_s
 
     def tracked() -> Iterator[TrackedFrame]:
-        for row, time_s in enumerate(session.timestamp_s):
-            dropped = int(session.quality.dropped_before[row])
-            yield tracker.step(row, float(time_s), table.of_frame(row), dropped)
+        rows = from_neutral(range(len(session)), tracker, learnt.neutral_ends_s, lambda row: float(time_s[row]))
+        for row in rows:
+            dropped = max(int(session.quality.dropped_before[row]), 0)
+            yield tracker.step(row, float(time_s[row]), table.of_frame(row), dropped)
 
     header = new_header(
-        hand=session.header.hand,
-        protocol=session.header.protocol,
+        hand=old.hand,
+        protocol=old.protocol,
         software_version=software_version,
-        subject_id=session.header.subject_id,
-        exercise=session.header.exercise,
-        parameters=parameters_json(settings, {"session": session.header.session_id, "from": "detections"}),
-        origin=session.header.session_id,
+        subject_id=old.subject_id,
+        exercise=old.exercise,
+        parameters=parameters_json(settings, {"session": old.session_id, "from": "detections"}, learnt),
+        origin=old.session_id,
         dip_free=settings.tracker.dip == "free",
     )
     writer = SessionWriter.create(output, header, session.camera, calibration)
-    return _written(
-        writer, tracked(), tracker, calibration.verdict, settings.smooth, len(session.timestamp_s), progress
-    )
+    return _written(writer, tracked(), tracker, calibration.verdict, settings.smooth, len(session), progress)
 
 
 def _opening(frames: Iterator[Frame], still_s: float) -> list[Frame]:
@@ -218,6 +276,9 @@ def _written(
         if smooth:
             writer.write_smoothed(motion_of(tracker.smoothed()))
         writer.close()
+    except DiskFull:
+        writer.abandon()
+        raise
     except BaseException:
         # The recording is still there: a session cut short would only be taken for a whole one.
         writer.discard()

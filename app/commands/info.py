@@ -1,0 +1,37 @@
+"""``carpus info``: what a recording or session holds."""
+
+from __future__ import annotations
+
+import argparse
+from pathlib import Path
+
+from core.capture.tum import TumFolder
+from core.errors import RecordingMissing
+from core.session.reader import read_session
+from core.summary import recording_summary, session_summary, source_summary
+
+NAME = "info"
+HELP = "Say what a recording or session holds."
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument("file", type=Path, help="session (.h5), TUM folder, .oni file or raw recording")
+
+
+def run(arguments: argparse.Namespace) -> int:
+    path: Path = arguments.file
+    if not path.exists():
+        raise RecordingMissing(path)
+    if path.suffix in {".h5", ".part"}:
+        lines = session_summary(read_session(path))
+    else:
+        from app.sources import open_recording
+
+        source = open_recording(path, need_depth=False)
+        try:
+            known = isinstance(source, TumFolder)
+            lines = recording_summary(path, source) if known else source_summary(path, source.info)
+        finally:
+            source.close()
+    print("\n".join(lines))
+    return 0

@@ -1,0 +1,33 @@
+"""``carpus recover``: finish sessions that were cut short."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from pathlib import Path
+
+from core.errors import RecordingMissing
+from core.session.recovery import recover_folder
+from core.words import one_sentence
+
+NAME = "recover"
+HELP = "Finish the interrupted sessions of a folder."
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument("folder", type=Path, help="folder with sessions; nothing in it is deleted")
+
+
+def run(arguments: argparse.Namespace) -> int:
+    if not arguments.folder.is_dir():
+        raise RecordingMissing(arguments.folder)
+    found = recover_folder(arguments.folder)
+    for path in found.recovered:
+        print(f"Recovered: {path}")
+    for path in found.busy:
+        print(f"Still being written, left alone: {path}")
+    for fault in found.faults:
+        print(f"carpus: {one_sentence(fault)}", file=sys.stderr)
+    if not (found.recovered or found.busy or found.faults):
+        print("No interrupted session here.")
+    return 1 if found.faults else 0

@@ -1,0 +1,28 @@
+"""Opens whatever recording a path names; the one place that knows all kinds."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from core.capture.notice import Notice, ignore
+from core.capture.source import FrameSource
+from core.errors import RecordingMissing, RecordingUnreadable
+
+
+def open_recording(path: Path, *, need_depth: bool = True, notice: Notice = ignore) -> FrameSource:
+    """A TUM folder, an .oni file or a raw recording as a source. The readers are loaded when needed."""
+    if not path.exists():
+        raise RecordingMissing(path)
+    if path.is_dir():
+        from core.capture.tum import TumFolder
+
+        return TumFolder(path, need_depth=need_depth, read_ahead=8)
+    if path.suffix.lower() == ".oni":
+        from core.capture.oni_source import OniSource
+
+        return OniSource(path, notice=notice)
+    from core.capture.raw import RawRecording, is_raw_recording
+
+    if is_raw_recording(path):
+        return RawRecording(path, notice=notice)
+    raise RecordingUnreadable(path, "neither a TUM folder, an .oni file nor a raw recording")
