@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -52,6 +52,15 @@ class StillNoise:
 
 
 @dataclass(frozen=True, slots=True)
+class MeasuredHand:
+    """The verdict on a neutral capture, the calibration unless a finding blocks, and the noise of one picture."""
+
+    verdict: Verdict
+    calibration: Calibration | None
+    noise: StillNoise
+
+
+@dataclass(frozen=True, slots=True)
 class CalibrationOutcome:
     """What there is to judge: the verdict always, the calibration unless a finding blocks.
 
@@ -90,8 +99,15 @@ def calibrate(
     if np.any(taken < 0):
         verdict = _no_verdict(clicks, findings)
         return CalibrationOutcome(verdict, appearance, found_px, None, 0, StillNoise())
-    capture = _still_capture(frames, detector, region, blobs, taken, settings)
-    return _measured(clicks, capture, camera, settings, appearance, found_px, findings, start_angles_rad)
+
+    def seen() -> Iterator[tuple[float, Detections]]:
+        yield first.timestamp_s, blobs
+        for frame in frames[1:]:
+            yield frame.timestamp_s, detector.detect(frame, region)
+
+    capture = still_capture(seen(), taken, settings)
+    hand = measure_hand(clicks, capture, camera, settings, findings, start_angles_rad)
+    return CalibrationOutcome(hand.verdict, appearance, found_px, hand.calibration, capture.frames, hand.noise)
 
 
 def require_calibration(outcome: CalibrationOutcome) -> Calibration:
@@ -138,20 +154,20 @@ def _named(clicks: Clicks, blobs: Detections, radius_px: FloatArray) -> tuple[ND
     return taken, findings
 
 
-def _still_capture(
-    frames: Sequence[Frame],
-    detector: Detector,
-    region: Region,
-    first_blobs: Detections,
-    taken: NDArray[np.int64],
-    settings: CalibrationSettings,
+def still_capture(
+    seen: Iterable[tuple[float, Detections]], taken: NDArray[np.int64], settings: CalibrationSettings
 ) -> NeutralCapture:
-    start_px = first_blobs.pixel[taken]
-    pixels, depths, said = [start_px], [first_blobs.depth_m[taken]], [first_blobs.depth_sd_m[taken]]
-    for frame in frames[1:]:
-        if frame.timestamp_s - frames[0].timestamp_s > settings.still_s:
+    """The discs from the first frame on for as long as the hand stays still.
+
+    ``seen``: time and blobs of every frame in order; ``taken`` (M,) the first frame's blob of every marker.
+    """
+    frames = iter(seen)
+    begin_s, blobs = next(frames)
+    start_px = blobs.pixel[taken]
+    pixels, depths, said = [start_px], [blobs.depth_m[taken]], [blobs.depth_sd_m[taken]]
+    for time_s, blobs in frames:
+        if time_s - begin_s > settings.still_s:
             break
-        blobs = detector.detect(frame, region)
         if not len(blobs):
             continue
         distance = np.linalg.norm(start_px[:, None] - blobs.pixel[None], axis=-1)
@@ -168,24 +184,23 @@ def _still_capture(
     return NeutralCapture(np.stack(pixels), np.stack(depths), np.stack(said))
 
 
-def _measured(
+def measure_hand(
     clicks: Clicks,
     capture: NeutralCapture,
     camera: Camera,
     settings: CalibrationSettings,
-    appearance: MarkerAppearance,
-    found_px: FloatArray,
-    findings: list[Finding],
-    start_angles_rad: FloatArray | None,
-) -> CalibrationOutcome:
+    found_before: Iterable[Finding] = (),
+    start_angles_rad: FloatArray | None = None,
+) -> MeasuredHand:
+    """Average the discs of the still hand, measure its shape and pose, judge them."""
     names = clicks.protocol.markers
+    findings = list(found_before)
     palm = np.array(clicks.protocol.palm)
     depth_count = np.isfinite(capture.depth_m).sum(axis=0)
     for marker in np.flatnonzero(depth_count == 0):
         findings.append(Finding("no_depth", (names[marker],), blocks=bool(marker in palm)))
     if np.any(depth_count[palm] == 0):
-        verdict = _no_verdict(clicks, findings)
-        return CalibrationOutcome(verdict, appearance, found_px, None, capture.frames, StillNoise())
+        return MeasuredHand(_no_verdict(clicks, findings), None, StillNoise())
     with np.errstate(all="ignore"):
         pixel = camera.undistort(np.nanmean(capture.pixel, axis=0))
         depth_m = _nanmean(capture.depth_m)
@@ -225,7 +240,7 @@ def _measured(
         np.zeros(3) if start_angles_rad is None else start_angles_rad,
         replace(verdict, findings=tuple(findings)),
     )
-    return CalibrationOutcome(calibration.verdict, appearance, found_px, calibration, capture.frames, noise)
+    return MeasuredHand(calibration.verdict, calibration, noise)
 
 
 def _nanmean(values: FloatArray) -> FloatArray:
