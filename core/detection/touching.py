@@ -58,6 +58,9 @@ def _parts(points: FloatArray, radius_px: float) -> NDArray[np.int64] | None:
     count = max(2, round((reach - 2.0 * radius_px) / (2.0 * radius_px)) + 1)
     if count > MOST_PARTS:
         return None
+    if count == 2:
+        # Two discs: the line between them crosses the main axis in the middle of the blob.
+        return np.asarray(along > 0.5 * (along.max() + along.min()), dtype=np.int64)
     ends = np.linspace(along.min() + radius_px, along.max() - radius_px, count)
     centre = points.mean(axis=0) + ends[:, None] * axes[:, 1]
     part = np.zeros(len(points), dtype=np.int64)

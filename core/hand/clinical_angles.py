@@ -60,14 +60,16 @@ def angle_rates_matrix(rotation_w2_w0: FloatArray, side: Side) -> FloatArray:
     sx, cx = np.sin(phi), np.cos(phi)
     c = np.cos(theta)
     c = np.where(np.abs(c) < 1e-6, 1e-6, c)
-    t = np.sin(theta) / c
-    zero, one = np.zeros_like(c), np.ones_like(c)
-    rows = (
-        np.stack((zero, s * sx / c, s * cx / c), axis=-1),
-        np.stack((zero, cx, -sx), axis=-1),
-        np.stack((s * one, s * sx * t, s * cx * t), axis=-1),
-    )
-    return np.stack(rows, axis=-2)
+    t = s * np.sin(theta) / c
+    out = np.zeros((*rotation_w2_w0.shape[:-2], 3, 3))
+    out[..., 0, 1] = s * sx / c
+    out[..., 0, 2] = s * cx / c
+    out[..., 1, 1] = cx
+    out[..., 1, 2] = -sx
+    out[..., 2, 0] = s
+    out[..., 2, 1] = sx * t
+    out[..., 2, 2] = cx * t
+    return out
 
 
 def zyz_from_rotation(rotation_w2_w0: FloatArray) -> FloatArray:

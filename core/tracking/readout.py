@@ -19,8 +19,8 @@ from core.types import Detections, FloatArray, Moment, TrackedFrame, TrackStatus
 
 _NONE = np.empty(0)
 _DORSAL = np.array([0.0, 0.0, 1.0])
-_SHAPE_MOVED_M = 2e-5
-"""The axes are computed anew when a disc's refined place has moved by this much."""
+_SHAPE_MOVED_M = 3e-4
+"""The axes are computed anew when a disc's refined place has moved by this much; before, to first order."""
 
 
 class Readout:
@@ -44,7 +44,9 @@ class Readout:
             discs = self._calibration.marker_position_w0_m[self._palm] + palm_shape
             self._axes, self._sensitivity = wrist_axes_sensitivity(discs, _DORSAL)
             self._axes_shape = palm_shape.copy()
-        return self._axes, self._sensitivity
+            return self._axes, self._sensitivity
+        turned = self._sensitivity @ (palm_shape - self._axes_shape).ravel()
+        return self._axes @ so3.exp(turned), self._sensitivity
 
     def moment(self, belief: Belief) -> Moment:
         """Wrist pose, rates, angles and their standard deviations of a single belief."""
