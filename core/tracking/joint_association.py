@@ -89,7 +89,7 @@ def associate_jointly(
                     odds = odds + log_range
                 else:
                     odds = odds + np.where(np.isfinite(measured[:, 2]), np.log(depth_outlier), 0.0)
-                for blob in np.flatnonzero((distance2 <= settings.gate_sd**2) & (odds > 0.0)):
+                for blob in np.flatnonzero(distance2 <= settings.gate_sd**2):
                     if blob not in branch.taken:
                         children.append((branch.score + float(odds[blob]), branch, int(blob), depth_used))
         children.sort(key=lambda child: -child[0])

@@ -1,0 +1,245 @@
+"""Names of blobs: eq. (12) by its own formula, the joint resolution by trying every assignment there is."""
+
+from __future__ import annotations
+
+from itertools import permutations, product
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from numpy.typing import NDArray
+from scipy.stats import chi2, multivariate_normal
+
+from core.tracking.association import IMPOSSIBLE, AssociationSettings, log_odds, posterior, resolve
+from core.tracking.joint_association import associate_jointly, holds_together
+from core.types import FloatArray
+
+RES_PX2 = 640.0 * 480.0
+OUTLIER = 1e-3
+SETTINGS = AssociationSettings(prior_marker=0.85, prior_clutter=0.15, gate_sd=5.0, depth_range_m=0.5)
+
+
+def assignments(markers: int, blobs: int) -> list[tuple[int, ...]]:
+    """Every way to give markers blobs or none (-1), no blob twice."""
+    return list({p[:markers] for p in permutations([*range(blobs), *[-1] * markers], markers)})
+
+
+odds_tables = st.integers(1, 4).flatmap(
+    lambda m: st.integers(0, 4).flatmap(
+        lambda d: st.lists(
+            st.lists(st.one_of(st.floats(-20.0, 20.0), st.just(IMPOSSIBLE)), min_size=d, max_size=d),
+            min_size=m,
+            max_size=m,
+        ).map(lambda rows: np.array(rows, dtype=float).reshape(m, d))
+    )
+)
+
+
+@settings(deadline=None, max_examples=200)
+@given(odds_tables)
+def test_resolved_names_are_the_best_of_all(odds: FloatArray) -> None:
+    taken = resolve(odds)
+    used = taken[taken >= 0]
+    assert len(set(used)) == len(used), "no blob twice"
+    reached = sum(odds[j, i] for j, i in enumerate(taken) if i >= 0)
+    best = max(sum(odds[j, i] for j, i in enumerate(a) if i >= 0) for a in assignments(*odds.shape))
+    assert reached == pytest.approx(best, abs=1e-9)
+    assert all(odds[j, i] > 0.0 for j, i in enumerate(taken) if i >= 0), "clutter is likelier than such a name"
+
+
+def random_covariance(rng: np.random.Generator, count: int) -> FloatArray:
+    sd = np.tile([2.0, 2.0, 0.003], count) * rng.uniform(0.5, 2.0, 3 * count)
+    root = rng.normal(size=(3 * count, 3 * count)) / np.sqrt(3.0 * count) + np.eye(3 * count)
+    return np.asarray((root @ root.T) * np.outer(sd, sd))
+
+
+def scene(seed: int, markers: int = 3, clutter: int = 2) -> tuple[FloatArray, FloatArray, FloatArray, FloatArray]:
+    """Predictions (3M,) with covariance, blobs of a draw from it and of clutter, some without depth; noise."""
+    rng = np.random.default_rng(seed)
+    covariance = random_covariance(rng, markers)
+    mean = np.concatenate([[*rng.uniform([300.0, 200.0], [312.0, 212.0]), 0.7] for _ in range(markers)])
+    there = (mean + np.linalg.cholesky(covariance) @ rng.normal(size=mean.size)).reshape(markers, 3)
+    there += rng.normal(size=there.shape) * [0.3, 0.3, 0.001]
+    strange = np.column_stack(
+        (rng.uniform([296.0, 196.0], [316.0, 216.0], (clutter, 2)), rng.uniform(0.68, 0.72, clutter))
+    )
+    blobs = rng.permutation(np.concatenate((there[rng.random(markers) < 0.8], strange)))
+    blobs[rng.random(len(blobs)) < 0.25, 2] = np.nan
+    noise = np.tile([0.3**2, 0.3**2, 0.001**2], (len(blobs), 1)) * rng.uniform(0.5, 2.0, (len(blobs), 1))
+    return mean, covariance, blobs, noise
+
+
+@pytest.mark.parametrize("seed", range(30))
+def test_posterior_is_equation_12(seed: int) -> None:
+    mean, covariance, blobs, noise = scene(seed)
+    own = np.stack([covariance[3 * j : 3 * j + 3, 3 * j : 3 * j + 3] for j in range(3)])
+    odds = log_odds(mean.reshape(3, 3), own, blobs, noise, RES_PX2, OUTLIER, SETTINGS)
+    found = posterior(odds.value)
+    assert np.allclose(found.sum(axis=1), 1.0, atol=1e-12)
+    for i, blob in enumerate(blobs):
+        deep = np.isfinite(blob[2])
+        clutter = SETTINGS.prior_clutter / RES_PX2 / (SETTINGS.depth_range_m if deep else 1.0)
+        weight = [clutter]
+        for j in range(3):
+            s = own[j] + np.diag(noise[i])
+            there = mean[3 * j : 3 * j + 3]
+            off = blob - there
+            flat = multivariate_normal(there[:2], s[:2, :2]).pdf(blob[:2])
+            inside = off[:2] @ np.linalg.solve(s[:2, :2], off[:2]) <= SETTINGS.gate_sd**2
+            ways = [flat * inside * (OUTLIER / SETTINGS.depth_range_m if deep else 1.0)]
+            if deep and off @ np.linalg.solve(s, off) <= SETTINGS.gate_sd**2:
+                ways.append(multivariate_normal(there, s).pdf(blob))
+            assert odds.with_depth[j, i] == (len(ways) == 2 and ways[1] >= ways[0]) or not inside
+            weight.append(SETTINGS.prior_marker * max(ways))
+        assert np.allclose(found[i], np.array(weight) / np.sum(weight), atol=1e-9)
+
+
+def test_no_blobs_get_no_names() -> None:
+    mean, covariance, _, _ = scene(0)
+    own = np.stack([covariance[3 * j : 3 * j + 3, 3 * j : 3 * j + 3] for j in range(3)])
+    odds = log_odds(mean.reshape(3, 3), own, np.empty((0, 3)), np.empty((0, 3)), RES_PX2, OUTLIER, SETTINGS)
+    assert list(resolve(odds.value)) == [-1, -1, -1]
+    assert posterior(odds.value).shape == (0, 4)
+
+
+def test_clutter_density_decides_between_a_far_marker_and_nothing() -> None:
+    """A blob four standard deviations off is the marker in a large picture and clutter in a small one."""
+    own = np.diag([4.0, 4.0, 1e-6])[None]
+    blob, noise = np.array([[308.0, 200.0, np.nan]]), np.array([[0.01, 0.01, 1e-6]])
+
+    def taken_in(resolution_px2: float) -> int:
+        odds = log_odds(np.array([[300.0, 200.0, 0.7]]), own, blob, noise, resolution_px2, OUTLIER, SETTINGS)
+        return int(resolve(odds.value)[0])
+
+    assert taken_in(RES_PX2) == 0
+    assert taken_in(2000.0) == -1
+
+
+def joint_score(
+    mean: FloatArray,
+    covariance: FloatArray,
+    blobs: FloatArray,
+    noise: FloatArray,
+    taken: tuple[int, ...],
+    depths: tuple[bool, ...],
+) -> float:
+    """Log posterior of one set of names over all clutter, by the Gaussian of all named components at once."""
+    rows, values, variances, extra = [], [], [], 0.0
+    for marker, (blob, with_depth) in enumerate(zip(taken, depths, strict=True)):
+        if blob < 0:
+            continue
+        deep = bool(np.isfinite(blobs[blob, 2]))
+        extra += np.log(SETTINGS.prior_marker / SETTINGS.prior_clutter * RES_PX2)
+        extra += np.log(SETTINGS.depth_range_m) if with_depth else (np.log(OUTLIER) if deep else 0.0)
+        for axis in range(3 if with_depth else 2):
+            rows.append(3 * marker + axis)
+            values.append(blobs[blob, axis])
+            variances.append(noise[blob, axis])
+    if not rows:
+        return 0.0
+    s = covariance[np.ix_(rows, rows)] + np.diag(variances)
+    return float(multivariate_normal(mean[rows], s).logpdf(values) + extra)
+
+
+def is_inside_gate(
+    mean: FloatArray,
+    covariance: FloatArray,
+    blobs: FloatArray,
+    noise: FloatArray,
+    taken: tuple[int, ...],
+    depths: tuple[bool, ...],
+) -> bool:
+    """Whether each name, the surest marker's first, is inside the gate given those before it."""
+    spread = [np.linalg.det(covariance[3 * j : 3 * j + 2, 3 * j : 3 * j + 2]) for j in range(len(taken))]
+    rows: list[int] = []
+    variances: list[float] = []
+    values: list[float] = []
+    before = 0.0
+    for j in np.argsort(spread, kind="stable"):
+        if taken[j] < 0:
+            continue
+        axes = range(3 if depths[j] else 2)
+        rows += [3 * int(j) + axis for axis in axes]
+        variances += [noise[taken[j], axis] for axis in axes]
+        values += [blobs[taken[j], axis] for axis in axes]
+        off = np.array(values) - mean[rows]
+        distance2 = float(off @ np.linalg.solve(covariance[np.ix_(rows, rows)] + np.diag(variances), off))
+        if distance2 - before > SETTINGS.gate_sd**2:
+            return False
+        before = distance2
+    return True
+
+
+def all_scores(
+    mean: FloatArray, covariance: FloatArray, blobs: FloatArray, noise: FloatArray
+) -> dict[tuple[tuple[int, ...], tuple[bool, ...]], float]:
+    out = {}
+    markers = mean.size // 3
+    for taken in assignments(markers, len(blobs)):
+        ways = [(False, True) if i >= 0 and np.isfinite(blobs[i, 2]) else (False,) for i in taken]
+        for depths in product(*ways):
+            if is_inside_gate(mean, covariance, blobs, noise, taken, depths):
+                out[taken, depths] = joint_score(mean, covariance, blobs, noise, taken, depths)
+    return out
+
+
+def as_key(taken: NDArray[np.int64], with_depth: NDArray[np.bool_]) -> tuple[tuple[int, ...], tuple[bool, ...]]:
+    return tuple(int(i) for i in taken), tuple(bool(d) for d in with_depth)
+
+
+@pytest.mark.parametrize("seed", range(40))
+def test_joint_names_are_the_best_of_all_with_a_wide_beam(seed: int) -> None:
+    mean, covariance, blobs, noise = scene(seed, clutter=seed % 3)
+    found = associate_jointly(mean, covariance, blobs, noise, RES_PX2, OUTLIER, SETTINGS, beam=10_000)
+    scores = all_scores(mean, covariance, blobs, noise)
+    key = as_key(found.taken, found.with_depth)
+    used = found.taken[found.taken >= 0]
+    assert len(set(used)) == len(used), "no blob twice"
+    assert scores[key] == pytest.approx(found.log_posterior, abs=1e-6)
+    assert found.log_posterior == pytest.approx(max(scores.values()), abs=1e-6)
+
+
+def test_the_usual_beam_finds_the_best_names_almost_always() -> None:
+    fell_short = 0
+    for seed in range(100):
+        mean, covariance, blobs, noise = scene(1000 + seed, clutter=2)
+        args = (mean, covariance, blobs, noise, RES_PX2, OUTLIER, SETTINGS)
+        wide = associate_jointly(*args, beam=10_000).log_posterior
+        usual = associate_jointly(*args).log_posterior
+        assert usual <= wide + 1e-9
+        fell_short += usual < wide - 1e-6
+    assert fell_short <= 3
+
+
+def test_joint_names_see_what_single_ones_cannot() -> None:
+    """A palm that jumped beside a false blob: each disc lies near another's prediction, all together make sense."""
+    mean = np.concatenate([[u, 200.0, 0.7] for u in (300.0, 310.0, 324.0)])
+    together = np.kron(np.ones((3, 3)), np.diag([36.0, 1.0, 1e-5]))
+    covariance = together + np.kron(np.eye(3), np.diag([0.04, 0.04, 1e-8]))
+    blobs = np.concatenate((mean.reshape(3, 3) + [8.0, 0.0, 0.0], [[300.3, 200.0, 0.7]]))
+    noise = np.tile([0.01, 0.01, 1e-7], (4, 1))
+    own = np.stack([covariance[3 * j : 3 * j + 3, 3 * j : 3 * j + 3] for j in range(3)])
+    single = resolve(log_odds(mean.reshape(3, 3), own, blobs, noise, RES_PX2, OUTLIER, SETTINGS).value)
+    jointly = associate_jointly(mean, covariance, blobs, noise, RES_PX2, OUTLIER, SETTINGS)
+    assert list(jointly.taken) == [0, 1, 2]
+    assert list(single) != [0, 1, 2]
+
+
+def test_blobs_of_strange_depth_are_named_by_their_pixels() -> None:
+    """A disc whose depth is the table's keeps its name, and its depth is not believed."""
+    mean, covariance = np.array([300.0, 200.0, 0.70]), np.diag([1.0, 1.0, 1e-6])
+    blob, noise = np.array([[300.5, 200.0, 0.75]]), np.array([[0.01, 0.01, 1e-6]])
+    odds = log_odds(mean[None], covariance[None], blob, noise, RES_PX2, OUTLIER, SETTINGS)
+    assert resolve(odds.value)[0] == 0
+    assert not odds.with_depth[0, 0]
+    jointly = associate_jointly(mean, covariance, blob, noise, RES_PX2, OUTLIER, SETTINGS)
+    assert as_key(jointly.taken, jointly.with_depth) == ((0,), (False,))
+
+
+def test_the_whole_is_doubted_when_chance_would_hardly_make_it() -> None:
+    assert holds_together(float("nan"), 0)
+    for dof in (1, 6, 18, 63):
+        limit = chi2.isf(5e-4, dof)
+        assert holds_together(0.999 * limit, dof)
+        assert not holds_together(1.001 * limit, dof)
