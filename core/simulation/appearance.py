@@ -24,7 +24,7 @@ _WOODS_SRGB = np.array([[170.0, 128.0, 88.0], [120.0, 84.0, 56.0], [205.0, 175.0
 _PLAIN_SRGB = np.array([[205.0, 205.0, 200.0], [140.0, 146.0, 148.0], [92.0, 100.0, 96.0]])
 
 # Brightness of the picture and electrons at full scale: how much light there is, and so how much noise.
-LIGHTS = {"bright": (0.95, 7000.0), "normal": (0.72, 3000.0), "dim": (0.34, 900.0)}
+LIGHTS = {"bright": (0.92, 4500.0), "normal": (0.72, 1800.0), "dim": (0.34, 800.0)}
 READ_NOISE_ELECTRONS = 9.0
 
 
@@ -38,7 +38,8 @@ def linear(srgb: FloatArray) -> FloatArray:
 class Appearance:
     """Linear colours (3,) of skin, paper, sleeve and thing; ``sleeve_start_m`` from the wrist along the forearm,
     None without sleeve; unit ``light_cam`` (3,) from the surface to the lamp; ``lamp`` and ``ambient`` (3,)
-    strengths; ``electrons`` at full scale; ``blur_px`` of the lens."""
+    strengths; ``electrons`` at full scale; ``blur_px`` of the lens; ``mottling`` (5, 3) rad/m of the waves in the
+    skin's colour; ``table`` its albedo (H, W, 3) and ``table_depth_m`` (H, W)."""
 
     skin: FloatArray
     paper: FloatArray
@@ -50,6 +51,7 @@ class Appearance:
     ambient: FloatArray
     electrons: float
     blur_px: float
+    mottling: FloatArray
     table: FloatImage
     table_depth_m: FloatImage
 
@@ -84,6 +86,7 @@ def appearance_of(scene: Scene) -> Appearance:
         ambient=level * (1.0 - lamp_share) * 1.25 * white,
         electrons=electrons,
         blur_px=rng.uniform(0.5, 0.75),
+        mottling=rng.normal(size=(5, 3)) * rng.uniform(150.0, 700.0, (5, 1)),
         table=table,
         table_depth_m=depth,
     )

@@ -13,7 +13,6 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from core.simulation.patient import DISC_RADIUS_M
 from core.simulation.scene import Scene
 from core.simulation.sensor import depth_scale
 from core.simulation.spec import RecordingSpec, Stream
@@ -67,13 +66,14 @@ def measurement_sequence(spec: RecordingSpec) -> MeasurementSequence:
     truth = dataclasses.replace(truth, visible_share=np.where(seen, share, 0.0))
 
     noise = _Noise(spec, scene, rng)
-    bias_px = rng.normal(0.0, CENTER_BIAS_PX, (markers, 2))
-    bias_m = rng.normal(0.0, DEPTH_BIAS_M, markers)
+    noisy = 1.0 if spec.sensor_noise else 0.0
+    bias_px = noisy * rng.normal(0.0, CENTER_BIAS_PX, (markers, 2))
+    bias_m = noisy * rng.normal(0.0, DEPTH_BIAS_M, markers)
     depth_pose = scene.pose(times.depth_s)
     depth_true = scene.to_camera(scene.discs_w0_m(depth_pose)[:, rows])[..., 2]
     pixel = noise.pixel(truth.disc_pixel + bias_px)
     depth = noise.depth(truth.disc_pixel, depth_true + bias_m)
-    area = noise.area(truth.disc_position_cam_m[..., 2], DISC_RADIUS_M) * facing
+    area = noise.area(truth.disc_position_cam_m[..., 2], scene.patient.disc_radius_m[rows]) * facing
 
     false_px, false_z, false_radius, false_there = _false_places(scene, t)
     false_pixel, false_depth = noise.pixel(false_px), noise.depth(false_px, false_z)

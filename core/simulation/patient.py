@@ -8,6 +8,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from core.hand.anatomy import HandAnatomy, anatomy_from_size
+from core.hand.kinematics import disc_centres
+from core.hand.protocols import HAND21, MarkerProtocol
 from core.hand.wrist_frame import wrist_axes
 from core.simulation.spec import RecordingSpec, Stream
 from core.types import FloatArray
@@ -15,26 +17,31 @@ from core.types import FloatArray
 WRIST_JOINT_DEPTH_M = 0.015
 """Depth of the wrist's centre of rotation under the WRIST disc of a hand 180 mm long (reference 2)."""
 
-DISC_RADIUS_M = 0.006
-"""The paper discs are 12 mm wide (reference 2)."""
+DISC_RADIUS_M, SMALL_DISC_RADIUS_M = 0.006, 0.004
+"""The paper discs are 12 mm wide, 8 mm at the ends of small fingers and on children (reference 2)."""
+_LEAST_SPACING_M = 0.0145
+"""Two discs of 12 mm nearer than this would nearly touch: the therapist takes small ones."""
 
+_THUMB_ROLL_DEG = (54.0, 4.0)
+"""Mean and scatter; below the reference's 60, as a disc on a thumb rolled further cannot be seen from above."""
 _LENGTH_RANGE_M = (0.130, 0.200)
-_SEGMENT_SD, _OFFSET_SD = 0.05, 0.08
-_DISC_PLACE_SD_M = np.array([0.0015, 0.0015, 0.001])
+_SEGMENT_SD, _FLESH_SD, _OFFSET_SD = 0.05, 0.08, 0.03
+_DISC_PLACE_SD_M = np.array([0.0007, 0.0007, 0.0007])
 
 
 @dataclass(frozen=True, slots=True)
 class Patient:
     """``anatomy`` in W with its side; ``wrist_joint_m`` (3,) centre of the wrist's rotation in W;
-    ``size`` hand length over 180 mm."""
+    ``disc_radius_m`` (21,); ``size`` hand length over 180 mm."""
 
     anatomy: HandAnatomy
     wrist_joint_m: FloatArray
+    disc_radius_m: FloatArray
     size: float
 
 
 def patient_of(spec: RecordingSpec) -> Patient:
-    """Draw a patient; lengths vary by 5 %, disc places by 1.5 mm around the reference's table."""
+    """Draw a patient: segments vary by 5 %, flesh by 8 %, disc places by 0.7 mm around the reference's table."""
     rng = spec.random(Stream.PATIENT)
     drawn_m = rng.uniform(*_LENGTH_RANGE_M)
     length_m = drawn_m if spec.hand_length_mm is None else spec.hand_length_mm / 1000.0
@@ -44,23 +51,40 @@ def patient_of(spec: RecordingSpec) -> Patient:
         length_m,
         breadth_m,
         side=spec.hand,
-        arch=rng.uniform(0.8, 1.25),
+        arch=rng.uniform(0.75, 1.1),
         skin_offsets=spec.skin_offsets,
         nail_discs=True,
     )
     discs = average.palm_disc_m + size * _DISC_PLACE_SD_M * rng.normal(size=(6, 3))
     discs = discs - discs[0]
     discs = discs @ wrist_axes(discs, towards=np.array([0.0, 0.0, 1.0]))
-    depth = (average.palm_disc_m - average.palm_joint_m)[:, 2] * rng.normal(1.0, _OFFSET_SD, 6)
+    flesh = rng.normal(1.0, _FLESH_SD)
+    depth = (average.palm_disc_m - average.palm_joint_m)[:, 2] * rng.normal(flesh, _OFFSET_SD, 6)
     anatomy = dataclasses.replace(
         average,
         palm_disc_m=discs,
         palm_joint_m=discs - np.outer(depth, [0.0, 0.0, 1.0]),
         fan_rad=average.fan_rad + np.radians(rng.normal(0.0, [3.0, 1.5, 1.0, 1.5, 1.5])),
-        thumb_roll_rad=average.thumb_roll_rad + np.radians(rng.normal(0.0, 4.0)),
+        thumb_roll_rad=float(np.radians(np.clip(rng.normal(*_THUMB_ROLL_DEG), 44.0, 62.0))),
         thumb_length_m=average.thumb_length_m * rng.normal(1.0, _SEGMENT_SD, 3),
         finger_length_m=average.finger_length_m * rng.normal(1.0, _SEGMENT_SD, (4, 3)),
-        thumb_offset_m=average.thumb_offset_m * rng.normal(1.0, _OFFSET_SD, 3),
-        finger_offset_m=average.finger_offset_m * rng.normal(1.0, _OFFSET_SD, (4, 3)),
+        thumb_offset_m=average.thumb_offset_m * rng.normal(flesh, _OFFSET_SD, 3),
+        finger_offset_m=average.finger_offset_m * rng.normal(flesh, _OFFSET_SD, (4, 3)),
     )
-    return Patient(anatomy, np.array([0.0, 0.0, -WRIST_JOINT_DEPTH_M * size]), size)
+    return Patient(
+        anatomy, np.array([0.0, 0.0, -WRIST_JOINT_DEPTH_M * size]), _disc_radii(anatomy, spec.marker_protocol), size
+    )
+
+
+def _disc_radii(anatomy: HandAnatomy, protocol: MarkerProtocol) -> FloatArray:
+    """Radius of each disc of ``hand21``: small where two discs of the protocol would nearly touch; on the palm
+    as at the ends of the fingers either all are small or none."""
+    flat = disc_centres(anatomy, np.zeros(17))
+    used = [HAND21.markers.index(name) for name in protocol.markers]
+    gap = np.linalg.norm(flat[used][:, None] - flat[used][None], axis=-1) + np.eye(len(used))
+    radius = np.full(len(HAND21.markers), DISC_RADIUS_M)
+    radius[used] = np.where(gap.min(axis=1) < _LEAST_SPACING_M, SMALL_DISC_RADIUS_M, DISC_RADIUS_M)
+    ends = [row for row, name in enumerate(HAND21.markers) if name[:3] in ("DIP", "TIP") and name != "TIP1"]
+    for group in (list(HAND21.palm), ends):
+        radius[group] = radius[group].min()
+    return radius

@@ -27,7 +27,7 @@ from core.simulation.spec import RecordingSpec, Stream
 from core.simulation.trouble import FrameTimes, covered_discs, frame_times
 from core.simulation.truth import RECORDING_EPOCH_S, Truth, truth_of
 from core.simulation.truth_file import read_visible_share, write_truth
-from core.types import ByteImage, DepthImage, Frame
+from core.types import ByteImage, DepthImage, FloatArray, Frame
 
 CLICKS_FILE, TRUTH_FILE = "calibration.json", "truth.h5"
 
@@ -77,8 +77,12 @@ class SimulatedPictures:
             picture = dataclasses.replace(picture, color=picture.color / np.float32(count))
         depth_time = float(self.times.depth_s[i])
         if self._shift_m(t, depth_time) > 1e-4:
-            picture = dataclasses.replace(picture, depth_m=self._renderer.depth(depth_time))
+            picture = dataclasses.replace(picture, depth_m=self._renderer.depth(depth_time, self._covered[i]))
         return picture
+
+    def visible_share(self, i: int) -> FloatArray:
+        """Share (M,) of each disc's paper that the camera sees in frame i."""
+        return self._renderer.picture(float(self.times.color_s[i]), self._covered[i]).visible_share
 
     def sensed(self, i: int, clean: CleanPicture) -> tuple[ByteImage, DepthImage]:
         """What the camera makes of a clean picture."""

@@ -5,11 +5,12 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
+import cv2
 import numpy as np
 
 from core.camera import Camera
 from core.hand.clinical_angles import rotation_from_angles, side_sign
-from core.hand.kinematics import disc_centres, joint_centres
+from core.hand.kinematics import disc_centres, joint_centres, segment_frames
 from core.hand.protocols import HAND21
 from core.simulation.motions import HandMotion, motion_of
 from core.simulation.patient import Patient, patient_of
@@ -22,6 +23,7 @@ _FROM_ABOVE = np.array([[0.0, -1.0, 0.0], [-1.0, 0.0, 0.0], [0.0, 0.0, -1.0]])
 
 _LOWEST_GAP_M = 0.006
 _PICTURE_MARGIN_PX = 22.0
+_MOTION_SAMPLES = 80
 _FULL_FLEXION_RAD = math.radians(50.0)
 _SKIN_MOVEMENT_SHARE = np.array([1.0, 0.6, 0.5, 0.5, 0.5, 0.5])
 """Movement of WRIST, CMC1, MCP2 to MCP5 over the bones as a share of that of WRIST (reference 2)."""
@@ -47,6 +49,8 @@ class Scene:
         self.patient: Patient = patient_of(spec)
         self.motion: HandMotion = motion_of(spec)
         self.skin = HandSkin(self.patient)
+        self._palm_normals = self.skin.palm_normals()
+        self._skin_rise_m = self._skin_rises_m() if spec.skin_movement_mm > 0.0 else np.zeros((2, 6))
         rng = spec.random(Stream.SCENE)
         focal_px = 525.0 * rng.uniform(0.98, 1.02)
         self.camera = Camera(
@@ -70,11 +74,45 @@ class Scene:
         """All 21 disc centres in W0, (N, 21, 3)."""
         local = disc_centres(self.patient.anatomy, pose.joint_angles_rad)
         if self.spec.skin_movement_mm > 0.0:
-            palm = list(HAND21.palm)
             share = np.clip(pose.angles_rad[:, 1] / _FULL_FLEXION_RAD, -1.0, 1.0)
-            along = 0.5e-3 * self.spec.skin_movement_mm * share[:, None] * _SKIN_MOVEMENT_SHARE
-            local[:, palm, 0] += along
+            local[:, list(HAND21.palm)] += self._skin_shift_m(share)
         return _moved(local, pose)
+
+    def disc_normals_w0(self, pose: HandPose) -> FloatArray:
+        """Unit normals of the 21 discs in W0, (N, 21, 3): of the skin on the palm, the bisectors of the bones that
+        meet under them on the digits."""
+        bones = segment_frames(self.patient.anatomy, pose.joint_angles_rad).dorsal_normal[:, 1:].reshape(-1, 5, 3, 3)
+        normals = np.empty((len(bones), 21, 3))
+        normals[:, list(HAND21.palm)] = self._palm_normals
+        rays = normals[:, 1:].reshape(-1, 5, 4, 3)
+        rays[:, 1:, 1] = bones[:, 1:, 0] + bones[:, 1:, 1]
+        rays[:, 0, 1] = bones[:, 0, 0]
+        rays[:, :, 2] = bones[:, :, 1] + bones[:, :, 2]
+        rays[:, :, 3] = bones[:, :, 2]
+        normals = normals / np.linalg.norm(normals, axis=-1, keepdims=True)
+        return np.asarray(normals @ pose.rotation_w2_w0.transpose(0, 2, 1))
+
+    def _skin_shift_m(self, share: FloatArray) -> FloatArray:
+        """Movement (N, 6, 3) of the palm's discs over the skin at shares -1 to 1 of full flexion, staying on it."""
+        along = 0.5e-3 * self.spec.skin_movement_mm * _SKIN_MOVEMENT_SHARE
+        rise = self._skin_rise_m
+        quadratic, linear = 0.5 * (rise[1] + rise[0]), 0.5 * (rise[1] - rise[0])
+        s = share[:, None]
+        return np.stack((s * along, np.zeros_like(s * along), s * s * quadratic + s * linear), axis=-1)
+
+    def _skin_rises_m(self) -> FloatArray:
+        """Rise (2, 6) of the skin under each palm disc at full extension and at full flexion."""
+        discs = disc_centres(self.patient.anatomy, np.zeros(17))[list(HAND21.palm)]
+        along = 0.5e-3 * self.spec.skin_movement_mm * _SKIN_MOVEMENT_SHARE
+        return np.array(
+            [
+                [
+                    self.skin.palm_height_m(disc[:2] + [side * step, 0.0]) - disc[2]
+                    for disc, step in zip(discs, along, strict=True)
+                ]
+                for side in (-1.0, 1.0)
+            ]
+        )
 
     def joints_w0_m(self, pose: HandPose) -> FloatArray:
         """All 21 joint centres and tips in W0, (N, 21, 3)."""
@@ -93,35 +131,42 @@ class Scene:
 
     def _lowest_m(self) -> float:
         """Height in W0 of the lowest point that the skin reaches."""
-        times = np.arange(0.0, self.spec.seconds, 0.05)
+        times = self._samples()
         pose = self.pose(times)
         lowest = -0.040 * self.patient.size
         for i in range(len(times)):
             cones = self.skin.cones_w(pose.joint_angles_rad[i]).moved(pose.rotation_w2_w0[i], pose.position_m[i])
-            lower_a = cones.a_m[:, 2] - cones.radius_a_m - cones.half_width_m * np.abs(cones.lateral[:, 2])
-            lower_b = cones.b_m[:, 2] - cones.radius_b_m - cones.half_width_m * np.abs(cones.lateral[:, 2])
+            lower_a = cones.a_m[:, 2] - cones.radius_a_m - cones.width_a_m * np.abs(cones.lateral[:, 2])
+            lower_b = cones.b_m[:, 2] - cones.radius_b_m - cones.width_b_m * np.abs(cones.lateral[:, 2])
             lowest = min(lowest, float(lower_a.min()), float(lower_b.min()))
         return lowest
 
+    def _samples(self) -> FloatArray:
+        """Times that show how far the motion goes."""
+        return np.linspace(0.0, self.spec.seconds, min(_MOTION_SAMPLES, 1 + round(20.0 * self.spec.seconds)))
+
     def _orientation(self, rng: np.random.Generator) -> FloatArray:
         yaw = math.radians(rng.uniform(-20.0, 20.0) if self.spec.yaw_deg is None else self.spec.yaw_deg)
-        drawn_tilt = rng.uniform(0.0, 10.0)
+        drawn_tilt, heading = rng.uniform(0.0, 10.0), rng.uniform(-math.pi, math.pi)
+        if self.spec.marker_protocol.has_fingers:
+            # The thumb's discs face sideways: its side of the hand is turned up so that they can be clicked.
+            drawn_tilt, heading = 0.6 * drawn_tilt + 6.0, 0.2 * heading
+            if self.spec.hand == "left":
+                heading += math.pi
         tilt = math.radians(drawn_tilt if self.spec.tilt_deg is None else self.spec.tilt_deg)
-        heading = rng.uniform(0.0, 2.0 * math.pi)
-        c, s = math.cos(yaw), math.sin(yaw)
-        turned = np.array([[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]])
         axis = np.array([math.cos(heading), math.sin(heading), 0.0])
-        cross = np.array([[0.0, -axis[2], axis[1]], [axis[2], 0.0, -axis[0]], [-axis[1], axis[0], 0.0]])
-        tilted = np.eye(3) + math.sin(tilt) * cross + (1.0 - math.cos(tilt)) * (cross @ cross)
-        return np.asarray(tilted @ _FROM_ABOVE @ turned)
+        turned, _ = cv2.Rodrigues(np.array([0.0, 0.0, yaw]))
+        tilted, _ = cv2.Rodrigues(tilt * axis)
+        return np.asarray(_FROM_ABOVE @ turned @ tilted)
 
     def _placement(self, rng: np.random.Generator) -> FloatArray:
         """Put the middle of all that the discs do near the middle of the picture, far enough to see it all."""
         reaches = self.spec.motion.startswith("reach")
-        drawn = rng.uniform(0.84, 0.90) if reaches else rng.uniform(0.62, 0.88)
+        nearest, farthest = (0.84, 0.90) if reaches else (0.62, 0.78 if self.spec.marker_protocol.has_fingers else 0.88)
+        drawn = rng.uniform(nearest, farthest)
         distance_m = drawn if self.spec.distance_m is None else self.spec.distance_m
         shift_m = rng.uniform(-0.025, 0.025, 2)
-        times = np.arange(0.0, self.spec.seconds, 0.05)
+        times = self._samples()
         pose = self.pose(times)
         if self.spec.leaves_picture:
             pose = self.pose(times[times < 0.4 * self.spec.seconds])

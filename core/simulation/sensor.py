@@ -28,10 +28,17 @@ _EDGE_JITTER_PX = 1.6
 _NEAREST_M, _FARTHEST_M = 0.40, 3.5
 _DEPTH_COUNTS_PER_M = 5000.0
 
-_GAMMA = np.concatenate(
-    [np.round(255.0 * (lambda c: np.where(c <= 0.0031308, 12.92 * c, 1.055 * c ** (1 / 2.4) - 0.055))(
-        np.linspace(0.0, 1.0, 4096)))]
-).astype(np.uint8)  # fmt: skip
+_WHITE = 65535
+
+
+def _gamma_table() -> ByteImage:
+    """The sRGB curve from 16-bit linear to 8 bits."""
+    light = np.linspace(0.0, 1.0, _WHITE + 1)
+    curve = np.where(light <= 0.0031308, 12.92 * light, 1.055 * light ** (1.0 / 2.4) - 0.055)
+    return np.asarray(np.round(255.0 * curve), dtype=np.uint8)
+
+
+_GAMMA = _gamma_table()
 
 
 class ColorSensor:
@@ -43,27 +50,28 @@ class ColorSensor:
         self._noisy = spec.sensor_noise
 
     def expose(self, color: FloatImage, frame: int) -> ByteImage:
-        """(H, W, 3) linear to RGB uint8: lens blur, shot and read noise, gamma, YUV 4:2:2 and back.
+        """(H, W, 3) linear to RGB uint8: lens blur, Bayer filter, shot and read noise, demosaicing,
+        gamma, YUV 4:2:2 and back.
 
         The noise depends on seed and frame number alone."""
-        light = color
-        if self._noisy:
-            light = _blurred(light, self._looks.blur_px)
-            rng = np.random.default_rng([self._seed, Stream.COLOR_NOISE, frame])
-            noise = rng.standard_normal(light.shape, dtype=np.float32)
-            # The demosaicing filter shares noise between neighbours.
-            noise = _blurred(noise, 0.55) * np.float32(1.6)
-            electrons = np.float32(self._looks.electrons)
-            light = np.maximum(light, np.float32(0.0))
-            variance = light / electrons + np.float32((READ_NOISE_ELECTRONS / self._looks.electrons) ** 2)
-            light = light + noise * np.sqrt(variance)
-        index = np.clip(light * np.float32(4095.0), 0.0, 4095.0).astype(np.uint16)
-        rgb = _GAMMA[index]
-        return _through_yuv422(rgb) if self._noisy else rgb
+        if not self._noisy:
+            return _GAMMA[_counts16(color)]
+        light = np.asarray(cv2.GaussianBlur(color, (0, 0), self._looks.blur_px), dtype=np.float32)
+        # One colour per pixel, as under a Bayer filter: green on the diagonal of red and blue.
+        raw = light[..., 1].copy()
+        raw[0::2, 0::2] = light[0::2, 0::2, 0]
+        raw[1::2, 1::2] = light[1::2, 1::2, 2]
+        raw = np.maximum(raw, np.float32(0.0))
+        rng = np.random.default_rng([self._seed, Stream.COLOR_NOISE, frame])
+        electrons = self._looks.electrons
+        variance = raw / np.float32(electrons) + np.float32((READ_NOISE_ELECTRONS / electrons) ** 2)
+        raw += rng.standard_normal(raw.shape, dtype=np.float32) * np.sqrt(variance)
+        whole = cv2.demosaicing(_counts16(raw), cv2.COLOR_BayerRGGB2RGB)
+        return _through_yuv422(_GAMMA[whole])
 
 
-def _blurred(image: FloatImage, sigma_px: float) -> FloatImage:
-    return np.asarray(cv2.GaussianBlur(image, (0, 0), sigma_px), dtype=np.float32)
+def _counts16(light: FloatImage) -> NDArray[np.uint16]:
+    return np.asarray(np.clip(light * np.float32(_WHITE), 0.0, _WHITE).astype(np.uint16))
 
 
 def _through_yuv422(rgb: ByteImage) -> ByteImage:
@@ -107,17 +115,17 @@ class DepthSensor:
         spread = cv2.dilate(disparity, window) - cv2.erode(disparity, window)
         at_edge = spread > _EDGE_DISPARITY_PX
         smooth = cv2.blur(disparity, (7, 7))
-        wobble = [np.float32(_EDGE_JITTER_PX) * self._window_noise(rng, 5) for _ in range(2)]
+        wobble = [np.float32(_EDGE_JITTER_PX) * self._edge_noise(rng) for _ in range(2)]
         v, u = np.indices(self._shape, dtype=np.float32)
         torn = cv2.remap(disparity, u + wobble[0], v + wobble[1], cv2.INTER_NEAREST, borderMode=cv2.BORDER_REPLICATE)
         wide = cv2.dilate(at_edge.astype(np.uint8), np.ones((3, 3), np.uint8)).astype(bool)
         mixed = cv2.blur(disparity, (3, 3))
-        chance = self._window_noise(rng, 5)
+        chance = self._edge_noise(rng)
         seen = np.where(wide, np.where(chance > 0.9, mixed, torn), smooth)
         seen = seen + self._fixed + np.float32(_TEMPORAL_STEPS * DISPARITY_STEP_PX) * self._window_noise(rng)
         seen = np.round(seen / np.float32(DISPARITY_STEP_PX)) * np.float32(DISPARITY_STEP_PX)
         depth = np.float32(DISPARITY_PX_M * self._scale) / np.maximum(seen, 1.0)
-        lost = at_edge & (self._window_noise(rng, 5) > 0.35)
+        lost = at_edge & (self._edge_noise(rng) > 0.35)
         lost |= self._in_shadow(disparity)
         lost |= (depth < _NEAREST_M) | (depth > _FARTHEST_M)
         lost |= rng.random(self._shape, dtype=np.float32) < 2e-4
@@ -125,10 +133,16 @@ class DepthSensor:
         depth = np.round(depth * 1000.0) / 1000.0
         return np.where(lost, np.uint16(0), _counts(depth))
 
-    def _window_noise(self, rng: np.random.Generator, window_px: int = _WINDOW_PX) -> FloatImage:
+    def _window_noise(self, rng: np.random.Generator) -> FloatImage:
         """Noise (H, W) of standard deviation 1, correlated over the matching window."""
         white = rng.standard_normal(self._shape, dtype=np.float32)
-        return np.asarray(cv2.blur(white, (window_px, window_px)) * np.float32(window_px))
+        return np.asarray(cv2.blur(white, (_WINDOW_PX, _WINDOW_PX)) * np.float32(_WINDOW_PX))
+
+    def _edge_noise(self, rng: np.random.Generator) -> FloatImage:
+        """Noise (H, W) of standard deviation about 1, in flecks of some pixels."""
+        height, width = self._shape
+        coarse = rng.standard_normal((height // 4 + 1, width // 4 + 1), dtype=np.float32)
+        return np.asarray(1.4 * cv2.resize(coarse, (width, height), interpolation=cv2.INTER_LINEAR), dtype=np.float32)
 
     def _in_shadow(self, disparity: FloatImage) -> NDArray[np.bool_]:
         """Pixels that the projector, beside the camera, cannot light past a nearer surface."""

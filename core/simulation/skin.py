@@ -1,9 +1,9 @@
 """The skin of hand and forearm: rounded bones, joined smoothly where flesh fills the corner.
 
 Every body part is a set of flattened round cones: the points within a radius, linear from ``radius_a`` to
-``radius_b``, of a segment a-b that is widened sideways by ``half_width``. Parts are united by a smooth minimum of
-finite reach (:func:`smooth_minimum`), so that bending a finger does not touch the skin under the palm's discs: these
-stay exactly rigid, and exactly on the rendered surface.
+``radius_b``, of a segment a-b that is widened sideways by a half width, linear too. Parts are united by a smooth
+minimum of finite reach (:func:`smooth_minimum`), so that bending a finger does not touch the skin under the palm's
+discs: these stay exactly rigid, and exactly on the rendered surface.
 """
 
 from __future__ import annotations
@@ -32,22 +32,35 @@ class Part(IntEnum):
     FOREARM = 6
 
 
-BLEND_M = {Part.PALM: 0.008, Part.THUMB: 0.006, Part.FOREARM: 0.006}
+BLEND_M = {Part.PALM: 0.005, Part.THUMB: 0.006, Part.FOREARM: 0.006}
 """Reach of the smooth union: within the palm, and of thumb and forearm with the palm."""
 FINGER_BLEND_M = 0.005
+
+# Thumb, index, middle, ring, little of a hand 180 mm long; widths at the four joints.
+_BASE_RADIUS_M = (0.0080, 0.0080, 0.0082, 0.0080, 0.0072)
+_DIGIT_WIDTH_M = (
+    (0.0045, 0.0045, 0.0042, 0.0022),
+    (0.0032, 0.0030, 0.0026, 0.0016),
+    (0.0032, 0.0030, 0.0026, 0.0016),
+    (0.0030, 0.0028, 0.0024, 0.0015),
+    (0.0026, 0.0023, 0.0020, 0.0012),
+)
+_THUMB_BASE_TILT_RAD = np.radians(20.0)
+_BEYOND_NAIL = 0.32
 
 
 @dataclass(frozen=True, slots=True)
 class Cones:
     """P flattened round cones in one frame: ``a_m``, ``b_m`` (P, 3), unit ``lateral`` (P, 3) across the axis,
-    ``radius_a_m``, ``radius_b_m``, ``half_width_m`` (P,), ``part`` (P,) of :class:`Part`."""
+    ``radius_a_m``, ``radius_b_m``, ``width_a_m``, ``width_b_m`` (half widths) (P,), ``part`` (P,) of :class:`Part`."""
 
     a_m: FloatArray
     b_m: FloatArray
     lateral: FloatArray
     radius_a_m: FloatArray
     radius_b_m: FloatArray
-    half_width_m: FloatArray
+    width_a_m: FloatArray
+    width_b_m: FloatArray
     part: FloatArray
 
     def moved(self, rotation: FloatArray, translation_m: FloatArray) -> Cones:
@@ -79,7 +92,9 @@ def cone_distance(point_m: FloatArray, cones: Cones, i: int) -> FloatArray:
     along = local @ axis
     side = local @ lateral
     up = local @ np.cross(axis, lateral)
-    side = side - np.clip(side, -cones.half_width_m[i], cones.half_width_m[i])
+    share = np.clip(along / length, 0.0, 1.0)
+    half_width = cones.width_a_m[i] + share * (cones.width_b_m[i] - cones.width_a_m[i])
+    side = side - np.clip(side, -half_width, half_width)
     radial = np.hypot(side, up)
     taper = (cones.radius_a_m[i] - cones.radius_b_m[i]) / length
     foot = np.clip(along - radial * taper / np.sqrt(1.0 - taper * taper), 0.0, length)
@@ -135,7 +150,7 @@ class HandSkin:
         turn = 0.85 * supination_rad
         lateral = np.array([0.0, np.cos(turn), np.sin(turn)])
         down = np.array([0.0, np.sin(turn), -np.cos(turn)])
-        ulnar = -0.003 * s * self._mirror[1] * lateral
+        ulnar = -0.007 * s * self._mirror[1] * lateral
         a = joint + 0.0095 * s * down + ulnar + np.array([-0.004 * s, 0.0, 0.0])
         middle = joint + 0.012 * s * down + np.array([-0.080 * s, 0.0, -0.002 * s])
         elbow = middle + np.array([-0.450 * s, 0.0, -0.020 * s])
@@ -145,7 +160,8 @@ class HandSkin:
             lateral=np.array([lateral, lateral]),
             radius_a_m=np.array([0.0105, 0.0165]) * s,
             radius_b_m=np.array([0.0165, 0.042]) * s,
-            half_width_m=np.array([0.0125, 0.0155]) * s,
+            width_a_m=np.array([0.0160, 0.0160]) * s,
+            width_b_m=np.array([0.0160, 0.0120]) * s,
             part=np.array([Part.FOREARM, Part.FOREARM], dtype=np.float64),
         )
 
@@ -158,6 +174,15 @@ class HandSkin:
                 break
             z -= gap
         return z
+
+    def palm_normals(self) -> FloatArray:
+        """Unit normals (6, 3) in W of the skin under the palm's discs."""
+        discs = self._patient.anatomy.palm_disc_m * self._mirror
+        steps = 2e-4 * np.eye(3)
+        slope = np.stack(
+            [skin_distance(discs + e, self._palm) - skin_distance(discs - e, self._palm) for e in steps], -1
+        )
+        return np.asarray(slope / np.linalg.norm(slope, axis=-1, keepdims=True))
 
     def _fitted_palm(self) -> Cones:
         """The palm, its radii adjusted until the discs lie on its surface."""
@@ -175,38 +200,44 @@ class HandSkin:
         return palm
 
     def _rough_palm(self) -> Cones:
-        s, discs = self._size, self._patient.anatomy.palm_disc_m
-        under = discs - self._radius[list(HAND21.palm), None] * np.array([0.0, 0.0, 1.0])
-        y = np.array([0.0, 1.0, 0.0])
-        rows: list[tuple[FloatArray, FloatArray, FloatArray, float, float, float]] = []
-        mm = 0.001 * s
+        """Carpus, base of the thumb, four metacarpals, and flesh between and beside them; bones start and end at the
+        depth of their radius under the discs. Millimetres of a hand 180 mm long."""
+        mm = 0.001 * self._size
+        discs = self._patient.anatomy.palm_disc_m / mm
+        r = self._radius[list(HAND21.palm)] / mm
+        under = discs - r[:, None] * np.array([0.0, 0.0, 1.0])
+        wrist, knuckle = under[0], under[2:]
+        level = np.array([0.0, 1.0, 0.0])
+        # The base of the thumb slopes down to its side, and its disc lies on that slope.
+        slope = np.array([0.0, np.cos(_THUMB_BASE_TILT_RAD), -np.sin(_THUMB_BASE_TILT_RAD)])
+        thumb = discs[1] - r[1] * np.cross([1.0, 0.0, 0.0], slope) + 3.0 * slope
 
-        def add(a: FloatArray, b: FloatArray, radius_a: float, radius_b: float, half_width: float) -> None:
-            rows.append((a, b, y, radius_a * mm, radius_b * mm, half_width * mm))
+        def at(x: float, y: float, z: float) -> FloatArray:
+            return np.array([x, y, z])
 
-        def at(x: float, lateral: float, z: float) -> FloatArray:
-            return np.array([x, lateral, z]) * mm
-
-        r = self._radius / mm
-        wrist, cmc1, mcp = under[0], under[1], under[2:]
-        add(wrist + at(0, -8, 0), wrist + at(20, -10, -3), r[0], 11.5, 8.2)
-        add(cmc1, at(36, -2, -18), r[1], 11.0, 0.0)
-        for k in range(4):
-            base = at(32 if k == 0 else 22, 0, -18) + np.array([0.0, 0.5 * mcp[k, 1], 0.0])
-            add(base, mcp[k], 12.0, r[5 + 4 * k], 1.5)
-        add(at(34, -7, -21), at(64, -6, -20), 12.0, 11.0, 20.0)
-        add(at(14, -17, -20), at(54, -27, -19), 12.0, 10.0, 2.0)
-        add(at(34, 14, -28), at(58, 17, -24), 10.0, 8.0, 2.0)
-        palm = Cones(
-            a_m=np.array([row[0] for row in rows]),
-            b_m=np.array([row[1] for row in rows]),
-            lateral=np.array([row[2] for row in rows]),
-            radius_a_m=np.array([row[3] for row in rows]),
-            radius_b_m=np.array([row[4] for row in rows]),
-            half_width_m=np.array([row[5] for row in rows]),
+        metacarpals = [
+            (np.array([start, 0.5 * end[1], -18.0]), end, level, 12.0, radius, 1.5, 1.5)
+            for start, end, radius in zip((38.0, 30.0, 24.0, 22.0), knuckle, r[2:], strict=True)
+        ]
+        rows = [
+            (wrist + at(0, -8, 0), wrist + at(20, -10, -3), level, r[0], 11.5, 8.2, 8.2),
+            (thumb, at(40, 0, -18), slope, r[1], 11.0, 5.5, 2.0),
+            *metacarpals,
+            (at(34, -7, -21), at(64, -6, -20), level, 12.0, 11.0, 20.0, 20.0),
+            (at(14, -17, -20), at(54, -27, -19), level, 12.0, 10.0, 2.0, 2.0),
+            (under[1] + at(6, 2, -7), at(60, 20, -24), level, 12.0, 8.0, 3.0, 2.0),
+        ]
+        a, b, lateral, radius_a, radius_b, width_a, width_b = (np.array([row[i] for row in rows]) for i in range(7))
+        return Cones(
+            a_m=mm * a * self._mirror,
+            b_m=mm * b * self._mirror,
+            lateral=lateral * self._mirror,
+            radius_a_m=mm * radius_a,
+            radius_b_m=mm * radius_b,
+            width_a_m=mm * width_a,
+            width_b_m=mm * width_b,
             part=np.full(len(rows), float(Part.PALM)),
         )
-        return replace(palm, a_m=palm.a_m * self._mirror, b_m=palm.b_m * self._mirror)
 
     def _digits(self, joint_angles_rad: FloatArray) -> Cones:
         """Thumb and fingers: every bone runs under its discs at the depth of their radius."""
@@ -215,33 +246,37 @@ class HandSkin:
         discs = disc_centres(anatomy, joint_angles_rad)
         frames = segment_frames(anatomy, joint_angles_rad)
         normal = frames.dorsal_normal
-        a, b, lateral, radius_a, radius_b, width, part = ([] for _ in range(7))
+        rows: list[tuple[FloatArray, FloatArray, FloatArray, float, float, float, float, float]] = []
         for digit in range(5):
             segments = [SEGMENTS.index("MC1") + 3 * digit + i for i in range(3)]
             n = normal[segments]
-            standing = [n[0] + n[1], n[1] + n[2], n[2]]
-            if digit == 0:
-                standing[0] = n[0]
+            standing = [n[0] if digit == 0 else n[0] + n[1], n[1] + n[2], n[2]]
             first = 1 + 4 * digit
-            under = [discs[first] - np.array([0.0, 0.0, 1.0]) * (radius[first] + (0.009 if digit == 0 else 0.003) * s)]
+            lowered = (0.009 if digit == 0 else 0.003) * s
+            under = [discs[first] - np.array([0.0, 0.0, radius[first] + lowered])]
             for i in range(3):
                 up = standing[i] / np.linalg.norm(standing[i])
                 under.append(discs[first + 1 + i] - radius[first + 1 + i] * up)
-            base = 0.008 * s if digit == 0 else 0.008 * s * (0.92 if digit == 4 else 1.0)
-            radii = [base, *radius[first + 1 : first + 4]]
+            # The digit goes on beyond the disc on the nail, and tapers.
+            under[3] = under[3] + _BEYOND_NAIL * (under[3] - under[2])
+            base = _BASE_RADIUS_M[digit] * s
+            pip, dip, nail = radius[first + 1 : first + 4]
+            radii = [base, pip, dip, nail + _BEYOND_NAIL * (nail - dip)]
+            widths = np.array(_DIGIT_WIDTH_M[digit]) * s
             for i in range(3):
-                start, end, r0, r1 = under[i], under[i + 1], radii[i], radii[i + 1]
-                if i == 2:
-                    # The finger goes on beyond the disc on the nail, tapering as before.
-                    beyond = (0.25 if digit == 0 else 0.3) + 0.05
-                    r_tip = r1 + (r1 - r0) * beyond
-                    end, r1 = end + (end - start) * beyond, r_tip
-                a.append(start)
-                b.append(end)
-                direction = (end - start) / np.linalg.norm(end - start)
-                lateral.append(np.cross(n[i], direction))
-                radius_a.append(r0)
-                radius_b.append(r1)
-                width.append((3.2, 2.8, 2.6)[i] * 0.001 * s * (1.25 if digit == 0 else 0.85 if digit == 4 else 1.0))
-                part.append(float(Part.THUMB + digit))
-        return Cones(*(np.array(column) for column in (a, b, lateral, radius_a, radius_b, width, part)))
+                direction = (under[i + 1] - under[i]) / np.linalg.norm(under[i + 1] - under[i])
+                across = np.cross(n[i], direction)
+                rows.append(
+                    (
+                        under[i],
+                        under[i + 1],
+                        across,
+                        radii[i],
+                        radii[i + 1],
+                        widths[i],
+                        widths[i + 1],
+                        Part.THUMB + digit,
+                    )
+                )
+        columns = (np.array([row[i] for row in rows], dtype=np.float64) for i in range(8))
+        return Cones(*columns)

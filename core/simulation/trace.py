@@ -20,6 +20,8 @@ _STEPS = 7
 _SLOWEST_APPROACH = np.float32(0.35)
 """A grazing ray's distance shrinks slowly; steps are lengthened up to the inverse of this."""
 _FAR_M = np.float32(9.0)
+_PROBE_M = 5e-4
+"""Step over which the distance is differentiated for the normal; well above single precision."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -60,12 +62,13 @@ class Box:
 
 @dataclass(frozen=True, slots=True)
 class Surface:
-    """The seen surface inside ``box``: ``depth_m`` along z, ``coverage`` 0 to 1 of each pixel, ``part`` (of the
-    nearest cone's :class:`Part`) as uint8."""
+    """The seen surface inside ``box``: ``depth_m`` along z where each ray meets it or passes nearest, ``coverage``
+    0 to 1 of each pixel, unit ``normal`` (H, W, 3) outwards, ``part`` (the nearest :class:`Part`) as uint8."""
 
     box: Box
     depth_m: FloatImage
     coverage: FloatImage
+    normal: FloatImage
     part: NDArray[np.uint8]
 
 
@@ -98,8 +101,10 @@ class _SeenCone:
         self.ray = [
             (np.float32(e[0]) * x[None, columns] + (np.float32(e[1]) * y[rows, None] + np.float32(e[2]))) for e in axes
         ]
-        self.origin = [np.float32(cones.a_m[i] @ e) for e in axes]
-        self.half_width = np.float32(cones.half_width_m[i])
+        self.axes = np.array(axes)
+        self.origin = self.axes @ cones.a_m[i]
+        self.width = np.float32(cones.width_a_m[i])
+        self.widening = np.float32((cones.width_b_m[i] - cones.width_a_m[i]) / float(self.length))
         self.radius = np.float32(cones.radius_a_m[i])
         taper = (cones.radius_a_m[i] - cones.radius_b_m[i]) / float(self.length)
         self.taper = np.float32(taper)
@@ -107,15 +112,23 @@ class _SeenCone:
         self.box = box
         self.part = Part(int(cones.part[i]))
 
-    def distance(self, z: FloatImage) -> FloatImage:
-        """Signed distance at depth z (over the box) along each ray; see :func:`skin.cone_distance`."""
+    def distance(self, z: FloatImage, offset_m: FloatArray) -> FloatImage:
+        """Signed distance at depth z (over the box) along each ray, displaced by ``offset_m`` (3,) in camera axes;
+        see :func:`skin.cone_distance`."""
+        origin = (self.origin - self.axes @ offset_m).astype(np.float32)
         along = z * self.ray[0]
-        along -= self.origin[0]
+        along -= origin[0]
         side = z * self.ray[1]
-        side -= self.origin[1]
-        side -= np.clip(side, -self.half_width, self.half_width)
+        side -= origin[1]
+        if self.widening == 0.0:
+            side -= np.clip(side, -self.width, self.width)
+        else:
+            half_width = np.clip(along, np.float32(0.0), self.length)
+            half_width *= self.widening
+            half_width += self.width
+            side -= np.clip(side, -half_width, half_width)
         up = z * self.ray[2]
-        up -= self.origin[2]
+        up -= origin[2]
         up *= up
         side *= side
         up += side
@@ -148,7 +161,7 @@ def trace(camera: Camera, cones: Cones) -> Surface | None:
     whole = Box(0, 0, 0, 0)
     part_box: dict[Part, Box] = {}
     for i in range(len(cones)):
-        width = cones.half_width_m[i]
+        width = max(cones.width_a_m[i], cones.width_b_m[i])
         margin = max(BLEND_M.values())
         radius = np.array([cones.radius_a_m[i], cones.radius_b_m[i]]) + width + margin
         box = box_around(camera, np.array([cones.a_m[i], cones.b_m[i]]), radius)
@@ -162,7 +175,7 @@ def trace(camera: Camera, cones: Cones) -> Surface | None:
         return None
     rows, columns = whole.slices
     per_length = 1.0 / np.sqrt(1.0 + x[None, columns] ** 2 + y[rows, None] ** 2)
-    reach = np.maximum(cones.radius_a_m, cones.radius_b_m) + cones.half_width_m
+    reach = np.maximum(cones.radius_a_m + cones.width_a_m, cones.radius_b_m + cones.width_b_m)
     near_m = float((np.minimum(cones.a_m[:, 2], cones.b_m[:, 2]) - reach).min())
     z = np.full(per_length.shape, max(near_m, 0.1), dtype=np.float32)
     best = np.full(z.shape, _FAR_M, dtype=np.float32)
@@ -171,7 +184,7 @@ def trace(camera: Camera, cones: Cones) -> Surface | None:
     part_image = np.zeros(z.shape, dtype=np.uint8)
     before = best
     for step in range(_STEPS):
-        distance = _union(seen, part_box, whole, z, part_image if step == _STEPS - 1 else None)
+        distance = _union(seen, part_box, whole, z, np.zeros(3), part_image if step == _STEPS - 1 else None)
         size = np.abs(distance)
         closer = size < best
         np.copyto(depth, z, where=closer)
@@ -183,7 +196,11 @@ def trace(camera: Camera, cones: Cones) -> Surface | None:
         before = distance
     pixel_m = depth / np.float32(camera.fx_px)
     coverage = np.clip(1.0 - best / (0.8 * pixel_m), 0.0, 1.0, dtype=np.float32)
-    return Surface(whole, depth, coverage, part_image)
+    normal = np.stack([_union(seen, part_box, whole, depth, offset) for offset in np.eye(3) * _PROBE_M], axis=-1)
+    normal -= _union(seen, part_box, whole, depth, np.zeros(3))[..., None]
+    length = np.sqrt(np.einsum("hwi,hwi->hw", normal, normal))
+    normal /= np.maximum(length, np.float32(1e-9))[..., None]
+    return Surface(whole, depth, coverage, normal, part_image)
 
 
 def _union(
@@ -191,7 +208,8 @@ def _union(
     part_box: dict[Part, Box],
     whole: Box,
     z: FloatImage,
-    part_image: NDArray[np.uint8] | None,
+    offset_m: FloatArray,
+    part_image: NDArray[np.uint8] | None = None,
 ) -> FloatImage:
     """Distance to the skin at depths z of every ray, as :func:`skin.skin_distance`; the nearest part into
     ``part_image`` where one is given."""
@@ -203,7 +221,7 @@ def _union(
     }
     for cone in seen:
         place = cone.box.within(whole)
-        d = cone.distance(z[place])
+        d = cone.distance(z[place], offset_m)
         if cone.part is Part.PALM:
             palm[place] = _fillet(palm[place], d, BLEND_M[Part.PALM])
         else:

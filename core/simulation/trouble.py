@@ -157,7 +157,7 @@ def passing_thing(scene: Scene) -> PassingThing | None:
     if not spec.object_passes:
         return None
     rng = np.random.default_rng([spec.seed, Stream.TROUBLE, 3])
-    lasts_s = rng.uniform(0.8, 1.4)
+    lasts_s = rng.uniform(0.9, 1.5)
     start_s = rng.uniform(max(STILL_S + 0.4, 0.3 * spec.seconds), max(STILL_S + 0.5, 0.7 * spec.seconds - lasts_s))
     height_m, heading = rng.uniform(0.05, 0.09), rng.uniform(-0.6, 0.6)
     along = np.array([math.cos(heading), math.sin(heading), 0.0])
@@ -165,5 +165,9 @@ def passing_thing(scene: Scene) -> PassingThing | None:
     middle = np.array([0.4 * scene.patient.anatomy.hand_length_m, 0.0, height_m])
     rod = np.array([-0.6 * along, 0.35 * along])
     return PassingThing(
-        start_s, start_s + lasts_s, middle - 0.45 * across + rod, middle + 0.45 * across + rod, rng.uniform(0.012, 0.03)
+        start_s,
+        start_s + lasts_s,
+        middle - 0.28 * across + rod,
+        middle + 0.28 * across + rod,
+        rng.uniform(0.018, 0.035),
     )

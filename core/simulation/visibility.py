@@ -8,7 +8,6 @@ import numpy as np
 
 from core.hand.kinematics import SEGMENTS, segment_frames
 from core.hand.protocols import HAND21
-from core.simulation.patient import DISC_RADIUS_M
 from core.simulation.scene import HandPose, Scene
 from core.simulation.trouble import PassingThing
 from core.types import FloatArray
@@ -36,30 +35,16 @@ _OWN = _own_bones()
 assert len(SEGMENTS) == 16
 
 
-def disc_normals_w(scene: Scene, pose: HandPose) -> FloatArray:
-    """Unit normals of the 21 discs in W2, (N, 21, 3): the bisectors of the bones that meet under them."""
-    frames = segment_frames(scene.patient.anatomy, pose.joint_angles_rad)
-    bones = frames.dorsal_normal[:, 1:].reshape(-1, 5, 3, 3)
-    normals = np.empty((len(bones), 21, 3))
-    normals[:] = (0.0, 0.0, 1.0)
-    rays = normals[:, 1:].reshape(-1, 5, 4, 3)
-    rays[:, :, 1] = bones[:, :, 0] + bones[:, :, 1]
-    rays[:, 0, 1] = bones[:, 0, 0]
-    rays[:, :, 2] = bones[:, :, 1] + bones[:, :, 2]
-    rays[:, :, 3] = bones[:, :, 2]
-    return np.asarray(normals / np.linalg.norm(normals, axis=-1, keepdims=True))
-
-
 def coarse_visibility(
     scene: Scene, pose: HandPose, time_s: FloatArray, thing: PassingThing | None
 ) -> tuple[FloatArray, FloatArray]:
     """Visible share, 0 or 1, and cosine of the tilt to the ray, both (N, 21)."""
-    normals = disc_normals_w(scene, pose) @ pose.rotation_w2_w0.transpose(0, 2, 1) @ scene.rotation_w0_cam.T
+    normals = scene.disc_normals_w0(pose) @ scene.rotation_w0_cam.T
     discs = scene.to_camera(scene.discs_w0_m(pose))
     towards = -discs / np.linalg.norm(discs, axis=-1, keepdims=True)
     facing = np.sum(normals * towards, axis=-1)
     pixel = scene.camera.project(discs)
-    reach_px = DISC_RADIUS_M * scene.camera.fx_px / discs[..., 2]
+    reach_px = scene.patient.disc_radius_m * scene.camera.fx_px / discs[..., 2]
     size = np.array([scene.camera.width_px, scene.camera.height_px])
     inside = ((pixel > 0.5 * reach_px[..., None]) & (pixel < size - 1 - 0.5 * reach_px[..., None])).all(axis=-1)
     seen = (facing > math.cos(LARGEST_TILT_RAD)) & inside

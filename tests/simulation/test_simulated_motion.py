@@ -1,0 +1,190 @@
+"""What the simulated patient does: still start, ranges, smoothness, true velocities, frames and sides."""
+
+from __future__ import annotations
+
+import dataclasses
+
+import numpy as np
+import pytest
+
+from core.errors import SettingsInvalid
+from core.hand.clinical_angles import angles_from_rotation
+from core.hand.protocols import HAND21, PALM_MARKERS
+from core.simulation.motions import MOTIONS, STILL_S, motion_of
+from core.simulation.scene import Scene
+from core.simulation.spec import RecordingSpec
+from core.simulation.strokes import StrokePath
+from core.simulation.truth import truth_of
+
+
+def test_spec_survives_json_and_names_an_unknown_option() -> None:
+    spec = RecordingSpec(seed=7, hand="left", protocol="hand21", speed_hz=0.5, sleeve="blue", skin_tone=3)
+    assert RecordingSpec.from_json(spec.to_json()) == spec
+    with pytest.raises(SettingsInvalid) as caught:
+        RecordingSpec.from_json('{"seed": 1, "colour": "red"}')
+    assert caught.value.detail == "colour"
+
+
+@pytest.mark.parametrize("option", [{"dropped_share": 1.5}, {"seconds": 0.0}, {"skin_tone": 9}, {"motion": "dance"}])
+def test_impossible_options_are_refused(option: dict) -> None:
+    with pytest.raises(SettingsInvalid):
+        motion_of(RecordingSpec(**option))
+
+
+@pytest.mark.parametrize("name", MOTIONS)
+def test_every_motion_starts_still_and_has_no_jump(name: str) -> None:
+    motion = motion_of(RecordingSpec(seed=3, motion=name, protocol="hand21", seconds=6.0, tremor_deg=1.0))
+    still = np.linspace(0.0, 0.7, 20)
+    assert STILL_S >= 0.7
+    np.testing.assert_allclose(motion.wrist_angles_rad(still), 0.0, atol=1e-12)
+    np.testing.assert_allclose(np.ptp(motion.joint_angles_rad(still), axis=0), 0.0, atol=1e-12)
+    np.testing.assert_allclose(motion.carry_m(still), 0.0, atol=1e-12)
+    fine = np.arange(0.0, 6.0, 0.001)
+    for channel in (motion.wrist_angles_rad(fine), motion.joint_angles_rad(fine), motion.carry_m(fine)):
+        speed = np.diff(channel, axis=0) / 0.001
+        assert np.abs(np.diff(speed, axis=0)).max() < 0.5  # a jump in posture would be of the order of 1000
+
+
+@pytest.mark.parametrize(
+    ("name", "axis", "degrees"), [("deviation", 0, 25.0), ("flexion", 1, 50.0), ("pronosupination", 2, 35.0)]
+)
+def test_single_axis_motions_fill_their_range_and_leave_the_others(name: str, axis: int, degrees: float) -> None:
+    time_s = np.arange(0.0, 12.0, 0.01)
+    angles = np.degrees(motion_of(RecordingSpec(seed=1, motion=name, seconds=12.0)).wrist_angles_rad(time_s))
+    assert 0.9 * degrees < angles[:, axis].max() < degrees + 2.0
+    assert 0.9 * degrees < -angles[:, axis].min() < degrees + 2.0
+    assert np.abs(np.delete(angles, axis, axis=1)).max() < 2.5
+
+
+def test_options_shape_the_motion() -> None:
+    time_s = np.arange(0.0, 12.0, 0.01)
+
+    def flexion(**options: object) -> np.ndarray:
+        spec = RecordingSpec(seed=1, motion="flexion", seconds=12.0, **options)  # type: ignore[arg-type]
+        return np.degrees(motion_of(spec).wrist_angles_rad(time_s)[:, 1])
+
+    def crossings(angle: np.ndarray) -> int:
+        return int(np.count_nonzero(np.diff(np.sign(angle - 5.0)) > 0))
+
+    assert np.abs(flexion(range_share=0.4)).max() < 24.0
+    assert np.abs(flexion(pain_limited=True)).max() < 0.75 * np.abs(flexion()).max()
+    assert crossings(flexion(repetitions=2)) == 2
+    assert crossings(flexion(speed_hz=0.6)) > crossings(flexion(speed_hz=0.3))
+    shaking = flexion(tremor_deg=3.0, range_share=0.0)[200:]
+    spectrum = np.abs(np.fft.rfft(shaking - shaking.mean()))
+    assert np.fft.rfftfreq(len(shaking), 0.01)[spectrum.argmax()] == pytest.approx(5.0, abs=0.2)
+
+
+def test_fast_deviation_turns_at_its_frequency() -> None:
+    time_s = np.arange(1.0, 11.0, 0.01)
+    angle = motion_of(RecordingSpec(seed=1, motion="fast_deviation", seconds=12.0)).wrist_angles_rad(time_s)[:, 0]
+    spectrum = np.abs(np.fft.rfft(angle - angle.mean()))
+    assert np.fft.rfftfreq(len(angle), 0.01)[spectrum.argmax()] == pytest.approx(1.7, abs=0.12)
+
+
+def test_reaching_is_as_measured_on_people() -> None:
+    time_s = np.arange(0.0, 4.0, 0.002)
+    carry = motion_of(RecordingSpec(seed=2, motion="reach", seconds=4.0)).carry_m(time_s)
+    speed = np.linalg.norm(np.gradient(carry, 0.002, axis=0), axis=1)
+    assert 0.36 < np.linalg.norm(carry, axis=1).max() < 0.40
+    assert 0.60 < speed.max() < 0.80
+    moving = speed > 0.05 * speed.max()
+    first = np.flatnonzero(moving)[0]
+    last = first + np.flatnonzero(~moving[first:])[0]
+    assert 0.7 < time_s[last] - time_s[first] < 1.15
+
+
+def test_coupled_and_free_end_joints() -> None:
+    time_s = np.arange(0.0, 6.0, 0.05)
+    coupled = motion_of(RecordingSpec(motion="hook", protocol="hand21"))
+    free = motion_of(RecordingSpec(motion="hook", protocol="hand21", dip="free"))
+    assert len(coupled.joint_names) == 17
+    assert len(free.joint_names) == 21
+    end = np.degrees(free.joint_angles_rad(time_s)[:, free.joint_names.index("DIP3_flexion")])
+    middle = np.degrees(free.joint_angles_rad(time_s)[:, free.joint_names.index("PIP3_flexion")])
+    assert 40.0 < end.max() < 48.0
+    assert middle.max() > 75.0
+
+
+def test_stroke_path_holds_and_passes_through_its_postures() -> None:
+    path = StrokePath(np.array([0.0, 1.0, 2.0, 3.0]), np.array([[0.0], [2.0], [2.0], [-1.0]]))
+    np.testing.assert_allclose(path.at(np.array([-1.0, 1.0, 1.5, 2.0, 2.5, 3.0, 9.0]))[:, 0], [0, 2, 2, 2, 0.5, -1, -1])
+
+
+@pytest.mark.parametrize("hand", ["right", "left"])
+def test_wrist_frame_follows_the_reference_from_the_discs_alone(hand: str) -> None:
+    truth = truth_of(Scene(RecordingSpec(seed=4, hand=hand, motion="mixed")))  # type: ignore[arg-type]
+    wrist, _, mcp2, mcp3, _, mcp5 = truth.disc_position_cam_m[0]
+    x = (mcp3 - wrist) / np.linalg.norm(mcp3 - wrist)
+    plane = np.delete(truth.disc_position_cam_m[0], 1, axis=0)
+    normal = np.linalg.svd(plane - plane.mean(axis=0))[2][2]
+    normal = normal * np.sign(-normal[2])  # towards the camera
+    z = normal - (normal @ x) * x
+    z = z / np.linalg.norm(z)
+    np.testing.assert_allclose(truth.rotation_w0_cam, np.column_stack((x, np.cross(z, x), z)), atol=1e-9)
+    np.testing.assert_allclose(truth.translation_w0_cam_m, wrist, atol=1e-12)
+    side = float(normal @ np.cross(mcp3 - wrist, mcp2 - mcp5))
+    assert side > 0.0 if hand == "right" else side < 0.0
+    np.testing.assert_allclose(truth.rotation_w2_w0[0], np.eye(3), atol=1e-12)
+    np.testing.assert_allclose(truth.position_m[0], 0.0, atol=1e-12)
+    np.testing.assert_allclose(truth.angles_rad, angles_from_rotation(truth.rotation_w2_w0, truth.spec.hand), atol=1e-9)
+
+
+def test_palm_discs_are_one_rigid_body_in_every_frame() -> None:
+    truth = truth_of(Scene(RecordingSpec(seed=5, motion="mixed", protocol="hand21")))
+    palm = truth.disc_position_cam_m[:, [HAND21.markers.index(name) for name in PALM_MARKERS]]
+    gaps = np.linalg.norm(palm[:, :, None] - palm[:, None], axis=-1)
+    assert np.ptp(gaps, axis=0).max() < 1e-12
+    moved = truth_of(Scene(RecordingSpec(seed=5, motion="flexion", skin_movement_mm=6.0)))
+    wrist_to_knuckle = np.linalg.norm(moved.disc_position_cam_m[:, 0] - moved.disc_position_cam_m[:, 3], axis=-1)
+    assert 2e-3 < np.ptp(wrist_to_knuckle) < 5e-3
+
+
+def test_wrist_disc_hardly_moves_in_deviation_and_turns_about_the_joint_under_it() -> None:
+    scene = Scene(RecordingSpec(seed=6, motion="deviation"))
+    truth = truth_of(scene)
+    assert np.linalg.norm(truth.position_m, axis=1).max() < 0.004
+    flexing = Scene(RecordingSpec(seed=6, motion="flexion"))
+    values = truth_of(flexing)
+    joint = flexing.patient.wrist_joint_m
+    pose = flexing.pose(values.time_s)
+    fixed = values.rotation_w2_w0 @ joint + values.position_m - pose.carry_m
+    np.testing.assert_allclose(fixed, np.broadcast_to(joint, fixed.shape), atol=1e-12)
+    assert 0.008 < -joint[2] < 0.018
+
+
+def test_true_velocities_are_derivatives() -> None:
+    spec = RecordingSpec(seed=8, motion="reach_grasp", protocol="hand21", seconds=3.0)
+    scene = Scene(spec)
+    truth = truth_of(scene)
+    h = 1e-3
+    before, after = scene.pose(truth.time_s - h), scene.pose(truth.time_s + h)
+    np.testing.assert_allclose(truth.velocity_m_s, (after.position_m - before.position_m) / (2 * h), atol=2e-3)
+    np.testing.assert_allclose(
+        truth.joint_velocity_rad_s, (after.joint_angles_rad - before.joint_angles_rad) / (2 * h), atol=2e-2
+    )
+    turn = before.rotation_w2_w0.transpose(0, 2, 1) @ after.rotation_w2_w0
+    angle = np.arccos(np.clip((np.trace(turn, axis1=1, axis2=2) - 1.0) / 2.0, -1.0, 1.0))
+    speed = np.linalg.norm(truth.angular_velocity_rad_s, axis=1)
+    np.testing.assert_allclose(speed, angle / (2 * h), atol=2e-2)
+    axis = np.stack([turn[:, 2, 1] - turn[:, 1, 2], turn[:, 0, 2] - turn[:, 2, 0], turn[:, 1, 0] - turn[:, 0, 1]], -1)
+    fast = speed > 0.2
+    assert fast.sum() > 5
+    along = np.sum(axis * truth.angular_velocity_rad_s, axis=1)[fast]
+    assert (along / (np.linalg.norm(axis, axis=1) * speed)[fast]).min() > 0.999
+
+
+def test_left_hand_is_the_mirror_image_of_the_right() -> None:
+    right = RecordingSpec(seed=9, motion="thumb", protocol="hand21", yaw_deg=0.0, tilt_deg=0.0)
+    a, b = Scene(right), Scene(dataclasses.replace(right, hand="left"))
+    times = np.linspace(0.0, 6.0, 30)
+    one, two = a.pose(times), b.pose(times)
+    mirror = np.array([1.0, -1.0, 1.0])
+    np.testing.assert_allclose(one.angles_rad, two.angles_rad, atol=1e-12)
+    np.testing.assert_allclose(one.joint_angles_rad, two.joint_angles_rad, atol=1e-12)
+    np.testing.assert_allclose(
+        a.discs_w0_m(one) - one.carry_m[:, None], (b.discs_w0_m(two) - two.carry_m[:, None]) * mirror, atol=1e-9
+    )
+    cones_a, cones_b = a.skin.cones_w(one.joint_angles_rad[9]), b.skin.cones_w(two.joint_angles_rad[9])
+    np.testing.assert_allclose(cones_a.b_m, cones_b.b_m * mirror, atol=1e-9)
+    np.testing.assert_allclose(cones_a.radius_b_m, cones_b.radius_b_m, atol=1e-9)

@@ -1,0 +1,193 @@
+"""A recording on disk: reproducible, readable, honest about its times; kept once rendered."""
+
+from __future__ import annotations
+
+import dataclasses
+import hashlib
+import json
+from pathlib import Path
+
+import h5py
+import numpy as np
+import pytest
+
+from core.capture.tum import TumFolder
+from core.errors import OutputExists
+from core.simulation.measurements import measurement_sequence
+from core.simulation.recording import TRUTH_FILE, cached_recording, clicks_of, simulate, truth_in
+from core.simulation.scene import Scene
+from core.simulation.spec import RecordingSpec
+from core.simulation.trouble import covered_discs, false_blobs, frame_times
+from core.simulation.truth import truth_of
+
+SPEC = RecordingSpec(
+    seed=21, hand="left", motion="mixed", seconds=1.2, false_blobs=2, hidden_share=0.2, dropped_share=0.15, fps=15.0
+)
+
+
+@pytest.fixture(scope="module")
+def recording(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    folder = tmp_path_factory.mktemp("simulated") / "one"
+    simulate(SPEC, folder)
+    return folder
+
+
+def digests(folder: Path) -> dict[str, str]:
+    return {
+        str(path.relative_to(folder)): hashlib.sha256(path.read_bytes()).hexdigest()
+        for path in sorted(folder.rglob("*"))
+        if path.is_file()
+    }
+
+
+def test_same_spec_gives_the_same_bytes_and_another_seed_others(recording: Path, tmp_path: Path) -> None:
+    simulate(SPEC, tmp_path / "again")
+    assert digests(tmp_path / "again") == digests(recording)
+    short = dataclasses.replace(SPEC, seconds=0.1)
+    simulate(short, tmp_path / "a")
+    simulate(dataclasses.replace(short, seed=22), tmp_path / "b")
+    a, b = digests(tmp_path / "a"), digests(tmp_path / "b")
+    assert set(a.values()).isdisjoint(set(b.values()))
+
+
+def test_recording_reads_back_with_its_true_times(recording: Path) -> None:
+    truth = truth_in(SPEC, recording)
+    source = TumFolder(recording)
+    frames = list(source.frames())
+    assert len(frames) == len(truth.timestamp_s)
+    assert source.info.camera.fx_px == pytest.approx(truth.camera.fx_px)
+    np.testing.assert_allclose([frame.timestamp_s for frame in frames], truth.timestamp_s, atol=1e-6)
+    assert [frame.dropped_before for frame in frames] == truth.dropped_before.tolist()
+    assert truth.dropped_before.sum() > 0
+    for frame in frames:
+        assert frame.depth_raw is not None
+        assert frame.color_rgb.shape == (480, 640, 3)
+    lines = [line.split() for line in (recording / "depth.txt").read_text().splitlines() if not line.startswith("#")]
+    delay = np.array([float(time) for time, _ in lines]) - truth.timestamp_s
+    assert 0.001 < delay.mean() < 0.008
+
+
+def test_dropped_frames_keep_time() -> None:
+    whole, thinned = RecordingSpec(seed=1, seconds=20.0), RecordingSpec(seed=1, seconds=20.0, dropped_share=0.1)
+    all_times, times = frame_times(whole), frame_times(thinned)
+    assert set(times.color_s.tolist()) < set(all_times.color_s.tolist())
+    assert len(times.color_s) + times.dropped_before.sum() <= len(all_times.color_s)
+    assert 30 < times.dropped_before.sum() < 90
+    gaps = np.diff(times.color_s)
+    np.testing.assert_allclose(gaps, (1 + times.dropped_before[1:]) / 30.0, atol=0.0061)
+    assert times.color_s[0] == 0.0
+
+
+def test_truth_file_is_a_session_of_true_values(recording: Path) -> None:
+    truth = truth_in(SPEC, recording)
+    with h5py.File(recording / TRUTH_FILE) as file:
+        assert file.attrs["format"] == "carpus-session"
+        assert bool(file.attrs["complete"])
+        assert RecordingSpec.from_json(file.attrs["parameters"]) == SPEC
+        np.testing.assert_array_equal(file["/frames/timestamp"][()], truth.timestamp_s)
+        np.testing.assert_allclose(file["/wrist/rotation"][()], truth.rotation_w2_w0)
+        np.testing.assert_allclose(file["/wrist/angles"][()], truth.angles_rad)
+        np.testing.assert_allclose(file["/wrist/position"][()], truth.position_m)
+        np.testing.assert_allclose(file["/wrist/angular_velocity"][()], truth.angular_velocity_rad_s)
+        np.testing.assert_allclose(file["/markers/position_camera"][()], truth.disc_position_cam_m)
+        np.testing.assert_allclose(file["/calibration/rotation"][()], truth.rotation_w0_cam)
+        measured = file["/markers/measured"][()]
+    hidden = truth.visible_share == 0.0
+    assert hidden.any()
+    assert np.isnan(measured[hidden]).all()
+    seen = truth.visible_share > 0.9
+    np.testing.assert_allclose(measured[seen], truth.disc_pixel[seen])
+
+
+def test_clicks_are_those_of_a_person(recording: Path) -> None:
+    content = json.loads((recording / "calibration.json").read_text())
+    truth = truth_in(SPEC, recording)
+    assert content["hand"] == "left"
+    assert content["protocol"] == "wrist6"
+    assert tuple(content["markers"]) == SPEC.marker_protocol.markers
+    off = np.linalg.norm(np.array(list(content["markers"].values())) - truth.disc_pixel[0], axis=1)
+    assert 0.2 < off.max() < 5.0
+    exact = truth_of(Scene(dataclasses.replace(SPEC, click_error_px=0.0)))
+    np.testing.assert_allclose(clicks_of(exact).pixel, exact.disc_pixel[0], atol=0.051)
+
+
+def test_nothing_is_overwritten(recording: Path) -> None:
+    before = digests(recording)
+    with pytest.raises(OutputExists):
+        simulate(SPEC, recording)
+    assert digests(recording) == before
+
+
+def test_cache_renders_once(tmp_path: Path) -> None:
+    spec = RecordingSpec(seed=30, seconds=0.1, motion="rest")
+    calls: list[int] = []
+    first = cached_recording(spec, lambda done, _: calls.append(done), cache=tmp_path)
+    assert calls == [1, 2, 3]
+    second = cached_recording(spec, lambda done, _: calls.append(done), cache=tmp_path)
+    assert calls == [1, 2, 3]
+    assert first == second
+    assert cached_recording(dataclasses.replace(spec, seed=31), cache=tmp_path) != first
+    assert len(list(tmp_path.iterdir())) == 2
+
+
+def test_discs_are_covered_as_often_as_asked_but_not_at_the_start() -> None:
+    spec = RecordingSpec(seed=3, seconds=200.0, hidden_share=0.1, hidden_mean_s=0.4)
+    times = np.arange(0.0, 200.0, 1.0 / 30.0)
+    covered = covered_discs(spec, times)
+    assert covered[times > 1.0].mean() == pytest.approx(0.1, abs=0.02)
+    assert not covered[times < 0.75].any()
+    changes = np.diff(covered.astype(int), axis=0)
+    lengths = covered.sum() / 30.0 / np.count_nonzero(changes == 1)
+    assert lengths == pytest.approx(0.4, abs=0.08)
+
+
+def test_false_blobs_are_as_many_as_asked_and_clear_of_the_discs() -> None:
+    scene = Scene(RecordingSpec(seed=3, seconds=20.0, false_blobs=2))
+    blobs = false_blobs(scene)
+    times = np.arange(0.0, 20.0, 0.05)
+    count = sum((times >= b.start_s) & (times <= b.end_s) for b in blobs)
+    assert np.mean(count) == pytest.approx(2.0, abs=0.01)
+    assert {blob.place for blob in blobs} == {"table", "air", "skin"}
+    discs = scene.patient.anatomy.palm_disc_m
+    for blob in blobs:
+        if blob.place == "skin":
+            assert np.linalg.norm(discs - blob.center_m, axis=1).min() > 0.0149
+
+
+def test_measurements_are_the_truth_with_noise() -> None:
+    spec = RecordingSpec(
+        seed=5, motion="mixed", seconds=20.0, false_blobs=2, hidden_share=0.1, dropped_share=0.02, depth_scale_error=0.0
+    )
+    sequence = measurement_sequence(spec)
+    truth = sequence.truth
+    errors, depth_errors, false_count, hidden = [], [], 0, 0
+    for i, (blobs, marker) in enumerate(zip(sequence.detections, sequence.marker, strict=True)):
+        real = marker >= 0
+        assert len(set(marker[real].tolist())) == real.sum()
+        errors.append(blobs.pixel[real] - truth.disc_pixel[i, marker[real]])
+        depth_errors.append(blobs.depth_m[real] - truth.disc_position_cam_m[i, marker[real], 2])
+        false_count += int((~real).sum())
+        missing = np.setdiff1d(np.arange(6), marker)
+        np.testing.assert_array_equal(truth.visible_share[i, missing], 0.0)
+        hidden += len(missing)
+    frames = len(truth.timestamp_s)
+    assert 0.02 < np.concatenate(errors).std() < 0.4
+    assert 0.3e-3 < np.concatenate(depth_errors).std() < 2e-3
+    assert 1.3 < false_count / frames <= 2.1
+    assert 0.06 < hidden / frames / 6 < 0.16
+    assert len(sequence.detections[0]) >= 6
+    np.testing.assert_array_equal(truth.angles_rad, truth_of(Scene(spec)).angles_rad)
+
+
+def test_measurements_repeat_and_can_be_free_of_noise() -> None:
+    spec = RecordingSpec(seed=6, motion="fist", protocol="hand21", seconds=3.0)
+    one, two = measurement_sequence(spec), measurement_sequence(spec)
+    for a, b in zip(one.detections, two.detections, strict=True):
+        np.testing.assert_array_equal(a.pixel, b.pixel)
+        np.testing.assert_array_equal(a.depth_m, b.depth_m)
+    clean = measurement_sequence(dataclasses.replace(spec, sensor_noise=False, depth_delay_s=0.0))
+    closing = np.flatnonzero(clean.truth.time_s > 2.0)[0]
+    assert len(clean.detections[0]) > 18
+    assert len(clean.detections[closing]) < len(clean.detections[0]) - 4  # the fist hides the finger ends
+    for blobs, marker, pixel in zip(clean.detections, clean.marker, clean.truth.disc_pixel, strict=True):
+        np.testing.assert_allclose(blobs.pixel, pixel[marker], atol=1e-9)
