@@ -223,8 +223,8 @@ class Tracker:
         return len(blobs) <= LEAST_PALM_MARKERS
 
     def smoothed(self) -> list[Moment]:
-        """Every frame so far in the light of all the others; needs the history kept."""
-        beliefs = smooth(self.history, self.settings.motion_noise, self.layout)
+        """Every frame so far in the light of all the others; needs the history kept. Tracking may go on meanwhile."""
+        beliefs = smooth(list(self.history), self.settings.motion_noise, self.layout)
         return [lost_moment() if belief is None else self._readout.moment(belief) for belief in beliefs]
 
     def _palm_seen(self, corrected: Corrected) -> int:
