@@ -8,6 +8,7 @@ edge pixels do not pull the centre.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
@@ -18,6 +19,10 @@ from core.types import FloatArray
 
 _LOW, _HIGH = 0.2, 0.8
 """Shares of paper below and above these count as none and all; symmetric, so an edge's centre stays."""
+
+
+EDGE_REACH_PX = 6
+"""The sensor's matching window reaches this far, and windows are cut at least as wide."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -75,10 +80,10 @@ def refined_centres(
     rim = ~mine & ~foreign & windows.inside & (distance2 <= (1.9 * radius_px) ** 2)
     rim &= distance2 >= (1.35 * radius_px) ** 2
     paper = _mean_color(color, core)
-    skin = _mean_color(color, rim)
-    direction = paper - skin
-    scale = direction / np.maximum(np.sum(direction * direction, axis=1, keepdims=True), 1.0)
-    share = np.einsum("bvuc,bc->bvu", color - skin[:, None, None, :], scale)
+    ground = _ground(color, rim)
+    direction = paper[:, None, None, :] - ground
+    scale = np.maximum(np.einsum("bvuc,bvuc->bvu", direction, direction), 1.0)
+    share = np.einsum("bvuc,bvuc->bvu", color - ground, direction) / scale
     share = np.clip((share - _LOW) / (_HIGH - _LOW), 0.0, 1.0)
     reach = (distance2 <= (1.35 * radius_px + 0.5) ** 2) & ~foreign & windows.inside
     weight = share * (reach | mine)
@@ -86,6 +91,31 @@ def refined_centres(
     moved_u = (weight * u).sum(axis=(1, 2)) / total
     moved_v = (weight * v).sum(axis=(1, 2)) / total
     return centre_px + np.stack((moved_u, moved_v), axis=1), total, rim, core
+
+
+def _ground(color: NDArray[np.float32], rim: NDArray[np.bool_]) -> NDArray[np.float64]:
+    """Colour (B, w, w, 3) of what surrounds each pixel's blob, looked up in the pixel's own direction.
+
+    At the edge of the hand one side of a disc lies on skin and the other before the table.
+    """
+    blobs, width = color.shape[:2]
+    wedge, nearest = _wedges(width)
+    in_wedge = (rim.reshape(blobs, 1, -1) & wedge).astype(np.float32)
+    count = in_wedge.sum(axis=2)
+    total = in_wedge @ color.reshape(blobs, -1, 3)
+    everywhere = _mean_color(color, rim)[:, None, :]
+    seen = np.where(count[..., None] >= 3, total / np.maximum(count, 1.0)[..., None], everywhere)
+    return np.asarray(seen[:, nearest], dtype=np.float64)
+
+
+@lru_cache(maxsize=32)
+def _wedges(width: int) -> tuple[NDArray[np.bool_], NDArray[np.int64]]:
+    """Eight overlapping quarter circles (8, w * w) of a window, and the one (w, w) in whose middle a pixel lies."""
+    offset = np.arange(width) - width // 2
+    angle = np.arctan2(offset[:, None], offset[None, :])
+    middle = np.arange(8) * (np.pi / 4.0)
+    apart = np.abs((angle[None] - middle[:, None, None] + np.pi) % (2.0 * np.pi) - np.pi)
+    return (apart <= np.pi / 4.0 + 1e-9).reshape(8, -1), apart.argmin(axis=0)
 
 
 def _mean_color(color: NDArray[np.float32], mask: NDArray[np.bool_]) -> NDArray[np.float64]:
@@ -101,7 +131,9 @@ def blob_depths(
     Median of the valid readings, then the mean of those near it. Not trusted: less than 30 % valid or an
     interquartile range above 8 mm (reference 7.2). ``depth_raw`` and ``core`` (B, w, w).
     """
-    blobs = core.shape[0]
+    blobs, width = core.shape[:2]
+    offset2 = (np.arange(width) - width // 2) ** 2
+    near_by = offset2[:, None] + offset2[None, :] <= EDGE_REACH_PX**2
     valid = core & (depth_raw > 0)
     count = valid.sum(axis=(1, 2))
     metres = np.where(valid, depth_raw * unit_m, np.inf).reshape(blobs, -1)
@@ -121,4 +153,9 @@ def blob_depths(
         spread = np.where(trusted, (high - low) / 1.35, 0.0)
     # Readings a few pixels apart share one correlation window of the sensor: together they count as one.
     sd = np.sqrt(reading_sd_m(depth) ** 2 + (settings.slope_share * spread) ** 2)
+    # The sensor matches small windows: near an edge of the surface they hold two, and the depth is of neither.
+    everything = depth_raw * unit_m
+    other = np.abs(everything - depth[:, None, None]) > settings.edge_step_m
+    edge_share = (other & near_by).sum(axis=(1, 2)) / max(int(near_by.sum()), 1)
+    sd = np.hypot(sd, settings.edge_sd_m * edge_share)
     return np.where(trusted, depth, np.nan), np.where(trusted, sd, np.nan)

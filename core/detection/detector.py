@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from core.camera import Camera
 from core.detection import color_histogram
 from core.detection.appearance import MarkerAppearance, paper_mask
-from core.detection.blobs import blob_depths, refined_centres, windows_around
+from core.detection.blobs import EDGE_REACH_PX, blob_depths, refined_centres, windows_around
 from core.detection.components import Components, components
 from core.detection.settings import DetectionSettings
 from core.types import ByteImage, Detections, FloatArray, Frame
@@ -101,7 +101,7 @@ class Detector:
         own, rough_px = blobs.label[fits], blobs.centre_px[fits]
         similarity = self._similarity(hsv, labels, own)
         radius = float(np.median(blobs.radius_px[fits]))
-        windows = windows_around(rough_px, int(np.ceil(1.9 * radius)), labels.shape)
+        windows = windows_around(rough_px, max(int(np.ceil(1.9 * radius)), EDGE_REACH_PX), labels.shape)
         cut_labels = np.asarray(windows.cut(labels))
         cut_color = np.asarray(windows.cut(color), dtype=np.float32)
         centre, area, rim, core = refined_centres(

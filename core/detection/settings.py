@@ -15,7 +15,8 @@ class DetectionSettings:
     ``least_area``, ``most_area``: blob area over the expected area of a disc;
     ``depth_valid_share``, ``depth_iqr_m``: when a blob's depth is not trusted (reference 7.2);
     ``slope_share``: on a steep surface half a pixel between the two pictures is a depth error of this share of
-    the spread of the readings.
+    the spread of the readings; ``edge_step_m``: a reading this far from the blob's is of another surface, and
+    ``edge_sd_m`` is the depth's sd if all around were.
     """
 
     marker_radius_m: float = 0.006
@@ -29,4 +30,6 @@ class DetectionSettings:
     depth_valid_share: float = 0.3
     depth_iqr_m: float = 0.008
     slope_share: float = 0.35
+    edge_step_m: float = 0.015
+    edge_sd_m: float = 0.008
     most_blobs: int = 48

@@ -12,7 +12,7 @@ from core.tracking import association
 from core.tracking.joint_association import associate_jointly, holds_together
 from core.tracking.measurement import Forecast, update
 from core.tracking.modes import ModeBank, reweighed
-from core.tracking.settings import TrackerSettings
+from core.tracking.settings import MeasurementNoise, TrackerSettings
 from core.types import Detections, FloatArray
 
 _AXES = np.arange(3)
@@ -34,7 +34,8 @@ class Corrected:
     """All modes corrected by the blobs as named.
 
     ``taken`` (M,) blob of every marker or -1; ``nis`` over all modes with ``dof``; ``rows`` (m,) the measured
-    components of the 3M and their ``residual`` (m,) in standard deviations.
+    components of the 3M and their ``residual`` (m,) in standard deviations, ``raw_residual`` (m,) before the
+    worst were given more noise.
     """
 
     bank: ModeBank
@@ -43,6 +44,7 @@ class Corrected:
     dof: int
     rows: NDArray[np.int64]
     residual: FloatArray
+    raw_residual: FloatArray
 
 
 def measurable(blobs: Detections, radius_px: float, settings: TrackerSettings) -> Measurable:
@@ -82,15 +84,17 @@ def correct(
     variance = (blobs.variance[blob] * noise_factor[marker])[used]
     bank, innovation = update(forecast, rows, blobs.value[blob][used], variance)
     if rows.size == 0:
-        return Corrected(bank, taken, float("nan"), 0, rows, np.empty(0))
+        return Corrected(bank, taken, float("nan"), 0, rows, np.empty(0), np.empty(0))
     probability = reweighed(bank.probability, innovation.log_likelihood)
+    residual = probability @ innovation.residual
     return Corrected(
         replace(bank, probability=probability),
         taken,
         float(probability @ innovation.nis),
         innovation.dof,
         rows,
-        probability @ innovation.residual,
+        residual,
+        residual,
     )
 
 
@@ -129,7 +133,7 @@ def name_and_correct(
     named = np.count_nonzero(taken >= 0)
     enough = np.count_nonzero(taken[palm] >= 0) >= enough_palm or named == len(blobs)
     if enough and holds_together(simple.nis, simple.dof):
-        return simple
+        return _without_outliers(simple, forecast, blobs, with_depth, noise_factor, settings.noise)
     found = associate_jointly(
         mean,
         covariance,
@@ -139,4 +143,35 @@ def name_and_correct(
         settings.noise.depth_outlier,
         settings.association,
     )
-    return correct(forecast, blobs, found.taken, found.with_depth, noise_factor)
+    jointly = correct(forecast, blobs, found.taken, found.with_depth, noise_factor)
+    return _without_outliers(jointly, forecast, blobs, found.with_depth, noise_factor, settings.noise)
+
+
+def _without_outliers(
+    corrected: Corrected,
+    forecast: Forecast,
+    blobs: Measurable,
+    with_depth: NDArray[np.bool_],
+    noise_factor: FloatArray,
+    noise: MeasurementNoise,
+) -> Corrected:
+    """The correction again, the worst measurement given the noise that its residual shows, one after the other.
+
+    A disc half behind the rim is still that disc, but its middle is not where it seems.
+    """
+    factor = noise_factor
+    for _ in range(noise.most_outliers):
+        if not corrected.rows.size:
+            break
+        worst = int(np.argmax(np.abs(corrected.residual)))
+        size = abs(float(corrected.residual[worst]))
+        if size <= noise.outlier_sd:
+            break
+        marker, axis = divmod(int(corrected.rows[worst]), 3)
+        factor = factor.copy()
+        factor[marker, 2:] *= size**2 if axis == 2 else 1.0
+        factor[marker, :2] *= 1.0 if axis == 2 else size**2
+        corrected = replace(
+            correct(forecast, blobs, corrected.taken, with_depth, factor), raw_residual=corrected.raw_residual
+        )
+    return corrected

@@ -18,7 +18,7 @@ def watched(factor: FloatArray, corrected: Corrected, dt_s: float, noise: Measur
         return factor
     weight = 1.0 - np.exp(-dt_s / noise.adapt_s)
     squared = np.ones_like(factor)
-    squared.ravel()[corrected.rows] = np.minimum(corrected.residual**2, noise.most_adapted)
+    squared.ravel()[corrected.rows] = np.minimum(corrected.raw_residual**2, noise.most_adapted)
     squared[:, :2] = squared[:, :2].mean(axis=1, keepdims=True)
     measured = np.zeros(factor.size, dtype=bool)
     measured[corrected.rows] = True

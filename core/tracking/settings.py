@@ -25,7 +25,8 @@ class MeasurementNoise:
     """``pixel_sd_px`` of a whole, well lit disc's centre, measured anew on every still hand;
     ``pixel_model_sd_px`` what a still hand does not show (shading, blur, the lens);
     ``depth_ratio`` of the depths' scatter to that of a reading by the book, likewise measured;
-    ``adapt_s``: over which time each marker's own noise is judged by its residuals; its variance rises to at
+    ``outlier_sd``: a residual beyond this many sds is given the noise it shows, at most ``most_outliers`` in a
+    frame; ``adapt_s``: over which time each marker's own noise is judged by its residuals; its variance rises to at
     most ``most_adapted`` times. ``shade_share``: how far the centre of a partly covered disc may wander, as a
     share of its radius times what is missing of its area below ``whole_from``.
     ``depth_outlier``: chance that a blob's depth is of something else.
@@ -36,6 +37,8 @@ class MeasurementNoise:
     depth_ratio: float = 1.0
     shade_share: float = 0.7
     whole_from: float = 0.6
+    outlier_sd: float = 3.5
+    most_outliers: int = 3
     adapt_s: float = 0.5
     most_adapted: float = 100.0
     depth_outlier: float = 1e-3
