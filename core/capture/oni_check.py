@@ -69,7 +69,11 @@ _FIXED = (oni.MAP_OUTPUT_MODE, oni.CROPPING, oni.PIXEL_FORMAT_1, oni.PIXEL_FORMA
 
 @dataclass(frozen=True, slots=True)
 class OniStream:
-    """One stream of a recording. ``number`` (N,) as the library will report them, ``timestamp_us`` (N,)."""
+    """One stream of a recording.
+
+    ``number`` (N,) as the library will report them, ``timestamp_us`` (N,); ``position`` (N,) in the file and
+    ``size_bytes`` (N,) of the coded pictures.
+    """
 
     width_px: int
     height_px: int
@@ -80,6 +84,8 @@ class OniStream:
     field_of_view_rad: tuple[float, float] | None
     number: NDArray[np.int64]
     timestamp_us: NDArray[np.int64]
+    position: NDArray[np.int64]
+    size_bytes: NDArray[np.int64]
 
     def __len__(self) -> int:
         return int(self.number.shape[0])
@@ -114,6 +120,8 @@ class _Node:
     removed: bool = False
     numbers: list[int] = field(default_factory=list)
     times_us: list[int] = field(default_factory=list)
+    positions: list[int] = field(default_factory=list)
+    sizes: list[int] = field(default_factory=list)
 
     @property
     def has_pictures(self) -> bool:
@@ -340,6 +348,9 @@ class _Walk:
             raise TimesUnordered(self._path, f"{NodeType(node.kind).name.lower()} picture {number}")
         node.numbers.append(number)
         node.times_us.append(time_us)
+        header = oni.OLD_RECORD_HEADER if self._is_old else oni.RECORD_HEADER
+        node.positions.append(record.position + header.size + len(record.fields))
+        node.sizes.append(record.payload_size)
 
     def _verify_seek_tables(self) -> None:
         """The library follows each seek table blindly while it opens the file."""
@@ -373,6 +384,6 @@ class _Walk:
             across, down = struct.unpack("<dd", node.properties[oni.FIELD_OF_VIEW])
             view = (across, down) if 0.0 < across < math.pi and 0.0 < down < math.pi else None
         mirrored = any(node.properties.get(oni.MIRROR, b""))
-        numbers, times = (np.array(values, dtype=np.int64) for values in (node.numbers, node.times_us))
+        columns = (np.array(each, np.int64) for each in (node.numbers, node.times_us, node.positions, node.sizes))
         codec = node.codec.decode("ascii")
-        return OniStream(*self._mode(node), codec, node.pixel_format, mirrored, view, numbers, times)
+        return OniStream(*self._mode(node), codec, node.pixel_format, mirrored, view, *columns)

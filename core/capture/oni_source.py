@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import threading
-from collections.abc import Iterator
+from collections.abc import Generator, Iterator
+from contextlib import closing
 from pathlib import Path
 from typing import Literal
 
@@ -12,6 +13,7 @@ import numpy as np
 from core.capture.camera_info import CameraInfo, read_camera_info
 from core.capture.notice import Notice, ignore
 from core.capture.oni_check import OniContents, check_recording
+from core.capture.oni_jpeg import deadly_pictures
 from core.capture.oni_writer import sidecar_path
 from core.capture.openni2 import Sensor, VideoMode
 from core.capture.source import SourceInfo
@@ -69,6 +71,23 @@ class OniSource:
 
     def frames(self) -> Iterator[Frame]:
         """All frames from the first on; a walk under way ends when another begins."""
+        deadly: tuple[int, ...] = ()
+        count = 0
+        while True:
+            try:
+                with closing(self._walk(deadly)) as walk:
+                    for frame in walk:
+                        if frame.index == count:
+                            count += 1
+                            yield frame
+                return
+            except DriverFailed:
+                # it dies on certain damaged pictures: once more without these, on to where it was
+                deadly = () if deadly else deadly_pictures(self._path, self._contents.color)
+                if not deadly:
+                    raise
+
+    def _walk(self, deadly: tuple[int, ...]) -> Generator[Frame]:
         self._end()
         if self._closing.is_set():
             return
@@ -76,11 +95,8 @@ class OniSource:
         streams = {Sensor.COLOR: contents.color}
         if contents.depth is not None:
             streams[Sensor.DEPTH] = contents.depth
-        plan = FilePlan(
-            str(self._path.resolve()),
-            contents.identity,
-            {sensor: int(stream.number[-1]) for sensor, stream in streams.items()},
-        )
+        last_number = {sensor: int(stream.number[-1]) for sensor, stream in streams.items()}
+        plan = FilePlan(str(self._path.resolve()), contents.identity, last_number, deadly)
         process = CaptureProcess(plan, str(self._path), max(stream.frame_bytes for stream in streams.values()))
         self._process = process
         modes = {

@@ -11,11 +11,15 @@ from core.errors import CarpusFault
 
 @dataclass(frozen=True, slots=True)
 class FilePlan:
-    """Play a recording in order, picture by picture. ``last_number`` ends each stream that is wanted."""
+    """Play a recording in order, picture by picture. ``last_number`` ends each stream that is wanted.
+
+    ``deadly`` are positions of pictures on which the library dies: it gets a private copy with these spoilt.
+    """
 
     path: str
     identity: tuple[int, int]
     last_number: Mapping[Sensor, int]
+    deadly: tuple[int, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 import tempfile
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from pathlib import Path
 
 from core.capture.openni2 import (
@@ -33,6 +33,8 @@ from core.errors import (
 LOCKSTEP = -1.0
 """Playback speed at which the library reads on only when a picture is asked for."""
 
+COPY_BLOCK = 1 << 20
+
 
 class GaveUp(Exception):
     """Ends the process with a fault for the owner."""
@@ -55,11 +57,36 @@ def open_unchanged(plan: FilePlan) -> int:
     return file
 
 
-def survivable_name(path: str, file: int) -> str:
-    """A name for the open file that the library survives: it dies on other letters than ASCII and on long names."""
+def without_deadly(file: int, positions: Sequence[int], stay_alive: Callable[[], None]) -> int:
+    """A copy of ``file`` that has no name and goes with this process, each of the pictures no picture any more."""
+    try:
+        copy = tempfile.TemporaryFile()  # noqa: SIM115 -- lives as long as the process
+        with os.fdopen(os.dup(file), "rb") as original:
+            original.seek(0)
+            while block := original.read(COPY_BLOCK):
+                copy.write(block)
+                stay_alive()
+        for position in positions:
+            copy.seek(position)
+            copy.write(bytes(2))
+        copy.flush()
+    except OSError as cause:
+        raise GaveUp(
+            RecordingDamaged, f"{len(positions)} pictures on which the driver dies, {cause.strerror}"
+        ) from cause
+    return os.dup(copy.fileno())
+
+
+def survivable_name(path: str | None, file: int) -> str:
+    """A name for the open file that the library survives: it dies on other letters than ASCII and on long names.
+
+    ``path`` is where the file is found where descriptors have no names; None when it has none.
+    """
     by_descriptor = f"/proc/self/fd/{file}"
     if os.path.exists(by_descriptor):  # noqa: PTH110 -- a descriptor, not a path of ours
         return by_descriptor
+    if path is None:
+        raise GaveUp(RecordingDamaged, "pictures on which the driver dies")
     if path.isascii() and len(path) < 256:
         return path
     link = Path(tempfile.mkdtemp(prefix="carpus-")) / "recording.oni"

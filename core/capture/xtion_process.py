@@ -50,7 +50,14 @@ from core.capture.xtion_messages import (
     Stop,
     Trouble,
 )
-from core.capture.xtion_opening import GaveUp, open_camera, open_unchanged, start_recording, survivable_name
+from core.capture.xtion_opening import (
+    GaveUp,
+    open_camera,
+    open_unchanged,
+    start_recording,
+    survivable_name,
+    without_deadly,
+)
 from core.errors import (
     CameraLost,
     DriverFailed,
@@ -76,8 +83,10 @@ def run(link: Connection, plan: Plan, ring: Ring) -> None:
     threading.Thread(target=_listen, args=(link, commands), name="owner", daemon=True).start()
     link.send(Alive())
     report: Report = Ended()
+    # the library's threads call back and copy until the very end: what they use lives as long as the process
+    held: list[object] = []
     try:
-        _serve(link, commands, plan, ring)
+        _serve(link, commands, plan, ring, held)
     except GaveUp as failure:
         report = Trouble(failure.fault, failure.detail)
     except DriverMissing as fault:
@@ -102,14 +111,18 @@ def _listen(link: Connection, commands: queue.SimpleQueue[Command]) -> None:
         os._exit(0)
 
 
-def _serve(link: Connection, commands: queue.SimpleQueue[Command], plan: Plan, ring: Ring) -> None:
+def _serve(link: Connection, commands: queue.SimpleQueue[Command], plan: Plan, ring: Ring, held: list[object]) -> None:
     library = Context()
-    happened = _Happened()
-    library.watch(happened.on_state, happened.on_gone)
     memory = SharedMemory(ring.name)
+    happened = _Happened()
+    held += (library, memory, happened)
+    library.watch(happened.on_state, happened.on_gone)
     if isinstance(plan, FilePlan):
         file = open_unchanged(plan)
-        device = library.open(survivable_name(plan.path, file))
+        path: str | None = plan.path
+        if plan.deadly:
+            file, path = without_deadly(file, plan.deadly, lambda: link.send(Alive())), None
+        device = library.open(survivable_name(path, file))
         opened = start_recording(device, plan)
     else:
         device, opened = open_camera(library, plan)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import struct
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -103,3 +103,43 @@ def find(data: bytes, kind: RecordType, occurrence: int = 0, node: int | None = 
 def patched(data: bytes, position: int, new: bytes) -> bytes:
     """``data`` with some bytes replaced."""
     return data[:position] + new + data[position + len(new) :]
+
+
+Change = Callable[[Record, bytes, bytes], tuple[bytes, bytes]]
+
+
+def rebuilt(data: bytes, change: Change) -> bytes:
+    """A file written anew, record by record; ``change`` gives the fields and payload of each. Without seek tables."""
+    out = bytearray(data[:24])
+    for record in records(data):
+        if record.kind == RecordType.SEEK_TABLE:
+            continue
+        fields = data[record.position + 28 : record.position + record.fields_size]
+        payload = data[record.payload]
+        if record.kind == RecordType.NODE_ADDED:
+            fields = fields[:-8] + bytes(8)
+        fields, payload = change(record, fields, payload)
+        size = 28 + len(fields)
+        out += struct.pack("<IIIIIQ", 0x0052494E, record.kind, record.node, size, len(payload), 0) + fields + payload
+    return bytes(out)
+
+
+def with_small_color(data: bytes) -> bytes:
+    """The same recording with colour pictures of half the width and height."""
+    width, height = WIDTH // 2, HEIGHT // 2
+    number = 0
+
+    def change(record: Record, fields: bytes, payload: bytes) -> tuple[bytes, bytes]:
+        nonlocal number
+        if record.node != 2:
+            return fields, payload
+        if b"xnMapOutputMode\0" in fields:
+            fields = fields[:-12] + struct.pack("<III", width, height, 30)
+        if b"oniRequiredFrameSize\0" in fields:
+            fields = fields[:-8] + struct.pack("<Q", width * height * 3)
+        if record.kind == RecordType.NEW_DATA:
+            number += 1
+            payload = color_picture(number, width, height).tobytes()
+        return fields, payload
+
+    return rebuilt(data, change)

@@ -1,0 +1,172 @@
+"""Mutated recordings: whatever a file holds, Carpus survives it, says so, and does not wait long for it.
+
+``CARPUS_FUZZ_FILES=2000`` runs more of them; the numbers name the files, so any one can be made again.
+"""
+
+from __future__ import annotations
+
+import os
+import time
+from collections import Counter
+from collections.abc import Callable
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from core.capture.oni_source import OniSource
+from core.errors import CarpusFault, DriverFailed
+from tests.capture.oni_samples import HEIGHT, WIDTH, records, write_sample
+
+COUNT = int(os.environ.get("CARPUS_FUZZ_FILES", "300"))
+LIMIT_S = 5.0
+"""For the library to answer, or to be given up. Starting the process comes on top on a busy computer."""
+NUMBERS = (0, 1, 2, 27, 29, 255, 65_535, 65_536, 5_760_000, 0x7FFFFFFF, 0x80000000, 0xFFFFFFFF)
+
+Mutation = Callable[[bytearray, np.random.Generator], None]
+
+
+def structure(data: bytes) -> list[int]:
+    """Positions of all bytes that are not a picture's own."""
+    places = list(range(24))
+    for record in records(data):
+        places += range(record.position, record.position + record.fields_size)
+    return places
+
+
+def flip_structure(data: bytearray, rng: np.random.Generator) -> None:
+    for place in rng.choice(PLACES, rng.integers(1, 5)):
+        data[place] ^= 1 << int(rng.integers(8))
+
+
+def number_in_structure(data: bytearray, rng: np.random.Generator) -> None:
+    place = int(rng.choice(PLACES))
+    data[place : place + 4] = int(rng.choice(NUMBERS)).to_bytes(4, "little")
+
+
+def flip_anywhere(data: bytearray, rng: np.random.Generator) -> None:
+    for place in rng.integers(0, len(data), rng.integers(1, 30)):
+        data[place] ^= 1 << int(rng.integers(8))
+
+
+def noise(data: bytearray, rng: np.random.Generator) -> None:
+    start = int(rng.integers(0, len(data)))
+    size = min(int(rng.integers(1, 4000)), len(data) - start)
+    data[start : start + size] = rng.integers(0, 256, size, np.uint8).tobytes()
+
+
+def zeros(data: bytearray, rng: np.random.Generator) -> None:
+    start = int(rng.integers(0, len(data)))
+    size = min(int(rng.integers(1, 4000)), len(data) - start)
+    data[start : start + size] = bytes(size)
+
+
+def cut(data: bytearray, rng: np.random.Generator) -> None:
+    del data[int(rng.integers(0, len(data))) :]
+
+
+def remove(data: bytearray, rng: np.random.Generator) -> None:
+    start = int(rng.integers(0, len(data)))
+    del data[start : start + int(rng.integers(1, 200))]
+
+
+def repeat(data: bytearray, rng: np.random.Generator) -> None:
+    start = int(rng.integers(0, len(data)))
+    piece = data[start : start + int(rng.integers(1, 2000))]
+    data[start:start] = piece
+
+
+def swap_records(data: bytearray, rng: np.random.Generator) -> None:
+    whole = bytes(data)
+    spans = [(r.position, r.position + r.fields_size + r.payload_size) for r in records(whole)]
+    first, second = sorted(int(i) for i in rng.choice(len(spans), 2, replace=False))
+    (a, b), (c, d) = spans[first], spans[second]
+    data[:] = whole[:a] + whole[c:d] + whole[b:c] + whole[a:b] + whole[d:]
+
+
+def damage_pictures(data: bytearray, rng: np.random.Generator) -> None:
+    pictures = [record.payload for record in records(bytes(data)) if record.kind == 10]
+    for payload in [pictures[int(i)] for i in rng.choice(len(pictures), 3, replace=False)]:
+        kind = int(rng.integers(3))
+        size = payload.stop - payload.start
+        if kind == 0:
+            data[payload] = rng.integers(0, 256, size, np.uint8).tobytes()
+        elif kind == 1:
+            data[payload] = bytes([int(rng.choice((0x00, 0xE0, 0xEF, 0xFF)))]) * size
+        else:
+            place = payload.start + int(rng.integers(0, size))
+            data[place] ^= 0xFF
+
+
+MUTATIONS: tuple[Mutation, ...] = (
+    flip_structure,
+    number_in_structure,
+    number_in_structure,
+    flip_anywhere,
+    noise,
+    zeros,
+    cut,
+    remove,
+    repeat,
+    swap_records,
+    damage_pictures,
+    damage_pictures,
+)
+PLACES: list[int] = []
+
+
+@dataclass(frozen=True)
+class Outcome:
+    number: int
+    mutation: str
+    kind: str
+    frames: int
+    took_s: float
+
+
+def play(number: int, sound: bytes, folder: Path) -> Outcome:
+    """Mutate, play to the end, and look at every frame."""
+    rng = np.random.default_rng(number)
+    mutation = MUTATIONS[number // 2 % len(MUTATIONS)]
+    data = bytearray(sound)
+    mutation(data, rng)
+    path = folder / f"mutated {number}.oni"
+    path.write_bytes(data)
+    begin = time.monotonic()
+    kind, count = "played", 0
+    try:
+        for frame in OniSource(path).frames():
+            count += 1
+            assert frame.color_rgb.shape == (HEIGHT, WIDTH, 3)
+            assert frame.depth_raw is None or frame.depth_raw.shape == (HEIGHT, WIDTH)
+    except CarpusFault as fault:
+        kind = type(fault).__name__
+    took_s = time.monotonic() - begin
+    path.unlink()
+    return Outcome(number, mutation.__name__, kind, count, took_s)
+
+
+@pytest.mark.timeout(900)
+def test_no_mutated_file_takes_carpus_along(tmp_path: Path) -> None:
+    sound = [
+        write_sample(tmp_path / "raw.oni", 4).read_bytes(),
+        write_sample(tmp_path / "jpeg.oni", 4, color="jpeg").read_bytes(),
+    ]
+    outcomes: list[Outcome] = []
+    with ThreadPoolExecutor(3) as pool:
+        for half, data in enumerate(sound):
+            PLACES[:] = structure(data)
+            numbers = range(half, COUNT, len(sound))
+            outcomes += pool.map(lambda number, data=data: play(number, data, tmp_path), numbers)
+    kinds = Counter(outcome.kind for outcome in outcomes)
+    slowest = max(outcomes, key=lambda outcome: outcome.took_s)
+    print(dict(kinds), slowest)
+    assert sum(kinds.values()) == COUNT
+    assert slowest.took_s < 2 * LIMIT_S, slowest
+    assert kinds["played"] > COUNT // 10
+    assert kinds["RecordingDamaged"] > COUNT // 4
+    # the check is there so that the library never sees what it would die of
+    died = [outcome for outcome in outcomes if outcome.kind == DriverFailed.__name__]
+    assert not died, died

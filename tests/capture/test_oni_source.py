@@ -1,0 +1,395 @@
+"""Recordings played by the real library through the capture process."""
+
+from __future__ import annotations
+
+import os
+import signal
+import subprocess
+import sys
+import threading
+import time
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from core.capture.camera_info import write_camera_info
+from core.capture.oni_check import check_recording
+from core.capture.oni_format import RecordType
+from core.capture.oni_jpeg import deadly_pictures
+from core.capture.oni_source import OniSource
+from core.capture.oni_writer import sidecar_path
+from core.capture.paced import PacedSource
+from core.errors import (
+    CameraFileUnreadable,
+    CarpusFault,
+    DepthNotRegistered,
+    DriverFailed,
+    PicturesEnlarged,
+    PicturesLost,
+    RecordingDamaged,
+    RecordingUnsupported,
+    RegistrationAssumed,
+)
+from core.types import Frame
+from tests.capture.oni_samples import (
+    CAMERA,
+    HEIGHT,
+    PERIOD_S,
+    START_S,
+    WIDTH,
+    Record,
+    color_picture,
+    depth_picture,
+    find,
+    patched,
+    rebuilt,
+    with_small_color,
+    write_sample,
+)
+
+ROOT = Path(__file__).parents[2]
+
+
+def play(path: Path) -> tuple[list[Frame], list[CarpusFault]]:
+    told: list[CarpusFault] = []
+    source = OniSource(path, registered=True, notice=told.append)
+    frames = list(source.frames())
+    source.close()
+    return frames, told
+
+
+def assert_whole(frames: list[Frame], count: int) -> None:
+    assert [frame.index for frame in frames] == list(range(count))
+    for number, frame in enumerate(frames, start=1):
+        assert np.array_equal(frame.color_rgb, color_picture(number))
+        assert np.array_equal(frame.depth_raw, depth_picture(number))
+        assert frame.timestamp_s == pytest.approx(START_S + (number - 1) * PERIOD_S, abs=1e-6)
+        assert frame.dropped_before == 0
+        assert not frame.color_rgb.flags.writeable
+        assert frame.color_rgb.flags.c_contiguous
+
+
+def processes_of(source: OniSource) -> int:
+    assert source._process is not None
+    assert source._process.pid is not None
+    return source._process.pid
+
+
+def test_every_frame_in_order_again_and_again(tmp_path: Path) -> None:
+    source = OniSource(write_sample(tmp_path / "a.oni", 20))
+    for _ in range(2):
+        assert_whole(list(source.frames()), 20)
+    source.close()
+    source.close()
+    assert list(source.frames()) == []
+
+
+def test_a_slow_reader_loses_nothing(tmp_path: Path) -> None:
+    source = OniSource(write_sample(tmp_path / "a.oni", 24))
+    frames = []
+    for frame in source.frames():
+        time.sleep(0.02)
+        frames.append(frame)
+    assert_whole(frames, 24)
+
+
+@pytest.mark.parametrize("depth", ["raw", "table"])
+def test_either_packing_of_depth_is_exact(tmp_path: Path, depth: str) -> None:
+    frames, told = play(write_sample(tmp_path / "a.oni", 4, depth=depth))  # type: ignore[arg-type]
+    assert_whole(frames, 4)
+    assert told == []
+
+
+def test_colour_as_jpeg_is_near(tmp_path: Path) -> None:
+    frames, _ = play(write_sample(tmp_path / "a.oni", 4, color="jpeg"))
+    for number, frame in enumerate(frames, start=1):
+        error = np.abs(frame.color_rgb.astype(int) - color_picture(number).astype(int))
+        assert error.mean() < 2.5
+        assert np.array_equal(frame.depth_raw, depth_picture(number))
+
+
+def test_a_recording_without_depth(tmp_path: Path) -> None:
+    source = OniSource(write_sample(tmp_path / "a.oni", 3, depth=None))
+    assert not source.info.has_depth
+    assert [frame.depth_raw for frame in source.frames()] == [None, None, None]
+
+
+@pytest.mark.parametrize(
+    "name", ["with spaces.oni", "poignet gauche – été.oni", "запястье.oni", "手首の記録.oni", "مِعصم.oni", "🤚.oni"]
+)
+def test_names_in_any_script(tmp_path: Path, name: str) -> None:
+    assert_whole(play(write_sample(tmp_path / name, 3))[0], 3)
+
+
+def test_a_very_long_path(tmp_path: Path) -> None:
+    folder = tmp_path / ("a" * 120) / ("b" * 120) / ("c" * 120)
+    folder.mkdir(parents=True)
+    assert_whole(play(write_sample(folder / "take.oni", 2))[0], 2)
+
+
+def test_facts_about_a_recording(tmp_path: Path) -> None:
+    path = write_sample(tmp_path / "a.oni", 5)
+    told: list[CarpusFault] = []
+    info = OniSource(path, notice=told.append).info
+    assert (info.name, info.frame_count, info.nominal_fps, info.has_depth) == ("a.oni", 5, 30.0, True)
+    assert info.camera.origin == "driver"
+    assert info.camera.fx_px == pytest.approx(CAMERA.fx_px)
+    assert (info.camera.cx_px, info.camera.cy_px) == (31.5, 23.5)
+    assert info.settings["registered"] == "assumed"
+    assert [type(fault) for fault in told] == [RegistrationAssumed]
+
+
+@pytest.mark.parametrize(("registered", "expected"), [(True, []), (False, [DepthNotRegistered])])
+def test_the_sidecar_is_believed(tmp_path: Path, registered: bool, expected: list[type[CarpusFault]]) -> None:
+    path = write_sample(tmp_path / "a.oni", 2)
+    write_camera_info(sidecar_path(path), CAMERA, registered=registered)
+    told: list[CarpusFault] = []
+    source = OniSource(path, registered=not registered, notice=told.append)
+    assert [type(fault) for fault in told] == expected
+    assert source.info.settings["registered"] == ("yes" if registered else "no")
+    assert source.info.camera.origin == "file"
+    assert all(frame.depth_raw is not None for frame in source.frames())
+
+
+def test_a_sidecar_for_other_pictures_is_refused(tmp_path: Path) -> None:
+    path = write_sample(tmp_path / "a.oni", 2)
+    other = CAMERA.__class__(500.0, 500.0, 320.0, 240.0, 640, 400)
+    write_camera_info(sidecar_path(path), other)
+    with pytest.raises(CameraFileUnreadable) as caught:
+        OniSource(path)
+    assert caught.value.subject == str(sidecar_path(path))
+
+
+def test_mirrored_recordings_are_turned_back(tmp_path: Path) -> None:
+    path = write_sample(tmp_path / "a.oni", 3, mirrored=True)
+    assert_whole(play(path)[0], 3)
+    assert OniSource(path).info.settings["mirrored"] == "turned back"
+
+
+def test_the_sidecar_overrules_the_mirror_flag(tmp_path: Path) -> None:
+    path = write_sample(tmp_path / "a.oni", 1, mirrored=True)
+    write_camera_info(sidecar_path(path), CAMERA, registered=True, mirrored=False)
+    (frame,) = play(path)[0]
+    assert np.array_equal(frame.color_rgb, color_picture(1)[:, ::-1])
+    assert np.array_equal(frame.depth_raw, depth_picture(1)[:, ::-1])
+
+
+def test_small_colour_is_enlarged(tmp_path: Path) -> None:
+    path = tmp_path / "a.oni"
+    path.write_bytes(with_small_color(write_sample(tmp_path / "b.oni", 3).read_bytes()))
+    small = CAMERA.__class__(26.25, 26.25, 15.5, 11.5, WIDTH // 2, HEIGHT // 2)
+    write_camera_info(sidecar_path(path), small, registered=True)
+    told: list[CarpusFault] = []
+    source = OniSource(path, notice=told.append)
+    assert [type(fault) for fault in told] == [PicturesEnlarged]
+    assert source.info.camera == CAMERA.__class__(52.5, 52.5, 31.5, 23.5, WIDTH, HEIGHT, origin="file")
+    frames = list(source.frames())
+    assert len(frames) == 3
+    for number, frame in enumerate(frames, start=1):
+        assert frame.color_rgb.shape == (HEIGHT, WIDTH, 3)
+        assert np.array_equal(frame.depth_raw, depth_picture(number))
+        # the mean of each 2x2 block is the small pixel, up to the smoothing at edges
+        blocks = frame.color_rgb.reshape(HEIGHT // 2, 2, WIDTH // 2, 2, 3).mean((1, 3))
+        inner = np.s_[12:-2, 12:-2]
+        small_picture = color_picture(number, WIDTH // 2, HEIGHT // 2).astype(float)
+        assert np.abs(blocks - small_picture)[inner].mean() < 3.0
+
+
+def test_sizes_that_do_not_fit_together_are_refused(tmp_path: Path) -> None:
+    def narrow_depth(record: Record, fields: bytes, payload: bytes) -> tuple[bytes, bytes]:
+        if record.node == 1 and b"xnMapOutputMode\0" in fields:
+            fields = fields[:-12] + np.array([60, 48, 30], "<u4").tobytes()
+        return fields, payload
+
+    path = tmp_path / "a.oni"
+    path.write_bytes(rebuilt(write_sample(tmp_path / "b.oni", 2).read_bytes(), narrow_depth))
+    with pytest.raises(RecordingUnsupported) as caught:
+        OniSource(path)
+    assert caught.value.detail == "colour 64x48, depth 60x48"
+
+
+def damaged_payload(data: bytes, node: int, occurrence: int) -> bytes:
+    payload = find(data, RecordType.NEW_DATA, occurrence, node).payload
+    noise = np.random.default_rng(3).integers(0, 256, payload.stop - payload.start, np.uint8).tobytes()
+    return patched(data, payload.start, noise)
+
+
+@pytest.mark.parametrize("occurrence", [0, 2, 5])
+def test_a_damaged_colour_picture_is_left_out_and_counted(tmp_path: Path, occurrence: int) -> None:
+    path = tmp_path / "a.oni"
+    path.write_bytes(damaged_payload(write_sample(tmp_path / "b.oni", 6, color="jpeg").read_bytes(), 2, occurrence))
+    frames, told = play(path)
+    assert [frame.index for frame in frames] == [0, 1, 2, 3, 4]
+    kept = [number for number in range(1, 7) if number != occurrence + 1]
+    assert [int(frame.depth_raw[0, 0]) - 5000 for frame in frames if frame.depth_raw is not None] == kept
+    assert sum(frame.dropped_before for frame in frames) == (1 if occurrence == 2 else 0)
+    assert [(type(fault), fault.detail) for fault in told] == [(PicturesLost, "1 of 6 colour")]
+
+
+def test_a_damaged_depth_picture_leaves_its_frame_without_depth(tmp_path: Path) -> None:
+    path = tmp_path / "a.oni"
+    path.write_bytes(damaged_payload(write_sample(tmp_path / "b.oni", 6).read_bytes(), 1, 3))
+    frames, told = play(path)
+    assert [frame.depth_raw is not None for frame in frames] == [True, True, True, False, True, True]
+    assert [fault.detail for fault in told] == ["1 of 6 depth"]
+
+
+def test_a_picture_on_which_the_library_dies_is_left_out(tmp_path: Path) -> None:
+    data = write_sample(tmp_path / "b.oni", 8, color="jpeg").read_bytes()
+    payload = find(data, RecordType.NEW_DATA, 4, 2).payload
+    middle = (payload.start + payload.stop) // 2
+    # the library skips 65535 bytes from here, far beyond the picture
+    deadly = patched(data, middle, b"\xff\xe0\xff\xff")
+    path = tmp_path / "a.oni"
+    path.write_bytes(deadly)
+    assert deadly_pictures(path, check_recording(path).color) == (payload.start,)
+    frames, told = play(path)
+    assert [frame.index for frame in frames] == list(range(len(frames)))
+    seen = [int(frame.depth_raw[0, 0]) - 5000 for frame in frames if frame.depth_raw is not None]
+    assert seen == [1, 2, 3, 4, 6, 7, 8]
+    assert [(type(fault), fault.detail) for fault in told] == [(PicturesLost, "1 of 8 colour")]
+    assert path.read_bytes() == deadly
+
+
+def test_gaps_in_time_are_counted(tmp_path: Path) -> None:
+    def late(record: Record, fields: bytes, payload: bytes) -> tuple[bytes, bytes]:
+        if record.kind == RecordType.NEW_DATA:
+            time_us, number = np.frombuffer(fields[:8], "<u8")[0], np.frombuffer(fields[8:], "<u4")[0]
+            fields = np.array([time_us + (66667 if number > 3 else 0)], "<u8").tobytes() + fields[8:]
+        return fields, payload
+
+    path = tmp_path / "a.oni"
+    data = rebuilt(write_sample(tmp_path / "b.oni", 6).read_bytes(), late)
+    path.write_bytes(patched(data, 12, np.array([10**9], "<u8").tobytes()))
+    assert [frame.dropped_before for frame in play(path)[0]] == [0, 0, 0, 2, 0, 0]
+
+
+def test_in_real_time_no_frame_comes_early(tmp_path: Path) -> None:
+    source = PacedSource(OniSource(write_sample(tmp_path / "a.oni", 8)))
+    arrivals = [(frame.timestamp_s, time.monotonic()) for frame in source.frames()]
+    source.close()
+    (first_s, begin), (last_s, end) = arrivals[0], arrivals[-1]
+    assert len(arrivals) == 8
+    assert end - begin >= last_s - first_s - 1e-3
+
+
+def test_a_file_that_changed_since_the_check_is_not_played(tmp_path: Path) -> None:
+    path = write_sample(tmp_path / "a.oni", 3)
+    source = OniSource(path)
+    path.write_bytes(path.read_bytes() + b"more")
+    with pytest.raises(RecordingDamaged) as caught:
+        list(source.frames())
+    assert caught.value.detail == "the file changes while it is read"
+
+
+def test_a_file_cut_while_it_plays_ends_with_a_fault(tmp_path: Path) -> None:
+    path = write_sample(tmp_path / "a.oni", 60)
+    frames = OniSource(path).frames()
+    next(frames)
+    os.truncate(path, 100_000)
+    with pytest.raises(RecordingDamaged) as caught:
+        list(frames)
+    assert caught.value.detail.startswith("no picture for")
+
+
+@pytest.mark.parametrize(("blow", "detail"), [(signal.SIGSEGV, "SIGSEGV"), (signal.SIGSTOP, "no answer")])
+def test_a_library_that_dies_or_hangs_is_a_fault(
+    tmp_path: Path, blow: signal.Signals, detail: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    source = OniSource(write_sample(tmp_path / "a.oni", 60))
+    monkeypatch.setattr("core.capture.oni_source.ANSWER_S", 0.5)
+    frames = source.frames()
+    next(frames)
+    os.kill(processes_of(source), blow)
+    with pytest.raises(DriverFailed) as caught:
+        list(frames)
+    assert detail in caught.value.detail
+    assert len(list(source.frames())) == 60
+
+
+def test_closing_ends_a_walk_of_another_thread(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    source = OniSource(write_sample(tmp_path / "a.oni", 60))
+    frames = source.frames()
+    next(frames)
+    os.kill(processes_of(source), signal.SIGSTOP)
+    rest: list[Frame] = []
+    reader = threading.Thread(target=lambda: rest.extend(frames))
+    reader.start()
+    source.close()
+    reader.join(3.0)
+    assert not reader.is_alive()
+    assert len(rest) < 60
+
+
+def test_a_new_walk_ends_the_one_before(tmp_path: Path) -> None:
+    told: list[CarpusFault] = []
+    source = OniSource(write_sample(tmp_path / "a.oni", 30), registered=True, notice=told.append)
+    first = source.frames()
+    next(first)
+    assert_whole(list(source.frames()), 30)
+    assert len(list(first)) < 30
+    assert told == []
+
+
+def shared_memory() -> set[str]:
+    return {entry.name for entry in Path("/dev/shm").iterdir() if entry.name.startswith("psm_")}
+
+
+def test_nothing_is_left_behind(tmp_path: Path) -> None:
+    before = shared_memory()
+    source = OniSource(write_sample(tmp_path / "a.oni", 30))
+    next(source.frames())
+    frames = source.frames()
+    next(frames)
+    pid = processes_of(source)
+    frames.close()  # type: ignore[attr-defined]
+    assert shared_memory() == before
+    with pytest.raises(ProcessLookupError):
+        os.kill(pid, 0)
+
+
+def test_the_capture_process_does_not_outlive_its_owner(tmp_path: Path) -> None:
+    path = write_sample(tmp_path / "a.oni", 60)
+    program = """
+import sys, time
+from pathlib import Path
+from core.capture.oni_source import OniSource
+if __name__ == "__main__":
+    source = OniSource(Path(sys.argv[1]))
+    frames = source.frames()
+    next(frames)
+    print(source._process.pid, flush=True)
+    time.sleep(60)
+"""
+    script = tmp_path / "owner.py"
+    script.write_text(program)
+    environment = {**os.environ, "PYTHONPATH": str(ROOT)}
+    owner = subprocess.Popen(
+        [sys.executable, str(script), str(path)], stdout=subprocess.PIPE, text=True, cwd=ROOT, env=environment
+    )
+    assert owner.stdout is not None
+    pid = int(owner.stdout.readline())
+    os.kill(pid, 0)
+    owner.kill()
+    owner.communicate()
+    deadline = time.monotonic() + 10.0
+    while time.monotonic() < deadline:
+        state = Path(f"/proc/{pid}/stat")
+        if not state.exists() or state.read_text().rsplit(")", 1)[1].split()[0] == "Z":
+            return
+        time.sleep(0.02)
+    pytest.fail("the capture process lives on")
+
+
+def test_a_process_that_cannot_start_leaves_no_memory(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    before = shared_memory()
+    source = OniSource(write_sample(tmp_path / "a.oni", 2))
+
+    def refuse(*_: object) -> None:
+        raise OSError("no more processes")
+
+    monkeypatch.setattr("multiprocessing.context.SpawnProcess.start", refuse)
+    with pytest.raises(OSError, match="no more processes"):
+        list(source.frames())
+    assert shared_memory() == before
