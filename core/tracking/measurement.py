@@ -169,49 +169,55 @@ def forecast_augmented(
 ) -> Forecast:
     """The papers' augmented filter: one set of sigma points over state and noise, through f and then h.
 
-    Mode by mode; the mean orientation is taken on the manifold.
+    Mode by mode; the mean orientation is taken on the manifold. The points of all modes are told as errors from
+    one belief, as the bank keeps them.
     """
     n = layout.size
+    sd_per_step = noise.per_step(layout, dt_s)
+    weights = weights_for(n + sd_per_step.size, spread)
     means: list[Belief] = []
-    covariances, marker_means, marker_covariances, crosses = [], [], [], []
+    afters: list[Belief] = []
+    markers = []
     for error, covariance, scale in zip(bank.error, bank.covariance, scales, strict=True):
-        start = bank.nominal.moved(error, layout)
-        sd = noise.per_step(layout, dt_s) * scale
-        weights = weights_for(n + sd.size, spread)
+        sd = sd_per_step * scale
         joint = np.zeros((n + sd.size, n + sd.size))
         joint[:n, :n] = covariance
         joint[n:, n:] = np.diag(sd**2)
         offset = deviations(joint, weights.scale)
-        after = advance(_repeat(start, offset.shape[0]).moved(offset[:, :n], layout), offset[:, n:], dt_s, layout)
-        mean = Belief(
-            weights.mean @ after.position_m,
-            weights.mean @ after.velocity_m_s,
-            so3.mean_rotation(after.rotation_w2_w0, weights.mean),
-            weights.mean @ after.rate_rad_s,
-            weights.mean @ after.joints_rad,
-            weights.mean @ after.joint_rates_rad_s,
-            weights.mean @ after.shape,
-            covariance,
-        )
-        deviation = _repeat(mean, offset.shape[0]).error_to(after, layout)
+        spread_out = _repeat(bank.nominal, offset.shape[0]).moved(error + offset[:, :n], layout)
+        after = advance(spread_out, offset[:, n:], dt_s, layout)
+        means.append(_mean(after, weights.mean, covariance))
+        afters.append(after)
         marker = view.observe(after.position_m, after.rotation_w2_w0, after.joints_rad, after.shape)
-        marker = marker.reshape(offset.shape[0], -1)
+        markers.append(marker.reshape(offset.shape[0], -1))
+    apart = np.stack([means[0].error_to(mean, layout) for mean in means])
+    nominal = means[0].moved(bank.probability @ apart, layout)
+    errors = np.stack([nominal.error_to(mean, layout) for mean in means])
+    covariances, marker_means, marker_covariances, crosses = [], [], [], []
+    for error, after, marker in zip(errors, afters, markers, strict=True):
+        deviation = _repeat(nominal, marker.shape[0]).error_to(after, layout) - error
         marker_mean = weights.mean @ marker
         weighted = (marker - marker_mean) * weights.covariance[:, None]
         new_covariance = (deviation.T * weights.covariance) @ deviation
-        means.append(mean)
         covariances.append(0.5 * (new_covariance + new_covariance.T))
         marker_means.append(marker_mean)
         marker_covariances.append(weighted.T @ (marker - marker_mean))
         crosses.append(weighted.T @ deviation)
-    nominal = means[0]
-    after_bank = ModeBank(
-        nominal,
-        np.stack([nominal.error_to(mean, layout) for mean in means]),
-        np.stack(covariances),
-        bank.probability,
-    )
+    after_bank = ModeBank(nominal, errors, np.stack(covariances), bank.probability)
     return Forecast(after_bank, np.stack(marker_means), np.stack(marker_covariances), np.stack(crosses))
+
+
+def _mean(after: Belief, weight: FloatArray, covariance: FloatArray) -> Belief:
+    return Belief(
+        weight @ after.position_m,
+        weight @ after.velocity_m_s,
+        so3.mean_rotation(after.rotation_w2_w0, weight),
+        weight @ after.rate_rad_s,
+        weight @ after.joints_rad,
+        weight @ after.joint_rates_rad_s,
+        weight @ after.shape,
+        covariance,
+    )
 
 
 def _repeat(belief: Belief, count: int) -> Belief:

@@ -61,7 +61,7 @@ def mixed(bank: ModeBank, switch: FloatArray) -> ModeBank:
 def predicted(bank: ModeBank, noise: MotionNoise, scales: FloatArray, dt_s: float, layout: StateLayout) -> ModeBank:
     """Linear prediction of all modes, the noise of each multiplied by its scale (K,): P <- F P F' + Q."""
     f = transition(bank.nominal, dt_s, layout)
-    q = process_covariance(noise, dt_s, layout)
+    q = process_covariance(bank.nominal, noise, dt_s, layout)
     nominal = advance(bank.nominal, np.zeros(6 + layout.joint_count), dt_s, layout)
     covariance = f @ bank.covariance @ f.T + (scales * scales)[:, None, None] * q
     return ModeBank(nominal, bank.error @ f.T, covariance, bank.probability)

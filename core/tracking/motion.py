@@ -120,14 +120,21 @@ def _process_terms(noise: MotionNoise, layout: StateLayout) -> tuple[FloatArray,
     return linear, square, cubic
 
 
-def process_covariance(noise: MotionNoise, dt_s: float, layout: StateLayout) -> FloatArray:
+def process_covariance(belief: Belief, noise: MotionNoise, dt_s: float, layout: StateLayout) -> FloatArray:
     """Q (n, n): what the noise inputs of :func:`advance` add to the covariance in ``dt_s``."""
     linear, square, cubic = _process_terms(noise, layout)
-    return linear * dt_s + square * dt_s**2 + cubic * dt_s**3
+    q = linear * dt_s + square * dt_s**2 + cubic * dt_s**3
+    if layout.has_rates:
+        # Turning is pushed about the axes on the way, not about those at the end: Jr, as in the transition.
+        on_the_way = so3.right_jacobian(belief.rate_rad_s * dt_s)
+        q[6:9, 6:9] = on_the_way @ q[6:9, 6:9] @ on_the_way.T
+        q[6:9, 9:12] = on_the_way @ q[6:9, 9:12]
+        q[9:12, 6:9] = q[6:9, 9:12].T
+    return q
 
 
 def predict(belief: Belief, noise: MotionNoise, dt_s: float, layout: StateLayout) -> Belief:
     """Linear prediction: exact mean, P <- F P F' + Q."""
     f = transition(belief, dt_s, layout)
-    covariance = f @ belief.covariance @ f.T + process_covariance(noise, dt_s, layout)
+    covariance = f @ belief.covariance @ f.T + process_covariance(belief, noise, dt_s, layout)
     return replace(advance(belief, np.zeros(6 + layout.joint_count), dt_s, layout), covariance=covariance)

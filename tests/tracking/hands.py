@@ -18,14 +18,15 @@ from core.types import Detections, FloatArray, Side, TrackedFrame
 CAMERA = Camera(525.0, 525.0, 319.5, 239.5)
 RIGHT_PALM_M = np.array(
     [
-        [0.000, 0.000, 0.000],  # WRIST
-        [0.013, 0.022, -0.010],  # CMC1
-        [0.080, 0.022, -0.001],  # MCP2
-        [0.082, 0.000, 0.000],  # MCP3
-        [0.075, -0.017, -0.002],  # MCP4
-        [0.066, -0.033, -0.006],  # MCP5
+        [0.00000, 0.00000, 0.00000],  # WRIST
+        [0.01300, 0.02097, -0.01202],  # CMC1
+        [0.08000, 0.02181, -0.00306],  # MCP2
+        [0.08200, 0.00000, 0.00000],  # MCP3
+        [0.07500, -0.01711, -0.00040],  # MCP4
+        [0.06600, -0.03342, -0.00288],  # MCP5
     ]
 )
+"""Discs of a right hand in the axes of its own W (to a hundredth of a degree), as a calibration gives them."""
 WRIST, CMC1, MCP2, MCP3, MCP4, MCP5 = range(6)
 FROM_ABOVE = np.array([[0.0, -1.0, 0.0], [-1.0, 0.0, 0.0], [0.0, 0.0, -1.0]])
 MIDDLE_M = np.array([0.01, 0.04, 0.7])
