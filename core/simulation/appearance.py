@@ -10,7 +10,7 @@ import numpy as np
 
 from core.camera import Camera
 from core.simulation.scene import Scene
-from core.simulation.spec import Stream
+from core.simulation.spec import RecordingSpec, Stream
 from core.simulation.trace import FloatImage
 from core.types import FloatArray
 
@@ -56,16 +56,23 @@ class Appearance:
     table_depth_m: FloatImage
 
 
+def light_of(spec: RecordingSpec) -> str:
+    """How bright the room of a recording is: a key of :data:`LIGHTS`."""
+    if spec.light != "drawn":
+        return spec.light
+    rng = np.random.default_rng([spec.seed, Stream.SCENE, 2])
+    return ("bright", "normal", "normal", "dim")[int(rng.integers(4))]
+
+
 def appearance_of(scene: Scene) -> Appearance:
     """Draw the looks of a recording; the table is painted once."""
     spec = scene.spec
     rng = np.random.default_rng([spec.seed, Stream.SCENE, 1])
     tone = int(rng.integers(6)) if spec.skin_tone is None else spec.skin_tone
-    light = ("bright", "normal", "normal", "dim")[int(rng.integers(4))] if spec.light == "drawn" else spec.light
     sleeve_drawn = ("none", "grey", "white")[int(rng.integers(3))]
     sleeve = sleeve_drawn if spec.sleeve == "drawn" else spec.sleeve
     sleeve_start = rng.uniform(0.045, 0.09)
-    level, electrons = LIGHTS[light]
+    level, electrons = LIGHTS[light_of(spec)]
     warmth = rng.uniform(-0.08, 0.10)
     white = np.array([1.0 + warmth, 1.0, 1.0 - warmth])
     side = rng.uniform(0.25, 0.75)

@@ -13,6 +13,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from core.simulation.appearance import light_of
 from core.simulation.scene import Scene
 from core.simulation.sensor import depth_scale
 from core.simulation.spec import RecordingSpec, Stream
@@ -21,17 +22,22 @@ from core.simulation.truth import Truth, protocol_rows, truth_of
 from core.simulation.visibility import coarse_visibility
 from core.types import Detections, FloatArray
 
-CENTER_SD_PX = 0.10
+CENTER_SD_PX = {"bright": 0.018, "normal": 0.035, "dim": 0.09}
 """Of a blob's centre, per axis, independent from frame to frame."""
-CENTER_BIAS_PX = 0.08
-"""Of a marker's centre, per axis, constant over a recording (shading, lens, chroma)."""
-DEPTH_SD_PER_M2 = 1.1e-3
+CENTER_SLOW_PX, CENTER_SLOW_S = 0.05, 0.5
+"""Of its part that changes slowly with the pose, and how long that is remembered."""
+CENTER_BIAS_PX = 0.12
+"""Of its part that is constant over a recording (shading, lens, chroma)."""
+DEPTH_SD_PER_M2 = 0.97e-3
 """Of a blob's depth, times the square of its distance, independent from frame to frame."""
-DEPTH_PATTERN_PER_M2 = 0.5e-3
+DEPTH_PATTERN_PER_M2 = 0.42e-3
 """Of the pattern that stays with the place in the picture, times the square of the distance."""
-DEPTH_BIAS_M = 0.0005
+DEPTH_BIAS_M = 0.00045
 """Of a marker's depth, constant over a recording: the matching window flattens knuckles."""
-_SIMILARITY = (0.93, 0.03)
+STATED_DEPTH_SD_PER_M2 = 1.52e-3
+"""What the detector states as the depth's standard deviation, times the square of the distance."""
+_SIMILARITY = (0.65, 0.08)
+_AREA_SHARE = 0.79
 _PATTERN_CELL_PX = 9.0
 
 IntArray = NDArray[np.int64]
@@ -66,12 +72,13 @@ def measurement_sequence(spec: RecordingSpec) -> MeasurementSequence:
     truth = dataclasses.replace(truth, visible_share=np.where(seen, share, 0.0))
 
     noise = _Noise(spec, scene, rng)
+    wander_px = noise.wander(t, (markers, 2))
     noisy = 1.0 if spec.sensor_noise else 0.0
     bias_px = noisy * rng.normal(0.0, CENTER_BIAS_PX, (markers, 2))
     bias_m = noisy * rng.normal(0.0, DEPTH_BIAS_M, markers)
     depth_pose = scene.pose(times.depth_s)
     depth_true = scene.to_camera(scene.discs_w0_m(depth_pose)[:, rows])[..., 2]
-    pixel = noise.pixel(truth.disc_pixel + bias_px)
+    pixel = noise.pixel(truth.disc_pixel + bias_px + wander_px)
     depth = noise.depth(truth.disc_pixel, depth_true + bias_m)
     area = noise.area(truth.disc_position_cam_m[..., 2], scene.patient.disc_radius_m[rows]) * facing
 
@@ -88,7 +95,7 @@ def measurement_sequence(spec: RecordingSpec) -> MeasurementSequence:
             Detections(
                 pixel=pixels,
                 depth_m=depths,
-                depth_sd_m=DEPTH_SD_PER_M2 * depths**2,
+                depth_sd_m=STATED_DEPTH_SD_PER_M2 * depths**2,
                 area_px=np.concatenate((area[i, real], false_area[i, spare]))[order],
                 similarity=np.clip(rng.normal(*_SIMILARITY, len(order)), 0.0, 1.0),
             )
@@ -105,11 +112,22 @@ class _Noise:
         self._on = 1.0 if spec.sensor_noise else 0.0
         self._camera = scene.camera
         self._scale = depth_scale(spec)
+        self._center_sd_px = CENTER_SD_PX[light_of(spec)]
         cells = (int(self._camera.height_px / _PATTERN_CELL_PX) + 1, int(self._camera.width_px / _PATTERN_CELL_PX) + 1)
         self._pattern = rng.normal(size=cells)
 
     def pixel(self, true_px: FloatArray) -> FloatArray:
-        return np.asarray(true_px + self._on * CENTER_SD_PX * self._rng.normal(size=true_px.shape))
+        return np.asarray(true_px + self._on * self._center_sd_px * self._rng.normal(size=true_px.shape))
+
+    def wander(self, time_s: FloatArray, shape: tuple[int, ...]) -> FloatArray:
+        """Slow error (N, *shape) of the centres: a first-order process in time."""
+        kept = np.exp(-np.diff(time_s) / CENTER_SLOW_S)
+        steps = self._rng.normal(size=(len(time_s), *shape))
+        out = np.empty_like(steps)
+        out[0] = steps[0]
+        for i, share in enumerate(kept):
+            out[i + 1] = share * out[i] + np.sqrt(1.0 - share * share) * steps[i + 1]
+        return np.asarray(self._on * CENTER_SLOW_PX * out)
 
     def depth(self, true_px: FloatArray, true_m: FloatArray) -> FloatArray:
         cell = np.nan_to_num(true_px / _PATTERN_CELL_PX).astype(np.int64)
@@ -121,8 +139,8 @@ class _Noise:
         return np.asarray(self._scale * (true_m + self._on * random * true_m**2))
 
     def area(self, depth_m: FloatArray, radius_m: FloatArray | float) -> FloatArray:
-        """Pixels of a disc that faces the camera."""
-        facing = math.pi * np.square(radius_m / depth_m) * self._camera.fx_px * self._camera.fy_px
+        """Pixels found of a disc that faces the camera."""
+        facing = _AREA_SHARE * math.pi * np.square(radius_m / depth_m) * self._camera.fx_px * self._camera.fy_px
         return np.asarray(facing * np.exp(0.05 * self._rng.normal(size=np.shape(facing))))
 
 
