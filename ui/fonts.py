@@ -25,10 +25,12 @@ def load_fonts() -> tuple[str, ...]:
     return tuple(sorted(families))
 
 
-def font(size_px: float, weight: int = REGULAR) -> QFont:
-    """The face for a size already scaled: the display cut from 28 px up."""
-    face = QFont(DISPLAY_FAMILY if size_px >= DISPLAY_FROM_PX else TEXT_FAMILY)
-    if size_px >= DISPLAY_FROM_PX:
+def font(size_px: float, weight: int = REGULAR, *, display: bool | None = None) -> QFont:
+    """The face for a size already scaled: the display cut from 28 px up, or as told where a pixel is not a pixel."""
+    if display is None:
+        display = size_px >= DISPLAY_FROM_PX
+    face = QFont(DISPLAY_FAMILY if display else TEXT_FAMILY)
+    if display:
         weight = max(weight, MEDIUM)
     face.setPixelSize(max(1, round(size_px)))
     face.setWeight(QFont.Weight(weight))

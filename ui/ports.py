@@ -14,7 +14,9 @@ from core.calibration.result import Calibration, Clicks, Finding, Verdict
 from core.camera import Camera
 from core.hand.protocols import MarkerProtocol
 from core.output.exercises import Exercise
+from core.output.report_content import RepetitionChoices, SessionFigures
 from core.pipeline.live_values import LiveCounters, LiveEvent, TrackedView
+from core.session.values import Session
 from core.types import ByteImage, FloatArray, Frame, Side, TrackedFrame
 
 AffectedSide = Literal["right", "left", "both"]
@@ -251,4 +253,29 @@ class Calibrator(Protocol):
 
     def begin(self, calibration: Calibration) -> None:
         """Start tracking from here."""
+        ...
+
+
+# --- stored sessions --------------------------------------------------------------------------------------
+class SessionStore(Protocol):
+    """Stored sessions and what is said of them. All but ``choices`` may read the disk: called in the background."""
+
+    def session(self, session_id: str) -> Session: ...
+
+    def picture(self, session_id: str, row: int) -> ByteImage | None:
+        """The stored colour picture of a row, None when pictures were not kept."""
+        ...
+
+    def choices(self, session_id: str) -> RepetitionChoices:
+        """What a person left out or moved; empty when nothing."""
+        ...
+
+    def keep_choices(self, session_id: str, choices: RepetitionChoices) -> None: ...
+
+    def history(self, patient_id: str) -> Sequence[SessionFigures]:
+        """Figures of all of a patient's sessions, choices applied, in no particular order."""
+        ...
+
+    def export(self, session_id: str, folder: str) -> Sequence[str]:
+        """Write the open formats into a folder; the names of the files written."""
         ...

@@ -2,7 +2,13 @@
 
 from __future__ import annotations
 
+import math
+
 from PySide6.QtCore import QCoreApplication
+
+from core.output.exercises import SIDES
+from core.types import FloatArray
+from ui import numbers
 
 LEGAL_SENTENCE = (
     "For research and education. Not a medical device, not CE-marked or FDA-cleared; values support, and do not "
@@ -64,6 +70,11 @@ def movement_long_name(movement: str) -> str:
     return {"radial": tr("Radial deviation"), "ulnar": tr("Ulnar deviation")}.get(movement, movement_name(movement))
 
 
+def arc_name(angle: int) -> str:
+    """The whole arc of one angle, where more than one is shown."""
+    return {0: tr("Side arc"), 1: tr("Bending arc"), 2: tr("Turning arc")}[angle]
+
+
 def hand_name(side: str) -> str:
     """``Right hand``."""
     return {"right": tr("Right hand"), "left": tr("Left hand"), "both": tr("Both hands")}.get(side, side)
@@ -83,3 +94,14 @@ def affected_phrase(side: str, dominance: str) -> str:
     }.get(side, "")
     handed = {"right": tr("right-handed"), "left": tr("left-handed"), "both": tr("both-handed")}.get(dominance, "")
     return " · ".join(part for part in (affected, handed) if part)
+
+
+def start_angle_words(angles_rad: FloatArray) -> str:
+    """``Flexion 10°, Ulnar 5°`` of deviation, flexion, pro/supination (3,); empty for a straight hand."""
+    parts = [
+        f"{movement_name(SIDES[column][0 if angles_rad[column] > 0 else 1])} "
+        f"{numbers.degrees(math.degrees(angles_rad[column]))}"
+        for column in (1, 0, 2)
+        if abs(angles_rad[column]) > 1e-6
+    ]
+    return ", ".join(parts)

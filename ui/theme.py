@@ -3,11 +3,10 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Literal
+from typing import Literal, Protocol
 
 from PySide6.QtCore import QObject, Signal
 from PySide6.QtGui import QColor
-from PySide6.QtWidgets import QWidget
 
 ThemeName = Literal["light", "dark"]
 TEXT_SCALES = (1.0, 1.25, 1.5)
@@ -115,7 +114,15 @@ class Theme(QObject):
         return round(size * self.text_scale)
 
 
-def is_tight(screen: QWidget, theme: Theme) -> bool:
+class Sized(Protocol):
+    """Anything with a size in pixels, such as a widget."""
+
+    def width(self) -> int: ...
+
+    def height(self) -> int: ...
+
+
+def is_tight(screen: Sized, theme: Theme) -> bool:
     """Whether the text is too large for everything to fit."""
     width, height = TIGHT_BELOW_PX
     return screen.width() < width * theme.text_scale or screen.height() < height * theme.text_scale

@@ -44,6 +44,18 @@ def change_since_first(verdict: str, change_deg: float) -> str:
     return ""
 
 
+def change_short(verdict: str, change_deg: float, limit_deg: float) -> str:
+    """``2° more, within error (10°)``, for paper."""
+    if verdict == "not_judged" or change_deg != change_deg:
+        return tr("not judged") if verdict == "not_judged" else ""
+    pattern = (
+        tr("{difference}, within error ({limit})")
+        if verdict == "no_change"
+        else tr("{difference}, beyond error ({limit})")
+    )
+    return pattern.format(difference=difference(change_deg), limit=numbers.degrees(limit_deg))
+
+
 def change_with_limit(verdict: str, change_deg: float, limit_deg: float) -> str:
     """``2° more: within measurement error (10°)``, the long form of tables."""
     if verdict == "not_judged" or change_deg != change_deg:

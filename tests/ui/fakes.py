@@ -14,6 +14,7 @@ import numpy as np
 from core.calibration.result import Calibration, Clicks, Finding, Verdict
 from core.camera import Camera
 from core.output.exercises import exercise_named
+from core.output.report_content import RepetitionChoices, SessionFigures, session_figures
 from core.pipeline.live_values import LiveCounters, LiveEvent, TrackedView
 from core.session.values import Event, MarkerSeries, QualitySeries, Session, SessionHeader, motion_of
 from core.simulation.recording import SimulatedPictures
@@ -68,10 +69,11 @@ def picture(motion: str = "flexion", number: int = 0, seconds: float = 20.0, sid
     return pictures.sensed(number, pictures.clean(number))[0]
 
 
+@lru_cache(maxsize=32)
 def tracked_frames(
     pictures: SimulatedPictures,
-    hidden: Sequence[tuple[float, float, str]] = (),
-    lost: Sequence[tuple[float, float]] = (),
+    hidden: tuple[tuple[float, float, str], ...] = (),
+    lost: tuple[tuple[float, float], ...] = (),
 ) -> list[TrackedFrame]:
     """The true motion with noise as the tracker would tell it.
 
@@ -162,7 +164,7 @@ class FakeFeed:
         lost: Sequence[tuple[float, float]] = (),
     ) -> None:
         self.pictures = simulated(motion, seconds)
-        self.frames = tracked_frames(self.pictures, hidden, lost)
+        self.frames = tracked_frames(self.pictures, tuple(hidden), tuple(lost))
         self.place = -1
         self.recording = False
         self.paused = False
@@ -263,7 +265,10 @@ def session(
 ) -> Session:
     """A stored session of the simulated patient, its angles scaled to a share of the full range."""
     pictures = simulated(motion, seconds, speed_hz, side)
-    frames = [replace(frame, angles_rad=frame.angles_rad * scale) for frame in tracked_frames(pictures, hidden, lost)]
+    frames = [
+        replace(frame, angles_rad=frame.angles_rad * scale)
+        for frame in tracked_frames(pictures, tuple(hidden), tuple(lost))
+    ]
     header = SessionHeader(
         session_id=session_id,
         subject_id="Linden 42",
@@ -410,3 +415,57 @@ class FakePhrasebook:
             ),
         }
         return words.get(finding.kind, Words(f"{finding.kind}.", "", f"Mend {finding.kind}."))
+
+
+class FakeSessions:
+    """Seven sessions of Linden 42 that get better, and one of the other hand."""
+
+    def __init__(self, pictures: bool = True) -> None:
+        days = (49, 42, 35, 28, 21, 7, 0)
+        scales = (0.62, 0.66, 0.72, 0.80, 0.86, 0.97, 1.0)
+        self.sessions: dict[str, Session] = {}
+        for number, (day, scale) in enumerate(zip(days, scales, strict=True), 1):
+            when = NOW - timedelta(days=day)
+            hidden = [(44.0, 45.2, "CMC1"), (44.3, 45.0, "WRIST")] if day == 0 else ()
+            notes = [
+                Event(
+                    simulated(seconds=62.0, speed_hz=0.165).truth.timestamp_s[0] + 41.0,
+                    "note",
+                    "Repetition 7 stopped for pain.",
+                )
+            ]
+            pain = [Event(notes[0].time_s - 40, "pain", "2"), Event(notes[0].time_s + 20, "pain", "3")]
+            made = session(
+                when, scale, session_id=f"session-{number}", hidden=hidden, events=(*pain, *notes) if day == 0 else ()
+            )
+            self.sessions[f"session-{number}"] = made
+        left = session(NOW - timedelta(days=49), 1.25, session_id="session-left", side="left")
+        self.sessions["session-left"] = left
+        far = self.sessions["session-4"]
+        verdict = replace(far.calibration.verdict, distance_m=0.84)
+        self.sessions["session-4"] = replace(far, calibration=replace(far.calibration, verdict=verdict))
+        self.kept: dict[str, RepetitionChoices] = {}
+        self.pictures = pictures
+        self.exported: list[tuple[str, str]] = []
+
+    def session(self, session_id: str) -> Session:
+        return self.sessions[session_id]
+
+    def picture(self, session_id: str, row: int) -> ByteImage | None:
+        if not self.pictures:
+            return None
+        pictures = simulated(seconds=62.0, speed_hz=0.165)
+        return pictures.sensed(row, pictures.clean(row))[0]
+
+    def choices(self, session_id: str) -> RepetitionChoices:
+        return self.kept.get(session_id, RepetitionChoices())
+
+    def keep_choices(self, session_id: str, choices: RepetitionChoices) -> None:
+        self.kept[session_id] = choices
+
+    def history(self, patient_id: str) -> list[SessionFigures]:
+        return [session_figures(stored, self.choices(key)) for key, stored in self.sessions.items()]
+
+    def export(self, session_id: str, folder: str) -> list[str]:
+        self.exported.append((session_id, folder))
+        return ["one.csv", "two.c3d"]

@@ -46,8 +46,17 @@ def run(screen: LiveScreen, feed: FakeFeed, seconds: float) -> None:
         screen.tick()
 
 
+KEYS = {
+    "Space": Qt.Key.Key_Space,
+    "F4": Qt.Key.Key_F4,
+    "F5": Qt.Key.Key_F5,
+    "F6": Qt.Key.Key_F6,
+    "F7": Qt.Key.Key_F7,
+}
+
+
 def key(qtbot: QtBot, screen: QWidget, name: str) -> None:
-    qtbot.keyClick(screen, {"Space": Qt.Key.Key_Space, "F4": Qt.Key.Key_F4, "F5": Qt.Key.Key_F5, "F6": Qt.Key.Key_F6, "F7": Qt.Key.Key_F7}[name])  # fmt: skip
+    qtbot.keyClick(screen, KEYS[name])
 
 
 def record(qtbot: QtBot, screen: LiveScreen, measuring: FakeMeasuring) -> None:

@@ -11,6 +11,7 @@ from PySide6.QtWidgets import QHBoxLayout, QVBoxLayout, QWidget
 
 from core.calibration.result import Finding
 from core.types import ByteImage, FloatArray
+from ui import terms
 from ui.background import Background
 from ui.controls.button import Button
 from ui.controls.card import KeyCaps
@@ -21,7 +22,7 @@ from ui.marker_words import click_instruction, marker_place
 from ui.markers.clicking import Clicking
 from ui.markers.last_picture import LastPicture
 from ui.markers.picture import MarkerPicture
-from ui.markers.start_angle import StartAngleSheet, start_angle_words
+from ui.markers.start_angle import StartAngleSheet
 from ui.markers.verdict import VerdictPanel, headline, rows_before, rows_of
 from ui.ports import Calibrator, Judged, Phrasebook
 from ui.theme import MARGIN_PX, Theme
@@ -246,7 +247,7 @@ class MarkersScreen(QWidget):
 
     def _take_start_angles(self, angles_rad: FloatArray) -> None:
         self._start_angles_rad = angles_rad
-        words = start_angle_words(angles_rad)
+        words = terms.start_angle_words(angles_rad)
         pattern = self.tr("Starts at {angles} (given)")
         self.start_angle.set_face(pattern.format(angles=words) if words else self.tr("Hand cannot lie straight …"))
         if self.clicking is not None and self.clicking.complete:

@@ -10,7 +10,7 @@ from PySide6.QtWidgets import QDoubleSpinBox, QHBoxLayout, QWidget
 
 from core.output.exercises import SIDES
 from core.types import FloatArray
-from ui import numbers, terms
+from ui import terms
 from ui.controls.button import Button
 from ui.controls.field import Choices
 from ui.controls.sheet import Sheet
@@ -81,14 +81,3 @@ class StartAngleSheet(Sheet):
     def _keep(self, angles_rad: FloatArray) -> None:
         self.close_sheet()
         self.kept.emit(angles_rad)
-
-
-def start_angle_words(angles_rad: FloatArray) -> str:
-    """``Flexion 10°, Ulnar 5°``; empty for a straight hand."""
-    parts = [
-        f"{terms.movement_name(SIDES[column][0 if angles_rad[column] > 0 else 1])} "
-        f"{numbers.degrees(math.degrees(angles_rad[column]))}"
-        for column in ORDER
-        if abs(angles_rad[column]) > 1e-6
-    ]
-    return ", ".join(parts)

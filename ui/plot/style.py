@@ -41,6 +41,5 @@ def screen_style(theme: Theme) -> PlotStyle:
 
 def paper_style(point_px: float) -> PlotStyle:
     """Style of the printed page, always light; ``point_px`` painter units per point."""
-    return PlotStyle(
-        LIGHT, font(9 * point_px, REGULAR), font(9 * point_px, MEDIUM), 1.2 * point_px, 0.6 * point_px, 0.75 * point_px
-    )
+    regular, medium = (font(8.5 * point_px, weight, display=False) for weight in (REGULAR, MEDIUM))
+    return PlotStyle(LIGHT, regular, medium, 1.2 * point_px, 0.6 * point_px, 0.75 * point_px)

@@ -1,0 +1,479 @@
+"""What review, progress and report say of a session, as figures and verdicts; the words and the page are the screen's.
+
+Degrees, degrees per second, millimetres and seconds, since people read them. NaN is unknown.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from datetime import datetime
+from typing import Literal
+
+import numpy as np
+
+from core.hand.protocols import WRIST_ANGLES
+from core.measures.change import MeasuredMean, Obstacle, change_between
+from core.measures.motion_range import FEWEST_FOR_SPREAD, LEAST_VALID_SHARE, Figure, MotionRange, motion_range
+from core.measures.path import farthest_from_start_m
+from core.measures.repetitions import Exercise as FoundExercise
+from core.measures.repetitions import Repetition, find_repetitions
+from core.measures.signals import Signal, even_signal, low_pass
+from core.measures.speed import StrokeMeasures, measure_stroke
+from core.measures.validity import valid_view, valid_wrist_angles
+from core.output.exercises import SIDES, STILL_RADIUS_MM, Exercise, Movement, exercise_named
+from core.session.values import Motion, Session
+from core.types import FloatArray, Side, TrackStatus
+
+Verdict = Literal["improved", "worse", "no_change", "not_judged"]
+Unfairness = Literal[Obstacle, "distance", "start_angle", "forearm_moved", "incomplete"]
+
+USUAL_ADULT_DEG: Mapping[Movement, tuple[float, float]] = {
+    "flexion": (60.0, 80.0), "extension": (60.0, 70.0), "radial": (20.0, 20.0), "ulnar": (30.0, 30.0),
+}  # fmt: skip
+"""AMA and AAOS values for adults (clinical reference 4.1). None for pro/supination: its zero here is palm down."""
+FREE_ORDER = (1, 0, 2)
+"""Bending first where no angle is trained."""
+ARC_LIMIT_FACTOR = math.sqrt(2.0)
+"""Error limit of an arc against that of one end, both ends being independent (design, screen 6)."""
+LARGEST_DISTANCE_STEP_M = 0.10
+LARGEST_START_ANGLE_STEP_DEG = 5.0
+"""Beyond these two sessions were not set up alike."""
+
+
+@dataclass(frozen=True, slots=True)
+class RepetitionChoices:
+    """A person's corrections, by the number of the repetition as found (from 0).
+
+    ``left_out`` reasons in words; ``edges_s`` start and end in seconds after the first frame.
+    """
+
+    left_out: Mapping[int, str] = field(default_factory=dict)
+    edges_s: Mapping[int, tuple[float, float]] = field(default_factory=dict)
+
+
+@dataclass(frozen=True, slots=True)
+class ShownRepetition:
+    """One repetition, seconds after the first frame. ``reason`` says why it is left out, empty when it counts.
+
+    ``too_hidden`` when too little of it was seen to be measured, whoever wants it counted.
+    """
+
+    start_s: float
+    end_s: float
+    reason: str
+    too_hidden: bool
+
+    @property
+    def counts(self) -> bool:
+        """Whether the figures include it."""
+        return not self.reason and not self.too_hidden
+
+
+@dataclass(frozen=True, slots=True)
+class RangeRow:
+    """Range of one movement over the counted repetitions. ``values_deg`` one each; ``limited`` by the camera's view."""
+
+    movement: Movement
+    angle: int
+    mean_deg: float
+    sd_deg: float
+    best_deg: float
+    measurement_sd_deg: float
+    values_deg: tuple[float, ...]
+    limited: bool
+
+    @property
+    def count(self) -> int:
+        """Repetitions in the mean."""
+        return len(self.values_deg)
+
+
+@dataclass(frozen=True, slots=True)
+class Spread:
+    """A quantity over strokes or repetitions."""
+
+    mean: float
+    sd: float
+    best: float
+    count: int
+
+
+@dataclass(frozen=True, slots=True)
+class Quality:
+    """How sure the figures are. Shares 0 to 1 of all frames; ``hidden_share`` of all looks at palm markers."""
+
+    frames: int
+    measured_share: float
+    hidden_share: float
+    dropped: int
+    forearm_mm: float
+    angle_sd_deg: float
+    tilt_deg: float
+    distance_m: float
+    residual_mm: float
+
+    @property
+    def forearm_moved(self) -> bool:
+        """Whether the wrist left the ball it must stay in."""
+        return self.forearm_mm > STILL_RADIUS_MM
+
+
+@dataclass(frozen=True, slots=True)
+class Curves:
+    """Angles over the session as they are drawn: ``time_s`` (N,) after the first frame, the rest (N, 3)."""
+
+    time_s: FloatArray
+    angles_deg: FloatArray
+    sds_deg: FloatArray
+    status: FloatArray
+
+
+@dataclass(frozen=True, slots=True)
+class SessionFigures:
+    """One session in figures. ``trick_deg`` (3,) largest other angles, NaN for the trained one and without a limit."""
+
+    session_id: str
+    subject_id: str
+    when: datetime
+    side: Side
+    protocol: str
+    exercise: Exercise
+    duration_s: float
+    complete: bool
+    recovered: bool
+    smoothed: bool
+    software_version: str
+    start_angles_deg: FloatArray
+    repetitions: tuple[ShownRepetition, ...]
+    rows: tuple[RangeRow, ...]
+    trick_deg: FloatArray
+    peak_speed: Spread
+    smoothness: Spread
+    quality: Quality
+    pain: tuple[int, ...]
+    notes: tuple[tuple[float, str], ...]
+
+    @property
+    def counted(self) -> int:
+        """Repetitions that count."""
+        return sum(repetition.counts for repetition in self.repetitions)
+
+    def row(self, movement: Movement, angle: int) -> RangeRow | None:
+        """The row of one movement of one angle."""
+        return next((row for row in self.rows if row.movement == movement and row.angle == angle), None)
+
+
+@dataclass(frozen=True, slots=True)
+class Comparison:
+    """One movement in two sessions; ``difference_deg`` after - before of the means, against ``limit_deg``."""
+
+    movement: Movement
+    angle: int
+    before_deg: float
+    after_deg: float
+    difference_deg: float
+    limit_deg: float
+    verdict: Verdict
+
+    @property
+    def shown_difference_deg(self) -> float:
+        """Difference of the rounded means, so that the figures on a page agree with each other."""
+        if not math.isfinite(self.difference_deg):
+            return math.nan
+        return float(math.floor(self.after_deg + 0.5) - math.floor(self.before_deg + 0.5))
+
+
+@dataclass(frozen=True, slots=True)
+class ProgressPoint:
+    """One session on the way; not ``fair`` means that it is shown but not compared, for ``reasons``."""
+
+    figures: SessionFigures
+    reasons: tuple[Unfairness, ...]
+
+    @property
+    def fair(self) -> bool:
+        """Whether it compares with the first session."""
+        return not self.reasons
+
+
+@dataclass(frozen=True, slots=True)
+class Progress:
+    """Sessions of one hand and exercise in order of time; first and last fair ones compared, arc first."""
+
+    points: tuple[ProgressPoint, ...]
+    comparisons: tuple[Comparison, ...]
+    other_hand: SessionFigures | None
+
+    @property
+    def first(self) -> SessionFigures | None:
+        """The session compared with."""
+        return self.points[0].figures if self.points else None
+
+    @property
+    def last(self) -> SessionFigures | None:
+        """The last one that compares."""
+        fair = [point.figures for point in self.points if point.fair]
+        return fair[-1] if fair else None
+
+    @property
+    def headline(self) -> Comparison | None:
+        """The comparison that answers the question: of the trained arc, or the largest change beyond error."""
+        beyond = [item for item in self.comparisons if item.verdict in ("improved", "worse")]
+        arcs = [item for item in self.comparisons if item.movement == "arc"]
+        best: list[Comparison | None] = [*(item for item in arcs if item in beyond), *beyond, *arcs, None]
+        return best[0]
+
+
+def best_motion(session: Session) -> Motion:
+    """The smoother's result where there is one, else the filter's."""
+    return session.motion if session.smoothed is None else session.smoothed
+
+
+def session_curves(session: Session) -> Curves:
+    """Angles ready to draw."""
+    motion = best_motion(session)
+    time_s = session.timestamp_s - session.timestamp_s[0] if len(session) else np.empty(0)
+    return Curves(time_s, np.degrees(motion.angles_rad), np.degrees(motion.angles_sd_rad), np.asarray(session.status))
+
+
+def session_figures(session: Session, choices: RepetitionChoices | None = None) -> SessionFigures:
+    """All figures of one session, with a person's corrections to its repetitions."""
+    choices = choices or RepetitionChoices()
+    exercise = exercise_named(session.header.exercise)
+    motion = best_motion(session)
+    curves = session_curves(session)
+    palm = list(session.header.protocol.palm)
+    view = valid_view(
+        session.status, session.markers.measured_px[:, palm], motion.rotation_w2_w0, session.calibration.rotation_w0_cam
+    )
+    valid = valid_wrist_angles(view, motion.angles_rad, motion.angles_sd_rad)
+    signals = [
+        even_signal(curves.time_s, np.column_stack((motion.angles_rad[:, k], motion.angles_sd_rad[:, k])), valid[:, k])
+        for k in range(3)
+    ]
+    found = FoundExercise((), ())
+    if exercise.angle is not None and len(signals[exercise.angle].time_s):
+        found = find_repetitions(signals[exercise.angle].column(0))
+    repetitions = _shown(found.repetitions, choices)
+    counted = tuple(
+        Repetition(rep.start_s, rep.end_s, source.valid_share)
+        for rep, source in zip(repetitions, found.repetitions, strict=True)
+        if rep.counts
+    )
+    angles: tuple[int, ...] = FREE_ORDER if exercise.angle is None else (exercise.angle,)
+    if repetitions and not counted:
+        angles = ()  # all were left out: nothing is measured, least of all the whole recording
+    rows = [row for k in angles for row in _rows(k, signals[k], counted)]
+    strokes = _strokes(signals, exercise, found, counted)
+    verdict = session.calibration.verdict
+    return SessionFigures(
+        session_id=session.header.session_id,
+        subject_id=session.header.subject_id,
+        when=datetime.fromisoformat(session.header.created),
+        side=session.header.hand,
+        protocol=session.header.protocol.name,
+        exercise=exercise,
+        duration_s=float(curves.time_s[-1]) if len(curves.time_s) else 0.0,
+        complete=session.complete,
+        recovered=bool(session.recovered),
+        smoothed=session.smoothed is not None,
+        software_version=session.header.software_version,
+        start_angles_deg=np.degrees(session.calibration.start_angles_rad),
+        repetitions=repetitions,
+        rows=tuple(rows),
+        trick_deg=_tricks(signals, exercise),
+        peak_speed=_spread([math.degrees(stroke.peak_speed_rad_s) for stroke in strokes]),
+        smoothness=_spread([stroke.sparc for stroke in strokes]),
+        quality=Quality(
+            frames=len(session),
+            measured_share=float(np.mean(session.status == TrackStatus.TRACKED)) if len(session) else math.nan,
+            hidden_share=float(np.mean(~np.isfinite(session.markers.measured_px[:, palm, 0])))
+            if len(session)
+            else math.nan,
+            dropped=int(np.maximum(session.quality.dropped_before, 0).sum()),
+            forearm_mm=_forearm_mm(curves.time_s, motion.position_m, view),
+            angle_sd_deg=_typical_sd(curves, exercise),
+            tilt_deg=verdict.tilt_deg,
+            distance_m=verdict.distance_m,
+            residual_mm=float(np.nanmax(verdict.residual_mm)) if np.isfinite(verdict.residual_mm).any() else math.nan,
+        ),
+        pain=tuple(int(event.text) for event in session.events if event.kind == "pain" and event.text.isdigit()),
+        notes=tuple(
+            (event.time_s - float(session.timestamp_s[0]), event.text)
+            for event in session.events
+            if event.kind == "note" and event.text and len(session)
+        ),
+    )
+
+
+def data_digest(session: Session) -> str:
+    """SHA-256 over times, status and angles as stored: two reports with the same digest show the same measurement."""
+    digest = hashlib.sha256()
+    motion = best_motion(session)
+    for array in (
+        session.timestamp_s,
+        np.asarray(session.status, dtype=np.int64),
+        motion.angles_rad,
+        motion.angles_sd_rad,
+    ):
+        digest.update(np.ascontiguousarray(array).tobytes())
+    return digest.hexdigest()
+
+
+def compare(before: SessionFigures, after: SessionFigures) -> tuple[Comparison, ...]:
+    """Means of the movements that both sessions have, arc first; nothing is a change within measurement error."""
+    out = []
+    for row in after.rows:
+        other = before.row(row.movement, row.angle)
+        if other is None:
+            continue
+        change = change_between(_mean(before, other), _mean(after, row), WRIST_ANGLES[row.angle])
+        factor = ARC_LIMIT_FACTOR if row.movement == "arc" else 1.0
+        limit = math.degrees(change.limit_rad) * factor
+        difference = row.mean_deg - other.mean_deg
+        verdict: Verdict = "not_judged"
+        if change.comparable:
+            beyond = abs(difference) > limit
+            verdict = "no_change" if not beyond else "improved" if difference > 0 else "worse"
+        out.append(Comparison(row.movement, row.angle, other.mean_deg, row.mean_deg, difference, limit, verdict))
+    return tuple(out)
+
+
+def unfair_reasons(first: SessionFigures, other: SessionFigures) -> tuple[Unfairness, ...]:
+    """Why a session does not compare with the first one."""
+    reasons: list[Unfairness] = []
+    if abs(first.quality.distance_m - other.quality.distance_m) > LARGEST_DISTANCE_STEP_M:
+        reasons.append("distance")
+    if float(np.abs(first.start_angles_deg - other.start_angles_deg).max()) > LARGEST_START_ANGLE_STEP_DEG:
+        reasons.append("start_angle")
+    if other.exercise.pure_wrist and other.quality.forearm_moved:
+        reasons.append("forearm_moved")
+    if not other.complete and not other.recovered:
+        reasons.append("incomplete")
+    if 0 < other.counted < FEWEST_FOR_SPREAD or (other.exercise.angle is not None and not other.counted):
+        reasons.append("few_repetitions_after")
+    return tuple(reasons)
+
+
+def progress(sessions: Sequence[SessionFigures], other_hand: SessionFigures | None = None) -> Progress:
+    """Sessions of one hand, protocol and exercise over time, compared with the first one that is fair in itself."""
+    ordered = sorted(sessions, key=lambda figures: figures.when)
+    first = next((figures for figures in ordered if not unfair_reasons(figures, figures)), None)
+    points = tuple(ProgressPoint(figures, unfair_reasons(first or figures, figures)) for figures in ordered)
+    fair = [point.figures for point in points if point.fair]
+    comparisons = compare(fair[0], fair[-1]) if len(fair) > 1 else ()
+    return Progress(points, comparisons, other_hand)
+
+
+def previous_of(history: Sequence[SessionFigures], figures: SessionFigures) -> SessionFigures | None:
+    """The last earlier session of the same hand, protocol and exercise."""
+    alike = [other for other in history if _alike(other, figures) and other.side == figures.side]
+    return max((other for other in alike if other.when < figures.when), key=lambda other: other.when, default=None)
+
+
+def other_hand_of(history: Sequence[SessionFigures], figures: SessionFigures) -> SessionFigures | None:
+    """The last session of the other hand in the same protocol and exercise."""
+    alike = [other for other in history if _alike(other, figures) and other.side != figures.side]
+    return max(alike, key=lambda other: other.when, default=None)
+
+
+def _alike(one: SessionFigures, other: SessionFigures) -> bool:
+    return (one.exercise.id, one.protocol) == (other.exercise.id, other.protocol)
+
+
+def usual_deg(movement: Movement, angle: int) -> tuple[float, float] | None:
+    """Usual range of healthy adults: of one direction, or the sum of both for an arc."""
+    if movement != "arc":
+        return USUAL_ADULT_DEG.get(movement)
+    ends = [USUAL_ADULT_DEG.get(side) for side in SIDES[angle]]
+    if ends[0] is None or ends[1] is None:
+        return None
+    return ends[0][0] + ends[1][0], ends[0][1] + ends[1][1]
+
+
+def _shown(found: Sequence[Repetition], choices: RepetitionChoices) -> tuple[ShownRepetition, ...]:
+    out = []
+    for number, rep in enumerate(found):
+        start_s, end_s = choices.edges_s.get(number, (rep.start_s, rep.end_s))
+        reason = choices.left_out.get(number, "")
+        out.append(ShownRepetition(start_s, end_s, reason, rep.valid_share < LEAST_VALID_SHARE))
+    return tuple(out)
+
+
+def _rows(angle: int, signal: Signal, counted: tuple[Repetition, ...]) -> list[RangeRow]:
+    """Arc, positive and negative direction of one angle; a direction that was never reached is left out."""
+    if not len(signal.time_s):
+        return []
+    smooth = low_pass(signal)
+    measured: MotionRange = motion_range(smooth.column(0), signal.column(1), counted)
+    positive, negative = SIDES[angle]
+    turned = replace(measured.minimum, values=-measured.minimum.values, best=-measured.minimum.best)
+    rows = [
+        _row("arc", angle, measured.arc, measured.top_limited or measured.bottom_limited),
+        _row(positive, angle, measured.maximum, measured.top_limited),
+        _row(negative, angle, turned, measured.bottom_limited),
+    ]
+    return [row for row in rows if row.count and (row.movement == "arc" or row.mean_deg > 0.0)]
+
+
+def _row(movement: Movement, angle: int, figure: Figure, limited: bool) -> RangeRow:
+    values = tuple(math.degrees(value) for value in figure.values)
+    return RangeRow(
+        movement, angle, math.degrees(figure.mean), math.degrees(figure.spread_sd), math.degrees(figure.best),
+        math.degrees(figure.measurement_sd), values, limited,
+    )  # fmt: skip
+
+
+def _strokes(
+    signals: Sequence[Signal], exercise: Exercise, found: FoundExercise, counted: tuple[Repetition, ...]
+) -> list[StrokeMeasures]:
+    """Measures of the strokes whose middle lies in a counted repetition."""
+    if exercise.angle is None or not counted:
+        return []
+    angle = low_pass(signals[exercise.angle].column(0))
+    inside = [
+        stroke
+        for stroke in found.strokes
+        if any(rep.start_s <= 0.5 * (stroke.start_s + stroke.end_s) <= rep.end_s for rep in counted)
+    ]
+    return [measure_stroke(angle, stroke) for stroke in inside]
+
+
+def _spread(values: Sequence[float]) -> Spread:
+    known = np.array([value for value in values if math.isfinite(value)])
+    if not len(known):
+        return Spread(math.nan, math.nan, math.nan, 0)
+    sd = float(known.std(ddof=1)) if len(known) >= FEWEST_FOR_SPREAD else math.nan
+    return Spread(float(known.mean()), sd, float(known.max()), len(known))
+
+
+def _tricks(signals: Sequence[Signal], exercise: Exercise) -> FloatArray:
+    out = np.full(3, math.nan)
+    if math.isfinite(exercise.trick_limit_deg):
+        for k in range(3):
+            if k != exercise.angle and len(signals[k].time_s):
+                value = low_pass(signals[k].column(0)).value
+                if np.isfinite(value).any():
+                    out[k] = math.degrees(float(np.nanmax(np.abs(value))))
+    return out
+
+
+def _forearm_mm(time_s: FloatArray, position_m: FloatArray, view: np.ndarray) -> float:
+    if int(view.sum()) < 2:
+        return math.nan
+    return 1000.0 * farthest_from_start_m(low_pass(even_signal(time_s, position_m, view)))
+
+
+def _typical_sd(curves: Curves, exercise: Exercise) -> float:
+    columns = curves.sds_deg if exercise.angle is None else curves.sds_deg[:, [exercise.angle]]
+    known = columns[(curves.status == TrackStatus.TRACKED)[:, None] & np.isfinite(columns)]
+    return float(np.median(known)) if known.size else math.nan
+
+
+def _mean(figures: SessionFigures, row: RangeRow) -> MeasuredMean:
+    """A session without repetitions (free movement) has one range; it is never judged."""
+    count = row.count if figures.counted else 0
+    return MeasuredMean(math.radians(row.mean_deg), count, figures.side, figures.protocol, figures.exercise.id)

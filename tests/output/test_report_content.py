@@ -1,0 +1,174 @@
+"""What is said of a session, against plain arithmetic on the angles it was made from."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+from datetime import timedelta
+
+import numpy as np
+import pytest
+
+from core.output.report_content import (
+    RepetitionChoices,
+    SessionFigures,
+    compare,
+    data_digest,
+    other_hand_of,
+    previous_of,
+    progress,
+    session_figures,
+    unfair_reasons,
+    usual_deg,
+)
+from core.session.values import Event
+from tests.ui.fakes import NOW, session
+
+
+@pytest.fixture(scope="module")
+def figures() -> SessionFigures:
+    return session_figures(session())
+
+
+def test_means_are_those_of_the_extremes_of_each_repetition(figures: SessionFigures) -> None:
+    stored = session()
+    angle = np.degrees(stored.motion.angles_rad[:, 1])
+    time = stored.timestamp_s - stored.timestamp_s[0]
+    inside = [(time >= rep.start_s) & (time <= rep.end_s) for rep in figures.repetitions]
+    tops, bottoms = [angle[part].max() for part in inside], [angle[part].min() for part in inside]
+    flexion, extension, arc = (figures.row(name, 1) for name in ("flexion", "extension", "arc"))  # type: ignore[arg-type]
+    assert flexion is not None
+    assert extension is not None
+    assert arc is not None
+    assert flexion.mean_deg == pytest.approx(np.mean(tops), abs=0.3)
+    assert extension.mean_deg == pytest.approx(-np.mean(bottoms), abs=0.3)
+    assert arc.mean_deg == pytest.approx(flexion.mean_deg + extension.mean_deg, abs=1e-9)
+    assert flexion.sd_deg == pytest.approx(np.std(tops, ddof=1), abs=0.3)
+    assert flexion.count == figures.counted == 9
+
+
+def test_a_repetition_left_out_leaves_the_mean(figures: SessionFigures) -> None:
+    arc = figures.row("arc", 1)
+    assert arc is not None
+    without = session_figures(session(), RepetitionChoices({6: "pain"}))
+    shorter = without.row("arc", 1)
+    assert shorter is not None
+    assert without.counted == 8
+    assert without.repetitions[6].reason == "pain"
+    expected = (sum(arc.values_deg) - arc.values_deg[6]) / 8
+    assert shorter.mean_deg == pytest.approx(expected)
+
+
+def test_with_all_left_out_nothing_is_measured() -> None:
+    nothing = session_figures(session(), RepetitionChoices(dict.fromkeys(range(9), "trial")))
+    assert nothing.rows == ()
+    assert nothing.peak_speed.count == 0
+
+
+def test_an_edge_moved_by_a_person_changes_that_repetition_only(figures: SessionFigures) -> None:
+    rep = figures.repetitions[3]
+    middle = 0.5 * (rep.start_s + rep.end_s)
+    moved = session_figures(session(), RepetitionChoices({}, {3: (rep.start_s, middle - 1.5)}))
+    before, after = figures.row("arc", 1), moved.row("arc", 1)
+    assert before is not None
+    assert after is not None
+    assert after.values_deg[3] < before.values_deg[3] - 10
+    assert after.values_deg[:3] == pytest.approx(before.values_deg[:3])
+
+
+def test_hidden_stretches_do_not_count(figures: SessionFigures) -> None:
+    names = ("CMC1", "MCP2", "MCP3", "MCP4")
+    rep = figures.repetitions[2]
+    covered = session(hidden=[(rep.start_s, rep.end_s, name) for name in names])
+    seen = session_figures(covered)
+    assert any(r.too_hidden for r in seen.repetitions) or len(seen.repetitions) < len(figures.repetitions)
+    assert seen.quality.measured_share < 0.95
+    assert seen.quality.hidden_share == pytest.approx(4 / 6 * (1 - seen.quality.measured_share), abs=0.01)
+
+
+def test_a_left_hand_is_measured_as_a_right_one(figures: SessionFigures) -> None:
+    left = session_figures(session(side="left"))
+    assert left.side == "left"
+    for row in left.rows:
+        twin = figures.row(row.movement, row.angle)
+        assert twin is not None
+        assert row.mean_deg == pytest.approx(twin.mean_deg, abs=3.0)
+
+
+def test_free_movement_reports_every_angle_and_is_never_judged() -> None:
+    free = session_figures(session(exercise="FREE", motion="mixed"))
+    assert [row.angle for row in free.rows if row.movement == "arc"] == [1, 0, 2]
+    assert {item.verdict for item in compare(free, replace(free, when=NOW + timedelta(days=1)))} == {"not_judged"}
+
+
+@pytest.mark.parametrize("difference_deg", [0.0, 9.9, 10.1, -9.9, -10.1, 40.0])
+def test_a_change_is_one_only_beyond_its_limit(figures: SessionFigures, difference_deg: float) -> None:
+    before = replace(figures, when=NOW - timedelta(days=7))
+    rows = tuple(replace(row, mean_deg=row.mean_deg + difference_deg) for row in figures.rows)
+    verdicts = {item.movement: item.verdict for item in compare(before, replace(figures, rows=rows))}
+    sign = "improved" if difference_deg > 0 else "worse"
+    assert verdicts["flexion"] == ("no_change" if abs(difference_deg) <= 10 else sign)
+    assert verdicts["arc"] == ("no_change" if abs(difference_deg) <= 10 * math.sqrt(2) else sign)
+
+
+def test_two_repetitions_are_never_compared(figures: SessionFigures) -> None:
+    few = session_figures(session(), RepetitionChoices(dict.fromkeys(range(2, 9), "trial")))
+    assert {item.verdict for item in compare(figures, few)} == {"not_judged"}
+    assert "few_repetitions_after" in unfair_reasons(figures, few)
+
+
+def test_a_session_with_another_camera_height_is_shown_but_not_compared(figures: SessionFigures) -> None:
+    days = (21, 14, 7, 0)
+    sessions = [replace(figures, when=NOW - timedelta(days=day), session_id=str(day)) for day in days]
+    sessions[2] = replace(sessions[2], quality=replace(sessions[2].quality, distance_m=0.9))
+    course = progress(sessions[::-1])
+    assert [point.fair for point in course.points] == [True, True, False, True]
+    assert course.points[2].reasons == ("distance",)
+    assert course.first is sessions[0]
+    assert course.last is sessions[3]
+
+
+def test_the_answer_is_about_the_arc_first(figures: SessionFigures) -> None:
+    better = tuple(replace(row, mean_deg=row.mean_deg + 30) for row in figures.rows)
+    course = progress([figures, replace(figures, when=NOW + timedelta(days=1), rows=better)])
+    assert course.headline is not None
+    assert (course.headline.movement, course.headline.verdict) == ("arc", "improved")
+
+
+def test_previous_and_other_hand_are_the_last_of_their_kind(figures: SessionFigures) -> None:
+    def at(days: int, **changes: object) -> SessionFigures:
+        return replace(figures, when=NOW - timedelta(days=days), session_id=str(days), **changes)  # type: ignore[arg-type]
+
+    history = [at(9), at(5), at(3, side="left"), at(2, side="left"), at(-1), figures]
+    found, other = previous_of(history, figures), other_hand_of(history, figures)
+    assert found is not None
+    assert other is not None
+    assert (found.session_id, other.session_id) == ("5", "2")
+
+
+def test_pain_and_notes_come_from_the_events() -> None:
+    start = float(session().timestamp_s[0])
+    stored = session(
+        events=(Event(start + 1, "pain", "2"), Event(start + 5, "note", "rest"), Event(start + 9, "pain", "4"))
+    )
+    figures = session_figures(stored)
+    assert figures.pain == (2, 4)
+    assert figures.notes == ((pytest.approx(5.0), "rest"),)
+
+
+def test_the_usual_arc_is_the_sum_of_its_ends() -> None:
+    assert usual_deg("arc", 1) == (120.0, 150.0)
+    assert usual_deg("arc", 0) == (50.0, 50.0)
+    assert usual_deg("arc", 2) is None
+
+
+def test_the_digest_tells_two_measurements_apart() -> None:
+    assert data_digest(session()) == data_digest(session())
+    assert data_digest(session()) != data_digest(session(scale=0.999))
+
+
+def test_shown_differences_agree_with_the_shown_means(figures: SessionFigures) -> None:
+    for step in np.linspace(-20, 20, 81):
+        rows = tuple(replace(row, mean_deg=row.mean_deg + float(step)) for row in figures.rows)
+        for item in compare(figures, replace(figures, rows=rows)):
+            assert item.shown_difference_deg == math.floor(item.after_deg + 0.5) - math.floor(item.before_deg + 0.5)

@@ -1,0 +1,144 @@
+"""The PDF, read back by poppler's tools: text, fonts, one page; and its faults."""
+
+from __future__ import annotations
+
+import re
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from core.errors import OutputExists, OutputNotWritable
+from core.output.report_content import RepetitionChoices, session_figures
+from tests.ui.fakes import FakeSessions, session
+from ui.report.pdf import write_progress_report, write_session_report
+from ui.terms import LEGAL_SENTENCE
+
+ROOT = Path(__file__).parents[2]
+
+
+def tool(name: str, *arguments: str) -> str:
+    path = shutil.which(name)
+    assert path is not None, f"{name} (poppler-utils) is needed to read the report back"
+    return subprocess.run([path, *arguments], capture_output=True, text=True, check=True).stdout
+
+
+def words_of(path: Path) -> str:
+    return " ".join(tool("pdftotext", "-layout", str(path), "-").split())
+
+
+@pytest.fixture(scope="module")
+def report(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    store = FakeSessions()
+    path = tmp_path_factory.mktemp("report") / "linden.pdf"
+    choices = RepetitionChoices({6: "pain"})
+    return write_session_report(
+        store.session("session-7"), path, choices=choices, history=store.history("linden"), therapist="M. R."
+    )
+
+
+def test_the_report_is_one_page_of_a4(report: Path) -> None:
+    info = tool("pdfinfo", str(report))
+    assert re.search(r"Pages:\s+1\n", info)
+    assert "A4" in info
+
+
+def test_every_font_is_embedded_and_gives_its_text_back(report: Path) -> None:
+    lines = tool("pdffonts", str(report)).splitlines()[2:]
+    assert lines
+    for line in lines:
+        assert line.startswith("CarpusInter")
+        embedded, _, unicode_map = line.split()[-5:-2]
+        assert (embedded, unicode_map) == ("yes", "yes")
+
+
+def test_the_figures_on_the_page_are_those_of_the_session(report: Path) -> None:
+    words = words_of(report)
+    figures = session_figures(FakeSessions().session("session-7"), RepetitionChoices({6: "pain"}))
+    for row in figures.rows:
+        assert f"{row.mean_deg:.0f}° ± {max(1, round(row.sd_deg))}°" in words
+    assert "mean of 8 repetitions; number 7 left out: pain" in words
+    assert "within error (14°)" in words
+    assert "Linden 42" in words
+    assert "20 Nov 2026, 11:36" in words
+    assert re.search(r"2 ?/ ?3", words)
+    assert "Repetition 7 stopped for pain." in words
+
+
+def test_the_legal_sentence_is_there_word_for_word(report: Path) -> None:
+    assert LEGAL_SENTENCE in words_of(report)
+
+
+def test_curves_are_vectors_not_pictures(report: Path) -> None:
+    assert tool("pdfimages", "-list", str(report)).splitlines()[2:] == []
+
+
+def test_nothing_is_painted_outside_the_margins(report: Path, tmp_path: Path) -> None:
+    tool("pdftoppm", "-r", "50", "-gray", "-singlefile", str(report), str(tmp_path / "page"))
+    head, size, _, data = (tmp_path / "page.pgm").read_bytes().split(b"\n", 3)
+    assert head == b"P5"
+    width, height = (int(part) for part in size.split())
+    grey = np.frombuffer(data, np.uint8).reshape(height, width)
+    margin = round(10 / 25.4 * 50)
+    inside = np.zeros_like(grey, bool)
+    inside[margin:-margin, margin:-margin] = True
+    assert (grey[~inside] > 250).all()
+    assert (grey[inside] < 100).any()
+
+
+@pytest.mark.parametrize("exercise", ["WRIST_FE", "WRIST_RU", "FOREARM_PS", "FREE", "something old"])
+def test_every_exercise_fits_the_page(tmp_path: Path, exercise: str) -> None:
+    motion = {"WRIST_RU": "deviation", "FOREARM_PS": "pronosupination", "FREE": "mixed"}.get(exercise, "flexion")
+    path = write_session_report(session(exercise=exercise, motion=motion, lost=[(20.0, 22.0)]), tmp_path / "x.pdf")
+    assert re.search(r"Pages:\s+1\n", tool("pdfinfo", str(path)))
+    assert LEGAL_SENTENCE in words_of(path)
+
+
+def test_a_session_without_any_tracked_frame_still_gives_an_honest_page(tmp_path: Path) -> None:
+    path = write_session_report(session(seconds=10.0, lost=[(0.0, 99.0)]), tmp_path / "x.pdf")
+    words = words_of(path)
+    assert "No range could be measured." in words
+    assert "0.0 % of" in words
+
+
+def test_the_progress_report_gives_the_answer_and_names_what_was_left_out(tmp_path: Path) -> None:
+    history = FakeSessions().history("linden")
+    path = write_progress_report(history, tmp_path / "p.pdf")
+    words = words_of(path)
+    assert "The whole arc has improved by" in words
+    assert "camera 18 cm further away" in words
+    assert LEGAL_SENTENCE in words
+    assert re.search(r"Pages:\s+1\n", tool("pdfinfo", str(path)))
+
+
+def test_a_report_never_replaces_a_file(tmp_path: Path) -> None:
+    path = tmp_path / "there.pdf"
+    path.write_bytes(b"mine")
+    with pytest.raises(OutputExists):
+        write_session_report(session(seconds=10.0), path)
+    assert path.read_bytes() == b"mine"
+
+
+def test_a_missing_folder_is_told_and_nothing_is_made(tmp_path: Path) -> None:
+    with pytest.raises(OutputNotWritable):
+        write_session_report(session(seconds=10.0), tmp_path / "no" / "x.pdf")
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_a_report_is_written_without_any_window_or_display(tmp_path: Path) -> None:
+    program = (
+        "import sys; from pathlib import Path\n"
+        "from tests.ui.fakes import session\n"
+        "from ui.report.pdf import write_session_report\n"
+        "write_session_report(session(seconds=12.0), Path(sys.argv[1]))\n"
+        "print('PySide6.QtWidgets' in sys.modules)"
+    )
+    done = subprocess.run(
+        [sys.executable, "-c", program, str(tmp_path / "x.pdf")],
+        cwd=ROOT, capture_output=True, text=True, check=True, env={"PATH": "/usr/bin:/bin"},
+    )  # fmt: skip
+    assert done.stdout.strip() == "False"
+    assert (tmp_path / "x.pdf").stat().st_size > 10_000

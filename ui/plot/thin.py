@@ -1,0 +1,38 @@
+"""Fewer points for long recordings, without losing an extreme or a gap."""
+
+from __future__ import annotations
+
+from itertools import pairwise
+
+import numpy as np
+
+from ui.plot.series import Series
+
+POINTS_PER_COLUMN = 2
+
+
+def thinned(series: Series, columns: int) -> Series:
+    """At most two samples of each of ``columns`` equal stretches: its smallest and its largest value.
+
+    A stretch without a value keeps one sample of it, so that gaps stay; the widest band of a stretch is kept.
+    """
+    count = len(series.time_s)
+    if count <= POINTS_PER_COLUMN * columns:
+        return series
+    edges = np.linspace(0, count, columns + 1).astype(int)
+    kept: list[int] = []
+    sd = None if series.sd is None else series.sd.copy()
+    for start, stop in pairwise(edges.tolist()):
+        part = series.value[start:stop]
+        if not np.isfinite(part).any():
+            kept += [start, stop - 1]
+            continue
+        unknown = np.flatnonzero(~np.isfinite(part))
+        places = {start + int(np.nanargmin(part)), start + int(np.nanargmax(part))}
+        if len(unknown):
+            places.add(start + int(unknown[0]))
+        if sd is not None and np.isfinite(sd[start:stop]).any():
+            sd[list(places)] = np.nanmax(sd[start:stop])
+        kept += sorted(places)
+    index = np.unique(kept)
+    return Series(series.time_s[index], series.value[index], None if sd is None else sd[index], series.predicted[index])

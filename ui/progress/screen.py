@@ -1,0 +1,229 @@
+"""The progress screen: filters, the answer, the chart, the table in words, fairness."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from PySide6.QtCore import Qt, Signal
+from PySide6.QtGui import QResizeEvent
+from PySide6.QtWidgets import QComboBox, QFileDialog, QHBoxLayout, QScrollArea, QVBoxLayout, QWidget
+
+from core.output.report_content import Comparison, Progress, SessionFigures, other_hand_of, progress
+from ui import numbers, terms
+from ui.background import Background
+from ui.controls.button import Button
+from ui.controls.card import Card, Line
+from ui.controls.text import MEDIUM, REGULAR, SEMIBOLD, StateText, Text, caption, heading
+from ui.keys import Keys, bind
+from ui.ports import SessionStore
+from ui.progress.chart import ProgressChart
+from ui.progress.words import change_line, headline, unfair_words
+from ui.theme import GAP_PX, MARGIN_PX, Theme, is_tight
+from ui.verdicts import verdict_token, verdict_word
+
+
+class ProgressScreen(QWidget):
+    """``report`` carries the sessions shown; ``session`` one that was chosen; ``told`` a fault."""
+
+    report = Signal(object)
+    told = Signal(object)
+    table_wanted = Signal(object)
+
+    def __init__(self, theme: Theme, keys: Keys, background: Background, store: SessionStore) -> None:
+        super().__init__()
+        self._theme, self._background, self._store = theme, background, store
+        self._all: tuple[SessionFigures, ...] = ()
+        self._kinds: list[tuple[str, str]] = []
+        self.progress = Progress((), (), None)
+        self.exercise = QComboBox()
+        self.span = Text(theme, "", 14, REGULAR, "text2")
+        self.report_button = Button(
+            theme, self.tr("Progress report"), "primary", icon="file-text", hint="Ctrl+P", height_px=44
+        )
+        self.picture_button = Button(theme, self.tr("Save picture …"), "plain")
+        self.table_button = Button(theme, self.tr("Save table …"), "plain", hint="Ctrl+E")
+        self.answer = heading(theme, wrap=True)
+        self.basis = Text(theme, "", 16, REGULAR, "text2", wrap=True)
+        self.chart = ProgressChart(theme)
+        self._table = Card(theme, 24)
+        self._fair = Card(theme, 24)
+        self._lay_out()
+        self.exercise.currentIndexChanged.connect(lambda _: self._choose())
+        self.report_button.clicked.connect(lambda: self.report.emit([point.figures for point in self.progress.points]))
+        self.picture_button.clicked.connect(self._save_picture)
+        self.table_button.clicked.connect(lambda: self.table_wanted.emit(self.progress))
+        self.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
+        self.setProperty("shows_own_focus", True)
+        bind(self, keys, "report", self.report_button.click)
+        bind(self, keys, "export", self.table_button.click)
+
+    def _lay_out(self) -> None:
+        filters = QHBoxLayout()
+        filters.setSpacing(12)
+        self.exercise.setAccessibleName(self.tr("Exercise and hand"))
+        self.exercise.setSizeAdjustPolicy(QComboBox.SizeAdjustPolicy.AdjustToContents)
+        filters.addWidget(self.exercise)
+        filters.addWidget(self.span)
+        filters.addStretch(1)
+        for button in (self.table_button, self.picture_button, self.report_button):
+            filters.addWidget(button)
+        right = QVBoxLayout()
+        right.setContentsMargins(0, 0, 0, 0)
+        right.setSpacing(GAP_PX)
+        right.addWidget(self._table)
+        right.addWidget(self._fair)
+        right.addStretch(1)
+        host = QWidget()
+        host.setLayout(right)
+        self._side = QScrollArea()
+        self._side.setWidget(host)
+        self._side.setWidgetResizable(True)
+        self._side.setFocusPolicy(Qt.FocusPolicy.NoFocus)
+        self._side.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
+        self._theme.changed.connect(self._fit)
+        self._fit()
+        columns = QHBoxLayout()
+        columns.setSpacing(GAP_PX)
+        columns.addWidget(self.chart, 1)
+        columns.addWidget(self._side)
+        whole = QVBoxLayout(self)
+        whole.setContentsMargins(MARGIN_PX, GAP_PX, MARGIN_PX, GAP_PX)
+        whole.setSpacing(0)
+        whole.addLayout(filters)
+        whole.addSpacing(18)
+        whole.addWidget(self.answer)
+        whole.addSpacing(2)
+        whole.addWidget(self.basis)
+        whole.addSpacing(16)
+        whole.addLayout(columns, 1)
+
+    def resizeEvent(self, event: QResizeEvent) -> None:
+        self._fit()
+
+    def _fit(self) -> None:
+        tight = is_tight(self, self._theme)
+        self._side.setFixedWidth(self._theme.px(300 if tight else 352))
+        self.span.setVisible(not tight)
+        self.report_button.set_face(self.report_button.text(), hint="" if tight else "Ctrl+P")
+        self.table_button.set_face(self.table_button.text(), hint="" if tight else "Ctrl+E")
+
+    # --- life ---------------------------------------------------------------------------------------------
+    def begin(self, patient_id: str, session_id: str = "") -> None:
+        """Read all sessions of a patient; the kind of the given or newest session is shown."""
+        store = self._store
+        self._background.run(
+            lambda: store.history(patient_id), lambda found: self._show(found, session_id), self.told.emit
+        )
+        self.setFocus(Qt.FocusReason.OtherFocusReason)
+
+    def _show(self, found: Sequence[SessionFigures], session_id: str) -> None:
+        self._all = tuple(sorted(found, key=lambda figures: figures.when))
+        asked = next((f for f in self._all if f.session_id == session_id), self._all[-1] if self._all else None)
+        self._kinds = list(dict.fromkeys((figures.exercise.id, figures.side) for figures in reversed(self._all)))
+        self.exercise.blockSignals(True)
+        self.exercise.clear()
+        for exercise, side in self._kinds:
+            self.exercise.addItem(f"{terms.exercise_name(exercise)} · {terms.hand_name(side)}")
+        if asked is not None:
+            self.exercise.setCurrentIndex(self._kinds.index((asked.exercise.id, asked.side)))
+        self.exercise.blockSignals(False)
+        self._choose()
+
+    def _choose(self) -> None:
+        kind = self._kinds[self.exercise.currentIndex()] if self._kinds else ("", "")
+        alike = [figures for figures in self._all if (figures.exercise.id, figures.side) == kind]
+        other = other_hand_of(self._all, alike[-1]) if alike else None
+        self.progress = progress(alike, other)
+        self.chart.show_progress(self.progress)
+        answer, basis = headline(self.progress)
+        self.answer.setText(answer)
+        self.basis.setText(basis)
+        self.basis.setVisible(bool(basis))
+        words = ""
+        if alike:
+            first, last = numbers.day_month(alike[0].when), numbers.day_month(alike[-1].when)
+            pattern = self.tr("1 session, {last}") if len(alike) == 1 else self.tr("{count} sessions, {first} – {last}")
+            words = pattern.format(count=len(alike), first=first, last=last)
+        self.span.setText(words)
+        for button in (self.report_button, self.picture_button, self.table_button):
+            button.setEnabled(bool(alike))
+        self._fill_table()
+        self._fill_fairness()
+
+    def _fill_table(self) -> None:
+        _clear(self._table)
+        body, theme = self._table.body, self._theme
+        first, last = self.progress.first, self.progress.last
+        self._table.setVisible(bool(self.progress.comparisons))
+        if first is None or last is None or not self.progress.comparisons:
+            return
+        body.addWidget(Text(theme, self.tr("First to last session"), 16, SEMIBOLD))
+        days = self.tr("{first} and {last}").format(
+            first=numbers.day_month(first.when), last=numbers.day_month(last.when)
+        )
+        counts = self.tr("{before} and {after} repetitions").format(before=first.counted, after=last.counted)
+        body.addWidget(caption(theme, f"{days} · {counts}", wrap=True))
+        for item in self.progress.comparisons:
+            body.addWidget(Line(theme))
+            body.addWidget(_ComparisonRow(theme, item))
+        body.addWidget(Line(theme))
+        body.addWidget(self._speed_row(first, last))
+
+    def _speed_row(self, first: SessionFigures, last: SessionFigures) -> QWidget:
+        before, after = numbers.speed(first.peak_speed.mean), numbers.speed(last.peak_speed.mean)
+        return _Row(
+            self._theme, self.tr("Peak speed"), f"{before} → {after}", "not_judged", self.tr("error not yet known")
+        )
+
+    def _fill_fairness(self) -> None:
+        _clear(self._fair)
+        body, theme = self._fair.body, self._theme
+        self._fair.setVisible(bool(self.progress.points))
+        unfair = [point for point in self.progress.points if not point.fair]
+        title = StateText(theme, 16, SEMIBOLD, 20)
+        title.show_state("warn" if unfair else "good", self.tr("Fair comparison"), token="text")
+        body.addWidget(title)
+        for point in unfair:
+            body.addWidget(Text(theme, unfair_words(point, self.progress), 14, wrap=True))
+        if not unfair:
+            body.addWidget(Text(theme, self.tr("All sessions were set up alike."), 14, wrap=True))
+        words = self.tr("The error limits are published values, until the clinic has measured its own.")
+        body.addWidget(Text(theme, words, 14, REGULAR, "text2", wrap=True))
+
+    def _save_picture(self) -> None:
+        path, _ = QFileDialog.getSaveFileName(self, self.tr("Save picture"), self.tr("progress.png"), "PNG (*.png)")
+        if path:
+            self.chart.picture().save(path)
+
+
+class _Row(QWidget):
+    def __init__(self, theme: Theme, name: str, figures: str, verdict: str, small: str) -> None:
+        super().__init__()
+        column = QVBoxLayout(self)
+        column.setContentsMargins(0, 6, 0, 6)
+        column.setSpacing(0)
+        top, below = QHBoxLayout(), QHBoxLayout()
+        top.addWidget(Text(theme, name, 14, REGULAR, "text2"))
+        top.addStretch(1)
+        word = StateText(theme, 14, SEMIBOLD, 16)
+        state = {"improved": "good", "worse": "bad"}.get(verdict, "none")
+        word.show_state(state, verdict_word(verdict), token=verdict_token(verdict))  # type: ignore[arg-type]
+        top.addWidget(word)
+        below.addWidget(Text(theme, figures, 16, SEMIBOLD))
+        below.addStretch(1)
+        below.addWidget(Text(theme, small, 12, MEDIUM, "text2"))
+        column.addLayout(top)
+        column.addLayout(below)
+
+
+class _ComparisonRow(_Row):
+    def __init__(self, theme: Theme, item: Comparison) -> None:
+        figures = f"{numbers.degrees(item.before_deg)} → {numbers.degrees(item.after_deg)}"
+        super().__init__(theme, terms.movement_name(item.movement), figures, item.verdict, change_line(item))
+
+
+def _clear(card: Card) -> None:
+    while (item := card.body.takeAt(0)) is not None:
+        if (widget := item.widget()) is not None:
+            widget.hide()
+            widget.deleteLater()

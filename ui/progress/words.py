@@ -1,0 +1,86 @@
+"""Sentences of the progress screen and report. A change is one only beyond measurement error."""
+
+from __future__ import annotations
+
+import math
+
+from PySide6.QtCore import QCoreApplication
+
+from core.output.report_content import Comparison, Progress, ProgressPoint
+from ui import numbers, terms
+from ui.verdicts import difference
+
+
+def tr(text: str) -> str:
+    """Translate a text of this module."""
+    return QCoreApplication.translate("Progress", text)
+
+
+def headline(progress: Progress) -> tuple[str, str]:
+    """The answer in one sentence, and the figures behind it."""
+    if not progress.points:
+        return tr("No sessions of this exercise yet."), ""
+    first, last, main = progress.first, progress.last, progress.headline
+    if first is None or last is None or main is None or first is last:
+        return tr("One session does not make a course."), tr("Compare after the next session of the same kind.")
+    day = numbers.day_month(first.when)
+    name = _subject(main)
+    size = numbers.degrees(main.shown_difference_deg)
+    if main.verdict == "improved":
+        answer = tr("{name} has improved by {size} since {day}.").format(name=name, size=size, day=day)
+    elif main.verdict == "worse":
+        answer = tr("{name} has lost {size} since {day}.").format(name=name, size=size, day=day)
+    elif main.verdict == "no_change":
+        answer = tr("No change beyond measurement error since {day}.").format(day=day)
+    else:
+        answer = tr("Not judged: too few repetitions to compare.")
+    rest = [_rest(item) for item in progress.comparisons if item is not main]
+    return answer, " ".join([_basis(main), *rest])
+
+
+def _subject(item: Comparison) -> str:
+    return tr("The whole arc") if item.movement == "arc" else terms.movement_long_name(item.movement)
+
+
+def _basis(item: Comparison) -> str:
+    before, after, limit = (numbers.degrees(v) for v in (item.before_deg, item.after_deg, item.limit_deg))
+    if item.verdict in ("improved", "worse"):
+        pattern = tr("From {before} to {after}: more than the measurement error of {limit}.")
+    else:
+        pattern = tr("From {before} to {after}: within the measurement error of {limit}.")
+    return pattern.format(before=before, after=after, limit=limit)
+
+
+def _rest(item: Comparison) -> str:
+    name = terms.movement_long_name(item.movement)
+    if item.verdict in ("improved", "worse"):
+        return tr("{name}: {change}.").format(name=name, change=difference(item.shown_difference_deg))
+    return tr("{name}: no change beyond measurement error.").format(name=name)
+
+
+def change_line(item: Comparison) -> str:
+    """``23° more, error 10°``."""
+    return tr("{change}, error {limit}").format(
+        change=difference(item.shown_difference_deg), limit=numbers.degrees(item.limit_deg)
+    )
+
+
+def unfair_words(point: ProgressPoint, progress: Progress) -> str:
+    """``23 Oct: camera 12 cm further. Shown as a ring and left out.``"""
+    first = progress.first
+    reasons = []
+    for reason in point.reasons:
+        step_cm = 100 * (point.figures.quality.distance_m - first.quality.distance_m) if first else math.nan
+        pattern = tr("camera {step} cm further away") if step_cm > 0 else tr("camera {step} cm nearer")
+        words = {
+            "distance": pattern.format(step=f"{abs(step_cm):.0f}"),
+            "start_angle": tr("another start angle was given"),
+            "forearm_moved": tr("the forearm moved {distance}").format(
+                distance=numbers.millimetres(point.figures.quality.forearm_mm)
+            ),
+            "incomplete": tr("the recording was cut short"),
+            "few_repetitions_after": tr("fewer than 3 repetitions"),
+        }
+        reasons.append(words.get(reason, reason))
+    day = numbers.day_month(point.figures.when)
+    return tr("{day}: {reasons}. Shown as a ring and left out.").format(day=day, reasons=", ".join(reasons))

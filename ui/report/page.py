@@ -1,0 +1,129 @@
+"""Tools for painting a page of paper: everything in points from its upper left corner."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from PySide6.QtCore import QPointF, QRectF, Qt
+from PySide6.QtGui import QColor, QFont, QFontMetricsF, QPainter, QPen
+
+from ui.fonts import MEDIUM, REGULAR, SEMIBOLD, font
+from ui.plot.style import PlotStyle, paper_style
+from ui.theme import LIGHT
+
+A4_PT = (595.28, 841.89)
+DISPLAY_FROM_PT = 20.0
+MARGIN_PT = 42.52
+"""15 mm."""
+
+
+@dataclass(slots=True)
+class Page:
+    """A painter with ``point`` painter units per point. Text methods return where the text ends."""
+
+    painter: QPainter
+    point: float
+
+    def __post_init__(self) -> None:
+        self.painter.setRenderHint(QPainter.RenderHint.Antialiasing)
+
+    @property
+    def style(self) -> PlotStyle:
+        """Curves on paper."""
+        return paper_style(self.point)
+
+    @property
+    def left(self) -> float:
+        """Left edge of the text in points."""
+        return MARGIN_PT
+
+    @property
+    def right(self) -> float:
+        """Right edge of the text in points."""
+        return A4_PT[0] - MARGIN_PT
+
+    def box(self, left: float, top: float, width: float, height: float) -> QRectF:
+        """A rectangle in painter units."""
+        return QRectF(left * self.point, top * self.point, width * self.point, height * self.point)
+
+    def face(self, size_pt: float, weight: int = REGULAR) -> QFont:
+        """A font of a size in points."""
+        return font(size_pt * self.point, weight, display=size_pt >= DISPLAY_FROM_PT)
+
+    def width_of(self, text: str, size_pt: float, weight: int = REGULAR) -> float:
+        """Width of a text in points."""
+        return QFontMetricsF(self.face(size_pt, weight)).horizontalAdvance(text) / self.point
+
+    def text(
+        self, text: str, left: float, baseline: float, size_pt: float = 9.0, weight: int = REGULAR, token: str = "text"
+    ) -> float:
+        """One line; returns its right end."""
+        self.painter.setFont(self.face(size_pt, weight))
+        self.painter.setPen(QColor(getattr(LIGHT, token)))
+        self.painter.drawText(QPointF(left * self.point, baseline * self.point), text)
+        return left + self.width_of(text, size_pt, weight)
+
+    def text_right(
+        self, text: str, right: float, baseline: float, size_pt: float = 9.0, weight: int = REGULAR, token: str = "text"
+    ) -> None:
+        """One line that ends at ``right``."""
+        self.text(text, right - self.width_of(text, size_pt, weight), baseline, size_pt, weight, token)
+
+    def paragraph(
+        self,
+        text: str,
+        left: float,
+        top: float,
+        width: float,
+        size_pt: float,
+        weight: int = REGULAR,
+        token: str = "text",
+    ) -> float:
+        """Wrapped text; returns its lower edge."""
+        self.painter.setFont(self.face(size_pt, weight))
+        self.painter.setPen(QColor(getattr(LIGHT, token)))
+        metrics = QFontMetricsF(self.painter.font())
+        leading = 1.45 * size_pt
+        top_pt = top
+        for line in self._lines(text, metrics, width * self.point):
+            self.painter.drawText(QPointF(left * self.point, (top_pt + size_pt) * self.point), line)
+            top_pt += leading
+        return top_pt
+
+    def _lines(self, text: str, metrics: QFontMetricsF, width: float) -> list[str]:
+        lines, line = [], ""
+        for word in text.split(" "):
+            longer = f"{line} {word}" if line else word
+            if line and metrics.horizontalAdvance(longer) > width:
+                lines.append(line)
+                line = word
+            else:
+                line = longer
+        return [*lines, line]
+
+    def rule(self, y: float, left: float | None = None, right: float | None = None) -> None:
+        """A fine line across."""
+        self.painter.setPen(QPen(QColor(LIGHT.line), 0.6 * self.point))
+        start = (self.left if left is None else left) * self.point
+        end = (self.right if right is None else right) * self.point
+        self.painter.drawLine(QPointF(start, y * self.point), QPointF(end, y * self.point))
+
+    def card(self, left: float, top: float, width: float, height: float) -> None:
+        """A rounded outline."""
+        self.painter.setPen(QPen(QColor(LIGHT.line), 0.8 * self.point))
+        self.painter.setBrush(Qt.BrushStyle.NoBrush)
+        self.painter.drawRoundedRect(self.box(left, top, width, height), 6 * self.point, 6 * self.point)
+
+    def facts(self, pairs: Sequence[tuple[str, str]], top: float, shares: Sequence[float]) -> None:
+        """Small names over values, side by side."""
+        for (name, value), share in zip(pairs, shares, strict=True):
+            left = self.left + share * (self.right - self.left)
+            self.text(name, left, top + 9, 8.5, REGULAR, "text2")
+            self.text(value, left, top + 23, 10.0, MEDIUM)
+
+    def title(self, text: str, baseline: float, aside: str = "") -> None:
+        """Title of a section, with a small remark at the right."""
+        self.text(text, self.left, baseline, 11.5, SEMIBOLD)
+        if aside:
+            self.text_right(aside, self.right, baseline, 8.5, REGULAR, "text2")

@@ -1,0 +1,99 @@
+"""The progress report: the answer, the chart, the table, why sessions were left out. One page of A4."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from PySide6.QtCore import QCoreApplication
+
+from core.output.report_content import Progress
+from ui import numbers, terms
+from ui.fonts import MEDIUM, REGULAR, SEMIBOLD
+from ui.progress.chart_painter import paint_chart
+from ui.progress.words import change_line, headline, unfair_words
+from ui.report.page import A4_PT, MARGIN_PT, Page
+from ui.report.session_page import paint_head
+from ui.verdicts import verdict_token, verdict_word
+
+CHART_HEIGHT_PT = 390.0
+MOST_UNFAIR = 4
+
+
+def tr(text: str) -> str:
+    """Translate a text of this module."""
+    return QCoreApplication.translate("ProgressPage", text)
+
+
+@dataclass(frozen=True, slots=True)
+class ProgressReport:
+    """All that is on the page."""
+
+    progress: Progress
+    pseudonym: str
+    therapist: str = ""
+
+
+def paint_progress_page(page: Page, report: ProgressReport) -> None:
+    """Paint everything from the upper to the lower margin."""
+    progress = report.progress
+    newest = progress.points[-1].figures
+    what = f"{terms.exercise_name(newest.exercise.id)}, {terms.hand_name(newest.side).lower()}"
+    y = paint_head(page, tr("Progress report"), report.pseudonym, what)
+    first, last = progress.points[0].figures, newest
+    pairs = [
+        (tr("Sessions"), str(len(progress.points))),
+        (tr("First"), numbers.report_date(first.when)),
+        (tr("Last"), numbers.report_date(last.when)),
+        (tr("Therapist"), report.therapist or numbers.UNKNOWN),
+    ]
+    page.facts(pairs, y + 5, (0.0, 0.2, 0.47, 0.76))
+    page.rule(y + 36)
+    answer, basis = headline(progress)
+    width = page.right - page.left
+    y = page.paragraph(answer, page.left, y + 44, width, 14.0, SEMIBOLD)
+    y = page.paragraph(basis, page.left, y + 1, width, 9.5, REGULAR, "text2")
+    paint_chart(page.painter, page.style, page.box(page.left, y + 8, width, CHART_HEIGHT_PT), progress)
+    y = _paint_table(page, progress, y + CHART_HEIGHT_PT + 22)
+    y = _paint_fairness(page, progress, y + 16)
+    foot = A4_PT[1] - MARGIN_PT
+    page.paragraph(terms.LEGAL_SENTENCE, page.left, foot - 34, width, 8.0, SEMIBOLD)
+    ids = " · ".join(point.figures.session_id[:8] for point in progress.points[-8:])
+    words = tr("Sessions {ids} · Carpus {version}").format(ids=ids, version=newest.software_version)
+    page.text(words, page.left, foot + 8, 8.0, REGULAR, "text2")
+
+
+def _paint_table(page: Page, progress: Progress, top: float) -> float:
+    first, last = progress.first, progress.last
+    if first is None or last is None or not progress.comparisons:
+        return top
+    days = tr("{first} and {last}").format(first=numbers.day_month(first.when), last=numbers.day_month(last.when))
+    counts = tr("{before} and {after} repetitions").format(before=first.counted, after=last.counted)
+    page.title(tr("First to last session"), top, f"{days} · {counts}")
+    baseline = top + 6
+    for item in progress.comparisons:
+        page.rule(baseline)
+        baseline += 15.5
+        page.text(terms.movement_name(item.movement), page.left, baseline - 4, 9.0, MEDIUM)
+        figures = f"{numbers.degrees(item.before_deg)} → {numbers.degrees(item.after_deg)}"
+        page.text(figures, page.left + 130, baseline - 4, 9.0, SEMIBOLD)
+        page.text(change_line(item), page.left + 240, baseline - 4, 9.0)
+        page.text_right(
+            verdict_word(item.verdict), page.right, baseline - 4, 9.0, SEMIBOLD, verdict_token(item.verdict)
+        )
+    page.rule(baseline)
+    return baseline
+
+
+def _paint_fairness(page: Page, progress: Progress, top: float) -> float:
+    unfair = [point for point in progress.points if not point.fair]
+    page.title(tr("Fair comparison"), top + 6)
+    width, y = page.right - page.left, top + 11
+    for point in unfair[:MOST_UNFAIR]:
+        y = page.paragraph(unfair_words(point, progress), page.left, y, width, 9.0)
+    if not unfair:
+        y = page.paragraph(tr("All sessions were set up alike."), page.left, y, width, 9.0)
+    words = tr(
+        "± is the spread between repetitions. “Error” is the smallest difference that can be called a change: "
+        "published values for the same protocol, side and set-up, until the clinic has measured its own."
+    )
+    return page.paragraph(words, page.left, y + 2, width, 8.0, REGULAR, "text2")

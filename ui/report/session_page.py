@@ -1,0 +1,278 @@
+"""The session report: one page of A4, always light, readable in grey."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from PySide6.QtCore import QCoreApplication, QPointF, Qt
+from PySide6.QtGui import QColor, QPen
+
+from core.output.exercises import AXIS_TICK_DEG, SIDES
+from core.output.report_content import Curves, SessionFigures, usual_deg
+from ui import numbers, terms
+from ui.fonts import MEDIUM, REGULAR, SEMIBOLD
+from ui.icons import paint_mark, paint_state
+from ui.plot.style import CURVE_TOKENS
+from ui.report.page import A4_PT, MARGIN_PT, Page
+from ui.report.tables import TableRow, column_names, repetition_words, table_rows
+from ui.report.words import method, other_lines, quality_lines, summary
+from ui.review.curves import SessionPlot, paint_session, place_panels
+from ui.theme import LIGHT
+
+
+def tr(text: str) -> str:
+    """Translate a text of this module."""
+    return QCoreApplication.translate("SessionPage", text)
+
+
+@dataclass(frozen=True, slots=True)
+class SessionReport:
+    """All that is on the page."""
+
+    figures: SessionFigures
+    curves: Curves
+    markers: int
+    pseudonym: str
+    session_number: int = 0
+    dominance: str = "unknown"
+    therapist: str = ""
+    previous: SessionFigures | None = None
+    first: SessionFigures | None = None
+    other_hand: SessionFigures | None = None
+    target_positive_deg: float = math.nan
+    target_negative_deg: float = math.nan
+    digest: str = ""
+    settings_digest: str = ""
+
+
+def paint_session_page(page: Page, report: SessionReport) -> None:
+    """Paint everything from the upper to the lower margin."""
+    y = paint_head(page, tr("Session report"), report.pseudonym, _what(report))
+    y = _paint_facts(page, report, y)
+    y = page.paragraph(
+        summary(report.figures, report.previous, report.first), page.left, y + 5, page.right - page.left, 10.0, SEMIBOLD
+    )
+    y = _paint_table(page, report, y + 7)
+    y = _paint_curves(page, report, y + 8)
+    y = _paint_bars(page, report, y + 8)
+    y = _paint_boxes(page, report, y + 9)
+    foot = _paint_foot(page, report, y + 10)
+    assert foot < A4_PT[1] - MARGIN_PT + 20
+
+
+def paint_head(page: Page, kind: str, pseudonym: str, what: str) -> float:
+    """Mark, kind of report, who and what; returns the lower edge."""
+    top = MARGIN_PT - 12
+    paint_mark(page.painter, page.box(page.left, top, 15, 15), QColor(LIGHT.accent))
+    page.text("Carpus", page.left + 20, top + 12, 11.5, SEMIBOLD)
+    page.text_right(kind, page.right, top + 12, 8.5, REGULAR, "text2")
+    end = page.text(pseudonym, page.left, top + 46, 21.0, SEMIBOLD)
+    page.text(what, end + 11, top + 46, 14.0, REGULAR, "text2")
+    page.rule(top + 57)
+    return top + 57
+
+
+def _what(report: SessionReport) -> str:
+    figures = report.figures
+    return f"{terms.exercise_name(figures.exercise.id)}, {terms.hand_name(figures.side).lower()}"
+
+
+def _paint_facts(page: Page, report: SessionReport, top: float) -> float:
+    figures = report.figures
+    number = numbers.ordinal(report.session_number) + ", " if report.session_number else ""
+    handed = {"right": tr("right-handed"), "left": tr("left-handed"), "both": tr("both-handed")}.get(
+        report.dominance, ""
+    )
+    pairs = [
+        (tr("Date"), numbers.report_date(figures.when)),
+        (tr("Session"), number + tr("active")),
+        (tr("Hand"), ", ".join(part for part in (terms.side_name(figures.side).lower(), handed) if part)),
+        (tr("Length"), numbers.clock(figures.duration_s + 0.5)),
+        (tr("Therapist"), report.therapist or numbers.UNKNOWN),
+    ]
+    page.facts(pairs, top + 5, (0.0, 0.25, 0.44, 0.67, 0.81))
+    if not figures.complete or figures.recovered:
+        words = tr("This recording was cut short and recovered.")
+        page.text(words, page.left, top + 41, 8.5, MEDIUM, "warn")
+        top += 12
+    page.rule(top + 36)
+    return top + 36
+
+
+TABLE_EDGES = (0.0, 0.143, 0.354, 0.467, 0.594, 0.690, 0.715)
+
+
+def _paint_table(page: Page, report: SessionReport, top: float) -> float:
+    figures = report.figures
+    page.title(tr("Range of motion"), top + 11, repetition_words(figures))
+    head = column_names(figures, report.previous, report.other_hand)
+    baseline = top + 26
+    _paint_row(page, head, baseline, 8.5, ["text2"] * 7, [MEDIUM] * 7)
+    rows = [row for row in table_rows(figures, report.previous, report.other_hand) if row.best]
+    for row in rows:
+        page.rule(baseline + 4.5)
+        baseline += 15.5
+        weights = [MEDIUM, SEMIBOLD, REGULAR, REGULAR, REGULAR, REGULAR, MEDIUM]
+        _paint_row(page, row, baseline, 9.0, ["text"] * 7, weights)
+    page.rule(baseline + 4.5)
+    return baseline + 4.5
+
+
+def _paint_row(
+    page: Page, row: TableRow, baseline: float, size: float, tokens: Sequence[str], weights: Sequence[int]
+) -> None:
+    width = page.right - page.left
+    texts = (row.movement, row.today, row.best, row.other_hand, row.usual, row.last, row.short_change or row.change)
+    for column, text in enumerate(texts):
+        edge = page.left + TABLE_EDGES[column] * width
+        if column in (0, 1, 6):
+            room = width - TABLE_EDGES[6] * width
+            fitting = size
+            while column == 6 and fitting > 6.5 and page.width_of(text, fitting, weights[column]) > room:
+                fitting -= 0.25
+            page.text(text, edge, baseline, fitting, weights[column], tokens[column])
+        else:
+            page.text_right(text, edge, baseline, size, weights[column], tokens[column])
+
+
+def _paint_curves(page: Page, report: SessionReport, top: float) -> float:
+    aside = tr("grey: repetitions; band: ± 1 sd of the angle")
+    if math.isfinite(report.target_positive_deg) or math.isfinite(report.target_negative_deg):
+        aside += "; " + tr("dashed: target")
+    page.title(tr("Angles over time"), top + 11, aside)
+    plot = SessionPlot(
+        report.curves, report.figures.exercise, report.figures.repetitions, -1,
+        report.target_positive_deg, report.target_negative_deg,
+    )  # fmt: skip
+    box = page.box(page.left + 70, top + 30, page.right - page.left - 78, 158)
+    style = page.style
+    paint_session(page.painter, style, plot, place_panels(plot, box, 9 * page.point))
+    return top + 30 + 158 + 16
+
+
+def _paint_bars(page: Page, report: SessionReport, top: float) -> float:
+    """Today, last time and the other hand from one end of the movement to the other."""
+    figures = report.figures
+    angles = [figures.exercise.angle] if figures.exercise.angle is not None else [1, 0, 2]
+    bars: list[tuple[str, SessionFigures, int, float, str]] = []
+    for angle in angles:
+        suffix = "" if len(angles) == 1 else " " + {0: tr("side"), 1: tr("bending"), 2: tr("turning")}[angle]
+        bars.append((tr("Today") + suffix, figures, angle, 8.0, CURVE_TOKENS[angle]))
+    if len(angles) == 1 and report.previous is not None:
+        bars.append((numbers.day_month(report.previous.when), report.previous, angles[0], 6.0, "border"))
+    if len(angles) == 1 and report.other_hand is not None:
+        bars.append((terms.hand_name(report.other_hand.side), report.other_hand, angles[0], 3.0, "text2"))
+    bars = [bar for bar in bars if any(row.angle == bar[2] for row in bar[1].rows)]
+    if not bars:
+        return top - 8
+    compared = any(shown is not figures for _, shown, *_ in bars)
+    page.title(tr("Range today, last time and other hand") if compared else tr("Range today"), top + 11)
+    tick = AXIS_TICK_DEG[angles[0]] if len(angles) == 1 else 80.0
+    left, right = page.left + 78, page.right - 6
+    area_top, height = top + 20, 15.0 * len(bars) + 6
+
+    def x(value_deg: float) -> float:
+        return left + (max(-tick, min(tick, value_deg)) + tick) / (2 * tick) * (right - left)
+
+    upper, lower = SIDES[angles[0]]
+    for movement, sign in ((upper, 1.0), (lower, -1.0)):
+        usual = usual_deg(movement, angles[0])
+        if usual is not None and len(angles) == 1:
+            ends = sorted((x(sign * usual[0]), x(sign * usual[1])))
+            width = max(ends[1] - ends[0], 1.5)
+            page.painter.fillRect(page.box(ends[0], area_top, width, height), QColor(LIGHT.norm))
+    step = tick / 4
+    for k in range(-4, 5):
+        value = k * step
+        page.painter.setPen(QPen(QColor(LIGHT.border if k == 0 else LIGHT.line), 0.6 * page.point))
+        page.painter.drawLine(_point(page, x(value), area_top), _point(page, x(value), area_top + height))
+        label = f"{abs(value):.0f}°"
+        page.text(label, x(value) - page.width_of(label, 8.5) / 2, area_top + height + 11, 8.5, REGULAR, "text2")
+    for place, (name, shown, angle, thick, token) in enumerate(bars):
+        middle = area_top + 10.5 + 15.0 * place
+        page.text(name, page.left, middle + 3, 9.0, MEDIUM)
+        _paint_bar(page, shown, angle, middle, thick, token, x)
+    foot = area_top + height + 21
+    if len(angles) == 1:
+        page.text(terms.movement_name(lower), left, foot, 8.5, REGULAR, "text2")
+        page.text_right(terms.movement_name(upper), right, foot, 8.5, REGULAR, "text2")
+        if usual_deg(upper, angles[0]) is not None:
+            words = tr("grey: usual in adults (AMA, AAOS)")
+            page.text(words, 0.5 * (left + right) - page.width_of(words, 8.5) / 2, foot, 8.5, REGULAR, "text2")
+    return foot + 2
+
+
+def _paint_bar(page: Page, figures: SessionFigures, angle: int, middle: float, thick: float, token: str, x) -> None:  # type: ignore[no-untyped-def]
+    upper, lower = SIDES[angle]
+    top_row, bottom_row = figures.row(upper, angle), figures.row(lower, angle)
+    high = top_row.mean_deg if top_row else 0.0
+    low = -bottom_row.mean_deg if bottom_row else 0.0
+    page.painter.setPen(Qt.PenStyle.NoPen)
+    page.painter.setBrush(QColor(getattr(LIGHT, token)))
+    page.painter.drawRoundedRect(page.box(x(low), middle - thick / 2, x(high) - x(low), thick), page.point, page.point)
+    if thick < 7:
+        return
+    page.painter.setPen(QPen(QColor(LIGHT.text), 0.9 * page.point))
+    for value, row in ((high, top_row), (low, bottom_row)):
+        if row is not None and math.isfinite(row.sd_deg):
+            ends = x(value - row.sd_deg), x(value + row.sd_deg)
+            page.painter.drawLine(_point(page, ends[0], middle), _point(page, ends[1], middle))
+            for end in ends:
+                page.painter.drawLine(_point(page, end, middle - 3), _point(page, end, middle + 3))
+
+
+def _point(page: Page, x: float, y: float) -> QPointF:
+    return QPointF(x * page.point, y * page.point)
+
+
+def _paint_boxes(page: Page, report: SessionReport, top: float) -> float:
+    lines, others = quality_lines(report.figures), other_lines(report.figures)
+    notes = "  ".join(f"“{text}”" for _, text in report.figures.notes[:3])
+    gap, inside = 12.0, 11.0
+    width = (page.right - page.left - gap) / 2
+    height = 24 + 13.5 * max(len(lines), len(others) + (2 if notes else 0)) + 6
+    for left in (page.left, page.left + width + gap):
+        page.card(left, top, width, height)
+    page.text(tr("How sure are these figures?"), page.left + inside, top + 17, 10.0, SEMIBOLD)
+    good = all(fine for _, _, fine in lines)
+    sign = page.box(page.left + width - inside - 12, top + 7, 12, 12)
+    state, token = ("good", "good") if good else ("warn", "warn")
+    paint_state(page.painter, state, sign, QColor(getattr(LIGHT, token)), QColor("#FFFFFF"))  # type: ignore[arg-type]
+    baseline = top + 33
+    for name, value, fine in lines:
+        page.text(name, page.left + inside, baseline, 8.5, REGULAR, "text2")
+        page.text_right(value, page.left + width - inside, baseline, 8.5, MEDIUM, "text" if fine else "warn")
+        baseline += 13.5
+    left = page.left + width + gap + inside
+    page.text(tr("Speed, pain, note"), left, top + 17, 10.0, SEMIBOLD)
+    baseline = top + 33
+    for name, value in others:
+        page.text(name, left, baseline, 8.5, REGULAR, "text2")
+        page.text_right(value, page.right - inside, baseline, 8.5, MEDIUM)
+        baseline += 13.5
+    if notes:
+        most = int(2 * (width - 2 * inside) / page.width_of("n", 8.5))
+        shown = notes if len(notes) <= most else notes[: most - 1] + "…"
+        page.paragraph(shown, left, baseline - 9, width - 2 * inside, 8.5)
+    return top + height
+
+
+def _paint_foot(page: Page, report: SessionReport, top: float) -> float:
+    figures = report.figures
+    page.rule(top)
+    width = page.right - page.left
+    y = page.paragraph(method(figures, report.markers), page.left, top + 4, width, 8.0, REGULAR, "text2")
+    y = page.paragraph(terms.LEGAL_SENTENCE, page.left, y + 3, width, 8.0, SEMIBOLD)
+    residual = figures.quality.residual_mm
+    parts = [tr("Session {id}").format(id=figures.session_id[:8]), f"Carpus {figures.software_version}"]
+    if report.settings_digest:
+        parts.append(tr("settings {digest}").format(digest=report.settings_digest[:4]))
+    if report.digest:
+        parts.append(tr("data SHA-256 {digest}").format(digest=f"{report.digest[:4]}…{report.digest[-4:]}"))
+    if math.isfinite(residual):
+        parts.append(tr("calibrated to {size} mm").format(size=f"{residual:.1f}"))
+    parts.append(tr("smoothed") if figures.smoothed else tr("as measured live"))
+    page.text(" · ".join(parts), page.left, max(y + 12, A4_PT[1] - MARGIN_PT + 8), 8.0, REGULAR, "text2")
+    return max(y + 12, A4_PT[1] - MARGIN_PT + 8)

@@ -1,0 +1,130 @@
+"""Sentences of the printed page."""
+
+from __future__ import annotations
+
+import math
+
+from PySide6.QtCore import QCoreApplication
+
+from core.output.exercises import STILL_RADIUS_MM
+from core.output.report_content import Comparison, SessionFigures, compare
+from ui import numbers, terms
+
+
+def tr(text: str) -> str:
+    """Translate a text of this module."""
+    return QCoreApplication.translate("Report", text)
+
+
+def summary(figures: SessionFigures, previous: SessionFigures | None, first: SessionFigures | None) -> str:
+    """Today's figures, then what may be said of change."""
+    free = figures.exercise.angle is None
+    rows = [row for row in figures.rows if row.movement == "arc" or not free][:3]
+    today = ", ".join(f"{_name(row.movement, row.angle, figures)} {numbers.degrees(row.mean_deg)}" for row in rows)
+    if not today:
+        return tr("No range could be measured.")
+    parts = [f"{today[0].upper()}{today[1:]}."]
+    if previous is not None:
+        parts.append(_since(compare(previous, figures), numbers.day_month(previous.when)))
+    if first is not None and (previous is None or first.session_id != previous.session_id):
+        parts.append(
+            _since(compare(first, figures), tr("the first session on {day}").format(day=numbers.day_month(first.when)))
+        )
+    return " ".join(part for part in parts if part)
+
+
+def _name(movement: str, angle: int, figures: SessionFigures) -> str:
+    if movement == "arc":
+        return tr("whole arc") if figures.exercise.angle is not None else _arc_name(angle)
+    return terms.movement_long_name(movement).lower()
+
+
+def _arc_name(angle: int) -> str:
+    return terms.arc_name(angle).lower()
+
+
+def _since(changes: tuple[Comparison, ...], when: str) -> str:
+    beyond = [item for item in changes if item.verdict in ("improved", "worse")]
+    judged = [item for item in changes if item.verdict != "not_judged"]
+    if not judged:
+        return tr("Change since {when} is not judged: fewer than 3 repetitions.").format(when=when) if changes else ""
+    if not beyond:
+        return tr("No change beyond measurement error since {when}.").format(when=when)
+    words = []
+    for item in beyond:
+        name = tr("whole arc") if item.movement == "arc" else terms.movement_long_name(item.movement).lower()
+        size, limit = numbers.degrees(item.shown_difference_deg), numbers.degrees(item.limit_deg)
+        pattern = tr("{name} {size} better") if item.verdict == "improved" else tr("{name} {size} less")
+        words.append(pattern.format(name=name, size=size) + " " + tr("(error {limit})").format(limit=limit))
+    return tr("Since {when}: {changes}.").format(when=when, changes=", ".join(words))
+
+
+def method(figures: SessionFigures, markers: int) -> str:
+    """How it was measured, in three lines."""
+    quality = figures.quality
+    distance = (
+        f"{100 * quality.distance_m:.0f}{numbers.NARROW_GAP}cm"
+        if math.isfinite(quality.distance_m)
+        else numbers.UNKNOWN
+    )
+    given = terms.start_angle_words(figures.start_angles_deg * math.pi / 180.0)
+    zero = tr("zero is the neutral hand, palm down")
+    if given:
+        zero = tr("zero is straight by the therapist’s goniometer: the hand started at {angles}").format(angles=given)
+    sentences = [
+        tr("Method: {markers} markers, colour and depth camera, {distance} away.").format(
+            markers=markers, distance=distance
+        ),
+        tr("Angles in the order deviation, flexion, pro/supination (ZYX); {zero}.").format(zero=zero),
+        tr("± is the spread between repetitions; each angle itself is known to about {sd}.").format(
+            sd=numbers.spread(quality.angle_sd_deg)
+        ),
+        tr("“Error” is the smallest difference that can be called a change (published; same protocol and set-up)."),
+        tr("Carpus measures the hand in the room: it is the wrist only while the forearm rests."),
+    ]
+    return " ".join(sentences)
+
+
+def quality_lines(figures: SessionFigures) -> list[tuple[str, str, bool]]:
+    """Name, value, and whether it is as it should be."""
+    quality = figures.quality
+    measured = f"{100 * quality.measured_share:.1f}{numbers.NARROW_GAP}%"
+    missed = tr("{share} of {frames}; {dropped} missed").format(
+        share=measured, frames=f"{quality.frames:,}".replace(",", numbers.NARROW_GAP), dropped=quality.dropped
+    )
+    hidden = tr("{share} % of the time").format(share=f"{100 * quality.hidden_share:.1f}")
+    lines = [
+        (tr("Pictures measured"), missed, quality.measured_share > 0.9),
+        (tr("Markers hidden"), hidden, quality.hidden_share < 0.1),
+    ]
+    if figures.exercise.pure_wrist and math.isfinite(quality.forearm_mm):
+        words = tr("{distance} (limit {limit})").format(
+            distance=numbers.millimetres(quality.forearm_mm), limit=numbers.millimetres(STILL_RADIUS_MM)
+        )
+        lines.append((tr("Forearm moved"), words, not quality.forearm_moved))
+    names = {0: tr("Side movement"), 1: tr("Up and down"), 2: tr("Turning")}
+    for angle in (0, 1, 2):
+        value = float(figures.trick_deg[angle])
+        if math.isfinite(value):
+            limit = figures.exercise.trick_limit_deg
+            words = tr("{angle} at most (limit {limit})").format(
+                angle=numbers.degrees(value), limit=numbers.degrees(limit)
+            )
+            lines.append((names[angle], words, value <= limit))
+    return lines
+
+
+def other_lines(figures: SessionFigures) -> list[tuple[str, str]]:
+    """Speed, smoothness, pain."""
+    speed, smooth = figures.peak_speed, figures.smoothness
+    lines = []
+    if speed.count:
+        spread = f"{numbers.NARROW_GAP}±{numbers.NARROW_GAP}{speed.sd:.0f}" if math.isfinite(speed.sd) else ""
+        lines.append((tr("Peak speed, mean ± sd"), f"{speed.mean:.0f}{spread}°/s"))
+    if smooth.count:
+        spread = f"{numbers.NARROW_GAP}±{numbers.NARROW_GAP}{smooth.sd:.1f}" if math.isfinite(smooth.sd) else ""
+        value = f"{smooth.mean:.1f}".replace("-", "\N{MINUS SIGN}")
+        lines.append((tr("Smoothness (SPARC; 0 is smoothest)"), f"{value}{spread}"))
+    pain = f"{figures.pain[0]} / {figures.pain[-1]}" if figures.pain else tr("not asked")
+    lines.append((tr("Pain first / last (0–10)"), pain))
+    return lines

@@ -1,0 +1,56 @@
+"""Why a repetition is left out: one of a few reasons, or a few words."""
+
+from __future__ import annotations
+
+from PySide6.QtCore import Signal
+from PySide6.QtWidgets import QHBoxLayout, QLineEdit, QWidget
+
+from ui.controls.button import Button
+from ui.controls.sheet import Sheet
+from ui.controls.text import SEMIBOLD, Text
+from ui.theme import Theme
+
+
+class ReasonSheet(Sheet):
+    """Emits ``kept`` with the reason."""
+
+    kept = Signal(str)
+
+    def __init__(self, host: QWidget, theme: Theme) -> None:
+        super().__init__(host, theme, 560)
+        self._title = Text(theme, "", 20, SEMIBOLD)
+        body = self.card.body
+        body.setSpacing(12)
+        body.addWidget(self._title)
+        words = self.tr("It stays in the recording and on the curves, but counts no longer. The report says so.")
+        body.addWidget(Text(theme, words, 14, token="text2", wrap=True))
+        quick = QHBoxLayout()
+        self.buttons: list[Button] = []
+        for reason in (self.tr("pain"), self.tr("helped by hand"), self.tr("other movement"), self.tr("trial")):
+            button = Button(theme, reason, "plain", height_px=40)
+            button.clicked.connect(lambda _=False, reason=reason: self._keep(reason))
+            quick.addWidget(button)
+            self.buttons.append(button)
+        quick.addStretch(1)
+        body.addLayout(quick)
+        row = QHBoxLayout()
+        self.line = QLineEdit()
+        self.line.setPlaceholderText(self.tr("Another reason"))
+        self.line.setAccessibleName(self.tr("Another reason"))
+        self.line.returnPressed.connect(lambda: self._keep(self.line.text().strip()))
+        close = Button(theme, self.tr("Keep it in"), "plain", hint=self.tr("Esc"))
+        close.clicked.connect(self.close_sheet)
+        row.addWidget(self.line, 1)
+        row.addWidget(close)
+        body.addLayout(row)
+
+    def begin(self, number: int) -> None:
+        """Ask about a repetition, counted from 1."""
+        self._title.setText(self.tr("Leave repetition {number} out?").format(number=number))
+        self.line.clear()
+        self.open(self.buttons[0])
+
+    def _keep(self, reason: str) -> None:
+        if reason:
+            self.close_sheet()
+            self.kept.emit(reason)

@@ -1,0 +1,382 @@
+"""The review: picture and curves in step, repetitions to correct, range of motion, on to the report."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from PySide6.QtCore import Qt, QTimer, Signal
+from PySide6.QtGui import QColor, QPainter, QResizeEvent
+from PySide6.QtWidgets import QHBoxLayout, QScrollArea, QVBoxLayout, QWidget
+
+from core.output.exercises import FLEXION, SIDES
+from core.output.report_content import (
+    Curves,
+    RepetitionChoices,
+    SessionFigures,
+    other_hand_of,
+    previous_of,
+    session_curves,
+    session_figures,
+)
+from core.session.values import Session
+from core.types import ByteImage
+from ui import numbers, terms
+from ui.background import Background
+from ui.controls.button import Button
+from ui.controls.card import Card
+from ui.controls.text import REGULAR, SEMIBOLD, Text
+from ui.keys import Keys, bind
+from ui.picture.overlay import haloed
+from ui.picture.photo import paint_label
+from ui.picture.view import PictureView
+from ui.ports import SessionStore
+from ui.report.tables import column_names, repetition_words, table_rows
+from ui.review.curve_view import EDGES_S, CurveView
+from ui.review.curves import SessionPlot, row_at, value_at
+from ui.review.player import Player
+from ui.review.reason import ReasonSheet
+from ui.review.table import RangeTable
+from ui.theme import GAP_PX, MARGIN_PX, ON_PICTURE_LINE, Theme, is_tight
+
+PLAY_EVERY_MS = 40
+EDGE_STEP_S = 0.1
+
+
+@dataclass(frozen=True, slots=True)
+class Reviewed:
+    """What the background reads for one session."""
+
+    session: Session
+    choices: RepetitionChoices
+    history: Sequence[SessionFigures]
+
+
+class ReviewScreen(QWidget):
+    """``report`` and ``export`` carry the session's identity; ``told`` a fault; ``again`` asks for another set."""
+
+    report = Signal(str)
+    export = Signal(str)
+    again = Signal()
+    told = Signal(object)
+
+    def __init__(self, theme: Theme, keys: Keys, background: Background, store: SessionStore) -> None:
+        super().__init__()
+        self._theme, self._background, self._store = theme, background, store
+        self._session: Session | None = None
+        self._session_id = ""
+        self._choices = RepetitionChoices()
+        self._history: Sequence[SessionFigures] = ()
+        self._curves: Curves | None = None
+        self.figures: SessionFigures | None = None
+        self._time_s = 0.0
+        self._current = -1
+        self._row = -1
+        self._asked_row = -1
+        self.picture = PictureView(theme, (480, 360))
+        self.picture.overlay = self._paint_overlay
+        self.curves = CurveView(theme)
+        self.player = Player(theme)
+        self.table = RangeTable(theme)
+        self.title = Text(theme, self.tr("Range of motion"), 20, SEMIBOLD)
+        self.count = Text(theme, "", 14, REGULAR, "text2")
+        self.again_button = Button(theme, self.tr("Another set"), "quiet", icon="undo-2")
+        self.export_button = Button(theme, self.tr("Export …"), hint="Ctrl+E")
+        self.report_button = Button(
+            theme, self.tr("Make report"), "primary", icon="file-text", hint="Ctrl+P", height_px=44
+        )
+        self.reason = ReasonSheet(self, theme)
+        self._lay_out()
+        self._connect(keys)
+        theme.changed.connect(self._fit)
+        self._timer = QTimer(self)
+        self._timer.setInterval(PLAY_EVERY_MS)
+        self._timer.timeout.connect(self._play_on)
+
+    def _lay_out(self) -> None:
+        top = QHBoxLayout()
+        top.setSpacing(GAP_PX)
+        top.addWidget(self.picture, 480)
+        top.addWidget(self.curves, 736)
+        card = Card(self._theme, 20)
+        head = QHBoxLayout()
+        head.setSpacing(12)
+        head.addWidget(self.title)
+        head.addWidget(self.count, 1)
+        head.addWidget(self.again_button)
+        head.addWidget(self.export_button)
+        head.addWidget(self.report_button)
+        card.body.setContentsMargins(24, 10, 16, 10)
+        card.body.setSpacing(4)
+        card.body.addLayout(head)
+        self._scroll = QScrollArea()
+        self._scroll.setWidget(self.table)
+        self._scroll.setWidgetResizable(True)
+        self._scroll.setFocusPolicy(Qt.FocusPolicy.NoFocus)
+        card.body.addWidget(self._scroll)
+        whole = QVBoxLayout(self)
+        whole.setContentsMargins(MARGIN_PX, GAP_PX, MARGIN_PX, GAP_PX)
+        whole.setSpacing(12)
+        whole.addLayout(top, 1)
+        whole.addWidget(self.player)
+        whole.addWidget(card)
+
+    def resizeEvent(self, event: QResizeEvent) -> None:
+        self._fit()
+
+    def _fit(self) -> None:
+        """The table takes the rows it has; with large text it scrolls and the curves keep a panel."""
+        tight = is_tight(self, self._theme)
+        self.curves.show_single(tight)
+        most = self.height() * (0.36 if tight else 0.48)
+        self._scroll.setFixedHeight(round(min(self.table.sizeHint().height() + 2, most)))
+
+    def _connect(self, keys: Keys) -> None:
+        self.curves.cursor_moved.connect(self.seek)
+        self.curves.edges_moved.connect(self._take_edges)
+        self.player.sought.connect(self.seek)
+        self.player.stepped.connect(self.step)
+        self.player.play_toggled.connect(self.toggle_play)
+        self.reason.kept.connect(self._leave_out)
+        self.report_button.clicked.connect(lambda: self.report.emit(self._session_id))
+        self.export_button.clicked.connect(lambda: self.export.emit(self._session_id))
+        self.again_button.clicked.connect(self.again)
+        self.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
+        self.setProperty("shows_own_focus", True)
+        actions = {
+            "play": self.toggle_play, "frame_back": lambda: self.step(-1), "frame_on": lambda: self.step(1),
+            "repetition_back": lambda: self.go_to_repetition(self._current - 1),
+            "repetition_on": lambda: self.go_to_repetition(self._current + 1),
+            "leave_out": self.toggle_left_out, "edge_back": lambda: self.nudge_edge(-EDGE_STEP_S),
+            "edge_on": lambda: self.nudge_edge(EDGE_STEP_S), "report": self.report_button.click,
+            "export": self.export_button.click,
+        }  # fmt: skip
+        for name, action in actions.items():
+            bind(self, keys, name, action)
+
+    # --- life ---------------------------------------------------------------------------------------------
+    def begin(self, patient_id: str, session_id: str, *, may_repeat: bool = False) -> None:
+        """Read a session in the background, then show it."""
+        self._session_id = session_id
+        self._session = None
+        self.again_button.setVisible(may_repeat)
+        self.picture.clear(self.tr("Reading the session …"))
+        store = self._store
+
+        def read() -> Reviewed:
+            return Reviewed(store.session(session_id), store.choices(session_id), store.history(patient_id))
+
+        self._background.run(read, self._show, self.told.emit)
+        self.setFocus(Qt.FocusReason.OtherFocusReason)
+
+    def end(self) -> None:
+        """Stop playing."""
+        self._stop()
+
+    @property
+    def shown(self) -> bool:
+        """Whether a session is on the screen."""
+        return self._session is not None
+
+    def _show(self, reviewed: Reviewed) -> None:
+        session = reviewed.session
+        if session.header.session_id != self._session_id:
+            return  # another one was asked for meanwhile
+        self._session, self._choices, self._history = session, reviewed.choices, reviewed.history
+        self._curves = session_curves(session)
+        self._row = self._asked_row = -1
+        self.picture.clear("")
+        self.picture.set_hand_area(session.calibration.clicks.pixel)
+        self._compute()
+        counted = (
+            [n for n, repetition in enumerate(self.figures.repetitions) if repetition.counts] if self.figures else []
+        )
+        self._current = counted[0] if counted else -1
+        self._refresh()
+        self.seek(self.figures.repetitions[self._current].start_s if counted and self.figures else 0.0)
+
+    def _compute(self) -> None:
+        if self._session is not None:
+            self.figures = session_figures(self._session, self._choices)
+
+    def _refresh(self) -> None:
+        figures, curves = self.figures, self._curves
+        if figures is None or curves is None:
+            return
+        plot = SessionPlot(curves, figures.exercise, figures.repetitions, self._current)
+        self.curves.show_plot(plot)
+        self.player.show_session(plot.end_s, figures.repetitions, self._current)
+        previous, other = previous_of(self._history, figures), other_hand_of(self._history, figures)
+        self.table.show_rows(column_names(figures, previous, other), table_rows(figures, previous, other))
+        self.count.setText(repetition_words(figures))
+        self._fit()
+
+    # --- time ---------------------------------------------------------------------------------------------
+    @property
+    def time_s(self) -> float:
+        """Seconds of the cursor."""
+        return self._time_s
+
+    @property
+    def current(self) -> int:
+        """The chosen repetition, from 0; -1 for none."""
+        return self._current
+
+    def seek(self, time_s: float) -> None:
+        """Put the cursor on a time; the repetition under it becomes the current one."""
+        if self._curves is None or self.figures is None or not len(self._curves.time_s):
+            return
+        self._time_s = float(np.clip(time_s, 0.0, self._curves.time_s[-1]))
+        under = [
+            n
+            for n, rep in enumerate(self.figures.repetitions)
+            if rep.start_s - 1e-6 <= self._time_s <= rep.end_s + 1e-6
+        ]
+        if under and self._current not in under:
+            self._current = under[0]
+            self._refresh()
+        self.curves.set_time(self._time_s)
+        self.player.show_time(self._time_s)
+        row = row_at(self._curves, self._time_s)
+        if row != self._row:
+            self._row = row
+            self._ask_picture(row)
+        self.picture.update()
+
+    def step(self, frames: int) -> None:
+        """Go some pictures on or back."""
+        if self._curves is not None and len(self._curves.time_s):
+            row = int(np.clip(row_at(self._curves, self._time_s) + frames, 0, len(self._curves.time_s) - 1))
+            self.seek(float(self._curves.time_s[row]))
+
+    def toggle_play(self) -> None:
+        """Play from here, or stop."""
+        if self._timer.isActive():
+            self._stop()
+        elif self._curves is not None:
+            if self._time_s >= float(self._curves.time_s[-1]) - 1e-3:
+                self.seek(0.0)
+            self._timer.start()
+            self.player.show_playing(True)
+
+    def _stop(self) -> None:
+        self._timer.stop()
+        self.player.show_playing(False)
+
+    def _play_on(self) -> None:
+        assert self._curves is not None
+        self.seek(self._time_s + 0.001 * PLAY_EVERY_MS * self.player.factor)
+        if self._time_s >= float(self._curves.time_s[-1]) - 1e-6:
+            self._stop()
+
+    def go_to_repetition(self, number: int) -> None:
+        """Make a repetition the current one and go to its start."""
+        if self.figures is not None and 0 <= number < len(self.figures.repetitions):
+            self._current = number
+            self._refresh()
+            self.seek(self.figures.repetitions[number].start_s)
+
+    # --- corrections --------------------------------------------------------------------------------------
+    def toggle_left_out(self) -> None:
+        """Leave the current repetition out (asks why), or take it back."""
+        if self.figures is None or self._current < 0:
+            return
+        if self._current in self._choices.left_out:
+            reasons = {n: words for n, words in self._choices.left_out.items() if n != self._current}
+            self._choose(RepetitionChoices(reasons, self._choices.edges_s))
+        else:
+            self.reason.begin(self._current + 1)
+
+    def _leave_out(self, reason: str) -> None:
+        reasons = {**self._choices.left_out, self._current: reason}
+        self._choose(RepetitionChoices(reasons, self._choices.edges_s))
+
+    def _take_edges(self, number: int, start_s: float, end_s: float) -> None:
+        self._choose(RepetitionChoices(self._choices.left_out, {**self._choices.edges_s, number: (start_s, end_s)}))
+
+    def nudge_edge(self, by_s: float) -> None:
+        """Move the edge of the current repetition that is nearer to the cursor."""
+        if self.figures is None or self._current < 0:
+            return
+        repetition = self.figures.repetitions[self._current]
+        start_s, end_s = repetition.start_s, repetition.end_s
+        if abs(self._time_s - start_s) <= abs(self._time_s - end_s):
+            start_s = min(max(0.0, start_s + by_s), end_s - EDGES_S)
+        else:
+            end_s = max(end_s + by_s, start_s + EDGES_S)
+        self._take_edges(self._current, start_s, end_s)
+
+    def _choose(self, choices: RepetitionChoices) -> None:
+        self._choices = choices
+        self._compute()
+        self._refresh()
+        store, session_id = self._store, self._session_id
+        self._background.run(lambda: store.keep_choices(session_id, choices), lambda _: None, self.told.emit)
+
+    # --- picture ------------------------------------------------------------------------------------------
+    def _ask_picture(self, row: int) -> None:
+        """One picture at a time is read; the newest wish follows when it has come."""
+        if self._asked_row >= 0:
+            return
+        self._asked_row = row
+        store, session_id = self._store, self._session_id
+
+        def shown(picture: ByteImage | None) -> None:
+            asked, self._asked_row = self._asked_row, -1
+            if session_id != self._session_id:
+                return
+            if picture is not None:
+                self.picture.show_frame(picture)
+                if self._row != asked:
+                    self._ask_picture(self._row)
+            elif self.picture.image is None:
+                self._show_empty()
+
+        self._background.run(lambda: store.picture(session_id, row), shown, self.told.emit)
+
+    def _show_empty(self) -> None:
+        """No pictures were kept: a plain ground of the camera's size under the marks."""
+        assert self._session is not None
+        camera = self._session.camera
+        self.picture.show_frame(np.full((camera.height_px, camera.width_px, 3), 34, np.uint8))
+
+    def _paint_overlay(self, painter: QPainter, picture: PictureView) -> None:
+        if self._session is None or self._curves is None or self.figures is None or self._row < 0:
+            return
+        measured = self._session.markers.measured_px[self._row]
+        camera, places = self._session.camera, self._session.markers.position_cam_m[self._row]
+        modelled = (
+            camera.distort(camera.project(places)) if np.isfinite(places).all() else np.full_like(measured, math.nan)
+        )
+        spots = np.where(np.isfinite(measured), measured, modelled)
+        if np.isfinite(spots).all():
+            wrist = picture.to_screen(*map(float, spots[0]))
+            for u, v in spots[1:6]:
+                end = picture.to_screen(float(u), float(v))
+                haloed(painter, ON_PICTURE_LINE, 2.0, lambda end=end: painter.drawLine(wrist, end))  # type: ignore[misc]
+        for spot, seen in zip(spots, np.isfinite(measured[:, 0]), strict=True):
+            if np.isfinite(spot).all():
+                at = picture.to_screen(*map(float, spot))
+                haloed(painter, ON_PICTURE_LINE, 2.0, lambda at=at: painter.drawEllipse(at, 10, 10), dash=not seen)  # type: ignore[misc]
+                if seen:
+                    painter.setBrush(QColor(ON_PICTURE_LINE))
+                    painter.drawEllipse(at, 2.5, 2.5)
+        self._paint_labels(painter, picture)
+
+    def _paint_labels(self, painter: QPainter, picture: PictureView) -> None:
+        assert self.figures is not None
+        assert self._curves is not None
+        clock = numbers.clock_tenths(self._time_s)
+        if 0 <= self._current < len(self.figures.repetitions):
+            pattern = self.tr("Repetition {number} of {count} · {time}")
+            clock = pattern.format(number=self._current + 1, count=len(self.figures.repetitions), time=clock)
+        paint_label(painter, self._theme, clock, 12, 12)
+        column = FLEXION if self.figures.exercise.angle is None else self.figures.exercise.angle
+        value, sd = value_at(self._curves, column, self._time_s)
+        if math.isfinite(value):
+            name = terms.movement_name(SIDES[column][0 if value >= 0 else 1])
+            words = f"{name} {numbers.with_spread(value, sd)}"
+            width = painter.fontMetrics().horizontalAdvance(words) + 12
+            paint_label(painter, self._theme, words, picture.width() - width - 14, 12)
