@@ -12,7 +12,8 @@ from core.camera import Camera
 from core.hand.clinical_angles import rotation_from_angles, side_sign
 from core.hand.kinematics import disc_centres, joint_centres, segment_frames
 from core.hand.protocols import HAND21
-from core.simulation.motions import HandMotion, motion_of
+from core.simulation.hand_motion import HandMotion
+from core.simulation.motions import motion_of
 from core.simulation.patient import Patient, patient_of
 from core.simulation.skin import Cones, HandSkin, joined
 from core.simulation.spec import RecordingSpec, Stream

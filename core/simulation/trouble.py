@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from core.hand.protocols import PALM_MARKERS
-from core.simulation.motions import STILL_S
+from core.simulation.hand_motion import STILL_S
 from core.simulation.patient import DISC_RADIUS_M
 from core.simulation.scene import Scene
 from core.simulation.spec import RecordingSpec, Stream

@@ -10,7 +10,8 @@ import pytest
 from core.errors import SettingsInvalid
 from core.hand.clinical_angles import angles_from_rotation
 from core.hand.protocols import HAND21, PALM_MARKERS
-from core.simulation.motions import MOTIONS, STILL_S, motion_of
+from core.simulation.hand_motion import STILL_S
+from core.simulation.motions import MOTIONS, motion_of
 from core.simulation.scene import Scene
 from core.simulation.spec import RecordingSpec
 from core.simulation.strokes import StrokePath
