@@ -11,6 +11,7 @@ from __future__ import annotations
 
 import errno
 import json
+import math
 import os
 import struct
 import zlib
@@ -20,6 +21,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from types import TracebackType
 from typing import Any, BinaryIO
+
+import numpy as np
 
 from core.camera import Camera
 from core.capture.notice import Notice, ignore
@@ -34,7 +37,7 @@ from core.errors import (
     RecordingMissing,
     RecordingUnreadable,
 )
-from core.types import Frame
+from core.types import ByteImage, Frame
 
 SUFFIX = ".carpusraw"
 MAGIC = b"CARPUSRW"
@@ -182,6 +185,7 @@ class RawRecording:
             raise RecordingUnreadable(path, cause.strerror or "") from cause
         if not self._entries:
             raise RecordingEmpty(path)
+        self._times_s = np.array([entry.timestamp_s for entry in self._entries])
         try:
             camera = dict(head["camera"])
             camera["distortion"] = tuple(camera["distortion"])
@@ -205,19 +209,29 @@ class RawRecording:
     def frames(self) -> Iterator[Frame]:
         """All frames from the first on; may be walked through again."""
         lost = missing = index = 0
+        last_s = -math.inf
         with self._path.open("rb") as file:
             for entry in self._entries:
                 pictures = _read(file, entry)
                 color = decode_color(pictures[: entry.color_size])
                 depth = decode_depth(pictures[entry.color_size :])
-                if color is None or (depth is None) != (entry.depth_size == 0):
+                if color is None or (depth is None) != (entry.depth_size == 0) or entry.timestamp_s <= last_s:
                     lost += 1
                     missing += 1 + entry.dropped_before
                     continue
                 yield Frame(index, entry.timestamp_s, color, depth, self._depth_unit_m, entry.dropped_before + missing)
-                index, missing = index + 1, 0
+                index, missing, last_s = index + 1, 0, entry.timestamp_s
         if lost:
             self._notice(PicturesLost(self._path, f"{lost} of {len(self._entries)} frames"))
+
+    def color_at(self, timestamp_s: float) -> ByteImage | None:
+        """The colour picture of that time, None when it was not stored or is damaged."""
+        place = int(np.searchsorted(self._times_s, timestamp_s - 1e-6))
+        if place == len(self._times_s) or self._times_s[place] > timestamp_s + 1e-6:
+            return None
+        entry = self._entries[place]
+        with self._path.open("rb") as file:
+            return decode_color(_read(file, entry)[: entry.color_size])
 
     def close(self) -> None:
         """Nothing is held open between two walks."""
@@ -258,10 +272,11 @@ def _index(path: Path, file: BinaryIO) -> tuple[Mapping[str, Any], list[_Entry],
             return head, entries, True
         if kind not in (b"HEAD", b"FRAM") or end > size or max(color_size, depth_size) > MAX_PICTURE_BYTES:
             break
+        entry = _Entry(position, time_s, dropped, color_size, depth_size, check)
         if kind == b"HEAD":
-            head = _json(path, file.read(color_size))
-        elif not entries or time_s > entries[-1].timestamp_s:
-            entries.append(_Entry(position, time_s, dropped, color_size, depth_size, check))
+            head = _json(path, _read(file, entry))
+        else:
+            entries.append(entry)
         position = end
     return head, entries, False
 

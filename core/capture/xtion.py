@@ -98,7 +98,9 @@ class XtionSource:
 
     def frames(self) -> Iterator[Frame]:
         """Frames from now on, until :meth:`close`; what waited since the opening is thrown away."""
-        self._process.discard()
+        with self._lock:
+            if not self._closing.is_set():
+                self._process.discard()
         crashes = 0
         while not self._closing.is_set():
             count = 0

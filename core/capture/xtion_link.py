@@ -6,6 +6,7 @@ import multiprocessing
 import signal
 import threading
 import time
+from collections import deque
 from multiprocessing.shared_memory import SharedMemory
 from typing import Any
 
@@ -36,6 +37,7 @@ class CaptureProcess:
         self._subject = subject
         self._memory = SharedMemory(create=True, size=slots * slot_bytes)
         self._slot_bytes = slot_bytes
+        self._kept: deque[Report] = deque()
         context = multiprocessing.get_context("spawn")
         self._link, theirs = context.Pipe()
         ring = Ring(self._memory.name, slots, slot_bytes)
@@ -68,8 +70,8 @@ class CaptureProcess:
         deadline = time.monotonic() + patience_s
         while not closing.is_set():
             try:
-                if self._link.poll(LOOK_S):
-                    report: Report = self._link.recv()
+                if self._kept or self._link.poll(LOOK_S):
+                    report: Report = self._kept.popleft() if self._kept else self._link.recv()
                     if isinstance(report, Trouble):
                         raise report.fault(self._subject, report.detail)
                     return report
@@ -113,11 +115,16 @@ class CaptureProcess:
         self._release()
 
     def discard(self) -> None:
-        """Forget the pictures that wait: they are old."""
-        while self._link.poll(0):
-            report = self._link.recv()
-            if isinstance(report, Arrived):
-                self.free(report)
+        """Forget the pictures that wait: they are old. Other reports are kept."""
+        try:
+            while self._link.poll(0):
+                report: Report = self._link.recv()
+                if isinstance(report, Arrived):
+                    self.free(report)
+                else:
+                    self._kept.append(report)
+        except (EOFError, OSError):
+            return  # the next look for a report tells why
 
     def _drain(self) -> None:
         """Read on, so that the process is not stuck in a full pipe."""

@@ -1,0 +1,143 @@
+"""The examination: what is good is said to be, what is not comes with a remedy."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from core.capture import doctor
+from core.capture.doctor import Finding, examine
+from core.capture.xtion_usb import UsbCamera
+from core.errors import CameraBusy, DriverMissing
+from core.types import Frame
+
+
+def test_everything_is_examined_with_a_camera_that_always_is_there(tmp_path: Path) -> None:
+    findings = {finding.name: finding for finding in examine(tmp_path / "data", camera_uri="Dummy", measure_s=0.5)}
+    assert list(findings) == [
+        "Python",
+        "Packages",
+        "Window",
+        "Fonts",
+        "Data folder",
+        "Disk",
+        "Driver",
+        "Camera rights",
+        "Camera",
+        "Pictures",
+    ]
+    for name in ("Python", "Packages", "Fonts", "Data folder", "Driver", "Camera rights"):
+        assert findings[name].state == "good", findings[name]
+    assert "OpenNI2 2.2" in findings["Driver"].found
+    assert "320x240" in findings["Pictures"].found
+    assert not (tmp_path / "data").exists()
+
+
+def test_a_remedy_wherever_something_is_wrong(tmp_path: Path) -> None:
+    for finding in examine(tmp_path):
+        assert (finding.state == "good") == (finding.remedy == ""), finding
+        assert finding.found
+
+
+def test_without_a_camera_nothing_is_measured(tmp_path: Path) -> None:
+    names = [finding.name for finding in examine(tmp_path)]
+    assert "Pictures" not in names
+
+
+def test_old_python() -> None:
+    assert doctor.python_finding((3, 10, 9)).state == "bad"
+    assert doctor.python_finding((3, 11, 0)).state == "good"
+
+
+def test_missing_packages() -> None:
+    finding = doctor.packages_finding(("numpy", "a-package-nobody-has"))
+    assert finding == Finding(
+        "Packages", "bad", "missing: a-package-nobody-has", "Run: pip install a-package-nobody-has"
+    )
+
+
+def test_the_window_library_that_aborts(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(doctor, "version", lambda name: "6.12.0")
+    monkeypatch.setattr(doctor.sys, "version_info", (3, 11, 7))
+    assert doctor.window_finding().state == "bad"
+
+
+def test_a_folder_that_others_can_read(tmp_path: Path) -> None:
+    folder = tmp_path / "data"
+    folder.mkdir(mode=0o755)
+    folder.chmod(0o755)
+    finding = doctor.data_folder_finding(folder)
+    assert finding.state == "warning"
+    assert "chmod 700" in finding.remedy
+    folder.chmod(0o700)
+    assert doctor.data_folder_finding(folder).state == "good"
+
+
+def test_a_folder_that_cannot_be_written(tmp_path: Path) -> None:
+    (tmp_path / "file").touch()
+    assert doctor.data_folder_finding(tmp_path / "file" / "data").state == "bad"
+
+
+def test_a_full_disk(tmp_path: Path) -> None:
+    assert doctor.disk_finding(tmp_path, 1_000_000_000).state == "warning"
+    finding = doctor.disk_finding(tmp_path, 60_000_000_000)
+    assert (finding.state, finding.found) == ("good", "60.0 GB free, about 100 minutes with pictures")
+
+
+def test_no_driver(monkeypatch: pytest.MonkeyPatch) -> None:
+    def missing() -> None:
+        raise DriverMissing("libOpenNI2.so.0", "cannot open shared object file")
+
+    monkeypatch.setattr(doctor, "load_library", missing)
+    finding = doctor.driver_finding()
+    assert (finding.state, finding.found) == ("bad", "cannot open shared object file")
+    assert "libopenni2-0" in finding.remedy
+
+
+def test_rules_of_the_system(tmp_path: Path) -> None:
+    assert doctor.rules_finding((tmp_path / "none", tmp_path)).state == "warning"
+    (tmp_path / "60-camera.rules").write_text('SUBSYSTEM=="usb", ATTR{idVendor}=="1D27", MODE="0666"\n')
+    assert doctor.rules_finding((tmp_path,)).state == "good"
+
+
+@pytest.mark.parametrize(
+    ("speed", "may_open", "claimed", "state"),
+    [(480, True, False, "good"), (480, False, False, "bad"), (480, True, True, "warning"), (12, True, False, "bad")],
+)
+def test_the_camera_on_the_bus(speed: int, may_open: bool, claimed: bool, state: str) -> None:
+    camera = UsbCamera("Asus Xtion Pro Live", "0601", Path("/dev/bus/usb/001/007"), speed, may_open, claimed)
+    finding = doctor.camera_finding([camera])
+    assert finding.state == state
+    assert "1d27:0601" in finding.found
+
+
+def frames(period_s: float, *, missing: int = 0, depth: bool = True) -> list[Frame]:
+    color, distance = np.zeros((480, 640, 3), np.uint8), np.zeros((480, 640), np.uint16)
+    return [Frame(i, i * period_s, color, distance if depth else None, 1e-3, missing) for i in range(10)]
+
+
+@pytest.mark.parametrize(
+    ("some", "registered", "state"),
+    [
+        (frames(1 / 30), "by the camera", "good"),
+        (frames(1 / 30), "no", "warning"),
+        (frames(1 / 30, missing=1), "by the camera", "warning"),
+        (frames(1 / 25), "by the camera", "warning"),
+        (frames(1 / 15), "by the camera", "bad"),
+        (frames(1 / 30, depth=False), "by the camera", "bad"),
+        ([], "by the camera", "bad"),
+    ],
+)
+def test_what_comes_from_the_camera(some: list[Frame], registered: str, state: str) -> None:
+    assert doctor.frames_finding(some, registered).state == state
+
+
+def test_a_camera_that_cannot_be_opened(monkeypatch: pytest.MonkeyPatch) -> None:
+    def busy(**_: object) -> None:
+        raise CameraBusy("camera", "Failed to set USB interface!")
+
+    monkeypatch.setattr(doctor, "XtionSource", busy)
+    finding = doctor.rates_finding(None, 1.0)
+    assert (finding.state, finding.remedy) == ("bad", "Close the other program that uses the camera.")

@@ -1,0 +1,282 @@
+"""Raw recordings: what goes in comes out, whatever kills the writer or gnaws at the file."""
+
+from __future__ import annotations
+
+import json
+import struct
+import subprocess
+import sys
+import time
+import zlib
+from pathlib import Path
+
+import cv2
+import numpy as np
+import pytest
+
+from core.camera import Camera
+from core.capture.raw import RawRecording, RawWriter, is_raw_recording
+from core.capture.raw_pictures import decode_color, decode_depth, encode_color, encode_depth
+from core.capture.source import SourceInfo
+from core.errors import (
+    CarpusFault,
+    OutputExists,
+    OutputNotWritable,
+    PicturesLost,
+    RecordingEmpty,
+    RecordingMissing,
+    RecordingUnreadable,
+)
+from core.types import Frame
+from tests.capture.oni_samples import HEIGHT, WIDTH, color_picture, depth_picture
+
+ROOT = Path(__file__).parents[2]
+CAMERA = Camera(52.0, 53.0, 31.0, 23.0, WIDTH, HEIGHT, (0.1, -0.2, 0.001, 0.002, 0.3), "file")
+INFO = SourceInfo("Xtion Pro Live", CAMERA, True, None, 30.0, {"serial": "1206", "registered": "by the camera"})
+
+
+def frames(count: int) -> list[Frame]:
+    """Times of a camera, one gap, one frame without depth."""
+    return [
+        Frame(
+            i,
+            3.25 + i / 30.0 + (0.1 if i > 2 else 0.0),
+            color_picture(i),
+            None if i == 1 else depth_picture(i),
+            1e-3,
+            3 if i == 3 else 0,
+        )
+        for i in range(count)
+    ]
+
+
+def write(path: Path, count: int = 6, *, lossless: bool = True) -> Path:
+    with RawWriter(path, INFO, lossless=lossless) as writer:
+        for frame in frames(count):
+            writer.append_frame(frame)
+        assert len(writer) == count
+        assert writer.path == path
+    return path
+
+
+def assert_same(read: Frame, written: Frame) -> None:
+    assert np.array_equal(read.color_rgb, written.color_rgb)
+    assert (read.depth_raw is None) == (written.depth_raw is None)
+    if read.depth_raw is not None:
+        assert np.array_equal(read.depth_raw, written.depth_raw)
+    assert read.timestamp_s == written.timestamp_s
+    assert read.depth_unit_m == written.depth_unit_m
+
+
+def test_frames_come_back_exactly(tmp_path: Path) -> None:
+    recording = RawRecording(write(tmp_path / "take.carpusraw"))
+    for _ in range(2):
+        back = list(recording.frames())
+        assert [frame.index for frame in back] == list(range(6))
+        for read, written in zip(back, frames(6), strict=True):
+            assert_same(read, written)
+            assert read.dropped_before == written.dropped_before
+            assert not read.color_rgb.flags.writeable
+    recording.close()
+    recording.close()
+    assert recording.complete
+
+
+def test_facts_come_back(tmp_path: Path) -> None:
+    info = RawRecording(write(tmp_path / "take.carpusraw")).info
+    assert info == SourceInfo(INFO.name, CAMERA, True, 6, 30.0, INFO.settings)
+
+
+def test_colour_as_jpeg_is_near_and_depth_exact(tmp_path: Path) -> None:
+    recording = RawRecording(write(tmp_path / "take.carpusraw", lossless=False))
+    for read, written in zip(recording.frames(), frames(6), strict=True):
+        error = np.abs(read.color_rgb.astype(int) - written.color_rgb.astype(int))
+        assert 0.0 < error.mean() < 2.5
+        assert (read.depth_raw is None) == (written.depth_raw is None)
+        if read.depth_raw is not None:
+            assert np.array_equal(read.depth_raw, written.depth_raw)
+
+
+def test_the_layout_by_a_reader_of_its_own(tmp_path: Path) -> None:
+    data = write(tmp_path / "take.carpusraw", 3).read_bytes()
+    assert data[:12] == b"CARPUSRW\x01\x00\x00\x00"
+    position, kinds = 12, []
+    while position < len(data):
+        kind, check, time_s, _, number, color_size, depth_size = struct.unpack_from("<4sIdIIII", data, position)
+        end = position + 32 + color_size + depth_size
+        assert zlib.crc32(data[position + 8 : end]) == check
+        kinds.append(kind)
+        color = data[position + 32 : position + 32 + color_size]
+        if kind == b"HEAD":
+            head = json.loads(color)
+            assert head["camera"]["distortion"] == [0.1, -0.2, 0.001, 0.002, 0.3]
+            assert head["depth_unit_m"] == 1e-3
+        elif kind == b"FRAM":
+            assert time_s == frames(3)[number].timestamp_s
+            picture = cv2.imdecode(np.frombuffer(color, np.uint8), cv2.IMREAD_COLOR_RGB)
+            assert np.array_equal(picture, color_picture(number))
+        position = end
+    assert kinds == [b"HEAD", b"FRAM", b"FRAM", b"FRAM", b"DONE"]
+    assert is_raw_recording(tmp_path / "take.carpusraw")
+    assert not is_raw_recording(tmp_path)
+
+
+def test_a_file_cut_anywhere_keeps_its_whole_frames(tmp_path: Path) -> None:
+    data = write(tmp_path / "whole.carpusraw", 4).read_bytes()
+    path = tmp_path / "cut.carpusraw"
+    whole = frames(4)
+    seen = set()
+    for length in [*range(12, len(data), 997), len(data) - 1]:
+        path.write_bytes(data[:length])
+        try:
+            recording = RawRecording(path)
+        except RecordingEmpty:
+            seen.add(0)
+            continue
+        back = list(recording.frames())
+        seen.add(len(back))
+        assert not recording.complete
+        for read, written in zip(back, whole, strict=False):
+            assert_same(read, written)
+    assert seen == {0, 1, 2, 3, 4}
+
+
+def test_an_altered_frame_is_left_out_and_counted(tmp_path: Path) -> None:
+    path = write(tmp_path / "take.carpusraw", 6)
+    data = bytearray(path.read_bytes())
+    starts = [at for at in range(len(data) - 4) if data[at : at + 4] == b"FRAM"]
+    data[starts[2] + 500] ^= 1
+    path.write_bytes(data)
+    told: list[CarpusFault] = []
+    back = list(RawRecording(path, notice=told.append).frames())
+    assert [frame.timestamp_s for frame in back] == [f.timestamp_s for f in frames(6) if f.index != 2]
+    assert [frame.dropped_before for frame in back] == [0, 0, 3 + 1, 0, 0]
+    assert [frame.index for frame in back] == [0, 1, 2, 3, 4]
+    assert [(type(fault), fault.detail) for fault in told] == [(PicturesLost, "1 of 6 frames")]
+
+
+def test_any_one_altered_byte_gives_no_wrong_picture(tmp_path: Path) -> None:
+    data = write(tmp_path / "whole.carpusraw", 3).read_bytes()
+    whole = {frame.timestamp_s: frame for frame in frames(3)}
+    path = tmp_path / "altered.carpusraw"
+    rng = np.random.default_rng(5)
+    for place in [*range(44, 500, 3), *rng.integers(0, len(data), 150).tolist()]:
+        altered = bytearray(data)
+        altered[place] ^= 1 << int(rng.integers(8))
+        path.write_bytes(altered)
+        try:
+            recording = RawRecording(path)
+            for frame in recording.frames():
+                assert_same(frame, whole[frame.timestamp_s])
+            assert recording.info.camera == CAMERA
+        except CarpusFault:
+            continue
+
+
+def test_a_killed_writer_loses_at_most_the_frame_it_was_writing(tmp_path: Path) -> None:
+    program = """
+import sys
+from pathlib import Path
+from tests.capture.test_raw_recording import INFO, RawWriter, frames
+writer = RawWriter(Path(sys.argv[1]), INFO)
+for frame in frames(100_000):
+    writer.append_frame(frame)
+    print(len(writer), flush=True)
+"""
+    for attempt in range(3):
+        path = tmp_path / f"{attempt}.carpusraw"
+        process = subprocess.Popen(
+            [sys.executable, "-c", program.replace("frames(100_000)", "(f for f in frames(400))"), str(path)],
+            cwd=ROOT,
+            stdout=subprocess.PIPE,
+            text=True,
+        )
+        assert process.stdout is not None
+        for _ in range(5 + 7 * attempt):
+            process.stdout.readline()
+        process.kill()
+        said = process.communicate()[0].split()
+        recording = RawRecording(path)
+        assert not recording.complete
+        count = len(list(recording.frames()))
+        assert count >= (int(said[-1]) if said else 5 + 7 * attempt)
+
+
+def test_a_full_disk_ends_the_recording_and_keeps_it(tmp_path: Path) -> None:
+    program = """
+import resource, signal, sys
+from pathlib import Path
+from core.errors import DiskFull
+from tests.capture.test_raw_recording import INFO, RawWriter, frames
+signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
+resource.setrlimit(resource.RLIMIT_FSIZE, (100_000, 100_000))
+writer = RawWriter(Path(sys.argv[1]), INFO, lossless=True)
+try:
+    for frame in frames(100):
+        writer.append_frame(frame)
+except DiskFull:
+    print(len(writer))
+    writer.abandon()
+"""
+    path = tmp_path / "full.carpusraw"
+    done = subprocess.run(
+        [sys.executable, "-c", program, str(path)], cwd=ROOT, capture_output=True, text=True, timeout=60
+    )
+    assert done.returncode == 0, done.stderr
+    assert int(done.stdout) > 3
+    assert len(list(RawRecording(path).frames())) == int(done.stdout)
+
+
+def test_faults_of_the_writer(tmp_path: Path) -> None:
+    path = write(tmp_path / "take.carpusraw", 1)
+    before = path.read_bytes()
+    with pytest.raises(OutputExists):
+        RawWriter(path, INFO)
+    assert path.read_bytes() == before
+    with pytest.raises(OutputNotWritable):
+        RawWriter(tmp_path / "none" / "take.carpusraw", INFO)
+    writer = RawWriter(tmp_path / "other.carpusraw", INFO)
+    writer.append_frame(frames(1)[0])
+    fine = frames(2)[0]
+    with pytest.raises(ValueError, match="depth in steps"):
+        writer.append_frame(Frame(1, 9.0, fine.color_rgb, fine.depth_raw, 1e-4))
+    writer.close()
+    writer.close()
+    with pytest.raises(ValueError, match="closed"):
+        writer.append_frame(fine)
+
+
+def test_nothing_recorded_leaves_nothing(tmp_path: Path) -> None:
+    writer = RawWriter(tmp_path / "take.carpusraw", INFO)
+    writer.discard()
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_faults_of_the_reader(tmp_path: Path) -> None:
+    with pytest.raises(RecordingMissing):
+        RawRecording(tmp_path / "none")
+    path = tmp_path / "take.carpusraw"
+    RawWriter(path, INFO).close()
+    with pytest.raises(RecordingEmpty):
+        RawRecording(path)
+    for data in (b"", b"CARPUSRW", b"CARPUSRW\x02\x00\x00\x00", b"RIFF" + bytes(100)):
+        path.write_bytes(data)
+        with pytest.raises(RecordingUnreadable):
+            RawRecording(path)
+
+
+@pytest.mark.parametrize("lossless", [False, True])
+def test_pictures_that_are_none(lossless: bool) -> None:
+    color, depth = encode_color(color_picture(1), lossless=lossless), encode_depth(depth_picture(1))
+    assert decode_color(color) is not None
+    assert decode_depth(depth) is not None
+    assert decode_depth(color) is None
+    assert decode_color(b"") is None
+    assert decode_color(b"nothing of the kind") is None
+
+
+def test_the_time_of_writing_is_not_needed_by_anyone(tmp_path: Path) -> None:
+    """Two recordings of the same frames are the same, byte for byte."""
+    first = write(tmp_path / "a.carpusraw").read_bytes()
+    time.sleep(0.01)
+    assert write(tmp_path / "b.carpusraw").read_bytes() == first

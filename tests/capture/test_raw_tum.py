@@ -1,0 +1,75 @@
+"""Recording as a TUM folder, read back by the TUM reader."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import cv2
+import numpy as np
+import pytest
+
+from core.camera import Camera
+from core.capture.camera_info import read_camera_info
+from core.capture.raw_tum import TumWriter, tum_depth
+from core.capture.source import SourceInfo
+from core.capture.tum import TumFolder
+from core.errors import OutputExists, OutputNotWritable
+from core.types import Frame
+from tests.capture.oni_samples import HEIGHT, WIDTH, color_picture, depth_picture
+
+CAMERA = Camera(52.0, 53.0, 31.0, 23.0, WIDTH, HEIGHT, origin="file")
+INFO = SourceInfo("Xtion Pro Live", CAMERA, True, None, 30.0)
+
+
+def frames() -> list[Frame]:
+    return [Frame(i, 10.0 + i / 30.0, color_picture(i), None if i == 2 else depth_picture(i), 1e-3) for i in range(5)]
+
+
+def test_the_reader_gives_the_same_pictures_back(tmp_path: Path) -> None:
+    path = tmp_path / "deep" / "take"
+    with TumWriter(path, INFO) as writer:
+        for frame in frames():
+            writer.append_frame(frame)
+        assert len(writer) == 5
+    folder = TumFolder(path)
+    assert folder.info.camera == CAMERA
+    back = list(folder.frames())
+    assert len(back) == 5
+    for read, written in zip(back, frames(), strict=True):
+        assert np.array_equal(read.color_rgb, written.color_rgb)
+        assert read.timestamp_s == pytest.approx(written.timestamp_s, abs=1e-6)
+        assert (read.depth_raw is None) == (written.depth_raw is None)
+        if read.depth_raw is not None and written.depth_raw is not None:
+            assert np.array_equal(read.depth_raw, written.depth_raw * 5)
+            assert read.depth_raw[0, 0] * read.depth_unit_m == pytest.approx(written.depth_raw[0, 0] * 1e-3)
+
+
+def test_the_files_are_what_the_format_says(tmp_path: Path) -> None:
+    with TumWriter(tmp_path / "take", INFO) as writer:
+        writer.append_frame(frames()[0])
+    lines = [line for line in (tmp_path / "take" / "depth.txt").read_text().splitlines() if not line.startswith("#")]
+    assert lines == ["10.000000 depth/10.000000.png"]
+    depth = cv2.imread(str(tmp_path / "take" / "depth" / "10.000000.png"), cv2.IMREAD_UNCHANGED)
+    assert depth is not None
+    assert depth.dtype == np.uint16
+    assert read_camera_info(tmp_path / "take" / "camera_info.yaml").camera.fx_px == 52.0
+
+
+@pytest.mark.parametrize(
+    ("unit_m", "raw", "expected"), [(1e-3, 13107, 65535), (1e-3, 13108, 0), (1e-4, 3, 2), (2e-4, 7, 7)]
+)
+def test_depth_in_the_counts_of_the_format(unit_m: float, raw: int, expected: int) -> None:
+    assert tum_depth(np.full((1, 1), raw, np.uint16), unit_m)[0, 0] == expected
+
+
+def test_nothing_is_overwritten_and_nothing_left(tmp_path: Path) -> None:
+    (tmp_path / "take").mkdir()
+    with pytest.raises(OutputExists):
+        TumWriter(tmp_path / "take", INFO)
+    (tmp_path / "file").touch()
+    with pytest.raises(OutputNotWritable):
+        TumWriter(tmp_path / "file" / "take", INFO)
+    writer = TumWriter(tmp_path / "other", INFO)
+    writer.discard()
+    writer.close()
+    assert sorted(entry.name for entry in tmp_path.iterdir()) == ["file", "take"]

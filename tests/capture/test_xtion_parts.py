@@ -1,0 +1,270 @@
+"""The parts of the capture path that need no library: pairing, frames from pictures, faults from the system's facts."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from core.camera import Camera
+from core.capture import xtion_opening
+from core.capture.openni2 import CallFailed, Picture, PixelFormat, Sensor, VideoMode
+from core.capture.xtion_assembly import Assembler, Layout, camera_of_view, fitted_camera
+from core.capture.xtion_pairing import TOLERANCE_US, NearestPairing, Stamped
+from core.capture.xtion_process import agreed_size
+from core.capture.xtion_usb import UsbCamera, usb_cameras
+from core.errors import CameraBusy, CameraMissing, CameraPermission, CarpusFault, DriverFailed
+
+PERIOD_US = 33_333
+
+
+def paired(events: list[tuple[str, int]], limit: int = 4) -> list[tuple[int, int | None]]:
+    """Times of colour pictures and their depth, fed in this order."""
+    pairing = NearestPairing[str](PERIOD_US, limit=limit)
+    out = []
+    for kind, time_us in events:
+        out += (pairing.add_color if kind == "color" else pairing.add_depth)(Stamped(time_us, 1, kind))
+    out += pairing.finish()
+    return [(color.timestamp_us, depth.timestamp_us if depth else None) for color, depth in out]
+
+
+def test_streams_that_are_half_a_period_apart() -> None:
+    events = [event for i in range(5) for event in (("color", i * PERIOD_US), ("depth", i * PERIOD_US + 15_000))]
+    assert paired(events) == [(i * PERIOD_US, i * PERIOD_US + 15_000) for i in range(5)]
+
+
+def test_a_near_depth_is_not_waited_past() -> None:
+    pairing = NearestPairing[str](PERIOD_US)
+    assert pairing.add_color(Stamped(100_000, 1, "")) == []
+    assert len(pairing.add_depth(Stamped(98_000, 1, ""))) == 1
+
+
+def test_an_early_depth_waits_for_a_nearer_one() -> None:
+    assert paired([("depth", 82_000), ("color", 100_000), ("depth", 104_000)]) == [(100_000, 104_000)]
+
+
+def test_far_depth_is_no_depth() -> None:
+    assert paired([("color", 0), ("depth", TOLERANCE_US + 1), ("color", 90_000)]) == [(0, None), (90_000, None)]
+
+
+def test_no_colour_picture_waits_longer_than_the_limit() -> None:
+    pairing = NearestPairing[str](PERIOD_US, limit=3)
+    out = [pair for i in range(10) for pair in pairing.add_color(Stamped(i * PERIOD_US, i, ""))]
+    assert [color.number for color, _ in out] == list(range(7))
+
+
+@given(
+    st.lists(st.integers(1, 50_000), min_size=1, max_size=30),
+    st.lists(st.integers(1, 50_000), min_size=0, max_size=30),
+    st.integers(-20_000, 20_000),
+)
+def test_every_colour_once_in_order_every_depth_at_most_once(color: list[int], depth: list[int], shift: int) -> None:
+    events = [("color", int(t)) for t in np.cumsum(color)] + [("depth", int(t) + shift) for t in np.cumsum(depth)]
+    pairs = paired(sorted(events, key=lambda event: event[1]), limit=100)
+    assert [time_us for time_us, _ in pairs] == [int(t) for t in np.cumsum(color)]
+    used = [partner for _, partner in pairs if partner is not None]
+    assert len(used) == len(set(used))
+    assert used == sorted(used)
+    assert all(abs(time_us - partner) <= TOLERANCE_US for time_us, partner in pairs if partner is not None)
+
+
+def color_of(value: int) -> np.ndarray:
+    return np.full((4, 6, 3), value, np.uint8)
+
+
+def test_gaps_and_clocks_that_begin_anew() -> None:
+    layout = Layout((6, 4), None)
+    assembler = Assembler(layout, PERIOD_US, 4)
+    frames = []
+    for number, time_us in ((1, 0), (2, PERIOD_US), (5, 4 * PERIOD_US), (6, 4 * PERIOD_US)):
+        frames += assembler.color(time_us, number, color_of(number))
+    assert [frame.dropped_before for frame in frames] == [0, 0, 2]
+    assembler.restart(layout, first_us=7_000, away_us=1_000_000)
+    frames += assembler.color(7_000, 1, color_of(9))
+    frames += assembler.color(7_000 + PERIOD_US, 2, color_of(10))
+    assert [frame.index for frame in frames] == [0, 1, 2, 3, 4]
+    times_s = np.array([frame.timestamp_s for frame in frames])
+    assert np.diff(times_s) == pytest.approx([0.033333, 0.099999, 1.0, 0.033333])
+    assert [frame.dropped_before for frame in frames[3:]] == [29, 0]
+
+
+def test_missing_numbers_count_even_when_times_do_not_tell() -> None:
+    assembler = Assembler(Layout((6, 4), None), 1e6, 4)
+    frames = assembler.color(0, 1, color_of(1)) + assembler.color(PERIOD_US, 4, color_of(2))
+    assert frames[1].dropped_before == 2
+
+
+def test_pictures_are_copies() -> None:
+    view = color_of(3)
+    (frame,) = Assembler(Layout((6, 4), None), PERIOD_US, 4).color(0, 1, view)
+    view[:] = 0
+    assert (frame.color_rgb == 3).all()
+
+
+@pytest.mark.parametrize("mirrored", [False, True])
+def test_depth_is_enlarged_without_inventing_any(mirrored: bool) -> None:
+    layout = Layout((8, 6), (4, 3), False, mirrored)
+    small = np.arange(12, dtype=np.uint16).reshape(3, 4)
+    large = layout.depth(small)
+    assert large.shape == (6, 8)
+    expected = small[:, ::-1] if mirrored else small
+    assert (large == expected.repeat(2, 0).repeat(2, 1)).all()
+    assert layout.enlarged == "depth from 4x3 to 8x6"
+    assert layout.misfit() == ""
+
+
+def test_sizes_that_do_not_fit() -> None:
+    assert Layout((640, 480), (320, 200)).misfit() == "colour 640x480, depth 320x200"
+    assert Layout((160, 120), (640, 480)).misfit() != ""
+    assert Layout((640, 480), (640, 480)).misfit() == ""
+
+
+def test_intrinsics_from_the_field_of_view() -> None:
+    # the angles an Asus Xtion tells: f = 570.34 px
+    camera = camera_of_view((640, 480), (1.02260, 0.79662))
+    assert camera is not None
+    assert camera.fx_px == pytest.approx(570.34, abs=0.05)
+    assert camera.fy_px == pytest.approx(570.34, abs=0.05)
+    assert (camera.cx_px, camera.cy_px, camera.origin) == (319.5, 239.5, "driver")
+    assert camera_of_view((640, 400), None) is None
+
+
+@given(st.floats(-1.0, 1.0), st.floats(-1.0, 1.0))
+def test_a_point_keeps_its_place_in_an_enlarged_picture(x: float, y: float) -> None:
+    small = Camera(262.5, 263.0, 159.1, 120.3, 320, 240)
+    large = fitted_camera(small, (640, 480))
+    assert large is not None
+    point = np.array([x, y, 2.0])
+    # pixel u of the small picture covers 2u and 2u + 1 of the large one
+    assert large.project(point) == pytest.approx(2.0 * small.project(point) + 0.5, abs=1e-9)
+
+
+MODE = VideoMode(PixelFormat.RGB888, 64, 48, 30)
+
+
+def picture(**changes: int | bool) -> Picture:
+    values: dict[str, int | bool] = {
+        "sensor": Sensor.COLOR,
+        "index": 1,
+        "timestamp_us": 1,
+        "width_px": 64,
+        "height_px": 48,
+        "stride_bytes": 192,
+        "pixel_format": PixelFormat.RGB888,
+        "is_cropped": False,
+        "size_bytes": 9216,
+        "address": 4096,
+    }
+    return Picture(**{**values, **changes})  # type: ignore[arg-type]
+
+
+def test_a_whole_picture_may_be_read() -> None:
+    assert agreed_size(picture(), MODE) == 9216
+
+
+@pytest.mark.parametrize(
+    "changes",
+    [
+        {"size_bytes": 9215},
+        {"size_bytes": 614392},
+        {"width_px": 60000, "height_px": 60000},
+        {"stride_bytes": 64},
+        {"pixel_format": PixelFormat.YUV422},
+        {"pixel_format": 12345},
+        {"is_cropped": True},
+        {"address": 0},
+        {"height_px": 47},
+    ],
+)
+def test_memory_of_any_other_picture_is_not_touched(changes: dict[str, int]) -> None:
+    assert agreed_size(picture(**changes), MODE) is None
+
+
+def test_a_stream_of_unknown_pixels_is_not_read() -> None:
+    assert agreed_size(picture(pixel_format=999), VideoMode(999, 64, 48, 30)) is None
+
+
+def plugged_in(root: Path, product: str = "0601", *, mode: int = 0o666, driver: str | None = None) -> Path:
+    """A made-up bus with one camera; the folder of device nodes."""
+    device = root / "sys" / "1-2"
+    (device / "1-2:1.0").mkdir(parents=True)
+    for name, text in (
+        ("idVendor", "1d27"),
+        ("idProduct", product),
+        ("busnum", "1"),
+        ("devnum", "7"),
+        ("speed", "480"),
+    ):
+        (device / name).write_text(text + "\n")
+    if driver:
+        target = root / "drivers" / driver
+        target.mkdir(parents=True)
+        (device / "1-2:1.0" / "driver").symlink_to(target)
+    node = root / "dev" / "001" / "007"
+    node.parent.mkdir(parents=True)
+    node.touch()
+    node.chmod(mode)
+    other = root / "sys" / "usb1"
+    other.mkdir()
+    (other / "idVendor").write_text("1d6b\n")
+    return root / "dev"
+
+
+def test_the_camera_on_the_bus(tmp_path: Path) -> None:
+    nodes = plugged_in(tmp_path, driver="usbfs")
+    (camera,) = usb_cameras(tmp_path / "sys", nodes)
+    assert camera == UsbCamera("Asus Xtion Pro Live", "0601", nodes / "001" / "007", 480, True, True)
+
+
+def test_other_devices_and_other_systems(tmp_path: Path) -> None:
+    nodes = plugged_in(tmp_path, product="9999")
+    assert usb_cameras(tmp_path / "sys", nodes) == []
+    assert usb_cameras(tmp_path / "nowhere", nodes) == []
+
+
+def seen(**changes: bool) -> UsbCamera:
+    values = {"may_open": True, "is_claimed": False, **changes}
+    return UsbCamera("Asus Xtion Pro Live", "0601", Path("/dev/bus/usb/001/007"), 480, **values)
+
+
+@pytest.mark.parametrize(
+    ("cameras", "reason", "fault"),
+    [
+        ([], "no devices found", CameraMissing),
+        ([seen(may_open=False)], "Failed to open the USB device!", CameraPermission),
+        ([seen(is_claimed=True)], "Error!", CameraBusy),
+        ([seen()], 'Could not open "1d27/0601@3/4": Failed to set USB interface!', CameraBusy),
+        ([seen()], "USB transfer timeout!", DriverFailed),
+    ],
+)
+def test_why_a_camera_could_not_be_opened(
+    cameras: list[UsbCamera], reason: str, fault: type[CarpusFault], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(xtion_opening, "usb_cameras", lambda: cameras)
+    failed = xtion_opening._why_not_opened(CallFailed("oniDeviceOpen", 1, reason))
+    assert failed.fault is fault
+
+
+@pytest.mark.parametrize(
+    ("cameras", "fault"),
+    [([], CameraMissing), ([seen(may_open=False)], CameraPermission), ([seen()], DriverFailed)],
+)
+def test_why_the_driver_lists_no_camera(
+    cameras: list[UsbCamera], fault: type[CarpusFault], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(xtion_opening, "usb_cameras", lambda: cameras)
+    assert xtion_opening._no_camera().fault is fault
+
+
+def test_the_modes_of_an_xtion() -> None:
+    offered = [
+        VideoMode(code, width, height, fps)
+        for code in (PixelFormat.RGB888, PixelFormat.YUV422)
+        for width, height, fps in ((320, 240, 30), (320, 240, 60), (640, 480, 30), (1280, 1024, 30))
+    ]
+    best = xtion_opening.choose_mode(offered, PixelFormat.RGB888, (640, 480), 30)
+    assert best == VideoMode(PixelFormat.RGB888, 640, 480, 30)
+    assert xtion_opening.choose_mode(offered, PixelFormat.DEPTH_1_MM, (640, 480), 30) is None

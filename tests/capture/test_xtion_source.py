@@ -1,0 +1,236 @@
+"""The live path against the library's own dummy device: threads, times, stop, restart, loss and return."""
+
+from __future__ import annotations
+
+import math
+import os
+import signal
+import threading
+import time
+from collections.abc import Iterator
+from itertools import islice, pairwise
+
+import pytest
+
+from core.camera import Camera
+from core.capture.xtion import XtionSource
+from core.capture.xtion_messages import CameraPlan
+from core.errors import (
+    CameraFileUnreadable,
+    CameraLost,
+    CameraMissing,
+    CameraReturned,
+    CarpusFault,
+    DepthNotRegistered,
+    DriverFailed,
+    DriverMissing,
+)
+from core.types import Frame
+
+PERIOD_S = 0.033
+
+
+@pytest.fixture
+def told() -> list[CarpusFault]:
+    return []
+
+
+@pytest.fixture
+def camera(told: list[CarpusFault]) -> Iterator[XtionSource]:
+    source = XtionSource(uri="Dummy", notice=told.append)
+    yield source
+    source.close()
+
+
+def blow(source: XtionSource, how: signal.Signals) -> None:
+    assert source._process.pid is not None
+    os.kill(source._process.pid, how)
+
+
+def assert_rising(frames: list[Frame]) -> None:
+    assert [frame.index for frame in frames] == list(range(len(frames)))
+    assert all(later.timestamp_s > earlier.timestamp_s for earlier, later in pairwise(frames))
+
+
+def test_frames_of_a_running_camera(camera: XtionSource, told: list[CarpusFault]) -> None:
+    frames = list(islice(camera.frames(), 20))
+    assert_rising(frames)
+    for frame in frames:
+        assert frame.color_rgb.shape == (240, 320, 3)
+        assert frame.depth_raw is not None
+        assert frame.depth_raw.shape == (240, 320)
+        assert frame.depth_unit_m == 1e-3
+        assert not frame.color_rgb.flags.writeable
+    for earlier, later in pairwise(frames):
+        # in the device's own time, whatever the computer was busy with
+        missing = later.dropped_before
+        assert later.timestamp_s - earlier.timestamp_s == pytest.approx((missing + 1) * PERIOD_S, abs=1e-6)
+    assert [type(fault) for fault in told] == [DepthNotRegistered]
+
+
+def test_facts_about_a_camera(camera: XtionSource) -> None:
+    info = camera.info
+    assert (info.name, info.frame_count, info.nominal_fps, info.has_depth) == ("Dummy", None, 30.0, True)
+    assert info.camera.origin == "default"
+    assert (info.camera.width_px, info.camera.height_px, info.camera.fx_px) == (320, 240, 262.5)
+    assert info.settings["color_mode"] == "320x240 RGB888 30 fps"
+    assert info.settings["depth_mode"] == "320x240 DEPTH_1_MM 30 fps"
+    assert info.settings["registered"] == "no"
+    assert info.settings["library"].startswith("OpenNI2 2.")
+
+
+def test_stop_and_start_again() -> None:
+    for _ in range(4):
+        source = XtionSource(uri="Dummy")
+        assert_rising(list(islice(source.frames(), 3)))
+        source.close()
+        source.close()
+        assert list(source.frames()) == []
+
+
+def test_frames_may_be_asked_for_again(camera: XtionSource) -> None:
+    first = list(islice(camera.frames(), 3))
+    second = list(islice(camera.frames(), 3))
+    assert_rising(first + second)
+
+
+def test_closing_ends_the_frames_of_another_thread(camera: XtionSource) -> None:
+    count = 0
+    started = threading.Event()
+
+    def read() -> None:
+        nonlocal count
+        for _ in camera.frames():
+            count += 1
+            started.set()
+
+    reader = threading.Thread(target=read)
+    reader.start()
+    assert started.wait(20.0)
+    camera.close()
+    reader.join(5.0)
+    assert not reader.is_alive()
+    assert count >= 1
+
+
+def test_what_a_slow_reader_misses_is_counted(camera: XtionSource) -> None:
+    frames = []
+    for frame in camera.frames():
+        frames.append(frame)
+        if len(frames) == 2:
+            time.sleep(0.8)
+        if len(frames) == 12:
+            break
+    assert_rising(frames)
+    lost = sum(frame.dropped_before for frame in frames)
+    spanned = round((frames[-1].timestamp_s - frames[0].timestamp_s) / PERIOD_S) + 1
+    assert lost > 5
+    assert spanned == len(frames) + lost
+
+
+@pytest.mark.parametrize("how", [signal.SIGSEGV, signal.SIGSTOP])
+def test_a_lost_camera_comes_back(
+    camera: XtionSource, told: list[CarpusFault], how: signal.Signals, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("core.capture.xtion.ANSWER_S", 2.0)
+    frames = []
+    for frame in camera.frames():
+        frames.append(frame)
+        if len(frames) == 5:
+            blow(camera, how)
+        if len(frames) == 30 and CameraReturned in map(type, told):
+            break
+    assert_rising(frames[:30])
+    assert [type(fault) for fault in told] == [DepthNotRegistered, CameraLost, CameraReturned]
+    assert "SIGSEGV" in told[1].detail or "no answer" in told[1].detail
+    steps_s = [later.timestamp_s - earlier.timestamp_s for earlier, later in pairwise(frames)]
+    away = max(range(len(steps_s)), key=steps_s.__getitem__)
+    # the gap is the time that really passed, and the frames missing in it are counted
+    assert steps_s[away] > 2 * PERIOD_S
+    assert frames[away + 1].dropped_before == round(steps_s[away] / (1 / 30)) - 1
+
+
+def test_a_camera_lost_before_anyone_looked_comes_back_too(camera: XtionSource, told: list[CarpusFault]) -> None:
+    blow(camera, signal.SIGKILL)
+    assert_rising(list(islice(camera.frames(), 3)))
+    assert [type(fault) for fault in told] == [DepthNotRegistered, CameraLost, CameraReturned]
+
+
+def test_a_camera_that_stays_away_is_a_fault(
+    camera: XtionSource, told: list[CarpusFault], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("core.capture.xtion.RETRY_S", 0.05)
+    camera._patience_s = 0.1
+    frames = camera.frames()
+    next(frames)
+    camera._plan = CameraPlan("1d27/0601@9/9")
+    blow(camera, signal.SIGKILL)
+    with pytest.raises(CameraLost):
+        list(frames)
+    assert [type(fault) for fault in told] == [DepthNotRegistered, CameraLost]
+
+
+def test_a_camera_that_only_crashes_is_given_up(camera: XtionSource, monkeypatch: pytest.MonkeyPatch) -> None:
+    def crash() -> Iterator[Frame]:
+        raise DriverFailed("Dummy", "SIGSEGV")
+        yield
+
+    monkeypatch.setattr(camera, "_run", crash)
+    monkeypatch.setattr(camera, "_wait_for_return", lambda lost: 0.0)
+    with pytest.raises(DriverFailed):
+        list(camera.frames())
+
+
+def test_closing_ends_the_wait_for_a_lost_camera(camera: XtionSource) -> None:
+    frames = camera.frames()
+    next(frames)
+    camera._plan = CameraPlan("1d27/0601@9/9")
+    blow(camera, signal.SIGKILL)
+    reader = threading.Thread(target=lambda: list(frames))
+    reader.start()
+    camera.close()
+    reader.join(10.0)
+    assert not reader.is_alive()
+
+
+def test_no_camera_is_a_fault() -> None:
+    with pytest.raises(CameraMissing):
+        XtionSource(uri="1d27/0601@9/9")
+    with pytest.raises(CameraMissing):
+        XtionSource()
+
+
+def test_no_library_is_a_fault_and_not_waited_for(camera: XtionSource, monkeypatch: pytest.MonkeyPatch) -> None:
+    def without() -> Iterator[Frame]:
+        raise DriverMissing("libOpenNI2.so.0")
+        yield
+
+    monkeypatch.setattr(camera, "_run", without)
+    with pytest.raises(DriverMissing):
+        list(camera.frames())
+
+
+def test_exposure_that_cannot_be_held_is_told(camera: XtionSource) -> None:
+    assert camera.exposure_locked is False
+    frames = camera.frames()
+    next(frames)
+    camera.lock_exposure()
+    for _ in islice(frames, 10):
+        if camera.exposure_locked is None:
+            break
+    assert camera.exposure_locked is None
+
+
+def test_measured_intrinsics_are_used(told: list[CarpusFault]) -> None:
+    measured = Camera(530.0, 531.0, 318.0, 241.0, distortion=(0.1, 0.0, 0.0, 0.0, 0.0), origin="file")
+    source = XtionSource(uri="Dummy", camera=measured)
+    found = source.info.camera
+    source.close()
+    assert (found.fx_px, found.cx_px, found.cy_px) == (265.0, (318.5 / 2) - 0.5, (241.5 / 2) - 0.5)
+    assert (found.distortion, found.origin) == (measured.distortion, "file")
+    with pytest.raises(CameraFileUnreadable):
+        XtionSource(uri="Dummy", camera=Camera(500.0, 500.0, 320.0, 256.0, 640, 512))
+
+
+def test_the_wait_has_no_end_by_default(camera: XtionSource) -> None:
+    assert camera._patience_s == math.inf
