@@ -38,7 +38,7 @@ def components(mask: ByteImage, radius_at: Callable[[FloatArray], FloatArray]) -
     area = stats[:, cv2.CC_STAT_AREA].astype(np.float64)
     for whole, own, facts in split_touching(labels, stats, radius):
         centre[whole], area[whole] = facts[0, :2], facts[0, 2]
-        label = np.concatenate((label, own[1:].astype(np.int64)))
+        label = np.concatenate((label, own[1:]))
         centre = np.concatenate((centre, facts[1:, :2]))
         area = np.concatenate((area, facts[1:, 2]))
         radius = np.concatenate((radius, np.full(len(own) - 1, radius[whole])))

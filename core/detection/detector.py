@@ -11,14 +11,17 @@ from numpy.typing import NDArray
 from core.camera import Camera
 from core.detection import color_histogram
 from core.detection.appearance import MarkerAppearance, paper_mask
-from core.detection.blobs import EDGE_REACH_PX, blob_depths, refined_centres, windows_around
+from core.detection.blobs import Outline, blob_depths, outlines, refined_centres
 from core.detection.components import Components, components
 from core.detection.settings import DetectionSettings
+from core.detection.stencil import stencil_for, window_pixels
 from core.types import ByteImage, Detections, FloatArray, Frame
 
 _COARSE = 4
 """The hand's region is looked for in a picture this many times smaller."""
 _SIMILARITY_BINS = 16
+_SATURATION_SHIFT = 3  # 256 levels to 32 bins
+_SKIN_LEVEL = 128
 
 
 @dataclass(frozen=True, slots=True)
@@ -47,6 +50,9 @@ class Detector:
         self._settings = settings
         coarse = looks.paper_histogram.reshape(_SIMILARITY_BINS, 2, _SIMILARITY_BINS, 2).sum(axis=(1, 3))
         self._reference = np.sqrt(coarse.ravel())
+        self._is_skin = looks.skin_lookup.ravel() >= _SKIN_LEVEL
+        bins = color_histogram.BINS
+        self._hue_bin = np.minimum(np.arange(256) * bins // 180, bins - 1)
 
     def region_about(self, pixel: FloatArray, covariance_px2: FloatArray, depth_m: FloatArray) -> Region:
         """Rectangle that holds all predicted discs (M, 2) with their uncertainty (M, 2, 2)."""
@@ -99,38 +105,39 @@ class Detector:
     ) -> Detections:
         settings, labels = self._settings, blobs.labels
         own, rough_px = blobs.label[fits], blobs.centre_px[fits]
-        similarity = self._similarity(hsv, labels, own)
-        radius = float(np.median(blobs.radius_px[fits]))
-        windows = windows_around(rough_px, max(int(np.ceil(1.9 * radius)), EDGE_REACH_PX), labels.shape)
-        cut_labels = np.asarray(windows.cut(labels))
-        cut_color = np.asarray(windows.cut(color), dtype=np.float32)
-        centre, area, rim, core = refined_centres(
-            cut_color, cut_labels.astype(np.int32), own.astype(np.int32), windows, rough_px, radius
-        )
-        skin = color_histogram.back_project(hsv, self._looks.skin_lookup)
-        on_skin = (np.asarray(windows.cut(skin)) >= 128) & rim
-        skin_share = on_skin.sum(axis=(1, 2)) / np.maximum(rim.sum(axis=(1, 2)), 1)
-        corner = np.array([region.left, region.top], dtype=np.float64)
+        stencil = stencil_for(float(np.median(blobs.radius_px[fits])))
+        pixels, inside, middle = window_pixels(stencil, rough_px, labels.shape)
+        outline = outlines(labels.reshape(-1)[pixels], own, inside, stencil)
+        similarity, skin_share = self._likeness(hsv.reshape(-1, 3)[pixels], outline)
+        window = color.reshape(-1, 3)[pixels].astype(np.float32)
+        offset, area = refined_centres(window, outline, inside, stencil)
+        centre = middle + offset + (region.left, region.top)
         if frame.depth_raw is None:
             depth = np.full(own.size, np.nan)
             depth_sd = depth
         else:
             raw = frame.depth_raw[region.top : region.bottom, region.left : region.right]
-            depth, depth_sd = blob_depths(np.asarray(windows.cut(raw)), core, frame.depth_unit_m, settings)
+            depth, depth_sd = blob_depths(raw.reshape(-1)[pixels], outline.core, frame.depth_unit_m, stencil, settings)
         keep = (similarity >= self._looks.least_similarity) & (skin_share >= settings.skin_share)
-        return Detections((centre + corner)[keep], depth[keep], depth_sd[keep], area[keep], similarity[keep])
+        return Detections(centre[keep], depth[keep], depth_sd[keep], area[keep], similarity[keep])
 
-    def _similarity(self, hsv: ByteImage, labels: NDArray[np.uint16], own: NDArray[np.int64]) -> FloatArray:
-        """Bhattacharyya coefficient (B,) of each blob's histogram to the reference."""
-        row, column = np.nonzero(labels)
-        label = labels[row, column].astype(np.int64)
-        pixels = hsv[row, column]
-        bins = _SIMILARITY_BINS
-        hue = np.minimum(pixels[:, 0].astype(np.int64) * bins // 180, bins - 1)
-        cell = hue * bins + pixels[:, 1].astype(np.int64) * bins // 256
-        total = int(label.max()) + 1
-        counts = np.bincount(label * bins * bins + cell, minlength=total * bins * bins).reshape(total, -1)[own]
-        return np.asarray(np.sqrt(counts / counts.sum(axis=1, keepdims=True)) @ self._reference)
+    def _likeness(self, hsv: ByteImage, outline: Outline) -> tuple[FloatArray, FloatArray]:
+        """Bhattacharyya coefficient (B,) of each blob's colours to the reference; share (B,) of skin in its rim.
+
+        ``hsv`` (B, P, 3) windows.
+        """
+        bins = color_histogram.BINS
+        hue = self._hue_bin[hsv[..., 0]]
+        saturation = hsv[..., 1] >> _SATURATION_SHIFT
+        skin = self._is_skin[hue * bins + saturation] & outline.rim
+        skin_share = skin.sum(axis=1) / np.maximum(outline.rim.sum(axis=1), 1)
+        coarse = (hue >> 1) * _SIMILARITY_BINS + (saturation >> 1)
+        blob, pixel = np.nonzero(outline.mine)
+        cells = _SIMILARITY_BINS**2
+        total = hsv.shape[0]
+        counts = np.bincount(blob * cells + coarse[blob, pixel], minlength=total * cells).reshape(total, cells)
+        shares = counts / np.maximum(counts.sum(axis=1, keepdims=True), 1)
+        return np.asarray(np.sqrt(shares) @ self._reference), np.asarray(skin_share)
 
     def _hand_region(self, color_rgb: ByteImage) -> Region | None:
         """Rectangle about the skin and paper of the largest hand-like region, None when there is no paper."""
@@ -139,7 +146,7 @@ class Detector:
         paper = color_histogram.back_project(hsv, self._looks.paper_lookup) >= 96
         if not paper.any():
             return None
-        skin = color_histogram.back_project(hsv, self._looks.skin_lookup) >= 128
+        skin = color_histogram.back_project(hsv, self._looks.skin_lookup) >= _SKIN_LEVEL
         near_skin = cv2.dilate(skin.astype(np.uint8), np.ones((7, 7), np.uint8)) > 0
         row, column = np.nonzero(paper & near_skin)
         if row.size == 0:

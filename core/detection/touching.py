@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -17,14 +19,14 @@ MOST_PARTS = 4
 
 def split_touching(
     labels: NDArray[np.uint16], stats: NDArray[np.int32], radius_px: FloatArray
-) -> list[tuple[int, FloatArray, FloatArray]]:
+) -> list[tuple[int, NDArray[np.int64], FloatArray]]:
     """Take apart the blobs that are longer than a disc; ``labels`` (H, W) is changed in place.
 
     ``stats`` (L, 5) left, top, width, height, area of every label, ``radius_px`` (L,) of a disc at its depth.
     Returns per split blob its label, the parts' labels (P,) and their centres and areas (P, 3): u, v, area;
     the first part keeps the label.
     """
-    out: list[tuple[int, FloatArray, FloatArray]] = []
+    out: list[tuple[int, NDArray[np.int64], FloatArray]] = []
     following = int(stats.shape[0])
     longest = np.maximum(stats[:, 2], stats[:, 3])
     for label in np.flatnonzero(longest > _LONG_SIDE * radius_px):
@@ -40,33 +42,35 @@ def split_touching(
         own = np.array([label, *range(following, following + parts.max())])
         following += int(parts.max())
         labels[row + top, column + left] = own[parts]
-        facts = [
-            (*points[parts == p].mean(axis=0), float(np.count_nonzero(parts == p))) for p in range(parts.max() + 1)
-        ]
-        out.append((int(label), own.astype(np.float64), np.array(facts)))
+        area = np.bincount(parts).astype(np.float64)
+        places = [np.bincount(parts, points[:, axis]) / area for axis in (0, 1)]
+        out.append((int(label), own, np.column_stack((*places, area))))
     return out
 
 
 def _parts(points: FloatArray, radius_px: float) -> NDArray[np.int64] | None:
     """Part of every pixel (P, 2), or None for a blob that is one disc or much more than a few of them."""
-    centred = points - points.mean(axis=0)
-    variance, axes = np.linalg.eigh(centred.T @ centred / len(points))
-    if np.sqrt(variance[1]) <= _LONG_AXIS * radius_px:
+    centre = points.mean(axis=0)
+    centred = points - centre
+    (xx, xy), (_, yy) = centred.T @ centred / len(points)
+    half_gap = math.hypot(0.5 * (xx - yy), xy)
+    if math.sqrt(0.5 * (xx + yy) + half_gap) <= _LONG_AXIS * radius_px:
         return None
-    along = centred @ axes[:, 1]
-    reach = float(along.max() - along.min())
-    count = max(2, round((reach - 2.0 * radius_px) / (2.0 * radius_px)) + 1)
+    tilt = 0.5 * math.atan2(2.0 * xy, xx - yy)
+    axis = np.array([math.cos(tilt), math.sin(tilt)])
+    along = centred @ axis
+    low, high = float(along.min()), float(along.max())
+    count = max(2, round((high - low - 2.0 * radius_px) / (2.0 * radius_px)) + 1)
     if count > MOST_PARTS:
         return None
     if count == 2:
         # Two discs: the line between them crosses the main axis in the middle of the blob.
-        return np.asarray(along > 0.5 * (along.max() + along.min()), dtype=np.int64)
-    ends = np.linspace(along.min() + radius_px, along.max() - radius_px, count)
-    centre = points.mean(axis=0) + ends[:, None] * axes[:, 1]
+        return np.asarray(along > 0.5 * (high + low), dtype=np.int64)
+    middle = centre + np.linspace(low + radius_px, high - radius_px, count)[:, None] * axis
     part = np.zeros(len(points), dtype=np.int64)
     for _ in range(_ROUNDS):
-        part = np.linalg.norm(points[:, None] - centre[None], axis=-1).argmin(axis=1)
+        part = np.linalg.norm(points[:, None] - middle[None], axis=-1).argmin(axis=1)
         if np.bincount(part, minlength=count).min() == 0:
             return None
-        centre = np.array([points[part == p].mean(axis=0) for p in range(count)])
+        middle = np.array([points[part == p].mean(axis=0) for p in range(count)])
     return part
