@@ -80,6 +80,14 @@ def read_raw(path: Path) -> Iterator[RawPictures]:
             color_at, depth_at = color_to, depth_to
 
 
+def read_raw_color(path: Path, row: int) -> bytes:
+    """The colour picture kept of one row; no bytes where there is none."""
+    with open_session(path) as file:
+        color_end, color = _Source(path, file).array(schema.RAW_ENDS[0]), file[schema.RAW_STREAMS[0].path]
+        start = int(color_end[row - 1]) if row else 0
+        return bytes(color[start : int(color_end[row])].tobytes())
+
+
 @contextlib.contextmanager
 def open_session(path: Path) -> Iterator[h5py.File]:
     """The open file of a session that this version reads; whatever goes wrong inside is :class:`SessionUnreadable`."""

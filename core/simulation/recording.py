@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
+import contextlib
 import dataclasses
 import json
+import multiprocessing
 import os
 import shutil
 import tempfile
 from collections.abc import Callable, Iterator
-from concurrent.futures import Future, ThreadPoolExecutor
+from concurrent.futures import Future, ProcessPoolExecutor, ThreadPoolExecutor
 from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 
@@ -129,10 +131,11 @@ def clicks_json(clicks: Clicks) -> str:
     return json.dumps({"hand": clicks.side, "protocol": clicks.protocol.name, "markers": markers}, indent=2) + "\n"
 
 
-def simulate(spec: RecordingSpec, folder: Path, progress: Progress | None = None) -> Truth:
+def simulate(spec: RecordingSpec, folder: Path, progress: Progress | None = None, workers: int = 1) -> Truth:
     """Make the recording of a spec in ``folder``, which must not hold one yet, and return its true values.
 
-    Raises :class:`OutputExists` or :class:`OutputNotWritable`.
+    More than one of the ``workers`` render in processes of their own; the pictures are the same. Raises
+    :class:`OutputExists` or :class:`OutputNotWritable`.
     """
     try:
         folder.mkdir(parents=True, exist_ok=True)
@@ -146,27 +149,13 @@ def simulate(spec: RecordingSpec, folder: Path, progress: Progress | None = None
     truth = pictures.truth
     count = len(pictures)
     visible = np.empty_like(truth.visible_share)
-    lists: dict[str, list[str]] = {"rgb": [], "depth": []}
-    with ThreadPoolExecutor(2) as pool:
-        waiting: list[Future[None]] = []
-        for i in range(count):
-            clean = pictures.clean(i)
-            visible[i] = clean.visible_share
-            names = {
-                "rgb": f"rgb/{truth.timestamp_s[i]:.6f}.png",
-                "depth": f"depth/{RECORDING_EPOCH_S + pictures.times.depth_s[i]:.6f}.png",
-            }
-            for kind, name in names.items():
-                lists[kind].append(f"{Path(name).stem} {name}")
-            waiting.append(
-                pool.submit(_write_pictures, pictures, i, clean, folder / names["rgb"], folder / names["depth"])
-            )
-            if len(waiting) > 4:
-                waiting.pop(0).result()
+    with _rendering(pictures, folder, workers) as rendered:
+        for i, share in enumerate(rendered):
+            visible[i] = share
             if progress is not None:
                 progress(i + 1, count)
-        for future in waiting:
-            future.result()
+    files = [_files(pictures, i) for i in range(count)]
+    lists = {kind: [f"{Path(names[kind]).stem} {names[kind]}" for names in files] for kind in ("rgb", "depth")}
     truth = dataclasses.replace(truth, visible_share=visible)
     _write_lists(folder, lists)
     write_camera_info(folder / CAMERA_FILE, truth.camera, registered=True, mirrored=False)
@@ -181,7 +170,9 @@ def truth_in(spec: RecordingSpec, folder: Path) -> Truth:
     return dataclasses.replace(truth_of(Scene(spec)), visible_share=read_visible_share(folder / TRUTH_FILE))
 
 
-def cached_recording(spec: RecordingSpec, progress: Progress | None = None, cache: Path | None = None) -> Path:
+def cached_recording(
+    spec: RecordingSpec, progress: Progress | None = None, cache: Path | None = None, workers: int = 1
+) -> Path:
     """Folder with the recording of a spec, rendered only when the user's cache does not hold it yet."""
     root = Path(platformdirs.user_cache_dir("carpus", appauthor=False)) / "simulated" if cache is None else cache
     folder = root / spec.cache_key
@@ -190,7 +181,7 @@ def cached_recording(spec: RecordingSpec, progress: Progress | None = None, cach
     root.mkdir(parents=True, exist_ok=True)
     part = Path(tempfile.mkdtemp(prefix=f"{spec.cache_key}.", dir=root))
     try:
-        simulate(spec, part, progress)
+        simulate(spec, part, progress, workers)
         try:
             part.rename(folder)
         except OSError:
@@ -202,11 +193,63 @@ def cached_recording(spec: RecordingSpec, progress: Progress | None = None, cach
     return folder
 
 
-def _write_pictures(
-    pictures: SimulatedPictures, i: int, clean: CleanPicture, color_path: Path, depth_path: Path
-) -> None:
+@contextlib.contextmanager
+def _rendering(pictures: SimulatedPictures, folder: Path, workers: int) -> Iterator[Iterator[FloatArray]]:
+    """Renders and writes every frame; gives what was visible of each disc, frame by frame in order."""
+    if workers > 1:
+        with ProcessPoolExecutor(
+            workers, multiprocessing.get_context("spawn"), initializer=_begin_worker, initargs=(pictures.spec, folder)
+        ) as processes:
+            try:
+                yield processes.map(_render_in_worker, range(len(pictures)), chunksize=4)
+            finally:
+                processes.shutdown(cancel_futures=True)
+    else:
+        with ThreadPoolExecutor(2) as pool:
+            yield _rendered_ahead(pictures, folder, pool)
+
+
+def _rendered_ahead(pictures: SimulatedPictures, folder: Path, pool: ThreadPoolExecutor) -> Iterator[FloatArray]:
+    """The next frame is rendered while the sensor's noise is put on those before it."""
+    waiting: list[Future[None]] = []
+    for i in range(len(pictures)):
+        clean = pictures.clean(i)
+        waiting.append(pool.submit(_write_pictures, pictures, i, clean, folder))
+        if len(waiting) > 4:
+            waiting.pop(0).result()
+        yield clean.visible_share
+    for future in waiting:
+        future.result()
+
+
+_worker: list[tuple[SimulatedPictures, Path]] = []
+"""What a rendering process works on; empty everywhere else."""
+
+
+def _begin_worker(spec: RecordingSpec, folder: Path) -> None:
+    _worker.append((SimulatedPictures(spec), folder))
+
+
+def _render_in_worker(i: int) -> FloatArray:
+    pictures, folder = _worker[0]
+    clean = pictures.clean(i)
+    _write_pictures(pictures, i, clean, folder)
+    return clean.visible_share
+
+
+def _files(pictures: SimulatedPictures, i: int) -> dict[str, str]:
+    """Names of the pictures of a frame inside the folder."""
+    depth_s = RECORDING_EPOCH_S + pictures.times.depth_s[i]
+    return {"rgb": f"rgb/{pictures.truth.timestamp_s[i]:.6f}.png", "depth": f"depth/{depth_s:.6f}.png"}
+
+
+def _write_pictures(pictures: SimulatedPictures, i: int, clean: CleanPicture, folder: Path) -> None:
     color, depth = pictures.sensed(i, clean)
-    for path, picture in ((color_path, cv2.cvtColor(color, cv2.COLOR_RGB2BGR)), (depth_path, depth)):
+    files = _files(pictures, i)
+    for path, picture in (
+        (folder / files["rgb"], cv2.cvtColor(color, cv2.COLOR_RGB2BGR)),
+        (folder / files["depth"], depth),
+    ):
         is_coded, data = cv2.imencode(".png", picture, _PNG_LEVEL)
         if not is_coded:
             raise OutputNotWritable(path, "picture cannot be coded")

@@ -1,0 +1,122 @@
+"""Clicks to calibration, on the picture of a camera or on the first of a recording."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from typing import Protocol
+
+import numpy as np
+
+from core.calibration.calibrate import CalibrationOutcome, calibrate
+from core.calibration.candidates import disc_at, marker_candidates, snapped
+from core.calibration.result import Calibration, Clicks
+from core.camera import Camera
+from core.detection.appearance import expected_radius_px
+from core.hand.protocols import MarkerProtocol
+from core.pipeline.track import TrackSettings
+from core.types import Detections, FloatArray, Frame, Side
+from ui.ports import FoundMarker, Judged, VerdictLimits
+
+Begin = Callable[[CalibrationOutcome, Sequence[Frame]], None]
+"""Called with the chosen outcome and the pictures it was made from, the clicked one first."""
+
+
+class Pictures(Protocol):
+    """Where the calibration's pictures come from."""
+
+    @property
+    def is_live(self) -> bool: ...
+
+    def newest(self) -> Frame | None: ...
+
+    def still(self) -> Sequence[Frame]:
+        """The picture to click on, then its neighbours in time."""
+        ...
+
+
+class HandCalibrator:
+    """One calibration, from the held picture to the start of tracking."""
+
+    def __init__(
+        self,
+        pictures: Pictures,
+        camera: Camera,
+        side: Side,
+        protocol: MarkerProtocol,
+        settings: TrackSettings,
+        begin: Begin,
+    ) -> None:
+        self._pictures, self._camera, self._settings, self._begin = pictures, camera, settings, begin
+        self._side, self._protocol = side, protocol
+        self._held: Sequence[Frame] = ()
+        self._candidates = Detections.none()
+        self._outcomes: list[tuple[CalibrationOutcome, Sequence[Frame]]] = []
+
+    @property
+    def side(self) -> Side:
+        """Hand that is measured."""
+        return self._side
+
+    @property
+    def protocol(self) -> MarkerProtocol:
+        """Markers asked for."""
+        return self._protocol
+
+    @property
+    def limits(self) -> VerdictLimits:
+        """What the verdict is judged by."""
+        limits = self._settings.calibration
+        return VerdictLimits(
+            limits.least_distance_m, limits.most_tilt_deg, limits.most_residual_mm, limits.hand_length_mm
+        )
+
+    @property
+    def is_live(self) -> bool:
+        """Whether another picture can be taken."""
+        return self._pictures.is_live
+
+    @property
+    def held(self) -> Frame | None:
+        """The picture clicked on."""
+        return self._held[0] if self._held else None
+
+    def newest_frame(self) -> Frame | None:
+        """The picture of the moment."""
+        return self._pictures.newest()
+
+    def hold(self) -> Frame:
+        """Fix the picture, and find all blue discs on it, so that clicks snap at once."""
+        self._held = tuple(self._pictures.still())
+        self._candidates = marker_candidates(self._held[0], self._camera, self._settings.detection)
+        return self._held[0]
+
+    def hand_area(self) -> FloatArray | None:
+        """Box of the blue discs: corners (2, 2); None when hardly any is seen."""
+        if len(self._candidates) < len(self._protocol.palm):
+            return None
+        return np.stack((self._candidates.pixel.min(axis=0), self._candidates.pixel.max(axis=0)))
+
+    def marker_at(self, pixel: FloatArray) -> FoundMarker | None:
+        """The disc under or near a pixel."""
+        if not self._held:
+            return None
+        frame, detection = self._held[0], self._settings.detection
+        radius_px = expected_radius_px(frame, pixel, self._camera, detection)
+        found = snapped(self._candidates, pixel, radius_px)
+        if not len(found):
+            found = disc_at(frame, pixel, self._camera, detection)
+        if not len(found):
+            return None
+        return FoundMarker(found.pixel[0], 2.0 * float(np.sqrt(found.area_px[0] / np.pi)))
+
+    def judge(self, clicks: Clicks, start_angles_rad: FloatArray) -> Judged:
+        """Measure and judge; called in the background."""
+        held, settings = self._held, self._settings
+        outcome = calibrate(clicks, held, self._camera, settings.calibration, settings.detection, start_angles_rad)
+        self._outcomes.append((outcome, held))
+        return Judged(outcome.verdict, outcome.calibration)
+
+    def begin(self, calibration: Calibration) -> None:
+        """Start tracking from one of the calibrations judged here."""
+        outcome, held = next(pair for pair in reversed(self._outcomes) if pair[0].calibration is calibration)
+        self._begin(outcome, held)

@@ -1,0 +1,246 @@
+"""An open source with a patient before it: tracking begun from a calibration, recorded, smoothed and stored."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from contextlib import suppress
+from pathlib import Path
+from typing import Protocol
+
+import cv2
+import numpy as np
+
+from app import __version__
+from core.calibration.calibrate import CalibrationOutcome
+from core.calibration.result import Calibration
+from core.camera import Camera
+from core.capture.raw import SUFFIX as RAW_SUFFIX
+from core.capture.raw import RawWriter
+from core.capture.source import SourceInfo
+from core.errors import RecordingEmpty
+from core.pipeline.frame_walk import FrameWalk
+from core.pipeline.live import LiveSession
+from core.pipeline.track import Learnt, TrackSettings, build_walk, learnt_from, parameters_json, source_facts
+from core.session.values import Motion, motion_of, new_header
+from core.session.writer import SessionWriter
+from core.types import ByteImage, FloatArray, Frame, TrackedFrame
+from ui.ports import SetUp
+
+MARKERS_SUFFIX = ".markers.jpg"
+_AROUND_HAND = 0.6
+"""The picture of the markers reaches this share of their box beyond it."""
+
+
+class SessionPlaces(Protocol):
+    """Where sessions go, and who hears of a finished one."""
+
+    def new_path(self, set_up: SetUp) -> Path: ...
+
+    def entered(self, set_up: SetUp, path: Path) -> str:
+        """Take a finished file into the register; the session's identity."""
+        ...
+
+    def cut_short(self) -> None:
+        """Finish what a fault left behind, as far as possible."""
+        ...
+
+
+class LiveWalk:
+    """One frame's walk in the live session. Keeps what the smoother needs only while something is recorded."""
+
+    def __init__(self, walk: FrameWalk, neutral_ends_s: float) -> None:
+        self._walk = walk
+        self._neutral_ends_s = neutral_ends_s
+        self._begun = False
+        self.keeping = False
+
+    def __call__(self, frame: Frame) -> TrackedFrame:
+        """Track one frame; in the tracking thread."""
+        tracker = self._walk.tracker
+        if not self._begun and frame.timestamp_s > self._neutral_ends_s:
+            # The still frames made the calibration; counted twice they would make it too sure of itself.
+            tracker.begin_at_neutral()
+            self._begun = True
+        if not self.keeping:
+            tracker.history.clear()
+        return self._walk(frame)
+
+    def smoothed(self, timestamp_s: Sequence[float]) -> Motion | None:
+        """The smoother's result at the times of the rows; None where one of them was not kept."""
+        tracker = self._walk.tracker
+        moments = tracker.smoothed()
+        at = {step.timestamp_s: moment for step, moment in zip(tracker.history, moments, strict=False)}
+        if not timestamp_s or any(time_s not in at for time_s in timestamp_s):
+            return None
+        return motion_of([at[time_s] for time_s in timestamp_s])
+
+
+class SmoothedSession:
+    """A session file that is smoothed as its last step, in the writing thread."""
+
+    def __init__(self, writer: SessionWriter, walk: LiveWalk | None) -> None:
+        self._writer, self._walk = writer, walk
+        self._times_s: list[float] = []
+
+    @property
+    def path(self) -> Path:
+        """Where the finished file will be."""
+        return self._writer.path
+
+    def append(self, tracked: TrackedFrame) -> None:
+        """One row."""
+        self._writer.append(tracked)
+        self._times_s.append(tracked.timestamp_s)
+
+    def add_event(self, time_s: float, kind: str, text: str) -> None:
+        """One event; before the first picture there is no time to put it at."""
+        if np.isfinite(time_s):
+            self._writer.add_event(time_s, kind, text)
+
+    def close(self) -> None:
+        """Smooth and finish; a session without a single frame is none."""
+        if not self._times_s:
+            self._writer.discard()
+            raise RecordingEmpty(self.path.name)
+        motion = None if self._walk is None else self._walk.smoothed(self._times_s)
+        if motion is not None:
+            self._writer.write_smoothed(motion)
+        self._writer.close()
+
+    def abandon(self) -> None:
+        """Stop after a fault; what is on the disk stays."""
+        self._writer.abandon()
+
+    def discard(self) -> None:
+        """Remove the file again."""
+        self._writer.discard()
+
+
+class SourceMeasuring:
+    """A running source: from the chosen calibration to stored sessions, as many as wanted.
+
+    ``starts_with_recording``: a stored recording plays from its first picture when recording starts, so that none
+    is missed; a camera has been running since it was opened. ``let_go`` is called when tracking begins.
+    """
+
+    def __init__(
+        self,
+        session: LiveSession,
+        info: SourceInfo,
+        set_up: SetUp,
+        settings: TrackSettings,
+        places: SessionPlaces,
+        *,
+        starts_with_recording: bool = False,
+        let_go: Callable[[], None] = lambda: None,
+    ) -> None:
+        self._session, self._info, self._set_up, self._settings = session, info, set_up, settings
+        self._places, self._starts_with_recording, self._let_go = places, starts_with_recording, let_go
+        self._played = False
+        self._walk: LiveWalk | None = None
+        self._learnt: Learnt | None = None
+        self._calibration: Calibration | None = None
+        self._markers_rgb: ByteImage | None = None
+
+    @property
+    def feed(self) -> LiveSession:
+        """What the screen pulls."""
+        return self._session
+
+    @property
+    def camera(self) -> Camera:
+        """Intrinsics of the pictures."""
+        return self._info.camera
+
+    @property
+    def calibration(self) -> Calibration | None:
+        """The calibration tracked from, None before."""
+        return self._calibration
+
+    @property
+    def starts_with_recording(self) -> bool:
+        """Whether the source is a stored recording, which is recorded from its first picture to its last."""
+        return self._starts_with_recording
+
+    def begin(self, outcome: CalibrationOutcome, held: Sequence[Frame]) -> None:
+        """Track from a calibration; ``held`` are the pictures it was made from, the clicked one first."""
+        used = held[: max(outcome.capture_frames, 1)]
+        neutral_ends_s = max(frame.timestamp_s for frame in used)
+        self._learnt = learnt_from(outcome.noise, neutral_ends_s, self._settings.tracker)
+        walk = build_walk(outcome, self.camera, self._settings, self._learnt, keep_history=self._settings.smooth)
+        self._walk = LiveWalk(walk, neutral_ends_s)
+        self._calibration = outcome.calibration
+        self._markers_rgb = _around_hand(held[0].color_rgb, outcome.pixel)
+        self._session.begin_tracking(self._walk)
+        self._let_go()
+
+    def start_recording(self) -> None:
+        """Open the session file, and a raw recording beside it if wanted; waits for the disk."""
+        calibration, walk, learnt = self._calibration, self._walk, self._learnt
+        assert calibration is not None
+        assert walk is not None
+        assert learnt is not None
+        path = self._places.new_path(self._set_up)
+        header = new_header(
+            hand=calibration.clicks.side,
+            protocol=calibration.clicks.protocol,
+            software_version=__version__,
+            subject_id=self._set_up.pseudonym,
+            exercise=self._set_up.exercise.id,
+            parameters=parameters_json(self._settings, source_facts(self._info), learnt),
+            dip_free=self._settings.tracker.dip == "free",
+        )
+        smoothing = walk if self._settings.smooth else None
+        walk.keeping = True
+        try:
+            self._session.start_recording(
+                lambda: SmoothedSession(SessionWriter.create(path, header, self.camera, calibration), smoothing),
+                (lambda: RawWriter(path.with_suffix(RAW_SUFFIX), self._info)) if self._set_up.keep_pictures else None,
+            )
+        except BaseException:
+            walk.keeping = False
+            raise
+        if self._starts_with_recording and not self._played:
+            self._played = True
+            self._session.start()
+
+    def stop_recording(self) -> str:
+        """Store everything; the session's identity. A fault is raised once what reached the disk is finished."""
+        try:
+            path = self._session.stop_recording()
+        except RecordingEmpty:
+            raise
+        except Exception:
+            self._places.cut_short()
+            raise
+        finally:
+            if self._walk is not None:
+                self._walk.keeping = False
+        if self._markers_rgb is not None:
+            _keep_picture(path.with_suffix(MARKERS_SUFFIX), self._markers_rgb)
+        return self._places.entered(self._set_up, path)
+
+    def close(self) -> None:
+        """End the source; a running recording is finished."""
+        self._session.stop()
+
+
+def _around_hand(color_rgb: ByteImage, pixel: FloatArray) -> ByteImage | None:
+    """The picture about the markers, for the patient's card: the hand and nothing of the room."""
+    known = pixel[np.isfinite(pixel).all(axis=1)]
+    if not len(known):
+        return None
+    low, high = known.min(axis=0), known.max(axis=0)
+    margin = _AROUND_HAND * float((high - low).max())
+    left, top = (int(max(0.0, value - margin)) for value in low)
+    right, bottom = (int(value + margin) + 1 for value in high)
+    return np.ascontiguousarray(color_rgb[top:bottom, left:right])
+
+
+def _keep_picture(path: Path, color_rgb: ByteImage) -> None:
+    """A small picture beside the session; without it nothing is lost, so nothing is told."""
+    done, data = cv2.imencode(".jpg", cv2.cvtColor(color_rgb, cv2.COLOR_RGB2BGR))
+    if done:
+        with suppress(OSError):
+            path.touch(mode=0o600)
+            path.write_bytes(data.tobytes())

@@ -1,0 +1,107 @@
+"""The register of patients as the screens see it."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+from app.desktop.library import Library
+from core.errors import SessionUnreadable
+from core.output.report_content import SessionFigures, compare, progress
+from core.session import register
+from core.session.register import PatientRecord
+from ui.ports import PatientCard, PatientEntry, PatientRow, ResultLine, SessionRow
+from ui.report.tables import repetition_words
+
+_ENDS = ("arc",)
+"""Movements that the card leaves out: it shows the two ends, which the therapist trains."""
+
+
+class PatientShelf:
+    """:class:`ui.ports.PatientStore` over the library."""
+
+    def __init__(self, library: Library) -> None:
+        self._library = library
+
+    def patients(self) -> Sequence[PatientRow]:
+        """All rows, newest session first."""
+        return [_row(record) for record in self._library.clinic.patients()]
+
+    def card(self, patient_id: str) -> PatientCard:
+        """What the therapist must recall, of the last session against the first that compares."""
+        owner, key = self._library.of(patient_id)
+        record = owner.patient(key)
+        row = replace(_row(record), patient_id=patient_id)
+        entries = self._library.sessions(patient_id)
+        if not entries:
+            return PatientCard(row)
+        picture = self._library.marker_picture(patient_id)
+        try:
+            last = self._library.figures(entries[0])
+            first = self._first_alike(patient_id, last)
+        except SessionUnreadable:
+            return PatientCard(row, marker_picture_rgb=picture)
+        note = last.notes[-1][1] if last.notes else ""
+        return PatientCard(row, _results(first, last), repetition_words(last), note, last.when, picture)
+
+    def sessions(self, patient_id: str) -> Sequence[SessionRow]:
+        """Stored sessions, newest first."""
+        return [
+            SessionRow(entry.session_id, entry.created, entry.exercise, entry.hand, entry.duration_s, entry.complete)
+            for entry in self._library.sessions(patient_id)
+        ]
+
+    def suggest_pseudonym(self) -> str:
+        """A free name."""
+        return self._library.clinic.suggest_pseudonym()
+
+    def add(self, entry: PatientEntry) -> str:
+        """Enter a new patient."""
+        return self._library.clinic.add(
+            register.PatientEntry(entry.pseudonym, entry.side, entry.dominance, note=entry.note)
+        )
+
+    def change(self, patient_id: str, entry: PatientEntry) -> None:
+        """Change what a person wrote; what the form does not show stays."""
+        old = self._library.clinic.patient(patient_id).entry
+        new = replace(old, pseudonym=entry.pseudonym, side=entry.side, dominance=entry.dominance, note=entry.note)
+        self._library.clinic.change(patient_id, new)
+
+    def _first_alike(self, patient_id: str, last: SessionFigures) -> SessionFigures | None:
+        """The first session of the same hand and exercise, read only when there is an earlier one."""
+        alike = [
+            entry
+            for entry in self._library.sessions(patient_id)
+            if entry.hand == last.side and entry.exercise == last.exercise.id and entry.session_id != last.session_id
+        ]
+        if not alike:
+            return None
+        return progress([self._library.figures(alike[-1]), last]).first
+
+
+def _row(record: PatientRecord) -> PatientRow:
+    entry = record.entry
+    return PatientRow(
+        record.patient_id,
+        entry.pseudonym,
+        entry.side,
+        entry.dominance,
+        record.last_exercise,
+        record.last_session,
+        record.session_count,
+        entry.note,
+    )
+
+
+def _results(first: SessionFigures | None, last: SessionFigures) -> Sequence[ResultLine]:
+    changes = {}
+    if first is not None and first.session_id != last.session_id:
+        changes = {(item.movement, item.angle): item for item in compare(first, last)}
+    out = []
+    for row in last.rows:
+        if row.movement in _ENDS or last.exercise.angle is None:
+            continue
+        change = changes.get((row.movement, row.angle))
+        difference, verdict = (change.difference_deg, change.verdict) if change else (float("nan"), "not_judged")
+        out.append(ResultLine(row.movement, row.mean_deg, row.sd_deg, difference, verdict))
+    return out

@@ -1,0 +1,171 @@
+"""Opens the source that was chosen: live camera, stored recording, or the practice patient."""
+
+from __future__ import annotations
+
+import contextlib
+import sys
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+from app.desktop.calibrator import HandCalibrator
+from app.desktop.measuring import SessionPlaces, SourceMeasuring
+from app.settings import Settings
+from app.sources import open_recording
+from core.capture.camera_info import read_camera_info
+from core.capture.paced import PacedSource
+from core.capture.practice import PracticeSource
+from core.capture.source import FrameSource
+from core.capture.xtion_usb import usb_cameras
+from core.errors import CarpusFault, RecordingEmpty
+from core.hand.protocols import WRIST6
+from core.pipeline.live import LiveSession
+from core.types import Frame
+from ui.ports import SetUp
+from ui.setup.choice import SourceChoice
+
+Progress = Callable[[int, int], None]
+"""Called with pictures done and pictures in all."""
+RECENT_FRAMES = 16
+"""Half a second: what the neutral pose is averaged over at most."""
+
+
+@dataclass(frozen=True, slots=True)
+class OpenSource:
+    """A source with its calibrator; ``measuring`` owns it and closes it."""
+
+    calibrator: HandCalibrator
+    measuring: SourceMeasuring
+
+
+class Sources:
+    """Knows all kinds of sources. ``speed`` above 1 plays what is stored faster than it was."""
+
+    def __init__(
+        self,
+        settings: Settings,
+        places: SessionPlaces,
+        practice_take: Callable[[SetUp, Progress], tuple[FrameSource, float]],
+        speed: float = 1.0,
+    ) -> None:
+        self._settings, self._places, self._practice_take, self._speed = settings, places, practice_take, speed
+
+    def camera_there(self) -> bool:
+        """Whether a camera is plugged in; taken for true where the system does not tell."""
+        return bool(usb_cameras()) or not sys.platform.startswith("linux")
+
+    def open(self, choice: SourceChoice, set_up: SetUp, progress: Progress) -> OpenSource:
+        """Open the chosen source; waits for camera, disk or renderer, so it is called in the background."""
+        if choice.kind == "file":
+            return self._recording(Path(choice.path), set_up)
+        return self._camera(set_up) if choice.kind == "camera" else self._practice(set_up, progress)
+
+    def _camera(self, set_up: SetUp) -> OpenSource:
+        from core.capture.xtion import XtionSource  # needs the driver, which only a live camera does
+
+        told: list[CarpusFault] = []
+        heard: list[Callable[[CarpusFault], None]] = [told.append]
+        named = self._settings.camera.intrinsics
+        camera = read_camera_info(Path(named).expanduser()).camera if named else None
+        source = XtionSource(
+            uri=self._settings.camera.uri or None, camera=camera, notice=lambda fault: heard[-1](fault)
+        )
+        session = self._session(source)
+        heard.append(session.notice)
+        for fault in told:
+            session.notice(fault)
+        session.start()
+        # From the calibration on, the markers must keep their colours.
+        return self._live(session, source, set_up, let_go=source.lock_exposure)
+
+    def _practice(self, set_up: SetUp, progress: Progress) -> OpenSource:
+        take, still_s = self._practice_take(set_up, progress)
+        patient = PracticeSource(take, still_s)
+        session = self._session(PacedSource(patient, self._speed))
+        session.start()
+        return self._live(session, take, set_up, let_go=patient.let_go)
+
+    def _recording(self, path: Path, set_up: SetUp) -> OpenSource:
+        told: list[CarpusFault] = []
+        source = open_recording(path, notice=told.append)
+        opening = opening_frames(source, self._settings.calibration.still_s)
+        session = self._session(PacedSource(source, self._speed))
+        for fault in told:
+            session.notice(fault)
+        measuring = SourceMeasuring(
+            session, source.info, set_up, self._settings.track, self._places, starts_with_recording=True
+        )
+        pictures = StoredPictures(opening)
+        return OpenSource(self._calibrator(pictures, source, set_up, measuring), measuring)
+
+    def _session(self, source: FrameSource) -> LiveSession:
+        return LiveSession(source, replace(self._settings.live, folder=self._settings.data_folder))
+
+    def _live(
+        self, session: LiveSession, source: FrameSource, set_up: SetUp, let_go: Callable[[], None] = lambda: None
+    ) -> OpenSource:
+        measuring = SourceMeasuring(session, source.info, set_up, self._settings.track, self._places, let_go=let_go)
+        return OpenSource(self._calibrator(LivePictures(session), source, set_up, measuring), measuring)
+
+    def _calibrator(
+        self, pictures: LivePictures | StoredPictures, source: FrameSource, set_up: SetUp, measuring: SourceMeasuring
+    ) -> HandCalibrator:
+        return HandCalibrator(pictures, source.info.camera, set_up.side, WRIST6, self._settings.track, measuring.begin)
+
+
+class LivePictures:
+    """The pictures of a running source."""
+
+    is_live = True
+
+    def __init__(self, session: LiveSession) -> None:
+        self._session = session
+
+    def newest(self) -> Frame | None:
+        """The picture of the moment."""
+        return self._session.newest_frame()
+
+    def still(self) -> Sequence[Frame]:
+        """The picture of the moment, then those before it, going back: the hand has been still up to now."""
+        return self._session.recent_frames(RECENT_FRAMES)[::-1]
+
+
+class StoredPictures:
+    """The first pictures of a recording; clicks are on the very first."""
+
+    is_live = False
+
+    def __init__(self, opening: Sequence[Frame]) -> None:
+        self._opening = opening
+
+    def newest(self) -> Frame | None:
+        """The first picture."""
+        return self._opening[0]
+
+    def still(self) -> Sequence[Frame]:
+        """The first picture and those after it."""
+        return self._opening
+
+
+def opening_frames(source: FrameSource, still_s: float) -> list[Frame]:
+    """The first frames of a recording, as far as the neutral pose may reach. Raises :class:`RecordingEmpty`."""
+    opening: list[Frame] = []
+    with _closing(source.frames()) as frames:
+        for frame in frames:
+            if opening and frame.timestamp_s - opening[0].timestamp_s > still_s:
+                break
+            opening.append(frame)
+    if not opening:
+        raise RecordingEmpty(source.info.name)
+    return opening
+
+
+@contextlib.contextmanager
+def _closing(frames: Iterator[Frame]) -> Iterator[Iterator[Frame]]:
+    """A walk that gives its files back here, although it is not walked to its end."""
+    try:
+        yield frames
+    finally:
+        close = getattr(frames, "close", None)
+        if close is not None:
+            close()

@@ -1,0 +1,107 @@
+"""Settings: defaults agree with the code, what a person writes goes over them, and a wrong key is named."""
+
+from __future__ import annotations
+
+import dataclasses
+import tomllib
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from app.settings import (
+    PREFERENCES_FILE,
+    SETTINGS_FILE,
+    ScreenSettings,
+    Settings,
+    keep_preferences,
+    load_settings,
+    settings_folder,
+)
+from core.errors import SettingsInvalid
+from core.words import one_sentence
+
+DEFAULTS = Path(__file__).parents[2] / "resources" / "defaults.toml"
+
+
+def written(folder: Path, text: str) -> Path:
+    folder.mkdir(parents=True, exist_ok=True)
+    (folder / SETTINGS_FILE).write_text(text, encoding="utf-8")
+    return folder
+
+
+def leaves(table: dict[str, Any], where: tuple[str, ...] = ()) -> list[tuple[tuple[str, ...], Any]]:
+    out: list[tuple[tuple[str, ...], Any]] = []
+    for name, value in table.items():
+        out += leaves(value, (*where, name)) if isinstance(value, dict) else [((*where, name), value)]
+    return out
+
+
+@pytest.mark.parametrize(("place", "value"), leaves(tomllib.loads(DEFAULTS.read_text(encoding="utf-8"))))
+def test_the_shipped_file_says_what_the_code_does_without_it(place: tuple[str, ...], value: Any) -> None:
+    found: Any = Settings()
+    for name in place:
+        found = getattr(found, name)
+    assert (list(found) if isinstance(found, tuple) else found) == value
+
+
+def test_without_files_the_defaults_hold(tmp_path: Path) -> None:
+    assert load_settings(tmp_path / "nothing") == Settings()
+
+
+def test_a_persons_file_goes_over_the_defaults_and_leaves_the_rest(tmp_path: Path) -> None:
+    text = '[tracker]\nprofile = "slow"\nlost_after_s = 2\n[tracker.noise]\npixel_sd_px = 0.3\n[live]\nfolder = "~"\n'
+    settings = load_settings(written(tmp_path, text))
+    assert settings.tracker.profile == "slow"
+    assert settings.tracker.lost_after_s == 2.0
+    assert isinstance(settings.tracker.lost_after_s, float)
+    assert settings.tracker.noise.pixel_sd_px == 0.3
+    assert settings.live.folder == Path.home()
+    assert dataclasses.replace(settings.tracker, profile="standard", lost_after_s=1.5, noise=Settings().tracker.noise) == Settings().tracker  # fmt: skip
+    assert settings.calibration == Settings().calibration
+
+
+@pytest.mark.parametrize(
+    ("text", "named"),
+    [
+        ("[trackr]\n", "trackr"),
+        ('[tracker]\nprofle = "slow"\n', "tracker.profle"),
+        ('[tracker]\nprofile = "fast"\n', "tracker.profile"),
+        ("[tracker.noise]\npixel_sd = 1.0\n", "tracker.noise.pixel_sd"),
+        ("[calibration]\nhand_length_mm = [1.0]\n", "calibration.hand_length_mm"),
+        ('[recording]\nkeep_pictures = "yes"\n', "recording.keep_pictures"),
+        ("[live]\nrows_waiting = 1.5\n", "live.rows_waiting"),
+        ("[screen]\ntext_scale = true\n", "screen.text_scale"),
+        ("screen = 3\n", "screen"),
+    ],
+)
+def test_what_cannot_be_used_is_named_with_its_file(tmp_path: Path, text: str, named: str) -> None:
+    with pytest.raises(SettingsInvalid) as fault:
+        load_settings(written(tmp_path, text))
+    assert fault.value.subject == named
+    assert SETTINGS_FILE in fault.value.detail
+    assert named in one_sentence(fault.value)
+
+
+def test_a_file_that_is_no_toml_is_named(tmp_path: Path) -> None:
+    with pytest.raises(SettingsInvalid) as fault:
+        load_settings(written(tmp_path, "theme = light"))
+    assert SETTINGS_FILE in fault.value.subject
+
+
+def test_what_the_window_keeps_is_read_again_and_goes_over_the_persons_file(tmp_path: Path) -> None:
+    written(tmp_path, '[screen]\ntheme = "light"\n[tracker]\nprofile = "brisk"\n')
+    chosen = ScreenSettings("dark", 1.25, {"record": "F12", "zoom_in": '"'})
+    keep_preferences(chosen, tmp_path)
+    settings = load_settings(tmp_path)
+    assert settings.screen == chosen
+    assert settings.tracker.profile == "brisk"
+    assert sorted(path.name for path in tmp_path.iterdir()) == sorted([SETTINGS_FILE, PREFERENCES_FILE])
+
+
+def test_the_data_folder_is_the_users_own_unless_named(own_folders: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    assert load_settings().data_folder.is_relative_to(own_folders)
+    written(settings_folder(), '[recording]\nfolder = "/clinic"\n')
+    assert load_settings().data_folder == Path("/clinic")
+    monkeypatch.setenv("CARPUS_DATA", "/elsewhere")
+    assert load_settings().data_folder == Path("/elsewhere")

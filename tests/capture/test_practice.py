@@ -1,0 +1,74 @@
+"""The practice patient: rests until let go, moves once, rests, moves again; times as a camera's."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from itertools import islice
+
+import numpy as np
+
+from core.camera import DEFAULT_CAMERA
+from core.capture.practice import REST_S, PracticeSource
+from core.capture.source import SourceInfo
+from core.types import Frame
+
+STILL, TOTAL = 6, 15
+
+
+class Take:
+    """Fifteen frames at 10 fps; each picture's value is its number; one frame is missing before the twelfth."""
+
+    def __init__(self) -> None:
+        self.info = SourceInfo("take", DEFAULT_CAMERA, False, TOTAL, 10.0)
+        self.closed = False
+
+    def frames(self) -> Iterator[Frame]:
+        for number in range(TOTAL):
+            time_s = 50.0 + 0.1 * number + (0.1 if number >= 12 else 0.0)
+            yield Frame(number, time_s, np.full((2, 2, 3), number, np.uint8), None, 1e-3, int(number == 12))
+
+    def close(self) -> None:
+        self.closed = True
+
+
+def numbers(frames: list[Frame]) -> list[int]:
+    return [int(frame.color_rgb[0, 0, 0]) for frame in frames]
+
+
+def test_the_hand_rests_until_let_go_and_then_moves_on_from_where_it_was_still() -> None:
+    source = PracticeSource(Take(), still_s=0.55)
+    frames = source.frames()
+    before = list(islice(frames, 40))
+    assert set(numbers(before)) == set(range(STILL))
+    assert np.abs(np.diff(numbers(before))).max() == 1
+    source.let_go()
+    moving = list(islice(frames, TOTAL - STILL))
+    assert numbers(moving) == list(range(STILL, TOTAL))
+    assert [frame.dropped_before for frame in moving] == [0, 0, 0, 0, 0, 0, 1, 0, 0]
+
+
+def test_after_the_take_the_hand_rests_and_the_take_comes_again_with_rising_times() -> None:
+    source = PracticeSource(Take(), still_s=0.55)
+    source.let_go()
+    frames = list(islice(source.frames(), 80))
+    rest = round(REST_S * 10.0)
+    moved = TOTAL - STILL
+    assert numbers(frames[:moved]) == list(range(STILL, TOTAL))
+    assert set(numbers(frames[moved : moved + rest])) <= set(range(STILL))
+    assert numbers(frames[moved + rest : moved + rest + TOTAL]) == list(range(TOTAL))
+    times = np.array([frame.timestamp_s for frame in frames])
+    steps = np.diff(times)
+    gap = np.array([frame.dropped_before for frame in frames[1:]]) > 0
+    np.testing.assert_allclose(steps, np.where(gap, 0.2, 0.1), atol=1e-9)
+    assert [frame.index for frame in frames] == list(range(80))
+
+
+def test_closing_ends_it_and_gives_the_take_back() -> None:
+    take = Take()
+    source = PracticeSource(take, still_s=0.55)
+    frames = source.frames()
+    next(frames)
+    source.close()
+    assert list(frames) == []
+    assert take.closed
+    assert source.info.frame_count is None

@@ -1,0 +1,186 @@
+"""Second step: where the pictures come from; opens it and says how far it is."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from PySide6.QtCore import Qt, Signal
+from PySide6.QtWidgets import QFileDialog, QHBoxLayout, QProgressBar, QVBoxLayout, QWidget
+
+from core.output.exercises import Exercise
+from ui import terms
+from ui.controls.button import Button
+from ui.controls.card import Card
+from ui.controls.text import REGULAR, SEMIBOLD, Text, heading
+from ui.ports import SetUp
+from ui.setup.choice import SourceChoice, SourceKind
+from ui.setup.option import Options
+from ui.theme import MARGIN_PX, Theme
+
+
+class CameraScreen(QWidget):
+    """``wanted`` carries the :class:`SourceChoice`."""
+
+    wanted = Signal(object)
+
+    def __init__(self, theme: Theme) -> None:
+        super().__init__()
+        self._theme = theme
+        self._camera_there = False
+        self._path = ""
+        self._opening = False
+        self.sources = Options(
+            theme,
+            [
+                ("camera", self.tr("Camera"), ""),
+                ("file", self.tr("Recording"), ""),
+                (
+                    "practice",
+                    self.tr("Simulated camera"),
+                    self.tr("A simulated hand does the exercise. To try things out."),
+                ),
+            ],
+        )
+        self.choose_file = Button(theme, self.tr("Choose a &file …"), icon="folder-open", height_px=40)
+        self.choose_folder = Button(theme, self.tr("Choose a fol&der …"), icon="folder-open", height_px=40)
+        self.position = Text(theme, "", 14, REGULAR, "text2", wrap=True)
+        self.progress_words = Text(theme, "", 14, REGULAR, "text2", wrap=True)
+        self.progress = QProgressBar()
+        self.progress.setTextVisible(False)
+        self.progress.setAccessibleName(self.tr("Progress"))
+        self.primary = Button(theme, "", "primary", hint=self.tr("Enter"))
+        self._lay_out()
+        self.sources.chosen.connect(self._show)
+        self.sources.accepted.connect(self._open)
+        self.primary.clicked.connect(self._open)
+        self.choose_file.clicked.connect(self._ask_file)
+        self.choose_folder.clicked.connect(self._ask_folder)
+        theme.changed.connect(self._fit)
+        self._fit()
+
+    def _lay_out(self) -> None:
+        theme = self._theme
+        left = QVBoxLayout()
+        left.setSpacing(16)
+        left.addWidget(heading(theme, self.tr("Where do the pictures come from?")))
+        left.addWidget(self.sources)
+        self._files = QWidget()
+        row = QHBoxLayout(self._files)
+        row.setContentsMargins(0, 0, 0, 0)
+        row.setSpacing(12)
+        row.addWidget(self.choose_file)
+        row.addWidget(self.choose_folder)
+        row.addStretch(1)
+        left.addWidget(self._files)
+        left.addStretch(1)
+        self._card = Card(theme, 24)
+        body = self._card.body
+        body.setSpacing(12)
+        body.addWidget(Text(theme, self.tr("Before you go on"), 20, SEMIBOLD))
+        body.addWidget(self.position)
+        light = self.tr("Camera above the hand, 60 cm or more away, looking straight down. No sun on the markers.")
+        body.addWidget(Text(theme, light, 14, REGULAR, "text2", wrap=True))
+        body.addStretch(1)
+        body.addWidget(self.progress_words)
+        body.addWidget(self.progress)
+        body.addWidget(self.primary)
+        columns = QHBoxLayout(self)
+        columns.setContentsMargins(MARGIN_PX, MARGIN_PX - 4, MARGIN_PX, MARGIN_PX - 4)
+        columns.setSpacing(MARGIN_PX)
+        columns.addLayout(left, 1)
+        columns.addWidget(self._card)
+
+    def _fit(self) -> None:
+        self._card.setFixedWidth(self._theme.px(376))
+        bar = "QProgressBar {{ background: {0}; border: 0; border-radius: 4px; height: 8px; }}"
+        chunk = " QProgressBar::chunk {{ background: {1}; border-radius: 4px; }}"
+        tokens = self._theme.tokens
+        self.progress.setStyleSheet((bar + chunk).format(tokens.sunken, tokens.accent))
+        self.progress.setFixedHeight(8)
+
+    def begin(self, set_up: SetUp, kind: SourceKind) -> None:
+        """Ask for the source of this set."""
+        self._show_exercise(set_up.exercise)
+        self.show_opening(False)
+        self.sources.choose(kind)
+        self._show()
+
+    def first(self) -> QWidget:
+        """What takes the keyboard."""
+        return self.sources.current()
+
+    def set_camera_ready(self, there: bool) -> None:
+        """Whether a camera is plugged in; looked at now and then."""
+        if there != self._camera_there:
+            self._camera_there = there
+            self._show()
+
+    def set_path(self, path: str) -> None:
+        """The recording that was chosen."""
+        self._path = path
+        self.sources.choose("file")
+        self._show()
+
+    def show_opening(self, opening: bool, words: str = "") -> None:
+        """While a source is being opened nothing can be chosen."""
+        self._opening = opening
+        self.progress.setVisible(opening)
+        self.progress.setRange(0, 0)
+        self.progress_words.setText(words)
+        self.progress_words.setVisible(bool(words))
+        for widget in (self.sources, self._files):
+            widget.setEnabled(not opening)
+        self._show()
+
+    def show_progress(self, done: int, total: int) -> None:
+        """How far the opening is."""
+        self.progress.setRange(0, total)
+        self.progress.setValue(done)
+
+    def _show_exercise(self, exercise: Exercise) -> None:
+        self.position.setText(terms.exercise_position(exercise.id))
+
+    def _show(self, *_: object) -> None:
+        there = self._camera_there
+        camera = self.sources.option("camera")
+        camera.show_sentence(
+            self.tr("The depth camera over the hand.") if there else self.tr("Plug it straight into the computer."),
+            "good" if there else "bad",
+            self.tr("Camera ready") if there else self.tr("No camera"),
+        )
+        recording = self.tr("A stored recording: a TUM folder, an .oni file, or one made by Carpus.")
+        self.sources.option("file").show_sentence(self._path or recording)
+        kind = self.sources.value()
+        self._files.setVisible(kind == "file")
+        words = {
+            "camera": self.tr("Open the camera"),
+            "file": self.tr("Open the recording"),
+            "practice": self.tr("Start the simulation"),
+        }[str(kind)]
+        missing = {"camera": not there, "file": not self._path}.get(str(kind), False)
+        if missing:
+            words = self.tr("No camera yet") if kind == "camera" else self.tr("Choose a recording first")
+        if self._opening:
+            words = self.tr("Opening …")
+        self.primary.setEnabled(not missing and not self._opening)
+        self.primary.set_face(words, hint=self.tr("Enter") if self.primary.isEnabled() else "")
+
+    def _open(self) -> None:
+        if self.primary.isEnabled():
+            kind = self.sources.value()
+            self.wanted.emit(SourceChoice(kind, self._path if kind == "file" else ""))  # type: ignore[arg-type]
+
+    def _ask_file(self) -> None:
+        kinds = self.tr("Recordings (*.oni *.carpusraw);;All files (*)")
+        start = str(Path(self._path).parent) if self._path else ""
+        path, _ = QFileDialog.getOpenFileName(self, self.tr("Choose a recording"), start, kinds)
+        if path:
+            self.set_path(path)
+            self.first().setFocus(Qt.FocusReason.OtherFocusReason)
+
+    def _ask_folder(self) -> None:
+        start = str(Path(self._path).parent) if self._path else ""
+        path = QFileDialog.getExistingDirectory(self, self.tr("Choose a TUM folder"), start)
+        if path:
+            self.set_path(path)
+            self.first().setFocus(Qt.FocusReason.OtherFocusReason)
