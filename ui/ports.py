@@ -5,8 +5,8 @@ No screen knows a device, a filter or a file; each takes the port it needs in it
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
 from datetime import datetime
 from typing import Literal, Protocol
 
@@ -112,7 +112,10 @@ class PatientStore(Protocol):
 # --- measuring --------------------------------------------------------------------------------------------
 @dataclass(frozen=True, slots=True)
 class SetUp:
-    """What was chosen before measuring. Targets in degrees of the trained angle, NaN for none."""
+    """What was chosen before measuring.
+
+    Targets in degrees of the trained angle with its sign (the negative direction below zero), NaN for none.
+    """
 
     patient_id: str
     pseudonym: str
@@ -165,6 +168,11 @@ class Measuring(Protocol):
 
     @property
     def calibration(self) -> Calibration | None: ...
+
+    @property
+    def starts_with_recording(self) -> bool:
+        """Whether this is a stored recording, which plays from its first picture when recording starts."""
+        ...
 
     def start_recording(self) -> None: ...
 
@@ -279,3 +287,18 @@ class SessionStore(Protocol):
     def export(self, session_id: str, folder: str) -> Sequence[str]:
         """Write the open formats into a folder; the names of the files written."""
         ...
+
+
+# --- what a person chooses for the program ----------------------------------------------------------------
+ThemeChoice = Literal["light", "dark", "system"]
+
+
+@dataclass(frozen=True, slots=True)
+class Preferences:
+    """Choices of the settings screen. ``therapist`` initials are printed on reports."""
+
+    theme: ThemeChoice = "system"
+    text_scale: float = 1.0
+    data_folder: str = ""
+    therapist: str = ""
+    keys: Mapping[str, str] = field(default_factory=dict)

@@ -235,6 +235,8 @@ class FakeMeasuring:
         self.fault: Exception | None = None
         self.closed = False
 
+    starts_with_recording = False
+
     def start_recording(self) -> None:
         if self.fault is not None:
             raise self.fault

@@ -69,7 +69,7 @@ class LiveCurves(QWidget):
     def refresh_values(self) -> None:
         """Take the figures at the right anew; called at most ten times a second."""
         if self._speeds:
-            linear, angular = self._history.speeds
+            linear, angular = self._history.speeds if not self._history.waiting else (math.nan, math.nan)
             words = (self.tr("Turning"), numbers.speed(angular), ""), (self.tr("Moving"), _mm_s(linear), "")
             self._values = list(words)
             return
@@ -78,9 +78,11 @@ class LiveCurves(QWidget):
         for k in range(3):
             if math.isfinite(angles[k]) and abs(angles[k]) > ZERO_BAND_DEG:
                 self._words[k] = SIDES[k][0 if angles[k] > 0 else 1]
-            known = math.isfinite(angles[k])
+            known = math.isfinite(angles[k]) and not self._history.waiting
             name = terms.movement_name(self._words[k]) if known else self.tr("no value")
-            self._values.append((name, numbers.degrees(angles[k]) if known else "", numbers.spread(sds[k])))
+            self._values.append(
+                (name, numbers.degrees(angles[k]) if known else "", numbers.spread(sds[k]) if known else "")
+            )
 
     def _forget_still(self) -> None:
         self._still = None
@@ -145,7 +147,10 @@ class LiveCurves(QWidget):
             painter.setClipRect(panel.box.adjusted(0, -1, 7, 1).toAlignedRect())
             paint_series(painter, style, panel, series, token)
             painter.restore()
-            if len(series.value):
+            if self._history.waiting and len(series.value):
+                left = float(np.clip(panel.x(float(series.time_s[-1])), panel.box.left(), panel.box.right()))
+                axes.hatch(painter, style, QRectF(left, panel.box.top(), panel.box.right() - left, panel.box.height()))
+            elif len(series.value):
                 paint_point(painter, style, panel, float(series.time_s[-1]), float(series.value[-1]), token)
             self._paint_value(painter, panel, *value)
 

@@ -39,6 +39,11 @@ class History:
         self._rows = np.empty((0, _COLUMNS))
         self._home_mm = np.full(3, math.nan)
         self.last_index = -1
+        self._waited_s = 0.0
+
+    def wait(self, seconds: float) -> None:
+        """Time goes on without frames: what is missing grows at the right."""
+        self._waited_s += seconds
 
     def append(self, frames: Sequence[TrackedFrame]) -> None:
         """Add frames in order; what is older than needed goes."""
@@ -46,6 +51,7 @@ class History:
         if not fresh:
             return
         self.last_index = fresh[-1].index
+        self._waited_s = 0.0
         rows = np.concatenate((self._rows, np.array([_row(frame) for frame in fresh])))
         self._rows = rows[rows[:, _TIME] >= rows[-1, _TIME] - KEPT_S]
         if not np.isfinite(self._home_mm).all() and self._rows[-1, _TIME] - self._rows[0, _TIME] >= HOME_S:
@@ -60,8 +66,13 @@ class History:
 
     @property
     def now_s(self) -> float:
-        """Time of the newest frame, NaN before the first."""
-        return float(self._rows[-1, _TIME]) if len(self._rows) else math.nan
+        """The right end of the curves: time of the newest frame, NaN before the first."""
+        return float(self._rows[-1, _TIME]) + self._waited_s if len(self._rows) else math.nan
+
+    @property
+    def waiting(self) -> bool:
+        """Whether time goes on without frames."""
+        return self._waited_s > 0.0
 
     @property
     def angles_deg(self) -> FloatArray:

@@ -10,7 +10,7 @@ from PySide6.QtCore import Qt, QTimer, Signal
 from PySide6.QtGui import QPainter, QResizeEvent
 from PySide6.QtWidgets import QHBoxLayout, QVBoxLayout, QWidget
 
-from core.pipeline.live_values import LiveCounters, TrackedView
+from core.pipeline.live_values import LiveCounters, LiveEvent, TrackedView
 from core.types import TrackStatus
 from ui.background import Background
 from ui.controls.button import Button
@@ -59,6 +59,8 @@ class LiveScreen(QWidget):
         self._camera_lost = False
         self._stopping = False
         self._tick = 0
+        self.stage = QWidget()
+        """All but the bar below: what a message may cover while the light goes on speaking to the far eye."""
         self.picture = PictureView(theme)
         self.picture.overlay = self._paint_overlay
         self.path = PathView(theme, self.history)
@@ -108,10 +110,11 @@ class LiveScreen(QWidget):
         bottom.addWidget(self.pause)
         bottom.addSpacing(12)
         bottom.addWidget(self.main)
+        self.stage.setLayout(columns)
         whole = QVBoxLayout(self)
         whole.setContentsMargins(0, 0, 0, 0)
         whole.setSpacing(0)
-        whole.addLayout(columns, 1)
+        whole.addWidget(self.stage, 1)
         whole.addWidget(Line(self._theme))
         bar = Surface(self._theme)
         bar.setLayout(bottom)
@@ -164,7 +167,9 @@ class LiveScreen(QWidget):
         angle = 1 if set_up.exercise.angle is None else set_up.exercise.angle
         self.number.show_reading(self._targets(Reading(angle=angle)))
         calibration = measuring.calibration
-        self.picture.clear(self.tr("Waiting for the first picture"))
+        stored = measuring.starts_with_recording
+        waiting = self.tr("The recording plays from its first picture") if stored else self.tr("Waiting for a picture")
+        self.picture.clear(waiting)
         self.picture.set_hand_area(None if calibration is None else calibration.clicks.pixel)
         self._show_buttons()
         self._timer.start()
@@ -268,6 +273,7 @@ class LiveScreen(QWidget):
         self._camera_lost = lost
         if lost:
             self.picture.clear(self.tr("No picture"))
+            self._view = None
 
     def _add_event(self, kind: str, text: str) -> None:
         if self._measuring is not None:
@@ -284,19 +290,29 @@ class LiveScreen(QWidget):
         if self._count is not None and feed.recording and not feed.paused:
             self._count.append(fresh)
         view = feed.newest()
-        if view is not None and (self._view is None or view.tracked.index != self._view.tracked.index):
+        if view is not None and fresh and (self._view is None or view.tracked.index != self._view.tracked.index):
             self._view = view
             self._camera_lost = False
             self.picture.show_frame(view.frame.color_rgb)
             self.curves.update()
             self.path.update()
+        if self._camera_lost:
+            self.history.wait(0.001 * DRAW_EVERY_MS)
+            self.curves.update()
         if self._tick % VALUES_EVERY == 0:
             self._show_values()
         if self._tick % SLOW_EVERY == 0:
             self._show_slow()
         self._tick += 1
         for event in feed.drain_events():
-            self.told.emit(event)
+            self._take_event(event)
+
+    def _take_event(self, event: LiveEvent) -> None:
+        if event.kind in ("camera_lost", "camera_back"):
+            self.set_camera_lost(event.kind == "camera_lost")
+        self.told.emit(event)
+        if event.kind == "source_ended":
+            self.stop()
 
     def _show_values(self) -> None:
         self.curves.refresh_values()
@@ -360,7 +376,9 @@ class LiveScreen(QWidget):
         self.pause.set_face(self.tr("Go on") if paused else self.tr("Pause"), icon="play" if paused else "pause")
         if not self._stopping:
             self.main.setEnabled(True)
-            words = self.tr("Stop and review") if recording else self.tr("Record")
+            stored = self._measuring is not None and self._measuring.starts_with_recording
+            words = self.tr("Play and record") if stored else self.tr("Record")
+            words = self.tr("Stop and review") if recording else words
             hint = self.tr("Space") if is_tight(self, self._theme) else self.tr("Space · pedal")
             self.main.set_face(words, icon="square" if recording else "", hint=hint)
 

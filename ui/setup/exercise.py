@@ -91,7 +91,7 @@ class ExerciseScreen(QWidget):
         if last is not None:
             self.repetitions.setValue(last.repetitions)
             for field, value in zip(self.targets, (last.target_positive_deg, last.target_negative_deg), strict=True):
-                field.setValue(round(value) if math.isfinite(value) else 0)
+                field.setValue(round(abs(value)) if math.isfinite(value) else 0)
 
     def first(self) -> QWidget:
         """What takes the keyboard: Enter alone goes on with what is shown."""
@@ -103,6 +103,7 @@ class ExerciseScreen(QWidget):
         exercise = self._exercise()
         side: Side = "left" if self.side.value() == "left" else "right"
         positive, negative = (float(field.value()) or math.nan for field in self.targets)
+        negative = -negative  # the angle's sign, which the person never sees
         if exercise.angle is None:
             positive = negative = math.nan
         return SetUp(

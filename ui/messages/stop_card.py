@@ -1,0 +1,152 @@
+"""Rank one: a card that must be answered. What happened, are the data safe, what to do."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+
+from PySide6.QtCore import QRectF, QSize, Qt
+from PySide6.QtGui import QKeyEvent, QKeySequence, QPainter, QPaintEvent
+from PySide6.QtWidgets import QHBoxLayout, QVBoxLayout, QWidget
+
+from ui.controls.button import Button
+from ui.controls.card import Line
+from ui.controls.sheet import Sheet
+from ui.controls.text import REGULAR, SEMIBOLD, Text, paint_status
+from ui.icons import paint_icon
+from ui.ports import Words
+from ui.theme import Theme
+
+WIDTH_PX = 720
+
+
+@dataclass(frozen=True, slots=True)
+class Answer:
+    """A button that says what it does; ``key`` a letter or name of a key that presses it."""
+
+    text: str
+    action: Callable[[], object]
+    key: str = ""
+
+
+class StopCard(Sheet):
+    """Shows :class:`Words` with up to two answers; the last one is the primary and has the keyboard."""
+
+    def __init__(self, host: QWidget, theme: Theme) -> None:
+        super().__init__(host, theme, WIDTH_PX, may_close=False)
+        self.what = Text(theme, "", 28, SEMIBOLD, wrap=True)
+        self.detail = Text(theme, "", 16, REGULAR, "text2", wrap=True)
+        self.safe = Text(theme, "", 20, SEMIBOLD, wrap=True)
+        self.safe_detail = Text(theme, "", 14, REGULAR, "text2", wrap=True)
+        self.todo = Text(theme, "", 20, SEMIBOLD, wrap=True)
+        self.todo_detail = Text(theme, "", 14, REGULAR, "text2", wrap=True)
+        self.waiting = Text(theme, "", 14, REGULAR, "text2")
+        self._icon = _RowIcon(theme, "unplug")
+        self._icon_safe = _RowIcon(theme, "good")
+        self._buttons = QHBoxLayout()
+        self._buttons.setSpacing(12)
+        self._answers: list[tuple[Button, Answer]] = []
+        self._keys: dict[QKeySequence, Button] = {}
+        body = self.card.body
+        body.setContentsMargins(32, 24, 32, 24)
+        body.setSpacing(14)
+        rows = (
+            (self._icon, self.what, self.detail),
+            (self._icon_safe, self.safe, self.safe_detail),
+            (_RowIcon(theme, "chevron-right"), self.todo, self.todo_detail),
+        )
+        for icon, head, detail in rows:
+            row = QHBoxLayout()
+            row.setSpacing(24)
+            row.addWidget(icon, 0, Qt.AlignmentFlag.AlignVCenter)
+            column = QVBoxLayout()
+            column.setSpacing(2)
+            column.addWidget(head)
+            column.addWidget(detail)
+            row.addLayout(column, 1)
+            body.addLayout(row)
+            body.addWidget(Line(theme))
+        foot = QHBoxLayout()
+        foot.addWidget(self.waiting, 1)
+        foot.addLayout(self._buttons)
+        body.addLayout(foot)
+
+    def show_words(
+        self, words: Words, answers: Sequence[Answer], *, icon: str = "", detail: str = "", safe_detail: str = "",
+        data_safe: bool = True,
+    ) -> None:  # fmt: skip
+        """Open with the three answers; details are what only the moment knows (times, counts)."""
+        self._set_row(self.what, self.detail, words.what.rstrip("."), detail)
+        self._set_row(self.safe, self.safe_detail, words.safe, safe_detail)
+        self._set_row(self.todo, self.todo_detail, words.todo, "")
+        self._icon.set_icon(icon or "bad")
+        self._icon_safe.set_icon("good" if data_safe else "warn")
+        self.waiting.setText("")
+        self.card.set_colors("surface", "bad", 2.0)
+        self.setAccessibleName(" ".join((words.what, detail, words.safe, safe_detail, words.todo)))
+        while (item := self._buttons.takeAt(0)) is not None:
+            if (widget := item.widget()) is not None:
+                widget.hide()
+                widget.deleteLater()
+        self._answers = []
+        for number, answer in enumerate(answers):
+            primary = number == len(answers) - 1
+            button = Button(self._theme, answer.text, "primary" if primary else "plain", hint=answer.key, height_px=48)
+            button.clicked.connect(lambda _=False, answer=answer: self._take(answer))
+            self._buttons.addWidget(button)
+            self._answers.append((button, answer))
+        self.open(self._answers[-1][0] if self._answers else None)
+
+    def _set_row(self, head: Text, small: Text, text: str, detail: str) -> None:
+        head.setText(text)
+        small.setText(detail)
+        small.setVisible(bool(detail))
+
+    def set_waiting(self, words: str) -> None:
+        """What is being waited for, at the left of the answers."""
+        self.waiting.setText(words)
+
+    @property
+    def answers(self) -> list[Button]:
+        """The buttons, the primary last."""
+        return [button for button, _ in self._answers]
+
+    def _take(self, answer: Answer) -> None:
+        self.close_sheet()
+        answer.action()
+
+    def keyPressEvent(self, event: QKeyEvent) -> None:
+        pressed = QKeySequence(event.key())
+        for button, answer in self._answers:
+            if answer.key and pressed.matches(QKeySequence(answer.key)) == QKeySequence.SequenceMatch.ExactMatch:
+                button.click()
+                return
+        super().keyPressEvent(event)
+
+
+class _RowIcon(QWidget):
+    def __init__(self, theme: Theme, icon: str) -> None:
+        super().__init__()
+        self._theme, self._name = theme, icon
+        theme.changed.connect(self.update)
+
+    def set_icon(self, icon: str) -> None:
+        self._name = icon
+        self.update()
+
+    def sizeHint(self) -> QSize:
+        return QSize(self._theme.px(44), self._theme.px(40))
+
+    def minimumSizeHint(self) -> QSize:
+        return self.sizeHint()
+
+    def paintEvent(self, event: QPaintEvent) -> None:
+        painter = QPainter(self)
+        size = self._theme.px(26 if self._name in ("good", "warn", "chevron-right") else 36)
+        box = QRectF((self.width() - size) / 2, (self.height() - size) / 2, size, size)
+        if self._name in ("good", "warn", "bad"):
+            paint_status(painter, self._theme, self._name, box)  # type: ignore[arg-type]
+        else:
+            paint_icon(
+                painter, self._name, box, self._theme.color("accent" if self._name == "chevron-right" else "bad")
+            )

@@ -1,0 +1,65 @@
+"""Rank three: a strip above the list that stays until it is answered."""
+
+from __future__ import annotations
+
+from PySide6.QtCore import QRectF, QSize, Qt, Signal
+from PySide6.QtGui import QPainter, QPaintEvent
+from PySide6.QtWidgets import QHBoxLayout, QVBoxLayout, QWidget
+
+from ui.controls.button import Button
+from ui.controls.card import Card
+from ui.controls.text import REGULAR, SEMIBOLD, Text
+from ui.icons import paint_icon
+from ui.ports import Words
+from ui.theme import Theme
+
+
+class NoticeStrip(Card):
+    """``answered`` by the button, ``later`` by the other one or Esc."""
+
+    answered = Signal()
+    later = Signal()
+
+    def __init__(self, theme: Theme, words: Words, button: str, icon: str = "history") -> None:
+        super().__init__(theme, 0, "soft", "accent")
+        self.words = words
+        texts = QVBoxLayout()
+        texts.setSpacing(4)
+        texts.addWidget(Text(theme, words.what, 20, SEMIBOLD, wrap=True))
+        for line in (words.safe, words.todo):
+            if line:
+                texts.addWidget(Text(theme, line, 14, REGULAR, wrap=True))
+        self.button = Button(theme, button, "plain", height_px=40)
+        self.later_button = Button(theme, self.tr("Later"), "quiet", hint=self.tr("Esc"), height_px=36)
+        buttons = QVBoxLayout()
+        buttons.setSpacing(4)
+        buttons.addWidget(self.button)
+        buttons.addWidget(self.later_button, 0, Qt.AlignmentFlag.AlignHCenter)
+        buttons.addStretch(1)
+        row = QHBoxLayout()
+        row.setContentsMargins(24, 14, 18, 12)
+        row.setSpacing(20)
+        row.addWidget(_Icon(theme, icon), 0, Qt.AlignmentFlag.AlignTop)
+        row.addLayout(texts, 1)
+        row.addLayout(buttons)
+        self.body.addLayout(row)
+        self.setAccessibleName(" ".join((words.what, words.safe, words.todo)))
+        self.button.clicked.connect(self.answered)
+        self.later_button.clicked.connect(self.later)
+
+
+class _Icon(QWidget):
+    def __init__(self, theme: Theme, icon: str) -> None:
+        super().__init__()
+        self._theme, self._icon = theme, icon
+        theme.changed.connect(self.update)
+
+    def sizeHint(self) -> QSize:
+        return QSize(self._theme.px(26), self._theme.px(32))
+
+    def minimumSizeHint(self) -> QSize:
+        return self.sizeHint()
+
+    def paintEvent(self, event: QPaintEvent) -> None:
+        size = self._theme.px(24)
+        paint_icon(QPainter(self), self._icon, QRectF(0, 4, size, size), self._theme.color("accent"))
