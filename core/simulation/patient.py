@@ -24,7 +24,8 @@ _LEAST_SPACING_M = 0.0145
 
 _THUMB_ROLL_DEG = (54.0, 4.0)
 """Mean and scatter; below the reference's 60, as a disc on a thumb rolled further cannot be seen from above."""
-_LENGTH_RANGE_M = (0.130, 0.200)
+_LENGTH_RANGE_M = {"wrist6": (0.130, 0.200), "hand21": (0.150, 0.200)}
+"""Hands drawn. On smaller ones the discs at the ends of the little finger touch: only when asked for."""
 _SEGMENT_SD, _FLESH_SD, _OFFSET_SD = 0.05, 0.08, 0.03
 _DISC_PLACE_SD_M = np.array([0.0007, 0.0007, 0.0007])
 
@@ -43,7 +44,7 @@ class Patient:
 def patient_of(spec: RecordingSpec) -> Patient:
     """Draw a patient: segments vary by 5 %, flesh by 8 %, disc places by 0.7 mm around the reference's table."""
     rng = spec.random(Stream.PATIENT)
-    drawn_m = rng.uniform(*_LENGTH_RANGE_M)
+    drawn_m = rng.uniform(*_LENGTH_RANGE_M[spec.protocol])
     length_m = drawn_m if spec.hand_length_mm is None else spec.hand_length_mm / 1000.0
     size = length_m / 0.180
     breadth_m = length_m * rng.uniform(0.43, 0.47)
@@ -77,14 +78,17 @@ def patient_of(spec: RecordingSpec) -> Patient:
 
 
 def _disc_radii(anatomy: HandAnatomy, protocol: MarkerProtocol) -> FloatArray:
-    """Radius of each disc of ``hand21``: small where two discs of the protocol would nearly touch; on the palm
-    as at the ends of the fingers either all are small or none."""
+    """Radius of each disc of ``hand21``: all small on a hand whose palm is too narrow for large ones, and at the ends
+    of the fingers where two discs of the protocol would nearly touch."""
     flat = disc_centres(anatomy, np.zeros(17))
     used = [HAND21.markers.index(name) for name in protocol.markers]
     gap = np.linalg.norm(flat[used][:, None] - flat[used][None], axis=-1) + np.eye(len(used))
-    radius = np.full(len(HAND21.markers), DISC_RADIUS_M)
-    radius[used] = np.where(gap.min(axis=1) < _LEAST_SPACING_M, SMALL_DISC_RADIUS_M, DISC_RADIUS_M)
+    is_tight = np.zeros(len(HAND21.markers), dtype=bool)
+    is_tight[used] = gap.min(axis=1) < _LEAST_SPACING_M
     ends = [row for row, name in enumerate(HAND21.markers) if name[:3] in ("DIP", "TIP") and name != "TIP1"]
-    for group in (list(HAND21.palm), ends):
-        radius[group] = radius[group].min()
+    radius = np.full(len(HAND21.markers), DISC_RADIUS_M)
+    if is_tight[list(HAND21.palm)].any():
+        radius[:] = SMALL_DISC_RADIUS_M
+    elif is_tight.any():
+        radius[ends] = SMALL_DISC_RADIUS_M
     return radius
