@@ -28,17 +28,18 @@ PRACTICE_PATIENT = "practice"
 # --- patients ---------------------------------------------------------------------------------------------
 @dataclass(frozen=True, slots=True)
 class PatientEntry:
-    """What a person types about a patient."""
+    """What a person types about a patient. ``name`` is optional and never leaves the register."""
 
     pseudonym: str
     side: AffectedSide
     dominance: Dominance
     note: str = ""
+    name: str = ""
 
 
 @dataclass(frozen=True, slots=True)
 class PatientRow:
-    """One row of the list."""
+    """One row of the list. ``name`` is searched and shown only on request."""
 
     patient_id: str
     pseudonym: str
@@ -48,6 +49,7 @@ class PatientRow:
     last_session: datetime | None = None
     session_count: int = 0
     note: str = ""
+    name: str = ""
 
 
 @dataclass(frozen=True, slots=True)

@@ -58,13 +58,20 @@ class PatientShelf:
     def add(self, entry: PatientEntry) -> str:
         """Enter a new patient."""
         return self._library.clinic.add(
-            register.PatientEntry(entry.pseudonym, entry.side, entry.dominance, note=entry.note)
+            register.PatientEntry(entry.pseudonym, entry.side, entry.dominance, note=entry.note, name=entry.name)
         )
 
     def change(self, patient_id: str, entry: PatientEntry) -> None:
         """Change what a person wrote; what the form does not show stays."""
         old = self._library.clinic.patient(patient_id).entry
-        new = replace(old, pseudonym=entry.pseudonym, side=entry.side, dominance=entry.dominance, note=entry.note)
+        new = replace(
+            old,
+            pseudonym=entry.pseudonym,
+            side=entry.side,
+            dominance=entry.dominance,
+            note=entry.note,
+            name=entry.name,
+        )
         self._library.clinic.change(patient_id, new)
 
     def _first_alike(self, patient_id: str, last: SessionFigures) -> SessionFigures | None:
@@ -90,6 +97,7 @@ def _row(record: PatientRecord) -> PatientRow:
         record.last_session,
         record.session_count,
         entry.note,
+        entry.name,
     )
 
 

@@ -347,7 +347,9 @@ class FakeStore:
     def add(self, entry: PatientEntry) -> str:
         self.added.append(entry)
         key = f"new-{len(self.added)}"
-        self.rows.insert(0, PatientRow(key, entry.pseudonym, entry.side, entry.dominance, note=entry.note))
+        self.rows.insert(
+            0, PatientRow(key, entry.pseudonym, entry.side, entry.dominance, note=entry.note, name=entry.name)
+        )
         return key
 
     def change(self, patient_id: str, entry: PatientEntry) -> None:

@@ -78,6 +78,7 @@ class PatientCardView(Card):
         row = card.row
         practice = row.patient_id == PRACTICE_PATIENT
         self._name.setText(row.pseudonym)
+        self._name.setToolTip(row.name)
         self._hand.setText(
             self.tr("Simulated camera: nothing here counts")
             if practice

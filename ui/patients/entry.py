@@ -1,4 +1,4 @@
-"""The form for a new patient, or for changing one: four things, none of them a real name."""
+"""The form for a new patient, or for changing one: a made-up name first, the real one only if wanted."""
 
 from __future__ import annotations
 
@@ -41,6 +41,7 @@ class PatientForm(Sheet):
             theme,
             [("right", self.tr("Right")), ("left", self.tr("Left")), ("unknown", self.tr("Not known"))],
         )  # fmt: skip
+        self.real_name = QLineEdit()
         self.note = QPlainTextEdit()
         self.note.setTabChangesFocus(True)
         self.note.setFixedHeight(theme.px(NOTE_HEIGHT_PX))
@@ -53,6 +54,8 @@ class PatientForm(Sheet):
         rule = self.tr("A made-up name that can be spoken aloud. No real name, no initials, no date of birth.")
         self.body.addWidget(Text(theme, rule, 14, token="text2", wrap=True))
         self.body.addWidget(Labelled(theme, self.tr("&Name in Carpus"), name_row))
+        kept = self.tr("&Real name, if wanted: kept in this list only, never in a session, report or export")
+        self.body.addWidget(Labelled(theme, kept, self.real_name))
         self.body.addWidget(Labelled(theme, self.tr("Affected hand"), self.side))
         self.body.addWidget(Labelled(theme, self.tr("Writes with"), self.dominance))
         self.body.addWidget(Labelled(theme, self.tr("N&ote (no diagnosis, no names)"), self.note))
@@ -63,6 +66,7 @@ class PatientForm(Sheet):
         buttons.addWidget(self.save)
         self.body.addLayout(buttons)
         self.name.returnPressed.connect(self._accept)
+        self.real_name.returnPressed.connect(self._accept)
         self.save.clicked.connect(self._accept)
         cancel.clicked.connect(self.close_sheet)
         self._taken: frozenset[str] = frozenset()
@@ -76,6 +80,7 @@ class PatientForm(Sheet):
         self.name.setText(entry.pseudonym)
         self.side.choose(entry.side)
         self.dominance.choose(entry.dominance if entry.dominance != "both" else "unknown")
+        self.real_name.setText(entry.name)
         self.note.setPlainText(entry.note)
         self._fault.hide()
         self.open(self.name)
@@ -95,4 +100,5 @@ class PatientForm(Sheet):
             return
         self.close_sheet()
         side, dominance = str(self.side.value()), str(self.dominance.value())
-        self.accepted.emit(PatientEntry(name, side, dominance, self.note.toPlainText().strip()))  # type: ignore[arg-type]
+        note, real_name = self.note.toPlainText().strip(), " ".join(self.real_name.text().split())
+        self.accepted.emit(PatientEntry(name, side, dominance, note, real_name))  # type: ignore[arg-type]

@@ -130,7 +130,7 @@ class PatientsScreen(QWidget):
         row = next(row for row in self._rows if row.patient_id == patient_id)
         self._changing = patient_id
         taken = frozenset(other.pseudonym.casefold() for other in self._rows if other is not row)
-        self.form.begin(PatientEntry(row.pseudonym, row.side, row.dominance, row.note), taken)
+        self.form.begin(PatientEntry(row.pseudonym, row.side, row.dominance, row.note, row.name), taken)
 
     def _store_entry(self, entry: PatientEntry) -> None:
         if self._changing:
@@ -216,5 +216,5 @@ class _Nobody(QWidget):
 
 
 def _matches(row: PatientRow, wanted: list[str]) -> bool:
-    text = f"{row.pseudonym} {terms.exercise_name(row.exercise) if row.exercise else ''}".casefold()
+    text = f"{row.pseudonym} {row.name} {terms.exercise_name(row.exercise) if row.exercise else ''}".casefold()
     return all(word in text for word in wanted)

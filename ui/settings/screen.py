@@ -26,8 +26,6 @@ from ui.keys import DEFAULT_KEYS, action_words
 from ui.ports import Preferences
 from ui.theme import GAP_PX, MARGIN_PX, TEXT_SCALES, Theme
 
-FOLDER_NOTE = "Sessions and the list of patients. Private to you; nothing leaves this computer."
-
 
 class SettingsScreen(QWidget):
     """``changed`` carries the whole :class:`Preferences`; ``done`` leads back."""
@@ -68,7 +66,8 @@ class SettingsScreen(QWidget):
         looks.body.addWidget(Text(theme, self.tr("Text size"), 14, REGULAR, "text2"))
         looks.body.addWidget(self.text_scale)
         data = self._card(self.tr("Data"))
-        data.body.addWidget(Text(theme, self.tr(FOLDER_NOTE), 14, REGULAR, "text2", wrap=True))
+        note = self.tr("Sessions and the list of patients. Private to you; nothing leaves this computer.")
+        data.body.addWidget(Text(theme, note, 14, REGULAR, "text2", wrap=True))
         row = QHBoxLayout()
         row.addWidget(self.folder, 1)
         row.addWidget(self.folder_button)
