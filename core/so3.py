@@ -100,15 +100,22 @@ def log(rotation: FloatArray) -> FloatArray:
 
 
 def right_jacobian(turn_rad: FloatArray) -> FloatArray:
-    """Jr with Exp(t + d) = Exp(t) Exp(Jr d) to first order; (..., 3) to (..., 3, 3)."""
-    angle2 = np.sum(turn_rad * turn_rad, axis=-1)
-    angle = np.sqrt(angle2)
-    small = angle2 < 1e-6
-    safe = np.where(small, 1.0, angle2)
-    b = np.where(small, 0.5 - angle2 / 24.0, (1.0 - np.cos(angle)) / safe)
-    c = np.where(small, 1.0 / 6.0 - angle2 / 120.0, (angle - np.sin(angle)) / (safe * np.sqrt(safe)))
-    k = skew(turn_rad)
-    return np.asarray(np.eye(3) - b[..., None, None] * k + c[..., None, None] * (k @ k))
+    """Jr (3, 3) of one turn (3,), with Exp(t + d) = Exp(t) Exp(Jr d) to first order."""
+    x, y, z = (float(value) for value in turn_rad)
+    angle2 = x * x + y * y + z * z
+    if angle2 < 1e-6:
+        b, c = 0.5 - angle2 / 24.0, 1.0 / 6.0 - angle2 / 120.0
+    else:
+        angle = math.sqrt(angle2)
+        b, c = (1.0 - math.cos(angle)) / angle2, (angle - math.sin(angle)) / (angle2 * angle)
+    d = 1.0 - c * angle2
+    return np.array(
+        [
+            [d + c * x * x, c * x * y + b * z, c * x * z - b * y],
+            [c * x * y - b * z, d + c * y * y, c * y * z + b * x],
+            [c * x * z + b * y, c * y * z - b * x, d + c * z * z],
+        ]
+    )
 
 
 def nearest_rotation(matrix: FloatArray) -> FloatArray:

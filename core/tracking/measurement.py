@@ -97,14 +97,21 @@ class Forecast:
     marker_mean: FloatArray
     marker_covariance: FloatArray
     cross: FloatArray
+    mixture_mean: FloatArray
+    mixture_covariance: FloatArray
+
+    @staticmethod
+    def of(bank: ModeBank, marker_mean: FloatArray, marker_covariance: FloatArray, cross: FloatArray) -> Forecast:
+        """The forecast with the mixture over its modes worked out."""
+        probability = bank.probability
+        mean = probability @ marker_mean
+        apart = marker_mean - mean
+        within = (probability @ marker_covariance.reshape(probability.size, -1)).reshape(mean.size, mean.size)
+        return Forecast(bank, marker_mean, marker_covariance, cross, mean, within + (apart.T * probability) @ apart)
 
     def mixture(self) -> tuple[FloatArray, FloatArray]:
         """Mean (3M,) and covariance (3M, 3M) of the measurements over all modes."""
-        probability = self.bank.probability
-        mean = probability @ self.marker_mean
-        apart = self.marker_mean - mean
-        within = (probability @ self.marker_covariance.reshape(probability.size, -1)).reshape(mean.size, mean.size)
-        return mean, within + (apart.T * probability) @ apart
+        return self.mixture_mean, self.mixture_covariance
 
 
 @lru_cache(maxsize=8)
@@ -142,7 +149,7 @@ def forecast(bank: ModeBank, layout: StateLayout, view: View, spread: Spread) ->
     whole = np.linalg.solve(root, bank.covariance[:, seen, :])
     pairs = marker[:, 1 : size + 1] - marker[:, size + 1 :]
     cross = (weights.covariance[1] * weights.scale) * (np.swapaxes(pairs, -1, -2) @ whole)
-    return Forecast(bank, mean, covariance, cross)
+    return Forecast.of(bank, mean, covariance, cross)
 
 
 def forecast_reduced(
@@ -204,7 +211,7 @@ def forecast_augmented(
         marker_covariances.append(weighted.T @ (marker - marker_mean))
         crosses.append(weighted.T @ deviation)
     after_bank = ModeBank(nominal, errors, np.stack(covariances), bank.probability)
-    return Forecast(after_bank, np.stack(marker_means), np.stack(marker_covariances), np.stack(crosses))
+    return Forecast.of(after_bank, np.stack(marker_means), np.stack(marker_covariances), np.stack(crosses))
 
 
 def _mean(after: Belief, weight: FloatArray, covariance: FloatArray) -> Belief:

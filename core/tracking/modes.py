@@ -76,7 +76,8 @@ def merged(bank: ModeBank, layout: StateLayout) -> ModeBank:
     turn = layout.turn
     # The turns are measured from another rotation now: log(Exp(-m) Exp(e)) to second order.
     error = apart.copy()
-    error[:, turn] -= 0.5 * np.cross(mean[turn], bank.error[:, turn])
+    x, y, z = mean[turn]
+    error[:, turn] -= 0.5 * (bank.error[:, turn] @ np.array([[0.0, z, -y], [-z, 0.0, x], [y, -x, 0.0]]))
     return ModeBank(bank.nominal.moved(mean, layout, covariance), error, bank.covariance, bank.probability)
 
 
