@@ -3,13 +3,16 @@
 from __future__ import annotations
 
 import argparse
+import contextlib
 import sys
 import time
 from pathlib import Path
-from typing import Protocol
 
 from app.commands.progress import bar
+from core.capture.raw import RawWriter
+from core.capture.raw_tum import TumWriter
 from core.errors import CarpusFault, OutputExists
+from core.pipeline.recorder import Recorder
 from core.types import Frame
 from core.words import one_sentence
 
@@ -17,11 +20,8 @@ NAME = "record"
 HELP = "Record raw colour and depth from the camera."
 
 
-class _Writer(Protocol):
-    def append_frame(self, frame: Frame) -> None: ...
-    def close(self) -> None: ...
-    def abandon(self) -> None: ...
-    def discard(self) -> None: ...
+WAITING_FRAMES = 90
+"""Three seconds of pictures may wait for a slow disk."""
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -37,9 +37,6 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def run(arguments: argparse.Namespace) -> int:
-    from core.capture.raw import RawWriter
-    from core.capture.raw_tum import TumWriter
-
     if arguments.output.exists():
         raise OutputExists(arguments.output)
     notice = _tell
@@ -51,33 +48,43 @@ def run(arguments: argparse.Namespace) -> int:
         from core.capture.xtion import XtionSource
 
         source = XtionSource(notice=notice)
+
+    def open_writer() -> RawWriter | TumWriter:
+        if arguments.format == "raw":
+            return RawWriter(arguments.output, source.info, lossless=arguments.lossless)
+        return TumWriter(arguments.output, source.info)
+
+    # The disk has a thread of its own: a slow moment of it must not hold up the camera.
+    recorder = Recorder("pictures", open_writer, _store, WAITING_FRAMES, _fault_told)
+    live = arguments.origin is None
+    total = None if arguments.seconds is None else max(1, round(arguments.seconds * source.info.nominal_fps))
     count, missed = 0, 0
     try:
-        writer: _Writer
-        if arguments.format == "raw":
-            writer = RawWriter(arguments.output, source.info, lossless=arguments.lossless)
-        else:
-            writer = TumWriter(arguments.output, source.info)
-        begun = time.monotonic()
-        total = None if arguments.seconds is None else int(arguments.seconds * source.info.nominal_fps)
-        try:
-            with bar("recording") as show:
-                for frame in source.frames():
-                    writer.append_frame(frame)
-                    count, missed = count + 1, missed + frame.dropped_before
-                    show(count, total)
-                    if total is not None and (count >= total or time.monotonic() - begun > 2 * arguments.seconds + 5):
-                        break
-        except KeyboardInterrupt:
-            pass
-        except BaseException:
-            writer.abandon() if count else writer.discard()
-            raise
-        writer.close() if count else writer.discard()
+        recorder.start()
+        with bar("recording") as show, contextlib.suppress(KeyboardInterrupt):
+            for frame in source.frames():
+                while not live and recorder.waiting >= WAITING_FRAMES - 1 and recorder.fault is None:
+                    time.sleep(0.002)  # a file can wait for the disk
+                if recorder.fault is not None:
+                    break
+                recorder.put(frame)
+                count, missed = count + 1, missed + frame.dropped_before
+                show(count, total)
+                if total is not None and count >= total:
+                    break
     finally:
         source.close()
+        recorder.finish()
     print(f"Recording: {arguments.output}\nFrames: {count}, missing {missed}")
     return 0
+
+
+def _store(writer: RawWriter | TumWriter, frame: Frame) -> None:
+    writer.append_frame(frame)
+
+
+def _fault_told(_fault: Exception) -> None:
+    """Nothing to do at once: finishing the recording raises it."""
 
 
 def _tell(fault: CarpusFault) -> None:
