@@ -36,19 +36,23 @@ class AnatomyPrior:
     ``bone_share`` of a bone's length; ``last_bone_share`` of the last one, which ends under a disc whose place on the
     nail varies; ``height_scale`` common to all offsets of a ray, besides the scatter of each in the table;
     ``start_ahead_m`` and ``start_aside_m`` of the first joint centre (MCP, CMC1) from the place under its disc.
+    ``neutral_*`` of the angles at the neutral pose, about a hand that lies relaxed: joints bent by
+    ``relaxed_flexion_rad``, the thumb a little out, ``relaxed_thumb_rad`` CMC extension and abduction.
     """
 
     bone_share: float = 0.06
     last_bone_share: float = 0.20
-    fan_rad: float = math.radians(4.0)
-    thumb_fan_rad: float = math.radians(8.0)
-    thumb_roll_rad: float = math.radians(8.0)
+    fan_rad: float = math.radians(2.5)
+    thumb_fan_rad: float = math.radians(5.0)
+    thumb_roll_rad: float = math.radians(6.0)
     height_scale: float = 0.35
     start_ahead_m: float = 0.0015
     start_aside_m: float = 0.0007
-    neutral_abduction_rad: float = math.radians(2.0)
+    neutral_abduction_rad: float = math.radians(2.5)
     neutral_flexion_rad: float = math.radians(6.0)
-    neutral_thumb_rad: float = math.radians(8.0)
+    neutral_thumb_rad: float = math.radians(6.0)
+    relaxed_flexion_rad: float = math.radians(4.0)
+    relaxed_thumb_rad: tuple[float, float] = (math.radians(8.0), math.radians(8.0))
     dip_free_rad: float = math.radians(10.0)
 
 
@@ -131,15 +135,18 @@ def with_constants(hand: HandAnatomy, constants: FloatArray) -> HandAnatomy:
 
 
 def neutral_prior(ray: int, prior: AnatomyPrior, dip_free: bool) -> Gaussian:
-    """Angles of one ray at the neutral pose, straight on average; (1, 4 or 5)."""
+    """Angles of one ray at the neutral pose, a relaxed hand on average; (1, 4 or 5)."""
+    bent = prior.relaxed_flexion_rad
     if ray == 0:
         sd = np.full(5, prior.neutral_thumb_rad)
         sd[3] = 0.5 * prior.neutral_thumb_rad
+        mean = np.array([*prior.relaxed_thumb_rad, bent, 0.0, bent])
     else:
         sd = np.full(4, prior.neutral_flexion_rad)
         sd[0] = prior.neutral_abduction_rad
+        mean = np.array([0.0, bent, bent, DIP_PER_PIP * bent])
     covariance = angles_covariance(sd, ray, dip_free, prior.dip_free_rad)
-    return Gaussian(np.zeros((1, len(sd))), covariance[None])
+    return Gaussian(mean[None], covariance[None])
 
 
 def angles_covariance(sd_rad: FloatArray, ray: int, dip_free: bool, dip_sd_rad: float) -> FloatArray:

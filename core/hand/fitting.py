@@ -72,14 +72,17 @@ class AnatomyFit:
 
     ``rays`` constants of the thumb and of fingers 2 to 5, mean (5, 11) and covariance (5, 11, 11), in the order of
     ``RAY_CONSTANTS``; ``neutral_angles_rad`` and ``neutral_angles_sd_rad`` (J,) at the
-    neutral pose (zero is the straight chain); ``residual_m`` (21, 3) model minus measurement at the neutral pose;
-    ``absurd_depth`` markers whose depth was left out.
+    neutral pose (zero is the straight chain); ``neutral_rays`` angles of each ray at the neutral pose (4 or 5) and
+    ``neutral_cross`` (4 or 5, 11) how they err together with its constants; ``residual_m`` (21, 3) model minus
+    measurement at the neutral pose; ``absurd_depth`` markers whose depth was left out.
     """
 
     anatomy: HandAnatomy
     rays: Gaussian
     neutral_angles_rad: FloatArray
     neutral_angles_sd_rad: FloatArray
+    neutral_rays: tuple[Gaussian, ...]
+    neutral_cross: tuple[FloatArray, ...]
     residual_m: FloatArray
     absurd_depth: tuple[str, ...]
     dip_free: bool
@@ -160,6 +163,8 @@ def _fitted(
         rays=rays,
         neutral_angles_rad=_all_angles([fit.angles.mean[0] for fit in fits], dip_free),
         neutral_angles_sd_rad=_all_angles([np.sqrt(np.diagonal(fit.angles.covariance[0])) for fit in fits], dip_free),
+        neutral_rays=tuple(Gaussian(fit.angles.mean[0], fit.angles.covariance[0]) for fit in fits),
+        neutral_cross=tuple(fit.cross[0] for fit in fits),
         residual_m=residual * _mirror(hand.side),
         absurd_depth=absurd_depth,
         dip_free=dip_free,

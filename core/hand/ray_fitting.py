@@ -43,11 +43,13 @@ class Gaussian:
 
 @dataclass(frozen=True, slots=True)
 class RayFit:
-    """Result: ``constants`` (11) and ``angles`` (F, 4 or 5) a posteriori; ``residual_m`` (F, 3, 3) model minus
-    measurement in W; ``cost`` sum of squares in standard deviations, priors included."""
+    """Result: ``constants`` (11) and ``angles`` (F, 4 or 5) a posteriori, ``cross`` (F, 4 or 5, 11) the covariance
+    between the two; ``residual_m`` (F, 3, 3) model minus measurement in W; ``cost`` sum of squares in standard
+    deviations, priors included."""
 
     constants: Gaussian
     angles: Gaussian
+    cross: FloatArray
     residual_m: FloatArray
     cost: float
 
@@ -92,9 +94,9 @@ def fit_ray(
     for _ in range(_REWEIGHTS if len(disc_m) > 1 else 0):
         problem = replace(given, root=_huber_weight(given, c, q)[..., None, None] * given.root)
         c, q = _minimum(problem, c, q)
-    c_covariance, q_covariance = _NormalEquations.at(problem, c, q).covariances()
+    c_covariance, q_covariance, cross = _NormalEquations.at(problem, c, q).covariances()
     residual_m = model(c, q) - given.disc_m
-    return RayFit(Gaussian(c, c_covariance), Gaussian(q, q_covariance), residual_m, problem.cost(c, q))
+    return RayFit(Gaussian(c, c_covariance), Gaussian(q, q_covariance), cross, residual_m, problem.cost(c, q))
 
 
 @dataclass(frozen=True, slots=True)
@@ -185,11 +187,13 @@ class _NormalEquations:
         step_c = -np.linalg.solve(schur, self.gradient_c - np.einsum("fij,fj->i", self.cq, drawn))
         return step_c, -drawn - carried @ step_c
 
-    def covariances(self) -> tuple[FloatArray, FloatArray]:
-        """Posterior covariances of the constants (11, 11) and of the angles of each pose (F, m, m)."""
+    def covariances(self) -> tuple[FloatArray, FloatArray, FloatArray]:
+        """Posterior covariances of the constants (11, 11), of the angles of each pose (F, m, m), and between the
+        angles and the constants (F, m, 11)."""
         carried = np.linalg.solve(self.qq, np.swapaxes(self.cq, 1, 2))
         covariance = _inverse(self.cc - np.einsum("fij,fjk->ik", self.cq, carried))
-        return covariance, _inverse(self.qq) + np.asarray(carried @ covariance @ np.swapaxes(carried, 1, 2))
+        cross = -carried @ covariance
+        return covariance, _inverse(self.qq) - np.asarray(cross @ np.swapaxes(carried, 1, 2)), cross
 
 
 def _inverse(matrix: FloatArray) -> FloatArray:

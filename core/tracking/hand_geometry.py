@@ -8,14 +8,15 @@ Constants as in :mod:`core.hand.ray_fitting`. Lengths in metres, axes of a right
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+import math
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from core.hand.anatomy import HandAnatomy
-from core.hand.kinematics import DIP_PER_PIP, finger_discs, thumb_discs
-from core.hand.protocols import HAND21
-from core.hand.wrist_frame import wrist_axes
+from core.hand.anatomy_prior import with_constants
+from core.hand.kinematics import DIP_PER_PIP
+from core.hand.protocols import HAND21, joint_angle_names
 from core.types import FloatArray, Side
 
 RAYS, SLOTS, CONSTANTS = 5, 5, 11
@@ -28,34 +29,106 @@ RAY_MARKERS = np.array([[HAND21.markers.index(name) for name in ray] for ray in 
 """Places (5, 3) of the rays' discs in ``hand21``."""
 
 _DOWN = np.array([1.0, 1.0, -1.0])
-_DORSAL = np.array([0.0, 0.0, 1.0])
 
 
-def ray_discs_m(root_m: FloatArray, joints_rad: FloatArray, constants: FloatArray) -> FloatArray:
-    """Discs (5, ..., 3, 3) of all rays in W for joints (5, ..., 5) and constants (5, ..., 11).
+# Rows: slots, fan and roll; columns: azimuth, then of a finger the pitches of its segments and of its discs'
+# normals, of a thumb CMC abduction, MCP flexion, MCP abduction, IP flexion, half of it, roll.
+_THUMB_PHASES = np.array(
+    [
+        [1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0],
+        [0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0],
+        [0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0],
+        [0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0],
+        [0.0, 0.0, 0.0, 0.0, 1.0, 0.5, 0.0],
+        [1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0],
+        [0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0],
+    ]
+)
+_TO_DIP = 1.0 + DIP_PER_PIP
+_FINGER_PHASES = np.array(
+    [
+        [1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0],
+        [0.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0],
+        [0.0, 0.0, 1.0, _TO_DIP, 0.5, 1.0 + 0.5 * DIP_PER_PIP, _TO_DIP],
+        [0.0, 0.0, 0.0, 1.0, 0.0, 0.5, 1.0],
+        [0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0],
+        [1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0],
+        [0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0],
+    ]
+)
+_PHASES = np.stack((_THUMB_PHASES, *(_FINGER_PHASES,) * 4))
+_ANGULAR = np.array([0, 1, 2, 3, 4, SLOTS + 3, SLOTS + 4])
+"""Slots, fan and roll in joints and constants side by side."""
 
-    ``root_m`` (5, 3) discs CMC1 and MCP2 to MCP5, under which the rays begin.
+
+def ray_discs_m(root_m: FloatArray, state: FloatArray) -> FloatArray:
+    """Discs (5, S, 3, 3) of all rays in W for S states (5, S, 16) of slots and constants side by side.
+
+    ``root_m`` (5, 3) discs CMC1 and MCP2 to MCP5, under which the rays begin. The chains of
+    :mod:`core.hand.kinematics` written for speed: every ray bends in a plane of its own azimuth, the thumb's rolled.
     """
-    lead = joints_rad.shape[1:-1]
-    root = root_m.reshape(RAYS, *(1,) * len(lead), 3) + constants[..., 5:8] * _DOWN
-    out = np.empty((RAYS, *lead, DISCS, 3))
-    thumb = constants[0]
-    out[0] = thumb_discs(root[0], thumb[..., 3], thumb[..., 4], thumb[..., :3], thumb[..., 8:], joints_rad[0])
-    finger = constants[1:]
-    angles = joints_rad[1:, ..., :4].copy()
-    angles[..., 3] += DIP_PER_PIP * angles[..., 2]
-    out[1:] = finger_discs(root[1:], finger[..., 3], finger[..., :3], finger[..., 8:], angles)
+    phase = state[..., _ANGULAR] @ _PHASES
+    cos, sin = np.cos(phase), np.sin(phase)
+    length, height = state[..., SLOTS : SLOTS + 3], state[..., SLOTS + 8 :]
+    along, up = np.empty(length.shape), np.empty(length.shape)
+
+    # Fingers: ends of the segments, then the discs on the normals.
+    np.cumsum(length[1:] * cos[1:, :, 1:4], axis=-1, out=along[1:])
+    np.cumsum(length[1:] * sin[1:, :, 1:4], axis=-1, out=up[1:])
+    np.negative(up[1:], out=up[1:])
+    along[1:] += height[1:] * sin[1:, :, 4:]
+    up[1:] += height[1:] * cos[1:, :, 4:]
+
+    # Thumb: in the axes of the metacarpal (its direction, dorsal normal, flexion axis), rolled, then raised.
+    c, s = cos[0].T, sin[0].T
+    (mc, pp, dp), (h1, h2, h3) = length[0].T, height[0].T
+    ahead = np.empty((2, mc.size))  # IP1 and TIP1: along the proximal phalanx and along its normal
+    lift = np.empty((2, mc.size))
+    ahead[0], lift[0] = pp + h2 * s[5], h2 * c[5]
+    ahead[1], lift[1] = pp + dp * c[4] + h3 * s[4], h3 * c[4] - dp * s[4]
+    straight = ahead * c[3]
+    x, y, z = np.empty((3, mc.size)), np.empty((3, mc.size)), np.zeros((3, mc.size))
+    x[0], y[0] = mc, h1
+    x[1:] = mc + straight * c[2] + lift * s[2]
+    y[1:] = lift * c[2] - straight * s[2]
+    z[1:] = ahead * s[3]
+    over, aside = c[6] * y - s[6] * z, s[6] * y + c[6] * z
+    along[0] = (x * c[1] + over * s[1]).T
+    up[0] = (over * c[1] - x * s[1]).T
+
+    start = root_m[:, None] + state[..., SLOTS + 5 : SLOTS + 8] * _DOWN
+    out = np.empty((*length.shape, 3))
+    out[..., 0] = along * cos[..., :1] + start[..., :1]
+    out[..., 1] = along * sin[..., :1] + start[..., 1:2]
+    out[..., 2] = up + start[..., 2:]
+    out[0, :, :, 0] -= (aside * s[0]).T
+    out[0, :, :, 1] += (aside * c[0]).T
     return out
 
 
-def ray_facing(joints_rad: FloatArray, constants: FloatArray) -> FloatArray:
-    """Unit normals (5, 3, 3) of the rays' discs in W for joints (5, 5) and constants (5, 11)."""
-    lifted = constants.copy()
-    lifted[:, 8:] = 1.0
-    bare = constants.copy()
-    bare[:, 8:] = 0.0
-    nowhere = np.zeros((RAYS, 3))
-    return ray_discs_m(nowhere, joints_rad, lifted) - ray_discs_m(nowhere, joints_rad, bare)
+def ray_normals(state: FloatArray) -> FloatArray:
+    """Unit normals (5, 3, 3) of the rays' discs in W for states (5, 16) of slots and constants."""
+    out = np.empty((RAYS, DISCS, 3))
+    phase = (state[1:, None, _ANGULAR] @ _FINGER_PHASES)[:, 0]
+    sin, cos = np.sin(phase), np.cos(phase)
+    out[1:, :, 0] = sin[:, 4:] * cos[:, :1]
+    out[1:, :, 1] = sin[:, 4:] * sin[:, :1]
+    out[1:, :, 2] = cos[:, 4:]
+    # One thumb: plain numbers are quicker than arrays of one.
+    extension, abduction, flexion, aside, bend = state[0, :SLOTS].tolist()
+    fan, roll = float(state[0, SLOTS + 3]), float(state[0, SLOTS + 4])
+    c0, s0, c1, s1 = math.cos(fan + extension), math.sin(fan + extension), math.cos(abduction), math.sin(abduction)
+    c2, s2, c3, s3 = math.cos(flexion), math.sin(flexion), math.cos(aside), math.sin(aside)
+    cr, sr = math.cos(roll), math.sin(roll)
+    for disc, turn in enumerate((None, 0.5 * bend, bend)):
+        x, y, z = 0.0, 1.0, 0.0
+        if turn is not None:
+            along, lift = math.sin(turn), math.cos(turn)
+            x, y, z = along * c3 * c2 + lift * s2, lift * c2 - along * c3 * s2, along * s3
+        over, across = cr * y - sr * z, sr * y + cr * z
+        ahead = x * c1 + over * s1
+        out[0, disc] = ahead * c0 - across * s0, ahead * s0 + across * c0, over * c1 - x * s1
+    return out
 
 
 @dataclass(frozen=True, slots=True)
@@ -71,12 +144,23 @@ class PalmInBody:
     disc_m: FloatArray
 
     @staticmethod
-    def of(palm_body_m: FloatArray, side: Side) -> PalmInBody:
-        """From the palm's discs (6, 3) in the body."""
-        axes = wrist_axes(palm_body_m, _DORSAL)
+    def of(palm_body_m: FloatArray, axes: FloatArray, side: Side) -> PalmInBody:
+        """From the palm's discs (6, 3) and the axes (3, 3) of W as columns, both in the body."""
         if side == "left":
             axes = axes * np.array([1.0, -1.0, 1.0])
         return PalmInBody(axes, palm_body_m[0], (palm_body_m - palm_body_m[0]) @ axes)
+
+
+@dataclass(frozen=True, slots=True)
+class JointMoment:
+    """Joint angles (J,), standard deviations and rates (NaN in the papers' model); joint centres and tips (21, 3) in
+    W2 of the hand's own side; the rays' discs (5, 3, 3) in camera axes."""
+
+    angles_rad: FloatArray
+    sd_rad: FloatArray
+    rate_rad_s: FloatArray
+    joint_w2_m: FloatArray
+    disc_cam_m: FloatArray
 
 
 @dataclass(frozen=True, slots=True)
@@ -104,6 +188,15 @@ class JointReading:
         return np.asarray(np.einsum("ji,jik,jk->j", self.weight, covariance[self.ray], self.weight))
 
 
+def direct_markers(dip_free: bool) -> np.ndarray:
+    """Rows (J, 2) in ``hand21`` of the discs at each joint and next past it, which measure it directly."""
+    rows = []
+    for name in joint_angle_names(dip_free):
+        at = HAND21.markers.index(name.split("_")[0])
+        rows.append((at, at + 1))
+    return np.array(rows)
+
+
 def slots_of(angles_rad: FloatArray) -> FloatArray:
     """Slots (..., 5, 5) of 17 or 21 joint angles (..., J)."""
     lead, per_finger = angles_rad.shape[:-1], (angles_rad.shape[-1] - 5) // 4
@@ -117,8 +210,4 @@ def slots_of(angles_rad: FloatArray) -> FloatArray:
 
 def anatomy_at(hand: HandAnatomy, palm: PalmInBody, constants: FloatArray) -> HandAnatomy:
     """The hand with the palm and the constants (5, 11) as refined so far."""
-    from dataclasses import replace
-
-    from core.hand.anatomy_prior import with_constants
-
     return with_constants(replace(hand, palm_disc_m=palm.disc_m), constants)

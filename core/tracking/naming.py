@@ -101,16 +101,15 @@ def correct(
 def name_and_correct(
     forecast: Forecast,
     blobs: Measurable,
-    palm: NDArray[np.int64],
-    enough_palm: int,
+    enough: int,
     resolution_px2: float,
     noise_factor: FloatArray,
     settings: TrackerSettings,
 ) -> Corrected:
     """Names by (12), each marker judged by itself; where the whole does not hold together, all jointly.
 
-    Holding together: the joint NIS is credible, and ``enough_palm`` of the ``palm`` markers are named unless
-    no blob is left that could be one.
+    Holding together: the joint NIS is credible, and ``enough`` markers are named unless no blob is left that could
+    be one.
     """
     mean, covariance = forecast.mixture()
     markers = mean.size // 3
@@ -131,8 +130,7 @@ def name_and_correct(
     with_depth = odds.with_depth[np.arange(markers), taken]
     simple = correct(forecast, blobs, taken, with_depth, noise_factor)
     named = np.count_nonzero(taken >= 0)
-    enough = np.count_nonzero(taken[palm] >= 0) >= enough_palm or named == len(blobs)
-    if enough and holds_together(simple.nis, simple.dof):
+    if (named >= enough or named == len(blobs)) and holds_together(simple.nis, simple.dof):
         return _without_outliers(simple, forecast, blobs, with_depth, noise_factor, settings.noise)
     found = associate_jointly(
         mean,

@@ -7,13 +7,15 @@ The covariance of an angle holds both the pose's and the calibration's part.
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 
 from core import so3
 from core.calibration.result import Calibration
 from core.hand import clinical_angles
 from core.hand.wrist_frame import wrist_axes_sensitivity
-from core.tracking.measurement import View
+from core.tracking.hand_geometry import JointMoment, PalmInBody
 from core.tracking.state import Belief, StateLayout
 from core.types import Detections, FloatArray, Moment, TrackedFrame, TrackStatus
 
@@ -47,6 +49,22 @@ class Readout:
             return self._axes, self._sensitivity
         turned = self._sensitivity @ (palm_shape - self._axes_shape).ravel()
         return self._axes @ so3.exp(turned), self._sensitivity
+
+    def palm(self, belief: Belief) -> tuple[PalmInBody, FloatArray]:
+        """The palm as refined, for the fingers, and the covariance (3, 3) of its axes' turn, in W of a right hand."""
+        layout, p = self._layout, belief.covariance
+        discs = self._calibration.marker_position_w0_m[self._palm]
+        if layout.shape_count:
+            axes, sensitivity = self._axes_of(belief.shape)
+            discs = discs + belief.shape.reshape(-1, 3)[self._palm]
+            columns = np.concatenate((np.arange(layout.size)[layout.turn], np.arange(layout.size)[layout.shape]))
+            error = np.hstack((np.eye(3), axes @ sensitivity))
+            covariance = error @ p[columns[:, None], columns] @ error.T
+        else:
+            axes = np.eye(3)
+            covariance = p[layout.turn, layout.turn] + self._unrefined_turn
+        palm = PalmInBody.of(discs, axes, self._side)
+        return palm, palm.axes.T @ covariance @ palm.axes
 
     def moment(self, belief: Belief) -> Moment:
         """Wrist pose, rates, angles and their standard deviations of a single belief."""
@@ -90,52 +108,15 @@ class Readout:
             np.empty((0, 3)),
         )
 
-    def frame(
-        self,
-        index: int,
-        timestamp_s: float,
-        status: TrackStatus,
-        belief: Belief,
-        view: View,
-        *,
-        predicted_px: FloatArray,
-        predicted_cov_px2: FloatArray,
-        measured_px: FloatArray,
-        measured_depth_m: FloatArray,
-        detections: Detections,
-        dropped_before: int,
-        measured_share: FloatArray,
-        nis: float,
-        nis_dof: int,
-    ) -> TrackedFrame:
-        """The whole row of a tracked or predicted frame."""
-        moment = self.moment(belief)
-        discs = view.markers_cam_m(belief.position_m, belief.rotation_w2_w0, belief.joints_rad, belief.shape)
-        return TrackedFrame(
-            index,
-            timestamp_s,
-            status,
-            moment.position_m,
-            moment.velocity_m_s,
-            moment.rotation_w2_w0,
-            moment.angular_velocity_rad_s,
-            moment.angles_rad,
-            moment.angles_sd_rad,
-            moment.angles_zyz_rad,
-            moment.joint_angles_rad,
-            moment.joint_angles_sd_rad,
-            moment.joint_velocity_rad_s,
-            moment.joint_position_m,
-            discs,
-            predicted_px,
-            predicted_cov_px2,
-            measured_px,
-            measured_depth_m,
-            detections,
-            dropped_before,
-            measured_share,
-            nis,
-            nis_dof,
+    def with_joints(self, moment: Moment, joints: JointMoment) -> Moment:
+        """The moment with what is known of the fingers."""
+        rotation = self._start.T @ moment.rotation_w2_w0
+        return replace(
+            moment,
+            joint_angles_rad=joints.angles_rad,
+            joint_angles_sd_rad=joints.sd_rad,
+            joint_velocity_rad_s=joints.rate_rad_s,
+            joint_position_m=moment.position_m + joints.joint_w2_m @ rotation.T,
         )
 
 
@@ -150,27 +131,35 @@ def _neutral_turn_covariance(calibration: Calibration) -> FloatArray:
     return np.asarray(np.einsum("mij,mjk,mlk->il", by_disc, covariance, by_disc))
 
 
-def lost_moment() -> Moment:
-    """Nothing is known."""
-    three = np.full(3, np.nan)
-    return Moment(three, three, np.full((3, 3), np.nan), *(three,) * 4, _NONE, _NONE, _NONE, np.empty((0, 3)))
+def lost_moment(joint_count: int, marker_count: int) -> Moment:
+    """Nothing is known of ``joint_count`` joint angles, nor of the ``marker_count`` joint centres that go with them."""
+    three, joints = np.full(3, np.nan), np.full(joint_count, np.nan)
+    places = np.full((marker_count if joint_count else 0, 3), np.nan)
+    return Moment(three, three, np.full((3, 3), np.nan), *(three,) * 4, *(joints,) * 3, places)
 
 
-def lost_readout(
+def shown_frame(
     index: int,
     timestamp_s: float,
+    status: TrackStatus,
+    moment: Moment,
+    *,
+    marker_position_cam_m: FloatArray,
+    predicted_px: FloatArray,
+    predicted_cov_px2: FloatArray,
+    measured_px: FloatArray,
+    measured_depth_m: FloatArray,
     detections: Detections,
     dropped_before: int,
-    marker_count: int,
     measured_share: FloatArray,
+    nis: float,
+    nis_dof: int,
 ) -> TrackedFrame:
-    """The row of a frame in which the hand is lost: nothing is known but the blobs."""
-    moment = lost_moment()
-    per_marker = np.full((marker_count, 2), np.nan)
+    """The whole row of one frame."""
     return TrackedFrame(
         index,
         timestamp_s,
-        TrackStatus.LOST,
+        status,
         moment.position_m,
         moment.velocity_m_s,
         moment.rotation_w2_w0,
@@ -182,14 +171,43 @@ def lost_readout(
         moment.joint_angles_sd_rad,
         moment.joint_velocity_rad_s,
         moment.joint_position_m,
-        np.full((marker_count, 3), np.nan),
-        per_marker,
-        np.full((marker_count, 2, 2), np.nan),
-        per_marker,
-        np.full(marker_count, np.nan),
+        marker_position_cam_m,
+        predicted_px,
+        predicted_cov_px2,
+        measured_px,
+        measured_depth_m,
         detections,
         dropped_before,
         measured_share,
-        float("nan"),
-        0,
+        nis,
+        nis_dof,
+    )
+
+
+def lost_frame(
+    index: int,
+    timestamp_s: float,
+    moment: Moment,
+    marker_count: int,
+    detections: Detections,
+    dropped_before: int,
+    measured_share: FloatArray,
+) -> TrackedFrame:
+    """The row of a frame in which the hand is lost: nothing is known but the blobs."""
+    per_marker = np.full((marker_count, 2), np.nan)
+    return shown_frame(
+        index,
+        timestamp_s,
+        TrackStatus.LOST,
+        moment,
+        marker_position_cam_m=np.full((marker_count, 3), np.nan),
+        predicted_px=per_marker,
+        predicted_cov_px2=np.full((marker_count, 2, 2), np.nan),
+        measured_px=per_marker,
+        measured_depth_m=np.full(marker_count, np.nan),
+        detections=detections,
+        dropped_before=dropped_before,
+        measured_share=measured_share,
+        nis=float("nan"),
+        nis_dof=0,
     )

@@ -6,6 +6,7 @@ from dataclasses import dataclass, field
 from typing import Literal
 
 from core.tracking.association import AssociationSettings
+from core.tracking.finger_settings import FingerSettings
 from core.tracking.motion import MotionModel, MotionNoise
 from core.tracking.state import InitialSd
 from core.tracking.unscented import Spread
@@ -67,6 +68,7 @@ class TrackerSettings:
     initial: InitialSd = field(default_factory=InitialSd)
     noise: MeasurementNoise = field(default_factory=MeasurementNoise)
     association: AssociationSettings = field(default_factory=AssociationSettings)
+    fingers: FingerSettings = field(default_factory=FingerSettings)
     marker_radius_m: float = 0.006
     lost_after_s: float = 1.5
     rate_memory_s: float = 0.2

@@ -7,20 +7,24 @@ and states the angles with their standard deviations. It reads no picture and wr
 from __future__ import annotations
 
 from collections import deque
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, fields, replace
+from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from core.calibration.result import Calibration
 from core.camera import Camera
 from core.tracking import modes
-from core.tracking.geometry import geometry_for
+from core.tracking.fingers import Fingers, FingerTrial, Seat, seat_of
+from core.tracking.geometry import geometry_for, palm_of
+from core.tracking.hand_geometry import RAY_MARKERS
 from core.tracking.measurement import Forecast, View, forecast, forecast_augmented, forecast_reduced
 from core.tracking.modes import ModeBank
-from core.tracking.naming import Corrected, measurable, name_and_correct
+from core.tracking.naming import Corrected, Measurable, measurable, name_and_correct
 from core.tracking.noise_watch import watched
 from core.tracking.reacquire import find_palm
-from core.tracking.readout import Readout, lost_moment, lost_readout
+from core.tracking.readout import Readout, lost_frame, lost_moment, shown_frame
 from core.tracking.settings import TrackerSettings
 from core.tracking.smoother import FilterStep, smooth
 from core.tracking.state import Belief, StateLayout, resting_belief
@@ -40,6 +44,22 @@ class Expectation:
     depth_m: FloatArray
 
 
+@dataclass(frozen=True, slots=True)
+class _Step:
+    """One frame weighed: the palm as named, its modes merged, and the fingers on it.
+
+    ``spare`` (D,) blobs that are neither's, ``is_finger`` (D,) blobs that are the fingers'.
+    """
+
+    palm: Corrected
+    bank: ModeBank
+    palm_seen: int
+    seat: Seat | None
+    fingers: FingerTrial | None
+    spare: NDArray[np.bool_]
+    is_finger: NDArray[np.bool_]
+
+
 class Tracker:
     """Tracks one calibrated hand through frames in order of time."""
 
@@ -48,17 +68,20 @@ class Tracker:
     ) -> None:
         self.settings = settings
         self._keep_history = keep_history
-        self._calibration = calibration
         self._protocol = calibration.clicks.protocol
-        self._palm = np.array(self._protocol.palm)
+        self._rows = np.array(self._protocol.palm)
+        self._fingers = Fingers(calibration, camera, settings) if self._protocol.has_fingers else None
+        self._joint_count = 0 if self._fingers is None else self._fingers.reading.ray.size
+        calibration = palm_of(calibration)
+        self._calibration = calibration
         geometry, shape_covariance = geometry_for(calibration, settings.refine_shape)
         self.layout = StateLayout(0, settings.motion == "constant_rate", shape_covariance.shape[0])
         self.view = View(camera, calibration.rotation_w0_cam, calibration.translation_w0_cam_m, geometry)
         self._scales = np.array(settings.mode_scales if settings.motion == "constant_rate" else (1.0,))
         self._resolution_px2 = float(camera.width_px * camera.height_px)
         self._readout = Readout(calibration, self.layout)
-        self._noise_factor = np.ones((len(self._protocol.markers), 3))
-        self._recent: deque[tuple[float, float]] = deque()
+        self._noise_factor = np.ones((self._rows.size, 3))
+        self._recent: deque[tuple[float, FloatArray]] = deque()
         self._bank: ModeBank | None = None
         self._shape = np.zeros(shape_covariance.shape[0])
         self._shape_covariance = shape_covariance
@@ -76,6 +99,8 @@ class Tracker:
         self._shape = np.zeros(self._shape_covariance.shape[0])
         start = resting_belief(self.layout, self.settings.initial, shape_covariance=self._shape_covariance)
         self._begin(start)
+        if self._fingers is not None:
+            self._fingers.begin_at_neutral()
         self._anew = True
 
     def _begin(self, belief: Belief) -> ModeBank:
@@ -93,7 +118,8 @@ class Tracker:
             return None
         mean, covariance = self._forecast_at(timestamp_s, self._bank).mixture()
         place = 3 * np.arange(mean.size // 3)[:, None] + _UV
-        return Expectation(mean[place], covariance[place[:, :, None], place[:, None, :]], mean[2::3])
+        palm = Expectation(mean[place], covariance[place[:, :, None], place[:, None, :]], mean[2::3])
+        return palm if self._fingers is None else self._with_fingers(palm, timestamp_s, self._fingers)
 
     def _forecast_at(self, timestamp_s: float, bank: ModeBank) -> Forecast:
         if self._forecast is not None and self._forecast[0] == timestamp_s:
@@ -127,96 +153,137 @@ class Tracker:
             self._begin(self._belief_found(*found[:2]))
             self._seen_s, linked, self._time_s = timestamp_s, False, timestamp_s
         assert self._bank is not None
+        dt_s = 0.0 if self._time_s is None else timestamp_s - self._time_s
         ahead = self._forecast_at(timestamp_s, self._bank)
-        corrected = self._named(ahead, ideal)
-        seen = self._palm_seen(corrected)
-        if seen <= LEAST_PALM_MARKERS and len(ideal) > seen:
+        blobs = self._measurable(ahead, ideal)
+        step = self._weighed(timestamp_s, dt_s, ahead, blobs)
+        if step.palm_seen <= LEAST_PALM_MARKERS and np.count_nonzero(step.spare) + step.palm_seen > LEAST_PALM_MARKERS:
             # Too little of the palm is where it was expected: perhaps it is plainly elsewhere.
-            found = find_palm(ideal, self.view, self.settings)
-            if found is not None and found[2] > seen:
+            found = find_palm(_only(ideal, ~step.is_finger), self.view, self.settings)
+            if found is not None and found[2] > step.palm_seen:
                 bank = self._begin(self._belief_found(*found[:2]))
                 ahead, linked = forecast(bank, self.layout, self.view, self.settings.spread), False
-                corrected = self._named(ahead, ideal)
-                seen = self._palm_seen(corrected)
-        dt_s = 0.0 if self._time_s is None else timestamp_s - self._time_s
+                step = self._weighed(timestamp_s, dt_s, ahead, blobs)
         self._time_s, self._forecast = timestamp_s, None
-        self._noise_factor = watched(self._noise_factor, corrected, dt_s, self.settings.noise)
-        bank = modes.merged(corrected.bank, self.layout)
-        belief = bank.nominal
+        self._noise_factor = watched(self._noise_factor, step.palm, dt_s, self.settings.noise)
+        belief = step.bank.nominal
         self._shape, self._shape_covariance = belief.shape, belief.covariance[self.layout.shape, self.layout.shape]
-        self._remember(timestamp_s, seen / self._palm.size)
-        if seen >= LEAST_PALM_MARKERS:
-            status, self._bank, self._seen_s = TrackStatus.TRACKED, bank, timestamp_s
+        if self._fingers is not None and step.fingers is not None:
+            self._fingers.accept(step.fingers, dt_s)
+        self._remember(timestamp_s, self._measured(step))
+        if step.palm_seen >= LEAST_PALM_MARKERS:
+            status, self._bank, self._seen_s = TrackStatus.TRACKED, step.bank, timestamp_s
         elif timestamp_s - max(self._seen_s, self._begun_s) > self.settings.lost_after_s:
             return self._lost(index, timestamp_s, detections, dropped_before)
         else:
             # An unseen hand is not taken to go on for ever: its velocity fades, its uncertainty grows.
             keep = float(np.exp(-dt_s / self.settings.rate_memory_s))
-            status, self._bank = TrackStatus.PREDICTED, modes.slowed(bank, keep, self.layout)
+            status, self._bank = TrackStatus.PREDICTED, modes.slowed(step.bank, keep, self.layout)
         if self._keep_history:
-            scale = float(np.sqrt(bank.probability @ self._scales**2))
+            scale = float(np.sqrt(step.bank.probability @ self._scales**2))
             self.history.append(FilterStep(timestamp_s, belief, scale, linked))
-        return self._shown(index, timestamp_s, status, belief, ahead, corrected, detections, dropped_before)
+        return self._shown(index, timestamp_s, status, ahead, step, detections, dropped_before)
 
-    def _named(self, ahead: Forecast, ideal: Detections) -> Corrected:
+    def _measurable(self, ahead: Forecast, ideal: Detections) -> Measurable:
         depth_m = max(float(ahead.marker_mean[0, 2]), 0.1)
-        radius_px = self.view.camera.fx_px * self.settings.marker_radius_m / depth_m
-        return name_and_correct(
-            ahead,
-            measurable(ideal, radius_px, self.settings),
-            self._palm,
-            LEAST_PALM_MARKERS + 1,
-            self._resolution_px2,
-            self._noise_factor,
-            self.settings,
+        return measurable(ideal, self.view.camera.fx_px * self.settings.marker_radius_m / depth_m, self.settings)
+
+    def _weighed(self, timestamp_s: float, dt_s: float, ahead: Forecast, blobs: Measurable) -> _Step:
+        """Palm and fingers named and corrected, the fingers by what the palm leaves; nothing is remembered."""
+        corrected = name_and_correct(
+            ahead, blobs, LEAST_PALM_MARKERS + 1, self._resolution_px2, self._noise_factor, self.settings
         )
+        bank = modes.merged(corrected.bank, self.layout)
+        spare = np.ones(len(blobs), dtype=bool)
+        named = corrected.taken >= 0
+        spare[corrected.taken[named]] = False
+        palm_seen = int(np.count_nonzero(named))
+        if self._fingers is None:
+            return _Step(corrected, bank, palm_seen, None, None, spare, np.zeros_like(spare))
+        seat = seat_of(bank.nominal, self.layout, self.view, self._readout, palm_seen >= LEAST_PALM_MARKERS)
+        fingers = self._fingers.weigh(timestamp_s, dt_s, seat, blobs, spare)
+        is_finger = np.zeros_like(spare)
+        is_finger[fingers.blob[fingers.blob >= 0]] = True
+        return _Step(corrected, bank, palm_seen, seat, fingers, spare & ~is_finger, is_finger)
+
+    def _with_fingers(self, palm: Expectation, timestamp_s: float, fingers: Fingers) -> Expectation:
+        assert self._bank is not None
+        dt_s = 0.0 if self._time_s is None else timestamp_s - self._time_s
+        belief = modes.merged(self._forecast_at(timestamp_s, self._bank).bank, self.layout).nominal
+        seat = seat_of(belief, self.layout, self.view, self._readout, True)
+        pixel, covariance, depth = fingers.expected(timestamp_s, dt_s, seat)
+        return Expectation(
+            self._by_marker(palm.pixel, pixel),
+            self._by_marker(palm.covariance_px2, covariance),
+            self._by_marker(palm.depth_m, depth),
+        )
+
+    def _by_marker(self, palm: NDArray[Any], fingers: NDArray[Any] | None) -> NDArray[Any]:
+        """Rows (M, ...) of the protocol from those of the palm (6, ...) and of the rays' discs (5, 3, ...)."""
+        if fingers is None:
+            return palm
+        out = np.empty((len(self._protocol.markers), *palm.shape[1:]), dtype=palm.dtype)
+        out[self._rows], out[RAY_MARKERS] = palm, fingers
+        return out
 
     def _shown(
         self,
         index: int,
         timestamp_s: float,
         status: TrackStatus,
-        belief: Belief,
         ahead: Forecast,
-        corrected: Corrected,
+        step: _Step,
         detections: Detections,
         dropped_before: int,
     ) -> TrackedFrame:
         """The row of a tracked or predicted frame."""
-        taken = corrected.taken
+        belief, fingers = step.bank.nominal, step.fingers
+        taken = self._by_marker(step.palm.taken, None if fingers is None else fingers.blob)
         used = np.flatnonzero(taken >= 0)
         measured_px = np.full((taken.size, 2), np.nan)
         measured_depth_m = np.full(taken.size, np.nan)
         measured_px[used] = detections.pixel[taken[used]]
         measured_depth_m[used] = detections.depth_m[taken[used]]
         mean, covariance = ahead.mixture()
-        place = 3 * np.arange(taken.size)[:, None] + _UV
-        predicted_cov_px2 = covariance[place[:, :, None], place[:, None, :]]
+        place = 3 * np.arange(self._rows.size)[:, None] + _UV
+        predicted_px, predicted_cov_px2 = mean[place], covariance[place[:, :, None], place[:, None, :]]
+        discs = self.view.markers_cam_m(belief.position_m, belief.rotation_w2_w0, belief.joints_rad, belief.shape)
+        moment, nis, dof = self._readout.moment(belief), step.palm.nis, step.palm.dof
+        if self._fingers is not None and fingers is not None and step.seat is not None:
+            joints = self._fingers.read(step.seat)
+            moment = self._readout.with_joints(moment, joints)
+            discs = self._by_marker(discs, joints.disc_cam_m)
+            predicted_px = self._by_marker(predicted_px, fingers.predicted_px)
+            predicted_cov_px2 = self._by_marker(predicted_cov_px2, fingers.predicted_cov_px2)
+            nis, dof = np.nansum([nis, fingers.nis]), dof + fingers.dof
         predicted_cov_px2[:, _UV, _UV] += self.settings.noise.pixel_sd_px**2
-        return self._readout.frame(
+        return shown_frame(
             index,
             timestamp_s,
             status,
-            belief,
-            self.view,
-            predicted_px=self.view.camera.distort(mean[place]),
+            moment,
+            marker_position_cam_m=discs,
+            predicted_px=self.view.camera.distort(predicted_px),
             predicted_cov_px2=predicted_cov_px2,
             measured_px=measured_px,
             measured_depth_m=measured_depth_m,
             detections=detections,
             dropped_before=dropped_before,
             measured_share=self._share(),
-            nis=corrected.nis,
-            nis_dof=corrected.dof,
+            nis=float(nis),
+            nis_dof=dof,
         )
 
     def _lost(self, index: int, timestamp_s: float, detections: Detections, dropped_before: int) -> TrackedFrame:
         self._bank, self._forecast, self._time_s = None, None, timestamp_s
-        self._remember(timestamp_s, 0.0)
+        if self._fingers is not None:
+            self._fingers.begin_anywhere()
+        self._remember(timestamp_s, np.zeros(self._joint_count or 3))
         if self._keep_history:
             self.history.append(FilterStep(timestamp_s, None, 1.0, False))
         count = len(self._protocol.markers)
-        return lost_readout(index, timestamp_s, detections, dropped_before, count, self._share())
+        moment = lost_moment(self._joint_count, count)
+        return lost_frame(index, timestamp_s, moment, count, detections, dropped_before, self._share())
 
     def would_miss(self, blobs: Detections) -> bool:
         """Whether blobs of a narrowed search are too few to hold the palm, so that the rest is worth a look."""
@@ -225,10 +292,19 @@ class Tracker:
     def smoothed(self) -> list[Moment]:
         """Every frame so far in the light of all the others; needs the history kept. Tracking may go on meanwhile."""
         beliefs = smooth(list(self.history), self.settings.motion_noise, self.layout)
-        return [lost_moment() if belief is None else self._readout.moment(belief) for belief in beliefs]
+        return [
+            lost_moment(self._joint_count, len(self._protocol.markers))
+            if belief is None
+            else self._readout.moment(belief)
+            for belief in beliefs
+        ]
 
-    def _palm_seen(self, corrected: Corrected) -> int:
-        return int(np.count_nonzero(corrected.taken[self._palm] >= 0))
+    def _measured(self, step: _Step) -> FloatArray:
+        """Share of the palm (3,), or whether each joint (J,), was measured directly."""
+        if self._fingers is None or step.fingers is None:
+            return np.full(3, step.palm_seen / self._rows.size)
+        seen = self._by_marker(step.palm.taken, step.fingers.blob) >= 0
+        return np.asarray(seen[self._fingers.direct_markers].all(axis=-1), dtype=np.float64)
 
     def _belief_found(self, position_m: FloatArray, rotation_w2_w0: FloatArray) -> Belief:
         initial = replace(self.settings.initial, position_m=0.004, turn_rad=0.08, velocity_m_s=0.5, rate_rad_s=2.0)
@@ -241,10 +317,16 @@ class Tracker:
         )
         return replace(belief, shape=self._shape)
 
-    def _remember(self, timestamp_s: float, share: float) -> None:
+    def _remember(self, timestamp_s: float, share: FloatArray) -> None:
         self._recent.append((timestamp_s, share))
         while self._recent and self._recent[0][0] < timestamp_s - SHARE_WINDOW_S:
             self._recent.popleft()
 
     def _share(self) -> FloatArray:
-        return np.full(3, float(np.mean([share for _, share in self._recent])) if self._recent else 0.0)
+        return np.asarray(np.mean([share for _, share in self._recent], axis=0))
+
+
+def _only(blobs: Detections, kept: NDArray[np.bool_]) -> Detections:
+    if kept.all():
+        return blobs
+    return Detections(*(getattr(blobs, field.name)[kept] for field in fields(Detections)))

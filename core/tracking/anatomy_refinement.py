@@ -1,0 +1,73 @@
+"""Where the filter of the rays starts: the subject's anatomy from the neutral pose, and how well it is known."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from core.calibration.result import Calibration
+from core.camera import Camera
+from core.hand.fitting import AnatomyFit, SeenDiscs, fit_anatomy
+from core.hand.kinematics import DIP_PER_PIP
+from core.tracking.hand_geometry import CONSTANTS, RAYS, SLOTS
+from core.types import FloatArray
+
+_CLICK_SD_PX = 2.0
+_NARROW_RAD = 1e-6
+"""Of a slot that does not move: the fifth of a finger, the third while the end joint is coupled."""
+
+
+@dataclass(frozen=True, slots=True)
+class RayStart:
+    """Slots and constants (5, 16) at the neutral pose, their covariance (5, 16, 16), and the fit they come from."""
+
+    mean: FloatArray
+    covariance: FloatArray
+    fit: AnatomyFit
+
+
+def ray_start(calibration: Calibration, camera: Camera, *, dip_free: bool, skin_offsets: bool) -> RayStart:
+    """The anatomy of a calibrated ``hand21``."""
+    clicks = calibration.clicks
+    fit = fit_anatomy(_seen(calibration, camera), clicks.side, dip_free=dip_free, skin_offsets=skin_offsets)
+    mean = np.zeros((RAYS, SLOTS + CONSTANTS))
+    covariance = np.zeros((RAYS, SLOTS + CONSTANTS, SLOTS + CONSTANTS))
+    for ray in range(RAYS):
+        count = fit.neutral_rays[ray].mean.size
+        to_slots = np.eye(count)
+        if ray:
+            to_slots[3, 2] = -DIP_PER_PIP
+            if not dip_free:
+                to_slots[3] = 0.0
+        cross = to_slots @ fit.neutral_cross[ray]
+        mean[ray, :count] = to_slots @ fit.neutral_rays[ray].mean
+        mean[ray, SLOTS:] = fit.rays.mean[ray]
+        covariance[ray, :count, :count] = to_slots @ fit.neutral_rays[ray].covariance @ to_slots.T
+        covariance[ray, :count, SLOTS:] = cross
+        covariance[ray, SLOTS:, :count] = cross.T
+        covariance[ray, SLOTS:, SLOTS:] = fit.rays.covariance[ray]
+    index = np.arange(SLOTS)
+    covariance[:, index, index] += _NARROW_RAD**2
+    return RayStart(mean, covariance, fit)
+
+
+def _seen(calibration: Calibration, camera: Camera) -> SeenDiscs:
+    """The calibrated discs; where one has no depth, the line of sight through its click."""
+    disc = calibration.marker_position_w0_m.copy()
+    rotation, translation = calibration.rotation_w0_cam, calibration.translation_w0_cam_m
+    clicked = camera.back_project(camera.undistort(calibration.clicks.pixel), np.full(len(disc), translation[2]))
+    is_blind = np.asarray(np.isnan(disc).any(axis=-1))
+    disc[is_blind] = (clicked[is_blind] - translation) @ rotation
+    in_camera = disc @ rotation.T + translation
+    view = in_camera / np.linalg.norm(in_camera, axis=-1, keepdims=True) @ rotation
+    covariance = np.where(is_blind[:, None, None], 0.0, calibration.marker_covariance_w0_m2)
+    along = np.sqrt(np.maximum(np.einsum("mi,mij,mj->m", view, covariance, view), 1e-12))
+    across = np.sqrt(np.maximum(np.linalg.eigvalsh(covariance)[:, 0], 1e-10))
+    blind_m = _CLICK_SD_PX * in_camera[:, 2] / camera.fx_px
+    return SeenDiscs(
+        disc[None],
+        view[None],
+        np.where(is_blind, blind_m, across)[None],
+        np.where(is_blind, np.inf, along)[None],
+    )

@@ -1,0 +1,188 @@
+"""Which blob is which disc of thumb and fingers, the palm being known.
+
+First every disc by itself, eq. (12) of the wrist paper resolved for all discs at once; a disc that is turned away or
+was hidden a moment ago is less likely to be seen. Then ray by ray: where the discs of one ray do not hold together,
+all ways to name them are weighed jointly.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from itertools import product
+
+import numpy as np
+from numpy.typing import NDArray
+
+from core.tracking import association
+from core.tracking.finger_settings import FingerSettings
+from core.tracking.hand_geometry import DISCS, RAYS
+from core.tracking.joint_association import holds_together
+from core.tracking.naming import Measurable
+from core.tracking.ray_filter import RayBeliefs, RayForecast, RayUpdate, corrected
+from core.tracking.settings import TrackerSettings
+from core.types import FloatArray
+
+_AXES = np.arange(3)
+_CANDIDATES = 4
+_LOG_2_PI = float(np.log(2.0 * np.pi))
+
+
+@dataclass(frozen=True, slots=True)
+class FingerNames:
+    """``taken`` (5, 3) blob of every disc or -1, ``with_depth`` (5, 3) whether its depth is believed."""
+
+    taken: NDArray[np.int64]
+    with_depth: NDArray[np.bool_]
+
+
+@dataclass(frozen=True, slots=True)
+class NamedFingers:
+    """The rays corrected by the blobs as named; ``measured`` and ``variance`` (5, 9) what they were corrected by."""
+
+    names: FingerNames
+    update: RayUpdate
+    measured: FloatArray
+    variance: FloatArray
+
+
+@dataclass(frozen=True, slots=True)
+class FingerScene:
+    """One frame before the fingers are named.
+
+    ``line`` forecast; ``spread`` (5, 9, 9) covariance of the discs' images, the palm's error included; ``palm_part``
+    that error alone, where it matters; ``visible`` (5, 3) chance that each disc is to be seen; ``free`` (D,) blobs
+    that are not the palm's; ``noise_factor`` (5, 9).
+    """
+
+    line: RayForecast
+    spread: FloatArray
+    palm_part: FloatArray | None
+    visible: FloatArray
+    blobs: Measurable
+    free: NDArray[np.bool_]
+    noise_factor: FloatArray
+    resolution_px2: float
+
+
+def name_fingers(beliefs: RayBeliefs, scene: FingerScene, settings: TrackerSettings) -> NamedFingers:
+    """Names and corrects all rays."""
+    first = _each_by_itself(scene, settings)
+    simple = _corrected(beliefs, scene, first)
+    doubtful = [r for r in range(RAYS) if not holds_together(float(simple.update.nis[r]), int(simple.update.dof[r]))]
+    if not doubtful:
+        return simple
+    taken, with_depth = first.taken.copy(), first.with_depth.copy()
+    for ray in doubtful:
+        taken[ray] = -1
+    for ray in doubtful:
+        others = np.setdiff1d(np.flatnonzero(scene.free), taken.ravel())
+        taken[ray], with_depth[ray] = _ray_jointly(ray, scene, others, settings)
+    return _corrected(beliefs, scene, FingerNames(taken, with_depth))
+
+
+def _each_by_itself(scene: FingerScene, settings: TrackerSettings) -> FingerNames:
+    free = np.flatnonzero(scene.free)
+    taken = np.full(RAYS * DISCS, -1, dtype=np.int64)
+    if not free.size:
+        return FingerNames(taken.reshape(RAYS, DISCS), np.zeros((RAYS, DISCS), dtype=bool))
+    place = 3 * np.arange(DISCS)[:, None] + _AXES
+    own = scene.spread[:, place[:, :, None], place[:, None, :]].reshape(-1, 3, 3)
+    odds = association.log_odds(
+        scene.line.value.reshape(-1, 3),
+        own,
+        scene.blobs.value[free],
+        scene.blobs.variance[free],
+        scene.resolution_px2 / settings.fingers.clutter,
+        settings.noise.depth_outlier,
+        settings.association,
+    )
+    assumed = np.log(settings.association.prior_marker / settings.association.prior_clutter)
+    value = odds.value + (np.log(scene.visible / (1.0 - scene.visible)).ravel() - assumed)[:, None]
+    found = association.resolve(value)
+    named = found >= 0
+    taken[named] = free[found[named]]
+    with_depth = odds.with_depth[np.arange(found.size), found] & named
+    return FingerNames(taken.reshape(RAYS, DISCS), with_depth.reshape(RAYS, DISCS))
+
+
+def _corrected(beliefs: RayBeliefs, scene: FingerScene, names: FingerNames) -> NamedFingers:
+    blob = np.maximum(names.taken, 0)
+    is_named = names.taken >= 0
+    if len(scene.blobs):
+        measured = np.where(is_named[..., None], scene.blobs.value[blob], np.nan)
+        variance = np.where(is_named[..., None], scene.blobs.variance[blob], 1.0)
+        measured[..., 2] = np.where(names.with_depth, measured[..., 2], np.nan)
+    else:
+        measured, variance = np.full((RAYS, DISCS, 3), np.nan), np.ones((RAYS, DISCS, 3))
+    measured, variance = measured.reshape(RAYS, 9), variance.reshape(RAYS, 9) * scene.noise_factor
+    update = corrected(beliefs, scene.line, measured, variance, scene.palm_part)
+    return NamedFingers(names, update, measured, variance)
+
+
+def _ray_jointly(
+    ray: int, scene: FingerScene, blobs: NDArray[np.int64], settings: TrackerSettings
+) -> tuple[NDArray[np.int64], NDArray[np.bool_]]:
+    """Most probable names (3,) of one ray's discs among ``blobs``, and whether the depths are believed."""
+    value, spread = scene.line.value[ray], scene.spread[ray]
+    nothing = np.full(DISCS, -1, dtype=np.int64), np.zeros(DISCS, dtype=bool)
+    if not blobs.size:
+        return nothing
+    candidates: list[list[tuple[int, bool]]] = []
+    for disc in range(DISCS):
+        rows = slice(3 * disc, 3 * disc + 3)
+        off = scene.blobs.value[blobs] - value[rows]
+        sd2 = np.diagonal(spread[rows, rows]) + scene.blobs.variance[blobs]
+        pixel2 = (off[:, :2] ** 2 / sd2[:, :2]).sum(axis=1)
+        whole2 = pixel2 + off[:, 2] ** 2 / sd2[:, 2]
+        gate2 = settings.association.gate_sd**2
+        near = blobs[np.argsort(np.where(np.isfinite(whole2), np.minimum(whole2, pixel2 + 14.0), pixel2 + 14.0))]
+        order = {int(b): i for i, b in enumerate(blobs)}
+        own: list[tuple[int, bool]] = [(-1, False)]
+        for blob in near[:_CANDIDATES]:
+            i = order[int(blob)]
+            if pixel2[i] > 2.0 * gate2:
+                continue
+            if np.isfinite(whole2[i]) and whole2[i] <= 2.0 * gate2:
+                own.append((int(blob), True))
+            else:
+                own.append((int(blob), False))
+        candidates.append(own)
+    ways = [way for way in product(*candidates) if len({b for b, _ in way if b >= 0}) == sum(b >= 0 for b, _ in way)]
+    taken = np.array([[b for b, _ in way] for way in ways])
+    depth = np.array([[d for _, d in way] for way in ways])
+    named = taken >= 0
+    used = np.repeat(named[..., None], 3, axis=-1)
+    used[..., 2] = depth
+    used = used.reshape(-1, 9)
+    variance = np.where(named[..., None], scene.blobs.variance[np.maximum(taken, 0)], 1.0).reshape(-1, 9)
+    variance = np.where(used, variance * scene.noise_factor[ray], 1.0)
+    measured = np.where(named[..., None], scene.blobs.value[np.maximum(taken, 0)], 0.0).reshape(-1, 9)
+    unit = np.where(used, 1.0 / np.sqrt(variance), 0.0)
+    s = spread * (unit[:, :, None] * unit[:, None, :]) + np.eye(9)
+    off = np.where(used, measured - value, 0.0) * unit
+    nis = np.einsum("wi,wi->w", off, np.linalg.solve(s, off[..., None])[..., 0])
+    log_normal = -0.5 * (nis + np.linalg.slogdet(s)[1] + used.sum(axis=1) * _LOG_2_PI) + np.sum(
+        np.log(np.where(used, unit, 1.0)), axis=1
+    )
+    by_seen = np.log(scene.visible[ray] / (1.0 - scene.visible[ray]))
+    per_blob = float(np.log(scene.resolution_px2 / settings.fingers.clutter))
+    with_depth = float(np.log(settings.association.depth_range_m))
+    without = np.where(
+        np.isfinite(scene.blobs.value[np.maximum(taken, 0), 2]), np.log(settings.noise.depth_outlier), 0.0
+    )
+    clutter = per_blob + np.where(depth, with_depth, without)
+    score = log_normal + np.sum(np.where(named, by_seen + clutter, 0.0), axis=1)
+    best = int(np.argmax(score))
+    return taken[best], depth[best]
+
+
+def seen_chance(
+    visible: FloatArray, tilt_rad: FloatArray, tilt_sd_rad: FloatArray, dt_s: float, settings: FingerSettings
+) -> FloatArray:
+    """Chance (5, 3) that each disc is to be seen now, from that of a moment ago and its tilt to the camera."""
+    stays, comes = np.exp(-dt_s / settings.shown_s), -np.expm1(-dt_s / settings.hidden_s)
+    by_time = visible * stays + (1.0 - visible) * comes
+    sd = np.sqrt(tilt_sd_rad**2 + settings.steepest_sd_rad**2)
+    # Logistic in place of the normal integral.
+    facing = 1.0 / (1.0 + np.exp(np.clip(1.7 * (tilt_rad - settings.steepest_rad) / sd, -30.0, 30.0)))
+    return np.asarray(np.clip(by_time * facing, 0.005, 0.98))

@@ -1,0 +1,98 @@
+"""Joint limits as soft constraints: pseudo-measurements that pull, not walls that clip (clinical reference 4.1).
+
+An angle's Gaussian is multiplied by the chance that the joint can be there, a step of 3 degrees' standard
+deviation at either limit, and replaced by the Gaussian of the same mean and variance. Far inside nothing happens;
+beyond a limit it acts as a measurement of the limit with that standard deviation; an angle of which nothing is
+known ends up spread over its range.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from scipy.special import erfcx
+
+from core.hand.anatomy import ABDUCTION_LIMIT_RAD, HARD_LIMITS_RAD
+from core.hand.kinematics import DIP_PER_PIP
+from core.tracking.hand_geometry import RAYS, SLOTS
+from core.tracking.ray_filter import RayBeliefs
+from core.types import FloatArray
+
+SOFT_RAD = math.radians(3.0)
+_NEAR_SD = 3.0
+_ROOT_HALF = math.sqrt(0.5)
+_ROOT_2_OVER_PI = math.sqrt(2.0 / math.pi)
+
+_NAMES = (
+    ("CMC1_extension", "CMC1_abduction", "MCP1_flexion", "MCP1_abduction", "IP1_flexion"),
+    *((f"MCP{k}_abduction", f"MCP{k}_flexion", f"PIP{k}_flexion", f"DIP{k}_flexion", "") for k in (2, 3, 4, 5)),
+)
+_WIDE = (-1e3, 1e3)
+_LIMITS = np.array([[HARD_LIMITS_RAD.get(name, _WIDE) for name in ray] for ray in _NAMES])  # (5, 5, 2)
+_DIRECTION = np.broadcast_to(np.eye(SLOTS), (RAYS, SLOTS, SLOTS)).copy()
+_DIRECTION[1:, 3, 2] = DIP_PER_PIP
+
+RANGE_SD_RAD = np.where(_LIMITS[..., 1] < 1e2, (_LIMITS[..., 1] - _LIMITS[..., 0]) / math.sqrt(12.0), 0.0)
+"""Standard deviation (5, 5) of an angle of which only its limits are known."""
+
+
+MID_RANGE_RAD = np.where(_LIMITS[..., 1] < 1e2, _LIMITS.mean(axis=-1), 0.0)
+MID_RANGE_RAD[1:, 3] = 0.0
+"""Slots (5, 5) in the middle of their range; the end joint as the coupling has it."""
+
+
+def slot_limits_rad(slots: FloatArray) -> FloatArray:
+    """Lowest and highest (5, 5, 2) of the angles at slots (5, 5); abduction shrinks as the finger bends."""
+    limits = _LIMITS.copy()
+    reach = ABDUCTION_LIMIT_RAD * np.maximum(np.cos(slots[1:, 1]), 0.0)
+    limits[1:, 0, 0], limits[1:, 0, 1] = -reach, reach
+    return limits
+
+
+def outside_limits(slots: FloatArray) -> FloatArray:
+    """By how much (5, 5) the angles lie beyond their limits; radians, 0 inside, negative below."""
+    angles = np.einsum("rjs,rs->rj", _DIRECTION, slots)
+    limits = slot_limits_rad(slots)
+    return np.asarray(np.maximum(angles - limits[..., 1], 0.0) + np.minimum(angles - limits[..., 0], 0.0))
+
+
+def _softened(mean: FloatArray, variance: FloatArray, edge: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Mean and variance after multiplication by a soft step up at ``edge``."""
+    total = variance + SOFT_RAD**2
+    z = (mean - edge) / np.sqrt(total)
+    # phi(z) / Phi(z) without underflow: Phi(z) = exp(-z^2/2) erfcx(-z/sqrt 2) / 2.
+    ratio = _ROOT_2_OVER_PI / erfcx(np.maximum(-z, -20.0) * _ROOT_HALF)
+    shifted = mean + variance * ratio / np.sqrt(total)
+    return shifted, variance - variance**2 * ratio * (z + ratio) / total
+
+
+def constrained(beliefs: RayBeliefs, slots: FloatArray) -> RayBeliefs:
+    """Beliefs with the limits taken into account; ``slots`` (5, 5) the merged joints, for the abduction's limit.
+
+    Each angle's pull is found by itself, then all pulls of a ray act together, as measurements with independent
+    errors.
+    """
+    angle = np.einsum("rks,rjs->rkj", beliefs.mean[..., :SLOTS], _DIRECTION)
+    across = beliefs.covariance[..., :SLOTS] @ np.swapaxes(_DIRECTION, 1, 2)[:, None]  # (5, K, n, 5)
+    shared = _DIRECTION[:, None] @ across[..., :SLOTS, :]  # (5, K, 5, 5)
+    variance = np.diagonal(shared, axis1=-2, axis2=-1)
+    limits = slot_limits_rad(slots)[:, None]
+    reach = _NEAR_SD * np.sqrt(variance + SOFT_RAD**2)
+    near = (angle - reach < limits[..., 0]) | (angle + reach > limits[..., 1])
+    ray = np.flatnonzero(near.any(axis=(1, 2)))
+    if not ray.size:
+        return beliefs
+    angle, variance, limits, near = angle[ray], variance[ray], limits[ray], near[ray]
+    lifted, narrowed = _softened(angle, variance, limits[..., 0])
+    lowered, narrowed = _softened(-lifted, narrowed, -limits[..., 1])
+    known = near & (variance > 1e-9)
+    safe, narrowed = np.where(known, variance, 1.0), np.where(known, narrowed, 1.0)
+    precision = np.where(known, np.maximum(1.0 / narrowed - 1.0 / safe, 0.0), 0.0)
+    pull = np.where(known, -lowered / narrowed - angle / safe - precision * angle, 0.0)
+    inner = np.eye(SLOTS) + precision[..., None] * shared[ray]
+    gain = np.swapaxes(np.linalg.solve(np.swapaxes(inner, -1, -2), np.swapaxes(across[ray], -1, -2)), -1, -2)
+    mean, covariance = beliefs.mean.copy(), beliefs.covariance.copy()
+    mean[ray] += (gain @ pull[..., None])[..., 0]
+    covariance[ray] -= (gain * precision[..., None, :]) @ np.swapaxes(across[ray], -1, -2)
+    return RayBeliefs(mean, covariance, beliefs.probability)
