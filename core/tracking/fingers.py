@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
@@ -10,18 +11,18 @@ from numpy.typing import NDArray
 from core import so3
 from core.calibration.result import Calibration
 from core.camera import Camera
-from core.hand.kinematics import joint_centres
+from core.hand.protocols import HAND21
 from core.tracking import modes
 from core.tracking.anatomy_refinement import RayStart, ray_start
 from core.tracking.finger_naming import FingerScene, NamedFingers, name_fingers, seen_chance
 from core.tracking.hand_geometry import (
     DISCS,
+    RAY_MARKERS,
     RAYS,
     SLOTS,
     JointMoment,
     JointReading,
     PalmInBody,
-    anatomy_at,
     direct_markers,
     ray_discs_m,
     ray_normals,
@@ -42,7 +43,7 @@ from core.tracking.ray_filter import (
 )
 from core.tracking.readout import Readout
 from core.tracking.settings import TrackerSettings
-from core.tracking.state import Belief, StateLayout
+from core.tracking.state import Belief
 from core.tracking.unscented import weights_for
 from core.types import FloatArray
 
@@ -52,6 +53,13 @@ _REFERENCE_FPS = 30.0
 _FIRST_DISC = np.array([[0, 0, 1, 1, 2], *([0, 0, 1, 2, 3],) * 4])
 _SHOWS = np.arange(DISCS) >= _FIRST_DISC[..., None]
 """(5, 5, 3) whether a disc moves with a slot."""
+_POSE = np.array([0, 1, 2, 6, 7, 8])
+"""Position and turn in the palm's error vector."""
+_SLOT = np.arange(SLOTS)
+_UV = 3 * np.arange(DISCS)[:, None] + np.arange(2)
+_DOWN = np.array([1.0, 1.0, -1.0])
+_STEP_RAD = 1e-4
+_NARROW2 = 1e-10
 _BENDS = np.array([[0.0, 0.0, 1.0, 0.0, 1.0], *([0.0, 1.0, 1.0, 1.0, 0.0],) * 4])
 
 
@@ -70,23 +78,15 @@ class Seat:
     is_seen: bool
 
 
-def seat_of(belief: Belief, layout: StateLayout, view: View, readout: Readout, is_seen: bool) -> Seat:
+def seat_of(belief: Belief, view: View, readout: Readout, is_seen: bool) -> Seat:
     """The seat that a belief about the palm gives to the fingers."""
     palm, turn_covariance = readout.palm(belief)
     body_cam = view.rotation_w0_cam @ belief.rotation_w2_w0
     origin = body_cam @ palm.origin_m + view.rotation_w0_cam @ belief.position_m + view.translation_w0_cam_m
-    camera = view.camera
-    ray_view = RayView(
-        body_cam @ palm.axes,
-        origin,
-        np.array([camera.fx_px, camera.fy_px]),
-        np.array([camera.cx_px, camera.cy_px]),
-    )
-    index = np.r_[layout.position, layout.turn]
-    pose = belief.covariance[index[:, None], index]
     to_camera = np.zeros((6, 6))
     to_camera[:3, :3], to_camera[3:, 3:] = view.rotation_w0_cam, body_cam
-    return Seat(palm, ray_view, to_camera @ pose @ to_camera.T, turn_covariance, is_seen)
+    pose = to_camera @ belief.covariance[_POSE[:, None], _POSE] @ to_camera.T
+    return Seat(palm, RayView(body_cam @ palm.axes, origin, view.camera), pose, turn_covariance, is_seen)
 
 
 @dataclass(frozen=True, slots=True)
@@ -137,6 +137,7 @@ class Fingers:
         self.layout = RayLayout(settings.motion == "constant_rate")
         self._side = calibration.clicks.side
         self.start: RayStart = ray_start(calibration, camera, dip_free=dip_free, skin_offsets=own.skin_offsets)
+        self._wrist_depth_m = -float(self.start.fit.anatomy.palm_joint_m[0, 2])
         self._scales = np.array(settings.mode_scales if self.layout.has_rates else (1.0,))
         self._noise = _motion_noise(settings, self.layout, self._scales, self.start, dip_free)
         self._growth = np.where(_SHOWS.any(axis=-1), RANGE_SD_RAD**2, 0.0)
@@ -213,38 +214,25 @@ class Fingers:
         """Where to look: pixels (5, 3, 2) with covariance (5, 3, 2, 2), and depths (5, 3)."""
         points = self.ahead(timestamp_s, dt_s, seat.palm)
         image = seat.view.observe(points.disc_m)
-        weights = weights_for(points.root.shape[-1], self._settings.spread)
-        mean = np.einsum("s,rsdi->rdi", weights.mean, image)
-        off = np.moveaxis(image[..., :2] - mean[:, None, :, :2], 1, -1)
-        covariance = (off * weights.covariance) @ np.swapaxes(off, -1, -2)
-        centre = points.disc_m[:, 0] @ seat.view.rotation.T + seat.view.translation_m
-        shift = _shift(centre, seat.view, seat.pose_covariance)
-        place = 3 * np.arange(DISCS)[:, None] + np.arange(2)
-        return mean[..., :2], covariance + shift[:, place[:, :, None], place[:, None, :]], mean[..., 2]
+        count = points.root.shape[-1]
+        half = image[:, 1 : count + 1, :, :2] - image[:, count + 1 :, :, :2]
+        by_disc = half.transpose(0, 2, 3, 1) * (0.5 / weights_for(count, self._settings.spread).scale)
+        covariance = by_disc @ np.swapaxes(by_disc, -1, -2) + _own_pixels(self._shift(points, seat))
+        return image[:, 0, :, :2], covariance, image[:, 0, :, 2]
 
     def weigh(
         self, timestamp_s: float, dt_s: float, seat: Seat, blobs: Measurable, free: NDArray[np.bool_]
     ) -> FingerTrial:
         """Name the blobs that are ``free`` (D,), not the palm's, as if the palm were there; nothing is remembered."""
-        view = seat.view
         points = self.ahead(timestamp_s, dt_s, seat.palm)
         assert self._ahead is not None
         beliefs = self._ahead[1]
-        line = forecast(points, view, self.layout, self._settings.spread)
-        mean, covariance = beliefs.merged()
-        seen = self.layout.seen
-        normal = ray_normals(mean[:, seen]) @ view.rotation.T
-        centre = points.disc_m[:, 0] @ view.rotation.T + view.translation_m
-        tilt = np.arccos(np.clip(-np.sum(normal * centre, -1) / np.sqrt(np.sum(centre * centre, -1)), -1.0, 1.0))
-        bend = np.cumsum(np.diagonal(covariance, axis1=1, axis2=2)[:, :SLOTS] * _BENDS, axis=1)
-        tilt_sd = np.sqrt(bend[:, 2:])
-        own = self._settings.fingers
-        visible = seen_chance(self._visible, tilt, tilt_sd, dt_s, own)
-        spread = line.slope @ covariance @ np.swapaxes(line.slope, 1, 2) + line.error
-        shift = _shift(centre, view, seat.pose_covariance)
+        line = forecast(points, seat.view, self.layout, self._settings.spread)
+        visible = self._chance_to_see(points, seat.view, dt_s)
+        shift = self._shift(points, seat)
         scene = FingerScene(
             line,
-            spread + shift,
+            line.spread + shift,
             None if seat.is_seen else shift,
             visible,
             blobs,
@@ -252,14 +240,30 @@ class Fingers:
             self._noise_factor,
             self._resolution_px2,
         )
-        place = 3 * np.arange(DISCS)[:, None] + np.arange(2)
         named = name_fingers(beliefs, scene, self._settings)
-        return FingerTrial(
-            named,
-            visible,
-            line.value.reshape(RAYS, DISCS, 3)[..., :2],
-            scene.spread[:, place[:, :, None], place[:, None, :]],
-        )
+        predicted_px = line.value.reshape(RAYS, DISCS, 3)[..., :2]
+        return FingerTrial(named, visible, predicted_px, _own_pixels(scene.spread))
+
+    def _chance_to_see(self, points: RayPoints, view: RayView, dt_s: float) -> FloatArray:
+        """Chance (5, 3) that each disc is to be seen, from its tilt to the camera and whether it was seen before."""
+        normal = ray_normals(points.mean[:, self.layout.seen]) @ view.rotation.T
+        centre = points.disc_m[:, 0] @ view.rotation.T + view.translation_m
+        facing = -np.einsum("rdi,rdi->rd", normal, centre) / np.sqrt(np.einsum("rdi,rdi->rd", centre, centre))
+        bend = np.cumsum(points.covariance[:, _SLOT, _SLOT] * _BENDS, axis=1)[:, 2:]
+        tilt = np.arccos(np.clip(facing, -1.0, 1.0))
+        return seen_chance(self._visible, tilt, np.sqrt(bend), dt_s, self._settings.fingers)
+
+    @staticmethod
+    def _shift(points: RayPoints, seat: Seat) -> FloatArray:
+        """Covariance (5, 9, 9) of the discs' images from that of the palm's place and turn."""
+        view = seat.view
+        centre = points.disc_m[:, 0] @ view.rotation.T + view.translation_m
+        by_point = view.slope(centre)
+        by_pose = np.empty((RAYS, DISCS, 3, 6))
+        by_pose[..., :3] = by_point
+        by_pose[..., 3:] = by_point @ so3.skew(view.translation_m - centre)
+        flat = by_pose.reshape(RAYS, 9, 6)
+        return np.asarray(flat @ seat.pose_covariance @ np.swapaxes(flat, 1, 2))
 
     def accept(self, trial: FingerTrial, dt_s: float) -> None:
         """Go on from a trial."""
@@ -292,34 +296,52 @@ class Fingers:
 
     def reading_of(self, mean: FloatArray, covariance: FloatArray, seat: Seat) -> JointMoment:
         """Joints of rays (5, n) with covariance (5, n, n)."""
+        palm, state = seat.palm, mean[:, self.layout.seen]
+        moved = np.repeat(state[:, None], SLOTS + 2, axis=1)
+        moved[:, 1 + _SLOT, _SLOT] += _STEP_RAD
+        moved[:, -1, SLOTS + 8 :] = 0.0
+        place = ray_discs_m(palm.disc_m[1:], moved)
         joints = covariance[:, :SLOTS, :SLOTS]
-        state = mean[:, self.layout.seen]
-        variance = self.reading.variances(joints + self._systematic(state, joints, seat))
+        slope = (place[:, 1:-1] - place[:, :1]).reshape(RAYS, SLOTS, 9) / _STEP_RAD
+        lever = so3.skew(palm.disc_m[1:, None] - place[:, 0]).reshape(RAYS, 9, 3)
+        variance = self.reading.variances(joints + self._systematic(slope, lever, joints, seat))
         angles = self.reading.angles(mean[:, :SLOTS])
         rates = np.full(angles.size, np.nan)
         if self.layout.has_rates:
             rates = self.reading.angles(mean[:, self.layout.rates])
-        hand = anatomy_at(self.start.fit.anatomy, seat.palm, mean[:, self.layout.constants])
-        disc_cam = ray_discs_m(seat.palm.disc_m[1:], state[:, None])[:, 0] @ seat.view.rotation.T
-        disc_cam += seat.view.translation_m
-        return JointMoment(angles, np.sqrt(np.maximum(variance, 0.0)), rates, joint_centres(hand, angles), disc_cam)
+        centre = np.empty((len(HAND21.markers), 3))
+        centre[0] = 0.0, 0.0, -self._wrist_depth_m
+        centre[1:].reshape(RAYS, 4, 3)[:, 0] = palm.disc_m[1:] + state[:, SLOTS + 5 : SLOTS + 8] * _DOWN
+        centre[RAY_MARKERS] = place[:, -1]
+        if self._side == "left":
+            centre[:, 1] *= -1.0
+        disc_cam = place[:, 0] @ seat.view.rotation.T + seat.view.translation_m
+        return JointMoment(angles, np.sqrt(np.maximum(variance, 0.0)), rates, centre, disc_cam)
 
-    def _systematic(self, state: FloatArray, joints: FloatArray, seat: Seat) -> FloatArray:
-        """Covariance (5, 5, 5) that the slots inherit from the palm's turn and from errors that stay."""
-        own, palm, view_axis = self._settings.fingers, seat.palm, seat.view.rotation[2]
-        step = 1e-4
-        moved = state[:, None] + step * np.concatenate((np.zeros((1, 16)), np.eye(SLOTS, 16)))
-        disc = ray_discs_m(palm.disc_m[1:], moved)
-        slope = np.swapaxes((disc[:, 1:] - disc[:, :1]).reshape(RAYS, SLOTS, 9), 1, 2) / step
+    def _systematic(self, slope: FloatArray, lever: FloatArray, joints: FloatArray, seat: Seat) -> FloatArray:
+        """Covariance (5, 5, 5) that the slots inherit from the palm's turn and from errors that stay.
+
+        ``slope`` (5, 5, 9) of the discs by the slots, ``lever`` (5, 9, 3) by a turn of the palm about the ray's root.
+        """
+        own = self._settings.fingers
         across = np.swapaxes(slope, 1, 2)
-        noise = (0.5 * own.depth_bias_m) ** 2
-        response = np.linalg.solve(across @ slope + noise * np.linalg.inv(joints + 1e-10 * np.eye(SLOTS)), across)
-        lever = so3.skew(palm.disc_m[1:, None] - disc[:, 0]).reshape(RAYS, 9, 3)
-        bias = own.lateral_bias_m**2 * np.eye(3) + own.depth_bias_m**2 * np.outer(view_axis, view_axis)
+        doubt = (0.5 * own.depth_bias_m) ** 2 * np.linalg.inv(joints + _NARROW2 * np.eye(SLOTS))
+        response = np.linalg.solve(slope @ across + doubt, slope)
+        axis = seat.view.rotation[2]
+        root = own.lateral_bias_m * np.eye(3)
+        root += (math.hypot(own.lateral_bias_m, own.depth_bias_m) - own.lateral_bias_m) * np.outer(axis, axis)
         # Each disc errs by itself, and all three with the disc at the ray's root.
-        both = np.kron(np.eye(DISCS) + 1.0, bias)
-        total = lever @ seat.turn_covariance @ np.swapaxes(lever, 1, 2) + both
-        return np.asarray(response @ total @ np.swapaxes(response, 1, 2))
+        each = np.empty((RAYS, SLOTS, DISCS + 1, 3))
+        each[:, :, :DISCS] = response.reshape(RAYS, SLOTS, DISCS, 3)
+        each[:, :, DISCS] = each[:, :, :DISCS].sum(axis=2)
+        stays = (each @ root).reshape(RAYS, SLOTS, -1)
+        turned = response @ lever
+        return np.asarray(stays @ np.swapaxes(stays, 1, 2) + turned @ seat.turn_covariance @ np.swapaxes(turned, 1, 2))
+
+
+def _own_pixels(covariance: FloatArray) -> FloatArray:
+    """Covariance (5, 3, 2, 2) of each disc's own pixel out of that of a ray's images (5, 9, 9)."""
+    return covariance[:, _UV[:, :, None], _UV[:, None, :]]
 
 
 def _motion_noise(
@@ -336,18 +358,3 @@ def _motion_noise(
     density = (scales[:, None, None] * sd) ** 2 / _REFERENCE_FPS
     drift = own.drift_per_s * np.diagonal(start.fit.rays.covariance, axis1=1, axis2=2)
     return RayNoise(density, drift)
-
-
-def _shift(centre_m: FloatArray, view: RayView, covariance: FloatArray) -> FloatArray:
-    """Covariance (5, 9, 9) of the discs' images from that of the palm's place and turn (6, 6) in camera axes."""
-    z, focal_px = centre_m[..., 2], view.focal_px
-    by_point = np.zeros((RAYS, DISCS, 3, 3))
-    by_point[..., 0, 0] = focal_px[0] / z
-    by_point[..., 1, 1] = focal_px[1] / z
-    by_point[..., :2, 2] = -focal_px * centre_m[..., :2] / (z * z)[..., None]
-    by_point[..., 2, 2] = 1.0
-    by_pose = np.empty((RAYS, DISCS, 3, 6))
-    by_pose[..., :3] = by_point
-    by_pose[..., 3:] = by_point @ so3.skew(view.translation_m - centre_m)
-    flat = by_pose.reshape(RAYS, 9, 6)
-    return np.asarray(flat @ covariance @ np.swapaxes(flat, 1, 2))

@@ -9,12 +9,10 @@ Constants as in :mod:`core.hand.ray_fitting`. Lengths in metres, axes of a right
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 
-from core.hand.anatomy import HandAnatomy
-from core.hand.anatomy_prior import with_constants
 from core.hand.kinematics import DIP_PER_PIP
 from core.hand.protocols import HAND21, joint_angle_names
 from core.types import FloatArray, Side
@@ -206,8 +204,3 @@ def slots_of(angles_rad: FloatArray) -> FloatArray:
     if per_finger == 4:
         slots[..., 1:, 3] -= DIP_PER_PIP * slots[..., 1:, 2]
     return slots
-
-
-def anatomy_at(hand: HandAnatomy, palm: PalmInBody, constants: FloatArray) -> HandAnatomy:
-    """The hand with the palm and the constants (5, 11) as refined so far."""
-    return with_constants(replace(hand, palm_disc_m=palm.disc_m), constants)

@@ -14,11 +14,17 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from core.camera import Camera
 from core.tracking.hand_geometry import CONSTANTS, DISCS, RAYS, SLOTS, ray_discs_m
 from core.tracking.unscented import Spread, weights_for
 from core.types import FloatArray
 
 _FLOOR = 1e-14
+_SEEN = {
+    False: np.arange(SLOTS + CONSTANTS),
+    True: np.concatenate((np.arange(SLOTS), np.arange(2 * SLOTS, 2 * SLOTS + CONSTANTS))),
+}
+_DIAGONAL = np.arange(SLOTS + CONSTANTS)
 
 
 @dataclass(frozen=True, slots=True)
@@ -46,7 +52,7 @@ class RayLayout:
     @property
     def seen(self) -> NDArray[np.int64]:
         """States on which the discs depend: joints and constants."""
-        return np.asarray(np.r_[self.joints, self.constants])
+        return _SEEN[self.has_rates]
 
 
 @dataclass(frozen=True, slots=True)
@@ -132,13 +138,14 @@ def predicted(
 class RayPoints:
     """Sigma points of a Gaussian over the seen states and their discs in W.
 
-    ``disc_m`` (5, S, 3, 3), the centre point first; ``root`` (5, 16, 16) lower Cholesky factor; ``mean`` (5, n) the
-    state about which they stand.
+    ``disc_m`` (5, S, 3, 3), the centre point first; ``root`` (5, 16, 16) lower Cholesky factor; ``mean`` (5, n) and
+    ``covariance`` (5, n, n) of the state about which they stand.
     """
 
     disc_m: FloatArray
     root: FloatArray
     mean: FloatArray
+    covariance: FloatArray
 
 
 def spread_points(
@@ -148,32 +155,45 @@ def spread_points(
     seen = layout.seen
     weights = weights_for(seen.size, spread)
     p = covariance[:, seen[:, None], seen]
-    index = np.arange(seen.size)
-    p[:, index, index] += _FLOOR
+    p[:, _DIAGONAL, _DIAGONAL] += _FLOOR
     root: FloatArray = np.asarray(np.linalg.cholesky(p), dtype=np.float64)
     offset = np.zeros((RAYS, 2 * seen.size + 1, seen.size))
     columns = np.swapaxes(root, 1, 2) * weights.scale
     offset[:, 1 : seen.size + 1] = columns
     offset[:, seen.size + 1 :] = -columns
     offset += mean[:, None, seen]
-    return RayPoints(ray_discs_m(root_disc_m, offset), root, mean)
+    return RayPoints(ray_discs_m(root_disc_m, offset), root, mean, covariance)
 
 
 @dataclass(frozen=True, slots=True)
 class RayView:
-    """From W of the palm to the camera: ``rotation`` (3, 3), ``translation_m`` (3,), focal lengths and centre."""
+    """From W2 of a right hand to the pictures: ``rotation`` (3, 3) and ``translation_m`` (3,) into camera axes."""
 
     rotation: FloatArray
     translation_m: FloatArray
-    focal_px: FloatArray
-    centre_px: FloatArray
+    camera: Camera
 
     def observe(self, point_m: FloatArray) -> FloatArray:
-        """Pixel u, v and depth z of points (..., 3) of W."""
-        cam = point_m @ self.rotation.T + self.translation_m
-        z = cam[..., 2:]
-        cam[..., :2] = cam[..., :2] / z * self.focal_px + self.centre_px
-        return cam
+        """Pixel u, v and depth z of points (..., 3) of W2."""
+        out: FloatArray = point_m @ self.rotation.T
+        out += self.translation_m
+        camera, z = self.camera, out[..., 2]
+        out[..., 0] *= camera.fx_px / z
+        out[..., 0] += camera.cx_px
+        out[..., 1] *= camera.fy_px / z
+        out[..., 1] += camera.cy_px
+        return out
+
+    def slope(self, centre_m: FloatArray) -> FloatArray:
+        """Derivative (..., 3, 3) of u, v, z by the place of points (..., 3) in camera axes."""
+        x, y, z = np.moveaxis(centre_m, -1, 0)
+        out = np.zeros((*centre_m.shape, 3))
+        out[..., 0, 0] = self.camera.fx_px / z
+        out[..., 1, 1] = self.camera.fy_px / z
+        out[..., 0, 2] = -out[..., 0, 0] * x / z
+        out[..., 1, 2] = -out[..., 1, 1] * y / z
+        out[..., 2, 2] = 1.0
+        return out
 
 
 @dataclass(frozen=True, slots=True)
@@ -181,13 +201,14 @@ class RayForecast:
     """What the camera should see, linearised statistically: y = ``value`` + ``slope`` (x - ``about``) + error.
 
     ``value`` (5, 9) u, v, z of the three discs in turn; ``slope`` (5, 9, n); ``error`` (5, 9, 9) covariance of what
-    the line misses; ``about`` (5, n).
+    the line misses; ``about`` (5, n); ``spread`` (5, 9, 9) covariance of the images, both parts together.
     """
 
     value: FloatArray
     slope: FloatArray
     error: FloatArray
     about: FloatArray
+    spread: FloatArray
 
 
 def forecast(points: RayPoints, view: RayView, layout: RayLayout, spread: Spread) -> RayForecast:
@@ -196,7 +217,7 @@ def forecast(points: RayPoints, view: RayView, layout: RayLayout, spread: Spread
     count = seen.size
     weights = weights_for(count, spread)
     image = view.observe(points.disc_m).reshape(RAYS, 2 * count + 1, 3 * DISCS)
-    value = weights.mean @ image
+    value: FloatArray = weights.mean @ image
     plus, minus = image[:, 1 : count + 1], image[:, count + 1 :]
     half = (plus - minus) * (0.5 / weights.scale)  # (5, 16, 9): slope in the axes of the root
     # The even part of the spread is what no line can follow.
@@ -206,7 +227,7 @@ def forecast(points: RayPoints, view: RayView, layout: RayLayout, spread: Spread
     error += weights.covariance[0] * (np.swapaxes(middle, 1, 2) @ middle)
     slope = np.zeros((RAYS, 3 * DISCS, layout.size))
     slope[:, :, seen] = np.swapaxes(np.linalg.solve(np.swapaxes(points.root, 1, 2), half), 1, 2)
-    return RayForecast(value, slope, error, points.mean)
+    return RayForecast(value, slope, error, points.mean, error + np.swapaxes(half, 1, 2) @ half)
 
 
 @dataclass(frozen=True, slots=True)

@@ -20,6 +20,7 @@ from core.tracking.state import Belief, StateLayout
 from core.types import Detections, FloatArray, Moment, TrackedFrame, TrackStatus
 
 _NONE = np.empty(0)
+_AXES = np.arange(3)
 _DORSAL = np.array([0.0, 0.0, 1.0])
 _SHAPE_MOVED_M = 3e-4
 """The axes are computed anew when a disc's refined place has moved by this much; before, to first order."""
@@ -57,9 +58,10 @@ class Readout:
         if layout.shape_count:
             axes, sensitivity = self._axes_of(belief.shape)
             discs = discs + belief.shape.reshape(-1, 3)[self._palm]
-            columns = np.concatenate((np.arange(layout.size)[layout.turn], np.arange(layout.size)[layout.shape]))
-            error = np.hstack((np.eye(3), axes @ sensitivity))
-            covariance = error @ p[columns[:, None], columns] @ error.T
+            error = np.zeros((3, layout.size))
+            error[_AXES, layout.turn.start + _AXES] = 1.0
+            error[:, layout.shape] = axes @ sensitivity
+            covariance = error @ p @ error.T
         else:
             axes = np.eye(3)
             covariance = p[layout.turn, layout.turn] + self._unrefined_turn

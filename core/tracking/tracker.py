@@ -23,7 +23,7 @@ from core.tracking.measurement import Forecast, View, forecast, forecast_augment
 from core.tracking.modes import ModeBank
 from core.tracking.naming import Corrected, Measurable, measurable, name_and_correct
 from core.tracking.noise_watch import watched
-from core.tracking.reacquire import find_palm
+from core.tracking.reacquire import find_palm, is_elsewhere
 from core.tracking.readout import Readout, lost_frame, lost_moment, shown_frame
 from core.tracking.settings import TrackerSettings
 from core.tracking.smoother import FilterStep, smooth
@@ -33,6 +33,8 @@ from core.types import Detections, FloatArray, Moment, TrackedFrame, TrackStatus
 SHARE_WINDOW_S = 1.0
 _UV = np.arange(2)
 LEAST_PALM_MARKERS = 3
+VAGUE_TURN_RAD = 0.15
+"""Expecting the hand's turn less surely than this, the filter may settle on wrong names or at a wrong pose."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -157,10 +159,12 @@ class Tracker:
         ahead = self._forecast_at(timestamp_s, self._bank)
         blobs = self._measurable(ahead, ideal)
         step = self._weighed(timestamp_s, dt_s, ahead, blobs)
-        if step.palm_seen <= LEAST_PALM_MARKERS and np.count_nonzero(step.spare) + step.palm_seen > LEAST_PALM_MARKERS:
-            # Too little of the palm is where it was expected: perhaps it is plainly elsewhere.
-            found = find_palm(_only(ideal, ~step.is_finger), self.view, self.settings)
-            if found is not None and found[2] > step.palm_seen:
+        vague = _turn_sd_rad(ahead.bank, self.layout) > VAGUE_TURN_RAD
+        few = step.palm_seen <= LEAST_PALM_MARKERS
+        if (few or vague) and np.count_nonzero(step.spare) + step.palm_seen > LEAST_PALM_MARKERS:
+            # Too little of the palm is where it was expected, or too little was expected: perhaps it is elsewhere.
+            found = find_palm(ideal if vague else _only(ideal, ~step.is_finger), self.view, self.settings)
+            if found is not None and (found[2] > step.palm_seen or (vague and self._is_elsewhere(step, found))):
                 bank = self._begin(self._belief_found(*found[:2]))
                 ahead, linked = forecast(bank, self.layout, self.view, self.settings.spread), False
                 step = self._weighed(timestamp_s, dt_s, ahead, blobs)
@@ -179,10 +183,16 @@ class Tracker:
             # An unseen hand is not taken to go on for ever: its velocity fades, its uncertainty grows.
             keep = float(np.exp(-dt_s / self.settings.rate_memory_s))
             status, self._bank = TrackStatus.PREDICTED, modes.slowed(step.bank, keep, self.layout)
+            belief = self._bank.nominal  # what the next frame is predicted from
         if self._keep_history:
             scale = float(np.sqrt(step.bank.probability @ self._scales**2))
             self.history.append(FilterStep(timestamp_s, belief, scale, linked))
         return self._shown(index, timestamp_s, status, ahead, step, detections, dropped_before)
+
+    def _is_elsewhere(self, step: _Step, found: tuple[FloatArray, FloatArray, int]) -> bool:
+        believed = step.bank.nominal
+        palm = self.view.geometry.palm_m
+        return is_elsewhere(palm, believed.position_m, believed.rotation_w2_w0, found[0], found[1])
 
     def _measurable(self, ahead: Forecast, ideal: Detections) -> Measurable:
         depth_m = max(float(ahead.marker_mean[0, 2]), 0.1)
@@ -200,7 +210,7 @@ class Tracker:
         palm_seen = int(np.count_nonzero(named))
         if self._fingers is None:
             return _Step(corrected, bank, palm_seen, None, None, spare, np.zeros_like(spare))
-        seat = seat_of(bank.nominal, self.layout, self.view, self._readout, palm_seen >= LEAST_PALM_MARKERS)
+        seat = seat_of(bank.nominal, self.view, self._readout, palm_seen >= LEAST_PALM_MARKERS)
         fingers = self._fingers.weigh(timestamp_s, dt_s, seat, blobs, spare)
         is_finger = np.zeros_like(spare)
         is_finger[fingers.blob[fingers.blob >= 0]] = True
@@ -209,8 +219,10 @@ class Tracker:
     def _with_fingers(self, palm: Expectation, timestamp_s: float, fingers: Fingers) -> Expectation:
         assert self._bank is not None
         dt_s = 0.0 if self._time_s is None else timestamp_s - self._time_s
-        belief = modes.merged(self._forecast_at(timestamp_s, self._bank).bank, self.layout).nominal
-        seat = seat_of(belief, self.layout, self.view, self._readout, True)
+        ahead = self._forecast_at(timestamp_s, self._bank).bank
+        # The modes lie close together: the widest mode about the nominal belief serves to find the discs.
+        belief = replace(ahead.nominal, covariance=ahead.covariance[-1])
+        seat = seat_of(belief, self.view, self._readout, True)
         pixel, covariance, depth = fingers.expected(timestamp_s, dt_s, seat)
         return Expectation(
             self._by_marker(palm.pixel, pixel),
@@ -330,3 +342,9 @@ def _only(blobs: Detections, kept: NDArray[np.bool_]) -> Detections:
     if kept.all():
         return blobs
     return Detections(*(getattr(blobs, field.name)[kept] for field in fields(Detections)))
+
+
+def _turn_sd_rad(bank: ModeBank, layout: StateLayout) -> float:
+    """How surely the hand's turn is known, all axes and modes together."""
+    variance = np.diagonal(bank.covariance, axis1=1, axis2=2)[:, layout.turn].sum(axis=1)
+    return float(np.sqrt(bank.probability @ variance))
