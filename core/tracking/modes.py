@@ -90,14 +90,16 @@ def reweighed(predicted_probability: FloatArray, log_likelihood: FloatArray) -> 
 
 
 def slowed(bank: ModeBank, keep: float, layout: StateLayout) -> ModeBank:
-    """The bank with all velocities multiplied by ``keep``, the modes' differences too."""
+    """The bank with all velocities multiplied by ``keep``, their uncertainty and the modes' differences too."""
     nominal = replace(
         bank.nominal,
         velocity_m_s=bank.nominal.velocity_m_s * keep,
         rate_rad_s=bank.nominal.rate_rad_s * keep,
         joint_rates_rad_s=bank.nominal.joint_rates_rad_s * keep,
     )
-    error = bank.error.copy()
+    kept = np.ones(layout.size)
     for rate in (layout.velocity, layout.rate, layout.joint_rates):
-        error[:, rate] *= keep
-    return ModeBank(nominal, error, bank.covariance, bank.probability)
+        kept[rate] = keep
+    both = np.outer(kept, kept)
+    nominal = replace(nominal, covariance=nominal.covariance * both)
+    return ModeBank(nominal, bank.error * kept, bank.covariance * both, bank.probability)

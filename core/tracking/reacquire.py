@@ -16,6 +16,8 @@ DISTANCE_TOLERANCE_M = 0.007
 FIT_TOLERANCE_M = 0.008
 LEAST_MATCHED = 4
 MOST_BLOBS = 40
+ELSEWHERE_M = 0.005
+"""A palm found with a disc this far from where it was believed is at another place: the depths' noise is less."""
 
 
 def find_palm(
@@ -70,6 +72,19 @@ def find_palm(
     rotation = view.rotation_w0_cam.T @ rotation_cam
     position = view.rotation_w0_cam.T @ (translation_cam - view.translation_w0_cam_m)
     return position, rotation, count
+
+
+def is_elsewhere(
+    palm_m: FloatArray,
+    position_m: FloatArray,
+    rotation_w2_w0: FloatArray,
+    other_position_m: FloatArray,
+    other_rotation_w2_w0: FloatArray,
+) -> bool:
+    """Whether two poses put a disc of the palm (6, 3) at clearly different places."""
+    here = palm_m @ rotation_w2_w0.T + position_m
+    there = palm_m @ other_rotation_w2_w0.T + other_position_m
+    return bool(np.linalg.norm(here - there, axis=1).max() > ELSEWHERE_M)
 
 
 def _rigid_fits(model_m: FloatArray, points_m: FloatArray) -> tuple[FloatArray, FloatArray]:

@@ -166,7 +166,8 @@ class Tracker:
             found = find_palm(ideal if vague else _only(ideal, ~step.is_finger), self.view, self.settings)
             if found is not None and (found[2] > step.palm_seen or (vague and self._is_elsewhere(step, found))):
                 bank = self._begin(self._belief_found(*found[:2]))
-                ahead, linked = forecast(bank, self.layout, self.view, self.settings.spread), False
+                # A vague belief has nothing against the new place: the smoother may go on through it.
+                ahead, linked = forecast(bank, self.layout, self.view, self.settings.spread), linked and vague
                 step = self._weighed(timestamp_s, dt_s, ahead, blobs)
         self._time_s, self._forecast = timestamp_s, None
         self._noise_factor = watched(self._noise_factor, step.palm, dt_s, self.settings.noise)
