@@ -62,12 +62,20 @@ class RecordingSettings:
 
 
 @dataclass(frozen=True, slots=True)
+class ReportSettings:
+    """``therapist`` initials that are printed on reports."""
+
+    therapist: str = ""
+
+
+@dataclass(frozen=True, slots=True)
 class Settings:
     """Everything, one section each."""
 
     screen: ScreenSettings = field(default_factory=ScreenSettings)
     camera: CameraSettings = field(default_factory=CameraSettings)
     recording: RecordingSettings = field(default_factory=RecordingSettings)
+    report: ReportSettings = field(default_factory=ReportSettings)
     live: LiveSettings = field(default_factory=LiveSettings)
     detection: DetectionSettings = field(default_factory=DetectionSettings)
     calibration: CalibrationSettings = field(default_factory=CalibrationSettings)
@@ -107,12 +115,22 @@ def load_settings(folder: Path | None = None) -> Settings:
     return _filled(Settings, merged, "", "defaults.toml")
 
 
-def keep_preferences(screen: ScreenSettings, folder: Path | None = None) -> None:
-    """Store what was chosen in the window. Raises :class:`OutputNotWritable`."""
+def keep_preferences(chosen: Settings, folder: Path | None = None) -> None:
+    """Store what the window lets a person choose. Raises :class:`OutputNotWritable`."""
     path = (folder or settings_folder()) / PREFERENCES_FILE
-    lines = ["# Chosen in the window of Carpus.", "[screen]", f'theme = "{screen.theme}"']
-    lines += [f"text_scale = {screen.text_scale}", "", "[screen.keys]"]
-    lines += [f"{name} = {json.dumps(key)}" for name, key in sorted(screen.keys.items())]
+    screen = chosen.screen
+    lines = [
+        "# Chosen in the window of Carpus.",
+        "[screen]",
+        f"theme = {_text(screen.theme)}",
+        f"text_scale = {float(screen.text_scale)}",
+        "[screen.keys]",
+        *(f"{name} = {_text(key)}" for name, key in sorted(screen.keys.items())),
+        "[recording]",
+        f"folder = {_text(chosen.recording.folder)}",
+        "[report]",
+        f"therapist = {_text(chosen.report.therapist)}",
+    ]
     try:
         path.parent.mkdir(parents=True, exist_ok=True)
         part = path.with_suffix(".part")
@@ -120,6 +138,10 @@ def keep_preferences(screen: ScreenSettings, folder: Path | None = None) -> None
         part.replace(path)
     except OSError as cause:
         raise OutputNotWritable(path, cause.strerror or "") from cause
+
+
+def _text(value: str) -> str:
+    return json.dumps(value, ensure_ascii=False)
 
 
 def _read(name: str, data: bytes) -> Values:

@@ -2,6 +2,6 @@
 
 from __future__ import annotations
 
-from app.commands import doctor, info, record, recover, simulate, track
+from app.commands import demo, doctor, info, record, recover, report, simulate, track
 
-COMMANDS = (track, record, simulate, info, recover, doctor)
+COMMANDS = (demo, track, record, simulate, info, report, recover, doctor)

@@ -96,14 +96,14 @@ class Library:
             self.recover()
 
     def recover(self) -> tuple[Sequence[Recovered], Sequence[CarpusFault]]:
-        """Finish interrupted sessions and take them into the registers."""
+        """Finish interrupted sessions; take these, and files that were copied in, into the registers."""
         found: list[Recovered] = []
         faults: list[CarpusFault] = []
         for register, practice in ((self.clinic, False), (self._practice, True)):
             recovery: Recovery = recover_folder(register.sessions_folder)
             faults += recovery.faults
-            if recovery.recovered:
-                register.rebuild_from_sessions()
+            if register.is_behind():
+                faults += register.rebuild_from_sessions().faults
             owners = {record.entry.pseudonym.casefold(): record.patient_id for record in register.patients()}
             for path in recovery.recovered:
                 outline = read_outline(path)

@@ -54,6 +54,11 @@ class Sources:
         """Whether a camera is plugged in; taken for true where the system does not tell."""
         return bool(usb_cameras()) or not sys.platform.startswith("linux")
 
+    def prepare_practice(self, set_up: SetUp, progress: Progress) -> None:
+        """Render the take of a set-up if it is not there yet."""
+        take, _ = self._practice_take(set_up, progress)
+        take.close()
+
     def open(self, choice: SourceChoice, set_up: SetUp, progress: Progress) -> OpenSource:
         """Open the chosen source; waits for camera, disk or renderer, so it is called in the background."""
         if choice.kind == "file":

@@ -255,6 +255,12 @@ class PatientRegister:
                 _index(database, stored, patient_id, outline)
         return Rebuilt(len(found), len(missing), tuple(faults))
 
+    def is_behind(self) -> bool:
+        """Whether the index knows other session files than the folder holds: some were copied in or taken away."""
+        with self._database.transaction() as database:
+            known = {str(path) for (path,) in database.execute("SELECT path FROM session")}
+        return known != {self._stored_path(path) for path in self.sessions_folder.rglob("*.h5")}
+
     def _stored_path(self, path: Path) -> str:
         """Relative to the sessions folder, so that the data folder can be moved as a whole."""
         try:

@@ -12,6 +12,8 @@ import pytest
 from app.settings import (
     PREFERENCES_FILE,
     SETTINGS_FILE,
+    RecordingSettings,
+    ReportSettings,
     ScreenSettings,
     Settings,
     keep_preferences,
@@ -57,7 +59,9 @@ def test_a_persons_file_goes_over_the_defaults_and_leaves_the_rest(tmp_path: Pat
     assert isinstance(settings.tracker.lost_after_s, float)
     assert settings.tracker.noise.pixel_sd_px == 0.3
     assert settings.live.folder == Path.home()
-    assert dataclasses.replace(settings.tracker, profile="standard", lost_after_s=1.5, noise=Settings().tracker.noise) == Settings().tracker  # fmt: skip
+    usual = Settings().tracker
+    back = {"profile": usual.profile, "lost_after_s": usual.lost_after_s, "noise": usual.noise}
+    assert dataclasses.replace(settings.tracker, **back) == usual
     assert settings.calibration == Settings().calibration
 
 
@@ -91,10 +95,15 @@ def test_a_file_that_is_no_toml_is_named(tmp_path: Path) -> None:
 
 def test_what_the_window_keeps_is_read_again_and_goes_over_the_persons_file(tmp_path: Path) -> None:
     written(tmp_path, '[screen]\ntheme = "light"\n[tracker]\nprofile = "brisk"\n')
-    chosen = ScreenSettings("dark", 1.25, {"record": "F12", "zoom_in": '"'})
+    chosen = dataclasses.replace(
+        Settings(),
+        screen=ScreenSettings("dark", 1.25, {"record": "F12", "zoom_in": '"'}),
+        recording=RecordingSettings(folder="/data of the clinic/é"),
+        report=ReportSettings("M. R."),
+    )
     keep_preferences(chosen, tmp_path)
     settings = load_settings(tmp_path)
-    assert settings.screen == chosen
+    assert (settings.screen, settings.recording, settings.report) == (chosen.screen, chosen.recording, chosen.report)
     assert settings.tracker.profile == "brisk"
     assert sorted(path.name for path in tmp_path.iterdir()) == sorted([SETTINGS_FILE, PREFERENCES_FILE])
 

@@ -1,0 +1,37 @@
+"""``carpus demo``: the desktop on a simulated camera and patient; without a display the whole way by itself."""
+
+from __future__ import annotations
+
+import argparse
+from pathlib import Path
+
+from app.commands import desktop
+from app.commands.progress import bar
+from app.settings import load_settings
+
+NAME = "demo"
+HELP = "The desktop application on a simulated camera and patient: no hardware."
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument("--data-folder", type=Path, metavar="FOLDER", help="instead of the user's own")
+    parser.add_argument(
+        "--unattended", action="store_true", help="walk the whole way without a window, as where there is no display"
+    )
+
+
+def run(arguments: argparse.Namespace) -> int:
+    if desktop.has_display() and not arguments.unattended:
+        return desktop.open_window(arguments.data_folder, is_demo=True)
+    from app import compose
+    from app.desktop.unattended import walk
+
+    compose.write_log()
+    settings = compose.with_data_folder(load_settings(), arguments.data_folder)
+    with bar("the whole way") as progress:
+        result = walk(settings, progress)
+    print(f"Session: {result.session}")
+    print(f"Report:  {result.report}")
+    for line in result.lines:
+        print(line)
+    return 0

@@ -1,0 +1,80 @@
+"""Opens a source beside the window's thread; tells how far it is; what nobody wants any more is closed again."""
+
+from __future__ import annotations
+
+import threading
+from collections.abc import Callable
+
+from PySide6.QtCore import QObject, Signal
+
+from app.desktop.sources import OpenSource, Sources
+from ui.background import Background
+from ui.ports import SetUp
+from ui.setup.choice import SourceChoice
+
+
+class _CancelledError(Exception):
+    """Ends a long opening from inside."""
+
+
+class Opener(QObject):
+    """``opened`` carries the :class:`OpenSource`, ``failed`` a fault, ``progressed`` pictures done and in all."""
+
+    opened = Signal(object)
+    failed = Signal(object)
+    progressed = Signal(int, int)
+
+    def __init__(self, sources: Sources) -> None:
+        super().__init__()
+        self._sources = sources
+        self._background = Background()
+        self._ending = threading.Event()
+        self._ready: list[OpenSource] = []
+        self._number = 0
+        self._last_percent = -1
+
+    def open(self, choice: SourceChoice, set_up: SetUp) -> None:
+        """Begin; one of the two answers comes unless it is cancelled."""
+        self._number += 1
+        number = self._number
+        self._background.run(
+            lambda: self._ready.append(self._sources.open(choice, set_up, self._progress)),
+            lambda _: self._take(number),
+            lambda fault: self._fail(number, fault),
+        )
+
+    def prepare(self, work: Callable[[Callable[[int, int], None]], object]) -> None:
+        """Do something beforehand that a later opening would have to wait for; its fault is that one's to tell."""
+        self._background.run(lambda: work(self._progress), lambda _: None, lambda _: None)
+
+    def cancel(self) -> None:
+        """Nobody waits any more: a source that still comes is closed."""
+        self._number += 1
+
+    def close(self) -> None:
+        """End at once, as when the program ends."""
+        self.cancel()
+        self._ending.set()
+        self._background.wait()
+        while self._ready:
+            self._ready.pop().measuring.close()
+
+    def _progress(self, done: int, total: int) -> None:
+        """Called from the background for every picture; the window hears of each percent."""
+        if self._ending.is_set():
+            raise _CancelledError
+        percent = 100 * done // max(total, 1)
+        if percent != self._last_percent:
+            self._last_percent = percent
+            self.progressed.emit(done, total)
+
+    def _take(self, number: int) -> None:
+        source = self._ready.pop(0)
+        if number == self._number:
+            self.opened.emit(source)
+        else:
+            self._background.run(source.measuring.close, lambda _: None, lambda _: None)
+
+    def _fail(self, number: int, fault: Exception) -> None:
+        if number == self._number and not isinstance(fault, _CancelledError):
+            self.failed.emit(fault)

@@ -1,0 +1,123 @@
+"""Where faults become messages over the window: cards that stop, one at a time, and the strip above the list."""
+
+from __future__ import annotations
+
+import logging
+import time
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+
+from PySide6.QtCore import QObject, QTimer, Signal
+from PySide6.QtWidgets import QVBoxLayout, QWidget
+
+from app.desktop.library import Recovered
+from core.errors import CameraLost
+from ui import numbers
+from ui.messages.stop_card import Answer, StopCard
+from ui.messages.strip import NoticeStrip
+from ui.ports import Phrasebook, Words
+from ui.theme import Theme
+
+log = logging.getLogger(__name__)
+
+
+@dataclass(frozen=True, slots=True)
+class _Message:
+    words: Words
+    answers: Sequence[Answer]
+    icon: str
+    detail: str
+    safe_detail: str
+
+
+class Teller(QObject):
+    """Shows one card at a time, oldest first; the same words are not queued twice. ``told`` carries each fault."""
+
+    told = Signal(object)
+
+    def __init__(self, host: QWidget, theme: Theme, phrasebook: Phrasebook) -> None:
+        super().__init__(host)
+        self._theme, self._phrasebook = theme, phrasebook
+        self.card = StopCard(host, theme)
+        self.card.closed.connect(self._next)
+        self._waiting: list[_Message] = []
+        self._shown: _Message | None = None
+        self._lost_since_s = 0.0
+        self._clock = QTimer(self)
+        self._clock.setInterval(1000)
+        self._clock.timeout.connect(self._count_wait)
+
+    def fault(
+        self, fault: Exception, answers: Sequence[Answer] = (), *, detail: str = "", safe_detail: str = ""
+    ) -> None:
+        """A card for a fault; without answers one that only goes on."""
+        log.warning("%s", type(fault).__name__, exc_info=fault)
+        self.told.emit(fault)
+        icon = "unplug" if isinstance(fault, CameraLost) else ""
+        answers = answers or (Answer(self.tr("Go on"), lambda: None),)
+        message = _Message(self._phrasebook.fault(fault), tuple(answers), icon, detail, safe_detail)
+        known = [self._shown, *self._waiting]
+        if any(other is not None and other.words == message.words for other in known):
+            return
+        self._waiting.append(message)
+        if self._shown is None:
+            self._next()
+
+    def camera_lost(self, fault: Exception, answers: Sequence[Answer], detail: str, safe_detail: str) -> None:
+        """The card that waits for the camera and goes by itself when it is back."""
+        self._lost_since_s = time.monotonic()
+        self.fault(fault, answers, detail=detail, safe_detail=safe_detail)
+        self._count_wait()
+        self._clock.start()
+
+    def camera_back(self) -> None:
+        """Take the waiting card away."""
+        self._clock.stop()
+        self._waiting = [message for message in self._waiting if message.icon != "unplug"]
+        if self._shown is not None and self._shown.icon == "unplug":
+            self.card.close_sheet()
+
+    def strip(
+        self, place: QVBoxLayout, words: Words, button: str, action: Callable[[], None], *, icon: str = "history"
+    ) -> NoticeStrip:
+        """A strip that stays until it is answered."""
+        strip = NoticeStrip(self._theme, words, button, icon)
+        place.addWidget(strip)
+
+        def gone() -> None:
+            place.removeWidget(strip)
+            strip.hide()
+            strip.deleteLater()
+
+        strip.later.connect(gone)
+        strip.answered.connect(gone)
+        strip.answered.connect(action)
+        return strip
+
+    def recovered_words(self, found: Recovered) -> Words:
+        """What is said of a session that had been cut short."""
+        what = self.tr("A session of {name} was cut short on {day} at {time}. It has been recovered.")
+        safe = self.tr("All data up to {kept} are safe; at most the last second is missing.")
+        day, at = numbers.short_date(found.when), f"{found.when:%H:%M}"
+        return Words(
+            what.format(name=found.pseudonym, day=day, time=at),
+            safe.format(kept=numbers.clock(found.kept_s)),
+            self.tr("Review it now, or leave it for later: it stays in the patient's list."),
+        )
+
+    def _next(self) -> None:
+        self._shown = None
+        if self._waiting:
+            message = self._shown = self._waiting.pop(0)
+            self.card.show_words(
+                message.words,
+                message.answers,
+                icon=message.icon,
+                detail=message.detail,
+                safe_detail=message.safe_detail,
+            )
+
+    def _count_wait(self) -> None:
+        seconds = round(time.monotonic() - self._lost_since_s)
+        if self._shown is not None and self._shown.icon == "unplug":
+            self.card.set_waiting(self.tr("Waiting for the camera … {seconds} s").format(seconds=seconds))

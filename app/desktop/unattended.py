@@ -1,0 +1,176 @@
+"""The whole way without a person: the real windows on a platform without a screen, driven by keys and clicks.
+
+patient -> simulated camera -> markers -> live -> record -> stop -> review -> progress -> report.
+"""
+
+from __future__ import annotations
+
+import os
+import time
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+os.environ.setdefault("QT_QPA_PLATFORM", "offscreen")
+
+from PySide6.QtCore import QPoint, Qt
+from PySide6.QtTest import QTest
+from PySide6.QtWidgets import QWidget
+
+from app import compose
+from app.desktop.places import TABS, Place
+from app.desktop.practice import practice_spec
+from app.settings import ScreenSettings, Settings
+from core.calibration.clicks import read_clicks
+from core.errors import CalibrationImpossible
+from core.output.report_content import SessionFigures
+from core.simulation.recording import CLICKS_FILE, cached_recording
+from core.types import FloatArray
+from ui import numbers, terms
+from ui.ports import PRACTICE_PATIENT
+
+REPETITIONS = 6
+PATIENCE_S = 60.0
+Progress = Callable[[int, int | None], None]
+
+
+@dataclass(frozen=True, slots=True)
+class Walked:
+    """Where the session and its report are, and what came out, in lines."""
+
+    session: Path
+    report: Path
+    lines: Sequence[str]
+
+
+class Walker:
+    """Presses keys and clicks as a person would; waits for what must follow, never for a time."""
+
+    def __init__(self, desktop: compose.Desktop) -> None:
+        self.desktop = desktop
+        self.journey = desktop.journey
+        self._faults: list[Exception] = []
+        desktop.journey.teller.told.connect(self._faults.append)
+
+    def until(self, condition: Callable[[], bool], patience_s: float = PATIENCE_S) -> None:
+        """Let the window live until something holds; a fault it tells meanwhile ends the way."""
+        end_s = time.monotonic() + patience_s
+        while not condition():
+            if self._faults:
+                raise self._faults[0]
+            if time.monotonic() > end_s:
+                raise TimeoutError(f"waited in vain on the screen “{self.journey.place}”")
+            self.desktop.application.processEvents()
+            QTest.qWait(5)
+
+    def at(self, place: Place) -> None:
+        """Wait for a screen."""
+        self.until(lambda: self.journey.place == place)
+
+    def press(self, key: Qt.Key, widget: QWidget | None = None) -> None:
+        """A key on a widget, or on the one that has the keyboard."""
+        QTest.keyClick(widget or self.desktop.shell.focusWidget() or self.desktop.shell, key)
+
+    def start_practice(self) -> None:
+        """Choose the practice patient and press Enter."""
+        journey = self.journey
+        journey.patients.refresh(PRACTICE_PATIENT)
+        self.press(Qt.Key.Key_Return, journey.patients.search)
+
+    def take_picture(self) -> None:
+        """Space as soon as the hand has been seen for half a second."""
+        self.at("markers")
+        markers, source = self.journey.markers, self.journey.source
+        assert source is not None
+        still = self.journey.settings.calibration.enough_frames + 1
+        self.until(
+            lambda: len(source.measuring.feed.recent_frames(still)) == still and markers.picture.image is not None
+        )
+        self.press(Qt.Key.Key_Space, markers.picture)
+        self.until(lambda: markers.clicking is not None)
+
+    def click_markers(self, pixel: FloatArray) -> None:
+        """Click on pixels of the picture, in the order of the protocol, and start."""
+        markers = self.journey.markers
+        for u, v in pixel:
+            spot: QPoint = markers.picture.to_screen(float(u), float(v)).toPoint()
+            QTest.mouseMove(markers.picture, spot)
+            QTest.mouseClick(markers.picture, Qt.MouseButton.LeftButton, Qt.KeyboardModifier.NoModifier, spot)
+        if markers.clicking is None or not markers.clicking.complete:
+            raise CalibrationImpossible()
+        self.until(markers.primary.isEnabled)
+        self.press(Qt.Key.Key_Return)
+        self.at("live")
+
+    def record(self, repetitions: int, progress: Callable[[int], None] = lambda _: None) -> str:
+        """Space; wait for so many repetitions; Space again. The session that is then reviewed."""
+        live = self.journey.live
+        self.press(Qt.Key.Key_Space, live)
+        self.until(lambda: live.recording_state == "recording")
+
+        def enough() -> bool:
+            progress(live.repetitions)
+            return live.repetitions >= repetitions
+
+        self.until(enough)
+        self.press(Qt.Key.Key_Space, live)
+        self.at("review")
+        self.until(lambda: self.journey.review.shown)
+        return self.journey.session_id
+
+    def tab(self, place: Place) -> None:
+        """Click a tab of the patient."""
+        button = self.desktop.shell.bar.way()[TABS.index(place)]
+        QTest.mouseClick(button, Qt.MouseButton.LeftButton)
+        self.at(place)
+
+    def save_report(self, path: Path) -> None:
+        """Make the report from the review and save it."""
+        self.journey.review.report_button.click()
+        self.at("report")
+        saved: list[str] = []
+        self.journey.report.saved.connect(saved.append)
+        self.journey.report.save(str(path))
+        self.until(lambda: bool(saved))
+
+
+def walk(settings: Settings, progress: Progress, *, repetitions: int = REPETITIONS, speed: float = 1.0) -> Walked:
+    """Walk the whole way on the practice patient; raises the first fault that the windows would tell."""
+    settings = replace(settings, screen=ScreenSettings("light"))
+    qt = compose.application(["carpus"])
+    desktop = compose.compose(qt, settings, is_demo=True, speed=speed)
+    try:
+        walker = Walker(desktop)
+        desktop.show()
+        walker.at("patients")
+        desktop.journey.opener.progressed.connect(lambda done, total: progress(done, total))
+        walker.start_practice()
+        walker.until(lambda: desktop.journey.place == "markers", patience_s=1800.0)
+        set_up = desktop.journey.set_up
+        assert set_up is not None
+        folder = cached_recording(practice_spec(set_up))
+        walker.take_picture()
+        walker.click_markers(read_clicks(folder / CLICKS_FILE).pixel)
+        session_id = walker.record(repetitions, lambda done: progress(done, repetitions))
+        walker.tab("progress")
+        walker.tab("review")
+        walker.until(lambda: desktop.journey.review.shown)
+        path = desktop.library.entry(session_id).path
+        report = path.with_suffix(".pdf")
+        walker.save_report(report)
+        figures = desktop.library.figures(desktop.library.entry(session_id))
+        return Walked(path, report, lines_of(figures))
+    finally:
+        desktop.close()
+
+
+def lines_of(figures: SessionFigures) -> list[str]:
+    """The main figures of a session as plain lines."""
+    quality = figures.quality
+    shares = f"{100.0 * quality.measured_share:.1f} % measured, {quality.dropped} missing"
+    lines = [f"Frames:  {quality.frames} in {figures.duration_s:.1f} s, {shares}"]
+    lines.append(f"Repetitions: {figures.counted}")
+    for row in figures.rows:
+        name = terms.movement_long_name(row.movement)
+        lines.append(f"{name}: {numbers.with_spread(row.mean_deg, row.sd_deg)}")
+    return lines
