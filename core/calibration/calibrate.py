@@ -29,12 +29,13 @@ _TOWARDS_CAMERA = np.array([0.0, 0.0, -1.0])
 
 @dataclass(frozen=True, slots=True)
 class NeutralCapture:
-    """The discs over the still first frames: pixels (F, M, 2), depths (F, M) and what the detector said
-    of the depths' sd (F, M), NaN where not seen."""
+    """The discs over the still first frames: pixels (F, M, 2), depths (F, M), what the detector said of the
+    depths' sd (F, M), and areas (F, M); NaN where not seen."""
 
     pixel: FloatArray
     depth_m: FloatArray
     depth_sd_m: FloatArray
+    area_px: FloatArray
 
     @property
     def frames(self) -> int:
@@ -43,12 +44,14 @@ class NeutralCapture:
 
 @dataclass(frozen=True, slots=True)
 class StillNoise:
-    """Standard deviation of one picture's centres and depths on a still hand; ``depth_ratio`` of the latter
-    to that of a single reading by the book. NaN when there were too few frames."""
+    """Standard deviation of one picture's centres and depths on a still hand, ``depth_ratio`` of the latter to that
+    of a single reading by the book: NaN when there were too few frames. ``disc_radius_m`` of the palm's discs as
+    they appear."""
 
     pixel_sd_px: float = float("nan")
     depth_sd_m: float = float("nan")
     depth_ratio: float = float("nan")
+    disc_radius_m: float = float("nan")
 
 
 @dataclass(frozen=True, slots=True)
@@ -165,6 +168,7 @@ def still_capture(
     begin_s, blobs = next(frames)
     start_px = blobs.pixel[taken]
     pixels, depths, said = [start_px], [blobs.depth_m[taken]], [blobs.depth_sd_m[taken]]
+    areas = [blobs.area_px[taken]]
     for time_s, blobs in frames:
         if time_s - begin_s > settings.still_s:
             break
@@ -181,7 +185,8 @@ def still_capture(
         pixels.append(np.where(near[:, None], blobs.pixel[nearest], np.nan))
         depths.append(np.where(near, blobs.depth_m[nearest], np.nan))
         said.append(np.where(near, blobs.depth_sd_m[nearest], np.nan))
-    return NeutralCapture(np.stack(pixels), np.stack(depths), np.stack(said))
+        areas.append(np.where(near, blobs.area_px[nearest], np.nan))
+    return NeutralCapture(np.stack(pixels), np.stack(depths), np.stack(said), np.stack(areas))
 
 
 def measure_hand(
@@ -204,7 +209,7 @@ def measure_hand(
     with np.errstate(all="ignore"):
         pixel = camera.undistort(np.nanmean(capture.pixel, axis=0))
         depth_m = _nanmean(capture.depth_m)
-    noise = _noise(capture)
+    noise = replace(_noise(capture), disc_radius_m=_disc_radius_m(capture, camera, palm))
     point_cam = camera.back_project(pixel, depth_m)
     axes_cam = wrist_axes(point_cam[palm], _TOWARDS_CAMERA)
     origin_cam = point_cam[palm[0]]
@@ -260,6 +265,12 @@ def _noise(capture: NeutralCapture) -> StillNoise:
         depth_sd = float(np.sqrt(np.nanmean(np.nanvar(capture.depth_m, axis=0, ddof=1))))
         by_the_book = float(np.nanmean(reading_sd_m(capture.depth_m)))
         return StillNoise(pixel_sd, depth_sd, depth_sd / by_the_book)
+
+
+def _disc_radius_m(capture: NeutralCapture, camera: Camera, palm: NDArray[np.int64]) -> float:
+    """Of round discs that had the area of the palm's: children wear smaller ones (reference 2)."""
+    radius_px = np.sqrt(_nanmean(capture.area_px[:, palm]) / np.pi)
+    return float(np.nanmedian(radius_px * _nanmean(capture.depth_m[:, palm]) / camera.fx_px))
 
 
 def _disc_covariances(

@@ -59,16 +59,18 @@ class TrackReport:
 
 @dataclass(frozen=True, slots=True)
 class Learnt:
-    """What the still hand at the start taught: its noise, and until when it was still (time of the recording)."""
+    """What the still hand at the start taught: its noise, until when it was still (time of the recording), and the
+    size of its discs."""
 
     pixel_sd_px: float
     depth_ratio: float
     neutral_ends_s: float
+    disc_radius_m: float = 0.006
 
     def applied(self, settings: TrackerSettings) -> TrackerSettings:
-        """Tracker settings with this noise."""
+        """Tracker settings with this noise and these discs."""
         noise = replace(settings.noise, pixel_sd_px=self.pixel_sd_px, depth_ratio=self.depth_ratio)
-        return replace(settings, noise=noise)
+        return replace(settings, noise=noise, marker_radius_m=self.disc_radius_m)
 
 
 def parameters_json(settings: TrackSettings, source: Mapping[str, Any], learnt: Learnt) -> str:
@@ -100,14 +102,15 @@ DEPTH_RATIO = (0.5, 2.0)
 
 
 def learnt_from(still: StillNoise, neutral_ends_s: float, settings: TrackerSettings) -> Learnt:
-    """The noise of one picture as the still hand showed it, or the settings' where it was not still long enough."""
+    """Noise of one picture and discs' size as the still hand showed them, or the settings' where it could not."""
     noise = settings.noise
     pixel_sd_px, depth_ratio = noise.pixel_sd_px, noise.depth_ratio
     if np.isfinite(still.pixel_sd_px):
         pixel_sd_px = float(np.hypot(still.pixel_sd_px, noise.pixel_model_sd_px))
     if np.isfinite(still.depth_ratio):
         depth_ratio = float(np.clip(still.depth_ratio, *DEPTH_RATIO))
-    return Learnt(pixel_sd_px, depth_ratio, neutral_ends_s)
+    radius_m = still.disc_radius_m if np.isfinite(still.disc_radius_m) else settings.marker_radius_m
+    return Learnt(pixel_sd_px, depth_ratio, neutral_ends_s, radius_m)
 
 
 def build_walk(
