@@ -11,17 +11,18 @@ for _name in ("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS"):
 import argparse
 import sys
 from collections.abc import Sequence
+from importlib import import_module
 from pathlib import Path
 
 from app import __version__
+from app.commands import COMMANDS
+from core.errors import CarpusFault
 
 EXIT_DONE, EXIT_COULD_NOT = 0, 1
 
 
-def parser() -> argparse.ArgumentParser:
-    """The whole command line; each command's module adds its own part."""
-    from app.commands import COMMANDS
-
+def parser(asked: Sequence[str]) -> argparse.ArgumentParser:
+    """The command line; only the command that is asked for brings its options."""
     out = argparse.ArgumentParser(
         prog="carpus",
         description="Hand rehabilitation: tracks blue paper markers on a hand. Without a command: the desktop.",
@@ -29,26 +30,28 @@ def parser() -> argparse.ArgumentParser:
     )
     out.add_argument("--version", action="version", version=f"carpus {__version__}")
     subparsers = out.add_subparsers(dest="command", metavar="COMMAND")
-    for command in COMMANDS:
-        sub = subparsers.add_parser(command.NAME, help=command.HELP, description=command.HELP)
-        command.add_arguments(sub)
-        sub.set_defaults(run=command.run)
+    for name, words in COMMANDS.items():
+        sub = subparsers.add_parser(name, help=words, description=words)
+        if name == next((word for word in asked if not word.startswith("-")), None):
+            command = import_module(f"app.commands.{name}")
+            command.add_arguments(sub)
+            sub.set_defaults(run=command.run)
     return out
 
 
 def main(argv: Sequence[str] | None = None) -> int:
     """Run one command; 0 done, 1 could not be done (one line on stderr), 2 wrong usage."""
-    arguments = parser().parse_args(argv)
-    from core.errors import CarpusFault
-    from core.words import one_sentence
-
+    asked = sys.argv[1:] if argv is None else argv
     try:
+        arguments = parser(asked).parse_args(asked)
         if arguments.command is None:
             from app.commands import desktop
 
             return desktop.run(arguments)
         return int(arguments.run(arguments))
     except CarpusFault as fault:
+        from core.words import one_sentence
+
         print(f"carpus: {one_sentence(fault)}", file=sys.stderr)
     except KeyboardInterrupt:
         print("carpus: stopped.", file=sys.stderr)

@@ -9,9 +9,6 @@ from app.commands import desktop
 from app.commands.progress import bar
 from app.settings import load_settings
 
-NAME = "demo"
-HELP = "The desktop application on a simulated camera and patient: no hardware."
-
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--data-folder", type=Path, metavar="FOLDER", help="instead of the user's own")

@@ -9,8 +9,6 @@ import platformdirs
 
 from core.capture.doctor import examine
 
-NAME = "doctor"
-HELP = "Check driver, camera, window libraries, fonts, disk and data folder."
 _MARK = {"good": "ok     ", "warning": "look   ", "bad": "missing"}
 
 

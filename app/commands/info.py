@@ -10,9 +10,6 @@ from core.errors import RecordingMissing
 from core.session.reader import read_session
 from core.summary import recording_summary, session_summary, source_summary
 
-NAME = "info"
-HELP = "Say what a recording or session holds."
-
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("file", type=Path, help="session (.h5), TUM folder, .oni file or raw recording")

@@ -16,10 +16,6 @@ from core.pipeline.recorder import Recorder
 from core.types import Frame
 from core.words import one_sentence
 
-NAME = "record"
-HELP = "Record raw colour and depth from the camera."
-
-
 WAITING_FRAMES = 90
 """Three seconds of pictures may wait for a slow disk."""
 

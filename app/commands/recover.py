@@ -10,9 +10,6 @@ from core.errors import RecordingMissing
 from core.session.recovery import recover_folder
 from core.words import one_sentence
 
-NAME = "recover"
-HELP = "Finish the interrupted sessions of a folder."
-
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("folder", type=Path, help="folder with sessions; nothing in it is deleted")

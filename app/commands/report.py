@@ -9,9 +9,6 @@ from app.settings import load_settings
 from core.errors import OutputExists
 from core.session.reader import read_session
 
-NAME = "report"
-HELP = "The report of a session, or the progress report of several, as a PDF."
-
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("sessions", type=Path, nargs="+", metavar="SESSION.h5")

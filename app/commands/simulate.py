@@ -11,9 +11,6 @@ from app.commands.progress import bar
 from core.simulation.motions import MOTIONS
 from core.simulation.spec import RecordingSpec
 
-NAME = "simulate"
-HELP = "Make a synthetic recording with ground truth."
-
 _OPTIONS: tuple[tuple[str, dict[str, Any]], ...] = (
     ("protocol", {"choices": ("wrist6", "hand21"), "help": "6 discs on the palm or 21 on the hand"}),
     ("motion", {"choices": tuple(sorted(MOTIONS)), "help": "the exercise"}),

@@ -17,9 +17,6 @@ from core.pipeline.track import TrackReport, TrackSettings, retrack_session, tra
 from core.tracking.settings import PROFILES, TrackerSettings
 from core.words import finding_sentence
 
-NAME = "track"
-HELP = "Track a stored recording, no screen needed; or filter a session again."
-
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("recording", type=Path, help="TUM RGB-D folder, .oni file, raw recording, or a session (.h5)")
