@@ -25,15 +25,17 @@ class MarkerAppearance:
 
     ``paper_histogram`` (BINS, BINS) is the reference of the Bhattacharyya coefficient; ``paper_lookup`` and
     ``skin_lookup`` (BINS, BINS) are 0-255 tables for back-projection: how much likelier than the other a
-    colour is; ``darkest_value`` 0-255; ``area_share`` of a disc's ideal area that
-    passes the colour threshold; ``least_similarity`` that a blob needs.
+    colour is; ``darkest_value`` 0-255; ``least_share`` and ``most_share`` of the ideal area of a large disc
+    facing the camera that the clicked ones showed (some are smaller, some turned away);
+    ``least_similarity`` that a blob needs.
     """
 
     paper_histogram: FloatArray
     paper_lookup: NDArray[np.float32]
     skin_lookup: NDArray[np.float32]
     darkest_value: float
-    area_share: float
+    least_share: float
+    most_share: float
     least_similarity: float
 
 
@@ -114,7 +116,7 @@ def _measured_by_discs(
     ]
     # Half of what the least alike of the clicked discs reaches: a blob in other light still counts.
     least = min(settings.least_similarity, 0.5 * min(reached))
-    return replace(looks, area_share=float(np.median(ratio)), least_similarity=least)
+    return replace(looks, least_share=float(ratio.min()), most_share=float(ratio.max()), least_similarity=least)
 
 
 def paper_mask(hsv: ByteImage, looks: MarkerAppearance, settings: DetectionSettings) -> ByteImage:
@@ -148,6 +150,7 @@ def _appearance(
         (255.0 * paper_share).astype(np.float32),
         (255.0 * skin_share).astype(np.float32),
         darkest,
+        1.0,
         1.0,
         settings.least_similarity,
     )

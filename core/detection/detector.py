@@ -74,9 +74,11 @@ class Detector:
         hsv = color_histogram.to_hsv(color)
         mask = paper_mask(hsv, self._looks, self._settings)
         blobs = components(mask, lambda centre_px: self._radius_at(frame, region, centre_px))
-        full = self._looks.area_share * np.pi * blobs.radius_px**2
-        area = blobs.area_px
-        fits = np.flatnonzero((area >= self._settings.least_area * full) & (area <= self._settings.most_area * full))
+        full, area = np.pi * blobs.radius_px**2, blobs.area_px
+        fits = np.flatnonzero(
+            (area >= self._settings.least_area * self._looks.least_share * full)
+            & (area <= self._settings.most_area * self._looks.most_share * full)
+        )
         if fits.size == 0:
             return Detections.none()
         if fits.size > self._settings.most_blobs:
