@@ -1,0 +1,124 @@
+"""Finding the palm among shuffled blobs without any prediction, and not finding one that is not there."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from core.tracking.measurement import RigidPalm, View
+from core.tracking.reacquire import find_palm
+from core.tracking.settings import TrackerSettings
+from core.types import Detections, Side
+from tests.tracking.hands import CAMERA, FROM_ABOVE, MIDDLE_M, Pose, blobs, palm, rotation_of
+
+SIDES: tuple[Side, Side] = ("right", "left")
+SETTINGS = TrackerSettings()
+
+
+def view(side: Side) -> View:
+    return View(CAMERA, FROM_ABOVE, MIDDLE_M, RigidPalm(palm(side)))
+
+
+def some_pose(rng: np.random.Generator) -> Pose:
+    return Pose(rng.uniform(-1.0, 1.0, 3) * [30.0, 50.0, 40.0], rng.uniform(-0.06, 0.06, 3))
+
+
+def clutter(rng: np.random.Generator, count: int) -> list[tuple[float, float]]:
+    return [(float(rng.uniform(20, 620)), float(rng.uniform(20, 460))) for _ in range(count)]
+
+
+@pytest.mark.parametrize("side", SIDES)
+@pytest.mark.parametrize("seed", range(12))
+def test_palm_is_found_among_shuffled_blobs_and_clutter(side: Side, seed: int) -> None:
+    rng = np.random.default_rng(seed)
+    pose = some_pose(rng)
+    found = find_palm(blobs(pose, rng, side=side, false_px=clutter(rng, 8)), view(side), SETTINGS)
+    assert found is not None
+    position, rotation, count = found
+    true = rotation_of(*pose.angles_deg, side=side)
+    discs, there = palm(side) @ rotation.T + position, palm(side) @ true.T + pose.position_m
+    assert np.linalg.norm(discs - there, axis=1).max() < 0.004
+    assert count == 6
+
+
+@pytest.mark.parametrize("side", SIDES)
+@pytest.mark.parametrize("hidden", [(0,), (3,), (1, 5), (0, 3), (2, 4)])
+def test_four_or_five_discs_are_enough(side: Side, hidden: tuple[int, ...]) -> None:
+    rng = np.random.default_rng(20)
+    found_right = 0
+    for _ in range(10):
+        pose = some_pose(rng)
+        found = find_palm(blobs(pose, rng, side=side, hidden=hidden), view(side), SETTINGS)
+        if found is None:
+            continue  # two poses explain the four discs: then none is taken
+        assert found[2] >= 6 - len(hidden)
+        there = palm(side) @ rotation_of(*pose.angles_deg, side=side).T + pose.position_m
+        shown = np.setdiff1d(np.arange(6), hidden)
+        assert np.linalg.norm((palm(side) @ found[1].T + found[0] - there)[shown], axis=1).max() < 0.006
+        found_right += 1
+    assert found_right >= 8
+
+
+@pytest.mark.parametrize("side", SIDES)
+def test_three_discs_are_not_enough(side: Side) -> None:
+    rng = np.random.default_rng(30)
+    for _ in range(20):
+        hidden = rng.choice(6, 3, replace=False)
+        assert find_palm(blobs(some_pose(rng), rng, side=side, hidden=hidden), view(side), SETTINGS) is None
+
+
+def test_three_discs_and_far_clutter_are_not_enough() -> None:
+    rng = np.random.default_rng(31)
+    for _ in range(20):
+        seen = blobs(Pose(), rng, hidden=[0, 2, 4], false_px=[(50, 50), (600, 60), (40, 430), (600, 440)])
+        assert find_palm(seen, view("right"), SETTINGS) is None
+
+
+@pytest.mark.parametrize("side", SIDES)
+def test_the_other_hand_is_never_taken_for_all_of_this_one(side: Side) -> None:
+    """The mirrored palm: never all six; where enough match by chance, fewer than a real palm would."""
+    other: Side = "left" if side == "right" else "right"
+    rng = np.random.default_rng(40)
+    refused = 0
+    for _ in range(20):
+        pose = Pose(rng.uniform(-1.0, 1.0, 3) * [30.0, 20.0, 20.0])
+        found = find_palm(blobs(pose, rng, side=other), view(side), SETTINGS)
+        refused += found is None
+    assert refused == 20
+
+
+def test_a_palm_that_shows_its_inside_is_not_taken() -> None:
+    """The same discs turned over: the back of the hand must face the camera."""
+    rng = np.random.default_rng(41)
+    for _ in range(10):
+        pose = Pose(np.array([rng.uniform(-40, 40), 0.0, 180.0]))
+        assert find_palm(blobs(pose, rng), view("right"), SETTINGS) is None
+
+
+def test_without_depth_nothing_is_found() -> None:
+    assert find_palm(blobs(Pose(), np.random.default_rng(1), with_depth=False), view("right"), SETTINGS) is None
+    assert find_palm(Detections.none(), view("right"), SETTINGS) is None
+
+
+def test_two_palms_are_one_too_many() -> None:
+    """Two equal constellations far apart: neither is taken."""
+    one, other = blobs(Pose()), blobs(Pose(position_m=np.array([0.0, 0.12, 0.0])))
+    both = Detections(
+        *(np.concatenate((getattr(one, f), getattr(other, f))) for f in ("pixel", "depth_m", "depth_sd_m", "area_px")),
+        np.concatenate((one.similarity, other.similarity)),
+    )
+    assert find_palm(both, view("right"), SETTINGS) is None
+    assert find_palm(one, view("right"), SETTINGS) is not None
+
+
+def test_with_many_blobs_the_likest_are_searched() -> None:
+    rng = np.random.default_rng(42)
+    seen = blobs(Pose(), rng, false_px=clutter(rng, 60))
+    likeness = np.where(
+        np.linalg.norm(seen.pixel[:, None] - blobs(Pose()).pixel[None], axis=-1).min(axis=1) < 1.0, 0.95, 0.6
+    )
+    found = find_palm(replace(seen, similarity=likeness), view("right"), SETTINGS)
+    assert found is not None
+    assert found[2] == 6
