@@ -14,6 +14,8 @@ import sys
 from pathlib import Path
 
 from fontTools import subset
+from fontTools.pens.t2CharStringPen import T2CharStringPen
+from fontTools.pens.transformPen import TransformPen
 from fontTools.ttLib import TTFont
 
 FACES = {
@@ -37,6 +39,7 @@ def make_face(source: Path, family: str, weight: int, target: Path) -> None:
     """Write one face: tabular figures as default, European subset, new family name."""
     font = TTFont(source)
     _figures_tabular(font)
+    _figures_equally_wide(font)
     options = subset.Options(layout_features=KEPT_FEATURES, name_IDs=["*"], notdef_outline=True, hinting=True)
     worker = subset.Subsetter(options)
     worker.populate(unicodes=[code for low, high in KEPT_RANGES for code in range(low, high + 1)])
@@ -60,6 +63,24 @@ def _figures_tabular(font: TTFont) -> None:
         for code in range(ord("0"), ord("9") + 1):
             if code in cmap.cmap:
                 cmap.cmap[code] = swap.get(cmap.cmap[code], cmap.cmap[code])
+
+
+def _figures_equally_wide(font: TTFont) -> None:
+    """The display cut's tabular figures differ in width in this release: centre each on the widest."""
+    cmap, widths = font.getBestCmap(), font["hmtx"]
+    names = [cmap[code] for code in range(ord("0"), ord("9") + 1)]
+    widest = max(widths[name][0] for name in names)
+    glyphs = font.getGlyphSet()
+    top = font["CFF "].cff.topDictIndex[0]
+    for name in names:
+        width, bearing = widths[name]
+        shift = (widest - width) // 2
+        if width == widest:
+            continue
+        pen = T2CharStringPen(widest - top.Private.nominalWidthX, glyphs)
+        glyphs[name].draw(TransformPen(pen, (1, 0, 0, 1, shift, 0)))
+        top.CharStrings[name] = pen.getCharString(private=top.Private, globalSubrs=top.GlobalSubrs)
+        widths[name] = (widest, bearing + shift)
 
 
 def _rename(font: TTFont, family: str, style: str) -> None:

@@ -95,7 +95,7 @@ def tracked_frames(
         measured[covered | is_lost] = math.nan
         predicted_only = int(np.isfinite(measured[:, 0]).sum()) < 3
         status = TrackStatus.LOST if is_lost else TrackStatus.PREDICTED if predicted_only else TrackStatus.TRACKED
-        growth = 1.0 + 3.0 * float(covered_since.max()) + 0.35 * abs(math.sin(time_s))
+        growth = 1.0 + 0.7 * float(covered_since.max()) + 0.35 * abs(math.sin(time_s))
         unknown = math.nan if is_lost else 1.0
         out.append(
             TrackedFrame(

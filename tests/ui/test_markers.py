@@ -172,7 +172,7 @@ def test_a_given_start_angle_reaches_the_calibration_with_its_sign(qtbot: QtBot,
     qtbot.mouseClick(screen.start_angle, Qt.MouseButton.LeftButton)
     direction, value = screen.angle_sheet.fields[1]
     direction.buttons()[1].click()
-    value.setValue(20.0)
+    value.setValue(20)
     screen.angle_sheet.kept.emit(screen.angle_sheet.angles_rad())
     screen.angle_sheet.close_sheet()
     click_all(qtbot, screen, calibrator)

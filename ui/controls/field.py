@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 from PySide6.QtCore import QRectF, Qt, Signal
 from PySide6.QtGui import QPainter, QPaintEvent
-from PySide6.QtWidgets import QButtonGroup, QHBoxLayout, QLineEdit, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QButtonGroup, QHBoxLayout, QLineEdit, QSpinBox, QVBoxLayout, QWidget
 
 from ui.controls.button import Button
 from ui.controls.text import MEDIUM, Text
@@ -57,6 +57,18 @@ class Labelled(QWidget):
         field.setAccessibleName(label.replace("&", ""))
         column.addWidget(name)
         column.addWidget(field)
+
+
+def number_field(theme: Theme, most: int, suffix: str = "", nothing: str = "") -> QSpinBox:
+    """A whole number from 0 with its unit; ``nothing`` is shown for 0."""
+    field = QSpinBox()
+    field.setRange(0, most)
+    field.setSuffix(suffix)
+    field.setSpecialValueText(nothing)
+    field.setFixedWidth(theme.px(110))
+    field.lineEdit().setTextMargins(10, 0, 10, 0)  # the style sheet's padding does not reach the text of a spin box
+    theme.changed.connect(lambda: field.setFixedWidth(theme.px(110)))
+    return field
 
 
 class Choices(QWidget):

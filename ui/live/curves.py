@@ -108,7 +108,7 @@ class LiveCurves(QWidget):
             order = [
                 (1, axes.rising_scale(SPEED_TOP_DEG_S, 100.0, "°/s", self.tr("Turning")), 1.0),
                 (0, axes.rising_scale(SPEED_TOP_MM_S, 100.0, " mm/s", self.tr("Moving")), 1.0),
-            ]
+            ][: 1 if self._single else 2]
         else:
             order = [(k, self._angle_scale(k), 2.0 if k == self._first() else 1.0) for k in self._order()]
         between = BETWEEN_PX * scale
@@ -157,7 +157,7 @@ class LiveCurves(QWidget):
     def _values_in(self, panels: list[tuple[Panel, int]]) -> list[tuple[str, str, str]]:
         if not self._values:
             return [("", "", "")] * len(panels)
-        return self._values if self._speeds else [self._values[column] for _, column in panels]
+        return self._values[: len(panels)] if self._speeds else [self._values[column] for _, column in panels]
 
     def _paint_value(self, painter: QPainter, panel: Panel, name: str, value: str, spread: str) -> None:
         theme, scale = self._theme, self._theme.text_scale

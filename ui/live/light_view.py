@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from PySide6.QtCore import QPointF, QRectF, QSize, Qt
-from PySide6.QtGui import QFontMetricsF, QPainter, QPaintEvent
+from PySide6.QtGui import QFont, QFontMetricsF, QPainter, QPaintEvent
 from PySide6.QtWidgets import QSizePolicy, QWidget
 
 from ui.fonts import MEDIUM, SEMIBOLD, font
@@ -19,6 +19,13 @@ BANDS = {
     "idle": ("sunken", "text2", "text2", "border", "sunken"),
 }
 """Ground, state word, remedy, icon body, icon sign."""
+
+
+def _fitting(text: str, size: float, least: float, weight: int, room: float) -> QFont:
+    """The largest font down to the unscaled size with which a text fits: it must be read whole."""
+    while size > least and QFontMetricsF(font(size, weight)).horizontalAdvance(text) > room:
+        size -= 1
+    return font(size, weight)
 
 
 class LightView(QWidget):
@@ -50,7 +57,9 @@ class LightView(QWidget):
         icon = QRectF(34, (self.height() - size) / 2, size, size)
         paint_state(painter, "open" if self.lamp.rank == "idle" else self.lamp.rank, icon, color(body), color(sign))
         left = icon.right() + 18
-        state_face, remedy_face = font(28 * scale, SEMIBOLD), font(20 * scale, MEDIUM)
+        room = self.width() - left - 12
+        state_face = _fitting(self.lamp.state, 28 * scale, 28, SEMIBOLD, room)
+        remedy_face = _fitting(self.lamp.remedy, 20 * scale, 20, MEDIUM, room)
         state_width = QFontMetricsF(state_face).horizontalAdvance(self.lamp.state)
         remedy_width = QFontMetricsF(remedy_face).horizontalAdvance(self.lamp.remedy)
         beside = left + state_width + 18 + remedy_width <= self.width() - 12

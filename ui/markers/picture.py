@@ -227,7 +227,8 @@ class MarkerPicture(PictureView):
         paint_label(painter, self._theme, f"×{LOUPE_TIMES:.0f}", inner.left() + 8, inner.top() + 8)
         words = self.no_marker_words
         if self.found is not None:
-            words = self.tr("Marker found · {width} px wide").format(width=f"{self.found.width_px:.0f}")
+            pattern = self.tr("Marker found · {width} px wide") if box.width() >= 200 else self.tr("Found · {width} px")
+            words = pattern.format(width=f"{self.found.width_px:.0f}")
         if words:
             painter.setFont(font(12 * self._theme.text_scale, SEMIBOLD))
             height = QFontMetricsF(painter.font()).height() + 5

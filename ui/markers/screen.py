@@ -55,6 +55,7 @@ class MarkersScreen(QWidget):
         self.primary = Button(theme, "", "primary")
         self.second = Button(theme, "", "plain", height_px=52)
         self.start_angle = Button(theme, self.tr("Hand cannot lie straight …"), "quiet", height_px=32)
+        self.although = Button(theme, self.tr("Start although &doubtful"), "quiet", height_px=32)
         self.new_picture = Button(theme, self.tr("New picture"), "quiet", hint="N", height_px=32)
         self.hint = Text(theme, "", 14, REGULAR, "text2", wrap=True)
         self.angle_sheet = StartAngleSheet(self, theme)
@@ -81,6 +82,8 @@ class MarkersScreen(QWidget):
         below.addWidget(self.hint, 1)
         below.addWidget(self.new_picture)
         below.addWidget(self.start_angle)
+        below.addWidget(self.although)
+        self.although.hide()
         left.addLayout(below)
         right = QVBoxLayout()
         right.setSpacing(8)
@@ -117,6 +120,7 @@ class MarkersScreen(QWidget):
         self.picture.grabbed.connect(self._grab)
         self.primary.clicked.connect(self._primary)
         self.second.clicked.connect(self._second)
+        self.although.clicked.connect(self._start_doubtful)
         self.start_angle.clicked.connect(lambda: self.angle_sheet.begin(self._start_angles_rad))
         self.angle_sheet.kept.connect(self._take_start_angles)
         self.new_picture.clicked.connect(self.preview)
@@ -275,6 +279,11 @@ class MarkersScreen(QWidget):
         else:
             self._click_again()
 
+    def _start_doubtful(self) -> None:
+        """The markers look swapped, but the person knows this hand better."""
+        if self._judged is not None and self._judged.verdict.can_start:
+            self._start()
+
     def _start(self) -> None:
         if self._judged is not None and self._judged.calibration is not None and self._calibrator is not None:
             self._calibrator.begin(self._judged.calibration)
@@ -313,6 +322,9 @@ class MarkersScreen(QWidget):
         if self._calibrator is None:
             return
         self.new_picture.setEnabled(self._held)
+        pair = self._judged is not None and self._judged.verdict.can_start and self._pair() is not None
+        self.although.setVisible(pair)
+        self.start_angle.setVisible(not pair)
         if not self._held or self.clicking is None:
             self._show_preview()
         elif self._judged is None:

@@ -6,18 +6,18 @@ import math
 
 import numpy as np
 from PySide6.QtCore import Qt, Signal
-from PySide6.QtWidgets import QDoubleSpinBox, QHBoxLayout, QWidget
+from PySide6.QtWidgets import QHBoxLayout, QSpinBox, QWidget
 
 from core.output.exercises import SIDES
 from core.types import FloatArray
 from ui import terms
 from ui.controls.button import Button
-from ui.controls.field import Choices
+from ui.controls.field import Choices, number_field
 from ui.controls.sheet import Sheet
 from ui.controls.text import SEMIBOLD, Text
 from ui.theme import Theme
 
-LARGEST_DEG = 80.0
+LARGEST_DEG = 80
 ORDER = (1, 0, 2)
 """Flexion first, as it is the one that contractures limit most."""
 
@@ -37,14 +37,10 @@ class StartAngleSheet(Sheet):
             "angles to all it measures and says so in the report."
         )
         body.addWidget(Text(theme, words, 14, token="text2", wrap=True))
-        self.fields: dict[int, tuple[Choices, QDoubleSpinBox]] = {}
+        self.fields: dict[int, tuple[Choices, QSpinBox]] = {}
         for column in ORDER:
             direction = Choices(theme, [(name, terms.movement_name(name)) for name in SIDES[column]], SIDES[column][0])
-            value = QDoubleSpinBox()
-            value.setRange(0.0, LARGEST_DEG)
-            value.setDecimals(0)
-            value.setSuffix("°")
-            value.setFixedWidth(theme.px(90))
+            value = number_field(theme, LARGEST_DEG, "°")
             value.setAlignment(Qt.AlignmentFlag.AlignRight)
             value.setAccessibleName(terms.movement_name(SIDES[column][0]))
             row = QHBoxLayout()
@@ -66,7 +62,7 @@ class StartAngleSheet(Sheet):
         """Open with the present angles."""
         for column, (direction, value) in self.fields.items():
             direction.choose(SIDES[column][0 if angles_rad[column] >= 0 else 1])
-            value.setValue(abs(math.degrees(angles_rad[column])))
+            value.setValue(round(abs(math.degrees(angles_rad[column]))))
         self.open(self.fields[ORDER[0]][1])
         self.fields[ORDER[0]][1].selectAll()
 

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from PySide6.QtCore import Signal
-from PySide6.QtWidgets import QHBoxLayout, QVBoxLayout, QWidget
+from PySide6.QtCore import Qt, Signal
+from PySide6.QtGui import QResizeEvent
+from PySide6.QtWidgets import QHBoxLayout, QScrollArea, QVBoxLayout, QWidget
 
 from ui import numbers, terms
 from ui.controls.button import Button
@@ -14,6 +15,8 @@ from ui.ports import PRACTICE_PATIENT, PatientCard, ResultLine
 from ui.theme import Theme
 from ui.verdicts import change_since_first, verdict_token
 
+PHOTO_FROM_PX = 600
+
 
 class PatientCardView(Card):
     """Right column of the first screen."""
@@ -22,6 +25,7 @@ class PatientCardView(Card):
     change = Signal()
     review = Signal()
     progress = Signal()
+    edit = Signal()
 
     def __init__(self, theme: Theme) -> None:
         super().__init__(theme, 24)
@@ -38,24 +42,40 @@ class PatientCardView(Card):
         self.start_button = Button(
             theme, self.tr("Start session, same set-up"), "primary", icon="play", hint=self.tr("Enter")
         )
+        self.edit_button = Button(theme, self.tr("&Edit…"), "quiet", height_px=32)
         self.change_button = Button(theme, self.tr("&Change…"))
         self.review_button = Button(theme, self.tr("&Review"))
         self.progress_button = Button(theme, self.tr("&Progress"))
         self.body.setSpacing(0)
+        head = QHBoxLayout()
+        head.addWidget(self._name, 1)
+        head.addWidget(self.edit_button)
+        self.body.addLayout(head)
+        self.body.addSpacing(2)
+        recall = QVBoxLayout()
+        recall.setContentsMargins(0, 0, 0, 0)
+        recall.setSpacing(0)
         for widget, gap in (
-            (self._name, 2),
             (self._hand, 12),
             (self._photo, 14),
             (self._exercise, 2),
             (self._last, 12),
         ):
-            self.body.addWidget(widget)
-            self.body.addSpacing(gap)
-        self.body.addLayout(self._results)
-        self.body.addSpacing(14)
-        self.body.addWidget(self._note_when)
-        self.body.addWidget(self._note)
-        self.body.addStretch(1)
+            recall.addWidget(widget)
+            recall.addSpacing(gap)
+        recall.addLayout(self._results)
+        recall.addSpacing(14)
+        recall.addWidget(self._note_when)
+        recall.addWidget(self._note)
+        recall.addStretch(1)
+        host = QWidget()
+        host.setLayout(recall)
+        scroll = QScrollArea()  # large text: what must be recalled scrolls, the buttons stay
+        scroll.setWidget(host)
+        scroll.setWidgetResizable(True)
+        scroll.setFocusPolicy(Qt.FocusPolicy.NoFocus)
+        scroll.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
+        self.body.addWidget(scroll, 1)
         self.body.addSpacing(16)
         self.body.addWidget(self.start_button)
         self.body.addSpacing(12)
@@ -66,9 +86,13 @@ class PatientCardView(Card):
         self.body.addLayout(row)
         for button, signal in (
             (self.start_button, self.start), (self.change_button, self.change),
-            (self.review_button, self.review), (self.progress_button, self.progress),
+            (self.review_button, self.review), (self.progress_button, self.progress), (self.edit_button, self.edit),
         ):  # fmt: skip
             button.clicked.connect(signal)
+
+    def resizeEvent(self, event: QResizeEvent) -> None:
+        """Where there is little room the picture gives way to the results."""
+        self._photo.set_roomy(self.height() >= self._theme.px(PHOTO_FROM_PX))
 
     def show_card(self, card: PatientCard | None, camera_ready: bool) -> None:
         """Show one patient, or hide when none is chosen."""
@@ -79,6 +103,7 @@ class PatientCardView(Card):
         practice = row.patient_id == PRACTICE_PATIENT
         self._name.setText(row.pseudonym)
         self._name.setToolTip(row.name)
+        self.edit_button.setVisible(not practice)
         self._hand.setText(
             self.tr("Simulated camera: nothing here counts")
             if practice
@@ -140,7 +165,7 @@ class _ResultRow(QWidget):
         name.setFixedWidth(theme.px(88))
         row.addWidget(name)
         row.addWidget(Text(theme, numbers.with_spread(line.mean_deg, line.sd_deg), 16, SEMIBOLD))
-        row.addStretch(1)
-        row.addWidget(
-            Text(theme, change_since_first(line.verdict, line.change_deg), 12, MEDIUM, verdict_token(line.verdict))
-        )
+        words = change_since_first(line.verdict, line.change_deg)
+        change = Text(theme, words, 12, MEDIUM, verdict_token(line.verdict), wrap=True)
+        change.setAlignment(Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter)
+        row.addWidget(change, 1)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 
 from PySide6.QtCore import Qt, Signal
-from PySide6.QtWidgets import QHBoxLayout, QLineEdit, QPlainTextEdit, QWidget
+from PySide6.QtWidgets import QHBoxLayout, QLineEdit, QPlainTextEdit, QScrollArea, QVBoxLayout, QWidget
 
 from ui import terms
 from ui.controls.button import Button
@@ -53,12 +53,22 @@ class PatientForm(Sheet):
         self.body.addWidget(self._title)
         rule = self.tr("A made-up name that can be spoken aloud. No real name, no initials, no date of birth.")
         self.body.addWidget(Text(theme, rule, 14, token="text2", wrap=True))
-        self.body.addWidget(Labelled(theme, self.tr("&Name in Carpus"), name_row))
-        kept = self.tr("&Real name, if wanted: kept in this list only, never in a session, report or export")
-        self.body.addWidget(Labelled(theme, kept, self.real_name))
-        self.body.addWidget(Labelled(theme, self.tr("Affected hand"), self.side))
-        self.body.addWidget(Labelled(theme, self.tr("Writes with"), self.dominance))
-        self.body.addWidget(Labelled(theme, self.tr("N&ote (no diagnosis, no names)"), self.note))
+        self._fields = QWidget()
+        column = QVBoxLayout(self._fields)
+        column.setContentsMargins(0, 0, 0, 0)
+        column.setSpacing(14)
+        column.addWidget(Labelled(theme, self.tr("&Name in Carpus"), name_row))
+        kept = self.tr("&Real name, if wanted (stays in this list, never in a session or report)")
+        column.addWidget(Labelled(theme, kept, self.real_name))
+        column.addWidget(Labelled(theme, self.tr("Affected hand"), self.side))
+        column.addWidget(Labelled(theme, self.tr("Writes with"), self.dominance))
+        column.addWidget(Labelled(theme, self.tr("N&ote (no diagnosis, no names)"), self.note))
+        self._scroll = QScrollArea()  # large text on a small screen: the fields scroll, the buttons stay
+        self._scroll.setWidget(self._fields)
+        self._scroll.setWidgetResizable(True)
+        self._scroll.setFocusPolicy(Qt.FocusPolicy.NoFocus)
+        self._scroll.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
+        self.body.addWidget(self._scroll)
         self.body.addWidget(self._fault)
         buttons = QHBoxLayout()
         buttons.addStretch(1)
@@ -83,6 +93,8 @@ class PatientForm(Sheet):
         self.real_name.setText(entry.name)
         self.note.setPlainText(entry.note)
         self._fault.hide()
+        room = self.parentWidget().height() - self._theme.px(250)
+        self._scroll.setFixedHeight(min(self._fields.sizeHint().height() + 2, max(room, 160)))
         self.open(self.name)
         self.name.selectAll()
 

@@ -117,7 +117,9 @@ class RowPainter(QStyledItemDelegate):
         room = QRectF(edges[3], box.top(), end - edges[3] - (0 if plain else 36), box.height())
         self._text(painter, face, when, room, "text2" if plain else "text")
         date_width = max(self._theme.px(92), QFontMetricsF(face).horizontalAdvance(when) + 10)
-        self._text(painter, face, ago, room.adjusted(date_width, 0, 0, 0), "text2")
+        beside = room.adjusted(date_width, 0, 0, 0)
+        if QFontMetricsF(face).horizontalAdvance(ago) <= beside.width():
+            self._text(painter, face, ago, beside, "text2")
         painter.setPen(self._theme.color("text"))
         painter.setFont(face)
         painter.drawText(

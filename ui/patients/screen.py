@@ -105,6 +105,7 @@ class PatientsScreen(QWidget):
         self.card.change.connect(lambda: self.set_up.emit(self._chosen_id()))
         self.card.review.connect(lambda: self.review.emit(self._chosen_id()))
         self.card.progress.connect(lambda: self.progress.emit(self._chosen_id()))
+        self.card.edit.connect(lambda: self.change_patient(self._chosen_id()))
         self.form.accepted.connect(self._store_entry)
 
     def refresh(self, choose: str = "") -> None:

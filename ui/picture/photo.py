@@ -51,15 +51,21 @@ class Photo(QWidget):
         self._theme, self._height_px = theme, height_px
         self._image: QImage | None = None
         self._label = ""
+        self._roomy = True
         self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Preferred)
 
     def show_picture(self, color_rgb: ByteImage | None, label: str) -> None:
         """Show a picture; without one the widget takes no room."""
         self._image = None if color_rgb is None else image_of(color_rgb)
         self._label = label
-        self.setVisible(self._image is not None)
+        self.setVisible(self._image is not None and self._roomy)
         self.setAccessibleName(label)
         self.update()
+
+    def set_roomy(self, roomy: bool) -> None:
+        """Without room nothing is shown."""
+        self._roomy = roomy
+        self.setVisible(self._image is not None and roomy)
 
     def sizeHint(self) -> QSize:
         return QSize(280, self._height_px)

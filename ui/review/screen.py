@@ -81,7 +81,7 @@ class ReviewScreen(QWidget):
         self.player = Player(theme)
         self.table = RangeTable(theme)
         self.title = Text(theme, self.tr("Range of motion"), 20, SEMIBOLD)
-        self.count = Text(theme, "", 14, REGULAR, "text2")
+        self.count = Text(theme, "", 14, REGULAR, "text2", wrap=True)
         self.again_button = Button(theme, self.tr("Another set"), "quiet", icon="undo-2")
         self.export_button = Button(theme, self.tr("Export …"), hint="Ctrl+E")
         self.report_button = Button(
@@ -325,8 +325,8 @@ class ReviewScreen(QWidget):
 
         def shown(picture: ByteImage | None) -> None:
             asked, self._asked_row = self._asked_row, -1
-            if session_id != self._session_id:
-                return
+            if session_id != self._session_id or self._session is None:
+                return  # another session is being read
             if picture is not None:
                 self.picture.show_frame(picture)
                 if self._row != asked:

@@ -5,14 +5,14 @@ from __future__ import annotations
 import math
 
 from PySide6.QtCore import Signal
-from PySide6.QtWidgets import QHBoxLayout, QSpinBox, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QHBoxLayout, QVBoxLayout, QWidget
 
 from core.output.exercises import EXERCISES, SIDES, Exercise, exercise_named
 from core.types import Side
 from ui import terms
 from ui.controls.button import Button
 from ui.controls.card import Card
-from ui.controls.field import Choices, Labelled
+from ui.controls.field import Choices, Labelled, number_field
 from ui.controls.text import SEMIBOLD, Text, heading
 from ui.ports import PatientRow, SetUp
 from ui.setup.option import Options
@@ -36,8 +36,8 @@ class ExerciseScreen(QWidget):
         )
         sides: list[tuple[object, str]] = [("right", terms.side_name("right")), ("left", terms.side_name("left"))]
         self.side = Choices(theme, sides)
-        self.repetitions = _number_field(theme, MOST_REPETITIONS, "")
-        self.targets = (_number_field(theme, MOST_TARGET_DEG, "°"), _number_field(theme, MOST_TARGET_DEG, "°"))
+        self.repetitions = number_field(theme, MOST_REPETITIONS, nothing=self.tr("none"))
+        self.targets = tuple(number_field(theme, MOST_TARGET_DEG, "°", self.tr("none")) for _ in range(2))
         self._target_fields = tuple(Labelled(theme, "", field) for field in self.targets)
         self._target_names = tuple(_caption(field) for field in self._target_fields)
         keep: list[tuple[object, str]] = [(False, self.tr("No")), (True, self.tr("Yes, 600 MB a minute"))]
@@ -137,15 +137,6 @@ class ExerciseScreen(QWidget):
 
     def _go_on(self) -> None:
         self.ready.emit(self.set_up())
-
-
-def _number_field(theme: Theme, most: int, suffix: str) -> QSpinBox:
-    field = QSpinBox()
-    field.setRange(0, most)
-    field.setSuffix(suffix)
-    field.setSpecialValueText(QSpinBox.tr("none"))
-    field.setFixedWidth(theme.px(110))
-    return field
 
 
 def _caption(field: Labelled) -> Text:

@@ -1,0 +1,172 @@
+"""The first screen: two key presses to a session, search, the form, and what it says of each patient."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from datetime import date, datetime
+
+import pytest
+from PySide6.QtCore import Qt
+from pytestqt.qtbot import QtBot
+
+from tests.ui.fakes import FakeStore
+from ui.numbers import clock, clock_tenths, days_ago, degrees, ordinal, spread, with_spread
+from ui.patients.listing import cells
+from ui.patients.screen import PatientsScreen
+from ui.ports import PRACTICE_PATIENT
+from ui.terms import LEGAL_SENTENCE
+from ui.theme import Theme
+
+TODAY = date(2026, 11, 20)
+
+
+@pytest.fixture
+def store() -> FakeStore:
+    return FakeStore()
+
+
+@pytest.fixture
+def screen(qtbot: QtBot, theme: Theme, store: FakeStore) -> PatientsScreen:
+    screen = PatientsScreen(theme, store, TODAY)
+    qtbot.addWidget(screen)
+    screen.resize(1280, 744)
+    screen.show()
+    screen.activateWindow()
+    qtbot.waitUntil(screen.isActiveWindow)
+    screen.set_camera_ready(True)
+    screen.refresh()
+    screen.search.setFocus()
+    return screen
+
+
+def test_arrow_and_enter_start_a_session_while_the_search_has_the_keyboard(
+    qtbot: QtBot, screen: PatientsScreen
+) -> None:
+    for _ in range(2):
+        qtbot.keyClick(screen.search, Qt.Key.Key_Down)
+    with qtbot.waitSignal(screen.start) as started:
+        qtbot.keyClick(screen.search, Qt.Key.Key_Return)
+    assert started.args == ["maple"]
+
+
+def test_typing_narrows_the_list_by_name_real_name_and_exercise(
+    qtbot: QtBot, screen: PatientsScreen, store: FakeStore
+) -> None:
+    store.rows[5] = replace(store.rows[5], name="Rosa Muster")
+    screen.refresh()
+    for typed, expected in (
+        ("lind", ["linden"]),
+        ("rosa", ["linden"]),
+        ("palm", ["heron", "juniper"]),
+        ("wrist side", ["quartz"]),
+    ):
+        screen.search.clear()
+        qtbot.keyClicks(screen.search, typed)
+        shown = [screen.list.rows.row(k).patient_id for k in range(screen.list.rows.rowCount())]
+        assert shown == expected
+
+
+def test_a_real_name_is_never_painted_in_the_list(store: FakeStore) -> None:
+    row = replace(store.rows[5], name="Rosa Muster")
+    assert "Rosa" not in " ".join(cells(row, TODAY))
+
+
+def test_a_name_that_is_not_there_can_be_created_with_enter(
+    qtbot: QtBot, screen: PatientsScreen, store: FakeStore
+) -> None:
+    qtbot.keyClicks(screen.search, "Fir 12")
+    qtbot.keyClick(screen.search, Qt.Key.Key_Return)
+    assert screen.form.isVisible()
+    assert screen.form.name.text() == "Fir 12"
+    screen.form.side.buttons()[1].click()
+    qtbot.keyClick(screen.form.name, Qt.Key.Key_Return)
+    assert (store.added[0].pseudonym, store.added[0].side) == ("Fir 12", "left")
+    assert screen.list.rows.row(screen.list.currentIndex().row()).pseudonym == "Fir 12"
+    assert screen.search.text() == ""
+
+
+def test_a_taken_name_is_refused_in_the_form_itself(qtbot: QtBot, screen: PatientsScreen, store: FakeStore) -> None:
+    screen.new_patient("  heron 17 ")
+    qtbot.keyClick(screen.form.name, Qt.Key.Key_Return)
+    assert screen.form.isVisible()
+    assert not store.added
+    screen.form.name.setText("Heron 18")
+    screen.form.real_name.setText("R. M.")
+    qtbot.keyClick(screen.form.name, Qt.Key.Key_Return)
+    assert (store.added[0].pseudonym, store.added[0].name) == ("Heron 18", "R. M.")
+
+
+def test_escape_leaves_the_form_and_gives_the_keyboard_back(qtbot: QtBot, screen: PatientsScreen) -> None:
+    screen.new_patient()
+    qtbot.keyClick(screen.form.name, Qt.Key.Key_Escape)
+    assert not screen.form.isVisible()
+    assert screen.search.hasFocus()
+
+
+def test_tab_stays_inside_the_form(qtbot: QtBot, screen: PatientsScreen) -> None:
+    screen.new_patient()
+    for _ in range(25):
+        qtbot.keyClick(screen.focusWidget(), Qt.Key.Key_Tab)
+        assert screen.form.isAncestorOf(screen.focusWidget())
+
+
+def test_editing_keeps_the_patient_and_changes_the_row(qtbot: QtBot, screen: PatientsScreen, store: FakeStore) -> None:
+    screen.refresh("linden")
+    qtbot.mouseClick(screen.card.edit_button, Qt.MouseButton.LeftButton)
+    screen.form.name.setText("Linden 43")
+    qtbot.keyClick(screen.form.name, Qt.Key.Key_Return)
+    assert [row.pseudonym for row in store.rows if row.patient_id == "linden"] == ["Linden 43"]
+
+
+def test_the_practice_patient_is_last_and_starts_a_practice(qtbot: QtBot, screen: PatientsScreen) -> None:
+    last = screen.list.rows.row(screen.list.rows.rowCount() - 1)
+    assert last.patient_id == PRACTICE_PATIENT
+    screen.refresh(PRACTICE_PATIENT)
+    assert screen.card.start_button.text() == "Start practice"
+    assert not screen.card.review_button.isEnabled()
+
+
+def test_without_a_camera_the_button_says_so(screen: PatientsScreen) -> None:
+    screen.set_camera_ready(False)
+    assert "no camera" in screen.card.start_button.text()
+
+
+def test_buttons_of_the_card_lead_on(qtbot: QtBot, screen: PatientsScreen) -> None:
+    screen.refresh("linden")
+    pairs = (
+        (screen.card.review_button, screen.review),
+        (screen.card.progress_button, screen.progress),
+        (screen.card.change_button, screen.set_up),
+    )
+    for button, signal in pairs:
+        with qtbot.waitSignal(signal) as sent:
+            button.click()
+        assert sent.args == ["linden"]
+
+
+def test_the_legal_sentence_stands_on_the_first_screen_word_for_word(screen: PatientsScreen) -> None:
+    from ui.controls.text import Text
+
+    assert LEGAL_SENTENCE in [label.text() for label in screen.findChildren(Text)]
+
+
+def test_numbers_never_carry_a_sign_and_never_hide_what_is_unknown() -> None:
+    assert degrees(-41.6) == "42°"
+    assert degrees(float("nan")) == "–"
+    assert spread(0.2) == "±\N{NO-BREAK SPACE}1°"
+    assert spread(float("nan")) == ""
+    assert with_spread(57.2, 2.4) == "57°\N{NO-BREAK SPACE}±\N{NO-BREAK SPACE}2°"
+    assert with_spread(57.2, float("nan")) == "57°"
+    assert (clock(84.9), clock(3661), clock_tenths(20.65)) == ("01:24", "1:01:01", "00:20.6")
+    assert [ordinal(n) for n in (1, 2, 3, 4, 11, 12, 13, 21, 112)] == [
+        "1st",
+        "2nd",
+        "3rd",
+        "4th",
+        "11th",
+        "12th",
+        "13th",
+        "21st",
+        "112th",
+    ]
+    assert days_ago(datetime(2026, 11, 19, 23, 0), TODAY) == "yesterday"

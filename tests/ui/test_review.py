@@ -1,0 +1,202 @@
+"""Review and progress: cursor, repetitions, corrections that are stored, and the course over sessions."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+
+import numpy as np
+import pytest
+from PySide6.QtCore import QPoint, Qt
+from pytestqt.qtbot import QtBot
+
+from core.output.report_content import Progress
+from tests.ui.fakes import FakeSessions
+from ui.background import Background
+from ui.keys import Keys
+from ui.plot.series import Series
+from ui.plot.thin import thinned
+from ui.progress.chart_painter import panels_of
+from ui.progress.screen import ProgressScreen
+from ui.progress.words import headline
+from ui.review.screen import ReviewScreen
+from ui.theme import Theme
+
+
+@pytest.fixture
+def store() -> FakeSessions:
+    return FakeSessions()
+
+
+@pytest.fixture
+def screen(qtbot: QtBot, theme: Theme, store: FakeSessions) -> Iterator[ReviewScreen]:
+    background = Background()
+    screen = ReviewScreen(theme, Keys(), background, store)
+    qtbot.addWidget(screen)
+    screen.resize(1280, 744)
+    screen.show()
+    screen.activateWindow()
+    qtbot.waitUntil(screen.isActiveWindow)
+    screen.begin("linden", "session-7")
+    qtbot.waitUntil(lambda: screen.shown and screen.picture.image is not None)
+    yield screen
+    screen.end()
+    qtbot.waitUntil(lambda: not background.busy)
+
+
+def key(qtbot: QtBot, screen: ReviewScreen, name: Qt.Key) -> None:
+    qtbot.keyClick(screen, name)
+
+
+def test_arrows_step_by_one_picture_and_the_picture_follows(qtbot: QtBot, screen: ReviewScreen) -> None:
+    screen.seek(10.0)
+    before = screen.time_s
+    key(qtbot, screen, Qt.Key.Key_Right)
+    assert screen.time_s - before == pytest.approx(1 / 30, abs=0.02)
+    key(qtbot, screen, Qt.Key.Key_Left)
+    assert screen.time_s == pytest.approx(before, abs=0.02)
+    qtbot.waitUntil(lambda: screen._asked_row < 0)
+
+
+def test_space_plays_and_stops(qtbot: QtBot, screen: ReviewScreen) -> None:
+    screen.seek(5.0)
+    key(qtbot, screen, Qt.Key.Key_Space)
+    qtbot.waitUntil(lambda: screen.time_s > 5.1)
+    key(qtbot, screen, Qt.Key.Key_Space)
+    stopped = screen.time_s
+    qtbot.waitUntil(lambda: screen._asked_row < 0)
+    assert screen.time_s == stopped
+
+
+def test_brackets_walk_through_the_repetitions(qtbot: QtBot, screen: ReviewScreen) -> None:
+    assert screen.figures is not None
+    assert screen.current == 0
+    key(qtbot, screen, Qt.Key.Key_BracketRight)
+    key(qtbot, screen, Qt.Key.Key_BracketRight)
+    assert screen.current == 2
+    assert screen.time_s == pytest.approx(screen.figures.repetitions[2].start_s)
+    key(qtbot, screen, Qt.Key.Key_BracketLeft)
+    assert screen.current == 1
+
+
+def test_a_repetition_is_left_out_with_a_reason_stored_and_taken_back(
+    qtbot: QtBot, screen: ReviewScreen, store: FakeSessions
+) -> None:
+    screen.go_to_repetition(3)
+    key(qtbot, screen, Qt.Key.Key_X)
+    assert screen.reason.isVisible()
+    screen.reason.buttons[0].click()
+    qtbot.waitUntil(lambda: "session-7" in store.kept)
+    assert store.kept["session-7"].left_out == {3: "pain"}
+    assert "number 4 left out: pain" in screen.count.text()
+    assert "mean of 8 repetitions" in screen.count.text()
+    screen.go_to_repetition(3)
+    key(qtbot, screen, Qt.Key.Key_X)
+    qtbot.waitUntil(lambda: not store.kept["session-7"].left_out)
+    assert "mean of 9 repetitions" in screen.count.text()
+
+
+def test_comma_and_full_stop_move_the_nearer_edge(qtbot: QtBot, screen: ReviewScreen, store: FakeSessions) -> None:
+    assert screen.figures is not None
+    screen.go_to_repetition(2)
+    before = screen.figures.repetitions[2]
+    key(qtbot, screen, Qt.Key.Key_Period)
+    after = screen.figures.repetitions[2]
+    assert after.start_s == pytest.approx(before.start_s + 0.1)
+    assert after.end_s == before.end_s
+    qtbot.waitUntil(lambda: "session-7" in store.kept)
+
+
+def test_an_edge_is_dragged_by_the_mouse(qtbot: QtBot, screen: ReviewScreen) -> None:
+    assert screen.figures is not None
+    screen.go_to_repetition(2)
+    before = screen.figures.repetitions[2]
+    panel = screen.curves.panels()[0][0]
+    start = QPoint(round(float(panel.x(before.end_s))), round(panel.box.center().y()))
+    qtbot.mousePress(screen.curves, Qt.MouseButton.LeftButton, pos=start)
+    from PySide6.QtCore import QEvent, QPointF
+    from PySide6.QtGui import QMouseEvent
+
+    target = QPointF(start.x() - 12, start.y())
+    move = QMouseEvent(
+        QEvent.Type.MouseMove, target, screen.curves.mapToGlobal(target), Qt.MouseButton.NoButton,
+        Qt.MouseButton.LeftButton, Qt.KeyboardModifier.NoModifier,
+    )  # fmt: skip
+    screen.curves.mouseMoveEvent(move)
+    qtbot.mouseRelease(screen.curves, Qt.MouseButton.LeftButton, pos=target.toPoint())
+    assert screen.figures.repetitions[2].end_s < before.end_s - 0.5
+    assert screen.figures.repetitions[2].start_s == before.start_s
+
+
+def test_a_click_in_the_curves_moves_the_cursor_there(qtbot: QtBot, screen: ReviewScreen) -> None:
+    panel = screen.curves.panels()[1][0]
+    spot = QPoint(round(float(panel.x(40.0))), round(panel.box.center().y()))
+    qtbot.mouseClick(screen.curves, Qt.MouseButton.LeftButton, pos=spot)
+    assert screen.time_s == pytest.approx(40.0, abs=0.2)
+
+
+def test_the_table_compares_with_the_last_session_and_the_other_hand(screen: ReviewScreen) -> None:
+    first = screen.table.rows[0]
+    assert first.movement == "Whole arc"
+    assert first.last.endswith("°")
+    assert first.other_hand.endswith("°")
+    assert "within measurement error (14°)" in first.change
+
+
+def test_without_pictures_the_marks_are_still_shown(qtbot: QtBot, theme: Theme) -> None:
+    screen = ReviewScreen(theme, Keys(), Background(), FakeSessions(pictures=False))
+    qtbot.addWidget(screen)
+    screen.resize(1280, 744)
+    screen.show()
+    screen.begin("linden", "session-7")
+    qtbot.waitUntil(lambda: screen.shown and screen.picture.image is not None)
+    assert not screen.grab().isNull()
+
+
+def test_a_session_that_cannot_be_read_is_told(qtbot: QtBot, theme: Theme) -> None:
+    screen = ReviewScreen(theme, Keys(), Background(), FakeSessions())
+    qtbot.addWidget(screen)
+    with qtbot.waitSignal(screen.told) as told:
+        screen.begin("linden", "not there")
+    assert isinstance(told.args[0], KeyError)
+
+
+def test_thinning_keeps_extremes_gaps_and_ends() -> None:
+    rng = np.random.default_rng(2)
+    value = rng.normal(0, 1, 20_000).cumsum()
+    value[5_000:5_040] = math.nan
+    value[12_345] = 9_999.0
+    whole = Series(np.arange(20_000) / 30.0, value, np.abs(value) * 0.01, np.zeros(20_000, bool))
+    thin = thinned(whole, 400)
+    assert len(thin.time_s) <= 3 * 400
+    assert np.nanmax(thin.value) == 9_999.0
+    assert np.nanmin(thin.value) == np.nanmin(value)
+    assert np.isnan(thin.value).any()
+    assert thin.sd is not None
+    assert np.all(np.diff(thin.time_s) > 0)
+    assert thinned(thin, 4_000) is thin
+
+
+def test_progress_answers_with_the_arc_and_rings_what_is_unfair(
+    qtbot: QtBot, theme: Theme, store: FakeSessions
+) -> None:
+    screen = ProgressScreen(theme, Keys(), Background(), store)
+    qtbot.addWidget(screen)
+    screen.resize(1280, 744)
+    screen.show()
+    screen.begin("linden", "session-7")
+    qtbot.waitUntil(lambda: len(screen.progress.points) == 7)
+    assert screen.answer.text().startswith("The whole arc has improved by")
+    assert [point.fair for point in screen.progress.points].count(False) == 1
+    assert panels_of(screen.progress)[0][0] == "arc"
+    assert screen.exercise.count() == 2
+    with qtbot.waitSignal(screen.report) as asked:
+        screen.report_button.click()
+    assert len(asked.args[0]) == 7
+    assert not screen.chart.picture().isNull()
+    screen.exercise.setCurrentIndex(1 - screen.exercise.currentIndex())
+    assert screen.answer.text() == "One session does not make a course."
+
+
+def test_progress_of_nobody_says_so() -> None:
+    assert headline(Progress((), (), None)) == ("No sessions of this exercise yet.", "")

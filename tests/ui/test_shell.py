@@ -1,0 +1,218 @@
+"""Top bar, settings, messages, report screen, background work: what holds the journey together."""
+
+from __future__ import annotations
+
+import threading
+from pathlib import Path
+
+import pytest
+from PySide6.QtCore import Qt, QThread
+from PySide6.QtGui import QKeySequence
+from PySide6.QtWidgets import QApplication, QPushButton, QWidget
+from pytestqt.qtbot import QtBot
+
+from tests.ui.fakes import FakeSessions
+from ui.background import Background
+from ui.controls.text import Text
+from ui.fonts import DISPLAY_FAMILY, TEXT_FAMILY, font, load_fonts
+from ui.icons import octagon
+from ui.keys import DEFAULT_KEYS, Keys, action_words
+from ui.messages.stop_card import Answer, StopCard
+from ui.ports import Preferences, Words
+from ui.report.pdf import session_report
+from ui.report.screen import ReportScreen
+from ui.settings.screen import SettingsScreen
+from ui.shell import Shell
+from ui.theme import Theme
+
+WORDS = Words("The camera was unplugged.", "Your data are safe.", "Plug the camera in again.")
+
+
+@pytest.fixture
+def shell(qtbot: QtBot, theme: Theme) -> Shell:
+    shell = Shell(theme)
+    qtbot.addWidget(shell)
+    shell.show()
+    shell.activateWindow()
+    qtbot.waitUntil(shell.isActiveWindow)
+    return shell
+
+
+def test_the_bundled_face_is_used_and_its_figures_are_tabular(qapp: QApplication) -> None:
+    families = load_fonts()
+    assert TEXT_FAMILY in families
+    assert DISPLAY_FAMILY in families
+    from PySide6.QtGui import QFontInfo, QFontMetricsF
+
+    assert QFontInfo(font(14)).family().startswith("Carpus Inter")
+    for size in (14, 44, 128):
+        metrics = QFontMetricsF(font(size, 600))
+        widths = [metrics.horizontalAdvance(digit) for digit in "0123456789"]
+        assert max(widths) - min(widths) < 0.003 * size
+        assert metrics.horizontalAdvance("1111") == pytest.approx(metrics.horizontalAdvance("0408"), abs=0.01 * size)
+
+
+def test_only_steps_already_done_can_be_gone_back_to(qtbot: QtBot, shell: Shell) -> None:
+    shell.bar.show_steps(["Exercise", "Camera", "Markers", "Measure"], 2)
+    assert [button.isEnabled() for button in shell.bar.way()] == [True, True, False, False]
+    with qtbot.waitSignal(shell.bar.step) as step:
+        shell.bar.way()[1].click()
+    assert step.args == [1]
+
+
+def test_tabs_lead_on_and_the_current_one_says_so(qtbot: QtBot, shell: Shell) -> None:
+    shell.bar.show_tabs(["Session", "Review", "Progress", "Report"], 1)
+    assert shell.bar.way()[1].accessibleName() == "Review, you are here"
+    with qtbot.waitSignal(shell.bar.tab) as tab:
+        shell.bar.way()[3].click()
+    assert tab.args == [3]
+
+
+def test_recording_is_told_by_pill_and_line(shell: Shell) -> None:
+    shell.bar.pill.show_state("recording", 84.2)
+    assert shell.bar.pill.accessibleName() == "Recording 01:24"
+    shell.bar.pill.show_state("paused", 84.2)
+    assert shell.bar.pill.accessibleName() == "Paused at 01:24"
+    shell.bar.pill.show_state("off", 0.0)
+    assert not shell.bar.pill.isVisible()
+
+
+def test_shell_keys_are_signals_and_can_be_changed(qtbot: QtBot, shell: Shell) -> None:
+    shell.set_keys({"help": "F1"})
+    with qtbot.waitSignal(shell.key) as pressed:
+        qtbot.keyClick(shell, Qt.Key.Key_F1)
+    assert pressed.args == ["help"]
+    shell.set_keys({"help": "F12"})
+    with qtbot.waitSignal(shell.key):
+        qtbot.keyClick(shell, Qt.Key.Key_F12)
+
+
+def test_the_focus_ring_follows_the_keyboard(qtbot: QtBot, shell: Shell) -> None:
+    host = QWidget()
+    button = QPushButton("x", host)
+    button.setGeometry(100, 50, 80, 40)
+    shell.show_screen(host, button)
+    qtbot.waitUntil(shell.ring.isVisible)
+    assert shell.ring.geometry().contains(button.geometry().translated(host.mapTo(shell, host.rect().topLeft())))
+    place = shell.ring.geometry()
+    button.hide()
+    assert not shell.ring.isVisible() or shell.ring.geometry() != place
+
+
+def test_a_change_of_theme_and_scale_reaches_every_text(qtbot: QtBot, theme: Theme, shell: Shell) -> None:
+    label = Text(theme, "x", 14, token="text2")
+    qtbot.addWidget(label)
+    light, size = label.palette().windowText().color(), label.font().pixelSize()
+    theme.choose("dark", 1.5)
+    assert label.palette().windowText().color() == theme.color("text2") != light
+    assert label.font().pixelSize() == round(1.5 * size)
+
+
+def test_a_message_gives_three_answers_and_its_buttons_act_by_key(qtbot: QtBot, theme: Theme, shell: Shell) -> None:
+    done: list[str] = []
+    card = StopCard(shell.stage, theme)
+    card.show_words(
+        WORDS,
+        [Answer("Check", lambda: done.append("check"), "C"), Answer("Stop", lambda: done.append("stop"), "Space")],
+    )
+    for part in (WORDS.safe, WORDS.todo):
+        assert part in card.accessibleName()
+    assert card.answers[-1].hasFocus()
+    qtbot.keyClick(card, Qt.Key.Key_Escape)
+    assert card.isVisible()
+    qtbot.keyClick(card.answers[-1], Qt.Key.Key_C)
+    assert done == ["check"]
+    assert not card.isVisible()
+    card.show_words(WORDS, [Answer("Stop", lambda: done.append("stop"), "Space")])
+    qtbot.keyClick(card.answers[-1], Qt.Key.Key_Space)
+    assert done == ["check", "stop"]
+
+
+def test_settings_act_at_once_and_tell_what_was_chosen(qtbot: QtBot, theme: Theme) -> None:
+    screen = SettingsScreen(theme, Preferences(theme="light", data_folder="/data"), "1.0.0")
+    qtbot.addWidget(screen)
+    told: list[Preferences] = []
+    screen.changed.connect(told.append)
+    screen.looks.buttons()[1].click()
+    screen.text_scale.buttons()[2].click()
+    screen.therapist.setText("M. R.")
+    screen.therapist.editingFinished.emit()
+    assert (told[-1].theme, told[-1].text_scale, told[-1].therapist, told[-1].data_folder) == (
+        "dark",
+        1.5,
+        "M. R.",
+        "/data",
+    )
+
+
+def test_a_key_can_be_given_to_one_action_only(qtbot: QtBot, theme: Theme) -> None:
+    screen = SettingsScreen(theme, Preferences(), "1.0.0")
+    qtbot.addWidget(screen)
+    screen.show()
+    screen.keys["note"].setKeySequence(QKeySequence("F12"))
+    screen.keys["note"].editingFinished.emit()
+    assert screen.preferences.keys == {"note": "F12"}
+    screen.keys["pain"].setKeySequence(QKeySequence("F12"))
+    screen.keys["pain"].editingFinished.emit()
+    assert screen.preferences.keys == {"note": "F12"}
+    assert screen.fault.isVisible()
+    assert screen.keys["pain"].keySequence() == QKeySequence("F6")
+    screen.reset.click()
+    assert screen.preferences.keys == {}
+    assert Keys({"note": "F12"})["note"] == "F12"
+
+
+def test_every_key_has_words_and_is_a_key() -> None:
+    for name, key in DEFAULT_KEYS.items():
+        assert action_words(name)
+        assert QKeySequence(key).count() == 1
+
+
+def test_a_report_is_saved_in_the_background_and_replaces_only_when_asked(
+    qtbot: QtBot, theme: Theme, tmp_path: Path
+) -> None:
+    screen = ReportScreen(theme, Keys(), Background())
+    qtbot.addWidget(screen)
+    screen.resize(1280, 744)
+    screen.show()
+    screen.begin(session_report(FakeSessions().session("session-7")), str(tmp_path))
+    assert not screen.page.grab().isNull()
+    with qtbot.waitSignal(screen.saved) as saved:
+        screen.save(str(tmp_path / "one"))
+    path = Path(saved.args[0])
+    assert path.name == "one.pdf"
+    assert path.read_bytes().startswith(b"%PDF")
+    with qtbot.waitSignal(screen.told):
+        screen.save(str(path))
+    with qtbot.waitSignal(screen.saved):
+        screen.save(str(path), replace_asked=True)
+    assert sorted(p.name for p in tmp_path.iterdir()) == ["one.pdf"]
+
+
+def test_background_work_answers_in_the_window_s_thread(qtbot: QtBot) -> None:
+    background = Background()
+    window, seen = QThread.currentThread(), []
+    worker: list[int] = []
+
+    def work() -> int:
+        worker.append(threading.get_ident())
+        return 7
+
+    background.run(work, lambda value: seen.append((value, QThread.currentThread() is window)), seen.append)
+    background.run(lambda: 1 / 0, seen.append, lambda fault: seen.append(type(fault)))
+    qtbot.waitUntil(lambda: len(seen) == 2)
+    assert seen == [(7, True), ZeroDivisionError]
+    assert worker[0] != threading.get_ident()
+    assert not background.busy
+
+
+def test_the_octagon_has_eight_equal_sides() -> None:
+    from PySide6.QtCore import QPointF
+
+    shape = octagon(QPointF(0, 0), 10.0)
+    points = [shape.at(k) for k in range(8)]
+    sides = [
+        ((a.x() - b.x()) ** 2 + (a.y() - b.y()) ** 2) ** 0.5
+        for a, b in zip(points, points[1:] + points[:1], strict=True)
+    ]
+    assert max(sides) - min(sides) < 0.01
