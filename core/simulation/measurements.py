@@ -22,11 +22,11 @@ from core.simulation.truth import Truth, protocol_rows, truth_of
 from core.simulation.visibility import coarse_visibility
 from core.types import Detections, FloatArray
 
-CENTER_SD_PX = {"bright": 0.018, "normal": 0.035, "dim": 0.09}
+CENTER_SD_PX = {"bright": 0.018, "normal": 0.04, "dim": 0.1}
 """Of a blob's centre, per axis, independent from frame to frame."""
-CENTER_SLOW_PX, CENTER_SLOW_S = 0.05, 0.5
+CENTER_SLOW_PX, CENTER_SLOW_S = 0.04, 0.5
 """Of its part that changes slowly with the pose, and how long that is remembered."""
-CENTER_BIAS_PX = 0.12
+CENTER_BIAS_PX = 0.1
 """Of its part that is constant over a recording (shading, lens, chroma)."""
 DEPTH_SD_PER_M2 = 0.97e-3
 """Of a blob's depth, times the square of its distance, independent from frame to frame."""
@@ -34,7 +34,7 @@ DEPTH_PATTERN_PER_M2 = 0.42e-3
 """Of the pattern that stays with the place in the picture, times the square of the distance."""
 DEPTH_BIAS_M = 0.00045
 """Of a marker's depth, constant over a recording: the matching window flattens knuckles."""
-STATED_DEPTH_SD_PER_M2 = 1.52e-3
+STATED_DEPTH_SD_PER_M2 = 1.55e-3
 """What the detector states as the depth's standard deviation, times the square of the distance."""
 _SIMILARITY = (0.65, 0.08)
 _AREA_SHARE = 0.79

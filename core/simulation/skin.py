@@ -206,7 +206,7 @@ class HandSkin:
         discs = self._patient.anatomy.palm_disc_m / mm
         r = self._radius[list(HAND21.palm)] / mm
         under = discs - r[:, None] * np.array([0.0, 0.0, 1.0])
-        wrist, knuckle = under[0], under[2:]
+        knuckle = under[2:]
         level = np.array([0.0, 1.0, 0.0])
         # The base of the thumb slopes down to its side, and its disc lies on that slope.
         slope = np.array([0.0, np.cos(_THUMB_BASE_TILT_RAD), -np.sin(_THUMB_BASE_TILT_RAD)])
@@ -220,7 +220,7 @@ class HandSkin:
             for start, end, radius in zip((38.0, 30.0, 24.0, 22.0), knuckle, r[2:], strict=True)
         ]
         rows = [
-            (wrist + at(0, -8, 0), wrist + at(20, -10, -3), level, r[0], 11.5, 8.2, 8.2),
+            (at(0, -8, -11), at(20, -10, -15), level, 11.0, 11.5, 8.2, 8.2),
             (thumb, at(40, 0, -18), slope, r[1], 11.0, 5.5, 2.0),
             *metacarpals,
             (at(34, -7, -21), at(64, -6, -20), level, 12.0, 11.0, 20.0, 20.0),
@@ -259,7 +259,9 @@ class HandSkin:
                 under.append(discs[first + 1 + i] - radius[first + 1 + i] * up)
             # The digit goes on beyond the disc on the nail, and tapers.
             under[3] = under[3] + _BEYOND_NAIL * (under[3] - under[2])
-            base = _BASE_RADIUS_M[digit] * s
+            # The digit's base stays out of the fillet's reach below the palm's disc, which it would lift.
+            reach = BLEND_M[Part.THUMB] if digit == 0 else FINGER_BLEND_M
+            base = min(_BASE_RADIUS_M[digit] * s, radius[first] + lowered - reach)
             pip, dip, nail = radius[first + 1 : first + 4]
             radii = [base, pip, dip, nail + _BEYOND_NAIL * (nail - dip)]
             widths = np.array(_DIGIT_WIDTH_M[digit]) * s

@@ -16,7 +16,7 @@ from core.errors import SettingsInvalid
 from core.hand.protocols import MarkerProtocol, protocol_named
 from core.types import Side
 
-RENDERER_VERSION = 3
+RENDERER_VERSION = 4
 """Part of the cache key: raise it whenever the same spec gives other pictures than before."""
 
 Light = Literal["drawn", "bright", "normal", "dim"]
