@@ -11,34 +11,34 @@ from numpy.typing import NDArray
 from core import so3
 from core.calibration.result import Calibration
 from core.camera import Camera
-from core.hand.protocols import HAND21
 from core.tracking import modes
 from core.tracking.anatomy_refinement import RayStart, ray_start
 from core.tracking.finger_naming import FingerScene, NamedFingers, name_fingers, seen_chance
+from core.tracking.geometry import palm_of
 from core.tracking.hand_geometry import (
     DISCS,
-    RAY_MARKERS,
     RAYS,
     SLOTS,
     JointMoment,
     JointReading,
     PalmInBody,
     direct_markers,
-    ray_discs_m,
-    ray_normals,
+    ray_frames,
+    ray_joints_m,
 )
 from core.tracking.joint_limits import MID_RANGE_RAD, RANGE_SD_RAD, constrained
 from core.tracking.measurement import View
+from core.tracking.motion import REFERENCE_DT_S
 from core.tracking.naming import Measurable
 from core.tracking.ray_filter import (
     RayBeliefs,
+    RayForecast,
     RayLayout,
-    RayNoise,
+    RayMotion,
     RayPoints,
     RayView,
     forecast,
     mixed,
-    predicted,
     spread_points,
 )
 from core.tracking.readout import Readout
@@ -46,8 +46,6 @@ from core.tracking.settings import TrackerSettings
 from core.tracking.state import Belief
 from core.tracking.unscented import weights_for
 from core.types import FloatArray
-
-_REFERENCE_FPS = 30.0
 
 # Which discs move with a slot: 0 the first of the ray's three and those after it, and so on; 3 none.
 _FIRST_DISC = np.array([[0, 0, 1, 1, 2], *([0, 0, 1, 2, 3],) * 4])
@@ -57,8 +55,6 @@ _POSE = np.array([0, 1, 2, 6, 7, 8])
 """Position and turn in the palm's error vector."""
 _SLOT = np.arange(SLOTS)
 _UV = 3 * np.arange(DISCS)[:, None] + np.arange(2)
-_DOWN = np.array([1.0, 1.0, -1.0])
-_STEP_RAD = 1e-4
 _NARROW2 = 1e-10
 _BENDS = np.array([[0.0, 0.0, 1.0, 0.0, 1.0], *([0.0, 1.0, 1.0, 1.0, 0.0],) * 4])
 
@@ -67,8 +63,8 @@ _BENDS = np.array([[0.0, 0.0, 1.0, 0.0, 1.0], *([0.0, 1.0, 1.0, 1.0, 0.0],) * 4]
 class Seat:
     """The palm as just corrected, on which the fingers sit.
 
-    ``view`` from W2 of a right hand to the camera; ``pose_covariance`` (6, 6) of its place and turn in camera axes;
-    ``turn_covariance`` (3, 3) of its axes in W2, calibration error included; ``is_seen`` in this frame.
+    ``view`` from W2 of a right hand to the camera. In camera axes: ``pose_covariance`` (6, 6) of the tracked body's
+    place and turn; ``turn_covariance`` (3, 3) of the axes of W2, calibration error included. ``is_seen`` in this frame.
     """
 
     palm: PalmInBody
@@ -82,25 +78,42 @@ def seat_of(belief: Belief, view: View, readout: Readout, is_seen: bool) -> Seat
     """The seat that a belief about the palm gives to the fingers."""
     palm, turn_covariance = readout.palm(belief)
     body_cam = view.rotation_w0_cam @ belief.rotation_w2_w0
-    origin = body_cam @ palm.origin_m + view.rotation_w0_cam @ belief.position_m + view.translation_w0_cam_m
     to_camera = np.zeros((6, 6))
     to_camera[:3, :3], to_camera[3:, 3:] = view.rotation_w0_cam, body_cam
     pose = to_camera @ belief.covariance[_POSE[:, None], _POSE] @ to_camera.T
-    return Seat(palm, RayView(body_cam @ palm.axes, origin, view.camera), pose, turn_covariance, is_seen)
+    return Seat(palm, ray_view(belief, view, palm), pose, body_cam @ turn_covariance @ body_cam.T, is_seen)
+
+
+def ray_view(belief: Belief, view: View, palm: PalmInBody) -> RayView:
+    """How the camera sees W2 of a right hand on that palm."""
+    body_cam = view.rotation_w0_cam @ belief.rotation_w2_w0
+    origin = body_cam @ palm.origin_m + view.rotation_w0_cam @ belief.position_m + view.translation_w0_cam_m
+    return RayView(body_cam @ palm.axes, origin, view.camera)
 
 
 @dataclass(frozen=True, slots=True)
 class FingerTrial:
     """What one frame would tell of thumb and fingers.
 
-    ``visible`` (5, 3) chance with which each disc was expected to be seen; ``predicted_px`` (5, 3, 2) and covariance
-    (5, 3, 2, 2), given the palm.
+    ``visible`` (5, 3) chance with which each disc was expected to be seen; ``spread`` (5, 9, 9) covariance of the
+    predicted images, given the palm.
     """
 
+    seat: Seat
+    line: RayForecast
     named: NamedFingers
     visible: FloatArray
-    predicted_px: FloatArray
-    predicted_cov_px2: FloatArray
+    spread: FloatArray
+
+    @property
+    def predicted_px(self) -> FloatArray:
+        """Where each disc was expected, (5, 3, 2)."""
+        return self.line.value.reshape(RAYS, DISCS, 3)[..., :2]
+
+    @property
+    def predicted_cov_px2(self) -> FloatArray:
+        """Covariance (5, 3, 2, 2) of that."""
+        return self.spread[:, _UV[:, :, None], _UV[:, None, :]]
 
     @property
     def nis(self) -> float:
@@ -137,9 +150,11 @@ class Fingers:
         self.layout = RayLayout(settings.motion == "constant_rate")
         self._side = calibration.clicks.side
         self.start: RayStart = ray_start(calibration, camera, dip_free=dip_free, skin_offsets=own.skin_offsets)
+        self._focal_px = np.array([camera.fx_px, camera.fy_px])
+        self._palm = PalmInBody.of(palm_of(calibration).marker_position_w0_m, np.eye(3), self._side)
         self._wrist_depth_m = -float(self.start.fit.anatomy.palm_joint_m[0, 2])
         self._scales = np.array(settings.mode_scales if self.layout.has_rates else (1.0,))
-        self._noise = _motion_noise(settings, self.layout, self._scales, self.start, dip_free)
+        self._motion, self._moves = _motion_of(settings, self.layout, self._scales, self.start, dip_free)
         self._growth = np.where(_SHOWS.any(axis=-1), RANGE_SD_RAD**2, 0.0)
         if not dip_free:
             self._growth[1:, 3] = 0.0
@@ -156,8 +171,7 @@ class Fingers:
         covariance[:, seen[:, None], seen] = self.start.covariance
         if layout.has_rates:
             rate = np.arange(layout.rates.start, layout.rates.stop)
-            moves = self._noise.motion[0] > 0.0
-            covariance[:, rate, rate] = np.where(moves, self._settings.initial.joint_rates_rad_s**2, 1e-12)
+            covariance[:, rate, rate] = np.where(self._moves, self._settings.initial.joint_rates_rad_s**2, 1e-12)
         self._take(mean, covariance)
         self._visible = np.full((RAYS, DISCS), 0.98)
         self._unseen_s = np.zeros((RAYS, SLOTS))
@@ -176,7 +190,7 @@ class Fingers:
         covariance[:, slot, slot] = np.maximum(self._growth, 1e-12)
         if layout.has_rates:
             rate = np.arange(layout.rates.start, layout.rates.stop)
-            covariance[:, rate, rate] = np.where(self._noise.motion[0] > 0.0, 1.0, 1e-12)
+            covariance[:, rate, rate] = np.where(self._moves, 1.0, 1e-12)
         self._take(mean, covariance)
         self._visible = np.full((RAYS, DISCS), 0.5)
         self._unseen_s = np.full((RAYS, SLOTS), self._settings.fingers.range_after_s)
@@ -191,45 +205,53 @@ class Fingers:
         self._mean, self._covariance = mean, covariance
         self._ahead: tuple[float, RayBeliefs, RayPoints] | None = None
 
-    def ahead(self, timestamp_s: float, dt_s: float, palm: PalmInBody) -> RayPoints:
-        """Predict the rays; their discs in W2 as sigma points."""
+    def _ahead_at(self, timestamp_s: float, dt_s: float) -> tuple[RayBeliefs, RayPoints]:
+        """The rays predicted, and their discs on the palm as it was known last."""
         if self._ahead is not None and self._ahead[0] == timestamp_s:
-            return self._ahead[2]
+            return self._ahead[1:]
         beliefs = self._beliefs
         if dt_s > 0.0:
-            own, layout = self._settings.fingers, self.layout
-            is_unseen = self._unseen_s > 0.0
-            fade = np.where(is_unseen, np.exp(-dt_s / self._settings.rate_memory_s), 1.0)
-            before = np.minimum(self._unseen_s, own.range_after_s) / own.range_after_s
-            after = np.minimum(self._unseen_s + dt_s, own.range_after_s) / own.range_after_s
-            growth = np.where(is_unseen, self._growth * (after**2 - before**2), 0.0)
             switch = modes.switching(self._scales.size, self._settings.mode_dwell_s, dt_s)
-            beliefs = predicted(mixed(beliefs, switch), self._noise, dt_s, layout, fade, growth)
+            beliefs = self._motion.predicted(mixed(beliefs, switch), dt_s, *self._forgetting(dt_s))
         mean, covariance = beliefs.merged()
-        points = spread_points(mean, covariance, palm.disc_m[1:], self.layout, self._settings.spread)
+        points = spread_points(mean, covariance, self._palm.disc_m[1:], self.layout, self._settings.spread)
         self._ahead = (timestamp_s, beliefs, points)
-        return points
+        return beliefs, points
 
-    def expected(self, timestamp_s: float, dt_s: float, seat: Seat) -> tuple[FloatArray, FloatArray, FloatArray]:
-        """Where to look: pixels (5, 3, 2) with covariance (5, 3, 2, 2), and depths (5, 3)."""
-        points = self.ahead(timestamp_s, dt_s, seat.palm)
-        image = seat.view.observe(points.disc_m)
+    def _forgetting(self, dt_s: float) -> tuple[FloatArray | None, FloatArray | None]:
+        """Share (5, 5) kept of each slot's rate and variance (5, 5) gained, where joints are not seen."""
+        is_unseen = self._unseen_s > 0.0
+        if not is_unseen.any():
+            return None, None
+        whole_s = self._settings.fingers.range_after_s
+        before = np.minimum(self._unseen_s, whole_s) / whole_s
+        after = np.minimum(self._unseen_s + dt_s, whole_s) / whole_s
+        fade = np.where(is_unseen, math.exp(-dt_s / self._settings.rate_memory_s), 1.0)
+        return fade, np.where(is_unseen, self._growth * (after**2 - before**2), 0.0)
+
+    def expected(
+        self, timestamp_s: float, dt_s: float, belief: Belief, view: View
+    ) -> tuple[FloatArray, FloatArray, FloatArray]:
+        """Where to look: pixels (5, 3, 2) with covariance (5, 3, 2, 2) given the palm, and depths (5, 3)."""
+        _, points = self._ahead_at(timestamp_s, dt_s)
+        image = ray_view(belief, view, self._palm).observe(points.disc_m)
         count = points.root.shape[-1]
         half = image[:, 1 : count + 1, :, :2] - image[:, count + 1 :, :, :2]
         by_disc = half.transpose(0, 2, 3, 1) * (0.5 / weights_for(count, self._settings.spread).scale)
-        covariance = by_disc @ np.swapaxes(by_disc, -1, -2) + _own_pixels(self._shift(points, seat))
-        return image[:, 0, :, :2], covariance, image[:, 0, :, 2]
+        return image[:, 0, :, :2], by_disc @ np.swapaxes(by_disc, -1, -2), image[:, 0, :, 2]
 
     def weigh(
         self, timestamp_s: float, dt_s: float, seat: Seat, blobs: Measurable, free: NDArray[np.bool_]
     ) -> FingerTrial:
         """Name the blobs that are ``free`` (D,), not the palm's, as if the palm were there; nothing is remembered."""
-        points = self.ahead(timestamp_s, dt_s, seat.palm)
-        assert self._ahead is not None
-        beliefs = self._ahead[1]
+        beliefs, points = self._ahead_at(timestamp_s, dt_s)
         line = forecast(points, seat.view, self.layout, self._settings.spread)
-        visible = self._chance_to_see(points, seat.view, dt_s)
-        shift = self._shift(points, seat)
+        visible = self._chance_to_see(points, line, seat.view, dt_s)
+        by_pose = np.empty((RAYS, DISCS, 3, 6))
+        by_pose[..., :3] = line.by_place
+        by_pose[..., 3:] = line.by_place @ so3.skew(seat.view.translation_m - line.centre_m)
+        flat = by_pose.reshape(RAYS, 9, 6)
+        shift = flat @ seat.pose_covariance @ np.swapaxes(flat, 1, 2)
         scene = FingerScene(
             line,
             line.spread + shift,
@@ -240,30 +262,15 @@ class Fingers:
             self._noise_factor,
             self._resolution_px2,
         )
-        named = name_fingers(beliefs, scene, self._settings)
-        predicted_px = line.value.reshape(RAYS, DISCS, 3)[..., :2]
-        return FingerTrial(named, visible, predicted_px, _own_pixels(scene.spread))
+        return FingerTrial(seat, line, name_fingers(beliefs, scene, self._settings), visible, scene.spread)
 
-    def _chance_to_see(self, points: RayPoints, view: RayView, dt_s: float) -> FloatArray:
+    def _chance_to_see(self, points: RayPoints, line: RayForecast, view: RayView, dt_s: float) -> FloatArray:
         """Chance (5, 3) that each disc is to be seen, from its tilt to the camera and whether it was seen before."""
-        normal = ray_normals(points.mean[:, self.layout.seen]) @ view.rotation.T
-        centre = points.disc_m[:, 0] @ view.rotation.T + view.translation_m
-        facing = -np.einsum("rdi,rdi->rd", normal, centre) / np.sqrt(np.einsum("rdi,rdi->rd", centre, centre))
+        centre = line.centre_m
+        across = ((points.normal @ view.rotation.T) * centre).sum(axis=-1)
+        tilt = np.arccos(np.clip(-across / np.sqrt((centre * centre).sum(axis=-1)), -1.0, 1.0))
         bend = np.cumsum(points.covariance[:, _SLOT, _SLOT] * _BENDS, axis=1)[:, 2:]
-        tilt = np.arccos(np.clip(facing, -1.0, 1.0))
         return seen_chance(self._visible, tilt, np.sqrt(bend), dt_s, self._settings.fingers)
-
-    @staticmethod
-    def _shift(points: RayPoints, seat: Seat) -> FloatArray:
-        """Covariance (5, 9, 9) of the discs' images from that of the palm's place and turn."""
-        view = seat.view
-        centre = points.disc_m[:, 0] @ view.rotation.T + view.translation_m
-        by_point = view.slope(centre)
-        by_pose = np.empty((RAYS, DISCS, 3, 6))
-        by_pose[..., :3] = by_point
-        by_pose[..., 3:] = by_point @ so3.skew(view.translation_m - centre)
-        flat = by_pose.reshape(RAYS, 9, 6)
-        return np.asarray(flat @ seat.pose_covariance @ np.swapaxes(flat, 1, 2))
 
     def accept(self, trial: FingerTrial, dt_s: float) -> None:
         """Go on from a trial."""
@@ -277,7 +284,7 @@ class Fingers:
         merged, _ = after.merged()
         self._beliefs = constrained(after, merged[:, :SLOTS])
         self._mean, self._covariance = self._beliefs.merged()
-        self._ahead = None
+        self._palm, self._ahead = trial.seat.palm, None
 
     def _watch_noise(self, named: NamedFingers, dt_s: float) -> None:
         """Let each disc's noise follow its residuals, as the palm's does."""
@@ -290,71 +297,66 @@ class Fingers:
         grown = self._noise_factor * (1.0 + weight * (squared.reshape(RAYS, 9) - 1.0))
         self._noise_factor = np.where(used, np.clip(grown, 1.0, noise.most_adapted), self._noise_factor)
 
-    def read(self, seat: Seat) -> JointMoment:
-        """The joints as they stand."""
-        return self.reading_of(self._mean, self._covariance, seat)
+    def read(self, trial: FingerTrial) -> JointMoment:
+        """The joints after that trial was accepted."""
+        return self.reading_of(self._mean, self._covariance, trial.seat, trial.line)
 
-    def reading_of(self, mean: FloatArray, covariance: FloatArray, seat: Seat) -> JointMoment:
-        """Joints of rays (5, n) with covariance (5, n, n)."""
+    def reading_of(self, mean: FloatArray, covariance: FloatArray, seat: Seat, line: RayForecast) -> JointMoment:
+        """Joints of rays (5, n) with covariance (5, n, n) on that palm."""
         palm, state = seat.palm, mean[:, self.layout.seen]
-        moved = np.repeat(state[:, None], SLOTS + 2, axis=1)
-        moved[:, 1 + _SLOT, _SLOT] += _STEP_RAD
-        moved[:, -1, SLOTS + 8 :] = 0.0
-        place = ray_discs_m(palm.disc_m[1:], moved)
         joints = covariance[:, :SLOTS, :SLOTS]
-        slope = (place[:, 1:-1] - place[:, :1]).reshape(RAYS, SLOTS, 9) / _STEP_RAD
-        lever = so3.skew(palm.disc_m[1:, None] - place[:, 0]).reshape(RAYS, 9, 3)
-        variance = self.reading.variances(joints + self._systematic(slope, lever, joints, seat))
+        variance = self.reading.variances(joints + self._systematic(joints, seat, line))
         angles = self.reading.angles(mean[:, :SLOTS])
         rates = np.full(angles.size, np.nan)
         if self.layout.has_rates:
             rates = self.reading.angles(mean[:, self.layout.rates])
-        centre = np.empty((len(HAND21.markers), 3))
+        frames = ray_frames(state)
+        chain = ray_joints_m(palm.disc_m[1:], state, frames)
+        centre = np.empty((1 + RAYS * (DISCS + 1), 3))
         centre[0] = 0.0, 0.0, -self._wrist_depth_m
-        centre[1:].reshape(RAYS, 4, 3)[:, 0] = palm.disc_m[1:] + state[:, SLOTS + 5 : SLOTS + 8] * _DOWN
-        centre[RAY_MARKERS] = place[:, -1]
+        centre[1:] = chain.reshape(-1, 3)
         if self._side == "left":
             centre[:, 1] *= -1.0
-        disc_cam = place[:, 0] @ seat.view.rotation.T + seat.view.translation_m
+        disc = chain[:, 1:] + state[:, SLOTS + 8 :, None] * frames.normal
+        disc_cam = disc @ seat.view.rotation.T + seat.view.translation_m
         return JointMoment(angles, np.sqrt(np.maximum(variance, 0.0)), rates, centre, disc_cam)
 
-    def _systematic(self, slope: FloatArray, lever: FloatArray, joints: FloatArray, seat: Seat) -> FloatArray:
-        """Covariance (5, 5, 5) that the slots inherit from the palm's turn and from errors that stay.
+    def _systematic(self, joints: FloatArray, seat: Seat, line: RayForecast) -> FloatArray:
+        """Covariance (5, 5, 5) that the slots inherit from the turn of W2 and from errors that stay with a disc.
 
-        ``slope`` (5, 5, 9) of the discs by the slots, ``lever`` (5, 9, 3) by a turn of the palm about the ray's root.
+        Everything measured in those errors, which no averaging removes, so that a disc's own have unit covariance.
         """
         own = self._settings.fingers
+        unit = np.empty((RAYS, DISCS, 3, 1))
+        unit[..., :2, 0] = line.centre_m[..., 2:] / (self._focal_px * own.lateral_bias_m)
+        unit[..., 2, 0] = 1.0 / own.depth_bias_m
+        slope = line.slope[..., :SLOTS] * unit.reshape(RAYS, 9, 1)
         across = np.swapaxes(slope, 1, 2)
-        doubt = (0.5 * own.depth_bias_m) ** 2 * np.linalg.inv(joints + _NARROW2 * np.eye(SLOTS))
-        response = np.linalg.solve(slope @ across + doubt, slope)
-        axis = seat.view.rotation[2]
-        root = own.lateral_bias_m * np.eye(3)
-        root += (math.hypot(own.lateral_bias_m, own.depth_bias_m) - own.lateral_bias_m) * np.outer(axis, axis)
-        # Each disc errs by itself, and all three with the disc at the ray's root.
-        each = np.empty((RAYS, SLOTS, DISCS + 1, 3))
-        each[:, :, :DISCS] = response.reshape(RAYS, SLOTS, DISCS, 3)
-        each[:, :, DISCS] = each[:, :, :DISCS].sum(axis=2)
-        stays = (each @ root).reshape(RAYS, SLOTS, -1)
-        turned = response @ lever
-        return np.asarray(stays @ np.swapaxes(stays, 1, 2) + turned @ seat.turn_covariance @ np.swapaxes(turned, 1, 2))
+        doubt = 0.25 * np.linalg.inv(joints + _NARROW2 * np.eye(SLOTS))
+        response = np.linalg.solve(across @ slope + doubt, across)
+        # The disc at the ray's root errs as well, and all three seem to go the other way.
+        root = response.reshape(RAYS, SLOTS, DISCS, 3).sum(axis=2)
+        root_m = seat.palm.disc_m[1:, None] @ seat.view.rotation.T + seat.view.translation_m
+        by_turn = (line.by_place @ so3.skew(root_m - line.centre_m) * unit).reshape(RAYS, 9, 3)
+        turned = response @ by_turn
+        return np.asarray(
+            response @ np.swapaxes(response, 1, 2)
+            + root @ np.swapaxes(root, 1, 2)
+            + turned @ seat.turn_covariance @ np.swapaxes(turned, 1, 2)
+        )
 
 
-def _own_pixels(covariance: FloatArray) -> FloatArray:
-    """Covariance (5, 3, 2, 2) of each disc's own pixel out of that of a ray's images (5, 9, 9)."""
-    return covariance[:, _UV[:, :, None], _UV[:, None, :]]
-
-
-def _motion_noise(
+def _motion_of(
     settings: TrackerSettings, layout: RayLayout, scales: FloatArray, start: RayStart, dip_free: bool
-) -> RayNoise:
+) -> tuple[RayMotion, NDArray[np.bool_]]:
+    """The rays' motion model, and which slots (5, 5) move at all."""
     motion, own = settings.motion_noise, settings.fingers
     sd = np.full((RAYS, SLOTS), motion.joint_acceleration_rad_s2 if layout.has_rates else motion.joint_rate_rad_s)
-    sd[0, :2] *= own.abduction_share
-    sd[0, 3] *= own.abduction_share
+    sd[0, [0, 1, 3]] *= own.abduction_share
     sd[1:, 0] *= own.abduction_share
     sd[1:, 4] = 0.0
     if not dip_free:
         sd[1:, 3] = 0.0
-    density = (scales[:, None, None] * sd) ** 2 / _REFERENCE_FPS
+    density = (scales[:, None, None] * sd) ** 2 * REFERENCE_DT_S
     drift = own.drift_per_s * np.diagonal(start.fit.rays.covariance, axis1=1, axis2=2)
-    return RayNoise(density, drift)
+    return RayMotion(density, drift, layout), sd > 0.0

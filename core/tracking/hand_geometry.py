@@ -27,6 +27,7 @@ RAY_MARKERS = np.array([[HAND21.markers.index(name) for name in ray] for ray in 
 """Places (5, 3) of the rays' discs in ``hand21``."""
 
 _DOWN = np.array([1.0, 1.0, -1.0])
+_AXES = np.arange(3)
 
 
 # Rows: slots, fan and roll; columns: azimuth, then of a finger the pitches of its segments and of its discs'
@@ -54,9 +55,18 @@ _FINGER_PHASES = np.array(
         [0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0],
     ]
 )
-_PHASES = np.stack((_THUMB_PHASES, *(_FINGER_PHASES,) * 4))
-_ANGULAR = np.array([0, 1, 2, 3, 4, SLOTS + 3, SLOTS + 4])
+_ANGULAR = [*range(SLOTS), SLOTS + 3, SLOTS + 4]
 """Slots, fan and roll in joints and constants side by side."""
+
+
+def _of_state(phases: FloatArray) -> FloatArray:
+    spread = np.zeros((SLOTS + CONSTANTS, phases.shape[1]))
+    spread[_ANGULAR] = phases
+    return spread
+
+
+_FINGER_PHASES = _of_state(_FINGER_PHASES)
+_PHASES = np.stack((_of_state(_THUMB_PHASES), *(_FINGER_PHASES,) * 4))
 
 
 def ray_discs_m(root_m: FloatArray, state: FloatArray) -> FloatArray:
@@ -65,7 +75,7 @@ def ray_discs_m(root_m: FloatArray, state: FloatArray) -> FloatArray:
     ``root_m`` (5, 3) discs CMC1 and MCP2 to MCP5, under which the rays begin. The chains of
     :mod:`core.hand.kinematics` written for speed: every ray bends in a plane of its own azimuth, the thumb's rolled.
     """
-    phase = state[..., _ANGULAR] @ _PHASES
+    phase = state @ _PHASES
     cos, sin = np.cos(phase), np.sin(phase)
     length, height = state[..., SLOTS : SLOTS + 3], state[..., SLOTS + 8 :]
     along, up = np.empty(length.shape), np.empty(length.shape)
@@ -104,29 +114,71 @@ def ray_discs_m(root_m: FloatArray, state: FloatArray) -> FloatArray:
     return out
 
 
-def ray_normals(state: FloatArray) -> FloatArray:
-    """Unit normals (5, 3, 3) of the rays' discs in W for states (5, 16) of slots and constants."""
-    out = np.empty((RAYS, DISCS, 3))
-    phase = (state[1:, None, _ANGULAR] @ _FINGER_PHASES)[:, 0]
+@dataclass(frozen=True, slots=True)
+class RayFrames:
+    """Unit ``direction`` of the three bones and ``normal`` of the three discs of each ray, both (5, 3, 3) in W."""
+
+    direction: FloatArray
+    normal: FloatArray
+
+
+def ray_frames(state: FloatArray) -> RayFrames:
+    """Directions and normals for states (5, 16) of slots and constants."""
+    both = np.empty((2, RAYS, DISCS, 3))
+    phase = state[1:] @ _FINGER_PHASES
     sin, cos = np.sin(phase), np.cos(phase)
-    out[1:, :, 0] = sin[:, 4:] * cos[:, :1]
-    out[1:, :, 1] = sin[:, 4:] * sin[:, :1]
-    out[1:, :, 2] = cos[:, 4:]
+    azimuth_cos, azimuth_sin = cos[:, :1], sin[:, :1]
+    both[0, 1:, :, 0] = cos[:, 1:4] * azimuth_cos
+    both[0, 1:, :, 1] = cos[:, 1:4] * azimuth_sin
+    both[0, 1:, :, 2] = -sin[:, 1:4]
+    both[1, 1:, :, 0] = sin[:, 4:] * azimuth_cos
+    both[1, 1:, :, 1] = sin[:, 4:] * azimuth_sin
+    both[1, 1:, :, 2] = cos[:, 4:]
     # One thumb: plain numbers are quicker than arrays of one.
     extension, abduction, flexion, aside, bend = state[0, :SLOTS].tolist()
-    fan, roll = float(state[0, SLOTS + 3]), float(state[0, SLOTS + 4])
-    c0, s0, c1, s1 = math.cos(fan + extension), math.sin(fan + extension), math.cos(abduction), math.sin(abduction)
+    azimuth, roll = float(state[0, SLOTS + 3]) + extension, float(state[0, SLOTS + 4])
+    c0, s0, c1, s1 = math.cos(azimuth), math.sin(azimuth), math.cos(abduction), math.sin(abduction)
     c2, s2, c3, s3 = math.cos(flexion), math.sin(flexion), math.cos(aside), math.sin(aside)
     cr, sr = math.cos(roll), math.sin(roll)
-    for disc, turn in enumerate((None, 0.5 * bend, bend)):
-        x, y, z = 0.0, 1.0, 0.0
-        if turn is not None:
-            along, lift = math.sin(turn), math.cos(turn)
-            x, y, z = along * c3 * c2 + lift * s2, lift * c2 - along * c3 * s2, along * s3
+
+    def placed(x: float, y: float, z: float) -> tuple[float, float, float]:
         over, across = cr * y - sr * z, sr * y + cr * z
         ahead = x * c1 + over * s1
-        out[0, disc] = ahead * c0 - across * s0, ahead * s0 + across * c0, over * c1 - x * s1
-    return out
+        return ahead * c0 - across * s0, ahead * s0 + across * c0, over * c1 - x * s1
+
+    phalanx, lifted = (c3 * c2, -c3 * s2, s3), (s2, c2, 0.0)
+
+    def in_phalanx(along: float, up: float) -> tuple[float, float, float]:
+        return placed(*(along * a + up * b for a, b in zip(phalanx, lifted, strict=True)))
+
+    cb, sb = math.cos(bend), math.sin(bend)
+    both[:, 0] = (
+        (placed(1.0, 0.0, 0.0), placed(*phalanx), in_phalanx(cb, -sb)),
+        (placed(0.0, 1.0, 0.0), in_phalanx(math.sin(0.5 * bend), math.cos(0.5 * bend)), in_phalanx(sb, cb)),
+    )
+    return RayFrames(both[0], both[1])
+
+
+def ray_joints_m(root_m: FloatArray, state: FloatArray, frames: RayFrames) -> FloatArray:
+    """Joint centres (5, 4, 3) of each ray in W, from its root's to the tip, for states (5, 16)."""
+    joints = np.empty((RAYS, DISCS + 1, 3))
+    joints[:, 0] = root_m + state[:, SLOTS + 5 : SLOTS + 8] * _DOWN
+    joints[:, 1:] = state[:, SLOTS : SLOTS + 3, None] * frames.direction
+    return np.asarray(np.cumsum(joints, axis=1, out=joints))
+
+
+def slope_by_constants(state: FloatArray, frames: RayFrames, joints_m: FloatArray) -> FloatArray:
+    """Derivative (5, 3 discs, 3, 11) of the discs in W by the constants, for states (5, 16)."""
+    slope = np.zeros((RAYS, DISCS, 3, CONSTANTS))
+    for disc in range(DISCS):
+        slope[:, disc:, :, disc] = frames.direction[:, None, disc]
+        slope[:, disc, :, 8 + disc] = frames.normal[:, disc]
+    slope[..., _AXES, 5 + _AXES] = _DOWN
+    lever = joints_m[:, 1:] + state[:, SLOTS + 8 :, None] * frames.normal - joints_m[:, :1]
+    slope[..., 0, 3] = -lever[..., 1]
+    slope[..., 1, 3] = lever[..., 0]
+    slope[0, :, :, 4] = np.cross(lever[0], frames.direction[0, 0])
+    return slope
 
 
 @dataclass(frozen=True, slots=True)

@@ -9,13 +9,23 @@ Arrays lead with the ray (5) and, in a belief, the mode (K).
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
 from core.camera import Camera
-from core.tracking.hand_geometry import CONSTANTS, DISCS, RAYS, SLOTS, ray_discs_m
+from core.tracking.hand_geometry import (
+    CONSTANTS,
+    DISCS,
+    RAYS,
+    SLOTS,
+    ray_discs_m,
+    ray_frames,
+    ray_joints_m,
+    slope_by_constants,
+)
 from core.tracking.unscented import Spread, weights_for
 from core.types import FloatArray
 
@@ -24,7 +34,14 @@ _SEEN = {
     False: np.arange(SLOTS + CONSTANTS),
     True: np.concatenate((np.arange(SLOTS), np.arange(2 * SLOTS, 2 * SLOTS + CONSTANTS))),
 }
-_DIAGONAL = np.arange(SLOTS + CONSTANTS)
+_SLOT = np.arange(SLOTS)
+_ROLL = 4
+_BENT = np.arange(SLOTS + 1)
+_OTHER_CONSTANT = np.delete(np.arange(CONSTANTS), _ROLL)
+_BENT_STATE, _OTHER_STATE = np.append(_SLOT, SLOTS + _ROLL), SLOTS + _OTHER_CONSTANT
+
+_BENT_OF = {has_rates: seen[_BENT_STATE] for has_rates, seen in _SEEN.items()}
+_OTHER_OF = {has_rates: seen[_OTHER_STATE] for has_rates, seen in _SEEN.items()}
 
 
 @dataclass(frozen=True, slots=True)
@@ -53,6 +70,17 @@ class RayLayout:
     def seen(self) -> NDArray[np.int64]:
         """States on which the discs depend: joints and constants."""
         return _SEEN[self.has_rates]
+
+
+    @property
+    def bent(self) -> NDArray[np.int64]:
+        """Joints and roll, in which the discs' places bend."""
+        return _BENT_OF[self.has_rates]
+
+    @property
+    def other(self) -> NDArray[np.int64]:
+        """The constants but for the roll."""
+        return _OTHER_OF[self.has_rates]
 
 
 @dataclass(frozen=True, slots=True)
@@ -90,60 +118,71 @@ def mixed(beliefs: RayBeliefs, switch: FloatArray) -> RayBeliefs:
     return RayBeliefs(mean, inner + between, predicted)
 
 
-@dataclass(frozen=True, slots=True)
-class RayNoise:
-    """What moves a ray between two frames, as variances per second (continuous densities).
+class RayMotion:
+    """How the rays may move between two frames: constant rates or, as in the papers, random walks.
 
-    ``motion`` (K, 5, 5) by mode, ray and slot: of the acceleration (constant rate) or of the rate (random walk);
-    ``constants`` (5, 11) slow drift of the anatomy, skin over bone.
+    ``density`` (K, 5, 5) by mode, ray and slot: variance per second of the rate (constant rate) or of the angle (random
+    walk); ``drift`` (5, 11) variance per second of the constants, skin over bone.
     """
 
-    motion: FloatArray
-    constants: FloatArray
+    def __init__(self, density: FloatArray, drift: FloatArray, layout: RayLayout) -> None:
+        self._density, self._drift, self._layout = np.swapaxes(density, 0, 1), drift, layout
+        self._step: tuple[float, FloatArray, FloatArray] = (math.nan, drift, drift)
 
+    def _terms(self, dt_s: float) -> tuple[FloatArray, FloatArray]:
+        """Transition (n, n) and noise (5, K, n, n) of a step; frames come evenly, so the last ones serve again."""
+        if self._step[0] != dt_s:
+            layout, density = self._layout, self._density
+            forward = np.eye(layout.size)
+            noise = np.zeros((*density.shape[:2], layout.size, layout.size))
+            angle, rate = _SLOT, SLOTS + _SLOT
+            if layout.has_rates:
+                forward[angle, rate] = dt_s
+                noise[..., angle, angle] = density * (dt_s**3 / 3.0)
+                noise[..., angle, rate] = noise[..., rate, angle] = density * (0.5 * dt_s**2)
+                noise[..., rate, rate] = density * dt_s
+            else:
+                noise[..., angle, angle] = density * dt_s
+            constant = np.arange(layout.constants.start, layout.constants.stop)
+            noise[..., constant, constant] = (self._drift * dt_s)[:, None]
+            self._step = (dt_s, forward, noise)
+        return self._step[1], self._step[2]
 
-def predicted(
-    beliefs: RayBeliefs,
-    noise: RayNoise,
-    dt_s: float,
-    layout: RayLayout,
-    fade: FloatArray,
-    unseen_growth: FloatArray,
-) -> RayBeliefs:
-    """The beliefs ``dt_s`` later. ``fade`` (5, 5) share of each slot's rate that is kept, 1 while it is seen;
-    ``unseen_growth`` (5, 5) variance that each angle gains for not being seen."""
-    q, r, c = layout.joints, layout.rates, layout.constants
-    mean, p = beliefs.mean.copy(), beliefs.covariance.copy()
-    slot, constant = np.arange(SLOTS), np.arange(c.start, c.stop)
-    motion = np.swapaxes(noise.motion, 0, 1)  # (5, K, 5)
-    if layout.has_rates:
-        mean[..., r] *= fade[:, None]
-        p[..., r, :] *= fade[:, None, :, None]
-        p[..., :, r] *= fade[:, None, None, :]
-        mean[..., q] += dt_s * mean[..., r]
-        p[..., q, :] += dt_s * p[..., r, :]
-        p[..., :, q] += dt_s * p[..., :, r]
-        p[..., slot, slot] += motion * (dt_s**3 / 3.0)
-        p[..., slot, SLOTS + slot] += motion * (0.5 * dt_s**2)
-        p[..., SLOTS + slot, slot] += motion * (0.5 * dt_s**2)
-        p[..., SLOTS + slot, SLOTS + slot] += motion * dt_s
-    else:
-        p[..., slot, slot] += motion * dt_s
-    p[..., slot, slot] += unseen_growth[:, None]
-    p[..., constant, constant] += noise.constants[:, None] * dt_s
-    return RayBeliefs(mean, p, beliefs.probability)
+    def predicted(
+        self, beliefs: RayBeliefs, dt_s: float, fade: FloatArray | None = None, growth: FloatArray | None = None
+    ) -> RayBeliefs:
+        """The beliefs ``dt_s`` later. For joints that are not seen: ``fade`` (5, 5) share of each rate that is
+        kept, ``growth`` (5, 5) variance that each angle gains."""
+        forward, noise = self._terms(dt_s)
+        if fade is not None and self._layout.has_rates:
+            faded = np.repeat(forward[None], RAYS, axis=0)
+            faded[:, SLOTS + _SLOT, SLOTS + _SLOT] = fade
+            faded[:, _SLOT, SLOTS + _SLOT] = fade * dt_s
+            forward = faded[:, None]
+        mean = (forward @ beliefs.mean[..., None])[..., 0]
+        covariance = forward @ beliefs.covariance @ np.swapaxes(forward, -1, -2)
+        covariance += noise
+        if growth is not None:
+            covariance[..., _SLOT, _SLOT] += growth[:, None]
+        return RayBeliefs(mean, covariance, beliefs.probability)
 
 
 @dataclass(frozen=True, slots=True)
 class RayPoints:
-    """Sigma points of a Gaussian over the seen states and their discs in W.
+    """Sigma points of a Gaussian over joints and constants, their discs in W.
 
-    ``disc_m`` (5, S, 3, 3), the centre point first; ``root`` (5, 16, 16) lower Cholesky factor; ``mean`` (5, n) and
-    ``covariance`` (5, n, n) of the state about which they stand.
+    The points stand along the first six columns of the Cholesky factor, the joints' and the roll's: what bends the
+    discs' places. In the other constants these are all but linear. ``root`` (5, 6, 6) of joints and roll, ``along``
+    (5, 6, 10) by how much the other constants go with each column; ``disc_m`` (5, 13, 3, 3), the centre first;
+    ``by_constants`` (5, 3, 3, 10) derivative there; ``normal`` (5, 3, 3) of the discs; ``root_disc_m`` (5, 3) under
+    which the rays begin; ``mean`` (5, n) and ``covariance`` (5, n, n) of the state.
     """
 
     disc_m: FloatArray
     root: FloatArray
+    along: FloatArray
+    by_constants: FloatArray
+    normal: FloatArray
     mean: FloatArray
     covariance: FloatArray
 
@@ -152,17 +191,21 @@ def spread_points(
     mean: FloatArray, covariance: FloatArray, root_disc_m: FloatArray, layout: RayLayout, spread: Spread
 ) -> RayPoints:
     """Sigma points of states (5, n) with covariances (5, n, n); ``root_disc_m`` (5, 3) discs under which rays begin."""
-    seen = layout.seen
-    weights = weights_for(seen.size, spread)
-    p = covariance[:, seen[:, None], seen]
-    p[:, _DIAGONAL, _DIAGONAL] += _FLOOR
-    root: FloatArray = np.asarray(np.linalg.cholesky(p), dtype=np.float64)
-    offset = np.zeros((RAYS, 2 * seen.size + 1, seen.size))
-    columns = np.swapaxes(root, 1, 2) * weights.scale
-    offset[:, 1 : seen.size + 1] = columns
-    offset[:, seen.size + 1 :] = -columns
-    offset += mean[:, None, seen]
-    return RayPoints(ray_discs_m(root_disc_m, offset), root, mean, covariance)
+    bent, other = layout.bent, layout.other
+    block = covariance[:, bent[:, None], bent]
+    block[:, _BENT, _BENT] += _FLOOR
+    root = np.asarray(np.linalg.cholesky(block), dtype=np.float64)
+    along = np.linalg.solve(root, covariance[:, bent[:, None], other])
+    scale = weights_for(_BENT.size, spread).scale
+    point = np.repeat(mean[:, None, layout.seen], 2 * _BENT.size + 1, axis=1)
+    step = np.empty((RAYS, _BENT.size, SLOTS + CONSTANTS))
+    step[..., _BENT_STATE], step[..., _OTHER_STATE] = np.swapaxes(root, 1, 2) * scale, along * scale
+    point[:, 1 : _BENT.size + 1] += step
+    point[:, _BENT.size + 1 :] -= step
+    state = point[:, 0]
+    frames = ray_frames(state)
+    by_constants = slope_by_constants(state, frames, ray_joints_m(root_disc_m, state, frames))[..., _OTHER_CONSTANT]
+    return RayPoints(ray_discs_m(root_disc_m, point), root, along, by_constants, frames.normal, mean, covariance)
 
 
 @dataclass(frozen=True, slots=True)
@@ -184,14 +227,14 @@ class RayView:
         out[..., 1] += camera.cy_px
         return out
 
-    def slope(self, centre_m: FloatArray) -> FloatArray:
-        """Derivative (..., 3, 3) of u, v, z by the place of points (..., 3) in camera axes."""
-        x, y, z = np.moveaxis(centre_m, -1, 0)
-        out = np.zeros((*centre_m.shape, 3))
-        out[..., 0, 0] = self.camera.fx_px / z
-        out[..., 1, 1] = self.camera.fy_px / z
-        out[..., 0, 2] = -out[..., 0, 0] * x / z
-        out[..., 1, 2] = -out[..., 1, 1] * y / z
+    def slope(self, image: FloatArray) -> FloatArray:
+        """Derivative (..., 3, 3) of u, v, z by the place in camera axes, at u, v, z (..., 3)."""
+        camera, z = self.camera, image[..., 2]
+        out = np.zeros((*image.shape, 3))
+        out[..., 0, 0] = camera.fx_px / z
+        out[..., 1, 1] = camera.fy_px / z
+        out[..., 0, 2] = (camera.cx_px - image[..., 0]) / z
+        out[..., 1, 2] = (camera.cy_px - image[..., 1]) / z
         out[..., 2, 2] = 1.0
         return out
 
@@ -202,6 +245,7 @@ class RayForecast:
 
     ``value`` (5, 9) u, v, z of the three discs in turn; ``slope`` (5, 9, n); ``error`` (5, 9, 9) covariance of what
     the line misses; ``about`` (5, n); ``spread`` (5, 9, 9) covariance of the images, both parts together.
+    ``centre_m`` (5, 3, 3) the discs in camera axes; ``by_place`` (5, 3, 3, 3) derivative of the images by that.
     """
 
     value: FloatArray
@@ -209,25 +253,32 @@ class RayForecast:
     error: FloatArray
     about: FloatArray
     spread: FloatArray
+    centre_m: FloatArray
+    by_place: FloatArray
 
 
 def forecast(points: RayPoints, view: RayView, layout: RayLayout, spread: Spread) -> RayForecast:
-    """Statistical linear regression of the discs' images on the state."""
-    seen = layout.seen
-    count = seen.size
+    """Statistical linear regression of the discs' images on the joints, and their slope by the constants."""
+    count = _BENT.size
     weights = weights_for(count, spread)
     image = view.observe(points.disc_m).reshape(RAYS, 2 * count + 1, 3 * DISCS)
     value: FloatArray = weights.mean @ image
     plus, minus = image[:, 1 : count + 1], image[:, count + 1 :]
-    half = (plus - minus) * (0.5 / weights.scale)  # (5, 16, 9): slope in the axes of the root
+    half = (plus - minus) * (0.5 / weights.scale)  # (5, 6, 9): slope in the axes of the root
     # The even part of the spread is what no line can follow.
     bend = 0.5 * (plus + minus) - value[:, None]
+    error = (2.0 * weights.covariance[1]) * (np.swapaxes(bend, 1, 2) @ bend)
     middle = image[:, :1] - value[:, None]
-    error = 2.0 * weights.covariance[1] * (np.swapaxes(bend, 1, 2) @ bend)
     error += weights.covariance[0] * (np.swapaxes(middle, 1, 2) @ middle)
+    by_place = view.slope(image[:, 0].reshape(RAYS, DISCS, 3))
+    by_constants = ((by_place @ view.rotation) @ points.by_constants).reshape(RAYS, 3 * DISCS, -1)
+    own = half - points.along @ np.swapaxes(by_constants, 1, 2)
     slope = np.zeros((RAYS, 3 * DISCS, layout.size))
-    slope[:, :, seen] = np.swapaxes(np.linalg.solve(np.swapaxes(points.root, 1, 2), half), 1, 2)
-    return RayForecast(value, slope, error, points.mean, error + np.swapaxes(half, 1, 2) @ half)
+    slope[:, :, layout.bent] = np.swapaxes(np.linalg.solve(np.swapaxes(points.root, 1, 2), own), 1, 2)
+    slope[:, :, layout.other] = by_constants
+    spread_out = slope @ points.covariance @ np.swapaxes(slope, 1, 2) + error
+    centre = points.disc_m[:, 0] @ view.rotation.T + view.translation_m
+    return RayForecast(value, slope, error, points.mean, spread_out, centre, by_place)
 
 
 @dataclass(frozen=True, slots=True)

@@ -52,7 +52,7 @@ class Readout:
         return self._axes @ so3.exp(turned), self._sensitivity
 
     def palm(self, belief: Belief) -> tuple[PalmInBody, FloatArray]:
-        """The palm as refined, for the fingers, and the covariance (3, 3) of its axes' turn, in W of a right hand."""
+        """The palm as refined, for the fingers, and the covariance (3, 3) of its axes' turn, in the body."""
         layout, p = self._layout, belief.covariance
         discs = self._calibration.marker_position_w0_m[self._palm]
         if layout.shape_count:
@@ -65,8 +65,7 @@ class Readout:
         else:
             axes = np.eye(3)
             covariance = p[layout.turn, layout.turn] + self._unrefined_turn
-        palm = PalmInBody.of(discs, axes, self._side)
-        return palm, palm.axes.T @ covariance @ palm.axes
+        return PalmInBody.of(discs, axes, self._side), covariance
 
     def moment(self, belief: Belief) -> Moment:
         """Wrist pose, rates, angles and their standard deviations of a single belief."""

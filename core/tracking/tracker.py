@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from core.calibration.result import Calibration
 from core.camera import Camera
 from core.tracking import modes
-from core.tracking.fingers import Fingers, FingerTrial, Seat, seat_of
+from core.tracking.fingers import Fingers, FingerTrial, seat_of
 from core.tracking.geometry import geometry_for, palm_of
 from core.tracking.hand_geometry import RAY_MARKERS
 from core.tracking.measurement import Forecast, View, forecast, forecast_augmented, forecast_reduced
@@ -56,7 +56,6 @@ class _Step:
     palm: Corrected
     bank: ModeBank
     palm_seen: int
-    seat: Seat | None
     fingers: FingerTrial | None
     spare: NDArray[np.bool_]
     is_finger: NDArray[np.bool_]
@@ -210,21 +209,19 @@ class Tracker:
         spare[corrected.taken[named]] = False
         palm_seen = int(np.count_nonzero(named))
         if self._fingers is None:
-            return _Step(corrected, bank, palm_seen, None, None, spare, np.zeros_like(spare))
+            return _Step(corrected, bank, palm_seen, None, spare, np.zeros_like(spare))
         seat = seat_of(bank.nominal, self.view, self._readout, palm_seen >= LEAST_PALM_MARKERS)
         fingers = self._fingers.weigh(timestamp_s, dt_s, seat, blobs, spare)
         is_finger = np.zeros_like(spare)
         is_finger[fingers.blob[fingers.blob >= 0]] = True
-        return _Step(corrected, bank, palm_seen, seat, fingers, spare & ~is_finger, is_finger)
+        return _Step(corrected, bank, palm_seen, fingers, spare & ~is_finger, is_finger)
 
     def _with_fingers(self, palm: Expectation, timestamp_s: float, fingers: Fingers) -> Expectation:
         assert self._bank is not None
         dt_s = 0.0 if self._time_s is None else timestamp_s - self._time_s
         ahead = self._forecast_at(timestamp_s, self._bank).bank
-        # The modes lie close together: the widest mode about the nominal belief serves to find the discs.
-        belief = replace(ahead.nominal, covariance=ahead.covariance[-1])
-        seat = seat_of(belief, self.view, self._readout, True)
-        pixel, covariance, depth = fingers.expected(timestamp_s, dt_s, seat)
+        pixel, covariance, depth = fingers.expected(timestamp_s, dt_s, ahead.nominal, self.view)
+        covariance = covariance + palm.covariance_px2.max(axis=0)
         return Expectation(
             self._by_marker(palm.pixel, pixel),
             self._by_marker(palm.covariance_px2, covariance),
@@ -262,8 +259,8 @@ class Tracker:
         predicted_px, predicted_cov_px2 = mean[place], covariance[place[:, :, None], place[:, None, :]]
         discs = self.view.markers_cam_m(belief.position_m, belief.rotation_w2_w0, belief.joints_rad, belief.shape)
         moment, nis, dof = self._readout.moment(belief), step.palm.nis, step.palm.dof
-        if self._fingers is not None and fingers is not None and step.seat is not None:
-            joints = self._fingers.read(step.seat)
+        if self._fingers is not None and fingers is not None:
+            joints = self._fingers.read(fingers)
             moment = self._readout.with_joints(moment, joints)
             discs = self._by_marker(discs, joints.disc_cam_m)
             predicted_px = self._by_marker(predicted_px, fingers.predicted_px)
