@@ -232,6 +232,7 @@ class Journey(QObject):
 
     def _stopped(self, session_id: str) -> None:
         self._show_recording("off", 0.0)
+        self.live.end()  # the source goes on, for another set
         self.open_review(session_id)
 
     def _another_set(self) -> None:

@@ -120,7 +120,8 @@ class SourceMeasuring:
     """A running source: from the chosen calibration to stored sessions, as many as wanted.
 
     ``starts_with_recording``: a stored recording plays from its first picture when recording starts, so that none
-    is missed; a camera has been running since it was opened. ``let_go`` is called when tracking begins.
+    is missed; a camera has been running since it was opened. ``on_begin`` is called when tracking begins,
+    ``on_recording`` when a recording has begun.
     """
 
     def __init__(
@@ -132,10 +133,12 @@ class SourceMeasuring:
         places: SessionPlaces,
         *,
         starts_with_recording: bool = False,
-        let_go: Callable[[], None] = lambda: None,
+        on_begin: Callable[[], None] = lambda: None,
+        on_recording: Callable[[], None] = lambda: None,
     ) -> None:
         self._session, self._info, self._set_up, self._settings = session, info, set_up, settings
-        self._places, self._starts_with_recording, self._let_go = places, starts_with_recording, let_go
+        self._places, self._starts_with_recording = places, starts_with_recording
+        self._on_begin, self._on_recording = on_begin, on_recording
         self._played = False
         self._walk: LiveWalk | None = None
         self._learnt: Learnt | None = None
@@ -172,7 +175,7 @@ class SourceMeasuring:
         self._calibration = outcome.calibration
         self._markers_rgb = _around_hand(held[0].color_rgb, outcome.pixel)
         self._session.begin_tracking(self._walk)
-        self._let_go()
+        self._on_begin()
 
     def start_recording(self) -> None:
         """Open the session file, and a raw recording beside it if wanted; waits for the disk."""
@@ -203,6 +206,7 @@ class SourceMeasuring:
         if self._starts_with_recording and not self._played:
             self._played = True
             self._session.start()
+        self._on_recording()
 
     def stop_recording(self) -> str:
         """Store everything; the session's identity. A fault is raised once what reached the disk is finished."""

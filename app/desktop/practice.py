@@ -14,7 +14,7 @@ from core.simulation.spec import RecordingSpec
 from ui.ports import SetUp
 
 _MOTION = {FLEXION: "flexion", DEVIATION: "deviation", PRONOSUPINATION: "pronosupination", None: "mixed"}
-_SPEED_HZ, _REPETITIONS, _SECONDS = 0.36, 10, 30.0
+_SPEED_HZ, _RANGE_SHARE, _REPETITIONS, _SECONDS = 0.36, 0.8, 10, 30.0
 _READ_AHEAD = 8
 
 
@@ -27,6 +27,7 @@ def practice_spec(set_up: SetUp, seconds: float = _SECONDS) -> RecordingSpec:
         seconds=seconds,
         speed_hz=_SPEED_HZ,
         repetitions=_REPETITIONS,
+        range_share=_RANGE_SHARE,
         hand_length_mm=188.0,
         skin_tone=1,
         light="bright",

@@ -81,14 +81,14 @@ class Sources:
             session.notice(fault)
         session.start()
         # From the calibration on, the markers must keep their colours.
-        return self._live(session, source, set_up, let_go=source.lock_exposure)
+        return self._live(session, source, set_up, on_begin=source.lock_exposure)
 
     def _practice(self, set_up: SetUp, progress: Progress) -> OpenSource:
         take, still_s = self._practice_take(set_up, progress)
         patient = PracticeSource(take, still_s)
         session = self._session(PacedSource(patient, self._speed))
         session.start()
-        return self._live(session, take, set_up, let_go=patient.let_go)
+        return self._live(session, take, set_up, on_recording=patient.let_go)
 
     def _recording(self, path: Path, set_up: SetUp) -> OpenSource:
         told: list[CarpusFault] = []
@@ -107,9 +107,22 @@ class Sources:
         return LiveSession(source, replace(self._settings.live, folder=self._settings.data_folder))
 
     def _live(
-        self, session: LiveSession, source: FrameSource, set_up: SetUp, let_go: Callable[[], None] = lambda: None
+        self,
+        session: LiveSession,
+        source: FrameSource,
+        set_up: SetUp,
+        on_begin: Callable[[], None] = lambda: None,
+        on_recording: Callable[[], None] = lambda: None,
     ) -> OpenSource:
-        measuring = SourceMeasuring(session, source.info, set_up, self._settings.track, self._places, let_go=let_go)
+        measuring = SourceMeasuring(
+            session,
+            source.info,
+            set_up,
+            self._settings.track,
+            self._places,
+            on_begin=on_begin,
+            on_recording=on_recording,
+        )
         return OpenSource(self._calibrator(LivePictures(session), source, set_up, measuring), measuring)
 
     def _calibrator(

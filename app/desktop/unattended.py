@@ -20,6 +20,7 @@ from PySide6.QtWidgets import QWidget
 from app import compose
 from app.desktop.places import TABS, Place
 from app.desktop.practice import practice_spec
+from app.desktop.sources import RECENT_FRAMES
 from app.settings import ScreenSettings, Settings
 from core.calibration.clicks import read_clicks
 from core.errors import CalibrationImpossible
@@ -82,9 +83,9 @@ class Walker:
         self.at("markers")
         markers, source = self.journey.markers, self.journey.source
         assert source is not None
-        still = self.journey.settings.calibration.enough_frames + 1
+        feed = source.measuring.feed
         self.until(
-            lambda: len(source.measuring.feed.recent_frames(still)) == still and markers.picture.image is not None
+            lambda: len(feed.recent_frames(RECENT_FRAMES)) == RECENT_FRAMES and markers.picture.image is not None
         )
         self.press(Qt.Key.Key_Space, markers.picture)
         self.until(lambda: markers.clicking is not None)

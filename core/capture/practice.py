@@ -1,4 +1,4 @@
-"""A stored take played as a camera would send a practice patient: at rest until let go, then moving."""
+"""A stored take played as a camera would send a practice patient: at rest until told to move."""
 
 from __future__ import annotations
 
@@ -10,16 +10,12 @@ from itertools import chain
 from core.capture.source import FrameSource, SourceInfo
 from core.types import Frame
 
-REST_S = 2.0
-"""Rest between two takes."""
-
 
 class PracticeSource:
     """Frames without end, not paced, times rising by themselves.
 
     The take begins with a hand that is still for ``still_s``: these pictures come again and again, forwards and
-    backwards, until :meth:`let_go`. Then the take is played once through; then the hand rests for a moment and the
-    take comes again, until closed.
+    backwards, until :meth:`let_go`. Then the take is played through once, and the hand rests until let go again.
     """
 
     def __init__(self, take: FrameSource, still_s: float) -> None:
@@ -34,7 +30,7 @@ class PracticeSource:
         return replace(self._take.info, frame_count=None)
 
     def let_go(self) -> None:
-        """The hand may move from now on; may be called from another thread."""
+        """The hand moves once from now on, or goes on if it moves already; may be called from another thread."""
         self._free.set()
 
     def frames(self) -> Iterator[Frame]:
@@ -48,28 +44,26 @@ class PracticeSource:
         else:
             first_moving = still[-1]
         period_s = 1.0 / self._take.info.nominal_fps
-        clock_s, last_s, index = still[0].timestamp_s - period_s, still[0].timestamp_s - period_s, 0
+        clock_s, index = still[0].timestamp_s - period_s, 0
 
         def timed(frame: Frame, step_s: float) -> Frame:
             nonlocal clock_s, index
             clock_s, index = clock_s + step_s, index + 1
             return replace(frame, index=index - 1, timestamp_s=clock_s)
 
-        rest = _to_and_fro(still)
-        while not self._free.is_set() and not self._closed.is_set():
-            yield timed(replace(next(rest), dropped_before=0), period_s)
-        take = chain([first_moving], take)
-        last_s = first_moving.timestamp_s - period_s
-        while not self._closed.is_set():
-            for frame in take:
+        rest, moving, last_s = _to_and_fro(still), chain([first_moving], take), first_moving.timestamp_s - period_s
+        while True:
+            while not self._free.is_set():
+                yield timed(replace(next(rest), dropped_before=0), period_s)
+            for frame in moving:
                 if self._closed.is_set():
                     return
                 yield timed(frame, frame.timestamp_s - last_s)
                 last_s = frame.timestamp_s
-            for _ in range(round(REST_S / period_s)):
-                yield timed(replace(next(rest), dropped_before=0), period_s)
-            take = self._take.frames()
-            last_s = still[0].timestamp_s - period_s
+            self._free.clear()
+            if self._closed.is_set():
+                return
+            moving, last_s = self._take.frames(), still[0].timestamp_s - period_s
 
     def close(self) -> None:
         """End; may be called twice and from another thread."""

@@ -1,4 +1,4 @@
-"""The practice patient: rests until let go, moves once, rests, moves again; times as a camera's."""
+"""The practice patient: rests until let go, moves once, rests until let go again; times as a camera's."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from itertools import islice
 import numpy as np
 
 from core.camera import DEFAULT_CAMERA
-from core.capture.practice import REST_S, PracticeSource
+from core.capture.practice import PracticeSource
 from core.capture.source import SourceInfo
 from core.types import Frame
 
@@ -47,20 +47,22 @@ def test_the_hand_rests_until_let_go_and_then_moves_on_from_where_it_was_still()
     assert [frame.dropped_before for frame in moving] == [0, 0, 0, 0, 0, 0, 1, 0, 0]
 
 
-def test_after_the_take_the_hand_rests_and_the_take_comes_again_with_rising_times() -> None:
+def test_after_the_take_the_hand_rests_until_let_go_again_and_times_rise_all_the_while() -> None:
     source = PracticeSource(Take(), still_s=0.55)
     source.let_go()
-    frames = list(islice(source.frames(), 80))
-    rest = round(REST_S * 10.0)
-    moved = TOTAL - STILL
+    walk = source.frames()
+    moved, rest = TOTAL - STILL, 25
+    frames = list(islice(walk, moved + rest))
     assert numbers(frames[:moved]) == list(range(STILL, TOTAL))
-    assert set(numbers(frames[moved : moved + rest])) <= set(range(STILL))
+    assert set(numbers(frames[moved:])) == set(range(STILL))
+    source.let_go()
+    frames += islice(walk, TOTAL + 5)
     assert numbers(frames[moved + rest : moved + rest + TOTAL]) == list(range(TOTAL))
-    times = np.array([frame.timestamp_s for frame in frames])
-    steps = np.diff(times)
+    assert set(numbers(frames[moved + rest + TOTAL :])) <= set(range(STILL))
+    steps = np.diff([frame.timestamp_s for frame in frames])
     gap = np.array([frame.dropped_before for frame in frames[1:]]) > 0
     np.testing.assert_allclose(steps, np.where(gap, 0.2, 0.1), atol=1e-9)
-    assert [frame.index for frame in frames] == list(range(80))
+    assert [frame.index for frame in frames] == list(range(len(frames)))
 
 
 def test_closing_ends_it_and_gives_the_take_back() -> None:

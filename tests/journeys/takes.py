@@ -1,0 +1,49 @@
+"""A short take of the simulated patient for the journeys, rendered once for all of them."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+
+from core.calibration.clicks import read_clicks
+from core.capture.source import FrameSource
+from core.capture.tum import TumFolder
+from core.simulation.motions import STILL_S
+from core.simulation.recording import CLICKS_FILE, simulate
+from core.simulation.spec import RecordingSpec
+from core.types import FloatArray
+from ui.ports import SetUp
+
+SPEC = RecordingSpec(
+    seed=5,
+    motion="flexion",
+    seconds=6.5,
+    fps=20.0,
+    speed_hz=0.6,
+    repetitions=3,
+    range_share=0.6,
+    hand_length_mm=188.0,
+    skin_tone=1,
+    light="bright",
+    sleeve="grey",
+    distance_m=0.64,
+    click_error_px=1.0,
+)
+RANGE_DEG = 0.6 * 50.0
+"""Reached to both sides, less up to 6 % by which the patient stops short of each target."""
+
+
+def render(folder: Path) -> Path:
+    """Render the take into a new folder."""
+    simulate(SPEC, folder, workers=2)
+    return folder
+
+
+def take_of(folder: Path) -> Callable[[SetUp, Callable[[int, int], None]], tuple[FrameSource, float]]:
+    """What :func:`app.compose.compose` takes instead of the practice patient's half minute."""
+    return lambda _set_up, _progress: (TumFolder(folder, read_ahead=4), STILL_S - 1.0 / SPEC.fps)
+
+
+def clicks_of(folder: Path) -> FloatArray:
+    """A person's clicks (6, 2) on the still hand."""
+    return read_clicks(folder / CLICKS_FILE).pixel

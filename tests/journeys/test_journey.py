@@ -1,0 +1,405 @@
+"""The whole journey through the real application: by mouse, by keyboard, from a file, and when things go wrong."""
+
+from __future__ import annotations
+
+import math
+import shutil
+import subprocess
+from pathlib import Path
+from typing import Any
+
+import h5py
+import numpy as np
+import pytest
+from PySide6.QtCore import QPoint, Qt
+from PySide6.QtWidgets import QFileDialog, QWidget
+from pytestqt.qtbot import QtBot
+
+from app.compose import Desktop
+from app.desktop.sources import RECENT_FRAMES
+from core.errors import CameraLost, CameraMissing, CameraReturned
+from core.session.writer import SessionWriter
+from tests.journeys.conftest import Open
+from tests.journeys.takes import RANGE_DEG, clicks_of
+from tests.session.samples import CAMERA, make_calibration, make_frame, make_header
+from ui.messages.strip import NoticeStrip
+from ui.ports import PRACTICE_PATIENT
+
+PATIENCE_MS = 60_000
+"""Only a failing test ever waits that long."""
+
+
+def wait(qtbot: QtBot, condition: Any) -> None:
+    qtbot.waitUntil(condition, timeout=PATIENCE_MS)
+
+
+def click(qtbot: QtBot, widget: QWidget, spot: QPoint | None = None) -> None:
+    """A left click on the middle of what can be seen, or on a place."""
+    assert widget.isVisible()
+    assert widget.isEnabled()
+    qtbot.mouseMove(widget, spot or widget.rect().center())
+    qtbot.mouseClick(widget, Qt.MouseButton.LeftButton, pos=spot or widget.rect().center())
+
+
+def at(qtbot: QtBot, desktop: Desktop, place: str) -> None:
+    wait(qtbot, lambda: desktop.journey.place == place)
+
+
+def still_hand(qtbot: QtBot, desktop: Desktop) -> None:
+    """Half a second of the still hand has been seen."""
+    at(qtbot, desktop, "markers")
+    source = desktop.journey.source
+    assert source is not None
+    wait(qtbot, lambda: len(source.measuring.feed.recent_frames(RECENT_FRAMES)) == RECENT_FRAMES)
+    wait(qtbot, lambda: desktop.journey.markers.picture.image is not None)
+
+
+def click_discs(qtbot: QtBot, desktop: Desktop, take: Path) -> None:
+    picture = desktop.journey.markers.picture
+    for u, v in clicks_of(take):
+        click(qtbot, picture, picture.to_screen(float(u), float(v)).toPoint())
+    wait(qtbot, desktop.journey.markers.primary.isEnabled)
+
+
+def reviewed(qtbot: QtBot, desktop: Desktop) -> Path:
+    """The session file of the review that is shown."""
+    at(qtbot, desktop, "review")
+    wait(qtbot, lambda: desktop.journey.review.shown)
+    return desktop.library.entry(desktop.journey.session_id).path
+
+
+def check_file(path: Path, subject: str) -> None:
+    """The stored session, read by plain h5py, holds the movement that the patient made."""
+    with h5py.File(path) as file:
+        assert file.attrs["complete"]
+        assert file.attrs["subject_id"] == subject
+        assert file.attrs["exercise"] == "WRIST_FE"
+        times, status = file["frames/timestamp"][:], file["frames/status"][:]
+        flexion_deg = np.degrees(file["wrist/angles"][:, 1])
+        smooth_deg = np.degrees(file["smoothed/wrist/angles"][:, 1])
+    assert len(times) > 40
+    assert np.all(np.diff(times) > 0.0)
+    assert np.mean(status == 0) > 0.8
+    for angles in (flexion_deg[status == 0], smooth_deg[status == 0]):
+        assert angles.max() == pytest.approx(0.97 * RANGE_DEG, abs=4.0)
+        assert angles.min() == pytest.approx(-0.97 * RANGE_DEG, abs=4.0)
+
+
+def words_of_pdf(path: Path) -> str:
+    tool = shutil.which("pdftotext")
+    assert tool is not None, "pdftotext (poppler-utils) is needed to read the report back"
+    return subprocess.run([tool, "-layout", str(path), "-"], capture_output=True, text=True, check=True).stdout
+
+
+def test_the_whole_journey_by_mouse(
+    qtbot: QtBot, open_desktop: Open, take: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    desktop = open_desktop()
+    journey = desktop.journey
+    click(qtbot, journey.patients.new_button)
+    click(qtbot, journey.patients.form.save)
+    name = journey.patients.list.rows.row(0).pseudonym
+    wait(qtbot, lambda: journey.patients.card.start_button.isVisible())
+    click(qtbot, journey.patients.card.start_button)
+    at(qtbot, desktop, "exercise")
+    click(qtbot, journey.exercise.exercises.option("WRIST_FE"))
+    click(qtbot, journey.exercise.primary)
+    at(qtbot, desktop, "camera")
+    click(qtbot, journey.camera.sources.option("practice"))
+    click(qtbot, journey.camera.primary)
+    still_hand(qtbot, desktop)
+    click(qtbot, journey.markers.primary)
+    click_discs(qtbot, desktop, take)
+    assert journey.markers.panel.states()[0] == "good"
+    click(qtbot, journey.markers.primary)
+    at(qtbot, desktop, "live")
+    click(qtbot, journey.live.main)
+    wait(qtbot, lambda: journey.live.recording_state == "recording")
+    wait(qtbot, lambda: desktop.shell.bar.pill.state == "recording")
+    wait(qtbot, lambda: journey.live.repetitions >= 2)
+    click(qtbot, journey.live.main)
+    path = reviewed(qtbot, desktop)
+    check_file(path, name)
+    assert path.is_relative_to(desktop.library.clinic.sessions_folder)
+    assert desktop.shell.bar.pill.state == "off"
+    click(qtbot, desktop.shell.bar.way()[2])
+    at(qtbot, desktop, "progress")
+    click(qtbot, desktop.shell.bar.way()[1])
+    reviewed(qtbot, desktop)
+    click(qtbot, journey.review.report_button)
+    at(qtbot, desktop, "report")
+    pdf = tmp_path / "report.pdf"
+    monkeypatch.setattr(QFileDialog, "getSaveFileName", lambda *_: (str(pdf), ""))
+    with qtbot.waitSignal(journey.report.saved, timeout=PATIENCE_MS):
+        click(qtbot, journey.report.save_button)
+    assert name in words_of_pdf(pdf)
+    click(qtbot, desktop.shell.bar.back_button)
+    at(qtbot, desktop, "review")
+    click(qtbot, desktop.shell.bar.back_button)
+    at(qtbot, desktop, "patients")
+    row = journey.patients.list.rows.row(0)
+    assert (row.pseudonym, row.session_count, row.exercise) == (name, 1, "WRIST_FE")
+    assert (data_mode(desktop.library.folder), data_mode(path.parent)) == (0o700, 0o700)
+
+
+def data_mode(folder: Path) -> int:
+    return folder.stat().st_mode & 0o777
+
+
+def test_the_whole_journey_by_keyboard(
+    qtbot: QtBot, open_desktop: Open, take: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    desktop = open_desktop()
+    journey, shell = desktop.journey, desktop.shell
+
+    def press(key: Qt.Key, modifier: Qt.KeyboardModifier = Qt.KeyboardModifier.NoModifier) -> None:
+        qtbot.keyClick(shell.focusWidget() or shell, key, modifier)
+
+    qtbot.keyClicks(shell.focusWidget(), "practice")
+    press(Qt.Key.Key_Return)
+    still_hand(qtbot, desktop)
+    press(Qt.Key.Key_Space)
+    picture = journey.markers.picture
+    press(Qt.Key.Key_Left)
+    for target in clicks_of(take):
+        cursor = picture.cursor_px
+        assert cursor is not None
+        for step, keys in zip(
+            np.round(target - cursor).astype(int),
+            ((Qt.Key.Key_Left, Qt.Key.Key_Right), (Qt.Key.Key_Up, Qt.Key.Key_Down)),
+            strict=True,
+        ):
+            tens, ones = divmod(abs(int(step)), 10)
+            for _ in range(tens):
+                press(keys[int(step > 0)], Qt.KeyboardModifier.ShiftModifier)
+            for _ in range(ones):
+                press(keys[int(step > 0)])
+        press(Qt.Key.Key_Space)
+    wait(qtbot, journey.markers.primary.isEnabled)
+    press(Qt.Key.Key_Return)
+    at(qtbot, desktop, "live")
+    press(Qt.Key.Key_Space)
+    wait(qtbot, lambda: journey.live.recording_state == "recording")
+    press(Qt.Key.Key_F5)
+    qtbot.keyClicks(shell.focusWidget(), "strap loose")
+    press(Qt.Key.Key_Return)
+    press(Qt.Key.Key_Escape)  # nothing leaves a running recording
+    assert journey.place == "live"
+    wait(qtbot, lambda: journey.live.repetitions >= 2)
+    press(Qt.Key.Key_Space)
+    path = reviewed(qtbot, desktop)
+    check_file(path, "Practice patient")
+    with h5py.File(path) as file:
+        assert "strap loose" in file["events/text"].asstr()[:].tolist()
+    pdf = tmp_path / "report.pdf"
+    monkeypatch.setattr(QFileDialog, "getSaveFileName", lambda *_: (str(pdf), ""))
+    press(Qt.Key.Key_P, Qt.KeyboardModifier.ControlModifier)
+    at(qtbot, desktop, "report")
+    with qtbot.waitSignal(journey.report.saved, timeout=PATIENCE_MS):
+        press(Qt.Key.Key_P, Qt.KeyboardModifier.ControlModifier)
+    assert "strap loose" in words_of_pdf(pdf)
+    press(Qt.Key.Key_Escape)
+    at(qtbot, desktop, "review")
+    press(Qt.Key.Key_Escape)
+    at(qtbot, desktop, "patients")
+    assert desktop.library.clinic.patients() == []  # practice never counts
+
+
+def test_a_recording_is_measured_from_its_first_picture_to_its_last(
+    qtbot: QtBot, open_desktop: Open, take: Path
+) -> None:
+    desktop = open_desktop()
+    journey = desktop.journey
+    journey.start(PRACTICE_PATIENT)
+    at(qtbot, desktop, "markers")
+    journey.back()
+    at(qtbot, desktop, "camera")
+    journey.camera.set_path(str(take))
+    click(qtbot, journey.camera.primary)
+    at(qtbot, desktop, "markers")
+    assert not journey.markers.new_picture.isVisible()
+    click_discs(qtbot, desktop, take)
+    qtbot.keyClick(desktop.shell.focusWidget(), Qt.Key.Key_Return)
+    path = reviewed(qtbot, desktop)  # recorded, played to its end and stopped by itself
+    stored = [float(line.split()[0]) for line in (take / "rgb.txt").read_text().splitlines() if line[:1] != "#"]
+    with h5py.File(path) as file:
+        times = file["frames/timestamp"][:]
+        assert set(np.round(times, 6)) <= set(stored)
+        assert times[0] == pytest.approx(stored[0])
+        assert times[-1] == pytest.approx(stored[-1])
+        assert len(times) + int(file["quality/dropped_frames"][:].sum()) == len(stored)
+    assert not journey.review.again_button.isVisible()
+
+
+def test_a_second_set_needs_no_new_markers(qtbot: QtBot, open_desktop: Open, take: Path) -> None:
+    desktop = open_desktop()
+    journey = desktop.journey
+    to_live(qtbot, desktop, take)
+    first = one_set(qtbot, desktop)
+    click(qtbot, journey.review.again_button)
+    at(qtbot, desktop, "live")
+    second = one_set(qtbot, desktop)
+    assert first != second
+    rows = desktop.library.sessions(PRACTICE_PATIENT)
+    assert {row.path for row in rows} == {first, second}
+
+
+def to_live(qtbot: QtBot, desktop: Desktop, take: Path) -> None:
+    desktop.journey.start(PRACTICE_PATIENT)
+    still_hand(qtbot, desktop)
+    desktop.journey.markers.accept()
+    click_discs(qtbot, desktop, take)
+    click(qtbot, desktop.journey.markers.primary)
+    at(qtbot, desktop, "live")
+
+
+def one_set(qtbot: QtBot, desktop: Desktop) -> Path:
+    live = desktop.journey.live
+    live.toggle_recording()
+    wait(qtbot, lambda: live.recorded_s > 1.0)
+    live.toggle_recording()
+    return reviewed(qtbot, desktop)
+
+
+def test_a_window_closed_while_recording_keeps_the_session(qtbot: QtBot, open_desktop: Open, take: Path) -> None:
+    desktop = open_desktop()
+    to_live(qtbot, desktop, take)
+    desktop.journey.live.toggle_recording()
+    wait(qtbot, lambda: desktop.journey.live.recorded_s > 1.0)
+    desktop.shell.close()
+    again = open_desktop()
+    (entry,) = again.library.sessions(PRACTICE_PATIENT)
+    assert entry.complete
+    assert entry.duration_s > 0.8
+    assert again.journey.patients.findChildren(NoticeStrip) == []
+
+
+def test_stopping_at_once_stores_nothing_and_says_so(qtbot: QtBot, open_desktop: Open, take: Path) -> None:
+    desktop = open_desktop()
+    journey = desktop.journey
+    to_live(qtbot, desktop, take)
+    source = journey.source
+    assert source is not None
+    source.measuring.feed.end_tracking()
+    wait(qtbot, lambda: source.measuring.feed.counters().waiting_tracking == 0)
+    journey.live.toggle_recording()
+    wait(qtbot, lambda: journey.live.recording_state == "recording")
+    journey.live.toggle_recording()
+    wait(qtbot, journey.teller.card.isVisible)
+    assert desktop.library.sessions(PRACTICE_PATIENT) == []
+    assert list(desktop.library.folder.rglob("*.h5*")) == []
+    click(qtbot, journey.teller.card.answers[0])
+    at(qtbot, desktop, "patients")
+
+
+def test_an_interrupted_session_is_told_at_the_next_start_and_can_be_reviewed(qtbot: QtBot, open_desktop: Open) -> None:
+    first = open_desktop()
+    folder = first.library.clinic.sessions_folder / "Heron"
+    first.close()
+    folder.mkdir()
+    writer = SessionWriter.create(folder / "cut.h5", make_header(), CAMERA, make_calibration())
+    for row in range(60):
+        writer.append(make_frame(row))
+    writer.abandon()
+    second = open_desktop()
+    (strip,) = second.journey.patients.findChildren(NoticeStrip)
+    assert make_header().subject_id in strip.words.what
+    assert "safe" in strip.words.safe
+    click(qtbot, strip.button)
+    assert reviewed(qtbot, second) == folder / "cut.h5"
+    assert second.journey.patient is not None
+    assert second.journey.patient.pseudonym == make_header().subject_id
+
+
+def test_a_camera_that_is_not_there_is_told_with_what_to_do(
+    qtbot: QtBot, open_desktop: Open, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    desktop = open_desktop()
+    journey = desktop.journey
+
+    def missing(**_: object) -> None:
+        raise CameraMissing("", "no device")
+
+    monkeypatch.setattr("core.capture.xtion.XtionSource", missing)
+    journey.start(PRACTICE_PATIENT)
+    at(qtbot, desktop, "markers")
+    journey.back()
+    journey.camera.set_camera_ready(True)
+    click(qtbot, journey.camera.sources.option("camera"))
+    click(qtbot, journey.camera.primary)
+    wait(qtbot, journey.teller.card.isVisible)
+    assert "camera" in journey.teller.card.what.text()
+    assert journey.teller.card.todo.text().startswith("Plug")
+    click(qtbot, journey.teller.card.answers[-1])
+    assert journey.place == "camera"
+    assert journey.source is None
+
+
+def test_a_lost_camera_stops_the_eye_and_goes_by_itself_when_it_is_back(
+    qtbot: QtBot, open_desktop: Open, take: Path
+) -> None:
+    desktop = open_desktop()
+    journey = desktop.journey
+    to_live(qtbot, desktop, take)
+    source = journey.source
+    assert source is not None
+    journey.live.toggle_recording()
+    wait(qtbot, lambda: journey.live.recorded_s > 0.5)
+    source.measuring.feed.notice(CameraLost("Xtion", "unplugged"))
+    wait(qtbot, journey.teller.card.isVisible)
+    assert "sends no more pictures" in journey.teller.card.what.text()
+    assert "stored" in journey.teller.card.safe_detail.text()
+    source.measuring.feed.notice(CameraReturned("Xtion", "3 s"))
+    wait(qtbot, lambda: not journey.teller.card.isVisible())
+    journey.live.toggle_recording()
+    path = reviewed(qtbot, desktop)
+    with h5py.File(path) as file:
+        assert {"camera_lost", "camera_back"} <= set(file["events/kind"].asstr()[:])
+
+
+def test_raw_pictures_are_kept_on_request_and_shown_in_the_review(qtbot: QtBot, open_desktop: Open, take: Path) -> None:
+    desktop = open_desktop()
+    journey = desktop.journey
+    journey.choose_exercise(PRACTICE_PATIENT)
+    journey.exercise.pictures.choose(True)
+    click(qtbot, journey.exercise.primary)
+    at(qtbot, desktop, "camera")
+    click(qtbot, journey.camera.primary)
+    still_hand(qtbot, desktop)
+    journey.markers.accept()
+    click_discs(qtbot, desktop, take)
+    click(qtbot, journey.markers.primary)
+    at(qtbot, desktop, "live")
+    path = one_set(qtbot, desktop)
+    session = desktop.library.session(journey.session_id)
+    assert path.with_suffix(".carpusraw").exists()
+    for row in (0, len(session) - 1):
+        picture = desktop.library.picture(journey.session_id, row)
+        assert picture is not None
+        assert picture.shape == (480, 640, 3)
+        known = np.isfinite(session.markers.measured_px[row, :, 0])
+        u, v = np.round(session.markers.measured_px[row][known][0]).astype(int)
+        red, _, blue = picture[v, u].astype(int)
+        assert blue > red + 30  # the disc is where the session says
+
+
+def test_what_was_left_out_is_stored_beside_the_session(qtbot: QtBot, open_desktop: Open, take: Path) -> None:
+    desktop = open_desktop()
+    journey = desktop.journey
+    to_live(qtbot, desktop, take)
+    journey.live.toggle_recording()
+    wait(qtbot, lambda: journey.live.repetitions >= 2)
+    journey.live.toggle_recording()
+    path = reviewed(qtbot, desktop)
+    before = path.read_bytes()
+    figures = journey.review.figures
+    assert figures is not None
+    counted = figures.counted
+    journey.review._leave_out("pain")
+    wait(qtbot, lambda: not journey.background.busy)
+    assert path.read_bytes() == before
+    desktop.close()
+    again = open_desktop()
+    stored = again.library.figures(again.library.sessions(PRACTICE_PATIENT)[0])
+    assert stored.counted == counted - 1
+    assert math.isfinite(stored.rows[0].mean_deg) or stored.counted == 0
