@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any
 
+import shiboken6
 from PySide6.QtCore import QObject, QRunnable, Qt, QThreadPool, Signal
 
 
@@ -36,14 +37,21 @@ class Background(QObject):
         self._pool.setMaxThreadCount(1)
         self._answers: set[_Answer] = set()
 
-    def run(self, work: Callable[[], Any], done: Callable[[Any], None], failed: Callable[[Exception], None]) -> None:
-        """Start ``work``; exactly one of the two is called later."""
+    def run(
+        self,
+        work: Callable[[], Any],
+        done: Callable[[Any], None],
+        failed: Callable[[Exception], None],
+        owner: QObject | None = None,
+    ) -> None:
+        """Start ``work``; one of the two is called later, unless ``owner`` has gone by then."""
         answer = _Answer()
         self._answers.add(answer)
 
         def finish(call: Callable[[Any], None], value: Any) -> None:
             self._answers.discard(answer)
-            call(value)
+            if owner is None or shiboken6.isValid(owner):
+                call(value)
 
         queued = Qt.ConnectionType.QueuedConnection
         answer.done.connect(lambda value: finish(done, value), queued)

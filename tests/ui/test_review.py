@@ -29,8 +29,15 @@ def store() -> FakeSessions:
 
 
 @pytest.fixture
-def screen(qtbot: QtBot, theme: Theme, store: FakeSessions) -> Iterator[ReviewScreen]:
+def background(qtbot: QtBot) -> Iterator[Background]:
+    """Idle before the screens go, as the program waits before it ends."""
     background = Background()
+    yield background
+    qtbot.waitUntil(lambda: not background.busy)
+
+
+@pytest.fixture
+def screen(qtbot: QtBot, theme: Theme, store: FakeSessions, background: Background) -> Iterator[ReviewScreen]:
     screen = ReviewScreen(theme, Keys(), background, store)
     qtbot.addWidget(screen)
     screen.resize(1280, 744)
@@ -41,7 +48,6 @@ def screen(qtbot: QtBot, theme: Theme, store: FakeSessions) -> Iterator[ReviewSc
     qtbot.waitUntil(lambda: screen.shown and screen.picture.image is not None)
     yield screen
     screen.end()
-    qtbot.waitUntil(lambda: not background.busy)
 
 
 def key(qtbot: QtBot, screen: ReviewScreen, name: Qt.Key) -> None:
@@ -143,8 +149,8 @@ def test_the_table_compares_with_the_last_session_and_the_other_hand(screen: Rev
     assert "within measurement error (14°)" in first.change
 
 
-def test_without_pictures_the_marks_are_still_shown(qtbot: QtBot, theme: Theme) -> None:
-    screen = ReviewScreen(theme, Keys(), Background(), FakeSessions(pictures=False))
+def test_without_pictures_the_marks_are_still_shown(qtbot: QtBot, theme: Theme, background: Background) -> None:
+    screen = ReviewScreen(theme, Keys(), background, FakeSessions(pictures=False))
     qtbot.addWidget(screen)
     screen.resize(1280, 744)
     screen.show()
@@ -153,8 +159,8 @@ def test_without_pictures_the_marks_are_still_shown(qtbot: QtBot, theme: Theme) 
     assert not screen.grab().isNull()
 
 
-def test_a_session_that_cannot_be_read_is_told(qtbot: QtBot, theme: Theme) -> None:
-    screen = ReviewScreen(theme, Keys(), Background(), FakeSessions())
+def test_a_session_that_cannot_be_read_is_told(qtbot: QtBot, theme: Theme, background: Background) -> None:
+    screen = ReviewScreen(theme, Keys(), background, FakeSessions())
     qtbot.addWidget(screen)
     with qtbot.waitSignal(screen.told) as told:
         screen.begin("linden", "not there")
@@ -178,9 +184,9 @@ def test_thinning_keeps_extremes_gaps_and_ends() -> None:
 
 
 def test_progress_answers_with_the_arc_and_rings_what_is_unfair(
-    qtbot: QtBot, theme: Theme, store: FakeSessions
+    qtbot: QtBot, theme: Theme, store: FakeSessions, background: Background
 ) -> None:
-    screen = ProgressScreen(theme, Keys(), Background(), store)
+    screen = ProgressScreen(theme, Keys(), background, store)
     qtbot.addWidget(screen)
     screen.resize(1280, 744)
     screen.show()

@@ -207,7 +207,7 @@ class LiveScreen(QWidget):
             self.stop()
             return
         self._stopping = True
-        self._background.run(self._measuring.start_recording, lambda _: self._started(), self._not_started)
+        self._background.run(self._measuring.start_recording, lambda _: self._started(), self._not_started, self)
 
     def _started(self) -> None:
         assert self._set_up is not None
@@ -240,7 +240,7 @@ class LiveScreen(QWidget):
             self._show_buttons()
             self.stopped.emit(str(session_id))
 
-        self._background.run(self._measuring.stop_recording, done, failed)
+        self._background.run(self._measuring.stop_recording, done, failed, self)
 
     def toggle_pause(self) -> None:
         """Pause or go on."""

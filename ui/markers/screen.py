@@ -237,6 +237,7 @@ class MarkersScreen(QWidget):
                 lambda: calibrator.judge(clicks, angles),
                 lambda judged: self._take_verdict(number, judged),
                 lambda fault: self._take_fault(number, fault),
+                self,
             )
         self._refresh()
 

@@ -112,7 +112,7 @@ class ProgressScreen(QWidget):
         """Read all sessions of a patient; the kind of the given or newest session is shown."""
         store = self._store
         self._background.run(
-            lambda: store.history(patient_id), lambda found: self._show(found, session_id), self.told.emit
+            lambda: store.history(patient_id), lambda found: self._show(found, session_id), self.told.emit, self
         )
         self.setFocus(Qt.FocusReason.OtherFocusReason)
 

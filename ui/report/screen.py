@@ -112,7 +112,7 @@ class ReportScreen(QWidget):
         target = Path(path if path.lower().endswith(".pdf") else f"{path}.pdf")
         self.save_button.setEnabled(False)
         write: Callable[[], Path] = lambda: _written(report, target, replace_asked)  # noqa: E731
-        self._background.run(write, lambda done: self._done(str(done)), self._failed)
+        self._background.run(write, lambda done: self._done(str(done)), self._failed, self)
 
     def _done(self, path: str) -> None:
         self.save_button.setEnabled(True)

@@ -168,7 +168,7 @@ class ReviewScreen(QWidget):
         def read() -> Reviewed:
             return Reviewed(store.session(session_id), store.choices(session_id), store.history(patient_id))
 
-        self._background.run(read, self._show, self.told.emit)
+        self._background.run(read, self._show, self.told.emit, self)
         self.setFocus(Qt.FocusReason.OtherFocusReason)
 
     def end(self) -> None:
@@ -313,7 +313,7 @@ class ReviewScreen(QWidget):
         self._compute()
         self._refresh()
         store, session_id = self._store, self._session_id
-        self._background.run(lambda: store.keep_choices(session_id, choices), lambda _: None, self.told.emit)
+        self._background.run(lambda: store.keep_choices(session_id, choices), lambda _: None, self.told.emit, self)
 
     # --- picture ------------------------------------------------------------------------------------------
     def _ask_picture(self, row: int) -> None:
@@ -334,7 +334,7 @@ class ReviewScreen(QWidget):
             elif self.picture.image is None:
                 self._show_empty()
 
-        self._background.run(lambda: store.picture(session_id, row), shown, self.told.emit)
+        self._background.run(lambda: store.picture(session_id, row), shown, self.told.emit, self)
 
     def _show_empty(self) -> None:
         """No pictures were kept: a plain ground of the camera's size under the marks."""
