@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import logging
+import signal
 import sys
 from collections.abc import Callable
 from dataclasses import dataclass, replace
@@ -131,6 +132,15 @@ def speak_in_the_window(desktop: Desktop) -> None:
             desktop.journey.teller.fault(value)
 
     sys.excepthook = hook
+
+
+def end_on_signals(desktop: Desktop) -> None:
+    """Ctrl+C in the terminal, a log-out or a shutdown close the window as a person would: recordings are finished.
+
+    Python hears of a signal when it next runs, at the latest when the journey looks for a camera.
+    """
+    for number in (signal.SIGINT, signal.SIGTERM):
+        signal.signal(number, lambda *_: desktop.shell.close())
 
 
 def write_log() -> None:

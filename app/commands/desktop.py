@@ -34,6 +34,7 @@ def open_window(data_folder: Path | None, *, is_demo: bool) -> int:
     qt = compose.application(["carpus"])
     desktop = compose.compose(qt, settings, is_demo=is_demo)
     compose.speak_in_the_window(desktop)
+    compose.end_on_signals(desktop)
     desktop.show()
     if is_demo:
         desktop.journey.prepare_practice()
