@@ -15,15 +15,21 @@ from numpy.typing import NDArray
 
 from core.tracking import association
 from core.tracking.finger_settings import FingerSettings
-from core.tracking.hand_geometry import DISCS, RAYS
+from core.tracking.hand_geometry import DISCS, RAYS, SLOTS, ray_frames
 from core.tracking.joint_association import holds_together
+from core.tracking.joint_limits import SOFT_RAD, outside_limits
 from core.tracking.naming import Measurable
-from core.tracking.ray_filter import RayBeliefs, RayForecast, RayUpdate, corrected
+from core.tracking.ray_filter import RayBeliefs, RayForecast, RayLayout, RayUpdate, RayView, corrected
 from core.tracking.settings import TrackerSettings
 from core.types import FloatArray
 
 _AXES = np.arange(3)
+_SLOT = np.arange(SLOTS)
+_BENDS = np.array([[0.0, 0.0, 1.0, 0.0, 1.0], *([0.0, 1.0, 1.0, 1.0, 0.0],) * 4])
+"""Slots (5, 5) that tilt the discs past them."""
 _CANDIDATES = 4
+_WAS_SEEN = 0.5
+_SURELY_SD = 1.5
 _LOG_2_PI = float(np.log(2.0 * np.pi))
 
 
@@ -62,22 +68,58 @@ class FingerScene:
     free: NDArray[np.bool_]
     noise_factor: FloatArray
     resolution_px2: float
+    view: RayView
+    layout: RayLayout
 
 
 def name_fingers(beliefs: RayBeliefs, scene: FingerScene, settings: TrackerSettings) -> NamedFingers:
     """Names and corrects all rays."""
-    first = _each_by_itself(scene, settings)
-    simple = _corrected(beliefs, scene, first)
-    doubtful = [r for r in range(RAYS) if not holds_together(float(simple.update.nis[r]), int(simple.update.dof[r]))]
-    if not doubtful:
-        return simple
-    taken, with_depth = first.taken.copy(), first.with_depth.copy()
-    for ray in doubtful:
-        taken[ray] = -1
-    for ray in doubtful:
-        others = np.setdiff1d(np.flatnonzero(scene.free), taken.ravel())
-        taken[ray], with_depth[ray] = _ray_jointly(ray, scene, others, settings)
-    return _corrected(beliefs, scene, FingerNames(taken, with_depth))
+    names = _each_by_itself(scene, settings)
+    found = _corrected(beliefs, scene, names)
+    doubtful = [r for r in range(RAYS) if not holds_together(float(found.update.nis[r]), int(found.update.dof[r]))]
+    if doubtful:
+        taken, with_depth = names.taken.copy(), names.with_depth.copy()
+        taken[doubtful] = -1
+        for ray in doubtful:
+            others = np.setdiff1d(np.flatnonzero(scene.free), taken.ravel())
+            taken[ray], with_depth[ray] = _ray_jointly(ray, scene, others, settings)
+        names = FingerNames(taken, with_depth)
+        found = _corrected(beliefs, scene, names)
+    impossible = _impossible(found, scene, settings.fingers)
+    if impossible.any():
+        names = FingerNames(np.where(impossible, -1, names.taken), names.with_depth & ~impossible)
+        found = _corrected(beliefs, scene, names)
+    return found
+
+
+def _impossible(found: NamedFingers, scene: FingerScene, own: FingerSettings) -> NDArray[np.bool_]:
+    """Discs (5, 3) that were hidden a moment ago and are where, if they were there, they could not be seen, or where
+    no finger can reach."""
+    back = (found.names.taken >= 0) & (scene.visible < _WAS_SEEN)
+    rays = np.flatnonzero(back.any(axis=1))
+    if not rays.size:
+        return back
+    mean, covariance = found.update.beliefs.merged()
+    frames = ray_frames(mean[:, scene.layout.seen])
+    tilt = tilt_to(scene.view, frames.normal, scene.line.centre_m)
+    bend = tilt_variance(covariance)
+    hidden = tilt - own.steepest_rad > _SURELY_SD * np.sqrt(bend + own.steepest_sd_rad**2)
+    slots = mean[:, :SLOTS]
+    sd = np.sqrt(np.diagonal(covariance, axis1=1, axis2=2)[:, :SLOTS] + SOFT_RAD**2)
+    bent = np.asarray((np.abs(outside_limits(slots)) > _SURELY_SD * sd).any(axis=1))
+    return back & (hidden | bent[:, None])
+
+
+def tilt_to(view: RayView, normal: FloatArray, centre_m: FloatArray) -> FloatArray:
+    """Tilt (5, 3) of discs with normals (5, 3, 3) in W2 to the line of sight; ``centre_m`` (5, 3, 3) in camera axes."""
+    across = ((normal @ view.rotation.T) * centre_m).sum(axis=-1)
+    distance = np.sqrt((centre_m * centre_m).sum(axis=-1))
+    return np.asarray(np.arccos(np.clip(-across / distance, -1.0, 1.0)))
+
+
+def tilt_variance(covariance: FloatArray) -> FloatArray:
+    """Variance (5, 3) of the discs' tilts from covariances (5, n, n), for joints that err independently."""
+    return np.asarray(np.cumsum(covariance[:, _SLOT, _SLOT] * _BENDS, axis=1)[:, 2:])
 
 
 def _each_by_itself(scene: FingerScene, settings: TrackerSettings) -> FingerNames:
@@ -185,4 +227,4 @@ def seen_chance(
     sd = np.sqrt(tilt_sd_rad**2 + settings.steepest_sd_rad**2)
     # Logistic in place of the normal integral.
     facing = 1.0 / (1.0 + np.exp(np.clip(1.7 * (tilt_rad - settings.steepest_rad) / sd, -30.0, 30.0)))
-    return np.asarray(np.clip(by_time * facing, 0.005, 0.98))
+    return np.asarray(np.clip(by_time * facing, 1e-4, 0.98))

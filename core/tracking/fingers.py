@@ -13,7 +13,7 @@ from core.calibration.result import Calibration
 from core.camera import Camera
 from core.tracking import modes
 from core.tracking.anatomy_refinement import RayStart, ray_start
-from core.tracking.finger_naming import FingerScene, NamedFingers, name_fingers, seen_chance
+from core.tracking.finger_naming import FingerScene, NamedFingers, name_fingers, seen_chance, tilt_to, tilt_variance
 from core.tracking.geometry import palm_of
 from core.tracking.hand_geometry import (
     DISCS,
@@ -56,7 +56,6 @@ _POSE = np.array([0, 1, 2, 6, 7, 8])
 _SLOT = np.arange(SLOTS)
 _UV = 3 * np.arange(DISCS)[:, None] + np.arange(2)
 _NARROW2 = 1e-10
-_BENDS = np.array([[0.0, 0.0, 1.0, 0.0, 1.0], *([0.0, 1.0, 1.0, 1.0, 0.0],) * 4])
 
 
 @dataclass(frozen=True, slots=True)
@@ -261,16 +260,15 @@ class Fingers:
             free,
             self._noise_factor,
             self._resolution_px2,
+            seat.view,
+            self.layout,
         )
         return FingerTrial(seat, line, name_fingers(beliefs, scene, self._settings), visible, scene.spread)
 
     def _chance_to_see(self, points: RayPoints, line: RayForecast, view: RayView, dt_s: float) -> FloatArray:
         """Chance (5, 3) that each disc is to be seen, from its tilt to the camera and whether it was seen before."""
-        centre = line.centre_m
-        across = ((points.normal @ view.rotation.T) * centre).sum(axis=-1)
-        tilt = np.arccos(np.clip(-across / np.sqrt((centre * centre).sum(axis=-1)), -1.0, 1.0))
-        bend = np.cumsum(points.covariance[:, _SLOT, _SLOT] * _BENDS, axis=1)[:, 2:]
-        return seen_chance(self._visible, tilt, np.sqrt(bend), dt_s, self._settings.fingers)
+        tilt = tilt_to(view, points.normal, line.centre_m)
+        return seen_chance(self._visible, tilt, np.sqrt(tilt_variance(points.covariance)), dt_s, self._settings.fingers)
 
     def accept(self, trial: FingerTrial, dt_s: float) -> None:
         """Go on from a trial."""

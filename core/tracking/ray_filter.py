@@ -40,8 +40,8 @@ _BENT = np.arange(SLOTS + 1)
 _OTHER_CONSTANT = np.delete(np.arange(CONSTANTS), _ROLL)
 _BENT_STATE, _OTHER_STATE = np.append(_SLOT, SLOTS + _ROLL), SLOTS + _OTHER_CONSTANT
 
-_BENT_OF = {has_rates: seen[_BENT_STATE] for has_rates, seen in _SEEN.items()}
-_OTHER_OF = {has_rates: seen[_OTHER_STATE] for has_rates, seen in _SEEN.items()}
+_BENT_OF = {has_rates: np.asarray(seen[_BENT_STATE]) for has_rates, seen in _SEEN.items()}
+_OTHER_OF = {has_rates: np.asarray(seen[_OTHER_STATE]) for has_rates, seen in _SEEN.items()}
 
 
 @dataclass(frozen=True, slots=True)
@@ -70,7 +70,6 @@ class RayLayout:
     def seen(self) -> NDArray[np.int64]:
         """States on which the discs depend: joints and constants."""
         return _SEEN[self.has_rates]
-
 
     @property
     def bent(self) -> NDArray[np.int64]:
@@ -195,7 +194,7 @@ def spread_points(
     block = covariance[:, bent[:, None], bent]
     block[:, _BENT, _BENT] += _FLOOR
     root = np.asarray(np.linalg.cholesky(block), dtype=np.float64)
-    along = np.linalg.solve(root, covariance[:, bent[:, None], other])
+    along = np.asarray(np.linalg.solve(root, covariance[:, bent[:, None], other]), dtype=np.float64)
     scale = weights_for(_BENT.size, spread).scale
     point = np.repeat(mean[:, None, layout.seen], 2 * _BENT.size + 1, axis=1)
     step = np.empty((RAYS, _BENT.size, SLOTS + CONSTANTS))
