@@ -21,8 +21,6 @@ MOST_GAP_M = 0.004
 RIVAL_GAP, RIVAL_GAP_M = 1.5, 0.001
 """Another pose is a rival when its discs' gap is below this many times the best one's plus that much."""
 _MIRROR = np.array([1.0, -1.0, 1.0])
-ELSEWHERE_M = 0.005
-"""A palm found with a disc this far from where it was believed is at another place: the depths' noise is less."""
 
 
 def find_palm(
@@ -98,19 +96,6 @@ def _best_fit(model: FloatArray, points: FloatArray) -> tuple[int, FloatArray, F
             if other_gap_m < RIVAL_GAP * gap_m + RIVAL_GAP_M:
                 return None
     return count, rotation, translation
-
-
-def is_elsewhere(
-    palm_m: FloatArray,
-    position_m: FloatArray,
-    rotation_w2_w0: FloatArray,
-    other_position_m: FloatArray,
-    other_rotation_w2_w0: FloatArray,
-) -> bool:
-    """Whether two poses put a disc of the palm (6, 3) at clearly different places."""
-    here = palm_m @ rotation_w2_w0.T + position_m
-    there = palm_m @ other_rotation_w2_w0.T + other_position_m
-    return bool(np.linalg.norm(here - there, axis=1).max() > ELSEWHERE_M)
 
 
 def _rigid_fits(model_m: FloatArray, points_m: FloatArray) -> tuple[FloatArray, FloatArray]:

@@ -23,7 +23,7 @@ from core.tracking.measurement import Forecast, View, forecast, forecast_augment
 from core.tracking.modes import ModeBank
 from core.tracking.naming import Corrected, Measurable, measurable, name_and_correct
 from core.tracking.noise_watch import watched
-from core.tracking.reacquire import find_palm, is_elsewhere
+from core.tracking.reacquire import find_palm
 from core.tracking.readout import Readout, lost_frame, lost_moment, shown_frame
 from core.tracking.settings import TrackerSettings
 from core.tracking.smoother import FilterStep, smooth
@@ -161,11 +161,11 @@ class Tracker:
         vague = _turn_sd_rad(ahead.bank, self.layout) > VAGUE_TURN_RAD
         few = step.palm_seen <= LEAST_PALM_MARKERS
         if (few or vague) and np.count_nonzero(step.spare) + step.palm_seen > LEAST_PALM_MARKERS:
-            # Too little of the palm is where it was expected, or too little was expected: perhaps it is elsewhere.
+            # Too little of the palm is where it was expected, or too little was expected: it may be anywhere.
             found = find_palm(ideal if vague else _only(ideal, ~step.is_finger), self.view, self.settings)
-            if found is not None and (found[2] > step.palm_seen or (vague and self._is_elsewhere(step, found))):
+            if found is not None and (vague or found[2] > step.palm_seen):
                 bank = self._begin(self._belief_found(*found[:2]))
-                # A vague belief has nothing against the new place: the smoother may go on through it.
+                # A vague belief has nothing against the place found: the smoother may go on through it.
                 ahead, linked = forecast(bank, self.layout, self.view, self.settings.spread), linked and vague
                 step = self._weighed(timestamp_s, dt_s, ahead, blobs)
         self._time_s, self._forecast = timestamp_s, None
@@ -188,11 +188,6 @@ class Tracker:
             scale = float(np.sqrt(step.bank.probability @ self._scales**2))
             self.history.append(FilterStep(timestamp_s, belief, scale, linked))
         return self._shown(index, timestamp_s, status, ahead, step, detections, dropped_before)
-
-    def _is_elsewhere(self, step: _Step, found: tuple[FloatArray, FloatArray, int]) -> bool:
-        believed = step.bank.nominal
-        palm = self.view.geometry.palm_m
-        return is_elsewhere(palm, believed.position_m, believed.rotation_w2_w0, found[0], found[1])
 
     def _measurable(self, ahead: Forecast, ideal: Detections) -> Measurable:
         depth_m = max(float(ahead.marker_mean[0, 2]), 0.1)

@@ -1,0 +1,94 @@
+"""Whatever comes in: the covariance stays one, and no frame is claimed that is not there."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from core.tracking.settings import TrackerSettings
+from core.tracking.tracker import Tracker
+from core.types import Detections, FloatArray, TrackStatus
+from tests.tracking.hands import CAMERA, DT_S, Pose, blobs, calibration
+
+SETTINGS = {
+    "default": TrackerSettings(),
+    "augmented": TrackerSettings(form="augmented"),
+    "paper, augmented": TrackerSettings(form="augmented", motion="paper"),
+    "without depth": TrackerSettings(use_depth=False),
+    "brisk, rigid": TrackerSettings(profile="brisk", refine_shape=False),
+}
+
+
+def trouble(seed: int, count: int) -> list[tuple[float, Detections]]:
+    """A wandering hand: steps from 5 ms to 2 s, discs covered one by one and all together, false blobs, pictures
+    without depth, the same measurements twice."""
+    rng = np.random.default_rng(seed)
+    time_s, angles, position = 0.0, np.zeros(3), np.zeros(3)
+    out: list[tuple[float, Detections]] = []
+    for i in range(count):
+        is_gap = rng.random() < 0.1
+        time_s += float(np.exp(rng.uniform(np.log(0.005), np.log(2.0)))) if is_gap else float(rng.uniform(0.005, 0.05))
+        angles = np.clip(angles + rng.normal(size=3) * [3.0, 5.0, 5.0], [-35.0, -70.0, -60.0], [35.0, 70.0, 60.0])
+        position = np.clip(position + 0.002 * rng.normal(size=3), -0.05, 0.05)
+        covered = 1.0 if (i // 60) % 3 == 2 else 0.15
+        found = blobs(
+            Pose(angles, position),
+            rng,
+            hidden=np.flatnonzero(rng.random(6) < covered),
+            false_px=[tuple(rng.uniform([100.0, 50.0], [500.0, 430.0])) for _ in range(rng.integers(0, 4))],
+            with_depth=rng.random() > 0.1,
+        )
+        if out and rng.random() < 0.1:
+            found = out[-1][1]
+        out.append((time_s, found))
+    return out
+
+
+def is_covariance(p: FloatArray) -> bool:
+    sd = np.sqrt(np.diag(p))
+    scaled = p / np.outer(sd, sd)
+    return bool(np.abs(scaled - scaled.T).max() < 1e-9 and np.linalg.eigvalsh(scaled)[0] > 0.0)
+
+
+@pytest.mark.parametrize("name", SETTINGS)
+def test_covariance_stays_one_whatever_comes_in(name: str) -> None:
+    tracker = Tracker(calibration(), CAMERA, SETTINGS[name])
+    statuses = []
+    for i, (time_s, found) in enumerate(trouble(len(name), 240)):
+        frame = tracker.step(i, time_s, found)
+        belief = tracker.history[-1].belief
+        statuses.append(frame.status)
+        assert (belief is None) == (frame.status is TrackStatus.LOST)
+        if belief is None:
+            assert np.isnan(frame.angles_rad).all()
+            assert np.isnan(frame.position_m).all()
+            assert np.isnan(frame.rotation_w2_w0).all()
+            assert np.isnan(frame.marker_position_cam_m).all()
+            continue
+        assert is_covariance(belief.covariance)
+        assert np.allclose(belief.rotation_w2_w0 @ belief.rotation_w2_w0.T, np.eye(3), atol=1e-9)
+        assert np.isfinite(frame.angles_rad).all()
+        assert (frame.angles_sd_rad > 0.0).all()
+        measured = np.isfinite(frame.marker_measured_px).all(axis=1)
+        assert (frame.status is TrackStatus.TRACKED) == (np.count_nonzero(measured) >= 3)
+        # Every measured place is a blob of this frame, and none is used twice.
+        used = [tuple(pixel) for pixel in frame.marker_measured_px[measured]]
+        assert len(set(used)) == len(used)
+        assert set(used) <= {tuple(pixel) for pixel in found.pixel}
+    assert set(statuses) == set(TrackStatus), "the run was hard enough to show all three"
+    smoothed = tracker.smoothed()
+    assert [np.isnan(m.angles_rad).all() for m in smoothed] == [s is TrackStatus.LOST for s in statuses]
+
+
+def test_the_very_same_picture_for_a_minute_is_no_trouble() -> None:
+    """A frozen camera: the same numbers thousands of times make the filter sure, not singular."""
+    tracker = Tracker(calibration(), CAMERA, TrackerSettings())
+    found = blobs(Pose(np.array([5.0, 20.0, -10.0])), np.random.default_rng(0))
+    for i in range(900):
+        frame = tracker.step(i, i * DT_S, found)
+    belief = tracker.history[-1].belief
+    assert belief is not None
+    assert is_covariance(belief.covariance)
+    assert frame.status is TrackStatus.TRACKED
+    assert np.linalg.norm(frame.velocity_m_s) < 1e-3
+    assert np.linalg.norm(frame.angular_velocity_rad_s) < 1e-2

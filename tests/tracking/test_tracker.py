@@ -1,0 +1,416 @@
+"""What the tracker does: follow, bridge, lose, find again, and say how sure it is."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from core.hand import clinical_angles
+from core.tracking.settings import TrackerSettings
+from core.tracking.tracker import Tracker
+from core.types import Detections, FloatArray, Side, TrackedFrame, TrackStatus
+from tests.tracking.hands import (
+    CAMERA,
+    DT_S,
+    MCP3,
+    WRIST,
+    Motion,
+    Pose,
+    angles_deg,
+    blobs,
+    calibration,
+    discs_cam_m,
+    moved,
+    rotation_of,
+    swing,
+    track,
+    truth_deg,
+)
+
+SIDES: tuple[Side, Side] = ("right", "left")
+ALL = range(6)
+
+
+def times(count: int) -> list[float]:
+    return [k * DT_S for k in range(count)]
+
+
+def seen(
+    motion: Motion, count: int, seed: int = 0, side: Side = "right", hidden_from: int = 0, hidden_to: int = 0
+) -> list[tuple[float, Detections]]:
+    """``count`` frames of a motion, all discs covered from one frame to another."""
+    rng = np.random.default_rng(seed)
+    return [
+        (t, blobs(motion(t), rng, side=side, hidden=ALL if hidden_from <= k < hidden_to else ()))
+        for k, t in enumerate(times(count))
+    ]
+
+
+def statuses(frames: list[TrackedFrame]) -> list[TrackStatus]:
+    return [frame.status for frame in frames]
+
+
+def still(_time_s: float) -> Pose:
+    return Pose()
+
+
+def named_rightly(frame: TrackedFrame, pose: Pose, side: Side = "right") -> bool:
+    """Whether every blob taken for a marker is that marker's."""
+    true = CAMERA.project(discs_cam_m(pose, side))
+    taken = np.isfinite(frame.marker_measured_px[:, 0])
+    return bool(taken.any() and np.linalg.norm(frame.marker_measured_px - true, axis=1)[taken].max() < 2.0)
+
+
+@pytest.mark.parametrize("side", SIDES)
+@pytest.mark.parametrize(
+    ("which", "amplitude_deg", "hz"), [(0, 22.0, 0.4), (1, 45.0, 0.4), (2, 45.0, 0.4), (0, 20.0, 1.7)]
+)
+def test_angles_follow_the_hand_on_both_sides(which: int, amplitude_deg: float, hz: float, side: Side) -> None:
+    motion = swing(which, amplitude_deg, hz)
+    frames = track(seen(motion, 120, seed=which, side=side), side=side)
+    error = angles_deg(frames) - truth_deg(motion, times(120))
+    assert set(statuses(frames)) == {TrackStatus.TRACKED}
+    assert np.all(np.sqrt((error**2).mean(axis=0)) < [0.3, 0.9, 1.2])
+    assert np.ptp(angles_deg(frames)[:, which]) == pytest.approx(2.0 * amplitude_deg, rel=0.1)
+    assert all(named_rightly(frame, motion(t), side) for frame, t in zip(frames, times(120), strict=True))
+
+
+@pytest.mark.parametrize("side", SIDES)
+def test_hand_made_poses_are_read_with_the_clinical_sign(side: Side) -> None:
+    """Discs moved in the picture by hand, no rotation matrix involved: towards the thumb, away, thumb side up."""
+    at_rest = discs_cam_m(Pose(), side)
+    towards_thumb = -1.0 if side == "right" else 1.0
+
+    def read(discs_at: FloatArray) -> FloatArray:
+        """Go there in a second and stay for one."""
+        frames = []
+        for k in range(60):
+            discs = at_rest + min(1.0, k / 30.0) * (discs_at - at_rest)
+            count = len(discs)
+            pixel = CAMERA.project(discs)
+            found = Detections(pixel, discs[:, 2], np.full(count, 7e-4), np.full(count, 64.0), np.full(count, 0.9))
+            frames.append((k * DT_S, found))
+        return angles_deg(track(frames, TrackerSettings(refine_shape=False), side=side))[-1]
+
+    wrist = at_rest[WRIST]
+    radial = at_rest.copy()
+    turn = np.radians(12.0) * towards_thumb
+    offset = at_rest - wrist
+    radial[:, 0] = wrist[0] + np.cos(turn) * offset[:, 0] - np.sin(turn) * offset[:, 1]
+    radial[:, 1] = wrist[1] + np.sin(turn) * offset[:, 0] + np.cos(turn) * offset[:, 1]
+    assert radial[MCP3, 0] * towards_thumb > at_rest[MCP3, 0] * towards_thumb
+    assert read(radial) == pytest.approx([12.0, 0.0, 0.0], abs=0.5)
+
+    dropped = at_rest.copy()
+    turn = np.radians(25.0)
+    dropped[:, 1] = wrist[1] + np.cos(turn) * offset[:, 1] + np.sin(turn) * offset[:, 2]
+    dropped[:, 2] = wrist[2] - np.sin(turn) * offset[:, 1] + np.cos(turn) * offset[:, 2]
+    assert dropped[MCP3, 2] > at_rest[MCP3, 2] + 0.03, "the knuckles went away from the camera"
+    assert read(dropped) == pytest.approx([0.0, 25.0, 0.0], abs=0.5)
+
+    thumb_up = at_rest.copy()
+    turn = np.radians(20.0) * towards_thumb
+    thumb_up[:, 0] = wrist[0] + np.cos(turn) * offset[:, 0] + np.sin(turn) * offset[:, 2]
+    thumb_up[:, 2] = wrist[2] - np.sin(turn) * offset[:, 0] + np.cos(turn) * offset[:, 2]
+    assert thumb_up[1, 2] < at_rest[1, 2], "the thumb's side came nearer to the camera"
+    assert read(thumb_up) == pytest.approx([0.0, 0.0, 20.0], abs=0.5)
+
+
+@pytest.mark.parametrize("hidden", [(0,), (3,), (1, 5), (2, 4)])
+def test_covered_discs_are_done_without(hidden: tuple[int, ...]) -> None:
+    motion = swing(1, 40.0, 0.4)
+    rng = np.random.default_rng(1)
+    frames = track([(t, blobs(motion(t), rng, hidden=hidden if t > 1.0 else ())) for t in times(120)])
+    error = angles_deg(frames) - truth_deg(motion, times(120))
+    assert set(statuses(frames)) == {TrackStatus.TRACKED}
+    assert np.abs(error).max() < 5.0
+    last = frames[-1]
+    assert np.isnan(last.marker_measured_px[list(hidden)]).all()
+    assert np.isfinite(last.marker_position_cam_m).all()
+    there = discs_cam_m(motion(times(120)[-1]))
+    assert np.linalg.norm(last.marker_position_cam_m - there, axis=1).max() < 0.004, "hidden ones too"
+
+
+def test_two_discs_are_predicted_not_tracked() -> None:
+    rng = np.random.default_rng(2)
+    frames = track([(t, blobs(Pose(), rng, hidden=(1, 2, 4, 5) if k >= 20 else ())) for k, t in enumerate(times(30))])
+    assert set(statuses(frames[:20])) == {TrackStatus.TRACKED}
+    assert set(statuses(frames[20:])) == {TrackStatus.PREDICTED}
+    assert np.isfinite(frames[-1].angles_rad).all()
+
+
+@pytest.mark.parametrize("hz", [0.4, 1.0])
+@pytest.mark.parametrize("which", [0, 1, 2])
+@pytest.mark.parametrize("gone", [10, 20, 30])
+def test_a_hand_hidden_up_to_a_second_comes_back_under_its_names(which: int, gone: int, hz: float) -> None:
+    motion = swing(which, 25.0, hz)
+    for seed, start in enumerate((40, 52, 64)):
+        frames = track(seen(motion, start + gone + 10, seed, hidden_from=start, hidden_to=start + gone))
+        assert set(statuses(frames[start : start + gone])) == {TrackStatus.PREDICTED}
+        back = frames[start + gone :]
+        assert TrackStatus.TRACKED in statuses(back[:3])
+        error = np.abs(angles_deg(back) - truth_deg(motion, times(start + gone + 10)[start + gone :]))
+        for frame, off, t in zip(back, error, times(start + gone + 10)[start + gone :], strict=True):
+            if frame.status is TrackStatus.TRACKED:
+                assert named_rightly(frame, motion(t))
+                assert off.max() < 6.0, "no frame is called tracked at a wrong pose"
+
+
+def test_uncertainty_grows_while_nothing_is_seen_and_the_true_angle_stays_inside() -> None:
+    motion = swing(0, 20.0, 0.4)
+    frames = track(seen(motion, 80, hidden_from=40, hidden_to=70))
+    sd = np.degrees(np.array([frame.angles_sd_rad for frame in frames]))
+    assert (np.diff(sd[40:70, 0]) > 0.0).all()
+    assert sd[45, 0] > 3.0 * sd[39, 0]
+    error = np.abs(angles_deg(frames) - truth_deg(motion, times(80)))
+    assert (error[40:70] < 4.0 * sd[40:70]).all()
+
+
+def test_a_hand_hidden_for_long_is_lost_and_everything_is_unknown_until_it_is_found_elsewhere() -> None:
+    rng = np.random.default_rng(3)
+    elsewhere = moved(Pose(np.array([15.0, 20.0, -10.0])), [0.06, 0.05, 0.03])
+    frames = []
+    for k, t in enumerate(times(120)):
+        if k < 20:
+            frames.append((t, blobs(Pose(), rng)))
+        elif k < 90:
+            frames.append((t, blobs(Pose(), rng, hidden=ALL)))
+        else:
+            frames.append((t, blobs(elsewhere, rng)))
+    tracked = track(frames)
+    assert tracked[20].status is TrackStatus.PREDICTED
+    lost = [frame for frame in tracked[:90] if frame.status is TrackStatus.LOST]
+    # 1.5 seconds after the last sight, and then until it is back.
+    assert [frame.index for frame in lost] == list(range(lost[0].index, 90))
+    assert 1.45 < lost[0].timestamp_s - tracked[19].timestamp_s < 1.6
+    for frame in lost:
+        for value in (
+            frame.position_m,
+            frame.velocity_m_s,
+            frame.rotation_w2_w0,
+            frame.angular_velocity_rad_s,
+            frame.angles_rad,
+            frame.angles_sd_rad,
+            frame.angles_zyz_rad,
+            frame.marker_position_cam_m,
+            frame.marker_measured_px,
+        ):
+            assert np.isnan(value).all()
+    assert set(statuses(tracked[90:])) == {TrackStatus.TRACKED}
+    error = np.abs(angles_deg(tracked[93:]) - elsewhere.angles_deg)
+    assert error.max() < 4.0
+    assert named_rightly(tracked[-1], elsewhere)
+
+
+def test_a_jump_in_plain_sight_is_followed_within_three_frames() -> None:
+    rng = np.random.default_rng(4)
+    there = moved(Pose(np.array([-15.0, 30.0, 10.0])), [0.05, -0.06, 0.02])
+    frames = track([(t, blobs(Pose() if k < 20 else there, rng)) for k, t in enumerate(times(40))])
+    late = frames[23:]
+    assert set(statuses(late)) == {TrackStatus.TRACKED}
+    assert all(named_rightly(frame, there) for frame in late)
+    assert np.abs(angles_deg(late) - there.angles_deg).max() < 5.0
+
+
+def test_false_blobs_close_to_markers_are_not_taken_for_them() -> None:
+    motion = swing(0, 20.0, 0.4)
+    rng = np.random.default_rng(5)
+    frames = []
+    for t in times(120):
+        true = CAMERA.project(discs_cam_m(motion(t)))
+        beside = true[[2, 5]] + [[9.0, -6.0], [-8.0, 7.0]]  # two radii away, moving along
+        frames.append((t, blobs(motion(t), rng, false_px=beside, false_depth_m=0.70)))
+    tracked = track(frames)
+    assert set(statuses(tracked)) == {TrackStatus.TRACKED}
+    assert all(named_rightly(frame, motion(t)) for frame, t in zip(tracked, times(120), strict=True))
+
+
+def test_false_blobs_are_not_taken_for_covered_markers() -> None:
+    rng = np.random.default_rng(6)
+    true = CAMERA.project(discs_cam_m(Pose()))
+    frames = []
+    for k, t in enumerate(times(60)):
+        false = [true[MCP3] + [10.0, 10.0]] if k >= 20 else []
+        frames.append((t, blobs(Pose(), rng, hidden=[MCP3] if k >= 20 else (), false_px=false)))
+    tracked = track(frames)
+    assert np.isnan([frame.marker_measured_px[MCP3] for frame in tracked[20:]]).all()
+    assert np.abs(angles_deg(tracked)).max() < 3.0
+
+
+def test_pictures_without_depth_are_bridged_by_the_pixels() -> None:
+    motion = swing(1, 30.0, 0.4)
+    rng = np.random.default_rng(7)
+    frames = track([(t, blobs(motion(t), rng, with_depth=k % 3 != 0)) for k, t in enumerate(times(120))])
+    assert set(statuses(frames)) == {TrackStatus.TRACKED}
+    error = angles_deg(frames) - truth_deg(motion, times(120))
+    assert np.sqrt((error**2).mean(axis=0)).max() < 1.5
+    assert np.isnan(frames[60].marker_measured_depth_m).all()
+    assert np.isfinite(frames[61].marker_measured_depth_m).all()
+
+
+def test_without_depth_by_choice_depths_change_nothing() -> None:
+    """``--no-depth``: the papers' measurement. With and without depths in the blobs the result is the same."""
+    motion = swing(0, 20.0, 0.4)
+    settings = TrackerSettings(use_depth=False)
+    with_depths = track([(t, blobs(motion(t), np.random.default_rng(k))) for k, t in enumerate(times(60))], settings)
+    without = track(
+        [(t, blobs(motion(t), np.random.default_rng(k), with_depth=False)) for k, t in enumerate(times(60))], settings
+    )
+    assert np.array_equal(angles_deg(with_depths), angles_deg(without))
+    error = angles_deg(with_depths) - truth_deg(motion, times(60))
+    assert np.sqrt((error[:, 0] ** 2).mean()) < 0.5, "deviation is a measurement of the picture"
+
+
+def test_depth_makes_flexion_surer() -> None:
+    frames = [(t, blobs(Pose(), np.random.default_rng(k))) for k, t in enumerate(times(30))]
+    rigid = {use: track(frames, TrackerSettings(use_depth=use, refine_shape=False)) for use in (True, False)}
+    sd = {use: np.degrees(run[-1].angles_sd_rad) for use, run in rigid.items()}
+    assert sd[True][1] < 0.7 * sd[False][1]
+    assert sd[True][0] == pytest.approx(sd[False][0], rel=0.5)
+
+
+@pytest.mark.parametrize("side", SIDES)
+def test_start_angles_are_added_as_rotations(side: Side) -> None:
+    """A hand that was calibrated flexed by 30 and then straightens reads zero, and 30 where it started."""
+    start = np.radians([0.0, 30.0, 0.0])
+    tracker = Tracker(calibration(side, start_angles_rad=start), CAMERA, TrackerSettings())
+    motion = swing(1, 0.0, 0.4)
+
+    def straightening(time_s: float) -> Pose:
+        return Pose(np.array([0.0, -30.0 * min(1.0, time_s / 1.5), 0.0])) if time_s > 0.2 else motion(time_s)
+
+    frames = track(seen(straightening, 75, side=side), tracker=tracker)
+    assert angles_deg(frames)[3] == pytest.approx([0.0, 30.0, 0.0], abs=1.0)
+    assert angles_deg(frames)[-1] == pytest.approx([0.0, 0.0, 0.0], abs=1.0)
+    expected = clinical_angles.rotation_from_angles(start, side) @ rotation_of(0.0, -30.0, 0.0, side)
+    assert np.allclose(frames[-1].rotation_w2_w0, expected, atol=0.03)
+
+
+def test_standard_deviations_are_honest() -> None:
+    """Errors over many hands, in the standard deviations stated: neither brave nor shy by more than half."""
+    squares = []
+    for seed in range(12):
+        rng = np.random.default_rng(seed)
+        # The discs lie where the calibration says but for the error it admits.
+        off_m = 4e-4 * rng.normal(size=(6, 3))
+        motion = swing(1, 30.0, 0.4)
+        frames = []
+        for t in times(75):
+            turned = discs_cam_m(motion(t)) + off_m @ np.diag([-1.0, -1.0, -1.0])
+            pixel = CAMERA.project(turned) + 0.15 * rng.normal(size=(6, 2))
+            depth = turned[:, 2] + 7.5e-4 * rng.normal(size=6)
+            count = np.full(6, 1.0)
+            frames.append((t, Detections(pixel, depth, 7e-4 * count, 64.0 * count, 0.9 * count)))
+        tracked = track(frames)
+        error = np.radians(angles_deg(tracked) - truth_deg(motion, times(75)))
+        sd = np.array([frame.angles_sd_rad for frame in tracked])
+        squares.append(np.mean((error / sd)[15:] ** 2, axis=0))
+    pooled = np.sqrt(np.mean(squares, axis=0))
+    assert np.all(pooled < 1.5)
+    assert np.all(pooled > 0.3)
+
+
+def test_lens_distortion_is_taken_out_before_and_put_back_after() -> None:
+    lens = replace(CAMERA, distortion=(0.08, -0.15, 0.001, -0.001, 0.0))
+    motion = swing(0, 20.0, 0.4)
+    rng = np.random.default_rng(9)
+    tracker = Tracker(calibration(), lens, TrackerSettings())
+    frames = []
+    for t in times(60):
+        found = blobs(motion(t), rng)
+        frames.append((t, replace(found, pixel=lens.distort(found.pixel))))
+    tracked = track(frames, tracker=tracker)
+    error = angles_deg(tracked) - truth_deg(motion, times(60))
+    assert np.sqrt((error[:, 0] ** 2).mean()) < 0.3
+    off = tracked[-1].marker_predicted_px - tracked[-1].marker_measured_px
+    assert np.abs(off).max() < 2.0, "predictions are told in the real picture"
+    assert set(map(tuple, tracked[-1].marker_measured_px)) == set(map(tuple, frames[-1][1].pixel))
+
+
+def test_prediction_says_where_to_look() -> None:
+    motion = swing(0, 20.0, 0.8)
+    tracker = Tracker(calibration(), CAMERA, TrackerSettings())
+    outside = 0
+    for k, t in enumerate(times(90)):
+        expected = tracker.expect(t)
+        assert expected is not None
+        true = CAMERA.project(discs_cam_m(motion(t)))
+        off = true - expected.pixel
+        squared = np.einsum("mi,mij,mj->m", off, np.linalg.inv(expected.covariance_px2), off)
+        outside += int(np.count_nonzero(squared > 25.0))
+        tracker.step(k, t, blobs(motion(t), np.random.default_rng(k)))
+    assert outside == 0
+
+
+def test_asking_ahead_does_not_change_the_result() -> None:
+    frames = seen(swing(1, 30.0, 0.5), 40)
+    asked = Tracker(calibration(), CAMERA, TrackerSettings())
+    answers = []
+    for k, (t, found) in enumerate(frames):
+        asked.expect(t)
+        asked.expect(t)
+        answers.append(asked.step(k, t, found))
+    assert np.array_equal(angles_deg(answers), angles_deg(track(frames)))
+
+
+def test_beginning_again_forgets_the_old_stretch() -> None:
+    """After the still capture the tracker starts anew: nothing of before is counted twice."""
+
+    def knows_of_shape(tracker: Tracker, step: int) -> float:
+        belief = tracker.history[step].belief
+        assert belief is not None
+        return float(np.trace(belief.covariance[tracker.layout.shape, tracker.layout.shape]))
+
+    first, second = seen(still, 15, seed=1), [(15 * DT_S + t, found) for t, found in seen(still, 30, seed=2)]
+    again, fresh, on = (Tracker(calibration(), CAMERA, TrackerSettings()) for _ in range(3))
+    track(first, tracker=again)
+    again.begin_at_neutral()
+    track(second, tracker=again)
+    track(second, tracker=fresh)
+    track([*first, *second], tracker=on)
+    for k in range(30):
+        assert knows_of_shape(again, 15 + k) == pytest.approx(knows_of_shape(fresh, k), rel=0.05)
+    assert knows_of_shape(on, 15) < 0.9 * knows_of_shape(again, 15)
+
+
+def test_without_history_nothing_is_kept() -> None:
+    tracker = Tracker(calibration(), CAMERA, TrackerSettings(), keep_history=False)
+    track(seen(still, 10), tracker=tracker)
+    assert tracker.history == []
+
+
+def test_smoothed_is_nearer_to_the_truth_than_filtered() -> None:
+    filtered_error, smoothed_error = [], []
+    for seed, (which, amplitude_deg, hz) in enumerate([(0, 22.0, 0.4), (1, 45.0, 0.4), (2, 40.0, 0.5), (0, 20.0, 1.7)]):
+        motion = swing(which, amplitude_deg, hz)
+        tracker = Tracker(calibration(), CAMERA, TrackerSettings())
+        frames = track(seen(motion, 120, seed), tracker=tracker)
+        truth = truth_deg(motion, times(120))
+        smoothed = np.degrees([moment.angles_rad for moment in tracker.smoothed()])
+        filtered_error.append(angles_deg(frames) - truth)
+        smoothed_error.append(smoothed - truth)
+    filtered, smooth = (np.sqrt(np.mean(np.square(e), axis=(0, 1))) for e in (filtered_error, smoothed_error))
+    assert np.all(smooth < 0.9 * filtered)
+
+
+def test_smoothing_bridges_a_covered_stretch() -> None:
+    for which, amplitude_deg in ((0, 22.0), (1, 40.0)):
+        motion = swing(which, amplitude_deg, 0.4)
+        tracker = Tracker(calibration(), CAMERA, TrackerSettings())
+        frames = track(seen(motion, 120, hidden_from=60, hidden_to=80), tracker=tracker)
+        truth = truth_deg(motion, times(120))
+        error = angles_deg(frames) - truth
+        smoothed = np.degrees([moment.angles_rad for moment in tracker.smoothed()]) - truth
+        assert np.abs(smoothed[60:80, which]).max() < 0.5 * np.abs(error[60:80, which]).max()
+        # And what was measured before it is not pulled away.
+        assert np.abs(smoothed[50:60, which]).max() < 1.0
+
+
+def test_share_of_measured_markers_is_that_of_the_last_second() -> None:
+    rng = np.random.default_rng(10)
+    frames = track([(t, blobs(Pose(), rng, hidden=(1, 2) if k >= 30 else ())) for k, t in enumerate(times(75))])
+    assert frames[29].measured_share == pytest.approx([1.0] * 3)
+    assert frames[45].measured_share == pytest.approx([1.0 - 16 / 31 / 3] * 3, abs=0.02)
+    assert frames[74].measured_share == pytest.approx([4 / 6] * 3)
