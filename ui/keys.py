@@ -5,9 +5,11 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 
-from PySide6.QtCore import QCoreApplication, Qt
+from PySide6.QtCore import Qt
 from PySide6.QtGui import QKeySequence, QShortcut
 from PySide6.QtWidgets import QWidget
+
+from ui.translate import tr
 
 DEFAULT_KEYS = {
     "help": "F1", "settings": "Ctrl+,", "search": "Ctrl+F", "new_patient": "Ctrl+N", "report": "Ctrl+P",
@@ -49,24 +51,23 @@ def bind(
 
 def action_words(name: str) -> str:
     """What a key does, for the help and the settings."""
-    tr = QCoreApplication.translate
     words = {
-        "help": tr("Keys", "Help"), "settings": tr("Keys", "Settings"), "search": tr("Keys", "Search for a patient"),
-        "new_patient": tr("Keys", "New patient"), "report": tr("Keys", "Report"), "export": tr("Keys", "Export"),
-        "back": tr("Keys", "Back"), "record": tr("Keys", "Record, and stop and review"), "note": tr("Keys", "Note"),
-        "pain": tr("Keys", "Pain score"), "pause": tr("Keys", "Pause and go on"),
-        "overlay": tr("Keys", "Hide or show the marks on the picture"),
-        "whole_picture": tr("Keys", "Whole picture or hand area"), "speeds": tr("Keys", "Speeds or angles"),
-        "next_angle": tr("Keys", "Next angle as big number"), "accept": tr("Keys", "Accept the marker found"),
-        "undo": tr("Keys", "Undo the last marker"), "next_marker": tr("Keys", "Next marker"),
-        "zoom_in": tr("Keys", "Larger loupe"), "zoom_out": tr("Keys", "Smaller loupe"),
-        "swap": tr("Keys", "Swap two markers"), "new_picture": tr("Keys", "New picture"),
-        "last_picture": tr("Keys", "Last time's picture larger"), "click_again": tr("Keys", "Click again"),
-        "play": tr("Keys", "Play and stop"),
-        "frame_back": tr("Keys", "Previous picture"), "frame_on": tr("Keys", "Next picture"),
-        "repetition_back": tr("Keys", "Previous repetition"), "repetition_on": tr("Keys", "Next repetition"),
-        "leave_out": tr("Keys", "Leave a repetition out, or take it back"),
-        "edge_back": tr("Keys", "Move the repetition's edge back"),
-        "edge_on": tr("Keys", "Move the repetition's edge on"),
+        "help": tr("Help"), "settings": tr("Settings"), "search": tr("Search for a patient"),
+        "new_patient": tr("New patient"), "report": tr("Report"), "export": tr("Export"),
+        "back": tr("Back"), "record": tr("Record, and stop and review"), "note": tr("Note"),
+        "pain": tr("Pain score"), "pause": tr("Pause and go on"),
+        "overlay": tr("Hide or show the marks on the picture"),
+        "whole_picture": tr("Whole picture or hand area"), "speeds": tr("Speeds or angles"),
+        "next_angle": tr("Next angle as big number"), "accept": tr("Accept the marker found"),
+        "undo": tr("Undo the last marker"), "next_marker": tr("Next marker"),
+        "zoom_in": tr("Larger loupe"), "zoom_out": tr("Smaller loupe"),
+        "swap": tr("Swap two markers"), "new_picture": tr("New picture"),
+        "last_picture": tr("Last time's picture larger"), "click_again": tr("Click again"),
+        "play": tr("Play and stop"),
+        "frame_back": tr("Previous picture"), "frame_on": tr("Next picture"),
+        "repetition_back": tr("Previous repetition"), "repetition_on": tr("Next repetition"),
+        "leave_out": tr("Leave a repetition out, or take it back"),
+        "edge_back": tr("Move the repetition's edge back"),
+        "edge_on": tr("Move the repetition's edge on"),
     }  # fmt: skip
     return words[name]

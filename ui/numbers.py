@@ -5,15 +5,12 @@ from __future__ import annotations
 import math
 from datetime import date, datetime
 
-from PySide6.QtCore import QCoreApplication, QDate, QLocale
+from PySide6.QtCore import QDate, QLocale
+
+from ui.translate import tr
 
 NARROW_GAP = "\N{NO-BREAK SPACE}"
 UNKNOWN = "\N{EN DASH}"
-
-
-def tr(text: str) -> str:
-    """Translate a text of this module."""
-    return QCoreApplication.translate("Numbers", text)
 
 
 def degrees(value_deg: float) -> str:

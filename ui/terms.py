@@ -4,22 +4,16 @@ from __future__ import annotations
 
 import math
 
-from PySide6.QtCore import QCoreApplication
-
 from core.output.exercises import SIDES
 from core.types import FloatArray
 from ui import numbers
+from ui.translate import tr
 
 LEGAL_SENTENCE = (
     "For research and education. Not a medical device, not CE-marked or FDA-cleared; values support, and do not "
     "replace, the judgement of a qualified clinician; do not use as the only basis for diagnosis or treatment."
 )
 """Verbatim on the first screen and every report; never translated by meaning, only by an approved text."""
-
-
-def tr(text: str) -> str:
-    """Translate a text of this module."""
-    return QCoreApplication.translate("Terms", text)
 
 
 def exercise_name(exercise_id: str) -> str:

@@ -2,14 +2,8 @@
 
 from __future__ import annotations
 
-from PySide6.QtCore import QCoreApplication
-
 from ui import numbers
-
-
-def tr(text: str) -> str:
-    """Translate a text of this module."""
-    return QCoreApplication.translate("Verdicts", text)
+from ui.translate import tr
 
 
 def verdict_token(verdict: str) -> str:

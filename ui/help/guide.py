@@ -3,12 +3,7 @@
 
 from __future__ import annotations
 
-from PySide6.QtCore import QCoreApplication
-
-
-def tr(text: str) -> str:
-    """Translate a text of this module."""
-    return QCoreApplication.translate("Guide", text)
+from ui.translate import tr
 
 
 def chapters() -> list[tuple[str, tuple[str, ...]]]:

@@ -7,19 +7,13 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Literal
 
-from PySide6.QtCore import QCoreApplication
-
 from core.types import TrackedFrame, TrackStatus
 from ui.marker_words import hidden_remedy, marker_name
+from ui.translate import tr
 
 Rank = Literal["good", "warn", "bad", "idle"]
 AMBER_AFTER_S = 0.3
 GREEN_AFTER_S = 0.5
-
-
-def tr(text: str) -> str:
-    """Translate a text of this module."""
-    return QCoreApplication.translate("Light", text)
 
 
 @dataclass(frozen=True, slots=True)

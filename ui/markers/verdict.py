@@ -7,7 +7,6 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from PySide6.QtCore import QCoreApplication
 from PySide6.QtWidgets import QGridLayout, QHBoxLayout
 
 from core.calibration.result import Finding, Verdict
@@ -17,6 +16,7 @@ from ui.icons import State
 from ui.numbers import NARROW_GAP, UNKNOWN
 from ui.ports import VerdictLimits
 from ui.theme import Theme
+from ui.translate import tr
 
 MARKER_FINDINGS = (
     "click_on_no_marker",
@@ -28,11 +28,6 @@ MARKER_FINDINGS = (
     "depth_off",
 )
 STILL_FINDINGS = ("moved", "few_frames")
-
-
-def tr(text: str) -> str:
-    """Translate a text of this module."""
-    return QCoreApplication.translate("Verdict", text)
 
 
 @dataclass(frozen=True, slots=True)
@@ -116,7 +111,9 @@ class VerdictPanel(Card):
         for (icon, thing, value, limit), row in zip(self._lines, rows, strict=True):
             icon.show_state(row.state, "")
             icon.setAccessibleName(
-                {"good": tr("good"), "warn": tr("doubtful"), "bad": tr("wrong")}.get(row.state, tr("open"))
+                {"good": self.tr("good"), "warn": self.tr("doubtful"), "bad": self.tr("wrong")}.get(
+                    row.state, self.tr("open")
+                )
             )
             thing.setText(row.thing)
             value.setText(row.value)

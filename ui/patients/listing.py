@@ -13,6 +13,7 @@ from ui import numbers, terms
 from ui.fonts import MEDIUM, font
 from ui.ports import PRACTICE_PATIENT, PatientRow
 from ui.theme import CARD_RADIUS_PX, Theme
+from ui.translate import tr
 
 ROW_PX = 56
 COLUMNS = (0.024, 0.238, 0.349, 0.633)
@@ -57,10 +58,10 @@ class PatientModel(QAbstractListModel):
 def cells(row: PatientRow, today: date) -> tuple[str, str, str, str, str, str]:
     """Name, hand, exercise, date, how long ago, number of sessions."""
     if row.patient_id == PRACTICE_PATIENT:
-        hint = terms.tr("Try everything without a patient")
-        return row.pseudonym, terms.side_name(row.side), terms.tr("Simulated camera"), hint, "", ""
+        hint = tr("Try everything without a patient")
+        return row.pseudonym, terms.side_name(row.side), tr("Simulated camera"), hint, "", ""
     if row.last_session is None:
-        return row.pseudonym, terms.side_name(row.side), "", terms.tr("No session yet"), "", ""
+        return row.pseudonym, terms.side_name(row.side), "", tr("No session yet"), "", ""
     when = row.last_session
     return (
         row.pseudonym, terms.side_name(row.side), terms.exercise_name(row.exercise), numbers.short_date(when),

@@ -10,7 +10,7 @@ from collections.abc import Callable
 from datetime import datetime
 
 import numpy as np
-from PySide6.QtCore import QCoreApplication, QPointF, QRectF, Qt
+from PySide6.QtCore import QPointF, QRectF, Qt
 from PySide6.QtGui import QFontMetricsF, QPainter, QPen
 
 from core.output.exercises import Movement
@@ -20,14 +20,10 @@ from ui.fonts import SEMIBOLD, font
 from ui.plot.axes import hatch
 from ui.plot.polygon import polygon
 from ui.plot.style import CURVE_TOKENS, PlotStyle
+from ui.translate import tr
 
 STEP_DEG = 30.0
 MOST_PANELS = 3
-
-
-def tr(text: str) -> str:
-    """Translate a text of this module."""
-    return QCoreApplication.translate("ProgressChart", text)
 
 
 def panels_of(progress: Progress) -> list[tuple[Movement, int]]:

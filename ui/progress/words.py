@@ -4,16 +4,10 @@ from __future__ import annotations
 
 import math
 
-from PySide6.QtCore import QCoreApplication
-
 from core.output.report_content import Comparison, Progress, ProgressPoint
 from ui import numbers, terms
+from ui.translate import tr
 from ui.verdicts import difference
-
-
-def tr(text: str) -> str:
-    """Translate a text of this module."""
-    return QCoreApplication.translate("Progress", text)
 
 
 def headline(progress: Progress) -> tuple[str, str]:

@@ -4,8 +4,6 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from PySide6.QtCore import QCoreApplication
-
 from core.output.report_content import Progress
 from ui import numbers, terms
 from ui.fonts import MEDIUM, REGULAR, SEMIBOLD
@@ -13,15 +11,11 @@ from ui.progress.chart_painter import paint_chart
 from ui.progress.words import change_line, headline, unfair_words
 from ui.report.page import A4_PT, MARGIN_PT, Page
 from ui.report.session_page import paint_head
+from ui.translate import tr
 from ui.verdicts import verdict_token, verdict_word
 
 CHART_HEIGHT_PT = 390.0
 MOST_UNFAIR = 4
-
-
-def tr(text: str) -> str:
-    """Translate a text of this module."""
-    return QCoreApplication.translate("ProgressPage", text)
 
 
 @dataclass(frozen=True, slots=True)

@@ -6,7 +6,7 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from PySide6.QtCore import QCoreApplication, QPointF, Qt
+from PySide6.QtCore import QPointF, Qt
 from PySide6.QtGui import QColor, QPen
 
 from core.output.exercises import AXIS_TICK_DEG, SIDES
@@ -20,11 +20,7 @@ from ui.report.tables import TableRow, column_names, repetition_words, table_row
 from ui.report.words import method, other_lines, quality_lines, summary
 from ui.review.curves import SessionPlot, paint_session, place_panels
 from ui.theme import LIGHT
-
-
-def tr(text: str) -> str:
-    """Translate a text of this module."""
-    return QCoreApplication.translate("SessionPage", text)
+from ui.translate import tr
 
 
 @dataclass(frozen=True, slots=True)

@@ -5,17 +5,11 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-from PySide6.QtCore import QCoreApplication
-
 from core.output.report_content import Comparison, RangeRow, SessionFigures, compare, usual_deg
 from ui import numbers, terms
 from ui.plot.style import CURVE_TOKENS
+from ui.translate import tr
 from ui.verdicts import change_short, change_with_limit
-
-
-def tr(text: str) -> str:
-    """Translate a text of this module."""
-    return QCoreApplication.translate("Tables", text)
 
 
 @dataclass(frozen=True, slots=True)

@@ -4,16 +4,10 @@ from __future__ import annotations
 
 import math
 
-from PySide6.QtCore import QCoreApplication
-
 from core.output.exercises import STILL_RADIUS_MM
 from core.output.report_content import Comparison, SessionFigures, compare
 from ui import numbers, terms
-
-
-def tr(text: str) -> str:
-    """Translate a text of this module."""
-    return QCoreApplication.translate("Report", text)
+from ui.translate import tr
 
 
 def summary(figures: SessionFigures, previous: SessionFigures | None, first: SessionFigures | None) -> str:

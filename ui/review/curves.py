@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from PySide6.QtCore import QCoreApplication, QPointF, QRectF, Qt
+from PySide6.QtCore import QPointF, QRectF, Qt
 from PySide6.QtGui import QFontMetricsF, QPainter, QPen
 
 from core.output.exercises import AXIS_LIMIT_DEG, AXIS_TICK_DEG, FLEXION, PRONOSUPINATION, SIDES, Exercise
@@ -19,11 +19,7 @@ from ui.plot.axes import Panel
 from ui.plot.series import LONGEST_STEP_S, Series, paint_series
 from ui.plot.style import CURVE_TOKENS, PlotStyle
 from ui.plot.thin import thinned
-
-
-def tr(text: str) -> str:
-    """Translate a text of this module."""
-    return QCoreApplication.translate("SessionCurves", text)
+from ui.translate import tr
 
 
 @dataclass(frozen=True, slots=True)

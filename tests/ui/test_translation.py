@@ -1,0 +1,86 @@
+"""Every text can be translated: written as a literal, in a context that Qt's tools and the program agree on."""
+
+from __future__ import annotations
+
+import ast
+import re
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+from PySide6.QtCore import QCoreApplication, QTranslator
+
+from ui import terms
+from ui.live.light_view import LightView
+from ui.patients.listing import ListHeader
+from ui.theme import Theme
+
+ROOT = Path(__file__).parents[2]
+SOURCES = sorted((ROOT / "ui").rglob("*.py"))
+
+
+def tr_calls(path: Path) -> list[tuple[ast.Call, bool, bool]]:
+    """Calls of tr: the call, whether it is a method, whether it stands in a class."""
+    found = []
+
+    def walk(node: ast.AST, in_class: bool) -> None:
+        for child in ast.iter_child_nodes(node):
+            if isinstance(child, ast.Call):
+                plain = isinstance(child.func, ast.Name) and child.func.id == "tr"
+                method = isinstance(child.func, ast.Attribute) and child.func.attr == "tr"
+                if plain or method:
+                    found.append((child, method, in_class))
+            walk(child, in_class or isinstance(child, ast.ClassDef))
+
+    walk(ast.parse(path.read_text(encoding="utf-8")), False)
+    return found
+
+
+@pytest.mark.parametrize("path", SOURCES, ids=lambda path: str(path.relative_to(ROOT)))
+def test_texts_are_literals_in_the_context_of_their_place(path: Path) -> None:
+    for call, method, in_class in tr_calls(path):
+        assert isinstance(call.args[0], ast.Constant), f"line {call.lineno}: not a literal"
+        assert method == in_class, f"line {call.lineno}: self.tr in classes, tr elsewhere"
+
+
+def test_texts_have_named_places_for_what_is_filled_in() -> None:
+    for path in SOURCES:
+        for call, _, _ in tr_calls(path):
+            text = call.args[0].value  # type: ignore[attr-defined]
+            assert not re.search(r"\{\}|\{\d", text), f"{path}: {text}"
+
+
+def test_a_translation_made_by_qt_s_tools_reaches_widgets_and_functions(
+    qtbot: object, theme: Theme, tmp_path: Path
+) -> None:
+    """All texts are extracted, given another language, compiled, installed, and read back from the program."""
+    tools = Path(sys.executable).parent
+    source, compiled = tmp_path / "xx.ts", tmp_path / "xx.qm"
+    for tool in ("pyside6-lupdate", "pyside6-lrelease"):
+        assert shutil.which(str(tools / tool)), f"{tool} is part of PySide6"
+    files = [str(path) for path in SOURCES]
+    subprocess.run([str(tools / "pyside6-lupdate"), *files, "-ts", str(source)], check=True, capture_output=True)
+    text = source.read_text(encoding="utf-8")
+    count = sum(len(tr_calls(path)) for path in SOURCES)
+    assert text.count("<source>") > 0.7 * count  # the same text twice in one context is one entry
+    text = re.sub(
+        r"<source>(.*?)</source>\s*<translation type=\"unfinished\"></translation>",
+        lambda found: f"<source>{found[1]}</source><translation>¡{found[1]}</translation>",
+        text,
+        flags=re.S,
+    )
+    source.write_text(text, encoding="utf-8")
+    command = [str(tools / "pyside6-lrelease"), str(source), "-qm", str(compiled)]
+    subprocess.run(command, check=True, capture_output=True)
+    translator = QTranslator()
+    assert translator.load(str(compiled))
+    QCoreApplication.installTranslator(translator)
+    try:
+        assert terms.movement_name("flexion") == "¡Flexion"
+        header = ListHeader(theme)
+        assert header.tr("Patient") == "¡Patient"
+        assert LightView(theme).tr("nothing like this") == "nothing like this"
+    finally:
+        QCoreApplication.removeTranslator(translator)
