@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from core.depth_noise import pattern_sd_m, reading_sd_m
 from core.tracking import association
-from core.tracking.joint_association import associate_jointly, holds_together
+from core.tracking.joint_association import JointAssociation, associate_jointly, holds_together
 from core.tracking.measurement import Forecast, update
 from core.tracking.modes import ModeBank, reweighed
 from core.tracking.settings import MeasurementNoise, TrackerSettings
@@ -132,17 +132,32 @@ def name_and_correct(
     named = np.count_nonzero(taken >= 0)
     if (named >= enough or named == len(blobs)) and holds_together(simple.nis, simple.dof):
         return _without_outliers(simple, forecast, blobs, with_depth, noise_factor, settings.noise)
-    found = associate_jointly(
-        mean,
-        covariance,
-        blobs.value,
-        blobs.variance,
-        resolution_px2,
-        settings.noise.depth_outlier,
-        settings.association,
-    )
+    found = _by_any_mode(forecast, blobs, resolution_px2, settings)
     jointly = correct(forecast, blobs, found.taken, found.with_depth, noise_factor)
     return _without_outliers(jointly, forecast, blobs, found.with_depth, noise_factor, settings.noise)
+
+
+def _by_any_mode(
+    forecast: Forecast, blobs: Measurable, resolution_px2: float, settings: TrackerSettings
+) -> JointAssociation:
+    """The likeliest joint names over all motion modes.
+
+    While the hand rests the mixture of the modes is as narrow as the calm one; a start is seen by the lively one.
+    """
+    every = [
+        associate_jointly(
+            mean,
+            covariance,
+            blobs.value,
+            blobs.variance,
+            resolution_px2,
+            settings.noise.depth_outlier,
+            settings.association,
+        )
+        for mean, covariance in zip(forecast.marker_mean, forecast.marker_covariance, strict=True)
+    ]
+    score = [one.log_posterior for one in every] + np.log(forecast.bank.probability)
+    return every[int(np.argmax(score))]
 
 
 def _without_outliers(
