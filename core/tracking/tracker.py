@@ -16,7 +16,8 @@ from numpy.typing import NDArray
 from core.calibration.result import Calibration
 from core.camera import Camera
 from core.tracking import modes
-from core.tracking.fingers import Fingers, FingerTrial, seat_of
+from core.tracking.finger_model import seat_of
+from core.tracking.fingers import Fingers, FingerTrial
 from core.tracking.geometry import geometry_for, palm_of
 from core.tracking.hand_geometry import RAY_MARKERS
 from core.tracking.measurement import Forecast, View, forecast, forecast_augmented, forecast_reduced
@@ -72,7 +73,7 @@ class Tracker:
         self._protocol = calibration.clicks.protocol
         self._rows = np.array(self._protocol.palm)
         self._fingers = Fingers(calibration, camera, settings) if self._protocol.has_fingers else None
-        self._joint_count = 0 if self._fingers is None else self._fingers.reading.ray.size
+        self._joint_count = 0 if self._fingers is None else self._fingers.model.reading.ray.size
         calibration = palm_of(calibration)
         self._calibration = calibration
         geometry, shape_covariance = geometry_for(calibration, settings.refine_shape)
@@ -309,7 +310,7 @@ class Tracker:
         if self._fingers is None or step.fingers is None:
             return np.full(3, step.palm_seen / self._rows.size)
         seen = self._by_marker(step.palm.taken, step.fingers.blob) >= 0
-        return np.asarray(seen[self._fingers.direct_markers].all(axis=-1), dtype=np.float64)
+        return np.asarray(seen[self._fingers.model.direct_markers].all(axis=-1), dtype=np.float64)
 
     def _belief_found(self, position_m: FloatArray, rotation_w2_w0: FloatArray) -> Belief:
         initial = replace(self.settings.initial, position_m=0.004, turn_rad=0.08, velocity_m_s=0.5, rate_rad_s=2.0)

@@ -1,0 +1,209 @@
+"""What is fixed about one subject's thumb and fingers: how they start, move, are seen and are read."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from core import so3
+from core.calibration.result import Calibration
+from core.camera import Camera
+from core.tracking import modes
+from core.tracking.anatomy_refinement import RayStart, ray_start
+from core.tracking.geometry import palm_of
+from core.tracking.hand_geometry import (
+    DISCS,
+    RAYS,
+    SLOTS,
+    JointMoment,
+    JointReading,
+    PalmInBody,
+    direct_markers,
+    ray_frames,
+    ray_joints_m,
+)
+from core.tracking.joint_limits import MID_RANGE_RAD, RANGE_SD_RAD
+from core.tracking.measurement import View
+from core.tracking.motion import REFERENCE_DT_S
+from core.tracking.ray_filter import RayBeliefs, RayForecast, RayLayout, RayMotion, RayView, mixed
+from core.tracking.readout import Readout
+from core.tracking.settings import TrackerSettings
+from core.tracking.state import Belief
+from core.types import FloatArray
+
+_POSE = np.array([0, 1, 2, 6, 7, 8])
+"""Position and turn in the palm's error vector."""
+_SLOT = np.arange(SLOTS)
+_NARROW2 = 1e-10
+_STARTS_AT_RATE_SD = 1.0
+
+# Which discs move with a slot: 0 the first of the ray's three and those after it, and so on; 3 none.
+_FIRST_DISC = np.array([[0, 0, 1, 1, 2], *([0, 0, 1, 2, 3],) * 4])
+SHOWS = np.arange(DISCS) >= _FIRST_DISC[..., None]
+"""(5, 5, 3) whether a disc moves with a slot."""
+
+
+@dataclass(frozen=True, slots=True)
+class Seat:
+    """The palm as just corrected, on which the fingers sit.
+
+    ``view`` from W2 of a right hand to the camera. In camera axes: ``pose_covariance`` (6, 6) of the tracked body's
+    place and turn; ``turn_covariance`` (3, 3) of the axes of W2, calibration error included. ``is_seen`` in this frame.
+    """
+
+    palm: PalmInBody
+    view: RayView
+    pose_covariance: FloatArray
+    turn_covariance: FloatArray
+    is_seen: bool
+
+
+def seat_of(belief: Belief, view: View, readout: Readout, is_seen: bool) -> Seat:
+    """The seat that a belief about the palm gives to the fingers."""
+    palm, turn_covariance = readout.palm(belief)
+    body_cam = view.rotation_w0_cam @ belief.rotation_w2_w0
+    to_camera = np.zeros((6, 6))
+    to_camera[:3, :3], to_camera[3:, 3:] = view.rotation_w0_cam, body_cam
+    pose = to_camera @ belief.covariance[_POSE[:, None], _POSE] @ to_camera.T
+    return Seat(palm, ray_view(belief, view, palm), pose, body_cam @ turn_covariance @ body_cam.T, is_seen)
+
+
+def ray_view(belief: Belief, view: View, palm: PalmInBody) -> RayView:
+    """How the camera sees W2 of a right hand on that palm."""
+    body_cam = view.rotation_w0_cam @ belief.rotation_w2_w0
+    origin = body_cam @ palm.origin_m + view.rotation_w0_cam @ belief.position_m + view.translation_w0_cam_m
+    return RayView(body_cam @ palm.axes, origin, view.camera)
+
+
+class FingerModel:
+    """Thumb and fingers of one calibrated hand, without anything that changes from frame to frame."""
+
+    def __init__(self, calibration: Calibration, camera: Camera, settings: TrackerSettings) -> None:
+        own, dip_free = settings.fingers, settings.dip == "free"
+        self.settings = settings
+        self.side = calibration.clicks.side
+        self.layout = RayLayout(settings.motion == "constant_rate")
+        self.reading = JointReading.of(dip_free)
+        self.direct_markers = direct_markers(dip_free)
+        self.resolution_px2 = float(camera.width_px * camera.height_px)
+        self.calibrated_palm = PalmInBody.of(palm_of(calibration).marker_position_w0_m, np.eye(3), self.side)
+        self.scales = np.array(settings.mode_scales if self.layout.has_rates else (1.0,))
+        self._start: RayStart = ray_start(calibration, camera, dip_free=dip_free, skin_offsets=own.skin_offsets)
+        self._wrist_depth_m = -float(self._start.fit.anatomy.palm_joint_m[0, 2])
+        self._focal_px = np.array([camera.fx_px, camera.fy_px])
+        motion = settings.motion_noise
+        sd = np.full(
+            (RAYS, SLOTS), motion.joint_acceleration_rad_s2 if self.layout.has_rates else motion.joint_rate_rad_s
+        )
+        sd[0, [0, 1, 3]] *= own.abduction_share
+        sd[1:, 0] *= own.abduction_share
+        sd[1:, 4] = 0.0
+        if not dip_free:
+            sd[1:, 3] = 0.0
+        self._moves = sd > 0.0
+        self._range2 = np.where(self._moves, RANGE_SD_RAD**2, 1e-12)
+        drift = own.drift_per_s * np.diagonal(self._start.fit.rays.covariance, axis1=1, axis2=2)
+        density = (self.scales[:, None, None] * sd) ** 2 * REFERENCE_DT_S
+        self.motion = RayMotion(density, drift, self.layout)
+
+    def at_neutral(self) -> RayBeliefs:
+        """At the neutral pose, at rest."""
+        layout, seen = self.layout, self.layout.seen
+        mean, covariance = np.zeros((RAYS, layout.size)), np.zeros((RAYS, layout.size, layout.size))
+        mean[:, seen] = self._start.mean
+        covariance[:, seen[:, None], seen] = self._start.covariance
+        rate = np.arange(layout.rates.start, layout.rates.stop)
+        if layout.has_rates:
+            covariance[:, rate, rate] = np.where(self._moves, self.settings.initial.joint_rates_rad_s**2, 1e-12)
+        return self._alike(mean, covariance)
+
+    def anywhere(self, mean: FloatArray, covariance: FloatArray) -> RayBeliefs:
+        """The anatomy as known by now, (5, n) and (5, n, n), the joints anywhere in their range."""
+        layout = self.layout
+        moving = np.arange(layout.constants.start)
+        mean, covariance = mean.copy(), covariance.copy()
+        mean[:, moving] = 0.0
+        mean[:, layout.joints] = np.where(self._moves, MID_RANGE_RAD, 0.0)
+        covariance[:, moving, :] = 0.0
+        covariance[:, :, moving] = 0.0
+        covariance[:, _SLOT, _SLOT] = self._range2
+        if layout.has_rates:
+            rate = np.arange(layout.rates.start, layout.rates.stop)
+            covariance[:, rate, rate] = np.where(self._moves, _STARTS_AT_RATE_SD**2, 1e-12)
+        return self._alike(mean, covariance)
+
+    def _alike(self, mean: FloatArray, covariance: FloatArray) -> RayBeliefs:
+        count = self.scales.size
+        return RayBeliefs(
+            np.repeat(mean[:, None], count, axis=1),
+            np.repeat(covariance[:, None], count, axis=1),
+            np.full((RAYS, count), 1.0 / count),
+        )
+
+    def predicted(self, beliefs: RayBeliefs, unseen_s: FloatArray, dt_s: float) -> RayBeliefs:
+        """The rays ``dt_s`` later; ``unseen_s`` (5, 5) for how long nothing has shown each slot."""
+        if dt_s <= 0.0:
+            return beliefs
+        switch = modes.switching(self.scales.size, self.settings.mode_dwell_s, dt_s)
+        return self.motion.predicted(mixed(beliefs, switch), dt_s, *self.forgetting(unseen_s, dt_s))
+
+    def forgetting(self, unseen_s: FloatArray, dt_s: float) -> tuple[FloatArray | None, FloatArray | None]:
+        """Share (5, 5) kept of each slot's rate and variance (5, 5) gained, where nothing shows it.
+
+        Its angle is spread over the range of the joint in ``range_after_s``, slowly at first.
+        """
+        is_unseen = unseen_s > 0.0
+        if not is_unseen.any():
+            return None, None
+        whole_s = self.settings.fingers.range_after_s
+        before = np.minimum(unseen_s, whole_s) / whole_s
+        after = np.minimum(unseen_s + dt_s, whole_s) / whole_s
+        fade = np.where(is_unseen, math.exp(-dt_s / self.settings.rate_memory_s), 1.0)
+        gained = np.where(self._moves, RANGE_SD_RAD**2, 0.0) * (after**2 - before**2)
+        return fade, np.where(is_unseen, gained, 0.0)
+
+    def read(self, mean: FloatArray, covariance: FloatArray, seat: Seat, line: RayForecast) -> JointMoment:
+        """Joints of rays (5, n) with covariance (5, n, n) on that palm; ``line`` what the camera saw of them."""
+        palm, state = seat.palm, mean[:, self.layout.seen]
+        joints = covariance[:, :SLOTS, :SLOTS]
+        variance = self.reading.variances(joints + self._systematic(joints, seat, line))
+        angles = self.reading.angles(mean[:, :SLOTS])
+        rates = np.full(angles.size, np.nan)
+        if self.layout.has_rates:
+            rates = self.reading.angles(mean[:, self.layout.rates])
+        frames = ray_frames(state)
+        chain = ray_joints_m(palm.disc_m[1:], state, frames)
+        centre = np.empty((1 + RAYS * (DISCS + 1), 3))
+        centre[0] = 0.0, 0.0, -self._wrist_depth_m
+        centre[1:] = chain.reshape(-1, 3)
+        if self.side == "left":
+            centre[:, 1] *= -1.0
+        disc = chain[:, 1:] + state[:, SLOTS + 8 :, None] * frames.normal
+        disc_cam = disc @ seat.view.rotation.T + seat.view.translation_m
+        return JointMoment(angles, np.sqrt(np.maximum(variance, 0.0)), rates, centre, disc_cam)
+
+    def _systematic(self, joints: FloatArray, seat: Seat, line: RayForecast) -> FloatArray:
+        """Covariance (5, 5, 5) that the slots inherit from the turn of W2 and from errors that stay with a disc.
+
+        Everything measured in those errors, which no averaging removes, so that a disc's own have unit covariance.
+        """
+        own = self.settings.fingers
+        unit = np.empty((RAYS, DISCS, 3, 1))
+        unit[..., :2, 0] = line.centre_m[..., 2:] / (self._focal_px * own.lateral_bias_m)
+        unit[..., 2, 0] = 1.0 / own.depth_bias_m
+        slope = line.slope[..., :SLOTS] * unit.reshape(RAYS, 9, 1)
+        across = np.swapaxes(slope, 1, 2)
+        doubt = 0.25 * np.linalg.inv(joints + _NARROW2 * np.eye(SLOTS))
+        response = np.linalg.solve(across @ slope + doubt, across)
+        # The disc at the ray's root errs as well, and all three seem to go the other way.
+        root = response.reshape(RAYS, SLOTS, DISCS, 3).sum(axis=2)
+        root_m = seat.palm.disc_m[1:, None] @ seat.view.rotation.T + seat.view.translation_m
+        by_turn = (line.by_place @ so3.skew(root_m - line.centre_m) * unit).reshape(RAYS, 9, 3)
+        turned = response @ by_turn
+        return np.asarray(
+            response @ np.swapaxes(response, 1, 2)
+            + root @ np.swapaxes(root, 1, 2)
+            + turned @ seat.turn_covariance @ np.swapaxes(turned, 1, 2)
+        )
