@@ -162,6 +162,7 @@ class MarkersScreen(QWidget):
         self._judged = None
         self.clicking = self.picture.clicking = None
         self.picture.set_area(None)
+        self.picture.clear(self.tr("Waiting for a picture"))
         self._preview.start()
         self._show_newest()
         self._refresh()
