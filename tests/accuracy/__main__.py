@@ -1,0 +1,53 @@
+"""``python -m tests.accuracy``: the errors of Carpus against simulated truth, beside the simplest thing and the bound.
+
+Every figure is synthetic: simulated hands, simulated camera.
+"""
+
+from __future__ import annotations
+
+import argparse
+import sys
+import time
+from collections.abc import Sequence
+
+from tests.accuracy.jobs import all_runs, jobs_for
+from tests.accuracy.scenarios import GROUPS
+from tests.accuracy.table import markdown, rows_of, terminal
+from tests.accuracy.targets import verdicts
+
+QUICK_SEEDS = 3
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    parser = argparse.ArgumentParser(prog="python -m tests.accuracy", description=__doc__)
+    parser.add_argument("--group", choices=tuple(GROUPS), default="wrist", help="which rows")
+    parser.add_argument("--only", default="", metavar="TEXT", help="rows whose name holds this")
+    parser.add_argument(
+        "--seeds", type=int, default=10, help="simulated recordings a row (the fast row takes three times)"
+    )
+    parser.add_argument("--pictures", type=int, default=1, help="rendered recordings a row, 0 for none")
+    parser.add_argument("--quick", action="store_true", help=f"{QUICK_SEEDS} seeds and no pictures")
+    parser.add_argument("--markdown", action="store_true", help="the table of the README instead")
+    parser.add_argument("--processes", type=int, default=2)
+    options = parser.parse_args(arguments)
+    scenarios = [row for row in GROUPS[options.group] if options.only.lower() in row.name.lower()]
+    if not scenarios:
+        print(f"no row of {options.group} is named like {options.only}", file=sys.stderr)
+        return 2
+    seeds, pictures = (QUICK_SEEDS, 0) if options.quick else (options.seeds, options.pictures)
+    begin = time.monotonic()
+    runs = all_runs(jobs_for(scenarios, seeds, pictures), options.processes)
+    rows = list(rows_of(runs, scenarios))
+    if options.markdown:
+        print(markdown(rows))
+    else:
+        print(terminal(rows))
+        print("\nSynthetic: simulated hands before a simulated camera. What was promised:")
+        for verdict in verdicts(runs, scenarios):
+            print(verdict)
+    print(f"{time.monotonic() - begin:.0f} s", file=sys.stderr)
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,137 @@
+"""Carpus on simulated measurements and on rendered pictures."""
+
+from __future__ import annotations
+
+import tempfile
+import time
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from core.calibration.calibrate import MeasuredHand, measure_hand, still_capture
+from core.calibration.clicks import read_clicks
+from core.calibration.settings import CalibrationSettings
+from core.capture.tum import TumFolder
+from core.errors import CalibrationImpossible
+from core.pipeline.track import TrackSettings, from_neutral, learnt_from, learnt_in, track_recording
+from core.session.reader import read_session
+from core.session.values import Motion
+from core.simulation.measurements import MeasurementSequence
+from core.simulation.recording import CLICKS_FILE, cached_recording, clicks_of, truth_in
+from core.tracking.settings import TrackerSettings
+from core.tracking.tracker import Tracker
+from core.types import FloatArray, Moment, TrackedFrame
+from tests.accuracy.runs import CARPUS, Estimate, Run, degrees_between, longest_s
+from tests.accuracy.scenarios import Scenario
+from tests.accuracy.sequences import detected_sequence, true_names, wrongly_taken
+
+
+def measured_hand(sequence: MeasurementSequence, settings: CalibrationSettings) -> tuple[MeasuredHand, float]:
+    """The hand as Carpus measures it on the still first frames, and when the last of those was."""
+    truth = sequence.truth
+    clicks = clicks_of(truth)
+    names = true_names(sequence.marker[0], len(clicks.pixel))
+    capture = still_capture(zip(truth.timestamp_s.tolist(), sequence.detections, strict=True), names, settings)
+    hand = measure_hand(clicks, capture, truth.camera, settings)
+    return hand, float(truth.timestamp_s[capture.frames - 1])
+
+
+def run_on_blobs(
+    scenario: Scenario, sequence: MeasurementSequence, settings: TrackerSettings | None = None
+) -> tuple[Run, float]:
+    """Track and smooth measurements as :func:`core.pipeline.track.track_recording` does those of pictures.
+
+    Also when the neutral pose ends: only frames after it are scored.
+    """
+    settings = TrackerSettings() if settings is None else settings
+    truth = sequence.truth
+    hand, neutral_ends_s = measured_hand(sequence, CalibrationSettings())
+    if hand.calibration is None:
+        raise CalibrationImpossible(scenario.name, str(truth.spec.seed))
+    learnt = learnt_from(hand.noise, neutral_ends_s, settings)
+    tracker = Tracker(hand.calibration, truth.camera, learnt.applied(settings))
+    frames: list[TrackedFrame] = []
+    times = truth.timestamp_s
+    begin = time.process_time()
+    for i in from_neutral(range(len(times)), tracker, neutral_ends_s, lambda row: float(times[row])):
+        tracker.expect(float(times[i]))
+        frames.append(tracker.step(i, float(times[i]), sequence.detections[i], int(truth.dropped_before[i])))
+    ms = 1e3 * (time.process_time() - begin) / len(times)
+    scored = times > neutral_ends_s
+    measured_px = np.array([frame.marker_measured_px for frame in frames])[scored]
+    wrong = wrongly_taken(measured_px, _part(sequence, scored))
+    return Run(
+        scenario.name,
+        truth.spec.seed,
+        "blobs",
+        CARPUS,
+        _estimate(*_of_rows(frames), truth.angles_rad, scored),
+        _estimate(*_of_rows(tracker.smoothed()), truth.angles_rad, scored),
+        np.array([frame.status for frame in frames])[scored],
+        int(np.isfinite(measured_px[..., 0]).sum()),
+        int(wrong.sum()),
+        longest_s(wrong, times[scored]),
+        ms,
+    ), neutral_ends_s
+
+
+def run_on_pictures(
+    scenario: Scenario, seed: int, seconds: float, settings: TrackSettings | None = None
+) -> tuple[Run, MeasurementSequence, float, Path]:
+    """Track a rendered recording through the whole of Carpus, from folder to session file.
+
+    Also the blobs that were found, by their true names, when the neutral pose ended, and the recording's folder.
+    """
+    spec = scenario.spec(seed, seconds)
+    folder = cached_recording(spec)
+    truth = truth_in(spec, folder)
+    source = TumFolder(folder)
+    clicks = read_clicks(folder / CLICKS_FILE)
+    with tempfile.TemporaryDirectory() as place:
+        output = Path(place) / "session.h5"
+        begin = time.process_time()
+        track_recording(source, clicks, output, settings or TrackSettings(), software_version="accuracy")
+        ms = 1e3 * (time.process_time() - begin) / len(truth.timestamp_s)
+        session = read_session(output)
+        sequence = detected_sequence(truth, output)
+    learnt = learnt_in(session.header.parameters)
+    assert learnt is not None
+    scored = truth.timestamp_s > learnt.neutral_ends_s
+    measured_px = session.markers.measured_px[scored]
+    wrong = wrongly_taken(measured_px, _part(sequence, scored))
+    assert session.smoothed is not None
+    run = Run(
+        scenario.name,
+        seed,
+        "pictures",
+        CARPUS,
+        _estimate(*_of_motion(session.motion), truth.angles_rad, scored),
+        _estimate(*_of_motion(session.smoothed), truth.angles_rad, scored),
+        session.status[scored].astype(np.int64),
+        int(np.isfinite(measured_px[..., 0]).sum()),
+        int(wrong.sum()),
+        longest_s(wrong, truth.timestamp_s[scored]),
+        ms,
+    )
+    return run, sequence, learnt.neutral_ends_s, folder
+
+
+def _part(sequence: MeasurementSequence, rows: NDArray[np.bool_]) -> MeasurementSequence:
+    """The blobs and names of some frames; the truth stays whole."""
+    kept = np.flatnonzero(rows)
+    return MeasurementSequence(
+        sequence.truth, tuple(sequence.detections[i] for i in kept), tuple(sequence.marker[i] for i in kept)
+    )
+
+
+def _of_rows(rows: list[TrackedFrame] | list[Moment]) -> tuple[FloatArray, FloatArray]:
+    return np.array([row.angles_rad for row in rows]), np.array([row.angles_sd_rad for row in rows])
+
+
+def _of_motion(motion: Motion) -> tuple[FloatArray, FloatArray]:
+    return motion.angles_rad, motion.angles_sd_rad
+
+
+def _estimate(angles_rad: FloatArray, sd_rad: FloatArray, true_rad: FloatArray, scored: NDArray[np.bool_]) -> Estimate:
+    return Estimate(degrees_between(angles_rad, true_rad)[scored], np.degrees(sd_rad)[scored])

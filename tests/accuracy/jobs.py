@@ -1,0 +1,61 @@
+"""One recording of one row by all methods, and many of them side by side."""
+
+from __future__ import annotations
+
+import multiprocessing
+import sys
+from collections.abc import Sequence
+from concurrent.futures import ProcessPoolExecutor, as_completed
+from dataclasses import dataclass
+
+from threadpoolctl import threadpool_limits
+from tqdm import tqdm
+
+from core.simulation.measurements import measurement_sequence
+from tests.accuracy.carpus import run_on_blobs, run_on_pictures
+from tests.accuracy.informed import informed_run
+from tests.accuracy.runs import Mode, Run
+from tests.accuracy.scenarios import Scenario
+from tests.accuracy.simplest import simplest_run
+
+BLOB_SECONDS, PICTURE_SECONDS = 8.0, 7.0
+
+
+@dataclass(frozen=True, slots=True)
+class Job:
+    """One recording of one row by all methods."""
+
+    scenario: Scenario
+    seed: int
+    mode: Mode
+
+
+def done(job: Job) -> list[Run]:
+    """Carpus, the simplest thing and the bound on one recording."""
+    with threadpool_limits(1):
+        if job.mode == "blobs":
+            sequence = measurement_sequence(job.scenario.spec(job.seed, BLOB_SECONDS))
+            carpus, begin_s = run_on_blobs(job.scenario, sequence)
+            simplest = simplest_run(job.scenario, sequence, begin_s)
+        else:
+            carpus, sequence, begin_s, folder = run_on_pictures(job.scenario, job.seed, PICTURE_SECONDS)
+            simplest = simplest_run(job.scenario, sequence, begin_s, folder)
+        return [carpus, simplest, informed_run(job.scenario, sequence, begin_s, job.mode)]
+
+
+def jobs_for(scenarios: Sequence[Scenario], seeds: int, pictures: int) -> list[Job]:
+    """Pictures first: they take longest."""
+    out = [Job(scenario, seed, "pictures") for scenario in scenarios for seed in scenario.seeds(1)[:pictures]]
+    return out + [Job(scenario, seed, "blobs") for scenario in scenarios for seed in scenario.seeds(seeds)]
+
+
+def all_runs(jobs: Sequence[Job], processes: int) -> list[Run]:
+    """Runs of all jobs, in their order; progress goes to stderr."""
+    runs: dict[int, list[Run]] = {}
+    context = multiprocessing.get_context("spawn")
+    with ProcessPoolExecutor(processes, mp_context=context) as pool, tqdm(total=len(jobs), file=sys.stderr) as bar:
+        waiting = {pool.submit(done, job): place for place, job in enumerate(jobs)}
+        for future in as_completed(waiting):
+            runs[waiting[future]] = future.result()
+            bar.update()
+    return [run for place in sorted(runs) for run in runs[place]]

@@ -1,0 +1,68 @@
+"""Recordings as measurements with true names: simulated as such, or found by the detector on rendered pictures."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from core.session.reader import read_detections
+from core.simulation.measurements import MeasurementSequence
+from core.simulation.truth import Truth
+from core.types import Detections, FloatArray
+
+OWN_PX = 6.0
+"""A blob's middle further than this from a disc's is not that disc's, even half covered."""
+LEAST_SEEN = 0.1
+
+
+def true_names(labels: NDArray[np.int64], markers: int) -> NDArray[np.int64]:
+    """Blob of every marker (M,) from the marker of every blob (D,); -1 for none."""
+    taken = np.full(markers, -1, dtype=np.int64)
+    real = np.flatnonzero(labels >= 0)
+    taken[labels[real]] = real
+    return taken
+
+
+def markers_of(blobs: Detections, disc_px: FloatArray, visible_share: FloatArray) -> NDArray[np.int64]:
+    """Marker of every blob (D,), -1 for none: the disc (M, 2) whose middle is nearest, each disc's nearest blob."""
+    gap = np.linalg.norm(blobs.pixel[:, None] - disc_px[None], axis=-1)
+    gap = np.where((gap < OWN_PX) & (visible_share > LEAST_SEEN), gap, np.inf)
+    labels = np.full(len(blobs), -1, dtype=np.int64)
+    for marker in range(disc_px.shape[0]):
+        if len(blobs) and np.isfinite(gap[:, marker].min()):
+            blob = int(gap[:, marker].argmin())
+            if gap[blob].argmin() == marker:
+                labels[blob] = marker
+    return labels
+
+
+def detected_sequence(truth: Truth, session: Path) -> MeasurementSequence:
+    """The blobs that a session of a simulated recording holds, named by the truth."""
+    table = read_detections(session)
+    blobs = tuple(table.of_frame(i) for i in range(len(truth.timestamp_s)))
+    labels = tuple(markers_of(b, truth.disc_pixel[i], truth.visible_share[i]) for i, b in enumerate(blobs))
+    return MeasurementSequence(truth, blobs, labels)
+
+
+def measured_and_errors(sequence: MeasurementSequence) -> tuple[FloatArray, FloatArray]:
+    """Measured pixels and depths (N, M, 3) by true name, NaN where not seen, and their errors."""
+    truth = sequence.truth
+    true = np.concatenate((truth.disc_pixel, truth.disc_position_cam_m[..., 2:]), axis=-1)
+    measured = np.full(true.shape, np.nan)
+    for i, (blobs, labels) in enumerate(zip(sequence.detections, sequence.marker, strict=True)):
+        names = true_names(labels, true.shape[1])
+        seen = np.flatnonzero(names >= 0)
+        measured[i, seen, :2] = blobs.pixel[names[seen]]
+        measured[i, seen, 2] = blobs.depth_m[names[seen]]
+    return measured, measured - true
+
+
+def wrongly_taken(measured_px: FloatArray, sequence: MeasurementSequence) -> NDArray[np.bool_]:
+    """Whether the blob taken for a marker, by its pixel (N, M, 2), NaN for none, is another thing's."""
+    wrong = np.zeros(measured_px.shape[:2], dtype=bool)
+    for i, marker in np.argwhere(np.isfinite(measured_px[..., 0])):
+        gap = np.abs(sequence.detections[i].pixel - measured_px[i, marker]).sum(axis=1)
+        wrong[i, marker] = sequence.marker[i][int(gap.argmin())] != marker
+    return wrong
