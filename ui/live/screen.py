@@ -295,7 +295,6 @@ class LiveScreen(QWidget):
             self._camera_lost = False
             self.picture.show_frame(view.frame.color_rgb)
             self.curves.update()
-            self.path.update()
         if self._camera_lost:
             self.history.wait(0.001 * DRAW_EVERY_MS)
             self.curves.update()
@@ -316,6 +315,7 @@ class LiveScreen(QWidget):
 
     def _show_values(self) -> None:
         self.curves.refresh_values()
+        self.path.update()
         calibration = self._measuring.calibration if self._measuring else None
         markers = calibration.clicks.protocol.markers if calibration else ()
         frame = None if self._view is None or self._camera_lost else self._view.tracked
