@@ -34,6 +34,7 @@ from ui.style import apply_style
 from ui.theme import Theme, ThemeName
 
 Take = Callable[[SetUp, Callable[[int, int], None]], tuple[FrameSource, float]]
+SWITCH_S = 0.001
 LOG_FILE, LOG_BYTES = "carpus.log", 1_000_000
 
 
@@ -88,6 +89,8 @@ def compose(
 
     ``take`` renders the practice patient; ``speed`` plays what is stored faster than it was.
     """
+    # Tracking must not wait 5 ms, Python's usual turn, while the window paints, nor the window for tracking.
+    sys.setswitchinterval(SWITCH_S)
     theme = Theme(theme_name(qt, settings), settings.screen.text_scale)
     apply_style(qt, theme)
     library = Library(settings.data_folder)

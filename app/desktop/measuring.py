@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+from bisect import bisect_left
 from collections.abc import Callable, Sequence
 from contextlib import suppress
+from dataclasses import fields
 from pathlib import Path
 from typing import Protocol
 
@@ -29,6 +31,9 @@ from ui.ports import SetUp
 MARKERS_SUFFIX = ".markers.jpg"
 _AROUND_HAND = 0.6
 """The picture of the markers reaches this share of their box beyond it."""
+
+
+SMOOTHING_PIECE_S, SMOOTHING_LAG_S = 25.0, 5.0
 
 
 class SessionPlaces(Protocol):
@@ -65,22 +70,33 @@ class LiveWalk:
             tracker.history.clear()
         return self._walk(frame)
 
-    def smoothed(self, timestamp_s: Sequence[float]) -> Motion | None:
-        """The smoother's result at the times of the rows; None where one of them was not kept."""
+    def smoothed(self, timestamp_s: Sequence[float], forget_before_s: float) -> Motion | None:
+        """The smoother's result at the times of some rows; None where one of them was not kept.
+
+        What is older than ``forget_before_s`` is given up. Called from the writing thread.
+        """
         tracker = self._walk.tracker
         moments = tracker.smoothed()
-        at = {step.timestamp_s: moment for step, moment in zip(tracker.history, moments, strict=False)}
-        if not timestamp_s or any(time_s not in at for time_s in timestamp_s):
+        steps = tracker.history[: len(moments)]
+        at = {step.timestamp_s: moment for step, moment in zip(steps, moments, strict=True)}
+        del tracker.history[: sum(step.timestamp_s < forget_before_s for step in steps)]
+        if any(time_s not in at for time_s in timestamp_s):
             return None
         return motion_of([at[time_s] for time_s in timestamp_s])
 
 
 class SmoothedSession:
-    """A session file that is smoothed as its last step, in the writing thread."""
+    """A session file that is smoothed as it grows, in the writing thread, so that neither memory nor the end grow.
+
+    Every half minute the rows are smoothed whose future is known for ``SMOOTHING_LAG_S``; by then what comes later
+    changes nothing that matters.
+    """
 
     def __init__(self, writer: SessionWriter, walk: LiveWalk | None) -> None:
         self._writer, self._walk = writer, walk
-        self._times_s: list[float] = []
+        self._rows = 0
+        self._waiting_s: list[float] = []
+        self._pieces: list[Motion | None] = []
 
     @property
     def path(self) -> Path:
@@ -90,7 +106,10 @@ class SmoothedSession:
     def append(self, tracked: TrackedFrame) -> None:
         """One row."""
         self._writer.append(tracked)
-        self._times_s.append(tracked.timestamp_s)
+        self._rows += 1
+        self._waiting_s.append(tracked.timestamp_s)
+        if tracked.timestamp_s - self._waiting_s[0] > SMOOTHING_PIECE_S + SMOOTHING_LAG_S:
+            self._smooth(tracked.timestamp_s - SMOOTHING_LAG_S)
 
     def add_event(self, time_s: float, kind: str, text: str) -> None:
         """One event; before the first picture there is no time to put it at."""
@@ -98,14 +117,23 @@ class SmoothedSession:
             self._writer.add_event(time_s, kind, text)
 
     def close(self) -> None:
-        """Smooth and finish; a session without a single frame is none."""
-        if not self._times_s:
+        """Smooth the rest and finish; a session without a single frame is none."""
+        if not self._rows:
             self._writer.discard()
             raise RecordingEmpty(self.path.name)
-        motion = None if self._walk is None else self._walk.smoothed(self._times_s)
-        if motion is not None:
-            self._writer.write_smoothed(motion)
+        self._smooth(np.inf)
+        pieces = [piece for piece in self._pieces if piece is not None]
+        if pieces and len(pieces) == len(self._pieces):
+            self._writer.write_smoothed(_joined(pieces))
         self._writer.close()
+
+    def _smooth(self, until_s: float) -> None:
+        if self._walk is None:
+            return
+        count = bisect_left(self._waiting_s, until_s)
+        if count:
+            self._pieces.append(self._walk.smoothed(self._waiting_s[:count], until_s))
+            del self._waiting_s[:count]
 
     def abandon(self) -> None:
         """Stop after a fault; what is on the disk stays."""
@@ -227,6 +255,11 @@ class SourceMeasuring:
     def close(self) -> None:
         """End the source; a running recording is finished."""
         self._session.stop()
+
+
+def _joined(pieces: Sequence[Motion]) -> Motion:
+    names = [field.name for field in fields(Motion)]
+    return Motion(**{name: np.concatenate([getattr(piece, name) for piece in pieces]) for name in names})
 
 
 def _around_hand(color_rgb: ByteImage, pixel: FloatArray) -> ByteImage | None:

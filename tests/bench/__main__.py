@@ -1,0 +1,51 @@
+"""``make bench``: what a frame, a row and the screen cost. ``python -m tests.bench --help`` lists the options."""
+
+from __future__ import annotations
+
+import argparse
+import os
+import platform
+import sys
+
+PARTS = ("tracking", "writing", "window")
+
+
+def main() -> int:
+    for name in ("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS"):
+        os.environ.setdefault(name, "1")  # before any part loads NumPy
+    os.environ.setdefault("QT_QPA_PLATFORM", "offscreen")
+    parser = argparse.ArgumentParser(prog="python -m tests.bench", description=__doc__)
+    parser.add_argument(
+        "parts", nargs="*", choices=[*PARTS, []], help="tracking, writing, window; all when none is named"
+    )
+    parser.add_argument("--seconds", type=float, default=120.0, help="length of the window's run")
+    parser.add_argument("--rounds", type=int, default=3, help="how often the recordings are tracked")
+    arguments = parser.parse_args()
+    parts = arguments.parts or list(PARTS)
+    if unknown := set(parts) - set(PARTS):
+        parser.error(f"no such part: {', '.join(sorted(unknown))}")
+    print(f"{platform.platform()}, Python {platform.python_version()}, {os.cpu_count()} processors")
+    load = os.getloadavg()[0] if hasattr(os, "getloadavg") else float("nan")
+    print(f"CPU time; ratios to the yardstick of the same run. Load at the start: {load:.1f}\n")
+    if "tracking" in parts:
+        from tests.bench import tracking
+
+        for text in tracking.report(arguments.rounds):
+            print(text, flush=True)
+        print()
+    if "writing" in parts:
+        from tests.bench import writing
+
+        for text in writing.report():
+            print(text, flush=True)
+        print()
+    if "window" in parts:
+        from tests.bench import window
+
+        for text in window.report(arguments.seconds):
+            print(text, flush=True)
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

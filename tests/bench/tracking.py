@@ -1,0 +1,155 @@
+"""Cost of one tracked wrist frame and of its parts, beside the plain filter in the same run."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+from pathlib import Path
+
+import numpy as np
+
+from core.calibration.calibrate import calibrate
+from core.calibration.clicks import read_clicks
+from core.capture.tum import TumFolder
+from core.pipeline.frame_walk import FrameWalk
+from core.pipeline.track import TrackSettings, build_walk, learnt_from
+from core.simulation.recording import CLICKS_FILE, cached_recording
+from core.simulation.spec import RecordingSpec
+from core.tracking import naming, tracker
+from core.types import Frame, TrackedFrame, TrackStatus
+from tests.bench import reference
+from tests.bench.timing import HEAD, Spy, Times, line
+
+ORDINARY = RecordingSpec(
+    seed=11, motion="mixed", seconds=6.0, hidden_share=0.03, false_blobs=1.0, distance_m=0.66, light="normal"
+)
+LEAVING = RecordingSpec(
+    seed=12, motion="flexion", seconds=4.0, leaves_picture=True, false_blobs=1.0, distance_m=0.66, light="normal"
+)
+"""A hand that is lost and found again."""
+
+
+@dataclass(slots=True)
+class Costs:
+    """CPU milliseconds for each frame."""
+
+    whole: list[float] = field(default_factory=list)
+    detection: list[float] = field(default_factory=list)
+    association: list[float] = field(default_factory=list)
+    filter: list[float] = field(default_factory=list)
+    rest: list[float] = field(default_factory=list)
+    narrow: list[float] = field(default_factory=list)
+    wide: list[float] = field(default_factory=list)
+    joint: list[float] = field(default_factory=list)
+    found_again: list[float] = field(default_factory=list)
+    reference: list[float] = field(default_factory=list)
+    tracked: int = 0
+
+
+def frames_of(folder: Path) -> list[Frame]:
+    """All frames, decoded."""
+    return list(TumFolder(folder).frames())
+
+
+def walk_of(folder: Path, frames: list[Frame]) -> tuple[FrameWalk, float]:
+    """A calibrated walk at its start, and until when the hand was still."""
+    camera, settings = TumFolder(folder).info.camera, TrackSettings()
+    opening = [frame for frame in frames if frame.timestamp_s - frames[0].timestamp_s <= settings.calibration.still_s]
+    outcome = calibrate(
+        read_clicks(folder / CLICKS_FILE), opening, camera, settings.calibration, settings.detection, None
+    )
+    ends_s = opening[max(outcome.capture_frames, 1) - 1].timestamp_s
+    learnt = learnt_from(outcome.noise, ends_s, settings.tracker)
+    return build_walk(outcome, camera, settings, learnt, keep_history=False), ends_s
+
+
+def measure(folder: Path, costs: Costs, rounds: int) -> None:
+    """Track the recording so often, the plain filter stepped once after every frame."""
+    frames = frames_of(folder)
+    for _ in range(rounds):
+        walk, ends_s = walk_of(folder, frames)
+        with spied(walk) as spy:
+            plain = reference.ReferenceFilter()
+            rng = np.random.default_rng(0)
+            for frame in frames:
+                if frame.timestamp_s <= ends_s:
+                    continue
+                _one_frame(walk, frame, spy, costs)
+                state = reference.motion(frame.timestamp_s - ends_s)
+                pixel = reference.measured(state[None])[0] + rng.normal(0.0, 1.0, 2 * reference.MARKERS)
+                times = Times()
+                with times.measured():
+                    plain.step(pixel, 1.0 / 30.0)
+                costs.reference += times.cpu_ms
+
+
+class spied:  # noqa: N801  (read as a word)
+    """The walk with its parts measured, as a context."""
+
+    def __init__(self, walk: FrameWalk) -> None:
+        self._walk, self._spy = walk, Spy()
+
+    def __enter__(self) -> Spy:
+        spy = self._spy
+        whole_picture = lambda _, region=None: int(region is None)  # noqa: E731
+        spy.watch(self._walk.detector, "detect", "narrow", "wide", choose=whole_picture)
+        spy.watch(naming.association, "log_odds", "names")
+        spy.watch(naming.association, "resolve", "names")
+        spy.watch(naming, "associate_jointly", "joint")
+        spy.watch(naming, "update", "update")
+        spy.watch(tracker, "forecast_reduced", "forecast")
+        spy.watch(tracker, "find_palm", "find")
+        return spy
+
+    def __exit__(self, *_: object) -> None:
+        self._spy.leave()
+
+
+def _one_frame(walk: FrameWalk, frame: Frame, spy: Spy, costs: Costs) -> None:
+    before = {label: spy.calls(label) for label in spy.times}
+    times = Times()
+    with times.measured():
+        tracked: TrackedFrame = walk(frame)
+    whole = times.cpu_ms[0]
+    part = {label: spy.cpu_since(label, before[label]) for label in spy.times}
+    detection = part["narrow"] + part["wide"]
+    association, filtering = part["names"] + part["joint"], part["forecast"] + part["update"]
+    costs.whole.append(whole)
+    costs.detection.append(detection)
+    costs.association.append(association)
+    costs.filter.append(filtering)
+    costs.rest.append(whole - detection - association - filtering)
+    costs.narrow += spy.times["narrow"].cpu_ms[before["narrow"] :]
+    costs.wide += spy.times["wide"].cpu_ms[before["wide"] :]
+    if spy.calls("joint") > before["joint"]:
+        costs.joint.append(whole)
+    if spy.calls("find") > before["find"]:
+        costs.found_again.append(whole)
+    costs.tracked += tracked.status is TrackStatus.TRACKED
+
+
+def report(rounds: int) -> Iterator[str]:
+    """Measure and tell, line by line."""
+    costs, leaving = Costs(), Costs()
+    measure(cached_recording(ORDINARY, workers=2), costs, rounds)
+    measure(cached_recording(LEAVING, workers=2), leaving, rounds)
+    plain = float(np.median(costs.reference))
+    yield f"Wrist, 640 x 480, {len(costs.whole)} frames, {100.0 * costs.tracked / len(costs.whole):.1f} % tracked"
+    yield HEAD
+    yield line("plain augmented UKF, 49/99", costs.reference, plain, "the yardstick: 21 markers, filter only")
+    yield line("whole frame", costs.whole, plain, "detection, association, filter, angles")
+    yield line("- detection", costs.detection, plain)
+    yield line("- association", costs.association, plain)
+    yield line("- filter", costs.filter, plain, "predict and update, all motion modes")
+    yield line("- rest", costs.rest, plain, "angles, standard deviations, bookkeeping")
+    yield line("search where expected", costs.narrow, plain)
+    yield line("search of the whole picture", costs.wide + leaving.wide, plain)
+    yield line(
+        "frame with joint association",
+        costs.joint + leaving.joint,
+        plain,
+        f"{len(costs.joint)} of {len(costs.whole)} frames",
+    )
+    again = costs.found_again + leaving.found_again
+    yield line("frame that looks for the lost hand", again, plain)
+    yield line("hand that leaves and returns, whole frame", leaving.whole, plain)

@@ -1,0 +1,171 @@
+"""The real window at 1920x1080 while it records: frames lost by us, drawing rate, latency, cost, memory."""
+
+from __future__ import annotations
+
+import tempfile
+import threading
+import time
+from collections.abc import Iterator
+from contextlib import suppress
+from dataclasses import dataclass, field, replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from PySide6.QtCore import QEvent, QEventLoop, QObject, QTimer
+
+from app import compose
+from app.desktop.practice import practice_spec
+from app.desktop.unattended import Walker
+from app.settings import RecordingSettings, ScreenSettings, Settings
+from core.calibration.clicks import read_clicks
+from core.simulation.recording import CLICKS_FILE, cached_recording
+from ui.live.screen import LiveScreen
+
+SIZE_PX = (1920, 1080)
+SETTLED_S = 10.0
+"""Memory is compared from here on: by then every buffer has its size."""
+REST_S = 30.0
+"""The practice patient is asked to move again so often."""
+
+
+@dataclass(slots=True)
+class Run:
+    """What was seen of the running window."""
+
+    latency_ms: list[float] = field(default_factory=list)
+    drawn_at_s: list[float] = field(default_factory=list)
+    resident_mb: list[tuple[float, float]] = field(default_factory=list)
+    stall_ms: list[float] = field(default_factory=list)
+
+
+class Watcher(QObject):
+    """Notes when the curves have been drawn and how old the newest frame in them is then."""
+
+    def __init__(self, live: LiveScreen, run: Run) -> None:
+        super().__init__(live)
+        self._live, self._run = live, run
+        self._awaited = False
+        live.curves.installEventFilter(self)
+
+    def eventFilter(self, watched: QObject, event: QEvent) -> bool:  # noqa: N802  (Qt's name)
+        if event.type() == QEvent.Type.Paint and not self._awaited:
+            self._awaited = True
+            QTimer.singleShot(0, self._drawn)  # runs when everything of this round has been painted
+        return False
+
+    def _drawn(self) -> None:
+        self._awaited = False
+        view, now_s = self._live._view, time.monotonic()
+        if view is not None:
+            self._run.latency_ms.append(1e3 * (now_s - view.captured_at_s))
+            self._run.drawn_at_s.append(now_s)
+
+
+def measure(seconds: float, folder: Path) -> tuple[Run, dict[str, Any]]:
+    """Record so long in the real window, on the practice patient in real time."""
+    settings = replace(Settings(), screen=ScreenSettings("light"), recording=RecordingSettings(folder=str(folder)))
+    qt = compose.application(["bench"])
+    desktop = compose.compose(qt, settings, is_demo=True)
+    run = Run()
+    try:
+        walker, journey = Walker(desktop), desktop.journey
+        desktop.show()
+        desktop.shell.resize(*SIZE_PX)
+        walker.at("patients")
+        walker.start_practice()
+        walker.until(lambda: journey.place == "markers", patience_s=1800.0)
+        set_up, source = journey.set_up, journey.source
+        assert set_up is not None
+        assert source is not None
+        walker.take_picture()
+        walker.click_markers(read_clicks(cached_recording(practice_spec(set_up)) / CLICKS_FILE).pixel)
+        live, feed = journey.live, source.measuring.feed
+        live.toggle_recording()
+        walker.until(lambda: live.recording_state == "recording")
+        watcher = Watcher(live, run)
+        again = QTimer(live)
+        again.timeout.connect(source.measuring._on_recording)
+        again.start(round(1e3 * REST_S))
+        before, start_s = feed.counters(), time.monotonic()
+        cpu_s, window_cpu_s = time.process_time(), time.thread_time()
+        beat_s = start_s
+
+        def beat() -> None:
+            nonlocal beat_s
+            now_s = time.monotonic()
+            run.stall_ms.append(1e3 * (now_s - beat_s))
+            beat_s = now_s
+            run.resident_mb.append((now_s - start_s, resident_mb()))
+
+        pulse = QTimer(live)
+        pulse.timeout.connect(beat)
+        pulse.start(100)
+        stay = QEventLoop()
+        QTimer.singleShot(round(1e3 * seconds), stay.quit)
+        stay.exec()
+        wall_s = time.monotonic() - start_s
+        after = feed.counters()
+        facts = {
+            "wall_s": wall_s,
+            "cpu": (time.process_time() - cpu_s) / wall_s,
+            "window_cpu": (time.thread_time() - window_cpu_s) / wall_s,
+            "window_cpu_ms": 1e3 * (time.thread_time() - window_cpu_s) / max(len(run.drawn_at_s), 1),
+            "captured": after.captured - before.captured,
+            "tracked": after.tracked - before.tracked,
+            "dropped": after.dropped - before.dropped,
+            "rows": after.rows_written,
+            "tracked_p95_ms": after.latency_p95_ms,
+            "threads": threading.active_count(),
+        }
+        live.curves.removeEventFilter(watcher)
+        pulse.stop()
+        again.stop()
+        stop_s = time.monotonic()
+        live.stop()
+        walker.at("review")
+        facts["stop_s"] = time.monotonic() - stop_s
+        return run, facts
+    finally:
+        desktop.close()
+
+
+def resident_mb() -> float:
+    """Memory of this process that is in use, NaN where the system does not tell."""
+    with suppress(OSError):
+        for text in Path("/proc/self/status").read_text(encoding="ascii").splitlines():
+            if text.startswith("VmRSS:"):
+                return float(text.split()[1]) / 1024.0
+    return float("nan")
+
+
+def growth_mb_per_min(samples: list[tuple[float, float]]) -> float:
+    """Slope of memory over time once everything has its size."""
+    settled = np.array([sample for sample in samples if sample[0] >= SETTLED_S])
+    return float(60.0 * np.polyfit(settled[:, 0], settled[:, 1], 1)[0]) if len(settled) > 20 else float("nan")
+
+
+def report(seconds: float) -> Iterator[str]:
+    """Measure and tell, line by line."""
+    with tempfile.TemporaryDirectory() as folder:
+        run, facts = measure(seconds, Path(folder))
+    drawn = len(run.drawn_at_s) / facts["wall_s"]
+    p50, p95, most = np.percentile(run.latency_ms, (50.0, 95.0, 100.0))
+    width, height = SIZE_PX
+    yield f"Window {width} x {height}, offscreen, recording for {facts['wall_s']:.0f} s"
+    yield "| what | value |"
+    yield "|---|---|"
+    yield f"| frames captured, tracked, stored | {facts['captured']}, {facts['tracked']}, {facts['rows']} |"
+    yield f"| frames dropped by us | {facts['dropped']} |"
+    yield f"| pictures a second | {facts['captured'] / facts['wall_s']:.1f} |"
+    yield f"| drawings a second | {drawn:.1f} |"
+    yield f"| frame to curve, median, p95, most | {p50:.0f}, {p95:.0f}, {most:.0f} ms |"
+    yield f"| frame to angle, p95 | {facts['tracked_p95_ms']:.1f} ms |"
+    cost_ms, share = facts["window_cpu_ms"], 100.0 * facts["window_cpu"]
+    yield f"| window's thread, a drawing | {cost_ms:.1f} ms CPU, {share:.0f} % of a core |"
+    yield f"| whole process (with reading the pictures) | {100.0 * facts['cpu']:.0f} % of a core |"
+    yield f"| longest time the window did not answer | {max(run.stall_ms):.0f} ms |"
+    slope = growth_mb_per_min(run.resident_mb)
+    first, last = run.resident_mb[0][1], run.resident_mb[-1][1]
+    yield f"| memory at start, at end, growth | {first:.0f} MB, {last:.0f} MB, {slope:+.1f} MB a minute |"
+    yield f"| from Stop to the review (smoothing and storing) | {facts['stop_s']:.1f} s |"

@@ -1,0 +1,54 @@
+"""Cost of storing: rows of a session, and raw pictures."""
+
+from __future__ import annotations
+
+import tempfile
+from collections.abc import Iterator
+from pathlib import Path
+
+import numpy as np
+
+from core.capture.raw import RawWriter
+from core.capture.tum import TumFolder
+from core.session.writer import SessionWriter
+from core.simulation.recording import cached_recording
+from tests.bench.timing import HEAD, Times, line
+from tests.bench.tracking import ORDINARY, frames_of
+from tests.session.samples import CAMERA, make_calibration, make_frame, make_header
+
+ROWS, PICTURES = 1800, 60
+
+
+def report() -> Iterator[str]:
+    """Measure and tell, line by line."""
+    with tempfile.TemporaryDirectory() as name:
+        folder = Path(name)
+        appended, closed = Times(), Times()
+        rows = [make_frame(row) for row in range(ROWS)]
+        clock = iter(np.arange(0.0, 1e6, 1.0 / 30.0))  # the clock of a camera: a flush every 0.8 s of it
+        writer = SessionWriter.create(
+            folder / "rows.h5", make_header(), CAMERA, make_calibration(), clock=lambda: float(next(clock))
+        )
+        for row in rows:
+            with appended.measured():
+                writer.append(row)
+        with closed.measured():
+            writer.close()
+        size = (folder / "rows.h5").stat().st_size
+        yield f"Storing one minute of wrist rows: {size / 1e6:.1f} MB"
+        yield HEAD
+        mean = float(np.mean(appended.cpu_ms))
+        slowest = max(appended.wall_ms)
+        yield line(
+            "row of a session", appended.cpu_ms, note=f"mean {mean:.3f}; longest wait for the disk {slowest:.0f} ms"
+        )
+        yield line("closing the session", closed.cpu_ms)
+        recording = cached_recording(ORDINARY, workers=2)
+        pictures = Times()
+        raw = RawWriter(folder / "raw.carpusraw", TumFolder(recording).info)
+        for frame in frames_of(recording)[:PICTURES]:
+            with pictures.measured():
+                raw.append_frame(frame)
+        raw.close()
+        per_minute = (folder / "raw.carpusraw").stat().st_size / PICTURES * 1800 / 1e6
+        yield line("raw colour and depth of a frame", pictures.cpu_ms, note=f"{per_minute:.0f} MB a minute")
