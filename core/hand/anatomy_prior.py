@@ -45,12 +45,12 @@ class AnatomyPrior:
     fan_rad: float = math.radians(2.5)
     thumb_fan_rad: float = math.radians(5.0)
     thumb_roll_rad: float = math.radians(6.0)
-    height_scale: float = 0.35
+    height_scale: float = 0.2
     start_ahead_m: float = 0.0015
     start_aside_m: float = 0.0007
     neutral_abduction_rad: float = math.radians(2.5)
     neutral_flexion_rad: float = math.radians(6.0)
-    neutral_thumb_rad: float = math.radians(6.0)
+    neutral_thumb_rad: float = math.radians(5.0)
     relaxed_flexion_rad: float = math.radians(4.0)
     relaxed_thumb_rad: tuple[float, float] = (math.radians(8.0), math.radians(8.0))
     dip_free_rad: float = math.radians(10.0)

@@ -50,24 +50,23 @@ class Seat:
     """The palm as just corrected, on which the fingers sit.
 
     ``view`` from W2 of a right hand to the camera. In camera axes: ``pose_covariance`` (6, 6) of the tracked body's
-    place and turn; ``turn_covariance`` (3, 3) of the axes of W2, calibration error included. ``is_seen`` in this frame.
+    place and turn; ``turn_covariance`` (3, 3) of the axes of W2, calibration error included.
     """
 
     palm: PalmInBody
     view: RayView
     pose_covariance: FloatArray
     turn_covariance: FloatArray
-    is_seen: bool
 
 
-def seat_of(belief: Belief, view: View, readout: Readout, is_seen: bool) -> Seat:
+def seat_of(belief: Belief, view: View, readout: Readout) -> Seat:
     """The seat that a belief about the palm gives to the fingers."""
     palm, turn_covariance = readout.palm(belief)
     body_cam = view.rotation_w0_cam @ belief.rotation_w2_w0
     to_camera = np.zeros((6, 6))
     to_camera[:3, :3], to_camera[3:, 3:] = view.rotation_w0_cam, body_cam
     pose = to_camera @ belief.covariance[_POSE[:, None], _POSE] @ to_camera.T
-    return Seat(palm, ray_view(belief, view, palm), pose, body_cam @ turn_covariance @ body_cam.T, is_seen)
+    return Seat(palm, ray_view(belief, view, palm), pose, body_cam @ turn_covariance @ body_cam.T)
 
 
 def ray_view(belief: Belief, view: View, palm: PalmInBody) -> RayView:
@@ -161,7 +160,7 @@ class FingerModel:
         before = np.minimum(unseen_s, whole_s) / whole_s
         after = np.minimum(unseen_s + dt_s, whole_s) / whole_s
         fade = np.where(is_unseen, math.exp(-dt_s / self.settings.rate_memory_s), 1.0)
-        gained = np.where(self._moves, RANGE_SD_RAD**2, 0.0) * (after**2 - before**2)
+        gained = np.where(self._moves, RANGE_SD_RAD**2, 0.0) * (after**3 - before**3)
         return fade, np.where(is_unseen, gained, 0.0)
 
     def read(self, mean: FloatArray, covariance: FloatArray, seat: Seat, line: RayForecast) -> JointMoment:

@@ -56,16 +56,19 @@ class FingerScene:
     """One frame before the fingers are named.
 
     ``line`` forecast; ``spread`` (5, 9, 9) covariance of the discs' images, the palm's error included; ``palm_part``
-    that error alone, where it matters; ``visible`` (5, 3) chance that each disc is to be seen; ``free`` (D,) blobs
-    that are not the palm's; ``noise_factor`` (5, 9).
+    that error alone; ``visible`` (5, 3) chance that each disc is to be seen; ``free`` (D,) blobs
+    that are not the palm's; ``area_px`` (D,) of the blobs, ``whole_px`` (5, 3) of each disc where nothing hides it, NaN
+    where not known yet; ``noise_factor`` (5, 9).
     """
 
     line: RayForecast
     spread: FloatArray
-    palm_part: FloatArray | None
+    palm_part: FloatArray
     visible: FloatArray
     blobs: Measurable
     free: NDArray[np.bool_]
+    area_px: FloatArray
+    whole_px: FloatArray
     noise_factor: FloatArray
     resolution_px2: float
     view: RayView
@@ -75,7 +78,7 @@ class FingerScene:
 def name_fingers(beliefs: RayBeliefs, scene: FingerScene, settings: TrackerSettings) -> NamedFingers:
     """Names and corrects all rays."""
     names = _each_by_itself(scene, settings)
-    found = _corrected(beliefs, scene, names)
+    found = _corrected(beliefs, scene, names, settings)
     doubtful = [r for r in range(RAYS) if not holds_together(float(found.update.nis[r]), int(found.update.dof[r]))]
     if doubtful:
         taken, with_depth = names.taken.copy(), names.with_depth.copy()
@@ -84,11 +87,11 @@ def name_fingers(beliefs: RayBeliefs, scene: FingerScene, settings: TrackerSetti
             others = np.setdiff1d(np.flatnonzero(scene.free), taken.ravel())
             taken[ray], with_depth[ray] = _ray_jointly(ray, scene, others, settings)
         names = FingerNames(taken, with_depth)
-        found = _corrected(beliefs, scene, names)
+        found = _corrected(beliefs, scene, names, settings)
     impossible = _impossible(found, scene, settings.fingers)
     if impossible.any():
         names = FingerNames(np.where(impossible, -1, names.taken), names.with_depth & ~impossible)
-        found = _corrected(beliefs, scene, names)
+        found = _corrected(beliefs, scene, names, settings)
     return found
 
 
@@ -147,13 +150,19 @@ def _each_by_itself(scene: FingerScene, settings: TrackerSettings) -> FingerName
     return FingerNames(taken.reshape(RAYS, DISCS), with_depth.reshape(RAYS, DISCS))
 
 
-def _corrected(beliefs: RayBeliefs, scene: FingerScene, names: FingerNames) -> NamedFingers:
+def _corrected(beliefs: RayBeliefs, scene: FingerScene, names: FingerNames, settings: TrackerSettings) -> NamedFingers:
+    noise = settings.noise
     blob = np.maximum(names.taken, 0)
     is_named = names.taken >= 0
     if len(scene.blobs):
         measured = np.where(is_named[..., None], scene.blobs.value[blob], np.nan)
         variance = np.where(is_named[..., None], scene.blobs.variance[blob], 1.0)
         measured[..., 2] = np.where(names.with_depth, measured[..., 2], np.nan)
+        # Now that the disc is known, so is the size it would have if it were whole.
+        missing = noise.whole_from - scene.area_px[blob] / scene.whole_px
+        wander_px = noise.shade_share * np.sqrt(scene.whole_px / np.pi) * np.maximum(missing, 0.0)
+        own = (noise.pixel_sd_px**2 + settings.fingers.skin_px**2 + wander_px**2)[..., None]
+        variance[..., :2] = np.where(np.isfinite(own) & is_named[..., None], own, variance[..., :2])
     else:
         measured, variance = np.full((RAYS, DISCS, 3), np.nan), np.ones((RAYS, DISCS, 3))
     measured, variance = measured.reshape(RAYS, 9), variance.reshape(RAYS, 9) * scene.noise_factor

@@ -13,6 +13,7 @@ class FingerSettings:
     joints. ``abduction_share`` of the process noise of flexion for abductions and the thumb's CMC (reference 4.5).
     ``range_after_s``: a joint that no disc shows is spread over its anatomical range within this time.
     ``drift_per_s``: share of what was not known of the anatomy that comes back each second (skin over bone).
+    ``skin_px``: how far a disc on a finger strays from where the model has it, besides the noise of its centre.
     ``depth_bias_m`` and ``lateral_bias_m``: errors that stay with a disc, standard deviations; no averaging removes
     them. ``hidden_s`` and ``shown_s``: how long a disc stays hidden or seen on average; ``steepest_rad``: tilt at
     which discs vanish, give or take ``steepest_sd_rad``. ``clutter``: other blobs expected in a picture.
@@ -22,8 +23,9 @@ class FingerSettings:
     abduction_share: float = 0.5
     range_after_s: float = 0.5
     drift_per_s: float = 2e-3
-    depth_bias_m: float = 0.0006
-    lateral_bias_m: float = 0.0002
+    skin_px: float = 0.2
+    depth_bias_m: float = 0.0003
+    lateral_bias_m: float = 0.0001
     hidden_s: float = 0.4
     shown_s: float = 3.0
     steepest_rad: float = 1.22

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
@@ -16,12 +17,15 @@ from core.tracking.hand_geometry import DISCS, RAYS, SLOTS, JointMoment
 from core.tracking.joint_limits import constrained
 from core.tracking.measurement import View
 from core.tracking.naming import Measurable
-from core.tracking.ray_filter import RayBeliefs, RayForecast, RayPoints, RayView, forecast, spread_points
+from core.tracking.ray_filter import RayBeliefs, RayForecast, RayPoints, forecast, spread_points
 from core.tracking.settings import TrackerSettings
 from core.tracking.state import Belief
 from core.tracking.unscented import weights_for
 from core.types import FloatArray
 
+_LEAST_FACING = 0.15
+_FLAT_RAD = math.radians(50.0)
+_GROWING, _SHRINKING = 0.2, 0.02
 _UV = 3 * np.arange(DISCS)[:, None] + np.arange(2)
 
 
@@ -30,7 +34,7 @@ class FingerTrial:
     """What one frame would tell of thumb and fingers.
 
     ``visible`` (5, 3) chance with which each disc was expected to be seen; ``spread`` (5, 9, 9) covariance of the
-    predicted images, given the palm.
+    predicted images, given the palm; ``disc_m2`` (5, 3) areas of the discs as seen, NaN where not or too tilted.
     """
 
     seat: Seat
@@ -38,6 +42,7 @@ class FingerTrial:
     named: NamedFingers
     visible: FloatArray
     spread: FloatArray
+    disc_m2: FloatArray
 
     @property
     def predicted_px(self) -> FloatArray:
@@ -79,6 +84,7 @@ class Fingers:
         self._visible = np.full((RAYS, DISCS), 0.98)
         self._unseen_s = np.zeros((RAYS, SLOTS))
         self._noise_factor = np.ones((RAYS, 3 * DISCS))
+        self._disc_m2 = np.full((RAYS, DISCS), np.nan)
         self._take(self.model.at_neutral())
 
     def begin_anywhere(self) -> None:
@@ -114,35 +120,49 @@ class Fingers:
         return image[:, 0, :, :2], by_disc @ np.swapaxes(by_disc, -1, -2), image[:, 0, :, 2]
 
     def weigh(
-        self, timestamp_s: float, dt_s: float, seat: Seat, blobs: Measurable, free: NDArray[np.bool_]
+        self,
+        timestamp_s: float,
+        dt_s: float,
+        seat: Seat,
+        blobs: Measurable,
+        area_px: FloatArray,
+        free: NDArray[np.bool_],
     ) -> FingerTrial:
-        """Name the blobs that are ``free`` (D,), not the palm's, as if the palm were there; nothing is remembered."""
+        """Name the blobs that are ``free`` (D,), not the palm's, as if the palm were there; nothing is remembered.
+
+        ``area_px`` (D,) of the blobs.
+        """
         beliefs, points = self._ahead_at(timestamp_s, dt_s)
         line = forecast(points, seat.view, self.model.layout, self._settings.spread)
-        visible = self._chance_to_see(points, line, seat.view, dt_s)
+        tilt = tilt_to(seat.view, points.normal, line.centre_m)
+        tilt_sd = np.sqrt(tilt_variance(points.covariance))
+        visible = seen_chance(self._visible, tilt, tilt_sd, dt_s, self._settings.fingers)
         by_pose = np.empty((RAYS, DISCS, 3, 6))
         by_pose[..., :3] = line.by_place
         by_pose[..., 3:] = line.by_place @ so3.skew(seat.view.translation_m - line.centre_m)
         flat = by_pose.reshape(RAYS, 9, 6)
         shift = flat @ seat.pose_covariance @ np.swapaxes(flat, 1, 2)
+        facing_m2 = np.maximum(np.cos(tilt), _LEAST_FACING) * (seat.view.camera.fx_px / line.centre_m[..., 2]) ** 2
         scene = FingerScene(
             line,
             line.spread + shift,
-            None if seat.is_seen else shift,
+            shift,
             visible,
             blobs,
             free,
+            area_px,
+            self._disc_m2 * facing_m2,
             self._noise_factor,
             self.model.resolution_px2,
             seat.view,
             self.model.layout,
         )
-        return FingerTrial(seat, line, name_fingers(beliefs, scene, self._settings), visible, scene.spread)
-
-    def _chance_to_see(self, points: RayPoints, line: RayForecast, view: RayView, dt_s: float) -> FloatArray:
-        """Chance (5, 3) that each disc is to be seen, from its tilt to the camera and whether it was seen before."""
-        tilt = tilt_to(view, points.normal, line.centre_m)
-        return seen_chance(self._visible, tilt, np.sqrt(tilt_variance(points.covariance)), dt_s, self._settings.fingers)
+        named = name_fingers(beliefs, scene, self._settings)
+        taken = named.names.taken
+        disc_m2 = np.full((RAYS, DISCS), np.nan)
+        if area_px.size:
+            disc_m2 = np.where((taken >= 0) & (tilt < _FLAT_RAD), area_px[taken] / facing_m2, np.nan)
+        return FingerTrial(seat, line, named, visible, scene.spread, disc_m2)
 
     def accept(self, trial: FingerTrial, dt_s: float) -> None:
         """Go on from a trial."""
@@ -152,10 +172,18 @@ class Fingers:
         shown = (SHOWS & is_named[:, None, :]).any(axis=-1)
         self._unseen_s = np.where(shown, 0.0, self._unseen_s + dt_s)
         self._watch_noise(named, dt_s)
+        self._learn_sizes(trial.disc_m2)
         after = named.update.beliefs
         merged, _ = after.merged()
         self._take(constrained(after, merged[:, :SLOTS]))
         self._palm = trial.seat.palm
+
+    def _learn_sizes(self, seen_m2: FloatArray) -> None:
+        """How large each disc is: quick to grow, slow to shrink, as a disc may be half hidden but never too large."""
+        weight = np.where(seen_m2 > self._disc_m2, _GROWING, _SHRINKING)
+        known = np.isfinite(seen_m2)
+        learnt = np.where(np.isnan(self._disc_m2), seen_m2, self._disc_m2 + weight * (seen_m2 - self._disc_m2))
+        self._disc_m2 = np.where(known, learnt, self._disc_m2)
 
     def _watch_noise(self, named: NamedFingers, dt_s: float) -> None:
         """Let each disc's noise follow its residuals, as the palm's does."""

@@ -292,15 +292,17 @@ class RayUpdate:
 
 
 def corrected(
-    beliefs: RayBeliefs, line: RayForecast, measured: FloatArray, variance: FloatArray, extra: FloatArray | None = None
+    beliefs: RayBeliefs, line: RayForecast, measured: FloatArray, variance: FloatArray, palm_part: FloatArray
 ) -> RayUpdate:
     """Kalman correction of every ray and mode by ``measured`` (5, 9), NaN where there is nothing, of ``variance``
-    (5, 9); ``extra`` (5, 9, 9) covariance that all measurements of a ray share, such as the palm's."""
+    (5, 9); ``palm_part`` (5, 9, 9) covariance that the palm's error gives them.
+
+    That error is taken as new in every frame; what of it stays is added when the joints are read.
+    """
     used = np.isfinite(measured)
     unit = np.where(used, 1.0 / np.sqrt(np.where(used, variance, 1.0)), 0.0)
     slope = line.slope * unit[..., None]
-    common = line.error if extra is None else line.error + extra
-    own = common * (unit[:, :, None] * unit[:, None, :])
+    own = (line.error + palm_part) * (unit[:, :, None] * unit[:, None, :])
     diagonal = np.arange(3 * DISCS)
     own[:, diagonal, diagonal] += 1.0
     guess = (slope[:, None] @ (beliefs.mean - line.about[:, None])[..., None])[..., 0]

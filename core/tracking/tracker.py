@@ -158,7 +158,7 @@ class Tracker:
         dt_s = 0.0 if self._time_s is None else timestamp_s - self._time_s
         ahead = self._forecast_at(timestamp_s, self._bank)
         blobs = self._measurable(ahead, ideal)
-        step = self._weighed(timestamp_s, dt_s, ahead, blobs)
+        step = self._weighed(timestamp_s, dt_s, ahead, blobs, ideal)
         vague = _turn_sd_rad(ahead.bank, self.layout) > VAGUE_TURN_RAD
         few = step.palm_seen <= LEAST_PALM_MARKERS
         if (few or vague) and np.count_nonzero(step.spare) + step.palm_seen > LEAST_PALM_MARKERS:
@@ -168,7 +168,7 @@ class Tracker:
                 bank = self._begin(self._belief_found(*found[:2]))
                 # A vague belief has nothing against the place found: the smoother may go on through it.
                 ahead, linked = forecast(bank, self.layout, self.view, self.settings.spread), linked and vague
-                step = self._weighed(timestamp_s, dt_s, ahead, blobs)
+                step = self._weighed(timestamp_s, dt_s, ahead, blobs, ideal)
         self._time_s, self._forecast = timestamp_s, None
         self._noise_factor = watched(self._noise_factor, step.palm, dt_s, self.settings.noise)
         belief = step.bank.nominal
@@ -194,7 +194,7 @@ class Tracker:
         depth_m = max(float(ahead.marker_mean[0, 2]), 0.1)
         return measurable(ideal, self.view.camera.fx_px * self.settings.marker_radius_m / depth_m, self.settings)
 
-    def _weighed(self, timestamp_s: float, dt_s: float, ahead: Forecast, blobs: Measurable) -> _Step:
+    def _weighed(self, timestamp_s: float, dt_s: float, ahead: Forecast, blobs: Measurable, ideal: Detections) -> _Step:
         """Palm and fingers named and corrected, the fingers by what the palm leaves; nothing is remembered."""
         corrected = name_and_correct(
             ahead, blobs, LEAST_PALM_MARKERS + 1, self._resolution_px2, self._noise_factor, self.settings
@@ -206,8 +206,8 @@ class Tracker:
         palm_seen = int(np.count_nonzero(named))
         if self._fingers is None:
             return _Step(corrected, bank, palm_seen, None, spare, np.zeros_like(spare))
-        seat = seat_of(bank.nominal, self.view, self._readout, palm_seen >= LEAST_PALM_MARKERS)
-        fingers = self._fingers.weigh(timestamp_s, dt_s, seat, blobs, spare)
+        seat = seat_of(bank.nominal, self.view, self._readout)
+        fingers = self._fingers.weigh(timestamp_s, dt_s, seat, blobs, ideal.area_px, spare)
         is_finger = np.zeros_like(spare)
         is_finger[fingers.blob[fingers.blob >= 0]] = True
         return _Step(corrected, bank, palm_seen, fingers, spare & ~is_finger, is_finger)
