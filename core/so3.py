@@ -13,18 +13,8 @@ import numpy as np
 from core.types import FloatArray
 
 _SMALL = 1e-8
-
-
-def skew(vector: FloatArray) -> FloatArray:
-    """Matrix (..., 3, 3) of the cross product with ``vector`` (..., 3)."""
-    out = np.zeros((*vector.shape[:-1], 3, 3))
-    out[..., 0, 1] = -vector[..., 2]
-    out[..., 0, 2] = vector[..., 1]
-    out[..., 1, 0] = vector[..., 2]
-    out[..., 1, 2] = -vector[..., 0]
-    out[..., 2, 0] = -vector[..., 1]
-    out[..., 2, 1] = vector[..., 0]
-    return out
+_TINY = 1e-300
+"""Added to a squared angle, so that no turn at all needs no case of its own."""
 
 
 _GENERATORS = np.array(
@@ -34,7 +24,11 @@ _GENERATORS = np.array(
         [0.0, -1.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0],
     ]
 )
-_DIAGONAL = np.arange(3)
+
+
+def skew(vector: FloatArray) -> FloatArray:
+    """Matrix (..., 3, 3) of the cross product with ``vector`` (..., 3)."""
+    return np.asarray((vector @ _GENERATORS).reshape(*vector.shape, 3))
 
 
 def exp(turn_rad: FloatArray) -> FloatArray:
@@ -46,16 +40,15 @@ def exp(turn_rad: FloatArray) -> FloatArray:
            [ 0.,  0.,  1.]])
     """
     if turn_rad.ndim == 1:
-        return _exp_one(float(turn_rad[0]), float(turn_rad[1]), float(turn_rad[2]))
-    angle2 = np.einsum("...i,...i->...", turn_rad, turn_rad)
-    angle = np.sqrt(angle2)
-    a = np.sinc(angle * (1.0 / np.pi))  # sin(angle) / angle
-    half = np.sinc(angle * (0.5 / np.pi))
-    b = 0.5 * half * half  # (1 - cos(angle)) / angle^2
-    out: FloatArray = ((turn_rad @ _GENERATORS) * a[..., None]).reshape(*turn_rad.shape, 3)
-    out += (turn_rad * b[..., None])[..., :, None] * turn_rad[..., None, :]
-    out[..., _DIAGONAL, _DIAGONAL] += (1.0 - b * angle2)[..., None]
-    return out
+        return _exp_one(*turn_rad.tolist())
+    turn = turn_rad.reshape(-1, 3)
+    angle = np.sqrt(np.vecdot(turn, turn) + _TINY)
+    a, half = np.sin(angle) / angle, np.sin(0.5 * angle) / angle
+    cross = skew(turn)
+    out: FloatArray = (2.0 * half * half)[:, None, None] * (cross @ cross)  # (1 - cos(angle)) / angle^2
+    out += a[:, None, None] * cross
+    out.reshape(-1, 9)[:, ::4] += 1.0  # the diagonals
+    return out.reshape(*turn_rad.shape, 3)
 
 
 def _exp_one(x: float, y: float, z: float) -> FloatArray:
@@ -101,7 +94,7 @@ def log(rotation: FloatArray) -> FloatArray:
 
 def right_jacobian(turn_rad: FloatArray) -> FloatArray:
     """Jr (3, 3) of one turn (3,), with Exp(t + d) = Exp(t) Exp(Jr d) to first order."""
-    x, y, z = (float(value) for value in turn_rad)
+    x, y, z = turn_rad.tolist()
     angle2 = x * x + y * y + z * z
     if angle2 < 1e-6:
         b, c = 0.5 - angle2 / 24.0, 1.0 / 6.0 - angle2 / 120.0

@@ -19,7 +19,7 @@ class Components:
     ``area_px`` (B,) of whole pixels, and the ``radius_px`` (B,) of a disc at its depth."""
 
     labels: NDArray[np.uint16]
-    label: NDArray[np.int64]
+    label: NDArray[np.uint16]
     centre_px: FloatArray
     area_px: FloatArray
     radius_px: FloatArray
@@ -34,12 +34,14 @@ def components(mask: ByteImage, radius_at: Callable[[FloatArray], FloatArray]) -
     centre = np.asarray(middle, dtype=np.float64)[:count]
     centre[0] = 0.0  # the background has no place
     radius = radius_at(centre)
-    label = np.arange(count, dtype=np.int64)
+    label = np.arange(count, dtype=np.uint16)
     area = stats[:, cv2.CC_STAT_AREA].astype(np.float64)
-    for whole, own, facts in split_touching(labels, stats, radius):
+    split = split_touching(labels, stats, radius)
+    for whole, _, facts in split:
         centre[whole], area[whole] = facts[0, :2], facts[0, 2]
-        label = np.concatenate((label, own[1:]))
-        centre = np.concatenate((centre, facts[1:, :2]))
-        area = np.concatenate((area, facts[1:, 2]))
-        radius = np.concatenate((radius, np.full(len(own) - 1, radius[whole])))
+    if split:
+        added = np.concatenate([facts[1:] for _, _, facts in split])
+        centre, area = np.concatenate((centre, added[:, :2])), np.concatenate((area, added[:, 2]))
+        radius = np.concatenate((radius, *(np.full(len(own) - 1, radius[whole]) for whole, own, _ in split)))
+        label = np.arange(count + len(added), dtype=np.uint16)
     return Components(labels, label[1:], centre[1:], area[1:], radius[1:])

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
+from statistics import median
 
 import cv2
 import numpy as np
@@ -14,14 +16,15 @@ from core.detection.appearance import MarkerAppearance, paper_mask
 from core.detection.blobs import Outline, blob_depths, outlines, refined_centres
 from core.detection.components import Components, components
 from core.detection.settings import DetectionSettings
-from core.detection.stencil import stencil_for, window_pixels
+from core.detection.stencil import Stencil, packed, stencil_for, unpacked, window_pixels
 from core.types import ByteImage, Detections, FloatArray, Frame
 
 _COARSE = 4
 """The hand's region is looked for in a picture this many times smaller."""
 _SIMILARITY_BINS = 16
-_SATURATION_SHIFT = 3  # 256 levels to 32 bins
 _SKIN_LEVEL = 128
+_UV = np.arange(2)
+_USUAL_DEPTH_M = 0.7
 
 
 @dataclass(frozen=True, slots=True)
@@ -50,19 +53,19 @@ class Detector:
         self._settings = settings
         coarse = looks.paper_histogram.reshape(_SIMILARITY_BINS, 2, _SIMILARITY_BINS, 2).sum(axis=(1, 3))
         self._reference = np.sqrt(coarse.ravel())
-        self._is_skin = looks.skin_lookup.ravel() >= _SKIN_LEVEL
-        bins = color_histogram.BINS
-        self._hue_bin = np.minimum(np.arange(256) * bins // 180, bins - 1)
+        self._cell, self._is_skin = _by_hue_and_saturation(looks)
+        self._first_cell = self._reference.size * np.arange(settings.most_blobs)[:, None]
 
     def region_about(self, pixel: FloatArray, covariance_px2: FloatArray, depth_m: FloatArray) -> Region:
         """Rectangle that holds all predicted discs (M, 2) with their uncertainty (M, 2, 2)."""
-        sd = np.sqrt(np.maximum(np.diagonal(covariance_px2, axis1=-2, axis2=-1), 0.0))
+        sd = np.sqrt(np.maximum(covariance_px2[:, _UV, _UV], 0.0))
         radius = self._camera.fx_px * self._settings.marker_radius_m / np.maximum(depth_m, 0.2)
-        margin = np.minimum(self._settings.region_sd * sd, 120.0) + 2.2 * radius[:, None] + 3.0
-        low, high = (pixel - margin).min(axis=0), (pixel + margin).max(axis=0)
-        return Region(
-            int(np.floor(low[0])), int(np.floor(low[1])), int(np.ceil(high[0])) + 1, int(np.ceil(high[1])) + 1
-        ).clipped(self._camera.width_px, self._camera.height_px)
+        margin = np.minimum(self._settings.region_sd * sd, 120.0) + (2.2 * radius + 3.0)[:, None]
+        left, top = (pixel - margin).min(axis=0).tolist()
+        right, bottom = (pixel + margin).max(axis=0).tolist()
+        return Region(math.floor(left), math.floor(top), math.ceil(right) + 1, math.ceil(bottom) + 1).clipped(
+            self._camera.width_px, self._camera.height_px
+        )
 
     def detect(self, frame: Frame, region: Region | None = None) -> Detections:
         """Blobs inside a region, or in the whole picture when there is none."""
@@ -87,14 +90,14 @@ class Detector:
 
     def _radius_at(self, frame: Frame, region: Region, centre_px: FloatArray) -> FloatArray:
         """Radius in pixels (B,) of a disc facing the camera at the depth of each place; NaN-free."""
-        usual_m = 0.7
-        depth_m = np.full(centre_px.shape[0], usual_m)
-        if frame.depth_raw is not None and centre_px.shape[0]:
-            column = np.rint(centre_px[:, 0]).astype(np.int64) + region.left
-            row = np.rint(centre_px[:, 1]).astype(np.int64) + region.top
-            there = frame.depth_raw[row, column] * frame.depth_unit_m
-            depth_m = np.where(there > 0.2, there, usual_m)
-        return np.asarray(self._camera.fx_px * self._settings.marker_radius_m / depth_m)
+        scale = self._camera.fx_px * self._settings.marker_radius_m
+        if frame.depth_raw is None:
+            return np.full(len(centre_px), scale / _USUAL_DEPTH_M)
+        radius = []
+        for u, v in centre_px.tolist():
+            depth_m = frame.depth_raw.item(round(v) + region.top, round(u) + region.left) * frame.depth_unit_m
+            radius.append(scale / (depth_m if depth_m > 0.2 else _USUAL_DEPTH_M))
+        return np.array(radius)
 
     def _measure(
         self,
@@ -107,39 +110,36 @@ class Detector:
     ) -> Detections:
         settings, labels = self._settings, blobs.labels
         own, rough_px = blobs.label[fits], blobs.centre_px[fits]
-        stencil = stencil_for(float(np.median(blobs.radius_px[fits])))
+        stencil = stencil_for(median(blobs.radius_px[fits].tolist()))
         pixels, inside, middle = window_pixels(stencil, rough_px, labels.shape)
-        outline = outlines(labels.reshape(-1)[pixels], own, inside, stencil)
-        similarity, skin_share = self._likeness(hsv.reshape(-1, 3)[pixels], outline)
-        window = color.reshape(-1, 3)[pixels].astype(np.float32)
-        offset, area = refined_centres(window, outline, inside, stencil)
+        outline = outlines(labels.reshape(-1).take(pixels), own, inside, stencil)
+        similarity, skin_share = self._likeness(packed(hsv).take(pixels), outline, stencil)
+        offset, area = refined_centres(unpacked(packed(color).take(pixels)), outline, stencil)
         centre = middle + offset + (region.left, region.top)
         if frame.depth_raw is None:
-            depth = np.full(own.size, np.nan)
-            depth_sd = depth
+            depth = depth_sd = np.full(own.size, np.nan)
         else:
-            raw = frame.depth_raw[region.top : region.bottom, region.left : region.right]
-            depth, depth_sd = blob_depths(raw.reshape(-1)[pixels], outline.core, frame.depth_unit_m, stencil, settings)
+            raw = frame.depth_raw[region.top : region.bottom, region.left : region.right].reshape(-1)
+            core = outline.mine[:, stencil.core]
+            depth, depth_sd = blob_depths(raw.take(pixels[:, stencil.near]), core, frame.depth_unit_m, settings)
         keep = (similarity >= self._looks.least_similarity) & (skin_share >= settings.skin_share)
+        if keep.all():
+            return Detections(centre, depth, depth_sd, area, similarity)
         return Detections(centre[keep], depth[keep], depth_sd[keep], area[keep], similarity[keep])
 
-    def _likeness(self, hsv: ByteImage, outline: Outline) -> tuple[FloatArray, FloatArray]:
+    def _likeness(self, hsv: NDArray[np.uint32], outline: Outline, stencil: Stencil) -> tuple[FloatArray, FloatArray]:
         """Bhattacharyya coefficient (B,) of each blob's colours to the reference; share (B,) of skin in its rim.
 
-        ``hsv`` (B, P, 3) windows.
+        ``hsv`` (B, P) windows, packed.
         """
-        bins = color_histogram.BINS
-        hue = self._hue_bin[hsv[..., 0]]
-        saturation = hsv[..., 1] >> _SATURATION_SHIFT
-        skin = self._is_skin[hue * bins + saturation] & outline.rim
+        look = hsv.view(np.uint16)[:, ::2]  # hue and saturation
+        skin = self._is_skin.take(look[:, stencil.rim]) & outline.rim
         skin_share = skin.sum(axis=1) / np.maximum(outline.rim.sum(axis=1), 1)
-        coarse = (hue >> 1) * _SIMILARITY_BINS + (saturation >> 1)
-        blob, pixel = np.nonzero(outline.mine)
-        cells = _SIMILARITY_BINS**2
-        total = hsv.shape[0]
-        counts = np.bincount(blob * cells + coarse[blob, pixel], minlength=total * cells).reshape(total, cells)
-        shares = counts / np.maximum(counts.sum(axis=1, keepdims=True), 1)
-        return np.asarray(np.sqrt(shares) @ self._reference), np.asarray(skin_share)
+        cells, total = self._reference.size, hsv.shape[0]
+        cell = self._cell.take(look) + self._first_cell[:total]
+        counts = np.bincount(cell.ravel(), outline.mine.ravel(), total * cells).reshape(total, cells)
+        area = np.maximum(outline.mine.sum(axis=1), 1)
+        return np.sqrt(counts) @ self._reference / np.sqrt(area), skin_share
 
     def _hand_region(self, color_rgb: ByteImage) -> Region | None:
         """Rectangle about the skin and paper of the largest hand-like region, None when there is no paper."""
@@ -160,3 +160,16 @@ class Detector:
             int((column.max() + 1 + margin) * _COARSE),
             int((row.max() + 1 + margin) * _COARSE),
         ).clipped(color_rgb.shape[1], color_rgb.shape[0])
+
+
+def _by_hue_and_saturation(looks: MarkerAppearance) -> tuple[NDArray[np.uint8], NDArray[np.bool_]]:
+    """For each pair of hue and saturation, read as one number of two bytes: its cell of the coarse histogram, and
+    whether it is likelier on skin than on paper."""
+    bins = color_histogram.BINS
+    level = np.arange(256)
+    hue, saturation = np.minimum(level[:, None] * bins // 180, bins - 1), level * bins // 256
+    number = np.stack(np.broadcast_arrays(level[:, None], level), axis=-1).astype(np.uint8).view(np.uint16)[..., 0]
+    cell, is_skin = np.empty(1 << 16, dtype=np.uint8), np.empty(1 << 16, dtype=np.bool_)
+    cell[number] = (hue >> 1) * _SIMILARITY_BINS + (saturation >> 1)
+    is_skin[number] = looks.skin_lookup[hue, saturation] >= _SKIN_LEVEL
+    return cell, is_skin

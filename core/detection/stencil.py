@@ -1,6 +1,7 @@
 """Where to look in the window around a blob: which pixels can be its core, its rim, its neighbourhood.
 
-All of it depends on the disc's radius alone and is worked out once.
+All of it depends on the disc's radius alone and is worked out once. The pixels of a window are told from its
+middle outwards, so that each of these is a run of them.
 """
 
 from __future__ import annotations
@@ -8,10 +9,11 @@ from __future__ import annotations
 from dataclasses import dataclass
 from functools import lru_cache
 
+import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from core.types import FloatArray
+from core.types import ByteImage, FloatArray
 
 EDGE_REACH_PX = 6
 """The sensor's matching window reaches this far."""
@@ -22,25 +24,25 @@ _CORE, _REACH, _RIM_FROM, _RIM_TO = 0.62, 1.35, 1.35, 1.9
 
 @dataclass(frozen=True, slots=True)
 class Stencil:
-    """A square window of P = (2 half + 1)^2 pixels, flattened.
+    """A round window of P pixels about a blob, ordered by their distance from its middle.
 
-    ``row`` and ``column`` (P,) offsets from the middle; ``core``, ``reach``, ``rim`` (P,) masks;
-    ``moments`` (P, 3) the columns 1, u, v; ``wedge`` (WEDGES, P) the rim seen in eight overlapping quarter
-    circles, 0 or 1; ``nearest`` (P,) the wedge in whose middle a pixel lies; ``core_at`` and ``near_at`` the
-    pixels of the core and those within the sensor's window.
+    ``row`` and ``column`` (P,) offsets from the middle, at most ``half``; ``core``, ``reach`` and ``near`` the first
+    so many pixels: those of the disc's own colour, those that may belong to it, those within the sensor's window;
+    ``rim`` the pixels around it, ``wedge`` (R, WEDGES) the R pixels of the rim seen in eight overlapping quarter
+    circles, 0 or 1; ``pick`` (P,) where in rows of P times WEDGES each pixel finds the wedge in whose middle it lies;
+    ``moments`` (P, 3) the columns 1, u, v.
     """
 
     half: int
     row: NDArray[np.int64]
     column: NDArray[np.int64]
-    core: NDArray[np.bool_]
-    reach: NDArray[np.bool_]
-    rim: NDArray[np.bool_]
-    moments: NDArray[np.float32]
+    core: slice
+    reach: slice
+    near: slice
+    rim: slice
     wedge: NDArray[np.float32]
-    nearest: NDArray[np.int64]
-    core_at: NDArray[np.int64]
-    near_at: NDArray[np.int64]
+    pick: NDArray[np.int64]
+    moments: NDArray[np.float32]
 
 
 def stencil_for(radius_px: float) -> Stencil:
@@ -55,37 +57,60 @@ def _stencil(quarters: int) -> Stencil:
     offset = np.arange(-half, half + 1)
     row, column = (grid.ravel() for grid in np.meshgrid(offset, offset, indexing="ij"))
     distance = np.hypot(row, column)
-    rim = (distance >= _RIM_FROM * radius) & (distance <= _RIM_TO * radius)
+    core, reach, rim_from, rim_to = _CORE * radius + 0.25, _REACH * radius + 0.5, _RIM_FROM * radius, _RIM_TO * radius
+    # Rings between the limits from the middle outwards, in each of them row by row.
+    ring = sum((distance > limit).astype(np.int64) for limit in (core, reach, rim_to, EDGE_REACH_PX))
+    order = np.argsort(ring + (distance >= rim_from), kind="stable")
+    row, column, distance = row[order], column[order], distance[order]
+
+    def first(reach_px: float) -> slice:
+        return slice(int(np.count_nonzero(distance <= reach_px)))
+
+    rim = slice(int(np.count_nonzero(distance < rim_from)), first(rim_to).stop)
     angle = np.arctan2(row, column)
-    middle = np.arange(WEDGES) * (2.0 * np.pi / WEDGES)
+    width = 2.0 * np.pi / WEDGES
+    middle = np.arange(WEDGES) * width
     apart = np.abs((angle - middle[:, None] + np.pi) % (2.0 * np.pi) - np.pi)
-    wedge = (apart <= 2.0 * np.pi / WEDGES + 1e-9) & rim
-    moments = np.stack((np.ones(row.size), column, row), axis=1)
-    core = distance <= _CORE * radius + 0.25
+    is_seen = width + 1e-9 >= apart[:, rim].T
     return Stencil(
         half,
         row,
         column,
-        core,
-        distance <= _REACH * radius + 0.5,
+        first(core),
+        first(reach),
+        first(EDGE_REACH_PX),
         rim,
-        moments.astype(np.float32),
-        wedge.astype(np.float32),
-        apart.argmin(axis=0),
-        np.flatnonzero(core),
-        np.flatnonzero(distance <= EDGE_REACH_PX),
+        is_seen.astype(np.float32),
+        np.arange(row.size) * WEDGES + apart.argmin(axis=0),
+        np.stack((np.ones(row.size), column, row), axis=1).astype(np.float32),
     )
 
 
 def window_pixels(
     stencil: Stencil, centre_px: FloatArray, shape: tuple[int, ...]
-) -> tuple[NDArray[np.int64], NDArray[np.bool_], FloatArray]:
-    """Flat indices (B, P) into a picture of ``shape``, which of them are inside it, and the middles (B, 2)."""
+) -> tuple[NDArray[np.int64], NDArray[np.bool_] | None, FloatArray]:
+    """Flat indices (B, P) into a picture of ``shape``, which of them are inside it (None when all are), and the
+    middles (B, 2)."""
+    height, width = shape
     middle = np.rint(centre_px)
-    column = middle[:, 0:1].astype(np.int64) + stencil.column
-    row = middle[:, 1:2].astype(np.int64) + stencil.row
-    inside = (column >= 0) & (column < shape[1]) & (row >= 0) & (row < shape[0])
-    if inside.all():
-        return row * shape[1] + column, inside, middle
-    flat = np.clip(row, 0, shape[0] - 1) * shape[1] + np.clip(column, 0, shape[1] - 1)
-    return flat, inside, middle
+    at = middle.astype(np.int64)
+    (left, top), (right, bottom) = at.min(axis=0).tolist(), at.max(axis=0).tolist()
+    half = stencil.half
+    if left >= half and top >= half and right < width - half and bottom < height - half:
+        flat = at[:, 1] * width + at[:, 0]
+        return flat[:, None] + (stencil.row * width + stencil.column), None, middle
+    column, row = at[:, :1] + stencil.column, at[:, 1:] + stencil.row
+    inside = (column >= 0) & (column < width) & (row >= 0) & (row < height)
+    return np.clip(row, 0, height - 1) * width + np.clip(column, 0, width - 1), inside, middle
+
+
+def packed(picture: ByteImage) -> NDArray[np.uint32]:
+    """A picture of three channels as one number a pixel, flat: a window's pixels are then fetched in one go."""
+    return cv2.cvtColor(picture, cv2.COLOR_RGB2RGBA).reshape(-1).view(np.uint32)
+
+
+def unpacked(pixels: NDArray[np.uint32]) -> NDArray[np.float32]:
+    """The channels (B, P, 4) of packed pixels (B, P), the last one 1."""
+    channels = pixels.view(np.uint8).reshape(*pixels.shape, 4).astype(np.float32)
+    channels[..., 3] = 1.0
+    return channels

@@ -27,32 +27,37 @@ def split_touching(
     the first part keeps the label.
     """
     out: list[tuple[int, NDArray[np.int64], FloatArray]] = []
-    following = int(stats.shape[0])
-    longest = np.maximum(stats[:, 2], stats[:, 3])
-    for label in np.flatnonzero(longest > _LONG_SIDE * radius_px):
-        if label == 0:
+    following = len(stats)
+    boxes = enumerate(zip(stats.tolist(), radius_px.tolist(), strict=True))
+    next(boxes)  # the background's
+    for label, ((left, top, width, height, _), radius) in boxes:
+        if max(width, height) <= _LONG_SIDE * radius:
             continue
-        left, top, width, height = stats[label, :4]
-        row, column = np.nonzero(labels[top : top + height, left : left + width] == label)
-        points = np.column_stack((column + left, row + top)).astype(np.float64)
-        radius = float(radius_px[label])
+        box = labels[top : top + height, left : left + width]
+        row, column = np.nonzero(box == label)
+        points = np.empty((row.size, 2))
+        points[:, 0], points[:, 1] = column, row
+        points += (left, top)
         parts = _parts(points, radius)
         if parts is None:
             continue
-        own = np.array([label, *range(following, following + parts.max())])
-        following += int(parts.max())
-        labels[row + top, column + left] = own[parts]
-        area = np.bincount(parts).astype(np.float64)
-        places = [np.bincount(parts, points[:, axis]) / area for axis in (0, 1)]
-        out.append((int(label), own, np.column_stack((*places, area))))
+        area = np.bincount(parts)
+        own = np.array([label, *range(following, following + area.size - 1)])
+        following += area.size - 1
+        box[row, column] = own[parts]
+        facts = np.empty((area.size, 3))
+        facts[:, 2] = area
+        for axis in (0, 1):
+            facts[:, axis] = np.bincount(parts, points[:, axis]) / area
+        out.append((label, own, facts))
     return out
 
 
 def _parts(points: FloatArray, radius_px: float) -> NDArray[np.int64] | None:
     """Part of every pixel (P, 2), or None for a blob that is one disc or much more than a few of them."""
-    centre = points.mean(axis=0)
+    centre = points.sum(axis=0) / len(points)
     centred = points - centre
-    (xx, xy), (_, yy) = centred.T @ centred / len(points)
+    (xx, xy), (_, yy) = (centred.T @ centred / len(points)).tolist()
     half_gap = math.hypot(0.5 * (xx - yy), xy)
     if math.sqrt(0.5 * (xx + yy) + half_gap) <= _LONG_AXIS * radius_px:
         return None
