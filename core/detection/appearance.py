@@ -11,12 +11,16 @@ from scipy.optimize import linear_sum_assignment
 
 from core.camera import Camera
 from core.detection import color_histogram
+from core.detection.blobs import outlines, refined_centres
 from core.detection.components import Components, components
 from core.detection.settings import DetectionSettings
+from core.detection.stencil import packed, stencil_for, unpacked, window_pixels
 from core.types import ByteImage, FloatArray, Frame
 
 _FALLBACK_RADIUS_PX = 5.0
 _ROUNDS = 3
+_PAPER_REACH = 0.8
+"""Radii of a disc up to which its pixels are paper, those at its edge more paper than skin."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -63,7 +67,7 @@ def learn_appearance(
     """Learn from clicks (M, 2) near the discs; also the discs' rough centres (M, 2), NaN where none was found.
 
     First the colours right under the clicks, most of which are paper, against the ring around them, most of
-    which is not; then again from the blobs so found, until they settle.
+    which is not; then again from the discs so found, until they settle.
     """
     hsv = color_histogram.to_hsv(frame.color_rgb)
     shape = hsv.shape[:2]
@@ -82,17 +86,29 @@ def learn_appearance(
         found = _blobs_under(click_px, radius_px, blobs)
         if not np.any(found >= 0):
             break
-        centre = np.where((found >= 0)[:, None], _rows(blobs.centre_px, found), np.nan)
-        on_paper = np.isin(blobs.labels, blobs.label[found[found >= 0]])
-        core = cv2.erode(on_paper.astype(np.uint8), np.ones((3, 3), np.uint8)) > 0
-        if core.sum() >= 5 * len(click_px):
-            on_paper = core
-        around = np.zeros(shape, dtype=bool)
-        for point, radius in zip(centre, radius_px, strict=True):
-            if np.isfinite(point[0]):
-                around |= disc_mask(shape, point, 2.2 * radius) & ~disc_mask(shape, point, 1.45 * radius)
+        centre = np.full(click_px.shape, np.nan)
+        there = found >= 0
+        centre[there], radius = _measured(frame.color_rgb, blobs, found[there], float(middle_radius))
+        on_paper, around = np.zeros(shape, dtype=bool), np.zeros(shape, dtype=bool)
+        for point, reach in zip(centre[there], radius, strict=True):
+            on_paper |= disc_mask(shape, point, _PAPER_REACH * reach)
+            around |= disc_mask(shape, point, 2.2 * reach) & ~disc_mask(shape, point, 1.45 * reach)
         looks = _appearance(hsv, on_paper, around & ~_grown(blobs.labels > 0), settings)
     return _measured_by_discs(looks, hsv, centre, radius_px, settings), centre
+
+
+def _measured(
+    color_rgb: ByteImage, blobs: Components, found: NDArray[np.int64], radius_px: float
+) -> tuple[FloatArray, FloatArray]:
+    """Centres (B, 2) and radii (B,) of the discs under the blobs ``found``, by unmixing at their edges.
+
+    While the paper's colours are only partly known a blob is smaller than its disc.
+    """
+    stencil = stencil_for(radius_px)
+    pixels, inside, middle = window_pixels(stencil, blobs.centre_px[found], blobs.labels.shape)
+    outline = outlines(blobs.labels.reshape(-1).take(pixels), blobs.label[found], inside, stencil)
+    offset, area = refined_centres(unpacked(packed(color_rgb).take(pixels)), outline, stencil)
+    return middle + offset, np.sqrt(area / np.pi)
 
 
 def _measured_by_discs(

@@ -40,7 +40,8 @@ def outlines(
     """Outlines from the windows (B, P) of the label picture and the blobs' own labels (B,)."""
     mine = labels == own[:, None]
     free = labels == 0
-    if inside is not None:
+    if inside is not None:  # off the picture a window repeats its border
+        mine &= inside
         free &= inside
     counted = mine.copy()
     counted[:, stencil.reach] |= free[:, stencil.reach]

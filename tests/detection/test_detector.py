@@ -1,0 +1,293 @@
+"""Discs in small pictures: found all, found nothing else, to a tenth of a pixel, whatever the paper's colour."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from core.detection.appearance import MarkerAppearance, learn_appearance
+from core.detection.detector import Detector, Region
+from core.detection.settings import DetectionSettings
+from core.types import Detections, FloatArray
+from tests.detection.pictures import (
+    CAMERA,
+    DARK_SKIN,
+    DISTANCE_M,
+    PALM_PX,
+    PAPERS,
+    RADIUS_PX,
+    SKIN,
+    Extra,
+    Look,
+    depth_picture,
+    frame,
+    matched,
+    picture,
+)
+
+SETTINGS = DetectionSettings()
+
+
+def learnt(look: Look, rng: np.random.Generator, click_error_px: float = 2.0) -> tuple[MarkerAppearance, FloatArray]:
+    clicks = PALM_PX + rng.uniform(-click_error_px, click_error_px, PALM_PX.shape)
+    return learn_appearance(frame(picture(PALM_PX, look, rng), depth_picture(rng)), clicks, CAMERA, SETTINGS)
+
+
+def detector_for(look: Look, rng: np.random.Generator) -> Detector:
+    return Detector(learnt(look, rng)[0], CAMERA, SETTINGS)
+
+
+def all_found(found: Detections, true_px: FloatArray, within_px: float = 0.5) -> bool:
+    return len(found) == len(true_px) and bool(np.abs(matched(found.pixel, true_px)).max() < within_px)
+
+
+@pytest.mark.parametrize("light", [0.4, 1.0, 1.25])
+@pytest.mark.parametrize("skin", [SKIN, DARK_SKIN])
+@pytest.mark.parametrize("paper", PAPERS)
+def test_centres_are_good_to_a_tenth_of_a_pixel(paper: str, skin: tuple[int, int, int], light: float) -> None:
+    """Any paper, any skin, dim and bright, with colour halved across as the camera does."""
+    rng = np.random.default_rng(1)
+    look = Look(paper=PAPERS[paper], skin=skin, light=light)
+    detector = detector_for(look, rng)
+    errors = []
+    for _ in range(4):
+        true = PALM_PX + rng.uniform(-3.0, 3.0, PALM_PX.shape)
+        found = detector.detect(frame(picture(true, look, rng), depth_picture(rng)))
+        assert all_found(found, true)
+        errors.append(matched(found.pixel, true))
+    assert np.sqrt(np.mean(np.square(errors), axis=(0, 1))).max() < 0.1
+
+
+def test_shading_does_not_pull_the_centres() -> None:
+    """Half the light gone across the hand; without noise, so that only the pull is left."""
+    look = Look(shading=0.5, noise=0.0, chroma=False)
+    detector = detector_for(look, np.random.default_rng(2))
+    errors = []
+    for shift in np.linspace(0.0, 0.9, 10):
+        true = PALM_PX + [shift, 0.37 + 0.5 * shift]
+        found = detector.detect(frame(picture(true, look), depth_picture()))
+        errors.append(matched(found.pixel, true))
+    assert np.abs(np.mean(errors, axis=(0, 1))).max() < 0.03
+    assert np.sqrt(np.mean(np.square(errors), axis=(0, 1))).max() < 0.05
+
+
+def test_areas_are_those_of_the_discs() -> None:
+    rng = np.random.default_rng(3)
+    detector = detector_for(Look(), rng)
+    found = detector.detect(frame(picture(PALM_PX, Look(), rng), depth_picture(rng)))
+    assert found.area_px == pytest.approx(np.pi * RADIUS_PX**2, rel=0.1)
+    assert (found.similarity > 0.0).all()
+    assert (found.similarity <= 1.0 + 1e-9).all()
+
+
+def test_tilted_discs_are_found_where_their_middle_is() -> None:
+    rng = np.random.default_rng(4)
+    detector = detector_for(Look(), rng)
+    true = PALM_PX + 0.4
+    found = detector.detect(frame(picture(true, Look(), rng, squeeze=0.5), depth_picture(rng)))
+    assert all_found(found, true, within_px=0.2)
+
+
+@pytest.mark.parametrize("gap_px", [-0.5, 0.0, 0.8])
+@pytest.mark.parametrize("direction_deg", [0.0, 35.0, 90.0])
+def test_touching_discs_are_taken_apart(gap_px: float, direction_deg: float) -> None:
+    rng = np.random.default_rng(5)
+    detector = detector_for(Look(), rng)
+    away = (2.0 * RADIUS_PX + gap_px) * np.array([np.cos(np.radians(direction_deg)), np.sin(np.radians(direction_deg))])
+    true = PALM_PX.copy()
+    true[1] = [150.2, 145.6]
+    true[0] = true[1] + away
+    found = detector.detect(frame(picture(true, Look(), rng), depth_picture(rng)))
+    assert len(found) == 6
+    error = matched(found.pixel, true)
+    assert np.linalg.norm(error[:2], axis=1).max() < 0.6
+    assert np.linalg.norm(error[2:], axis=1).max() < 0.3
+
+
+def test_three_in_a_row_are_taken_apart() -> None:
+    rng = np.random.default_rng(6)
+    detector = detector_for(Look(), rng)
+    true = PALM_PX.copy()
+    true[:3] = [[130.0, 150.0], [130.0 + 2.05 * RADIUS_PX, 150.0], [130.0 + 4.1 * RADIUS_PX, 150.0]]
+    found = detector.detect(frame(picture(true, Look(), rng), depth_picture(rng)))
+    assert len(found) == 6
+    assert np.linalg.norm(matched(found.pixel, true), axis=1).max() < 0.8
+
+
+@pytest.mark.parametrize("where", [(156.0, 232.0), (250.0, 120.0)])
+def test_a_large_patch_of_the_papers_colour_is_no_marker(where: tuple[float, float]) -> None:
+    """A sleeve at the wrist, a bag on the table."""
+    rng = np.random.default_rng(7)
+    detector = detector_for(Look(), rng)
+    color = picture(PALM_PX, Look(), rng, extras=[Extra(where, 28.0, PAPERS["blue"])])
+    assert all_found(detector.detect(frame(color, depth_picture(rng))), PALM_PX)
+
+
+def test_small_specks_of_the_papers_colour_are_no_markers() -> None:
+    rng = np.random.default_rng(8)
+    detector = detector_for(Look(), rng)
+    specks = [Extra((float(u), 140.0), 1.0, PAPERS["blue"]) for u in (120, 140, 200)]
+    assert all_found(detector.detect(frame(picture(PALM_PX, Look(), rng, extras=specks), depth_picture(rng))), PALM_PX)
+
+
+def test_discs_that_do_not_lie_on_skin_are_no_markers() -> None:
+    rng = np.random.default_rng(9)
+    detector = detector_for(Look(), rng)
+    on_table = [Extra((30.0, 60.0), RADIUS_PX, PAPERS["blue"]), Extra((290.0, 200.0), RADIUS_PX, PAPERS["blue"])]
+    color = picture(PALM_PX, Look(), rng, extras=on_table)
+    assert all_found(detector.detect(frame(color, depth_picture(rng)), Region(0, 0, 320, 240)), PALM_PX)
+
+
+@pytest.mark.parametrize("other", ["green", "red", "yellow"])
+def test_discs_of_another_colour_are_no_markers(other: str) -> None:
+    rng = np.random.default_rng(10)
+    detector = detector_for(Look(), rng)
+    strange = [Extra((150.0, 140.0), RADIUS_PX, PAPERS[other])]
+    assert all_found(detector.detect(frame(picture(PALM_PX, Look(), rng, extras=strange), depth_picture(rng))), PALM_PX)
+
+
+@pytest.mark.parametrize("light", [0.5, 1.2])
+def test_other_light_than_at_calibration_is_no_trouble(light: float) -> None:
+    rng = np.random.default_rng(11)
+    detector = detector_for(Look(), rng)
+    found = detector.detect(frame(picture(PALM_PX, Look(light=light), rng), depth_picture(rng)))
+    assert all_found(found, PALM_PX)
+
+
+def test_only_the_region_given_is_searched() -> None:
+    rng = np.random.default_rng(12)
+    detector = detector_for(Look(), rng)
+    shown = frame(picture(PALM_PX, Look(), rng), depth_picture(rng))
+    upper = Region(100, 80, 215, 130)
+    found = detector.detect(shown, upper)
+    assert all_found(found, PALM_PX[2:])
+    whole = detector.detect(shown)
+    same = matched(found.pixel, whole.pixel[whole.pixel[:, 1] < 130.0])
+    assert np.abs(same).max() < 0.05, "pixels are told in the whole picture"
+    assert len(detector.detect(shown, Region(0, 0, 4, 240))) == 0
+    assert len(detector.detect(shown, Region(-50, -50, 1000, 1000))) == 6
+
+
+def test_predicted_region_holds_every_disc_and_little_more() -> None:
+    detector = detector_for(Look(), np.random.default_rng(13))
+    covariance = np.broadcast_to(4.0 * np.eye(2), (6, 2, 2))
+    region = detector.region_about(PALM_PX, covariance, np.full(6, DISTANCE_M))
+    low, high = PALM_PX.min(axis=0), PALM_PX.max(axis=0)
+    for side, room in ((low - [region.left, region.top], "low"), ([region.right, region.bottom] - high, "high")):
+        assert (side > 2.0 * 3.0 + RADIUS_PX).all(), room
+        assert (side < 40.0).all(), room
+    wider = detector.region_about(PALM_PX, 16.0 * covariance, np.full(6, DISTANCE_M))
+    assert wider.left < region.left
+    assert wider.bottom > region.bottom
+
+
+def test_nothing_is_found_where_nothing_is() -> None:
+    rng = np.random.default_rng(14)
+    detector = detector_for(Look(), rng)
+    assert len(detector.detect(frame(picture(np.empty((0, 2)), Look(), rng), depth_picture(rng)))) == 0
+    black = np.zeros((240, 320, 3), dtype=np.uint8)
+    assert len(detector.detect(frame(black, depth_picture(rng)))) == 0
+    white = np.full((240, 320, 3), 255, dtype=np.uint8)
+    assert len(detector.detect(frame(white, None))) == 0
+
+
+def test_covered_discs_are_left_out_and_half_covered_ones_are_small() -> None:
+    rng = np.random.default_rng(15)
+    detector = detector_for(Look(), rng)
+    color = picture(PALM_PX[1:], Look(), rng).copy()
+    half = PALM_PX[1]
+    color[int(half[1]) - 8 : int(half[1]) + 9, int(half[0]) + 1 : int(half[0]) + 9] = TABLE_STRIP
+    found = detector.detect(frame(color, depth_picture(rng)))
+    away = np.linalg.norm(found.pixel - PALM_PX[0], axis=1)
+    assert away.min() > 20.0, "no blob where the covered disc is"
+    near = np.linalg.norm(found.pixel - half, axis=1)
+    assert near.min() < 4.0
+    assert found.area_px[near.argmin()] < 0.8 * np.pi * RADIUS_PX**2
+
+
+TABLE_STRIP = np.array([90, 88, 85], dtype=np.uint8)
+
+
+def test_a_disc_at_the_rim_of_the_picture_is_no_trouble() -> None:
+    rng = np.random.default_rng(16)
+    looks, _ = learnt(Look(), rng)
+    true = PALM_PX + [0.0, 48.5]  # the lowest is half outside
+    found = Detector(looks, CAMERA, SETTINGS).detect(frame(picture(true, Look(), rng), depth_picture(rng)))
+    inside = true[1:]
+    assert np.abs(matched(found.pixel, inside)).max() < 0.3
+    assert (found.pixel >= -1.0).all()
+    assert (found.pixel[:, 1] < 240.0).all()
+
+
+def test_without_depth_blobs_have_none() -> None:
+    rng = np.random.default_rng(17)
+    detector = detector_for(Look(), rng)
+    found = detector.detect(frame(picture(PALM_PX, Look(), rng), None))
+    assert all_found(found, PALM_PX)
+    assert np.isnan(found.depth_m).all()
+    assert np.isnan(found.depth_sd_m).all()
+
+
+def test_depths_are_those_of_the_discs() -> None:
+    rng = np.random.default_rng(18)
+    detector = detector_for(Look(), rng)
+    found = detector.detect(frame(picture(PALM_PX, Look(), rng), depth_picture(rng)))
+    assert np.abs(found.depth_m - DISTANCE_M).max() < 0.002
+    assert (found.depth_sd_m > 3e-4).all()
+    assert (found.depth_sd_m < 0.004).all()
+
+
+def test_smaller_discs_are_followed_when_they_were_clicked() -> None:
+    """A child's 8 mm discs: what a disc measures is learnt, too."""
+    rng = np.random.default_rng(19)
+    radius = RADIUS_PX * 8.0 / 12.0
+    clicked = frame(picture(PALM_PX, Look(), rng, radius_px=radius), depth_picture(rng))
+    looks, _ = learn_appearance(clicked, PALM_PX + 0.5, CAMERA, SETTINGS)
+    true = PALM_PX + 0.3
+    found = Detector(looks, CAMERA, SETTINGS).detect(
+        frame(picture(true, Look(), rng, radius_px=radius), depth_picture(rng))
+    )
+    assert all_found(found, true, within_px=0.3)
+
+
+@pytest.mark.parametrize("click_error_px", [0.0, 3.5])
+def test_colours_are_learnt_also_from_clicks_beside_the_discs(click_error_px: float) -> None:
+    rng = np.random.default_rng(20)
+    angle = rng.uniform(0.0, 2.0 * np.pi, 6)
+    clicks = PALM_PX + click_error_px * np.stack((np.cos(angle), np.sin(angle)), axis=1)
+    first = frame(picture(PALM_PX, Look(), rng), depth_picture(rng))
+    looks, centres = learn_appearance(first, clicks, CAMERA, SETTINGS)
+    assert np.linalg.norm(centres - PALM_PX, axis=1).max() < 0.6
+    assert all_found(Detector(looks, CAMERA, SETTINGS).detect(first), PALM_PX)
+
+
+def test_the_hue_is_what_was_clicked_not_what_papers_usually_are() -> None:
+    """Blue specks on a hand with green discs: the green ones are the markers."""
+    rng = np.random.default_rng(21)
+    look = Look(paper=PAPERS["green"])
+    detector = detector_for(look, rng)
+    blue = [Extra((150.0, 140.0), RADIUS_PX, PAPERS["blue"]), Extra((190.0, 150.0), RADIUS_PX, PAPERS["blue"])]
+    found = detector.detect(frame(picture(PALM_PX, look, rng, extras=blue), depth_picture(rng)))
+    assert all_found(found, PALM_PX)
+
+
+def test_detector_keeps_no_memory() -> None:
+    rng = np.random.default_rng(22)
+    detector = detector_for(Look(), rng)
+    shown = frame(picture(PALM_PX, Look(), rng), depth_picture(rng))
+    first = detector.detect(shown)
+    detector.detect(frame(picture(PALM_PX + 20.0, Look(light=0.6), rng), None))
+    again = detector.detect(shown)
+    assert np.array_equal(first.pixel, again.pixel)
+    assert np.array_equal(first.depth_m, again.depth_m)
+
+
+def test_settings_name_the_least_share_of_skin() -> None:
+    """With no skin asked for, the disc on the table counts; the rule is the setting's, not hidden."""
+    rng = np.random.default_rng(23)
+    looks, _ = learnt(Look(), rng)
+    color = picture(PALM_PX, Look(), rng, extras=[Extra((30.0, 60.0), RADIUS_PX, PAPERS["blue"])])
+    easy = Detector(looks, CAMERA, replace(SETTINGS, skin_share=0.0))
+    assert len(easy.detect(frame(color, depth_picture(rng)), Region(0, 0, 320, 240))) == 7
