@@ -7,7 +7,7 @@ from collections.abc import Callable
 from core.errors import CarpusFault
 
 Notice = Callable[[CarpusFault], None]
-"""Hears of faults that are told and not raised: the source goes on. Called on the thread that opens it or reads frames."""
+"""Hears of faults that are told and not raised: the source goes on. Called where it is opened or frames are read."""
 
 
 def ignore(_fault: CarpusFault) -> None:
