@@ -6,6 +6,7 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 
 from core import so3
 from core.calibration.result import Calibration
@@ -27,7 +28,7 @@ from core.tracking.hand_geometry import (
 from core.tracking.joint_limits import MID_RANGE_RAD, RANGE_SD_RAD
 from core.tracking.measurement import View
 from core.tracking.motion import REFERENCE_DT_S
-from core.tracking.ray_filter import RayBeliefs, RayForecast, RayLayout, RayMotion, RayView, mixed
+from core.tracking.ray_filter import Forgetting, RayBeliefs, RayForecast, RayLayout, RayMotion, RayView, mixed
 from core.tracking.readout import Readout
 from core.tracking.settings import TrackerSettings
 from core.tracking.state import Belief
@@ -38,6 +39,9 @@ _POSE = np.array([0, 1, 2, 6, 7, 8])
 _SLOT = np.arange(SLOTS)
 _NARROW2 = 1e-10
 _STARTS_AT_RATE_SD = 1.0
+_POSTURE_SD_RAD = math.radians(12.0)
+"""Of the grid on which a lost finger is searched."""
+_POSTURE_RATE_SD = 3.0
 
 # Which discs move with a slot: 0 the first of the ray's three and those after it, and so on; 3 none.
 _FIRST_DISC = np.array([[0, 0, 1, 1, 2], *([0, 0, 1, 2, 3],) * 4])
@@ -133,6 +137,21 @@ class FingerModel:
             covariance[:, rate, rate] = np.where(self._moves, _STARTS_AT_RATE_SD**2, 1e-12)
         return self._alike(mean, covariance)
 
+    def at_posture(self, beliefs: RayBeliefs, rays: NDArray[np.int64], slots: FloatArray) -> RayBeliefs:
+        """Some rays (R,) begun anew about postures (R, 5), the anatomy as known by now."""
+        fresh = self.anywhere(*beliefs.merged())
+        mean, covariance = beliefs.mean.copy(), beliefs.covariance.copy()
+        mean[rays], covariance[rays] = fresh.mean[rays], fresh.covariance[rays]
+        mean[rays, :, :SLOTS] = slots[:, None]
+        covariance[rays[:, None], :, _SLOT, _SLOT] = np.where(self._moves[rays], _POSTURE_SD_RAD**2, 1e-12)[..., None]
+        if self.layout.has_rates:
+            rate = SLOTS + _SLOT
+            moving = np.where(self._moves[rays], _POSTURE_RATE_SD**2, 1e-12)
+            covariance[rays[:, None], :, rate, rate] = moving[..., None]
+        probability = beliefs.probability.copy()
+        probability[rays] = fresh.probability[rays]
+        return RayBeliefs(mean, covariance, probability)
+
     def _alike(self, mean: FloatArray, covariance: FloatArray) -> RayBeliefs:
         count = self.scales.size
         return RayBeliefs(
@@ -146,22 +165,27 @@ class FingerModel:
         if dt_s <= 0.0:
             return beliefs
         switch = modes.switching(self.scales.size, self.settings.mode_dwell_s, dt_s)
-        return self.motion.predicted(mixed(beliefs, switch), dt_s, *self.forgetting(unseen_s, dt_s))
+        return self.motion.predicted(mixed(beliefs, switch), dt_s, self.forgetting(beliefs, unseen_s, dt_s))
 
-    def forgetting(self, unseen_s: FloatArray, dt_s: float) -> tuple[FloatArray | None, FloatArray | None]:
-        """Share (5, 5) kept of each slot's rate and variance (5, 5) gained, where nothing shows it.
+    def forgetting(self, beliefs: RayBeliefs, unseen_s: FloatArray, dt_s: float) -> Forgetting | None:
+        """What becomes of the slots that nothing shows; None where all are shown.
 
-        Its angle is spread over the range of the joint in ``range_after_s``, slowly at first.
+        The angle is spread over the range of the joint in ``range_after_s``, slowly at first. The rate fades, and as
+        much of it as is given up becomes possible in either direction.
         """
-        is_unseen = unseen_s > 0.0
+        is_unseen = (unseen_s > 0.0) & self._moves
         if not is_unseen.any():
-            return None, None
+            return None
         whole_s = self.settings.fingers.range_after_s
         before = np.minimum(unseen_s, whole_s) / whole_s
         after = np.minimum(unseen_s + dt_s, whole_s) / whole_s
-        fade = np.where(is_unseen, math.exp(-dt_s / self.settings.rate_memory_s), 1.0)
-        gained = np.where(self._moves, RANGE_SD_RAD**2, 0.0) * (after**3 - before**3)
-        return fade, np.where(is_unseen, gained, 0.0)
+        angle2 = np.where(is_unseen, RANGE_SD_RAD**2 * (after**3 - before**3), 0.0)
+        if not self.layout.has_rates:
+            return Forgetting(np.ones((RAYS, SLOTS)), angle2, np.zeros((RAYS, SLOTS)))
+        keep = math.exp(-dt_s / self.settings.rate_memory_s)
+        rate = (beliefs.probability[:, None] @ beliefs.mean[..., self.layout.rates])[:, 0]
+        rate2 = np.where(is_unseen, (1.0 - keep**2) * rate**2, 0.0)
+        return Forgetting(np.where(is_unseen, keep, 1.0), angle2, rate2)
 
     def read(self, mean: FloatArray, covariance: FloatArray, seat: Seat, line: RayForecast) -> JointMoment:
         """Joints of rays (5, n) with covariance (5, n, n) on that palm; ``line`` what the camera saw of them."""

@@ -14,15 +14,19 @@ from core.camera import Camera
 from core.tracking.finger_model import SHOWS, FingerModel, Seat, ray_view
 from core.tracking.finger_naming import FingerScene, NamedFingers, name_fingers, seen_chance, tilt_to, tilt_variance
 from core.tracking.hand_geometry import DISCS, RAYS, SLOTS, JointMoment
+from core.tracking.joint_association import holds_together
 from core.tracking.joint_limits import constrained
 from core.tracking.measurement import View
 from core.tracking.naming import Measurable
 from core.tracking.ray_filter import RayBeliefs, RayForecast, RayPoints, forecast, spread_points
+from core.tracking.ray_search import LEAST_DISCS, search_rays
 from core.tracking.settings import TrackerSettings
 from core.tracking.state import Belief
 from core.tracking.unscented import weights_for
 from core.types import FloatArray
 
+_PATIENCE = 2
+"""Frames for which a ray may show fewer than two discs before it is searched."""
 _LEAST_FACING = 0.15
 _FLAT_RAD = math.radians(50.0)
 _GROWING, _SHRINKING = 0.2, 0.02
@@ -64,6 +68,11 @@ class FingerTrial:
         """Its degrees of freedom."""
         return int(self.named.update.dof.sum())
 
+    def holds_together(self, rays: NDArray[np.int64]) -> bool:
+        """Whether what was measured of those rays is what was foreseen."""
+        update = self.named.update
+        return all(holds_together(float(update.nis[ray]), int(update.dof[ray])) for ray in rays)
+
     @property
     def blob(self) -> NDArray[np.int64]:
         """Blob (5, 3) taken for every disc or -1."""
@@ -82,6 +91,7 @@ class Fingers:
         """Start (again) from the neutral pose, at rest."""
         self._palm = self.model.calibrated_palm
         self._visible = np.full((RAYS, DISCS), 0.98)
+        self._missing = np.zeros(RAYS, dtype=np.int64)
         self._unseen_s = np.zeros((RAYS, SLOTS))
         self._noise_factor = np.ones((RAYS, 3 * DISCS))
         self._disc_m2 = np.full((RAYS, DISCS), np.nan)
@@ -90,6 +100,7 @@ class Fingers:
     def begin_anywhere(self) -> None:
         """Start again after the hand was lost: the anatomy is known, the joints may be anywhere."""
         self._visible = np.full((RAYS, DISCS), 0.5)
+        self._missing = np.full(RAYS, _PATIENCE)
         self._unseen_s = np.full((RAYS, SLOTS), self._settings.fingers.range_after_s)
         self._take(self.model.anywhere(self._mean, self._covariance))
 
@@ -133,6 +144,42 @@ class Fingers:
         ``area_px`` (D,) of the blobs.
         """
         beliefs, points = self._ahead_at(timestamp_s, dt_s)
+        trial = self._tried(beliefs, points, dt_s, seat, blobs, area_px, free)
+        anew = self._searched(trial, points, seat, blobs, free)
+        if not anew:
+            return trial
+        rays = np.array(list(anew))
+        restarted = self.model.at_posture(beliefs, rays, np.array(list(anew.values())))
+        points = spread_points(*restarted.merged(), self._palm.disc_m[1:], self.model.layout, self._settings.spread)
+        other = self._tried(restarted, points, dt_s, seat, blobs, area_px, free)
+        better = np.count_nonzero(other.blob[rays] >= 0) > np.count_nonzero(trial.blob[rays] >= 0)
+        return other if better and other.holds_together(rays) else trial
+
+    def _searched(
+        self, trial: FingerTrial, points: RayPoints, seat: Seat, blobs: Measurable, free: NDArray[np.bool_]
+    ) -> dict[int, FloatArray]:
+        """Postures (5,) of rays that have been missing for some frames, if the blobs left over show them."""
+        named = np.count_nonzero(trial.blob >= 0, axis=1)
+        rays = np.flatnonzero((named < LEAST_DISCS) & (self._missing >= _PATIENCE) & (self._missing % 2 == 0))
+        if not rays.size:
+            return {}
+        spare = free & np.isfinite(blobs.value[:, 2])
+        spare[trial.blob[(trial.blob >= 0) & (named >= LEAST_DISCS)[:, None]]] = False
+        value, camera = blobs.value[spare], seat.view.camera
+        in_camera = camera.back_project(value[:, :2], value[:, 2])
+        point = (in_camera - seat.view.translation_m) @ seat.view.rotation
+        return search_rays(rays, points.mean[:, self.model.layout.seen], self._palm.disc_m[1:], point)
+
+    def _tried(
+        self,
+        beliefs: RayBeliefs,
+        points: RayPoints,
+        dt_s: float,
+        seat: Seat,
+        blobs: Measurable,
+        area_px: FloatArray,
+        free: NDArray[np.bool_],
+    ) -> FingerTrial:
         line = forecast(points, seat.view, self.model.layout, self._settings.spread)
         tilt = tilt_to(seat.view, points.normal, line.centre_m)
         tilt_sd = np.sqrt(tilt_variance(points.covariance))
@@ -171,6 +218,8 @@ class Fingers:
         self._visible = np.where(is_named, 0.98, trial.visible * 0.1 / (1.0 - 0.9 * trial.visible))
         shown = (SHOWS & is_named[:, None, :]).any(axis=-1)
         self._unseen_s = np.where(shown, 0.0, self._unseen_s + dt_s)
+        count = np.count_nonzero(is_named, axis=1)
+        self._missing = np.where(count < LEAST_DISCS, self._missing + 1, 0)
         self._watch_noise(named, dt_s)
         self._learn_sizes(trial.disc_m2)
         after = named.update.beliefs

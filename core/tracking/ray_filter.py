@@ -117,6 +117,16 @@ def mixed(beliefs: RayBeliefs, switch: FloatArray) -> RayBeliefs:
     return RayBeliefs(mean, inner + between, predicted)
 
 
+@dataclass(frozen=True, slots=True)
+class Forgetting:
+    """What becomes of slots that nothing shows: share ``keep_rate`` (5, 5) kept of the rate, variance ``angle2`` (5, 5)
+    and ``rate2`` (5, 5) gained."""
+
+    keep_rate: FloatArray
+    angle2: FloatArray
+    rate2: FloatArray
+
+
 class RayMotion:
     """How the rays may move between two frames: constant rates or, as in the papers, random walks.
 
@@ -147,22 +157,21 @@ class RayMotion:
             self._step = (dt_s, forward, noise)
         return self._step[1], self._step[2]
 
-    def predicted(
-        self, beliefs: RayBeliefs, dt_s: float, fade: FloatArray | None = None, growth: FloatArray | None = None
-    ) -> RayBeliefs:
-        """The beliefs ``dt_s`` later. For joints that are not seen: ``fade`` (5, 5) share of each rate that is
-        kept, ``growth`` (5, 5) variance that each angle gains."""
+    def predicted(self, beliefs: RayBeliefs, dt_s: float, forgetting: Forgetting | None) -> RayBeliefs:
+        """The beliefs ``dt_s`` later."""
         forward, noise = self._terms(dt_s)
-        if fade is not None and self._layout.has_rates:
+        if forgetting is not None and self._layout.has_rates:
             faded = np.repeat(forward[None], RAYS, axis=0)
-            faded[:, SLOTS + _SLOT, SLOTS + _SLOT] = fade
-            faded[:, _SLOT, SLOTS + _SLOT] = fade * dt_s
+            faded[:, SLOTS + _SLOT, SLOTS + _SLOT] = forgetting.keep_rate
+            faded[:, _SLOT, SLOTS + _SLOT] = forgetting.keep_rate * dt_s
             forward = faded[:, None]
         mean = (forward @ beliefs.mean[..., None])[..., 0]
         covariance = forward @ beliefs.covariance @ np.swapaxes(forward, -1, -2)
         covariance += noise
-        if growth is not None:
-            covariance[..., _SLOT, _SLOT] += growth[:, None]
+        if forgetting is not None:
+            covariance[..., _SLOT, _SLOT] += forgetting.angle2[:, None]
+            if self._layout.has_rates:
+                covariance[..., SLOTS + _SLOT, SLOTS + _SLOT] += forgetting.rate2[:, None]
         return RayBeliefs(mean, covariance, beliefs.probability)
 
 

@@ -1,0 +1,81 @@
+"""Finding a finger again without any prediction: which posture of it explains the blobs that nothing else does."""
+
+from __future__ import annotations
+
+from functools import lru_cache
+from itertools import product
+
+import numpy as np
+from numpy.typing import NDArray
+
+from core.tracking.hand_geometry import DISCS, RAYS, SLOTS, ray_discs_m
+from core.types import FloatArray
+
+NEAR_M = 0.012
+"""How far from a posture of the grid a disc may lie: half a step of it and the noise of a depth."""
+LEAST_DISCS = 2
+_REACH_M = 0.015
+
+
+@lru_cache(maxsize=1)
+def _grid() -> FloatArray:
+    """Postures (5, S, 5) in slots, radians: all that a ray can do, in steps of about 15 degrees."""
+    thumb = list(product((-25, -5, 15, 35), (-5, 15, 35, 55), (-5, 20, 45, 70), (0,), (-10, 20, 50, 80)))
+    finger = list(product((-18, -6, 6, 18), (-30, -15, 0, 15, 30, 45, 60, 75, 90), (0, 20, 40, 60, 80, 100)))
+    postures = np.zeros((RAYS, max(len(thumb), len(finger)), SLOTS))
+    postures[0, : len(thumb)] = thumb
+    postures[1:, : len(finger), :3] = finger
+    return np.asarray(np.radians(postures))
+
+
+def search_rays(
+    rays: NDArray[np.int64], state: FloatArray, root_disc_m: FloatArray, point_m: FloatArray
+) -> dict[int, FloatArray]:
+    """Slots (5,) of each of the ``rays`` that explain at least two of the blobs at ``point_m`` (B, 3) in W2.
+
+    ``state`` (5, 16) slots and constants of all rays; ``root_disc_m`` (5, 3) discs under which they begin. No blob is
+    used by two rays: the ray that explains most comes first.
+    """
+    length = state[:, SLOTS : SLOTS + DISCS].sum(axis=1) + _REACH_M
+    near = np.linalg.norm(point_m - root_disc_m[:, None], axis=-1) < length[:, None]
+    waiting = [int(ray) for ray in rays if np.count_nonzero(near[ray]) >= LEAST_DISCS]
+    if not waiting:
+        return {}
+    postures = _grid()
+    points = np.repeat(state[:, None], postures.shape[1], axis=1)
+    points[..., :SLOTS] = postures
+    disc = ray_discs_m(root_disc_m, points)
+    found: dict[int, FloatArray] = {}
+    free = np.ones(len(point_m), dtype=bool)
+    while waiting:
+        best: tuple[float, int, int, NDArray[np.int64]] | None = None
+        for ray in waiting:
+            reached = np.flatnonzero(free & near[ray])
+            if reached.size < LEAST_DISCS:
+                continue
+            score, posture, used = _best_posture(disc[ray], point_m[reached])
+            if used.size >= LEAST_DISCS and (best is None or score > best[0]):
+                best = score, ray, posture, reached[used]
+        if best is None:
+            break
+        _, ray, posture, used = best
+        found[ray] = postures[ray, posture]
+        free[used] = False
+        waiting.remove(ray)
+    return found
+
+
+def _best_posture(disc_m: FloatArray, point_m: FloatArray) -> tuple[float, int, NDArray[np.int64]]:
+    """Score, index of the posture and blobs used, for discs (S, 3, 3) of postures and blobs (B, 3)."""
+    gap2 = np.sum((disc_m[:, :, None] - point_m) ** 2, axis=-1)  # (S, 3, B)
+    nearest = gap2.argmin(axis=-1)
+    worth = np.maximum(1.0 - np.take_along_axis(gap2, nearest[..., None], axis=-1)[..., 0] / NEAR_M**2, 0.0)
+    # A blob is one disc only: the second disc that takes it is worth nothing.
+    for first, second in ((0, 1), (0, 2), (1, 2)):
+        same = nearest[:, first] == nearest[:, second]
+        lesser = same & (worth[:, first] < worth[:, second])
+        worth[lesser, first] = 0.0
+        worth[same & ~lesser, second] = 0.0
+    score = np.count_nonzero(worth, axis=1) + 0.3 * worth.sum(axis=1)
+    best = int(np.argmax(score))
+    return float(score[best]), best, nearest[best][worth[best] > 0.0]
