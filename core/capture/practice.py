@@ -51,7 +51,8 @@ class PracticeSource:
             clock_s, index = clock_s + step_s, index + 1
             return replace(frame, index=index - 1, timestamp_s=clock_s)
 
-        rest, moving, last_s = _to_and_fro(still), chain([first_moving], take), first_moving.timestamp_s - period_s
+        rest, last_s = _to_and_fro(still), first_moving.timestamp_s - period_s
+        moving: Iterator[Frame] = chain([first_moving], take)
         while True:
             while not self._free.is_set():
                 yield timed(replace(next(rest), dropped_before=0), period_s)
