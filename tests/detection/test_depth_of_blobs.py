@@ -1,0 +1,108 @@
+"""When the depth under a disc is believed, and how much (clinical reference 7.2)."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+
+from core.detection.appearance import disc_mask, learn_appearance
+from core.detection.detector import Detector
+from core.detection.settings import DetectionSettings
+from core.types import Detections, FloatArray
+from tests.detection.pictures import CAMERA, DISTANCE_M, PALM_PX, RADIUS_PX, Look, depth_picture, frame, picture
+
+SETTINGS = DetectionSettings()
+DISC = 3
+"""The disc on whose depth is played."""
+
+
+def detected(depth_m: FloatArray, shift_px: float = 0.0) -> Detections:
+    """The blobs of a picture with this depth, in the order of the discs; colours learnt with good depth."""
+    rng = np.random.default_rng(0)
+    looks, _ = learn_appearance(frame(picture(PALM_PX, Look(), rng), depth_picture()), PALM_PX, CAMERA, SETTINGS)
+    found = Detector(looks, CAMERA, SETTINGS).detect(frame(picture(PALM_PX + shift_px, Look(), rng), depth_m))
+    order = np.linalg.norm(found.pixel[None] - (PALM_PX + shift_px)[:, None], axis=-1).argmin(axis=1)
+    return Detections(
+        found.pixel[order], found.depth_m[order], found.depth_sd_m[order], found.area_px[order], found.similarity[order]
+    )
+
+
+def on_disc() -> tuple[NDArray[np.int64], NDArray[np.int64]]:
+    rows, columns = np.nonzero(disc_mask((240, 320), PALM_PX[DISC], 1.2 * RADIUS_PX))
+    return rows, columns
+
+
+def others(values: FloatArray) -> FloatArray:
+    return np.delete(values, DISC)
+
+
+def test_good_depth_is_believed() -> None:
+    found = detected(depth_picture())
+    assert found.depth_m == pytest.approx(DISTANCE_M, abs=2e-4)
+    # By the book the reading has 1.425e-3 z^2, and readings a few pixels apart are one.
+    assert found.depth_sd_m[DISC] == pytest.approx(1.425e-3 * DISTANCE_M**2, rel=0.05)
+
+
+@pytest.mark.parametrize(("share_missing", "is_believed"), [(0.0, True), (0.5, True), (0.85, False), (1.0, False)])
+def test_holes_are_borne_up_to_seven_tenths(share_missing: float, is_believed: bool) -> None:
+    depth = depth_picture()
+    rows, columns = on_disc()
+    holes = np.random.default_rng(1).permutation(len(rows))[: round(share_missing * len(rows))]
+    depth[rows[holes], columns[holes]] = 0.0
+    found = detected(depth)
+    assert np.isfinite(found.depth_m[DISC]) == is_believed
+    assert np.isfinite(found.depth_sd_m[DISC]) == is_believed
+    if is_believed:
+        assert found.depth_m[DISC] == pytest.approx(DISTANCE_M, abs=5e-4)
+    assert np.isfinite(others(found.depth_m)).all()
+
+
+def test_finger_and_table_mixed_are_not_believed() -> None:
+    """Half the disc's readings are of something five centimetres behind."""
+    depth = depth_picture()
+    rows, columns = on_disc()
+    behind = columns > PALM_PX[DISC, 0]
+    depth[rows[behind], columns[behind]] += 0.05
+    found = detected(depth)
+    assert np.isnan(found.depth_m[DISC])
+    assert np.isfinite(others(found.depth_m)).all()
+
+
+def test_a_few_strange_readings_do_not_pull() -> None:
+    depth = depth_picture()
+    rows, columns = on_disc()
+    strange = np.random.default_rng(2).permutation(len(rows))[: len(rows) // 7]
+    depth[rows[strange], columns[strange]] += 0.05
+    found = detected(depth)
+    assert found.depth_m[DISC] == pytest.approx(DISTANCE_M, abs=1e-3)
+
+
+def test_a_slope_is_believed_less() -> None:
+    flat, steep = depth_picture(), depth_picture()
+    rows, columns = on_disc()
+    steep[rows, columns] += 0.0011 * (columns - PALM_PX[DISC, 0])
+    a, b = detected(flat), detected(steep)
+    assert b.depth_m[DISC] == pytest.approx(DISTANCE_M, abs=1e-3)
+    assert b.depth_sd_m[DISC] > 1.2 * a.depth_sd_m[DISC]
+
+
+def test_a_disc_at_the_edge_of_the_surface_is_believed_less() -> None:
+    depth = depth_picture()
+    middle_v, middle_u = (round(float(x)) for x in PALM_PX[DISC][::-1])
+    depth[middle_v - 14 : middle_v + 15, middle_u + 4 : middle_u + 14] += 0.05
+    a, b = detected(depth_picture()), detected(depth)
+    assert b.depth_m[DISC] == pytest.approx(DISTANCE_M, abs=1e-3)
+    assert b.depth_sd_m[DISC] > 1.3 * a.depth_sd_m[DISC]
+
+
+def test_depths_are_told_in_metres_whatever_the_unit() -> None:
+    rng = np.random.default_rng(3)
+    shown = frame(picture(PALM_PX, Look(), rng), depth_picture())
+    assert shown.depth_raw is not None
+    looks, _ = learn_appearance(shown, PALM_PX, CAMERA, SETTINGS)
+    millimetres = replace(shown, depth_raw=(shown.depth_raw // 5).astype(np.uint16), depth_unit_m=1e-3)
+    found = Detector(looks, CAMERA, SETTINGS).detect(millimetres)
+    assert found.depth_m == pytest.approx(DISTANCE_M, abs=1e-3)
