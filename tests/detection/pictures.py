@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import dataclass, field
+from dataclasses import dataclass
+from functools import lru_cache
 
 import cv2
 import numpy as np
@@ -67,6 +68,12 @@ def _cover(shape: tuple[int, int], centre: FloatArray, radii: tuple[float, float
     return slice(top, bottom), slice(left, right), share
 
 
+@lru_cache(maxsize=1)
+def _hand() -> tuple[slice, slice, FloatArray]:
+    """The hand: an ellipse of skin in the middle of the picture."""
+    return _cover((CAMERA.height_px, CAMERA.width_px), np.array([156.0, 140.0]), (80.0, 95.0))
+
+
 def picture(
     discs_px: FloatArray,
     look: Look | None = None,
@@ -81,7 +88,7 @@ def picture(
     shape = (CAMERA.height_px, CAMERA.width_px)
     paint = np.empty((*shape, 3))
     paint[:] = look.table
-    rows, columns, share = _cover(shape, np.array([156.0, 140.0]), (80.0, 95.0))
+    rows, columns, share = _hand()
     paint[rows, columns] += share[..., None] * (np.array(look.skin) - paint[rows, columns])
     for extra in extras:
         rows, columns, share = _cover(shape, np.array(extra.pixel), (extra.radius_px, extra.radius_px))
@@ -106,7 +113,7 @@ def depth_picture(rng: np.random.Generator | None = None, distance_m: float = DI
     """Hand at a distance, table 5 cm behind it, in metres with the sensor's noise and steps."""
     shape = (CAMERA.height_px, CAMERA.width_px)
     depth = np.full(shape, distance_m + 0.05)
-    rows, columns, share = _cover(shape, np.array([156.0, 140.0]), (80.0, 95.0))
+    rows, columns, share = _hand()
     depth[rows, columns] = np.where(share > 0.5, distance_m, depth[rows, columns])
     if rng is not None:
         step = 2.85e-3 * depth**2
@@ -117,15 +124,6 @@ def depth_picture(rng: np.random.Generator | None = None, distance_m: float = DI
 def frame(color: ByteImage, depth_m: FloatArray | None, index: int = 0) -> Frame:
     raw = None if depth_m is None else np.clip(np.rint(np.nan_to_num(depth_m) / UNIT_M), 0, 65535).astype(np.uint16)
     return Frame(index, 100.0 + index / 30.0, color, raw, UNIT_M)
-
-
-@dataclass(frozen=True, slots=True)
-class Sight:
-    """Discs found for those that were painted: ``error_px`` (D, 2) each to its nearest, ``count`` found in all."""
-
-    error_px: FloatArray
-    count: int
-    extra: dict[str, float] = field(default_factory=dict)
 
 
 def matched(found_px: FloatArray, true_px: FloatArray) -> FloatArray:

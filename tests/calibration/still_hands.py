@@ -1,0 +1,89 @@
+"""Pictures of a still, marked hand before the camera, painted disc by disc for the calibration's tests."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from functools import lru_cache
+
+import numpy as np
+from scipy.spatial.transform import Rotation
+
+from core.calibration.calibrate import CalibrationOutcome, calibrate
+from core.calibration.result import Clicks
+from core.calibration.settings import CalibrationSettings
+from core.detection.appearance import disc_mask
+from core.detection.settings import DetectionSettings
+from core.hand.protocols import WRIST6
+from core.types import FloatArray, Frame, Side
+from tests.detection.pictures import CAMERA, Look, depth_picture, frame, picture
+from tests.tracking.hands import FROM_ABOVE, palm
+
+
+@dataclass(frozen=True, slots=True)
+class Scene:
+    """How the hand lies. ``tilt_deg`` of the palm about the picture's horizontal; ``size`` scales the hand;
+    ``noise`` 1 as the sensor's, 0 none."""
+
+    side: Side = "right"
+    distance_m: float = 0.7
+    tilt_deg: float = 0.0
+    size: float = 1.0
+    noise: float = 1.0
+
+    @property
+    def rotation_w0_cam(self) -> FloatArray:
+        return np.asarray(Rotation.from_euler("x", self.tilt_deg, degrees=True).as_matrix() @ FROM_ABOVE)
+
+    @property
+    def discs_cam_m(self) -> FloatArray:
+        """Discs in the camera's axes, the palm in the middle of the picture."""
+        discs = self.size * palm(self.side) @ self.rotation_w0_cam.T
+        discs -= 0.5 * (discs.min(axis=0) + discs.max(axis=0))
+        return np.asarray(discs + [0.0, 0.02, self.distance_m] - [0.0, 0.0, discs[0, 2]])
+
+    @property
+    def discs_px(self) -> FloatArray:
+        return CAMERA.project(self.discs_cam_m)
+
+
+def frames_of(
+    scene: Scene, count: int = 17, seed: int = 0, shift_px: FloatArray | None = None, hole_at: int | None = None
+) -> list[Frame]:
+    """Pictures at 30 a second; ``shift_px`` (count, 2) moves all discs, ``hole_at`` takes a disc's depth away."""
+    rng = np.random.default_rng(seed)
+    shift = np.zeros((count, 2)) if shift_px is None else shift_px
+    look = Look(noise=3.0 * scene.noise)
+    radius_px = CAMERA.fx_px * 0.006 / scene.distance_m
+    out = []
+    for k in range(count):
+        pixel = scene.discs_px + shift[k]
+        color = picture(pixel, look, rng if scene.noise else None, radius_px=radius_px)
+        depth = depth_picture(None, scene.distance_m)
+        for j, (point, z) in enumerate(zip(pixel, scene.discs_cam_m[:, 2], strict=True)):
+            depth[disc_mask(depth.shape, point, 9.0)] = 0.0 if j == hole_at else z
+        if scene.noise:
+            there = depth > 0.0
+            noisy = depth + scene.noise * 1.0e-3 * depth**2 * rng.normal(size=depth.shape)
+            depth = np.where(there, noisy, 0.0)
+        out.append(replace(frame(color, depth, k), timestamp_s=1.7e9 + k / 30.0))
+    return out
+
+
+def clicks_on(scene: Scene, error_px: FloatArray | float = 0.0) -> Clicks:
+    return Clicks(scene.side, WRIST6, scene.discs_px + error_px)
+
+
+@lru_cache(maxsize=8)
+def _painted(scene: Scene) -> tuple[Frame, ...]:
+    return tuple(frames_of(scene))
+
+
+def still(scene: Scene, count: int = 17) -> list[Frame]:
+    """The hand lying still; painted once for all tests."""
+    return list(_painted(scene)[:count])
+
+
+def outcome_of(scene: Scene, clicks: Clicks | None = None, frames: list[Frame] | None = None) -> CalibrationOutcome:
+    return calibrate(
+        clicks or clicks_on(scene), frames or still(scene), CAMERA, CalibrationSettings(), DetectionSettings()
+    )

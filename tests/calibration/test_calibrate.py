@@ -1,0 +1,281 @@
+"""From clicks on a still hand to the measured palm; every finding comes from its own fault and from no other."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from itertools import combinations
+
+import numpy as np
+import pytest
+from scipy.spatial.transform import Rotation
+
+from core.calibration.calibrate import calibrate, require_calibration
+from core.calibration.result import Calibration, Clicks, Finding
+from core.calibration.settings import CalibrationSettings
+from core.detection.settings import DetectionSettings
+from core.errors import ClickOnNoMarker, MarkerWithoutDepth
+from core.hand.protocols import WRIST6
+from core.types import FloatArray, Side
+from tests.calibration.still_hands import Scene, clicks_on, frames_of, outcome_of, still
+from tests.detection.pictures import CAMERA
+from tests.tracking.hands import palm
+
+SIDES: tuple[Side, Side] = ("right", "left")
+NAMES = WRIST6.markers
+
+
+def good(scene: Scene, **kwargs: object) -> Calibration:
+    outcome = outcome_of(scene, **kwargs)  # type: ignore[arg-type]
+    assert outcome.verdict.findings == ()
+    assert outcome.calibration is not None
+    return outcome.calibration
+
+
+def only(findings: tuple[Finding, ...], kind: str) -> Finding:
+    assert [finding.kind for finding in findings] == [kind]
+    return findings[0]
+
+
+@pytest.mark.parametrize("side", SIDES)
+def test_palm_and_pose_are_measured_on_both_hands(side: Side) -> None:
+    scene = Scene(side)
+    found = good(scene)
+    assert np.linalg.norm(found.marker_position_w0_m - palm(side), axis=1).max() < 0.0015
+    placed = found.marker_position_w0_m @ found.rotation_w0_cam.T + found.translation_w0_cam_m
+    assert np.linalg.norm(placed - scene.discs_cam_m, axis=1).max() < 0.0012
+    turn = Rotation.from_matrix(scene.rotation_w0_cam.T @ found.rotation_w0_cam)
+    assert np.degrees(turn.magnitude()) < 1.5
+    assert found.rotation_w0_cam[2, 2] < -0.99, "Z out of the back of the hand, towards the camera"
+    assert np.linalg.det(found.rotation_w0_cam) == pytest.approx(1.0)
+
+
+@pytest.mark.parametrize("side", SIDES)
+def test_w0_is_the_frame_of_the_reference(side: Side) -> None:
+    discs = good(Scene(side)).marker_position_w0_m
+    assert np.allclose(discs[0], 0.0, atol=1e-9), "origin WRIST"
+    assert np.allclose(discs[3, 1:], 0.0, atol=1e-9), "X to MCP3"
+    assert discs[3, 0] > 0.07
+    assert np.sign(discs[2, 1]) == (1.0 if side == "right" else -1.0), "Y radial on the right hand, ulnar on the left"
+    assert discs[1, 2] < -0.008, "the arch is kept: CMC1 lies deeper"
+
+
+def test_without_noise_the_arch_is_exact() -> None:
+    found = good(Scene(noise=0.0))
+    assert np.linalg.norm(found.marker_position_w0_m - palm("right"), axis=1).max() < 3e-4
+    assert found.verdict.residual_mm.max() < 0.3
+
+
+@pytest.mark.parametrize("direction_deg", [0.0, 80.0, 160.0, 240.0, 320.0])
+def test_clicks_five_pixels_off_still_land(direction_deg: float) -> None:
+    angle = np.radians(direction_deg + 60.0 * np.arange(6))
+    error = 5.0 * np.stack((np.cos(angle), np.sin(angle)), axis=1)
+    scene = Scene()
+    outcome = outcome_of(scene, clicks_on(scene, error))
+    assert outcome.verdict.findings == ()
+    assert np.abs(outcome.pixel - scene.discs_px).max() < 0.4
+
+
+def test_verdict_tells_the_plain_values() -> None:
+    scene = Scene(tilt_deg=9.0, distance_m=0.66)
+    verdict = good(scene).verdict
+    assert verdict.distance_m == pytest.approx(scene.discs_cam_m[0, 2], abs=0.002)
+    assert verdict.hand_length_mm == pytest.approx(82.0 / 0.446, rel=0.02)
+    # The tilt is told against the line of sight to WRIST, which itself is a few degrees off the axis.
+    sight = scene.discs_cam_m[0] / np.linalg.norm(scene.discs_cam_m[0])
+    expected = np.degrees(np.arccos(-scene.rotation_w0_cam[:, 2] @ sight))
+    assert verdict.tilt_deg == pytest.approx(expected, abs=1.5)
+    assert verdict.frames_used == 16, "half a second at 30 a second"
+    assert verdict.residual_mm.shape == (6,)
+    assert (verdict.residual_mm < 2.0).all()
+    assert verdict.is_good
+    assert verdict.can_start
+
+
+def test_a_click_on_bare_skin_is_named() -> None:
+    scene = Scene()
+    clicks = clicks_on(scene)
+    pixel = clicks.pixel.copy()
+    pixel[4] = 0.5 * (scene.discs_px[0] + scene.discs_px[3]) + [8.0, 0.0]
+    assert np.linalg.norm(scene.discs_px - pixel[4], axis=1).min() > 15.0
+    outcome = outcome_of(scene, replace(clicks, pixel=pixel))
+    finding = only(outcome.verdict.findings, "click_on_no_marker")
+    assert finding.markers == ("MCP4",)
+    assert finding.blocks
+    assert not outcome.verdict.can_start
+    assert outcome.calibration is None
+    assert np.isnan(outcome.pixel[4]).all()
+    assert np.isfinite(np.delete(outcome.pixel, 4, axis=0)).all()
+    with pytest.raises(ClickOnNoMarker) as caught:
+        require_calibration(outcome)
+    assert caught.value.subject == "MCP4"
+
+
+def test_two_clicks_on_one_disc_are_both_named() -> None:
+    scene = Scene()
+    clicks = clicks_on(scene)
+    pixel = clicks.pixel.copy()
+    pixel[5] = pixel[4] + [1.5, -1.0]
+    outcome = outcome_of(scene, replace(clicks, pixel=pixel))
+    finding = only(outcome.verdict.findings, "two_clicks_on_one")
+    assert set(finding.markers) == {"MCP4", "MCP5"}
+    assert finding.blocks
+    with pytest.raises(ClickOnNoMarker):
+        require_calibration(outcome)
+
+
+@pytest.mark.parametrize("side", SIDES)
+@pytest.mark.parametrize("pair", list(combinations(range(6), 2)))
+def test_two_swapped_clicks_are_named(pair: tuple[int, int], side: Side) -> None:
+    scene = Scene(side)
+    pixel = scene.discs_px.copy()
+    pixel[list(pair)] = pixel[list(pair)][::-1]
+    verdict = outcome_of(scene, Clicks(side, WRIST6, pixel), still(scene, 5)).verdict
+    swaps = [finding for finding in verdict.findings if finding.kind == "swapped"]
+    assert [set(finding.markers) for finding in swaps] == [{NAMES[pair[0]], NAMES[pair[1]]}]
+    assert not any(finding.blocks for finding in verdict.findings), "it is told, and tracking may go on"
+
+
+@pytest.mark.parametrize("side", SIDES)
+def test_the_wrong_side_is_told(side: Side) -> None:
+    scene = Scene(side)
+    claimed: Side = "left" if side == "right" else "right"
+    outcome = outcome_of(scene, Clicks(claimed, WRIST6, scene.discs_px))
+    assert only(outcome.verdict.findings, "wrong_side").blocks is False
+
+
+@pytest.mark.parametrize("marker", [0, 3, 5])
+def test_a_disc_without_depth_is_named(marker: int) -> None:
+    scene = Scene()
+    outcome = outcome_of(scene, frames=frames_of(scene, 5, hole_at=marker))
+    finding = only(outcome.verdict.findings, "no_depth")
+    assert finding.markers == (NAMES[marker],)
+    assert finding.blocks
+    with pytest.raises(MarkerWithoutDepth) as caught:
+        require_calibration(outcome)
+    assert caught.value.subject == NAMES[marker]
+
+
+def test_no_depth_picture_at_all_names_every_disc() -> None:
+    scene = Scene()
+    frames = [replace(frame, depth_raw=None) for frame in still(scene)]
+    outcome = outcome_of(scene, frames=frames)
+    assert {finding.kind for finding in outcome.verdict.findings} == {"no_depth"}
+    assert {finding.markers[0] for finding in outcome.verdict.findings} == set(NAMES)
+    with pytest.raises(MarkerWithoutDepth):
+        require_calibration(outcome)
+
+
+def test_a_hole_in_one_picture_only_is_filled_by_the_others() -> None:
+    scene = Scene()
+    frames = [*frames_of(scene, 1, hole_at=2), *still(scene, 16)]
+    frames = [replace(frame, timestamp_s=1.7e9 + k / 30.0) for k, frame in enumerate(frames)]
+    found = good(scene, frames=frames)
+    assert np.linalg.norm(found.marker_position_w0_m[2] - palm("right")[2]) < 0.0015
+
+
+def test_a_tilted_palm_is_told_with_its_angle() -> None:
+    scene = Scene(tilt_deg=25.0)
+    finding = only(outcome_of(scene).verdict.findings, "tilt")
+    assert finding.value == pytest.approx(25.0, abs=6.0)
+    assert finding.limit == CalibrationSettings().most_tilt_deg
+    assert finding.unit == "deg"
+    assert not finding.blocks
+
+
+def test_a_camera_too_near_is_told_with_the_distance() -> None:
+    scene = Scene(distance_m=0.52)
+    finding = only(outcome_of(scene).verdict.findings, "distance")
+    assert finding.value == pytest.approx(0.52, abs=0.005)
+    assert finding.limit == 0.6
+    assert finding.unit == "m"
+
+
+@pytest.mark.parametrize(("size", "limit"), [(0.55, 110.0), (1.3, 225.0)])
+def test_a_hand_of_no_human_size_is_told(size: float, limit: float) -> None:
+    verdict = outcome_of(Scene(size=size)).verdict
+    finding = only(verdict.findings, "hand_length")
+    assert finding.value == pytest.approx(size * 82.0 / 0.446, rel=0.03)
+    assert finding.limit == limit
+    assert finding.unit == "mm"
+
+
+@pytest.mark.parametrize("count", [1, 4])
+def test_too_few_pictures_are_told(count: int) -> None:
+    scene = Scene()
+    finding = only(outcome_of(scene, frames=still(scene, count)).verdict.findings, "few_frames")
+    assert finding.value == count
+    assert finding.limit == 5
+
+
+def test_the_capture_ends_where_the_hand_begins_to_move() -> None:
+    scene = Scene()
+    shift = np.zeros((17, 2))
+    shift[9:, 0] = 0.6 * np.arange(1, 9)
+    outcome = outcome_of(scene, frames=frames_of(scene, shift_px=shift))
+    # A shift of more than 0.7 px is a movement: the tenth picture still passes, the eleventh does not.
+    assert outcome.capture_frames == 10
+    assert outcome.verdict.findings == ()
+    assert np.abs(outcome.pixel - scene.discs_px).max() < 0.4
+
+
+def test_a_disc_whose_depth_jumps_about_is_told_by_its_residual() -> None:
+    scene = Scene()
+    frames = []
+    for k, frame in enumerate(still(scene)):
+        assert frame.depth_raw is not None
+        raw = frame.depth_raw.copy()
+        u, v = np.rint(scene.discs_px[4]).astype(int)
+        raw[v - 8 : v + 9, u - 8 : u + 9] += np.uint16(60 if k % 2 else 0)  # 12 mm to and fro
+        frames.append(replace(frame, depth_raw=raw))
+    verdict = outcome_of(scene, frames=frames).verdict
+    finding = only(verdict.findings, "residual")
+    assert finding.markers == ("MCP4",)
+    assert finding.value == pytest.approx(6.0, abs=1.0)
+    assert finding.unit == "mm"
+    assert not finding.blocks
+
+
+def test_the_noise_of_a_still_hand_is_measured() -> None:
+    scene = Scene()
+    quiet, loud = (outcome_of(one, frames=frames_of(one, 9)).noise for one in (Scene(noise=0.5), Scene(noise=2.0)))
+    assert 0.0 < quiet.pixel_sd_px < 0.5 * loud.pixel_sd_px
+    assert quiet.depth_sd_m < 0.6 * loud.depth_sd_m
+    assert loud.disc_radius_m == pytest.approx(0.006, rel=0.1)
+    few = outcome_of(scene, frames=still(scene, 3)).noise
+    assert np.isnan(few.pixel_sd_px), "three pictures show no noise worth the name"
+
+
+def test_covariances_say_how_well_the_discs_are_known() -> None:
+    """Errors in depth over many hands against what is claimed; sideways the discs are known far better."""
+    squares = []
+    for scene in (Scene(), Scene("left"), Scene(tilt_deg=9.0, distance_m=0.66)):
+        found = outcome_of(scene).calibration
+        assert found is not None
+        placed = found.marker_position_w0_m @ found.rotation_w0_cam.T + found.translation_w0_cam_m
+        covariance_cam = found.rotation_w0_cam @ found.marker_covariance_w0_m2 @ found.rotation_w0_cam.T
+        error = (placed - scene.discs_cam_m)[:, 2]
+        squares.append(error**2 / covariance_cam[:, 2, 2])
+        assert (covariance_cam[:, 0, 0] < covariance_cam[:, 2, 2]).all()
+        assert np.linalg.eigvalsh(found.marker_covariance_w0_m2).min() > 0.0
+    # The pattern that stays with a surface is not in these pictures, so the claim is on the careful side.
+    assert np.mean(squares) < 2.0
+
+
+def test_start_angles_are_carried_on() -> None:
+    scene = Scene()
+    start = np.radians([0.0, 30.0, 0.0])
+    args = (clicks_on(scene), still(scene, 5), CAMERA, CalibrationSettings(), DetectionSettings())
+    given, none = (calibrate(*args, angles).calibration for angles in (start, None))
+    assert given is not None
+    assert none is not None
+    assert np.array_equal(given.start_angles_rad, start)
+    assert np.array_equal(none.start_angles_rad, np.zeros(3))
+    assert np.array_equal(given.marker_position_w0_m, none.marker_position_w0_m), "told, not mixed in"
+
+
+def test_clicks_at_the_very_rim_are_no_trouble() -> None:
+    scene = Scene()
+    pixel: FloatArray = scene.discs_px.copy()
+    pixel[0] = [319.0, 239.0]
+    outcome = outcome_of(scene, Clicks("right", WRIST6, pixel), still(scene, 5))
+    assert only(outcome.verdict.findings, "click_on_no_marker").markers == ("WRIST",)
