@@ -105,10 +105,16 @@ class NumberCard(QWidget):
         metrics = QFontMetricsF(painter.font())
         baseline = top + metrics.capHeight() + 16
         text = numbers.degrees(reading.value_deg)
-        painter.setPen(theme.color("text2" if reading.predicted else "text"))
+        known = math.isfinite(reading.value_deg)
+        painter.setPen(theme.color("text2" if reading.predicted or not known else "text"))
         painter.drawText(QPointF(left - 0.035 * size, baseline), text)
         beside = left + metrics.horizontalAdvance(text) + 8
-        if reading.predicted:
+        if not known:
+            # A dash of this size alone reads as a bar or a minus sign: the word says what it is.
+            painter.setFont(font(28 * scale, SEMIBOLD))
+            painter.setPen(theme.color("text2"))
+            painter.drawText(QPointF(beside + 4, baseline - 0.16 * size), self.tr("no value"))
+        elif reading.predicted:
             swatch = QRectF(beside + 4, baseline - 30 * scale, 28 * scale, 28 * scale)
             hatch(painter, screen_style(theme), swatch)
             painter.setFont(font(28 * scale, SEMIBOLD))

@@ -26,7 +26,12 @@ ACROSS = (1, 0, 1)
 ACROSS_SIGN = (-1.0, 1.0, -1.0)
 """From above and from the fingers Y of W0 points to the left of the picture, on both hands."""
 AXIS_TOKENS = ("curve_c", "curve_a", "curve_b")
-"""X turns pro/supination, Y flexion, Z deviation: each axis has the colour of its angle."""
+AXIS_LETTERS = ("X", "Y", "Z")
+LEAST_LETTER_PX = 12.0
+"""X turns pro/supination, Y flexion, Z deviation: each axis has the colour of its angle.
+
+An axis that points at the viewer is too short for its letter.
+"""
 
 
 class PathView(QWidget):
@@ -158,7 +163,11 @@ class PathView(QWidget):
             self._paint_axes(painter, QPointF(float(x[-1]), float(y[-1])), plane, axes[-1], box.width() * AXIS_SHARE)
 
     def _paint_axes(self, painter: QPainter, point: QPointF, plane: int, axes: FloatArray, length_px: float) -> None:
-        for axis in range(3):
+        scale = self._theme.text_scale
+        letters: list[QPointF] = []
+        named = self._names(plane)[3]
+        # The plane's own axes first: where two letters would touch, the third axis goes without.
+        for axis in sorted(range(3), key=lambda axis: AXIS_LETTERS[axis] not in named):
             direction = axes[:, axis]
             end = point + QPointF(
                 ACROSS_SIGN[plane] * float(direction[ACROSS[plane]]) * length_px,
@@ -168,6 +177,15 @@ class PathView(QWidget):
                 QPen(self._theme.color(AXIS_TOKENS[axis]), 2, Qt.PenStyle.SolidLine, Qt.PenCapStyle.RoundCap)
             )
             painter.drawLine(point, end)
+            away = end - point
+            length = math.hypot(away.x(), away.y())
+            center = end + away * (8.0 * scale / max(length, 1.0))
+            free = all(math.hypot((center - other).x(), (center - other).y()) > 12.0 * scale for other in letters)
+            if length >= LEAST_LETTER_PX * scale and free:
+                letters.append(center)
+                painter.setFont(font(12 * scale, SEMIBOLD))
+                box = QRectF(center.x() - 12, center.y() - 12, 24, 24)
+                painter.drawText(box, int(Qt.AlignmentFlag.AlignCenter), AXIS_LETTERS[axis])
         painter.setPen(QPen(QColor(self._theme.color("surface")), 1.5))
         painter.setBrush(self._theme.color("accent"))
         painter.drawEllipse(point, 4.5, 4.5)

@@ -6,7 +6,7 @@ import math
 from dataclasses import replace
 from typing import Literal
 
-from PySide6.QtCore import Qt, QTimer, Signal
+from PySide6.QtCore import QRectF, Qt, QTimer, Signal
 from PySide6.QtGui import QPainter, QResizeEvent
 from PySide6.QtWidgets import QHBoxLayout, QVBoxLayout, QWidget
 
@@ -227,7 +227,7 @@ class LiveScreen(QWidget):
             return
         self._stopping = True
         self.main.setEnabled(False)
-        self.main.set_face(self.tr("Storing …"), icon="", hint="")
+        self.main.set_face(self.tr("Storing…"), icon="", hint="")
 
         def failed(fault: Exception) -> None:
             self._stopping = False
@@ -391,4 +391,6 @@ class LiveScreen(QWidget):
         overlay.paint_links(painter, frame, self._measuring.camera, picture.to_screen)
         overlay.paint_markers(painter, frame, picture.to_screen, picture.scale)
         if calibration is not None and frame.status != TrackStatus.LOST:
-            overlay.paint_axes(painter, self._theme, frame, calibration, self._measuring.camera, picture.to_screen)
+            shown = QRectF(picture.rect())
+            camera = self._measuring.camera
+            overlay.paint_axes(painter, self._theme, frame, calibration, camera, picture.to_screen, shown)

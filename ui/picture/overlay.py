@@ -6,7 +6,7 @@ import math
 from collections.abc import Callable
 
 import numpy as np
-from PySide6.QtCore import QPointF, Qt
+from PySide6.QtCore import QPointF, QRectF, Qt
 from PySide6.QtGui import QColor, QPainter, QPen
 
 from core.calibration.result import Calibration
@@ -91,10 +91,22 @@ def axis_pixels(frame: TrackedFrame, calibration: Calibration, camera: Camera) -
     return camera.distort(camera.project(np.vstack((origin, ends))))
 
 
+def within(place: QPointF, box: QRectF) -> QPointF:
+    """The place itself, or the nearest one inside the box."""
+    return QPointF(
+        min(max(place.x(), box.left()), max(box.left(), box.right())),
+        min(max(place.y(), box.top()), max(box.top(), box.bottom())),
+    )
+
+
 def paint_axes(
-    painter: QPainter, theme: Theme, frame: TrackedFrame, calibration: Calibration, camera: Camera, to_screen: ToScreen
-) -> None:
-    """Axes of the wrist, each in the colour of the angle that turns about it, with its letter."""
+    painter: QPainter, theme: Theme, frame: TrackedFrame, calibration: Calibration, camera: Camera,
+    to_screen: ToScreen, shown: QRectF,
+) -> None:  # fmt: skip
+    """Axes of the wrist, each in the colour of the angle that turns about it, with its letter.
+
+    An axis may end outside the part of the picture that is ``shown``; its letter stays in it.
+    """
     pixels = axis_pixels(frame, calibration, camera)
     if not np.isfinite(pixels).all():
         return
@@ -104,5 +116,5 @@ def paint_axes(
         haloed(painter, color, 3.0, lambda end=end: painter.drawLine(origin, end))  # type: ignore[misc]
         away = end - origin
         length = math.hypot(away.x(), away.y()) or 1.0
-        place = end + away * (14.0 / length)
+        place = within(end + away * (14.0 / length), shown.adjusted(16, 16, -16, -16))
         paint_label(painter, theme, letter, place.x() - 9, place.y() - 10)
