@@ -23,6 +23,8 @@ from ui.plot.style import CURVE_TOKENS, PlotStyle
 from ui.translate import tr
 
 STEP_DEG = 30.0
+DOT_RADIUS, CAP_REACH = 3.5, 7.0
+"""The caps of an error bar reach beyond the dot, so that a spread of one or two degrees still shows."""
 MOST_PANELS = 3
 
 
@@ -137,11 +139,11 @@ def _paint_points(
         if math.isfinite(sd):
             painter.setPen(QPen(color, 1.4 * unit))
             for edge in (y(row.mean_deg + sd), y(row.mean_deg - sd)):
-                painter.drawLine(QPointF(x - 5 * unit, edge), QPointF(x + 5 * unit, edge))
+                painter.drawLine(QPointF(x - CAP_REACH * unit, edge), QPointF(x + CAP_REACH * unit, edge))
             painter.drawLine(QPointF(x, y(row.mean_deg + sd)), QPointF(x, y(row.mean_deg - sd)))
-        painter.setPen(QPen(color, 2 * unit) if not is_fair else QPen(style.color("surface"), 1.5 * unit))
+        painter.setPen(QPen(color, 2 * unit) if not is_fair else Qt.PenStyle.NoPen)
         painter.setBrush(style.color("surface") if not is_fair else color)
-        painter.drawEllipse(QPointF(x, y(row.mean_deg)), 5 * unit, 5 * unit)
+        painter.drawEllipse(QPointF(x, y(row.mean_deg)), DOT_RADIUS * unit, DOT_RADIUS * unit)
     for x, row in fair[:1] + fair[-1:]:
         painter.setFont(font(style.end_label.pixelSize() * 1.17, SEMIBOLD, display=False))
         painter.setPen(style.color("text"))

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from PySide6.QtCore import Qt, Signal
+from PySide6.QtCore import QSize, Qt, Signal
 from PySide6.QtGui import QResizeEvent
 from PySide6.QtWidgets import QComboBox, QFileDialog, QHBoxLayout, QScrollArea, QVBoxLayout, QWidget
 
@@ -40,8 +40,8 @@ class ProgressScreen(QWidget):
         self.report_button = Button(
             theme, self.tr("Progress report"), "primary", icon="file-text", hint="Ctrl+P", height_px=44
         )
-        self.picture_button = Button(theme, self.tr("Save picture …"), "plain")
-        self.table_button = Button(theme, self.tr("Save table …"), "plain", hint="Ctrl+E")
+        self.picture_button = Button(theme, self.tr("Save picture…"), "plain")
+        self.table_button = Button(theme, self.tr("Save table…"), "plain", hint="Ctrl+E")
         self.answer = heading(theme, wrap=True)
         self.basis = Text(theme, "", 16, REGULAR, "text2", wrap=True)
         self.chart = ProgressChart(theme)
@@ -73,7 +73,7 @@ class ProgressScreen(QWidget):
         right.addWidget(self._table)
         right.addWidget(self._fair)
         right.addStretch(1)
-        host = QWidget()
+        host = _SideColumn()
         host.setLayout(right)
         self._side = QScrollArea()
         self._side.setWidget(host)
@@ -194,6 +194,13 @@ class ProgressScreen(QWidget):
         path, _ = QFileDialog.getSaveFileName(self, self.tr("Save picture"), self.tr("progress.png"), "PNG (*.png)")
         if path:
             self.chart.picture().save(path)
+
+
+class _SideColumn(QWidget):
+    """As high as its texts need at the width they have; Qt's own guess is for narrower texts and scrolls too soon."""
+
+    def minimumSizeHint(self) -> QSize:
+        return QSize(super().minimumSizeHint().width(), 0)
 
 
 class _Row(QWidget):
