@@ -7,6 +7,7 @@ import re
 import shutil
 import subprocess
 import sys
+from datetime import date
 from pathlib import Path
 
 import pytest
@@ -14,7 +15,7 @@ from PySide6.QtCore import QCoreApplication, QTranslator
 
 from ui import terms
 from ui.live.light_view import LightView
-from ui.patients.listing import ListHeader
+from ui.patients.listing import ListHeader, PatientList
 from ui.theme import Theme
 
 ROOT = Path(__file__).parents[2]
@@ -79,7 +80,7 @@ def test_a_translation_made_by_qt_s_tools_reaches_widgets_and_functions(
     QCoreApplication.installTranslator(translator)
     try:
         assert terms.movement_name("flexion") == "¡Flexion"
-        header = ListHeader(theme)
+        header = ListHeader(theme, PatientList(theme, date(2026, 11, 20)))
         assert header.tr("Patient") == "¡Patient"
         assert LightView(theme).tr("nothing like this") == "nothing like this"
     finally:

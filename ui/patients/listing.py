@@ -136,11 +136,12 @@ class RowPainter(QStyledItemDelegate):
 
 
 class ListHeader(QWidget):
-    """Column names over the list."""
+    """Column names over the columns of the rows, also when a scroll bar takes a part of the list's width."""
 
-    def __init__(self, theme: Theme) -> None:
+    def __init__(self, theme: Theme, rows: QListView) -> None:
         super().__init__()
-        self._theme = theme
+        self._theme, self._rows = theme, rows
+        rows.verticalScrollBar().rangeChanged.connect(lambda *_: self.update())
         self.setFixedHeight(theme.px(28))
         theme.changed.connect(lambda: self.setFixedHeight(theme.px(28)))
 
@@ -149,10 +150,11 @@ class ListHeader(QWidget):
         painter.setFont(font(12 * self._theme.text_scale, MEDIUM))
         painter.setPen(self._theme.color("text2"))
         flags = int(Qt.AlignmentFlag.AlignVCenter)
+        width = self._rows.viewport().width()
         names = (self.tr("Patient"), self.tr("Hand"), self.tr("Last exercise"), self.tr("Last session"))
         for name, share in zip(names, COLUMNS, strict=True):
-            painter.drawText(QRectF(share * self.width(), 0, 200, self.height()), flags, name)
-        right = QRectF(0, 0, self.width() - RIGHT_PAD_PX, self.height())
+            painter.drawText(QRectF(share * width, 0, 200, self.height()), flags, name)
+        right = QRectF(0, 0, width - RIGHT_PAD_PX, self.height())
         painter.drawText(right, int(Qt.AlignmentFlag.AlignVCenter | Qt.AlignmentFlag.AlignRight), self.tr("Sessions"))
 
 

@@ -38,8 +38,8 @@ class PatientsScreen(QWidget):
         self._camera_ready = False
         self.search = SearchField(theme, self.tr("Name or exercise"), self.tr("Ctrl+F"))
         self.new_button = Button(theme, self.tr("New patient"), icon="plus", hint=self.tr("Ctrl+N"))
-        self.header = ListHeader(theme)
         self.list = PatientList(theme, today)
+        self.header = ListHeader(theme, self.list)
         self.card = PatientCardView(theme)
         self.notice_place = QVBoxLayout()
         self._nobody = _Nobody(theme)
@@ -74,6 +74,9 @@ class PatientsScreen(QWidget):
         columns.setSpacing(MARGIN_PX)
         columns.addLayout(left, 824)
         columns.addWidget(self.card, 384)
+        policy = self.card.sizePolicy()
+        policy.setRetainSizeWhenHidden(True)  # the search field keeps its width while nobody is found
+        self.card.setSizePolicy(policy)
         page = QVBoxLayout()
         page.setContentsMargins(MARGIN_PX, GAP_PX, MARGIN_PX, 12)
         page.setSpacing(GAP_PX)
