@@ -395,6 +395,9 @@ class FakeCalibrator:
         self.angles.append(start_angles_rad)
         perfect = calibration(self.pictures)
         verdict = replace(perfect.verdict, findings=self.findings)
+        tilt = next((finding for finding in self.findings if finding.kind == "tilt"), None)
+        if tilt is not None:
+            verdict = replace(verdict, tilt_deg=tilt.value)
         return Judged(verdict, perfect if verdict.can_start else None)
 
     def begin(self, calibration: Calibration) -> None:

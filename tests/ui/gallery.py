@@ -252,7 +252,7 @@ class Gallery:
             answers = [Answer("Check camera", lambda: None, "C"), Answer("Stop and review", screen.stop, "Space")]
             card.show_words(
                 LOST, answers, icon="unplug", detail="Recording paused by itself at 01:24.",
-                safe_detail="All 1 min 24 s and 5 full repetitions.",
+                safe_detail="All 1 min 24 s and 3 full repetitions.",
             )  # fmt: skip
             card.set_waiting("Waiting for the camera … 7 s")
             self.settle()

@@ -182,7 +182,7 @@ class MarkerPicture(PictureView):
     def _free_place(self, plate: QRectF, at: QPointF, radius: float, taken: list[QRectF]) -> QRectF:
         width, height, away = plate.width(), plate.height(), radius + 5
         middle = QPointF(at.x() - width / 2, at.y() - height / 2)
-        slant = 0.75 * away
+        slant = radius + 1  # just clear of the square around the ring
         candidates = [
             QPointF(at.x() - away - width, middle.y()), QPointF(at.x() + away, middle.y()),
             QPointF(middle.x(), at.y() - away - height), QPointF(middle.x(), at.y() + away),
