@@ -24,7 +24,7 @@ class HelpScreen(QWidget):
         self.back = Button(theme, self.tr("Back"), "primary", hint=self.tr("Esc"))
         self.back.clicked.connect(self.done)
         left = QVBoxLayout()
-        left.setContentsMargins(4, 4, 8, 4)
+        left.setContentsMargins(0, 4, 8, 4)
         left.setSpacing(GAP_PX)
         for title, paragraphs in chapters():
             card = Card(theme, 24)
@@ -49,6 +49,7 @@ class HelpScreen(QWidget):
         right.setContentsMargins(4, 4, 8, 4)
         right.addWidget(table)
         head = QHBoxLayout()
+        head.setContentsMargins(0, 0, 8, 0)
         head.addWidget(heading(theme, self.tr("Help")), 1)
         head.addWidget(self.back)
         columns = QHBoxLayout()

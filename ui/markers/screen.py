@@ -54,7 +54,7 @@ class MarkersScreen(QWidget):
         self.panel = VerdictPanel(theme)
         self.primary = Button(theme, "", "primary")
         self.second = Button(theme, "", "plain", height_px=52)
-        self.start_angle = Button(theme, self.tr("Hand cannot lie straight …"), "quiet", height_px=32)
+        self.start_angle = Button(theme, self.tr("Hand cannot lie straight…"), "quiet", height_px=32)
         self.although = Button(theme, self.tr("Start although &doubtful"), "quiet", height_px=32)
         self.new_picture = Button(theme, self.tr("New picture"), "quiet", hint="N", height_px=32)
         self.hint = Text(theme, "", 14, REGULAR, "text2", wrap=True)
@@ -255,7 +255,7 @@ class MarkersScreen(QWidget):
         self._start_angles_rad = angles_rad
         words = terms.start_angle_words(angles_rad)
         pattern = self.tr("Starts at {angles} (given)")
-        self.start_angle.set_face(pattern.format(angles=words) if words else self.tr("Hand cannot lie straight …"))
+        self.start_angle.set_face(pattern.format(angles=words) if words else self.tr("Hand cannot lie straight…"))
         if self.clicking is not None and self.clicking.complete:
             self._changed()
 
@@ -356,13 +356,13 @@ class MarkersScreen(QWidget):
         self.title.setText(click_instruction(clicking.current))
         self.place.setText(marker_place(clicking.current))
         self.hand.show_markers(clicking.side, self._hand_states(clicking, ()))
-        words = self.tr("Checking …") if clicking.complete else self.tr("Good so far") if done else self.tr("Checks")
+        words = self.tr("Checking…") if clicking.complete else self.tr("Good so far") if done else self.tr("Checks")
         state = "good" if done and not clicking.complete else "none"
         self.panel.show_rows(words, state, rows_before(done, asked, self._calibrator.limits))  # type: ignore[arg-type]
         self.primary.setEnabled(False)
         to_go = len(clicking.missing)
         left = self.tr("1 marker to go") if to_go == 1 else self.tr("{count} markers to go").format(count=to_go)
-        words = self.tr("Start measuring · {left}").format(left=left) if to_go else self.tr("Checking the markers …")
+        words = self.tr("Start measuring · {left}").format(left=left) if to_go else self.tr("Checking the markers…")
         self.primary.set_face(words, icon="", hint="")
         self.second.hide()
         self.hint.setText(self.tr("The hand lies flat and still, palm down, fingers straight."))

@@ -38,7 +38,7 @@ class ReportScreen(QWidget):
         self._name = ""
         self._saved_path = ""
         self.page = PagePreview(theme)
-        self.save_button = Button(theme, self.tr("Save PDF …"), "primary", icon="download", hint="Ctrl+P")
+        self.save_button = Button(theme, self.tr("Save PDF…"), "primary", icon="download", hint="Ctrl+P")
         self.open_button = Button(theme, self.tr("Open the PDF"), "plain")
         self.state = StateText(theme, 16, SEMIBOLD, 20)
         self.where = Text(theme, "", 14, REGULAR, "text2", wrap=True)
@@ -62,10 +62,7 @@ class ReportScreen(QWidget):
         card.body.addWidget(self.save_button)
         card.body.addWidget(self.open_button)
         card.body.addSpacing(8)
-        words = self.tr(
-            "One page of A4, readable in grey. It carries the made-up name, never a real one. "
-            "The curves are vectors: they stay sharp at any size."
-        )
+        words = self.tr("One page of A4, readable in grey. It carries the made-up name, never a real one.")
         card.body.addWidget(Text(self._theme, words, 14, REGULAR, "text2", wrap=True))
         right = QVBoxLayout()
         right.addWidget(card)

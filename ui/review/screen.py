@@ -82,8 +82,8 @@ class ReviewScreen(QWidget):
         self.table = RangeTable(theme)
         self.title = Text(theme, self.tr("Range of motion"), 20, SEMIBOLD)
         self.count = Text(theme, "", 14, REGULAR, "text2", wrap=True)
-        self.again_button = Button(theme, self.tr("Another set"), "quiet", icon="undo-2")
-        self.export_button = Button(theme, self.tr("Export …"), hint="Ctrl+E")
+        self.again_button = Button(theme, self.tr("Another set"), "quiet", icon="plus")
+        self.export_button = Button(theme, self.tr("Export…"), hint="Ctrl+E")
         self.report_button = Button(
             theme, self.tr("Make report"), "primary", icon="file-text", hint="Ctrl+P", height_px=44
         )
@@ -162,7 +162,7 @@ class ReviewScreen(QWidget):
         self._session_id = session_id
         self._session = None
         self.again_button.setVisible(may_repeat)
-        self.picture.clear(self.tr("Reading the session …"))
+        self.picture.clear(self.tr("Reading the session…"))
         store = self._store
 
         def read() -> Reviewed:

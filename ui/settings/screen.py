@@ -44,7 +44,7 @@ class SettingsScreen(QWidget):
             theme, [(scale, f"{100 * scale:.0f} %") for scale in TEXT_SCALES], preferences.text_scale
         )
         self.folder = Text(theme, preferences.data_folder, 14)
-        self.folder_button = Button(theme, self.tr("Change …"), height_px=40)
+        self.folder_button = Button(theme, self.tr("Change…"), height_px=40)
         self.therapist = QLineEdit(preferences.therapist)
         self.therapist.setMaxLength(12)
         self.therapist.setAccessibleName(self.tr("Initials on reports"))
@@ -57,7 +57,7 @@ class SettingsScreen(QWidget):
     def _lay_out(self) -> None:
         theme = self._theme
         page = QVBoxLayout()
-        page.setContentsMargins(4, 4, 12, 4)
+        page.setContentsMargins(0, 4, 12, 4)
         page.setSpacing(GAP_PX)
         looks = self._card(self.tr("Looks"))
         looks.body.addWidget(Text(theme, self.tr("Colours"), 14, REGULAR, "text2"))
@@ -116,6 +116,7 @@ class SettingsScreen(QWidget):
         scroll.setFocusPolicy(Qt.FocusPolicy.NoFocus)
         scroll.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
         head = QHBoxLayout()
+        head.setContentsMargins(0, 0, 8, 0)
         head.addWidget(heading(theme, self.tr("Settings")), 1)
         head.addWidget(self.back)
         whole = QVBoxLayout(self)

@@ -41,8 +41,8 @@ class CameraScreen(QWidget):
                 ),
             ],
         )
-        self.choose_file = Button(theme, self.tr("Choose a &file …"), icon="folder-open", height_px=40)
-        self.choose_folder = Button(theme, self.tr("Choose a fol&der …"), icon="folder-open", height_px=40)
+        self.choose_file = Button(theme, self.tr("Choose a &file…"), icon="folder-open", height_px=40)
+        self.choose_folder = Button(theme, self.tr("Choose a fol&der…"), icon="folder-open", height_px=40)
         self.position = Text(theme, "", 14, REGULAR, "text2", wrap=True)
         self.progress_words = Text(theme, "", 14, REGULAR, "text2", wrap=True)
         self.progress = QProgressBar()
@@ -148,7 +148,7 @@ class CameraScreen(QWidget):
             "good" if there else "bad",
             self.tr("Camera ready") if there else self.tr("No camera"),
         )
-        recording = self.tr("A stored recording: a TUM folder, an .oni file, or one made by Carpus.")
+        recording = self.tr("A stored recording: a file of Carpus or of the camera (.oni), or a folder of pictures.")
         self.sources.option("file").show_sentence(self._path or recording)
         kind = self.sources.value()
         self._files.setVisible(kind == "file")
@@ -161,7 +161,7 @@ class CameraScreen(QWidget):
         if missing:
             words = self.tr("No camera yet") if kind == "camera" else self.tr("Choose a recording first")
         if self._opening:
-            words = self.tr("Opening …")
+            words = self.tr("Opening…")
         self.primary.setEnabled(not missing and not self._opening)
         self.primary.set_face(words, hint=self.tr("Enter") if self.primary.isEnabled() else "")
 
@@ -180,7 +180,7 @@ class CameraScreen(QWidget):
 
     def _ask_folder(self) -> None:
         start = str(Path(self._path).parent) if self._path else ""
-        path = QFileDialog.getExistingDirectory(self, self.tr("Choose a TUM folder"), start)
+        path = QFileDialog.getExistingDirectory(self, self.tr("Choose a folder of pictures"), start)
         if path:
             self.set_path(path)
             self.first().setFocus(Qt.FocusReason.OtherFocusReason)
