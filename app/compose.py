@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import gc
 import logging
 import signal
 import sys
@@ -53,6 +54,9 @@ class Desktop:
         """Bring up the first screen and tell of what was recovered."""
         self.journey.show_patients()
         self.shell.show()
+        # All that was built by now stays: the collector need not look through it again while frames come.
+        gc.collect()
+        gc.freeze()
 
     def close(self) -> None:
         """Finish what runs and let go of everything; may be called twice."""

@@ -69,7 +69,7 @@ class Journey(QObject):
         self.library, self.settings = parts.library, parts.settings
         self.background = Background()
         self.opener = Opener(parts.sources)
-        self.teller = Teller(shell, theme, parts.phrasebook)
+        self.teller = Teller(shell.stage, theme, parts.phrasebook)
         self.patients = PatientsScreen(theme, parts.patients, parts.today)
         self.exercise = ExerciseScreen(theme)
         self.camera = CameraScreen(theme)
@@ -282,7 +282,7 @@ class Journey(QObject):
 
     def _take_tab(self, number: int) -> None:
         place = TABS[number]
-        if self.patient is None or place == self.place:
+        if self.patient is None or place == self.place or self.teller.busy:
             self._show_bar()
         elif place == "live":
             self._another_set()
@@ -297,7 +297,9 @@ class Journey(QObject):
 
     # --- around -------------------------------------------------------------------------------------------
     def back(self) -> None:
-        """One step back; what covers the screen goes first, and nothing leaves a running recording."""
+        """One step back; what covers the screen goes first, and nothing leaves a message or a running recording."""
+        if self.teller.busy:
+            return
         sheets = [sheet for sheet in self.shell.findChildren(Sheet) if sheet.isVisible()]
         strips = self.patients.findChildren(NoticeStrip) if self.place == "patients" else []
         if sheets:
@@ -322,6 +324,8 @@ class Journey(QObject):
             self.show_patients(self.patient.patient_id if self.patient else "")
 
     def _go_to_step(self, place: Place) -> None:
+        if self.teller.busy:
+            return
         if place == "exercise" and self.patient is not None:
             self.close_source()
             self.choose_exercise(self.patient.patient_id)
@@ -339,7 +343,7 @@ class Journey(QObject):
 
     def aside(self, place: Place, screen: QWidget) -> None:
         """Help or settings, from which one comes back; not over a running recording."""
-        if self.place in ("help", "settings") or self.live.recording_state != "off":
+        if self.place in ("help", "settings") or self.live.recording_state != "off" or self.teller.busy:
             return
         shown = self.shell.stage.currentWidget()
         assert shown is not None
@@ -352,6 +356,8 @@ class Journey(QObject):
         if self.place == "markers" and place not in ("markers", "help", "settings"):
             self.markers.end()
         self.place = place
+        # A lost camera leaves the tracking light to be seen from afar; elsewhere the top bar stays.
+        self.teller.cover(self.live.stage if place == "live" else self.shell.stage)
         self.shell.show_screen(screen, first)
         self._show_bar()
 

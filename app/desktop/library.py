@@ -13,6 +13,7 @@ from typing import Any
 
 import numpy as np
 
+from app.desktop.export import export_csv
 from app.desktop.measuring import MARKERS_SUFFIX
 from core.capture.picture_file import read_color
 from core.capture.raw import SUFFIX as RAW_SUFFIX
@@ -155,6 +156,10 @@ class Library:
             with suppress(SessionUnreadable):  # its file is gone or damaged; opening it alone tells
                 out.append(self.figures(entry))
         return out
+
+    def export(self, session_id: str, folder: str) -> Sequence[str]:
+        """Write a session as open formats into a folder; the names of the files."""
+        return [export_csv(self.session(session_id), Path(folder))]
 
     def marker_picture(self, patient_id: str) -> ByteImage | None:
         """The markers as they were stuck last time."""

@@ -74,7 +74,7 @@ class LiveEvents(QObject):
         answer = (
             Answer(self.tr("Stop and review"), live.stop, self.tr("Space"))
             if recording
-            else Answer(self.tr("Choose another source"), self._journey.back, self.tr("Space"))
+            else Answer(self.tr("Choose another source"), self._journey.back)
         )
         self._journey.teller.camera_lost(told.cause or CameraLost(), (answer,), detail, safe)
 

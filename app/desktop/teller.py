@@ -38,14 +38,31 @@ class Teller(QObject):
     def __init__(self, host: QWidget, theme: Theme, phrasebook: Phrasebook) -> None:
         super().__init__(host)
         self._theme, self._phrasebook = theme, phrasebook
-        self.card = StopCard(host, theme)
-        self.card.closed.connect(self._next)
+        self._host = host
+        self.card = self._card_on(host)
         self._waiting: list[_Message] = []
         self._shown: _Message | None = None
         self._lost_since_s = 0.0
         self._clock = QTimer(self)
         self._clock.setInterval(1000)
         self._clock.timeout.connect(self._count_wait)
+
+    def _card_on(self, host: QWidget) -> StopCard:
+        card = StopCard(host, self._theme)
+        card.closed.connect(self._next)
+        return card
+
+    @property
+    def busy(self) -> bool:
+        """Whether a message waits for its answer."""
+        return self._shown is not None
+
+    def cover(self, host: QWidget) -> None:
+        """Lay cards over this part of the window from now on; what is beside it stays to be seen."""
+        if host is not self._host and self._shown is None:
+            self._host = host
+            self.card.deleteLater()
+            self.card = self._card_on(host)
 
     def fault(
         self, fault: Exception, answers: Sequence[Answer] = (), *, detail: str = "", safe_detail: str = ""

@@ -53,9 +53,10 @@ def measure_path(position: Signal, start_s: float, end_s: float) -> PathMeasures
 
 
 def farthest_from_start_m(position_m: Signal) -> float:
-    """Largest distance of a point from the middle of its first second: more than 15 mm means the forearm moved."""
+    """Largest distance of a point from its middle over the first second seen: above 15 mm the forearm moved."""
     if not position_m.finite.any():
         return math.nan
-    first = position_m.between(float(position_m.time_s[0]), float(position_m.time_s[0]) + 1.0)
+    start_s = float(position_m.time_s[position_m.finite][0])
+    first = position_m.between(start_s, start_s + 1.0)
     home = np.nanmedian(first.value, axis=0)
     return float(np.nanmax(np.linalg.norm(position_m.value - home, axis=1)))

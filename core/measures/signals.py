@@ -7,7 +7,6 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy import signal as sps
 
 from core.types import FloatArray
 
@@ -90,6 +89,8 @@ def low_pass(signal: Signal, cutoff_hz: float = SPEED_CUTOFF_HZ) -> Signal:
     """
     if len(signal.time_s) == 0 or cutoff_hz >= 0.45 * signal.rate_hz:
         return signal
+    from scipy import signal as sps  # half a second to load, and not needed before something has been recorded
+
     b, a = sps.butter(2, cutoff_hz, fs=signal.rate_hz)
     out = np.full_like(signal.value, np.nan)
     for part in stretches(signal.finite):

@@ -9,7 +9,6 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from scipy import signal as sps
 
 from core.types import FloatArray
 
@@ -68,6 +67,8 @@ def speed_peaks(speed: FloatArray, rate_hz: float, least_rise: float, apart_s: f
 
     Reference: 20 mm/s for a position, the greater of 10 % of the peak and 5 degrees/s for an angle. 1 is ideal.
     """
+    from scipy import signal as sps  # half a second to load, and not needed before something has been recorded
+
     count, last_counted, last_top = 0, -math.inf, 0
     for top in sps.find_peaks(speed)[0].tolist():
         rise = speed[top] - speed[last_top : top + 1].min()

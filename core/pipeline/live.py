@@ -68,7 +68,7 @@ class LiveSettings:
     room on the disk before a recording runs.
     """
 
-    tracking_waiting: int = 8
+    tracking_waiting: int = 16
     rows_waiting: int = 900
     pictures_waiting: int = 64
     recent_frames: int = 20

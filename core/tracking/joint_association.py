@@ -12,7 +12,7 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.stats import chi2
+from scipy.special import gammaincinv
 
 from core.tracking.association import AssociationSettings
 from core.types import FloatArray
@@ -21,7 +21,8 @@ BEAM = 10
 CONSISTENT = 0.9995
 """A set of associations is doubted when chance gives a greater NIS less often than one in two thousand."""
 
-_LIMITS = np.concatenate(([np.inf], chi2.ppf(CONSISTENT, np.arange(1, 200))))
+_LIMITS = np.concatenate(([np.inf], 2.0 * gammaincinv(0.5 * np.arange(1, 200), CONSISTENT)))
+"""Quantiles of chi squared by degrees of freedom."""
 
 
 def holds_together(nis: float, dof: int) -> bool:

@@ -53,3 +53,6 @@ def test_how_far_the_wrist_went() -> None:
     assert farthest_from_start_m(reach(0.03)) == pytest.approx(0.03, abs=1e-6)
     empty = even_signal(np.arange(5) / RATE, np.full((5, 3), np.nan))
     assert math.isnan(farthest_from_start_m(empty))
+    late = reach(0.03)
+    late.value[: round(0.5 * RATE)] = np.nan  # the hand comes into view late: its place is where it was first seen
+    assert farthest_from_start_m(late) == pytest.approx(0.03, abs=1e-6)

@@ -1,0 +1,109 @@
+"""``carpus report`` as a process of its own: a page, a course over sessions, and each thing that can be wrong."""
+
+from __future__ import annotations
+
+import os
+import shutil
+import subprocess
+import sys
+import uuid
+from dataclasses import replace
+from datetime import UTC, datetime, timedelta
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from core.session.values import new_header
+from core.session.writer import SessionWriter
+from core.types import TrackedFrame
+from tests.session.samples import CAMERA, make_calibration, make_frame
+
+ROOT = Path(__file__).parents[2]
+
+
+def carpus(*arguments: str | Path) -> subprocess.CompletedProcess[str]:
+    environment = {name: value for name, value in os.environ.items() if name not in ("DISPLAY", "QT_QPA_PLATFORM")}
+    return subprocess.run(
+        [sys.executable, "-m", "app", *map(str, arguments)], cwd=ROOT, env=environment, capture_output=True, text=True
+    )
+
+
+def frame(row: int) -> TrackedFrame:
+    """Flexion to and fro, 30 degrees to both sides, every four seconds."""
+    time_s = row / 30.0
+    return replace(
+        make_frame(row),
+        timestamp_s=time_s,
+        angles_rad=np.radians([0.0, 30.0 * np.sin(2.0 * np.pi * time_s / 4.0), 0.0]),
+        angles_sd_rad=np.radians([0.5, 1.0, 1.0]),
+    )
+
+
+@pytest.fixture(scope="module")
+def sessions(tmp_path_factory: pytest.TempPathFactory) -> list[Path]:
+    folder, out = tmp_path_factory.mktemp("sessions"), []
+    for day in (0, 7):
+        header = new_header(
+            hand="right",
+            protocol=make_calibration().clicks.protocol,
+            software_version="0",
+            subject_id="Linden 42",
+            exercise="WRIST_FE",
+            now=datetime(2026, 11, 1, 9, 0, tzinfo=UTC) + timedelta(days=day),
+            session_id=uuid.uuid4(),
+        )
+        out.append(folder / f"day{day}.h5")
+        with SessionWriter.create(out[-1], header, CAMERA, make_calibration()) as writer:
+            for row in range(20 * 30):
+                writer.append(frame(row))
+    return out
+
+
+def words(path: Path) -> str:
+    tool = shutil.which("pdftotext")
+    assert tool is not None, "pdftotext (poppler-utils) is needed to read the report back"
+    return subprocess.run([tool, "-layout", str(path), "-"], capture_output=True, text=True, check=True).stdout
+
+
+def test_one_session_makes_a_session_report(sessions: list[Path], tmp_path: Path) -> None:
+    done = carpus("report", sessions[0], "--output", tmp_path / "one.pdf")
+    assert (done.returncode, done.stderr) == (0, "")
+    assert str(tmp_path / "one.pdf") in done.stdout
+    page = words(tmp_path / "one.pdf")
+    assert "Linden 42" in page
+    assert "Session report" in page
+
+
+def test_several_sessions_make_a_progress_report(sessions: list[Path], tmp_path: Path) -> None:
+    done = carpus("report", *sessions, "--output", tmp_path / "course.pdf")
+    assert done.returncode == 0
+    assert "Progress report" in words(tmp_path / "course.pdf")
+
+
+def test_what_cannot_be_done_is_one_line_and_leaves_nothing(sessions: list[Path], tmp_path: Path) -> None:
+    taken = tmp_path / "taken.pdf"
+    taken.write_bytes(b"mine")
+    no_session = tmp_path / "no.h5"
+    no_session.write_text("nothing")
+    wrong = [
+        ("report", no_session, "--output", tmp_path / "a.pdf"),
+        ("report", tmp_path / "none.h5", "--output", tmp_path / "a.pdf"),
+        ("report", sessions[0], "--output", taken),
+        ("report", sessions[0], "--output", tmp_path / "no folder" / "a.pdf"),
+    ]
+    for arguments in wrong:
+        done = carpus(*arguments)
+        assert done.returncode == 1
+        assert done.stderr.startswith("carpus: ")
+        assert len(done.stderr.splitlines()) == 1
+    assert taken.read_bytes() == b"mine"
+    assert not (tmp_path / "a.pdf").exists()
+    assert carpus("report", sessions[0]).returncode == 2
+
+
+def test_without_a_display_the_window_says_so_and_what_shows_the_way() -> None:
+    done = carpus()
+    assert done.returncode == 1
+    assert "carpus demo" in done.stderr
+    assert "Traceback" not in done.stderr

@@ -1,0 +1,70 @@
+"""Discs found before any click, and the disc under one click: by rendered hands whose discs are known."""
+
+from __future__ import annotations
+
+from functools import lru_cache
+
+import numpy as np
+import pytest
+
+from core.calibration.candidates import disc_at, marker_candidates, snapped
+from core.camera import Camera
+from core.detection.settings import DetectionSettings
+from core.simulation.recording import SimulatedPictures
+from core.simulation.spec import RecordingSpec
+from core.types import FloatArray, Frame
+
+SETTINGS = DetectionSettings()
+RADIUS_PX = 4.8
+
+
+@lru_cache(maxsize=4)
+def seen(seed: int, paper_to: str = "blue") -> tuple[Frame, Camera, FloatArray]:
+    """A still hand, its camera and where its discs are (6, 2); the colour channels may be exchanged."""
+    pictures = SimulatedPictures(
+        RecordingSpec(seed=seed, hand="left" if seed % 2 else "right", distance_m=0.66, light="normal", false_blobs=1.0)
+    )
+    color, depth = pictures.sensed(0, pictures.clean(0))
+    if paper_to == "green":
+        # The blue of the paper becomes green while skin and table keep theirs.
+        blue = color[..., 2].astype(int) > color[..., 0].astype(int) + 40
+        color = np.where(blue[..., None], color[..., [0, 2, 1]], color)
+    return Frame(0, 0.0, color, depth, 1.0 / 5000.0), pictures.truth.camera, pictures.truth.disc_pixel[0]
+
+
+@pytest.mark.parametrize("seed", [0, 1, 3])
+def test_every_disc_is_found_before_any_click_and_clicks_snap_to_it(seed: int) -> None:
+    frame, camera, discs = seen(seed)
+    found = marker_candidates(frame, camera, SETTINGS)
+    rng = np.random.default_rng(seed)
+    for disc in discs:
+        taken = snapped(found, disc + rng.normal(0.0, 1.5, 2), RADIUS_PX)
+        assert len(taken) == 1
+        assert np.linalg.norm(taken.pixel[0] - disc) < 0.8
+
+
+@pytest.mark.parametrize("paper_to", ["blue", "green"])
+def test_a_click_on_a_disc_of_any_colour_finds_it(paper_to: str) -> None:
+    frame, camera, discs = seen(0, paper_to)
+    for disc in discs:
+        taken = disc_at(frame, disc + 1.0, camera, SETTINGS)
+        assert len(taken) == 1
+        assert np.linalg.norm(taken.pixel[0] - disc) < 1.0
+
+
+def test_a_click_on_bare_skin_finds_nothing() -> None:
+    frame, camera, discs = seen(0)
+    middles = [(a + b) / 2 for i, a in enumerate(discs) for b in discs[:i]]
+    bare = [spot for spot in middles if np.linalg.norm(discs - spot, axis=1).min() > 4 * RADIUS_PX]
+    found = marker_candidates(frame, camera, SETTINGS)
+    bare = [spot for spot in bare if np.linalg.norm(found.pixel - spot, axis=1).min() > 4 * RADIUS_PX]
+    assert len(bare) >= 3
+    assert sum(len(disc_at(frame, spot, camera, SETTINGS)) for spot in bare) == 0
+
+
+def test_a_picture_without_a_hand_has_no_candidates_and_a_click_at_its_edge_finds_nothing() -> None:
+    frame, camera, _ = seen(0)
+    grey = Frame(0, 0.0, np.full_like(frame.color_rgb, 90), None, 1.0)
+    assert len(marker_candidates(grey, camera, SETTINGS)) == 0
+    for corner in ((0.0, 0.0), (639.0, 479.0)):
+        assert len(disc_at(grey, np.array(corner), camera, SETTINGS)) == 0
