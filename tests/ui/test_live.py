@@ -7,7 +7,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from PySide6.QtCore import Qt
+from PySide6.QtCore import QPointF, QRectF, Qt
 from PySide6.QtWidgets import QWidget
 from pytestqt.qtbot import QtBot
 
@@ -20,7 +20,7 @@ from ui.live.curves import LiveCurves
 from ui.live.history import KEPT_S, History
 from ui.live.light import Lamp, SteadyLight, lamp_for
 from ui.live.screen import LiveScreen
-from ui.picture.overlay import axis_pixels, ellipse
+from ui.picture.overlay import axis_pixels, ellipse, within
 from ui.theme import Theme
 
 MARKERS = ("WRIST", "CMC1", "MCP2", "MCP3", "MCP4", "MCP5")
@@ -297,3 +297,10 @@ def test_the_ellipse_is_two_standard_deviations_of_any_covariance() -> None:
         axes = np.array([[math.cos(turn), -math.sin(turn)], [math.sin(turn), math.cos(turn)]])
         rebuilt = axes @ np.diag([(longer / 2) ** 2, (shorter / 2) ** 2]) @ axes.T
         np.testing.assert_allclose(rebuilt, covariance, rtol=1e-9)
+
+
+def test_a_letter_outside_the_picture_moves_to_the_nearest_place_inside() -> None:
+    box = QRectF(16, 16, 100, 50)
+    assert within(QPointF(40, 40), box) == QPointF(40, 40)
+    assert within(QPointF(200, 40), box) == QPointF(116, 40)
+    assert within(QPointF(0, 500), box) == QPointF(16, 66)

@@ -170,3 +170,11 @@ def test_numbers_never_carry_a_sign_and_never_hide_what_is_unknown() -> None:
         "112th",
     ]
     assert days_ago(datetime(2026, 11, 19, 23, 0), TODAY) == "yesterday"
+
+
+def test_nothing_moves_while_a_search_finds_nobody(qtbot: QtBot, screen: PatientsScreen) -> None:
+    before = screen.search.geometry(), screen.new_button.geometry()
+    qtbot.keyClicks(screen.search, "Fir 12")
+    qtbot.waitUntil(lambda: not screen.card.isVisible())
+    screen.layout().activate()
+    assert (screen.search.geometry(), screen.new_button.geometry()) == before
