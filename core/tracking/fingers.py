@@ -19,7 +19,7 @@ from core.tracking.joint_limits import constrained
 from core.tracking.measurement import View
 from core.tracking.naming import Measurable
 from core.tracking.ray_filter import RayBeliefs, RayForecast, RayPoints, forecast, spread_points
-from core.tracking.ray_search import LEAST_DISCS, search_rays
+from core.tracking.ray_search import LEAST_DISCS, in_reach, search_rays
 from core.tracking.settings import TrackerSettings
 from core.tracking.state import Belief
 from core.tracking.unscented import weights_for
@@ -96,6 +96,11 @@ class Fingers:
         self._noise_factor = np.ones((RAYS, 3 * DISCS))
         self._disc_m2 = np.full((RAYS, DISCS), np.nan)
         self._take(self.model.at_neutral())
+
+    def reach(self, point_m: FloatArray) -> NDArray[np.bool_]:
+        """Whether points (..., 3) in the tracked body may be discs of these fingers."""
+        palm = self._palm
+        return in_reach((point_m - palm.origin_m) @ palm.axes, palm.disc_m[1:], self._mean[:, self.model.layout.seen])
 
     def begin_anywhere(self) -> None:
         """Start again after the hand was lost: the anatomy is known, the joints may be anywhere."""

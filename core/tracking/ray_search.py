@@ -15,6 +15,17 @@ NEAR_M = 0.012
 """How far from a posture of the grid a disc may lie: half a step of it and the noise of a depth."""
 LEAST_DISCS = 2
 _REACH_M = 0.015
+_BACK_M, _ACROSS_M, _ABOVE_M = -0.02, 0.03, 0.05
+"""How far behind its root, for the thumb across the palm, and above the palm a disc may still be seen."""
+
+
+def in_reach(point_m: FloatArray, root_disc_m: FloatArray, state: FloatArray) -> NDArray[np.bool_]:
+    """Whether points (..., 3) in W2 may be discs of the rays with slots and constants ``state`` (5, 16)."""
+    length = state[:, SLOTS : SLOTS + DISCS].sum(axis=1) + _REACH_M
+    off = point_m[..., None, :] - root_disc_m
+    ahead = off[..., 0] > _BACK_M
+    ahead[..., 0] &= off[..., 0, 1] > -_ACROSS_M
+    return np.asarray((ahead & ((off * off).sum(axis=-1) < length**2) & (off[..., 2] < _ABOVE_M)).any(axis=-1))
 
 
 @lru_cache(maxsize=1)

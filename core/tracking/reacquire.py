@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from itertools import combinations
+from collections.abc import Callable
+from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 
 from core.so3 import nearest_rotation
 from core.tracking.measurement import View
-from core.tracking.settings import TrackerSettings
 from core.types import Detections, FloatArray
 
 DISTANCE_TOLERANCE_M = 0.007
@@ -20,17 +21,40 @@ MOST_GAP_M = 0.004
 """Root mean square gap of the discs from the fitted palm above which it is not this palm."""
 RIVAL_GAP, RIVAL_GAP_M = 1.5, 0.001
 """Another pose is a rival when its discs' gap is below this many times the best one's plus that much."""
+LEAST_EXPLAINED = np.array([1.0, 1.0, 1.0, 1.0, 0.6, 0.4, 0.0])
+"""Share of all blobs that a palm of so many discs and the fingers on it must explain, where there are fingers."""
+
 _MIRROR = np.array([1.0, -1.0, 1.0])
+_MOST_FITTED = 24
+
+# WRIST MCP2, CMC1 MCP4, MCP3 MCP5: a pair with one of the next pair. Any four discs hold one of these six triples.
+_TRIPLES = np.array([(0, 2, 1), (0, 2, 4), (1, 4, 3), (1, 4, 5), (3, 5, 0), (3, 5, 2)])
+
+Reach = Callable[[FloatArray], NDArray[np.bool_]]
+"""Whether points (..., 3) in the body may be discs of thumb or fingers."""
+
+
+@dataclass(frozen=True, slots=True)
+class _Fits:
+    """Poses (N, 3, 3), (N, 3) of a palm, discs matched (N,), their root mean square gap (N,), and blobs explained (N,)
+    by palm and fingers."""
+
+    rotation: FloatArray
+    translation: FloatArray
+    count: NDArray[np.int64]
+    gap_m: FloatArray
+    explained: NDArray[np.int64]
 
 
 def find_palm(
-    detections: Detections, view: View, settings: TrackerSettings
+    detections: Detections, view: View, reach: Reach | None = None
 ) -> tuple[FloatArray, FloatArray, int] | None:
     """Position (3,) and rotation (3, 3) of the body in W0 and the number of discs matched, or None.
 
     Triples of discs with the distances of the palm fix a pose; the pose that most other discs confirm
     wins if it is confirmed by at least four in all and no other, different pose by as many about as well.
     Needs depth; the back of the hand must face the camera, and the other hand must not explain more discs.
+    With ``reach`` the blobs left over must mostly lie where the fingers could be.
     """
     known = np.flatnonzero(np.isfinite(detections.depth_m) & (detections.similarity > 0.0))
     if known.size < LEAST_MATCHED:
@@ -39,81 +63,126 @@ def find_palm(
         known = known[np.argsort(-detections.similarity[known])[:MOST_BLOBS]]
     points = view.camera.back_project(detections.pixel[known], detections.depth_m[known])
     palm = view.geometry.palm_m
-    fit = _best_fit(palm, points)
-    if fit is None:
+    triple, blobs = _triples(palm, points)
+    if not triple.size:
         return None
-    other_hand = _best_fit(palm * _MIRROR, points)
-    if other_hand is not None and other_hand[0] > fit[0]:
+    fits = _fits(palm, triple, blobs, points, reach)
+    best = _best(fits, palm, known.size if reach is not None else 0)
+    if best is None:
         return None
-    count, rotation_cam, translation_cam = fit
-    rotation = view.rotation_w0_cam.T @ rotation_cam
-    position = view.rotation_w0_cam.T @ (translation_cam - view.translation_w0_cam_m)
-    return position, rotation, count
+    if fits.count[best] < len(palm):
+        mirrored = _fits(palm * _MIRROR, triple, blobs, points, None)
+        if mirrored.count.size and mirrored.count.max() > fits.count[best]:
+            return None
+    rotation = view.rotation_w0_cam.T @ fits.rotation[best]
+    position = view.rotation_w0_cam.T @ (fits.translation[best] - view.translation_w0_cam_m)
+    return position, rotation, int(fits.count[best])
 
 
-def _best_fit(model: FloatArray, points: FloatArray) -> tuple[int, FloatArray, FloatArray] | None:
-    """Discs matched, rotation (3, 3) and translation (3,) of the model (6, 3) that explains most points (B, 3).
+def _triples(palm_m: FloatArray, points: FloatArray) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
+    """Which of the triples (N,) of palm discs has its distances between which blobs (N, 3)."""
+    between = np.linalg.norm(points[:, None] - points[None], axis=-1)
+    triples, blobs = [], []
+    for number, (a, b, c) in enumerate(_TRIPLES):
+        ab, ac, bc = (
+            np.abs(between - np.linalg.norm(palm_m[first] - palm_m[second])) < DISTANCE_TOLERANCE_M
+            for first, second in ((a, b), (a, c), (b, c))
+        )
+        found = np.argwhere(ab[:, :, None] & ac[:, None, :] & bc[None, :, :])
+        triples.append(np.full(len(found), number))
+        blobs.append(found)
+    return np.concatenate(triples), np.concatenate(blobs)
 
-    None when fewer than four discs match, or when clearly different poses explain as many about as well.
-    """
-    best: list[tuple[int, float, FloatArray, FloatArray]] = []
-    blob_distance = np.linalg.norm(points[:, None] - points[None], axis=-1)
-    model_distance = np.linalg.norm(model[:, None] - model[None], axis=-1)
-    for triple in combinations(range(model.shape[0]), 3):
-        a, b, c = triple
-        ab = np.abs(blob_distance - model_distance[a, b]) < DISTANCE_TOLERANCE_M
-        ac = np.abs(blob_distance - model_distance[a, c]) < DISTANCE_TOLERANCE_M
-        bc = np.abs(blob_distance - model_distance[b, c]) < DISTANCE_TOLERANCE_M
-        i, j, k = np.nonzero(ab[:, :, None] & ac[:, None, :] & bc[None, :, :])
-        if i.size == 0:
-            continue
-        chosen = np.stack((i, j, k), axis=1)
-        rotation, translation = _rigid_fits(model[list(triple)], points[chosen])
-        # The dorsal side looks at the camera: Z of the palm has a negative component along its axis.
-        facing = rotation[:, 2, 2] < 0.0
-        rotation, translation = rotation[facing], translation[facing]
-        placed = model @ np.swapaxes(rotation, -1, -2) + translation[:, None, :]
-        gaps = np.linalg.norm(placed[:, :, None, :] - points[None, None], axis=-1)
-        nearest = gaps.min(axis=-1)
-        matched = nearest < FIT_TOLERANCE_M
+
+def _frames(points: FloatArray) -> FloatArray:
+    """Right-handed axes (..., 3, 3) as columns that three points (..., 3, 3) span."""
+    along = points[..., 1, :] - points[..., 0, :]
+    normal = _cross(along, points[..., 2, :] - points[..., 0, :])
+    axes = np.empty((*along.shape, 3))
+    axes[..., 0] = along / np.sqrt((along * along).sum(axis=-1, keepdims=True))
+    axes[..., 2] = normal / np.sqrt((normal * normal).sum(axis=-1, keepdims=True))
+    axes[..., 1] = _cross(axes[..., 2], axes[..., 0])
+    return axes
+
+
+def _cross(a: FloatArray, b: FloatArray) -> FloatArray:
+    return np.asarray(a[..., [1, 2, 0]] * b[..., [2, 0, 1]] - a[..., [2, 0, 1]] * b[..., [1, 2, 0]])
+
+
+def _fits(
+    model: FloatArray,
+    triple: NDArray[np.int64],
+    blobs: NDArray[np.int64],
+    points: FloatArray,
+    reach: Reach | None,
+) -> _Fits:
+    """The poses of the model (6, 3) that most points (B, 3) confirm, refitted to all discs that do."""
+    corners, seen = model[_TRIPLES], points[blobs]
+    rotation = _frames(seen) @ np.swapaxes(_frames(corners), -1, -2)[triple]
+    # The dorsal side looks at the camera: Z of the palm has a negative component along its axis.
+    facing = np.flatnonzero(rotation[:, 2, 2] < 0.0)
+    rotation = rotation[facing]
+    middle = corners.mean(axis=1)[triple[facing]]
+    translation = seen[facing].mean(axis=1) - (rotation @ middle[..., None])[..., 0]
+    for last in (False, True):
+        nearest, gap_m = _nearest(model, points, rotation, translation)
+        matched = gap_m < FIT_TOLERANCE_M
         count = matched.sum(axis=1)
-        cost = np.where(matched, nearest, 0.0).sum(axis=1)
-        for n in np.flatnonzero(count >= LEAST_MATCHED):
-            best.append((int(count[n]), float(cost[n]), rotation[n], translation[n]))
-    if not best:
-        return None
-    best.sort(key=lambda one: (-one[0], one[1] / one[0]))
-    count, _, rotation, translation = best[0]
-    rotation, translation, gap_m = _refit(model, points, rotation, translation)
-    if gap_m > MOST_GAP_M:
-        return None
-    for other_count, _, other, other_at in best[1:]:
-        if other_count < count:
-            break
-        apart = np.linalg.norm((model @ other.T + other_at) - (model @ rotation.T + translation), axis=1)
-        if float(np.median(apart)) > 2 * FIT_TOLERANCE_M:
-            *_, other_gap_m = _refit(model, points, other, other_at)
-            if other_gap_m < RIVAL_GAP * gap_m + RIVAL_GAP_M:
-                return None
-    return count, rotation, translation
+        worth = count - np.where(matched, gap_m, 0.0).sum(axis=1) / (6.0 * FIT_TOLERANCE_M)
+        kept = np.argsort(-worth, kind="stable")[:_MOST_FITTED]
+        kept = kept[count[kept] >= LEAST_MATCHED - (0 if last else 1)]
+        rotation, translation = _refitted(model, points[nearest[kept]], matched[kept])
+    nearest, gap_m = _nearest(model, points, rotation, translation)
+    matched = gap_m < FIT_TOLERANCE_M
+    count = matched.sum(axis=1)
+    mean_m = np.sqrt(np.where(matched, gap_m**2, 0.0).sum(axis=1) / np.maximum(count, 1))
+    explained = count
+    if reach is not None and count.size:
+        local = (points - translation[:, None]) @ rotation
+        is_finger = reach(local)
+        np.put_along_axis(is_finger, np.where(matched, nearest, nearest[:, :1]), False, axis=1)
+        explained = count + is_finger.sum(axis=1)
+    return _Fits(rotation, translation, count, mean_m, explained)
 
 
-def _rigid_fits(model_m: FloatArray, points_m: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Least-squares poses (N, 3, 3), (N, 3) that carry model points (P, 3) to (N, P, 3) (Kabsch)."""
-    model_mean, point_mean = model_m.mean(axis=0), points_m.mean(axis=1)
-    cross = np.einsum("npi,pj->nij", points_m - point_mean[:, None], model_m - model_mean)
-    rotation = nearest_rotation(cross)
-    return rotation, point_mean - rotation @ model_mean
-
-
-def _refit(
+def _nearest(
     model: FloatArray, points: FloatArray, rotation: FloatArray, translation: FloatArray
-) -> tuple[FloatArray, FloatArray, float]:
-    """The pose fitted again to all discs that confirm it, and their root mean square gap."""
-    placed = model @ rotation.T + translation
-    gaps = np.linalg.norm(placed[:, None] - points[None], axis=-1)
-    blob = gaps.argmin(axis=1)
-    matched = gaps[np.arange(model.shape[0]), blob] < FIT_TOLERANCE_M
-    fitted_rotation, fitted_translation = _rigid_fits(model[matched], points[blob[matched]][None])
-    left_over = model[matched] @ fitted_rotation[0].T + fitted_translation[0] - points[blob[matched]]
-    return fitted_rotation[0], fitted_translation[0], float(np.sqrt(np.mean(np.sum(left_over**2, axis=1))))
+) -> tuple[NDArray[np.int64], FloatArray]:
+    """Nearest point (N, 6) to each disc of the placed models, and its gap (N, 6)."""
+    placed = model @ np.swapaxes(rotation, -1, -2) + translation[:, None, :]
+    gap2 = (placed * placed).sum(axis=-1)[..., None] + (points * points).sum(axis=-1) - 2.0 * (placed @ points.T)
+    nearest = gap2.argmin(axis=-1)
+    least = np.take_along_axis(gap2, nearest[..., None], axis=-1)[..., 0]
+    return nearest, np.sqrt(np.maximum(least, 0.0))
+
+
+def _refitted(model: FloatArray, points: FloatArray, used: NDArray[np.bool_]) -> tuple[FloatArray, FloatArray]:
+    """Least-squares poses (N, 3, 3), (N, 3) that carry the used (N, 6) discs of the model to points (N, 6, 3)."""
+    weight = used / used.sum(axis=1, keepdims=True)
+    model_mean = weight @ model
+    point_mean = (weight[:, None] @ points)[:, 0]
+    cross = np.swapaxes(points * weight[..., None], -1, -2) @ (model - model_mean[:, None])
+    rotation = nearest_rotation(cross)
+    return rotation, point_mean - (rotation @ model_mean[..., None])[..., 0]
+
+
+def _best(fits: _Fits, model: FloatArray, blobs: int) -> int | None:
+    """The pose to believe; None when none is good enough, or when a clearly different one is about as good.
+
+    ``blobs`` of which palm and fingers must explain their share, 0 where there are no fingers to explain any.
+    """
+    good = (fits.count >= LEAST_MATCHED) & (fits.rotation[:, 2, 2] < 0.0)
+    order = np.flatnonzero(good & (fits.explained >= LEAST_EXPLAINED[fits.count] * blobs))
+    if not order.size:
+        return None
+    # A disc of the palm counts for more than one that a finger could reach.
+    worth = fits.explained + fits.count
+    order = order[np.lexsort((fits.gap_m[order], -worth[order]))]
+    best = int(order[0])
+    if fits.gap_m[best] > MOST_GAP_M:
+        return None
+    placed = model @ np.swapaxes(fits.rotation[order], -1, -2) + fits.translation[order][:, None]
+    apart = np.median(np.linalg.norm(placed - placed[0], axis=-1), axis=1)
+    rival = worth[order] >= worth[best]
+    rival &= (apart > 2 * FIT_TOLERANCE_M) & (fits.gap_m[order] < RIVAL_GAP * fits.gap_m[best] + RIVAL_GAP_M)
+    return None if rival.any() else best

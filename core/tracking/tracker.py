@@ -24,7 +24,7 @@ from core.tracking.measurement import Forecast, View, forecast, forecast_augment
 from core.tracking.modes import ModeBank
 from core.tracking.naming import Corrected, Measurable, measurable, name_and_correct
 from core.tracking.noise_watch import watched
-from core.tracking.reacquire import find_palm
+from core.tracking.reacquire import Reach, find_palm
 from core.tracking.readout import Readout, lost_frame, lost_moment, shown_frame
 from core.tracking.settings import TrackerSettings
 from core.tracking.smoother import FilterStep, smooth
@@ -149,7 +149,7 @@ class Tracker:
         if not linked:
             self._begun_s = timestamp_s
         if self._bank is None:
-            found = find_palm(ideal, self.view, self.settings)
+            found = find_palm(ideal, self.view, self._reach())
             if found is None:
                 return self._lost(index, timestamp_s, detections, dropped_before)
             self._begin(self._belief_found(*found[:2]))
@@ -163,7 +163,7 @@ class Tracker:
         few = step.palm_seen <= LEAST_PALM_MARKERS
         if (few or vague) and np.count_nonzero(step.spare) + step.palm_seen > LEAST_PALM_MARKERS:
             # Too little of the palm is where it was expected, or too little was expected: it may be anywhere.
-            found = find_palm(ideal if vague else _only(ideal, ~step.is_finger), self.view, self.settings)
+            found = find_palm(ideal if vague else _only(ideal, ~step.is_finger), self.view, self._reach())
             if found is not None and (vague or found[2] > step.palm_seen):
                 bank = self._begin(self._belief_found(*found[:2]))
                 # A vague belief has nothing against the place found: the smoother may go on through it.
@@ -311,6 +311,10 @@ class Tracker:
             return np.full(3, step.palm_seen / self._rows.size)
         seen = self._by_marker(step.palm.taken, step.fingers.blob) >= 0
         return np.asarray(seen[self._fingers.model.direct_markers].all(axis=-1), dtype=np.float64)
+
+    def _reach(self) -> Reach | None:
+        """Where the fingers' discs can be, as seen from the palm."""
+        return None if self._fingers is None else self._fingers.reach
 
     def _belief_found(self, position_m: FloatArray, rotation_w2_w0: FloatArray) -> Belief:
         initial = replace(self.settings.initial, position_m=0.004, turn_rad=0.08, velocity_m_s=0.5, rate_rad_s=2.0)

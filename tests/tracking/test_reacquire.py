@@ -9,12 +9,10 @@ import pytest
 
 from core.tracking.measurement import RigidPalm, View
 from core.tracking.reacquire import find_palm
-from core.tracking.settings import TrackerSettings
 from core.types import Detections, Side
 from tests.tracking.hands import CAMERA, FROM_ABOVE, MIDDLE_M, Pose, blobs, palm, rotation_of
 
 SIDES: tuple[Side, Side] = ("right", "left")
-SETTINGS = TrackerSettings()
 
 
 def view(side: Side) -> View:
@@ -34,7 +32,7 @@ def clutter(rng: np.random.Generator, count: int) -> list[tuple[float, float]]:
 def test_palm_is_found_among_shuffled_blobs_and_clutter(side: Side, seed: int) -> None:
     rng = np.random.default_rng(seed)
     pose = some_pose(rng)
-    found = find_palm(blobs(pose, rng, side=side, false_px=clutter(rng, 8)), view(side), SETTINGS)
+    found = find_palm(blobs(pose, rng, side=side, false_px=clutter(rng, 8)), view(side))
     assert found is not None
     position, rotation, count = found
     true = rotation_of(*pose.angles_deg, side=side)
@@ -50,7 +48,7 @@ def test_four_or_five_discs_are_enough(side: Side, hidden: tuple[int, ...]) -> N
     found_right = 0
     for _ in range(10):
         pose = some_pose(rng)
-        found = find_palm(blobs(pose, rng, side=side, hidden=hidden), view(side), SETTINGS)
+        found = find_palm(blobs(pose, rng, side=side, hidden=hidden), view(side))
         if found is None:
             continue  # two poses explain the four discs: then none is taken
         assert found[2] >= 6 - len(hidden)
@@ -66,14 +64,14 @@ def test_three_discs_are_not_enough(side: Side) -> None:
     rng = np.random.default_rng(30)
     for _ in range(20):
         hidden = rng.choice(6, 3, replace=False)
-        assert find_palm(blobs(some_pose(rng), rng, side=side, hidden=hidden), view(side), SETTINGS) is None
+        assert find_palm(blobs(some_pose(rng), rng, side=side, hidden=hidden), view(side)) is None
 
 
 def test_three_discs_and_far_clutter_are_not_enough() -> None:
     rng = np.random.default_rng(31)
     for _ in range(20):
         seen = blobs(Pose(), rng, hidden=[0, 2, 4], false_px=[(50, 50), (600, 60), (40, 430), (600, 440)])
-        assert find_palm(seen, view("right"), SETTINGS) is None
+        assert find_palm(seen, view("right")) is None
 
 
 @pytest.mark.parametrize("side", SIDES)
@@ -84,7 +82,7 @@ def test_the_other_hand_is_never_taken_for_all_of_this_one(side: Side) -> None:
     refused = 0
     for _ in range(20):
         pose = Pose(rng.uniform(-1.0, 1.0, 3) * [30.0, 20.0, 20.0])
-        found = find_palm(blobs(pose, rng, side=other), view(side), SETTINGS)
+        found = find_palm(blobs(pose, rng, side=other), view(side))
         refused += found is None
     assert refused == 20
 
@@ -94,12 +92,12 @@ def test_a_palm_that_shows_its_inside_is_not_taken() -> None:
     rng = np.random.default_rng(41)
     for _ in range(10):
         pose = Pose(np.array([rng.uniform(-40, 40), 0.0, 180.0]))
-        assert find_palm(blobs(pose, rng), view("right"), SETTINGS) is None
+        assert find_palm(blobs(pose, rng), view("right")) is None
 
 
 def test_without_depth_nothing_is_found() -> None:
-    assert find_palm(blobs(Pose(), np.random.default_rng(1), with_depth=False), view("right"), SETTINGS) is None
-    assert find_palm(Detections.none(), view("right"), SETTINGS) is None
+    assert find_palm(blobs(Pose(), np.random.default_rng(1), with_depth=False), view("right")) is None
+    assert find_palm(Detections.none(), view("right")) is None
 
 
 def test_two_palms_are_one_too_many() -> None:
@@ -109,8 +107,8 @@ def test_two_palms_are_one_too_many() -> None:
         *(np.concatenate((getattr(one, f), getattr(other, f))) for f in ("pixel", "depth_m", "depth_sd_m", "area_px")),
         np.concatenate((one.similarity, other.similarity)),
     )
-    assert find_palm(both, view("right"), SETTINGS) is None
-    assert find_palm(one, view("right"), SETTINGS) is not None
+    assert find_palm(both, view("right")) is None
+    assert find_palm(one, view("right")) is not None
 
 
 def test_with_many_blobs_the_likest_are_searched() -> None:
@@ -119,6 +117,6 @@ def test_with_many_blobs_the_likest_are_searched() -> None:
     likeness = np.where(
         np.linalg.norm(seen.pixel[:, None] - blobs(Pose()).pixel[None], axis=-1).min(axis=1) < 1.0, 0.95, 0.6
     )
-    found = find_palm(replace(seen, similarity=likeness), view("right"), SETTINGS)
+    found = find_palm(replace(seen, similarity=likeness), view("right"))
     assert found is not None
     assert found[2] == 6
