@@ -8,6 +8,7 @@ the constraint that no marker and no blob is used twice.
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
@@ -32,21 +33,6 @@ class AssociationSettings:
     prior_clutter: float = 0.1
     gate_sd: float = 5.0
     depth_range_m: float = 0.5
-
-
-def _distance2(s: FloatArray, difference: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Squared Mahalanobis distances and log-determinants for symmetric (..., d, d), d = 2 or 3, closed form."""
-    x, y = difference[..., 0], difference[..., 1]
-    a, b, d = s[..., 0, 0], s[..., 0, 1], s[..., 1, 1]
-    if s.shape[-1] == 2:
-        det = a * d - b * b
-        return (d * x * x - 2.0 * b * x * y + a * y * y) / det, np.log(det)
-    z, c, e, f = difference[..., 2], s[..., 0, 2], s[..., 1, 2], s[..., 2, 2]
-    aa, bb, cc = d * f - e * e, c * e - b * f, b * e - c * d
-    dd, ee, ff = a * f - c * c, b * c - a * e, a * d - b * b
-    det = a * aa + b * bb + c * cc
-    square = aa * x * x + dd * y * y + ff * z * z + 2.0 * (bb * x * y + cc * x * z + ee * y * z)
-    return square / det, np.log(det)
 
 
 @dataclass(frozen=True, slots=True)
@@ -76,24 +62,28 @@ def log_odds(
     ``noise_variance`` (D, 3). A disc whose depth is of something before or behind it is still that disc,
     with the chance ``depth_outlier``.
     """
-    s = covariance[:, None] + np.zeros((1, measured.shape[0], 1, 1))
-    axes = np.arange(3)
-    s[..., axes, axes] += noise_variance
-    difference = measured - predicted[:, None, :]
+    count = len(predicted), len(measured)
+    s = np.empty((*count, 3, 3))
+    s[:] = covariance[:, None]
+    s.reshape(*count, 9)[..., ::4] += noise_variance  # the diagonals
+    # Innovations in units of their spread, depth last: the first two and their roots are those of the pixel alone.
+    root = np.linalg.cholesky(s)
+    u, v, z = (measured - predicted[:, None]).transpose(2, 0, 1)
+    u = u / root[..., 0, 0]
+    v = (v - root[..., 1, 0] * u) / root[..., 1, 1]
+    z = (z - root[..., 2, 0] * u - root[..., 2, 1] * v) / root[..., 2, 2]
+    flat2 = u * u + v * v
+    full2 = flat2 + z * z
+    log_root = np.log(root.reshape(*count, 9)[..., ::4])
     has_depth = np.isfinite(measured[:, 2])
-    prior = np.log(settings.prior_marker) - np.log(settings.prior_clutter)
-    flat2, flat_log_det = _distance2(s[..., :2, :2], difference[..., :2])
-    flat = prior + np.log(resolution_px2) - 0.5 * (flat2 + flat_log_det) - np.log(2.0 * np.pi)
-    flat = np.where(has_depth, flat + np.log(depth_outlier), flat)
+    prior = math.log(settings.prior_marker / settings.prior_clutter * resolution_px2 / (2.0 * math.pi))
+    flat = prior - 0.5 * flat2 - log_root[..., 0] - log_root[..., 1]
+    full = flat + math.log(settings.depth_range_m / math.sqrt(2.0 * math.pi)) - 0.5 * z * z - log_root[..., 2]
+    flat += math.log(depth_outlier) * has_depth
     gate2 = settings.gate_sd**2
-    flat = np.where(flat2 <= gate2, flat, IMPOSSIBLE)
-    if not has_depth.any():
-        return LogOdds(flat, np.zeros(flat.shape, dtype=bool))
-    full2, full_log_det = _distance2(s, np.where(has_depth[:, None], difference, 0.0))
-    full = prior + np.log(resolution_px2 * settings.depth_range_m) - 0.5 * (full2 + full_log_det)
-    full = full - 1.5 * np.log(2.0 * np.pi)
-    full = np.where(has_depth & (full2 <= gate2), full, IMPOSSIBLE)
-    return LogOdds(np.maximum(full, flat), full >= flat)
+    flat[flat2 > gate2] = IMPOSSIBLE
+    full[~(full2 <= gate2)] = IMPOSSIBLE  # and where there is no depth
+    return LogOdds(np.maximum(full, flat), has_depth & (full >= flat))
 
 
 def posterior(odds: FloatArray) -> FloatArray:

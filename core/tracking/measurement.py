@@ -6,12 +6,13 @@ along the camera's axis, as in the initialisation (13).
 
 from __future__ import annotations
 
-from dataclasses import dataclass, fields, replace
+from dataclasses import dataclass, fields
 from functools import lru_cache
 from typing import Protocol
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.linalg.lapack import dtrtri
 
 from core import so3
 from core.camera import Camera
@@ -76,12 +77,12 @@ class View:
         self, position_m: FloatArray, rotation_w2_w0: FloatArray, joints_rad: FloatArray, shape: FloatArray
     ) -> FloatArray:
         """Pixel u, v and depth z (..., M, 3) of every disc, hidden or not."""
-        cam = self.markers_cam_m(position_m, rotation_w2_w0, joints_rad, shape)
-        z = cam[..., 2]
-        out = np.empty_like(cam)
-        out[..., 0] = self.camera.fx_px * cam[..., 0] / z + self.camera.cx_px
-        out[..., 1] = self.camera.fy_px * cam[..., 1] / z + self.camera.cy_px
-        out[..., 2] = z
+        out = self.markers_cam_m(position_m, rotation_w2_w0, joints_rad, shape)
+        camera, z = self.camera, out[..., 2]
+        out[..., 0] *= camera.fx_px / z
+        out[..., 0] += camera.cx_px
+        out[..., 1] *= camera.fy_px / z
+        out[..., 1] += camera.cy_px
         return out
 
 
@@ -106,18 +107,35 @@ class Forecast:
         probability = bank.probability
         mean = probability @ marker_mean
         apart = marker_mean - mean
-        within = (probability @ marker_covariance.reshape(probability.size, -1)).reshape(mean.size, mean.size)
-        return Forecast(bank, marker_mean, marker_covariance, cross, mean, within + (apart.T * probability) @ apart)
+        covariance = (probability @ marker_covariance.reshape(probability.size, -1)).reshape(mean.size, mean.size)
+        covariance += (apart.T * probability) @ apart
+        return Forecast(bank, marker_mean, marker_covariance, cross, mean, covariance)
+
+    def by_marker(self) -> tuple[FloatArray, FloatArray]:
+        """Mean (M, 3) and covariance (M, 3, 3) of each marker's own measurement over all modes; views."""
+        count = self.mixture_mean.size // 3
+        blocks = self.mixture_covariance.reshape(count, 3, count, 3)
+        return self.mixture_mean.reshape(count, 3), np.einsum("iaib->iab", blocks)
 
     def mixture(self) -> tuple[FloatArray, FloatArray]:
         """Mean (3M,) and covariance (3M, 3M) of the measurements over all modes."""
         return self.mixture_mean, self.mixture_covariance
 
 
+@dataclass(frozen=True, slots=True)
+class _Order:
+    """``seen`` (s,) states; ``seen_first`` (n,) all states, those first; ``back`` (n,) from there to the layout's."""
+
+    seen: NDArray[np.int64]
+    seen_first: NDArray[np.int64]
+    back: NDArray[np.int64]
+
+
 @lru_cache(maxsize=8)
-def _seen(layout: StateLayout) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
+def _order(layout: StateLayout) -> _Order:
     seen = layout.seen
-    return seen, seen[:, None]
+    seen_first = np.concatenate((seen, np.setdiff1d(np.arange(layout.size), seen)))
+    return _Order(seen, seen_first, np.argsort(seen_first))
 
 
 def forecast(bank: ModeBank, layout: StateLayout, view: View, spread: Spread) -> Forecast:
@@ -126,30 +144,29 @@ def forecast(bank: ModeBank, layout: StateLayout, view: View, spread: Spread) ->
     The states that it does not see follow by linear regression on those, exact for a Gaussian: the points
     need not spread over them.
     """
-    seen, column = _seen(layout)
-    root = np.linalg.cholesky(bank.covariance[:, column, seen])
-    weights = weights_for(seen.size, spread)
-    count, size = root.shape[0], seen.size
-    offset = np.empty((count, 2 * size + 1, size))
-    offset[:] = bank.error[:, None, seen]
-    spread_out = np.swapaxes(root, -1, -2) * weights.scale
-    offset[:, 1 : size + 1] += spread_out
-    offset[:, size + 1 :] -= spread_out
+    order = _order(layout)
+    size = order.seen.size
+    weights = weights_for(size, spread)
+    # With the seen states first, the root's first columns hold the points and, below, what they say of the others.
+    root = np.linalg.cholesky(bank.covariance.take(order.seen_first, 1).take(order.seen_first, 2))
+    columns = weights.scale * root[:, :, :size].transpose(0, 2, 1)
+    offset = np.empty((bank.probability.size, 2 * size + 1, size))
+    offset[:] = bank.error[:, None, order.seen]
+    offset[:, 1 : size + 1] += columns[..., :size]
+    offset[:, size + 1 :] -= columns[..., :size]
     nominal, joints = bank.nominal, 6 + layout.joint_count
     marker = view.observe(
         nominal.position_m + offset[..., 0:3],
         nominal.rotation_w2_w0 @ so3.exp(offset[..., 3:6]),
         nominal.joints_rad + offset[..., 6:joints],
         nominal.shape + offset[..., joints:],
-    ).reshape(count, 2 * size + 1, -1)
+    ).reshape(*offset.shape[:2], -1)
     mean = weights.mean @ marker
     deviation = marker - mean[:, None, :]
-    covariance = np.swapaxes(deviation * weights.covariance[:, None], -1, -2) @ deviation
-    # The points lie at +-scale times the columns of the root: what they say of the whole state is root^-1 P.
-    whole = np.linalg.solve(root, bank.covariance[:, seen, :])
+    covariance = (deviation * weights.covariance[:, None]).transpose(0, 2, 1) @ deviation
     pairs = marker[:, 1 : size + 1] - marker[:, size + 1 :]
-    cross = (weights.covariance[1] * weights.scale) * (np.swapaxes(pairs, -1, -2) @ whole)
-    return Forecast.of(bank, mean, covariance, cross)
+    cross = weights.covariance[1] * (pairs.transpose(0, 2, 1) @ columns)
+    return Forecast.of(bank, mean, covariance, cross.take(order.back, 2))
 
 
 def forecast_reduced(
@@ -256,21 +273,33 @@ def update(
         return bank, Innovation(zero, zero, 0, np.zeros((zero.size, 0)))
     # Pixels and metres differ by orders of magnitude: everything is taken in units of the noise.
     unit = 1.0 / np.sqrt(noise_variance)
-    value = (measured - forecast.marker_mean[:, rows]) * unit
-    s = forecast.marker_covariance[:, rows[:, None], rows] * (unit * unit[:, None])
-    index = np.arange(rows.size)
-    s[:, index, index] += 1.0
-    cross = forecast.cross[:, rows] * unit[:, None]
-    inverse = np.linalg.inv(s)
-    weighted = np.einsum("kij,kj->ki", inverse, value)
-    error = bank.error + np.einsum("ki,kin->kn", weighted, cross)
-    covariance = bank.covariance - np.swapaxes(cross, -1, -2) @ (inverse @ cross)
-    covariance = 0.5 * (covariance + np.swapaxes(covariance, -1, -2))
-    nis = np.einsum("ki,ki->k", value, weighted)
-    log_det = np.linalg.slogdet(s)[1] - 2.0 * np.log(unit).sum()
+    value, s, cross = forecast.marker_mean, forecast.marker_covariance, forecast.cross
+    if rows.size < value.shape[1]:
+        value, s, cross = value.take(rows, 1), s.take(rows, 1).take(rows, 2), cross.take(rows, 1)
+    s = s * (unit * unit[:, None])
+    s.reshape(len(s), -1)[:, :: rows.size + 1] += 1.0  # the diagonals
+    root: FloatArray = np.asarray(np.linalg.cholesky(s), dtype=np.float64)
+    white = _inverse_of_lower(root)
+    surprise = white @ ((measured - value) * unit)[..., None]  # (K, m, 1), N(0, 1) when all is right
+    gain = white @ (cross * unit[:, None])
+    error = bank.error + (surprise.transpose(0, 2, 1) @ gain)[:, 0]
+    covariance = bank.covariance - gain.transpose(0, 2, 1) @ gain
+    covariance = 0.5 * (covariance + covariance.transpose(0, 2, 1))
+    nis = np.vecdot(surprise[..., 0], surprise[..., 0])
+    log_det = 2.0 * np.log(root.reshape(len(s), -1)[:, :: rows.size + 1] / unit).sum(axis=1)
     log_likelihood = -0.5 * (nis + log_det + rows.size * _LOG_2_PI)
-    residual = weighted / np.sqrt(inverse[:, index, index])
-    return replace(bank, error=error, covariance=covariance), Innovation(nis, log_likelihood, int(rows.size), residual)
+    residual = (surprise.transpose(0, 2, 1) @ white)[:, 0] / np.sqrt((white * white).sum(axis=1))
+    bank = ModeBank(bank.nominal, error, covariance, bank.probability)
+    return bank, Innovation(nis, log_likelihood, int(rows.size), residual)
+
+
+def _inverse_of_lower(root: FloatArray) -> FloatArray:
+    """Inverses of lower triangular matrices (K, m, m)."""
+    out = np.empty_like(root)
+    for one, into in zip(root, out, strict=True):
+        # LAPACK counts by columns: what it is told of is the transpose.
+        into[...] = dtrtri(one.T, lower=0)[0].T
+    return out
 
 
 _LOG_2_PI = float(np.log(2.0 * np.pi))

@@ -7,11 +7,13 @@ a calm curve and one that follows. All modes are kept as small errors from one n
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass, replace
 
 import numpy as np
 
-from core.tracking.motion import REFERENCE_DT_S, MotionNoise, advance, process_covariance, transition
+from core import so3
+from core.tracking.motion import REFERENCE_DT_S, MotionNoise, carried, coasted, stride
 from core.tracking.state import Belief, StateLayout
 from core.types import FloatArray
 
@@ -38,9 +40,9 @@ def switching(count: int, dwell_s: float, dt_s: float = REFERENCE_DT_S) -> Float
     """Probability (K, K) to go from row to column mode in ``dt_s``, staying ``dwell_s`` on average."""
     if count == 1:
         return np.ones((1, 1))
-    leave = 1.0 - np.exp(-dt_s / dwell_s)
+    leave = 1.0 - math.exp(-dt_s / dwell_s)
     out = np.full((count, count), leave / (count - 1))
-    np.fill_diagonal(out, 1.0 - leave)
+    out.reshape(-1)[:: count + 1] = 1.0 - leave
     return out
 
 
@@ -48,37 +50,36 @@ def mixed(bank: ModeBank, switch: FloatArray) -> ModeBank:
     """Start of the next step: each mode's belief mixed from all that may have switched to it."""
     if bank.probability.size == 1:
         return bank
-    joint = switch * bank.probability[:, None]
-    probability = joint.sum(axis=0)
-    share = (joint / probability).T  # (to, from)
+    probability = bank.probability @ switch
+    share = (switch * bank.probability[:, None] / probability).T  # (to, from)
     error = share @ bank.error
     apart = bank.error - error[:, None, :]  # (to, from, n)
-    within = (share @ bank.covariance.reshape(share.shape[0], -1)).reshape(bank.covariance.shape)
-    between = np.swapaxes(apart * share[:, :, None], -1, -2) @ apart
-    return ModeBank(bank.nominal, error, within + between, probability)
+    covariance = (share @ bank.covariance.reshape(share.shape[0], -1)).reshape(bank.covariance.shape)
+    covariance += (apart * share[:, :, None]).transpose(0, 2, 1) @ apart
+    return ModeBank(bank.nominal, error, covariance, probability)
 
 
 def predicted(bank: ModeBank, noise: MotionNoise, scales: FloatArray, dt_s: float, layout: StateLayout) -> ModeBank:
     """Linear prediction of all modes, the noise of each multiplied by its scale (K,): P <- F P F' + Q."""
-    f = transition(bank.nominal, dt_s, layout)
-    q = process_covariance(bank.nominal, noise, dt_s, layout)
-    nominal = advance(bank.nominal, np.zeros(6 + layout.joint_count), dt_s, layout)
-    covariance = f @ bank.covariance @ f.T + (scales * scales)[:, None, None] * q
-    return ModeBank(nominal, bank.error @ f.T, covariance, bank.probability)
+    step = stride(bank.nominal, noise, dt_s, layout)
+    error = bank.error.copy()
+    error[:, layout.moving] = error[:, layout.moving] @ step.forward.T
+    covariance = carried(bank.covariance, step, layout, scales * scales)
+    return ModeBank(coasted(bank.nominal, step, dt_s, layout), error, covariance, bank.probability)
 
 
 def merged(bank: ModeBank, layout: StateLayout) -> ModeBank:
     """The bank with its nominal belief moved to the mean of the mixture and given its covariance."""
-    mean = bank.probability @ bank.error
+    probability = bank.probability
+    mean = probability @ bank.error
     apart = bank.error - mean
-    within = (bank.probability @ bank.covariance.reshape(bank.probability.size, -1)).reshape(mean.size, mean.size)
-    covariance = within + (apart.T * bank.probability) @ apart
+    covariance = (probability @ bank.covariance.reshape(probability.size, -1)).reshape(mean.size, mean.size)
+    covariance += (apart.T * probability) @ apart
     turn = layout.turn
     # The turns are measured from another rotation now: log(Exp(-m) Exp(e)) to second order.
     error = apart.copy()
-    x, y, z = mean[turn]
-    error[:, turn] -= 0.5 * (bank.error[:, turn] @ np.array([[0.0, z, -y], [-z, 0.0, x], [y, -x, 0.0]]))
-    return ModeBank(bank.nominal.moved(mean, layout, covariance), error, bank.covariance, bank.probability)
+    error[:, turn] += 0.5 * (bank.error[:, turn] @ so3.skew(mean[turn]))
+    return ModeBank(bank.nominal.moved(mean, layout, covariance), error, bank.covariance, probability)
 
 
 def reweighed(predicted_probability: FloatArray, log_likelihood: FloatArray) -> FloatArray:

@@ -11,6 +11,7 @@ from functools import lru_cache
 from typing import Literal
 
 import numpy as np
+from numpy.typing import NDArray
 
 from core import so3
 from core.tracking.state import Belief, StateLayout
@@ -81,26 +82,93 @@ def advance(belief: Belief, noise: FloatArray, dt_s: float, layout: StateLayout)
     )
 
 
+@dataclass(frozen=True, slots=True)
+class Stride:
+    """One step of the motion about a belief, for the m states that move (all but the shape).
+
+    ``forward`` F (m, m): how a small error travels, the turn to first order; ``noise`` Q (m, m); ``turned`` (3, 3)
+    the turn that the rate makes of the step.
+    """
+
+    forward: FloatArray
+    noise: FloatArray
+    turned: FloatArray
+
+
+def stride(belief: Belief, noise: MotionNoise, dt_s: float, layout: StateLayout) -> Stride:
+    """F, Q and the turn of a single belief's step."""
+    turned, on_the_way = _turn(belief, dt_s, layout)
+    return Stride(_forward(turned, on_the_way, dt_s, layout), _driven(noise, on_the_way, dt_s, layout), turned)
+
+
 def transition(belief: Belief, dt_s: float, layout: StateLayout) -> FloatArray:
-    """F (n, n): how a small error of a single belief travels over ``dt_s``; the turn to first order."""
+    """F (n, n) of all states."""
     f = np.eye(layout.size)
-    axes = np.arange(3)
-    f[axes, 3 + axes] = dt_s
+    f[layout.moving, layout.moving] = _forward(*_turn(belief, dt_s, layout), dt_s, layout)
+    return f
+
+
+def process_covariance(belief: Belief, noise: MotionNoise, dt_s: float, layout: StateLayout) -> FloatArray:
+    """Q (n, n) of all states: what the noise inputs of :func:`advance` add to the covariance in ``dt_s``."""
+    q = np.zeros((layout.size, layout.size))
+    q[layout.moving, layout.moving] = _driven(noise, _turn(belief, dt_s, layout)[1], dt_s, layout)
+    return q
+
+
+def coasted(belief: Belief, step: Stride, dt_s: float, layout: StateLayout) -> Belief:
+    """The mean after ``dt_s`` without noise: :func:`advance` with the turn at hand."""
+    joints = belief.joints_rad + belief.joint_rates_rad_s * dt_s if layout.has_rates else belief.joints_rad
+    return Belief(
+        belief.position_m + belief.velocity_m_s * dt_s,
+        belief.velocity_m_s,
+        belief.rotation_w2_w0 @ step.turned,
+        belief.rate_rad_s,
+        joints,
+        belief.joint_rates_rad_s,
+        belief.shape,
+        belief.covariance,
+    )
+
+
+def _turn(belief: Belief, dt_s: float, layout: StateLayout) -> tuple[FloatArray, FloatArray]:
+    """The turn (3, 3) that the rate makes of a step, and its right Jacobian (3, 3); no turn without rates."""
+    if not layout.has_rates:
+        return _NO_TURN, _NO_TURN
+    turn = belief.rate_rad_s * dt_s
+    return so3.exp(turn), so3.right_jacobian(turn)
+
+
+_NO_TURN = np.eye(3)
+
+
+def _forward(turned: FloatArray, on_the_way: FloatArray, dt_s: float, layout: StateLayout) -> FloatArray:
+    still, dt_at = _still(layout)
+    f = still.copy()
+    f.reshape(-1)[dt_at] = dt_s
     if layout.has_rates:
-        turn = belief.rate_rad_s * dt_s
-        f[6:9, 6:9] = so3.exp(-turn)
-        f[6:9, 9:12] = so3.right_jacobian(turn) * dt_s
-        j = np.arange(layout.joint_count)
-        f[layout.joints.start + j, layout.joint_rates.start + j] = dt_s
+        f[6:9, 6:9] = turned.T
+        f[6:9, 9:12] = on_the_way * dt_s
     return f
 
 
 @lru_cache(maxsize=16)
+def _still(layout: StateLayout) -> tuple[FloatArray, NDArray[np.int64]]:
+    """The identity (m, m) of the states that move, and where in it, flat, a value grows by its rate."""
+    size = layout.moving.stop
+    value, rate = np.arange(3), 3 + np.arange(3)
+    if layout.has_rates:
+        joint = np.arange(layout.joint_count)
+        value, rate = np.r_[value, layout.joints.start + joint], np.r_[rate, layout.joint_rates.start + joint]
+    return np.eye(size), value * size + rate
+
+
+@lru_cache(maxsize=16)
 def _process_terms(noise: MotionNoise, layout: StateLayout) -> tuple[FloatArray, FloatArray, FloatArray]:
-    """Q(dt) = A dt + B dt^2 + C dt^3, from noise that holds over a step and has the density sd^2 / 30."""
+    """Q(dt) = A dt + B dt^2 + C dt^3 of the states that move, from noise that holds over a step and has the density
+    sd^2 / 30."""
     turn = noise.turn_acceleration_rad_s2 if layout.has_rates else noise.turn_rate_rad_s
     joint = noise.joint_acceleration_rad_s2 if layout.has_rates else noise.joint_rate_rad_s
-    linear, square, cubic = (np.zeros((layout.size, layout.size)) for _ in range(3))
+    linear, square, cubic = (np.zeros((layout.moving.stop, layout.moving.stop)) for _ in range(3))
 
     def drive(value: slice, rate: slice, sd: float, moves_value: bool) -> None:
         density = sd**2 * REFERENCE_DT_S
@@ -120,21 +188,31 @@ def _process_terms(noise: MotionNoise, layout: StateLayout) -> tuple[FloatArray,
     return linear, square, cubic
 
 
-def process_covariance(belief: Belief, noise: MotionNoise, dt_s: float, layout: StateLayout) -> FloatArray:
-    """Q (n, n): what the noise inputs of :func:`advance` add to the covariance in ``dt_s``."""
+def _driven(noise: MotionNoise, on_the_way: FloatArray, dt_s: float, layout: StateLayout) -> FloatArray:
     linear, square, cubic = _process_terms(noise, layout)
     q = linear * dt_s + square * dt_s**2 + cubic * dt_s**3
     if layout.has_rates:
         # Turning is pushed about the axes on the way, not about those at the end: Jr, as in the transition.
-        on_the_way = so3.right_jacobian(belief.rate_rad_s * dt_s)
         q[6:9, 6:9] = on_the_way @ q[6:9, 6:9] @ on_the_way.T
         q[6:9, 9:12] = on_the_way @ q[6:9, 9:12]
         q[9:12, 6:9] = q[6:9, 9:12].T
     return q
 
 
+def carried(covariance: FloatArray, step: Stride, layout: StateLayout, scale2: FloatArray | float = 1.0) -> FloatArray:
+    """F P F' + Q (..., n, n) of covariances (..., n, n), Q multiplied by ``scale2`` (...).
+
+    The shape stays: in its rows and columns F is the identity.
+    """
+    f, moving = step.forward, layout.moving
+    out = covariance.copy()
+    out[..., moving, :] = f @ out[..., moving, :]
+    out[..., moving] = out[..., moving] @ f.T
+    out[..., moving, moving] += np.multiply.outer(scale2, step.noise)
+    return out
+
+
 def predict(belief: Belief, noise: MotionNoise, dt_s: float, layout: StateLayout) -> Belief:
     """Linear prediction: exact mean, P <- F P F' + Q."""
-    f = transition(belief, dt_s, layout)
-    covariance = f @ belief.covariance @ f.T + process_covariance(belief, noise, dt_s, layout)
-    return replace(advance(belief, np.zeros(6 + layout.joint_count), dt_s, layout), covariance=covariance)
+    step = stride(belief, noise, dt_s, layout)
+    return replace(coasted(belief, step, dt_s, layout), covariance=carried(belief.covariance, step, layout))

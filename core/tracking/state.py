@@ -6,7 +6,7 @@ Orientation stays a matrix; its error is a turn d in the moving frame, R_true = 
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field
 from typing import Self
 
 import numpy as np
@@ -29,40 +29,30 @@ class StateLayout:
     has_rates: bool = True
     shape_count: int = 0
 
-    @property
-    def position(self) -> slice:
-        return slice(0, 3)
+    position: slice = field(init=False, repr=False, compare=False)
+    velocity: slice = field(init=False, repr=False, compare=False)
+    turn: slice = field(init=False, repr=False, compare=False)
+    rate: slice = field(init=False, repr=False, compare=False)
+    joints: slice = field(init=False, repr=False, compare=False)
+    joint_rates: slice = field(init=False, repr=False, compare=False)
+    shape: slice = field(init=False, repr=False, compare=False)
+    size: int = field(init=False, repr=False, compare=False)
+
+    def __post_init__(self) -> None:
+        # Worked out once: every step of the filter asks for them many times.
+        rates = (3, self.joint_count) if self.has_rates else (0, 0)
+        lengths = {"position": 3, "velocity": 3, "turn": 3, "rate": rates[0]}
+        lengths |= {"joints": self.joint_count, "joint_rates": rates[1], "shape": self.shape_count}
+        end = 0
+        for name, length in lengths.items():
+            object.__setattr__(self, name, slice(end, end + length))
+            end += length
+        object.__setattr__(self, "size", end)
 
     @property
-    def velocity(self) -> slice:
-        return slice(3, 6)
-
-    @property
-    def turn(self) -> slice:
-        return slice(6, 9)
-
-    @property
-    def rate(self) -> slice:
-        return slice(9, 12) if self.has_rates else slice(9, 9)
-
-    @property
-    def joints(self) -> slice:
-        start = self.rate.stop
-        return slice(start, start + self.joint_count)
-
-    @property
-    def joint_rates(self) -> slice:
-        start = self.joints.stop
-        return slice(start, start + (self.joint_count if self.has_rates else 0))
-
-    @property
-    def shape(self) -> slice:
-        start = self.joint_rates.stop
-        return slice(start, start + self.shape_count)
-
-    @property
-    def size(self) -> int:
-        return int(self.shape.stop)
+    def moving(self) -> slice:
+        """The states that a step of the motion changes: all but the shape."""
+        return slice(0, self.shape.start)
 
     @property
     def seen(self) -> NDArray[np.int64]:
@@ -92,18 +82,15 @@ class Belief:
     def moved(self, error: FloatArray, layout: StateLayout, covariance: FloatArray | None = None) -> Self:
         """The belief with its mean moved by an error vector (..., n)."""
         has_rates = layout.has_rates
-        return replace(
-            self,
-            position_m=self.position_m + error[..., layout.position],
-            velocity_m_s=self.velocity_m_s + error[..., layout.velocity],
-            rotation_w2_w0=self.rotation_w2_w0 @ so3.exp(error[..., layout.turn]),
-            rate_rad_s=self.rate_rad_s + error[..., layout.rate] if has_rates else self.rate_rad_s,
-            joints_rad=self.joints_rad + error[..., layout.joints],
-            joint_rates_rad_s=self.joint_rates_rad_s + error[..., layout.joint_rates]
-            if has_rates
-            else self.joint_rates_rad_s,
-            shape=self.shape + error[..., layout.shape],
-            covariance=self.covariance if covariance is None else covariance,
+        return type(self)(
+            self.position_m + error[..., layout.position],
+            self.velocity_m_s + error[..., layout.velocity],
+            self.rotation_w2_w0 @ so3.exp(error[..., layout.turn]),
+            self.rate_rad_s + error[..., layout.rate] if has_rates else self.rate_rad_s,
+            self.joints_rad + error[..., layout.joints],
+            self.joint_rates_rad_s + error[..., layout.joint_rates] if has_rates else self.joint_rates_rad_s,
+            self.shape + error[..., layout.shape],
+            self.covariance if covariance is None else covariance,
         )
 
     def error_to(self, other: Belief, layout: StateLayout) -> FloatArray:
