@@ -1,0 +1,267 @@
+"""A recording to a session file and again from that file: complete, equal, and nothing half-written left behind."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import shutil
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+import h5py
+import numpy as np
+import pytest
+
+from core.calibration.clicks import read_clicks
+from core.calibration.result import Clicks, Verdict
+from core.calibration.settings import CalibrationSettings
+from core.capture.source import SourceInfo
+from core.capture.tum import TumFolder
+from core.errors import ClickOnNoMarker, OutputExists, PictureDamaged, RecordingEmpty
+from core.pipeline.track import TrackReport, TrackSettings, retrack_session, track_recording
+from core.session.reader import read_session
+from core.simulation.recording import CLICKS_FILE, simulate
+from core.simulation.spec import RecordingSpec
+from core.simulation.truth import Truth
+from core.tracking.settings import TrackerSettings
+from core.types import FloatArray, Frame
+
+SPEC = RecordingSpec(seed=5, motion="deviation", seconds=1.5, speed_hz=1.2, hand="left", distance_m=0.68)
+VERSION = "1.2.3-test"
+
+
+@dataclass(frozen=True)
+class Made:
+    """A simulated recording, its truth, and the session tracked from it."""
+
+    folder: Path
+    truth: Truth
+    session: Path
+    report: TrackReport
+
+    @property
+    def clicks(self) -> Clicks:
+        return read_clicks(self.folder / CLICKS_FILE, 640, 480)
+
+
+@pytest.fixture(scope="module")
+def made(tmp_path_factory: pytest.TempPathFactory) -> Made:
+    root = tmp_path_factory.mktemp("track")
+    truth = simulate(SPEC, root / "recording")
+    clicks = read_clicks(root / "recording" / CLICKS_FILE, 640, 480)
+    report = track(root / "recording", clicks, root / "session.h5", exercise="radial and ulnar", subject_id="P-7")
+    return Made(root / "recording", truth, root / "session.h5", report)
+
+
+def track(folder: Path, clicks: Clicks, output: Path, settings: TrackSettings | None = None, **kwargs) -> TrackReport:  # type: ignore[no-untyped-def]
+    source = TumFolder(folder)
+    try:
+        return track_recording(source, clicks, output, settings or TrackSettings(), software_version=VERSION, **kwargs)
+    finally:
+        source.close()
+
+
+def again(made: Made, output: Path, settings: TrackSettings | None = None) -> TrackReport:
+    return retrack_session(made.session, output, settings or TrackSettings(), software_version=VERSION)
+
+
+def angles(path: Path, group: str = "wrist") -> FloatArray:
+    with h5py.File(path) as file:
+        return np.asarray(file[f"{group}/angles"])
+
+
+def digest(path: Path) -> str:
+    return hashlib.sha256(path.read_bytes()).hexdigest()
+
+
+def test_recording_becomes_a_complete_session(made: Made) -> None:
+    count = len(made.truth.timestamp_s)
+    assert made.report.frames == made.report.tracked == count
+    with h5py.File(made.session) as file:
+        assert file.attrs["complete"]
+        assert file.attrs["hand"] == "left"
+        assert file.attrs["protocol"] == "wrist6"
+        assert file.attrs["subject_id"] == "P-7"
+        assert file.attrs["exercise"] == "radial and ulnar"
+        assert file.attrs["software_version"] == VERSION
+        assert np.array_equal(file["frames/timestamp"], made.truth.timestamp_s), "times as in the recording"
+        assert set(np.asarray(file["frames/status"])) == {0}
+        for name in ("wrist/position", "wrist/velocity", "wrist/rotation", "wrist/angular_velocity", "wrist/angles"):
+            assert np.isfinite(file[name]).all()
+            assert file[name].shape[0] == count
+            assert np.isfinite(file[f"smoothed/{name}"]).all()
+        assert np.asarray(file["detections/frame"]).max() == count - 1
+        assert np.isfinite(file["calibration/marker_position"]).all()
+        parameters = json.loads(str(file.attrs["parameters"]))
+        assert parameters["settings"]["tracker"]["form"] == "reduced"
+
+
+def test_angles_are_those_of_the_hand(made: Made) -> None:
+    truth = np.degrees(made.truth.angles_rad)
+    error = np.degrees(angles(made.session)) - truth
+    assert np.sqrt((error**2).mean(axis=0)) == pytest.approx([0.0, 0.0, 0.0], abs=1.5)
+    assert np.sqrt((error[:, 0] ** 2).mean()) < 0.5
+    assert np.ptp(truth[:, 0]) > 10.0, "the hand did move"
+    reach = np.degrees(made.report.angle_range_rad[:, 0])
+    assert reach == pytest.approx([truth[:, 0].min(), truth[:, 0].max()], abs=1.0)
+
+
+def test_smoothed_angles_are_nearer(made: Made) -> None:
+    truth = made.truth.angles_rad
+    filtered, smoothed = (angles(made.session, group) - truth for group in ("wrist", "smoothed/wrist"))
+    assert np.sqrt((smoothed**2).mean()) < np.sqrt((filtered**2).mean())
+
+
+def test_tracking_again_from_detections_gives_the_same_angles(made: Made, tmp_path: Path) -> None:
+    report = again(made, tmp_path / "again.h5")
+    assert (report.frames, report.tracked) == (made.report.frames, made.report.tracked)
+    for group in ("wrist", "smoothed/wrist"):
+        assert np.array_equal(angles(tmp_path / "again.h5", group), angles(made.session, group))
+    with h5py.File(made.session) as old, h5py.File(tmp_path / "again.h5") as new:
+        assert new.attrs["complete"]
+        assert new.attrs["origin"] == old.attrs["session_id"]
+        assert new.attrs["session_id"] != old.attrs["session_id"]
+        for name in ("subject_id", "hand", "protocol", "exercise"):
+            assert new.attrs[name] == old.attrs[name]
+        assert np.array_equal(new["markers/measured"], old["markers/measured"], equal_nan=True)
+        assert np.array_equal(new["detections/pixel"], old["detections/pixel"])
+
+
+def test_and_again_from_that_still_the_same(made: Made, tmp_path: Path) -> None:
+    again(made, tmp_path / "second.h5")
+    retrack_session(tmp_path / "second.h5", tmp_path / "third.h5", TrackSettings(), software_version=VERSION)
+    assert np.array_equal(angles(tmp_path / "third.h5"), angles(made.session))
+
+
+def test_tracking_again_leaves_the_old_file_alone_and_heeds_new_settings(made: Made, tmp_path: Path) -> None:
+    before = digest(made.session)
+    colour_only = replace(TrackSettings(), tracker=TrackerSettings(use_depth=False), smooth=False)
+    again(made, tmp_path / "colour.h5", colour_only)
+    assert digest(made.session) == before
+    assert not np.allclose(angles(tmp_path / "colour.h5"), angles(made.session))
+    assert read_session(tmp_path / "colour.h5").smoothed is None
+    with pytest.raises(OutputExists):
+        again(made, tmp_path / "colour.h5")
+
+
+def test_augmented_filter_gives_the_same_angles(made: Made, tmp_path: Path) -> None:
+    again(made, tmp_path / "augmented.h5", replace(TrackSettings(), tracker=TrackerSettings(form="augmented")))
+    difference = np.degrees(angles(tmp_path / "augmented.h5") - angles(made.session))
+    assert 0.0 < np.abs(difference).max() < 0.01
+
+
+def test_an_existing_file_is_never_written_over(made: Made, tmp_path: Path) -> None:
+    output = tmp_path / "session.h5"
+    output.write_bytes(b"someone's own")
+    with pytest.raises(OutputExists):
+        track(made.folder, made.clicks, output)
+    assert output.read_bytes() == b"someone's own"
+
+
+def copy_of(made: Made, to: Path) -> Path:
+    shutil.copytree(made.folder, to)
+    return to
+
+
+def test_a_damaged_picture_leaves_nothing_behind(made: Made, tmp_path: Path) -> None:
+    folder = copy_of(made, tmp_path / "damaged")
+    pictures = sorted((folder / "rgb").iterdir())
+    pictures[len(pictures) // 2].write_bytes(pictures[0].read_bytes()[:400])
+    (tmp_path / "out").mkdir()
+    with pytest.raises(PictureDamaged):
+        track(folder, made.clicks, tmp_path / "out" / "session.h5")
+    assert list((tmp_path / "out").iterdir()) == []
+
+
+def test_a_click_on_nothing_leaves_nothing_behind(made: Made, tmp_path: Path) -> None:
+    pixel = made.clicks.pixel.copy()
+    pixel[2] = [20.0, 20.0]
+    with pytest.raises(ClickOnNoMarker) as caught:
+        track(made.folder, replace(made.clicks, pixel=pixel), tmp_path / "session.h5")
+    assert caught.value.subject == "MCP2"
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_stopping_it_leaves_nothing_behind(made: Made, tmp_path: Path) -> None:
+    def stop(done: int, _total: int | None) -> None:
+        if done == 20:
+            raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt):
+        track(made.folder, made.clicks, tmp_path / "session.h5", progress=stop)
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_progress_is_told_frame_by_frame(made: Made, tmp_path: Path) -> None:
+    told: list[tuple[int, int | None]] = []
+    track(
+        made.folder,
+        made.clicks,
+        tmp_path / "session.h5",
+        replace(TrackSettings(), smooth=False),
+        progress=lambda done, total: told.append((done, total)),
+    )
+    count = len(made.truth.timestamp_s)
+    assert told == [(k, count) for k in range(1, count + 1)]
+    assert read_session(tmp_path / "session.h5").smoothed is None
+
+
+def test_a_poor_verdict_is_told_and_tracking_goes_on(made: Made, tmp_path: Path) -> None:
+    verdicts: list[Verdict] = []
+    strict = replace(TrackSettings(), calibration=CalibrationSettings(least_distance_m=2.0), smooth=False)
+    report = track(made.folder, made.clicks, tmp_path / "session.h5", strict, on_verdict=verdicts.append)
+    assert [finding.kind for finding in verdicts[0].findings] == ["distance"]
+    assert len(verdicts) == 1
+    assert report.frames == len(made.truth.timestamp_s)
+
+
+def test_a_good_verdict_is_not_told(made: Made) -> None:
+    assert made.report.verdict.is_good
+
+
+def test_start_angles_are_added_and_marked(made: Made, tmp_path: Path) -> None:
+    start = np.radians([0.0, 20.0, 0.0])
+    track(made.folder, made.clicks, tmp_path / "s.h5", replace(TrackSettings(), smooth=False), start_angles_rad=start)
+    at_rest = np.degrees(angles(tmp_path / "s.h5")[:15].mean(axis=0))
+    assert at_rest == pytest.approx([0.0, 20.0, 0.0], abs=1.0)
+    assert np.allclose(read_session(tmp_path / "s.h5").calibration.start_angles_rad, start)
+    # Also when it is tracked again from that file.
+    retrack_session(tmp_path / "s.h5", tmp_path / "t.h5", replace(TrackSettings(), smooth=False), software_version="1")
+    assert np.array_equal(angles(tmp_path / "t.h5"), angles(tmp_path / "s.h5"))
+
+
+def test_a_frame_without_depth_is_a_frame(made: Made, tmp_path: Path) -> None:
+    folder = copy_of(made, tmp_path / "recording")
+    lines = (folder / "depth.txt").read_text().splitlines()
+    kept = [line for k, line in enumerate(lines) if k not in (30, 31)]
+    (folder / "depth.txt").write_text("\n".join(kept) + "\n")
+    track(folder, made.clicks, tmp_path / "session.h5", replace(TrackSettings(), smooth=False))
+    with h5py.File(tmp_path / "session.h5") as file:
+        assert file["frames/timestamp"].shape == made.truth.timestamp_s.shape
+        assert set(np.asarray(file["frames/status"])) == {0}
+        without = np.isnan(np.asarray(file["markers/measured_depth"])).all(axis=1)
+    assert np.count_nonzero(without) == 2
+    assert np.abs(np.degrees(angles(tmp_path / "session.h5") - made.truth.angles_rad)).max() < 5.0
+
+
+class NoFrames:
+    """A source that ends before it began."""
+
+    def __init__(self, info: SourceInfo) -> None:
+        self.info = info
+
+    def frames(self) -> Iterator[Frame]:
+        return iter(())
+
+    def close(self) -> None:
+        pass
+
+
+def test_a_recording_without_pictures_is_empty_not_a_session(made: Made, tmp_path: Path) -> None:
+    source = TumFolder(made.folder)
+    info = source.info
+    source.close()
+    with pytest.raises(RecordingEmpty):
+        track_recording(NoFrames(info), made.clicks, tmp_path / "s.h5", TrackSettings(), software_version=VERSION)
+    assert list(tmp_path.iterdir()) == []
