@@ -27,7 +27,7 @@ from core.simulation.truth import Truth
 from core.tracking.settings import TrackerSettings
 from core.types import FloatArray, Frame
 
-SPEC = RecordingSpec(seed=5, motion="deviation", seconds=1.5, speed_hz=1.2, hand="left", distance_m=0.68)
+SPEC = RecordingSpec(seed=5, motion="deviation", seconds=1.3, speed_hz=0.9, hand="left", distance_m=0.68)
 VERSION = "1.2.3-test"
 
 
