@@ -78,7 +78,7 @@ class FingerScene:
 def name_fingers(beliefs: RayBeliefs, scene: FingerScene, settings: TrackerSettings) -> NamedFingers:
     """Names and corrects all rays."""
     names = _each_by_itself(scene, settings)
-    found = _corrected(beliefs, scene, names, settings)
+    found = corrected_as_named(beliefs, scene, names, settings)
     doubtful = [r for r in range(RAYS) if not holds_together(float(found.update.nis[r]), int(found.update.dof[r]))]
     if doubtful:
         taken, with_depth = names.taken.copy(), names.with_depth.copy()
@@ -87,11 +87,11 @@ def name_fingers(beliefs: RayBeliefs, scene: FingerScene, settings: TrackerSetti
             others = np.setdiff1d(np.flatnonzero(scene.free), taken.ravel())
             taken[ray], with_depth[ray] = _ray_jointly(ray, scene, others, settings)
         names = FingerNames(taken, with_depth)
-        found = _corrected(beliefs, scene, names, settings)
+        found = corrected_as_named(beliefs, scene, names, settings)
     impossible = _impossible(found, scene, settings.fingers)
     if impossible.any():
         names = FingerNames(np.where(impossible, -1, names.taken), names.with_depth & ~impossible)
-        found = _corrected(beliefs, scene, names, settings)
+        found = corrected_as_named(beliefs, scene, names, settings)
     return found
 
 
@@ -150,7 +150,10 @@ def _each_by_itself(scene: FingerScene, settings: TrackerSettings) -> FingerName
     return FingerNames(taken.reshape(RAYS, DISCS), with_depth.reshape(RAYS, DISCS))
 
 
-def _corrected(beliefs: RayBeliefs, scene: FingerScene, names: FingerNames, settings: TrackerSettings) -> NamedFingers:
+def corrected_as_named(
+    beliefs: RayBeliefs, scene: FingerScene, names: FingerNames, settings: TrackerSettings
+) -> NamedFingers:
+    """All rays corrected by the blobs as named."""
     noise = settings.noise
     blob = np.maximum(names.taken, 0)
     is_named = names.taken >= 0

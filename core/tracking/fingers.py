@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -12,13 +12,21 @@ from core import so3
 from core.calibration.result import Calibration
 from core.camera import Camera
 from core.tracking.finger_model import SHOWS, FingerModel, Seat, ray_view
-from core.tracking.finger_naming import FingerScene, NamedFingers, name_fingers, seen_chance, tilt_to, tilt_variance
+from core.tracking.finger_naming import (
+    FingerScene,
+    NamedFingers,
+    corrected_as_named,
+    name_fingers,
+    seen_chance,
+    tilt_to,
+    tilt_variance,
+)
 from core.tracking.hand_geometry import DISCS, RAYS, SLOTS, JointMoment
 from core.tracking.joint_association import holds_together
 from core.tracking.joint_limits import constrained
 from core.tracking.measurement import View
 from core.tracking.naming import Measurable
-from core.tracking.ray_filter import RayBeliefs, RayForecast, RayPoints, forecast, spread_points
+from core.tracking.ray_filter import RayBeliefs, RayPoints, forecast, spread_points
 from core.tracking.ray_search import LEAST_DISCS, in_reach, search_rays
 from core.tracking.settings import TrackerSettings
 from core.tracking.state import Belief
@@ -27,6 +35,7 @@ from core.types import FloatArray
 
 _PATIENCE = 2
 """Frames for which a ray may show fewer than two discs before it is searched."""
+_PINNINGS = 2
 _LEAST_FACING = 0.15
 _FLAT_RAD = math.radians(50.0)
 _GROWING, _SHRINKING = 0.2, 0.02
@@ -35,28 +44,25 @@ _UV = 3 * np.arange(DISCS)[:, None] + np.arange(2)
 
 @dataclass(frozen=True, slots=True)
 class FingerTrial:
-    """What one frame would tell of thumb and fingers.
+    """What one frame would tell of thumb and fingers on the palm at ``seat``.
 
-    ``visible`` (5, 3) chance with which each disc was expected to be seen; ``spread`` (5, 9, 9) covariance of the
-    predicted images, given the palm; ``disc_m2`` (5, 3) areas of the discs as seen, NaN where not or too tilted.
+    ``disc_m2`` (5, 3) areas of the discs as seen, NaN where not or too tilted.
     """
 
     seat: Seat
-    line: RayForecast
+    scene: FingerScene
     named: NamedFingers
-    visible: FloatArray
-    spread: FloatArray
     disc_m2: FloatArray
 
     @property
     def predicted_px(self) -> FloatArray:
-        """Where each disc was expected, (5, 3, 2)."""
-        return self.line.value.reshape(RAYS, DISCS, 3)[..., :2]
+        """Where each disc was expected, (5, 3, 2), given the palm."""
+        return self.scene.line.value.reshape(RAYS, DISCS, 3)[..., :2]
 
     @property
     def predicted_cov_px2(self) -> FloatArray:
         """Covariance (5, 3, 2, 2) of that."""
-        return self.spread[:, _UV[:, :, None], _UV[:, None, :]]
+        return self.scene.spread[:, _UV[:, :, None], _UV[:, None, :]]
 
     @property
     def nis(self) -> float:
@@ -156,9 +162,21 @@ class Fingers:
         rays = np.array(list(anew))
         restarted = self.model.at_posture(beliefs, rays, np.array(list(anew.values())))
         points = spread_points(*restarted.merged(), self._palm.disc_m[1:], self.model.layout, self._settings.spread)
-        other = self._tried(restarted, points, dt_s, seat, blobs, area_px, free)
+        other = self._pinned(restarted, self._tried(restarted, points, dt_s, seat, blobs, area_px, free))
         better = np.count_nonzero(other.blob[rays] >= 0) > np.count_nonzero(trial.blob[rays] >= 0)
         return other if better and other.holds_together(rays) else trial
+
+    def _pinned(self, beliefs: RayBeliefs, trial: FingerTrial) -> FingerTrial:
+        """The same names, the line drawn anew about what they say: a posture of the grid is some way off."""
+        for _ in range(_PINNINGS):
+            nearer = spread_points(
+                *trial.named.update.beliefs.merged(), self._palm.disc_m[1:], self.model.layout, self._settings.spread
+            )
+            line = forecast(nearer, trial.seat.view, self.model.layout, self._settings.spread)
+            scene = replace(trial.scene, line=line)
+            named = corrected_as_named(beliefs, scene, trial.named.names, self._settings)
+            trial = replace(trial, named=named)
+        return trial
 
     def _searched(
         self, trial: FingerTrial, points: RayPoints, seat: Seat, blobs: Measurable, free: NDArray[np.bool_]
@@ -214,13 +232,13 @@ class Fingers:
         disc_m2 = np.full((RAYS, DISCS), np.nan)
         if area_px.size:
             disc_m2 = np.where((taken >= 0) & (tilt < _FLAT_RAD), area_px[taken] / facing_m2, np.nan)
-        return FingerTrial(seat, line, named, visible, scene.spread, disc_m2)
+        return FingerTrial(seat, scene, named, disc_m2)
 
     def accept(self, trial: FingerTrial, dt_s: float) -> None:
         """Go on from a trial."""
         named = trial.named
         is_named = named.names.taken >= 0
-        self._visible = np.where(is_named, 0.98, trial.visible * 0.1 / (1.0 - 0.9 * trial.visible))
+        self._visible = np.where(is_named, 0.98, trial.scene.visible * 0.1 / (1.0 - 0.9 * trial.scene.visible))
         shown = (SHOWS & is_named[:, None, :]).any(axis=-1)
         self._unseen_s = np.where(shown, 0.0, self._unseen_s + dt_s)
         count = np.count_nonzero(is_named, axis=1)
@@ -252,4 +270,4 @@ class Fingers:
 
     def read(self, trial: FingerTrial) -> JointMoment:
         """The joints after that trial was accepted."""
-        return self.model.read(self._mean, self._covariance, trial.seat, trial.line)
+        return self.model.read(self._mean, self._covariance, trial.seat, trial.scene.line)

@@ -21,7 +21,7 @@ MOST_GAP_M = 0.004
 """Root mean square gap of the discs from the fitted palm above which it is not this palm."""
 RIVAL_GAP, RIVAL_GAP_M = 1.5, 0.001
 """Another pose is a rival when its discs' gap is below this many times the best one's plus that much."""
-LEAST_EXPLAINED = np.array([1.0, 1.0, 1.0, 1.0, 0.6, 0.4, 0.0])
+LEAST_EXPLAINED = np.array([1.0, 1.0, 1.0, 1.0, 0.8, 0.5, 0.0])
 """Share of all blobs that a palm of so many discs and the fingers on it must explain, where there are fingers."""
 
 _MIRROR = np.array([1.0, -1.0, 1.0])
