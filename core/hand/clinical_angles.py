@@ -80,3 +80,24 @@ def zyz_from_rotation(rotation_w2_w0: FloatArray) -> FloatArray:
     gamma = np.arctan2(r[..., 2, 1], -r[..., 2, 0])
     zyz = np.stack((alpha, beta, gamma), axis=-1)
     return np.where((beta < ZYZ_UNDEFINED_BELOW_RAD)[..., None], np.nan, zyz)
+
+
+def read_one(rotation_w2_w0: FloatArray, side: Side) -> tuple[FloatArray, FloatArray, FloatArray]:
+    """Clinical angles (3,) of one rotation (3, 3), their derivatives (3, 3) by a small turn, and ZYZ angles (3,).
+
+    The three functions above in plain numbers: every frame needs all of them for one rotation, and arrays of one
+    number cost ten times as much.
+    """
+    (r00, _, r02), (r10, _, r12), (r20, r21, r22) = rotation_w2_w0.tolist()
+    s = side_sign(side)
+    psi, theta, phi = math.atan2(r10, r00), math.asin(min(max(-r20, -1.0), 1.0)), math.atan2(r21, r22)
+    sx, cx = math.sin(phi), math.cos(phi)
+    c = math.cos(theta)
+    c = 1e-6 if abs(c) < 1e-6 else c
+    t = s * math.sin(theta) / c
+    rates = np.array([[0.0, s * sx / c, s * cx / c], [0.0, cx, -sx], [s, sx * t, cx * t]])
+    beta = math.atan2(math.hypot(r02, r12), r22)
+    zyz = (math.nan,) * 3
+    if beta >= ZYZ_UNDEFINED_BELOW_RAD:
+        zyz = (math.atan2(r12, r02), beta, math.atan2(r21, -r20))
+    return np.array((s * psi, theta + 0.0, s * phi)), rates, np.array(zyz)

@@ -15,8 +15,6 @@ from core.tracking.modes import ModeBank, reweighed
 from core.tracking.settings import MeasurementNoise, TrackerSettings
 from core.types import Detections, FloatArray
 
-_AXES = np.arange(3)
-
 
 @dataclass(frozen=True, slots=True)
 class Measurable:
@@ -77,18 +75,19 @@ def correct(
     noise_factor: FloatArray,
 ) -> Corrected:
     """Every mode corrected by the named blobs; ``noise_factor`` (M, 3) multiplies the variances."""
-    marker = np.flatnonzero(taken >= 0)
-    blob = taken[marker]
-    used = (_AXES < 2) | with_depth[marker, None]
-    rows = (3 * marker[:, None] + _AXES)[used]
-    variance = (blobs.variance[blob] * noise_factor[marker])[used]
-    bank, innovation = update(forecast, rows, blobs.value[blob][used], variance)
+    used = np.empty((taken.size, 3), dtype=bool)
+    used[:] = (taken >= 0)[:, None]
+    used[:, 2] &= with_depth
+    rows = np.flatnonzero(used)
     if rows.size == 0:
-        return Corrected(bank, taken, float("nan"), 0, rows, np.empty(0), np.empty(0))
+        zero = np.empty(0)
+        return Corrected(forecast.bank, taken, float("nan"), 0, rows, zero, zero)
+    variance = (blobs.variance.take(taken, 0) * noise_factor).take(rows)
+    bank, innovation = update(forecast, rows, blobs.value.take(taken, 0).take(rows), variance)
     probability = reweighed(bank.probability, innovation.log_likelihood)
     residual = probability @ innovation.residual
     return Corrected(
-        replace(bank, probability=probability),
+        ModeBank(bank.nominal, bank.error, bank.covariance, probability),
         taken,
         float(probability @ innovation.nis),
         innovation.dof,
@@ -111,15 +110,14 @@ def name_and_correct(
     Holding together: the joint NIS is credible, and ``enough`` markers are named unless no blob is left that could
     be one.
     """
-    mean, covariance = forecast.mixture()
-    markers = mean.size // 3
+    mean, covariance = forecast.by_marker()
+    markers = len(mean)
     if not len(blobs):
         nothing = np.full(markers, -1, dtype=np.int64)
         return correct(forecast, blobs, nothing, nothing > 0, noise_factor)
-    place = 3 * np.arange(markers)[:, None] + _AXES
     odds = association.log_odds(
-        mean.reshape(markers, 3),
-        covariance[place[:, :, None], place[:, None, :]],
+        mean,
+        covariance,
         blobs.value,
         blobs.variance,
         resolution_px2,
@@ -176,7 +174,7 @@ def _without_outliers(
     for _ in range(noise.most_outliers):
         if not corrected.rows.size:
             break
-        worst = int(np.argmax(np.abs(corrected.residual)))
+        worst = int(np.abs(corrected.residual).argmax())
         size = abs(float(corrected.residual[worst]))
         if size <= noise.outlier_sd:
             break

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
 
 from core.tracking.naming import Corrected
@@ -16,11 +18,11 @@ def watched(factor: FloatArray, corrected: Corrected, dt_s: float, noise: Measur
     """
     if corrected.rows.size == 0 or dt_s <= 0.0:
         return factor
-    weight = 1.0 - np.exp(-dt_s / noise.adapt_s)
-    squared = np.ones_like(factor)
-    squared.ravel()[corrected.rows] = np.minimum(corrected.raw_residual**2, noise.most_adapted)
-    squared[:, :2] = squared[:, :2].mean(axis=1, keepdims=True)
-    measured = np.zeros(factor.size, dtype=bool)
-    measured[corrected.rows] = True
-    grown = np.clip(factor * (1.0 + weight * (squared - 1.0)), 1.0, noise.most_adapted)
-    return np.where(measured.reshape(factor.shape), grown, factor)
+    rows, weight = corrected.rows, 1.0 - math.exp(-dt_s / noise.adapt_s)
+    squared = np.ones(factor.shape)
+    squared.reshape(-1)[rows] = np.minimum(corrected.raw_residual**2, noise.most_adapted)
+    squared[:, :2] = 0.5 * (squared[:, :1] + squared[:, 1:2])
+    grown = factor * (1.0 + weight * (squared - 1.0))
+    out = factor.copy()
+    out.reshape(-1)[rows] = np.minimum(np.maximum(grown.reshape(-1)[rows], 1.0), noise.most_adapted)
+    return out

@@ -20,6 +20,8 @@ from core.tracking.state import Belief, StateLayout
 from core.types import Detections, FloatArray, Moment, TrackedFrame, TrackStatus
 
 _NONE = np.empty(0)
+_NOWHERE = np.empty((0, 3))
+_IDENTITY = np.eye(3)
 _AXES = np.arange(3)
 _DORSAL = np.array([0.0, 0.0, 1.0])
 _SHAPE_MOVED_M = 3e-4
@@ -27,13 +29,12 @@ _SHAPE_MOVED_M = 3e-4
 
 
 class Readout:
-    """Reads beliefs of one calibrated hand; remembers only the axes of the last shape."""
+    """Reads beliefs of one calibrated palm; remembers only the axes of the last shape."""
 
     def __init__(self, calibration: Calibration, layout: StateLayout) -> None:
-        self._calibration = calibration
         self._layout = layout
         self._side = calibration.clicks.side
-        self._palm = np.array(calibration.clicks.protocol.palm)
+        self._disc_m = calibration.marker_position_w0_m
         self._start = clinical_angles.rotation_from_angles(calibration.start_angles_rad, self._side)
         self._has_start = bool(np.any(calibration.start_angles_rad))
         self._axes_shape: FloatArray | None = None
@@ -42,22 +43,20 @@ class Readout:
         self._unrefined_turn = _neutral_turn_covariance(calibration)
 
     def _axes_of(self, shape: FloatArray) -> tuple[FloatArray, FloatArray]:
-        palm_shape = shape.reshape(-1, 3)[self._palm]
-        if self._axes_shape is None or np.max(np.abs(palm_shape - self._axes_shape)) > _SHAPE_MOVED_M:
-            discs = self._calibration.marker_position_w0_m[self._palm] + palm_shape
-            self._axes, self._sensitivity = wrist_axes_sensitivity(discs, _DORSAL)
-            self._axes_shape = palm_shape.copy()
+        if self._axes_shape is None or float(np.abs(shape - self._axes_shape).max()) > _SHAPE_MOVED_M:
+            self._axes, self._sensitivity = wrist_axes_sensitivity(self._disc_m + shape.reshape(-1, 3), _DORSAL)
+            self._axes_shape = shape.copy()
             return self._axes, self._sensitivity
-        turned = self._sensitivity @ (palm_shape - self._axes_shape).ravel()
+        turned = self._sensitivity @ (shape - self._axes_shape)
         return self._axes @ so3.exp(turned), self._sensitivity
 
     def palm(self, belief: Belief) -> tuple[PalmInBody, FloatArray]:
         """The palm as refined, for the fingers, and the covariance (3, 3) of its axes' turn, in the body."""
         layout, p = self._layout, belief.covariance
-        discs = self._calibration.marker_position_w0_m[self._palm]
+        discs = self._disc_m
         if layout.shape_count:
             axes, sensitivity = self._axes_of(belief.shape)
-            discs = discs + belief.shape.reshape(-1, 3)[self._palm]
+            discs = discs + belief.shape.reshape(-1, 3)
             error = np.zeros((3, layout.size))
             error[_AXES, layout.turn.start + _AXES] = 1.0
             error[:, layout.shape] = axes @ sensitivity
@@ -72,29 +71,24 @@ class Readout:
         layout, p = self._layout, belief.covariance
         if layout.shape_count:
             axes, sensitivity = self._axes_of(belief.shape)
-            wrist_disc = (
-                self._calibration.marker_position_w0_m[self._palm[0]]
-                + belief.shape[3 * self._palm[0] : 3 * self._palm[0] + 3]
-            )
+            wrist_disc = self._disc_m[0] + belief.shape[:3]
             lever = belief.rotation_w2_w0 @ wrist_disc
             position = axes.T @ (belief.position_m + lever - wrist_disc)
             rotation = axes.T @ belief.rotation_w2_w0 @ axes
             error = np.zeros((3, layout.size))
             error[:, layout.turn] = axes.T
-            columns = (layout.shape.start + 3 * self._palm[:, None] + np.arange(3)).ravel()
             # The turn of the axes enters before and after: R' = Exp(-a) R Exp(a).
-            error[:, columns] = (np.eye(3) - rotation.T) @ sensitivity
+            error[:, layout.shape] = (_IDENTITY - rotation.T) @ sensitivity
             turn_covariance = error @ p @ error.T
         else:
-            axes, position, rotation = np.eye(3), belief.position_m, belief.rotation_w2_w0
+            axes, position, rotation = _IDENTITY, belief.position_m, belief.rotation_w2_w0
             turn_covariance = p[layout.turn, layout.turn] + rotation.T @ self._unrefined_turn @ rotation
         velocity = axes.T @ belief.velocity_m_s
         # In eq. (1) the angular velocity is white: there is none to report.
         rate = axes.T @ belief.rate_rad_s if layout.has_rates else np.full(3, np.nan)
         shown = self._start @ rotation if self._has_start else rotation
-        angles = clinical_angles.angles_from_rotation(shown, self._side)
-        by_turn = clinical_angles.angle_rates_matrix(shown, self._side)
-        variance = np.einsum("ij,jk,ik->i", by_turn, turn_covariance, by_turn)
+        angles, by_turn, zyz = clinical_angles.read_one(shown, self._side)
+        variance = np.vecdot(by_turn @ turn_covariance, by_turn)
         return Moment(
             position,
             velocity,
@@ -102,11 +96,11 @@ class Readout:
             rate,
             angles,
             np.sqrt(np.maximum(variance, 0.0)),
-            clinical_angles.zyz_from_rotation(shown),
+            zyz,
             belief.joints_rad,
             _NONE,
             _NONE,
-            np.empty((0, 3)),
+            _NOWHERE,
         )
 
     def with_joints(self, moment: Moment, joints: JointMoment) -> Moment:

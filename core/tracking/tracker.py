@@ -32,7 +32,7 @@ from core.tracking.state import Belief, StateLayout, resting_belief
 from core.types import Detections, FloatArray, Moment, TrackedFrame, TrackStatus
 
 SHARE_WINDOW_S = 1.0
-_UV = np.arange(2)
+_SAME_AXIS = np.eye(2)
 LEAST_PALM_MARKERS = 3
 VAGUE_TURN_RAD = 0.15
 """Expecting the hand's turn less surely than this, the filter may settle on wrong names or at a wrong pose."""
@@ -83,7 +83,8 @@ class Tracker:
         self._resolution_px2 = float(camera.width_px * camera.height_px)
         self._readout = Readout(calibration, self.layout)
         self._noise_factor = np.ones((self._rows.size, 3))
-        self._recent: deque[tuple[float, FloatArray]] = deque()
+        self._recent: deque[tuple[float, NDArray[np.int64]]] = deque()
+        self._recently_measured = np.zeros(self._joint_count or 3, dtype=np.int64)
         self._bank: ModeBank | None = None
         self._shape = np.zeros(shape_covariance.shape[0])
         self._shape_covariance = shape_covariance
@@ -118,9 +119,8 @@ class Tracker:
         """Where to look at that time; None when the hand is lost."""
         if self._bank is None:
             return None
-        mean, covariance = self._forecast_at(timestamp_s, self._bank).mixture()
-        place = 3 * np.arange(mean.size // 3)[:, None] + _UV
-        palm = Expectation(mean[place], covariance[place[:, :, None], place[:, None, :]], mean[2::3])
+        mean, covariance = self._forecast_at(timestamp_s, self._bank).by_marker()
+        palm = Expectation(mean[:, :2], covariance[:, :2, :2], mean[:, 2])
         return palm if self._fingers is None else self._with_fingers(palm, timestamp_s, self._fingers)
 
     def _forecast_at(self, timestamp_s: float, bank: ModeBank) -> Forecast:
@@ -246,13 +246,13 @@ class Tracker:
         belief, fingers = step.bank.nominal, step.fingers
         taken = self._by_marker(step.palm.taken, None if fingers is None else fingers.blob)
         used = np.flatnonzero(taken >= 0)
+        blob = taken[used]
         measured_px = np.full((taken.size, 2), np.nan)
         measured_depth_m = np.full(taken.size, np.nan)
-        measured_px[used] = detections.pixel[taken[used]]
-        measured_depth_m[used] = detections.depth_m[taken[used]]
-        mean, covariance = ahead.mixture()
-        place = 3 * np.arange(self._rows.size)[:, None] + _UV
-        predicted_px, predicted_cov_px2 = mean[place], covariance[place[:, :, None], place[:, None, :]]
+        measured_px[used] = detections.pixel[blob]
+        measured_depth_m[used] = detections.depth_m[blob]
+        mean, covariance = ahead.by_marker()
+        predicted_px, predicted_cov_px2 = mean[:, :2], covariance[:, :2, :2]
         discs = self.view.markers_cam_m(belief.position_m, belief.rotation_w2_w0, belief.joints_rad, belief.shape)
         moment, nis, dof = self._readout.moment(belief), step.palm.nis, step.palm.dof
         if self._fingers is not None and fingers is not None:
@@ -262,7 +262,6 @@ class Tracker:
             predicted_px = self._by_marker(predicted_px, fingers.predicted_px)
             predicted_cov_px2 = self._by_marker(predicted_cov_px2, fingers.predicted_cov_px2)
             nis, dof = np.nansum([nis, fingers.nis]), dof + fingers.dof
-        predicted_cov_px2[:, _UV, _UV] += self.settings.noise.pixel_sd_px**2
         return shown_frame(
             index,
             timestamp_s,
@@ -270,7 +269,7 @@ class Tracker:
             moment,
             marker_position_cam_m=discs,
             predicted_px=self.view.camera.distort(predicted_px),
-            predicted_cov_px2=predicted_cov_px2,
+            predicted_cov_px2=predicted_cov_px2 + self.settings.noise.pixel_sd_px**2 * _SAME_AXIS,
             measured_px=measured_px,
             measured_depth_m=measured_depth_m,
             detections=detections,
@@ -284,7 +283,7 @@ class Tracker:
         self._bank, self._forecast, self._time_s = None, None, timestamp_s
         if self._fingers is not None:
             self._fingers.begin_anywhere()
-        self._remember(timestamp_s, np.zeros(self._joint_count or 3))
+        self._remember(timestamp_s, np.zeros(self._joint_count or 3, dtype=np.int64))
         if self._keep_history:
             self.history.append(FilterStep(timestamp_s, None, 1.0, False))
         count = len(self._protocol.markers)
@@ -305,12 +304,12 @@ class Tracker:
             for belief in beliefs
         ]
 
-    def _measured(self, step: _Step) -> FloatArray:
-        """Share of the palm (3,), or whether each joint (J,), was measured directly."""
+    def _measured(self, step: _Step) -> NDArray[np.int64]:
+        """Discs of the palm (3,), or whether each joint (J,), that were measured directly."""
         if self._fingers is None or step.fingers is None:
-            return np.full(3, step.palm_seen / self._rows.size)
+            return np.full(3, step.palm_seen)
         seen = self._by_marker(step.palm.taken, step.fingers.blob) >= 0
-        return np.asarray(seen[self._fingers.model.direct_markers].all(axis=-1), dtype=np.float64)
+        return np.asarray(seen[self._fingers.model.direct_markers].all(axis=-1), dtype=np.int64)
 
     def _reach(self) -> Reach | None:
         """Where the fingers' discs can be, as seen from the palm."""
@@ -327,13 +326,16 @@ class Tracker:
         )
         return replace(belief, shape=self._shape)
 
-    def _remember(self, timestamp_s: float, share: FloatArray) -> None:
-        self._recent.append((timestamp_s, share))
-        while self._recent and self._recent[0][0] < timestamp_s - SHARE_WINDOW_S:
-            self._recent.popleft()
+    def _remember(self, timestamp_s: float, measured: NDArray[np.int64]) -> None:
+        self._recent.append((timestamp_s, measured))
+        self._recently_measured = self._recently_measured + measured
+        while self._recent[0][0] < timestamp_s - SHARE_WINDOW_S:
+            self._recently_measured = self._recently_measured - self._recent.popleft()[1]
 
     def _share(self) -> FloatArray:
-        return np.asarray(np.mean([share for _, share in self._recent], axis=0))
+        """Share of direct measurement of the palm (3,) or of each joint (J,) lately."""
+        possible = self._rows.size if self._fingers is None else 1
+        return np.asarray(self._recently_measured / (possible * len(self._recent)))
 
 
 def _only(blobs: Detections, kept: NDArray[np.bool_]) -> Detections:
@@ -344,5 +346,5 @@ def _only(blobs: Detections, kept: NDArray[np.bool_]) -> Detections:
 
 def _turn_sd_rad(bank: ModeBank, layout: StateLayout) -> float:
     """How surely the hand's turn is known, all axes and modes together."""
-    variance = np.diagonal(bank.covariance, axis1=1, axis2=2)[:, layout.turn].sum(axis=1)
+    variance = np.trace(bank.covariance[:, layout.turn, layout.turn], axis1=1, axis2=2)
     return float(np.sqrt(bank.probability @ variance))

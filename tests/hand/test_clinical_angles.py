@@ -6,7 +6,7 @@ import math
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import example, given, settings
 from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
 
@@ -171,6 +171,18 @@ def test_rates_of_the_angles_against_finite_differences(
     back = clinical_angles.angles_from_rotation(rotation @ so3.exp(-step), side)
     rates = clinical_angles.angle_rates_matrix(rotation, side)[:, axis]
     assert np.allclose(rates, (ahead - back) / 2e-5, rtol=1e-6, atol=1e-7)
+
+
+@settings(deadline=None)
+@given(st.floats(-180.0, 180.0), st.floats(-90.0, 90.0), st.floats(-180.0, 180.0), st.sampled_from(SIDES))
+@example(0.0, 0.0, 0.0, "right")
+@example(0.0, 90.0, 0.0, "left")
+def test_one_rotation_is_read_as_many_are(deviation: float, flexion: float, supination: float, side: Side) -> None:
+    rotation = clinical_angles.rotation_from_angles(np.radians([deviation, flexion, supination]), side)
+    angles, rates, zyz = clinical_angles.read_one(rotation, side)
+    assert np.allclose(angles, clinical_angles.angles_from_rotation(rotation, side), rtol=0.0, atol=1e-12)
+    assert np.allclose(rates, clinical_angles.angle_rates_matrix(rotation, side), rtol=1e-9, atol=1e-12)
+    assert np.allclose(zyz, clinical_angles.zyz_from_rotation(rotation), rtol=0.0, atol=1e-12, equal_nan=True)
 
 
 @settings(deadline=None)
