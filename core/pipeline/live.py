@@ -81,11 +81,12 @@ class LiveSettings:
 
 
 class _Captured(NamedTuple):
-    """A frame on its way to the tracker that was current when it was captured."""
+    """A frame on its way to the tracker, and to the recording, that were current when it was captured."""
 
     frame: Frame
     at_s: float
     walk: Walk
+    rows: Recorder[SessionSink, TrackedFrame | _Note] | None
 
 
 class _Note(NamedTuple):
@@ -225,7 +226,7 @@ class LiveSession:
         open_session: Callable[[], SessionSink],
         open_pictures: Callable[[], PictureSink] | None = None,
     ) -> None:
-        """Opens the session file (and a raw recording) and stores everything tracked from now on.
+        """Opens the session file (and a raw recording) and stores everything captured from now on.
 
         Both are opened, filled and closed in threads of their own. Raises what kept a file from opening; then nothing
         is recorded.
@@ -378,7 +379,7 @@ class LiveSession:
     def _take(self, frame: Frame) -> None:
         at_s = time.monotonic()
         with self._lock:
-            pictures, walk = self._pictures, self._walk
+            rows, pictures, walk = self._rows, self._pictures, self._walk
             self._recent.append(frame)
             self._arrivals.append(at_s)
             self._captured += 1
@@ -387,7 +388,7 @@ class LiveSession:
             pictures.put(frame)
         self._newest_frame.put(frame)
         if walk is not None:
-            self._to_tracking.put(_Captured(frame, at_s, walk))
+            self._to_tracking.put(_Captured(frame, at_s, walk, rows))
 
     def _track(self) -> None:
         for captured, lost_before in self._to_tracking:
@@ -414,7 +415,7 @@ class LiveSession:
             self._tracked += 1
             self._latencies.append(time.monotonic() - captured.at_s)
             self._newest_view.put(TrackedView(frame, tracked, captured.at_s))
-        if rows is not None and not paused:
+        if rows is not None and rows is captured.rows and not paused:
             rows.put(tracked)
 
     # --- small things -------------------------------------------------------------------------

@@ -283,7 +283,7 @@ def test_stopping_at_once_stores_nothing_and_says_so(qtbot: QtBot, open_desktop:
     source.measuring.feed.end_tracking()
     wait(qtbot, lambda: source.measuring.feed.counters().waiting_tracking == 0)
     journey.live.toggle_recording()
-    wait(qtbot, lambda: journey.live.recording_state == "recording")
+    wait(qtbot, lambda: journey.live._count is not None)
     journey.live.toggle_recording()
     wait(qtbot, journey.teller.card.isVisible)
     assert desktop.library.sessions(PRACTICE_PATIENT) == []

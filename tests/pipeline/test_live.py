@@ -327,6 +327,26 @@ def test_raw_pictures_branch_off_before_anything_is_lost() -> None:
     assert len(rows.rows) < 60
 
 
+def test_rows_and_pictures_begin_with_the_same_frame_however_far_behind_the_tracker_is() -> None:
+    source, gate = HeldSource(), Gate()
+    rows, pictures = FakeSession(OUT), FakeSession(Path("raw"))
+
+    def slow(frame: Frame) -> TrackedFrame:
+        gate.pass_through()
+        return tracked(frame)
+
+    with LiveSession(source) as live:
+        live.begin_tracking(slow)
+        deliver(live, source, 3)  # captured, not yet tracked
+        live.start_recording(lambda: rows, lambda: pictures)
+        deliver(live, source, 4)
+        gate.open()
+        wait_until(lambda: live.counters().tracked == 7)
+        live.stop_recording()
+    assert [row.index for row in rows.rows] == [3, 4, 5, 6]
+    assert [picture.index for picture in rows.pictures + pictures.pictures] == [3, 4, 5, 6]
+
+
 def test_raw_pictures_that_fail_leave_the_session_recording() -> None:
     source = HeldSource()
     rows, pictures = FakeSession(OUT), FakeSession(Path("pictures"), fault_at=2)
