@@ -6,7 +6,6 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from core import so3
 from core.calibration.result import Calibration
@@ -108,8 +107,7 @@ class FingerModel:
         self._moves = sd > 0.0
         self._range2 = np.where(self._moves, RANGE_SD_RAD**2, 1e-12)
         drift = own.drift_per_s * np.diagonal(self._start.fit.rays.covariance, axis1=1, axis2=2)
-        density = (self.scales[:, None, None] * sd) ** 2 * REFERENCE_DT_S
-        self.motion = RayMotion(density, drift, self.layout)
+        self.motion = RayMotion(sd**2 * REFERENCE_DT_S, self.scales, drift, self.layout)
 
     def at_neutral(self) -> RayBeliefs:
         """At the neutral pose, at rest."""
@@ -137,8 +135,9 @@ class FingerModel:
             covariance[:, rate, rate] = np.where(self._moves, _STARTS_AT_RATE_SD**2, 1e-12)
         return self._alike(mean, covariance)
 
-    def at_posture(self, beliefs: RayBeliefs, rays: NDArray[np.int64], slots: FloatArray) -> RayBeliefs:
-        """Some rays (R,) begun anew about postures (R, 5), the anatomy as known by now."""
+    def at_postures(self, beliefs: RayBeliefs, postures: dict[int, FloatArray]) -> RayBeliefs:
+        """Some rays begun anew about postures, slots (5,) by ray, the anatomy as known by now."""
+        rays, slots = np.array(list(postures)), np.array(list(postures.values()))
         fresh = self.anywhere(*beliefs.merged())
         mean, covariance = beliefs.mean.copy(), beliefs.covariance.copy()
         mean[rays], covariance[rays] = fresh.mean[rays], fresh.covariance[rays]
@@ -165,10 +164,11 @@ class FingerModel:
         if dt_s <= 0.0:
             return beliefs
         switch = modes.switching(self.scales.size, self.settings.mode_dwell_s, dt_s)
-        return self.motion.predicted(mixed(beliefs, switch), dt_s, self.forgetting(beliefs, unseen_s, dt_s))
+        mean = (beliefs.probability[:, None] @ beliefs.mean)[:, 0]
+        return self.motion.predicted(mixed(beliefs, switch), dt_s, self.forgetting(mean, unseen_s, dt_s))
 
-    def forgetting(self, beliefs: RayBeliefs, unseen_s: FloatArray, dt_s: float) -> Forgetting | None:
-        """What becomes of the slots that nothing shows; None where all are shown.
+    def forgetting(self, mean: FloatArray, unseen_s: FloatArray, dt_s: float) -> Forgetting | None:
+        """What becomes of the slots of rays at ``mean`` (5, n) that nothing shows; None where all are shown.
 
         The angle is spread over the range of the joint in ``range_after_s``, slowly at first. The rate fades, and as
         much of it as is given up becomes possible in either direction.
@@ -183,9 +183,17 @@ class FingerModel:
         if not self.layout.has_rates:
             return Forgetting(np.ones((RAYS, SLOTS)), angle2, np.zeros((RAYS, SLOTS)))
         keep = math.exp(-dt_s / self.settings.rate_memory_s)
-        rate = (beliefs.probability[:, None] @ beliefs.mean[..., self.layout.rates])[:, 0]
-        rate2 = np.where(is_unseen, (1.0 - keep**2) * rate**2, 0.0)
+        rate2 = np.where(is_unseen, (1.0 - keep**2) * mean[:, self.layout.rates] ** 2, 0.0)
         return Forgetting(np.where(is_unseen, keep, 1.0), angle2, rate2)
+
+    @staticmethod
+    def palm_part(line: RayForecast, seat: Seat) -> FloatArray:
+        """Covariance (5, 9, 9) of the discs' images from that of the palm's place and turn."""
+        by_pose = np.empty((RAYS, DISCS, 3, 6))
+        by_pose[..., :3] = line.by_place
+        by_pose[..., 3:] = line.by_place @ so3.skew(seat.view.translation_m - line.centre_m)
+        flat = by_pose.reshape(RAYS, 9, 6)
+        return np.asarray(flat @ seat.pose_covariance @ np.swapaxes(flat, 1, 2))
 
     def read(self, mean: FloatArray, covariance: FloatArray, seat: Seat, line: RayForecast) -> JointMoment:
         """Joints of rays (5, n) with covariance (5, n, n) on that palm; ``line`` what the camera saw of them."""

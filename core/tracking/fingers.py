@@ -8,7 +8,6 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from core import so3
 from core.calibration.result import Calibration
 from core.camera import Camera
 from core.tracking.finger_model import SHOWS, FingerModel, Seat, ray_view
@@ -21,6 +20,7 @@ from core.tracking.finger_naming import (
     tilt_to,
     tilt_variance,
 )
+from core.tracking.finger_smoother import FingerStep
 from core.tracking.hand_geometry import DISCS, RAYS, SLOTS, JointMoment
 from core.tracking.joint_association import holds_together
 from core.tracking.joint_limits import constrained
@@ -46,13 +46,15 @@ _UV = 3 * np.arange(DISCS)[:, None] + np.arange(2)
 class FingerTrial:
     """What one frame would tell of thumb and fingers on the palm at ``seat``.
 
-    ``disc_m2`` (5, 3) areas of the discs as seen, NaN where not or too tilted.
+    ``disc_m2`` (5, 3) areas of the discs as seen, NaN where not or too tilted; ``postures`` slots (5,) of rays found
+    anew, by ray.
     """
 
     seat: Seat
     scene: FingerScene
     named: NamedFingers
     disc_m2: FloatArray
+    postures: dict[int, FloatArray]
 
     @property
     def predicted_px(self) -> FloatArray:
@@ -101,6 +103,7 @@ class Fingers:
         self._unseen_s = np.zeros((RAYS, SLOTS))
         self._noise_factor = np.ones((RAYS, 3 * DISCS))
         self._disc_m2 = np.full((RAYS, DISCS), np.nan)
+        self._begins = True
         self._take(self.model.at_neutral())
 
     def reach(self, point_m: FloatArray) -> NDArray[np.bool_]:
@@ -160,11 +163,11 @@ class Fingers:
         if not anew:
             return trial
         rays = np.array(list(anew))
-        restarted = self.model.at_posture(beliefs, rays, np.array(list(anew.values())))
+        restarted = self.model.at_postures(beliefs, anew)
         points = spread_points(*restarted.merged(), self._palm.disc_m[1:], self.model.layout, self._settings.spread)
         other = self._pinned(restarted, self._tried(restarted, points, dt_s, seat, blobs, area_px, free))
         better = np.count_nonzero(other.blob[rays] >= 0) > np.count_nonzero(trial.blob[rays] >= 0)
-        return other if better and other.holds_together(rays) else trial
+        return replace(other, postures=anew) if better and other.holds_together(rays) else trial
 
     def _pinned(self, beliefs: RayBeliefs, trial: FingerTrial) -> FingerTrial:
         """The same names, the line drawn anew about what they say: a posture of the grid is some way off."""
@@ -207,11 +210,7 @@ class Fingers:
         tilt = tilt_to(seat.view, points.normal, line.centre_m)
         tilt_sd = np.sqrt(tilt_variance(points.covariance))
         visible = seen_chance(self._visible, tilt, tilt_sd, dt_s, self._settings.fingers)
-        by_pose = np.empty((RAYS, DISCS, 3, 6))
-        by_pose[..., :3] = line.by_place
-        by_pose[..., 3:] = line.by_place @ so3.skew(seat.view.translation_m - line.centre_m)
-        flat = by_pose.reshape(RAYS, 9, 6)
-        shift = flat @ seat.pose_covariance @ np.swapaxes(flat, 1, 2)
+        shift = self.model.palm_part(line, seat)
         facing_m2 = np.maximum(np.cos(tilt), _LEAST_FACING) * (seat.view.camera.fx_px / line.centre_m[..., 2]) ** 2
         scene = FingerScene(
             line,
@@ -232,10 +231,10 @@ class Fingers:
         disc_m2 = np.full((RAYS, DISCS), np.nan)
         if area_px.size:
             disc_m2 = np.where((taken >= 0) & (tilt < _FLAT_RAD), area_px[taken] / facing_m2, np.nan)
-        return FingerTrial(seat, scene, named, disc_m2)
+        return FingerTrial(seat, scene, named, disc_m2, {})
 
-    def accept(self, trial: FingerTrial, dt_s: float) -> None:
-        """Go on from a trial."""
+    def accept(self, trial: FingerTrial, timestamp_s: float, dt_s: float) -> FingerStep:
+        """Go on from a trial; what the smoother needs of it."""
         named = trial.named
         is_named = named.names.taken >= 0
         self._visible = np.where(is_named, 0.98, trial.scene.visible * 0.1 / (1.0 - 0.9 * trial.scene.visible))
@@ -249,6 +248,8 @@ class Fingers:
         merged, _ = after.merged()
         self._take(constrained(after, merged[:, :SLOTS]))
         self._palm = trial.seat.palm
+        begins, self._begins = self._begins, False
+        return FingerStep(timestamp_s, named.measured, named.variance, is_named, trial.postures, begins)
 
     def _learn_sizes(self, seen_m2: FloatArray) -> None:
         """How large each disc is: quick to grow, slow to shrink, as a disc may be half hidden but never too large."""

@@ -130,49 +130,67 @@ class Forgetting:
 class RayMotion:
     """How the rays may move between two frames: constant rates or, as in the papers, random walks.
 
-    ``density`` (K, 5, 5) by mode, ray and slot: variance per second of the rate (constant rate) or of the angle (random
-    walk); ``drift`` (5, 11) variance per second of the constants, skin over bone.
+    ``density`` (5, 5) by ray and slot: variance per second of the rate (constant rate) or of the angle (random walk);
+    ``scales`` (K,) of its root by mode; ``drift`` (5, 11) variance per second of the constants, skin over bone.
     """
 
-    def __init__(self, density: FloatArray, drift: FloatArray, layout: RayLayout) -> None:
-        self._density, self._drift, self._layout = np.swapaxes(density, 0, 1), drift, layout
-        self._step: tuple[float, FloatArray, FloatArray] = (math.nan, drift, drift)
+    def __init__(self, density: FloatArray, scales: FloatArray, drift: FloatArray, layout: RayLayout) -> None:
+        self._density, self._scales, self._drift, self._layout = density, scales, drift, layout
+        self._dt_s = math.nan
+        self._forward = self._noise = self._modes = drift
 
-    def _terms(self, dt_s: float) -> tuple[FloatArray, FloatArray]:
-        """Transition (n, n) and noise (5, K, n, n) of a step; frames come evenly, so the last ones serve again."""
-        if self._step[0] != dt_s:
-            layout, density = self._layout, self._density
-            forward = np.eye(layout.size)
-            noise = np.zeros((*density.shape[:2], layout.size, layout.size))
-            angle, rate = _SLOT, SLOTS + _SLOT
-            if layout.has_rates:
-                forward[angle, rate] = dt_s
-                noise[..., angle, angle] = density * (dt_s**3 / 3.0)
-                noise[..., angle, rate] = noise[..., rate, angle] = density * (0.5 * dt_s**2)
-                noise[..., rate, rate] = density * dt_s
-            else:
-                noise[..., angle, angle] = density * dt_s
-            constant = np.arange(layout.constants.start, layout.constants.stop)
-            noise[..., constant, constant] = (self._drift * dt_s)[:, None]
-            self._step = (dt_s, forward, noise)
-        return self._step[1], self._step[2]
+    def _set_step(self, dt_s: float) -> None:
+        """Transition (n, n) and noise of a step; frames come evenly, so the last ones mostly serve again."""
+        if self._dt_s == dt_s:
+            return
+        layout, density = self._layout, self._density
+        forward = np.eye(layout.size)
+        noise = np.zeros((2, RAYS, layout.size, layout.size))
+        angle, rate = _SLOT, SLOTS + _SLOT
+        if layout.has_rates:
+            forward[angle, rate] = dt_s
+            noise[0][:, angle, angle] = density * (dt_s**3 / 3.0)
+            noise[0][:, angle, rate] = noise[0][:, rate, angle] = density * (0.5 * dt_s**2)
+            noise[0][:, rate, rate] = density * dt_s
+        else:
+            noise[0][:, angle, angle] = density * dt_s
+        constant = np.arange(layout.constants.start, layout.constants.stop)
+        noise[1][:, constant, constant] = self._drift * dt_s
+        self._forward, self._noise = forward, noise
+        self._modes = noise[0][:, None] * (self._scales**2)[:, None, None] + noise[1][:, None]
+        self._dt_s = dt_s
 
     def predicted(self, beliefs: RayBeliefs, dt_s: float, forgetting: Forgetting | None) -> RayBeliefs:
         """The beliefs ``dt_s`` later."""
-        forward, noise = self._terms(dt_s)
-        if forgetting is not None and self._layout.has_rates:
-            faded = np.repeat(forward[None], RAYS, axis=0)
-            faded[:, SLOTS + _SLOT, SLOTS + _SLOT] = forgetting.keep_rate
-            faded[:, _SLOT, SLOTS + _SLOT] = forgetting.keep_rate * dt_s
-            forward = faded[:, None]
+        self._set_step(dt_s)
+        forward = self._forward if forgetting is None else self._fading(forgetting)[:, None]
         mean = (forward @ beliefs.mean[..., None])[..., 0]
         covariance = forward @ beliefs.covariance @ np.swapaxes(forward, -1, -2)
-        covariance += noise
+        covariance += self._modes
         if forgetting is not None:
-            covariance[..., _SLOT, _SLOT] += forgetting.angle2[:, None]
-            if self._layout.has_rates:
-                covariance[..., SLOTS + _SLOT, SLOTS + _SLOT] += forgetting.rate2[:, None]
+            self._spread(covariance, forgetting)
         return RayBeliefs(mean, covariance, beliefs.probability)
+
+    def step(self, dt_s: float, scale: FloatArray, forgetting: Forgetting | None) -> tuple[FloatArray, FloatArray]:
+        """Transition and noise (5, n, n) of a step with the noise's root scaled by ``scale`` (5,)."""
+        self._set_step(dt_s)
+        forward = np.repeat(self._forward[None], RAYS, axis=0) if forgetting is None else self._fading(forgetting)
+        noise = self._noise[0] * (scale**2)[:, None, None] + self._noise[1]
+        if forgetting is not None:
+            self._spread(noise[:, None], forgetting)
+        return forward, noise
+
+    def _fading(self, forgetting: Forgetting) -> FloatArray:
+        forward = np.repeat(self._forward[None], RAYS, axis=0)
+        if self._layout.has_rates:
+            forward[:, SLOTS + _SLOT, SLOTS + _SLOT] = forgetting.keep_rate
+            forward[:, _SLOT, SLOTS + _SLOT] = forgetting.keep_rate * self._dt_s
+        return forward
+
+    def _spread(self, covariance: FloatArray, forgetting: Forgetting) -> None:
+        covariance[..., _SLOT, _SLOT] += forgetting.angle2[:, None]
+        if self._layout.has_rates:
+            covariance[..., SLOTS + _SLOT, SLOTS + _SLOT] += forgetting.rate2[:, None]
 
 
 @dataclass(frozen=True, slots=True)

@@ -17,6 +17,7 @@ from core.calibration.result import Calibration
 from core.camera import Camera
 from core.tracking import modes
 from core.tracking.finger_model import seat_of
+from core.tracking.finger_smoother import FingerStep, smooth_fingers
 from core.tracking.fingers import Fingers, FingerTrial
 from core.tracking.geometry import geometry_for, palm_of
 from core.tracking.hand_geometry import RAY_MARKERS
@@ -94,6 +95,7 @@ class Tracker:
         self._anew = True
         self._forecast: tuple[float, Forecast] | None = None
         self.history: list[FilterStep] = []
+        self._finger_history: list[FingerStep | None] = []
         self.begin_at_neutral()
 
     def begin_at_neutral(self) -> None:
@@ -173,8 +175,9 @@ class Tracker:
         self._noise_factor = watched(self._noise_factor, step.palm, dt_s, self.settings.noise)
         belief = step.bank.nominal
         self._shape, self._shape_covariance = belief.shape, belief.covariance[self.layout.shape, self.layout.shape]
+        finger_step = None
         if self._fingers is not None and step.fingers is not None:
-            self._fingers.accept(step.fingers, dt_s)
+            finger_step = self._fingers.accept(step.fingers, timestamp_s, dt_s)
         self._remember(timestamp_s, self._measured(step))
         if step.palm_seen >= LEAST_PALM_MARKERS:
             status, self._bank, self._seen_s = TrackStatus.TRACKED, step.bank, timestamp_s
@@ -187,6 +190,7 @@ class Tracker:
             belief = self._bank.nominal  # what the next frame is predicted from
         if self._keep_history:
             scale = float(np.sqrt(step.bank.probability @ self._scales**2))
+            self._finger_history.append(finger_step)
             self.history.append(FilterStep(timestamp_s, belief, scale, linked))
         return self._shown(index, timestamp_s, status, ahead, step, detections, dropped_before)
 
@@ -285,6 +289,7 @@ class Tracker:
             self._fingers.begin_anywhere()
         self._remember(timestamp_s, np.zeros(self._joint_count or 3, dtype=np.int64))
         if self._keep_history:
+            self._finger_history.append(None)
             self.history.append(FilterStep(timestamp_s, None, 1.0, False))
         count = len(self._protocol.markers)
         moment = lost_moment(self._joint_count, count)
@@ -297,11 +302,16 @@ class Tracker:
     def smoothed(self) -> list[Moment]:
         """Every frame so far in the light of all the others; needs the history kept. Tracking may go on meanwhile."""
         beliefs = smooth(list(self.history), self.settings.motion_noise, self.layout)
+        readout = Readout(self._calibration, self.layout)
+        lost = lost_moment(self._joint_count, len(self._protocol.markers))
+        moments = [lost if belief is None else readout.moment(belief) for belief in beliefs]
+        if self._fingers is None:
+            return moments
+        seats = [None if belief is None else seat_of(belief, self.view, readout) for belief in beliefs]
+        fingers = smooth_fingers(self._fingers.model, self._finger_history[: len(beliefs)], seats)
         return [
-            lost_moment(self._joint_count, len(self._protocol.markers))
-            if belief is None
-            else self._readout.moment(belief)
-            for belief in beliefs
+            lost if joints is None else readout.with_joints(moment, joints)
+            for moment, joints in zip(moments, fingers, strict=True)
         ]
 
     def _measured(self, step: _Step) -> NDArray[np.int64]:

@@ -1,0 +1,152 @@
+"""Looking back at thumb and fingers: filtered again over the smoothed palm, then smoothed themselves.
+
+The names of the blobs are those of the first pass. Rauch, Tung and Striebel's recursion runs over joints, rates and
+anatomy, so what a movement teaches of the bones also serves the frames before it. Where a finger was found anew
+only its anatomy is carried back.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from core.tracking.finger_model import SHOWS, FingerModel, Seat
+from core.tracking.hand_geometry import RAYS, SLOTS, JointMoment
+from core.tracking.joint_limits import constrained
+from core.tracking.ray_filter import RayForecast, corrected, forecast, spread_points
+from core.types import FloatArray
+
+
+@dataclass(frozen=True, slots=True)
+class FingerStep:
+    """What one frame told: ``measured`` and ``variance`` (5, 9), ``shown`` (5, 3) discs named, ``postures`` of rays
+    found anew; ``begins`` at the neutral pose."""
+
+    timestamp_s: float
+    measured: FloatArray
+    variance: FloatArray
+    shown: NDArray[np.bool_]
+    postures: dict[int, FloatArray]
+    begins: bool
+
+
+@dataclass(frozen=True, slots=True)
+class _Filtered:
+    """One frame filtered again: ``mean`` (5, n) and the lower triangles of ``covariance`` (5, n (n + 1) / 2).
+
+    ``scale`` (5,) of the process noise that led to it, ``unseen_s`` (5, 5) for how long each slot had not been shown,
+    ``is_linked`` whether it follows from the frame before.
+    """
+
+    mean: FloatArray
+    covariance: FloatArray
+    scale: FloatArray
+    unseen_s: FloatArray
+    is_linked: bool
+
+
+def smooth_fingers(
+    model: FingerModel, steps: Sequence[FingerStep | None], seats: Sequence[Seat | None]
+) -> list[JointMoment | None]:
+    """The joints of every frame; None where the hand was lost. ``seats`` are those of the smoothed palm."""
+    filtered = _filtered(model, steps, seats)
+    out: list[JointMoment | None] = [None] * len(steps)
+    lower = np.tril_indices(model.layout.size)
+    mean, covariance = np.empty(0), np.empty(0)
+    for k in range(len(steps) - 1, -1, -1):
+        now, seat = filtered[k], seats[k]
+        if now is None or seat is None:
+            continue
+        mean_now, covariance_now = now.mean, _whole(now.covariance, lower, model.layout.size)
+        later = filtered[k + 1] if k + 1 < len(steps) else None
+        if later is not None and later.is_linked:
+            mean, covariance = _back(model, mean_now, covariance_now, steps, k, later, mean, covariance)
+        else:
+            mean, covariance = mean_now, covariance_now
+        out[k] = model.read(mean, covariance, seat, _line(model, mean, covariance, seat))
+    return out
+
+
+def _line(model: FingerModel, mean: FloatArray, covariance: FloatArray, seat: Seat) -> RayForecast:
+    spread = model.settings.spread
+    points = spread_points(mean, covariance, seat.palm.disc_m[1:], model.layout, spread)
+    return forecast(points, seat.view, model.layout, spread)
+
+
+def _filtered(
+    model: FingerModel, steps: Sequence[FingerStep | None], seats: Sequence[Seat | None]
+) -> list[_Filtered | None]:
+    out: list[_Filtered | None] = []
+    beliefs, unseen_s, time_s = model.at_neutral(), np.zeros((RAYS, SLOTS)), float("nan")
+    is_lost = False
+    lower = np.tril_indices(model.layout.size)
+    for step, seat in zip(steps, seats, strict=True):
+        if step is None or seat is None:
+            out.append(None)
+            is_lost = True
+            continue
+        is_linked = not (step.begins or is_lost)
+        before_s = unseen_s
+        if step.begins:
+            beliefs, unseen_s = model.at_neutral(), np.zeros((RAYS, SLOTS))
+        elif is_lost:
+            beliefs = model.anywhere(*beliefs.merged())
+            unseen_s = np.full((RAYS, SLOTS), model.settings.fingers.range_after_s)
+        elif step.timestamp_s > time_s:
+            beliefs = model.predicted(beliefs, unseen_s, step.timestamp_s - time_s)
+        if step.postures:
+            beliefs = model.at_postures(beliefs, step.postures)
+        line = _line(model, *beliefs.merged(), seat)
+        beliefs = corrected(beliefs, line, step.measured, step.variance, model.palm_part(line, seat)).beliefs
+        beliefs = constrained(beliefs, beliefs.merged()[0][:, :SLOTS])
+        mean, covariance = beliefs.merged()
+        scale = np.sqrt(beliefs.probability @ model.scales**2)
+        out.append(_Filtered(mean, covariance[:, lower[0], lower[1]], scale, before_s, is_linked))
+        shown = (SHOWS & step.shown[:, None, :]).any(axis=-1)
+        unseen_s = np.where(shown, 0.0, unseen_s + (step.timestamp_s - time_s if is_linked else 0.0))
+        time_s, is_lost = step.timestamp_s, False
+    return out
+
+
+def _back(
+    model: FingerModel,
+    mean: FloatArray,
+    covariance: FloatArray,
+    steps: Sequence[FingerStep | None],
+    k: int,
+    later: _Filtered,
+    later_mean: FloatArray,
+    later_covariance: FloatArray,
+) -> tuple[FloatArray, FloatArray]:
+    """The smoothed mean and covariance of frame k from those of frame k + 1."""
+    now, after = steps[k], steps[k + 1]
+    assert now is not None
+    assert after is not None
+    dt_s = after.timestamp_s - now.timestamp_s
+    if dt_s <= 0.0:
+        return later_mean, later_covariance
+    forward, noise = model.motion.step(dt_s, later.scale, model.forgetting(mean, later.unseen_s, dt_s))
+    moving = np.arange(model.layout.constants.start)
+    for ray in after.postures:
+        # Nothing of the joints passes through: only what the later frames say of the anatomy goes back.
+        forward[ray][moving] = 0.0
+        noise[ray][moving, moving] = 1.0
+        later_mean = later_mean.copy()
+        later_mean[ray, moving] = 0.0
+    predicted_mean = (forward @ mean[..., None])[..., 0]
+    predicted = forward @ covariance @ np.swapaxes(forward, 1, 2) + noise
+    gain = np.swapaxes(np.linalg.solve(predicted, forward @ covariance), 1, 2)
+    smoothed_mean = mean + (gain @ (later_mean - predicted_mean)[..., None])[..., 0]
+    smoothed = covariance + gain @ (later_covariance - predicted) @ np.swapaxes(gain, 1, 2)
+    return smoothed_mean, 0.5 * (smoothed + np.swapaxes(smoothed, 1, 2))
+
+
+def _whole(triangle: FloatArray, lower: tuple[NDArray[np.int64], NDArray[np.int64]], size: int) -> FloatArray:
+    """Symmetric matrices (5, n, n) from their lower triangles."""
+    out = np.zeros((RAYS, size, size))
+    out[:, lower[0], lower[1]] = triangle
+    out[:, lower[1], lower[0]] = triangle
+    return out
