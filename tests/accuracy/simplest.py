@@ -1,6 +1,7 @@
 """The simplest thing that could measure a wrist: what Carpus must beat in every row.
 
-Blue pixels by a fixed threshold, for each marker the blob nearest to its last place, no blob twice, and the rigid turn that fits
+Blue pixels by a fixed threshold, for each marker the blob nearest to its last place, no blob twice, and the
+rigid turn that fits
 the palm's points in space best, frame by frame (Kabsch).
 """
 
