@@ -29,15 +29,16 @@ class MarkerAppearance:
 
     ``paper_histogram`` (BINS, BINS) is the reference of the Bhattacharyya coefficient; ``paper_lookup`` and
     ``skin_lookup`` (BINS, BINS) are 0-255 tables for back-projection: how much likelier than the other a
-    colour is; ``darkest_value`` 0-255; ``least_share`` and ``most_share`` of the ideal area of a large disc
-    facing the camera that the clicked ones showed (some are smaller, some turned away);
-    ``least_similarity`` that a blob needs.
+    colour is; ``darkest_value`` 0-255; ``radius_m`` of most of the clicked discs, large or small ones (reference 2);
+    ``least_share`` and ``most_share`` of the ideal area of such a disc facing the camera that the clicked ones
+    showed (some are of the other size, some turned away); ``least_similarity`` that a blob needs.
     """
 
     paper_histogram: FloatArray
     paper_lookup: NDArray[np.float32]
     skin_lookup: NDArray[np.float32]
     darkest_value: float
+    radius_m: float
     least_share: float
     most_share: float
     least_similarity: float
@@ -80,21 +81,33 @@ def learn_appearance(
     ring &= ~on_paper
     centre = np.full(click_px.shape, np.nan)
     looks = _appearance(hsv, on_paper, ring, settings)
-    middle_radius = np.median(radius_px)
+    middle_radius, size = float(np.median(radius_px)), 1.0
     for _ in range(_ROUNDS):
-        blobs = components(paper_mask(hsv, looks, settings), lambda at: np.full(len(at), middle_radius))
+        blobs = _paper_blobs(hsv, looks, settings, middle_radius * size)
         found = _blobs_under(click_px, radius_px, blobs)
         if not np.any(found >= 0):
             break
         centre = np.full(click_px.shape, np.nan)
         there = found >= 0
-        centre[there], radius = _measured(frame.color_rgb, blobs, found[there], float(middle_radius))
+        centre[there], radius = _measured(frame.color_rgb, blobs, found[there], middle_radius * size)
+        size = _size(radius / radius_px[there], settings)
         on_paper, around = np.zeros(shape, dtype=bool), np.zeros(shape, dtype=bool)
         for point, reach in zip(centre[there], radius, strict=True):
             on_paper |= disc_mask(shape, point, _PAPER_REACH * reach)
             around |= disc_mask(shape, point, 2.2 * reach) & ~disc_mask(shape, point, 1.45 * reach)
         looks = _appearance(hsv, on_paper, around & ~_grown(blobs.labels > 0), settings)
-    return _measured_by_discs(looks, hsv, centre, radius_px, settings), centre
+    looks = replace(looks, radius_m=size * settings.marker_radius_m)
+    return _measured_by_discs(looks, hsv, centre, size * radius_px, settings), centre
+
+
+def _paper_blobs(hsv: ByteImage, looks: MarkerAppearance, settings: DetectionSettings, radius_px: float) -> Components:
+    return components(paper_mask(hsv, looks, settings), lambda at: np.full(len(at), radius_px))
+
+
+def _size(ratio: FloatArray, settings: DetectionSettings) -> float:
+    """Radius of most discs over that of the large ones, from the measured ratios (B,), which blur changes."""
+    small = settings.small_radius_m / settings.marker_radius_m
+    return small if float(np.median(ratio)) < np.sqrt(small) else 1.0
 
 
 def _measured(
@@ -116,7 +129,7 @@ def _measured_by_discs(
 ) -> MarkerAppearance:
     """The appearance with what the found discs reach by it: share of area, likeness to the reference."""
     there = np.isfinite(centre[:, 0])
-    blobs = components(paper_mask(hsv, looks, settings), lambda at: np.full(len(at), np.median(radius_px)))
+    blobs = _paper_blobs(hsv, looks, settings, float(np.median(radius_px)))
     found = _blobs_under(centre[there], radius_px[there], blobs)
     found = found[found >= 0]
     if found.size == 0:
@@ -166,6 +179,7 @@ def _appearance(
         (255.0 * paper_share).astype(np.float32),
         (255.0 * skin_share).astype(np.float32),
         darkest,
+        settings.marker_radius_m,
         1.0,
         1.0,
         settings.least_similarity,

@@ -90,7 +90,7 @@ class Detector:
 
     def _radius_at(self, frame: Frame, region: Region, centre_px: FloatArray) -> FloatArray:
         """Radius in pixels (B,) of a disc facing the camera at the depth of each place; NaN-free."""
-        scale = self._camera.fx_px * self._settings.marker_radius_m
+        scale = self._camera.fx_px * self._looks.radius_m
         if frame.depth_raw is None:
             return np.full(len(centre_px), scale / _USUAL_DEPTH_M)
         radius = []

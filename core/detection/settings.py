@@ -7,7 +7,9 @@ from dataclasses import dataclass
 
 @dataclass(frozen=True, slots=True)
 class DetectionSettings:
-    """``marker_radius_m`` of the paper discs; areas and similarities are relative to those learnt.
+    """``marker_radius_m`` of the paper discs and ``small_radius_m`` of the small ones (reference 2).
+
+    Areas and similarities are relative to those learnt.
 
     ``paper_share``: a pixel belongs to a marker when its colour is this much likelier on paper than on the
     skin around; ``skin_share`` of the rim of a blob must be skin or paper for it to lie on a hand;
@@ -20,6 +22,7 @@ class DetectionSettings:
     """
 
     marker_radius_m: float = 0.006
+    small_radius_m: float = 0.004
     paper_share: float = 0.5
     skin_share: float = 0.25
     darkest: float = 0.25
