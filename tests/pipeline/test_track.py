@@ -19,7 +19,7 @@ from core.calibration.settings import CalibrationSettings
 from core.capture.source import SourceInfo
 from core.capture.tum import TumFolder
 from core.errors import ClickOnNoMarker, OutputExists, PictureDamaged, RecordingEmpty
-from core.pipeline.track import TrackReport, TrackSettings, retrack_session, track_recording
+from core.pipeline.track import TrackReport, TrackSettings, from_neutral, retrack_session, track_recording
 from core.session.reader import read_session
 from core.simulation.recording import CLICKS_FILE, simulate
 from core.simulation.spec import RecordingSpec
@@ -243,6 +243,19 @@ def test_a_frame_without_depth_is_a_frame(made: Made, tmp_path: Path) -> None:
         without = np.isnan(np.asarray(file["markers/measured_depth"])).all(axis=1)
     assert np.count_nonzero(without) == 2
     assert np.abs(np.degrees(angles(tmp_path / "session.h5") - made.truth.angles_rad)).max() < 5.0
+
+
+def test_tracker_is_set_back_once_before_the_first_frame_after_the_still_ones() -> None:
+    """The still frames made the calibration; what they say must not be counted again."""
+    log: list[float | str] = []
+
+    class Begun:
+        def begin_at_neutral(self) -> None:
+            log.append("begun")
+
+    for time_s in from_neutral([0.0, 0.1, 0.2, 0.3, 0.4], Begun(), 0.2, lambda time_s: time_s):  # type: ignore[arg-type]
+        log.append(time_s)
+    assert log == [0.0, 0.1, 0.2, "begun", 0.3, 0.4]
 
 
 class NoFrames:

@@ -132,6 +132,10 @@ def test_slowed_bank_keeps_places_and_slows_every_mode() -> None:
         assert np.allclose(after.velocity_m_s, 0.5 * before.velocity_m_s)
         assert np.allclose(after.rate_rad_s, 0.5 * before.rate_rad_s)
         assert np.allclose(after.joint_rates_rad_s, 0.5 * before.joint_rates_rad_s)
+        # Halved with all that is known of them: an unseen hand's velocity cannot become anything.
+        halved = np.ones(LAYOUT.size)
+        halved[np.r_[3:6, 9:12, 15:18]] = 0.5
+        assert np.allclose(slowed.covariance[k], np.diag(halved) @ bank.covariance[k] @ np.diag(halved))
 
 
 @pytest.mark.parametrize("form", ["reduced", "augmented"])
