@@ -1,0 +1,57 @@
+"""The yardstick of the bench does its job: it follows the hand, so that what is timed is a filter that works."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from core.pipeline.frame_walk import FrameWalk
+from core.tracking import naming
+from core.tracking.settings import TrackerSettings
+from core.tracking.tracker import Tracker
+from core.types import Detections, Frame
+from tests.bench import reference
+from tests.bench.timing import HEAD, line
+from tests.bench.tracking import spied
+from tests.tracking.hands import CAMERA, Pose, blobs, calibration
+
+
+def test_the_plain_filter_follows_wrist_and_fingers() -> None:
+    plain, rng = reference.ReferenceFilter(), np.random.default_rng(1)
+    place_m, joints_rad = [], []
+    for k in range(1, 240):
+        truth = reference.motion(k / 30.0)
+        pixel = reference.measured(truth[None])[0] + rng.normal(0.0, 1.0, 2 * reference.MARKERS)
+        plain.step(pixel, 1.0 / 30.0)
+        if k > 60:
+            place_m.append(plain.mean[:3] - truth[:3])
+            joints_rad.append(plain.mean[9:] - truth[9:])
+    assert plain.mean.shape == (26,)
+    assert np.sqrt(np.mean(np.square(place_m))) < 0.006
+    assert np.degrees(np.sqrt(np.mean(np.square(joints_rad)))) < 8.0
+
+
+def test_the_spy_measures_the_parts_of_a_frame_and_leaves_no_trace() -> None:
+    class Blobs:
+        def detect(self, _frame: Frame, _region: object = None) -> Detections:
+            return blobs(Pose())
+
+        def region_about(self, *_: object) -> object:
+            return object()
+
+    walk = FrameWalk(Blobs(), Tracker(calibration(), CAMERA, TrackerSettings()))  # type: ignore[arg-type]
+    true = naming.update
+    with spied(walk) as spy:
+        for index in range(5):
+            walk(Frame(index, index / 30.0, np.zeros((1, 1, 3), np.uint8), None, 1e-3))
+        assert naming.update is not true
+    assert naming.update is true
+    assert spy.calls("narrow") == 5
+    assert spy.calls("update") >= 5
+    assert spy.calls("names") >= 5
+    assert spy.calls("forecast") == 4  # none for the first frame
+    assert spy.cpu_since("update", 0) > 0.0
+
+
+def test_a_row_of_the_table_tells_median_percentile_and_ratio() -> None:
+    assert line("x", [1.0, 2.0, 3.0], 0.5, "n") == "| x | 2.000 | 2.900 | 4.00 | n |"
+    assert line("x", []).count("|") == HEAD.splitlines()[0].count("|")
