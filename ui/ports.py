@@ -152,6 +152,9 @@ class LiveFeed(Protocol):
     def recording(self) -> bool: ...
 
     @property
+    def recorded_from(self) -> int | None: ...
+
+    @property
     def paused(self) -> bool: ...
 
 

@@ -97,6 +97,7 @@ class SmoothedSession:
         self._rows = 0
         self._waiting_s: list[float] = []
         self._pieces: list[Motion | None] = []
+        self._early: list[tuple[str, str]] = []
 
     @property
     def path(self) -> Path:
@@ -106,15 +107,20 @@ class SmoothedSession:
     def append(self, tracked: TrackedFrame) -> None:
         """One row."""
         self._writer.append(tracked)
+        for kind, text in self._early:
+            self._writer.add_event(tracked.timestamp_s, kind, text)
+        self._early.clear()
         self._rows += 1
         self._waiting_s.append(tracked.timestamp_s)
         if tracked.timestamp_s - self._waiting_s[0] > SMOOTHING_PIECE_S + SMOOTHING_LAG_S:
             self._smooth(tracked.timestamp_s - SMOOTHING_LAG_S)
 
     def add_event(self, time_s: float, kind: str, text: str) -> None:
-        """One event; before the first picture there is no time to put it at."""
+        """One event; before the first picture there is no time to put it at, so it waits for the first row."""
         if np.isfinite(time_s):
             self._writer.add_event(time_s, kind, text)
+        else:
+            self._early.append((kind, text))
 
     def close(self) -> None:
         """Smooth the rest and finish; a session without a single frame is none."""

@@ -32,6 +32,8 @@ from core.types import Frame
 SIZE_PX = (640, 480)
 WAITING_PICTURES = 3
 """A tenth of a second: longer than that a colour picture does not wait for its depth."""
+START_PICTURES = 30
+"""Colour pictures left out at the start while there is no depth yet; after a second without any, pictures go on."""
 RETRY_S = 1.0
 MAX_CRASHES = 3
 """Restarts in a row without a single frame."""
@@ -72,7 +74,9 @@ class XtionSource:
             opened = self._process.wait_open(self._closing, OPEN_CAMERA_S)
             assert opened is not None
             self._opened: Opened = opened
-            self._assembler = Assembler(_layout(opened), 1e6 / opened.modes[Sensor.COLOR].fps, WAITING_PICTURES)
+            self._assembler = Assembler(
+                _layout(opened), 1e6 / opened.modes[Sensor.COLOR].fps, WAITING_PICTURES, START_PICTURES
+            )
             self._info = self._describe(camera)
         except BaseException:
             self._process.close(gently=True)

@@ -75,13 +75,14 @@ class Assembler:
     """Builds frames from pictures of one colour and one depth stream.
 
     ``period_us`` is the time between colour pictures. Frames are numbered from 0; a colour picture that does not
-    come later than the one before is left out.
+    come later than the one before is left out; ``start_limit`` as for :class:`NearestPairing`.
     """
 
-    def __init__(self, layout: Layout, period_us: float, limit: int) -> None:
+    def __init__(self, layout: Layout, period_us: float, limit: int, start_limit: int = 0) -> None:
         self.layout = layout
         self._period_us = period_us
         self._limit = limit
+        self._start_limit = start_limit
         self._pairing = self._new_pairing()
         self._offset_us = 0
         self._index = 0
@@ -90,7 +91,7 @@ class Assembler:
 
     def _new_pairing(self) -> NearestPairing[AnyImage]:
         has_depth = self.layout.depth_size_px is not None
-        return NearestPairing(self._period_us, has_depth=has_depth, limit=self._limit)
+        return NearestPairing(self._period_us, has_depth=has_depth, limit=self._limit, start_limit=self._start_limit)
 
     def color(self, timestamp_us: int, number: int, view: AnyImage) -> list[Frame]:
         """Take a colour picture; the frames that are now complete."""

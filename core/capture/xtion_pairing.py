@@ -31,6 +31,9 @@ class NearestPairing(Generic[T]):
     later. Bound: at most ``limit`` pictures of a stream wait; then the oldest colour picture leaves with the
     nearest depth so far, or the oldest depth picture is forgotten. A depth picture serves one colour picture.
 
+    The streams of a camera do not start at one time: up to ``start_limit`` colour pictures from before the first
+    pair are left out, where a recording (0) keeps every one.
+
     >>> pairing = NearestPairing[str](period_us=33_333)
     >>> pairing.add_color(Stamped(0, 1, "red"))
     []
@@ -38,10 +41,11 @@ class NearestPairing(Generic[T]):
     [('red', 'near')]
     """
 
-    def __init__(self, period_us: float, *, has_depth: bool = True, limit: int = 4) -> None:
+    def __init__(self, period_us: float, *, has_depth: bool = True, limit: int = 4, start_limit: int = 0) -> None:
         self._certain_us = 0.45 * period_us
         self._has_depth = has_depth
         self._limit = limit
+        self._may_leave_out = start_limit
         self._colors: deque[Stamped[T]] = deque()
         self._depths: deque[Stamped[T]] = deque()
 
@@ -79,7 +83,11 @@ class NearestPairing(Generic[T]):
                 break
             self._colors.popleft()
             partner = nearest if apart_us <= TOLERANCE_US else None
-            decided.append((color, partner))
+            if partner is None and self._may_leave_out > 0 and self._has_depth:
+                self._may_leave_out -= 1
+            else:
+                self._may_leave_out = 0
+                decided.append((color, partner))
             used_up_us = partner.timestamp_us + 1 if partner else color.timestamp_us - TOLERANCE_US
             while self._depths and self._depths[0].timestamp_us < used_up_us:
                 self._depths.popleft()

@@ -129,6 +129,7 @@ class LiveSession:
         self._disk_warned = False
         self._disk_free: int | None = None
         self._row_count = 0
+        self._recorded_from: int | None = None
         self._capture_thread = threading.Thread(target=self._capture, name="capture", daemon=True)
         self._tracking_thread = threading.Thread(target=self._track, name="tracking", daemon=True)
 
@@ -258,6 +259,7 @@ class LiveSession:
                 raise
         with self._lock:
             self._rows, self._pictures = rows, pictures
+            self._recorded_from = None
             self._paused = False
 
     def pause_recording(self) -> None:
@@ -299,6 +301,11 @@ class LiveSession:
     def recording(self) -> bool:
         """Whether a recording was started and not yet stopped; also after a fault ended it."""
         return self._rows is not None
+
+    @property
+    def recorded_from(self) -> int | None:
+        """Index of the first frame of the running recording, None until it is captured."""
+        return self._recorded_from if self.recording else None
 
     @property
     def paused(self) -> bool:
@@ -384,6 +391,8 @@ class LiveSession:
             self._arrivals.append(at_s)
             self._captured += 1
             self._missing += frame.dropped_before
+            if rows is not None and self._recorded_from is None:
+                self._recorded_from = frame.index
         if pictures is not None and not self._paused:
             pictures.put(frame)
         self._newest_frame.put(frame)

@@ -99,12 +99,14 @@ def test_a_session_without_a_frame_is_none(tmp_path: Path) -> None:
     assert list(tmp_path.iterdir()) == []
 
 
-def test_an_event_before_the_first_picture_is_left_out(tmp_path: Path) -> None:
-    walk = live_walk()
-    walk.keeping = True
-    session = open_session(tmp_path / "one.h5", walk)
-    session.add_event(float("nan"), "note", "too early")
-    session.append(walk(next(frames())))
-    session.add_event(10.0, "note", "now")
+def test_a_note_from_before_the_first_picture_is_kept_with_the_first_row(tmp_path: Path) -> None:
+    walk, session = live_walk(), open_session(tmp_path / "early.h5", None)
+    session.add_event(float("nan"), "note", "strap loose")
+    rows = [walk(frame) for frame in list(frames())[:3]]
+    for row in rows:
+        session.append(row)
     session.close()
-    assert [event.text for event in read_session(tmp_path / "one.h5").events] == ["now"]
+    events = read_session(tmp_path / "early.h5").events
+    assert [(event.time_s, event.kind, event.text) for event in events] == [
+        (pytest.approx(rows[0].timestamp_s), "note", "strap loose")
+    ]

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
+import pytest
 
 from core.pipeline.frame_walk import FrameWalk
 from core.tracking import naming
@@ -15,8 +16,9 @@ from tests.bench.tracking import spied
 from tests.tracking.hands import CAMERA, Pose, blobs, calibration
 
 
-def test_the_plain_filter_follows_wrist_and_fingers() -> None:
-    plain, rng = reference.ReferenceFilter(), np.random.default_rng(1)
+@pytest.mark.parametrize("seed", [1, 2, 3])
+def test_the_plain_filter_follows_wrist_and_fingers(seed: int) -> None:
+    plain, rng = reference.ReferenceFilter(), np.random.default_rng(seed)
     place_m, joints_rad = [], []
     for k in range(1, 240):
         truth = reference.motion(k / 30.0)

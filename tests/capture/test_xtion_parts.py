@@ -21,9 +21,9 @@ from core.errors import CameraBusy, CameraMissing, CameraPermission, CarpusFault
 PERIOD_US = 33_333
 
 
-def paired(events: list[tuple[str, int]], limit: int = 4) -> list[tuple[int, int | None]]:
+def paired(events: list[tuple[str, int]], limit: int = 4, start_limit: int = 0) -> list[tuple[int, int | None]]:
     """Times of colour pictures and their depth, fed in this order."""
-    pairing = NearestPairing[str](PERIOD_US, limit=limit)
+    pairing = NearestPairing[str](PERIOD_US, limit=limit, start_limit=start_limit)
     out = []
     for kind, time_us in events:
         out += (pairing.add_color if kind == "color" else pairing.add_depth)(Stamped(time_us, 1, kind))
@@ -54,6 +54,18 @@ def test_no_colour_picture_waits_longer_than_the_limit() -> None:
     pairing = NearestPairing[str](PERIOD_US, limit=3)
     out = [pair for i in range(10) for pair in pairing.add_color(Stamped(i * PERIOD_US, i, ""))]
     assert [color.number for color, _ in out] == list(range(7))
+
+
+def test_colour_from_before_the_depth_began_is_left_out_at_the_start_only() -> None:
+    events = [("color", 0), ("color", 33_000), ("depth", 66_000), ("color", 66_000), ("color", 99_000)]
+    assert paired(events, start_limit=5) == [(66_000, 66_000), (99_000, None)]
+    assert paired(events, start_limit=0)[0] == (0, None)
+
+
+def test_a_camera_whose_depth_never_comes_still_shows_pictures() -> None:
+    pairing = NearestPairing[str](PERIOD_US, limit=3, start_limit=5)
+    out = [pair for i in range(20) for pair in pairing.add_color(Stamped(i * PERIOD_US, i, ""))]
+    assert [color.number for color, _ in out] == list(range(5, 17))
 
 
 @given(

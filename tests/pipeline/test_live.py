@@ -339,10 +339,13 @@ def test_rows_and_pictures_begin_with_the_same_frame_however_far_behind_the_trac
         live.begin_tracking(slow)
         deliver(live, source, 3)  # captured, not yet tracked
         live.start_recording(lambda: rows, lambda: pictures)
+        assert live.recorded_from is None
         deliver(live, source, 4)
+        assert live.recorded_from == 3
         gate.open()
         wait_until(lambda: live.counters().tracked == 7)
         live.stop_recording()
+        assert live.recorded_from is None
     assert [row.index for row in rows.rows] == [3, 4, 5, 6]
     assert [picture.index for picture in rows.pictures + pictures.pictures] == [3, 4, 5, 6]
 

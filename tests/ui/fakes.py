@@ -168,9 +168,14 @@ class FakeFeed:
         self.place = -1
         self.recording = False
         self.paused = False
+        self.first_recorded = 0
         self.events: list[LiveEvent] = []
         self.noted: list[tuple[str, str]] = []
         self.picture_number: int | None = None
+
+    @property
+    def recorded_from(self) -> int | None:
+        return self.first_recorded if self.recording else None
 
     def step(self, frames: int = 1) -> None:
         self.place = min(self.place + frames, len(self.frames) - 1)

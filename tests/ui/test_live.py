@@ -110,6 +110,16 @@ def test_repetitions_and_best_are_counted_from_recorded_frames_only(qtbot: QtBot
     assert screen.number.reading.best_negative_deg == pytest.approx(recorded.min())
 
 
+def test_frames_from_before_the_recording_that_are_drawn_late_do_not_count(qtbot: QtBot, theme: Theme) -> None:
+    feed = FakeFeed()
+    screen, measuring = live(qtbot, theme, feed)
+    feed.step(90)
+    feed.first_recorded = 80
+    record(qtbot, screen, measuring)
+    screen.tick()
+    assert screen.recorded_s == pytest.approx(10 / 30, abs=0.05)
+
+
 def test_a_pause_is_not_recorded_time(qtbot: QtBot, theme: Theme) -> None:
     feed = FakeFeed()
     screen, measuring = live(qtbot, theme, feed)

@@ -287,8 +287,9 @@ class LiveScreen(QWidget):
         feed = self._measuring.feed
         fresh = feed.tracked_since(self.history.last_index)
         self.history.append(fresh)
-        if self._count is not None and feed.recording and not feed.paused:
-            self._count.append(fresh)
+        begin = feed.recorded_from
+        if self._count is not None and begin is not None and not feed.paused:
+            self._count.append([tracked for tracked in fresh if tracked.index >= begin])
         view = feed.newest()
         if view is not None and fresh and (self._view is None or view.tracked.index != self._view.tracked.index):
             self._view = view
