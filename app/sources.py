@@ -9,8 +9,13 @@ from core.capture.source import FrameSource
 from core.errors import RecordingMissing, RecordingUnreadable
 
 
-def open_recording(path: Path, *, need_depth: bool = True, notice: Notice = ignore) -> FrameSource:
-    """A TUM folder, an .oni file or a raw recording as a source. The readers are loaded when needed."""
+def open_recording(
+    path: Path, *, need_depth: bool = True, registered: bool | None = None, notice: Notice = ignore
+) -> FrameSource:
+    """A TUM folder, an .oni file or a raw recording as a source. The readers are loaded when needed.
+
+    ``registered``: whether depth lies on colour in an .oni file that does not say so itself, None when nobody knows.
+    """
     if not path.exists():
         raise RecordingMissing(path)
     if path.is_dir():
@@ -20,7 +25,7 @@ def open_recording(path: Path, *, need_depth: bool = True, notice: Notice = igno
     if path.suffix.lower() == ".oni":
         from core.capture.oni_source import OniSource
 
-        return OniSource(path, notice=notice)
+        return OniSource(path, registered=registered, notice=notice)
     from core.capture.raw import RawRecording, is_raw_recording
 
     if is_raw_recording(path):

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from datetime import date
 
 from PySide6.QtCore import QCoreApplication, QEvent, QObject, Qt, QTimer, Signal
@@ -31,7 +31,7 @@ from ui.markers.screen import MarkersScreen
 from ui.messages.stop_card import Answer
 from ui.messages.strip import NoticeStrip
 from ui.patients.screen import PatientsScreen
-from ui.ports import PRACTICE_PATIENT, PatientRow, PatientStore, Phrasebook, SetUp
+from ui.ports import PRACTICE_PATIENT, PatientRow, PatientStore, Phrasebook, SetUp, Words
 from ui.progress.screen import ProgressScreen
 from ui.report.screen import ReportScreen
 from ui.review.screen import ReviewScreen
@@ -88,6 +88,7 @@ class Journey(QObject):
         self.session_id = ""
         self._before_aside: tuple[Place, QWidget] = ("patients", self.patients)
         self._kind: SourceKind = "practice" if parts.is_demo else "camera"
+        self._choice = SourceChoice(self._kind)
         self._camera_there = False
         self._connect(keys)
         self._camera_timer = QTimer(self)
@@ -193,7 +194,7 @@ class Journey(QObject):
     def open_source(self, choice: SourceChoice) -> None:
         """Open camera, recording or simulation in the background."""
         assert self.set_up is not None
-        self._kind = choice.kind
+        self._kind, self._choice = choice.kind, choice
         words = {
             "camera": self.tr("The camera is being opened."),
             "file": self.tr("The recording is being opened."),
@@ -204,8 +205,29 @@ class Journey(QObject):
 
     def _source_opened(self, source: OpenSource) -> None:
         self.camera.show_opening(False)
+        if source.asks_registration:
+            self.background.run(source.measuring.close, lambda _: None, self.teller.fault)
+            self._ask_registration(self._choice)
+            return
         self.source = source
         self._show_markers()
+
+    def _ask_registration(self, choice: SourceChoice) -> None:
+        def opened(registered: bool) -> Callable[[], None]:
+            return lambda: self.open_source(replace(choice, registered=registered))
+
+        name = choice.path.replace("\\", "/").rpartition("/")[2]
+        self.teller.ask(
+            Words(
+                self.tr("Nothing says whether the depth of {name} was laid on its colours.").format(name=name),
+                self.tr("The recording itself is not changed."),
+                self.tr("Most programs record with “registration” switched on. If you do not know, say yes."),
+            ),
+            (
+                Answer(self.tr("No"), opened(False)),
+                Answer(self.tr("Yes, it was"), opened(True)),
+            ),
+        )
 
     def _source_failed(self, fault: Exception) -> None:
         self.camera.show_opening(False)

@@ -17,7 +17,7 @@ from core.capture.paced import PacedSource
 from core.capture.practice import PracticeSource
 from core.capture.source import FrameSource
 from core.capture.xtion_usb import usb_cameras
-from core.errors import CarpusFault, RecordingEmpty
+from core.errors import CarpusFault, RecordingEmpty, RegistrationAssumed
 from core.hand.protocols import WRIST6
 from core.pipeline.live import LiveSession
 from core.types import Frame
@@ -32,10 +32,14 @@ RECENT_FRAMES = 16
 
 @dataclass(frozen=True, slots=True)
 class OpenSource:
-    """A source with its calibrator; ``measuring`` owns it and closes it."""
+    """A source with its calibrator; ``measuring`` owns it and closes it.
+
+    ``asks_registration``: nothing says whether the depth of this recording lies on its colours.
+    """
 
     calibrator: HandCalibrator
     measuring: SourceMeasuring
+    asks_registration: bool = False
 
 
 class Sources:
@@ -62,7 +66,7 @@ class Sources:
     def open(self, choice: SourceChoice, set_up: SetUp, progress: Progress) -> OpenSource:
         """Open the chosen source; waits for camera, disk or renderer, so it is called in the background."""
         if choice.kind == "file":
-            return self._recording(Path(choice.path), set_up)
+            return self._recording(choice, set_up)
         return self._camera(set_up) if choice.kind == "camera" else self._practice(set_up, progress)
 
     def _camera(self, set_up: SetUp) -> OpenSource:
@@ -90,18 +94,19 @@ class Sources:
         session.start()
         return self._live(session, take, set_up, on_recording=patient.let_go)
 
-    def _recording(self, path: Path, set_up: SetUp) -> OpenSource:
+    def _recording(self, choice: SourceChoice, set_up: SetUp) -> OpenSource:
         told: list[CarpusFault] = []
-        source = open_recording(path, notice=told.append)
+        source = open_recording(Path(choice.path), registered=choice.registered, notice=told.append)
         opening = opening_frames(source, self._settings.calibration.still_s)
         session = self._session(PacedSource(source, self._speed))
-        for fault in told:
+        asks = any(isinstance(fault, RegistrationAssumed) for fault in told)
+        for fault in () if asks else told:
             session.notice(fault)
         measuring = SourceMeasuring(
             session, source.info, set_up, self._settings.track, self._places, starts_with_recording=True
         )
         pictures = StoredPictures(opening)
-        return OpenSource(self._calibrator(pictures, source, set_up, measuring), measuring)
+        return OpenSource(self._calibrator(pictures, source, set_up, measuring), measuring, asks)
 
     def _session(self, source: FrameSource) -> LiveSession:
         return LiveSession(source, replace(self._settings.live, folder=self._settings.data_folder))

@@ -80,6 +80,12 @@ class Teller(QObject):
         if self._shown is None:
             self._next()
 
+    def ask(self, question: Words, answers: Sequence[Answer]) -> None:
+        """A card for something that only the person knows."""
+        self._waiting.append(_Message(question, tuple(answers), "", "", ""))
+        if self._shown is None:
+            self._next()
+
     def camera_lost(self, fault: Exception, answers: Sequence[Answer], detail: str, safe_detail: str) -> None:
         """The card that waits for the camera and goes by itself when it is back."""
         self._lost_since_s = time.monotonic()

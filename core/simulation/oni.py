@@ -41,13 +41,14 @@ def simulate_oni(
         pictures = Path(scratch) / "tum"
         simulate(spec, pictures, progress)
         source = TumFolder(pictures, read_ahead=4)
-        write_oni(target, _in_millimetres(source.frames()), source.info.camera, fps=round(spec.fps), color=color)
+        write_oni(target, in_millimetres(source.frames()), source.info.camera, fps=round(spec.fps), color=color)
         for name in (CLICKS_FILE, TRUTH_FILE, CAMERA_FILE):
             shutil.move(pictures / name, folder / name)
     return target
 
 
-def _in_millimetres(frames: Iterator[Frame]) -> Iterator[Frame]:
+def in_millimetres(frames: Iterator[Frame]) -> Iterator[Frame]:
+    """The frames with their depth in whole millimetres, as the device gives it."""
     for frame in frames:
         depth = frame.depth_raw
         if depth is not None:

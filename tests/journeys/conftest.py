@@ -18,6 +18,8 @@ from app.compose import Desktop, application, compose
 from app.settings import RecordingSettings, ScreenSettings, Settings
 from tests.journeys.takes import render, take_of
 
+SPEED = 1.5
+"""How much faster than recorded everything plays."""
 Open = Callable[[], Desktop]
 
 
@@ -42,7 +44,7 @@ def open_desktop(qapp: QApplication, take: Path, data: Path, tmp_path: Path) -> 
 
     def open_one() -> Desktop:
         desktop = compose(
-            application([]), settings, take=take_of(take), speed=1.5, settings_folder=tmp_path / "settings"
+            application([]), settings, take=take_of(take), speed=SPEED, settings_folder=tmp_path / "settings"
         )
         opened.append(desktop)
         desktop.show()

@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+import json
 import math
+import re
 import shutil
 import subprocess
+import time
 from pathlib import Path
 from typing import Any
 
@@ -17,10 +20,14 @@ from pytestqt.qtbot import QtBot
 
 from app.compose import Desktop
 from app.desktop.sources import RECENT_FRAMES
+from core.capture.oni_writer import sidecar_path, write_oni
+from core.capture.tum import TumFolder
 from core.errors import CameraLost, CameraMissing, CameraReturned
+from core.session.reader import read_session
 from core.session.writer import SessionWriter
-from tests.journeys.conftest import Open
-from tests.journeys.takes import RANGE_DEG, clicks_of
+from core.simulation.oni import in_millimetres
+from tests.journeys.conftest import SPEED, Open
+from tests.journeys.takes import RANGE_DEG, SPEC, clicks_of
 from tests.session.samples import CAMERA, make_calibration, make_frame, make_header
 from ui.messages.strip import NoticeStrip
 from ui.ports import PRACTICE_PATIENT
@@ -229,6 +236,36 @@ def test_a_recording_is_measured_from_its_first_picture_to_its_last(
         assert times[-1] == pytest.approx(stored[-1])
         assert len(times) + int(file["quality/dropped_frames"][:].sum()) == len(stored)
     assert not journey.review.again_button.isVisible()
+
+
+def test_a_recording_of_the_camera_plays_through_its_own_library_in_real_time(
+    qtbot: QtBot, open_desktop: Open, take: Path, tmp_path: Path
+) -> None:
+    recording, source = tmp_path / "Übung 1.oni", TumFolder(take)
+    write_oni(recording, in_millimetres(source.frames()), source.info.camera, fps=round(SPEC.fps))
+    camera_info = sidecar_path(recording)
+    camera_info.write_text(re.sub("registered: .*\n", "", camera_info.read_text()))
+    desktop = open_desktop()
+    journey = desktop.journey
+    journey.start(PRACTICE_PATIENT)
+    at(qtbot, desktop, "markers")
+    journey.back()
+    journey.camera.set_path(str(recording))
+    click(qtbot, journey.camera.primary)
+    wait(qtbot, journey.teller.card.isVisible)
+    assert recording.name in journey.teller.card.what.text()
+    click(qtbot, journey.teller.card.answers[-1])
+    at(qtbot, desktop, "markers")
+    click_discs(qtbot, desktop, take)
+    qtbot.keyClick(desktop.shell.focusWidget(), Qt.Key.Key_Return)
+    begun_s = time.monotonic()
+    path = reviewed(qtbot, desktop)
+    with h5py.File(path) as file:
+        times = file["frames/timestamp"][:]
+        assert len(times) + int(file["quality/dropped_frames"][:].sum()) == source.info.frame_count
+    assert json.loads(read_session(path).header.parameters)["source"]["registered"] == "yes"
+    assert time.monotonic() - begun_s > 0.9 * (times[-1] - times[0]) / SPEED
+    check_file(path, "Practice patient")
 
 
 def test_a_second_set_needs_no_new_markers(qtbot: QtBot, open_desktop: Open, take: Path) -> None:

@@ -10,7 +10,9 @@ SourceKind = Literal["camera", "file", "practice"]
 
 @dataclass(frozen=True, slots=True)
 class SourceChoice:
-    """Where the pictures come from; ``path`` of a stored recording only."""
+    """Where the pictures come from; of a stored recording only its ``path``, and whether its depth lies on its
+    colours where the recording does not say and the person was asked."""
 
     kind: SourceKind
     path: str = ""
+    registered: bool | None = None
