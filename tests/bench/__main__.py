@@ -19,6 +19,7 @@ def main() -> int:
         "parts", nargs="*", choices=[*PARTS, []], help="tracking, writing, window; all when none is named"
     )
     parser.add_argument("--seconds", type=float, default=120.0, help="length of the window's run")
+    parser.add_argument("--raw", action="store_true", help="the window's run stores the raw pictures too")
     parser.add_argument("--rounds", type=int, default=3, help="how often the recordings are tracked")
     arguments = parser.parse_args()
     parts = arguments.parts or list(PARTS)
@@ -42,7 +43,7 @@ def main() -> int:
     if "window" in parts:
         from tests.bench import window
 
-        for text in window.report(arguments.seconds):
+        for text in window.report(arguments.seconds, pictures=arguments.raw):
             print(text, flush=True)
     return 0
 

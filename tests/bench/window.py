@@ -62,8 +62,8 @@ class Watcher(QObject):
             self._run.drawn_at_s.append(now_s)
 
 
-def measure(seconds: float, folder: Path) -> tuple[Run, dict[str, Any]]:
-    """Record so long in the real window, on the practice patient in real time."""
+def measure(seconds: float, folder: Path, *, pictures: bool) -> tuple[Run, dict[str, Any]]:
+    """Record so long in the real window, on the practice patient in real time; with the raw ``pictures`` on request."""
     settings = replace(Settings(), screen=ScreenSettings("light"), recording=RecordingSettings(folder=str(folder)))
     qt = compose.application(["bench"])
     desktop = compose.compose(qt, settings, is_demo=True)
@@ -78,6 +78,7 @@ def measure(seconds: float, folder: Path) -> tuple[Run, dict[str, Any]]:
         set_up, source = journey.set_up, journey.source
         assert set_up is not None
         assert source is not None
+        source.measuring._set_up = replace(source.measuring._set_up, keep_pictures=pictures)
         walker.take_picture()
         walker.click_markers(read_clicks(cached_recording(practice_spec(set_up)) / CLICKS_FILE).pixel)
         live, feed = journey.live, source.measuring.feed
@@ -115,6 +116,7 @@ def measure(seconds: float, folder: Path) -> tuple[Run, dict[str, Any]]:
             "tracked": after.tracked - before.tracked,
             "dropped": after.dropped - before.dropped,
             "rows": after.rows_written,
+            "pictures": after.pictures_written,
             "tracked_p95_ms": after.latency_p95_ms,
             "threads": threading.active_count(),
         }
@@ -145,10 +147,10 @@ def growth_mb_per_min(samples: list[tuple[float, float]]) -> float:
     return float(60.0 * np.polyfit(settled[:, 0], settled[:, 1], 1)[0]) if len(settled) > 20 else float("nan")
 
 
-def report(seconds: float) -> Iterator[str]:
+def report(seconds: float, *, pictures: bool = False) -> Iterator[str]:
     """Measure and tell, line by line."""
     with tempfile.TemporaryDirectory() as folder:
-        run, facts = measure(seconds, Path(folder))
+        run, facts = measure(seconds, Path(folder), pictures=pictures)
     drawn = len(run.drawn_at_s) / facts["wall_s"]
     p50, p95, most = np.percentile(run.latency_ms, (50.0, 95.0, 100.0))
     width, height = SIZE_PX
@@ -156,6 +158,8 @@ def report(seconds: float) -> Iterator[str]:
     yield "| what | value |"
     yield "|---|---|"
     yield f"| frames captured, tracked, stored | {facts['captured']}, {facts['tracked']}, {facts['rows']} |"
+    if pictures:
+        yield f"| raw pictures stored | {facts['pictures']} |"
     yield f"| frames dropped by us | {facts['dropped']} |"
     yield f"| pictures a second | {facts['captured'] / facts['wall_s']:.1f} |"
     yield f"| drawings a second | {drawn:.1f} |"
