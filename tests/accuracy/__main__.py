@@ -20,7 +20,7 @@ QUICK_SEEDS = 3
 
 def main(arguments: Sequence[str] | None = None) -> int:
     parser = argparse.ArgumentParser(prog="python -m tests.accuracy", description=__doc__)
-    parser.add_argument("--group", choices=tuple(GROUPS), default="wrist", help="which rows")
+    parser.add_argument("--group", choices=("all", *GROUPS), default="all", help="which rows")
     parser.add_argument("--only", default="", metavar="TEXT", help="rows whose name holds this")
     parser.add_argument(
         "--seeds", type=int, default=10, help="simulated recordings a row (the fast row takes three times)"
@@ -30,7 +30,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
     parser.add_argument("--markdown", action="store_true", help="the table of the README instead")
     parser.add_argument("--processes", type=int, default=2)
     options = parser.parse_args(arguments)
-    scenarios = [row for row in GROUPS[options.group] if options.only.lower() in row.name.lower()]
+    groups = GROUPS.values() if options.group == "all" else (GROUPS[options.group],)
+    scenarios = [row for group in groups for row in group if options.only.lower() in row.name.lower()]
     if not scenarios:
         print(f"no row of {options.group} is named like {options.only}", file=sys.stderr)
         return 2

@@ -21,10 +21,10 @@ from core.simulation.measurements import MeasurementSequence
 from core.simulation.recording import CLICKS_FILE, cached_recording, clicks_of, truth_in
 from core.tracking.settings import TrackerSettings
 from core.tracking.tracker import Tracker
-from core.types import FloatArray, Moment, TrackedFrame
+from core.types import FloatArray, Moment, TrackedFrame, TrackStatus
 from tests.accuracy.runs import CARPUS, Estimate, Run, degrees_between, longest_s
 from tests.accuracy.scenarios import Scenario
-from tests.accuracy.sequences import detected_sequence, true_names, wrongly_taken
+from tests.accuracy.sequences import detected_sequence, longest_untracked_s, scored_frames, true_names, wrongly_taken
 
 
 def measured_hand(sequence: MeasurementSequence, settings: CalibrationSettings) -> tuple[MeasuredHand, float]:
@@ -58,7 +58,8 @@ def run_on_blobs(
         tracker.expect(float(times[i]))
         frames.append(tracker.step(i, float(times[i]), sequence.detections[i], int(truth.dropped_before[i])))
     ms = 1e3 * (time.process_time() - begin) / len(times)
-    scored = times > neutral_ends_s
+    scored = scored_frames(truth, neutral_ends_s)
+    status = np.array([frame.status for frame in frames])
     measured_px = np.array([frame.marker_measured_px for frame in frames])[scored]
     wrong = wrongly_taken(measured_px, _part(sequence, scored))
     return Run(
@@ -68,10 +69,11 @@ def run_on_blobs(
         CARPUS,
         _estimate(*_of_rows(frames), truth.angles_rad, scored),
         _estimate(*_of_rows(tracker.smoothed()), truth.angles_rad, scored),
-        np.array([frame.status for frame in frames])[scored],
+        status[scored],
         int(np.isfinite(measured_px[..., 0]).sum()),
         int(wrong.sum()),
         longest_s(wrong, times[scored]),
+        longest_untracked_s(sequence, status == TrackStatus.TRACKED),
         ms,
     ), neutral_ends_s
 
@@ -97,7 +99,7 @@ def run_on_pictures(
         sequence = detected_sequence(truth, output)
     learnt = learnt_in(session.header.parameters)
     assert learnt is not None
-    scored = truth.timestamp_s > learnt.neutral_ends_s
+    scored = scored_frames(truth, learnt.neutral_ends_s)
     measured_px = session.markers.measured_px[scored]
     wrong = wrongly_taken(measured_px, _part(sequence, scored))
     assert session.smoothed is not None
@@ -112,6 +114,7 @@ def run_on_pictures(
         int(np.isfinite(measured_px[..., 0]).sum()),
         int(wrong.sum()),
         longest_s(wrong, truth.timestamp_s[scored]),
+        longest_untracked_s(sequence, session.status == TrackStatus.TRACKED),
         ms,
     )
     return run, sequence, learnt.neutral_ends_s, folder

@@ -23,7 +23,7 @@ from core.tracking.state import Belief, StateLayout, resting_belief
 from core.types import FloatArray, Side, TrackStatus
 from tests.accuracy.runs import INFORMED, Estimate, Mode, Run, degrees_between
 from tests.accuracy.scenarios import Scenario
-from tests.accuracy.sequences import measured_and_errors
+from tests.accuracy.sequences import LEAST_DISCS, measured_and_errors, scored_frames
 
 
 def informed_run(
@@ -57,10 +57,12 @@ def informed_run(
         names = np.where(np.isfinite(seen[:, 0]), np.arange(len(seen)), -1)
         blobs = Measurable(seen, np.broadcast_to(variance, seen.shape))
         bank = modes.merged(correct(ahead, blobs, names, np.isfinite(seen[:, 2]), as_stated).bank, layout)
+        if np.count_nonzero(names >= 0) < LEAST_DISCS:
+            bank = modes.slowed(bank, float(np.exp(-dt_s / settings.rate_memory_s)), layout)
         beliefs.append(bank.nominal)
         steps.append(FilterStep(float(times[i]), bank.nominal, float(np.sqrt(bank.probability @ scales**2)), True))
     ms = 1e3 * (time.process_time() - begin) / len(times)
-    scored = times > begin_s
+    scored = scored_frames(truth, begin_s)
     smoothed = [belief for belief in smooth(steps, settings.motion_noise, layout) if belief is not None]
     true_rad = truth.angles_rad[scored]
     return Run(
@@ -73,6 +75,7 @@ def informed_run(
         np.full(int(scored.sum()), TrackStatus.TRACKED),
         int(np.isfinite(measured[scored, :, 0]).sum()),
         0,
+        0.0,
         0.0,
         ms,
     )

@@ -44,8 +44,14 @@ def done(job: Job) -> list[Run]:
 
 
 def jobs_for(scenarios: Sequence[Scenario], seeds: int, pictures: int) -> list[Job]:
-    """Pictures first: they take longest."""
-    out = [Job(scenario, seed, "pictures") for scenario in scenarios for seed in scenario.seeds(1)[:pictures]]
+    """``seeds`` recordings of every row and ``pictures`` rendered ones where it wants them, these first: they take
+    longest."""
+    out = [
+        Job(scenario, seed, "pictures")
+        for scenario in scenarios
+        if scenario.pictures
+        for seed in scenario.seeds(pictures)[:pictures]
+    ]
     return out + [Job(scenario, seed, "blobs") for scenario in scenarios for seed in scenario.seeds(seeds)]
 
 

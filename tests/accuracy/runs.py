@@ -29,7 +29,8 @@ class Run:
     """One recording by one method.
 
     ``smoothed`` None where it does not look back; ``status`` (N,) as in a session; ``taken`` measurements were taken
-    for a marker, ``wrong`` of them another thing's, for at most ``longest_wrong_s`` on end; ``ms`` CPU time per frame.
+    for a marker, ``wrong`` of them another thing's, for at most ``longest_wrong_s`` on end; ``longest_untracked_s`` it
+    was not tracked while four discs of the palm showed; ``ms`` CPU time per frame.
     """
 
     scenario: str
@@ -42,6 +43,7 @@ class Run:
     taken: int
     wrong: int
     longest_wrong_s: float
+    longest_untracked_s: float
     ms: float
 
     @property

@@ -24,7 +24,8 @@ class Scenario:
 
     ``options`` and ``trouble`` go to every :class:`RecordingSpec`; ``speeds_hz`` is the range from which each seed
     draws its repetitions a second; ``columns`` names the column of each angle compared (several may share one);
-    ``pool`` is the pooled row that it counts in; ``times_seeds`` recordings for every seed asked for.
+    ``pool`` is the pooled row that it counts in; ``times_seeds`` recordings for every seed asked for; ``pictures``:
+    also by rendered pictures, where what they show matters.
     """
 
     name: str
@@ -33,6 +34,7 @@ class Scenario:
     columns: tuple[str, ...] = ("deviation", "flexion", "pro/sup")
     pool: str | None = None
     times_seeds: int = 1
+    pictures: bool = False
     trouble: dict[str, Any] = field(default_factory=lambda: dict(USUAL_TROUBLE))
 
     def spec(self, seed: int, seconds: float) -> RecordingSpec:
@@ -49,21 +51,21 @@ class Scenario:
 
 
 WRIST = (
-    Scenario("rest", {"motion": "rest"}),
-    Scenario("flexion ±50°", {"motion": "flexion"}, _EXERCISE_HZ, pool=SLOW),
-    Scenario("deviation ±25°", {"motion": "deviation"}, _EXERCISE_HZ, pool=SLOW),
-    Scenario("pro/supination ±35°", {"motion": "pronosupination"}, _EXERCISE_HZ, pool=SLOW),
-    Scenario("mixed axes", {"motion": "mixed"}, _EXERCISE_HZ, pool=SLOW),
-    Scenario("reaching", {"motion": "reach"}, pool=SLOW),
-    Scenario("deviation 1.7 Hz", {"motion": "fast_deviation"}, pool=FAST, times_seeds=3),
+    Scenario("rest", {"motion": "rest"}, pictures=True),
+    Scenario("flexion ±50°", {"motion": "flexion"}, _EXERCISE_HZ, pool=SLOW, pictures=True),
+    Scenario("deviation ±25°", {"motion": "deviation"}, _EXERCISE_HZ, pool=SLOW, pictures=True),
+    Scenario("pro/supination ±35°", {"motion": "pronosupination"}, _EXERCISE_HZ, pool=SLOW, pictures=True),
+    Scenario("mixed axes", {"motion": "mixed"}, _EXERCISE_HZ, pool=SLOW, pictures=True),
+    Scenario("reaching", {"motion": "reach"}, pool=SLOW, pictures=True),
+    Scenario("deviation 1.7 Hz", {"motion": "fast_deviation"}, pool=FAST, times_seeds=3, pictures=True),
 )
 """The rows of the wrist, every one with two false blobs a frame, one marker in ten hidden, one frame in 100 lost."""
 
 
-def _troubled(name: str, **changes: Any) -> Scenario:
+def _troubled(name: str, *, pictures: bool = False, **changes: Any) -> Scenario:
     options = {"motion": "mixed", **{key: value for key, value in changes.items() if key not in USUAL_TROUBLE}}
     trouble = {**USUAL_TROUBLE, **{key: value for key, value in changes.items() if key in USUAL_TROUBLE}}
-    return Scenario(name, options, _EXERCISE_HZ, trouble=trouble)
+    return Scenario(name, options, _EXERCISE_HZ, trouble=trouble, pictures=pictures)
 
 
 TROUBLE = (
@@ -72,18 +74,18 @@ TROUBLE = (
     _troubled("10 false blobs", false_blobs=10.0),
     _troubled("nothing hidden", hidden_share=0.0),
     _troubled("30 % hidden", hidden_share=0.3),
-    _troubled("object passes", object_passes=True),
-    _troubled("leaves and returns", leaves_picture=True),
-    _troubled("dim", light="dim"),
-    _troubled("dark skin", skin_tone=5),
-    _troubled("child", hand_length_mm=135.0),
+    _troubled("object passes", object_passes=True, pictures=True),
+    _troubled("leaves and returns", leaves_picture=True, pictures=True),
+    _troubled("dim", light="dim", pictures=True),
+    _troubled("dark skin", skin_tone=5, pictures=True),
+    _troubled("child", hand_length_mm=135.0, pictures=True),
     _troubled("left hand", hand="left"),
     _troubled("skin moves 6 mm", skin_movement_mm=6.0),
     _troubled("clicks off by 5 px", click_error_px=5.0),
     _troubled("depth scale 2 %", depth_scale_error=0.02),
     _troubled("15 frames a second", fps=15.0),
     _troubled("10 % dropped", dropped_share=0.1),
-    _troubled("blue sleeve", sleeve="blue"),
+    _troubled("blue sleeve", sleeve="blue", pictures=True),
 )
 """The mixed exercise of the wrist under one trouble more, or less, at a time."""
 

@@ -15,6 +15,9 @@ from core.types import Detections, FloatArray
 OWN_PX = 6.0
 """A blob's middle further than this from a disc's is not that disc's, even half covered."""
 LEAST_SEEN = 0.1
+LEAST_DISCS = 3
+ENOUGH_DISCS = 4
+"""So many discs of the palm are enough to find it anew."""
 
 
 def true_names(labels: NDArray[np.int64], markers: int) -> NDArray[np.int64]:
@@ -44,6 +47,26 @@ def detected_sequence(truth: Truth, session: Path) -> MeasurementSequence:
     blobs = tuple(table.of_frame(i) for i in range(len(truth.timestamp_s)))
     labels = tuple(markers_of(b, truth.disc_pixel[i], truth.visible_share[i]) for i, b in enumerate(blobs))
     return MeasurementSequence(truth, blobs, labels)
+
+
+def scored_frames(truth: Truth, begin_s: float) -> NDArray[np.bool_]:
+    """Frames (N,) after ``begin_s`` with three discs of the palm inside the picture: without, nothing can be known."""
+    camera = truth.camera
+    palm = truth.disc_pixel[:, list(truth.spec.marker_protocol.palm)]
+    inside = ((palm >= 0.0) & (palm <= [camera.width_px - 1, camera.height_px - 1])).all(axis=-1)
+    return np.asarray((truth.timestamp_s > begin_s) & (inside.sum(axis=1) >= LEAST_DISCS))
+
+
+def longest_untracked_s(sequence: MeasurementSequence, tracked: NDArray[np.bool_]) -> float:
+    """Longest time on end that the hand was not tracked (N,) though the blobs of four discs of its palm were there."""
+    palm = np.array(sequence.truth.spec.marker_protocol.palm)
+    could = np.array([np.isin(palm, names).sum() >= ENOUGH_DISCS for names in sequence.marker])
+    longest, since = 0.0, None
+    for now_s, missed in zip(sequence.truth.timestamp_s, could & ~tracked, strict=True):
+        if since is not None:
+            longest = max(longest, float(now_s - since))
+        since = (now_s if since is None else since) if missed else None
+    return longest
 
 
 def measured_and_errors(sequence: MeasurementSequence) -> tuple[FloatArray, FloatArray]:

@@ -25,7 +25,7 @@ from core.so3 import nearest_rotation
 from core.types import FloatArray, Frame, TrackStatus
 from tests.accuracy.runs import SIMPLEST, Estimate, Mode, Run, degrees_between, longest_s
 from tests.accuracy.scenarios import Scenario
-from tests.accuracy.sequences import OWN_PX
+from tests.accuracy.sequences import OWN_PX, longest_untracked_s, scored_frames
 
 REACH_PX = 25.0
 """A marker's blob is not looked for further than this from its last place."""
@@ -112,7 +112,7 @@ def simplest_run(scenario: Scenario, sequence: MeasurementSequence, begin_s: flo
     known = np.isfinite(neutral).all()
     rotation = turns(neutral, points) if known else np.full((len(times), 3, 3), np.nan)
     ms = 1e3 * (time.process_time() - begin) / len(times)
-    scored = times > begin_s
+    scored = scored_frames(truth, begin_s)
     error = degrees_between(angles_from_rotation(rotation, truth.spec.hand), truth.angles_rad)[scored]
     wrong = np.zeros(pixel.shape[:2], dtype=bool)
     for i, marker in np.argwhere(np.isfinite(pixel[..., 0])):
@@ -130,5 +130,6 @@ def simplest_run(scenario: Scenario, sequence: MeasurementSequence, begin_s: flo
         int(np.isfinite(pixel[scored, :, 0]).sum()),
         int(wrong[scored].sum()),
         longest_s(wrong[scored], times[scored]),
+        longest_untracked_s(sequence, seen_enough),
         ms,
     )

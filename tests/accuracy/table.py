@@ -64,7 +64,7 @@ def terminal(rows: Sequence[Row]) -> str:
     """A block for every row, a line for every method."""
     lines: list[str] = []
     head = (
-        f"{'':24}{'RMSE, degrees':>22}{'95th percentile':>22}{'tracked %':>11}{'wrong %':>9}{'for s':>7}"
+        f"{'':24}{'RMSE, degrees':>22}{'95th percentile':>22}{'tracked %':>11}{'wrong %':>9}{'for s':>7}{'back s':>8}"
         f"{'within 2 sd, % (worst)':>28}{'mean sd / RMSE':>22}{'ms':>8}"
     )
     columns: tuple[str, ...] = ()
@@ -80,7 +80,7 @@ def terminal(rows: Sequence[Row]) -> str:
             inside = _three(s.inside, 0, 100.0) + worst
             lines.append(
                 f"  {label:22}{_three(s.rmse):>22}{_three(s.p95):>22}{100 * s.tracked:>11.1f}{100 * s.wrong:>9.2f}"
-                f"{s.longest_wrong_s:>7.1f}{inside:>28}{_three(s.sd_over_rmse):>22}{s.ms:>8.2f}"
+                f"{s.longest_wrong_s:>7.2f}{s.longest_untracked_s:>8.2f}{inside:>28}{_three(s.sd_over_rmse):>22}{s.ms:>8.2f}"
             )
     return "\n".join(lines)
 
