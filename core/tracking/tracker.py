@@ -13,6 +13,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from core import so3
 from core.calibration.result import Calibration
 from core.camera import Camera
 from core.tracking import modes
@@ -37,6 +38,9 @@ _SAME_AXIS = np.eye(2)
 LEAST_PALM_MARKERS = 3
 VAGUE_TURN_RAD = 0.15
 """Expecting the hand's turn less surely than this, the filter may settle on wrong names or at a wrong pose."""
+
+TURN_SLACK_RAD, MOST_TURN_RATE_RAD_S, MOST_TURN_RAD = 0.35, 12.0, 1.9
+"""A hand gone from sight is not found turned further than it may have turned meanwhile, nor ever about the other way."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -108,10 +112,9 @@ class Tracker:
             self._fingers.begin_at_neutral()
         self._anew = True
 
-    def _begin(self, belief: Belief) -> ModeBank:
+    def _begin(self, belief: Belief) -> None:
         self._bank = ModeBank.of(belief, self._scales.size)
         self._forecast = None
-        return self._bank
 
     @property
     def is_lost(self) -> bool:
@@ -166,11 +169,13 @@ class Tracker:
         if (few or vague) and np.count_nonzero(step.spare) + step.palm_seen > LEAST_PALM_MARKERS:
             # Too little of the palm is where it was expected, or too little was expected: it may be anywhere.
             found = find_palm(ideal if vague else _only(ideal, ~step.is_finger), self.view, self._reach())
-            if found is not None and (vague or found[2] > step.palm_seen):
-                bank = self._begin(self._belief_found(*found[:2]))
-                # A vague belief has nothing against the place found: the smoother may go on through it.
-                ahead, linked = forecast(bank, self.layout, self.view, self.settings.spread), linked and vague
-                step = self._weighed(timestamp_s, dt_s, ahead, blobs, ideal)
+            if found is not None and (vague or found[2] > step.palm_seen) and self._may_be_at(found[1], timestamp_s):
+                bank = ModeBank.of(self._belief_found(*found[:2]), self._scales.size)
+                there = forecast(bank, self.layout, self.view, self.settings.spread)
+                step_there = self._weighed(timestamp_s, dt_s, there, blobs, ideal)
+                if step_there.palm_seen >= max(LEAST_PALM_MARKERS + 1, step.palm_seen):
+                    # A vague belief has nothing against the place found: the smoother may go on through it.
+                    ahead, step, linked = there, step_there, linked and vague
         self._time_s, self._forecast = timestamp_s, None
         self._noise_factor = watched(self._noise_factor, step.palm, dt_s, self.settings.noise)
         belief = step.bank.nominal
@@ -193,6 +198,13 @@ class Tracker:
             self._finger_history.append(finger_step)
             self.history.append(FilterStep(timestamp_s, belief, scale, linked))
         return self._shown(index, timestamp_s, status, ahead, step, detections, dropped_before)
+
+    def _may_be_at(self, rotation_w2_w0: FloatArray, timestamp_s: float) -> bool:
+        """Whether a hand can have turned there since it was last seen."""
+        assert self._bank is not None
+        apart = so3.log(self._bank.nominal.rotation_w2_w0.T @ rotation_w2_w0)
+        gone_s = timestamp_s - max(self._seen_s, self._begun_s)
+        return float(np.linalg.norm(apart)) < min(TURN_SLACK_RAD + MOST_TURN_RATE_RAD_S * gone_s, MOST_TURN_RAD)
 
     def _measurable(self, ahead: Forecast, ideal: Detections) -> Measurable:
         depth_m = max(float(ahead.marker_mean[0, 2]), 0.1)

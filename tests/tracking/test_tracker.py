@@ -203,6 +203,18 @@ def test_a_hand_hidden_for_long_is_lost_and_everything_is_unknown_until_it_is_fo
     assert named_rightly(tracked[-1], elsewhere)
 
 
+def test_what_lies_turned_about_is_not_the_hand_that_was_just_covered() -> None:
+    """Blobs in the shape of a palm that points backwards: no wrist turns so far while it is covered for a blink."""
+    tracker = Tracker(calibration(), CAMERA, TrackerSettings())
+    backwards = Pose(np.array([175.0, 0.0, 0.0]), np.array([0.08, 0.0, 0.0]))
+    rng = np.random.default_rng(5)
+    for i in range(60):
+        there = Pose() if not 20 <= i < 50 else backwards
+        frame = tracker.step(i, i * DT_S, blobs(there, rng))
+        assert np.abs(np.degrees(frame.angles_rad)).max() < 20.0
+        assert frame.status is (TrackStatus.PREDICTED if 20 <= i < 50 else TrackStatus.TRACKED)
+
+
 def test_a_jump_in_plain_sight_is_followed_within_three_frames() -> None:
     rng = np.random.default_rng(4)
     there = moved(Pose(np.array([-15.0, 30.0, 10.0])), [0.05, -0.06, 0.02])
