@@ -40,7 +40,7 @@ VAGUE_TURN_RAD = 0.15
 """Expecting the hand's turn less surely than this, the filter may settle on wrong names or at a wrong pose."""
 
 TURN_SLACK_RAD, MOST_TURN_RATE_RAD_S, MOST_TURN_RAD = 0.35, 12.0, 1.9
-"""A hand gone from sight is not found turned further than it may have turned meanwhile, nor ever about the other way."""
+"""A hand gone from sight is not found turned further than it may have turned meanwhile, nor ever the other way."""
 
 
 @dataclass(frozen=True, slots=True)
