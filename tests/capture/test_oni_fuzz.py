@@ -1,6 +1,6 @@
 """Mutated recordings: whatever a file holds, Carpus survives it, says so, and does not wait long for it.
 
-``CARPUS_FUZZ_FILES=2000`` runs more of them; the numbers name the files, so any one can be made again.
+``CARPUS_FUZZ_FILES=20000`` runs more of them; the numbers name the files, so any one can be made again.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ from core.capture.oni_source import OniSource
 from core.errors import CarpusFault, DriverFailed
 from tests.capture.oni_samples import HEIGHT, WIDTH, records, write_sample
 
-COUNT = int(os.environ.get("CARPUS_FUZZ_FILES", "300"))
+COUNT = int(os.environ.get("CARPUS_FUZZ_FILES", "2000"))
 LIMIT_S = 5.0
 """For the library to answer, or to be given up. Starting the process comes on top on a busy computer."""
 NUMBERS = (0, 1, 2, 27, 29, 255, 65_535, 65_536, 5_760_000, 0x7FFFFFFF, 0x80000000, 0xFFFFFFFF)

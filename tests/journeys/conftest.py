@@ -11,7 +11,7 @@ from dataclasses import replace
 from pathlib import Path
 
 import pytest
-from PySide6.QtCore import QLocale
+from PySide6.QtCore import QCoreApplication, QEvent, QLocale
 from PySide6.QtWidgets import QApplication
 
 from app.compose import Desktop, application, compose
@@ -53,5 +53,8 @@ def open_desktop(qapp: QApplication, take: Path, data: Path, tmp_path: Path) -> 
     yield open_one
     for desktop in opened:
         desktop.close()
-        desktop.shell.deleteLater()
+    # left alive, they would make every later change of style as slow as all of them together
+    for widget in qapp.topLevelWidgets():
+        widget.deleteLater()
     qapp.processEvents()
+    QCoreApplication.sendPostedEvents(None, QEvent.Type.DeferredDelete.value)
