@@ -10,6 +10,7 @@ import sys
 import time
 from collections.abc import Sequence
 
+from tests.accuracy import hand21_table
 from tests.accuracy.jobs import all_runs, jobs_for
 from tests.accuracy.scenarios import GROUPS
 from tests.accuracy.table import markdown, rows_of, terminal
@@ -20,7 +21,7 @@ QUICK_SEEDS = 3
 
 def main(arguments: Sequence[str] | None = None) -> int:
     parser = argparse.ArgumentParser(prog="python -m tests.accuracy", description=__doc__)
-    parser.add_argument("--group", choices=("all", *GROUPS), default="all", help="which rows")
+    parser.add_argument("--group", choices=("all", *GROUPS, "hand"), default="all", help="which rows")
     parser.add_argument("--only", default="", metavar="TEXT", help="rows whose name holds this")
     parser.add_argument(
         "--seeds", type=int, default=10, help="simulated recordings a row (the fast row takes three times)"
@@ -30,6 +31,10 @@ def main(arguments: Sequence[str] | None = None) -> int:
     parser.add_argument("--markdown", action="store_true", help="the table of the README instead")
     parser.add_argument("--processes", type=int, default=2)
     options = parser.parse_args(arguments)
+    if options.group == "hand":
+        seeds, pictures = (QUICK_SEEDS, 0) if options.quick else (options.seeds, options.pictures)
+        print(hand21_table.report(options.only, seeds, pictures, options.processes, as_markdown=options.markdown))
+        return 0
     groups = GROUPS.values() if options.group == "all" else (GROUPS[options.group],)
     scenarios = [row for group in groups for row in group if options.only.lower() in row.name.lower()]
     if not scenarios:

@@ -1,0 +1,258 @@
+"""``python -m tests.accuracy --group hand``: the joints of the whole hand against simulated truth."""
+
+from __future__ import annotations
+
+import multiprocessing
+import sys
+from collections.abc import Iterator, Sequence
+from concurrent.futures import ProcessPoolExecutor
+from dataclasses import dataclass
+
+import numpy as np
+from threadpoolctl import threadpool_limits
+from tqdm import tqdm
+
+from core.types import FloatArray
+from tests.accuracy.hand21 import (
+    ANGLES,
+    JOINT_GROUPS,
+    REPORT_SEEDS,
+    ROWS,
+    WRIST,
+    HandRun,
+    HandScenario,
+    run_on_blobs,
+    run_on_pictures,
+    tracked,
+)
+from tests.accuracy.runs import Mode
+from tests.accuracy.targets import Verdict
+
+MOST_RMSE_DEG = {
+    "joints": {"MCP flexion": 2.5, "PIP flexion": 3.0, "DIP flexion": 3.0},
+    "skin": {"MCP flexion": 3.5, "PIP flexion": 4.0, "DIP flexion": 4.0},
+}
+MOST_RMSE_ALWAYS = {"thumb MCP": 3.0, "thumb IP": 4.0, "abduction": 2.0}
+MOST_WRIST_DEG = (0.3, 1.0, 1.2)
+MOST_DISC_MM = (1.0, 3.0)
+INSIDE = (0.90, 0.98)
+MOST_SD_OVER_RMSE = 1.5
+
+
+@dataclass(frozen=True, slots=True)
+class Figures:
+    """One group of angles over runs, degrees: RMSE, mean stated sd and share within two sds, of what was seen and of
+    what was hidden, and of all; ``back`` RMSE of what was seen when looking back."""
+
+    rmse: float
+    sd: float
+    inside: float
+    hidden_rmse: float
+    hidden_sd: float
+    hidden_inside: float
+    all_inside: float
+    back: float
+    back_inside: float
+
+    @property
+    def sd_over_rmse(self) -> float:
+        return self.sd / self.rmse
+
+
+@dataclass(frozen=True, slots=True)
+class HandJob:
+    """One recording of one row."""
+
+    row: HandScenario
+    number: int
+    mode: Mode
+    first_seed: int = REPORT_SEEDS
+
+
+def hand_job_done(job: HandJob) -> HandRun:
+    """The recording tracked."""
+    run = run_on_blobs if job.mode == "blobs" else run_on_pictures
+    with threadpool_limits(1):
+        return run(job.row, job.row.spec(job.number, job.first_seed))
+
+
+def hand_jobs(rows: Sequence[HandScenario], seeds: int, pictures: int, first_seed: int = REPORT_SEEDS) -> list[HandJob]:
+    """The rendered recordings first: they take longest."""
+    out = [HandJob(row, i, "pictures", first_seed) for row in rows if row.pictures for i in range(pictures)]
+    return out + [HandJob(row, i, "blobs", first_seed) for row in rows for i in range(seeds * row.weight)]
+
+
+def all_hand_runs(jobs: Sequence[HandJob], processes: int) -> list[HandRun]:
+    """Runs of all jobs, in their order; progress goes to stderr."""
+    context = multiprocessing.get_context("spawn")
+    with ProcessPoolExecutor(processes, mp_context=context) as pool:
+        return list(tqdm(pool.map(hand_job_done, jobs), total=len(jobs), file=sys.stderr))
+
+
+def figures(runs: Sequence[HandRun], group: str) -> Figures:
+    """The figures of one group of joints."""
+    columns = [ANGLES.index(name) for name in JOINT_GROUPS[group]]
+
+    def pooled(values: Sequence[FloatArray]) -> FloatArray:
+        return np.concatenate([value[:, columns].ravel() for value in values])
+
+    seen = pooled([run.seen for run in runs]).astype(bool)
+    compared = pooled([run.compared for run in runs]).astype(bool)
+    error, sd = pooled([run.joint_deg for run in runs]), pooled([run.joint_sd_deg for run in runs])
+    back, back_sd = pooled([run.smoothed_deg for run in runs]), pooled([run.smoothed_sd_deg for run in runs])
+    known = compared & np.isfinite(error) & np.isfinite(back)
+    shown, hidden = known & seen, known & ~seen
+    inside, back_inside = np.abs(error) <= 2.0 * sd, np.abs(back) <= 2.0 * back_sd
+    return Figures(
+        _rms(error[shown]),
+        _mean(sd[shown]),
+        _mean(inside[shown]),
+        _rms(error[hidden]),
+        _mean(sd[hidden]),
+        _mean(inside[hidden]),
+        _mean(inside[known]),
+        _rms(back[shown]),
+        _mean(back_inside[known]),
+    )
+
+
+def _rms(values: FloatArray) -> float:
+    return float(np.sqrt(np.mean(values**2))) if values.size else float("nan")
+
+
+def _mean(values: FloatArray) -> float:
+    return float(np.mean(values)) if values.size else float("nan")
+
+
+def wrist_rmse(runs: Sequence[HandRun]) -> FloatArray:
+    """RMSE (3,) of the wrist's angles, degrees."""
+    error = np.concatenate([run.wrist_deg for run in runs])
+    return np.asarray(np.sqrt(np.nanmean(error**2, axis=0)))
+
+
+def wrist_inside(runs: Sequence[HandRun]) -> FloatArray:
+    """Share (3,) of the frames with the wrist's truth within two sds."""
+    error, sd = np.concatenate([run.wrist_deg for run in runs]), np.concatenate([run.wrist_sd_deg for run in runs])
+    return np.asarray(np.nanmean(np.where(np.isfinite(error), np.abs(error) <= 2.0 * sd, np.nan), axis=0))
+
+
+def disc_mm(runs: Sequence[HandRun]) -> FloatArray:
+    """Median and 95th percentile of the discs' errors."""
+    return np.asarray(np.percentile(np.concatenate([run.disc_mm for run in runs]), (50.0, 95.0)))
+
+
+def _by_row(
+    runs: Sequence[HandRun], rows: Sequence[HandScenario]
+) -> Iterator[tuple[HandScenario, Mode, list[HandRun]]]:
+    for row in rows:
+        for mode in ("blobs", "pictures"):
+            mine = [run for run in runs if run.scenario == row.name and run.mode == mode]
+            if mine:
+                yield row, mode, mine
+
+
+def terminal(runs: Sequence[HandRun], rows: Sequence[HandScenario]) -> str:
+    """A block for every row, a line for every group of joints."""
+    head = (
+        f"{'':16}{'RMSE':>7}{'sd/RMSE':>9}{'in 2 sd %':>11}{'back':>7}{'in 2 sd %':>11}"
+        f"{'hidden: RMSE':>15}{'sd':>7}{'in 2 sd %':>11}{'all %':>8}"
+    )
+    lines = []
+    for row, mode, mine in _by_row(runs, rows):
+        source = "simulated measurements" if mode == "blobs" else "rendered pictures"
+        lines += ["", f"{row.name}  [{len(mine)} x {source}]", head]
+        for group in JOINT_GROUPS:
+            f = figures(mine, group)
+            lines.append(
+                f"  {group:14}{f.rmse:7.2f}{f.sd_over_rmse:9.2f}{100 * f.inside:11.1f}{f.back:7.2f}"
+                f"{100 * f.back_inside:11.1f}{f.hidden_rmse:15.1f}{f.hidden_sd:7.1f}{100 * f.hidden_inside:11.1f}"
+                f"{100 * f.all_inside:8.1f}"
+            )
+        lines += [f"  {line}" for line in _other_lines(mine)]
+    return "\n".join(lines[1:])
+
+
+def _other_lines(runs: Sequence[HandRun]) -> Iterator[str]:
+    rmse, inside = wrist_rmse(runs), wrist_inside(runs)
+    yield (
+        f"wrist {' / '.join(f'{v:.2f}' for v in rmse)}, in 2 sd {' / '.join(f'{100 * v:.0f}' for v in inside)} %; "
+        f"discs {disc_mm(runs)[0]:.2f} / {disc_mm(runs)[1]:.2f} mm"
+    )
+    wrong, taken = sum(run.wrong for run in runs), sum(run.taken for run in runs)
+    missed, shown = sum(run.missed for run in runs), sum(run.shown for run in runs)
+    status = np.concatenate([run.status for run in runs])
+    yield (
+        f"{100 * tracked(status):.1f} % tracked; wrong {100 * wrong / taken:.3f} % for at most "
+        f"{max(run.longest_wrong_s for run in runs):.2f} s; missed {100 * missed / shown:.2f} %; "
+        f"{np.mean([run.ms for run in runs]):.2f} ms"
+    )
+
+
+def markdown(runs: Sequence[HandRun], rows: Sequence[HandScenario]) -> str:
+    """One line for every row: RMSE of joints while seen, hidden ones with what was said of them."""
+    head = [
+        "row",
+        "recordings",
+        *JOINT_GROUPS,
+        "hidden joints: RMSE, stated sd",
+        "within 2 sd, %",
+        "wrist",
+        "discs, mm",
+    ]
+    lines = [" | ".join(head).join(("| ", " |")), "|---" * len(head) + "|"]
+    for row, mode, mine in _by_row(runs, rows):
+        found = [figures(mine, group) for group in JOINT_GROUPS]
+        hidden = [np.concatenate([_hidden(value, run) for run, value in pairs]) for pairs in (
+            [(run, run.joint_deg) for run in mine], [(run, run.joint_sd_deg) for run in mine]
+        )]  # fmt: skip
+        cells = [row.name if mode == "blobs" else f"{row.name} (pictures)", str(len(mine))]
+        cells += [f"{f.rmse:.1f}" for f in found]
+        cells.append(f"{_rms(hidden[0]):.0f}, {_mean(hidden[1]):.0f}")
+        cells.append(f"{100 * min(f.all_inside for f in found):.0f} to {100 * max(f.all_inside for f in found):.0f}")
+        cells.append(" / ".join(f"{v:.1f}" for v in wrist_rmse(mine)))
+        cells.append(" / ".join(f"{v:.1f}" for v in disc_mm(mine)))
+        lines.append(" | ".join(cells).join(("| ", " |")))
+    return "\n".join(lines)
+
+
+def _hidden(values: FloatArray, run: HandRun) -> FloatArray:
+    return np.asarray(values[~run.seen & np.isfinite(run.joint_deg)])
+
+
+def hand_verdicts(runs: Sequence[HandRun], rows: Sequence[HandScenario]) -> Iterator[Verdict]:
+    """What was promised of the hand, by the simulated measurements."""
+    for row, mode, mine in _by_row(runs, rows):
+        if row.limits is None or mode != "blobs":
+            continue
+        for group, limit in {**MOST_RMSE_DEG[row.limits], **MOST_RMSE_ALWAYS}.items():
+            found = figures(mine, group)
+            yield Verdict(
+                f"{row.name}: RMSE of {group} while seen at most {limit:g} degrees", f"{found.rmse:.2f}",
+                found.rmse <= limit,
+            )  # fmt: skip
+        for group in JOINT_GROUPS:
+            found = figures(mine, group)
+            low, high = INSIDE
+            yield Verdict(
+                f"{row.name}: truth of {group} within 2 sd in {100 * low:.0f} to {100 * high:.0f} %, hidden included",
+                f"{100 * found.all_inside:.1f} %",
+                low <= found.all_inside <= high,
+            )
+            yield Verdict(
+                f"{row.name}: mean sd of {group} while seen at most {MOST_SD_OVER_RMSE:g} times the RMSE",
+                f"{found.sd_over_rmse:.2f}",
+                found.sd_over_rmse <= MOST_SD_OVER_RMSE,
+            )
+        for name, limit, value in zip(WRIST, MOST_WRIST_DEG, wrist_rmse(mine), strict=True):
+            yield Verdict(f"{row.name}: RMSE of wrist {name} at most {limit:g} degrees", f"{value:.2f}", value <= limit)
+        for name, limit, value in zip(("median", "95th percentile"), MOST_DISC_MM, disc_mm(mine), strict=True):
+            yield Verdict(f"{row.name}: {name} of the discs at most {limit:g} mm", f"{value:.2f}", bool(value <= limit))
+
+
+def report(only: str, seeds: int, pictures: int, processes: int, *, as_markdown: bool) -> str:
+    """Run the rows whose name holds ``only`` and tell."""
+    rows = [row for row in ROWS if only.lower() in row.name.lower()]
+    runs = all_hand_runs(hand_jobs(rows, seeds, pictures), processes)
+    if as_markdown:
+        return markdown(runs, rows)
+    return "\n".join([terminal(runs, rows), "", *map(str, hand_verdicts(runs, rows))])
