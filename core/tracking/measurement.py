@@ -100,6 +100,8 @@ class Forecast:
     cross: FloatArray
     mixture_mean: FloatArray
     mixture_covariance: FloatArray
+    own_mean: FloatArray
+    own_covariance: FloatArray
 
     @staticmethod
     def of(bank: ModeBank, marker_mean: FloatArray, marker_covariance: FloatArray, cross: FloatArray) -> Forecast:
@@ -109,13 +111,13 @@ class Forecast:
         apart = marker_mean - mean
         covariance = (probability @ marker_covariance.reshape(probability.size, -1)).reshape(mean.size, mean.size)
         covariance += (apart.T * probability) @ apart
-        return Forecast(bank, marker_mean, marker_covariance, cross, mean, covariance)
+        count = mean.size // 3
+        own = np.einsum("iaib->iab", covariance.reshape(count, 3, count, 3))
+        return Forecast(bank, marker_mean, marker_covariance, cross, mean, covariance, mean.reshape(count, 3), own)
 
     def by_marker(self) -> tuple[FloatArray, FloatArray]:
         """Mean (M, 3) and covariance (M, 3, 3) of each marker's own measurement over all modes; views."""
-        count = self.mixture_mean.size // 3
-        blocks = self.mixture_covariance.reshape(count, 3, count, 3)
-        return self.mixture_mean.reshape(count, 3), np.einsum("iaib->iab", blocks)
+        return self.own_mean, self.own_covariance
 
     def mixture(self) -> tuple[FloatArray, FloatArray]:
         """Mean (3M,) and covariance (3M, 3M) of the measurements over all modes."""
