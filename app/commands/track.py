@@ -65,6 +65,12 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--exercise", default="", help="stored in the session")
 
 
+COLOR_ALONE = (
+    "Without depth a palm tilted towards the camera looks almost like one tilted away, its mirror image; "
+    "check the signs of flexion and pro/supination, or track with depth."
+)
+
+
 def settings_from(arguments: argparse.Namespace) -> TrackSettings:
     """The settings that the options name."""
     tracker = TrackerSettings(
@@ -79,6 +85,8 @@ def settings_from(arguments: argparse.Namespace) -> TrackSettings:
 
 def run(arguments: argparse.Namespace) -> int:
     settings = settings_from(arguments)
+    if not settings.tracker.use_depth:
+        print(f"carpus: {COLOR_ALONE}", file=sys.stderr)
     if arguments.recording.suffix == ".h5" and arguments.recording.is_file():
         with bar("tracking again") as progress:
             report = retrack_session(
