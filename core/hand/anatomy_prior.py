@@ -22,9 +22,10 @@ RAY_DISCS = ((2, 3, 4), (6, 7, 8), (10, 11, 12), (14, 15, 16), (18, 19, 20))
 
 _PALM = list(HAND21.palm)
 
-# Scatter of the depth of joint centres between adults, a quarter of the ranges of reference 2.
-_DEPTH_SD_M = np.array([0.0015, 0.001, 0.0006, 0.0005])  # CMC1, MCP1, IP1, TIP1
-_FINGER_DEPTH_SD_M = np.array([0.00125, 0.00075, 0.0006, 0.0005])  # MCP, PIP, DIP, TIP
+# Scatter of the depth of each joint centre by itself: a sixth of the ranges of reference 2, which also hold the
+# sizes of hands (the table is scaled by them) and how much flesh there is (common to a ray, ``height_scale``).
+_DEPTH_SD_M = np.array([0.001, 0.0007, 0.0004, 0.00033])  # CMC1, MCP1, IP1, TIP1
+_FINGER_DEPTH_SD_M = np.array([0.00083, 0.0005, 0.0004, 0.00033])  # MCP, PIP, DIP, TIP
 _FIXED = 1e-6
 _DOWN = np.array([1.0, 1.0, -1.0])
 
@@ -42,13 +43,13 @@ class AnatomyPrior:
 
     bone_share: float = 0.06
     last_bone_share: float = 0.20
-    fan_rad: float = math.radians(2.5)
+    fan_rad: float = math.radians(1.8)
     thumb_fan_rad: float = math.radians(5.0)
     thumb_roll_rad: float = math.radians(6.0)
-    height_scale: float = 0.2
+    height_scale: float = 0.1
     start_ahead_m: float = 0.0015
     start_aside_m: float = 0.0007
-    neutral_abduction_rad: float = math.radians(2.5)
+    neutral_abduction_rad: float = math.radians(1.8)
     neutral_flexion_rad: float = math.radians(6.0)
     neutral_thumb_rad: float = math.radians(5.0)
     relaxed_flexion_rad: float = math.radians(4.0)

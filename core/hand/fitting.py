@@ -1,4 +1,4 @@
-"""One subject's anatomy from the measured discs: at the neutral pose first, then from movement.
+"""One subject's anatomy from the discs measured at the neutral pose; movement sharpens it in the filter.
 
 The anatomical table is the prior (clinical reference 2 and 3.3). The neutral chain is not taken as straight: the
 discs of one finger stand at different heights over the bones, and a patient may not be able to stretch a finger.
@@ -7,7 +7,6 @@ Each ray is fitted on its own, the palm's discs being given.
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -16,20 +15,17 @@ from core.hand.anatomy import HandAnatomy
 from core.hand.anatomy_prior import (
     RAY_DISCS,
     AnatomyPrior,
-    angles_covariance,
     average_hand,
     constants_prior,
     neutral_prior,
     with_constants,
 )
-from core.hand.kinematics import finger_angles
 from core.hand.protocols import HAND21
 from core.hand.ray_fitting import Gaussian, RayModel, finger_model, fit_ray, thumb_model
 from core.types import FloatArray, Side
 
 _ABSURD_COST = 30.0
 _ABSURD_GAIN = 12.0
-_MOVING_RAD = math.radians(25.0)
 
 
 @dataclass(frozen=True, slots=True)
@@ -56,17 +52,6 @@ class SeenDiscs:
 
 
 @dataclass(frozen=True, slots=True)
-class NeutralBasis:
-    """What a refinement starts from again, in axes of a right hand: the prior of the ``rays`` (5, 11), and the neutral
-    pose's ``disc_m`` (1, 21, 3) and ``information_m2`` (1, 21, 3, 3) without the absurd depths."""
-
-    prior: AnatomyPrior
-    rays: Gaussian
-    disc_m: FloatArray
-    information_m2: FloatArray
-
-
-@dataclass(frozen=True, slots=True)
 class AnatomyFit:
     """A subject's hand and how well it is known.
 
@@ -86,7 +71,6 @@ class AnatomyFit:
     residual_m: FloatArray
     absurd_depth: tuple[str, ...]
     dip_free: bool
-    basis: NeutralBasis
 
 
 def fit_anatomy(
@@ -112,52 +96,32 @@ def fit_anatomy(
         for i in _absurd_depths(model, known, angles, disc[:, own], information[:, own], across[:, own]):
             information[:, own[i]] = across[:, own[i]]
             absurd.append(HAND21.markers[own[i]])
-    basis = NeutralBasis(prior, rays, disc, information)
-    return _fitted(average, basis, tuple(absurd), dip_free, [])
-
-
-def refine_anatomy(fit: AnatomyFit, seen: SeenDiscs, angles_rad: FloatArray) -> AnatomyFit:
-    """The same hand from the neutral pose and F poses of movement, all that there are so far, not only new ones.
-
-    ``angles_rad`` (F, J) as tracked start the search and hold it within 25 degrees (one standard deviation).
-    """
-    disc, information = _right_handed(seen, fit.anatomy.side)
-    tracked = [angles_rad[:, :5], *np.moveaxis(finger_angles(angles_rad), 1, 0)]
-    movement = [
-        (angles, disc[:, list(own)], information[:, list(own)]) for angles, own in zip(tracked, RAY_DISCS, strict=True)
-    ]
-    return _fitted(fit.anatomy, fit.basis, fit.absurd_depth, fit.dip_free, movement)
+    return _fitted(average, rays, prior, disc, information, tuple(absurd), dip_free)
 
 
 def _fitted(
     hand: HandAnatomy,
-    basis: NeutralBasis,
+    average: Gaussian,
+    prior: AnatomyPrior,
+    disc_m: FloatArray,
+    information_m2: FloatArray,
     absurd_depth: tuple[str, ...],
     dip_free: bool,
-    movement: list[tuple[FloatArray, FloatArray, FloatArray]],
 ) -> AnatomyFit:
-    """Fit each ray to the neutral pose and, where given, to its angles, discs and information of F poses more."""
+    """Fit each ray to the neutral pose, discs (1, 21, 3) in axes of a right hand; ``average`` constants (5, 11)."""
     fits = []
     for ray, discs in enumerate(RAY_DISCS):
         own = list(discs)
-        angles = neutral_prior(ray, basis.prior, dip_free)
-        disc, information = basis.disc_m[:, own], basis.information_m2[:, own]
-        if movement:
-            tracked, more_disc, more_information = movement[ray]
-            wide = angles_covariance(np.full(tracked.shape[1], _MOVING_RAD), ray, dip_free, _MOVING_RAD)
-            wide = np.broadcast_to(wide, (len(tracked), *wide.shape))
-            angles = Gaussian(np.concatenate((angles.mean, tracked)), np.concatenate((angles.covariance, wide)))
-            disc = np.concatenate((disc, more_disc))
-            information = np.concatenate((information, more_information))
-        known = Gaussian(basis.rays.mean[ray], basis.rays.covariance[ray])
-        fits.append(fit_ray(_ray_model(hand, ray), known, angles, disc, information))
+        known = Gaussian(average.mean[ray], average.covariance[ray])
+        angles = neutral_prior(ray, prior, dip_free)
+        fits.append(fit_ray(_ray_model(hand, ray), known, angles, disc_m[:, own], information_m2[:, own]))
     rays = Gaussian(
         np.stack([fit.constants.mean for fit in fits]), np.stack([fit.constants.covariance for fit in fits])
     )
     residual = np.zeros((21, 3))
     for discs, fit in zip(RAY_DISCS, fits, strict=True):
         residual[list(discs)] = fit.residual_m[0]
-    residual[~np.isfinite(basis.disc_m[0])] = np.nan
+    residual[~np.isfinite(disc_m[0])] = np.nan
     return AnatomyFit(
         anatomy=with_constants(hand, rays.mean),
         rays=rays,
@@ -168,7 +132,6 @@ def _fitted(
         residual_m=residual * _mirror(hand.side),
         absurd_depth=absurd_depth,
         dip_free=dip_free,
-        basis=basis,
     )
 
 

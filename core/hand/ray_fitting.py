@@ -8,7 +8,7 @@ All in axes of a right hand.
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -27,9 +27,7 @@ RayModel = Callable[[FloatArray, FloatArray], FloatArray]
 
 _DOWN = np.array([1.0, 1.0, -1.0])
 _MOST_STEPS = 30
-_REWEIGHTS = 2
 _SETTLED = 1e-4
-_OUTLIER_SD = 3.0
 _DIFFERENCE_STEP = 1e-5  # metres and radians alike
 
 
@@ -83,19 +81,15 @@ def fit_ray(
 
     ``constants`` and ``angles`` are the priors, (11) and (F, 4 or 5); the search starts at their means.
     ``disc_m`` (F, 3, 3) measured discs in W, ``information_m2`` (F, 3, 3, 3) inverse covariances in 1/m2, zero where
-    a disc (or its depth) is not known. With more than one pose, discs over 3 standard deviations off lose weight.
+    a disc (or its depth) is not known.
     """
-    given = _Problem(
+    problem = _Problem(
         model, constants.mean, _inverse(constants.covariance), angles.mean, _inverse(angles.covariance),
         np.where(np.isfinite(disc_m), disc_m, 0.0), _square_root(information_m2),
     )  # fmt: skip
-    problem = given
     c, q = _minimum(problem, constants.mean, angles.mean)
-    for _ in range(_REWEIGHTS if len(disc_m) > 1 else 0):
-        problem = replace(given, root=_huber_weight(given, c, q)[..., None, None] * given.root)
-        c, q = _minimum(problem, c, q)
     c_covariance, q_covariance, cross = _NormalEquations.at(problem, c, q).covariances()
-    residual_m = model(c, q) - given.disc_m
+    residual_m = model(c, q) - problem.disc_m
     return RayFit(Gaussian(c, c_covariance), Gaussian(q, q_covariance), cross, residual_m, problem.cost(c, q))
 
 
@@ -139,12 +133,6 @@ def _minimum(problem: _Problem, c: FloatArray, q: FloatArray) -> tuple[FloatArra
             break
         normal = _NormalEquations.at(problem, c, q)
     return c, q
-
-
-def _huber_weight(problem: _Problem, c: FloatArray, q: FloatArray) -> FloatArray:
-    """Root of the Huber weight of each disc (F, 3), 1 within 3 standard deviations."""
-    off = problem.residual(c, q).reshape(-1, 3, 3)
-    return np.asarray(np.sqrt(np.minimum(1.0, _OUTLIER_SD / np.maximum(np.linalg.norm(off, axis=-1), _OUTLIER_SD))))
 
 
 @dataclass(frozen=True, slots=True)

@@ -19,7 +19,7 @@ from core.tracking.hand_geometry import DISCS, RAYS, SLOTS, ray_frames
 from core.tracking.joint_association import holds_together
 from core.tracking.joint_limits import SOFT_RAD, outside_limits
 from core.tracking.naming import Measurable
-from core.tracking.ray_filter import RayBeliefs, RayForecast, RayLayout, RayUpdate, RayView, corrected
+from core.tracking.ray_filter import RayBeliefs, RayForecast, RayLayout, RayUpdate, RayView, corrected, learning_shares
 from core.tracking.settings import TrackerSettings
 from core.types import FloatArray
 
@@ -169,7 +169,14 @@ def corrected_as_named(
     else:
         measured, variance = np.full((RAYS, DISCS, 3), np.nan), np.ones((RAYS, DISCS, 3))
     measured, variance = measured.reshape(RAYS, 9), variance.reshape(RAYS, 9) * scene.noise_factor
-    update = corrected(beliefs, scene.line, measured, variance, scene.palm_part)
+    update = corrected(
+        beliefs,
+        scene.line,
+        measured,
+        variance,
+        scene.palm_part,
+        learning_shares(scene.layout, settings.fingers.learning),
+    )
     return NamedFingers(names, update, measured, variance)
 
 

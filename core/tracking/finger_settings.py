@@ -12,6 +12,7 @@ class FingerSettings:
     ``skin_offsets``: discs lie on the skin over the joints; without them the chain of the hand paper, discs in the
     joints. ``abduction_share`` of the process noise of flexion for abductions and the thumb's CMC (reference 4.5).
     ``range_after_s``: a joint that no disc shows is spread over its anatomical range within this time.
+    ``learning``: share of what a picture says of the anatomy that is believed, against errors that stay.
     ``drift_per_s``: share of what was not known of the anatomy that comes back each second (skin over bone).
     ``skin_px``: how far a disc on a finger strays from where the model has it, besides the noise of its centre.
     ``depth_bias_m`` and ``lateral_bias_m``: errors that stay with a disc, standard deviations; no averaging removes
@@ -22,10 +23,11 @@ class FingerSettings:
     skin_offsets: bool = True
     abduction_share: float = 0.5
     range_after_s: float = 0.5
+    learning: float = 0.3
     drift_per_s: float = 2e-3
     skin_px: float = 0.2
-    depth_bias_m: float = 0.0003
-    lateral_bias_m: float = 0.0001
+    depth_bias_m: float = 0.0004
+    lateral_bias_m: float = 0.00015
     hidden_s: float = 0.4
     shown_s: float = 3.0
     steepest_rad: float = 1.22

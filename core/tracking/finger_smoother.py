@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from core.tracking.finger_model import SHOWS, FingerModel, Seat
 from core.tracking.hand_geometry import RAYS, SLOTS, JointMoment
 from core.tracking.joint_limits import constrained
-from core.tracking.ray_filter import RayForecast, corrected, forecast, spread_points
+from core.tracking.ray_filter import RayForecast, corrected, forecast, learning_shares, spread_points
 from core.types import FloatArray
 
 
@@ -82,6 +82,7 @@ def _filtered(
     out: list[_Filtered | None] = []
     beliefs, unseen_s, time_s = model.at_neutral(), np.zeros((RAYS, SLOTS)), float("nan")
     is_lost = False
+    shares = learning_shares(model.layout, model.settings.fingers.learning)
     lower = np.tril_indices(model.layout.size)
     for step, seat in zip(steps, seats, strict=True):
         if step is None or seat is None:
@@ -100,7 +101,8 @@ def _filtered(
         if step.postures:
             beliefs = model.at_postures(beliefs, step.postures)
         line = _line(model, *beliefs.merged(), seat)
-        beliefs = corrected(beliefs, line, step.measured, step.variance, model.palm_part(line, seat)).beliefs
+        palm_part = model.palm_part(line, seat)
+        beliefs = corrected(beliefs, line, step.measured, step.variance, palm_part, shares).beliefs
         beliefs = constrained(beliefs, beliefs.merged()[0][:, :SLOTS])
         mean, covariance = beliefs.merged()
         scale = np.sqrt(beliefs.probability @ model.scales**2)

@@ -11,6 +11,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from functools import lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
@@ -318,11 +319,29 @@ class RayUpdate:
     residual: FloatArray
 
 
+@lru_cache(maxsize=8)
+def learning_shares(layout: RayLayout, learning: float) -> tuple[FloatArray, FloatArray]:
+    """Shares of a correction that the mean (n,) and the covariance (n, n) take, the constants only ``learning``.
+
+    Partial-update Schmidt-Kalman filter (Brink 2017): errors that stay with a disc come again in every picture, and
+    believed in full they would bend the anatomy until it explains them.
+    """
+    mean = np.ones(layout.size)
+    mean[layout.constants] = learning
+    covariance = mean[:, None] + mean - mean[:, None] * mean
+    return mean, covariance
+
+
 def corrected(
-    beliefs: RayBeliefs, line: RayForecast, measured: FloatArray, variance: FloatArray, palm_part: FloatArray
+    beliefs: RayBeliefs,
+    line: RayForecast,
+    measured: FloatArray,
+    variance: FloatArray,
+    palm_part: FloatArray,
+    shares: tuple[FloatArray, FloatArray],
 ) -> RayUpdate:
     """Kalman correction of every ray and mode by ``measured`` (5, 9), NaN where there is nothing, of ``variance``
-    (5, 9); ``palm_part`` (5, 9, 9) covariance that the palm's error gives them.
+    (5, 9); ``palm_part`` (5, 9, 9) covariance that the palm's error gives them; ``shares`` of :func:`learning_shares`.
 
     That error is taken as new in every frame; what of it stays is added when the joints are read.
     """
@@ -338,8 +357,8 @@ def corrected(
     s = cross @ np.swapaxes(slope, 1, 2)[:, None] + own[:, None]
     inverse = np.linalg.inv(s)
     gain_t = inverse @ cross
-    mean = beliefs.mean + (value[..., None, :] @ gain_t)[..., 0, :]
-    covariance = beliefs.covariance - np.swapaxes(gain_t, -1, -2) @ cross
+    mean = beliefs.mean + (value[..., None, :] @ gain_t)[..., 0, :] * shares[0]
+    covariance = beliefs.covariance - (np.swapaxes(gain_t, -1, -2) @ cross) * shares[1]
     covariance = 0.5 * (covariance + np.swapaxes(covariance, -1, -2))
     surprise = (inverse @ value[..., None])[..., 0]
     nis = np.sum(value * surprise, axis=-1)

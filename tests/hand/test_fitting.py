@@ -12,7 +12,7 @@ from scipy.optimize import least_squares
 
 from core.hand.anatomy import HandAnatomy, anatomy_from_size
 from core.hand.anatomy_prior import constants_of, with_constants
-from core.hand.fitting import AnatomyFit, SeenDiscs, fit_anatomy, refine_anatomy
+from core.hand.fitting import AnatomyFit, SeenDiscs, fit_anatomy
 from core.hand.kinematics import disc_centres
 from core.hand.protocols import HAND21, joint_angle_names
 from core.types import FloatArray, Side
@@ -78,18 +78,6 @@ def _seen(hand: HandAnatomy, angles: FloatArray, seed: int, depth_sd_m: float) -
     return SeenDiscs(discs + noise, view, LATERAL_M * ones, depth_sd_m * ones)
 
 
-@functools.cache
-def _calibrated(seed: int, depth_sd_m: float = 0.001) -> AnatomyFit:
-    hand = _person(seed)
-    return fit_anatomy(_seen(hand, _neutral(seed), seed, depth_sd_m), hand.side)
-
-
-@functools.cache
-def _refined(seed: int) -> AnatomyFit:
-    tracked = _fist(16) + np.random.default_rng(seed).normal(0.0, 0.08, (16, 17))
-    return refine_anatomy(_calibrated(seed), _seen(_person(seed), _fist(16), seed + 500, 0.002), tracked)
-
-
 def _angle_errors_deg(truth: HandAnatomy, found: HandAnatomy) -> FloatArray:
     """What the found hand reads from perfectly measured discs of the true one, minus the truth; (3 poses, 17)."""
     errors = []
@@ -113,24 +101,10 @@ def test_flexion_read_after_one_neutral_pose(depth_sd_m: float) -> None:
     assert _pooled_deg(fits, truths, _columns("PIP", "flexion")) < 4.2
 
 
-def test_movement_sharpens_the_hand() -> None:
-    truths = [_person(seed) for seed in range(COUNT)]
-    before, after = [_calibrated(seed) for seed in range(COUNT)], [_refined(seed) for seed in range(COUNT)]
-    for columns, limit_deg in [
-        (_columns("MCP", "flexion"), 1.6),
-        (_columns("PIP", "flexion"), 2.4),
-        ([NAMES.index("MCP1_flexion"), NAMES.index("IP1_flexion")], 3.0),
-    ]:
-        refined_deg = _pooled_deg(after, truths, columns)
-        assert refined_deg < limit_deg
-        assert refined_deg < _pooled_deg(before, truths, columns)
-
-
-@pytest.mark.parametrize("refined", [False, True])
-def test_stated_uncertainty_of_lengths_covers_the_truth(refined: bool) -> None:
+def test_stated_uncertainty_of_lengths_covers_the_truth() -> None:
     scores = []
     for seed in range(COUNT):
-        fit = _refined(seed) if refined else _calibrated(seed)
+        fit = _calibrated(seed)
         sd = np.sqrt(np.diagonal(fit.rays.covariance, axis1=1, axis2=2))
         scores.append(((fit.rays.mean - constants_of(_person(seed))) / sd)[1:, :3])
     assert 0.5 < np.sqrt(np.mean(np.square(scores))) < 1.4
@@ -198,34 +172,6 @@ def test_chain_of_the_papers_has_no_offsets() -> None:
     assert np.allclose(fit.anatomy.skin_offset_m, 0.0, atol=1e-5)
     flexions = _columns("MCP", "flexion") + _columns("PIP", "flexion")
     assert np.allclose(fit.neutral_angles_rad[flexions], _neutral(9)[flexions], atol=math.radians(2.0))
-
-
-def test_movement_finds_that_discs_lie_in_the_joints() -> None:
-    """A hand drawn by the papers' chain, tracked with the default offsets, reads right once it has moved."""
-    hands = [_person(seed, skin_offsets=False) for seed in (1, 6, 10)]
-    fits = []
-    for seed, hand in zip((1, 6, 10), hands, strict=True):
-        neutral = fit_anatomy(_seen(hand, _neutral(seed), seed, 0.0005), hand.side)
-        fits.append(refine_anatomy(neutral, _seen(hand, _fist(16), seed + 500, 0.002), _fist(16)))
-    assert _pooled_deg(fits, hands, _columns("MCP", "flexion")) < 1.5
-    assert _pooled_deg(fits, hands, _columns("PIP", "flexion")) < 2.0
-
-
-def test_swapped_discs_do_not_spoil_a_refinement() -> None:
-    hand, fit = _person(4), _calibrated(4)
-    seen = _seen(hand, _fist(16), 504, 0.002)
-    disc = seen.disc_m.copy()
-    swap = [HAND21.markers.index("DIP2"), HAND21.markers.index("DIP3")]
-    disc[[5, 9]] = np.where(np.isin(np.arange(21), swap)[:, None], disc[[5, 9]][:, _swapped(swap)], disc[[5, 9]])
-    refined = refine_anatomy(fit, dataclasses.replace(seen, disc_m=disc), _fist(16))
-    assert _pooled_deg([refined], [hand], _columns("PIP", "flexion")) < 3.0
-    assert _pooled_deg([refined], [hand], _columns("MCP", "flexion")) < 3.0
-
-
-def _swapped(pair: list[int]) -> list[int]:
-    order = list(range(21))
-    order[pair[0]], order[pair[1]] = pair[1], pair[0]
-    return order
 
 
 def test_constants_and_anatomy_are_two_forms_of_one_hand() -> None:
