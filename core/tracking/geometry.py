@@ -9,6 +9,7 @@ import numpy as np
 from core.calibration.result import Calibration
 from core.hand.protocols import WRIST6
 from core.tracking.measurement import RigidPalm
+from core.tracking.shape_learning import along_rays
 from core.types import FloatArray
 
 _FLOOR_M = 1e-5
@@ -29,14 +30,16 @@ def palm_of(calibration: Calibration) -> Calibration:
     )
 
 
-def geometry_for(calibration: Calibration, refine: bool) -> tuple[RigidPalm, FloatArray]:
-    """Rigid palm and the covariance (S, S) of its shape: 3 numbers a disc, or none when not refined."""
+def geometry_for(calibration: Calibration, refine: bool, depth_stays_m: float) -> tuple[RigidPalm, FloatArray]:
+    """Rigid palm and the covariance (S, S) of its shape: 3 numbers a disc, or none when not refined.
+
+    ``depth_stays_m``: what the scatter of a still hand's depths does not show of their error.
+    """
     palm = RigidPalm(calibration.marker_position_w0_m)
     if not refine:
         return palm, np.empty((0, 0))
     count = palm.marker_position_w0_m.shape[0]
-    covariance = np.zeros((3 * count, 3 * count))
-    for i in range(count):
-        block = slice(3 * i, 3 * i + 3)
-        covariance[block, block] = calibration.marker_covariance_w0_m2[i] + _FLOOR_M**2 * np.eye(3)
-    return palm, covariance
+    own = calibration.marker_covariance_w0_m2 + along_rays(calibration, depth_stays_m) + _FLOOR_M**2 * np.eye(3)
+    covariance = np.zeros((count, 3, count, 3))
+    covariance[np.arange(count), :, np.arange(count), :] = own
+    return palm, covariance.reshape(3 * count, -1)

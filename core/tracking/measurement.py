@@ -57,12 +57,17 @@ class RigidPalm:
 
 @dataclass(frozen=True, slots=True)
 class View:
-    """A hand of known geometry before a camera of known pose (g_w0c of the wrist paper)."""
+    """A hand of known geometry before a camera of known pose (g_w0c of the wrist paper).
+
+    ``hidden`` (M, S): by how much each number of the shape moves the depths less than the discs' places say, because
+    those of the calibration were as wrong; None for not at all.
+    """
 
     camera: Camera
     rotation_w0_cam: FloatArray
     translation_w0_cam_m: FloatArray
     geometry: MarkerGeometry
+    hidden: FloatArray | None = None
 
     def markers_cam_m(
         self, position_m: FloatArray, rotation_w2_w0: FloatArray, joints_rad: FloatArray, shape: FloatArray
@@ -83,6 +88,8 @@ class View:
         out[..., 0] += camera.cx_px
         out[..., 1] *= camera.fy_px / z
         out[..., 1] += camera.cy_px
+        if self.hidden is not None:
+            z -= shape @ self.hidden.T
         return out
 
 

@@ -12,7 +12,7 @@ from core.types import FloatArray
 
 
 def watched(factor: FloatArray, corrected: Corrected, dt_s: float, noise: MeasurementNoise) -> FloatArray:
-    """The variance factors (M, 3) after one more frame, 1 and more; pixels u, v of a marker share theirs.
+    """The variance factors (M, 3) after one more frame; pixels u, v of a marker share theirs.
 
     Squared residuals should average one; the factor moves towards what makes them so over ``adapt_s``.
     """
@@ -24,5 +24,5 @@ def watched(factor: FloatArray, corrected: Corrected, dt_s: float, noise: Measur
     squared[:, :2] = 0.5 * (squared[:, :1] + squared[:, 1:2])
     grown = factor * (1.0 + weight * (squared - 1.0))
     out = factor.copy()
-    out.reshape(-1)[rows] = np.minimum(np.maximum(grown.reshape(-1)[rows], 1.0), noise.most_adapted)
+    out.reshape(-1)[rows] = np.minimum(np.maximum(grown.reshape(-1)[rows], noise.least_adapted), noise.most_adapted)
     return out

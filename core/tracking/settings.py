@@ -26,10 +26,11 @@ class MeasurementNoise:
     """``pixel_sd_px`` of a whole, well lit disc's centre, measured anew on every still hand;
     ``pixel_model_sd_px`` what a still hand does not show (shading, blur, the lens);
     ``depth_ratio`` of the depths' scatter to that of a reading by the book, likewise measured;
+    ``depth_stays_m``: error of a disc's depth that stays over a recording (the matching window flattens knuckles);
     ``outlier_sd``: a residual beyond this many sds is given the noise it shows, at most ``most_outliers`` in a
     frame; ``adapt_s``: over which time each marker's own noise is judged by its residuals; its variance rises to at
-    most ``most_adapted`` times. ``shade_share``: how far the centre of a partly covered disc may wander, as a
-    share of its radius times what is missing of its area below ``whole_from``.
+    most ``most_adapted`` times and falls to ``least_adapted``. ``shade_share``: how far the centre of a partly
+    covered disc may wander, as a share of its radius times what is missing of its area below ``whole_from``.
     ``depth_outlier``: chance that a blob's depth is of something else.
     """
 
@@ -42,7 +43,9 @@ class MeasurementNoise:
     most_outliers: int = 3
     adapt_s: float = 0.5
     most_adapted: float = 100.0
+    least_adapted: float = 0.7
     depth_outlier: float = 1e-3
+    depth_stays_m: float = 3.5e-4
 
 
 @dataclass(frozen=True, slots=True)
@@ -52,8 +55,9 @@ class TrackerSettings:
     ``form``: the reduced filter or the papers' augmented one; ``motion``: constant rate or the papers'
     model (1); ``mode_scales``: the motion modes run side by side, as factors on the process noise;
     ``dip``: end joints bound to the middle joints or free; ``refine_shape``: keep measuring the palm while it
-    moves; ``marker_radius_m`` of the paper discs; ``lost_after_s`` without three palm markers the hand is lost;
-    ``rate_memory_s``: how long an unseen hand is taken to go on as it moved.
+    moves, the share ``shape_hidden`` of a correction taken for a depth that stays wrong, the share ``shape_news``
+    of what a frame says of it taken for new; ``marker_radius_m`` of the paper discs; ``lost_after_s`` without
+    three palm markers the hand is lost; ``rate_memory_s``: how long an unseen hand is taken to go on as it moved.
     """
 
     form: Literal["reduced", "augmented"] = "reduced"
@@ -62,6 +66,8 @@ class TrackerSettings:
     use_depth: bool = True
     dip: Literal["coupled", "free"] = "coupled"
     refine_shape: bool = True
+    shape_hidden: float = 0.5
+    shape_news: float = 0.1
     mode_scales: tuple[float, ...] = (0.5, 4.0)
     mode_dwell_s: float = 0.5
     spread: Spread = field(default_factory=Spread)

@@ -29,6 +29,7 @@ from core.tracking.noise_watch import watched
 from core.tracking.reacquire import Reach, find_palm
 from core.tracking.readout import Readout, lost_frame, lost_moment, shown_frame
 from core.tracking.settings import TrackerSettings
+from core.tracking.shape_learning import hidden_by_calibration, slowly_learnt
 from core.tracking.smoother import FilterStep, smooth
 from core.tracking.state import Belief, StateLayout, resting_belief
 from core.types import Detections, FloatArray, Moment, TrackedFrame, TrackStatus
@@ -36,8 +37,9 @@ from core.types import Detections, FloatArray, Moment, TrackedFrame, TrackStatus
 SHARE_WINDOW_S = 1.0
 _SAME_AXIS = np.eye(2)
 LEAST_PALM_MARKERS = 3
-VAGUE_TURN_RAD = 0.15
-"""Expecting the hand's turn less surely than this, the filter may settle on wrong names or at a wrong pose."""
+VAGUE_TURN_RAD, BLIND_TURN_RAD = 0.15, 0.35
+"""Expecting the hand's turn less surely than this, the filter may settle on wrong names or at a wrong pose; still less
+surely, any three blobs would do for three discs."""
 
 TURN_SLACK_RAD, MOST_TURN_RATE_RAD_S, MOST_TURN_RAD = 0.35, 12.0, 1.9
 """A hand gone from sight is not found turned further than it may have turned meanwhile, nor ever the other way."""
@@ -81,9 +83,10 @@ class Tracker:
         self._joint_count = 0 if self._fingers is None else self._fingers.model.reading.ray.size
         calibration = palm_of(calibration)
         self._calibration = calibration
-        geometry, shape_covariance = geometry_for(calibration, settings.refine_shape)
+        geometry, shape_covariance = geometry_for(calibration, settings.refine_shape, settings.noise.depth_stays_m)
+        hidden = hidden_by_calibration(calibration, settings.shape_hidden) if settings.refine_shape else None
         self.layout = StateLayout(0, settings.motion == "constant_rate", shape_covariance.shape[0])
-        self.view = View(camera, calibration.rotation_w0_cam, calibration.translation_w0_cam_m, geometry)
+        self.view = View(camera, calibration.rotation_w0_cam, calibration.translation_w0_cam_m, geometry, hidden)
         self._scales = np.array(settings.mode_scales if settings.motion == "constant_rate" else (1.0,))
         self._resolution_px2 = float(camera.width_px * camera.height_px)
         self._readout = Readout(calibration, self.layout)
@@ -92,7 +95,7 @@ class Tracker:
         self._recently_measured = np.zeros(self._joint_count or 3, dtype=np.int64)
         self._bank: ModeBank | None = None
         self._shape = np.zeros(shape_covariance.shape[0])
-        self._shape_covariance = shape_covariance
+        self._shape_covariance = self._calibrated_shape = shape_covariance
         self._time_s: float | None = None
         self._seen_s = -np.inf
         self._begun_s = -np.inf
@@ -104,8 +107,7 @@ class Tracker:
 
     def begin_at_neutral(self) -> None:
         """Start (again) from the calibrated pose, the hand at rest."""
-        _, self._shape_covariance = geometry_for(self._calibration, self.settings.refine_shape)
-        self._shape = np.zeros(self._shape_covariance.shape[0])
+        self._shape, self._shape_covariance = np.zeros_like(self._shape), self._calibrated_shape
         start = resting_belief(self.layout, self.settings.initial, shape_covariance=self._shape_covariance)
         self._begin(start)
         if self._fingers is not None:
@@ -164,7 +166,8 @@ class Tracker:
         ahead = self._forecast_at(timestamp_s, self._bank)
         blobs = self._measurable(ahead, ideal)
         step = self._weighed(timestamp_s, dt_s, ahead, blobs, ideal)
-        vague = _turn_sd_rad(ahead.bank, self.layout) > VAGUE_TURN_RAD
+        turn_sd_rad = _turn_sd_rad(ahead.bank, self.layout)
+        vague = turn_sd_rad > VAGUE_TURN_RAD
         few = step.palm_seen <= LEAST_PALM_MARKERS
         if (few or vague) and np.count_nonzero(step.spare) + step.palm_seen > LEAST_PALM_MARKERS:
             # Too little of the palm is where it was expected, or too little was expected: it may be anywhere.
@@ -175,7 +178,10 @@ class Tracker:
                 step_there = self._weighed(timestamp_s, dt_s, there, blobs, ideal)
                 if step_there.palm_seen >= max(LEAST_PALM_MARKERS + 1, step.palm_seen):
                     # A vague belief has nothing against the place found: the smoother may go on through it.
-                    ahead, step, linked = there, step_there, linked and vague
+                    ahead, step, linked, turn_sd_rad = there, step_there, linked and vague, 0.0
+        if turn_sd_rad > BLIND_TURN_RAD and step.palm_seen <= LEAST_PALM_MARKERS:
+            none = _only(ideal, np.zeros(len(ideal), dtype=bool))
+            step = self._weighed(timestamp_s, dt_s, ahead, self._measurable(ahead, none), none)
         self._time_s, self._forecast = timestamp_s, None
         self._noise_factor = watched(self._noise_factor, step.palm, dt_s, self.settings.noise)
         belief = step.bank.nominal
@@ -215,7 +221,8 @@ class Tracker:
         corrected = name_and_correct(
             ahead, blobs, LEAST_PALM_MARKERS + 1, self._resolution_px2, self._noise_factor, self.settings
         )
-        bank = modes.merged(corrected.bank, self.layout)
+        learnt = slowly_learnt(ahead.bank, corrected.bank, self.layout, self.settings.shape_news)
+        bank = modes.merged(learnt, self.layout)
         spare = np.ones(len(blobs), dtype=bool)
         named = corrected.taken >= 0
         spare[corrected.taken[named]] = False
