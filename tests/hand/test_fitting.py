@@ -78,6 +78,12 @@ def _seen(hand: HandAnatomy, angles: FloatArray, seed: int, depth_sd_m: float) -
     return SeenDiscs(discs + noise, view, LATERAL_M * ones, depth_sd_m * ones)
 
 
+@functools.cache
+def _calibrated(seed: int, depth_sd_m: float = 0.001) -> AnatomyFit:
+    hand = _person(seed)
+    return fit_anatomy(_seen(hand, _neutral(seed), seed, depth_sd_m), hand.side)
+
+
 def _angle_errors_deg(truth: HandAnatomy, found: HandAnatomy) -> FloatArray:
     """What the found hand reads from perfectly measured discs of the true one, minus the truth; (3 poses, 17)."""
     errors = []
