@@ -62,7 +62,7 @@ class LiveSettings:
     """Bounds of the live session.
 
     ``tracking_waiting`` frames that may wait for the tracker before the oldest is lost; ``rows_waiting`` and
-    ``pictures_waiting`` what may wait for the disk before the recording ends (30 s of rows, 2 s of pictures);
+    ``pictures_waiting`` what may wait for the disk before the recording ends (30 s of rows, 5 s of pictures, 230 MB);
     ``history_s`` of tracked frames kept for curves; ``row_bytes`` and ``picture_bytes`` on the disk by experience, for
     the time that is left; a warning comes once below ``low_disk_bytes``. ``folder`` is where sessions will go, for the
     room on the disk before a recording runs.
@@ -70,7 +70,7 @@ class LiveSettings:
 
     tracking_waiting: int = 16
     rows_waiting: int = 900
-    pictures_waiting: int = 64
+    pictures_waiting: int = 150
     recent_frames: int = 20
     history_s: float = 12.0
     row_bytes: int = 4_000
