@@ -7,7 +7,7 @@ import os
 import platform
 import sys
 
-PARTS = ("tracking", "writing", "window")
+PARTS = ("tracking", "whole-hand", "writing", "window")
 
 
 def main() -> int:
@@ -15,12 +15,15 @@ def main() -> int:
         os.environ.setdefault(name, "1")  # before any part loads NumPy
     os.environ.setdefault("QT_QPA_PLATFORM", "offscreen")
     parser = argparse.ArgumentParser(prog="python -m tests.bench", description=__doc__)
-    parser.add_argument(
-        "parts", nargs="*", choices=[*PARTS, []], help="tracking, writing, window; all when none is named"
-    )
+    parser.add_argument("parts", nargs="*", choices=[*PARTS, []], help=f"{', '.join(PARTS)}; all when none is named")
     parser.add_argument("--seconds", type=float, default=120.0, help="length of the window's run")
     parser.add_argument("--raw", action="store_true", help="the window's run stores the raw pictures too")
     parser.add_argument("--rounds", type=int, default=3, help="how often the recordings are tracked")
+    parser.add_argument(
+        "--compare",
+        action="store_true",
+        help="whole-hand beside Stone Soup, filterpy, MediaPipe (installed apart)",
+    )
     arguments = parser.parse_args()
     parts = arguments.parts or list(PARTS)
     if unknown := set(parts) - set(PARTS):
@@ -32,6 +35,12 @@ def main() -> int:
         from tests.bench import tracking
 
         for text in tracking.report(arguments.rounds):
+            print(text, flush=True)
+        print()
+    if "whole-hand" in parts:
+        from tests.bench import whole_hand
+
+        for text in whole_hand.report(arguments.rounds, compare=arguments.compare):
             print(text, flush=True)
         print()
     if "writing" in parts:
