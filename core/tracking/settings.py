@@ -43,9 +43,9 @@ class MeasurementNoise:
     most_outliers: int = 3
     adapt_s: float = 0.5
     most_adapted: float = 100.0
-    least_adapted: float = 0.7
+    least_adapted: float = 0.6
     depth_outlier: float = 1e-3
-    depth_stays_m: float = 3.5e-4
+    depth_stays_m: float = 2.5e-4
 
 
 @dataclass(frozen=True, slots=True)
