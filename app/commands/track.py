@@ -13,7 +13,10 @@ from app import __version__
 from app.commands.progress import bar
 from core.calibration.clicks import read_clicks
 from core.calibration.result import Verdict
+from core.hand.protocols import MarkerProtocol
 from core.pipeline.track import TrackReport, TrackSettings, retrack_session, track_recording
+from core.session.reader import read_outline
+from core.tracking.finger_settings import FingerSettings
 from core.tracking.settings import PROFILES, TrackerSettings
 from core.words import finding_sentence
 
@@ -34,6 +37,12 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     )
     parser.add_argument(
         "--dip", choices=("coupled", "free"), default="coupled", help="end joints bound to the middle joints, or free"
+    )
+    parser.add_argument(
+        "--discs",
+        choices=("on-skin", "in-joints"),
+        default="on-skin",
+        help="where the discs of the fingers are: on the skin over the joints, or in the joints, the papers' chain",
     )
     parser.add_argument("--profile", choices=tuple(PROFILES), default="standard", help="how lively the hand is")
     parser.add_argument(
@@ -69,11 +78,17 @@ COLOR_ALONE = (
     "Without depth a palm tilted towards the camera looks almost like one tilted away, its mirror image; "
     "check the signs of flexion and pro/supination, or track with depth."
 )
+HAND_COLOR_ALONE = (
+    "Tracking 21 markers without depth is experimental: the picture hardly shows how far a finger that is almost "
+    "straight is bent, or to which side; do not rely on these joint angles."
+)
 
 
 def settings_from(arguments: argparse.Namespace) -> TrackSettings:
     """The settings that the options name."""
+    fingers = FingerSettings(skin_offsets=arguments.discs == "on-skin")
     tracker = TrackerSettings(
+        fingers=fingers,
         form=arguments.filter,
         motion="paper" if arguments.motion == "paper" else "constant_rate",
         profile=arguments.profile,
@@ -88,6 +103,7 @@ def run(arguments: argparse.Namespace) -> int:
     if not settings.tracker.use_depth:
         print(f"carpus: {COLOR_ALONE}", file=sys.stderr)
     if arguments.recording.suffix == ".h5" and arguments.recording.is_file():
+        warn_of_experiment(settings, read_outline(arguments.recording).header.protocol)
         with bar("tracking again") as progress:
             report = retrack_session(
                 arguments.recording,
@@ -108,6 +124,7 @@ def run(arguments: argparse.Namespace) -> int:
     try:
         camera = source.info.camera
         clicks = read_clicks(arguments.calibration, camera.width_px, camera.height_px)
+        warn_of_experiment(settings, clicks.protocol)
         start = None if arguments.start_angles is None else np.radians(arguments.start_angles)
         with bar("tracking") as progress:
             report = track_recording(
@@ -126,6 +143,12 @@ def run(arguments: argparse.Namespace) -> int:
         source.close()
     print_report(report)
     return 0
+
+
+def warn_of_experiment(settings: TrackSettings, protocol: MarkerProtocol) -> None:
+    """Say on stderr that fingers by colour alone are an experiment."""
+    if protocol.has_fingers and not settings.tracker.use_depth:
+        print(f"carpus: {HAND_COLOR_ALONE}", file=sys.stderr)
 
 
 def warn(verdict: Verdict) -> None:

@@ -5,8 +5,13 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
+from tqdm import tqdm
 
 from app.__main__ import main
+from core.hand.protocols import HAND21, WRIST6, MarkerProtocol
+from core.session.values import new_header
+from core.session.writer import SessionWriter
+from tests.session.samples import CAMERA, make_calibration
 
 
 @pytest.mark.parametrize(("option", "warned"), [("--depth", False), ("--no-depth", True)])
@@ -19,3 +24,23 @@ def test_colour_alone_is_warned_of(
     said = capsys.readouterr().err
     assert ("mirror image" in said) == warned
     assert str(missing) in said
+
+
+@pytest.mark.parametrize(
+    ("protocol", "option", "warned"),
+    [(HAND21, "--no-depth", True), (HAND21, "--depth", False), (WRIST6, "--no-depth", False)],
+)
+def test_fingers_by_colour_alone_are_called_an_experiment(
+    protocol: MarkerProtocol,
+    option: str,
+    warned: bool,
+    tmp_path: Path,
+    capsys: pytest.CaptureFixture[str],
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.setattr(tqdm, "monitor_interval", 0)  # the bar's own thread would outlive the test
+    session, output = tmp_path / "session.h5", tmp_path / "again.h5"
+    header = new_header(hand="right", protocol=protocol, software_version="0")
+    SessionWriter.create(session, header, CAMERA, make_calibration(protocol)).close()
+    main(["track", str(session), "--output", str(output), option])
+    assert ("experimental" in capsys.readouterr().err) == warned
