@@ -31,16 +31,16 @@ def main(arguments: Sequence[str] | None = None) -> int:
     parser.add_argument("--markdown", action="store_true", help="the table of the README instead")
     parser.add_argument("--processes", type=int, default=2)
     options = parser.parse_args(arguments)
+    seeds, pictures = (QUICK_SEEDS, 0) if options.quick else (options.seeds, options.pictures)
+    hand = hand21_table.rows_named(options.only) if options.group in ("all", "hand") else []
     if options.group == "hand":
-        seeds, pictures = (QUICK_SEEDS, 0) if options.quick else (options.seeds, options.pictures)
-        print(hand21_table.report(options.only, seeds, pictures, options.processes, as_markdown=options.markdown))
-        return 0
+        print(hand21_table.report(hand, seeds, pictures, options.processes, as_markdown=options.markdown))
+        return 0 if hand else 2
     groups = GROUPS.values() if options.group == "all" else (GROUPS[options.group],)
     scenarios = [row for group in groups for row in group if options.only.lower() in row.name.lower()]
-    if not scenarios:
+    if not scenarios and not hand:
         print(f"no row of {options.group} is named like {options.only}", file=sys.stderr)
         return 2
-    seeds, pictures = (QUICK_SEEDS, 0) if options.quick else (options.seeds, options.pictures)
     begin = time.monotonic()
     runs = all_runs(jobs_for(scenarios, seeds, pictures), options.processes)
     rows = list(rows_of(runs, scenarios))
@@ -51,6 +51,9 @@ def main(arguments: Sequence[str] | None = None) -> int:
         print("\nSynthetic: simulated hands before a simulated camera. What was promised:")
         for verdict in verdicts(runs, scenarios):
             print(verdict)
+    if hand:
+        print()
+        print(hand21_table.report(hand, seeds, pictures, options.processes, as_markdown=options.markdown))
     print(f"{time.monotonic() - begin:.0f} s", file=sys.stderr)
     return 0
 

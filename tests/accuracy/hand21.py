@@ -58,7 +58,7 @@ class HandScenario:
     """One row: ``motions`` taken in turn by the seeds; ``options`` of the recording; ``tracker`` settings.
 
     ``limits`` name the column of targets it is held to, None where it only informs; ``weight`` recordings for every
-    one asked for; ``pictures``: also by rendered pictures.
+    two asked for; ``pictures``: also by rendered pictures.
     """
 
     name: str
@@ -87,7 +87,7 @@ _FREE = TrackerSettings(dip="free")
 _IN_JOINTS = TrackerSettings(fingers=replace(TrackerSettings().fingers, skin_offsets=False))
 
 ROWS = (
-    HandScenario("discs on the skin", EXERCISES, limits="skin", weight=3, pictures=True),
+    HandScenario("discs on the skin", EXERCISES, limits="skin", weight=4, pictures=True),
     HandScenario("discs in the joints", EXERCISES, {"skin_offsets": False}, _IN_JOINTS, limits="joints", weight=2),
     HandScenario("end joints free", ("hook", "fist", "fingers"), {"dip": "free"}, _FREE, limits="skin", weight=2),
     HandScenario("end joints free, taken as coupled", ("hook",), {"dip": "free"}),

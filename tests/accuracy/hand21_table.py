@@ -79,7 +79,7 @@ def hand_job_done(job: HandJob) -> HandRun:
 def hand_jobs(rows: Sequence[HandScenario], seeds: int, pictures: int, first_seed: int = REPORT_SEEDS) -> list[HandJob]:
     """The rendered recordings first: they take longest."""
     out = [HandJob(row, i, "pictures", first_seed) for row in rows if row.pictures for i in range(pictures)]
-    return out + [HandJob(row, i, "blobs", first_seed) for row in rows for i in range(seeds * row.weight)]
+    return out + [HandJob(row, i, "blobs", first_seed) for row in rows for i in range(max(1, seeds * row.weight // 2))]
 
 
 def all_hand_runs(jobs: Sequence[HandJob], processes: int) -> list[HandRun]:
@@ -249,9 +249,13 @@ def hand_verdicts(runs: Sequence[HandRun], rows: Sequence[HandScenario]) -> Iter
             yield Verdict(f"{row.name}: {name} of the discs at most {limit:g} mm", f"{value:.2f}", bool(value <= limit))
 
 
-def report(only: str, seeds: int, pictures: int, processes: int, *, as_markdown: bool) -> str:
-    """Run the rows whose name holds ``only`` and tell."""
-    rows = [row for row in ROWS if only.lower() in row.name.lower()]
+def rows_named(only: str) -> list[HandScenario]:
+    """The rows whose name holds ``only``."""
+    return [row for row in ROWS if only.lower() in row.name.lower()]
+
+
+def report(rows: Sequence[HandScenario], seeds: int, pictures: int, processes: int, *, as_markdown: bool) -> str:
+    """Run these rows and tell."""
     runs = all_hand_runs(hand_jobs(rows, seeds, pictures), processes)
     if as_markdown:
         return markdown(runs, rows)
