@@ -1,0 +1,242 @@
+"""Names for the discs of a flat hand, proposed from where its blobs lie to each other: a person confirms them.
+
+The average hand in several postures is laid over the blobs by turning, shifting and scaling it in the plane of the
+picture, in metres where depth is known; then every finger is let turn and stretch by itself. The back of the hand
+faces the camera, so the side decides which of two mirror images it is.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import lru_cache
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.optimize import linear_sum_assignment
+
+from core.camera import Camera
+from core.hand.anatomy import anatomy_from_size
+from core.hand.kinematics import disc_centres
+from core.hand.protocols import HAND21, MarkerProtocol, joint_angle_names
+from core.types import Detections, FloatArray, Side
+
+IntArray = NDArray[np.int64]
+
+_REFERENCE_M = 0.180
+_LEAST_SCALE, _MOST_SCALE = 0.62, 1.25
+"""Hands 112 to 225 mm long."""
+_GATE_M = 0.016
+"""Of the first, rough laying-over, for a hand of the reference's length."""
+_CLOSE_M = 0.011
+"""A disc farther from where the fitted hand has it is not given its name."""
+_SURE_M = 0.006
+"""By so much another disc must be farther away than the named one."""
+_TRIED = 24
+"""So many of the best rough fits are refined."""
+_USUAL_DEPTH_M = 0.7
+_RAYS = ((0, 1, 2, 3, 4), *((0, *range(5 + 4 * k, 9 + 4 * k)) for k in range(4)))
+
+
+@dataclass(frozen=True, slots=True)
+class NameProposal:
+    """``blob`` (M,) index of the blob proposed for each marker, -1 for none; ``is_sure`` (M,) where no other name is
+    nearly as good; ``misfit_m`` (M,) how far the blob lies from where the average hand has it, NaN without one.
+    """
+
+    blob: IntArray
+    is_sure: NDArray[np.bool_]
+    misfit_m: FloatArray
+
+    @property
+    def is_complete(self) -> bool:
+        """Whether every marker has a blob."""
+        return bool((self.blob >= 0).all())
+
+
+def propose_names(
+    blobs: Detections,
+    camera: Camera,
+    side: Side,
+    protocol: MarkerProtocol = HAND21,
+    known: Mapping[int, int] | None = None,
+) -> NameProposal:
+    """Names for the blobs of a flat, neutral hand with its back to the camera.
+
+    ``known``: blobs (values) that a person has named already (keys, rows of ``protocol``); they keep their names and
+    decide between hands that fit alike. Without a likely hand nothing but these is named.
+    """
+    fixed = dict(known or {})
+    rows = np.array([HAND21.markers.index(name) for name in protocol.markers])
+    place = _in_picture_plane(blobs, camera)
+    fits = _rough_fits(place, rows, side, fixed)
+    refined = [_refined(place, fit, fixed) for fit in fits]
+    if not refined:
+        return _only(fixed, rows.size)
+    best = min(refined, key=lambda one: one.cost)
+    if np.count_nonzero(best.blob >= 0) < max(4, rows.size // 2):
+        return _only(fixed, rows.size)
+    sure = best.is_sure.copy()
+    for other in refined:
+        # Another hand that explains the blobs nearly as well: where it disagrees, nothing is sure.
+        if other.cost < best.cost + 0.5:
+            sure &= other.blob == best.blob
+    sure[list(fixed)] = True
+    return NameProposal(best.blob, sure & (best.blob >= 0), best.misfit_m)
+
+
+def _only(fixed: Mapping[int, int], count: int) -> NameProposal:
+    blob = np.full(count, -1, dtype=np.int64)
+    blob[list(fixed)] = list(fixed.values())
+    return NameProposal(blob, blob >= 0, np.full(count, np.nan))
+
+
+def _in_picture_plane(blobs: Detections, camera: Camera) -> FloatArray:
+    """Places (D,) as complex numbers x - iy in metres, x right and y down in the camera's axes."""
+    known = np.isfinite(blobs.depth_m)
+    usual_m = float(np.median(blobs.depth_m[known])) if known.any() else _USUAL_DEPTH_M
+    point = camera.back_project(camera.undistort(blobs.pixel), np.where(known, blobs.depth_m, usual_m))
+    return np.asarray(point[:, 0] - 1j * point[:, 1])
+
+
+@dataclass(frozen=True, slots=True)
+class _Fit:
+    """A posture laid over the blobs: places (M,) of the markers, complex, and the scale it took."""
+
+    place: FloatArray
+    scale: float
+
+
+@dataclass(frozen=True, slots=True)
+class _Named:
+    blob: IntArray
+    is_sure: NDArray[np.bool_]
+    misfit_m: FloatArray
+    cost: float
+
+
+@lru_cache(maxsize=4)
+def _postures(side: Side) -> FloatArray:
+    """Places (P, 21), complex x + iy in W, of the discs of the average hand in usual flat postures."""
+    names = joint_angle_names()
+    hand = anatomy_from_size(_REFERENCE_M, side=side, nail_discs=True)
+    out = []
+    for spread in (-4.0, 4.0, 12.0):
+        for thumb_extension, thumb_abduction in ((0.0, 5.0), (20.0, 10.0), (35.0, 25.0), (-10.0, 30.0)):
+            angles = dict.fromkeys(names, 0.0)
+            angles |= {"CMC1_extension": thumb_extension, "CMC1_abduction": thumb_abduction}
+            angles |= {"MCP2_abduction": spread, "MCP4_abduction": -spread, "MCP5_abduction": -1.5 * spread}
+            disc = disc_centres(hand, np.radians([angles[name] for name in names]))
+            out.append(disc[:, 0] + 1j * disc[:, 1])
+    return np.array(out)
+
+
+def _rough_fits(place: FloatArray, rows: IntArray, side: Side, fixed: Mapping[int, int]) -> list[_Fit]:
+    """The likeliest ways to lay a posture over the blobs, best first: two of its discs on two of the blobs."""
+    if place.size < 3:
+        return []
+    first, second = (grid.ravel() for grid in np.meshgrid(np.arange(place.size), np.arange(place.size), indexing="ij"))
+    apart = first != second
+    first, second = first[apart], second[apart]
+    found: list[tuple[float, _Fit]] = []
+    for posture in _postures(side)[:, rows]:
+        for a, b in _pairs(rows, fixed):
+            ends = _ends(a, b, first, second, fixed)
+            turn = (place[ends[1]] - place[ends[0]]) / (posture[b] - posture[a])
+            scale = np.abs(turn)
+            usable = (scale > _LEAST_SCALE) & (scale < _MOST_SCALE)
+            turn, start, scale = turn[usable], place[ends[0]][usable], scale[usable]
+            if not turn.size:
+                continue
+            laid = start[:, None] + turn[:, None] * (posture - posture[a])
+            near2 = (np.abs(laid[:, :, None] - place).min(axis=2) / (_GATE_M * scale[:, None])) ** 2
+            # A marker counts the more the nearer a blob is; a hand of the usual size a little more.
+            score = np.maximum(1.0 - near2, 0.0).sum(axis=1) - 2.0 * np.log(scale) ** 2
+            for row, blob in fixed.items():
+                score -= 4.0 * (np.abs(laid[:, row] - place[blob]) > 2.0 * _GATE_M)
+            for i in np.argsort(-score)[:6]:
+                found.append((float(score[i]), _Fit(laid[i], float(scale[i]))))
+    found.sort(key=lambda one: -one[0])
+    return [fit for _, fit in found[:_TRIED]]
+
+
+def _pairs(rows: IntArray, fixed: Mapping[int, int]) -> list[tuple[int, int]]:
+    """Pairs of markers, far apart, on which a posture is laid; those already named where there are two."""
+    if len(fixed) >= 2:
+        named = list(fixed)
+        return [(named[0], other) for other in named[1:]]
+    at = {int(row): i for i, row in enumerate(rows)}
+    names = (("WRIST", "TIP3"), ("WRIST", "MCP3"), ("CMC1", "TIP4"), ("MCP2", "MCP5"), ("TIP2", "TIP5"))
+    pairs = [(at.get(HAND21.markers.index(a), -1), at.get(HAND21.markers.index(b), -1)) for a, b in names]
+    return [(a, b) for a, b in pairs if a >= 0 and b >= 0]
+
+
+def _ends(a: int, b: int, first: IntArray, second: IntArray, fixed: Mapping[int, int]) -> tuple[IntArray, IntArray]:
+    """Blobs on which the markers a and b are laid."""
+    if a in fixed and b in fixed:
+        return np.array([fixed[a]]), np.array([fixed[b]])
+    return first, second
+
+
+def _refined(place: FloatArray, fit: _Fit, fixed: Mapping[int, int]) -> _Named:
+    """Named by the nearest overall; the whole hand, then each of its rays, moved to what was named."""
+    laid = fit.place
+    reach = 2.2 * _GATE_M * fit.scale
+    for step in range(6):
+        blob = _assigned(place, laid, reach, fixed)
+        laid = _moved(laid, place, blob) if step < 3 else _rays_moved(laid, place, blob)
+        reach = max(0.7 * reach, _CLOSE_M * fit.scale)
+    blob = _assigned(place, laid, reach, fixed)
+    distance = np.abs(laid[:, None] - place)
+    own = np.where(blob >= 0, distance[np.arange(blob.size), blob], np.nan)
+    others = distance.copy()
+    others[np.arange(blob.size)[blob >= 0], blob[blob >= 0]] = np.inf
+    sure = (blob >= 0) & (others.min(axis=1, initial=np.inf) - own > _SURE_M * fit.scale)
+    size = math.log(fit.scale)
+    cost = float(np.where(blob >= 0, (own / (_CLOSE_M * fit.scale)) ** 2, 2.0).sum()) + 2.0 * size**2
+    return _Named(blob, sure, own, cost)
+
+
+def _assigned(place: FloatArray, laid: FloatArray, reach: float, fixed: Mapping[int, int]) -> IntArray:
+    """Blob of every marker (M,), -1 where none is within ``reach``; each blob once, nearest overall."""
+    distance = np.abs(laid[:, None] - place)
+    cost = np.minimum(distance, reach) ** 2
+    for row, blob in fixed.items():
+        cost[row, :] = cost[:, blob] = 4.0 * reach**2
+        cost[row, blob] = -1.0
+    markers, blobs = linear_sum_assignment(cost)
+    out = np.full(laid.size, -1, dtype=np.int64)
+    near = distance[markers, blobs] < reach
+    out[markers[near]] = blobs[near]
+    for row, blob in fixed.items():
+        out[out == blob] = -1
+        out[row] = blob
+    return out
+
+
+def _moved(laid: FloatArray, place: FloatArray, blob: IntArray) -> FloatArray:
+    """The markers turned, shifted and scaled as one, so that the named ones lie on their blobs as well as they can."""
+    named = blob >= 0
+    if np.count_nonzero(named) < 2:
+        return laid
+    mine, theirs = laid[named], place[blob[named]]
+    centre, middle = mine.mean(), theirs.mean()
+    spread = float((np.abs(mine - centre) ** 2).sum())
+    turn = ((theirs - middle) * np.conj(mine - centre)).sum() / spread if spread > 0.0 else 1.0
+    return np.asarray(middle + turn * (laid - centre))
+
+
+def _rays_moved(laid: FloatArray, place: FloatArray, blob: IntArray) -> FloatArray:
+    """Each ray turned and stretched about its first named disc, the rest of it following."""
+    out = laid.copy()
+    if laid.size != len(HAND21.markers):
+        return _moved(laid, place, blob)
+    for ray in _RAYS:
+        chain = np.array(ray[1:])
+        named = chain[blob[chain] >= 0]
+        if named.size >= 2:
+            out[chain] = _moved(laid[chain], place, blob[chain])
+        elif named.size == 1:
+            out[chain] += place[blob[named[0]]] - laid[named[0]]
+    return out

@@ -1,0 +1,110 @@
+"""Names proposed for the discs of simulated hands: right for both sides, all sizes and directions, or not given."""
+
+from __future__ import annotations
+
+from dataclasses import fields
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+
+from core.calibration.naming import propose_names
+from core.camera import DEFAULT_CAMERA
+from core.hand.protocols import HAND21, WRIST6
+from core.simulation.measurements import measurement_sequence
+from core.simulation.spec import RecordingSpec
+from core.types import Detections, FloatArray, Side
+
+IntArray = NDArray[np.int64]
+SEEDS = range(200, 206)
+
+
+def hand(seed: int, side: Side, protocol: str = "hand21", false_blobs: float = 0.0) -> tuple[Detections, IntArray]:
+    """Blobs of a picture of a still hand that lies in any direction, and the true blob of every marker, -1 for none."""
+    rng = np.random.default_rng(seed)
+    spec = RecordingSpec(
+        seed=seed,
+        hand=side,
+        protocol=protocol,
+        motion="rest",
+        seconds=0.1,
+        false_blobs=false_blobs,
+        yaw_deg=float(rng.uniform(-180.0, 180.0)),
+        hand_length_mm=float(rng.uniform(125.0, 210.0)),
+    )
+    sequence = measurement_sequence(spec)
+    return sequence.detections[1], sequence.marker[1]
+
+
+def blob_of(marker: IntArray, count: int) -> IntArray:
+    true = np.full(count, -1)
+    true[marker[marker >= 0]] = np.flatnonzero(marker >= 0)
+    return true
+
+
+def without(blobs: Detections, gone: IntArray) -> Detections:
+    kept = np.setdiff1d(np.arange(len(blobs)), gone)
+    return Detections(*(getattr(blobs, field.name)[kept] for field in fields(Detections)))
+
+
+@pytest.mark.parametrize("seed", SEEDS)
+@pytest.mark.parametrize("side", ["right", "left"])
+def test_all_discs_get_their_names_among_false_blobs(side: Side, seed: int) -> None:
+    blobs, marker = hand(seed, side, false_blobs=3.0)
+    proposal = propose_names(blobs, DEFAULT_CAMERA, side)
+    assert np.array_equal(proposal.blob, blob_of(marker, 21))
+    assert proposal.is_sure.sum() >= 20
+    assert np.nanmax(proposal.misfit_m) < 0.01
+
+
+@pytest.mark.parametrize("seed", SEEDS)
+def test_a_disc_that_is_not_there_is_not_named_and_the_others_keep_their_names(seed: int) -> None:
+    blobs, marker = hand(seed, "right", false_blobs=2.0)
+    gone = np.random.default_rng(seed).choice(np.flatnonzero(marker >= 0), 2, replace=False)
+    proposal = propose_names(without(blobs, gone), DEFAULT_CAMERA, "right")
+    true = blob_of(np.delete(marker, gone), 21)
+    assert np.array_equal(proposal.blob, true)
+    assert not proposal.is_complete
+    assert not proposal.is_sure[marker[gone]].any()
+
+
+@pytest.mark.parametrize("seed", SEEDS)
+def test_the_six_discs_of_the_palm(seed: int) -> None:
+    blobs, marker = hand(seed, "left", "wrist6", false_blobs=2.0)
+    proposal = propose_names(blobs, DEFAULT_CAMERA, "left", WRIST6)
+    assert np.array_equal(proposal.blob, blob_of(marker, 6))
+
+
+def test_the_other_side_does_not_fit() -> None:
+    for seed in SEEDS:
+        blobs, _ = hand(seed, "right")
+        assert not propose_names(blobs, DEFAULT_CAMERA, "left").is_complete
+
+
+def test_names_that_a_person_gave_are_kept() -> None:
+    blobs, marker = hand(201, "right")
+    true = blob_of(marker, 21)
+    given = {row: int(true[row]) for row in (0, 1, 5, 9, 17)}
+    assert np.array_equal(propose_names(blobs, DEFAULT_CAMERA, "right", known=given).blob, true)
+    tip, other = HAND21.markers.index("TIP2"), HAND21.markers.index("TIP3")
+    turned_round = given | {tip: int(true[other]), other: int(true[tip])}
+    kept = propose_names(blobs, DEFAULT_CAMERA, "right", known=turned_round)
+    assert all(kept.blob[row] == blob for row, blob in turned_round.items())
+    assert len(set(kept.blob[kept.blob >= 0])) == np.count_nonzero(kept.blob >= 0)
+
+
+def test_what_is_no_hand_is_not_named() -> None:
+    rng = np.random.default_rng(3)
+    for count in (0, 1, 5, 24):
+        pixel = rng.uniform((0.0, 0.0), (640.0, 480.0), (count, 2))
+        many: FloatArray = np.full(count, 0.7)
+        blobs = Detections(pixel, many, 0.001 * many, 80.0 * many, many)
+        proposal = propose_names(blobs, DEFAULT_CAMERA, "right")
+        assert not proposal.is_complete
+        assert proposal.is_sure.sum() <= 4
+
+
+def test_unknown_depths_do_not_matter_much() -> None:
+    blobs, marker = hand(203, "left")
+    flat = Detections(blobs.pixel, np.full(len(blobs), np.nan), blobs.depth_sd_m, blobs.area_px, blobs.similarity)
+    assert np.array_equal(propose_names(flat, DEFAULT_CAMERA, "left").blob, blob_of(marker, 21))
