@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from typing import Any
 
 import cv2
 import numpy as np
@@ -15,8 +16,10 @@ from core.detection.detector import Detector
 from core.detection.settings import DetectionSettings
 from core.types import Detections, FloatArray, Frame
 
-_BLUE_LOW, _BLUE_HIGH = (90, 60, 30), (130, 255, 255)
-"""Hue, saturation and value of blue paper in any usual light (OpenCV's scales)."""
+_BLUE = ((90, 60, 30), (130, 255, 255))
+"""Lowest and highest hue, saturation and value of blue paper in any usual light (OpenCV's scales)."""
+_TINGED_BLUE = ((85, 50, 25), (145, 255, 255))
+"""The same of discs so small that they take on some of the skin; with it a sleeve falls into specks."""
 _FEWEST = 3
 """Fewer blue spots are not taken for a marked hand."""
 _WINDOW_RADII = 8.0
@@ -30,15 +33,23 @@ def marker_candidates(frame: Frame, camera: Camera, settings: DetectionSettings)
     A first, wide search for blue shows what today's paper and skin look like; the detector then finds the discs.
     """
     hsv = color_histogram.to_hsv(frame.color_rgb)
-    blue = cv2.inRange(hsv, np.array(_BLUE_LOW), np.array(_BLUE_HIGH)) > 0
-    mask = cv2.morphologyEx(blue.astype(np.uint8), cv2.MORPH_OPEN, np.ones((3, 3), np.uint8))
-    found = components(np.asarray(mask, dtype=np.uint8), lambda at: _radii_px(frame, at, camera, settings))
-    full = np.pi * found.radius_px**2
-    fits = (found.area_px > 0.3 * full) & (found.area_px < 2.0 * full)
-    if np.count_nonzero(fits) < _FEWEST:
+    blue = cv2.inRange(hsv, *(np.array(limit) for limit in _BLUE))
+    opened = cv2.morphologyEx(blue, cv2.MORPH_OPEN, np.ones((3, 3), np.uint8))
+    spots = _disc_sized(opened, 0.3, frame, camera, settings)
+    if len(spots) < _FEWEST:
+        tinged = cv2.inRange(hsv, *(np.array(limit) for limit in _TINGED_BLUE))
+        spots = _disc_sized(tinged, 0.2, frame, camera, settings)
+    if len(spots) < _FEWEST:
         return Detections.none()
-    looks, _ = learn_appearance(frame, found.centre_px[fits], camera, settings)
+    looks, _ = learn_appearance(frame, spots, camera, settings)
     return Detector(looks, camera, settings).detect(frame)
+
+
+def _disc_sized(mask: Any, least_area: float, frame: Frame, camera: Camera, settings: DetectionSettings) -> FloatArray:
+    """Middles (B, 2) of the mask's components that are as large as a disc there, or ``least_area`` of it."""
+    found = components((mask > 0).astype(np.uint8), lambda at: _radii_px(frame, at, camera, settings))
+    full = np.pi * found.radius_px**2
+    return found.centre_px[(found.area_px > least_area * full) & (found.area_px < 2.0 * full)]
 
 
 def disc_at(frame: Frame, pixel: FloatArray, camera: Camera, settings: DetectionSettings) -> Detections:

@@ -8,11 +8,12 @@ import numpy as np
 import pytest
 
 from core.calibration.candidates import disc_at, marker_candidates, snapped
+from core.calibration.naming import propose_names
 from core.camera import Camera
 from core.detection.settings import DetectionSettings
 from core.simulation.recording import SimulatedPictures
 from core.simulation.spec import RecordingSpec
-from core.types import FloatArray, Frame
+from core.types import FloatArray, Frame, Side
 
 SETTINGS = DetectionSettings()
 RADIUS_PX = 4.8
@@ -41,6 +42,18 @@ def test_every_disc_is_found_before_any_click_and_clicks_snap_to_it(seed: int) -
         taken = snapped(found, disc + rng.normal(0.0, 1.5, 2), RADIUS_PX)
         assert len(taken) == 1
         assert np.linalg.norm(taken.pixel[0] - disc) < 0.8
+
+
+@pytest.mark.parametrize(("seed", "side"), [(300, "left"), (301, "right"), (304, "left")])
+def test_all_discs_of_a_whole_hand_are_found_and_named_before_any_click(seed: int, side: Side) -> None:
+    """The last is a child's, with small discs that take on some of the skin; the first wears a blue sleeve."""
+    spec = RecordingSpec(seed=seed, hand=side, protocol="hand21", motion="rest", false_blobs=2.0)
+    pictures = SimulatedPictures(spec)
+    color, depth = pictures.sensed(0, pictures.clean(0))
+    found = marker_candidates(Frame(0, 0.0, color, depth, 1.0 / 5000.0), pictures.truth.camera, SETTINGS)
+    proposal = propose_names(found, pictures.truth.camera, side)
+    assert proposal.is_complete
+    assert np.linalg.norm(found.pixel[proposal.blob] - pictures.truth.disc_pixel[0], axis=1).max() < 1.5
 
 
 @pytest.mark.parametrize("paper_to", ["blue", "green"])
