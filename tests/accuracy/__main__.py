@@ -12,6 +12,7 @@ from collections.abc import Sequence
 
 from tests.accuracy import hand21_table
 from tests.accuracy.jobs import all_runs, jobs_for
+from tests.accuracy.robustness import robustness_verdicts
 from tests.accuracy.scenarios import GROUPS
 from tests.accuracy.table import markdown, rows_of, terminal
 from tests.accuracy.targets import verdicts
@@ -48,9 +49,9 @@ def main(arguments: Sequence[str] | None = None) -> int:
         print(markdown(rows))
     else:
         print(terminal(rows))
-        print("\nSynthetic: simulated hands before a simulated camera. What was promised:")
-        for verdict in verdicts(runs, scenarios):
-            print(verdict)
+    print("\nSynthetic: simulated hands before a simulated camera. What was promised:")
+    for verdict in (*verdicts(runs, scenarios), *robustness_verdicts(runs, scenarios)):
+        print(verdict)
     if hand:
         print()
         print(hand21_table.report(hand, seeds, pictures, options.processes, as_markdown=options.markdown))

@@ -16,15 +16,16 @@ from core.capture.tum import TumFolder
 from core.errors import CalibrationImpossible
 from core.pipeline.track import TrackSettings, from_neutral, learnt_from, learnt_in, track_recording
 from core.session.reader import read_session
-from core.session.values import Motion
+from core.session.values import Motion, motion_of
 from core.simulation.measurements import MeasurementSequence
 from core.simulation.recording import CLICKS_FILE, cached_recording, clicks_of, truth_in
 from core.tracking.settings import TrackerSettings
 from core.tracking.tracker import Tracker
-from core.types import FloatArray, Moment, TrackedFrame, TrackStatus
+from core.types import FloatArray, TrackedFrame, TrackStatus
 from tests.accuracy.runs import CARPUS, Estimate, Run, degrees_between, longest_s
 from tests.accuracy.scenarios import Scenario
 from tests.accuracy.sequences import detected_sequence, longest_untracked_s, scored_frames, true_names, wrongly_taken
+from tests.accuracy.speeds import stroke_speeds
 
 
 def measured_hand(sequence: MeasurementSequence, settings: CalibrationSettings) -> tuple[MeasuredHand, float]:
@@ -38,7 +39,10 @@ def measured_hand(sequence: MeasurementSequence, settings: CalibrationSettings) 
 
 
 def run_on_blobs(
-    scenario: Scenario, sequence: MeasurementSequence, settings: TrackerSettings | None = None
+    scenario: Scenario,
+    sequence: MeasurementSequence,
+    settings: TrackerSettings | None = None,
+    method: str = CARPUS,
 ) -> tuple[Run, float]:
     """Track and smooth measurements as :func:`core.pipeline.track.track_recording` does those of pictures.
 
@@ -60,21 +64,23 @@ def run_on_blobs(
     ms = 1e3 * (time.process_time() - begin) / len(times)
     scored = scored_frames(truth, neutral_ends_s)
     status = np.array([frame.status for frame in frames])
+    smoothed = motion_of(tracker.smoothed())
     measured_px = np.array([frame.marker_measured_px for frame in frames])[scored]
     wrong = wrongly_taken(measured_px, _part(sequence, scored))
     return Run(
         scenario.name,
         truth.spec.seed,
         "blobs",
-        CARPUS,
-        _estimate(*_of_rows(frames), truth.angles_rad, scored),
-        _estimate(*_of_rows(tracker.smoothed()), truth.angles_rad, scored),
+        method,
+        _estimate(motion_of(frames), truth.angles_rad, scored),
+        _estimate(smoothed, truth.angles_rad, scored),
         status[scored],
         int(np.isfinite(measured_px[..., 0]).sum()),
         int(wrong.sum()),
         longest_s(wrong, times[scored]),
         longest_untracked_s(sequence, status == TrackStatus.TRACKED),
         ms,
+        stroke_speeds(truth, scored, smoothed),
     ), neutral_ends_s
 
 
@@ -108,14 +114,15 @@ def run_on_pictures(
         seed,
         "pictures",
         CARPUS,
-        _estimate(*_of_motion(session.motion), truth.angles_rad, scored),
-        _estimate(*_of_motion(session.smoothed), truth.angles_rad, scored),
+        _estimate(session.motion, truth.angles_rad, scored),
+        _estimate(session.smoothed, truth.angles_rad, scored),
         session.status[scored].astype(np.int64),
         int(np.isfinite(measured_px[..., 0]).sum()),
         int(wrong.sum()),
         longest_s(wrong, truth.timestamp_s[scored]),
         longest_untracked_s(sequence, session.status == TrackStatus.TRACKED),
         ms,
+        stroke_speeds(truth, scored, session.smoothed),
     )
     return run, sequence, learnt.neutral_ends_s, folder
 
@@ -128,13 +135,6 @@ def _part(sequence: MeasurementSequence, rows: NDArray[np.bool_]) -> Measurement
     )
 
 
-def _of_rows(rows: list[TrackedFrame] | list[Moment]) -> tuple[FloatArray, FloatArray]:
-    return np.array([row.angles_rad for row in rows]), np.array([row.angles_sd_rad for row in rows])
-
-
-def _of_motion(motion: Motion) -> tuple[FloatArray, FloatArray]:
-    return motion.angles_rad, motion.angles_sd_rad
-
-
-def _estimate(angles_rad: FloatArray, sd_rad: FloatArray, true_rad: FloatArray, scored: NDArray[np.bool_]) -> Estimate:
-    return Estimate(degrees_between(angles_rad, true_rad)[scored], np.degrees(sd_rad)[scored])
+def _estimate(motion: Motion, true_rad: FloatArray, scored: NDArray[np.bool_]) -> Estimate:
+    error_deg, sd_deg = degrees_between(motion.angles_rad, true_rad), np.degrees(motion.angles_sd_rad)
+    return Estimate(error_deg[scored], sd_deg[scored])

@@ -14,8 +14,9 @@ from tqdm import tqdm
 from core.simulation.measurements import measurement_sequence
 from tests.accuracy.carpus import run_on_blobs, run_on_pictures
 from tests.accuracy.informed import informed_run
-from tests.accuracy.runs import Mode, Run
+from tests.accuracy.runs import UNTROUBLED, Mode, Run
 from tests.accuracy.scenarios import Scenario
+from tests.accuracy.sequences import without_false
 from tests.accuracy.simplest import simplest_run
 
 BLOB_SECONDS, PICTURE_SECONDS = 8.0, 7.0
@@ -36,10 +37,11 @@ def done(job: Job) -> list[Run]:
         if job.mode == "blobs":
             sequence = measurement_sequence(job.scenario.spec(job.seed, BLOB_SECONDS))
             carpus, begin_s = run_on_blobs(job.scenario, sequence)
+            untroubled, _ = run_on_blobs(job.scenario, without_false(sequence), method=UNTROUBLED)
             simplest = simplest_run(job.scenario, sequence, begin_s)
-        else:
-            carpus, sequence, begin_s, folder = run_on_pictures(job.scenario, job.seed, PICTURE_SECONDS)
-            simplest = simplest_run(job.scenario, sequence, begin_s, folder)
+            return [carpus, untroubled, simplest, informed_run(job.scenario, sequence, begin_s, job.mode)]
+        carpus, sequence, begin_s, folder = run_on_pictures(job.scenario, job.seed, PICTURE_SECONDS)
+        simplest = simplest_run(job.scenario, sequence, begin_s, folder)
         return [carpus, simplest, informed_run(job.scenario, sequence, begin_s, job.mode)]
 
 

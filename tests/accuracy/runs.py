@@ -9,11 +9,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from core.types import FloatArray, TrackStatus
+from tests.accuracy.speeds import StrokeSpeeds
 
 Mode = Literal["blobs", "pictures"]
 """Simulated measurements, or rendered pictures through the whole of Carpus."""
 
-CARPUS, SIMPLEST, INFORMED = "Carpus", "simplest", "informed"
+CARPUS, UNTROUBLED, SIMPLEST, INFORMED = "Carpus", "untroubled", "simplest", "informed"
+"""Untroubled: Carpus on the blobs of true markers only, so that what false ones cost can be told."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -30,7 +32,8 @@ class Run:
 
     ``smoothed`` None where it does not look back; ``status`` (N,) as in a session; ``taken`` measurements were taken
     for a marker, ``wrong`` of them another thing's, for at most ``longest_wrong_s`` on end; ``longest_untracked_s`` it
-    was not tracked while four discs of the palm showed; ``ms`` CPU time per frame.
+    was not tracked while four discs of the palm showed; ``ms`` CPU time per frame;
+    ``speeds`` of its strokes, where they were looked at.
     """
 
     scenario: str
@@ -45,6 +48,7 @@ class Run:
     longest_wrong_s: float
     longest_untracked_s: float
     ms: float
+    speeds: StrokeSpeeds | None = None
 
     @property
     def ends_lost(self) -> bool:

@@ -15,6 +15,7 @@ REPORT_SEEDS = 500_000
 USUAL_TROUBLE: dict[str, Any] = {"false_blobs": 2.0, "hidden_share": 0.1, "dropped_share": 0.01}
 SLOW = "exercises and reaching"
 FAST = "1.7 Hz deviation"
+REACHING = "reaching"
 _EXERCISE_HZ = (0.25, 0.5)
 
 
@@ -56,7 +57,7 @@ WRIST = (
     Scenario("deviation ±25°", {"motion": "deviation"}, _EXERCISE_HZ, pool=SLOW, pictures=True),
     Scenario("pro/supination ±35°", {"motion": "pronosupination"}, _EXERCISE_HZ, pool=SLOW, pictures=True),
     Scenario("mixed axes", {"motion": "mixed"}, _EXERCISE_HZ, pool=SLOW, pictures=True),
-    Scenario("reaching", {"motion": "reach"}, pool=SLOW, pictures=True),
+    Scenario(REACHING, {"motion": "reach"}, pool=SLOW, pictures=True),
     Scenario("deviation 1.7 Hz", {"motion": "fast_deviation"}, pool=FAST, times_seeds=3, pictures=True),
 )
 """The rows of the wrist, every one with two false blobs a frame, one marker in ten hidden, one frame in 100 lost."""

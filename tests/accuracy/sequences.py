@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import fields
 from pathlib import Path
 
 import numpy as np
@@ -67,6 +68,17 @@ def longest_untracked_s(sequence: MeasurementSequence, tracked: NDArray[np.bool_
             longest = max(longest, float(now_s - since))
         since = (now_s if since is None else since) if missed else None
     return longest
+
+
+def without_false(sequence: MeasurementSequence) -> MeasurementSequence:
+    """The blobs of true markers only."""
+    kept = [np.flatnonzero(labels >= 0) for labels in sequence.marker]
+    blobs = tuple(
+        Detections(*(getattr(b, field.name)[rows] for field in fields(Detections)))
+        for b, rows in zip(sequence.detections, kept, strict=True)
+    )
+    names = tuple(labels[rows] for labels, rows in zip(sequence.marker, kept, strict=True))
+    return MeasurementSequence(sequence.truth, blobs, names)
 
 
 def measured_and_errors(sequence: MeasurementSequence) -> tuple[FloatArray, FloatArray]:

@@ -8,17 +8,23 @@ from dataclasses import dataclass
 import numpy as np
 
 from core.types import FloatArray
-from tests.accuracy.runs import CARPUS, INFORMED, SIMPLEST, Mode, Run
+from tests.accuracy.runs import CARPUS, INFORMED, SIMPLEST, UNTROUBLED, Mode, Run
 from tests.accuracy.scenarios import Scenario
 from tests.accuracy.scores import Score, score
 
 _METHODS: tuple[tuple[str, str, bool], ...] = (
     ("Carpus, live", CARPUS, False),
     ("Carpus, looking back", CARPUS, True),
+    ("without false blobs", UNTROUBLED, False),
     ("simplest thing", SIMPLEST, False),
     ("bound, live", INFORMED, False),
     ("bound, looking back", INFORMED, True),
 )
+_BOUND_OF = {
+    "Carpus, live": "bound, live",
+    "without false blobs": "bound, live",
+    "Carpus, looking back": "bound, looking back",
+}
 _NONE = "-"
 
 
@@ -65,7 +71,7 @@ def terminal(rows: Sequence[Row]) -> str:
     lines: list[str] = []
     head = (
         f"{'':24}{'RMSE, degrees':>22}{'95th percentile':>22}{'tracked %':>11}{'wrong %':>9}{'for s':>7}{'back s':>8}"
-        f"{'within 2 sd, % (worst)':>28}{'mean sd / RMSE':>22}{'ms':>8}"
+        f"{'within 2 sd, % (worst)':>28}{'mean sd / RMSE':>22}{'RMSE / bound':>22}{'ms':>8}"
     )
     columns: tuple[str, ...] = ()
     for row in rows:
@@ -75,21 +81,24 @@ def terminal(rows: Sequence[Row]) -> str:
         count = len({run.seed for run in row.runs})
         source = "simulated measurements" if row.mode == "blobs" else "rendered pictures"
         lines.append(f"{row.name}  [{count} x {source}]")
-        for label, s in _scores(row):
+        found = dict(_scores(row))
+        for label, s in found.items():
+            bound = found.get(_BOUND_OF.get(label, ""))
+            over = "" if bound is None else _three(s.rmse / bound.rmse)
             worst = "" if np.isnan(s.worst_inside) else f" ({100 * s.worst_inside:.0f})"
             inside = _three(s.inside, 0, 100.0) + worst
             lines.append(
                 f"  {label:22}{_three(s.rmse):>22}{_three(s.p95):>22}{100 * s.tracked:>11.1f}{100 * s.wrong:>9.2f}"
-                f"{s.longest_wrong_s:>7.2f}{s.longest_untracked_s:>8.2f}{inside:>28}{_three(s.sd_over_rmse):>22}{s.ms:>8.2f}"
+                f"{s.longest_wrong_s:>7.2f}{s.longest_untracked_s:>8.2f}{inside:>28}{_three(s.sd_over_rmse):>22}{over:>22}{s.ms:>8.2f}"
             )
     return "\n".join(lines)
 
 
 def markdown(rows: Sequence[Row]) -> str:
-    """One line for every row: RMSE of all methods, and how sure and how quick Carpus was."""
+    """One line for every row: RMSE of all methods, and how sure Carpus was of angles and names."""
     head = [
         "row", "recordings", "live", "live, 95th percentile", "looking back", "simplest thing", "bound",
-        "within 2 sd, %", "mean sd / RMSE", "tracked, %", "wrong, %", "ms",
+        "RMSE / bound", "within 2 sd, %", "mean sd / RMSE", "tracked, %", "wrong, %", "longest swap, s", "back after, s",
     ]  # fmt: skip
     lines = [" | ".join(head).join(("| ", " |")), "|---" * len(head) + "|"]
     for row in rows:
@@ -103,9 +112,11 @@ def markdown(rows: Sequence[Row]) -> str:
             _three(found[label].rmse) if label in found else _NONE
             for label in ("Carpus, looking back", "simplest thing", "bound, live")
         ]
+        bound = found.get("bound, live")
         cells += [
-            _three(live.inside, 0, 100.0), _three(live.sd_over_rmse), f"{100 * live.tracked:.1f}",
-            f"{100 * live.wrong:.2f}", f"{live.ms:.1f}",
+            _NONE if bound is None else _three(live.rmse / bound.rmse), _three(live.inside, 0, 100.0),
+            _three(live.sd_over_rmse), f"{100 * live.tracked:.1f}", f"{100 * live.wrong:.2f}",
+            f"{live.longest_wrong_s:.1f}", f"{live.longest_untracked_s:.1f}",
         ]  # fmt: skip
         lines.append(" | ".join(cells).join(("| ", " |")))
     return "\n".join(lines)
