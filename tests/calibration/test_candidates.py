@@ -53,7 +53,7 @@ def test_all_discs_of_a_whole_hand_are_found_and_named_before_any_click(seed: in
     found = marker_candidates(Frame(0, 0.0, color, depth, 1.0 / 5000.0), pictures.truth.camera, SETTINGS)
     proposal = propose_names(found, pictures.truth.camera, side)
     assert proposal.is_complete
-    assert np.linalg.norm(found.pixel[proposal.blob] - pictures.truth.disc_pixel[0], axis=1).max() < 1.5
+    assert np.linalg.norm(found.pixel[proposal.blob] - pictures.truth.disc_pixel[0], axis=1).max() < 3.0  # under a disc
 
 
 @pytest.mark.parametrize("paper_to", ["blue", "green"])
