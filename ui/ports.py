@@ -128,6 +128,11 @@ class SetUp:
     target_negative_deg: float
     keep_pictures: bool = False
 
+    @property
+    def protocol(self) -> MarkerProtocol:
+        """The discs on the hand, which the exercise decides."""
+        return self.exercise.protocol
+
 
 class LiveFeed(Protocol):
     """The running source, as :class:`core.pipeline.live.LiveSession` offers it to a screen."""

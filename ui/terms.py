@@ -23,6 +23,10 @@ def exercise_name(exercise_id: str) -> str:
         "WRIST_RU": tr("Wrist side to side"),
         "FOREARM_PS": tr("Palm up – palm down"),
         "FREE": tr("Free movement"),
+        "FIST_COMPOSITE": tr("Full fist"),
+        "FIST_HOOK": tr("Hook fist"),
+        "FINGER_ABAD": tr("Spread the fingers"),
+        "FREE_HAND": tr("Free movement of the fingers"),
     }.get(exercise_id, exercise_id)
 
 
@@ -33,6 +37,10 @@ def exercise_instruction(exercise_id: str) -> str:
         "WRIST_RU": tr("Slide the hand to the thumb side, then to the little-finger side. Keep it flat."),
         "FOREARM_PS": tr("Turn the palm up as far as the markers stay visible, then back."),
         "FREE": tr("Move the wrist freely. All three angles are recorded; no repetitions are counted."),
+        "FIST_COMPOSITE": tr("Close all fingers into a full fist, then open flat."),
+        "FIST_HOOK": tr("Keep the knuckles straight, bend only the end joints like a hook, then open."),
+        "FINGER_ABAD": tr("Spread the fingers wide, then close them."),
+        "FREE_HAND": tr("Move the fingers freely. All joint angles are recorded; no repetitions are counted."),
     }.get(exercise_id, "")
 
 
@@ -43,6 +51,10 @@ def exercise_position(exercise_id: str) -> str:
         "WRIST_RU": tr("Palm flat on a smooth sheet, forearm strapped."),
         "FOREARM_PS": tr("Elbow at the side, forearm free, palm down under the camera."),
         "FREE": tr("Hand in view of the camera, back of the hand up."),
+        "FIST_COMPOSITE": tr("Forearm on the wedge, back of the hand towards the camera, fingers straight."),
+        "FIST_HOOK": tr("Forearm on the wedge, back of the hand towards the camera, fingers straight."),
+        "FINGER_ABAD": tr("Palm flat on the table, fingers straight and closed."),
+        "FREE_HAND": tr("Hand in view of the camera, back of the hand up, fingers straight."),
     }.get(exercise_id, "")
 
 

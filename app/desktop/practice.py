@@ -14,16 +14,19 @@ from core.simulation.spec import RecordingSpec
 from ui.ports import SetUp
 
 _MOTION = {FLEXION: "flexion", DEVIATION: "deviation", PRONOSUPINATION: "pronosupination", None: "mixed"}
+_HAND_MOTION = {"FIST_COMPOSITE": "fist", "FIST_HOOK": "hook", "FINGER_ABAD": "abduction", "FREE_HAND": "fingers"}
 _SPEED_HZ, _RANGE_SHARE, _REPETITIONS, _SECONDS = 0.36, 0.8, 10, 30.0
 _READ_AHEAD = 8
 
 
 def practice_spec(set_up: SetUp, seconds: float = _SECONDS) -> RecordingSpec:
     """A take of half a minute: ten repetitions, now and then a hidden marker, a false blue spot."""
+    exercise = set_up.exercise
     return RecordingSpec(
         seed=5,
         hand=set_up.side,
-        motion=_MOTION[set_up.exercise.angle],
+        protocol=exercise.protocol.name,
+        motion=_HAND_MOTION.get(exercise.id, _MOTION[exercise.angle]),
         seconds=seconds,
         speed_hz=_SPEED_HZ,
         repetitions=_REPETITIONS,

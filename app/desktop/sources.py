@@ -18,7 +18,6 @@ from core.capture.practice import PracticeSource
 from core.capture.source import FrameSource
 from core.capture.xtion_usb import usb_cameras
 from core.errors import CarpusFault, RecordingEmpty, RegistrationAssumed
-from core.hand.protocols import WRIST6
 from core.pipeline.live import LiveSession
 from core.types import Frame
 from ui.ports import SetUp
@@ -133,7 +132,9 @@ class Sources:
     def _calibrator(
         self, pictures: LivePictures | StoredPictures, source: FrameSource, set_up: SetUp, measuring: SourceMeasuring
     ) -> HandCalibrator:
-        return HandCalibrator(pictures, source.info.camera, set_up.side, WRIST6, self._settings.track, measuring.begin)
+        return HandCalibrator(
+            pictures, source.info.camera, set_up.side, set_up.protocol, self._settings.track, measuring.begin
+        )
 
 
 class LivePictures:

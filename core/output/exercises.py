@@ -5,6 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Literal
 
+from core.hand.protocols import HAND21, WRIST6, MarkerProtocol
+
 DEVIATION, FLEXION, PRONOSUPINATION = 0, 1, 2
 """Columns of the wrist angles, as in every file."""
 
@@ -31,12 +33,25 @@ class Exercise:
     trick_limit_deg: float
     pure_wrist: bool
     """Whether the forearm must lie still (WRIST disc within a ball of 15 mm)."""
+    protocol: MarkerProtocol = WRIST6
+    """The discs it needs."""
+    joint: str = ""
+    """The joint angle of the whole hand that is trained, by its name in every file; empty where ``angle`` counts."""
+
+    @property
+    def counts(self) -> bool:
+        """Whether repetitions of one angle are counted."""
+        return self.angle is not None or bool(self.joint)
 
 
 EXERCISES = (
     Exercise("WRIST_FE", FLEXION, 10, 10.0, True),
     Exercise("WRIST_RU", DEVIATION, 10, 10.0, True),
     Exercise("FOREARM_PS", PRONOSUPINATION, 10, float("nan"), False),
+    Exercise("FIST_COMPOSITE", None, 10, float("nan"), False, HAND21, "PIP3_flexion"),
+    Exercise("FIST_HOOK", None, 10, float("nan"), False, HAND21, "PIP3_flexion"),
+    Exercise("FINGER_ABAD", None, 10, float("nan"), False, HAND21, "MCP2_abduction"),
+    Exercise("FREE_HAND", None, 0, float("nan"), False, HAND21),
     Exercise("FREE", None, 0, float("nan"), False),
 )
 STILL_RADIUS_MM = 15.0

@@ -14,6 +14,8 @@ from core.simulation.spec import RecordingSpec
 from core.types import FloatArray
 from ui.ports import SetUp
 
+Take = Callable[[SetUp, Callable[[int, int], None]], tuple[FrameSource, float]]
+
 SPEC = RecordingSpec(
     seed=5,
     motion="flexion",
@@ -39,9 +41,9 @@ def render(folder: Path) -> Path:
     return folder
 
 
-def take_of(folder: Path) -> Callable[[SetUp, Callable[[int, int], None]], tuple[FrameSource, float]]:
+def take_of(folder: Path, fps: float = SPEC.fps) -> Take:
     """What :func:`app.compose.compose` takes instead of the practice patient's half minute."""
-    return lambda _set_up, _progress: (TumFolder(folder, read_ahead=4), STILL_S - 1.0 / SPEC.fps)
+    return lambda _set_up, _progress: (TumFolder(folder, read_ahead=4), STILL_S - 1.0 / fps)
 
 
 def clicks_of(folder: Path) -> FloatArray:

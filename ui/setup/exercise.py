@@ -7,6 +7,7 @@ import math
 from PySide6.QtCore import Signal
 from PySide6.QtWidgets import QHBoxLayout, QVBoxLayout, QWidget
 
+from core.hand.protocols import HAND21, WRIST6
 from core.output.exercises import EXERCISES, SIDES, Exercise, exercise_named
 from core.types import Side
 from ui import terms
@@ -14,6 +15,7 @@ from ui.controls.button import Button
 from ui.controls.card import Card
 from ui.controls.field import Choices, Labelled, number_field
 from ui.controls.text import SEMIBOLD, Text, heading
+from ui.figures import figure_of
 from ui.ports import PatientRow, SetUp
 from ui.setup.option import Options
 from ui.theme import MARGIN_PX, Theme
@@ -30,10 +32,12 @@ class ExerciseScreen(QWidget):
         super().__init__()
         self._theme = theme
         self._row: PatientRow | None = None
-        self.exercises = Options(
-            theme,
-            [(item.id, terms.exercise_name(item.id), terms.exercise_instruction(item.id)) for item in EXERCISES],
-        )
+        protocols: list[tuple[object, str]] = [
+            (WRIST6.name, self.tr("Wrist · 6 markers")),
+            (HAND21.name, self.tr("Whole hand · 21 markers")),
+        ]
+        self.protocol = Choices(theme, protocols)
+        self.lists = {str(name): _exercises_of(theme, str(name)) for name, _ in protocols}
         sides: list[tuple[object, str]] = [("right", terms.side_name("right")), ("left", terms.side_name("left"))]
         self.side = Choices(theme, sides)
         self.repetitions = number_field(theme, MOST_REPETITIONS, nothing=self.tr("none"))
@@ -44,8 +48,10 @@ class ExerciseScreen(QWidget):
         self.pictures = Choices(theme, keep)
         self.primary = Button(theme, self.tr("Next: the camera"), "primary", icon="arrow-right", hint=self.tr("Enter"))
         self._lay_out()
-        self.exercises.chosen.connect(self._show_exercise)
-        self.exercises.accepted.connect(self._go_on)
+        for options in self.lists.values():
+            options.chosen.connect(self._show_exercise)
+            options.accepted.connect(self._go_on)
+        self.protocol.chosen.connect(self._show_protocol)
         self.primary.clicked.connect(self._go_on)
         theme.changed.connect(self._fit)
         self._fit()
@@ -55,7 +61,9 @@ class ExerciseScreen(QWidget):
         left = QVBoxLayout()
         left.setSpacing(16)
         left.addWidget(heading(theme, self.tr("Which exercise?")))
-        left.addWidget(self.exercises, 1)
+        left.addWidget(self.protocol)
+        for options in self.lists.values():
+            left.addWidget(options, 1)
         self._card = Card(theme, 24)
         body = self._card.body
         body.setSpacing(16)
@@ -84,14 +92,24 @@ class ExerciseScreen(QWidget):
         """Show for a patient, with the last set-up or the usual one."""
         self._row = row
         exercise = last.exercise if last is not None else EXERCISES[0]
-        self.exercises.choose(exercise.id)
-        self._show_exercise(exercise.id)
+        self.choose(exercise)
         self.side.choose(side)
         self.pictures.choose(keep_pictures)
         if last is not None:
             self.repetitions.setValue(last.repetitions)
             for field, value in zip(self.targets, (last.target_positive_deg, last.target_negative_deg), strict=True):
                 field.setValue(round(abs(value)) if math.isfinite(value) else 0)
+
+    @property
+    def exercises(self) -> Options:
+        """The exercises of the markers chosen."""
+        return self.lists[str(self.protocol.value())]
+
+    def choose(self, exercise: Exercise) -> None:
+        """Show an exercise as the chosen one."""
+        self.protocol.choose(exercise.protocol.name)
+        self.exercises.choose(exercise.id)
+        self._show_protocol()
 
     def first(self) -> QWidget:
         """What takes the keyboard: Enter alone goes on with what is shown."""
@@ -105,13 +123,15 @@ class ExerciseScreen(QWidget):
         positive, negative = (float(field.value()) or math.nan for field in self.targets)
         negative = -negative  # the angle's sign, which the person never sees
         if exercise.angle is None:
-            positive = negative = math.nan
+            negative = math.nan
+        if not exercise.counts:
+            positive = math.nan
         return SetUp(
             self._row.patient_id,
             self._row.pseudonym,
             side,
             exercise,
-            self.repetitions.value() if exercise.angle is not None else 0,
+            self.repetitions.value() if exercise.counts else 0,
             positive,
             negative,
             bool(self.pictures.value()),
@@ -122,18 +142,28 @@ class ExerciseScreen(QWidget):
 
     def _show_exercise(self, exercise_id: object) -> None:
         exercise = exercise_named(str(exercise_id))
-        counted = exercise.angle is not None
-        self._repetition_field.setVisible(counted)
+        if exercise.protocol.name != self.protocol.value():
+            return  # the list that is not shown
+        self._repetition_field.setVisible(exercise.counts)
         for number, (field, name) in enumerate(zip(self._target_fields, self._target_names, strict=True)):
-            field.setVisible(counted)
-            if exercise.angle is not None:
+            field.setVisible(exercise.angle is not None or (bool(exercise.joint) and number == 0))
+            if exercise.joint and number == 0:
+                words = self.tr("Target, {movement}").format(movement=figure_of(exercise.joint).long_name)
+                name.setText(words)
+                self.targets[number].setAccessibleName(words)
+            elif exercise.angle is not None:
                 words = self.tr("Target, {movement}").format(
                     movement=terms.movement_name(SIDES[exercise.angle][number]).lower()
                 )
                 name.setText(words)
                 self.targets[number].setAccessibleName(words)
-        if counted:
+        if exercise.counts:
             self.repetitions.setValue(exercise.repetitions)
+
+    def _show_protocol(self, *_: object) -> None:
+        for name, options in self.lists.items():
+            options.setVisible(name == self.protocol.value())
+        self._show_exercise(self.exercises.value())
 
     def _go_on(self) -> None:
         self.ready.emit(self.set_up())
@@ -141,3 +171,10 @@ class ExerciseScreen(QWidget):
 
 def _caption(field: Labelled) -> Text:
     return next(child for child in field.findChildren(Text))
+
+
+def _exercises_of(theme: Theme, protocol: str) -> Options:
+    rows = [item for item in EXERCISES if item.protocol.name == protocol]
+    return Options(
+        theme, [(item.id, terms.exercise_name(item.id), terms.exercise_instruction(item.id)) for item in rows]
+    )

@@ -1,0 +1,88 @@
+"""Twenty-one discs through the real application: set up, clicked, tracked live, recorded, read back."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import replace
+from pathlib import Path
+
+import h5py
+import numpy as np
+import pytest
+from PySide6.QtCore import Qt
+from PySide6.QtWidgets import QApplication
+from pytestqt.qtbot import QtBot
+
+from app.compose import Desktop, application, compose
+from app.settings import RecordingSettings, ScreenSettings, Settings
+from core.hand.protocols import HAND21, joint_angle_names
+from core.simulation.recording import TRUTH_FILE, simulate
+from core.simulation.spec import RecordingSpec
+from tests.journeys.takes import clicks_of, take_of
+from tests.journeys.test_journey import at, click, click_discs, reviewed, still_hand, wait
+from ui.ports import PRACTICE_PATIENT
+
+SPEC = RecordingSpec(
+    seed=5, protocol="hand21", motion="fist", seconds=5.0, fps=15.0, speed_hz=0.6, repetitions=2, range_share=0.5,
+    hand_length_mm=192.0, skin_tone=1, light="bright", sleeve="grey", distance_m=0.64, click_error_px=1.0,
+)  # fmt: skip
+
+
+@pytest.fixture(scope="module")
+def hand_take(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    folder = tmp_path_factory.mktemp("hand") / "fist"
+    simulate(SPEC, folder, workers=2)
+    return folder
+
+
+@pytest.fixture
+def desktop(qapp: QApplication, hand_take: Path, tmp_path: Path) -> Iterator[Desktop]:
+    folder = RecordingSettings(folder=str(tmp_path / "data"))
+    settings = replace(Settings(), screen=ScreenSettings("light"), recording=folder)
+    composed = compose(
+        application([]), settings, take=take_of(hand_take, SPEC.fps), settings_folder=tmp_path / "settings"
+    )
+    composed.show()
+    yield composed
+    composed.close()
+    composed.shell.deleteLater()
+    qapp.processEvents()
+
+
+def test_the_whole_hand_from_set_up_to_session_file(qtbot: QtBot, desktop: Desktop, hand_take: Path) -> None:
+    journey = desktop.journey
+    journey.choose_exercise(PRACTICE_PATIENT)
+    at(qtbot, desktop, "exercise")
+    click(qtbot, journey.exercise.protocol.buttons()[1])
+    click(qtbot, journey.exercise.exercises.option("FIST_COMPOSITE"))
+    click(qtbot, journey.exercise.primary)
+    at(qtbot, desktop, "camera")
+    click(qtbot, journey.camera.sources.option("practice"))
+    click(qtbot, journey.camera.primary)
+    still_hand(qtbot, desktop)
+    click(qtbot, journey.markers.primary)
+    assert journey.markers.clicking is not None
+    assert journey.markers.clicking.order == HAND21.markers
+    click_discs(qtbot, desktop, hand_take)
+    np.testing.assert_allclose(journey.markers.clicking.clicks().pixel, clicks_of(hand_take), atol=4.0)
+    click(qtbot, journey.markers.primary)
+    at(qtbot, desktop, "live")
+    qtbot.keyClick(journey.live, Qt.Key.Key_Space)
+    wait(qtbot, lambda: journey.live.recording_state == "recording")
+    wait(qtbot, lambda: journey.live.recorded_s > 3.0)
+    qtbot.keyClick(journey.live, Qt.Key.Key_Space)
+    path = reviewed(qtbot, desktop)
+    with h5py.File(path) as file:
+        assert (file.attrs["protocol"], file.attrs["exercise"]) == ("hand21", "FIST_COMPOSITE")
+        names = [str(name) for name in file["joints/angles"].attrs["names"]]
+        status, angles_deg = file["frames/status"][:], np.degrees(file["joints/angles"][:])
+        seen = np.isfinite(file["markers/measured"][:, :, 0]).sum(axis=1)
+    assert names == list(joint_angle_names())
+    assert np.mean(status == 0) > 0.8
+    assert seen.max() >= 20
+    with h5py.File(hand_take / TRUTH_FILE) as file:
+        true_deg = np.degrees(file["joints/angles"][:])
+    for joint in ("MCP3_flexion", "PIP3_flexion", "PIP2_flexion"):
+        column = names.index(joint)
+        assert np.nanmax(angles_deg[:, column]) == pytest.approx(true_deg[:, column].max(), abs=13.0)
+        assert np.nanmin(angles_deg[:, column]) == pytest.approx(true_deg[:, column].min(), abs=13.0)

@@ -1,0 +1,99 @@
+"""The joint angles of the whole hand as the clinic speaks of them: by finger, with a name, a range and a colour.
+
+Five fingers (thumb to little) by four rows: knuckle, middle joint, end joint, spread. The thumb has no middle joint;
+its row shows the lift away from the palm. Spreading is counted away from the middle finger, the thumb's away from the
+palm's edge, and that of the middle finger towards the thumb. TAM is the sum of a finger's bending.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Literal
+
+from ui.marker_words import finger_name
+from ui.translate import tr
+
+Row = Literal["knuckle", "middle", "end", "spread", "tam"]
+ROWS: tuple[Row, ...] = ("knuckle", "middle", "end", "spread")
+FINGERS = (1, 2, 3, 4, 5)
+TOKENS: dict[Row, str] = {
+    "knuckle": "curve_a", "middle": "curve_b", "end": "curve_c", "spread": "curve_a", "tam": "accent",
+}  # fmt: skip
+_JOINTS: dict[Row, str] = {"knuckle": "MCP{}_flexion", "middle": "PIP{}_flexion", "end": "DIP{}_flexion"}
+_THUMB: dict[Row, str] = {
+    "knuckle": "MCP1_flexion", "middle": "CMC1_abduction", "end": "IP1_flexion", "spread": "CMC1_extension",
+}  # fmt: skip
+
+
+@dataclass(frozen=True, slots=True)
+class Figure:
+    """One angle of one finger. ``joint`` is its name in every file, ``TAM3`` for the sum of a finger's bending."""
+
+    finger: int
+    row: Row
+
+    @property
+    def joint(self) -> str:
+        if self.row == "tam":
+            return f"TAM{self.finger}"
+        if self.finger == 1:
+            return _THUMB[self.row]
+        return f"MCP{self.finger}_abduction" if self.row == "spread" else _JOINTS[self.row].format(self.finger)
+
+    @property
+    def token(self) -> str:
+        """Colour of its curve."""
+        return TOKENS[self.row]
+
+    @property
+    def sign(self) -> float:
+        """From the angle in every file to the one that is spoken of: spreading is away from the middle finger."""
+        return -1.0 if self.row == "spread" and self.finger in (4, 5) else 1.0
+
+    @property
+    def range_deg(self) -> tuple[float, float]:
+        """Ends of the gauge."""
+        if self.row == "spread":
+            return -30.0, 30.0
+        return 0.0, {"tam": 140.0 if self.finger == 1 else 270.0}.get(self.row, 120.0)
+
+    @property
+    def row_name(self) -> str:
+        """``Knuckle``; the thumb's second row is its lift."""
+        return tr("Lift") if self.finger == 1 and self.row == "middle" else row_name(self.row)
+
+    @property
+    def long_name(self) -> str:
+        """``Ring finger, middle joint``."""
+        name = self.row_name
+        finger = tr("Thumb") if self.finger == 1 else tr("{finger} finger").format(finger=finger_name(str(self.finger)))
+        return tr("{finger}, {joint}").format(
+            finger=finger, joint=name if self.row == "tam" else name[0].lower() + name[1:]
+        )
+
+    @property
+    def end_names(self) -> tuple[str, str]:
+        """What the two ends of the gauge are called."""
+        low, high = (f"{abs(value):.0f}°" for value in self.range_deg)
+        if self.row != "spread":
+            return tr("Straight"), tr("Bent {angle}").format(angle=high)
+        if self.finger == 3:
+            return tr("Little-finger side {angle}").format(angle=low), tr("Thumb side {angle}").format(angle=high)
+        return tr("Inwards {angle}").format(angle=low), tr("Away {angle}").format(angle=high)
+
+
+FIGURES: tuple[Figure, ...] = tuple(Figure(finger, row) for finger in FINGERS for row in (*ROWS, "tam"))
+"""All that can be the large number, finger by finger."""
+
+
+def row_name(row: Row) -> str:
+    """``Middle joint``."""
+    return {
+        "knuckle": tr("Knuckle"), "middle": tr("Middle joint"), "end": tr("End joint"), "spread": tr("Spread"),
+        "tam": tr("TAM"),
+    }[row]  # fmt: skip
+
+
+def figure_of(joint: str) -> Figure:
+    """The figure of a joint angle's name, the middle finger's middle joint for one that is not shown."""
+    return next((figure for figure in FIGURES if figure.joint == joint), Figure(3, "middle"))
