@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 
@@ -255,16 +256,21 @@ def _nanmean(values: FloatArray) -> FloatArray:
 
 
 def _noise(capture: NeutralCapture) -> StillNoise:
-    """Noise of one picture on the still hand, common drift of the centres removed."""
+    """Noise of one picture on the still hand, common drift of the centres removed; NaN where too little was seen."""
     if capture.frames < 4:
         return StillNoise()
-    with np.errstate(all="ignore"):
-        drift = capture.pixel - np.nanmedian(capture.pixel, axis=1, keepdims=True)
-        # Six discs share the median that is taken away: a little of their own scatter goes with it.
-        pixel_sd = float(np.sqrt(np.nanmean(np.nanvar(drift, axis=0, ddof=1)) * 6.0 / 5.0))
-        depth_sd = float(np.sqrt(np.nanmean(np.nanvar(capture.depth_m, axis=0, ddof=1))))
-        by_the_book = float(np.nanmean(reading_sd_m(capture.depth_m)))
-        return StillNoise(pixel_sd, depth_sd, depth_sd / by_the_book)
+    about = capture.pixel - np.nanmean(capture.pixel, axis=0)  # first: a disc not seen must not move the median
+    drift = about - np.nanmedian(about, axis=1, keepdims=True)
+    # Six discs share the median that is taken away: a little of their own scatter goes with it.
+    pixel_sd = math.sqrt(_mean_variance(drift) * 6.0 / 5.0)
+    depth_sd = math.sqrt(_mean_variance(capture.depth_m))
+    return StillNoise(pixel_sd, depth_sd, depth_sd / float(np.nanmean(reading_sd_m(capture.depth_m))))
+
+
+def _mean_variance(series: FloatArray) -> float:
+    """Mean variance over time of the columns of (F, ...) that were seen more than once; NaN when none was."""
+    often = np.isfinite(series).sum(axis=0) > 1
+    return float(np.mean(np.nanvar(series[:, often], axis=0, ddof=1))) if often.any() else math.nan
 
 
 def _disc_radius_m(capture: NeutralCapture, camera: Camera, palm: NDArray[np.int64]) -> float:

@@ -27,9 +27,9 @@ class Stencil:
     """A round window of P pixels about a blob, ordered by their distance from its middle.
 
     ``row`` and ``column`` (P,) offsets from the middle, at most ``half``; ``core``, ``reach`` and ``near`` the first
-    so many pixels: those of the disc's own colour, those that may belong to it, those within the sensor's window;
-    ``rim`` the pixels around it, ``wedge`` (R, WEDGES) the R pixels of the rim seen in eight overlapping quarter
-    circles, 0 or 1; ``pick`` (P,) where in rows of P times WEDGES each pixel finds the wedge in whose middle it lies;
+    so many pixels: those of the disc's own colour, those that may belong to it, those within the sensor's window (at
+    least the core); ``rim`` the pixels around it, ``wedge`` (R, WEDGES) the R pixels of the rim seen in eight
+    overlapping quarter circles, 0 or 1; ``pick`` (P,) where in rows of P times WEDGES each pixel finds the wedge in whose middle it lies;
     ``moments`` (P, 3) the columns 1, u, v.
     """
 
@@ -78,7 +78,7 @@ def _stencil(quarters: int) -> Stencil:
         column,
         first(core),
         first(reach),
-        first(EDGE_REACH_PX),
+        first(max(EDGE_REACH_PX, core)),
         rim,
         is_seen.astype(np.float32),
         np.arange(row.size) * WEDGES + apart.argmin(axis=0),

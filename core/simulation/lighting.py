@@ -35,7 +35,9 @@ def shaded_skin(albedo: FloatImage, normal: FloatImage, corners: FloatImage, loo
 def corner_light(skin: Surface, background_m: FloatImage) -> FloatImage:
     """Share of the ambient light that reaches each pixel: less where its neighbourhood is nearer to the camera."""
     around = np.where(skin.coverage > 0.5, skin.depth_m, background_m)
-    small = cv2.resize(around, None, fx=0.5, fy=0.5, interpolation=cv2.INTER_AREA)
+    small = around
+    if min(around.shape) > 1:  # of a hand about to leave the picture one column may be left
+        small = cv2.resize(around, None, fx=0.5, fy=0.5, interpolation=cv2.INTER_AREA)
     soft = cv2.GaussianBlur(small, (0, 0), 4.0)
     deeper = np.clip((small - soft) / _CORNER_DEPTH_M, 0.0, 1.0)
     size = (around.shape[1], around.shape[0])

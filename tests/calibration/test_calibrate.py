@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from core.calibration.calibrate import calibrate, require_calibration
+from core.calibration.calibrate import NeutralCapture, calibrate, measure_hand, require_calibration
 from core.calibration.result import Calibration, Clicks, Finding
 from core.calibration.settings import CalibrationSettings
 from core.detection.settings import DetectionSettings
@@ -17,7 +17,7 @@ from core.errors import ClickOnNoMarker, MarkerWithoutDepth
 from core.hand.protocols import WRIST6
 from core.types import FloatArray, Side
 from tests.calibration.still_hands import Scene, clicks_on, frames_of, outcome_of, still
-from tests.detection.pictures import CAMERA
+from tests.detection.pictures import CAMERA, PALM_PX
 from tests.tracking.hands import palm
 
 SIDES: tuple[Side, Side] = ("right", "left")
@@ -279,3 +279,15 @@ def test_clicks_at_the_very_rim_are_no_trouble() -> None:
     pixel[0] = [319.0, 239.0]
     outcome = outcome_of(scene, Clicks("right", WRIST6, pixel), still(scene, 5))
     assert only(outcome.verdict.findings, "click_on_no_marker").markers == ("WRIST",)
+
+
+def test_a_disc_seen_once_says_nothing_of_the_noise() -> None:
+    rng = np.random.default_rng(5)
+    pixel = PALM_PX + rng.normal(0.0, 0.1, (8, 6, 2))
+    depth_m = 0.7 + rng.normal(0.0, 0.001, (8, 6))
+    pixel[1:, 2], depth_m[1:, 2] = np.nan, np.nan
+    clicks = Clicks("right", WRIST6, PALM_PX)
+    capture = NeutralCapture(pixel, depth_m, np.full((8, 6), 0.001), np.full((8, 6), 60.0))
+    noise = measure_hand(clicks, capture, CAMERA, CalibrationSettings()).noise
+    assert 0.05 < noise.pixel_sd_px < 0.2
+    assert 0.0005 < noise.depth_sd_m < 0.002

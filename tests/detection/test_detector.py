@@ -4,9 +4,11 @@ from __future__ import annotations
 
 from dataclasses import replace
 
+import cv2
 import numpy as np
 import pytest
 
+from core.camera import Camera
 from core.detection.appearance import MarkerAppearance, learn_appearance
 from core.detection.detector import Detector, Region
 from core.detection.settings import DetectionSettings
@@ -237,6 +239,24 @@ def test_depths_are_those_of_the_discs() -> None:
     assert np.abs(found.depth_m - DISTANCE_M).max() < 0.002
     assert (found.depth_sd_m > 3e-4).all()
     assert (found.depth_sd_m < 0.004).all()
+
+
+@pytest.mark.parametrize("times", [2, 3])
+def test_a_finer_picture_or_a_nearer_hand_shows_larger_discs(times: int) -> None:
+    """Discs wider than the sensor's own window, as in 1280 x 1024 pictures or with a hand nearer than 0.34 m."""
+    rng = np.random.default_rng(21)
+    size = (CAMERA.width_px * times, CAMERA.height_px * times)
+    camera = Camera(525.0 * times, 525.0 * times, 159.5 * times, 119.5 * times, *size)
+    small = frame(picture(PALM_PX, Look(), rng), depth_picture())
+    assert small.depth_raw is not None
+    color = cv2.resize(small.color_rgb, size, interpolation=cv2.INTER_LINEAR)
+    depth = cv2.resize(small.depth_raw, size, interpolation=cv2.INTER_NEAREST)
+    large = replace(small, color_rgb=np.asarray(color, dtype=np.uint8), depth_raw=np.asarray(depth, dtype=np.uint16))
+    true = (PALM_PX + 0.5) * times - 0.5
+    looks, _ = learn_appearance(large, true, camera, SETTINGS)
+    found = Detector(looks, camera, SETTINGS).detect(large)
+    assert all_found(found, true, within_px=0.3 * times)
+    assert np.abs(found.depth_m - DISTANCE_M).max() < 0.002
 
 
 def test_smaller_discs_are_followed_when_they_were_clicked() -> None:

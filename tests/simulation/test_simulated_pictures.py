@@ -7,10 +7,12 @@ import numpy as np
 import pytest
 
 from core.hand.protocols import HAND21
+from core.simulation.lighting import corner_light
 from core.simulation.recording import SimulatedPictures
 from core.simulation.scene import Scene
 from core.simulation.skin import skin_distance
 from core.simulation.spec import RecordingSpec
+from core.simulation.trace import Box, Surface
 from core.types import ByteImage, FloatArray
 
 ALL_PALM = [HAND21.markers.index(name) for name in ("WRIST", "CMC1", "MCP2", "MCP3", "MCP4", "MCP5")]
@@ -186,3 +188,11 @@ def test_moving_hand_is_blurred_when_the_exposure_is_long() -> None:
         return float(np.abs(np.diff(window, axis=1)).max())
 
     assert sharpness(0.016) < 0.7 * sharpness(0.0)
+
+
+def test_the_last_column_of_a_hand_that_leaves_can_be_lit() -> None:
+    depth_m = np.full((40, 1), 0.7, dtype=np.float32)
+    sliver = Surface(Box(100, 140, 639, 640), depth_m, np.ones_like(depth_m), np.zeros((40, 1, 3)), np.zeros((40, 1)))
+    light = corner_light(sliver, depth_m)
+    assert light.shape == (40, 1)
+    assert np.all(light == 1.0)
