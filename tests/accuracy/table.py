@@ -98,7 +98,8 @@ def markdown(rows: Sequence[Row]) -> str:
     """One line for every row: RMSE of all methods, and how sure Carpus was of angles and names."""
     head = [
         "row", "recordings", "live", "live, 95th percentile", "looking back", "simplest thing", "bound",
-        "RMSE / bound", "within 2 sd, %", "mean sd / RMSE", "tracked, %", "wrong, %", "longest swap, s", "back after, s",
+        "RMSE / bound", "within 2 sd, %", "mean sd / RMSE", "tracked, %", "wrong, %", "longest swap, s",
+        "back after, s",
     ]  # fmt: skip
     lines = [" | ".join(head).join(("| ", " |")), "|---" * len(head) + "|"]
     for row in rows:
