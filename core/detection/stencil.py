@@ -29,8 +29,8 @@ class Stencil:
     ``row`` and ``column`` (P,) offsets from the middle, at most ``half``; ``core``, ``reach`` and ``near`` the first
     so many pixels: those of the disc's own colour, those that may belong to it, those within the sensor's window (at
     least the core); ``rim`` the pixels around it, ``wedge`` (R, WEDGES) the R pixels of the rim seen in eight
-    overlapping quarter circles, 0 or 1; ``pick`` (P,) where in rows of P times WEDGES each pixel finds the wedge in whose middle it lies;
-    ``moments`` (P, 3) the columns 1, u, v.
+    overlapping quarter circles, 0 or 1; ``pick`` (P,) where in rows of P times WEDGES each pixel finds the wedge in
+    whose middle it lies; ``moments`` (P, 3) the columns 1, u, v.
     """
 
     half: int
