@@ -12,6 +12,9 @@ from core.capture.camera_info import CAMERA_FILE
 from core.capture.source import SourceInfo
 from core.capture.tum import TumFolder
 from core.hand.protocols import WRIST_ANGLES
+from core.output.exercises import exercise_named
+from core.output.joint_content import joint_rows, joint_tracks
+from core.output.range_rows import is_total
 from core.session.reader import has_raw
 from core.session.values import Session
 from core.types import FloatArray, TrackStatus
@@ -133,13 +136,10 @@ def _shares(session: Session) -> str:
 
 
 def _ranges(session: Session) -> list[str]:
-    """Lowest, highest and arc of every angle over the tracked frames."""
+    """Lowest, highest and arc of the wrist over the tracked frames, then the joints."""
     tracked = session.status == TrackStatus.TRACKED
     lines = ["Range of motion over the tracked frames"]
-    columns = [
-        *zip(WRIST_ANGLES, session.motion.angles_rad.T, strict=True),
-        *zip(session.header.joint_names, session.motion.joint_angles_rad.T, strict=True),
-    ]
+    columns = [*zip(WRIST_ANGLES, session.motion.angles_rad.T, strict=True)]
     for name, values_rad in columns:
         known = np.degrees(values_rad[tracked & np.isfinite(values_rad)])
         if not known.size:
@@ -148,12 +148,35 @@ def _ranges(session: Session) -> list[str]:
         low, high = float(known.min()), float(known.max())
         ends = f"from {_side(name, low)} to {_side(name, high)}"
         lines.append(f"  {name:<18} {ends}, arc {high - low:.1f}°")
+    return lines + _joint_ranges(session)
+
+
+def _joint_ranges(session: Session) -> list[str]:
+    """Of the whole hand: every joint over the frames in which it was seen, and the total of every finger."""
+    tracks = joint_tracks(session)
+    if not tracks:
+        return []
+    rows = joint_rows(tracks, (), exercise_named(session.header.exercise))
+    ends = {(row.joint, row.movement): row.mean_deg for row in rows}
+    lines = ["Joints of the fingers over the frames in which they were seen (TAM: total active motion)"]
+    for row in rows:
+        if row.movement != "arc":
+            continue
+        if not row.count:
+            lines.append(f"  {row.joint:<18} never seen")
+            continue
+        low, high = ends[row.joint, "extension"], ends[row.joint, "flexion"]
+        text = f"arc {row.mean_deg:.1f}°, seen {100.0 * row.seen_share:.0f} %"
+        if is_total(row.joint):
+            text = f"{row.mean_deg:.1f}°: bending {high:.1f}° less {low:.1f}° to straight"
+        else:
+            text = f"from {low:.1f}° to {high:.1f}°, {text}"
+        text += ", end joint not measured" if row.inferred else ""
+        lines.append(f"  {row.joint:<18} {text}" + (", limited by the camera's view" if row.limited else ""))
     return lines
 
 
 def _side(name: str, angle_deg: float) -> str:
-    if name not in _WRIST_DIRECTIONS:
-        return f"{angle_deg:.1f}°"
     negative, positive = _WRIST_DIRECTIONS[name]
     return f"{abs(angle_deg):.1f}° {positive if angle_deg >= 0.0 else negative}"
 

@@ -89,17 +89,28 @@ def test_next_to_nothing_is_told_without_numbers_that_do_not_exist(tmp_path: Pat
             session.append(dataclasses.replace(make_frame(row, HAND21), status=TrackStatus.LOST))
     lines = session_summary(read_session(path))
     assert values(lines)["Frames"] == str(frames)
-    assert sum("not measured" in line for line in lines) == 3 + 17
+    assert sum(line.endswith("not measured") for line in lines) == 3
+    assert sum("never seen" in line for line in lines) == 17 + 5
     assert "nan" not in "\n".join(lines)
 
 
-def test_every_joint_of_a_hand_has_its_range(tmp_path: Path) -> None:
+def test_every_joint_of_a_hand_has_the_range_in_which_it_was_seen(tmp_path: Path) -> None:
     path = tmp_path / "s.h5"
+    hidden = HAND21.markers.index("DIP4")
     with SessionWriter.create(path, make_header(HAND21), CAMERA, make_calibration(HAND21)) as session:
-        for row in range(4):
-            session.append(dataclasses.replace(make_frame(row, HAND21), status=TrackStatus.TRACKED))
-    lines = session_summary(read_session(path))
-    assert sum(", arc " in line for line in lines) == 3 + 17
+        for row in range(8):
+            frame = make_frame(row, HAND21)
+            measured = np.full((21, 2), 100.0)
+            measured[hidden] = np.nan
+            angles = np.full(17, 0.0 if row % 2 else 0.5)
+            known = {"status": TrackStatus.TRACKED, "marker_measured_px": measured, "joint_angles_rad": angles}
+            session.append(dataclasses.replace(frame, **known, joint_angles_sd_rad=np.full(17, 0.01)))
+    lines = {line.split()[0]: line for line in session_summary(read_session(path)) if line.startswith("  ")}
+    assert "seen 100 %" in lines["PIP3_flexion"]
+    assert "arc" in lines["MCP4_flexion"]
+    assert "never seen" in lines["PIP4_flexion"]
+    assert "never seen" in lines["TAM4"]
+    assert "end joint not measured" in lines["TAM3"]
 
 
 def test_a_recording_is_told_in_plain_lines(tmp_path: Path) -> None:

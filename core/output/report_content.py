@@ -15,8 +15,8 @@ from typing import Literal
 import numpy as np
 
 from core.hand.protocols import WRIST_ANGLES
-from core.measures.change import MeasuredMean, Obstacle, change_between
-from core.measures.motion_range import FEWEST_FOR_SPREAD, LEAST_VALID_SHARE, Figure, MotionRange, motion_range
+from core.measures.change import TOTAL_ACTIVE_MOTION, MeasuredMean, Obstacle, change_between
+from core.measures.motion_range import FEWEST_FOR_SPREAD, LEAST_VALID_SHARE, MotionRange, motion_range
 from core.measures.path import farthest_from_start_m
 from core.measures.repetitions import Exercise as FoundExercise
 from core.measures.repetitions import Repetition, find_repetitions
@@ -24,7 +24,9 @@ from core.measures.signals import Signal, even_signal, low_pass
 from core.measures.speed import StrokeMeasures, measure_stroke
 from core.measures.validity import valid_view, valid_wrist_angles
 from core.output.exercises import SIDES, STILL_RADIUS_MM, Exercise, Movement, exercise_named
-from core.session.values import Motion, Session
+from core.output.joint_content import joint_rows, joint_tracks
+from core.output.range_rows import RangeRow, RowKey, best_motion, is_total, range_row
+from core.session.values import Session
 from core.types import FloatArray, Side, TrackStatus
 
 Verdict = Literal["improved", "worse", "no_change", "not_judged"]
@@ -70,25 +72,6 @@ class ShownRepetition:
     def counts(self) -> bool:
         """Whether the figures include it."""
         return not self.reason and not self.too_hidden
-
-
-@dataclass(frozen=True, slots=True)
-class RangeRow:
-    """Range of one movement over the counted repetitions. ``values_deg`` one each; ``limited`` by the camera's view."""
-
-    movement: Movement
-    angle: int
-    mean_deg: float
-    sd_deg: float
-    best_deg: float
-    measurement_sd_deg: float
-    values_deg: tuple[float, ...]
-    limited: bool
-
-    @property
-    def count(self) -> int:
-        """Repetitions in the mean."""
-        return len(self.values_deg)
 
 
 @dataclass(frozen=True, slots=True)
@@ -155,15 +138,18 @@ class SessionFigures:
     quality: Quality
     pain: tuple[int, ...]
     notes: tuple[tuple[float, str], ...]
+    joint_rows: tuple[RangeRow, ...] = ()
+    """Of the whole hand: arc, most bent and least bent of every joint, and the TAM of every finger."""
 
     @property
     def counted(self) -> int:
         """Repetitions that count."""
         return sum(repetition.counts for repetition in self.repetitions)
 
-    def row(self, movement: Movement, angle: int) -> RangeRow | None:
-        """The row of one movement of one angle."""
-        return next((row for row in self.rows if row.movement == movement and row.angle == angle), None)
+    def row(self, movement: Movement, angle: int, joint: str = "") -> RangeRow | None:
+        """The row of one movement of one angle of the wrist, or of a joint (``angle`` is -1 then)."""
+        rows = self.joint_rows if joint else self.rows
+        return next((row for row in rows if row.key == (joint, movement, angle)), None)
 
 
 @dataclass(frozen=True, slots=True)
@@ -177,6 +163,7 @@ class Comparison:
     difference_deg: float
     limit_deg: float
     verdict: Verdict
+    joint: str = ""
 
     @property
     def shown_difference_deg(self) -> float:
@@ -201,11 +188,15 @@ class ProgressPoint:
 
 @dataclass(frozen=True, slots=True)
 class Progress:
-    """Sessions of one hand and exercise in order of time; first and last fair ones compared, arc first."""
+    """Sessions of one hand and exercise in order of time; first and last fair ones compared, arc first.
+
+    ``keys`` what of the whole hand is followed, of any session; empty for the wrist.
+    """
 
     points: tuple[ProgressPoint, ...]
     comparisons: tuple[Comparison, ...]
     other_hand: SessionFigures | None
+    keys: tuple[RowKey, ...] = ()
 
     @property
     def first(self) -> SessionFigures | None:
@@ -225,11 +216,6 @@ class Progress:
         arcs = [item for item in self.comparisons if item.movement == "arc"]
         best: list[Comparison | None] = [*(item for item in arcs if item in beyond), *beyond, *arcs, None]
         return best[0]
-
-
-def best_motion(session: Session) -> Motion:
-    """The smoother's result where there is one, else the filter's."""
-    return session.motion if session.smoothed is None else session.smoothed
 
 
 def session_curves(session: Session) -> Curves:
@@ -257,6 +243,9 @@ def session_figures(session: Session, choices: RepetitionChoices | None = None) 
     found = FoundExercise((), ())
     if exercise.angle is not None and len(signals[exercise.angle].time_s):
         found = find_repetitions(signals[exercise.angle].column(0))
+    tracks = joint_tracks(session)
+    if exercise.joint in tracks and tracks[exercise.joint].known:
+        found = find_repetitions(tracks[exercise.joint].tracked)
     repetitions = _shown(found.repetitions, choices)
     counted = tuple(
         Repetition(rep.start_s, rep.end_s, source.valid_share)
@@ -306,6 +295,7 @@ def session_figures(session: Session, choices: RepetitionChoices | None = None) 
             for event in session.events
             if event.kind == "note" and event.text and len(session)
         ),
+        joint_rows=() if repetitions and not counted else joint_rows(tracks, counted, exercise),
     )
 
 
@@ -325,20 +315,30 @@ def data_digest(session: Session) -> str:
 
 def compare(before: SessionFigures, after: SessionFigures) -> tuple[Comparison, ...]:
     """Means of the movements that both sessions have, arc first; nothing is a change within measurement error."""
+    return compare_rows(before, after, after.rows)
+
+
+def compare_rows(before: SessionFigures, after: SessionFigures, rows: Sequence[RangeRow]) -> tuple[Comparison, ...]:
+    """As :func:`compare`, of some rows of the later session. A joint that went out of sight is not judged."""
     out = []
-    for row in after.rows:
-        other = before.row(row.movement, row.angle)
+    for row in rows:
+        other = before.row(row.movement, row.angle, row.joint)
         if other is None:
             continue
-        change = change_between(_mean(before, other), _mean(after, row), WRIST_ANGLES[row.angle])
-        factor = ARC_LIMIT_FACTOR if row.movement == "arc" else 1.0
+        name = TOTAL_ACTIVE_MOTION if is_total(row.joint) else row.joint or WRIST_ANGLES[row.angle]
+        change = change_between(_mean(before, other), _mean(after, row), name)
+        factor = ARC_LIMIT_FACTOR if row.movement == "arc" and not is_total(row.joint) else 1.0
         limit = math.degrees(change.limit_rad) * factor
         difference = row.mean_deg - other.mean_deg
         verdict: Verdict = "not_judged"
-        if change.comparable:
+        at_least = bool(row.joint) and (row.limited or other.limited)
+        if change.comparable and not at_least:
             beyond = abs(difference) > limit
-            verdict = "no_change" if not beyond else "improved" if difference > 0 else "worse"
-        out.append(Comparison(row.movement, row.angle, other.mean_deg, row.mean_deg, difference, limit, verdict))
+            better = difference > 0 if row.joint == "" or row.movement != "extension" else difference < 0
+            verdict = "no_change" if not beyond else "improved" if better else "worse"
+        out.append(
+            Comparison(row.movement, row.angle, other.mean_deg, row.mean_deg, difference, limit, verdict, row.joint)
+        )
     return tuple(out)
 
 
@@ -353,19 +353,27 @@ def unfair_reasons(first: SessionFigures, other: SessionFigures) -> tuple[Unfair
         reasons.append("forearm_moved")
     if not other.complete and not other.recovered:
         reasons.append("incomplete")
-    if 0 < other.counted < FEWEST_FOR_SPREAD or (other.exercise.angle is not None and not other.counted):
+    if 0 < other.counted < FEWEST_FOR_SPREAD or (other.exercise.counts and not other.counted):
         reasons.append("few_repetitions_after")
     return tuple(reasons)
 
 
-def progress(sessions: Sequence[SessionFigures], other_hand: SessionFigures | None = None) -> Progress:
-    """Sessions of one hand, protocol and exercise over time, compared with the first one that is fair in itself."""
+def progress(
+    sessions: Sequence[SessionFigures], other_hand: SessionFigures | None = None, keys: Sequence[RowKey] = ()
+) -> Progress:
+    """Sessions of one hand, protocol and exercise over time, compared with the first one that is fair in itself.
+
+    ``keys`` choose what of the whole hand is followed; without them it is the wrist.
+    """
     ordered = sorted(sessions, key=lambda figures: figures.when)
     first = next((figures for figures in ordered if not unfair_reasons(figures, figures)), None)
     points = tuple(ProgressPoint(figures, unfair_reasons(first or figures, figures)) for figures in ordered)
     fair = [point.figures for point in points if point.fair]
-    comparisons = compare(fair[0], fair[-1]) if len(fair) > 1 else ()
-    return Progress(points, comparisons, other_hand)
+    comparisons: tuple[Comparison, ...] = ()
+    if len(fair) > 1:
+        wanted = [row for key in keys for row in fair[-1].joint_rows if row.key == key]
+        comparisons = compare_rows(fair[0], fair[-1], wanted if keys else fair[-1].rows)
+    return Progress(points, comparisons, other_hand, tuple(keys))
 
 
 def previous_of(history: Sequence[SessionFigures], figures: SessionFigures) -> SessionFigures | None:
@@ -412,19 +420,11 @@ def _rows(angle: int, signal: Signal, counted: tuple[Repetition, ...]) -> list[R
     positive, negative = SIDES[angle]
     turned = replace(measured.minimum, values=-measured.minimum.values, best=-measured.minimum.best)
     rows = [
-        _row("arc", angle, measured.arc, measured.top_limited or measured.bottom_limited),
-        _row(positive, angle, measured.maximum, measured.top_limited),
-        _row(negative, angle, turned, measured.bottom_limited),
+        range_row("arc", angle, measured.arc, measured.top_limited or measured.bottom_limited),
+        range_row(positive, angle, measured.maximum, measured.top_limited),
+        range_row(negative, angle, turned, measured.bottom_limited),
     ]
     return [row for row in rows if row.count and (row.movement == "arc" or row.mean_deg > 0.0)]
-
-
-def _row(movement: Movement, angle: int, figure: Figure, limited: bool) -> RangeRow:
-    values = tuple(math.degrees(value) for value in figure.values)
-    return RangeRow(
-        movement, angle, math.degrees(figure.mean), math.degrees(figure.spread_sd), math.degrees(figure.best),
-        math.degrees(figure.measurement_sd), values, limited,
-    )  # fmt: skip
 
 
 def _strokes(

@@ -14,7 +14,8 @@ from PySide6.QtCore import QPointF, QRectF, Qt
 from PySide6.QtGui import QFontMetricsF, QPainter, QPen
 
 from core.output.exercises import Movement
-from core.output.report_content import Progress, RangeRow, usual_deg
+from core.output.range_rows import RangeRow
+from core.output.report_content import Progress, usual_deg
 from ui import numbers, terms
 from ui.fonts import SEMIBOLD, font
 from ui.plot.axes import hatch

@@ -5,7 +5,8 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-from core.output.report_content import Comparison, RangeRow, SessionFigures, compare, usual_deg
+from core.output.range_rows import RangeRow
+from core.output.report_content import Comparison, SessionFigures, compare, usual_deg
 from ui import numbers, terms
 from ui.plot.style import CURVE_TOKENS
 from ui.translate import tr

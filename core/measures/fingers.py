@@ -1,0 +1,219 @@
+"""Range of the joints of the fingers and total active motion (TAM), clinical reference 4.3; hidden joints do not count.
+
+A joint is seen where both discs that show it, the one over it and the next one outwards, have a blob. Repetitions are
+cut on the tracked angle, also through hidden stretches, because a fist goes out of sight at its very end; figures
+come from seen samples alone, and say where the hidden rest may have gone further.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from core.hand.protocols import HAND21
+from core.measures.motion_range import Figure, MotionRange, motion_range
+from core.measures.repetitions import Repetition
+from core.measures.signals import BoolArray, Signal, even_signal, low_pass
+from core.measures.validity import LARGEST_SD_RAD
+from core.types import FloatArray, TrackStatus
+
+DIP_PER_PIP = 2.0 / 3.0
+"""Bending of the end joint per bending of the middle joint where no disc measures it (hand paper)."""
+LEAST_SEEN_SHARE = 0.3
+"""A repetition in which a joint was seen for less says nothing of that joint."""
+FURTHER_RAD = math.radians(5.0)
+"""How far a hidden joint must have been able to go beyond what was seen to be told."""
+FINGERS = (1, 2, 3, 4, 5)
+
+
+@dataclass(frozen=True, slots=True)
+class JointTrack:
+    """One joint over the recording: ``seen`` low-passed angle and its sd with gaps where hidden, ``tracked`` the
+    filter's angle and sd whether seen or not, all rad; ``seen_share`` of all frames."""
+
+    name: str
+    seen: Signal
+    seen_sd: Signal
+    tracked: Signal
+    tracked_sd: Signal
+    seen_share: float
+
+    @property
+    def known(self) -> bool:
+        """Whether anything was seen."""
+        return len(self.seen.time_s) > 0 and bool(self.seen.finite.any())
+
+
+@dataclass(frozen=True, slots=True)
+class TotalMotion:
+    """TAM of one finger in each repetition: ``total``, with the ``flexion`` and ``deficit`` it is made of (rad).
+
+    ``limited``: hidden stretches may hold more. ``inferred``: the end joint follows the middle joint by the 2/3 rule.
+    """
+
+    finger: int
+    total: Figure
+    flexion: Figure
+    deficit: Figure
+    limited: bool
+    inferred: bool
+    seen_share: float
+
+
+def joints_seen(joint_names: Sequence[str], measured_px: FloatArray) -> BoolArray:
+    """Frames and joints (N, J) with a blob at both discs that show the joint; ``measured_px`` (N, M, 2) of hand21."""
+    has_blob = np.isfinite(measured_px[..., 0])
+    at = np.array([HAND21.markers.index(name.split("_")[0]) for name in joint_names], dtype=np.int64)
+    return np.asarray(has_blob[:, at] & has_blob[:, at + 1], dtype=np.bool_)
+
+
+def valid_joints(
+    status: NDArray[np.integer], seen: BoolArray, angles_rad: FloatArray, angles_sd_rad: FloatArray
+) -> BoolArray:
+    """Samples (N, J) that count: tracked, seen, known, and sure enough."""
+    with np.errstate(invalid="ignore"):
+        sure = np.isfinite(angles_rad) & (angles_sd_rad <= LARGEST_SD_RAD)
+    return np.asarray(seen & sure & (status == TrackStatus.TRACKED)[:, None], dtype=np.bool_)
+
+
+def joint_track(
+    name: str, timestamp_s: FloatArray, angle_rad: FloatArray, sd_rad: FloatArray, valid: BoolArray
+) -> JointTrack:
+    """One joint from its columns (N,) of the session."""
+    both = np.column_stack((angle_rad, sd_rad))
+    seen, tracked = even_signal(timestamp_s, both, valid), even_signal(timestamp_s, both)
+    return JointTrack(
+        name, low_pass(seen.column(0)), seen.column(1), tracked.column(0), tracked.column(1), seen.valid_share
+    )
+
+
+def joint_range(track: JointTrack, repetitions: Sequence[Repetition]) -> MotionRange:
+    """Largest, smallest angle and arc over the repetitions in which the joint was seen, or over the whole recording
+    where nothing was repeated. ``top_limited`` and ``bottom_limited``: it may have gone further while hidden."""
+    usable = _usable(track.seen, repetitions)
+    if not track.known or (repetitions and not usable):
+        nothing = Figure(np.empty(0), math.nan, math.nan)
+        return MotionRange(nothing, nothing, nothing, 0, not track.known, not track.known)
+    measured = motion_range(track.seen, track.seen_sd, usable)
+    tops = bottoms = False
+    for place, (start_s, end_s) in enumerate(_windows(track.seen, usable)):
+        if place < len(measured.maximum.values):
+            top, bottom = float(measured.maximum.values[place]), float(measured.minimum.values[place])
+            tops |= _may_exceed(track.tracked, track.tracked_sd, track.seen, start_s, end_s, top, +1.0)
+            bottoms |= _may_exceed(track.tracked, track.tracked_sd, track.seen, start_s, end_s, bottom, -1.0)
+    return replace(measured, top_limited=tops, bottom_limited=bottoms)
+
+
+def total_active_motion(
+    finger: int, tracks: Sequence[JointTrack], repetitions: Sequence[Repetition], *, inferred: bool
+) -> TotalMotion:
+    """TAM of one finger from its bending joints, base first: MCP, PIP and, if measured, DIP; of the thumb MCP, IP.
+
+    In each repetition: the sum of the joints' bending at the moment it is largest, less the sum of what is missing to
+    straight at the moment it is smallest; bending backwards counts 0 in both. Both moments need all joints seen. With
+    ``inferred`` the end joint is taken as two thirds of the last joint given.
+    """
+    weight = np.ones(len(tracks))
+    if inferred:
+        weight[-1] += DIP_PER_PIP
+    nothing = Figure(np.empty(0), math.nan, math.nan)
+    if not all(track.known for track in tracks):
+        return TotalMotion(finger, nothing, nothing, nothing, True, inferred, 0.0)
+    time_s, seen, seen_sd = _side_by_side([track.seen for track in tracks], [track.seen_sd for track in tracks])
+    bend = np.maximum(seen, 0.0) * weight
+    sum_of = Signal(time_s, bend.sum(axis=1), tracks[0].seen.rate_hz, 1.0, np.empty((0, 2)))
+    variance = (seen_sd * weight) ** 2
+    usable = _usable(sum_of, repetitions)
+    windows = [] if repetitions and not usable else _windows(sum_of, usable)
+    full, missing, variances, limited = [], [], [], False
+    for start_s, end_s in windows:
+        part = sum_of.between(start_s, end_s)
+        if not part.finite.any():
+            continue
+        first = int(np.searchsorted(time_s, part.time_s[0]))
+        top, bottom = first + int(np.nanargmax(part.value)), first + int(np.nanargmin(part.value))
+        full.append(float(sum_of.value[top]))
+        missing.append(float(sum_of.value[bottom]))
+        bent_back = seen[bottom] <= 0.0
+        variances.append(float(variance[top].sum() + np.where(bent_back, 0.0, variance[bottom]).sum()))
+        limited |= _sum_may_exceed(tracks, weight, start_s, end_s, sum_of, full[-1], missing[-1])
+    flexion, deficit = np.array(full), np.array(missing)
+    sd = math.sqrt(sum(variances) / len(variances)) if variances else math.nan
+    total = flexion - deficit
+    return TotalMotion(
+        finger,
+        Figure(total, float(total.max()) if len(total) else math.nan, sd),
+        Figure(flexion, float(flexion.max()) if len(total) else math.nan, sd),
+        Figure(deficit, float(deficit.min()) if len(total) else math.nan, sd),
+        limited or not len(total),
+        inferred,
+        min(track.seen_share for track in tracks),
+    )
+
+
+def _usable(signal: Signal, repetitions: Sequence[Repetition]) -> tuple[Repetition, ...]:
+    """The repetitions of which enough was seen, with full marks."""
+    out = []
+    for repetition in repetitions:
+        finite = signal.between(repetition.start_s, repetition.end_s).finite
+        if finite.sum() >= LEAST_SEEN_SHARE * (repetition.end_s - repetition.start_s) * signal.rate_hz and finite.any():
+            out.append(replace(repetition, valid_share=1.0))
+    return tuple(out)
+
+
+def _windows(signal: Signal, repetitions: Sequence[Repetition]) -> list[tuple[float, float]]:
+    windows = [(rep.start_s, rep.end_s) for rep in repetitions]
+    return windows or [(float(signal.time_s[0]), float(signal.time_s[-1]))]
+
+
+def _may_exceed(
+    tracked: Signal, sd: Signal, seen: Signal, start_s: float, end_s: float, extreme: float, sign: float
+) -> bool:
+    """Whether the tracked angle, give or take its sd, went beyond an extreme where the joint was not seen."""
+    hidden = _hidden(tracked, [seen], start_s, end_s)
+    reach = sign * (tracked.value[hidden] - extreme) + sd.value[hidden]
+    return bool((~np.isfinite(reach) | (reach > FURTHER_RAD)).any())
+
+
+def _sum_may_exceed(
+    tracks: Sequence[JointTrack], weight: FloatArray, start_s: float, end_s: float, seen: Signal, top: float, low: float
+) -> bool:
+    time_s, angle, sd = _side_by_side([t.tracked for t in tracks], [t.tracked_sd for t in tracks])
+    bend = (np.maximum(angle, 0.0) * weight).sum(axis=1)
+    spread = np.sqrt(((sd * weight) ** 2).sum(axis=1))
+    base = Signal(time_s, bend, tracks[0].tracked.rate_hz, 1.0, np.empty((0, 2)))
+    hidden = _hidden(base, [seen], start_s, end_s)
+    further = np.fmax(bend[hidden] - top, low - bend[hidden]) + spread[hidden]
+    return bool((~np.isfinite(further) | (further > FURTHER_RAD)).any())
+
+
+def _hidden(base: Signal, seen: Sequence[Signal], start_s: float, end_s: float) -> NDArray[np.intp]:
+    """Samples of a base inside a window at which one of the signals has nothing."""
+    half = 0.5 / base.rate_hz
+    inside = np.flatnonzero((base.time_s >= start_s) & (base.time_s <= end_s))
+    covered = np.ones(len(inside), dtype=np.bool_)
+    for signal in seen:
+        known = signal.time_s[signal.finite]
+        if not len(known):
+            return inside
+        right = np.clip(np.searchsorted(known, base.time_s[inside]), 0, len(known) - 1)
+        left = np.maximum(right - 1, 0)
+        nearest = np.minimum(np.abs(known[right] - base.time_s[inside]), np.abs(known[left] - base.time_s[inside]))
+        covered &= nearest <= half + 1e-9
+    return np.asarray(inside[~covered])
+
+
+def _side_by_side(values: Sequence[Signal], sds: Sequence[Signal]) -> tuple[FloatArray, FloatArray, FloatArray]:
+    """Several signals on the first one's times: times (n,), values (n, k) and sds (n, k), NaN where one has a gap."""
+    time_s = values[0].time_s
+    return time_s, _on(time_s, values), _on(time_s, sds)
+
+
+def _on(time_s: FloatArray, signals: Sequence[Signal]) -> FloatArray:
+    # Linear between two samples of one period; a NaN beside the time stays one.
+    columns = [np.interp(time_s, s.time_s, s.value, left=math.nan, right=math.nan) for s in signals]
+    return np.asarray(np.column_stack(columns), dtype=np.float64)

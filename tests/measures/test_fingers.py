@@ -1,0 +1,155 @@
+"""Ranges of finger joints and TAM: what is hidden does not count and is told; figures against a known motion."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+
+from core.hand.protocols import HAND21, joint_angle_names
+from core.measures.fingers import (
+    JointTrack,
+    joint_range,
+    joint_track,
+    joints_seen,
+    total_active_motion,
+    valid_joints,
+)
+from core.measures.repetitions import Repetition
+from core.output.exercises import exercise_named
+from core.output.joint_content import bending_joints, joint_rows
+from core.simulation.scene import Scene
+from core.simulation.spec import RecordingSpec
+from core.simulation.truth import truth_of
+
+TIME_S = np.arange(0.0, 12.0, 1.0 / 30.0)
+REPETITIONS = tuple(Repetition(4.0 * k, 4.0 * k + 4.0, 1.0) for k in range(3))
+WAVE = 0.5 - 0.5 * np.cos(2.0 * math.pi * TIME_S / 4.0)
+"""Three slow repetitions from 0 to 1 and back, each at 1 after 2 s."""
+FULL = np.ones(len(TIME_S), dtype=bool)
+SD_DEG = 2.0
+
+
+def track(name: str, angle_deg: np.ndarray, valid: np.ndarray = FULL, sd_deg: float = SD_DEG) -> JointTrack:
+    return joint_track(name, TIME_S, np.radians(angle_deg), np.full(len(TIME_S), math.radians(sd_deg)), valid)
+
+
+def between(start_s: float, end_s: float) -> np.ndarray:
+    """Frames of a part of every repetition."""
+    return (np.mod(TIME_S, 4.0) >= start_s) & (np.mod(TIME_S, 4.0) < end_s)
+
+
+def test_a_joint_that_is_always_seen_has_its_true_range() -> None:
+    found = joint_range(track("PIP3_flexion", 5.0 + 85.0 * WAVE), REPETITIONS)
+    assert found.repetitions == 3
+    assert np.degrees(found.arc.values) == pytest.approx([85.0] * 3, abs=0.3)
+    assert math.degrees(found.maximum.mean) == pytest.approx(90.0, abs=0.3)
+    assert math.degrees(found.arc.measurement_sd) == pytest.approx(math.hypot(SD_DEG, SD_DEG), rel=0.01)
+    assert not found.top_limited
+    assert not found.bottom_limited
+
+
+def test_what_a_hidden_joint_was_thought_to_do_is_not_its_range_but_is_told() -> None:
+    hidden = between(1.5, 2.5)
+    angle = np.where(hidden, 120.0, 80.0 * WAVE)
+    found = joint_range(track("PIP3_flexion", angle, ~hidden), REPETITIONS)
+    largest_seen = float((80.0 * WAVE[~hidden]).max())
+    assert math.degrees(found.maximum.best) == pytest.approx(largest_seen, abs=1.0)
+    assert found.top_limited
+    assert not found.bottom_limited
+
+
+def test_a_joint_hidden_in_the_middle_of_its_way_is_not_limited() -> None:
+    hidden = between(0.8, 1.2)
+    found = joint_range(track("PIP3_flexion", 80.0 * WAVE, ~hidden), REPETITIONS)
+    assert math.degrees(found.arc.mean) == pytest.approx(80.0, abs=0.5)
+    assert not found.top_limited
+    assert not found.bottom_limited
+
+
+def test_a_joint_never_seen_has_no_range() -> None:
+    found = joint_range(track("PIP3_flexion", 80.0 * WAVE, ~FULL), REPETITIONS)
+    assert math.isnan(found.arc.mean)
+    assert found.top_limited
+    total = total_active_motion(3, [track("MCP3_flexion", 60.0 * WAVE, ~FULL)] * 2, REPETITIONS, inferred=True)
+    assert math.isnan(total.total.mean)
+    assert total.limited
+
+
+def test_a_repetition_seen_too_little_is_not_in_the_mean() -> None:
+    valid = FULL.copy()
+    valid[(TIME_S > 4.2) & (TIME_S < 7.8)] = False
+    found = joint_range(track("PIP3_flexion", 80.0 * WAVE, valid), REPETITIONS)
+    assert found.repetitions == 2
+
+
+@pytest.mark.parametrize(("lowest_deg", "deficit_deg"), [(12.0, 12.0), (0.0, 0.0), (-15.0, 0.0)])
+def test_total_is_bending_less_what_is_missing_to_straight(lowest_deg: float, deficit_deg: float) -> None:
+    joints = [
+        track("MCP3_flexion", 70.0 * WAVE),
+        track("PIP3_flexion", lowest_deg + (90.0 - lowest_deg) * WAVE),
+        track("DIP3_flexion", 50.0 * WAVE),
+    ]
+    found = total_active_motion(3, joints, REPETITIONS, inferred=False)
+    assert math.degrees(found.flexion.mean) == pytest.approx(210.0, abs=0.5)
+    assert math.degrees(found.total.mean) == pytest.approx(210.0 - deficit_deg, abs=0.8)
+    assert not found.limited
+
+
+def test_an_end_joint_without_a_disc_of_its_own_adds_two_thirds_of_the_middle_joint_and_of_its_error() -> None:
+    joints = [track("MCP3_flexion", 60.0 * WAVE, sd_deg=1.0), track("PIP3_flexion", 90.0 * WAVE, sd_deg=3.0)]
+    found = total_active_motion(3, joints, REPETITIONS, inferred=True)
+    assert math.degrees(found.total.mean) == pytest.approx(60.0 + 90.0 * 5.0 / 3.0, abs=0.8)
+    assert math.degrees(found.total.measurement_sd) >= math.hypot(1.0, 5.0) - 1e-6
+    assert found.inferred
+
+
+def test_the_total_needs_all_joints_seen_at_once_and_says_when_the_fist_was_not() -> None:
+    hidden = between(1.4, 2.6)
+    joints = [track("MCP3_flexion", 60.0 * WAVE), track("PIP3_flexion", 90.0 * WAVE, ~hidden)]
+    found = total_active_motion(3, joints, REPETITIONS, inferred=True)
+    assert math.degrees(found.flexion.mean) < 200.0
+    assert found.limited
+
+
+def test_one_range_over_the_whole_recording_where_nothing_was_repeated() -> None:
+    found = joint_range(track("PIP3_flexion", 40.0 * WAVE), ())
+    assert found.repetitions == 0
+    assert np.degrees(found.arc.values) == pytest.approx([40.0], abs=0.3)
+
+
+def test_a_joint_is_seen_by_the_disc_over_it_and_the_next_one() -> None:
+    names = joint_angle_names(True)
+    px = np.zeros((1, 21, 2))
+    px[0, HAND21.markers.index("DIP4")] = np.nan
+    seen = joints_seen(names, px)[0]
+    unseen = {name for name, is_seen in zip(names, seen, strict=True) if not is_seen}
+    assert unseen == {"PIP4_flexion", "DIP4_flexion"}
+
+
+def test_an_unsure_or_predicted_sample_does_not_count() -> None:
+    seen = np.ones((3, 1), dtype=bool)
+    sd = np.radians([[2.0], [2.0], [20.0]])
+    assert valid_joints(np.array([0, 1, 0]), seen, np.zeros((3, 1)), sd)[:, 0].tolist() == [True, False, False]
+
+
+def test_ranges_and_totals_of_a_simulated_hand_are_those_of_its_motion() -> None:
+    truth = truth_of(Scene(RecordingSpec(seed=3, protocol="hand21", motion="fist", seconds=12.0)))
+    names = joint_angle_names(False)
+    always = np.ones(len(truth.time_s), dtype=bool)
+    sd = np.full(len(truth.time_s), math.radians(2.0))
+    tracks = {
+        name: joint_track(name, truth.time_s, truth.joint_angles_rad[:, k], sd, always) for k, name in enumerate(names)
+    }
+    rows = {(row.joint, row.movement): row for row in joint_rows(tracks, (), exercise_named("FIST_COMPOSITE"))}
+    angles = dict(zip(names, np.degrees(truth.joint_angles_rad).T, strict=True))
+    for name in names:
+        assert rows[name, "arc"].mean_deg == pytest.approx(float(np.ptp(angles[name])), abs=0.6)
+        assert not rows[name, "arc"].limited
+    for finger in (1, 2, 3, 4, 5):
+        joints, inferred = bending_joints(finger, names)
+        bend = [np.maximum(angles[name], 0.0) for name in joints]
+        bend[-1] = bend[-1] * (5.0 / 3.0 if inferred else 1.0)
+        expected = float(np.ptp(np.sum(bend, axis=0)))
+        assert rows[f"TAM{finger}", "arc"].mean_deg == pytest.approx(expected, abs=1.0)
