@@ -10,7 +10,7 @@ from core.calibration.result import Calibration
 from core.camera import Camera
 from core.hand.fitting import AnatomyFit, SeenDiscs, fit_anatomy
 from core.hand.kinematics import DIP_PER_PIP
-from core.tracking.hand_geometry import CONSTANTS, RAYS, SLOTS
+from core.tracking.hand_geometry import CONSTANTS, CROWDED_SD_PX, RAY_MARKERS, RAYS, SLOTS, is_crowded
 from core.types import FloatArray
 
 _CLICK_SD_PX = 2.0
@@ -27,10 +27,12 @@ class RayStart:
     fit: AnatomyFit
 
 
-def ray_start(calibration: Calibration, camera: Camera, *, dip_free: bool, skin_offsets: bool) -> RayStart:
+def ray_start(
+    calibration: Calibration, camera: Camera, *, dip_free: bool, skin_offsets: bool, marker_radius_m: float
+) -> RayStart:
     """The anatomy of a calibrated ``hand21``."""
-    clicks = calibration.clicks
-    fit = fit_anatomy(_seen(calibration, camera), clicks.side, dip_free=dip_free, skin_offsets=skin_offsets)
+    seen = _seen(calibration, camera, marker_radius_m)
+    fit = fit_anatomy(seen, calibration.clicks.side, dip_free=dip_free, skin_offsets=skin_offsets)
     mean = np.zeros((RAYS, SLOTS + CONSTANTS))
     covariance = np.zeros((RAYS, SLOTS + CONSTANTS, SLOTS + CONSTANTS))
     for ray in range(RAYS):
@@ -52,7 +54,7 @@ def ray_start(calibration: Calibration, camera: Camera, *, dip_free: bool, skin_
     return RayStart(mean, covariance, fit)
 
 
-def _seen(calibration: Calibration, camera: Camera) -> SeenDiscs:
+def _seen(calibration: Calibration, camera: Camera, marker_radius_m: float) -> SeenDiscs:
     """The calibrated discs; where one has no depth, the line of sight through its click."""
     disc = calibration.marker_position_w0_m.copy()
     rotation, translation = calibration.rotation_w0_cam, calibration.translation_w0_cam_m
@@ -64,7 +66,11 @@ def _seen(calibration: Calibration, camera: Camera) -> SeenDiscs:
     covariance = np.where(is_blind[:, None, None], 0.0, calibration.marker_covariance_w0_m2)
     along = np.sqrt(np.maximum(np.einsum("mi,mij,mj->m", view, covariance, view), 1e-12))
     across = np.sqrt(np.maximum(np.linalg.eigvalsh(covariance)[:, 0], 1e-10))
-    blind_m = _CLICK_SD_PX * in_camera[:, 2] / camera.fx_px
+    pixel_m = in_camera[:, 2] / camera.fx_px
+    crowded = np.zeros(len(disc), dtype=bool)
+    crowded[RAY_MARKERS] = is_crowded(camera.project(in_camera)[RAY_MARKERS], (marker_radius_m / pixel_m)[RAY_MARKERS])
+    across = np.where(crowded, np.hypot(across, CROWDED_SD_PX * pixel_m), across)
+    blind_m = _CLICK_SD_PX * pixel_m
     return SeenDiscs(
         disc[None],
         view[None],

@@ -92,7 +92,13 @@ class FingerModel:
         self.resolution_px2 = float(camera.width_px * camera.height_px)
         self.calibrated_palm = PalmInBody.of(palm_of(calibration).marker_position_w0_m, np.eye(3), self.side)
         self.scales = np.array(settings.mode_scales if self.layout.has_rates else (1.0,))
-        self._start: RayStart = ray_start(calibration, camera, dip_free=dip_free, skin_offsets=own.skin_offsets)
+        self._start: RayStart = ray_start(
+            calibration,
+            camera,
+            dip_free=dip_free,
+            skin_offsets=own.skin_offsets,
+            marker_radius_m=settings.marker_radius_m,
+        )
         self._wrist_depth_m = -float(self._start.fit.anatomy.palm_joint_m[0, 2])
         self._focal_px = np.array([camera.fx_px, camera.fy_px])
         motion = settings.motion_noise

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from core.tracking import association
 from core.tracking.finger_settings import FingerSettings
-from core.tracking.hand_geometry import DISCS, RAYS, SLOTS, ray_frames
+from core.tracking.hand_geometry import CROWDED_SD_PX, DISCS, RAYS, SLOTS, is_crowded, ray_frames
 from core.tracking.joint_association import holds_together
 from core.tracking.joint_limits import SOFT_RAD, outside_limits
 from core.tracking.naming import Measurable
@@ -164,7 +164,10 @@ def corrected_as_named(
         # Now that the disc is known, so is the size it would have if it were whole.
         missing = noise.whole_from - scene.area_px[blob] / scene.whole_px
         wander_px = noise.shade_share * np.sqrt(scene.whole_px / np.pi) * np.maximum(missing, 0.0)
-        own = (noise.pixel_sd_px**2 + settings.fingers.skin_px**2 + wander_px**2)[..., None]
+        expected = scene.line.value.reshape(RAYS, DISCS, 3)
+        radius_px = settings.marker_radius_m * scene.view.camera.fx_px / expected[..., 2]
+        crowded_px = np.where(is_crowded(expected[..., :2], radius_px), CROWDED_SD_PX, 0.0)
+        own = (noise.pixel_sd_px**2 + settings.fingers.skin_px**2 + wander_px**2 + crowded_px**2)[..., None]
         variance[..., :2] = np.where(np.isfinite(own) & is_named[..., None], own, variance[..., :2])
     else:
         measured, variance = np.full((RAYS, DISCS, 3), np.nan), np.ones((RAYS, DISCS, 3))

@@ -12,6 +12,7 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 
 from core.hand.kinematics import DIP_PER_PIP
 from core.hand.protocols import HAND21, joint_angle_names
@@ -25,6 +26,11 @@ RAY_MARKERS = np.array([[HAND21.markers.index(name) for name in ray] for ray in 
     ("MCP1", "IP1", "TIP1"), *((f"PIP{k}", f"DIP{k}", f"TIP{k}") for k in (2, 3, 4, 5))
 )])  # fmt: skip
 """Places (5, 3) of the rays' discs in ``hand21``."""
+
+CROWDED_SD_PX = 0.5
+"""How far the centre of a disc strays that nearly touches its neighbour on the finger: their edges blur into one."""
+_CROWDED = 2.4
+"""Radii between the middles of two discs below which they crowd each other."""
 
 _DOWN = np.array([1.0, 1.0, -1.0])
 _AXES = np.arange(3)
@@ -111,6 +117,16 @@ def ray_discs_m(root_m: FloatArray, state: FloatArray) -> FloatArray:
     out[..., 2] = up + start[..., 2:]
     out[0, :, :, 0] -= (aside * s[0]).T
     out[0, :, :, 1] += (aside * c[0]).T
+    return out
+
+
+def is_crowded(pixel: FloatArray, radius_px: FloatArray) -> NDArray[np.bool_]:
+    """Which discs of each ray (5, 3) nearly touch the one before or after, from their middles (5, 3, 2) and the radius
+    (5, 3) of a large disc there."""
+    near = ((pixel[:, 1:] - pixel[:, :-1]) ** 2).sum(axis=-1) < (_CROWDED * radius_px[:, 1:]) ** 2
+    out = np.zeros(radius_px.shape, dtype=bool)
+    out[:, 1:], out[:, :-1] = near, near
+    out[:, 1] |= near[:, 0]
     return out
 
 
