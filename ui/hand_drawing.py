@@ -34,7 +34,7 @@ PLACES: dict[str, tuple[float, float]] = {"WRIST": (114, 254), "CMC1": (93, 236)
 PLACES |= {f"{joint}{k}": FINGERS[k][n] for k in (2, 3, 4, 5) for n, joint in enumerate(("MCP", "PIP", "DIP", "TIP"))}
 PLACES |= {"MCP1": FINGERS[1][1], "IP1": FINGERS[1][2], "TIP1": FINGERS[1][3]}
 
-MarkerState = Literal["done", "next", "later", "wrong", "seen", "partly", "hidden"]
+MarkerState = Literal["done", "next", "later", "proposed", "doubtful", "wrong", "seen", "partly", "hidden"]
 
 
 @lru_cache(maxsize=1)
@@ -141,6 +141,10 @@ class HandDrawing(QWidget):
             painter.setBrush(color("surface"))
             painter.drawEllipse(at, 8.5, 8.5)
             self._number(painter, at, number, "text2", 12)
+        elif state in ("proposed", "doubtful"):
+            shape, token = ("predicted", "accent") if state == "proposed" else ("warn", "warn")
+            box = QRectF(at.x() - 9, at.y() - 9, 18, 18)
+            paint_state(painter, shape, box, color(token), color("surface"))  # type: ignore[arg-type]
         elif state == "wrong":
             painter.setBrush(Qt.BrushStyle.NoBrush)
             painter.setPen(QPen(color("bad"), 1.6))

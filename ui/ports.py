@@ -219,6 +219,15 @@ class FoundMarker:
 
 
 @dataclass(frozen=True, slots=True)
+class ProposedMarker:
+    """A blob that the program takes for a marker; not ``is_sure`` where another name would do nearly as well."""
+
+    pixel: FloatArray
+    width_px: float
+    is_sure: bool
+
+
+@dataclass(frozen=True, slots=True)
 class VerdictLimits:
     """What the calibration is judged by, shown beside each value."""
 
@@ -265,6 +274,11 @@ class Calibrator(Protocol):
 
     def marker_at(self, pixel: FloatArray) -> FoundMarker | None:
         """The blob under or near a pixel (2,) of the held picture."""
+        ...
+
+    def propose(self, named: Mapping[str, FloatArray]) -> Mapping[str, ProposedMarker]:
+        """Names for the blobs of the held picture beside those already ``named`` (pixels by marker); called in the
+        background."""
         ...
 
     def judge(self, clicks: Clicks, start_angles_rad: FloatArray) -> Judged: ...

@@ -2,20 +2,24 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from typing import Protocol
 
 import numpy as np
 
 from core.calibration.calibrate import CalibrationOutcome, calibrate
 from core.calibration.candidates import disc_at, marker_candidates, snapped
+from core.calibration.naming import propose_names
 from core.calibration.result import Calibration, Clicks
 from core.camera import Camera
 from core.detection.appearance import expected_radius_px
 from core.hand.protocols import MarkerProtocol
 from core.pipeline.track import TrackSettings
 from core.types import Detections, FloatArray, Frame, Side
-from ui.ports import FoundMarker, Judged, VerdictLimits
+from ui.ports import FoundMarker, Judged, ProposedMarker, VerdictLimits
+
+SAME_DISC_PX = 3.0
+"""Nearer than this two places are the same disc."""
 
 Begin = Callable[[CalibrationOutcome, Sequence[Frame]], None]
 """Called with the chosen outcome and the pictures it was made from, the clicked one first."""
@@ -107,7 +111,22 @@ class HandCalibrator:
             found = disc_at(frame, pixel, self._camera, detection)
         if not len(found):
             return None
-        return FoundMarker(found.pixel[0], 2.0 * float(np.sqrt(found.area_px[0] / np.pi)))
+        return FoundMarker(found.pixel[0], _width_px(found, 0))
+
+    def propose(self, named: Mapping[str, FloatArray]) -> Mapping[str, ProposedMarker]:
+        """Names for the discs found when the picture was held."""
+        blobs, markers = self._candidates, self._protocol.markers
+        known: dict[int, int] = {}
+        for name, pixel in named.items():
+            distance = np.linalg.norm(blobs.pixel - pixel, axis=1)
+            if distance.size and distance.min() < SAME_DISC_PX:
+                known[markers.index(name)] = int(distance.argmin())
+        found = propose_names(blobs, self._camera, self._side, self._protocol, known)
+        return {
+            name: ProposedMarker(blobs.pixel[blob], _width_px(blobs, blob), bool(is_sure))
+            for name, blob, is_sure in zip(markers, found.blob.tolist(), found.is_sure, strict=True)
+            if blob >= 0 and name not in named
+        }
 
     def judge(self, clicks: Clicks, start_angles_rad: FloatArray) -> Judged:
         """Measure and judge; called in the background."""
@@ -120,3 +139,8 @@ class HandCalibrator:
         """Start tracking from one of the calibrations judged here."""
         outcome, held = next(pair for pair in reversed(self._outcomes) if pair[0].calibration is calibration)
         self._begin(outcome, held)
+
+
+def _width_px(blobs: Detections, number: int) -> float:
+    """Width of a round disc of a blob's area."""
+    return 2.0 * float(np.sqrt(blobs.area_px[number] / np.pi))

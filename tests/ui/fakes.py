@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from datetime import datetime, timedelta, timezone
 from functools import lru_cache
@@ -26,6 +26,7 @@ from ui.ports import (
     PatientCard,
     PatientEntry,
     PatientRow,
+    ProposedMarker,
     ResultLine,
     SessionRow,
     SetUp,
@@ -41,7 +42,11 @@ SD_DEG = np.array([0.5, 1.6, 2.6])
 
 @lru_cache(maxsize=8)
 def simulated(
-    motion: str = "flexion", seconds: float = 20.0, speed_hz: float = 0.16, side: str = "right"
+    motion: str = "flexion",
+    seconds: float = 20.0,
+    speed_hz: float = 0.16,
+    side: str = "right",
+    protocol: str = "wrist6",
 ) -> SimulatedPictures:
     """A bright, near, large hand: pictures by their number and the true motion."""
     return SimulatedPictures(
@@ -58,14 +63,22 @@ def simulated(
             yaw_deg=3.0,
             tilt_deg=4.0,
             sleeve="none",
+            protocol=protocol,
         )
     )
 
 
 @lru_cache(maxsize=32)
-def picture(motion: str = "flexion", number: int = 0, seconds: float = 20.0, side: str = "right") -> ByteImage:
+def picture(
+    motion: str = "flexion",
+    number: int = 0,
+    seconds: float = 20.0,
+    side: str = "right",
+    protocol: str = "wrist6",
+    speed_hz: float = 0.16,
+) -> ByteImage:
     """One colour picture."""
-    pictures = simulated(motion, seconds, 0.16, side)
+    pictures = simulated(motion, seconds, speed_hz, side, protocol)
     return pictures.sensed(number, pictures.clean(number))[0]
 
 
@@ -367,13 +380,15 @@ class FakeStore:
 class FakeCalibrator:
     """Knows where the discs are; judges as it is told."""
 
-    def __init__(self, motion: str = "flexion", is_live: bool = False) -> None:
-        self.pictures = simulated(motion)
+    def __init__(self, motion: str = "flexion", is_live: bool = False, protocol: str = "wrist6") -> None:
+        self.pictures = simulated(motion, protocol=protocol)
         self.is_live = is_live
         self.side = self.pictures.spec.hand
         self.protocol = self.pictures.spec.marker_protocol
         self.limits = VerdictLimits(0.6, 15.0, 4.0, (110.0, 225.0))
         self.findings: tuple[Finding, ...] = ()
+        self.doubtful: tuple[str, ...] = ()
+        self.not_found: tuple[str, ...] = ()
         self.begun: Calibration | None = None
         self.judged: list[Clicks] = []
         self.angles: list[np.ndarray] = []
@@ -383,7 +398,8 @@ class FakeCalibrator:
         return self.pictures.truth.disc_pixel[0]
 
     def newest_frame(self) -> Frame:
-        return Frame(0, 0.0, picture(self.pictures.spec.motion), None, 0.001)
+        spec = self.pictures.spec
+        return Frame(0, 0.0, picture(spec.motion, protocol=spec.protocol), None, 0.001)
 
     hold = newest_frame
 
@@ -394,6 +410,13 @@ class FakeCalibrator:
         distance = np.linalg.norm(self.disc_px - pixel, axis=1)
         nearest = int(distance.argmin())
         return FoundMarker(self.disc_px[nearest], 10.0) if distance[nearest] < 8.0 else None
+
+    def propose(self, named: Mapping[str, np.ndarray]) -> dict[str, ProposedMarker]:
+        return {
+            name: ProposedMarker(pixel, 10.0, name not in self.doubtful)
+            for name, pixel in zip(self.protocol.markers, self.disc_px, strict=True)
+            if name not in named and name not in self.not_found
+        }
 
     def judge(self, clicks: Clicks, start_angles_rad: np.ndarray) -> Judged:
         self.judged.append(clicks)

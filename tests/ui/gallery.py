@@ -181,6 +181,27 @@ class Gallery:
     def markers_doubtful(self) -> None:
         self._markers(6, Finding("tilt", (), 19.0, 15.0, "deg"))
 
+    def _proposed(self, doubtful: tuple[str, ...] = (), not_found: tuple[str, ...] = ()) -> MarkersScreen:
+        self.place(steps=2)
+        screen = MarkersScreen(self.theme, self.keys, self.background, Phrases())
+        calibrator = FakeCalibrator("fist", protocol="hand21")
+        calibrator.doubtful, calibrator.not_found = doubtful, not_found
+        self.show(screen, screen.picture)
+        screen.begin(calibrator, None, "")
+        self.settle()
+        return screen
+
+    def markers_proposed(self) -> None:
+        self._proposed()
+
+    def markers_proposed_doubtful(self) -> None:
+        screen = self._proposed(doubtful=("DIP4", "TIP4"))
+        screen.picture.set_cursor(screen.clicking.proposed["PIP2"].pixel)  # type: ignore[union-attr]
+        self.settle()
+
+    def markers_proposed_incomplete(self) -> None:
+        self._proposed(not_found=("TIP1",))
+
     def markers_start_angle(self) -> None:
         screen, _ = self._markers(2)
         screen.angle_sheet.begin(np.radians([0.0, 10.0, 0.0]))
@@ -306,7 +327,8 @@ class Gallery:
         names = (
             "patients", "patients_empty", "patients_not_found", "patients_recovered", "patient_form", "exercise",
             "camera", "markers_clicking", "markers_ready", "markers_swapped", "markers_doubtful",
-            "markers_start_angle", "live", "live_speeds", "live_marker_hidden", "live_hand_lost", "live_note",
+            "markers_start_angle", "markers_proposed", "markers_proposed_doubtful", "markers_proposed_incomplete",
+            "live", "live_speeds", "live_marker_hidden", "live_hand_lost", "live_note",
             "live_pain", "live_camera_lost", "review", "progress", "report", "report_progress", "settings", "help",
         )  # fmt: skip
         return {name: getattr(self, name) for name in names}

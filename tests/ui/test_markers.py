@@ -197,3 +197,78 @@ def test_undo_walks_back_through_any_order() -> None:
         clicking.current = name
         clicking.place(np.zeros(2), 9.0)
     assert [clicking.undo() for _ in range(4)] == ["MCP2", "WRIST", "MCP4", ""]
+
+
+# --- names proposed by the program ------------------------------------------------------------------------
+def proposed(
+    qtbot: QtBot, screen: MarkersScreen, *, doubtful: tuple[str, ...] = (), not_found: tuple[str, ...] = ()
+) -> FakeCalibrator:
+    calibrator = FakeCalibrator("fist", protocol="hand21")
+    calibrator.doubtful, calibrator.not_found = doubtful, not_found
+    screen.begin(calibrator)
+    qtbot.waitUntil(lambda: screen.clicking is not None and bool(screen.clicking.proposed))
+    return calibrator
+
+
+def drag(qtbot: QtBot, screen: MarkersScreen, start: np.ndarray, end: np.ndarray) -> None:
+    qtbot.mousePress(screen.picture, Qt.MouseButton.LeftButton, pos=place_of(screen, start))
+    qtbot.mouseRelease(screen.picture, Qt.MouseButton.LeftButton, pos=place_of(screen, end))
+
+
+def test_enter_takes_all_proposed_names_and_enter_starts(qtbot: QtBot, screen: MarkersScreen) -> None:
+    calibrator = proposed(qtbot, screen)
+    assert not calibrator.judged
+    qtbot.keyClick(screen.picture, Qt.Key.Key_Return)
+    wait_for_verdict(qtbot, screen)
+    np.testing.assert_allclose(calibrator.judged[-1].pixel, calibrator.disc_px)
+    with qtbot.waitSignal(screen.started):
+        qtbot.keyClick(screen.focusWidget(), Qt.Key.Key_Return)
+
+
+def test_doubtful_names_are_said_in_words_and_one_click_settles_each(qtbot: QtBot, screen: MarkersScreen) -> None:
+    calibrator = proposed(qtbot, screen, doubtful=("TIP4", "DIP4"))
+    assert screen.clicking is not None
+    assert "Ring end joint, ring tip" in screen.place.text()
+    markers = screen.clicking.order
+    for name in ("DIP4", "TIP4"):
+        spot = place_of(screen, calibrator.disc_px[markers.index(name)])
+        qtbot.mouseClick(screen.picture, Qt.MouseButton.LeftButton, pos=spot)
+    assert set(screen.clicking.pixel) == {"DIP4", "TIP4"}
+    assert not screen.clicking.doubtful
+
+
+def test_a_wrong_proposal_is_dragged_to_its_disc_and_names_change_places(qtbot: QtBot, screen: MarkersScreen) -> None:
+    calibrator = proposed(qtbot, screen)
+    assert screen.clicking is not None
+    markers = screen.clicking.order
+    tip, other = (calibrator.disc_px[markers.index(name)] for name in ("TIP2", "TIP3"))
+    drag(qtbot, screen, tip, other)
+    np.testing.assert_allclose(screen.clicking.pixel["TIP2"], other)
+    screen.clicking.current = "TIP3"
+    screen.clicking.place(tip, 10.0)
+    assert {"TIP2", "TIP3"} <= set(screen.clicking.pixel)
+    screen.clicking.current = "TIP2"
+    screen.clicking.place(tip, 10.0)  # onto a disc that has a name: the two change places
+    np.testing.assert_allclose(screen.clicking.pixel["TIP3"], other)
+
+
+def test_a_marker_that_was_not_found_is_asked_for(qtbot: QtBot, screen: MarkersScreen) -> None:
+    calibrator = proposed(qtbot, screen, not_found=("TIP1",))
+    assert screen.clicking is not None
+    assert "thumb tip" in screen.title.text()
+    qtbot.keyClick(screen.picture, Qt.Key.Key_Return)
+    assert screen.clicking.missing == ("TIP1",)
+    spot = place_of(screen, calibrator.disc_px[screen.clicking.order.index("TIP1")])
+    qtbot.mouseClick(screen.picture, Qt.MouseButton.LeftButton, pos=spot)
+    wait_for_verdict(qtbot, screen)
+    np.testing.assert_allclose(calibrator.judged[-1].pixel, calibrator.disc_px)
+
+
+def test_all_markers_can_still_be_clicked_by_hand(qtbot: QtBot, screen: MarkersScreen) -> None:
+    calibrator = proposed(qtbot, screen)
+    qtbot.mouseClick(screen.second, Qt.MouseButton.LeftButton)
+    assert screen.clicking is not None
+    assert not screen.clicking.proposed
+    click_all(qtbot, screen, calibrator, off_px=1.0)
+    wait_for_verdict(qtbot, screen)
+    np.testing.assert_allclose(calibrator.judged[-1].pixel, calibrator.disc_px)

@@ -1,8 +1,8 @@
-"""Which markers are clicked, which is next: the logic of the screen without the screen."""
+"""Which markers are named, which are proposed, which is next: the logic of the screen without the screen."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -10,17 +10,25 @@ import numpy as np
 from core.calibration.result import Clicks
 from core.hand.protocols import MarkerProtocol
 from core.types import FloatArray, Side
+from ui.ports import ProposedMarker
+
+SAME_DISC_PX = 3.0
+"""Nearer than this two places are the same disc."""
 
 
 @dataclass(slots=True)
 class Clicking:
-    """Pixels by marker name, in the order they were set; ``current`` is the one to be clicked next."""
+    """Pixels by marker name, in the order they were set; ``current`` is the one to be clicked next.
+
+    ``proposed`` are names the program has put on discs and no person has confirmed.
+    """
 
     protocol: MarkerProtocol
     side: Side
     pixel: dict[str, FloatArray] = field(default_factory=dict)
     widths_px: dict[str, float] = field(default_factory=dict)
     current: str = ""
+    proposed: dict[str, ProposedMarker] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
         self.current = self.protocol.markers[0]
@@ -40,9 +48,46 @@ class Clicking:
         """Whether every marker has a click."""
         return not self.missing
 
+    @property
+    def unnamed(self) -> tuple[str, ...]:
+        """Markers neither clicked nor proposed."""
+        return tuple(name for name in self.missing if name not in self.proposed)
+
+    @property
+    def doubtful(self) -> tuple[str, ...]:
+        """Proposals that another name would fit nearly as well."""
+        return tuple(name for name in self.missing if name in self.proposed and not self.proposed[name].is_sure)
+
+    def propose(self, proposed: Mapping[str, ProposedMarker]) -> None:
+        """Take the program's names for what no person has named; they replace earlier ones."""
+        self.proposed = {name: proposed[name] for name in self.missing if name in proposed}
+        self.current = (self.unnamed or self.missing or (self.current,))[0]
+
+    def take_all(self) -> None:
+        """Confirm every proposal."""
+        for name in self.order:
+            if name in self.proposed and name not in self.pixel:
+                self.pixel[name] = self.proposed[name].pixel
+                self.widths_px[name] = self.proposed[name].width_px
+        self.proposed.clear()
+        self._go_on()
+
+    def confirms(self, pixel: FloatArray) -> bool:
+        """Whether the current marker is proposed at this very place."""
+        mine = self.proposed.get(self.current)
+        return mine is not None and _same(mine.pixel, pixel)
+
     def place(self, pixel: FloatArray, width_px: float) -> None:
-        """Set the current marker and go on to the next one that is missing."""
-        self.pixel.pop(self.current, None)
+        """Set the current marker and go on to the next one that is missing.
+
+        A name that was on this disc moves to where the current one was, or is taken off.
+        """
+        before = self.pixel.pop(self.current, None)
+        for name in [name for name, other in self.pixel.items() if before is not None and _same(other, pixel)]:
+            self.pixel[name] = before  # type: ignore[assignment]
+        self.proposed = {
+            name: one for name, one in self.proposed.items() if name != self.current and not _same(one.pixel, pixel)
+        }
         self.pixel[self.current] = np.asarray(pixel, dtype=np.float64)
         self.widths_px[self.current] = width_px
         self._go_on()
@@ -64,6 +109,7 @@ class Clicking:
     def clear_all(self) -> None:
         """Begin anew, as on another picture."""
         self.pixel.clear()
+        self.proposed.clear()
         self.current = self.order[0]
 
     def swap(self, one: str, other: str) -> None:
@@ -75,8 +121,9 @@ class Clicking:
         self.current = self.order[(self.order.index(self.current) + by) % len(self.order)]
 
     def near(self, pixel: FloatArray, reach_px: float) -> str:
-        """The clicked marker within reach of a pixel, empty for none."""
-        distances = {name: float(np.hypot(*(place - pixel))) for name, place in self.pixel.items()}
+        """The marker clicked or proposed within reach of a pixel, empty for none."""
+        places = {name: one.pixel for name, one in self.proposed.items()} | self.pixel
+        distances = {name: float(np.hypot(*(place - pixel))) for name, place in places.items()}
         name = min(distances, key=lambda key: distances[key], default="")
         return name if name and distances[name] <= reach_px else ""
 
@@ -85,7 +132,11 @@ class Clicking:
         return Clicks(self.side, self.protocol, np.array([self.pixel[name] for name in self.order]))
 
     def _go_on(self) -> None:
-        missing = self.missing
+        missing = self.unnamed or self.missing
         if missing:
             after = [name for name in missing if self.order.index(name) > self.order.index(self.current)]
             self.current = (after or list(missing))[0]
+
+
+def _same(one: FloatArray, other: FloatArray) -> bool:
+    return float(np.hypot(*(one - other))) < SAME_DISC_PX

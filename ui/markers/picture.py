@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection
+from collections.abc import Collection, Sequence
+from itertools import pairwise
 
 import numpy as np
 from PySide6.QtCore import QPointF, QRectF, Qt, Signal
@@ -10,13 +11,21 @@ from PySide6.QtGui import QColor, QFontMetricsF, QKeyEvent, QMouseEvent, QPainte
 
 from core.types import FloatArray
 from ui.fonts import SEMIBOLD, font
-from ui.marker_words import marker_name
+from ui.marker_words import finger_name, marker_name
 from ui.markers.clicking import Clicking
 from ui.picture.overlay import haloed
 from ui.picture.photo import paint_label, paint_wrong_label
 from ui.picture.view import PictureView
 from ui.ports import FoundMarker
-from ui.theme import CARD_RADIUS_PX, ON_PICTURE_LABEL, ON_PICTURE_LINE, ON_PICTURE_PROPOSED, ON_PICTURE_WRONG, Theme
+from ui.theme import (
+    CARD_RADIUS_PX,
+    DARK,
+    ON_PICTURE_LABEL,
+    ON_PICTURE_LINE,
+    ON_PICTURE_PROPOSED,
+    ON_PICTURE_WRONG,
+    Theme,
+)  # fmt: skip
 
 LOUPE_PX, LOUPE_TIMES = 204, 8.0
 GRAB_PX = 12.0
@@ -26,7 +35,19 @@ ARROWS = {
     Qt.Key.Key_Up: (0.0, -1.0), Qt.Key.Key_Down: (0.0, 1.0),
 }  # fmt: skip
 BIG_STEP_PX = 10.0
+ON_PICTURE_DOUBTFUL = DARK.warn
 LEAST_ZOOM, MOST_ZOOM, ZOOM_STEP = 1.0, 6.0, 1.25
+
+
+FEW = 6
+"""So many discs each carry their name."""
+
+
+def rays(markers: Sequence[str]) -> list[list[str]]:
+    """Marker names finger by finger from the wrist, of those the protocol has."""
+    fingers = [["WRIST", "CMC1", "MCP1", "IP1", "TIP1"]]
+    fingers += [["WRIST", *(f"{joint}{k}" for joint in ("MCP", "PIP", "DIP", "TIP"))] for k in (2, 3, 4, 5)]
+    return [[name for name in finger if name in markers] for finger in fingers]
 
 
 class MarkerPicture(PictureView):
@@ -140,11 +161,12 @@ class MarkerPicture(PictureView):
             )  # type: ignore[misc]
             haloed(painter, color, 1.5, lambda at=at: self._cross(painter, at, 5.0))  # type: ignore[misc]
             rings.append((name, at, radius))
+        self._paint_proposals(painter, clicking, rings)
         if self.cursor_px is None:
             self._paint_names(painter, rings, "")
             return
         proposed = ""
-        if self.found is not None and clicking.missing:
+        if self.found is not None and clicking.missing and not self._is_named(clicking):
             at = self.to_screen(*map(float, self.found.pixel))
             radius = self._ring_px(self.found.width_px) + 4
             haloed(painter, ON_PICTURE_PROPOSED, 2.5, lambda: painter.drawEllipse(at, radius, radius), dash=True)
@@ -156,6 +178,39 @@ class MarkerPicture(PictureView):
             haloed(painter, ON_PICTURE_PROPOSED, 1.5, lambda: self._cross(painter, at_cursor, 11.0))
         self._paint_loupe(painter)
 
+    def _is_named(self, clicking: Clicking) -> bool:
+        """Whether the disc under the cursor already has a name, of a person or proposed."""
+        return self.found is not None and bool(clicking.near(self.found.pixel, 3.0))
+
+    def _paint_proposals(self, painter: QPainter, clicking: Clicking, rings: list[tuple[str, QPointF, float]]) -> None:
+        """Proposed names as dashed rings, each finger's discs joined: a wrong name shows as a crossing line."""
+        if not clicking.protocol.has_fingers:
+            return
+        places = {name: one.pixel for name, one in clicking.proposed.items()} | clicking.pixel
+        at = {name: self.to_screen(*map(float, pixel)) for name, pixel in places.items()}
+        painter.setPen(QPen(QColor(255, 255, 255, 170), 1.5))
+        for ray in rays(clicking.protocol.markers):
+            known = [at[name] for name in ray if name in at]
+            for a, b in pairwise(known):
+                painter.drawLine(a, b)
+        for name, one in clicking.proposed.items():
+            radius = self._ring_px(one.width_px)
+            color = ON_PICTURE_PROPOSED if one.is_sure else ON_PICTURE_DOUBTFUL
+            width = 2.0 if one.is_sure else 3.0
+            haloed(painter, color, width, lambda n=name, r=radius: painter.drawEllipse(at[n], r, r), dash=True)  # type: ignore[misc]
+            rings.append((name, at[name], radius))
+
+    def _words_for(self, name: str, clicking: Clicking) -> str:
+        """The name on the picture; of many discs only the tips speak for their fingers, and what needs a look."""
+        one = clicking.proposed.get(name)
+        under_cursor = self.found is not None and clicking.near(self.found.pixel, 3.0) == name
+        full = len(clicking.order) <= FEW or under_cursor or name in self.wrong or (one is not None and not one.is_sure)
+        if full or name in ("WRIST", "CMC1") or (name == clicking.current and name not in clicking.proposed):
+            words = marker_name(name)
+            doubtful = one is not None and not one.is_sure
+            return self.tr("{marker}?").format(marker=words) if doubtful else words
+        return finger_name(name[-1]) if name.startswith("TIP") else ""
+
     def _cross(self, painter: QPainter, at: QPointF, arm: float) -> None:
         painter.drawLine(QPointF(at.x() - arm, at.y()), QPointF(at.x() + arm, at.y()))
         painter.drawLine(QPointF(at.x(), at.y() - arm), QPointF(at.x(), at.y() + arm))
@@ -166,8 +221,11 @@ class MarkerPicture(PictureView):
         metrics = QFontMetricsF(painter.font())
         discs = [QRectF(at.x() - r, at.y() - r, 2 * r, 2 * r) for _, at, r in rings]
         taken = [*discs, QRectF(self.loupe_box()), QRectF(0, self.height() - 160, 176, 160)]
+        assert self.clicking is not None
         for name, at, radius in rings:
-            words = marker_name(name)
+            words = marker_name(name) if name == proposed else self._words_for(name, self.clicking)
+            if not words:
+                continue
             if name == proposed:
                 words = self.tr("{marker}?").format(marker=words)
             wrong = name in self.wrong

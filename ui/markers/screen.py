@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 
 import numpy as np
 from PySide6.QtCore import QEvent, QObject, Qt, QTimer, Signal
@@ -19,12 +19,14 @@ from ui.controls.text import MEDIUM, REGULAR, StateText, Text, heading
 from ui.hand_drawing import HandDrawing, MarkerState
 from ui.keys import Keys, bind
 from ui.marker_words import click_instruction, marker_place
+from ui.markers import proposals
 from ui.markers.clicking import Clicking
 from ui.markers.last_picture import LastPicture
 from ui.markers.picture import MarkerPicture
 from ui.markers.start_angle import StartAngleSheet
 from ui.markers.verdict import VerdictPanel, headline, rows_before, rows_of
-from ui.ports import Calibrator, Judged, Phrasebook
+from ui.picture.view import HAND_ROOM, PALM_ROOM
+from ui.ports import Calibrator, Judged, Phrasebook, ProposedMarker
 from ui.theme import MARGIN_PX, Theme
 
 PREVIEW_EVERY_MS = 60
@@ -44,6 +46,9 @@ class MarkersScreen(QWidget):
         self._judged: Judged | None = None
         self._judging = 0
         self._held = False
+        self._by_hand = False
+        self._proposing = 0
+        self._waits_for_names = False
         self._start_angles_rad = np.zeros(3)
         self.picture = MarkerPicture(theme)
         self.last = LastPicture(theme, self.picture)
@@ -178,7 +183,10 @@ class MarkersScreen(QWidget):
         self.clicking = self.picture.clicking = Clicking(self._calibrator.protocol, self._calibrator.side)
         self.picture.show_wrong(())
         self.picture.show_frame(frame.color_rgb)
-        self.picture.set_hand_area(self._calibrator.hand_area())
+        room = HAND_ROOM if self._calibrator.protocol.has_fingers else PALM_ROOM
+        self.picture.set_hand_area(self._calibrator.hand_area(), room)
+        self._by_hand = not self._calibrator.protocol.has_fingers
+        self._ask_for_names()
         self._refresh()
         self.picture.setFocus(Qt.FocusReason.OtherFocusReason)
 
@@ -200,13 +208,55 @@ class MarkersScreen(QWidget):
             self.picture.no_marker_words = self.tr("No blue marker here. Click nearer.")
             self.picture.update()
             return
+        agreed = self.clicking.confirms(found.pixel)
         self.clicking.place(found.pixel, found.width_px)
+        if not agreed:
+            self._ask_for_names()
         self._changed()
 
     def _grab(self, name: str) -> None:
         if self.clicking is not None:
             self.clicking.current = name
             self._refresh()
+
+    def _ask_for_names(self) -> None:
+        """Let the program propose the names no person has given; each click of a person is one more thing it knows."""
+        self._proposing += 1
+        self._waits_for_names = False
+        if self._by_hand or self.clicking is None or self._calibrator is None or self.clicking.complete:
+            return
+        number, calibrator, named = self._proposing, self._calibrator, dict(self.clicking.pixel)
+        self._waits_for_names = True
+
+        def take(proposed: Mapping[str, ProposedMarker]) -> None:
+            if number != self._proposing or self.clicking is None:
+                return
+            self._waits_for_names = False
+            if set(self.clicking.pixel) != set(named):
+                self._ask_for_names()  # clicked meanwhile
+                return
+            self.clicking.propose(proposed)
+            self._refresh()
+            self.picture.update()
+
+        self._background.run(
+            lambda: calibrator.propose(named), take, lambda fault: self._take_fault(self._judging, fault), self
+        )
+
+    def take_all(self) -> None:
+        """Confirm all names that are proposed."""
+        if self.clicking is not None and self.clicking.proposed:
+            self.clicking.take_all()
+            self._changed()
+
+    def click_by_hand(self) -> None:
+        """No more proposals: every marker is clicked by the person."""
+        self._by_hand = True
+        self._proposing += 1
+        self._waits_for_names = False
+        if self.clicking is not None:
+            self.clicking.propose({})
+            self._changed()
 
     def accept(self) -> None:
         """Take the marker under the cursor; on a live picture, fix the picture."""
@@ -219,6 +269,7 @@ class MarkersScreen(QWidget):
     def undo(self) -> None:
         """Take back the marker set last."""
         if self.clicking is not None and self.clicking.undo():
+            self._ask_for_names()
             self._changed()
 
     def _changed(self) -> None:
@@ -264,7 +315,7 @@ class MarkersScreen(QWidget):
         if not self._held:
             self.accept()
         elif self._judged is None:
-            return
+            self.take_all()
         elif self._judged.verdict.is_good:
             self._start()
         elif self._pair() is not None:
@@ -275,8 +326,8 @@ class MarkersScreen(QWidget):
     def _second(self) -> None:
         """Click again after a swap was offered, or start although the verdict is doubtful: only this button does."""
         if self._judged is None:
-            return
-        if self._judged.verdict.can_start and self._pair() is None:
+            self.click_by_hand()
+        elif self._judged.verdict.can_start and self._pair() is None:
             self._start()
         else:
             self._click_again()
@@ -307,6 +358,8 @@ class MarkersScreen(QWidget):
 
     def _click_again(self) -> None:
         if self.clicking is None or self._judged is None:
+            if self.clicking is not None and self.clicking.proposed:
+                self.click_by_hand()
             return
         wrong = self._wrong_markers()
         if wrong:
@@ -366,6 +419,20 @@ class MarkersScreen(QWidget):
         self.primary.set_face(words, icon="", hint="")
         self.second.hide()
         self.hint.setText(self.tr("The hand lies flat and still, palm down, fingers straight."))
+        if self._waits_for_names:
+            self.step.show_state("none", self.tr("Looking for the markers…"))
+        elif clicking.proposed:
+            self._show_proposals(clicking)
+
+    def _show_proposals(self, clicking: Clicking) -> None:
+        words = proposals.words_for(clicking)
+        self.step.show_state(words.state, words.step, token="warn" if words.state == "warn" else "text2")
+        self.title.setText(words.title)
+        self.place.setText(words.place)
+        self.primary.setEnabled(True)
+        self.primary.set_face(words.primary, icon="check", hint=self.tr("Enter"))
+        self.second.set_face(self.tr("Click by hand"), hint="C")
+        self.second.show()
 
     def _show_verdict(self, clicking: Clicking, judged: Judged) -> None:
         assert self._calibrator is not None
@@ -408,7 +475,9 @@ class MarkersScreen(QWidget):
         states: dict[str, MarkerState] = {}
         for name in clicking.order:
             states[name] = "wrong" if name in wrong else "done" if name in clicking.pixel else "later"
-        if clicking.missing:
+        for name, one in clicking.proposed.items():
+            states[name] = "proposed" if one.is_sure else "doubtful"
+        if (clicking.missing and not clicking.proposed) or clicking.current in clicking.unnamed:
             states[clicking.current] = "next"
         return states
 
@@ -421,8 +490,11 @@ class MarkersScreen(QWidget):
             step = {Qt.Key.Key_Tab: 1, Qt.Key.Key_Backtab: -1}.get(Qt.Key(event.key()), 0)
             if step and self._held and self.clicking is not None and self._judged is None:
                 self.clicking.step(step)
-                if self.clicking.current in self.clicking.pixel:
-                    self.picture.set_cursor(self.clicking.pixel[self.clicking.current])
+                current = self.clicking.current
+                if current in self.clicking.pixel:
+                    self.picture.set_cursor(self.clicking.pixel[current])
+                elif current in self.clicking.proposed:
+                    self.picture.set_cursor(self.clicking.proposed[current].pixel)
                 self._refresh()
                 return True
         return False

@@ -15,8 +15,9 @@ from ui.picture.photo import paint_label
 from ui.theme import CARD_RADIUS_PX, Theme
 
 Overlay = Callable[[QPainter, "PictureView"], None]
-HAND_AREA_MARGIN = 2.0
-"""The hand's area is this many times as wide and high as the box of its markers: room to move."""
+PALM_ROOM, HAND_ROOM = 2.0, 1.3
+"""The area is this many times as wide and high as the box of the palm's markers, or of the whole hand's: room to move,
+and for the fingers beyond the palm."""
 
 
 class PictureView(QWidget):
@@ -54,15 +55,16 @@ class PictureView(QWidget):
         """The picture shown."""
         return self._image
 
-    def set_hand_area(self, pixel: FloatArray | None) -> None:
+    def set_hand_area(self, pixel: FloatArray | None, room: float = PALM_ROOM) -> None:
         """Fix the view on the markers (M, 2) with room to move, or on the whole picture."""
         self._area = None
         if pixel is not None and np.isfinite(pixel).any():
             low, high = np.nanmin(pixel, axis=0), np.nanmax(pixel, axis=0)
-            width, height = (high - low) * HAND_AREA_MARGIN + 40.0
+            width, height = (high - low) * room + 40.0
             center = (low + high) / 2
             # The fingers lie beyond the markers of the palm: the area reaches further towards the top.
-            self._area = QRectF(center[0] - width / 2, center[1] - height * 0.6, width, height)
+            above = 0.6 if room == PALM_ROOM else 0.5
+            self._area = QRectF(center[0] - width / 2, center[1] - height * above, width, height)
         self._place()
 
     def set_area(self, area: QRectF | None) -> None:

@@ -1,0 +1,58 @@
+"""What is said of names that the program has put on the discs and a person has not confirmed."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from ui.icons import State
+from ui.marker_words import click_instruction, marker_name
+from ui.markers.clicking import Clicking
+from ui.translate import tr
+
+MOST_NAMED = 4
+"""So many doubtful or missing markers are named one by one."""
+
+
+@dataclass(frozen=True, slots=True)
+class ProposalWords:
+    """State and line above the title, title, what to do, face of the primary button."""
+
+    state: State
+    step: str
+    title: str
+    place: str
+    primary: str
+
+
+def words_for(clicking: Clicking) -> ProposalWords:
+    """Which names need a look, and what Enter does."""
+    asked, open_names, doubtful = len(clicking.order), clicking.unnamed, clicking.doubtful
+    named = len(clicking.proposed)
+    primary = tr("Take all names") if not open_names else tr("Take {count} names").format(count=named)
+    if not open_names and not doubtful:
+        whole = tr("All {count} markers found").format(count=asked)
+        todo = tr("Each finger’s line runs from the wrist to its tip. Drag a name to another disc to change it.")
+        return ProposalWords("good", whole, tr("Are these names right?"), todo, primary)
+    if doubtful:
+        step = (
+            tr("1 name is doubtful")
+            if len(doubtful) == 1
+            else tr("{count} names are doubtful").format(count=len(doubtful))
+        )
+        todo = tr("Look at: {markers}. Click each where it is right, or drag it to its disc.")
+        return ProposalWords("warn", step, tr("Look at the amber names"), todo.format(markers=_list(doubtful)), primary)
+    step = tr("{named} of {asked} markers found").format(named=asked - len(open_names), asked=asked)
+    todo = tr("Not found: {markers}. Take the other names with Enter, then click these.")
+    return ProposalWords(
+        "warn", step, click_instruction(clicking.current), todo.format(markers=_list(open_names)), primary
+    )
+
+
+def _list(names: tuple[str, ...]) -> str:
+    words = [marker_name(name) for name in names]
+    words = [words[0], *(word[0].lower() + word[1:] for word in words[1:])]
+    if len(words) > MOST_NAMED:
+        return tr("{markers} and {count} more").format(
+            markers=", ".join(words[:MOST_NAMED]), count=len(words) - MOST_NAMED
+        )
+    return ", ".join(words)
