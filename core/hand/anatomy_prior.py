@@ -22,10 +22,10 @@ RAY_DISCS = ((2, 3, 4), (6, 7, 8), (10, 11, 12), (14, 15, 16), (18, 19, 20))
 
 _PALM = list(HAND21.palm)
 
-# Scatter of the depth of each joint centre by itself: an eighth of the ranges of reference 2, which also hold the
+# Scatter of the depth of each joint centre by itself: a seventh of the ranges of reference 2, which also hold the
 # sizes of hands (the table is scaled by them) and how much flesh there is (common to a ray, ``height_scale``).
-_DEPTH_SD_M = np.array([0.00075, 0.0005, 0.0003, 0.00025])  # CMC1, MCP1, IP1, TIP1
-_FINGER_DEPTH_SD_M = np.array([0.00062, 0.00038, 0.0003, 0.00025])  # MCP, PIP, DIP, TIP
+_DEPTH_SD_M = np.array([0.00086, 0.00057, 0.00034, 0.00029])  # CMC1, MCP1, IP1, TIP1
+_FINGER_DEPTH_SD_M = np.array([0.00071, 0.00043, 0.00034, 0.00029])  # MCP, PIP, DIP, TIP
 _FIXED = 1e-6
 _DOWN = np.array([1.0, 1.0, -1.0])
 

@@ -1,0 +1,192 @@
+"""Thumb and fingers tracked on simulated measurements: what is seen is right, what is hidden is said to be unsure."""
+
+from __future__ import annotations
+
+import functools
+from dataclasses import replace
+
+import numpy as np
+
+from core.calibration.settings import CalibrationSettings
+from core.hand.protocols import HAND21
+from core.simulation.measurements import MeasurementSequence, measurement_sequence
+from core.simulation.spec import RecordingSpec
+from core.tracking.finger_settings import FingerSettings
+from core.tracking.hand_geometry import CONSTANTS, RAYS, SLOTS
+from core.tracking.ray_filter import RayBeliefs, RayForecast, RayLayout, corrected, learning_shares
+from core.tracking.settings import TrackerSettings
+from core.tracking.tracker import Tracker
+from core.types import Detections, FloatArray, TrackedFrame, TrackStatus
+from tests.accuracy.carpus import measured_hand
+from tests.accuracy.hand21 import HandRun, HandScenario, run_on_blobs
+from tests.accuracy.hand21_table import JOINT_GROUPS, figures
+
+SPEC = RecordingSpec(
+    seed=61, protocol="hand21", motion="fist", seconds=4.5, speed_hz=0.4, false_blobs=3.0, hidden_share=0.1
+)
+
+
+@functools.cache
+def tracked(motion: str, seed: int, skin_offsets: bool = True) -> HandRun:
+    fingers = replace(FingerSettings(), skin_offsets=skin_offsets)
+    row = HandScenario("test", (motion,), {}, TrackerSettings(fingers=fingers))
+    side = "left" if seed % 2 else "right"
+    return run_on_blobs(row, replace(SPEC, motion=motion, seed=seed, hand=side, skin_offsets=skin_offsets))
+
+
+MOTIONS = ("fist", "fingers", "abduction", "thumb", "reach_grasp")
+
+
+def pooled(skin_offsets: bool) -> list[HandRun]:
+    return [tracked(motion, 61 + i, skin_offsets) for i, motion in enumerate(MOTIONS)]
+
+
+def test_joints_that_are_seen_are_right() -> None:
+    limits = {"MCP flexion": 3.5, "PIP flexion": 4.0, "DIP flexion": 4.0, "thumb MCP": 3.0, "thumb IP": 4.0}
+    for group, limit_deg in {**limits, "abduction": 2.0}.items():
+        assert figures(pooled(True), group).rmse < limit_deg, group
+
+
+def test_discs_in_the_joints_are_tracked_by_the_chain_of_the_papers() -> None:
+    for group, limit_deg in {"MCP flexion": 2.5, "PIP flexion": 3.0, "thumb MCP": 3.0, "thumb IP": 4.0}.items():
+        assert figures(pooled(False), group).rmse < limit_deg, group
+
+
+def test_truth_lies_within_what_is_stated_hidden_joints_included() -> None:
+    for group in JOINT_GROUPS:
+        assert figures(pooled(True), group).all_inside > 0.85, group
+    whole = figures(pooled(True), "PIP flexion")
+    assert whole.hidden_inside > 0.85
+    assert whole.hidden_sd > 2.0 * whole.sd, "a joint that no disc shows is less sure"
+
+
+def test_hardly_a_blob_is_taken_for_a_wrong_disc() -> None:
+    runs = pooled(True)
+    assert sum(run.wrong for run in runs) < 0.005 * sum(run.taken for run in runs)
+    assert sum(run.missed for run in runs) < 0.01 * sum(run.shown for run in runs)
+
+
+def sequence() -> MeasurementSequence:
+    return measurement_sequence(replace(SPEC, false_blobs=0.0, hidden_share=0.0))
+
+
+def without(detections: Detections, markers: np.ndarray, hidden: tuple[int, ...]) -> Detections:
+    """The blobs but for those of some markers."""
+    kept = ~np.isin(markers, hidden)
+    return Detections(
+        detections.pixel[kept],
+        detections.depth_m[kept],
+        detections.depth_sd_m[kept],
+        detections.area_px[kept],
+        detections.similarity[kept],
+    )
+
+
+def frames_of(hidden: dict[int, tuple[int, ...]], count: int = 60) -> tuple[list[TrackedFrame], MeasurementSequence]:
+    """The hand tracked, with some markers taken away in some frames."""
+    seen = sequence()
+    hand, _ = measured_hand(seen, CalibrationSettings())
+    assert hand.calibration is not None
+    tracker = Tracker(hand.calibration, seen.truth.camera, TrackerSettings())
+    times = seen.truth.timestamp_s
+    return [
+        tracker.step(i, float(times[i]), without(seen.detections[i], seen.marker[i], hidden.get(i, ())))
+        for i in range(count)
+    ], seen
+
+
+def test_a_finger_that_hides_is_unsure_at_once_and_knows_nothing_soon() -> None:
+    pip, dip, tip = (HAND21.markers.index(name) for name in ("PIP3", "DIP3", "TIP3"))
+    hidden_from = 30
+    frames, _ = frames_of(dict.fromkeys(range(hidden_from, 60), (pip, dip, tip)))
+    flexion = 5 + 3 + 2  # PIP3_flexion among the 17
+    sd_deg = np.degrees([frame.joint_angles_sd_rad[flexion] for frame in frames])
+    before = sd_deg[hidden_from - 1]
+    assert sd_deg[hidden_from + 2] > 1.2 * before
+    assert sd_deg[hidden_from + 15] > 20.0
+    assert all(np.diff(sd_deg[hidden_from - 1 : hidden_from + 10]) > 0.0)
+    index_deg = np.degrees(frames[hidden_from + 10].joint_angles_sd_rad[5 + 2])  # its neighbour, still seen
+    assert index_deg < 0.6 * sd_deg[hidden_from + 10]
+
+
+def test_joint_centres_and_tips_of_a_frame_are_where_they_are() -> None:
+    frames, seen = frames_of({})
+    position = np.array([frame.joint_position_m for frame in frames])
+    off_mm = 1e3 * np.linalg.norm(position - seen.truth.joint_position_w0_m[: len(frames)], axis=-1)
+    assert position.shape == (len(frames), len(HAND21.markers), 3)
+    assert np.median(off_mm) < 3.0
+    tips = [HAND21.markers.index(f"TIP{k}") for k in range(1, 6)]
+    assert np.median(off_mm[:, tips]) < 3.0
+    # Three fingers' widths from palm to tip: a model of bones of fixed length.
+    bone = np.linalg.norm(position[:, 7] - position[:, 6], axis=-1)
+    assert np.ptp(bone) < 0.002
+
+
+def test_a_lost_hand_has_no_joints_and_is_found_again() -> None:
+    everything = tuple(range(len(HAND21.markers)))
+    frames, seen = frames_of(dict.fromkeys(range(20, 80), everything), count=100)
+    lost = [frame for frame in frames if frame.status is TrackStatus.LOST]
+    assert lost
+    assert np.isnan(lost[-1].joint_angles_rad).all()
+    assert np.isnan(lost[-1].joint_position_m).all()
+    error_deg = np.degrees(np.abs(frames[-1].joint_angles_rad - seen.truth.joint_angles_rad[99]))
+    assert frames[-1].status is TrackStatus.TRACKED
+    assert np.median(error_deg) < 3.0
+
+
+LAYOUT = RayLayout(has_rates=True)
+
+
+def corrected_once(learning: float) -> tuple[RayBeliefs, RayBeliefs, FloatArray, FloatArray, RayForecast, FloatArray]:
+    """One correction of random beliefs by a random line; before, after, measured, variance, line, palm's part."""
+    rng = np.random.default_rng(8)
+    size = LAYOUT.size
+    root = rng.normal(size=(RAYS, 1, size, size)) * 0.1
+    before = RayBeliefs(rng.normal(size=(RAYS, 1, size)), root @ np.swapaxes(root, -1, -2), np.ones((RAYS, 1)))
+    slope = rng.normal(size=(RAYS, 9, size))
+    none = np.zeros((RAYS, 9, 9))
+    about = rng.normal(size=(RAYS, size))
+    line = RayForecast(
+        rng.normal(size=(RAYS, 9)), slope, none, about, none, np.zeros((RAYS, 3, 3)), np.zeros((RAYS, 3, 3, 3))
+    )
+    measured, variance = rng.normal(size=(RAYS, 9)), rng.uniform(0.1, 1.0, (RAYS, 9))
+    measured[2, 3:6] = np.nan
+    update = corrected(before, line, measured, variance, none, learning_shares(LAYOUT, learning))
+    return before, update.beliefs, measured, variance, line, about
+
+
+def test_correction_is_the_textbooks() -> None:
+    before, after, measured, variance, line, about = corrected_once(1.0)
+    for ray in range(RAYS):
+        used = np.isfinite(measured[ray])
+        h = line.slope[ray][used]
+        p = before.covariance[ray, 0]
+        expected = line.value[ray][used] + h @ (before.mean[ray, 0] - about[ray])
+        gain = p @ h.T @ np.linalg.inv(h @ p @ h.T + np.diag(variance[ray][used]))
+        assert np.allclose(after.mean[ray, 0], before.mean[ray, 0] + gain @ (measured[ray][used] - expected))
+        assert np.allclose(after.covariance[ray, 0], p - gain @ h @ p)
+
+
+def test_the_anatomy_learns_a_share_and_its_covariance_stays_one() -> None:
+    before, whole, *_ = corrected_once(1.0)
+    _, part, *_ = corrected_once(0.3)
+    constants, moving = LAYOUT.constants, slice(0, LAYOUT.constants.start)
+    step, slow = whole.mean - before.mean, part.mean - before.mean
+    assert np.allclose(slow[..., constants], 0.3 * step[..., constants])
+    assert np.allclose(slow[..., moving], step[..., moving])
+    assert np.allclose(part.covariance[..., moving, moving], whole.covariance[..., moving, moving])
+    assert np.linalg.eigvalsh(part.covariance).min() > -1e-12
+    told, told_slowly = (np.diagonal(b.covariance, axis1=-2, axis2=-1)[..., constants] for b in (whole, part))
+    assert (told_slowly > told - 1e-12).all()
+    assert told_slowly.shape[-1] == CONSTANTS
+    assert moving.stop // 2 == SLOTS
+
+
+def test_looking_back_is_no_worse_than_live() -> None:
+    runs = pooled(True)
+    seen = np.concatenate([run.seen for run in runs])
+    live, back = (
+        float(np.sqrt(np.nanmean(np.concatenate(errors)[seen] ** 2)))
+        for errors in ([run.joint_deg for run in runs], [run.smoothed_deg for run in runs])
+    )
+    assert back < 1.05 * live

@@ -1,0 +1,94 @@
+"""Limits pull like measurements and never clip."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+
+from core.hand.anatomy import HARD_LIMITS_RAD
+from core.tracking.hand_geometry import CONSTANTS, RAYS, SLOTS
+from core.tracking.joint_limits import SOFT_RAD, constrained, outside_limits, slot_limits_rad
+from core.tracking.ray_filter import RayBeliefs
+
+SIZE = SLOTS + CONSTANTS
+INDEX, PIP = 1, 2
+
+
+def belief(pip_deg: float, sd_deg: float) -> RayBeliefs:
+    """All joints surely at 20 degrees but one: PIP of the index finger."""
+    mean = np.zeros((RAYS, 1, SIZE))
+    mean[..., 1:3] = math.radians(20.0)
+    covariance = np.broadcast_to(1e-8 * np.eye(SIZE), (RAYS, 1, SIZE, SIZE)).copy()
+    mean[INDEX, 0, PIP] = math.radians(pip_deg)
+    covariance[INDEX, 0, PIP, PIP] = math.radians(sd_deg) ** 2
+    return RayBeliefs(mean, covariance, np.ones((RAYS, 1)))
+
+
+def pulled(pip_deg: float, sd_deg: float) -> tuple[float, float]:
+    """PIP and its standard deviation after the limits, degrees."""
+    before = belief(pip_deg, sd_deg)
+    after = constrained(before, before.mean[:, 0, :SLOTS])
+    sd = math.sqrt(after.covariance[INDEX, 0, PIP, PIP])
+    return math.degrees(after.mean[INDEX, 0, PIP]), math.degrees(sd)
+
+
+def test_an_angle_well_inside_is_left_alone() -> None:
+    before = belief(60.0, 5.0)
+    after = constrained(before, before.mean[:, 0, :SLOTS])
+    assert after.mean[INDEX, 0, PIP] == before.mean[INDEX, 0, PIP]
+    assert np.array_equal(after.covariance, before.covariance)
+
+
+def test_far_outside_a_limit_acts_as_a_measurement_of_it() -> None:
+    """PIP ends at 125 degrees; believed at 175 give or take 10, the step of 3 degrees has the last word."""
+    limit, sd = 125.0, 10.0
+    soft = math.degrees(SOFT_RAD)
+    as_measurement = 175.0 + sd**2 / (sd**2 + soft**2) * (limit - 175.0)
+    angle, after_sd = pulled(175.0, sd)
+    assert angle == pytest.approx(as_measurement, abs=2.5)
+    assert angle > limit - 3.0
+    assert after_sd < 0.5 * sd
+
+
+def test_a_sure_angle_outside_stays_outside() -> None:
+    """A hypermobile finger that is well seen is reported as it is."""
+    angle, _ = pulled(-25.0, 0.5)
+    assert -25.0 < angle < -24.0
+
+
+def test_an_angle_of_which_little_is_known_stays_within_its_range() -> None:
+    low, high = (math.degrees(bound) for bound in HARD_LIMITS_RAD["PIP2_flexion"])
+    angle, sd = pulled(120.0, 40.0)
+    assert low + sd < angle < high - 0.5 * sd
+    assert 10.0 < sd < (high - low) / math.sqrt(12.0)
+
+
+def test_the_truncated_normal_is_that_of_sampling() -> None:
+    """Mean and variance of a Gaussian times a soft step, by a million samples."""
+    rng = np.random.default_rng(3)
+    mean, sd, limit, soft = 120.0, 12.0, 125.0, math.degrees(SOFT_RAD)
+    sample = rng.normal(mean, sd, 1_000_000)
+    kept = sample[sample < limit + rng.normal(0.0, soft, sample.size)]
+    angle, after_sd = pulled(mean, sd)
+    assert angle == pytest.approx(float(kept.mean()), abs=0.1)
+    assert after_sd == pytest.approx(float(kept.std()), rel=0.02)
+
+
+def test_abduction_has_less_room_in_a_bent_finger() -> None:
+    slots = np.zeros((RAYS, SLOTS))
+    straight = slot_limits_rad(slots)[INDEX, 0]
+    slots[INDEX, 1] = math.radians(60.0)
+    bent = slot_limits_rad(slots)[INDEX, 0]
+    assert np.allclose(np.degrees(straight), [-30.0, 30.0])
+    assert np.allclose(np.degrees(bent), [-15.0, 15.0])
+
+
+def test_what_lies_outside_is_told_with_its_sign() -> None:
+    slots = np.zeros((RAYS, SLOTS))
+    slots[INDEX, 2], slots[2, 1] = math.radians(130.0), math.radians(-50.0)
+    off = np.degrees(outside_limits(slots))
+    assert off[INDEX, 2] == pytest.approx(5.0)
+    assert off[2, 1] == pytest.approx(-5.0)
+    assert np.count_nonzero(off) == 2
