@@ -9,10 +9,13 @@ for _name in ("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS"):
     os.environ.setdefault(_name, "1")
 
 import argparse
+import io
+import signal
 import sys
 from collections.abc import Sequence
 from importlib import import_module
 from pathlib import Path
+from typing import NoReturn
 
 from app import __version__
 from app.commands import COMMANDS
@@ -42,6 +45,8 @@ def parser(asked: Sequence[str]) -> argparse.ArgumentParser:
 def main(argv: Sequence[str] | None = None) -> int:
     """Run one command; 0 done, 1 could not be done (one line on stderr), 2 wrong usage."""
     asked = sys.argv[1:] if argv is None else argv
+    _open_closed_streams()
+    _stop_on_signals()
     try:
         arguments = parser(asked).parse_args(asked)
         if arguments.command is None:
@@ -58,6 +63,13 @@ def main(argv: Sequence[str] | None = None) -> int:
     except BrokenPipeError:
         # The reader of our output went away (`carpus info FILE | head`); nobody is left to tell.
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+    except OSError as cause:
+        subject = "" if cause.filename is None else f" {cause.filename}"
+        print(
+            f"carpus: the system refuses{subject} ({cause.strerror or cause}); check the file and the room on its "
+            "disk.",
+            file=sys.stderr,
+        )
     except Exception as cause:
         # A fault of the program itself: still one line, with what a developer needs to find it.
         where = cause.__traceback__
@@ -72,6 +84,29 @@ def main(argv: Sequence[str] | None = None) -> int:
             file=sys.stderr,
         )
     return EXIT_COULD_NOT
+
+
+def _open_closed_streams() -> None:
+    """A stream closed by whoever started us would give its number to the next file, and messages would go there."""
+    for number in range(3):
+        try:
+            os.fstat(number)
+        except OSError:
+            os.open(os.devnull, os.O_RDWR)
+    sys.stdin, sys.stdout, sys.stderr = (stream or io.StringIO() for stream in (sys.stdin, sys.stdout, sys.stderr))
+
+
+def _stop_on_signals() -> None:
+    """A shutdown or a closed terminal stops as Ctrl+C does: what runs is finished or tidied away. The window has its
+    own way."""
+    for name in ("SIGTERM", "SIGHUP"):
+        number = getattr(signal, name, None)
+        if number is not None and signal.getsignal(number) == signal.SIG_DFL:
+            signal.signal(number, _interrupt)
+
+
+def _interrupt(*_: object) -> NoReturn:
+    raise KeyboardInterrupt
 
 
 if __name__ == "__main__":

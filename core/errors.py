@@ -142,6 +142,10 @@ class PicturesEnlarged(CarpusFault):
     """Told, never raised: pictures of one kind were smaller and have been enlarged."""
 
 
+class IntrinsicsAssumed(CarpusFault):
+    """Told, never raised: no camera file says how this camera sees, so ``detail`` is used in its place."""
+
+
 class RegistrationAssumed(CarpusFault):
     """Told, never raised: nothing says whether depth lies on colour; it is taken as so."""
 

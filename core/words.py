@@ -208,6 +208,11 @@ FAULTS: dict[type[CarpusFault], Words] = {
         _UNTOUCHED,
         "Set colour and depth to one size next time.",
     ),
+    errors.IntrinsicsAssumed: Words(
+        "There is no file of the camera with {subject}; Carpus uses {detail}, and lengths may be several per cent off.",
+        _UNTOUCHED,
+        "Put the camera_info.yaml of the camera beside it.",
+    ),
     errors.RegistrationAssumed: Words(
         "Nothing says whether depth lies on colour in {subject}; Carpus takes it so.",
         _UNTOUCHED,

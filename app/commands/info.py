@@ -26,8 +26,10 @@ def run(arguments: argparse.Namespace) -> int:
 
         source = open_recording(path, need_depth=False)
         try:
-            known = isinstance(source, TumFolder)
-            lines = recording_summary(path, source) if known else source_summary(path, source.info)
+            if isinstance(source, TumFolder):
+                lines = recording_summary(path, source)
+            else:
+                lines = source_summary(path, source.info)
         finally:
             source.close()
     print("\n".join(lines))

@@ -4,25 +4,24 @@ from __future__ import annotations
 
 import argparse
 import contextlib
-import sys
 import time
 from pathlib import Path
 
-from app.commands.progress import bar
+from app.commands.progress import bar, tell
 from core.capture.raw import RawWriter
 from core.capture.raw_tum import TumWriter
-from core.errors import CarpusFault, OutputExists
+from core.errors import OutputExists
 from core.pipeline.recorder import Recorder
 from core.types import Frame
-from core.words import one_sentence
 
+LONGEST_S = 86400.0
 WAITING_FRAMES = 90
 """Three seconds of pictures may wait for a slow disk."""
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--output", type=Path, required=True, metavar="RECORDING", help="file (raw) or folder (tum)")
-    parser.add_argument("--seconds", type=float, metavar="N", help="stop after this long; else with Ctrl+C")
+    parser.add_argument("--seconds", type=a_duration_s, metavar="N", help="stop after this long; else with Ctrl+C")
     parser.add_argument("--format", choices=("raw", "tum"), default="raw")
     parser.add_argument(
         "--lossless", action="store_true", help="colour without loss too (raw only; three times the size)"
@@ -32,18 +31,25 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     )
 
 
+def a_duration_s(text: str) -> float:
+    """Seconds from 0 to a day; anything else is wrong usage."""
+    seconds = float(text)
+    if not 0.0 < seconds <= LONGEST_S:
+        raise argparse.ArgumentTypeError(f"{text} is not between 0 and {LONGEST_S:.0f} seconds")
+    return seconds
+
+
 def run(arguments: argparse.Namespace) -> int:
     if arguments.output.exists():
         raise OutputExists(arguments.output)
-    notice = _tell
     if arguments.origin is not None:
         from app.sources import open_recording
 
-        source = open_recording(arguments.origin, notice=notice)
+        source = open_recording(arguments.origin, notice=tell)
     else:
         from core.capture.xtion import XtionSource
 
-        source = XtionSource(notice=notice)
+        source = XtionSource(notice=tell)
 
     def open_writer() -> RawWriter | TumWriter:
         if arguments.format == "raw":
@@ -81,7 +87,3 @@ def _store(writer: RawWriter | TumWriter, frame: Frame) -> None:
 
 def _fault_told(_fault: Exception) -> None:
     """Nothing to do at once: finishing the recording raises it."""
-
-
-def _tell(fault: CarpusFault) -> None:
-    print(f"carpus: {one_sentence(fault)}", file=sys.stderr)

@@ -23,8 +23,10 @@ def run(arguments: argparse.Namespace) -> int:
         print(f"Recovered: {path}")
     for path in found.busy:
         print(f"Still being written, left alone: {path}")
+    for path in found.empty:
+        print(f"Ended before its first frame was stored, may be deleted: {path}")
     for fault in found.faults:
         print(f"carpus: {one_sentence(fault)}", file=sys.stderr)
-    if not (found.recovered or found.busy or found.faults):
+    if not (found.recovered or found.busy or found.faults or found.empty):
         print("No interrupted session here.")
     return 1 if found.faults else 0

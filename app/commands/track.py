@@ -10,15 +10,28 @@ from pathlib import Path
 import numpy as np
 
 from app import __version__
-from app.commands.progress import bar
+from app.commands.progress import bar, tell
 from core.calibration.clicks import read_clicks
 from core.calibration.result import Verdict
+from core.errors import IntrinsicsAssumed, RecordingMissing
 from core.hand.protocols import MarkerProtocol
 from core.pipeline.track import TrackReport, TrackSettings, retrack_session, track_recording
 from core.session.reader import read_outline
 from core.tracking.finger_settings import FingerSettings
 from core.tracking.settings import PROFILES, TrackerSettings
 from core.words import finding_sentence
+
+LARGEST_START_DEG = 120.0
+
+
+def an_angle_deg(text: str) -> float:
+    """Degrees that a wrist may have; anything else is wrong usage."""
+    angle = float(text)
+    if not abs(angle) <= LARGEST_START_DEG:
+        raise argparse.ArgumentTypeError(
+            f"{text} is not between -{LARGEST_START_DEG:g} and {LARGEST_START_DEG:g} degrees"
+        )
+    return angle
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -65,7 +78,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     )
     parser.add_argument(
         "--start-angles",
-        type=float,
+        type=an_angle_deg,
         nargs=3,
         metavar=("DEVIATION", "FLEXION", "SUPINATION"),
         help="degrees at the first frame, for a hand that cannot lie neutral; added to all angles and marked as given",
@@ -74,6 +87,9 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--exercise", default="", help="stored in the session")
 
 
+_INTRINSICS = {"default": "the usual values of the Xtion", "driver": "the driver's field of view"}
+_OF_RECORDINGS = ("calibration", "start_angles", "subject", "exercise")
+"""Options that a session answers itself."""
 COLOR_ALONE = (
     "Without depth a palm tilted towards the camera looks almost like one tilted away, its mirror image; "
     "check the signs of flexion and pro/supination, or track with depth."
@@ -102,7 +118,13 @@ def run(arguments: argparse.Namespace) -> int:
     settings = settings_from(arguments)
     if not settings.tracker.use_depth:
         print(f"carpus: {COLOR_ALONE}", file=sys.stderr)
+    if not arguments.recording.exists():
+        raise RecordingMissing(arguments.recording)
     if arguments.recording.suffix == ".h5" and arguments.recording.is_file():
+        told = [f"--{name.replace('_', '-')}" for name in _OF_RECORDINGS if getattr(arguments, name)]
+        if told:
+            print(f"carpus track: a session brings its own; leave out {' and '.join(told)}.", file=sys.stderr)
+            return 2
         warn_of_experiment(settings, read_outline(arguments.recording).header.protocol)
         with bar("tracking again") as progress:
             report = retrack_session(
@@ -120,9 +142,11 @@ def run(arguments: argparse.Namespace) -> int:
         return 2
     from app.sources import open_recording
 
-    source = open_recording(arguments.recording, need_depth=True)
+    source = open_recording(arguments.recording, need_depth=True, notice=tell)
     try:
         camera = source.info.camera
+        if camera.origin in _INTRINSICS:
+            tell(IntrinsicsAssumed(arguments.recording, _INTRINSICS[camera.origin]))
         clicks = read_clicks(arguments.calibration, camera.width_px, camera.height_px)
         warn_of_experiment(settings, clicks.protocol)
         start = None if arguments.start_angles is None else np.radians(arguments.start_angles)

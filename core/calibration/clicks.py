@@ -13,6 +13,8 @@ from core.errors import ClickOutsidePicture, ClicksUnreadable, OutputExists, Out
 from core.hand.protocols import protocol_named
 from core.types import FloatArray, Side
 
+_MOST_BYTES = 1_000_000
+"""Clicks take some hundred bytes; more is another file, or one that never ends."""
 _NO_PIXEL_PX = 1e9
 """Beyond any picture; also keeps NaN, infinity and integers too long for a float out."""
 
@@ -24,7 +26,7 @@ def read_clicks(path: Path, width_px: int | None = None, height_px: int | None =
     """
     content = _content(path)
     side = _side(path, content.get("hand"))
-    name = str(content.get("protocol", ""))
+    name = str(content.get("protocol", ""))[:40]
     try:
         protocol = protocol_named(name)
     except ProtocolUnknown as cause:
@@ -58,7 +60,11 @@ def check_inside(clicks: Clicks, width_px: int, height_px: int) -> None:
 
 def _content(path: Path) -> dict[str, Any]:
     try:
-        content = json.loads(path.read_text(encoding="utf-8-sig"), object_pairs_hook=_without_repetition)
+        with path.open("rb") as file:
+            data = file.read(_MOST_BYTES + 1)
+        if len(data) > _MOST_BYTES:
+            raise ClicksUnreadable(path, "much too long for clicks")
+        content = json.loads(data.decode("utf-8-sig"), object_pairs_hook=_without_repetition)
     except FileNotFoundError as cause:
         raise ClicksUnreadable(path, "there is no such file") from cause
     except OSError as cause:
@@ -94,7 +100,7 @@ def _side(path: Path, hand: Any) -> Side:
         return "right"
     if hand == "left":
         return "left"
-    raise ClicksUnreadable(path, f"hand is {json.dumps(hand)}, right or left expected")
+    raise ClicksUnreadable(path, f"hand is {json.dumps(hand)[:40]}, right or left expected")
 
 
 def _pixels(path: Path, markers: Any, names: tuple[str, ...]) -> FloatArray:
@@ -103,7 +109,7 @@ def _pixels(path: Path, markers: Any, names: tuple[str, ...]) -> FloatArray:
         raise ClicksUnreadable(path, "no markers")
     for problem, some in (("no click for", set(names) - set(markers)), ("unknown marker", set(markers) - set(names))):
         if some:
-            raise ClicksUnreadable(path, f"{problem} {', '.join(sorted(some))}")
+            raise ClicksUnreadable(path, f"{problem} {', '.join(sorted(some))[:200]}")
     return np.array([_pixel(path, name, markers[name]) for name in names])
 
 

@@ -14,6 +14,7 @@ from core.errors import CameraFileUnreadable, OutputExists, OutputNotWritable
 
 CAMERA_FILE = "camera_info.yaml"
 DISTORTION_MODEL = "plumb_bob"
+_MOST_BYTES = 1_000_000
 
 
 @dataclass(frozen=True, slots=True)
@@ -28,7 +29,11 @@ class CameraInfo:
 def read_camera_info(path: Path) -> CameraInfo:
     """Read a ROS camera calibration file; raises :class:`CameraFileUnreadable`."""
     try:
-        content = yaml.safe_load(path.read_text(encoding="utf-8-sig"))
+        with path.open("rb") as file:
+            data = file.read(_MOST_BYTES + 1)
+        if len(data) > _MOST_BYTES:
+            raise CameraFileUnreadable(path, "much too long for a camera calibration")
+        content = yaml.safe_load(data.decode("utf-8-sig"))
     except OSError as cause:
         raise CameraFileUnreadable(path, cause.strerror or "cannot be opened") from cause
     except UnicodeDecodeError as cause:
@@ -36,6 +41,8 @@ def read_camera_info(path: Path) -> CameraInfo:
     except yaml.YAMLError as cause:
         mark = getattr(cause, "problem_mark", None)
         raise CameraFileUnreadable(path, "not YAML" + (f", line {mark.line + 1}" if mark else "")) from cause
+    except (ValueError, RecursionError) as cause:
+        raise CameraFileUnreadable(path, "not YAML") from cause
     if not isinstance(content, dict):
         raise CameraFileUnreadable(path, "not a camera calibration")
     return CameraInfo(_camera(path, content), _flag(path, content, "registered"), _flag(path, content, "mirrored"))

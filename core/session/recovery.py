@@ -22,11 +22,13 @@ _END_OF_FILE_AT = _SUPERBLOCK.size - 8
 
 @dataclass(frozen=True, slots=True)
 class Recovery:
-    """``recovered`` the files finished; ``busy`` part files still being written; ``faults`` one for each file left."""
+    """``recovered`` the files finished; ``busy`` part files still being written; ``faults`` one for each file left;
+    ``empty`` part files in which nothing had been stored yet."""
 
     recovered: tuple[Path, ...]
     busy: tuple[Path, ...]
     faults: tuple[CarpusFault, ...]
+    empty: tuple[Path, ...] = ()
 
 
 def interrupted_sessions(folder: Path) -> list[Path]:
@@ -41,22 +43,27 @@ def recover_folder(folder: Path, now: datetime | None = None) -> Recovery:
     """
     if not folder.is_dir():
         raise RecordingMissing(folder)
-    recovered, busy, faults = [], [], []
+    recovered, busy, faults, empty = [], [], [], []
     for part in interrupted_sessions(folder):
         try:
             if is_being_written(part):
                 busy.append(part)
                 continue
-            recovered.append(recover(part, now))
+            target = recover(part, now)
+            if target is None:
+                empty.append(part)
+            else:
+                recovered.append(target)
         except CarpusFault as fault:
             faults.append(fault)
         except OSError as cause:
             faults.append(SessionUnreadable(part, cause.strerror or "cannot be opened"))
-    return Recovery(tuple(recovered), tuple(busy), tuple(faults))
+    return Recovery(tuple(recovered), tuple(busy), tuple(faults), tuple(empty))
 
 
-def recover(part: Path, now: datetime | None = None) -> Path:
-    """Finish one part file and return the session's path: its own name, or a free one beside it."""
+def recover(part: Path, now: datetime | None = None) -> Path | None:
+    """Finish one part file and return the session's path: its own name, or a free one beside it. None, and the file
+    stays, where it ended before the first frame was stored."""
     own_name = target_of_part(part)
     if own_name is None:
         raise SessionUnreadable(part, "not the part file of a session")
@@ -70,7 +77,7 @@ def recover(part: Path, now: datetime | None = None) -> Path:
     with open_session(part) as file:
         finished = bool(file.attrs["complete"])
         if not finished and whole_rows(file).frames == 0:
-            raise SessionUnreadable(part, "no whole frame in it")
+            return None
     if not finished:
         _finish(part, (now or datetime.now().astimezone()).isoformat(timespec="seconds"))
     read_session(part)

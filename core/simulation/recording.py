@@ -6,7 +6,6 @@ import contextlib
 import dataclasses
 import json
 import multiprocessing
-import os
 import shutil
 import tempfile
 from collections.abc import Callable, Iterator
@@ -22,6 +21,7 @@ from core.calibration.result import Clicks
 from core.capture.camera_info import CAMERA_FILE, write_camera_info
 from core.capture.tum import COLOR_LIST, DEPTH_LIST, DEPTH_UNIT_M
 from core.errors import OutputExists, OutputNotWritable
+from core.session.disk import write_fault
 from core.simulation.render import CleanPicture, Renderer
 from core.simulation.scene import Scene
 from core.simulation.sensor import ColorSensor, DepthSensor
@@ -32,6 +32,7 @@ from core.simulation.truth_file import read_visible_share, write_truth
 from core.types import ByteImage, DepthImage, FloatArray, Frame
 
 CLICKS_FILE, TRUTH_FILE = "calibration.json", "truth.h5"
+_MADE = ("rgb", "depth", COLOR_LIST, DEPTH_LIST, CAMERA_FILE, CLICKS_FILE, TRUTH_FILE)
 
 _LARGEST_CLICK_ERROR_PX = 3.5
 _BLUR_STEP_PX = 1.3
@@ -137,6 +138,8 @@ def simulate(spec: RecordingSpec, folder: Path, progress: Progress | None = None
     More than one of the ``workers`` render in processes of their own; the pictures are the same. Raises
     :class:`OutputExists` or :class:`OutputNotWritable`.
     """
+    pictures = SimulatedPictures(spec)
+    is_new = not folder.exists()
     try:
         folder.mkdir(parents=True, exist_ok=True)
         for name in ("rgb", "depth"):
@@ -144,8 +147,21 @@ def simulate(spec: RecordingSpec, folder: Path, progress: Progress | None = None
     except FileExistsError as cause:
         raise OutputExists(folder) from cause
     except OSError as cause:
-        raise OutputNotWritable(folder, os.strerror(cause.errno) if cause.errno else "") from cause
-    pictures = SimulatedPictures(spec)
+        raise write_fault(folder, cause) from cause
+    try:
+        return _filled(pictures, folder, progress, workers)
+    except BaseException:
+        # Half a recording is none; the next try finds its place free.
+        for path in [folder] if is_new else [folder / name for name in _MADE]:
+            if path.is_dir():
+                shutil.rmtree(path, ignore_errors=True)
+            else:
+                path.unlink(missing_ok=True)
+        raise
+
+
+def _filled(pictures: SimulatedPictures, folder: Path, progress: Progress | None, workers: int) -> Truth:
+    """Write everything into the empty ``rgb`` and ``depth`` of a folder, the lists that make it a recording last."""
     truth = pictures.truth
     count = len(pictures)
     visible = np.empty_like(truth.visible_share)
@@ -157,11 +173,14 @@ def simulate(spec: RecordingSpec, folder: Path, progress: Progress | None = None
     files = [_files(pictures, i) for i in range(count)]
     lists = {kind: [f"{Path(names[kind]).stem} {names[kind]}" for names in files] for kind in ("rgb", "depth")}
     truth = dataclasses.replace(truth, visible_share=visible)
-    _write_lists(folder, lists)
     write_camera_info(folder / CAMERA_FILE, truth.camera, registered=True, mirrored=False)
     clicks = clicks_of(truth)
-    (folder / CLICKS_FILE).write_text(clicks_json(clicks), encoding="utf-8")
-    write_truth(folder / TRUTH_FILE, truth, clicks, version_of_program())
+    try:
+        (folder / CLICKS_FILE).write_text(clicks_json(clicks), encoding="utf-8")
+        write_truth(folder / TRUTH_FILE, truth, clicks, version_of_program())
+        _write_lists(folder, lists)
+    except OSError as cause:
+        raise write_fault(folder, cause) from cause
     return truth
 
 
@@ -256,7 +275,7 @@ def _write_pictures(pictures: SimulatedPictures, i: int, clean: CleanPicture, fo
         try:
             path.write_bytes(data.tobytes())
         except OSError as cause:
-            raise OutputNotWritable(path, os.strerror(cause.errno) if cause.errno else "") from cause
+            raise write_fault(path, cause) from cause
 
 
 def _write_lists(folder: Path, lists: dict[str, list[str]]) -> None:

@@ -37,6 +37,33 @@ class Stream(IntEnum):
     MEASUREMENTS = 9
 
 
+_LIMITS: Mapping[str, tuple[float, float]] = {
+    "seed": (0, 2**63),
+    "seconds": (0.001, 86400.0),
+    "fps": (0.1, 240.0),
+    "speed_hz": (0.001, 20.0),
+    "range_share": (0.0, 1.5),
+    "repetitions": (0, 1_000_000),
+    "tremor_deg": (0.0, 30.0),
+    "tremor_hz": (0.0, 30.0),
+    "hand_length_mm": (100.0, 240.0),
+    "skin_movement_mm": (-30.0, 30.0),
+    "skin_tone": (0, 5),
+    "distance_m": (0.3, 4.0),
+    "yaw_deg": (-360.0, 360.0),
+    "tilt_deg": (-75.0, 75.0),
+    "false_blobs": (0.0, 100.0),
+    "hidden_share": (0.0, 0.9),
+    "hidden_mean_s": (0.01, 60.0),
+    "dropped_share": (0.0, 0.9),
+    "click_error_px": (0.0, 50.0),
+    "depth_scale_error": (0.0, 0.2),
+    "depth_delay_s": (-0.1, 0.1),
+    "exposure_s": (0.0, 0.1),
+}
+"""Least and largest value of every number; None is no number."""
+
+
 @dataclass(frozen=True, slots=True)
 class RecordingSpec:
     """A simulated recording; ``None`` and ``"drawn"`` mean: drawn from the seed.
@@ -90,22 +117,12 @@ class RecordingSpec:
 
     def __post_init__(self) -> None:
         protocol_named(self.protocol)
-        checks = {
-            "seconds": self.seconds > 0.0,
-            "fps": self.fps > 0.0,
-            "speed_hz": self.speed_hz is None or self.speed_hz > 0.0,
-            "range_share": 0.0 <= self.range_share <= 1.5,
-            "hand_length_mm": self.hand_length_mm is None or 100.0 <= self.hand_length_mm <= 240.0,
-            "skin_tone": self.skin_tone is None or 0 <= self.skin_tone <= 5,
-            "hidden_share": 0.0 <= self.hidden_share <= 0.9,
-            "hidden_mean_s": self.hidden_mean_s > 0.0,
-            "dropped_share": 0.0 <= self.dropped_share <= 0.9,
-            "false_blobs": self.false_blobs >= 0.0,
-            "hand": self.hand in ("right", "left"),
-        }
-        for name, is_good in checks.items():
-            if not is_good:
-                raise SettingsInvalid("simulation", f"{name} = {getattr(self, name)}")
+        for name, (low, high) in _LIMITS.items():
+            value = getattr(self, name)
+            if value is not None and not low <= value <= high:  # a NaN lies nowhere
+                raise SettingsInvalid("simulation", f"{name} = {value}, from {low:g} to {high:g}")
+        if self.hand not in ("right", "left"):
+            raise SettingsInvalid("simulation", f"hand = {self.hand}")
 
     @property
     def marker_protocol(self) -> MarkerProtocol:

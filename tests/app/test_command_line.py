@@ -1,0 +1,200 @@
+"""What every command does with wrong usage, closed streams, signals and full disks: a sentence, never a traceback."""
+
+from __future__ import annotations
+
+import json
+import os
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import pytest
+from tqdm import tqdm
+
+from app.__main__ import main
+from core.capture.camera_info import CAMERA_FILE
+from core.capture.tum import COLOR_LIST
+from core.hand.protocols import WRIST6
+from core.session.reader import read_session
+from core.session.recovery import interrupted_sessions
+from core.session.values import new_header
+from core.session.writer import SessionWriter
+from core.simulation.recording import CLICKS_FILE, simulate
+from core.simulation.spec import RecordingSpec
+from tests.session.samples import CAMERA, make_calibration
+
+ROOT = Path(__file__).parents[2]
+COMMAND = (sys.executable, "-m", "app")
+
+
+@pytest.fixture(autouse=True)
+def _quiet_bars(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(tqdm, "monitor_interval", 0)  # the bars' own thread would outlive the test
+
+
+@pytest.fixture(scope="module")
+def recording(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    folder = tmp_path_factory.mktemp("recording") / "wrist"
+    simulate(RecordingSpec(seed=3, seconds=0.5), folder)
+    return folder
+
+
+@pytest.fixture
+def session(tmp_path: Path) -> Path:
+    path = tmp_path / "session.h5"
+    header = new_header(hand="right", protocol=WRIST6, software_version="0")
+    SessionWriter.create(path, header, CAMERA, make_calibration(WRIST6)).close()
+    return path
+
+
+def usage_code(*arguments: str) -> int:
+    with pytest.raises(SystemExit) as ended:
+        main(arguments)
+    assert isinstance(ended.value.code, int)
+    return ended.value.code
+
+
+@pytest.mark.parametrize("angle", ["nan", "inf", "1000"])
+def test_start_angles_that_no_wrist_has_are_wrong_usage(angle: str, recording: Path, tmp_path: Path) -> None:
+    options = ("--calibration", str(recording / CLICKS_FILE), "--output", str(tmp_path / "s.h5"))
+    assert usage_code("track", str(recording), *options, "--start-angles", angle, "0", "0") == 2
+
+
+@pytest.mark.parametrize("seconds", ["nan", "inf", "0", "-1", "1e9", "x"])
+def test_recording_lasts_a_positive_time(seconds: str, tmp_path: Path) -> None:
+    assert usage_code("record", "--output", str(tmp_path / "r"), "--seconds", seconds) == 2
+
+
+@pytest.mark.parametrize(
+    "option",
+    [("--subject", "Fern 12"), ("--exercise", "fist"), ("--start-angles", "5", "0", "0"), ("--calibration", "c.json")],
+)
+def test_a_session_answers_for_itself(
+    option: tuple[str, ...], session: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """An option that would be passed over in silence is wrong usage."""
+    output = tmp_path / "again.h5"
+    assert main(["track", str(session), "--output", str(output), *option]) == 2
+    assert option[0] in capsys.readouterr().err
+    assert not output.exists()
+
+
+def test_a_recording_that_is_not_there_is_told_before_its_clicks_are_asked_for(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert main(["track", str(tmp_path / "gone.h5"), "--output", str(tmp_path / "s.h5")]) == 1
+    assert "gone.h5" in capsys.readouterr().err
+
+
+def test_tracking_says_when_the_camera_is_assumed(
+    recording: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    copy = tmp_path / "copy"
+    copy.mkdir()
+    for path in recording.iterdir():
+        if path.name != CAMERA_FILE:
+            (copy / path.name).symlink_to(path)
+    assert main(["track", str(copy), "--calibration", str(copy / CLICKS_FILE), "--output", str(tmp_path / "a.h5")]) == 0
+    assert CAMERA_FILE in capsys.readouterr().err
+    with_file = ["--calibration", str(recording / CLICKS_FILE), "--output", str(tmp_path / "b.h5")]
+    assert main(["track", str(recording), *with_file]) == 0
+    assert CAMERA_FILE not in capsys.readouterr().err
+
+
+def test_an_oni_file_says_that_registration_is_assumed(
+    recording: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    from core.capture.oni_writer import write_oni
+    from core.capture.tum import TumFolder
+    from core.simulation.oni import in_millimetres
+
+    source = TumFolder(recording)
+    path = tmp_path / "r.oni"
+    write_oni(path, in_millimetres(source.frames()), source.info.camera, fps=30, color="jpeg")
+    for sidecar in tmp_path.glob("*.yaml"):
+        sidecar.unlink()
+    main(["track", str(path), "--calibration", str(recording / CLICKS_FILE), "--output", str(tmp_path / "s.h5")])
+    assert "depth lies on colour" in capsys.readouterr().err
+
+
+def test_clicks_from_something_endless(recording: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    endless = tmp_path / "clicks.json"
+    endless.write_text(json.dumps({"hand": "x" * 2_000_000}))
+    assert main(["track", str(recording), "--calibration", str(endless), "--output", str(tmp_path / "s.h5")]) == 1
+    said = capsys.readouterr().err
+    assert "clicks.json" in said
+    assert len(said) < 500
+
+
+@pytest.mark.parametrize("stream", [0, 1, 2])
+def test_a_closed_stream_is_no_trouble(stream: int, recording: Path, tmp_path: Path) -> None:
+    output = tmp_path / "s.h5"
+    words = (*COMMAND, "track", str(recording), "--calibration", str(recording / CLICKS_FILE), "--output", str(output))
+    ended = subprocess.run(words, cwd=ROOT, preexec_fn=lambda: os.close(stream), check=False)
+    assert ended.returncode == 0
+    assert len(read_session(output)) > 10
+
+
+def test_a_full_disk_under_the_output_is_told(session: Path) -> None:
+    with Path("/dev/full").open("w", encoding="utf-8") as full:
+        words = (*COMMAND, "info", str(session))
+        ended = subprocess.run(words, cwd=ROOT, stdout=full, stderr=subprocess.PIPE, check=False, text=True)
+    assert ended.returncode == 1
+    assert "No space left" in ended.stderr
+    assert "unforeseen" not in ended.stderr
+    assert "Traceback" not in ended.stderr
+
+
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM, signal.SIGHUP])
+def test_stopped_while_rendering_leaves_nothing(number: signal.Signals, tmp_path: Path) -> None:
+    folder = tmp_path / "rendered"
+    words = (*COMMAND, "simulate", "--output", str(folder), "--seconds", "60")
+    with subprocess.Popen(words, cwd=ROOT, stderr=subprocess.PIPE, text=True) as process:
+        while not any(folder.glob("rgb/*.png")):
+            assert process.poll() is None
+            time.sleep(0.02)
+        process.send_signal(number)
+        said = process.communicate(timeout=60)[1]
+    assert process.returncode == 1
+    assert said == "carpus: stopped.\n"
+    assert not folder.exists()
+
+
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
+def test_stopped_while_tracking_leaves_no_part(number: signal.Signals, recording: Path, tmp_path: Path) -> None:
+    """What can be tracked again is not kept by halves."""
+    words = ["track", str(recording), "--calibration", str(recording / CLICKS_FILE), "--output", str(tmp_path / "s.h5")]
+    slow = "import time\nfrom app.__main__ import main\nfrom core.session.writer import SessionWriter\n"
+    slow += "append = SessionWriter.append\n"
+    slow += "def slowly(*a):\n    print('.', flush=True)\n    time.sleep(0.5)\n    append(*a)\n"
+    slow += f"SessionWriter.append = slowly\nraise SystemExit(main({words!r}))\n"
+    with subprocess.Popen(
+        [sys.executable, "-c", slow], cwd=ROOT, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
+    ) as process:
+        assert process.stdout is not None
+        assert process.stdout.readline() == ".\n"
+        process.send_signal(number)
+        said = process.communicate(timeout=60)[1]
+    assert process.returncode == 1
+    assert said == "carpus: stopped.\n"
+    assert not (tmp_path / "s.h5").exists()
+    assert not interrupted_sessions(tmp_path)
+
+
+def test_a_list_is_written_last(recording: Path) -> None:
+    """A rendering that a kill cuts short has no list yet, and is no recording."""
+    written = {path.name: path.stat().st_mtime_ns for path in recording.iterdir() if path.is_file()}
+    assert written.pop(COLOR_LIST) >= max(
+        time_ns for name, time_ns in written.items() if name.endswith((".h5", ".json"))
+    )
+
+
+@pytest.mark.parametrize("option", ["--seconds=inf", "--seconds=-1", "--fps=inf", "--tremor-deg=nan", "--distance-m=0"])
+def test_a_simulation_beyond_all_limits_is_refused(
+    option: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert main(["simulate", "--output", str(tmp_path / "r"), option]) == 1
+    assert option.partition("=")[0][2:].replace("-", "_") in capsys.readouterr().err
+    assert not (tmp_path / "r").exists()
