@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from core.hand.protocols import HAND21
-from core.measures.motion_range import Figure, MotionRange, motion_range
+from core.measures.motion_range import FEWEST_FOR_SPREAD, Figure, MotionRange, motion_range
 from core.measures.repetitions import Repetition
 from core.measures.signals import BoolArray, Signal, even_signal, low_pass
 from core.measures.validity import LARGEST_SD_RAD
@@ -52,7 +52,8 @@ class JointTrack:
 class TotalMotion:
     """TAM of one finger in each repetition: ``total``, with the ``flexion`` and ``deficit`` it is made of (rad).
 
-    ``limited``: hidden stretches may hold more. ``inferred``: the end joint follows the middle joint by the 2/3 rule.
+    ``limited``: hidden stretches may hold more, in more repetitions than may be left out.
+    ``inferred``: the end joint follows the middle joint by the 2/3 rule.
     """
 
     finger: int
@@ -93,19 +94,27 @@ def joint_track(
 
 def joint_range(track: JointTrack, repetitions: Sequence[Repetition]) -> MotionRange:
     """Largest, smallest angle and arc over the repetitions in which the joint was seen, or over the whole recording
-    where nothing was repeated. ``top_limited`` and ``bottom_limited``: it may have gone further while hidden."""
+    where nothing was repeated.
+
+    Three repetitions or more whose extremes were surely seen stand for all; else all count, and ``top_limited`` and
+    ``bottom_limited`` say that the joint may have gone further while hidden.
+    """
     usable = _usable(track.seen, repetitions)
     if not track.known or (repetitions and not usable):
         nothing = Figure(np.empty(0), math.nan, math.nan)
-        return MotionRange(nothing, nothing, nothing, 0, not track.known, not track.known)
+        return MotionRange(nothing, nothing, nothing, 0, True, True)
+    limits = []
+    for start_s, end_s in _windows(track.seen, usable):
+        part = track.seen.between(start_s, end_s).value
+        hidden = _hidden(track.tracked, track.seen, start_s, end_s)
+        angle, sd = track.tracked.value[hidden], track.tracked_sd.value[hidden]
+        limits.append((_exceeds(angle - np.nanmax(part) + sd), _exceeds(np.nanmin(part) - angle + sd)))
+    whole = tuple(rep for rep, limit in zip(usable, limits, strict=False) if not any(limit))
+    if len(whole) >= FEWEST_FOR_SPREAD:
+        return replace(motion_range(track.seen, track.seen_sd, whole), top_limited=False, bottom_limited=False)
     measured = motion_range(track.seen, track.seen_sd, usable)
-    tops = bottoms = False
-    for place, (start_s, end_s) in enumerate(_windows(track.seen, usable)):
-        if place < len(measured.maximum.values):
-            top, bottom = float(measured.maximum.values[place]), float(measured.minimum.values[place])
-            tops |= _may_exceed(track.tracked, track.tracked_sd, track.seen, start_s, end_s, top, +1.0)
-            bottoms |= _may_exceed(track.tracked, track.tracked_sd, track.seen, start_s, end_s, bottom, -1.0)
-    return replace(measured, top_limited=tops, bottom_limited=bottoms)
+    top, bottom = (any(limit[end] for limit in limits) for end in (0, 1))
+    return replace(measured, top_limited=top, bottom_limited=bottom)
 
 
 def total_active_motion(
@@ -128,28 +137,28 @@ def total_active_motion(
     sum_of = Signal(time_s, bend.sum(axis=1), tracks[0].seen.rate_hz, 1.0, np.empty((0, 2)))
     variance = (seen_sd * weight) ** 2
     usable = _usable(sum_of, repetitions)
-    windows = [] if repetitions and not usable else _windows(sum_of, usable)
-    full, missing, variances, limited = [], [], [], False
+    nowhere = (repetitions and not usable) or not sum_of.finite.any()
+    windows = [] if nowhere else _windows(sum_of, usable)
+    found: list[tuple[float, float, float, bool]] = []
     for start_s, end_s in windows:
         part = sum_of.between(start_s, end_s)
-        if not part.finite.any():
-            continue
         first = int(np.searchsorted(time_s, part.time_s[0]))
         top, bottom = first + int(np.nanargmax(part.value)), first + int(np.nanargmin(part.value))
-        full.append(float(sum_of.value[top]))
-        missing.append(float(sum_of.value[bottom]))
         bent_back = seen[bottom] <= 0.0
-        variances.append(float(variance[top].sum() + np.where(bent_back, 0.0, variance[bottom]).sum()))
-        limited |= _sum_may_exceed(tracks, weight, start_s, end_s, sum_of, full[-1], missing[-1])
-    flexion, deficit = np.array(full), np.array(missing)
-    sd = math.sqrt(sum(variances) / len(variances)) if variances else math.nan
+        error = float(variance[top].sum() + np.where(bent_back, 0.0, variance[bottom]).sum())
+        full, missing = float(sum_of.value[top]), float(sum_of.value[bottom])
+        found.append((full, missing, error, _sum_exceeds(tracks, weight, start_s, end_s, sum_of, full, missing)))
+    whole = [item for item in found if not item[3]]
+    kept = whole if len(whole) >= FEWEST_FOR_SPREAD else found
+    flexion, deficit = (np.array([item[k] for item in kept]) for k in (0, 1))
+    sd = math.sqrt(sum(item[2] for item in kept) / len(kept)) if kept else math.nan
     total = flexion - deficit
     return TotalMotion(
         finger,
-        Figure(total, float(total.max()) if len(total) else math.nan, sd),
-        Figure(flexion, float(flexion.max()) if len(total) else math.nan, sd),
-        Figure(deficit, float(deficit.min()) if len(total) else math.nan, sd),
-        limited or not len(total),
+        Figure(total, float(total.max()) if kept else math.nan, sd),
+        Figure(flexion, float(flexion.max()) if kept else math.nan, sd),
+        Figure(deficit, float(deficit.min()) if kept else math.nan, sd),
+        not kept or any(item[3] for item in kept),
         inferred,
         min(track.seen_share for track in tracks),
     )
@@ -170,41 +179,32 @@ def _windows(signal: Signal, repetitions: Sequence[Repetition]) -> list[tuple[fl
     return windows or [(float(signal.time_s[0]), float(signal.time_s[-1]))]
 
 
-def _may_exceed(
-    tracked: Signal, sd: Signal, seen: Signal, start_s: float, end_s: float, extreme: float, sign: float
-) -> bool:
-    """Whether the tracked angle, give or take its sd, went beyond an extreme where the joint was not seen."""
-    hidden = _hidden(tracked, [seen], start_s, end_s)
-    reach = sign * (tracked.value[hidden] - extreme) + sd.value[hidden]
-    return bool((~np.isfinite(reach) | (reach > FURTHER_RAD)).any())
+def _exceeds(further_rad: FloatArray) -> bool:
+    """Whether a hidden joint may have gone further than was seen; where nothing at all is known it may."""
+    return bool((~np.isfinite(further_rad) | (further_rad > FURTHER_RAD)).any())
 
 
-def _sum_may_exceed(
+def _sum_exceeds(
     tracks: Sequence[JointTrack], weight: FloatArray, start_s: float, end_s: float, seen: Signal, top: float, low: float
 ) -> bool:
     time_s, angle, sd = _side_by_side([t.tracked for t in tracks], [t.tracked_sd for t in tracks])
     bend = (np.maximum(angle, 0.0) * weight).sum(axis=1)
     spread = np.sqrt(((sd * weight) ** 2).sum(axis=1))
     base = Signal(time_s, bend, tracks[0].tracked.rate_hz, 1.0, np.empty((0, 2)))
-    hidden = _hidden(base, [seen], start_s, end_s)
-    further = np.fmax(bend[hidden] - top, low - bend[hidden]) + spread[hidden]
-    return bool((~np.isfinite(further) | (further > FURTHER_RAD)).any())
+    hidden = _hidden(base, seen, start_s, end_s)
+    return _exceeds(np.maximum(bend[hidden] - top, low - bend[hidden]) + spread[hidden])
 
 
-def _hidden(base: Signal, seen: Sequence[Signal], start_s: float, end_s: float) -> NDArray[np.intp]:
-    """Samples of a base inside a window at which one of the signals has nothing."""
-    half = 0.5 / base.rate_hz
+def _hidden(base: Signal, seen: Signal, start_s: float, end_s: float) -> NDArray[np.intp]:
+    """Samples of a base inside a window at which a signal has nothing."""
     inside = np.flatnonzero((base.time_s >= start_s) & (base.time_s <= end_s))
-    covered = np.ones(len(inside), dtype=np.bool_)
-    for signal in seen:
-        known = signal.time_s[signal.finite]
-        if not len(known):
-            return inside
-        right = np.clip(np.searchsorted(known, base.time_s[inside]), 0, len(known) - 1)
-        left = np.maximum(right - 1, 0)
-        nearest = np.minimum(np.abs(known[right] - base.time_s[inside]), np.abs(known[left] - base.time_s[inside]))
-        covered &= nearest <= half + 1e-9
-    return np.asarray(inside[~covered])
+    known = seen.time_s[seen.finite]
+    if not len(known):
+        return np.asarray(inside)
+    right = np.clip(np.searchsorted(known, base.time_s[inside]), 0, len(known) - 1)
+    left = np.maximum(right - 1, 0)
+    nearest = np.minimum(np.abs(known[right] - base.time_s[inside]), np.abs(known[left] - base.time_s[inside]))
+    return np.asarray(inside[nearest > 0.5 / base.rate_hz + 1e-9])
 
 
 def _side_by_side(values: Sequence[Signal], sds: Sequence[Signal]) -> tuple[FloatArray, FloatArray, FloatArray]:

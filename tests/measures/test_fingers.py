@@ -60,6 +60,22 @@ def test_what_a_hidden_joint_was_thought_to_do_is_not_its_range_but_is_told() ->
     assert not found.bottom_limited
 
 
+def test_repetitions_that_were_surely_seen_stand_for_one_that_was_not() -> None:
+    four = (*REPETITIONS, Repetition(12.0, 16.0, 1.0))
+    time_s = np.arange(0.0, 16.0, 1.0 / 30.0)
+    angle = np.radians(80.0 * (0.5 - 0.5 * np.cos(2.0 * math.pi * time_s / 4.0)))
+    valid = ~((time_s > 1.2) & (time_s < 2.8))
+    joint = joint_track("PIP3_flexion", time_s, angle, np.full(len(time_s), math.radians(SD_DEG)), valid)
+    found = joint_range(joint, four)
+    assert found.repetitions == 3
+    assert np.degrees(found.arc.values) == pytest.approx([80.0] * 3, abs=0.5)
+    assert not found.top_limited
+    assert joint_range(joint, four[:3]).top_limited
+    total = total_active_motion(3, [joint, joint], four, inferred=False)
+    assert np.degrees(total.total.values) == pytest.approx([160.0] * 3, abs=1.0)
+    assert not total.limited
+
+
 def test_a_joint_hidden_in_the_middle_of_its_way_is_not_limited() -> None:
     hidden = between(0.8, 1.2)
     found = joint_range(track("PIP3_flexion", 80.0 * WAVE, ~hidden), REPETITIONS)

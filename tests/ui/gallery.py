@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 import sys
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from datetime import date
 from pathlib import Path
@@ -28,6 +28,7 @@ from tests.ui.fakes import (
     picture,
     set_up,
 )
+from tests.ui.hand_fakes import FakeHandSessions
 from ui.background import Background
 from ui.fonts import load_fonts
 from ui.help.screen import HelpScreen
@@ -208,11 +209,13 @@ class Gallery:
         self.settle()
 
     @contextmanager
-    def _live(self, feed: FakeFeed, seconds: float = 25.0, target_deg: float = 60.0) -> Iterator[LiveScreen]:
+    def _live(
+        self, feed: FakeFeed, seconds: float = 25.0, target_deg: float = 60.0, exercise: str = "WRIST_FE"
+    ) -> Iterator[LiveScreen]:
         self.place(where="Right hand · Wrist flexion–extension", camera="30 pictures/s")
         screen = LiveScreen(self.theme, self.keys, self.background)
         self.show(screen)
-        screen.begin(FakeMeasuring(feed), set_up(target_deg=target_deg))
+        screen.begin(FakeMeasuring(feed), set_up(exercise, target_deg=target_deg))
         screen._timer.stop()
         feed.picture_number = 0
         feed.step(2)
@@ -260,6 +263,26 @@ class Gallery:
             screen.pain_sheet.begin()
             self.settle()
 
+    def _hand(self, hidden: Sequence[tuple[float, float, str]] = (), lost: Sequence[tuple[float, float]] = ()) -> None:
+        feed = FakeFeed("fist", 32.0, hidden, lost, protocol="hand21")
+        with self._live(feed, exercise="FIST_COMPOSITE", target_deg=90.0) as screen:
+            self.shell.bar.show_place("Linden 42", "Right hand · Full fist")
+            screen.toggle_side()
+            self.settle()
+
+    def live_hand(self) -> None:
+        self._hand()
+
+    def live_hand_thumb_hidden(self) -> None:
+        self._hand([(22.5, 30.0, name) for name in ("MCP1", "IP1", "TIP1")])
+
+    def live_hand_fist(self) -> None:
+        ends = [f"{joint}{k}" for k in (2, 3, 4, 5) for joint in ("DIP", "TIP")]
+        self._hand([(start, start + 2.6, name) for name in [*ends, "TIP1"] for start in (17.3, 23.6)])
+
+    def live_hand_not_found(self) -> None:
+        self._hand(lost=[(23.5, 30.0)])
+
     def live_camera_lost(self) -> None:
         with self._live(FakeFeed(seconds=32.0)) as screen:
             screen.set_camera_lost(True)
@@ -288,11 +311,40 @@ class Gallery:
         self.settle()
         screen.end()
 
+    def review_hand(self, finger: int = 0) -> None:
+        self.place(tab=1, camera="")
+        screen = ReviewScreen(self.theme, self.keys, self.background, FakeHandSessions())
+        self.show(screen)
+        screen.begin("linden", "hand-7", may_repeat=True)
+        self.settle()
+        screen.finger.buttons()[finger].click()
+        screen.seek(12.0)
+        self.settle()
+        screen.end()
+
+    def review_hand_finger(self) -> None:
+        self.review_hand(4)
+
     def progress(self) -> None:
         self.place(tab=2, camera="")
         screen = ProgressScreen(self.theme, self.keys, self.background, self.sessions)
         self.show(screen)
         screen.begin("linden", "session-7")
+        self.settle()
+
+    def progress_hand(self) -> None:
+        self.place(tab=2, camera="")
+        screen = ProgressScreen(self.theme, self.keys, self.background, FakeHandSessions())
+        self.show(screen)
+        screen.begin("linden", "hand-7")
+        self.settle()
+
+    def report_hand(self) -> None:
+        self.place(tab=3, camera="")
+        screen = ReportScreen(self.theme, self.keys, self.background)
+        self.show(screen)
+        store = FakeHandSessions()
+        screen.begin(session_report(store.session("hand-7"), history=store.history("linden")), "")
         self.settle()
 
     def report(self) -> None:
@@ -328,8 +380,10 @@ class Gallery:
             "patients", "patients_empty", "patients_not_found", "patients_recovered", "patient_form", "exercise",
             "camera", "markers_clicking", "markers_ready", "markers_swapped", "markers_doubtful",
             "markers_start_angle", "markers_proposed", "markers_proposed_doubtful", "markers_proposed_incomplete",
-            "live", "live_speeds", "live_marker_hidden", "live_hand_lost", "live_note",
-            "live_pain", "live_camera_lost", "review", "progress", "report", "report_progress", "settings", "help",
+            "live", "live_speeds", "live_marker_hidden", "live_hand_lost", "live_hand",
+            "live_hand_thumb_hidden", "live_hand_fist", "live_hand_not_found", "live_note",
+            "live_pain", "live_camera_lost", "review", "review_hand", "review_hand_finger",
+            "progress", "progress_hand", "report", "report_hand", "report_progress", "settings", "help",
         )  # fmt: skip
         return {name: getattr(self, name) for name in names}
 

@@ -16,9 +16,11 @@ from ui.plot.axes import Panel
 from ui.plot.series import paint_point
 from ui.plot.style import CURVE_TOKENS, screen_style
 from ui.review.curves import SessionPlot, paint_edges, paint_session, place_panels, value_at
+from ui.review.hand_curves import HandPlot, paint_hand_cursor, paint_hand_session, place_hand_panels
 from ui.theme import CARD_RADIUS_PX, Theme
 
 LEFT_PX, RIGHT_PX, TOP_PX, BOTTOM_PX, BETWEEN_PX = 122, 108, 38, 30, 18
+HAND_BETWEEN_PX = 8
 GRIP_PX = 16
 """Half the width of the target around an edge: the grip is 8 px wide, the target 32."""
 EDGES_S = 0.2
@@ -78,6 +80,8 @@ class CurveView(QWidget):
         assert self._plot is not None
         scale = self._theme.text_scale
         box = QRectF(self.rect()).adjusted(LEFT_PX * scale, TOP_PX * scale, -RIGHT_PX * scale, -BOTTOM_PX * scale)
+        if isinstance(self._plot, HandPlot):
+            return place_hand_panels(self._plot, box, HAND_BETWEEN_PX * scale)
         return place_panels(self._plot, box, BETWEEN_PX * scale, single=self._single)
 
     def paintEvent(self, event: QPaintEvent) -> None:
@@ -94,6 +98,9 @@ class CurveView(QWidget):
         painter.setPen(QPen(self._theme.color("text"), 1.5))
         for panel, _ in panels:
             painter.drawLine(QPointF(x, panel.box.top() - 2), QPointF(x, panel.box.bottom() + 2))
+        if isinstance(self._plot, HandPlot):
+            paint_hand_cursor(painter, style, self._plot, panels, self._time_s)
+            return
         for panel, column in panels:
             value, sd = value_at(self._plot.curves, column, self._time_s)
             paint_point(painter, style, panel, self._time_s, value, CURVE_TOKENS[column])
@@ -132,7 +139,10 @@ class CurveView(QWidget):
                 painter.setFont(style.label)
                 painter.setPen(style.color("text2"))
                 painter.drawText(QPointF(20, (TOP_PX - 7) * self._theme.text_scale), self.tr("Repetitions"))
-            paint_session(painter, style, self._plot, self.panels())
+            if isinstance(self._plot, HandPlot):
+                paint_hand_session(painter, style, self._plot, self.panels())
+            else:
+                paint_session(painter, style, self._plot, self.panels())
         painter.end()
         return picture
 

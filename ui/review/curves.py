@@ -70,9 +70,7 @@ def place_panels(plot: SessionPlot, box: QRectF, between: float, *, single: bool
 
 def paint_session(painter: QPainter, style: PlotStyle, plot: SessionPlot, panels: Sequence[tuple[Panel, int]]) -> None:
     """Everything that does not move: repetitions, grid, limits, target, curves, time axis."""
-    for panel, _ in panels:
-        _paint_repetitions(painter, style, plot, panel)
-    _paint_numbers(painter, style, plot, panels[0][0])
+    paint_repetitions(painter, style, plot, [panel for panel, _ in panels])
     for place, (panel, column) in enumerate(panels):
         limit = plot.exercise.trick_limit_deg
         if place > 0 and math.isfinite(limit):
@@ -118,7 +116,14 @@ def row_at(curves: Curves, time_s: float) -> int:
     return int(np.abs(curves.time_s - time_s).argmin())
 
 
-def _paint_repetitions(painter: QPainter, style: PlotStyle, plot: SessionPlot, panel: Panel) -> None:
+def paint_repetitions(painter: QPainter, style: PlotStyle, plot: SessionPlot, panels: Sequence[Panel]) -> None:
+    """Shading of the repetitions, with their numbers over the first panel."""
+    for panel in panels:
+        _paint_shading(painter, style, plot, panel)
+    _paint_numbers(painter, style, plot, panels[0])
+
+
+def _paint_shading(painter: QPainter, style: PlotStyle, plot: SessionPlot, panel: Panel) -> None:
     for number, repetition in enumerate(plot.repetitions):
         left, right = float(panel.x(repetition.start_s)), float(panel.x(repetition.end_s))
         box = QRectF(left + style.unit, panel.box.top(), right - left - 2 * style.unit, panel.box.height())

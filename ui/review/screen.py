@@ -12,6 +12,7 @@ from PySide6.QtGui import QColor, QPainter, QResizeEvent
 from PySide6.QtWidgets import QHBoxLayout, QScrollArea, QVBoxLayout, QWidget
 
 from core.output.exercises import FLEXION, SIDES
+from core.output.joint_content import JointCurves, joint_curves
 from core.output.report_content import (
     Curves,
     RepetitionChoices,
@@ -22,26 +23,35 @@ from core.output.report_content import (
     session_figures,
 )
 from core.session.values import Session
-from core.types import ByteImage
+from core.types import ByteImage, FloatArray
 from ui import numbers, terms
 from ui.background import Background
 from ui.controls.button import Button
 from ui.controls.card import Card
+from ui.controls.field import Choices
 from ui.controls.text import REGULAR, SEMIBOLD, Text
+from ui.figures import FINGERS
 from ui.keys import Keys, bind
+from ui.marker_words import finger_name
 from ui.picture.overlay import haloed
 from ui.picture.photo import paint_label
 from ui.picture.view import PictureView
 from ui.ports import SessionStore
+from ui.report.hand_rows import column_heads, finger_rows, limits_words
 from ui.report.tables import column_names, repetition_words, table_rows
 from ui.review.curve_view import EDGES_S, CurveView
 from ui.review.curves import SessionPlot, row_at, value_at
+from ui.review.hand_curves import HandPlot
+from ui.review.hand_table import HandTable
 from ui.review.player import Player
 from ui.review.reason import ReasonSheet
+from ui.review.skeleton import modelled_px, paint_skeleton, paint_trails
 from ui.review.table import RangeTable
 from ui.theme import GAP_PX, MARGIN_PX, ON_PICTURE_LINE, Theme, is_tight
 
 PLAY_EVERY_MS = 40
+TRAIL_S = 1.0
+"""How far back the way of the fingertips is drawn."""
 EDGE_STEP_S = 0.1
 
 
@@ -70,6 +80,8 @@ class ReviewScreen(QWidget):
         self._choices = RepetitionChoices()
         self._history: Sequence[SessionFigures] = ()
         self._curves: Curves | None = None
+        self._joints: JointCurves | None = None
+        self._modelled_px: FloatArray | None = None
         self.figures: SessionFigures | None = None
         self._time_s = 0.0
         self._current = -1
@@ -80,6 +92,11 @@ class ReviewScreen(QWidget):
         self.curves = CurveView(theme)
         self.player = Player(theme)
         self.table = RangeTable(theme)
+        self.hand_table = HandTable(theme)
+        self.limits = Text(theme, "", 12, REGULAR, "text2", wrap=True)
+        fingers: list[tuple[object, str]] = [(0, self.tr("All fingers"))]
+        fingers += [(finger, finger_name(str(finger))) for finger in FINGERS]
+        self.finger = Choices(theme, fingers)
         self.title = Text(theme, self.tr("Range of motion"), 20, SEMIBOLD)
         self.count = Text(theme, "", 14, REGULAR, "text2", wrap=True)
         self.again_button = Button(theme, self.tr("Another set"), "quiet", icon="plus")
@@ -99,7 +116,13 @@ class ReviewScreen(QWidget):
         top = QHBoxLayout()
         top.setSpacing(GAP_PX)
         top.addWidget(self.picture, 480)
-        top.addWidget(self.curves, 736)
+        right = QVBoxLayout()
+        right.setSpacing(8)
+        right.addWidget(self.finger)
+        for hidden in (self.finger, self.hand_table, self.limits):
+            hidden.hide()  # until a session of the whole hand is shown
+        right.addWidget(self.curves, 1)
+        top.addLayout(right, 736)
         card = Card(self._theme, 20)
         head = QHBoxLayout()
         head.setSpacing(12)
@@ -112,7 +135,14 @@ class ReviewScreen(QWidget):
         card.body.setSpacing(4)
         card.body.addLayout(head)
         self._scroll = QScrollArea()
-        self._scroll.setWidget(self.table)
+        tables = QWidget()
+        below = QVBoxLayout(tables)
+        below.setContentsMargins(0, 0, 0, 0)
+        below.setSpacing(4)
+        for widget in (self.table, self.hand_table, self.limits):
+            below.addWidget(widget)
+        below.addStretch(1)
+        self._scroll.setWidget(tables)
         self._scroll.setWidgetResizable(True)
         self._scroll.setFocusPolicy(Qt.FocusPolicy.NoFocus)
         card.body.addWidget(self._scroll)
@@ -131,11 +161,19 @@ class ReviewScreen(QWidget):
         tight = is_tight(self, self._theme)
         self.curves.show_single(tight)
         most = self.height() * (0.36 if tight else 0.48)
-        self._scroll.setFixedHeight(round(min(self.table.sizeHint().height() + 2, most)))
+        needed = self.table.sizeHint().height()
+        if self._joints is not None:
+            needed = (
+                self.hand_table.sizeHint().height() + 4 + self.limits.heightForWidth(max(self.width() - 140, 300)) + 6
+            )
+        self._scroll.setFixedHeight(round(min(needed + 2, most)))
 
     def _connect(self, keys: Keys) -> None:
         self.curves.cursor_moved.connect(self.seek)
         self.curves.edges_moved.connect(self._take_edges)
+        self.finger.chosen.connect(lambda _: self._refresh())
+        for button in self.finger.buttons():
+            button.setFocusPolicy(Qt.FocusPolicy.TabFocus)  # a click must leave Space and the arrows to the player
         self.player.sought.connect(self.seek)
         self.player.stepped.connect(self.step)
         self.player.play_toggled.connect(self.toggle_play)
@@ -186,6 +224,12 @@ class ReviewScreen(QWidget):
             return  # another one was asked for meanwhile
         self._session, self._choices, self._history = session, reviewed.choices, reviewed.history
         self._curves = session_curves(session)
+        self._joints = joint_curves(session)
+        is_hand = self._joints is not None
+        self._modelled_px = modelled_px(session.camera, session.markers.position_cam_m) if is_hand else None
+        for widget in (self.finger, self.hand_table, self.limits):
+            widget.setVisible(is_hand)
+        self.table.setVisible(not is_hand)
         self._row = self._asked_row = -1
         self.picture.clear("")
         self.picture.set_hand_area(session.calibration.clicks.pixel)
@@ -206,12 +250,26 @@ class ReviewScreen(QWidget):
         if figures is None or curves is None:
             return
         plot = SessionPlot(curves, figures.exercise, figures.repetitions, self._current)
+        if self._joints is not None:
+            plot = HandPlot(
+                curves, figures.exercise, figures.repetitions, self._current, joints=self._joints, finger=self._finger
+            )
         self.curves.show_plot(plot)
         self.player.show_session(plot.end_s, figures.repetitions, self._current)
         previous, other = previous_of(self._history, figures), other_hand_of(self._history, figures)
-        self.table.show_rows(column_names(figures, previous, other), table_rows(figures, previous, other))
+        if self._joints is None:
+            self.table.show_rows(column_names(figures, previous, other), table_rows(figures, previous, other))
+        else:
+            self.hand_table.show_rows(column_heads(figures, previous), finger_rows(figures, previous))
+            self.limits.setText(limits_words(figures))
+            self.picture.update()
         self.count.setText(repetition_words(figures))
         self._fit()
+
+    @property
+    def _finger(self) -> int:
+        value = self.finger.value()
+        return value if isinstance(value, int) else 0
 
     # --- time ---------------------------------------------------------------------------------------------
     @property
@@ -347,10 +405,11 @@ class ReviewScreen(QWidget):
             return
         measured = self._session.markers.measured_px[self._row]
         camera, places = self._session.camera, self._session.markers.position_cam_m[self._row]
-        modelled = (
-            camera.distort(camera.project(places)) if np.isfinite(places).all() else np.full_like(measured, math.nan)
-        )
+        modelled = modelled_px(camera, places)
         spots = np.where(np.isfinite(measured), measured, modelled)
+        if self._modelled_px is not None:
+            self._paint_hand(painter, picture, spots, np.isfinite(measured[:, 0]))
+            return
         if np.isfinite(spots).all():
             wrist = picture.to_screen(*map(float, spots[0]))
             for u, v in spots[1:6]:
@@ -365,6 +424,18 @@ class ReviewScreen(QWidget):
                     painter.drawEllipse(at, 2.5, 2.5)
         self._paint_labels(painter, picture)
 
+    def _paint_hand(self, painter: QPainter, picture: PictureView, spots: FloatArray, seen: np.ndarray) -> None:
+        """Skeleton, and the way of the fingertips in the second before."""
+        assert self._session is not None
+        assert self._modelled_px is not None
+        assert self._curves is not None
+        times = self._curves.time_s
+        recent = slice(int(np.searchsorted(times, times[self._row] - TRAIL_S)), self._row + 1)
+        all_seen = np.isfinite(self._session.markers.measured_px[recent, :, 0])
+        paint_trails(painter, picture, self._modelled_px[recent], all_seen, self._finger)
+        paint_skeleton(painter, picture, spots, seen, self._finger)
+        self._paint_labels(painter, picture)
+
     def _paint_labels(self, painter: QPainter, picture: PictureView) -> None:
         assert self.figures is not None
         assert self._curves is not None
@@ -373,6 +444,15 @@ class ReviewScreen(QWidget):
             pattern = self.tr("Repetition {number} of {count} · {time}")
             clock = pattern.format(number=self._current + 1, count=len(self.figures.repetitions), time=clock)
         paint_label(painter, self._theme, clock, 12, 12)
+        if self._joints is not None:
+            hidden = (
+                int((~np.isfinite(self._session.markers.measured_px[self._row, :, 0])).sum()) if self._session else 0
+            )
+            if hidden:
+                words = self.tr("{count} markers hidden").format(count=hidden)
+                width = painter.fontMetrics().horizontalAdvance(words) + 12
+                paint_label(painter, self._theme, words, picture.width() - width - 14, 12)
+            return
         column = FLEXION if self.figures.exercise.angle is None else self.figures.exercise.angle
         value, sd = value_at(self._curves, column, self._time_s)
         if math.isfinite(value):

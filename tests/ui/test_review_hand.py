@@ -1,0 +1,118 @@
+"""Review of the whole hand: curves by finger, hidden stretches, skeleton in step, the table of the fingers."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+
+import numpy as np
+import pytest
+from PySide6.QtCore import Qt
+from pytestqt.qtbot import QtBot
+
+from core.hand.protocols import HAND21
+from tests.ui.hand_fakes import FakeHandSessions
+from ui.background import Background
+from ui.figures import Figure
+from ui.keys import Keys
+from ui.report.hand_rows import COLUMNS, limits_words
+from ui.review.hand_curves import HandPlot, joint_at
+from ui.review.screen import ReviewScreen
+from ui.review.skeleton import chain_of, modelled_px
+from ui.theme import Theme
+
+
+@pytest.fixture(scope="module")
+def store() -> FakeHandSessions:
+    return FakeHandSessions(pictures=False)
+
+
+@pytest.fixture
+def screen(qtbot: QtBot, theme: Theme, store: FakeHandSessions) -> Iterator[ReviewScreen]:
+    background = Background()
+    screen = ReviewScreen(theme, Keys(), background, store)
+    qtbot.addWidget(screen)
+    screen.resize(1280, 744)
+    screen.show()
+    screen.begin("linden", "hand-7")
+    qtbot.waitUntil(lambda: screen.shown and not background.busy)
+    yield screen
+    screen.end()
+    qtbot.waitUntil(lambda: not background.busy)
+
+
+def plot_of(screen: ReviewScreen) -> HandPlot:
+    plot = screen.curves._plot
+    assert isinstance(plot, HandPlot)
+    return plot
+
+
+def test_every_finger_has_a_panel_and_a_chosen_one_has_bending_and_spreading(screen: ReviewScreen) -> None:
+    assert len(screen.curves.panels()) == 5
+    screen.finger.buttons()[4].click()
+    panels = screen.curves.panels()
+    assert len(panels) == 2
+    assert {figure.joint for figure in plot_of(screen).figures(1)} == {"MCP4_abduction"}
+    assert panels[0][0].box.height() == pytest.approx(2 * panels[1][0].box.height())
+
+
+def test_a_curve_is_dashed_exactly_where_a_disc_of_the_joint_was_hidden(
+    screen: ReviewScreen, store: FakeHandSessions
+) -> None:
+    session = store.session("hand-7")
+    series = plot_of(screen).joint_series(Figure(3, "middle"))
+    assert series is not None
+    at = HAND21.markers.index("PIP3")
+    known = np.isfinite(session.markers.measured_px[:, [at, at + 1], 0]).all(axis=1)
+    value = np.isfinite(series.value)
+    assert (~known & value).any()
+    assert np.array_equal(series.predicted[value], ~known[value])
+
+
+def test_a_lost_stretch_is_a_gap_and_no_number(screen: ReviewScreen) -> None:
+    series = plot_of(screen).joint_series(Figure(2, "knuckle"))
+    assert series is not None
+    assert any(start < 31.5 < end for start, end in series.gaps_s())
+    assert math.isnan(joint_at(plot_of(screen), Figure(2, "knuckle"), 31.5)[0])
+
+
+def test_an_end_joint_without_measurement_of_its_own_is_never_seen(screen: ReviewScreen) -> None:
+    value, _, hidden = joint_at(plot_of(screen), Figure(3, "end"), 1.0)
+    middle, _, _ = joint_at(plot_of(screen), Figure(3, "middle"), 1.0)
+    assert hidden
+    assert value == pytest.approx(2.0 / 3.0 * middle)
+
+
+def test_the_table_says_what_is_at_least_and_why(screen: ReviewScreen) -> None:
+    rows = screen.hand_table.rows
+    assert [row.finger for row in rows] == [1, 2, 3, 4, 5]
+    assert screen.figures is not None
+    for row in rows:
+        for column, cell in zip(COLUMNS, row.cells, strict=True):
+            found = screen.figures.row("arc", -1, Figure(row.finger, column).joint)
+            assert cell.main.startswith("≥") == (found is not None and found.limited)
+    fingers_limited = any(cell.limited for row in rows for cell in row.cells)
+    assert ("camera’s view" in limits_words(screen.figures)) == fingers_limited
+    assert "DIP not measured" in screen.limits.text()
+
+
+def test_space_plays_with_a_finger_chosen_and_the_curves_keep_step(qtbot: QtBot, screen: ReviewScreen) -> None:
+    screen.activateWindow()
+    qtbot.waitUntil(screen.isActiveWindow)
+    qtbot.mouseClick(screen.finger.buttons()[2], Qt.MouseButton.LeftButton)
+    screen.seek(4.0)
+    qtbot.keyClick(screen, Qt.Key.Key_Space)
+    qtbot.waitUntil(lambda: screen.time_s > 4.1)
+    assert screen.curves._time_s == screen.time_s
+    qtbot.keyClick(screen, Qt.Key.Key_Space)
+
+
+def test_the_skeleton_goes_from_the_wrist_to_each_tip(store: FakeHandSessions) -> None:
+    for finger in (1, 2, 3, 4, 5):
+        assert HAND21.markers[chain_of(finger)[0]] == "WRIST"
+        assert HAND21.markers[chain_of(finger)[-1]] == f"TIP{finger}"
+    session = store.session("hand-7")
+    places = modelled_px(session.camera, session.markers.position_cam_m)
+    seen = np.isfinite(session.markers.measured_px)
+    assert np.abs(places - session.markers.measured_px)[seen].max() < 2.0
+    assert np.isnan(places[session.status == 2]).all()

@@ -1,0 +1,165 @@
+"""The table of the fingers in words, the same on the review screen and on the page."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from core.output.joint_content import USUAL_TOTAL_DEG, WITHOUT_TOTAL, finger_keys, spread_keys
+from core.output.range_rows import RangeRow
+from core.output.report_content import SessionFigures, compare_rows
+from ui import numbers
+from ui.figures import FINGERS, Figure, Row
+from ui.marker_words import finger_name
+from ui.translate import tr
+from ui.verdicts import change_short
+
+COLUMNS: tuple[Row, ...] = ("knuckle", "middle", "end", "spread", "tam")
+AT_LEAST = "≥"
+"""Before a range that a hidden joint may have exceeded; always explained beside the table."""
+
+
+@dataclass(frozen=True, slots=True)
+class FingerCell:
+    """One figure: the range with its spread, and from where to where."""
+
+    main: str
+    small: str = ""
+    limited: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class FingerRow:
+    """One finger: a cell per column of :data:`COLUMNS`, last time's figure, and what may be said of the change."""
+
+    finger: int
+    name: str
+    cells: tuple[FingerCell, ...]
+    usual: str
+    last: str
+    change: str
+    verdict: str
+
+
+def finger_rows(figures: SessionFigures, previous: SessionFigures | None) -> list[FingerRow]:
+    """Thumb to little finger; last time and change are those of the total, of spreading or of the middle joint,
+    whichever the exercise is about."""
+    return [_finger_row(finger, figures, previous) for finger in FINGERS]
+
+
+def column_heads(figures: SessionFigures, previous: SessionFigures | None) -> list[str]:
+    """Heads after the finger's name: the columns, the usual value, last time, the change."""
+    day = numbers.day_month(previous.when) if previous else ""
+    compared = {"tam": tr("TAM"), "spread": tr("spread"), "middle": tr("middle joint")}[compared_row(figures)]
+    return [
+        tr("Knuckle (MCP)"), tr("Middle (PIP)"), tr("End (DIP)"), tr("Spread"), tr("TAM"),
+        tr("Usual") if compared_row(figures) == "tam" else "",
+        tr("{what}, {day}").format(what=compared, day=day) if day else "",
+        tr("Change since {day}").format(day=day) if day else "",
+    ]  # fmt: skip
+
+
+def compared_row(figures: SessionFigures) -> Row:
+    """What of a finger the exercise is about."""
+    if figures.exercise.id not in WITHOUT_TOTAL:
+        return "tam"
+    return "spread" if "abduction" in figures.exercise.joint else "middle"
+
+
+def limits_words(figures: SessionFigures) -> str:
+    """Which figures the camera's view limits, in words; empty when none."""
+    limited: dict[Row, list[str]] = {row: [] for row in COLUMNS}
+    unseen: list[str] = []
+    for finger in FINGERS:
+        for row in COLUMNS:
+            found = figures.row("arc", -1, Figure(finger, row).joint)
+            if found is None or row == "tam":
+                continue
+            if not found.count:
+                unseen.append(Figure(finger, row).long_name)
+            elif found.limited:
+                limited[row].append(finger_name(str(finger)).lower())
+    parts = []
+    for row, names in limited.items():
+        if names:
+            pattern = {
+                "knuckle": tr("knuckles of {fingers}"), "middle": tr("middle joints of {fingers}"),
+                "end": tr("end joints of {fingers}"), "spread": tr("spreading of {fingers}"),
+            }[row]  # fmt: skip
+            who = tr("all fingers") if len(names) == len(FINGERS) else ", ".join(names)
+            parts.append(pattern.format(fingers=who))
+    words = []
+    if parts:
+        pattern = tr("Limited by the camera’s view ({sign}: at least): {parts}. Hidden stretches do not count.")
+        words.append(pattern.format(sign=AT_LEAST, parts="; ".join(parts)))
+    if unseen:
+        words.append(tr("Not seen: {joints}.").format(joints="; ".join(unseen)))
+    if any(row.inferred for row in figures.joint_rows):
+        words.append(tr("DIP not measured: TAM takes it as two thirds of PIP."))
+    return " ".join(words)
+
+
+def cell_of(figures: SessionFigures, figure: Figure) -> FingerCell:
+    """The range of one joint or finger in words."""
+    row = figures.row("arc", -1, figure.joint)
+    if row is None:
+        return FingerCell(tr("not measured") if figure.row == "end" else numbers.UNKNOWN)
+    if not row.count:
+        return FingerCell(tr("not seen"), limited=True)
+    return FingerCell(_range_words(row), _ends(figures, figure), row.limited)
+
+
+def _finger_row(finger: int, figures: SessionFigures, previous: SessionFigures | None) -> FingerRow:
+    compared = Figure(finger, compared_row(figures))
+    today = figures.row("arc", -1, compared.joint)
+    before = previous.row("arc", -1, compared.joint) if previous else None
+    change, verdict = "", ""
+    if previous is not None and today is not None and (found := compare_rows(previous, figures, [today])):
+        verdict = found[0].verdict
+        change = change_short(verdict, found[0].shown_difference_deg, found[0].limit_deg)
+        if verdict == "not_judged":
+            hidden = today.limited or (before is not None and before.limited)
+            change = tr("not judged: hidden in part") if hidden else tr("not judged: fewer than 3 repetitions")
+    usual = USUAL_TOTAL_DEG[finger]
+    return FingerRow(
+        finger,
+        finger_name(str(finger)),
+        tuple(cell_of(figures, Figure(finger, row)) for row in COLUMNS),
+        f"{usual:.0f}°" if compared.row == "tam" else "",
+        _range_words(before, spread=False) if before is not None and before.count else "",
+        change,
+        verdict,
+    )
+
+
+def _range_words(row: RangeRow, *, spread: bool = True) -> str:
+    sd = row.sd_deg if math.isfinite(row.sd_deg) else row.measurement_sd_deg
+    words = numbers.with_spread(row.mean_deg, sd) if spread else numbers.degrees(row.mean_deg)
+    return f"{AT_LEAST}{numbers.NARROW_GAP}{words}" if row.limited else words
+
+
+def _ends(figures: SessionFigures, figure: Figure) -> str:
+    """``3° to 87°``; beyond straight in words."""
+    low, high = (figures.row(end, -1, figure.joint) for end in ("extension", "flexion"))
+    if low is None or high is None:
+        return ""
+    if figure.row == "tam":
+        return tr("bends {full}, lacks {missing}").format(
+            full=numbers.degrees(high.mean_deg), missing=numbers.degrees(low.mean_deg)
+        )
+    ends = sorted((figure.sign * low.mean_deg, figure.sign * high.mean_deg))
+    texts = [numbers.degrees(value) for value in ends]
+    if figure.row == "spread":
+        sides = [tr("{angle} in") if value < -0.5 else tr("{angle} out") for value in ends]
+        return tr("{low} to {high}").format(low=sides[0].format(angle=texts[0]), high=sides[1].format(angle=texts[1]))
+    if ends[0] < -0.5:
+        return tr("{low} over to {high}").format(low=texts[0], high=texts[1])
+    return tr("{low} to {high}").format(low=texts[0], high=texts[1])
+
+
+def followed_keys(what: str, names: Sequence[str] = ()) -> tuple[tuple[str, str, int], ...]:
+    """What a choice of the progress screen follows: ``tam``, ``spread`` or the number of a finger."""
+    if what == "spread":
+        return tuple(spread_keys())
+    return tuple(finger_keys(0 if what == "tam" else int(what)))

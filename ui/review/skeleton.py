@@ -1,0 +1,78 @@
+"""The skeleton over the picture in review: what was seen solid, what was not dashed, and the way of the fingertips."""
+
+from __future__ import annotations
+
+from itertools import pairwise
+
+import numpy as np
+from PySide6.QtCore import QPointF, Qt
+from PySide6.QtGui import QColor, QPainter, QPen
+
+from core.camera import Camera
+from core.hand.protocols import HAND21
+from core.types import FloatArray
+from ui.figures import FINGERS
+from ui.picture.overlay import haloed
+from ui.picture.view import PictureView
+from ui.theme import ON_PICTURE_LINE
+
+TRAIL_TOKENS = ("#7FE3E4", "#5AA2F5", "#F59A3C", "#E6E6E6", "#FF7A6E")
+"""Of the fingertips, thumb to little finger."""
+_WRIST = HAND21.markers.index("WRIST")
+
+
+def chain_of(finger: int) -> list[int]:
+    """Rows of a finger's markers, from the wrist outwards."""
+    joints = ("CMC", "MCP", "IP", "TIP") if finger == 1 else ("MCP", "PIP", "DIP", "TIP")
+    return [_WRIST, *(HAND21.markers.index(f"{joint}{finger}") for joint in joints)]
+
+
+def modelled_px(camera: Camera, position_cam_m: FloatArray) -> FloatArray:
+    """Where the model has the markers (..., 2) in the picture; NaN while lost."""
+    known = np.isfinite(position_cam_m).all(axis=-1)
+    out = np.full((*position_cam_m.shape[:-1], 2), np.nan)
+    if known.any():
+        out[known] = camera.distort(camera.project(position_cam_m[known]))
+    return out
+
+
+def paint_skeleton(
+    painter: QPainter, picture: PictureView, spots: FloatArray, seen: np.ndarray, finger: int = 0
+) -> None:
+    """Bones and discs of ``hand21``; ``spots`` (21, 2) pixels, ``seen`` bool (21,), ``finger`` 0 for all."""
+    for number in FINGERS:
+        chain = chain_of(number)
+        for a, b in pairwise(chain):
+            if np.isfinite(spots[[a, b]]).all():
+                start, end = (picture.to_screen(float(u), float(v)) for u, v in spots[[a, b]])
+                width = 2.5 if number == finger else 1.5
+                line = lambda start=start, end=end: painter.drawLine(start, end)  # noqa: E731
+                haloed(painter, ON_PICTURE_LINE, width, line, dash=not (seen[a] and seen[b]))
+    for spot, is_seen in zip(spots, seen, strict=True):
+        if np.isfinite(spot).all():
+            at = picture.to_screen(float(spot[0]), float(spot[1]))
+            ring = lambda at=at: painter.drawEllipse(at, 5.5, 5.5)  # noqa: E731
+            haloed(painter, ON_PICTURE_LINE, 1.5, ring, dash=not is_seen)
+            if is_seen:
+                painter.setBrush(QColor(ON_PICTURE_LINE))
+                painter.drawEllipse(at, 1.8, 1.8)
+
+
+def paint_trails(
+    painter: QPainter, picture: PictureView, modelled: FloatArray, seen: np.ndarray, finger: int = 0
+) -> None:
+    """Ways of the fingertips; ``modelled`` (n, 21, 2) pixels of the frames shown, ``seen`` bool (n, 21)."""
+    painter.setBrush(Qt.BrushStyle.NoBrush)
+    for number in FINGERS if finger == 0 else (finger,):
+        tip = HAND21.markers.index(f"TIP{number}")
+        color = QColor(TRAIL_TOKENS[number - 1])
+        solid = QPen(color, 2.0)
+        dashed = QPen(solid)
+        dashed.setDashPattern([2.2, 2.2])
+        points = [
+            picture.to_screen(float(u), float(v)) if np.isfinite([u, v]).all() else None for u, v in modelled[:, tip]
+        ]
+        for k, (a, b) in enumerate(pairwise(points)):
+            if a is not None and b is not None:
+                painter.setPen(solid if seen[k, tip] and seen[k + 1, tip] else dashed)
+                painter.drawLine(QPointF(a), QPointF(b))
