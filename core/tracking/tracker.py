@@ -37,9 +37,10 @@ from core.types import Detections, FloatArray, Moment, TrackedFrame, TrackStatus
 SHARE_WINDOW_S = 1.0
 _SAME_AXIS = np.eye(2)
 LEAST_PALM_MARKERS = 3
-VAGUE_TURN_RAD, BLIND_TURN_RAD = 0.15, 0.35
-"""Expecting the hand's turn less surely than this, the filter may settle on wrong names or at a wrong pose; still less
-surely, any three blobs would do for three discs."""
+VAGUE_TURN_RAD = 0.15
+"""Expecting the hand's turn less surely than this, the filter may settle on wrong names or at a wrong pose."""
+BLIND_TURN_RAD = (0.1, 0.1, 0.15, 0.35)
+"""Expecting it less surely than this, any so many blobs would do for discs: none, one, two, three of them."""
 
 TURN_SLACK_RAD, MOST_TURN_RATE_RAD_S, MOST_TURN_RAD = 0.35, 12.0, 1.9
 """A hand gone from sight is not found turned further than it may have turned meanwhile, nor ever the other way."""
@@ -179,7 +180,7 @@ class Tracker:
                 if step_there.palm_seen >= max(LEAST_PALM_MARKERS + 1, step.palm_seen):
                     # A vague belief has nothing against the place found: the smoother may go on through it.
                     ahead, step, linked, turn_sd_rad = there, step_there, linked and vague, 0.0
-        if turn_sd_rad > BLIND_TURN_RAD and step.palm_seen <= LEAST_PALM_MARKERS:
+        if step.palm_seen <= LEAST_PALM_MARKERS and turn_sd_rad > BLIND_TURN_RAD[step.palm_seen]:
             none = _only(ideal, np.zeros(len(ideal), dtype=bool))
             step = self._weighed(timestamp_s, dt_s, ahead, self._measurable(ahead, none), none)
         self._time_s, self._forecast = timestamp_s, None
