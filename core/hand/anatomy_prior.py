@@ -54,7 +54,7 @@ class AnatomyPrior:
     neutral_thumb_rad: float = math.radians(5.0)
     relaxed_flexion_rad: float = math.radians(4.0)
     relaxed_thumb_rad: tuple[float, float] = (math.radians(8.0), math.radians(8.0))
-    dip_free_rad: float = math.radians(10.0)
+    dip_free_rad: float = math.radians(8.0)
 
 
 def average_hand(disc_m: FloatArray, side: Side, skin_offsets: bool) -> HandAnatomy:
