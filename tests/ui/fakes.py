@@ -99,6 +99,7 @@ def tracked_frames(
     noise -= np.linspace(0, 1, len(noise))[:, None] * noise[-1]
     angles = truth.angles_rad + np.radians(np.clip(noise, -2.0, 2.0) * SD_DEG / 2.6)
     covered_since = np.zeros(len(markers))
+    joint_count = len(markers) if pictures.spec.marker_protocol.has_fingers else 0
     out = []
     for k, time_s in enumerate(truth.time_s):
         covered = np.array([any(a <= time_s < b and name == marker for a, b, marker in hidden) for name in markers])
@@ -122,10 +123,11 @@ def tracked_frames(
                 angles_rad=angles[k] * unknown,
                 angles_sd_rad=np.radians(SD_DEG) * growth * unknown,
                 angles_zyz_rad=np.full(3, math.nan),
-                joint_angles_rad=np.empty(0),
-                joint_angles_sd_rad=np.empty(0),
-                joint_velocity_rad_s=np.empty(0),
-                joint_position_m=np.empty((0, 3)),
+                joint_angles_rad=truth.joint_angles_rad[k] * unknown,
+                joint_angles_sd_rad=joint_sds_rad(pictures, covered_since) * unknown,
+                joint_velocity_rad_s=truth.joint_velocity_rad_s[k] * unknown,
+                joint_position_m=truth.joint_position_w0_m[k][: len(markers) if len(truth.joint_names) else 0]
+                * unknown,
                 marker_position_cam_m=truth.disc_position_cam_m[k] * unknown,
                 marker_predicted_px=truth.disc_pixel[k] * unknown,
                 marker_predicted_cov_px2=np.eye(2)[None] * (4.0 + 30.0 * covered_since[:, None, None]) * unknown,
@@ -141,6 +143,17 @@ def tracked_frames(
             )
         )
     return out
+
+
+def joint_sds_rad(pictures: SimulatedPictures, covered_since_s: np.ndarray) -> np.ndarray:
+    """Two degrees, growing by ten degrees a second while the finger's farther discs are covered."""
+    markers, names = pictures.spec.marker_protocol.markers, pictures.truth.joint_names
+    hidden_s = []
+    for name in names:
+        finger = name.split("_")[0][-1]
+        farther = [k for k, one in enumerate(markers) if one[-1] == finger and one[:3] not in ("MCP", "CMC")]
+        hidden_s.append(covered_since_s[farther].max())
+    return np.radians(2.0 + np.minimum(10.0 * np.array(hidden_s), 14.0)) if len(names) else np.empty(0)
 
 
 def calibration(pictures: SimulatedPictures) -> Calibration:
@@ -175,8 +188,10 @@ class FakeFeed:
         seconds: float = 20.0,
         hidden: Sequence[tuple[float, float, str]] = (),
         lost: Sequence[tuple[float, float]] = (),
+        protocol: str = "wrist6",
+        speed_hz: float = 0.16,
     ) -> None:
-        self.pictures = simulated(motion, seconds)
+        self.pictures = simulated(motion, seconds, speed_hz, protocol=protocol)
         self.frames = tracked_frames(self.pictures, tuple(hidden), tuple(lost))
         self.place = -1
         self.recording = False
@@ -195,7 +210,8 @@ class FakeFeed:
 
     def _frame(self, place: int) -> Frame:
         number = place if self.picture_number is None else self.picture_number
-        color = picture(self.pictures.spec.motion, number, self.pictures.spec.seconds)
+        spec = self.pictures.spec
+        color = picture(spec.motion, number, spec.seconds, protocol=spec.protocol, speed_hz=spec.speed_hz or 0.16)
         return Frame(place, self.frames[place].timestamp_s, color, None, 0.001)
 
     def newest_frame(self) -> Frame | None:

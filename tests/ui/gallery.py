@@ -263,9 +263,14 @@ class Gallery:
             screen.pain_sheet.begin()
             self.settle()
 
-    def _hand(self, hidden: Sequence[tuple[float, float, str]] = (), lost: Sequence[tuple[float, float]] = ()) -> None:
+    def _hand(
+        self,
+        hidden: Sequence[tuple[float, float, str]] = (),
+        lost: Sequence[tuple[float, float]] = (),
+        seconds: float = 25.0,
+    ) -> None:
         feed = FakeFeed("fist", 32.0, hidden, lost, protocol="hand21")
-        with self._live(feed, exercise="FIST_COMPOSITE", target_deg=90.0) as screen:
+        with self._live(feed, seconds, exercise="FIST_COMPOSITE", target_deg=90.0) as screen:
             self.shell.bar.show_place("Linden 42", "Right hand · Full fist")
             screen.toggle_side()
             self.settle()
@@ -278,7 +283,7 @@ class Gallery:
 
     def live_hand_fist(self) -> None:
         ends = [f"{joint}{k}" for k in (2, 3, 4, 5) for joint in ("DIP", "TIP")]
-        self._hand([(start, start + 2.6, name) for name in [*ends, "TIP1"] for start in (17.3, 23.6)])
+        self._hand([(start, start + 2.6, name) for name in [*ends, "TIP1"] for start in (15.1, 21.1)], seconds=22.3)
 
     def live_hand_not_found(self) -> None:
         self._hand(lost=[(23.5, 30.0)])

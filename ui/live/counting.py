@@ -12,6 +12,8 @@ from core.measures.signals import even_signal
 from core.measures.validity import LARGEST_SD_RAD
 from core.output.exercises import FLEXION, Exercise
 from core.types import TrackedFrame, TrackStatus
+from ui.figures import FIGURES, figure_of
+from ui.live.joint_history import figures_of
 
 
 class RunningCount:
@@ -19,7 +21,9 @@ class RunningCount:
 
     def __init__(self, exercise: Exercise) -> None:
         self.angle = FLEXION if exercise.angle is None else exercise.angle
-        self._counts = exercise.angle is not None
+        self.joint = exercise.joint
+        self._figure = FIGURES.index(figure_of(exercise.joint)) if exercise.joint else -1
+        self._counts = exercise.counts
         self._times: list[float] = []
         self._values: list[float] = []
         self._valid: list[bool] = []
@@ -30,14 +34,13 @@ class RunningCount:
 
     def append(self, frames: Sequence[TrackedFrame]) -> None:
         """Add frames that are being recorded."""
-        for frame in frames:
+        for frame, (value, sd, valid) in zip(frames, self._read(frames), strict=True):
             if self._times and frame.timestamp_s <= self._times[-1]:
                 continue
             if self._times:
                 # A pause leaves a long step between two frames; it is not recorded time.
                 self.recorded_s += min(frame.timestamp_s - self._times[-1], 0.2)
-            value, sd = float(frame.angles_rad[self.angle]), float(frame.angles_sd_rad[self.angle])
-            valid = frame.status == TrackStatus.TRACKED and math.isfinite(value) and sd <= LARGEST_SD_RAD
+            valid = valid and math.isfinite(value) and sd <= LARGEST_SD_RAD
             self._times.append(frame.timestamp_s)
             self._values.append(value)
             self._valid.append(valid)
@@ -50,6 +53,22 @@ class RunningCount:
             signal = even_signal(np.array(self._times), np.array(self._values), np.array(self._valid))
             self.repetitions = len(find_repetitions(signal).repetitions) if len(signal.time_s) else 0
         return self.repetitions
+
+    def _read(self, frames: Sequence[TrackedFrame]) -> list[tuple[float, float, bool]]:
+        """Trained angle and standard deviation in radians, and whether it was measured, frame by frame."""
+        if self._figure >= 0 and frames and len(frames[0].joint_angles_rad):
+            _, value_deg, sd_deg, measured, _ = figures_of(frames)
+            column = self._figure
+            value, sd = np.radians(value_deg[:, column]).tolist(), np.radians(sd_deg[:, column]).tolist()
+            return list(zip(value, sd, measured[:, column].tolist(), strict=True))
+        return [
+            (
+                float(frame.angles_rad[self.angle]),
+                float(frame.angles_sd_rad[self.angle]),
+                frame.status == TrackStatus.TRACKED,
+            )
+            for frame in frames
+        ]
 
     def _take_best(self, value_deg: float) -> None:
         if value_deg >= 0.0:

@@ -11,6 +11,7 @@ from PySide6.QtWidgets import QSizePolicy, QWidget
 
 from core.output.exercises import AXIS_TICK_DEG, SIDES
 from ui import numbers, terms
+from ui.figures import Figure
 from ui.fonts import MEDIUM, REGULAR, SEMIBOLD, font
 from ui.plot.axes import hatch
 from ui.plot.style import CURVE_TOKENS, screen_style
@@ -23,9 +24,11 @@ MOST_DOTS = 12
 
 @dataclass(frozen=True, slots=True)
 class Reading:
-    """What the card shows. ``angle`` is the column; best values are NaN until something was measured."""
+    """What the card shows. ``angle`` is the wrist's column, unless ``figure`` names a finger's angle; best values are
+    NaN until something was measured."""
 
     angle: int = 1
+    figure: Figure | None = None
     value_deg: float = math.nan
     sd_deg: float = math.nan
     predicted: bool = False
@@ -62,8 +65,18 @@ class NumberCard(QWidget):
             self.update()
 
     def movement(self) -> str:
-        """The word shown for the present direction."""
-        return terms.movement_long_name(self._word)
+        """The word shown for the present direction, or the finger and its joint."""
+        figure = self.reading.figure
+        return terms.movement_long_name(self._word) if figure is None else figure.long_name
+
+    def _ends(self) -> tuple[float, float, str, str]:
+        """Lower and upper end of the gauge with their words."""
+        figure = self.reading.figure
+        if figure is not None:
+            return *figure.range_deg, *figure.end_names
+        top_deg = AXIS_TICK_DEG[self.reading.angle]
+        upper, lower = (terms.movement_name(name) for name in SIDES[self.reading.angle])
+        return -top_deg, top_deg, f"{lower} {top_deg:.0f}°", f"{upper} {top_deg:.0f}°"
 
     def _number_px(self) -> float:
         return (NUMBER_WIDE_PX if self.width() >= WIDE_FROM_PX * self._theme.text_scale else NUMBER_PX) * 1.0
@@ -85,7 +98,7 @@ class NumberCard(QWidget):
         painter.setBrush(theme.color("surface"))
         frame = QRectF(self.rect()).adjusted(0.5, 0.5, -0.5, -0.5)
         painter.drawRoundedRect(frame, CARD_RADIUS_PX, CARD_RADIUS_PX)
-        token = CURVE_TOKENS[reading.angle]
+        token = CURVE_TOKENS[reading.angle] if reading.figure is None else reading.figure.token
         painter.setPen(Qt.PenStyle.NoPen)
         painter.setBrush(theme.color(token))
         painter.drawRoundedRect(QRectF(24, 24, 6, 20 * scale), 3, 3)
@@ -119,7 +132,8 @@ class NumberCard(QWidget):
             hatch(painter, screen_style(theme), swatch)
             painter.setFont(font(28 * scale, SEMIBOLD))
             painter.setPen(theme.color("text2"))
-            painter.drawText(QPointF(swatch.right() + 10, baseline), self.tr("predicted"))
+            words = self.tr("predicted") if reading.figure is None else self.tr("follows the middle joint")
+            painter.drawText(QPointF(swatch.right() + 10, baseline), words)
         else:
             painter.setFont(font(44, MEDIUM))
             painter.setPen(theme.color("text2"))
@@ -145,7 +159,8 @@ class NumberCard(QWidget):
         y = 118 * (0.65 + 0.35 * scale) + (self._number_px() - NUMBER_PX) / 3
         self._text(painter, self.tr("Speed"), left, y, 14, REGULAR, "text2")
         self._text(painter, numbers.speed(reading.speed_deg_s), left, y + 21 * scale, 20, SEMIBOLD, "text")
-        best = reading.best_positive_deg if self._word == SIDES[reading.angle][0] else reading.best_negative_deg
+        positive = reading.figure is not None or self._word == SIDES[reading.angle][0]
+        best = reading.best_positive_deg if positive else reading.best_negative_deg
         across = left + 112 * scale
         self._text(painter, self.tr("Best today"), across, y, 14, REGULAR, "text2")
         self._text(painter, numbers.degrees(best), across, y + 21 * scale, 20, SEMIBOLD, "text")
@@ -178,11 +193,13 @@ class NumberCard(QWidget):
 
     def _paint_gauge(self, painter: QPainter, box: QRectF, token: str) -> None:
         theme, scale, reading = self._theme, self._theme.text_scale, self.reading
-        top_deg = AXIS_TICK_DEG[reading.angle]
-        upper, lower = (terms.movement_name(name) for name in SIDES[reading.angle])
+        low_deg, high_deg, lower, upper = self._ends()
 
         def x(value_deg: float) -> float:
-            return box.center().x() + max(-1.0, min(1.0, value_deg / top_deg)) * box.width() / 2
+            share = (value_deg - low_deg) / (high_deg - low_deg)
+            return box.left() + max(0.0, min(1.0, share)) * box.width()
+
+        zero_x = x(0.0)
 
         painter.setPen(Qt.PenStyle.NoPen)
         painter.setBrush(theme.color("sunken"))
@@ -190,7 +207,7 @@ class NumberCard(QWidget):
         middle = box.center().y()
         if math.isfinite(reading.value_deg):
             value_x = x(reading.value_deg)
-            bar = QRectF(min(value_x, box.center().x()), box.top(), abs(value_x - box.center().x()), box.height())
+            bar = QRectF(min(value_x, zero_x), box.top(), abs(value_x - zero_x), box.height())
             if reading.predicted:
                 hatch(painter, screen_style(theme), bar, token, 200)
             else:
@@ -199,7 +216,7 @@ class NumberCard(QWidget):
         for best in (reading.best_positive_deg, reading.best_negative_deg):
             if math.isfinite(best) and abs(best) > 1.0:
                 painter.fillRect(QRectF(x(best) - 1, middle - 7, 2, 14), theme.color("text2"))
-        painter.fillRect(QRectF(box.center().x() - 0.5, box.top(), 1, box.height()), theme.color("border"))
+        painter.fillRect(QRectF(zero_x - 0.5, box.top(), 1, box.height()), theme.color("border"))
         for target in (reading.target_positive_deg, reading.target_negative_deg):
             if math.isfinite(target):
                 painter.fillRect(QRectF(x(target) - 1.5, middle - 14, 3, 28), theme.color("accent"))
@@ -212,7 +229,7 @@ class NumberCard(QWidget):
         painter.setFont(font(12 * scale, MEDIUM))
         painter.setPen(theme.color("text2"))
         under = QRectF(box.left(), box.bottom() + 6, box.width(), 18 * scale)
-        ends = f"{lower} {top_deg:.0f}°", f"{upper} {top_deg:.0f}°"
-        painter.drawText(under, int(Qt.AlignmentFlag.AlignLeft | Qt.AlignmentFlag.AlignTop), ends[0])
-        painter.drawText(under, int(Qt.AlignmentFlag.AlignHCenter | Qt.AlignmentFlag.AlignTop), "0°")
-        painter.drawText(under, int(Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignTop), ends[1])
+        painter.drawText(under, int(Qt.AlignmentFlag.AlignLeft | Qt.AlignmentFlag.AlignTop), lower)
+        if low_deg < 0.0:
+            painter.drawText(under, int(Qt.AlignmentFlag.AlignHCenter | Qt.AlignmentFlag.AlignTop), "0°")
+        painter.drawText(under, int(Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignTop), upper)

@@ -11,21 +11,26 @@ from PySide6.QtGui import QPainter, QResizeEvent
 from PySide6.QtWidgets import QHBoxLayout, QVBoxLayout, QWidget
 
 from core.pipeline.live_values import LiveCounters, LiveEvent, TrackedView
-from core.types import TrackStatus
+from core.types import TrackedFrame, TrackStatus
 from ui.background import Background
 from ui.controls.button import Button
 from ui.controls.card import Line, Surface
+from ui.figures import FIGURES, FINGERS, Figure, figure_of
 from ui.keys import Keys, bind
 from ui.live.counting import RunningCount
 from ui.live.curves import LiveCurves
+from ui.live.finger_curves import FingerCurves
+from ui.live.hand_map import HandMap
+from ui.live.hand_words import hand_lamp
 from ui.live.history import History
+from ui.live.joint_history import JointHistory
 from ui.live.light import Lamp, SteadyLight, lamp_for
 from ui.live.light_view import LightView
 from ui.live.notes import NoteSheet, PainSheet
 from ui.live.number_card import NumberCard, Reading
 from ui.live.path_view import PathView
-from ui.picture import overlay
-from ui.picture.view import PictureView
+from ui.picture import overlay, skeleton
+from ui.picture.view import HAND_ROOM, PALM_ROOM, PictureView
 from ui.ports import Measuring, SetUp
 from ui.theme import GAP_PX, MARGIN_PX, Theme, is_tight
 
@@ -33,6 +38,7 @@ DRAW_EVERY_MS = 50
 """Twenty drawings a second; what arrives in between is in the curves, not drawn on its own."""
 VALUES_EVERY = 2
 SLOW_EVERY = 20
+WRIST_COLUMNS, HAND_COLUMNS = (520, 696), (440, 776)
 
 RecordingState = Literal["off", "recording", "paused"]
 
@@ -66,6 +72,11 @@ class LiveScreen(QWidget):
         self.path = PathView(theme, self.history)
         self.number = NumberCard(theme)
         self.curves = LiveCurves(theme, self.history)
+        self.joints = JointHistory()
+        self.fingers = FingerCurves(theme, self.joints)
+        self.hand_map = HandMap(theme)
+        self._whole_hand = False
+        self._side_on = False
         self.light = LightView(theme)
         self.note = Button(theme, self.tr("Note"), "quiet", icon="notebook-pen", hint="F5")
         self.pain = Button(theme, self.tr("Pain"), "quiet", hint="F6")
@@ -86,11 +97,13 @@ class LiveScreen(QWidget):
         left.setSpacing(12)
         left.addWidget(self.picture, 390)
         left.addWidget(self.path, 242)
+        left.addWidget(self.hand_map, 300)
         right = QVBoxLayout()
         right.setSpacing(12)
         right.addWidget(self.number)
         right.addWidget(self.curves, 1)
-        columns = QHBoxLayout()
+        right.addWidget(self.fingers, 1)
+        self._columns = columns = QHBoxLayout()
         columns.setContentsMargins(MARGIN_PX, GAP_PX, MARGIN_PX, 12)
         columns.setSpacing(GAP_PX)
         columns.addLayout(left, 520)
@@ -136,8 +149,10 @@ class LiveScreen(QWidget):
         actions = {
             "record": self.toggle_recording, "note": self.note.click, "pain": self.pain.click,
             "pause": self.toggle_pause, "overlay": self.toggle_overlay, "whole_picture": self.toggle_whole,
-            "speeds": self.toggle_speeds, "next_angle": self.next_angle,
+            "speeds": self.toggle_speeds, "next_angle": self.next_angle, "next_finger": self.next_finger,
+            "side_view": self.toggle_side,
         }  # fmt: skip
+        self.fingers.chosen.connect(self.choose_figure)
         for name, action in actions.items():
             bind(self, keys, name, action)
 
@@ -147,7 +162,12 @@ class LiveScreen(QWidget):
     def _fit(self) -> None:
         """With large text on a small screen, what is read from afar keeps its room and the path gives way."""
         tight = is_tight(self, self._theme)
-        self.path.setVisible(not tight)
+        self.path.setVisible(not tight and not self._whole_hand)
+        self.hand_map.setVisible(not tight and self._whole_hand)
+        self.curves.setVisible(not self._whole_hand)
+        self.fingers.setVisible(self._whole_hand)
+        for place, share in enumerate(HAND_COLUMNS if self._whole_hand else WRIST_COLUMNS):
+            self._columns.setStretch(place, share)
         self.curves.show_single(tight)
         for button, hint in ((self.note, "F5"), (self.pain, "F6"), (self.pause, "F7")):
             button.set_face(button.text(), hint="" if tight else hint)
@@ -158,6 +178,8 @@ class LiveScreen(QWidget):
         """Show a source whose tracking has begun."""
         self._measuring, self._set_up = measuring, set_up
         self.history.clear()
+        self.joints.clear()
+        self._whole_hand = set_up.protocol.has_fingers
         self._light = SteadyLight()
         self._count = None
         self._view = None
@@ -165,12 +187,18 @@ class LiveScreen(QWidget):
         self.curves.set_exercise(set_up.exercise, set_up.target_positive_deg, set_up.target_negative_deg)
         self.path.set_exercise(set_up.side, set_up.exercise.pure_wrist)
         angle = 1 if set_up.exercise.angle is None else set_up.exercise.angle
-        self.number.show_reading(self._targets(Reading(angle=angle)))
+        figure = figure_of(set_up.exercise.joint) if self._whole_hand else None
+        self.number.show_reading(self._targets(Reading(angle=angle, figure=figure)))
+        if figure is not None:
+            self.choose_figure(figure)
+        self.hand_map.set_side(set_up.side)
+        self._fit()
         calibration = measuring.calibration
         stored = measuring.starts_with_recording
         waiting = self.tr("The recording plays from its first picture") if stored else self.tr("Waiting for a picture")
         self.picture.clear(waiting)
-        self.picture.set_hand_area(None if calibration is None else calibration.clicks.pixel)
+        room = HAND_ROOM if self._whole_hand else PALM_ROOM
+        self.picture.set_hand_area(None if calibration is None else calibration.clicks.pixel, room)
         self._show_buttons()
         self._timer.start()
         self.setFocus(Qt.FocusReason.OtherFocusReason)
@@ -264,13 +292,37 @@ class LiveScreen(QWidget):
         self.speeds.set_face(self.tr("Angles") if self.curves.shows_speeds else self.tr("Speeds"))
 
     def next_angle(self) -> None:
-        """Show the next of the three angles as the big number."""
+        """Show the next of the three angles of the wrist, or of a finger, as the big number."""
         reading = self.number.reading
+        if reading.figure is not None:
+            own = [figure for figure in FIGURES if figure.finger == reading.figure.finger]
+            self.choose_figure(own[(own.index(reading.figure) + 1) % len(own)])
+            return
         self.number.show_reading(self._targets(Reading(angle=(reading.angle + 1) % 3)))
+
+    def next_finger(self) -> None:
+        """Show the same angle of the next finger as the big number."""
+        figure = self.number.reading.figure
+        if figure is not None:
+            self.choose_figure(Figure(figure.finger % len(FINGERS) + 1, figure.row))
+
+    def choose_figure(self, figure: Figure) -> None:
+        """Make an angle of a finger the big number."""
+        reading = self._targets(Reading(figure=figure))
+        self.fingers.set_figure(figure, reading.target_positive_deg)
+        self.number.show_reading(reading)
+        if self._measuring is not None and len(self.joints):
+            self.number.show_reading(self._reading())
+
+    def toggle_side(self) -> None:
+        """One finger from the side, or not."""
+        self._side_on = not self._side_on
+        self.picture.update()
 
     def set_camera_lost(self, lost: bool) -> None:
         """The camera went or came back; while it is gone nothing old is shown as if it were now."""
         self._camera_lost = lost
+        self.fingers.set_waiting(lost)
         if lost:
             self.picture.clear(self.tr("No picture"))
             self._view = None
@@ -287,18 +339,22 @@ class LiveScreen(QWidget):
         feed = self._measuring.feed
         fresh = feed.tracked_since(self.history.last_index)
         self.history.append(fresh)
+        if self._whole_hand:
+            self.joints.append(fresh)
         begin = feed.recorded_from
         if self._count is not None and begin is not None and not feed.paused:
             self._count.append([tracked for tracked in fresh if tracked.index >= begin])
         view = feed.newest()
         if view is not None and fresh and (self._view is None or view.tracked.index != self._view.tracked.index):
             self._view = view
-            self._camera_lost = False
+            if self._camera_lost:
+                self.set_camera_lost(False)
+            self._view = view
             self.picture.show_frame(view.frame.color_rgb)
-            self.curves.update()
+            self._plots().update()
         if self._camera_lost:
             self.history.wait(0.001 * DRAW_EVERY_MS)
-            self.curves.update()
+            self._plots().update()
         if self._tick % VALUES_EVERY == 0:
             self._show_values()
         if self._tick % SLOW_EVERY == 0:
@@ -306,6 +362,9 @@ class LiveScreen(QWidget):
         self._tick += 1
         for event in feed.drain_events():
             self._take_event(event)
+
+    def _plots(self) -> QWidget:
+        return self.fingers if self._whole_hand else self.curves
 
     def _take_event(self, event: LiveEvent) -> None:
         if event.kind in ("camera_lost", "camera_back"):
@@ -315,13 +374,21 @@ class LiveScreen(QWidget):
             self.stop()
 
     def _show_values(self) -> None:
-        self.curves.refresh_values()
-        self.path.update()
+        if self._whole_hand:
+            self.fingers.refresh_values()
+            self.hand_map.show_seen(self.joints.seen())
+        else:
+            self.curves.refresh_values()
+            self.path.update()
         calibration = self._measuring.calibration if self._measuring else None
         markers = calibration.clicks.protocol.markers if calibration else ()
         frame = None if self._view is None or self._camera_lost else self._view.tracked
         pure = self._set_up is not None and self._set_up.exercise.pure_wrist
-        lamp = lamp_for(frame, markers, pure and self.history.forearm_moved())
+        lamp = (
+            hand_lamp(frame, markers)
+            if self._whole_hand
+            else lamp_for(frame, markers, pure and self.history.forearm_moved())
+        )
         if self._camera_lost:
             lamp = Lamp("bad", self.tr("No picture"), self.tr("Plug the camera in again"))
         now = self.history.now_s
@@ -329,7 +396,31 @@ class LiveScreen(QWidget):
         self.number.show_reading(self._reading())
         self.recording_changed.emit(self.recording_state, self.recorded_s)
 
+    def _hand_reading(self, figure: Figure) -> Reading:
+        column = FIGURES.index(figure)
+        value, sd, measured = self.joints.value(column)
+        inferred = self.joints.inferred(column)
+        known = (measured or inferred) and not self._camera_lost
+        count, asked = self._count, self._set_up.repetitions if self._set_up else 0
+        own = count is not None and count.joint == figure.joint
+        done = count.repetitions if count else 0
+        return self._targets(
+            Reading(
+                figure=figure,
+                value_deg=value if known else math.nan,
+                sd_deg=sd if known else math.nan,
+                predicted=known and inferred,
+                repetitions_done=done,
+                repetitions_asked=asked,
+                repetition_running=self.recording_state == "recording" and done < asked,
+                speed_deg_s=self.joints.speed(column) if known else math.nan,
+                best_positive_deg=count.best_positive_deg if count and own else math.nan,
+            )
+        )
+
     def _reading(self) -> Reading:
+        if self.number.reading.figure is not None:
+            return self._hand_reading(self.number.reading.figure)
         angle = self.number.reading.angle
         values, sds = self.history.angles_deg, self.history.sds_deg
         lost = self._camera_lost
@@ -352,7 +443,12 @@ class LiveScreen(QWidget):
         )
 
     def _targets(self, reading: Reading) -> Reading:
-        if self._set_up is None or reading.angle != self._set_up.exercise.angle:
+        if self._set_up is None:
+            return reading
+        exercise = self._set_up.exercise
+        if reading.figure is not None and reading.figure.joint != exercise.joint:
+            return reading
+        if reading.figure is None and reading.angle != exercise.angle:
             return reading
         return replace(
             reading,
@@ -389,9 +485,23 @@ class LiveScreen(QWidget):
             return
         calibration = self._measuring.calibration
         frame = self._view.tracked
+        if self._whole_hand:
+            self._paint_hand(painter, picture, frame)
+            return
         overlay.paint_links(painter, frame, self._measuring.camera, picture.to_screen)
         overlay.paint_markers(painter, frame, picture.to_screen, picture.scale)
         if calibration is not None and frame.status != TrackStatus.LOST:
             shown = QRectF(picture.rect())
             camera = self._measuring.camera
             overlay.paint_axes(painter, self._theme, frame, calibration, camera, picture.to_screen, shown)
+
+    def _paint_hand(self, painter: QPainter, picture: PictureView, frame: TrackedFrame) -> None:
+        assert self._measuring is not None
+        assert self._set_up is not None
+        skeleton.paint_skeleton(painter, frame, self._measuring.camera, picture.to_screen, picture.scale)
+        figure = self.number.reading.figure
+        if self._side_on and figure is not None:
+            name = self.tr("Side · {finger}").format(finger=figure.long_name.split(",")[0].lower())
+            skeleton.paint_side(
+                painter, self._theme, frame, figure.finger, name, QRectF(picture.rect()), self._set_up.side
+            )

@@ -430,7 +430,7 @@ class MarkersScreen(QWidget):
         self.title.setText(words.title)
         self.place.setText(words.place)
         self.primary.setEnabled(True)
-        self.primary.set_face(words.primary, icon="check", hint=self.tr("Enter"))
+        self.primary.set_face(words.primary, icon="", hint=self.tr("Enter"))
         self.second.set_face(self.tr("Click by hand"), hint="C")
         self.second.show()
 

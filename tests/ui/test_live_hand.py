@@ -1,0 +1,210 @@
+"""The live screen of the whole hand: which figures come from which angles and discs, what is said of hidden ones."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from PySide6.QtCore import Qt
+from pytestqt.qtbot import QtBot
+
+from core.hand.protocols import HAND21, joint_angle_names
+from core.types import TrackStatus
+from tests.ui.fakes import FakeFeed, FakeMeasuring, set_up
+from ui.background import Background
+from ui.figures import FIGURES, Figure, figure_of
+from ui.keys import Keys
+from ui.live.hand_words import hand_lamp, map_words
+from ui.live.joint_history import JointHistory, figures_of
+from ui.live.screen import LiveScreen
+from ui.picture.skeleton import side_points_m
+from ui.theme import Theme
+
+MARKERS = HAND21.markers
+CLOSED_S, OPEN_S = 3.0, 0.2
+
+
+def feed_of(hidden: Sequence[tuple[float, float, str]] = (), lost: Sequence[tuple[float, float]] = ()) -> FakeFeed:
+    return FakeFeed("fist", 8.0, hidden, lost, protocol="hand21")
+
+
+def live(qtbot: QtBot, theme: Theme, feed: FakeFeed) -> LiveScreen:
+    screen = LiveScreen(theme, Keys(), Background())
+    qtbot.addWidget(screen)
+    screen.resize(1280, 744)
+    screen.show()
+    feed.picture_number = 0
+    screen.begin(FakeMeasuring(feed), set_up("FIST_COMPOSITE", target_deg=90.0))
+    screen._timer.stop()
+    return screen
+
+
+def run(screen: LiveScreen, feed: FakeFeed, seconds: float) -> None:
+    for _ in range(round(15 * seconds)):
+        feed.step(2)
+        screen.tick()
+
+
+def at(feed: FakeFeed, time_s: float) -> int:
+    return round(30 * time_s)
+
+
+def test_every_figure_is_the_angle_of_its_name_and_spreading_is_away_from_the_middle_finger() -> None:
+    frame = feed_of().frames[at(feed_of(), CLOSED_S)]
+    names = joint_angle_names()
+    angle = dict(zip(names, np.degrees(frame.joint_angles_rad), strict=True))
+    _, value, sd, _, _ = figures_of([frame])
+    shown = dict(zip((figure.joint for figure in FIGURES), value[0], strict=True))
+    for name in ("MCP1_flexion", "IP1_flexion", "CMC1_abduction", "CMC1_extension", "MCP4_flexion", "PIP5_flexion"):
+        assert shown[name] == pytest.approx(angle[name])
+    assert shown["MCP2_abduction"] == pytest.approx(angle["MCP2_abduction"])
+    assert shown["MCP5_abduction"] == pytest.approx(-angle["MCP5_abduction"])
+    assert shown["DIP3_flexion"] == pytest.approx(angle["PIP3_flexion"] * 2 / 3)
+    assert shown["TAM3"] == pytest.approx(angle["MCP3_flexion"] + 5 / 3 * angle["PIP3_flexion"])
+    assert shown["TAM1"] == pytest.approx(angle["MCP1_flexion"] + angle["IP1_flexion"])
+    sds = dict(zip(names, np.degrees(frame.joint_angles_sd_rad), strict=True))
+    column = FIGURES.index(figure_of("TAM3"))
+    assert sd[0, column] == pytest.approx(math.hypot(sds["MCP3_flexion"], 5 / 3 * sds["PIP3_flexion"]))
+
+
+def test_with_free_end_joints_nothing_is_inferred() -> None:
+    frame = feed_of().frames[10]
+    free = joint_angle_names(dip_free=True)
+    frame = replace(
+        frame,
+        joint_angles_rad=np.radians(np.arange(21.0)),
+        joint_angles_sd_rad=np.full(21, 0.1),
+        joint_velocity_rad_s=np.zeros(21),
+    )
+    history = JointHistory()
+    history.append([frame])
+    end = FIGURES.index(Figure(4, "end"))
+    assert history.value(end)[0] == pytest.approx(free.index("DIP4_flexion"))
+    assert not history.inferred(end)
+
+
+def test_a_joint_counts_as_measured_only_while_a_disc_beyond_it_is_seen() -> None:
+    hidden = [(0.0, 9.0, name) for name in ("DIP4", "TIP4", "MCP1")]
+    history = JointHistory()
+    history.append(feed_of(hidden).frames[:90])
+    measured = {figure: history.value(k)[2] for k, figure in enumerate(FIGURES)}
+    wrong = {Figure(4, "middle"), Figure(4, "end"), Figure(4, "tam"), Figure(1, "middle"), Figure(1, "spread")}
+    assert {figure for figure, on in measured.items() if not on} == wrong
+    assert history.series(FIGURES.index(Figure(4, "middle"))).predicted.all()
+    assert history.inferred(FIGURES.index(Figure(2, "end")))  # coupled: it follows the middle joint
+    seen = history.seen()
+    assert {name for name, state in seen.items() if state == "hidden"} == {"DIP4", "TIP4", "MCP1"}
+
+
+def test_the_band_of_a_hidden_joint_grows() -> None:
+    history = JointHistory()
+    history.append(feed_of([(1.0, 9.0, "DIP2"), (1.0, 9.0, "TIP2")]).frames[:90])
+    sd = history.series(FIGURES.index(Figure(2, "middle"))).sd
+    assert sd is not None
+    assert sd[-1] > 3.0 * sd[0]
+    assert np.all(np.diff(sd[len(sd) // 2 :]) >= 0.0)
+
+
+def test_a_hidden_trained_joint_has_no_number_and_does_not_count_as_best(qtbot: QtBot, theme: Theme) -> None:
+    feed = feed_of([(1.0, 9.0, "DIP3"), (1.0, 9.0, "TIP3")])
+    screen = live(qtbot, theme, feed)
+    screen.toggle_recording()
+    qtbot.waitUntil(lambda: feed.recording and screen._count is not None)
+    run(screen, feed, 0.8)
+    screen._show_values()
+    assert screen.number.reading.best_positive_deg < 10.0
+    assert math.isfinite(screen.number.reading.value_deg)
+    run(screen, feed, 2.4)
+    screen._show_values()
+    assert math.isnan(screen.number.reading.value_deg)
+    assert screen.number.reading.best_positive_deg < 10.0  # by then the finger is bent by 75 degrees
+    assert "no value" not in screen.number.movement()
+
+
+def test_the_large_number_is_chosen_by_click_and_by_key(qtbot: QtBot, theme: Theme) -> None:
+    feed = feed_of()
+    screen = live(qtbot, theme, feed)
+    run(screen, feed, CLOSED_S)
+    assert screen.number.movement() == "Middle finger, middle joint"
+    assert screen.number.reading.target_positive_deg == 90.0
+    spot = screen.fingers.cell(Figure(4, "knuckle")).center().toPoint()
+    qtbot.mouseClick(screen.fingers, Qt.MouseButton.LeftButton, pos=spot)
+    assert screen.number.movement() == "Ring finger, knuckle"
+    assert math.isnan(screen.number.reading.target_positive_deg)  # the target is the trained joint's
+    angle = feed.frames[feed.place].joint_angles_rad[joint_angle_names().index("MCP4_flexion")]
+    assert screen.number.reading.value_deg == pytest.approx(math.degrees(angle))
+    screen.next_angle()
+    screen.next_finger()
+    assert screen.number.movement() == "Little finger, middle joint"
+    for _ in range(3):
+        screen.next_angle()
+    assert screen.number.movement() == "Little finger, TAM"
+
+
+def test_a_lost_hand_leaves_no_number_anywhere(qtbot: QtBot, theme: Theme) -> None:
+    feed = feed_of(lost=[(1.0, 9.0)])
+    screen = live(qtbot, theme, feed)
+    run(screen, feed, 2.0)
+    screen._show_values()
+    assert math.isnan(screen.number.reading.value_deg)
+    assert all(math.isnan(value) for value, _, _ in screen.fingers._values.values())
+    assert screen.light.lamp.rank == "bad"
+
+
+def test_the_wrist_keeps_its_own_screen(qtbot: QtBot, theme: Theme) -> None:
+    screen = live(qtbot, theme, feed_of())
+    assert screen.fingers.isVisible()
+    assert screen.hand_map.isVisible()
+    assert not screen.curves.isVisible()
+    screen.begin(FakeMeasuring(FakeFeed(seconds=8.0)), set_up())
+    screen._timer.stop()
+    assert screen.curves.isVisible()
+    assert screen.path.isVisible()
+    assert not screen.fingers.isVisible()
+    assert not screen.hand_map.isVisible()
+
+
+@pytest.mark.parametrize(
+    ("hidden", "state", "remedy"),
+    [
+        ((), "Tracking well", "All 21 markers seen"),
+        (("TIP4",), "Ring tip hidden", "Raise the hand"),
+        (("MCP1", "IP1", "TIP1"), "Thumb hidden", "Turn the thumb side up"),
+        (("DIP2", "TIP2"), "Index finger hidden", "Turn the back of the fingers to the camera"),
+        (("TIP2", "TIP3", "DIP3"), "Finger ends hidden", "Turn the back of the fingers to the camera"),
+        (("MCP5",), "Little knuckle hidden", "Turn the little-finger side up"),
+        (("WRIST", "CMC1", "MCP2", "MCP3"), "Too few markers seen", "Turn the back of the hand to the camera"),
+    ],
+)
+def test_the_light_names_what_is_hidden_and_what_to_do(hidden: tuple[str, ...], state: str, remedy: str) -> None:
+    frame = feed_of([(0.0, 9.0, name) for name in hidden]).frames[20]
+    lamp = hand_lamp(frame, MARKERS)
+    assert (lamp.state, lamp.remedy) == (state, remedy)
+    assert lamp.rank == ("warn" if hidden else "good")
+
+
+def test_the_map_says_it_in_one_sentence() -> None:
+    seen = dict.fromkeys(MARKERS, "seen")
+    assert map_words(seen) == "Every joint is measured."  # type: ignore[arg-type]
+    sentence = map_words(seen | {"TIP4": "hidden"})  # type: ignore[arg-type]
+    assert sentence == "Ring tip hidden: raise the hand. Hidden joints do not count."
+    assert "now and then" in map_words(seen | {"TIP4": "partly"})  # type: ignore[arg-type]
+
+
+def test_a_bent_finger_goes_below_the_back_of_the_hand_in_the_side_view() -> None:
+    feed = feed_of()
+    straight, bent = (side_points_m(feed.frames[at(feed, time_s)], 3) for time_s in (OPEN_S, CLOSED_S))
+    assert np.all(np.diff(straight[:, 0]) > 0.0)
+    assert abs(straight[3, 1]) < 0.03
+    assert bent[3, 1] < -0.03
+    assert bent[3, 0] < straight[3, 0]
+    length = [np.linalg.norm(np.diff(points, axis=0), axis=1) for points in (straight, bent)]
+    np.testing.assert_allclose(length[0], length[1], atol=0.004)
+
+
+def test_a_predicted_frame_supports_no_joint() -> None:
+    frame = replace(feed_of().frames[20], status=TrackStatus.PREDICTED)
+    assert not figures_of([frame])[3].any()

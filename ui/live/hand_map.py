@@ -1,0 +1,111 @@
+"""A hand from above with how well each disc is seen, in colour, shape and word, and what would show more."""
+
+from __future__ import annotations
+
+from PySide6.QtCore import QPointF, QRectF, QSize, Qt
+from PySide6.QtGui import QFontMetricsF, QPainter, QPaintEvent, QPen
+from PySide6.QtWidgets import QSizePolicy, QWidget
+
+from core.hand.protocols import HAND21
+from core.types import Side
+from ui.fonts import MEDIUM, REGULAR, SEMIBOLD, font
+from ui.hand_drawing import PLACES, outline, placement
+from ui.icons import paint_state
+from ui.live.hand_words import map_words
+from ui.live.joint_history import Seen
+from ui.theme import CARD_RADIUS_PX, Theme
+
+WORDS_PX = 172
+
+
+class HandMap(QWidget):
+    """Shows the state of all discs; changes at most ten times a second."""
+
+    def __init__(self, theme: Theme) -> None:
+        super().__init__()
+        self._theme = theme
+        self._side: Side = "right"
+        self.seen: dict[str, Seen] = {}
+        self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Expanding)
+        theme.changed.connect(self.update)
+
+    def set_side(self, side: Side) -> None:
+        """Which hand is drawn."""
+        self._side = side
+        self.update()
+
+    def show_seen(self, seen: dict[str, Seen]) -> None:
+        """How well each disc is seen; screen readers get the sentence."""
+        if seen != self.seen:
+            self.seen = seen
+            self.setAccessibleName(self.words())
+            self.update()
+
+    def words(self) -> str:
+        """What is hidden and what to do."""
+        return map_words(self.seen) if self.seen else ""
+
+    def sizeHint(self) -> QSize:
+        return QSize(440, 300)
+
+    def minimumSizeHint(self) -> QSize:
+        return QSize(340, 210)
+
+    def paintEvent(self, event: QPaintEvent) -> None:
+        theme, scale = self._theme, self._theme.text_scale
+        painter = QPainter(self)
+        painter.setRenderHint(QPainter.RenderHint.Antialiasing)
+        painter.setPen(theme.color("line"))
+        painter.setBrush(theme.color("surface"))
+        frame = QRectF(self.rect()).adjusted(0.5, 0.5, -0.5, -0.5)
+        painter.drawRoundedRect(frame, CARD_RADIUS_PX, CARD_RADIUS_PX)
+        words_left = self.width() - (WORDS_PX + 16) * scale
+        to = placement(QRectF(12, 8, words_left - 24, self.height() - 9), self._side)
+        painter.setClipRect(frame)
+        painter.setPen(QPen(theme.color("border"), 1.3))
+        painter.setBrush(theme.color("sunken"))
+        painter.drawPath(to.map(outline()))
+        painter.setClipping(False)
+        for name in HAND21.markers:
+            self._paint_disc(painter, to.map(QPointF(*PLACES[name])), self.seen.get(name, "hidden"), 7.0)
+        self._paint_words(painter, words_left)
+
+    def _paint_disc(self, painter: QPainter, at: QPointF, state: Seen, radius: float) -> None:
+        color = self._theme.color
+        if state == "seen":
+            painter.setPen(Qt.PenStyle.NoPen)
+            painter.setBrush(color("accent"))
+            painter.drawEllipse(at, radius - 0.5, radius - 0.5)
+            return
+        box = QRectF(at.x() - radius - 1, at.y() - radius - 1, 2 * radius + 2, 2 * radius + 2)
+        shape, token = ("partly", "warn") if state == "partly" else ("predicted", "text2")
+        paint_state(painter, shape, box, color(token), color("surface"))  # type: ignore[arg-type]
+
+    def _paint_words(self, painter: QPainter, left: float) -> None:
+        theme, scale = self._theme, self._theme.text_scale
+        painter.setFont(font(16 * scale, SEMIBOLD))
+        painter.setPen(theme.color("text"))
+        y = 16.0
+        painter.drawText(QPointF(left, y + QFontMetricsF(painter.font()).ascent()), self.tr("Markers"))
+        y += 34 * scale
+        counts: tuple[tuple[Seen, str], ...] = (
+            ("seen", self.tr("seen")), ("partly", self.tr("partly seen")), ("hidden", self.tr("hidden, predicted")),
+        )  # fmt: skip
+        for state, words in counts:
+            self._paint_disc(painter, QPointF(left + 8, y + 9 * scale), state, 7.0)
+            count = sum(one == state for one in self.seen.values())
+            painter.setFont(font(14 * scale, SEMIBOLD))
+            painter.setPen(theme.color("text"))
+            box = QRectF(left + 18, y, 24 * scale, 18 * scale)
+            painter.drawText(box, int(Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter), str(count))
+            painter.setFont(font(14 * scale, REGULAR))
+            flags = int(Qt.AlignmentFlag.AlignVCenter)
+            painter.drawText(QRectF(box.right() + 7, y, self.width() - box.right() - 10, 18 * scale), flags, words)
+            y += 28 * scale
+        painter.setPen(QPen(theme.color("line"), 1))
+        painter.drawLine(QPointF(left, round(y) + 0.5), QPointF(self.width() - 16, round(y) + 0.5))
+        y += 12 * scale
+        painter.setFont(font(14 * scale, MEDIUM))
+        painter.setPen(theme.color("text"))
+        room = QRectF(left, y, self.width() - left - 14, self.height() - y - 8)
+        painter.drawText(room, int(Qt.TextFlag.TextWordWrap), self.words())

@@ -1,0 +1,173 @@
+"""The last seconds of the finger joints as arrays ready to draw, and how well each disc has been seen."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import lru_cache
+from typing import Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+from core.hand.kinematics import DIP_PER_PIP
+from core.hand.protocols import HAND21, joint_angle_names
+from core.types import FloatArray, TrackedFrame, TrackStatus
+from ui.figures import FIGURES, Figure
+from ui.live.history import KEPT_S
+from ui.plot.series import Series
+
+Seen = Literal["seen", "partly", "hidden"]
+SHARE_S = 1.0
+"""How well a disc is seen is judged over this long."""
+SEEN_SHARE, HIDDEN_SHARE = 0.75, 0.25
+EVERY = 2
+"""Small panels draw every second frame: fifteen points a second are more than they have pixels."""
+
+BoolArray = NDArray[np.bool_]
+
+
+@dataclass(frozen=True, slots=True)
+class Mix:
+    """How the figures (F,) come from the joint angles (J,) of every file and from the discs (M,) seen.
+
+    ``weight`` (F, J); ``variance_weight`` (F, J) for variances; ``inferred`` (F,) where no disc of its own can tell.
+    """
+
+    weight: FloatArray
+    variance_weight: FloatArray
+    inferred: BoolArray
+
+
+@lru_cache(maxsize=2)
+def mix(joint_count: int) -> Mix:
+    """For the 17 angles with coupled end joints, or for all 21."""
+    dip_free = joint_count > 17
+    names = joint_angle_names(dip_free)
+    weight = np.zeros((len(FIGURES), len(names)))
+    for row, figure in enumerate(FIGURES):
+        parts = [figure]
+        if figure.row == "tam":
+            parts = [Figure(figure.finger, part) for part in ("knuckle", "middle", "end") if figure.finger > 1]
+            parts = parts or [Figure(1, "knuckle"), Figure(1, "end")]
+        for part in parts:
+            if part.joint in names:
+                weight[row, names.index(part.joint)] += part.sign
+            else:
+                weight[row, names.index(f"PIP{part.finger}_flexion")] += DIP_PER_PIP
+    inferred = np.array([figure.row == "end" and figure.finger > 1 and not dip_free for figure in FIGURES])
+    return Mix(weight, weight**2, inferred)
+
+
+def measured_figures(seen: BoolArray) -> BoolArray:
+    """Which figures (n, F) some disc beyond their joint supports, of discs seen (n, M)."""
+    at = {name: seen[:, row] for row, name in enumerate(HAND21.markers)}
+    out = np.empty((len(seen), len(FIGURES)), dtype=bool)
+    for column, (finger, row) in enumerate((figure.finger, figure.row) for figure in FIGURES):
+        if finger == 1:
+            knuckle, end = at["IP1"], at["TIP1"]
+            needed = {"knuckle": knuckle, "end": end, "middle": at["MCP1"], "spread": at["MCP1"], "tam": knuckle & end}
+        else:
+            knuckle, middle = at[f"PIP{finger}"], at[f"DIP{finger}"] | at[f"TIP{finger}"]
+            end = at[f"DIP{finger}"] & at[f"TIP{finger}"]
+            needed = {
+                "knuckle": knuckle, "middle": middle, "end": end, "spread": knuckle | middle, "tam": knuckle & middle,
+            }  # fmt: skip
+        out[:, column] = needed[row]
+    return out
+
+
+class JointHistory:
+    """Frames in, arrays of the last ten seconds out, degrees; figures in the order of :data:`ui.figures.FIGURES`."""
+
+    def __init__(self) -> None:
+        self.clear()
+
+    def clear(self) -> None:
+        """Forget everything, as before another recording."""
+        count = len(FIGURES)
+        self.last_index = -1
+        self._mix = mix(17)
+        self._time_s = np.empty(0)
+        self._index = np.empty(0, dtype=np.int64)
+        self._value = np.empty((0, count))
+        self._sd = np.empty((0, count))
+        self._speed = np.full(count, math.nan)
+        self._measured = np.empty((0, count), dtype=bool)
+        self._seen = np.empty((0, len(HAND21.markers)), dtype=bool)
+
+    def append(self, frames: Sequence[TrackedFrame]) -> None:
+        """Add frames in order; what is older than needed goes."""
+        fresh = [frame for frame in frames if frame.index > self.last_index and len(frame.joint_angles_rad)]
+        if not fresh:
+            return
+        self.last_index = fresh[-1].index
+        time_s, value, sd, measured, seen = figures_of(fresh)
+        mixed = self._mix = mix(len(fresh[-1].joint_angles_rad))
+        self._speed = np.degrees(mixed.weight @ fresh[-1].joint_velocity_rad_s)
+        kept = self._time_s >= time_s[-1] - KEPT_S
+        self._time_s = np.concatenate((self._time_s[kept], time_s))
+        self._index = np.concatenate((self._index[kept], [frame.index for frame in fresh]))
+        self._value = np.concatenate((self._value[kept], value))
+        self._sd = np.concatenate((self._sd[kept], sd))
+        self._measured = np.concatenate((self._measured[kept], measured))
+        self._seen = np.concatenate((self._seen[kept], seen))
+
+    def __len__(self) -> int:
+        return len(self._time_s)
+
+    @property
+    def now_s(self) -> float:
+        """Time of the newest frame, NaN before the first."""
+        return float(self._time_s[-1]) if len(self._time_s) else math.nan
+
+    def value(self, figure: int) -> tuple[float, float, bool]:
+        """Newest value, its standard deviation, and whether a disc supports it."""
+        if not len(self._time_s):
+            return math.nan, math.nan, False
+        return float(self._value[-1, figure]), float(self._sd[-1, figure]), bool(self._measured[-1, figure])
+
+    def speed(self, figure: int) -> float:
+        """Newest speed, degrees per second."""
+        return float(self._speed[figure])
+
+    def inferred(self, figure: int) -> bool:
+        """Whether the figure only follows another joint."""
+        return bool(self._mix.inferred[figure])
+
+    def series(self, figure: int) -> Series:
+        """The curve of a figure with its band, every second frame."""
+        part = slice(None)
+        if len(self._index) > 2:
+            part = self._index % EVERY == 0  # type: ignore[assignment]
+        predicted = ~self._measured[part, figure]
+        if self.inferred(figure):
+            predicted = np.ones_like(predicted)
+        return Series(self._time_s[part], self._value[part, figure], self._sd[part, figure], predicted)
+
+    def seen(self) -> dict[str, Seen]:
+        """How well each disc has been seen over the last second."""
+        if not len(self._time_s):
+            return dict.fromkeys(HAND21.markers, "hidden")
+        recent = self._seen[self._time_s >= self._time_s[-1] - SHARE_S]
+        share = recent.mean(axis=0)
+        return {
+            name: "seen" if part >= SEEN_SHARE else "hidden" if part < HIDDEN_SHARE else "partly"
+            for name, part in zip(HAND21.markers, share.tolist(), strict=True)
+        }
+
+
+def figures_of(frames: Sequence[TrackedFrame]) -> tuple[FloatArray, FloatArray, FloatArray, BoolArray, BoolArray]:
+    """Times (n,), values and standard deviations (n, F) in degrees, supported (n, F), discs seen (n, M)."""
+    mixed = mix(len(frames[-1].joint_angles_rad))
+    angles = np.array([frame.joint_angles_rad for frame in frames])
+    sds = np.array([frame.joint_angles_sd_rad for frame in frames])
+    seen = np.isfinite(np.array([frame.marker_measured_px for frame in frames])[..., 0])
+    value = np.degrees(angles @ mixed.weight.T)
+    sd = np.degrees(np.sqrt(sds**2 @ mixed.variance_weight.T))
+    tracked = np.array([frame.status == TrackStatus.TRACKED for frame in frames])
+    lost = np.array([frame.status == TrackStatus.LOST for frame in frames])
+    value[lost] = sd[lost] = math.nan
+    measured = measured_figures(seen) & tracked[:, None]
+    return np.array([frame.timestamp_s for frame in frames]), value, sd, measured, seen

@@ -1,0 +1,112 @@
+"""The hand as the model has it, over the picture: bones joining the discs; and one finger from the side."""
+
+from __future__ import annotations
+
+from itertools import pairwise
+
+import numpy as np
+from PySide6.QtCore import QPointF, QRectF, Qt
+from PySide6.QtGui import QColor, QFontMetricsF, QPainter, QPen
+
+from core.camera import Camera
+from core.hand.protocols import HAND21
+from core.types import FloatArray, Side, TrackedFrame, TrackStatus
+from ui.fonts import SEMIBOLD, font
+from ui.picture.overlay import HALO, LEAST_RING_PX, ToScreen, ellipse, haloed
+from ui.theme import ON_PICTURE_LABEL, ON_PICTURE_LINE, ON_PICTURE_PARTLY, Theme
+
+CHAINS = tuple(
+    tuple(HAND21.markers.index(name) for name in names)
+    for names in (
+        ("WRIST", "CMC1", "MCP1", "IP1", "TIP1"),
+        *(("WRIST", *(f"{joint}{k}" for joint in ("MCP", "PIP", "DIP", "TIP"))) for k in (2, 3, 4, 5)),
+    )
+)
+"""Rows of the markers of each finger, from the wrist on."""
+SIDE_SPAN_M = 0.12
+SIDE_WIDTH_PX, SIDE_HEIGHT_PX = 138, 126
+
+
+def paint_skeleton(painter: QPainter, frame: TrackedFrame, camera: Camera, to_screen: ToScreen, scale: float) -> None:
+    """Bones between the discs' places in the model: solid between discs that are seen, dashed where predicted."""
+    places = frame.marker_position_cam_m
+    if frame.status == TrackStatus.LOST or not np.isfinite(places).all():
+        return
+    pixel = camera.distort(camera.project(places))
+    seen = np.isfinite(frame.marker_measured_px[:, 0])
+    at = [to_screen(float(u), float(v)) for u, v in pixel]
+    for row in np.flatnonzero(seen):
+        u, v = frame.marker_measured_px[row]
+        at[row] = to_screen(float(u), float(v))
+    solid = [(at[a], at[b]) for chain in CHAINS for a, b in pairwise(chain) if seen[a] and seen[b]]
+    dashed = [(at[a], at[b]) for chain in CHAINS for a, b in pairwise(chain) if not (seen[a] and seen[b])]
+    haloed(painter, ON_PICTURE_LINE, 2.0, lambda: [painter.drawLine(a, b) for a, b in solid])
+    haloed(painter, ON_PICTURE_LINE, 1.5, lambda: [painter.drawLine(a, b) for a, b in dashed], dash=True)
+    for row, spot in enumerate(at):
+        if seen[row]:
+            painter.setPen(QPen(HALO, 1.5))
+            painter.setBrush(QColor(ON_PICTURE_LINE))
+            painter.drawEllipse(spot, 3.6, 3.6)
+        else:
+            _paint_hidden(painter, frame.marker_predicted_cov_px2[row], spot, scale)
+
+
+def _paint_hidden(painter: QPainter, covariance_px2: FloatArray, spot: QPointF, scale: float) -> None:
+    """A hollow dashed ring where the disc is expected, as wide as two standard deviations."""
+    longer, shorter, turn_deg = LEAST_RING_PX, LEAST_RING_PX, 0.0
+    if np.isfinite(covariance_px2).all():
+        longer, shorter, turn_deg = ellipse(covariance_px2)
+    painter.save()
+    painter.translate(spot)
+    painter.rotate(turn_deg)
+    box = QPointF(0, 0), max(longer * scale, 4.0), max(shorter * scale, 4.0)
+    haloed(painter, ON_PICTURE_PARTLY, 1.5, lambda: painter.drawEllipse(*box), dash=True)
+    painter.restore()
+
+
+def side_points_m(frame: TrackedFrame, finger: int) -> FloatArray:
+    """Joints (4, 2) of a finger from the side: along the hand and out of its back, from the knuckle, metres."""
+    joints = frame.joint_position_m - frame.position_m
+    chain = (joints @ frame.rotation_w2_w0)[list(CHAINS[finger - 1][1:])]
+    along = np.array([1.0, 0.0]) if finger > 1 else chain[1, :2] - chain[0, :2]
+    away = chain - chain[0]
+    return np.stack((away[:, :2] @ along / max(float(np.linalg.norm(along)), 1e-9), away[:, 2]), axis=1)
+
+
+def paint_side(
+    painter: QPainter, theme: Theme, frame: TrackedFrame, finger: int, name: str, shown: QRectF, side: Side
+) -> None:
+    """One finger from the side, fingers to the right, in the lower corner on the little finger's side of the hand."""
+    scale = theme.text_scale
+    box = QRectF(0, 0, SIDE_WIDTH_PX * scale, SIDE_HEIGHT_PX * scale)
+    box.moveBottom(shown.bottom() - 12)
+    box.moveLeft(shown.right() - box.width() - 12 if side == "right" else shown.left() + 12)
+    ground = QColor(ON_PICTURE_LABEL)
+    ground.setAlpha(225)
+    painter.setPen(Qt.PenStyle.NoPen)
+    painter.setBrush(ground)
+    painter.drawRoundedRect(box, 8, 8)
+    painter.setFont(font(12 * scale, SEMIBOLD))
+    painter.setPen(QColor(ON_PICTURE_LINE))
+    painter.drawText(QPointF(box.left() + 10, box.top() + 6 + QFontMetricsF(painter.font()).ascent()), name)
+    if frame.status == TrackStatus.LOST or not len(frame.joint_position_m):
+        return
+    points = side_points_m(frame, finger)
+    if not np.isfinite(points).all():
+        return
+    unit = (box.width() - 34) / SIDE_SPAN_M
+    start = QPointF(box.left() + 22, box.top() + 0.48 * box.height())
+    at = [start + QPointF(float(x) * unit, -float(z) * unit) for x, z in points]
+    seen = np.isfinite(frame.marker_measured_px[list(CHAINS[finger - 1][1:]), 0])
+    painter.setPen(QPen(QColor(255, 255, 255, 110), 4))
+    painter.drawLine(QPointF(box.left() + 8, start.y()), start)
+    for row, (a, b) in enumerate(pairwise(at)):
+        pen = QPen(QColor(ON_PICTURE_LINE), 2.0)
+        if not seen[row + 1]:
+            pen.setDashPattern([2.5, 2.0])
+        painter.setPen(pen)
+        painter.drawLine(a, b)
+    for row, spot in enumerate(at):
+        painter.setPen(QPen(QColor(ON_PICTURE_LINE), 1.5))
+        painter.setBrush(QColor(ON_PICTURE_LINE) if seen[row] else QColor(ON_PICTURE_LABEL))
+        painter.drawEllipse(spot, 3.6, 3.6)
