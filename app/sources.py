@@ -8,6 +8,8 @@ from core.capture.notice import Notice, ignore
 from core.capture.source import FrameSource
 from core.errors import RecordingMissing, RecordingUnreadable
 
+COLOR_LIST, RECORDING_FILE = "rgb.txt", "recording.oni"
+
 
 def open_recording(
     path: Path, *, need_depth: bool = True, registered: bool | None = None, notice: Notice = ignore
@@ -18,6 +20,9 @@ def open_recording(
     """
     if not path.exists():
         raise RecordingMissing(path)
+    rendered = path / RECORDING_FILE
+    if path.is_dir() and rendered.is_file() and not (path / COLOR_LIST).exists():
+        path = rendered  # what "carpus simulate --format oni" makes
     if path.is_dir():
         from core.capture.tum import TumFolder
 

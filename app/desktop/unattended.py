@@ -6,6 +6,7 @@ patient -> simulated camera -> markers -> live -> record -> stop -> review -> pr
 from __future__ import annotations
 
 import os
+import signal
 import time
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
@@ -51,12 +52,19 @@ class Walker:
         self.desktop = desktop
         self.journey = desktop.journey
         self._faults: list[Exception] = []
+        self._stopping = False
         desktop.journey.teller.told.connect(self._faults.append)
+
+    def stop(self) -> None:
+        """End the way at the next wait. A signal may come in the middle of a window's own work, which would lose it."""
+        self._stopping = True
 
     def until(self, condition: Callable[[], bool], patience_s: float = PATIENCE_S) -> None:
         """Let the window live until something holds; a fault it tells meanwhile ends the way."""
         end_s = time.monotonic() + patience_s
         while not condition():
+            if self._stopping:
+                raise KeyboardInterrupt
             if self._faults:
                 raise self._faults[0]
             if time.monotonic() > end_s:
@@ -142,6 +150,8 @@ def walk(settings: Settings, progress: Progress, *, repetitions: int = REPETITIO
     desktop = compose.compose(qt, settings, is_demo=True, speed=speed)
     try:
         walker = Walker(desktop)
+        for number in (signal.SIGINT, signal.SIGTERM):
+            signal.signal(number, lambda *_: walker.stop())
         desktop.show()
         walker.at("patients")
         desktop.journey.opener.progressed.connect(lambda done, total: progress(done, total))

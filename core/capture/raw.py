@@ -196,7 +196,8 @@ class RawRecording:
                 bool(head["has_depth"]) and any(entry.depth_size for entry in self._entries),
                 len(self._entries),
                 float(head["nominal_fps"]),
-                {str(key): str(value) for key, value in head["settings"].items()},
+                {str(key): str(value) for key, value in head["settings"].items()}
+                | ({} if self.complete else {"complete": "no: cut short, read up to its last whole frame"}),
             )
         except (KeyError, TypeError, ValueError, AttributeError) as cause:
             raise RecordingUnreadable(path, "its head is damaged") from cause

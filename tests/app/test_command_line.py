@@ -14,13 +14,17 @@ import pytest
 from tqdm import tqdm
 
 from app.__main__ import main
+from app.sources import open_recording
 from core.capture.camera_info import CAMERA_FILE
-from core.capture.tum import COLOR_LIST
+from core.capture.oni_writer import write_oni
+from core.capture.tum import COLOR_LIST, TumFolder
+from core.errors import RecordingEmpty
 from core.hand.protocols import WRIST6
 from core.session.reader import read_session
 from core.session.recovery import interrupted_sessions
 from core.session.values import new_header
 from core.session.writer import SessionWriter
+from core.simulation.oni import in_millimetres
 from core.simulation.recording import CLICKS_FILE, simulate
 from core.simulation.spec import RecordingSpec
 from tests.session.samples import CAMERA, make_calibration
@@ -106,10 +110,6 @@ def test_tracking_says_when_the_camera_is_assumed(
 def test_an_oni_file_says_that_registration_is_assumed(
     recording: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    from core.capture.oni_writer import write_oni
-    from core.capture.tum import TumFolder
-    from core.simulation.oni import in_millimetres
-
     source = TumFolder(recording)
     path = tmp_path / "r.oni"
     write_oni(path, in_millimetres(source.frames()), source.info.camera, fps=30, color="jpeg")
@@ -198,3 +198,39 @@ def test_a_simulation_beyond_all_limits_is_refused(
     assert main(["simulate", "--output", str(tmp_path / "r"), option]) == 1
     assert option.partition("=")[0][2:].replace("-", "_") in capsys.readouterr().err
     assert not (tmp_path / "r").exists()
+
+
+def test_the_folder_of_a_rendered_oni_file_opens_it(recording: Path, tmp_path: Path) -> None:
+    source = TumFolder(recording)
+    write_oni(tmp_path / "recording.oni", in_millimetres(source.frames()), source.info.camera, fps=30, color="jpeg")
+    assert open_recording(tmp_path).info.frame_count == source.info.frame_count
+    (tmp_path / COLOR_LIST).write_text("")
+    with pytest.raises(RecordingEmpty):
+        open_recording(tmp_path)
+
+
+def test_info_says_that_a_raw_recording_was_cut_short(
+    recording: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    path = tmp_path / "r.carpusraw"
+    assert main(["record", "--from", str(recording), "--output", str(path)]) == 0
+    capsys.readouterr()
+    assert main(["info", str(path)]) == 0
+    assert "cut short" not in capsys.readouterr().out
+    with path.open("r+b") as file:
+        file.truncate(path.stat().st_size - 100)
+    assert main(["info", str(path)]) == 0
+    assert "cut short" in capsys.readouterr().out
+
+
+def test_the_unattended_way_can_be_stopped(tmp_path: Path) -> None:
+    words = (*COMMAND, "demo", "--unattended", "--data-folder", str(tmp_path / "data"))
+    with subprocess.Popen(words, cwd=ROOT, stderr=subprocess.PIPE, text=True) as process:
+        while not (tmp_path / "data" / "patients.sqlite3").exists():
+            assert process.poll() is None
+            time.sleep(0.02)
+        time.sleep(0.5)
+        process.send_signal(signal.SIGTERM)
+        said = process.communicate(timeout=60)[1]
+    assert process.returncode == 1
+    assert said == "carpus: stopped.\n"
