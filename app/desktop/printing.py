@@ -82,7 +82,10 @@ def documents() -> str:
 
 def write_table(path: Path, progress: Progress) -> None:
     """One line for each session and movement, degrees with one decimal; a session left out says why."""
-    head = ["session", "created", "hand", "exercise", "movement", "mean_deg", "sd_deg", "best_deg", "n", "not_compared"]
+    head = [
+        "session", "created", "hand", "exercise", "movement", "mean_deg", "sd_deg", "best_deg", "n", "not_compared",
+        "joint", "at_least",
+    ]  # fmt: skip
     try:
         with path.open("w", newline="", encoding="utf-8") as file:
             table = csv.writer(file)
@@ -90,9 +93,10 @@ def write_table(path: Path, progress: Progress) -> None:
             for point in progress.points:
                 figures = point.figures
                 facts = [figures.session_id, figures.when.isoformat(), figures.side, figures.exercise.id]
-                for row in figures.rows:
+                for row in (*figures.rows, *figures.joint_rows):
                     values = [_decimal(value) for value in (row.mean_deg, row.sd_deg, row.best_deg)]
-                    table.writerow([*facts, row.movement, *values, row.count, " ".join(point.reasons)])
+                    reasons, limited = " ".join(point.reasons), "yes" if row.limited else ""
+                    table.writerow([*facts, row.movement, *values, row.count, reasons, row.joint, limited])
     except OSError as cause:
         raise OutputNotWritable(path, cause.strerror or "") from cause
 

@@ -16,6 +16,7 @@ import numpy as np
 
 from core.hand.protocols import WRIST_ANGLES
 from core.measures.change import TOTAL_ACTIVE_MOTION, MeasuredMean, Obstacle, change_between
+from core.measures.fingers import JointTrack
 from core.measures.motion_range import FEWEST_FOR_SPREAD, LEAST_VALID_SHARE, MotionRange, motion_range
 from core.measures.path import farthest_from_start_m
 from core.measures.repetitions import Exercise as FoundExercise
@@ -86,7 +87,7 @@ class Spread:
 
 @dataclass(frozen=True, slots=True)
 class Quality:
-    """How sure the figures are. Shares 0 to 1 of all frames; ``hidden_share`` of all looks at palm markers."""
+    """How sure the figures are. Shares 0 to 1 of all frames; ``hidden_share`` of all looks at markers."""
 
     frames: int
     measured_share: float
@@ -164,6 +165,8 @@ class Comparison:
     limit_deg: float
     verdict: Verdict
     joint: str = ""
+    at_least: bool = False
+    """Whether the later figure is a lower bound (hidden in part), and so the gain."""
 
     @property
     def shown_difference_deg(self) -> float:
@@ -256,7 +259,10 @@ def session_figures(session: Session, choices: RepetitionChoices | None = None) 
     if repetitions and not counted:
         angles = ()  # all were left out: nothing is measured, least of all the whole recording
     rows = [row for k in angles for row in _rows(k, signals[k], counted)]
-    strokes = _strokes(signals, exercise, found, counted)
+    trained = signals[exercise.angle].column(0) if exercise.angle is not None else None
+    if exercise.joint in tracks:
+        trained = tracks[exercise.joint].seen
+    strokes = _strokes(trained, found, counted)
     verdict = session.calibration.verdict
     return SessionFigures(
         session_id=session.header.session_id,
@@ -279,12 +285,12 @@ def session_figures(session: Session, choices: RepetitionChoices | None = None) 
         quality=Quality(
             frames=len(session),
             measured_share=float(np.mean(session.status == TrackStatus.TRACKED)) if len(session) else math.nan,
-            hidden_share=float(np.mean(~np.isfinite(session.markers.measured_px[:, palm, 0])))
+            hidden_share=float(np.mean(~np.isfinite(session.markers.measured_px[:, :, 0])))
             if len(session)
             else math.nan,
             dropped=int(np.maximum(session.quality.dropped_before, 0).sum()),
             forearm_mm=_forearm_mm(curves.time_s, motion.position_m, view),
-            angle_sd_deg=_typical_sd(curves, exercise),
+            angle_sd_deg=_typical_joint_sd(tracks) if tracks else _typical_sd(curves, exercise),
             tilt_deg=verdict.tilt_deg,
             distance_m=verdict.distance_m,
             residual_mm=float(np.nanmax(verdict.residual_mm)) if np.isfinite(verdict.residual_mm).any() else math.nan,
@@ -319,7 +325,7 @@ def compare(before: SessionFigures, after: SessionFigures) -> tuple[Comparison, 
 
 
 def compare_rows(before: SessionFigures, after: SessionFigures, rows: Sequence[RangeRow]) -> tuple[Comparison, ...]:
-    """As :func:`compare`, of some rows of the later session. A joint that went out of sight is not judged."""
+    """As :func:`compare`, of some rows of the later session. A hidden joint is not judged, but for a sure gain."""
     out = []
     for row in rows:
         other = before.row(row.movement, row.angle, row.joint)
@@ -331,13 +337,17 @@ def compare_rows(before: SessionFigures, after: SessionFigures, rows: Sequence[R
         limit = math.degrees(change.limit_rad) * factor
         difference = row.mean_deg - other.mean_deg
         verdict: Verdict = "not_judged"
-        at_least = bool(row.joint) and (row.limited or other.limited)
-        if change.comparable and not at_least:
+        at_least = row.movement == "arc" and bool(row.joint) and row.limited and not other.limited
+        bounds = bool(row.joint) and (row.limited or other.limited)
+        # A lower bound that lies beyond the error above a figure fully seen is a gain; nothing else is known of it.
+        if change.comparable and (not bounds or (at_least and difference > limit)):
             beyond = abs(difference) > limit
             better = difference > 0 if row.joint == "" or row.movement != "extension" else difference < 0
             verdict = "no_change" if not beyond else "improved" if better else "worse"
         out.append(
-            Comparison(row.movement, row.angle, other.mean_deg, row.mean_deg, difference, limit, verdict, row.joint)
+            Comparison(
+                row.movement, row.angle, other.mean_deg, row.mean_deg, difference, limit, verdict, row.joint, at_least
+            )
         )
     return tuple(out)
 
@@ -427,13 +437,11 @@ def _rows(angle: int, signal: Signal, counted: tuple[Repetition, ...]) -> list[R
     return [row for row in rows if row.count and (row.movement == "arc" or row.mean_deg > 0.0)]
 
 
-def _strokes(
-    signals: Sequence[Signal], exercise: Exercise, found: FoundExercise, counted: tuple[Repetition, ...]
-) -> list[StrokeMeasures]:
+def _strokes(trained: Signal | None, found: FoundExercise, counted: tuple[Repetition, ...]) -> list[StrokeMeasures]:
     """Measures of the strokes whose middle lies in a counted repetition."""
-    if exercise.angle is None or not counted:
+    if trained is None or not counted:
         return []
-    angle = low_pass(signals[exercise.angle].column(0))
+    angle = low_pass(trained)
     inside = [
         stroke
         for stroke in found.strokes
@@ -471,6 +479,11 @@ def _typical_sd(curves: Curves, exercise: Exercise) -> float:
     columns = curves.sds_deg if exercise.angle is None else curves.sds_deg[:, [exercise.angle]]
     known = columns[(curves.status == TrackStatus.TRACKED)[:, None] & np.isfinite(columns)]
     return float(np.median(known)) if known.size else math.nan
+
+
+def _typical_joint_sd(tracks: Mapping[str, JointTrack]) -> float:
+    known = [track.seen_sd.value[track.seen_sd.finite] for track in tracks.values() if track.known]
+    return math.degrees(float(np.median(np.concatenate(known)))) if known else math.nan
 
 
 def _mean(figures: SessionFigures, row: RangeRow) -> MeasuredMean:

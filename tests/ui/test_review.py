@@ -194,7 +194,7 @@ def test_progress_answers_with_the_arc_and_rings_what_is_unfair(
     qtbot.waitUntil(lambda: len(screen.progress.points) == 7)
     assert screen.answer.text().startswith("The whole arc has improved by")
     assert [point.fair for point in screen.progress.points].count(False) == 1
-    assert panels_of(screen.progress)[0][0] == "arc"
+    assert panels_of(screen.progress)[0][1] == "arc"
     assert screen.exercise.count() == 2
     with qtbot.waitSignal(screen.report) as asked:
         screen.report_button.click()

@@ -17,7 +17,8 @@ from ui.controls.text import MEDIUM, REGULAR, SEMIBOLD, StateText, Text, caption
 from ui.keys import Keys, bind
 from ui.ports import SessionStore
 from ui.progress.chart import ProgressChart
-from ui.progress.words import change_line, headline, unfair_words
+from ui.progress.words import change_line, comparison_name, headline, unfair_words
+from ui.report.hand_rows import followed_keys, followed_kinds
 from ui.theme import GAP_PX, MARGIN_PX, Theme, is_tight
 from ui.verdicts import verdict_token, verdict_word
 
@@ -36,6 +37,7 @@ class ProgressScreen(QWidget):
         self._kinds: list[tuple[str, str]] = []
         self.progress = Progress((), (), None)
         self.exercise = QComboBox()
+        self.followed = QComboBox()
         self.span = Text(theme, "", 14, REGULAR, "text2")
         self.report_button = Button(
             theme, self.tr("Progress report"), "primary", icon="file-text", hint="Ctrl+P", height_px=44
@@ -48,7 +50,8 @@ class ProgressScreen(QWidget):
         self._table = Card(theme, 20)
         self._fair = Card(theme, 20)
         self._lay_out()
-        self.exercise.currentIndexChanged.connect(lambda _: self._choose())
+        self.exercise.currentIndexChanged.connect(lambda _: self._choose_exercise())
+        self.followed.currentIndexChanged.connect(lambda _: self._choose())
         self.report_button.clicked.connect(lambda: self.report.emit([point.figures for point in self.progress.points]))
         self.picture_button.clicked.connect(self._save_picture)
         self.table_button.clicked.connect(lambda: self.table_wanted.emit(self.progress))
@@ -63,6 +66,10 @@ class ProgressScreen(QWidget):
         self.exercise.setAccessibleName(self.tr("Exercise and hand"))
         self.exercise.setSizeAdjustPolicy(QComboBox.SizeAdjustPolicy.AdjustToContents)
         filters.addWidget(self.exercise)
+        self.followed.setAccessibleName(self.tr("What is followed"))
+        self.followed.setSizeAdjustPolicy(QComboBox.SizeAdjustPolicy.AdjustToContents)
+        self.followed.hide()  # until a session of the whole hand is shown
+        filters.addWidget(self.followed)
         filters.addWidget(self.span)
         filters.addStretch(1)
         for button in (self.table_button, self.picture_button, self.report_button):
@@ -127,13 +134,29 @@ class ProgressScreen(QWidget):
         if asked is not None:
             self.exercise.setCurrentIndex(self._kinds.index((asked.exercise.id, asked.side)))
         self.exercise.blockSignals(False)
+        self._choose_exercise()
+
+    def _alike(self) -> list[SessionFigures]:
+        kind = self._kinds[self.exercise.currentIndex()] if self._kinds else ("", "")
+        return [figures for figures in self._all if (figures.exercise.id, figures.side) == kind]
+
+    def _choose_exercise(self) -> None:
+        """Offer what can be followed of the whole hand; what the exercise trains comes first."""
+        alike = self._alike()
+        kinds = followed_kinds(alike[-1]) if alike else []
+        self.followed.blockSignals(True)
+        self.followed.clear()
+        for value, text in kinds:
+            self.followed.addItem(text, value)
+        self.followed.blockSignals(False)
+        self.followed.setVisible(bool(kinds))
         self._choose()
 
     def _choose(self) -> None:
-        kind = self._kinds[self.exercise.currentIndex()] if self._kinds else ("", "")
-        alike = [figures for figures in self._all if (figures.exercise.id, figures.side) == kind]
+        alike = self._alike()
         other = other_hand_of(self._all, alike[-1]) if alike else None
-        self.progress = progress(alike, other)
+        what = self.followed.currentData()
+        self.progress = progress(alike, other, followed_keys(what) if isinstance(what, str) and what else ())
         self.chart.show_progress(self.progress)
         answer, basis = headline(self.progress)
         self.answer.setText(answer)
@@ -167,7 +190,8 @@ class ProgressScreen(QWidget):
             body.addWidget(Line(theme))
             body.addWidget(_ComparisonRow(theme, item))
         body.addWidget(Line(theme))
-        body.addWidget(self._speed_row(first, last))
+        if not self.progress.keys:
+            body.addWidget(self._speed_row(first, last))
 
     def _speed_row(self, first: SessionFigures, last: SessionFigures) -> QWidget:
         before, after = numbers.speed(first.peak_speed.mean), numbers.speed(last.peak_speed.mean)
@@ -226,7 +250,7 @@ class _Row(QWidget):
 class _ComparisonRow(_Row):
     def __init__(self, theme: Theme, item: Comparison) -> None:
         figures = f"{numbers.degrees(item.before_deg)} → {numbers.degrees(item.after_deg)}"
-        super().__init__(theme, terms.movement_name(item.movement), figures, item.verdict, change_line(item))
+        super().__init__(theme, comparison_name(item), figures, item.verdict, change_line(item))
 
 
 def _clear(card: Card) -> None:

@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import math
 
+from core.measures.motion_range import FEWEST_FOR_SPREAD
 from core.output.report_content import Comparison, Progress, ProgressPoint
 from ui import numbers, terms
+from ui.figures import figure_of
 from ui.translate import tr
 from ui.verdicts import difference
 
@@ -20,19 +22,33 @@ def headline(progress: Progress) -> tuple[str, str]:
     day = numbers.day_month(first.when)
     name = _subject(main)
     size = numbers.degrees(main.shown_difference_deg)
+    if main.at_least:
+        size = tr("at least {size}").format(size=size)
     if main.verdict == "improved":
         answer = tr("{name} has improved by {size} since {day}.").format(name=name, size=size, day=day)
     elif main.verdict == "worse":
         answer = tr("{name} has lost {size} since {day}.").format(name=name, size=size, day=day)
     elif main.verdict == "no_change":
         answer = tr("No change beyond measurement error since {day}.").format(day=day)
+    elif main.joint and min(first.counted, last.counted) >= FEWEST_FOR_SPREAD:
+        return tr("Not judged: the joints were hidden in part."), tr("What is hidden does not count.")
     else:
         answer = tr("Not judged: too few repetitions to compare.")
-    rest = [_rest(item) for item in progress.comparisons if item is not main]
-    return answer, " ".join([_basis(main), *rest])
+    others = [item for item in progress.comparisons if item is not main]
+    if main.joint:  # of many joints only those that changed
+        others = [item for item in others if item.verdict in ("improved", "worse")]
+    return answer, " ".join([_basis(main), *(_rest(item) for item in others)])
+
+
+def comparison_name(item: Comparison) -> str:
+    """``Whole arc``, ``Flexion``, or ``Ring finger, TAM``."""
+    return figure_of(item.joint).long_name if item.joint else terms.movement_name(item.movement)
 
 
 def _subject(item: Comparison) -> str:
+    if item.joint:
+        finger, joint = figure_of(item.joint).long_name.split(", ")
+        return tr("{joint} of the {finger}").format(joint=joint[0].upper() + joint[1:], finger=finger.lower())
     return tr("The whole arc") if item.movement == "arc" else terms.movement_long_name(item.movement)
 
 
@@ -46,14 +62,20 @@ def _basis(item: Comparison) -> str:
 
 
 def _rest(item: Comparison) -> str:
-    name = terms.movement_long_name(item.movement)
+    name = _subject(item) if item.joint else terms.movement_long_name(item.movement)
     if item.verdict in ("improved", "worse"):
         return tr("{name}: {change}.").format(name=name, change=difference(item.shown_difference_deg))
     return tr("{name}: no change beyond measurement error.").format(name=name)
 
 
 def change_line(item: Comparison) -> str:
-    """``23° more, error 10°``."""
+    """``23° more, error 10°``; a joint that was hidden has no difference, at most a least one."""
+    if item.joint and item.verdict == "not_judged":
+        return tr("hidden in part, or too few")
+    if item.at_least:
+        return tr("at least {change}, error {limit}").format(
+            change=difference(item.shown_difference_deg), limit=numbers.degrees(item.limit_deg)
+        )
     return tr("{change}, error {limit}").format(
         change=difference(item.shown_difference_deg), limit=numbers.degrees(item.limit_deg)
     )

@@ -3,11 +3,10 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
 from dataclasses import dataclass
 
 from core.output.joint_content import USUAL_TOTAL_DEG, WITHOUT_TOTAL, finger_keys, spread_keys
-from core.output.range_rows import RangeRow
+from core.output.range_rows import RangeRow, RowKey
 from core.output.report_content import SessionFigures, compare_rows
 from ui import numbers
 from ui.figures import FINGERS, Figure, Row
@@ -100,6 +99,48 @@ def limits_words(figures: SessionFigures) -> str:
     return " ".join(words)
 
 
+def hand_summary(figures: SessionFigures, previous: SessionFigures | None, first: SessionFigures | None) -> str:
+    """Today's figure of every finger, then what may be said of change."""
+    compared = compared_row(figures)
+    what = {"tam": tr("TAM"), "spread": tr("Spreading"), "middle": tr("Middle joints")}[compared]
+    today = []
+    for finger in FINGERS:
+        row = figures.row("arc", -1, Figure(finger, compared).joint)
+        known = row is not None and row.count
+        words = _range_words(row, spread=False) if row is not None and known else tr("not seen")
+        today.append(f"{finger_name(str(finger)).lower()} {words}")
+    parts = [tr("{what}: {fingers}.").format(what=what, fingers=", ".join(today))]
+    if previous is not None:
+        parts.append(_since(figures, previous, numbers.day_month(previous.when)))
+    if first is not None and (previous is None or first.session_id != previous.session_id):
+        day = numbers.day_month(first.when)
+        parts.append(_since(figures, first, tr("the first session on {day}").format(day=day)))
+    return " ".join(part for part in parts if part)
+
+
+def _since(figures: SessionFigures, before: SessionFigures, when: str) -> str:
+    keys = [Figure(finger, compared_row(figures)).joint for finger in FINGERS]
+    rows = [row for row in figures.joint_rows if row.joint in keys and row.movement == "arc"]
+    changes = compare_rows(before, figures, rows)
+    judged = [item for item in changes if item.verdict != "not_judged"]
+    beyond = [item for item in judged if item.verdict != "no_change"]
+    if not judged:
+        return tr("Change since {when} is not judged.").format(when=when) if changes else ""
+    rest = tr("What was hidden in part is not judged.") if len(judged) < len(changes) else ""
+    if not beyond:
+        return f"{tr('No change beyond measurement error since {when}.').format(when=when)} {rest}".strip()
+    words = []
+    for item in beyond:
+        size = numbers.degrees(item.shown_difference_deg)
+        if item.at_least:
+            size = tr("at least {size}").format(size=size)
+        pattern = tr("{finger} {size} better") if item.verdict == "improved" else tr("{finger} {size} less")
+        words.append(pattern.format(finger=finger_name(item.joint[3:4]).lower(), size=size))
+    limit = numbers.degrees(beyond[0].limit_deg)
+    said = tr("Since {when}: {changes} (error {limit}).").format(when=when, changes=", ".join(words), limit=limit)
+    return f"{said} {rest}".strip()
+
+
 def cell_of(figures: SessionFigures, figure: Figure) -> FingerCell:
     """The range of one joint or finger in words."""
     row = figures.row("arc", -1, figure.joint)
@@ -118,6 +159,8 @@ def _finger_row(finger: int, figures: SessionFigures, previous: SessionFigures |
     if previous is not None and today is not None and (found := compare_rows(previous, figures, [today])):
         verdict = found[0].verdict
         change = change_short(verdict, found[0].shown_difference_deg, found[0].limit_deg)
+        if found[0].at_least:
+            change = tr("at least {change}").format(change=change)
         if verdict == "not_judged":
             hidden = today.limited or (before is not None and before.limited)
             change = tr("not judged: hidden in part") if hidden else tr("not judged: fewer than 3 repetitions")
@@ -158,8 +201,28 @@ def _ends(figures: SessionFigures, figure: Figure) -> str:
     return tr("{low} to {high}").format(low=texts[0], high=texts[1])
 
 
-def followed_keys(what: str, names: Sequence[str] = ()) -> tuple[tuple[str, str, int], ...]:
-    """What a choice of the progress screen follows: ``tam``, ``spread`` or the number of a finger."""
+def followed_kinds(figures: SessionFigures) -> list[tuple[str, str]]:
+    """What of the whole hand can be followed over the sessions, as value and words; what is trained first.
+
+    Empty for the wrist alone; the last choice (an empty value) is the wrist of a whole hand.
+    """
+    if not figures.joint_rows:
+        return []
+    kinds = [("tam", tr("TAM of all fingers"))] if compared_row(figures) == "tam" else []
+    kinds.append(("spread", tr("Spreading of all fingers")))
+    kinds += [(str(finger), _whole_name(finger)) for finger in FINGERS]
+    if compared_row(figures) == "middle":
+        kinds = [*kinds[1:], kinds[0]]
+    return [*kinds, ("", tr("Wrist"))]
+
+
+def followed_keys(what: str) -> tuple[RowKey, ...]:
+    """What a choice of :func:`followed_kinds` follows."""
     if what == "spread":
-        return tuple(spread_keys())
-    return tuple(finger_keys(0 if what == "tam" else int(what)))
+        return spread_keys()
+    return finger_keys(0 if what == "tam" else int(what)) if what else ()
+
+
+def _whole_name(finger: int) -> str:
+    name = finger_name(str(finger))
+    return name if finger == 1 else tr("{finger} finger").format(finger=name)

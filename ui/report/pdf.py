@@ -11,6 +11,7 @@ from PySide6.QtCore import QBuffer, QByteArray, QIODevice, QMarginsF
 from PySide6.QtGui import QGuiApplication, QPageLayout, QPageSize, QPainter, QPdfWriter
 
 from core.errors import DiskFull, OutputExists, OutputNotWritable
+from core.output.joint_content import joint_curves
 from core.output.report_content import (
     RepetitionChoices,
     SessionFigures,
@@ -23,6 +24,7 @@ from core.output.report_content import (
 )
 from core.session.values import Session
 from ui.fonts import load_fonts
+from ui.report.hand_rows import followed_keys, followed_kinds
 from ui.report.page import Page
 from ui.report.progress_page import ProgressReport, paint_progress_page
 from ui.report.session_page import SessionReport, paint_session_page
@@ -59,6 +61,7 @@ def session_report(
     return SessionReport(
         figures=figures,
         curves=session_curves(session),
+        joints=joint_curves(session),
         markers=len(session.header.protocol.markers),
         pseudonym=pseudonym or session.header.subject_id or "–",
         session_number=len(earlier) + 1 if history else 0,
@@ -89,11 +92,18 @@ def write_progress_report(
     return _write(output_path, lambda paper: paint_progress_page(paper, page), page.pseudonym)
 
 
-def progress_report(sessions: Sequence[SessionFigures], *, pseudonym: str = "", therapist: str = "") -> ProgressReport:
-    """The course of the newest session's exercise and hand; the other hand's last session beside it."""
+def progress_report(
+    sessions: Sequence[SessionFigures], *, pseudonym: str = "", therapist: str = "", what: str | None = None
+) -> ProgressReport:
+    """The course of the newest session's exercise and hand; the other hand's last session beside it.
+
+    ``what`` of the whole hand is followed, as of :func:`followed_kinds`; the first of them by itself.
+    """
     newest = max(sessions, key=lambda figures: figures.when)
     alike = [f for f in sessions if (f.exercise.id, f.side) == (newest.exercise.id, newest.side)]
-    course = progress(alike, other_hand_of(sessions, newest))
+    kinds = followed_kinds(newest)
+    followed = followed_keys(what if what is not None else kinds[0][0]) if kinds else ()
+    course = progress(alike, other_hand_of(sessions, newest), followed)
     return ProgressReport(course, pseudonym or newest.subject_id or "–", therapist)
 
 

@@ -10,11 +10,14 @@ from PySide6.QtCore import QPointF, Qt
 from PySide6.QtGui import QColor, QPen
 
 from core.output.exercises import AXIS_TICK_DEG, SIDES
+from core.output.joint_content import JointCurves
 from core.output.report_content import Curves, SessionFigures, usual_deg
 from ui import numbers, terms
 from ui.fonts import MEDIUM, REGULAR, SEMIBOLD
 from ui.icons import paint_mark, paint_state
 from ui.plot.style import CURVE_TOKENS
+from ui.report.hand_part import paint_finger_curves, paint_finger_table, paint_wrist_line
+from ui.report.hand_rows import hand_summary
 from ui.report.page import A4_PT, MARGIN_PT, Page
 from ui.report.tables import TableRow, column_names, repetition_words, table_rows
 from ui.report.words import method, other_lines, quality_lines, summary
@@ -39,6 +42,7 @@ class SessionReport:
     other_hand: SessionFigures | None = None
     target_positive_deg: float = math.nan
     target_negative_deg: float = math.nan
+    joints: JointCurves | None = None
     digest: str = ""
     settings_digest: str = ""
 
@@ -47,12 +51,16 @@ def paint_session_page(page: Page, report: SessionReport) -> None:
     """Paint everything from the upper to the lower margin."""
     y = paint_head(page, tr("Session report"), report.pseudonym, _what(report))
     y = _paint_facts(page, report, y)
-    y = page.paragraph(
-        summary(report.figures, report.previous, report.first), page.left, y + 5, page.right - page.left, 10.0, SEMIBOLD
-    )
-    y = _paint_table(page, report, y + 7)
-    y = _paint_curves(page, report, y + 8)
-    y = _paint_bars(page, report, y + 8)
+    said = (summary if report.joints is None else hand_summary)(report.figures, report.previous, report.first)
+    y = page.paragraph(said, page.left, y + 5, page.right - page.left, 10.0, SEMIBOLD)
+    if report.joints is None:
+        y = _paint_table(page, report, y + 7)
+        y = _paint_curves(page, report, y + 8)
+        y = _paint_bars(page, report, y + 8)
+    else:
+        y = paint_finger_table(page, report.figures, report.previous, y + 7)
+        y = paint_wrist_line(page, report.figures, y + 7)
+        y = paint_finger_curves(page, report.curves, report.joints, report.figures, y + 8)
     y = _paint_boxes(page, report, y + 9)
     foot = _paint_foot(page, report, y + 10)
     assert foot < A4_PT[1] - MARGIN_PT + 20

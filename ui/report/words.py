@@ -63,13 +63,18 @@ def method(figures: SessionFigures, markers: int) -> str:
     )
     given = terms.start_angle_words(figures.start_angles_deg * math.pi / 180.0)
     zero = tr("zero is the neutral hand, palm down")
+    order = tr("Angles in the order deviation, flexion, pro/supination (ZYX); {zero}.")
+    if figures.joint_rows:
+        order = tr(
+            "Fingers: zero is the straight finger; TAM is bending less what is missing to straight. Wrist: {zero}."
+        )
     if given:
         zero = tr("zero is straight by the therapist’s goniometer: the hand started at {angles}").format(angles=given)
     sentences = [
         tr("Method: {markers} markers, colour and depth camera, {distance} away.").format(
             markers=markers, distance=distance
         ),
-        tr("Angles in the order deviation, flexion, pro/supination (ZYX); {zero}.").format(zero=zero),
+        order.format(zero=zero),
         tr("± is the spread between repetitions; each angle itself is known to about {sd}.").format(
             sd=numbers.spread(quality.angle_sd_deg)
         ),

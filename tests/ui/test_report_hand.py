@@ -1,0 +1,128 @@
+"""Report and progress of the whole hand, read back from the PDF; the table of the sessions as CSV."""
+
+from __future__ import annotations
+
+import csv
+import re
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+
+from app.desktop.printing import write_table
+from core.output.joint_content import finger_keys
+from core.output.report_content import compare_rows, progress, session_figures
+from tests.ui.hand_fakes import FakeHandSessions, hand_session, without_hidden
+from tests.ui.test_report_pdf import tool, words_of
+from ui import numbers
+from ui.progress.chart_painter import axis_top_deg, panels_of
+from ui.progress.words import headline
+from ui.report.hand_rows import finger_rows, followed_keys, followed_kinds
+from ui.report.pdf import progress_report, write_progress_report, write_session_report
+from ui.terms import LEGAL_SENTENCE
+
+
+@pytest.fixture(scope="module")
+def store() -> FakeHandSessions:
+    return FakeHandSessions(pictures=False)
+
+
+def plain(text: str) -> str:
+    return " ".join(text.replace(numbers.NARROW_GAP, " ").split())
+
+
+def test_one_page_with_every_finger_its_total_and_the_limits_of_view_in_words(
+    store: FakeHandSessions, tmp_path: Path
+) -> None:
+    path = write_session_report(store.session("hand-7"), tmp_path / "h.pdf", history=store.history("x"))
+    assert re.search(r"Pages:\s+1\n", tool("pdfinfo", str(path)))
+    words = plain(words_of(path))
+    figures = session_figures(store.session("hand-7"))
+    for row in finger_rows(figures, None):
+        assert row.name in words
+        for cell in row.cells:
+            assert plain(cell.main) in words
+            assert plain(cell.small) in words
+    for head in ("(MCP)", "(PIP)", "(DIP)", "TAM", "Bending arc", "Limited by the camera’s view", "DIP not measured"):
+        assert head in words
+    assert LEGAL_SENTENCE in words
+
+
+@pytest.mark.parametrize(
+    ("exercise", "motion"), [("FIST_HOOK", "hook"), ("FINGER_ABAD", "abduction"), ("FREE_HAND", "fist"), ("", "fist")]
+)
+def test_every_exercise_of_the_hand_fits_one_page(tmp_path: Path, exercise: str, motion: str) -> None:
+    made = hand_session(exercise=exercise, motion=motion, hidden=[(0.0, 99.0, "TIP1")])
+    path = write_session_report(made, tmp_path / "h.pdf", history=[session_figures(made)])
+    assert re.search(r"Pages:\s+1\n", tool("pdfinfo", str(path)))
+    words = plain(words_of(path))
+    assert LEGAL_SENTENCE in words
+    assert "Not seen: Thumb, end joint" in words
+    assert ("TAM: thumb" in words) == (exercise in ("FREE_HAND", ""))
+
+
+def test_a_hand_never_tracked_gives_an_honest_page(tmp_path: Path) -> None:
+    path = write_session_report(hand_session(lost=[(0.0, 99.0)]), tmp_path / "h.pdf")
+    words = plain(words_of(path))
+    assert "index not seen" in words
+    assert "0.0 % of" in words
+
+
+def test_a_lower_bound_is_a_gain_when_it_is_beyond_the_error_and_else_not_judged(store: FakeHandSessions) -> None:
+    first, last = (session_figures(store.session(key)) for key in ("hand-3", "hand-7"))
+    row = last.row("arc", -1, "TAM3")
+    before = first.row("arc", -1, "TAM3")
+    assert row is not None
+    assert before is not None
+    assert row.limited
+    assert not before.limited
+    gain = compare_rows(first, last, [row])[0]
+    assert (gain.verdict, gain.at_least) == ("improved", True)
+    little = replace(row, mean_deg=before.mean_deg + 5.0)
+    assert compare_rows(first, last, [little])[0].verdict == "not_judged"
+    assert compare_rows(last, first, [before])[0].verdict == "not_judged"
+
+
+def test_a_hand_that_was_seen_all_the_time_is_judged_joint_by_joint() -> None:
+    first, last = (session_figures(without_hidden(hand_session(share=share))) for share in (0.6, 1.0))
+    compared = compare_rows(first, last, [row for row in last.joint_rows if row.joint == "MCP3_flexion"])
+    arc = next(item for item in compared if item.movement == "arc")
+    assert arc.verdict == "improved"
+    assert not arc.at_least
+    assert arc.limit_deg == pytest.approx(12.0 * 2**0.5)
+
+
+def test_progress_follows_totals_first_and_one_finger_on_request(store: FakeHandSessions) -> None:
+    history = store.history("x")
+    kinds = [value for value, _ in followed_kinds(history[-1])]
+    assert kinds == ["tam", "spread", "1", "2", "3", "4", "5", ""]
+    course = progress(history, None, followed_keys("tam"))
+    assert [key[0] for key in panels_of(course)] == ["TAM1", "TAM2", "TAM3", "TAM4", "TAM5"]
+    assert "TAM" in headline(course)[0]
+    finger = progress(history, None, followed_keys("4"))
+    assert [key[0] for key in panels_of(finger)] == ["TAM4", "MCP4_flexion", "PIP4_flexion"]
+    assert all(row.mean_deg <= axis_top_deg("arc", -1, row.joint) for row in history[-1].joint_rows if row.count)
+    wrist = progress(history, None, followed_keys(""))
+    assert all(not key[0] for key in panels_of(wrist))
+
+
+def test_the_progress_report_of_a_hand_names_the_finger(store: FakeHandSessions, tmp_path: Path) -> None:
+    path = write_progress_report(progress_report(store.history("x"), what="4"), tmp_path / "p.pdf")
+    assert re.search(r"Pages:\s+1\n", tool("pdfinfo", str(path)))
+    words = plain(words_of(path))
+    assert "Ring finger, TAM" in words
+    assert "Ring finger, middle joint" in words
+
+
+def test_the_table_of_sessions_has_every_joint_and_says_at_least(store: FakeHandSessions, tmp_path: Path) -> None:
+    course = progress(store.history("x"), None, finger_keys(0))
+    write_table(tmp_path / "t.csv", course)
+    with (tmp_path / "t.csv").open(encoding="utf-8", newline="") as file:
+        lines = list(csv.DictReader(file))
+    last = {(line["joint"], line["movement"]): line for line in lines if line["session"] == "hand-7"}
+    figures = session_figures(store.session("hand-7"))
+    assert len(last) >= 3 * (17 + 5)
+    for row in figures.joint_rows:
+        line = last[row.joint, row.movement]
+        assert float(line["mean_deg"]) == pytest.approx(row.mean_deg, abs=0.051)
+        assert (line["at_least"] == "yes") == row.limited

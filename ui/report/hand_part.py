@@ -1,0 +1,89 @@
+"""The part of the session report that is the whole hand's: table of the fingers, the wrist beside it, curves."""
+
+from __future__ import annotations
+
+from core.output.joint_content import JointCurves
+from core.output.report_content import Curves, SessionFigures
+from ui.fonts import MEDIUM, REGULAR, SEMIBOLD
+from ui.report.hand_rows import FingerRow, column_heads, finger_rows, limits_words
+from ui.report.page import Page
+from ui.report.tables import mean_words, repetition_words
+from ui.review.hand_curves import HandPlot, paint_hand_session, place_hand_panels
+from ui.terms import arc_name
+from ui.translate import tr
+
+EDGES = (0.0, 0.070, 0.185, 0.300, 0.400, 0.515, 0.652, 0.697, 0.790)
+"""Left edge of the finger, the five figures, usual, last time, change, as shares of the width."""
+ROW_PT, CURVES_PT, BETWEEN_PT = 21.5, 176.0, 6.0
+LEAST_SIZE_PT = 6.0
+
+
+def paint_finger_table(page: Page, figures: SessionFigures, previous: SessionFigures | None, top: float) -> float:
+    """One row for each finger, then in words what the camera's view limits."""
+    page.title(tr("Range of motion of the fingers"), top + 11, repetition_words(figures))
+    baseline = top + 25
+    for column, head in enumerate(column_heads(figures, previous), 1):
+        _fitted(page, head, column, baseline, 8.0, MEDIUM, "text2")
+    y = baseline + 4.5
+    for row in finger_rows(figures, previous):
+        page.rule(y)
+        _paint_row(page, row, y)
+        y += ROW_PT
+    page.rule(y)
+    words = limits_words(figures)
+    return page.paragraph(words, page.left, y + 2, page.right - page.left, 8.0) if words else y
+
+
+def _paint_row(page: Page, row: FingerRow, top: float) -> None:
+    middle = top + ROW_PT / 2 + 3
+    _fitted(page, row.name, 0, middle, 9.0, MEDIUM)
+    for column, cell in enumerate(row.cells, 1):
+        if cell.small:
+            _fitted(page, cell.main, column, top + 9.5, 9.0, SEMIBOLD)
+            _fitted(page, cell.small, column, top + 18.5, 7.5, REGULAR, "text2")
+        else:
+            _fitted(page, cell.main, column, middle, 8.5, REGULAR, "text2")
+    _fitted(page, row.usual, 6, middle, 8.5, REGULAR, "text2")
+    _fitted(page, row.last, 7, middle, 8.5)
+    _fitted(page, row.change, 8, middle, 8.0, MEDIUM)
+
+
+def _fitted(
+    page: Page, text: str, column: int, baseline: float, size: float, weight: int = REGULAR, token: str = "text"
+) -> None:
+    """A text in its column, smaller or on two lines where it is too long."""
+    width = page.right - page.left
+    room = ((EDGES[column + 1] if column + 1 < len(EDGES) else 1.0) - EDGES[column]) * width - 3
+    left = page.left + EDGES[column] * width
+    while size > LEAST_SIZE_PT and page.width_of(text, size, weight) > room:
+        if " " in text and column == len(EDGES) - 1 and size <= 7.0:
+            page.paragraph(text, left, baseline - 1.6 * size, room, LEAST_SIZE_PT + 0.5, weight, token)
+            return
+        size -= 0.25
+    page.text(text, left, baseline, size, weight, token)
+
+
+def paint_wrist_line(page: Page, figures: SessionFigures, top: float) -> float:
+    """The wrist's three arcs in one line under the table of the fingers."""
+    page.title(tr("Wrist"), top + 11, tr("whole arcs over the same time"))
+    arcs = [row for row in figures.rows if row.movement == "arc"]
+    baseline, left = top + 26, page.left
+    step = (page.right - page.left) / 3
+    for row in arcs:
+        end = page.text(arc_name(row.angle), left, baseline, 8.5, REGULAR, "text2")
+        page.text(mean_words(row), end + 6, baseline, 9.0, SEMIBOLD)
+        left += step
+    if not arcs:
+        page.text(tr("not seen"), page.left, baseline, 8.5, REGULAR, "text2")
+    page.rule(baseline + 4.5)
+    return baseline + 4.5
+
+
+def paint_finger_curves(page: Page, curves: Curves, joints: JointCurves, figures: SessionFigures, top: float) -> float:
+    """Bending of every finger over time; dashed where it was hidden."""
+    aside = tr("knuckle, middle joint, end joint; dashed: hidden, not counted; hatched: lost")
+    page.title(tr("Bending over time"), top + 11, aside)
+    plot = HandPlot(curves, figures.exercise, figures.repetitions, -1, joints=joints)
+    box = page.box(page.left + 80, top + 28, page.right - page.left - 88, CURVES_PT)
+    paint_hand_session(page.painter, page.style, plot, place_hand_panels(plot, box, BETWEEN_PT * page.point))
+    return top + 28 + CURVES_PT + 16
