@@ -41,10 +41,13 @@ class JointAssociation:
 
 
 @dataclass(frozen=True, slots=True)
-class _Branch:
-    taken: tuple[int, ...]
-    with_depth: tuple[bool, ...]
-    score: float
+class _Branches:
+    """B ways to name the first m markers, side by side: ``taken`` and ``with_depth`` (B, m), ``score`` (B,), and what
+    they leave of the prediction, ``mean`` (B, 3M) and ``covariance`` (B, 3M, 3M)."""
+
+    taken: NDArray[np.int64]
+    with_depth: NDArray[np.bool_]
+    score: FloatArray
     mean: FloatArray
     covariance: FloatArray
 
@@ -66,53 +69,82 @@ def associate_jointly(
     """
     markers = mean.size // 3
     prior = float(np.log(settings.prior_marker) - np.log(settings.prior_clutter))
-    log_area, log_range = float(np.log(resolution_px2)), float(np.log(settings.depth_range_m))
+    base = float(np.log(resolution_px2)) + prior
+    # By the number of measured coordinates: clutter's depth is spread over a range; a depth that is left out was wrong.
+    clutter = {
+        3: np.full(len(measured), base + float(np.log(settings.depth_range_m))),
+        2: base + np.where(np.isfinite(measured[:, 2]), np.log(depth_outlier), 0.0),
+    }
     certain_first = np.argsort(
         [np.linalg.det(covariance[3 * j : 3 * j + 2, 3 * j : 3 * j + 2]) for j in range(markers)], kind="stable"
     )
-    branches = [_Branch((), (), 0.0, mean, covariance)]
+    none = np.empty((1, 0))
+    branches = _Branches(none.astype(np.int64), none.astype(bool), np.zeros(1), mean[None], covariance[None])
     for marker in certain_first:
         block = slice(3 * int(marker), 3 * int(marker) + 3)
-        children: list[tuple[float, _Branch, int, int]] = []
-        for branch in branches:
-            children.append((branch.score, branch, -1, 0))
-            difference = measured - branch.mean[block]
-            own = branch.covariance[block, block]
-            for depth_used in (3, 2):
-                s = own[:depth_used, :depth_used] + np.zeros((measured.shape[0], 1, 1))
-                axes = np.arange(depth_used)
-                s[:, axes, axes] += noise_variance[:, :depth_used]
-                d = difference[:, :depth_used]
-                distance2 = np.einsum("di,di->d", d, np.linalg.solve(s, d[..., None])[..., 0])
-                log_normal = -0.5 * (distance2 + np.linalg.slogdet(s)[1] + depth_used * np.log(2 * np.pi))
-                odds = log_normal + log_area + prior
-                if depth_used == 3:
-                    odds = odds + log_range
-                else:
-                    odds = odds + np.where(np.isfinite(measured[:, 2]), np.log(depth_outlier), 0.0)
-                for blob in np.flatnonzero(distance2 <= settings.gate_sd**2):
-                    if blob not in branch.taken:
-                        children.append((branch.score + float(odds[blob]), branch, int(blob), depth_used))
-        children.sort(key=lambda child: -child[0])
-        branches = [_grown(child, block, measured, noise_variance) for child in children[:beam]]
-    best = max(branches, key=lambda branch: branch.score)
+        ways = [branches.score[:, None]]
+        difference = measured - branches.mean[:, None, block]
+        own = branches.covariance[:, block, block]
+        is_used = (branches.taken[:, :, None] == np.arange(len(measured))).any(axis=1)
+        for used in (3, 2):
+            distance2, log_normal = _normal(difference[..., :used], own[:, :used, :used], noise_variance[:, :used])
+            possible = (distance2 <= settings.gate_sd**2) & ~is_used
+            ways.append(np.where(possible, branches.score[:, None] + log_normal + clutter[used], -np.inf))
+        score = np.concatenate(ways, axis=1)  # (B, 1 + 2 D): no blob, each with its depth, each without
+        order = np.argsort(-score, axis=None, kind="stable")[:beam]
+        order = order[np.isfinite(score.ravel()[order])]
+        parent, way = np.divmod(order, score.shape[1])
+        branches = _grown(branches, parent, way, score.ravel()[order], block, measured, noise_variance)
+    best = int(np.argmax(branches.score))
     taken = np.full(markers, -1, dtype=np.int64)
     with_depth = np.zeros(markers, dtype=bool)
-    taken[certain_first] = best.taken
-    with_depth[certain_first] = best.with_depth
-    return JointAssociation(taken, with_depth, best.score)
+    taken[certain_first] = branches.taken[best]
+    with_depth[certain_first] = branches.with_depth[best]
+    return JointAssociation(taken, with_depth, float(branches.score[best]))
+
+
+def _normal(
+    difference: FloatArray, covariance: FloatArray, noise_variance: FloatArray
+) -> tuple[FloatArray, FloatArray]:
+    """Squared distance (B, D) in standard deviations and log density of ``difference`` (B, D, k) under covariances
+    (B, k, k) plus each blob's noise (D, k)."""
+    axes = np.arange(difference.shape[-1])
+    s = np.repeat(covariance[:, None], len(noise_variance), axis=1)
+    s[..., axes, axes] += noise_variance
+    distance2 = np.sum(difference * np.linalg.solve(s, difference[..., None])[..., 0], axis=-1)
+    return distance2, -0.5 * (distance2 + np.linalg.slogdet(s)[1] + axes.size * np.log(2 * np.pi))
 
 
 def _grown(
-    child: tuple[float, _Branch, int, int], block: slice, measured: FloatArray, noise_variance: FloatArray
-) -> _Branch:
-    """The branch with one more name, all other markers' predictions narrowed by it."""
-    score, branch, blob, depth_used = child
-    if blob < 0:
-        return _Branch((*branch.taken, -1), (*branch.with_depth, False), score, branch.mean, branch.covariance)
-    rows = slice(block.start, block.start + depth_used)
-    s = branch.covariance[rows, rows] + np.diag(noise_variance[blob, :depth_used])
-    gain = np.linalg.solve(s, branch.covariance[rows]).T
-    mean = branch.mean + gain @ (measured[blob, :depth_used] - branch.mean[rows])
-    covariance = branch.covariance - gain @ branch.covariance[rows]
-    return _Branch((*branch.taken, blob), (*branch.with_depth, depth_used == 3), score, mean, covariance)
+    branches: _Branches,
+    parent: NDArray[np.int64],
+    way: NDArray[np.int64],
+    score: FloatArray,
+    block: slice,
+    measured: FloatArray,
+    noise_variance: FloatArray,
+) -> _Branches:
+    """The branches ``parent`` with one more name each, all other markers' predictions narrowed by it."""
+    blobs = len(measured)
+    blob = np.where(way > 0, (way - 1) % max(blobs, 1), -1)
+    with_depth = (way > 0) & (way <= blobs)
+    mean, covariance = branches.mean[parent], branches.covariance[parent]
+    if blobs:
+        # A coordinate that takes no part has no covariance with anything and unit variance: its gain is nothing.
+        used = np.repeat((blob >= 0)[:, None], 3, axis=1)
+        used[:, 2] &= with_depth
+        across = np.where(used[..., None], covariance[:, block], 0.0)  # (B, 3, 3M)
+        s = np.where(used[:, None], across[..., block], 0.0)
+        axes = np.arange(3)
+        s[:, axes, axes] += np.where(used, noise_variance[blob], 1.0)
+        gain = np.swapaxes(np.linalg.solve(s, across), 1, 2)
+        off = np.where(used, measured[blob] - mean[:, block], 0.0)
+        mean = mean + (gain @ off[..., None])[..., 0]
+        covariance = covariance - gain @ across
+    return _Branches(
+        np.column_stack((branches.taken[parent], blob)),
+        np.column_stack((branches.with_depth[parent], with_depth)),
+        score,
+        mean,
+        covariance,
+    )
