@@ -60,38 +60,48 @@ class Figure:
     @property
     def row_name(self) -> str:
         """``Knuckle``; the thumb's second row is its lift."""
-        return tr("Lift") if self.finger == 1 and self.row == "middle" else row_name(self.row)
+        return row_name("lift" if self.finger == 1 and self.row == "middle" else self.row)
 
     @property
     def long_name(self) -> str:
         """``Ring finger, middle joint``."""
-        name = self.row_name
-        finger = tr("Thumb") if self.finger == 1 else tr("{finger} finger").format(finger=finger_name(str(self.finger)))
-        return tr("{finger}, {joint}").format(
-            finger=finger, joint=name if self.row == "tam" else name[0].lower() + name[1:]
-        )
+        return _long_name(self)
 
     @property
     def end_names(self) -> tuple[str, str]:
         """What the two ends of the gauge are called."""
-        low, high = (f"{abs(value):.0f}°" for value in self.range_deg)
-        if self.row != "spread":
-            return tr("Straight"), tr("Bent {angle}").format(angle=high)
-        if self.finger == 3:
-            return tr("Little-finger side {angle}").format(angle=low), tr("Thumb side {angle}").format(angle=high)
-        return tr("Inwards {angle}").format(angle=low), tr("Away {angle}").format(angle=high)
+        return _end_names(self)
 
 
 FIGURES: tuple[Figure, ...] = tuple(Figure(finger, row) for finger in FINGERS for row in (*ROWS, "tam"))
 """All that can be the large number, finger by finger."""
 
 
-def row_name(row: Row) -> str:
+def row_name(row: Row | Literal["lift"]) -> str:
     """``Middle joint``."""
     return {
+        "lift": tr("Lift"),
         "knuckle": tr("Knuckle"), "middle": tr("Middle joint"), "end": tr("End joint"), "spread": tr("Spread"),
         "tam": tr("TAM"),
     }[row]  # fmt: skip
+
+
+def _long_name(figure: Figure) -> str:
+    name = figure.row_name
+    finger = tr("{finger} finger").format(finger=finger_name(str(figure.finger)))
+    return tr("{finger}, {joint}").format(
+        finger=tr("Thumb") if figure.finger == 1 else finger,
+        joint=name if figure.row == "tam" else name[0].lower() + name[1:],
+    )
+
+
+def _end_names(figure: Figure) -> tuple[str, str]:
+    low, high = (f"{abs(value):.0f}°" for value in figure.range_deg)
+    if figure.row != "spread":
+        return tr("Straight"), tr("Bent {angle}").format(angle=high)
+    if figure.finger == 3:
+        return tr("Little-finger side {angle}").format(angle=low), tr("Thumb side {angle}").format(angle=high)
+    return tr("Inwards {angle}").format(angle=low), tr("Away {angle}").format(angle=high)
 
 
 def figure_of(joint: str) -> Figure:

@@ -16,6 +16,8 @@ from ui.ports import SetUp
 _MOTION = {FLEXION: "flexion", DEVIATION: "deviation", PRONOSUPINATION: "pronosupination", None: "mixed"}
 _HAND_MOTION = {"FIST_COMPOSITE": "fist", "FIST_HOOK": "hook", "FINGER_ABAD": "abduction", "FREE_HAND": "fingers"}
 _SPEED_HZ, _RANGE_SHARE, _REPETITIONS, _SECONDS = 0.36, 0.8, 10, 30.0
+_TILT_DEG, _HAND_TILT_DEG = 4.0, 11.0
+"""The thumb's discs face sideways: for them the thumb side is turned up."""
 _READ_AHEAD = 8
 
 
@@ -37,7 +39,7 @@ def practice_spec(set_up: SetUp, seconds: float = _SECONDS) -> RecordingSpec:
         sleeve="grey",
         distance_m=0.64,
         yaw_deg=3.0,
-        tilt_deg=4.0,
+        tilt_deg=_HAND_TILT_DEG if exercise.protocol.has_fingers else _TILT_DEG,
         hidden_share=0.02,
         false_blobs=0.4,
     )

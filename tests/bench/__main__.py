@@ -18,6 +18,7 @@ def main() -> int:
     parser.add_argument("parts", nargs="*", choices=[*PARTS, []], help=f"{', '.join(PARTS)}; all when none is named")
     parser.add_argument("--seconds", type=float, default=120.0, help="length of the window's run")
     parser.add_argument("--raw", action="store_true", help="the window's run stores the raw pictures too")
+    parser.add_argument("--hand", action="store_true", help="the window's run measures the whole hand, 21 markers")
     parser.add_argument("--rounds", type=int, default=3, help="how often the recordings are tracked")
     parser.add_argument(
         "--compare",
@@ -52,7 +53,7 @@ def main() -> int:
     if "window" in parts:
         from tests.bench import window
 
-        for text in window.report(arguments.seconds, pictures=arguments.raw):
+        for text in window.report(arguments.seconds, pictures=arguments.raw, whole_hand=arguments.hand):
             print(text, flush=True)
     return 0
 

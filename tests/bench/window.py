@@ -15,12 +15,15 @@ import numpy as np
 from PySide6.QtCore import QEvent, QEventLoop, QObject, QTimer
 
 from app import compose
+from app.desktop.journey import Journey
 from app.desktop.practice import practice_spec
 from app.desktop.unattended import Walker
 from app.settings import RecordingSettings, ScreenSettings, Settings
 from core.calibration.clicks import read_clicks
+from core.output.exercises import exercise_named
 from core.simulation.recording import CLICKS_FILE, cached_recording
 from ui.live.screen import LiveScreen
+from ui.ports import PRACTICE_PATIENT
 
 SIZE_PX = (1920, 1080)
 SETTLED_S = 10.0
@@ -46,7 +49,7 @@ class Watcher(QObject):
         super().__init__(live)
         self._live, self._run = live, run
         self._awaited = False
-        live.curves.installEventFilter(self)
+        live.plots().installEventFilter(self)
 
     def eventFilter(self, watched: QObject, event: QEvent) -> bool:  # noqa: N802  (Qt's name)
         if event.type() == QEvent.Type.Paint and not self._awaited:
@@ -62,7 +65,16 @@ class Watcher(QObject):
             self._run.drawn_at_s.append(now_s)
 
 
-def measure(seconds: float, folder: Path, *, pictures: bool) -> tuple[Run, dict[str, Any]]:
+def choose_whole_hand(journey: Journey) -> None:
+    """The way to the practice patient's fist with 21 markers."""
+    journey.choose_exercise(PRACTICE_PATIENT)
+    journey.exercise.choose(exercise_named("FIST_COMPOSITE"))
+    journey.exercise.primary.click()
+    journey.camera.sources.choose("practice")
+    journey.camera.primary.click()
+
+
+def measure(seconds: float, folder: Path, *, pictures: bool, whole_hand: bool) -> tuple[Run, dict[str, Any]]:
     """Record so long in the real window, on the practice patient in real time; with the raw ``pictures`` on request."""
     settings = replace(Settings(), screen=ScreenSettings("light"), recording=RecordingSettings(folder=str(folder)))
     qt = compose.application(["bench"])
@@ -73,7 +85,10 @@ def measure(seconds: float, folder: Path, *, pictures: bool) -> tuple[Run, dict[
         desktop.show()
         desktop.shell.resize(*SIZE_PX)
         walker.at("patients")
-        walker.start_practice()
+        if whole_hand:
+            choose_whole_hand(journey)
+        else:
+            walker.start_practice()
         walker.until(lambda: journey.place == "markers", patience_s=1800.0)
         set_up, source = journey.set_up, journey.source
         assert set_up is not None
@@ -120,7 +135,7 @@ def measure(seconds: float, folder: Path, *, pictures: bool) -> tuple[Run, dict[
             "tracked_p95_ms": after.latency_p95_ms,
             "threads": threading.active_count(),
         }
-        live.curves.removeEventFilter(watcher)
+        live.plots().removeEventFilter(watcher)
         pulse.stop()
         again.stop()
         stop_s = time.monotonic()
@@ -147,14 +162,15 @@ def growth_mb_per_min(samples: list[tuple[float, float]]) -> float:
     return float(60.0 * np.polyfit(settled[:, 0], settled[:, 1], 1)[0]) if len(settled) > 20 else float("nan")
 
 
-def report(seconds: float, *, pictures: bool = False) -> Iterator[str]:
+def report(seconds: float, *, pictures: bool = False, whole_hand: bool = False) -> Iterator[str]:
     """Measure and tell, line by line."""
     with tempfile.TemporaryDirectory() as folder:
-        run, facts = measure(seconds, Path(folder), pictures=pictures)
+        run, facts = measure(seconds, Path(folder), pictures=pictures, whole_hand=whole_hand)
     drawn = len(run.drawn_at_s) / facts["wall_s"]
     p50, p95, most = np.percentile(run.latency_ms, (50.0, 95.0, 100.0))
     width, height = SIZE_PX
-    yield f"Window {width} x {height}, offscreen, recording for {facts['wall_s']:.0f} s"
+    protocol = "21 markers, full fist" if whole_hand else "6 markers, wrist flexion"
+    yield f"Window {width} x {height}, {protocol}, offscreen, recording for {facts['wall_s']:.0f} s"
     yield "| what | value |"
     yield "|---|---|"
     yield f"| frames captured, tracked, stored | {facts['captured']}, {facts['tracked']}, {facts['rows']} |"

@@ -351,10 +351,10 @@ class LiveScreen(QWidget):
                 self.set_camera_lost(False)
             self._view = view
             self.picture.show_frame(view.frame.color_rgb)
-            self._plots().update()
+            self.plots().update()
         if self._camera_lost:
             self.history.wait(0.001 * DRAW_EVERY_MS)
-            self._plots().update()
+            self.plots().update()
         if self._tick % VALUES_EVERY == 0:
             self._show_values()
         if self._tick % SLOW_EVERY == 0:
@@ -363,7 +363,8 @@ class LiveScreen(QWidget):
         for event in feed.drain_events():
             self._take_event(event)
 
-    def _plots(self) -> QWidget:
+    def plots(self) -> QWidget:
+        """The curves that are shown: of the wrist or of the fingers."""
         return self.fingers if self._whole_hand else self.curves
 
     def _take_event(self, event: LiveEvent) -> None:
