@@ -68,6 +68,7 @@ class TopBar(QWidget):
         whole.setSpacing(0)
         whole.addLayout(row, 1)
         self._under = _UnderLine(theme)
+        whole.addSpacing(1 - RECORDING_LINE_PX)  # the red line lies over the bar's last pixels and moves nothing
         whole.addWidget(self._under)
         theme.changed.connect(self._take_theme)
         self._take_theme()
@@ -230,8 +231,7 @@ class _UnderLine(QWidget):
         if self.recording:
             painter.fillRect(self.rect(), self._theme.color("band_bad"))
         else:
-            painter.fillRect(0, 0, self.width(), 1, self._theme.color("line"))
-            painter.fillRect(0, 1, self.width(), self.height() - 1, self._theme.color("canvas"))
+            painter.fillRect(0, self.height() - 1, self.width(), 1, self._theme.color("line"))
 
 
 def _row(host: QWidget, spacing_px: int, *widgets: QWidget) -> QHBoxLayout:

@@ -127,6 +127,7 @@ class Journey(QObject):
         self.review.export.connect(self.printing.export)
         self.review.again.connect(self._another_set)
         self.review.told.connect(self.teller.fault)
+        self.review.arrived.connect(self._show_bar)
         self.progress.report.connect(self.printing.course)
         self.progress.table_wanted.connect(self.printing.table)
         self.progress.told.connect(self.teller.fault)
@@ -413,7 +414,9 @@ class Journey(QObject):
 
     def _show_camera(self) -> None:
         camera = self.shell.bar.camera
-        if self._kind == "practice" and (self._parts.is_demo or self.source is not None):
+        if self.place == "review" and self.review.saved_at is not None:
+            camera.show_state("good", self.tr("Saved {time}").format(time=f"{self.review.saved_at:%H:%M}"))
+        elif self._kind == "practice" and (self._parts.is_demo or self.source is not None):
             camera.show_state("good", self.tr("Simulated camera"))
         elif self._camera_there:
             camera.show_state("good", self.tr("Camera ready"))

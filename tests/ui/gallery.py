@@ -6,6 +6,7 @@ import os
 import sys
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
+from dataclasses import replace
 from datetime import date
 from pathlib import Path
 
@@ -15,7 +16,9 @@ import numpy as np
 from PySide6.QtCore import QLocale
 from PySide6.QtWidgets import QApplication, QWidget
 
+from app.desktop.phrases import WordTable
 from core.calibration.result import Finding
+from core.errors import DiskFull
 from core.output.report_content import RepetitionChoices
 from core.words import finding_words
 from tests.ui.fakes import (
@@ -253,6 +256,25 @@ class Gallery:
         with self._live(FakeFeed(seconds=32.0, lost=[(23.5, 30.0)])):
             pass
 
+    def live_arm_moved(self) -> None:
+        feed = FakeFeed(seconds=32.0)
+        for number, frame in enumerate(feed.frames):
+            if number > 30 * 23.5:
+                feed.frames[number] = replace(frame, position_m=frame.position_m + [0.0, 0.021, 0.004])
+        with self._live(feed):
+            pass
+
+    def live_disk_full(self) -> None:
+        with self._live(FakeFeed(seconds=32.0)) as screen:
+            self.shell.bar.disk.show_state("bad", "Disk full")
+            self.shell.bar.pill.show_state("off", 0.0)
+            self.shell.bar.show_recording(False)
+            card = StopCard(screen.stage, self.theme)
+            words = WordTable().fault(DiskFull("session.h5", "no space left"))
+            answers = [Answer("To the patients", lambda: None, "P"), Answer("Go on measuring", lambda: None, "Space")]
+            card.show_words(words, answers, icon="hard-drive")
+            self.settle()
+
     def live_note(self) -> None:
         with self._live(FakeFeed(seconds=32.0)) as screen:
             screen.note_sheet.begin()
@@ -307,7 +329,7 @@ class Gallery:
             self.settle()
 
     def review(self) -> None:
-        self.place(tab=1, camera="")
+        self.place(tab=1, camera="Saved 11:37")
         screen = ReviewScreen(self.theme, self.keys, self.background, self.sessions)
         self.show(screen)
         screen.begin("linden", "session-7", may_repeat=True)
@@ -317,7 +339,7 @@ class Gallery:
         screen.end()
 
     def review_hand(self, finger: int = 0) -> None:
-        self.place(tab=1, camera="")
+        self.place(tab=1, camera="Saved 11:37")
         screen = ReviewScreen(self.theme, self.keys, self.background, FakeHandSessions())
         self.show(screen)
         screen.begin("linden", "hand-7", may_repeat=True)
@@ -386,7 +408,7 @@ class Gallery:
             "camera", "markers_clicking", "markers_ready", "markers_swapped", "markers_doubtful",
             "markers_start_angle", "markers_proposed", "markers_proposed_doubtful", "markers_proposed_incomplete",
             "live", "live_speeds", "live_marker_hidden", "live_hand_lost", "live_hand",
-            "live_hand_thumb_hidden", "live_hand_fist", "live_hand_not_found", "live_note",
+            "live_hand_thumb_hidden", "live_hand_fist", "live_hand_not_found", "live_arm_moved", "live_disk_full", "live_note",
             "live_pain", "live_camera_lost", "review", "review_hand", "review_hand_finger",
             "progress", "progress_hand", "report", "report_hand", "report_progress", "settings", "help",
         )  # fmt: skip

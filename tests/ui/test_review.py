@@ -206,3 +206,11 @@ def test_progress_answers_with_the_arc_and_rings_what_is_unfair(
 
 def test_progress_of_nobody_says_so() -> None:
     assert headline(Progress((), (), None)) == ("No sessions of this exercise yet.", "")
+
+
+def test_a_session_on_the_screen_says_when_it_was_stored(screen: ReviewScreen) -> None:
+    assert screen.figures is not None
+    assert screen.saved_at is not None
+    assert (screen.saved_at - screen.figures.when).total_seconds() == pytest.approx(screen.figures.duration_s)
+    screen.begin("linden", "session-6")
+    assert screen.saved_at is None

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 
 from core.measures.motion_range import FEWEST_FOR_SPREAD
+from core.output.range_rows import is_total
 from core.output.report_content import Comparison, Progress, ProgressPoint
 from ui import numbers, terms
 from ui.figures import figure_of
@@ -24,6 +25,11 @@ def headline(progress: Progress) -> tuple[str, str]:
     size = numbers.degrees(main.shown_difference_deg)
     if main.at_least:
         size = tr("at least {size}").format(size=size)
+    gained = [item for item in progress.comparisons if is_total(item.joint) and item.verdict == "improved"]
+    if len(gained) > 1 and main.verdict == "improved":
+        pattern = tr("TAM has improved in {count} of {all} fingers since {day}.")
+        answer = pattern.format(count=len(gained), all=len(progress.comparisons), day=day)
+        return answer, " ".join(_rest(item) for item in progress.comparisons if item.verdict in ("improved", "worse"))
     if main.verdict == "improved":
         answer = tr("{name} has improved by {size} since {day}.").format(name=name, size=size, day=day)
     elif main.verdict == "worse":
@@ -64,7 +70,10 @@ def _basis(item: Comparison) -> str:
 def _rest(item: Comparison) -> str:
     name = _subject(item) if item.joint else terms.movement_long_name(item.movement)
     if item.verdict in ("improved", "worse"):
-        return tr("{name}: {change}.").format(name=name, change=difference(item.shown_difference_deg))
+        change = difference(item.shown_difference_deg)
+        if item.at_least:
+            change = tr("at least {change}").format(change=change)
+        return tr("{name}: {change}.").format(name=name, change=change)
     return tr("{name}: no change beyond measurement error.").format(name=name)
 
 

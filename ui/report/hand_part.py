@@ -12,7 +12,7 @@ from ui.review.hand_curves import HandPlot, paint_hand_session, place_hand_panel
 from ui.terms import arc_name
 from ui.translate import tr
 
-EDGES = (0.0, 0.070, 0.185, 0.300, 0.400, 0.515, 0.652, 0.697, 0.790)
+EDGES = (0.0, 0.070, 0.185, 0.297, 0.392, 0.515, 0.660, 0.706, 0.798)
 """Left edge of the finger, the five figures, usual, last time, change, as shares of the width."""
 ROW_PT, CURVES_PT, BETWEEN_PT = 21.5, 176.0, 6.0
 LEAST_SIZE_PT = 6.0
@@ -53,7 +53,7 @@ def _fitted(
 ) -> None:
     """A text in its column, smaller or on two lines where it is too long."""
     width = page.right - page.left
-    room = ((EDGES[column + 1] if column + 1 < len(EDGES) else 1.0) - EDGES[column]) * width - 3
+    room = ((EDGES[column + 1] if column + 1 < len(EDGES) else 1.0) - EDGES[column]) * width - 6
     left = page.left + EDGES[column] * width
     while size > LEAST_SIZE_PT and page.width_of(text, size, weight) > room:
         if " " in text and column == len(EDGES) - 1 and size <= 7.0:

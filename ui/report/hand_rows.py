@@ -70,6 +70,7 @@ def limits_words(figures: SessionFigures) -> str:
     """Which figures the camera's view limits, in words; empty when none."""
     limited: dict[Row, list[str]] = {row: [] for row in COLUMNS}
     unseen: list[str] = []
+    lifted: list[str] = []
     for finger in FINGERS:
         for row in COLUMNS:
             found = figures.row("arc", -1, Figure(finger, row).joint)
@@ -77,6 +78,8 @@ def limits_words(figures: SessionFigures) -> str:
                 continue
             if not found.count:
                 unseen.append(Figure(finger, row).long_name)
+            elif found.limited and finger == 1 and row == "middle":
+                lifted.append(tr("lift of the thumb"))
             elif found.limited:
                 limited[row].append(finger_name(str(finger)).lower())
     parts = []
@@ -88,6 +91,7 @@ def limits_words(figures: SessionFigures) -> str:
             }[row]  # fmt: skip
             who = tr("all fingers") if len(names) == len(FINGERS) else ", ".join(names)
             parts.append(pattern.format(fingers=who))
+    parts += lifted
     words = []
     if parts:
         pattern = tr("Limited by the camera’s view ({sign}: at least): {parts}. Hidden stretches do not count.")
@@ -148,7 +152,10 @@ def cell_of(figures: SessionFigures, figure: Figure) -> FingerCell:
         return FingerCell(tr("not measured") if figure.row == "end" else numbers.UNKNOWN)
     if not row.count:
         return FingerCell(tr("not seen"), limited=True)
-    return FingerCell(_range_words(row), _ends(figures, figure), row.limited)
+    ends = _ends(figures, figure)
+    if figure.finger == 1 and figure.row == "middle":  # the thumb has no middle joint: its column holds the lift
+        ends = tr("lift, {ends}").format(ends=ends)
+    return FingerCell(_range_words(row), ends, row.limited)
 
 
 def _finger_row(finger: int, figures: SessionFigures, previous: SessionFigures | None) -> FingerRow:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
+from datetime import datetime, timedelta
 
 import numpy as np
 from PySide6.QtCore import Qt, QTimer, Signal
@@ -65,12 +66,14 @@ class Reviewed:
 
 
 class ReviewScreen(QWidget):
-    """``report`` and ``export`` carry the session's identity; ``told`` a fault; ``again`` asks for another set."""
+    """``report`` and ``export`` carry the session's identity; ``told`` a fault; ``again`` asks for another set;
+    ``arrived`` when a session is on the screen."""
 
     report = Signal(str)
     export = Signal(str)
     again = Signal()
     told = Signal(object)
+    arrived = Signal()
 
     def __init__(self, theme: Theme, keys: Keys, background: Background, store: SessionStore) -> None:
         super().__init__()
@@ -136,7 +139,7 @@ class ReviewScreen(QWidget):
         card.body.addLayout(head)
         self._scroll = QScrollArea()
         tables = QWidget()
-        below = QVBoxLayout(tables)
+        below = self._below = QVBoxLayout(tables)
         below.setContentsMargins(0, 0, 0, 0)
         below.setSpacing(4)
         for widget in (self.table, self.hand_table, self.limits):
@@ -163,9 +166,8 @@ class ReviewScreen(QWidget):
         most = self.height() * (0.36 if tight else 0.48)
         needed = self.table.sizeHint().height()
         if self._joints is not None:
-            needed = (
-                self.hand_table.sizeHint().height() + 4 + self.limits.heightForWidth(max(self.width() - 140, 300)) + 6
-            )
+            words = self.limits.heightForWidth(max(self._scroll.width() - 24, 300))
+            needed = self.hand_table.sizeHint().height() + self._below.spacing() + words + 10
         self._scroll.setFixedHeight(round(min(needed + 2, most)))
 
     def _connect(self, keys: Keys) -> None:
@@ -214,6 +216,13 @@ class ReviewScreen(QWidget):
         self._stop()
 
     @property
+    def saved_at(self) -> datetime | None:
+        """When the session on the screen was over and stored; None while none is."""
+        if self.figures is None or self._session is None:
+            return None
+        return self.figures.when + timedelta(seconds=self.figures.duration_s)
+
+    @property
     def shown(self) -> bool:
         """Whether a session is on the screen."""
         return self._session is not None
@@ -240,6 +249,7 @@ class ReviewScreen(QWidget):
         self._current = counted[0] if counted else -1
         self._refresh()
         self.seek(self.figures.repetitions[self._current].start_s if counted and self.figures else 0.0)
+        self.arrived.emit()
 
     def _compute(self) -> None:
         if self._session is not None:
