@@ -76,6 +76,11 @@ def movement_long_name(movement: str) -> str:
     return {"radial": tr("Radial deviation"), "ulnar": tr("Ulnar deviation")}.get(movement, movement_name(movement))
 
 
+def movement_at_zero(angle: int) -> str:
+    """What a wrist is in that shows no movement to either side; ``angle`` is the column."""
+    return tr("Palm down") if angle == 2 else tr("Straight")
+
+
 def arc_name(angle: int) -> str:
     """The whole arc of one angle, where more than one is shown."""
     return {0: tr("Side arc"), 1: tr("Bending arc"), 2: tr("Turning arc")}[angle]

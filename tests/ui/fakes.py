@@ -99,7 +99,6 @@ def tracked_frames(
     noise -= np.linspace(0, 1, len(noise))[:, None] * noise[-1]
     angles = truth.angles_rad + np.radians(np.clip(noise, -2.0, 2.0) * SD_DEG / 2.6)
     covered_since = np.zeros(len(markers))
-    joint_count = len(markers) if pictures.spec.marker_protocol.has_fingers else 0
     out = []
     for k, time_s in enumerate(truth.time_s):
         covered = np.array([any(a <= time_s < b and name == marker for a, b, marker in hidden) for name in markers])

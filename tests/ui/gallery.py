@@ -269,6 +269,8 @@ class Gallery:
             self.shell.bar.disk.show_state("bad", "Disk full")
             self.shell.bar.pill.show_state("off", 0.0)
             self.shell.bar.show_recording(False)
+            screen._measuring.feed.recording = False  # type: ignore[union-attr, misc]
+            screen._show_buttons()
             card = StopCard(screen.stage, self.theme)
             words = WordTable().fault(DiskFull("session.h5", "no space left"))
             answers = [Answer("To the patients", lambda: None, "P"), Answer("Go on measuring", lambda: None, "Space")]
@@ -408,7 +410,8 @@ class Gallery:
             "camera", "markers_clicking", "markers_ready", "markers_swapped", "markers_doubtful",
             "markers_start_angle", "markers_proposed", "markers_proposed_doubtful", "markers_proposed_incomplete",
             "live", "live_speeds", "live_marker_hidden", "live_hand_lost", "live_hand",
-            "live_hand_thumb_hidden", "live_hand_fist", "live_hand_not_found", "live_arm_moved", "live_disk_full", "live_note",
+            "live_hand_thumb_hidden", "live_hand_fist", "live_hand_not_found", "live_arm_moved",
+            "live_disk_full", "live_note",
             "live_pain", "live_camera_lost", "review", "review_hand", "review_hand_finger",
             "progress", "progress_hand", "report", "report_hand", "report_progress", "settings", "help",
         )  # fmt: skip

@@ -19,6 +19,7 @@ from ui.keys import Keys
 from ui.live.curves import LiveCurves
 from ui.live.history import KEPT_S, History
 from ui.live.light import Lamp, SteadyLight, lamp_for
+from ui.live.number_card import NumberCard, Reading
 from ui.live.screen import LiveScreen
 from ui.picture.overlay import axis_pixels, ellipse, within
 from ui.theme import Theme
@@ -217,6 +218,48 @@ def test_large_text_on_a_small_screen_keeps_what_is_read_from_afar(qtbot: QtBot,
     assert not screen.path.isVisible()
     assert screen.number.isVisible()
     assert screen.light.isVisible()
+
+
+def test_pain_of_ten_is_typed_and_escape_closes_the_card(qtbot: QtBot, theme: Theme) -> None:
+    screen, _ = live(qtbot, theme, FakeFeed())
+    kept: list[int] = []
+    screen.pain_sheet.kept.connect(kept.append)
+    for typed, score in (("10", 10), ("7", 7), ("13", 3), ("0", 0)):
+        screen.pain_sheet.begin()
+        for digit in typed:
+            qtbot.keyClick(screen.focusWidget(), digit)
+        assert kept[-1] == score
+    screen.pain_sheet.begin()
+    qtbot.keyClick(screen.focusWidget(), "1")
+    qtbot.waitUntil(lambda: kept[-1] == 1)
+    screen.pain_sheet.begin()
+    qtbot.keyClick(screen.focusWidget(), Qt.Key.Key_Escape)
+    assert not screen.pain_sheet.isVisible()
+    assert kept == [10, 7, 3, 0, 1]
+
+
+def test_nothing_offers_to_go_on_while_there_is_no_camera(qtbot: QtBot, theme: Theme) -> None:
+    feed = FakeFeed()
+    screen, measuring = live(qtbot, theme, feed)
+    run(screen, feed, 1.0)
+    record(qtbot, screen, measuring)
+    screen.set_camera_lost(True)
+    assert not screen.pause.isEnabled()
+    assert screen.pause.text() == "Pause"
+    screen.toggle_pause()
+    assert not feed.paused
+    screen.set_camera_lost(False)
+    assert screen.pause.isEnabled()
+
+
+@pytest.mark.parametrize(
+    ("value_deg", "word"), [(0.4, "Straight"), (-0.4, "Straight"), (0.6, "Flexion"), (-0.6, "Extension")]
+)
+def test_zero_degrees_name_no_side(qtbot: QtBot, theme: Theme, value_deg: float, word: str) -> None:
+    card = NumberCard(theme)
+    qtbot.addWidget(card)
+    card.show_reading(Reading(angle=1, value_deg=value_deg, sd_deg=1.0))
+    assert card.movement() == word
 
 
 # --- pieces -----------------------------------------------------------------------------------------------

@@ -14,6 +14,14 @@ from ui.keys import DEFAULT_KEYS, Keys, action_words
 from ui.theme import GAP_PX, MARGIN_PX, Theme
 
 
+def actions_by_key(keys: Keys) -> dict[str, list[str]]:
+    """What each key does; one key may do different things on different screens."""
+    found: dict[str, list[str]] = {}
+    for name in DEFAULT_KEYS:
+        found.setdefault(keys[name], []).append(action_words(name))
+    return found
+
+
 class HelpScreen(QWidget):
     """``done`` leads back to where the person was."""
 
@@ -39,9 +47,9 @@ class HelpScreen(QWidget):
         table.body.addWidget(Text(theme, self.tr("Keys"), 20, SEMIBOLD))
         grid = QGridLayout()
         grid.setVerticalSpacing(6)
-        for row, name in enumerate(DEFAULT_KEYS):
-            grid.addWidget(KeyCaps(theme, [(keys[name], "")]), row, 0)
-            grid.addWidget(Text(theme, action_words(name), 14, wrap=True), row, 1)
+        for row, (key, words) in enumerate(actions_by_key(keys).items()):
+            grid.addWidget(KeyCaps(theme, [(key, "")]), row, 0)
+            grid.addWidget(Text(theme, "\n".join(words), 14, wrap=True), row, 1)
         grid.setColumnStretch(1, 1)
         table.body.addLayout(grid)
         table.body.addStretch(1)

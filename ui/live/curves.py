@@ -80,6 +80,8 @@ class LiveCurves(QWidget):
                 self._words[k] = SIDES[k][0 if angles[k] > 0 else 1]
             known = math.isfinite(angles[k]) and not self._history.waiting
             name = terms.movement_name(self._words[k]) if known else self.tr("no value")
+            if known and abs(angles[k]) < ZERO_BAND_DEG:
+                name = terms.movement_at_zero(k)
             self._values.append(
                 (name, numbers.degrees(angles[k]) if known else "", numbers.spread(sds[k]) if known else "")
             )

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from PySide6.QtCore import Qt, Signal
+from PySide6.QtCore import Qt, QTimer, Signal
 from PySide6.QtGui import QKeyEvent
 from PySide6.QtWidgets import QHBoxLayout, QLineEdit, QWidget
 
@@ -12,6 +12,8 @@ from ui.controls.text import SEMIBOLD, Text
 from ui.theme import Theme
 
 MOST_PAIN = 10
+SECOND_DIGIT_MS = 700
+"""After a 1 a 0 may follow."""
 
 
 class NoteSheet(Sheet):
@@ -76,9 +78,18 @@ class PainSheet(Sheet):
             row.addWidget(button)
             self.buttons.append(button)
         self.card.body.addLayout(row)
-        self.card.body.addWidget(
-            Text(theme, self.tr("At 5 or more, or 2 more than before: stop the exercise."), 14, token="text2")
-        )
+        below = QHBoxLayout()
+        advice = self.tr("At 5 or more, or 2 more than before: stop the exercise. Keys: 0 to 9; 1 and 0 for 10.")
+        below.addWidget(Text(theme, advice, 14, token="text2", wrap=True), 1)
+        close = Button(theme, self.tr("Close"), "quiet", hint=self.tr("Esc"), height_px=36)
+        close.clicked.connect(self.close_sheet)
+        below.addWidget(close)
+        self.card.body.addLayout(below)
+        self._one = QTimer(self)
+        self._one.setSingleShot(True)
+        self._one.setInterval(SECOND_DIGIT_MS)
+        self._one.timeout.connect(lambda: self._keep(1))
+        self.closed.connect(self._one.stop)
 
     def begin(self) -> None:
         """Open with the keyboard on 0."""
@@ -90,8 +101,14 @@ class PainSheet(Sheet):
 
     def keyPressEvent(self, event: QKeyEvent) -> None:
         step = {Qt.Key.Key_Left: -1, Qt.Key.Key_Right: 1}.get(Qt.Key(event.key()), 0)
-        if event.text().isdigit():
-            self._keep(int(event.text()))
+        digit = event.text() if event.text() in "0123456789" else ""
+        if digit and self._one.isActive():
+            self._keep(MOST_PAIN if digit == "0" else int(digit))
+        elif digit == "1":
+            self.buttons[1].setFocus(Qt.FocusReason.TabFocusReason)
+            self._one.start()
+        elif digit:
+            self._keep(int(digit))
         elif step:
             now = self.window().focusWidget()
             place = self.buttons.index(now) if now in self.buttons else 0  # type: ignore[arg-type]

@@ -67,7 +67,12 @@ class NumberCard(QWidget):
     def movement(self) -> str:
         """The word shown for the present direction, or the finger and its joint."""
         figure = self.reading.figure
-        return terms.movement_long_name(self._word) if figure is None else figure.long_name
+        if figure is not None:
+            return figure.long_name
+        value = self.reading.value_deg
+        if math.isfinite(value) and abs(value) < 0.5:
+            return terms.movement_at_zero(self.reading.angle)
+        return terms.movement_long_name(self._word)
 
     def _ends(self) -> tuple[float, float, str, str]:
         """Lower and upper end of the gauge with their words."""

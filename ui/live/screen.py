@@ -272,7 +272,7 @@ class LiveScreen(QWidget):
 
     def toggle_pause(self) -> None:
         """Pause or go on."""
-        if self._measuring is not None and self._measuring.feed.recording:
+        if self._measuring is not None and self._measuring.feed.recording and not self._camera_lost:
             feed = self._measuring.feed
             (feed.resume_recording if feed.paused else feed.pause_recording)()
             self._show_buttons()
@@ -323,6 +323,7 @@ class LiveScreen(QWidget):
         """The camera went or came back; while it is gone nothing old is shown as if it were now."""
         self._camera_lost = lost
         self.fingers.set_waiting(lost)
+        self._show_buttons()
         if lost:
             self.picture.clear(self.tr("No picture"))
             self._view = None
@@ -470,7 +471,9 @@ class LiveScreen(QWidget):
         self.note.setEnabled(recording)
         self.pain.setEnabled(recording)
         self.pause.setEnabled(recording)
-        paused = state == "paused"
+        if self._camera_lost:
+            self.pause.setEnabled(False)  # nothing can go on without pictures
+        paused = state == "paused" and not self._camera_lost
         self.pause.set_face(self.tr("Go on") if paused else self.tr("Pause"), icon="play" if paused else "pause")
         if not self._stopping:
             self.main.setEnabled(True)

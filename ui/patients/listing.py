@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from datetime import date
 
 from PySide6.QtCore import QAbstractListModel, QModelIndex, QPersistentModelIndex, QRectF, QSize, Qt
-from PySide6.QtGui import QFont, QFontMetricsF, QPainter, QPainterPath, QPaintEvent, QPen
+from PySide6.QtGui import QFont, QFontMetricsF, QPainter, QPainterPath, QPaintEvent, QPen, QResizeEvent
 from PySide6.QtWidgets import QFrame, QListView, QStyle, QStyledItemDelegate, QStyleOptionViewItem, QWidget
 
 from ui import numbers, terms
@@ -170,7 +170,7 @@ class PatientList(QListView):
         self.setItemDelegate(self._painter_of_rows)
         self.setFrameShape(QFrame.Shape.NoFrame)
         self.setMouseTracking(True)
-        self.setVerticalScrollMode(QListView.ScrollMode.ScrollPerPixel)
+        self.setVerticalScrollMode(QListView.ScrollMode.ScrollPerItem)
         self.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
         self.setProperty("shows_own_focus", True)
         self.setAccessibleName(self.tr("Patients"))
@@ -185,6 +185,13 @@ class PatientList(QListView):
         self.scheduleDelayedItemsLayout()
         self.updateGeometry()
         self.viewport().update()
+
+    def resizeEvent(self, event: QResizeEvent) -> None:
+        """Only whole rows are shown."""
+        row = self._theme.px(ROW_PX)
+        rest = self.height() % row if self.height() < self.rows.rowCount() * row else 0
+        self.setViewportMargins(0, 0, 0, rest)
+        super().resizeEvent(event)
 
     def sizeHint(self) -> QSize:
         return QSize(600, max(1, self.rows.rowCount()) * self._theme.px(ROW_PX))
