@@ -16,7 +16,14 @@ from numpy.typing import NDArray
 from core.tracking.finger_model import SHOWS, FingerModel, Seat
 from core.tracking.hand_geometry import RAYS, SLOTS, JointMoment
 from core.tracking.joint_limits import constrained
-from core.tracking.ray_filter import RayForecast, corrected, forecast, learning_shares, spread_points
+from core.tracking.ray_filter import (
+    PINNINGS,
+    RayForecast,
+    corrected,
+    forecast,
+    learning_shares,
+    spread_points,
+)
 from core.types import FloatArray
 
 
@@ -100,9 +107,12 @@ def _filtered(
             beliefs = model.predicted(beliefs, unseen_s, step.timestamp_s - time_s)
         if step.postures:
             beliefs = model.at_postures(beliefs, step.postures)
-        line = _line(model, *beliefs.merged(), seat)
-        palm_part = model.palm_part(line, seat)
-        beliefs = corrected(beliefs, line, step.measured, step.variance, palm_part, shares).beliefs
+        nearest = beliefs
+        for _ in range(1 + (PINNINGS if step.postures else 0)):
+            line = _line(model, *nearest.merged(), seat)
+            palm_part = model.palm_part(line, seat)
+            nearest = corrected(beliefs, line, step.measured, step.variance, palm_part, shares).beliefs
+        beliefs = nearest
         beliefs = constrained(beliefs, beliefs.merged()[0][:, :SLOTS])
         mean, covariance = beliefs.merged()
         scale = np.sqrt(beliefs.probability @ model.scales**2)

@@ -26,7 +26,7 @@ from core.tracking.joint_association import holds_together
 from core.tracking.joint_limits import constrained
 from core.tracking.measurement import View
 from core.tracking.naming import Measurable
-from core.tracking.ray_filter import RayBeliefs, RayPoints, forecast, spread_points
+from core.tracking.ray_filter import PINNINGS, RayBeliefs, RayPoints, forecast, spread_points
 from core.tracking.ray_search import LEAST_DISCS, in_reach, search_rays
 from core.tracking.settings import TrackerSettings
 from core.tracking.state import Belief
@@ -35,7 +35,6 @@ from core.types import FloatArray
 
 _PATIENCE = 2
 """Frames for which a ray may show fewer than two discs before it is searched."""
-_PINNINGS = 2
 _LEAST_FACING = 0.15
 _FLAT_RAD = math.radians(50.0)
 _GROWING, _SHRINKING = 0.2, 0.02
@@ -171,7 +170,7 @@ class Fingers:
 
     def _pinned(self, beliefs: RayBeliefs, trial: FingerTrial) -> FingerTrial:
         """The same names, the line drawn anew about what they say: a posture of the grid is some way off."""
-        for _ in range(_PINNINGS):
+        for _ in range(PINNINGS):
             nearer = spread_points(
                 *trial.named.update.beliefs.merged(), self._palm.disc_m[1:], self.model.layout, self._settings.spread
             )
