@@ -215,6 +215,28 @@ def test_what_lies_turned_about_is_not_the_hand_that_was_just_covered() -> None:
         assert frame.status is (TrackStatus.PREDICTED if 20 <= i < 50 else TrackStatus.TRACKED)
 
 
+def test_a_lone_blob_is_no_disc_of_a_hand_long_unseen() -> None:
+    """Something blue lies where a disc might be while a sleeve covers the hand for a second."""
+    tracker = Tracker(calibration(), CAMERA, TrackerSettings())
+    rng = np.random.default_rng(6)
+    moving = swing(0, 20.0, 0.4)
+    wrist_px = CAMERA.project(discs_cam_m(Pose())[WRIST])
+    for i in range(60):
+        covered = 20 <= i < 50
+        found = blobs(
+            moving(i * DT_S),
+            rng,
+            hidden=range(6) if covered else (),
+            false_px=[wrist_px + [9.0, 6.0]] if covered else (),
+            false_depth_m=0.705,
+        )
+        frame = tracker.step(i, i * DT_S, found)
+        if covered and i > 30:
+            assert np.isnan(frame.marker_measured_px).all()
+    assert frame.status is TrackStatus.TRACKED
+    assert np.abs(np.degrees(frame.angles_rad) - moving(59 * DT_S).angles_deg).max() < 2.0
+
+
 def test_a_jump_in_plain_sight_is_followed_within_three_frames() -> None:
     rng = np.random.default_rng(4)
     there = moved(Pose(np.array([-15.0, 30.0, 10.0])), [0.05, -0.06, 0.02])
