@@ -165,8 +165,13 @@ class Comparison:
     limit_deg: float
     verdict: Verdict
     joint: str = ""
-    at_least: bool = False
-    """Whether the later figure is a lower bound (hidden in part), and so the gain."""
+    limited: tuple[bool, bool] = (False, False)
+    """Whether the figure before and the one after are lower bounds, since the joint was hidden in part."""
+
+    @property
+    def at_least(self) -> bool:
+        """Whether the gain is a lower bound."""
+        return self.limited == (False, True)
 
     @property
     def shown_difference_deg(self) -> float:
@@ -337,16 +342,16 @@ def compare_rows(before: SessionFigures, after: SessionFigures, rows: Sequence[R
         limit = math.degrees(change.limit_rad) * factor
         difference = row.mean_deg - other.mean_deg
         verdict: Verdict = "not_judged"
-        at_least = row.movement == "arc" and bool(row.joint) and row.limited and not other.limited
-        bounds = bool(row.joint) and (row.limited or other.limited)
+        limited = (other.limited, row.limited) if row.joint else (False, False)
         # A lower bound that lies beyond the error above a figure fully seen is a gain; nothing else is known of it.
-        if change.comparable and (not bounds or (at_least and difference > limit)):
+        sure_gain = row.movement == "arc" and limited == (False, True) and difference > limit
+        if change.comparable and (not any(limited) or sure_gain):
             beyond = abs(difference) > limit
             better = difference > 0 if row.joint == "" or row.movement != "extension" else difference < 0
             verdict = "no_change" if not beyond else "improved" if better else "worse"
         out.append(
             Comparison(
-                row.movement, row.angle, other.mean_deg, row.mean_deg, difference, limit, verdict, row.joint, at_least
+                row.movement, row.angle, other.mean_deg, row.mean_deg, difference, limit, verdict, row.joint, limited
             )
         )
     return tuple(out)

@@ -18,7 +18,8 @@ STATES = (
     "markers_proposed", "markers_proposed_doubtful", "markers_proposed_incomplete", "live",
     "live_speeds", "live_marker_hidden", "live_hand_lost", "live_hand", "live_hand_thumb_hidden", "live_hand_fist",
     "live_hand_not_found", "live_arm_moved", "live_disk_full", "live_note", "live_pain", "live_camera_lost", "review",
-    "progress", "report", "report_progress", "settings", "help",
+    "review_hand", "review_hand_finger", "progress", "progress_hand", "report", "report_hand", "report_progress",
+    "settings", "help",
 )  # fmt: skip
 
 

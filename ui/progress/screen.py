@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from PySide6.QtCore import QSize, Qt, Signal
+from PySide6.QtCore import Qt, Signal
 from PySide6.QtGui import QResizeEvent
 from PySide6.QtWidgets import QComboBox, QFileDialog, QHBoxLayout, QScrollArea, QVBoxLayout, QWidget
 
@@ -13,11 +13,12 @@ from ui import numbers, terms
 from ui.background import Background
 from ui.controls.button import Button
 from ui.controls.card import Card, Line
+from ui.controls.column import ScrolledColumn
 from ui.controls.text import MEDIUM, REGULAR, SEMIBOLD, StateText, Text, caption, heading
 from ui.keys import Keys, bind
 from ui.ports import SessionStore
 from ui.progress.chart import ProgressChart
-from ui.progress.words import change_line, comparison_name, headline, unfair_words
+from ui.progress.words import before_after, change_line, comparison_name, headline, unfair_words
 from ui.report.hand_rows import followed_keys, followed_kinds
 from ui.theme import GAP_PX, MARGIN_PX, Theme, is_tight
 from ui.verdicts import verdict_token, verdict_word
@@ -80,7 +81,7 @@ class ProgressScreen(QWidget):
         right.addWidget(self._table)
         right.addWidget(self._fair)
         right.addStretch(1)
-        host = _SideColumn()
+        host = ScrolledColumn()
         host.setLayout(right)
         self._side = QScrollArea()
         self._side.setWidget(host)
@@ -220,13 +221,6 @@ class ProgressScreen(QWidget):
             self.chart.picture().save(path)
 
 
-class _SideColumn(QWidget):
-    """As high as its texts need at the width they have; Qt's own guess is for narrower texts and scrolls too soon."""
-
-    def minimumSizeHint(self) -> QSize:
-        return QSize(super().minimumSizeHint().width(), 0)
-
-
 class _Row(QWidget):
     def __init__(self, theme: Theme, name: str, figures: str, verdict: str, small: str) -> None:
         super().__init__()
@@ -249,8 +243,7 @@ class _Row(QWidget):
 
 class _ComparisonRow(_Row):
     def __init__(self, theme: Theme, item: Comparison) -> None:
-        figures = f"{numbers.degrees(item.before_deg)} → {numbers.degrees(item.after_deg)}"
-        super().__init__(theme, comparison_name(item), figures, item.verdict, change_line(item))
+        super().__init__(theme, comparison_name(item), before_after(item), item.verdict, change_line(item))
 
 
 def _clear(card: Card) -> None:

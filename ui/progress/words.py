@@ -77,6 +77,12 @@ def _rest(item: Comparison) -> str:
     return tr("{name}: no change beyond measurement error.").format(name=name)
 
 
+def before_after(item: Comparison) -> str:
+    """``34° → 57°``; ``≥`` before a figure that a hidden joint may have exceeded."""
+    signs = [f"≥{numbers.NARROW_GAP}" if limited else "" for limited in item.limited]
+    return f"{signs[0]}{numbers.degrees(item.before_deg)} → {signs[1]}{numbers.degrees(item.after_deg)}"
+
+
 def change_line(item: Comparison) -> str:
     """``23° more, error 10°``; a joint that was hidden has no difference, at most a least one."""
     if item.joint and item.verdict == "not_judged":

@@ -8,7 +8,7 @@ from core.output.report_content import Progress
 from ui import numbers, terms
 from ui.fonts import MEDIUM, REGULAR, SEMIBOLD
 from ui.progress.chart_painter import paint_chart
-from ui.progress.words import change_line, comparison_name, headline, unfair_words
+from ui.progress.words import before_after, change_line, comparison_name, headline, unfair_words
 from ui.report.page import A4_PT, MARGIN_PT, Page
 from ui.report.session_page import paint_head
 from ui.translate import tr
@@ -68,8 +68,7 @@ def _paint_table(page: Page, progress: Progress, top: float) -> float:
         page.rule(baseline)
         baseline += 15.5
         page.text(comparison_name(item), page.left, baseline - 4, 9.0, MEDIUM)
-        figures = f"{numbers.degrees(item.before_deg)} → {numbers.degrees(item.after_deg)}"
-        page.text(figures, page.left + 130, baseline - 4, 9.0, SEMIBOLD)
+        page.text(before_after(item), page.left + 130, baseline - 4, 9.0, SEMIBOLD)
         page.text(change_line(item), page.left + 240, baseline - 4, 9.0)
         page.text_right(
             verdict_word(item.verdict), page.right, baseline - 4, 9.0, SEMIBOLD, verdict_token(item.verdict)

@@ -81,7 +81,7 @@ class CurveView(QWidget):
         scale = self._theme.text_scale
         box = QRectF(self.rect()).adjusted(LEFT_PX * scale, TOP_PX * scale, -RIGHT_PX * scale, -BOTTOM_PX * scale)
         if isinstance(self._plot, HandPlot):
-            return place_hand_panels(self._plot, box, HAND_BETWEEN_PX * scale)
+            return place_hand_panels(self._plot, box, HAND_BETWEEN_PX * scale, single=self._single)
         return place_panels(self._plot, box, BETWEEN_PX * scale, single=self._single)
 
     def paintEvent(self, event: QPaintEvent) -> None:

@@ -56,9 +56,9 @@ class HandPlot(SessionPlot):
         return Series(joints.time_s, value, sd, hidden)
 
 
-def place_hand_panels(plot: HandPlot, box: QRectF, between: float) -> list[tuple[Panel, int]]:
-    """One panel for each finger, or bending over spreading."""
-    weights = (2.0, 1.0) if plot.finger else (1.0,) * len(FINGERS)
+def place_hand_panels(plot: HandPlot, box: QRectF, between: float, *, single: bool = False) -> list[tuple[Panel, int]]:
+    """One panel for each finger, or bending over spreading; ``single`` leaves the spreading out."""
+    weights = (2.0, 1.0)[: 1 if single else 2] if plot.finger else (1.0,) * len(FINGERS)
     unit = (box.height() - between * (len(weights) - 1)) / sum(weights)
     top, out = box.top(), []
     for place, weight in enumerate(weights):
@@ -106,9 +106,10 @@ def _paint_name(painter: QPainter, style: PlotStyle, plot: HandPlot, panel: Pane
     words = (tr("Bending"), tr("Spreading"))[place] if plot.finger else finger_name(str(FINGERS[place]))
     painter.setFont(style.end_label)
     painter.setPen(style.color("text"))
-    left = panel.box.left() - 102 * style.unit
-    middle = panel.box.top() + 6 * style.unit if plot.finger and place == 0 else panel.box.center().y()
-    box = QRectF(left, middle - 12 * style.unit, 70 * style.unit, 24 * style.unit)
+    scale = style.end_label.pixelSize() / 12.0
+    left = panel.box.left() - 102 * scale
+    middle = panel.box.top() + 6 * scale if plot.finger and place == 0 else panel.box.center().y()
+    box = QRectF(left, middle - 12 * scale, 70 * scale, 24 * scale)
     painter.drawText(box, int(Qt.AlignmentFlag.AlignVCenter | Qt.AlignmentFlag.AlignLeft), words)
 
 

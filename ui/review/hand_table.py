@@ -16,6 +16,9 @@ from ui.theme import Theme
 ROW_PX, HEAD_PX = 37, 26
 EDGES = (0.0, 0.062, 0.186, 0.310, 0.434, 0.566, 0.712, 0.757, 0.838)
 """Left edge of the finger's name, the five figures, the usual value, last time and the change, as shares."""
+TIGHT_EDGES = (0.0, 0.078, 0.200, 0.330, 0.464, 0.590, 0.740, 0.740, 0.835)
+"""The same for large text in a narrow window: without the usual value."""
+TIGHT_BELOW_PX = 1000
 
 
 class HandTable(QWidget):
@@ -91,7 +94,11 @@ class HandTable(QWidget):
         self._text(painter, row.change, 8, top, height, small, token)
 
     def _edge(self, column: int) -> float:
-        return EDGES[column] * self.width()
+        return self._edges[column] * self.width()
+
+    @property
+    def _edges(self) -> tuple[float, ...]:
+        return TIGHT_EDGES if self.width() < TIGHT_BELOW_PX * self._theme.text_scale else EDGES
 
     def _text(
         self, painter: QPainter, text: str, column: int, top: float, height: float, face: QFont, token: str,
@@ -99,6 +106,8 @@ class HandTable(QWidget):
     ) -> None:  # fmt: skip
         left = self._edge(column) + indent
         end = self._edge(column + 1) if column + 1 < len(EDGES) else float(self.width())
+        if end == left - indent:
+            return
         room = max(end - left - 6, 20.0)
         painter.setFont(face)
         painter.setPen(self._theme.color(token))

@@ -29,9 +29,10 @@ from ui import numbers, terms
 from ui.background import Background
 from ui.controls.button import Button
 from ui.controls.card import Card
+from ui.controls.column import ScrolledColumn
 from ui.controls.field import Choices
 from ui.controls.text import REGULAR, SEMIBOLD, Text
-from ui.figures import FINGERS
+from ui.figures import FINGERS, figure_of
 from ui.keys import Keys, bind
 from ui.marker_words import finger_name
 from ui.picture.overlay import haloed
@@ -138,7 +139,7 @@ class ReviewScreen(QWidget):
         card.body.setSpacing(4)
         card.body.addLayout(head)
         self._scroll = QScrollArea()
-        tables = QWidget()
+        tables = ScrolledColumn()
         below = self._below = QVBoxLayout(tables)
         below.setContentsMargins(0, 0, 0, 0)
         below.setSpacing(4)
@@ -163,6 +164,11 @@ class ReviewScreen(QWidget):
         """The table takes the rows it has; with large text it scrolls and the curves keep a panel."""
         tight = is_tight(self, self._theme)
         self.curves.show_single(tight)
+        self.finger.buttons()[0].setVisible(not tight)
+        if tight and self._joints is not None and self.figures is not None and self._finger == 0:
+            self.finger.choose(figure_of(self.figures.exercise.joint).finger)  # five panels have no room
+            self._refresh()
+            return
         most = self.height() * (0.36 if tight else 0.48)
         needed = self.table.sizeHint().height()
         if self._joints is not None:

@@ -5,8 +5,8 @@ from __future__ import annotations
 from itertools import pairwise
 
 import numpy as np
-from PySide6.QtCore import QPointF, Qt
-from PySide6.QtGui import QColor, QPainter, QPen
+from PySide6.QtCore import Qt
+from PySide6.QtGui import QColor, QPainter, QPolygonF
 
 from core.camera import Camera
 from core.hand.protocols import HAND21
@@ -14,10 +14,9 @@ from core.types import FloatArray
 from ui.figures import FINGERS
 from ui.picture.overlay import haloed
 from ui.picture.view import PictureView
+from ui.plot.polygon import runs
 from ui.theme import ON_PICTURE_LINE
 
-TRAIL_TOKENS = ("#7FE3E4", "#5AA2F5", "#F59A3C", "#E6E6E6", "#FF7A6E")
-"""Of the fingertips, thumb to little finger."""
 _WRIST = HAND21.markers.index("WRIST")
 
 
@@ -65,14 +64,10 @@ def paint_trails(
     painter.setBrush(Qt.BrushStyle.NoBrush)
     for number in FINGERS if finger == 0 else (finger,):
         tip = HAND21.markers.index(f"TIP{number}")
-        color = QColor(TRAIL_TOKENS[number - 1])
-        solid = QPen(color, 2.0)
-        dashed = QPen(solid)
-        dashed.setDashPattern([2.2, 2.2])
-        points = [
-            picture.to_screen(float(u), float(v)) if np.isfinite([u, v]).all() else None for u, v in modelled[:, tip]
-        ]
-        for k, (a, b) in enumerate(pairwise(points)):
-            if a is not None and b is not None:
-                painter.setPen(solid if seen[k, tip] and seen[k + 1, tip] else dashed)
-                painter.drawLine(QPointF(a), QPointF(b))
+        known = np.isfinite(modelled[:, tip]).all(axis=1)
+        for flag, dash in ((known & seen[:, tip], False), (known & ~seen[:, tip], True)):
+            for first, last in runs(flag):
+                # One sample of the other kind closes the join.
+                part = modelled[max(0, first - 1) : last, tip]
+                way = QPolygonF([picture.to_screen(float(u), float(v)) for u, v in part if np.isfinite(u)])
+                haloed(painter, ON_PICTURE_LINE, 1.5, lambda way=way: painter.drawPolyline(way), dash=dash)  # type: ignore[misc]
