@@ -12,6 +12,7 @@ from scipy.optimize import linear_sum_assignment
 
 from core.calibration.neutral_pose import pose_by_least_squares
 from core.calibration.plausibility import looks_like_other_side, plan_view, swapped_markers
+from core.calibration.registration import SURELY_OFF_PX, depth_offset_px
 from core.calibration.result import Calibration, Clicks, Finding, Verdict
 from core.calibration.settings import CalibrationSettings
 from core.camera import Camera
@@ -103,6 +104,11 @@ def calibrate(
     if np.any(taken < 0):
         verdict = _no_verdict(clicks, findings)
         return CalibrationOutcome(verdict, appearance, found_px, None, 0, StillNoise())
+
+    offset_px = depth_offset_px(first, appearance, found_px)
+    if offset_px > 0.0:
+        limit_px = SURELY_OFF_PX * camera.width_px / 640
+        findings.append(Finding("depth_off", (), offset_px, limit_px, "px"))
 
     def seen() -> Iterator[tuple[float, Detections]]:
         yield first.timestamp_s, blobs

@@ -1,0 +1,78 @@
+"""Depth that lies beside colour is noticed from the hand's outline, and only then."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from core.calibration.calibrate import calibrate
+from core.calibration.registration import depth_offset_px
+from core.calibration.settings import CalibrationSettings
+from core.detection.appearance import learn_appearance
+from core.detection.settings import DetectionSettings
+from core.simulation.recording import SimulatedPictures, clicks_of
+from core.simulation.spec import RecordingSpec
+from core.types import FloatArray, Frame
+
+DETECTION = DetectionSettings()
+SEEDS = (1, 2, 5, 11)
+
+
+def offset_px(pictures: SimulatedPictures, frame: Frame) -> float:
+    clicks = clicks_of(pictures.truth)
+    looks, centre = learn_appearance(frame, clicks.pixel, pictures.truth.camera, DETECTION)
+    return depth_offset_px(frame, looks, centre[np.isfinite(centre[:, 0])])
+
+
+def moved(frame: Frame, columns: int, rows: int) -> Frame:
+    """The frame with its depth beside its colour; what comes into the picture is a hole."""
+    assert frame.depth_raw is not None
+    depth = np.zeros_like(frame.depth_raw)
+    height, width = depth.shape
+    target = (slice(max(rows, 0), height + min(rows, 0)), slice(max(columns, 0), width + min(columns, 0)))
+    source = (slice(max(-rows, 0), height - max(rows, 0)), slice(max(-columns, 0), width - max(columns, 0)))
+    depth[target] = frame.depth_raw[source]
+    return replace(frame, depth_raw=depth)
+
+
+@pytest.fixture(scope="module")
+def takes() -> list[tuple[SimulatedPictures, Frame]]:
+    """A first picture of several patients, tables, lights and sleeves."""
+    made = [SimulatedPictures(RecordingSpec(seed=seed, seconds=0.1, protocol="wrist6")) for seed in SEEDS]
+    return [(pictures, next(pictures.frames())) for pictures in made]
+
+
+def test_registered_depth_is_never_suspected(takes: list[tuple[SimulatedPictures, Frame]]) -> None:
+    assert [offset_px(*take) for take in takes] == [0.0] * len(takes)
+
+
+@pytest.mark.parametrize("shift", [(12, 0), (-12, 0), (10, -10)])
+def test_depth_beside_colour_is_noticed(shift: tuple[int, int], takes: list[tuple[SimulatedPictures, Frame]]) -> None:
+    """In most rooms: on a table of the skin's own colour the picture does not say."""
+    true_px = float(np.hypot(*shift))
+    found: FloatArray = np.array([offset_px(pictures, moved(frame, *shift)) for pictures, frame in takes])
+    noticed = found[found > 0.0]
+    assert len(noticed) >= len(takes) - 1
+    assert np.abs(noticed - true_px).max() < 6.0
+
+
+def test_without_depth_or_discs_nothing_is_said(takes: list[tuple[SimulatedPictures, Frame]]) -> None:
+    pictures, frame = takes[0]
+    assert offset_px(pictures, replace(frame, depth_raw=None)) == 0.0
+    assert offset_px(pictures, moved(frame, 640, 0)) == 0.0, "a picture full of holes"
+
+
+def test_the_verdict_names_it(takes: list[tuple[SimulatedPictures, Frame]]) -> None:
+    pictures, frame = takes[0]
+    clicks, camera = clicks_of(pictures.truth), pictures.truth.camera
+    kinds = [
+        [
+            finding.kind
+            for finding in calibrate(clicks, [each], camera, CalibrationSettings(), DETECTION).verdict.findings
+        ]
+        for each in (frame, moved(frame, 12, 0))
+    ]
+    assert "depth_off" not in kinds[0]
+    assert "depth_off" in kinds[1]
