@@ -41,6 +41,8 @@ _STARTS_AT_RATE_SD = 1.0
 _POSTURE_SD_RAD = math.radians(12.0)
 """Of the grid on which a lost finger is searched."""
 _POSTURE_RATE_SD = 3.0
+_SURE_TURN_RAD = math.radians(1.0)
+"""Standard deviation of the palm's turn, all axes together, at which half as much is learnt of the fingers."""
 
 # Which discs move with a slot: 0 the first of the ray's three and those after it, and so on; 3 none.
 _FIRST_DISC = np.array([[0, 0, 1, 1, 2], *([0, 0, 1, 2, 3],) * 4])
@@ -191,6 +193,12 @@ class FingerModel:
         keep = math.exp(-dt_s / self.settings.rate_memory_s)
         rate2 = np.where(is_unseen, (1.0 - keep**2) * mean[:, self.layout.rates] ** 2, 0.0)
         return Forgetting(np.where(is_unseen, keep, 1.0), angle2, rate2)
+
+    def learning(self, seat: Seat) -> float:
+        """Share of what this picture says of the anatomy that is believed: little while the palm is unsure, as its
+        error stays for as long as its discs are hidden."""
+        variance = float(np.trace(seat.pose_covariance[3:, 3:]))
+        return self.settings.fingers.learning / (1.0 + (variance / _SURE_TURN_RAD**2) ** 2)
 
     @staticmethod
     def palm_part(line: RayForecast, seat: Seat) -> FloatArray:

@@ -58,7 +58,7 @@ class FingerScene:
     ``line`` forecast; ``spread`` (5, 9, 9) covariance of the discs' images, the palm's error included; ``palm_part``
     that error alone; ``visible`` (5, 3) chance that each disc is to be seen; ``free`` (D,) blobs
     that are not the palm's; ``area_px`` (D,) of the blobs, ``whole_px`` (5, 3) of each disc where nothing hides it, NaN
-    where not known yet; ``noise_factor`` (5, 9).
+    where not known yet; ``noise_factor`` (5, 9); ``learning`` share of what is said of the anatomy that is believed.
     """
 
     line: RayForecast
@@ -73,6 +73,7 @@ class FingerScene:
     resolution_px2: float
     view: RayView
     layout: RayLayout
+    learning: float
 
 
 def name_fingers(beliefs: RayBeliefs, scene: FingerScene, settings: TrackerSettings) -> NamedFingers:
@@ -178,7 +179,7 @@ def corrected_as_named(
         measured,
         variance,
         scene.palm_part,
-        learning_shares(scene.layout, settings.fingers.learning),
+        learning_shares(scene.layout, scene.learning),
     )
     return NamedFingers(names, update, measured, variance)
 

@@ -89,7 +89,6 @@ def _filtered(
     out: list[_Filtered | None] = []
     beliefs, unseen_s, time_s = model.at_neutral(), np.zeros((RAYS, SLOTS)), float("nan")
     is_lost = False
-    shares = learning_shares(model.layout, model.settings.fingers.learning)
     lower = np.tril_indices(model.layout.size)
     for step, seat in zip(steps, seats, strict=True):
         if step is None or seat is None:
@@ -107,7 +106,7 @@ def _filtered(
             beliefs = model.predicted(beliefs, unseen_s, step.timestamp_s - time_s)
         if step.postures:
             beliefs = model.at_postures(beliefs, step.postures)
-        nearest = beliefs
+        nearest, shares = beliefs, learning_shares(model.layout, model.learning(seat))
         for _ in range(1 + (PINNINGS if step.postures else 0)):
             line = _line(model, *nearest.merged(), seat)
             palm_part = model.palm_part(line, seat)

@@ -224,6 +224,7 @@ class Fingers:
             self.model.resolution_px2,
             seat.view,
             self.model.layout,
+            self.model.learning(seat),
         )
         named = name_fingers(beliefs, scene, self._settings)
         taken = named.names.taken

@@ -11,7 +11,6 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from functools import lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
@@ -321,7 +320,6 @@ class RayUpdate:
     residual: FloatArray
 
 
-@lru_cache(maxsize=8)
 def learning_shares(layout: RayLayout, learning: float) -> tuple[FloatArray, FloatArray]:
     """Shares of a correction that the mean (n,) and the covariance (n, n) take, the constants only ``learning``.
 
