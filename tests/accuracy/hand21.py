@@ -93,6 +93,7 @@ ROWS = (
     HandScenario("end joints free", ("hook", "fist", "fingers"), {"dip": "free"}, _FREE, limits="skin", weight=2),
     HandScenario("end joints free, taken as coupled", ("hook",), {"dip": "free"}),
     HandScenario("discs on the skin, taken as in the joints", EXERCISES, {}, _IN_JOINTS),
+    HandScenario("joints without rates, the papers' model (1)", EXERCISES, {}, TrackerSettings(motion="paper")),
     HandScenario("child, 135 mm", EXERCISES, {"hand_length_mm": 135.0}),
     HandScenario("10 false blobs", EXERCISES, {"false_blobs": 10.0}),
     HandScenario("30 % hidden", EXERCISES, {"hidden_share": 0.3}),
