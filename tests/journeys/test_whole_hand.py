@@ -1,4 +1,4 @@
-"""Twenty-one discs through the real application: set up, clicked, tracked live, recorded, read back."""
+"""Twenty-one discs through the real application: set up, named, tracked live, recorded, read back."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ from core.hand.protocols import HAND21, joint_angle_names
 from core.simulation.recording import TRUTH_FILE, simulate
 from core.simulation.spec import RecordingSpec
 from tests.journeys.takes import clicks_of, take_of
-from tests.journeys.test_journey import at, click, click_discs, reviewed, still_hand, wait
+from tests.journeys.test_journey import at, click, reviewed, still_hand, wait
 from ui.ports import PRACTICE_PATIENT
 
 SPEC = RecordingSpec(
@@ -63,10 +63,15 @@ def test_the_whole_hand_from_set_up_to_session_file(qtbot: QtBot, desktop: Deskt
     click(qtbot, journey.markers.primary)
     assert journey.markers.clicking is not None
     assert journey.markers.clicking.order == HAND21.markers
-    click_discs(qtbot, desktop, hand_take)
+    wait(qtbot, lambda: bool(journey.markers.clicking and journey.markers.clicking.proposed))
+    assert not journey.markers.clicking.unnamed
+    qtbot.keyClick(journey.markers.picture, Qt.Key.Key_Return)  # the names proposed are right
     np.testing.assert_allclose(journey.markers.clicking.clicks().pixel, clicks_of(hand_take), atol=4.0)
-    click(qtbot, journey.markers.primary)
+    wait(qtbot, lambda: journey.markers._judged is not None)
+    qtbot.keyClick(desktop.shell.focusWidget(), Qt.Key.Key_Return)
     at(qtbot, desktop, "live")
+    wait(qtbot, lambda: len(journey.live.joints) > 5)
+    assert "seen" in journey.live.hand_map.seen.values()
     qtbot.keyClick(journey.live, Qt.Key.Key_Space)
     wait(qtbot, lambda: journey.live.recording_state == "recording")
     wait(qtbot, lambda: journey.live.recorded_s > 3.0)

@@ -4,27 +4,31 @@ from __future__ import annotations
 
 import math
 
+import numpy as np
 from PySide6.QtCore import QPointF, QRectF, QSize, Qt, Signal
-from PySide6.QtGui import QFontMetricsF, QMouseEvent, QPainter, QPaintEvent, QPen, QPixmap, QResizeEvent
+from PySide6.QtGui import QColor, QFontMetricsF, QMouseEvent, QPainter, QPaintEvent, QPen, QPixmap, QResizeEvent
 from PySide6.QtWidgets import QSizePolicy, QWidget
 
+from core.types import FloatArray
 from ui import numbers
 from ui.figures import FIGURES, FINGERS, ROWS, Figure, Row, row_name
 from ui.fonts import MEDIUM, REGULAR, SEMIBOLD, font
 from ui.icons import paint_state
 from ui.live.history import SHOWN_S
-from ui.live.joint_history import JointHistory
+from ui.live.joint_history import BoolArray, JointHistory
 from ui.marker_words import finger_name
 from ui.plot import axes
 from ui.plot.axes import Panel, Scale
-from ui.plot.series import paint_series
+from ui.plot.polygon import polygon, runs
+from ui.plot.series import LONGEST_STEP_S, paint_series
 from ui.plot.style import screen_style
-from ui.theme import CARD_RADIUS_PX, Theme
+from ui.theme import BAND_ALPHA, CARD_RADIUS_PX, Theme
 
 LEFT_PX, RIGHT_PX, TOP_PX, BETWEEN_PX, ROW_PX = 112, 14, 44, 13, 31
 BENDING = Scale(-15.0, 115.0, (90.0, 45.0, 0.0), ((90.0, "90°"), (45.0, "45°"), (0.0, "0°")))
 SPREADING = Scale(-32.0, 32.0, (20.0, 0.0, -20.0), ((20.0, "20°"), (0.0, "0°"), (-20.0, "20°")))
 BENDING_ROWS: tuple[Row, ...] = ("end", "middle", "knuckle")
+ROOMY_FROM_PX = 290
 WEAK_SD_DEG = 10.0
 """From this spread on a figure is marked as weak."""
 
@@ -41,6 +45,7 @@ class FingerCurves(QWidget):
         self._target_deg = math.nan
         self._waiting = False
         self._still: QPixmap | None = None
+        self._figures: QPixmap | None = None
         self._values: dict[Figure, tuple[float, float, bool]] = {}
         self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Expanding)
         self.setAccessibleName(self.tr("Joint angles of the last ten seconds, by finger"))
@@ -54,14 +59,16 @@ class FingerCurves(QWidget):
     def set_waiting(self, waiting: bool) -> None:
         """Whether no pictures come: then no figure is shown as if it were now."""
         self._waiting = waiting
+        self._figures = None
         self.update()
 
     def refresh_values(self) -> None:
         """Take the figures below the curves anew; called at most ten times a second."""
         self._values = {figure: self._history.value(k) for k, figure in enumerate(FIGURES)}
+        self._figures = None
 
     def _forget_still(self) -> None:
-        self._still = None
+        self._still = self._figures = None
         self.update()
 
     def resizeEvent(self, event: QResizeEvent) -> None:
@@ -82,8 +89,11 @@ class FingerCurves(QWidget):
         return QRectF(left + (finger - 1) * step, 8, step - BETWEEN_PX, self.height() - 16)
 
     def rows_top(self) -> float:
-        """Where the figures begin."""
-        return self.height() - 8 - len(ROWS) * ROW_PX * self._theme.text_scale
+        """Where the figures begin; without room for both, the curves stay."""
+        return self.height() - 8 - len(self._rows()) * ROW_PX * self._theme.text_scale
+
+    def _rows(self) -> tuple[Row, ...]:
+        return ROWS if self.height() >= ROOMY_FROM_PX * self._theme.text_scale else ()
 
     def panels(self, finger: int) -> tuple[Panel, Panel]:
         """Bending and spreading of a finger."""
@@ -103,7 +113,7 @@ class FingerCurves(QWidget):
     def mousePressEvent(self, event: QMouseEvent) -> None:
         at = event.position()
         for figure in FIGURES:
-            if figure.row != "tam" and self.cell(figure).contains(at):
+            if figure.row in self._rows() and self.cell(figure).contains(at):
                 self.chosen.emit(figure)
                 return
         for finger in FINGERS:
@@ -114,21 +124,48 @@ class FingerCurves(QWidget):
     def paintEvent(self, event: QPaintEvent) -> None:
         if self._still is None:
             self._still = self._paint_still()
+        if self._figures is None:
+            self._figures = self._paint_figures()
         painter = QPainter(self)
         painter.drawPixmap(0, 0, self._still)
+        painter.drawPixmap(0, 0, self._figures)
+        painter.setRenderHint(QPainter.RenderHint.Antialiasing)
         style = screen_style(self._theme)
+        pens = {token: _pens(style.color(token), style.line_width) for token in ("curve_a", "curve_b", "curve_c")}
+        block = self._history.block(self._history.now_s - SHOWN_S)
+        even = bool(len(block.time_s)) and bool(np.all(np.diff(block.time_s) <= LONGEST_STEP_S))
         for finger in FINGERS:
             bending, spreading = self.panels(finger)
+            x = bending.x(block.time_s)
             for panel, rows in ((bending, BENDING_ROWS), (spreading, ("spread",))):
-                painter.save()
-                painter.setClipRect(panel.box.adjusted(0, -1, 1, 1).toAlignedRect())
                 for row in rows:
-                    figure = Figure(finger, row)
-                    paint_series(painter, style, panel, self._history.series(FIGURES.index(figure)), figure.token)
-                painter.restore()
+                    k = FIGURES.index(Figure(finger, row))
+                    value, sd = block.value_deg[:, k], block.sd_deg[:, k]
+                    token = FIGURES[k].token
+                    if even and panel.scale.low < value.min() and value.max() < panel.scale.high:
+                        predicted = block.predicted[:, k]
+                        _paint_curve(
+                            painter, x, panel.y(value), panel.y(value + sd), panel.y(value - sd), predicted, pens[token]
+                        )
+                    else:  # gaps, or values beyond the scale, which are rare
+                        painter.save()
+                        painter.setClipRect(panel.box.adjusted(0, -1, 1, 1).toAlignedRect())
+                        paint_series(painter, style, panel, self._history.series(k), token)
+                        painter.restore()
+
+    def _paint_figures(self) -> QPixmap:
+        """The numbers below the curves; they change ten times a second at most."""
+        ratio = self.devicePixelRatioF()
+        picture = QPixmap(round(self.width() * ratio), round(self.height() * ratio))
+        picture.setDevicePixelRatio(ratio)
+        picture.fill(Qt.GlobalColor.transparent)
+        painter = QPainter(picture)
+        painter.setRenderHint(QPainter.RenderHint.Antialiasing)
         for figure in FIGURES:
-            if figure.row != "tam":
+            if figure.row in self._rows():
                 self._paint_figure(painter, figure)
+        painter.end()
+        return picture
 
     def _paint_figure(self, painter: QPainter, figure: Figure) -> None:
         theme, scale = self._theme, self._theme.text_scale
@@ -155,9 +192,11 @@ class FingerCurves(QWidget):
         painter.drawText(QPointF(left, baseline), text)
         left += metrics.horizontalAdvance(text) + 4
         words = numbers.spread(sd) if math.isfinite(value) else ""
-        if figure == Figure(1, "middle") and math.isfinite(value):
-            words = f"{words} {self.tr('lift')}"
         painter.setFont(font(12 * scale, MEDIUM))
+        lift = f"{words} {self.tr('lift')}"
+        room = cell.right() - left - 18
+        if figure == Figure(1, "middle") and QFontMetricsF(painter.font()).horizontalAdvance(lift) < room:
+            words = lift if math.isfinite(value) else ""
         painter.setPen(theme.color("text2"))
         painter.drawText(QPointF(left, baseline), words)
         left += QFontMetricsF(painter.font()).horizontalAdvance(words) + 5
@@ -192,7 +231,7 @@ class FingerCurves(QWidget):
         bending, spreading = self.panels(1)
         self._text(painter, self.tr("Bending"), 20, bending.box.top() - 4 * scale, 14, MEDIUM, "text")
         self._text(painter, self.tr("Spreading"), 20, spreading.box.top() - 17 * scale, 14, MEDIUM, "text")
-        for number, row in enumerate(ROWS):
+        for number, row in enumerate(self._rows()):
             top = self.rows_top() + number * ROW_PX * scale
             painter.setPen(QPen(theme.color("line"), 1))
             painter.drawLine(QPointF(20, round(top) + 0.5), QPointF(self.width() - 14, round(top) + 0.5))
@@ -204,3 +243,35 @@ class FingerCurves(QWidget):
         painter.setFont(font(size * self._theme.text_scale, weight))
         painter.setPen(self._theme.color(token))
         painter.drawText(QPointF(left, top + QFontMetricsF(painter.font()).ascent()), text)
+
+
+def _pens(color: QColor, width: float) -> tuple[QColor, QPen, QPen]:
+    """Fill of the band, pen of what is measured, pen of what is predicted."""
+    fill = QColor(color)
+    fill.setAlpha(BAND_ALPHA)
+    # Flat and bevelled: round joins double the cost of a curve and are not seen at this width.
+    solid = QPen(color, width, Qt.PenStyle.SolidLine, Qt.PenCapStyle.FlatCap, Qt.PenJoinStyle.BevelJoin)
+    dashed = QPen(solid)
+    dashed.setDashPattern([2.2, 2.2])
+    return fill, solid, dashed
+
+
+def _paint_curve(
+    painter: QPainter,
+    x: FloatArray,
+    y: FloatArray,
+    upper: FloatArray,
+    lower: FloatArray,
+    predicted: BoolArray,
+    pens: tuple[QColor, QPen, QPen],
+) -> None:
+    """A curve without gaps and its band, all in pixels: what :func:`ui.plot.series.paint_series` draws, in few calls."""
+    fill, solid, dashed = pens
+    painter.setPen(Qt.PenStyle.NoPen)
+    painter.setBrush(fill)
+    painter.drawPolygon(polygon(np.concatenate((x, x[::-1])), np.concatenate((upper, lower[::-1]))))
+    for flag, pen in ((False, solid), (True, dashed)):
+        painter.setPen(pen)
+        for first, last in runs(predicted == flag):
+            part = slice(max(0, first - 1), last)
+            painter.drawPolyline(polygon(x[part], y[part]))

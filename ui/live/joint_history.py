@@ -22,8 +22,8 @@ Seen = Literal["seen", "partly", "hidden"]
 SHARE_S = 1.0
 """How well a disc is seen is judged over this long."""
 SEEN_SHARE, HIDDEN_SHARE = 0.75, 0.25
-EVERY = 2
-"""Small panels draw every second frame: fifteen points a second are more than they have pixels."""
+EVERY = 3
+"""Small panels draw every third frame: ten points a second, two pixels each on a large screen."""
 
 BoolArray = NDArray[np.bool_]
 
@@ -76,6 +76,16 @@ def measured_figures(seen: BoolArray) -> BoolArray:
             }  # fmt: skip
         out[:, column] = needed[row]
     return out
+
+
+@dataclass(frozen=True, slots=True)
+class Block:
+    """Samples of all figures: ``time_s`` (n,), ``value_deg``, ``sd_deg`` and ``predicted`` (n, F)."""
+
+    time_s: FloatArray
+    value_deg: FloatArray
+    sd_deg: FloatArray
+    predicted: BoolArray
 
 
 class JointHistory:
@@ -137,7 +147,7 @@ class JointHistory:
         return bool(self._mix.inferred[figure])
 
     def series(self, figure: int) -> Series:
-        """The curve of a figure with its band, every second frame."""
+        """The curve of a figure with its band, every third frame."""
         part = slice(None)
         if len(self._index) > 2:
             part = self._index % EVERY == 0  # type: ignore[assignment]
@@ -145,6 +155,12 @@ class JointHistory:
         if self.inferred(figure):
             predicted = np.ones_like(predicted)
         return Series(self._time_s[part], self._value[part, figure], self._sd[part, figure], predicted)
+
+    def block(self, start_s: float) -> Block:
+        """All curves from a time on, every third frame."""
+        part = (self._time_s >= start_s) & (self._index % EVERY == 0)
+        predicted = ~self._measured[part] | self._mix.inferred
+        return Block(self._time_s[part], self._value[part], self._sd[part], predicted)
 
     def seen(self) -> dict[str, Seen]:
         """How well each disc has been seen over the last second."""

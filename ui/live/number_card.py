@@ -107,11 +107,13 @@ class NumberCard(QWidget):
         painter.setPen(Qt.PenStyle.NoPen)
         painter.setBrush(theme.color(token))
         painter.drawRoundedRect(QRectF(24, 24, 6, 20 * scale), 3, 3)
-        painter.setFont(font(28 * scale, SEMIBOLD))
+        room = self.width() - 230 * scale - 52
+        size = 28 * scale
+        while size > 20 and QFontMetricsF(font(size, SEMIBOLD)).horizontalAdvance(self.movement()) > room:
+            size -= 1
+        painter.setFont(font(size, SEMIBOLD))
         painter.setPen(theme.color("text"))
-        painter.drawText(
-            QRectF(40, 14, self.width() * 0.6, 40 * scale), int(Qt.AlignmentFlag.AlignVCenter), self.movement()
-        )
+        painter.drawText(QRectF(40, 14, room, 40 * scale), int(Qt.AlignmentFlag.AlignVCenter), self.movement())
         self._paint_number(painter, 24.0, 36 * scale + 20)
         self._paint_right(painter)
         self._paint_gauge(painter, QRectF(24, self.height() - 42 * scale, self.width() - 48, 12), token)
