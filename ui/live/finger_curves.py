@@ -143,10 +143,8 @@ class FingerCurves(QWidget):
                     value, sd = block.value_deg[:, k], block.sd_deg[:, k]
                     token = FIGURES[k].token
                     if even and panel.scale.low < value.min() and value.max() < panel.scale.high:
-                        predicted = block.predicted[:, k]
-                        _paint_curve(
-                            painter, x, panel.y(value), panel.y(value + sd), panel.y(value - sd), predicted, pens[token]
-                        )
+                        y, upper, lower = panel.y(value), panel.y(value + sd), panel.y(value - sd)
+                        _paint_curve(painter, x, y, upper, lower, block.predicted[:, k], pens[token])
                     else:  # gaps, or values beyond the scale, which are rare
                         painter.save()
                         painter.setClipRect(panel.box.adjusted(0, -1, 1, 1).toAlignedRect())
@@ -265,11 +263,13 @@ def _paint_curve(
     predicted: BoolArray,
     pens: tuple[QColor, QPen, QPen],
 ) -> None:
-    """A curve without gaps and its band, all in pixels: what :func:`ui.plot.series.paint_series` draws, in few calls."""
+    """A curve without gaps and its band, all in pixels: as :func:`ui.plot.series.paint_series`, in fewer calls."""
     fill, solid, dashed = pens
     painter.setPen(Qt.PenStyle.NoPen)
     painter.setBrush(fill)
+    painter.setRenderHint(QPainter.RenderHint.Antialiasing, False)  # a band's edge is translucent anyway
     painter.drawPolygon(polygon(np.concatenate((x, x[::-1])), np.concatenate((upper, lower[::-1]))))
+    painter.setRenderHint(QPainter.RenderHint.Antialiasing, True)
     for flag, pen in ((False, solid), (True, dashed)):
         painter.setPen(pen)
         for first, last in runs(predicted == flag):
