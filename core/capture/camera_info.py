@@ -15,6 +15,8 @@ from core.errors import CameraFileUnreadable, OutputExists, OutputNotWritable
 CAMERA_FILE = "camera_info.yaml"
 DISTORTION_MODEL = "plumb_bob"
 _MOST_BYTES = 1_000_000
+_FOCAL_SHARE = (0.2, 10.0)
+"""Focal length over the picture's width: beyond these a camera sees more than 136 or less than 6 degrees."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -113,6 +115,8 @@ def _camera(path: Path, content: dict[str, Any]) -> Camera:
     fx, skew, cx, zero, fy, cy, *last = k
     if fx <= 0.0 or fy <= 0.0 or [skew, zero, *last] != [0.0, 0.0, 0.0, 0.0, 1.0]:
         raise CameraFileUnreadable(path, "camera_matrix is not [fx, 0, cx, 0, fy, cy, 0, 0, 1]")
+    if not all(_FOCAL_SHARE[0] <= f / width <= _FOCAL_SHARE[1] for f in (fx, fy)):
+        raise CameraFileUnreadable(path, f"fx {fx:g} and fy {fy:g} are no camera's with pictures {width} pixels wide")
     distortion = _data(path, content, "distortion_coefficients") if "distortion_coefficients" in content else []
     if len(distortion) not in (0, 4, 5):
         raise CameraFileUnreadable(path, f"distortion_coefficients has {len(distortion)} numbers, 5 expected")

@@ -72,6 +72,8 @@ def test_a_file_of_ros_is_read(tmp_path: Path) -> None:
         ("0, 0, 1]\ndist", "0, 0]\ndist", "8 numbers"),
         ("[537.5,", "[-537.5,", "camera_matrix"),
         ("[537.5,", "[.nan,", "camera_matrix"),
+        ("[537.5,", "[0.5375,", "no camera's"),
+        ("[537.5,", "[537500.0,", "no camera's"),
         ("[537.5,", "[wide,", "camera_matrix"),
         ("0.0]\nrect", "0.0\nrect", "not YAML, line"),
         ("[1e-05, -2.5e-1, 0.001,", "[", "2 numbers"),
@@ -89,7 +91,9 @@ def test_a_wrong_file_names_what_is_wrong(tmp_path: Path, old: str, new: str, fa
     assert caught.value.subject == str(path)
 
 
-@pytest.mark.parametrize("content", [b"", b"just words", b"- 1\n- 2\n", b"\xff\xfe\x00"])
+@pytest.mark.parametrize(
+    "content", [b"", b"just words", b"- 1\n- 2\n", b"\xff\xfe\x00", b"[" * 100_000, b"#" * 2_000_000]
+)
 def test_something_else_is_no_camera_file(tmp_path: Path, content: bytes) -> None:
     path = tmp_path / "camera_info.yaml"
     path.write_bytes(content)
