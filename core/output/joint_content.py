@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 
@@ -126,11 +125,3 @@ def _total_rows(total: TotalMotion) -> list[RangeRow]:
         replace(item, joint=f"TAM{total.finger}", seen_share=total.seen_share, inferred=total.inferred)
         for item in (row, flexion, deficit)
     ]
-
-
-def total_grade(total_deg: float, usual_deg: float) -> str:
-    """``excellent``, ``good``, ``fair`` or ``poor`` by share of the usual total; empty when unknown."""
-    if not math.isfinite(total_deg) or not usual_deg > 0.0:
-        return ""
-    share = total_deg / usual_deg
-    return "excellent" if share >= 1.0 else "good" if share > 0.75 else "fair" if share > 0.5 else "poor"

@@ -2,14 +2,19 @@
 
 from __future__ import annotations
 
+from PySide6.QtCore import QPointF
+from PySide6.QtGui import QColor, QPen
+
 from core.output.joint_content import JointCurves
 from core.output.report_content import Curves, SessionFigures
+from ui.figures import TOKENS, row_name
 from ui.fonts import MEDIUM, REGULAR, SEMIBOLD
 from ui.report.hand_rows import FingerRow, column_heads, finger_rows, limits_words
 from ui.report.page import Page
 from ui.report.tables import mean_words, repetition_words
-from ui.review.hand_curves import HandPlot, paint_hand_session, place_hand_panels
+from ui.review.hand_curves import BENDING, HandPlot, paint_hand_session, place_hand_panels
 from ui.terms import arc_name
+from ui.theme import LIGHT
 from ui.translate import tr
 
 EDGES = (0.0, 0.070, 0.185, 0.297, 0.392, 0.515, 0.660, 0.706, 0.798)
@@ -81,9 +86,22 @@ def paint_wrist_line(page: Page, figures: SessionFigures, top: float) -> float:
 
 def paint_finger_curves(page: Page, curves: Curves, joints: JointCurves, figures: SessionFigures, top: float) -> float:
     """Bending of every finger over time; dashed where it was hidden."""
-    aside = tr("knuckle, middle joint, end joint; dashed: hidden, not counted; hatched: lost")
+    aside = tr("dashed: hidden, not counted; hatched: lost")
     page.title(tr("Bending over time"), top + 11, aside)
+    _paint_key(page, page.right - page.width_of(aside, 8.5) - 12, top + 11)
     plot = HandPlot(curves, figures.exercise, figures.repetitions, -1, joints=joints)
     box = page.box(page.left + 80, top + 28, page.right - page.left - 88, CURVES_PT)
     paint_hand_session(page.painter, page.style, plot, place_hand_panels(plot, box, BETWEEN_PT * page.point))
     return top + 28 + CURVES_PT + 16
+
+
+def _paint_key(page: Page, right: float, baseline: float) -> None:
+    """Which colour is which joint, ending at ``right``."""
+    for row in reversed(BENDING):
+        name = row_name(row)
+        left = right - page.width_of(name, 8.5)
+        page.text(name, left, baseline, 8.5, REGULAR, "text2")
+        page.painter.setPen(QPen(QColor(getattr(LIGHT, TOKENS[row])), 1.6 * page.point))
+        y = (baseline - 3.0) * page.point
+        page.painter.drawLine(QPointF((left - 14) * page.point, y), QPointF((left - 4) * page.point, y))
+        right = left - 22
