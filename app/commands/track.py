@@ -178,6 +178,8 @@ def warn_of_experiment(settings: TrackSettings, protocol: MarkerProtocol) -> Non
 def warn(verdict: Verdict) -> None:
     """Say on stderr what is doubtful about a calibration."""
     for finding in verdict.findings:
+        if finding.blocks:
+            continue  # this ends the command, and is said there
         print(f"carpus: {finding_sentence(finding)}", file=sys.stderr)
 
 

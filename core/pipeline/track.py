@@ -164,9 +164,9 @@ def track_recording(
     if not opening:
         raise RecordingEmpty(source.info.name)
     outcome = calibrate(clicks, opening, source.info.camera, settings.calibration, settings.detection, start_angles_rad)
-    calibration = require_calibration(outcome)
     if on_verdict is not None and not outcome.verdict.is_good:
-        on_verdict(outcome.verdict)
+        on_verdict(outcome.verdict)  # also before a fault: it may say why a click has no depth
+    calibration = require_calibration(outcome)
     neutral_ends_s = opening[outcome.capture_frames - 1].timestamp_s
     learnt = learnt_from(outcome.noise, neutral_ends_s, settings.tracker)
     walk = build_walk(outcome, source.info.camera, settings, learnt, keep_history=settings.smooth)

@@ -10,6 +10,7 @@ import sys
 import time
 from pathlib import Path
 
+import cv2
 import pytest
 from tqdm import tqdm
 
@@ -234,3 +235,27 @@ def test_the_unattended_way_can_be_stopped(tmp_path: Path) -> None:
         said = process.communicate(timeout=60)[1]
     assert process.returncode == 1
     assert said == "carpus: stopped.\n"
+
+
+def test_depth_beside_colour_is_told_also_where_a_marker_has_none(
+    recording: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """The remedy is registration, not another place for the hand."""
+    copy = tmp_path / "beside"
+    (copy / "depth").mkdir(parents=True)
+    for path in recording.iterdir():
+        if path.name != "depth":
+            (copy / path.name).symlink_to(path)
+    u, v = map(int, json.loads((recording / CLICKS_FILE).read_text())["markers"]["MCP4"])
+    for path in (recording / "depth").iterdir():
+        depth = cv2.imread(str(path), cv2.IMREAD_UNCHANGED)
+        assert depth is not None
+        depth[:, 15:] = depth[:, :-15].copy()
+        depth[v - 9 : v + 10, u - 9 : u + 10] = 0
+        cv2.imwrite(str(copy / "depth" / path.name), depth)
+    output = tmp_path / "s.h5"
+    assert main(["track", str(copy), "--calibration", str(copy / CLICKS_FILE), "--output", str(output)]) == 1
+    said = capsys.readouterr().err
+    assert "Depth and colour do not lie on each other" in said
+    assert said.count("measures no depth") == 1
+    assert not output.exists()
