@@ -42,7 +42,7 @@ def _quiet_bars(monkeypatch: pytest.MonkeyPatch) -> None:
 @pytest.fixture(scope="module")
 def recording(tmp_path_factory: pytest.TempPathFactory) -> Path:
     folder = tmp_path_factory.mktemp("recording") / "wrist"
-    simulate(RecordingSpec(seed=3, seconds=0.5), folder)
+    simulate(RecordingSpec(seed=2, seconds=0.5), folder)
     return folder
 
 
