@@ -56,6 +56,14 @@ def test_every_finger_has_a_panel_and_a_chosen_one_has_bending_and_spreading(scr
     assert panels[0][0].box.height() == pytest.approx(2 * panels[1][0].box.height())
 
 
+def test_the_wrist_of_a_whole_hand_has_its_three_angles(screen: ReviewScreen) -> None:
+    screen.finger.buttons()[-1].click()
+    assert not isinstance(screen.curves._plot, HandPlot)
+    assert [column for _, column in screen.curves.panels()] == [1, 0, 2]
+    screen.finger.buttons()[0].click()
+    assert len(screen.curves.panels()) == 5
+
+
 def test_a_curve_is_dashed_exactly_where_a_disc_of_the_joint_was_hidden(
     screen: ReviewScreen, store: FakeHandSessions
 ) -> None:

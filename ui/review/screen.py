@@ -52,6 +52,8 @@ from ui.review.table import RangeTable
 from ui.theme import GAP_PX, MARGIN_PX, ON_PICTURE_LINE, Theme, is_tight
 
 PLAY_EVERY_MS = 40
+WRIST = -1
+"""Instead of a finger's number: the wrist's three angles."""
 TRAIL_S = 1.0
 """How far back the way of the fingertips is drawn."""
 EDGE_STEP_S = 0.1
@@ -100,7 +102,7 @@ class ReviewScreen(QWidget):
         self.limits = Text(theme, "", 12, REGULAR, "text2", wrap=True)
         fingers: list[tuple[object, str]] = [(0, self.tr("All fingers"))]
         fingers += [(finger, finger_name(str(finger))) for finger in FINGERS]
-        self.finger = Choices(theme, fingers)
+        self.finger = Choices(theme, [*fingers, (WRIST, self.tr("Wrist"))])
         self.title = Text(theme, self.tr("Range of motion"), 20, SEMIBOLD)
         self.count = Text(theme, "", 14, REGULAR, "text2", wrap=True)
         self.again_button = Button(theme, self.tr("Another set"), "quiet", icon="plus")
@@ -266,7 +268,7 @@ class ReviewScreen(QWidget):
         if figures is None or curves is None:
             return
         plot = SessionPlot(curves, figures.exercise, figures.repetitions, self._current)
-        if self._joints is not None:
+        if self._joints is not None and self._finger != WRIST:
             plot = HandPlot(
                 curves, figures.exercise, figures.repetitions, self._current, joints=self._joints, finger=self._finger
             )
@@ -448,8 +450,9 @@ class ReviewScreen(QWidget):
         times = self._curves.time_s
         recent = slice(int(np.searchsorted(times, times[self._row] - TRAIL_S)), self._row + 1)
         all_seen = np.isfinite(self._session.markers.measured_px[recent, :, 0])
-        paint_trails(painter, picture, self._modelled_px[recent], all_seen, self._finger)
-        paint_skeleton(painter, picture, spots, seen, self._finger)
+        finger = max(self._finger, 0)
+        paint_trails(painter, picture, self._modelled_px[recent], all_seen, finger)
+        paint_skeleton(painter, picture, spots, seen, finger)
         self._paint_labels(painter, picture)
 
     def _paint_labels(self, painter: QPainter, picture: PictureView) -> None:
