@@ -151,6 +151,12 @@ class Gallery:
         screen.begin(FakeStore().rows[5], set_up(), "right", False)
         self.show(screen, screen.first())
 
+    def exercise_hand(self) -> None:
+        self.place(steps=0)
+        screen = ExerciseScreen(self.theme)
+        screen.begin(FakeStore().rows[5], set_up("FIST_COMPOSITE", 90.0), "left", False)
+        self.show(screen, screen.first())
+
     def camera(self) -> None:
         self.place(steps=1)
         screen = CameraScreen(self.theme)
@@ -407,6 +413,7 @@ class Gallery:
         """Every state by its file name, in the order of the journey."""
         names = (
             "patients", "patients_empty", "patients_not_found", "patients_recovered", "patient_form", "exercise",
+            "exercise_hand",
             "camera", "markers_clicking", "markers_ready", "markers_swapped", "markers_doubtful",
             "markers_start_angle", "markers_proposed", "markers_proposed_doubtful", "markers_proposed_incomplete",
             "live", "live_speeds", "live_marker_hidden", "live_hand_lost", "live_hand",

@@ -13,7 +13,8 @@ from tests.ui.gallery import Gallery
 
 SCALES = (1.0, 1.5)
 STATES = (
-    "patients", "patients_empty", "patients_not_found", "patients_recovered", "patient_form", "exercise", "camera",
+    "patients", "patients_empty", "patients_not_found", "patients_recovered", "patient_form", "exercise",
+    "exercise_hand", "camera",
     "markers_clicking", "markers_ready", "markers_swapped", "markers_doubtful", "markers_start_angle",
     "markers_proposed", "markers_proposed_doubtful", "markers_proposed_incomplete", "live",
     "live_speeds", "live_marker_hidden", "live_hand_lost", "live_hand", "live_hand_thumb_hidden", "live_hand_fist",

@@ -231,6 +231,8 @@ class NumberCard(QWidget):
                 painter.setFont(font(16 * scale, SEMIBOLD))
                 width = QFontMetricsF(painter.font()).horizontalAdvance(words)
                 left = max(box.left(), min(box.right() - width, x(target) - width + 8 if target > 0 else x(target) - 8))
+                if scale > 1.0:  # large text leaves no room under the speed
+                    left = min(left, self.width() - 230 * scale - 12 - width)
                 painter.setPen(theme.color("accent"))
                 painter.drawText(QPointF(left, middle - 17), words)
         painter.setFont(font(12 * scale, MEDIUM))

@@ -23,7 +23,8 @@ CHAINS = tuple(
     )
 )
 """Rows of the markers of each finger, from the wrist on."""
-SIDE_SPAN_M = 0.12
+SIDE_SPAN_M = 0.105
+"""A long finger, straight; bent, it comes back below its knuckle, for which there is room on the left."""
 SIDE_WIDTH_PX, SIDE_HEIGHT_PX = 138, 126
 
 
@@ -94,8 +95,8 @@ def paint_side(
     points = side_points_m(frame, finger)
     if not np.isfinite(points).all():
         return
-    unit = (box.width() - 34) / SIDE_SPAN_M
-    start = QPointF(box.left() + 22, box.top() + 0.48 * box.height())
+    unit = (0.72 * box.width() - 12) / SIDE_SPAN_M
+    start = QPointF(box.left() + 0.28 * box.width(), box.top() + 0.38 * box.height())
     at = [start + QPointF(float(x) * unit, -float(z) * unit) for x, z in points]
     seen = np.isfinite(frame.marker_measured_px[list(CHAINS[finger - 1][1:]), 0])
     painter.setPen(QPen(QColor(255, 255, 255, 110), 4))

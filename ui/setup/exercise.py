@@ -148,7 +148,7 @@ class ExerciseScreen(QWidget):
         for number, (field, name) in enumerate(zip(self._target_fields, self._target_names, strict=True)):
             field.setVisible(exercise.angle is not None or (bool(exercise.joint) and number == 0))
             if exercise.joint and number == 0:
-                words = self.tr("Target, {movement}").format(movement=figure_of(exercise.joint).long_name)
+                words = self.tr("Target, {movement}").format(movement=_lower(figure_of(exercise.joint).long_name))
                 name.setText(words)
                 self.targets[number].setAccessibleName(words)
             elif exercise.angle is not None:
@@ -178,3 +178,7 @@ def _exercises_of(theme: Theme, protocol: str) -> Options:
     return Options(
         theme, [(item.id, terms.exercise_name(item.id), terms.exercise_instruction(item.id)) for item in rows]
     )
+
+
+def _lower(words: str) -> str:
+    return words[:1].lower() + words[1:]
