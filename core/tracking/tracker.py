@@ -37,10 +37,14 @@ from core.types import Detections, FloatArray, Moment, TrackedFrame, TrackStatus
 SHARE_WINDOW_S = 1.0
 _SAME_AXIS = np.eye(2)
 LEAST_PALM_MARKERS = 3
+PROBATION_S = 0.2
+"""A hand found again out of nothing must keep showing for so long."""
 VAGUE_TURN_RAD = 0.15
 """Expecting the hand's turn less surely than this, the filter may settle on wrong names or at a wrong pose."""
 BLIND_TURN_RAD = (0.1, 0.1, 0.15, 0.35)
 """Expecting it less surely than this, any so many blobs would do for discs: none, one, two, three of them."""
+BLIND_AMONG_FINGERS_RAD = (*BLIND_TURN_RAD, 0.35)
+"""Where there are discs on fingers, four of these can look like four of the palm."""
 
 TURN_SLACK_RAD, MOST_TURN_RATE_RAD_S, MOST_TURN_RAD = 0.35, 12.0, 1.9
 """A hand gone from sight is not found turned further than it may have turned meanwhile, nor ever the other way."""
@@ -100,6 +104,7 @@ class Tracker:
         self._time_s: float | None = None
         self._seen_s = -np.inf
         self._begun_s = -np.inf
+        self._found_s = -np.inf
         self._anew = True
         self._forecast: tuple[float, Forecast] | None = None
         self.history: list[FilterStep] = []
@@ -162,6 +167,7 @@ class Tracker:
                 return self._lost(index, timestamp_s, detections, dropped_before)
             self._begin(self._belief_found(*found[:2]))
             self._seen_s, linked, self._time_s = timestamp_s, False, timestamp_s
+            self._found_s = timestamp_s
         assert self._bank is not None
         dt_s = 0.0 if self._time_s is None else timestamp_s - self._time_s
         ahead = self._forecast_at(timestamp_s, self._bank)
@@ -180,9 +186,13 @@ class Tracker:
                 if step_there.palm_seen >= max(LEAST_PALM_MARKERS + 1, step.palm_seen):
                     # A vague belief has nothing against the place found: the smoother may go on through it.
                     ahead, step, linked, turn_sd_rad = there, step_there, linked and vague, 0.0
-        if step.palm_seen <= LEAST_PALM_MARKERS and turn_sd_rad > BLIND_TURN_RAD[step.palm_seen]:
+        blind_rad = BLIND_TURN_RAD if self._fingers is None else BLIND_AMONG_FINGERS_RAD
+        if step.palm_seen < len(blind_rad) and turn_sd_rad > blind_rad[step.palm_seen]:
             none = _only(ideal, np.zeros(len(ideal), dtype=bool))
             step = self._weighed(timestamp_s, dt_s, ahead, self._measurable(ahead, none), none)
+        if step.palm_seen < self._least_seen(timestamp_s):
+            # Found a moment ago, and the next pictures do not bear it out: it was no hand, or not there.
+            return self._lost(index, timestamp_s, detections, dropped_before)
         self._time_s, self._forecast = timestamp_s, None
         self._noise_factor = watched(self._noise_factor, step.palm, dt_s, self.settings.noise)
         belief = step.bank.nominal
@@ -205,6 +215,12 @@ class Tracker:
             self._finger_history.append(finger_step)
             self.history.append(FilterStep(timestamp_s, belief, scale, linked))
         return self._shown(index, timestamp_s, status, ahead, step, detections, dropped_before)
+
+    def _least_seen(self, timestamp_s: float) -> int:
+        """Discs of the palm without which a hand found again is given up."""
+        if timestamp_s == self._found_s:
+            return LEAST_PALM_MARKERS + 1
+        return LEAST_PALM_MARKERS if timestamp_s - self._found_s < PROBATION_S else 0
 
     def _may_be_at(self, rotation_w2_w0: FloatArray, timestamp_s: float) -> bool:
         """Whether a hand can have turned there since it was last seen."""
