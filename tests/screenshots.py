@@ -10,7 +10,7 @@ import tempfile
 from pathlib import Path
 
 FOLDER = Path("out/screenshots")
-README_PICTURE = Path("docs/live.jpg")
+README_PICTURE = Path("resources/pictures/live.jpg")
 README_SIZE = (1280, 800)
 README_QUALITY = 92
 

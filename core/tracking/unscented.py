@@ -14,7 +14,7 @@ from core.types import FloatArray
 class Spread:
     """How far the points stand from the mean. With kappa 0 and alpha 1 they stand at sqrt(n) sigma."""
 
-    alpha: float = 0.3
+    alpha: float = 0.25
     beta: float = 2.0
     kappa: float = 0.0
 
