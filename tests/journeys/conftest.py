@@ -53,7 +53,11 @@ def open_desktop(qapp: QApplication, take: Path, data: Path, tmp_path: Path) -> 
     yield open_one
     for desktop in opened:
         desktop.close()
-    # left alive, they would make every later change of style as slow as all of them together
+    let_go(qapp)
+
+
+def let_go(qapp: QApplication) -> None:
+    """Delete all windows: left alive, they would make every later change of style as slow as all of them together."""
     for widget in qapp.topLevelWidgets():
         widget.deleteLater()
     qapp.processEvents()

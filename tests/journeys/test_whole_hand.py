@@ -18,6 +18,7 @@ from app.settings import RecordingSettings, ScreenSettings, Settings
 from core.hand.protocols import HAND21, joint_angle_names
 from core.simulation.recording import TRUTH_FILE, simulate
 from core.simulation.spec import RecordingSpec
+from tests.journeys.conftest import let_go
 from tests.journeys.takes import clicks_of, take_of
 from tests.journeys.test_journey import at, click, reviewed, still_hand, wait
 from ui.ports import PRACTICE_PATIENT
@@ -45,8 +46,7 @@ def desktop(qapp: QApplication, hand_take: Path, tmp_path: Path) -> Iterator[Des
     composed.show()
     yield composed
     composed.close()
-    composed.shell.deleteLater()
-    qapp.processEvents()
+    let_go(qapp)
 
 
 def test_the_whole_hand_from_set_up_to_session_file(qtbot: QtBot, desktop: Desktop, hand_take: Path) -> None:
