@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import threading
 from bisect import bisect_left
 from collections.abc import Callable, Sequence
+from concurrent.futures import Future, ThreadPoolExecutor
 from contextlib import suppress
 from dataclasses import fields
 from pathlib import Path
@@ -33,7 +35,9 @@ _AROUND_HAND = 0.6
 """The picture of the markers reaches this share of their box beyond it."""
 
 
-SMOOTHING_PIECE_S, SMOOTHING_LAG_S = 25.0, 5.0
+SMOOTHING_PIECE_S, SMOOTHING_LAG_S = 12.0, 5.0
+_REST_S = 0.004
+"""After each frame looked back at, so that tracking and window come first; nothing of it once the recording stops."""
 
 
 class SessionPlaces(Protocol):
@@ -67,28 +71,29 @@ class LiveWalk:
             tracker.begin_at_neutral()
             self._begun = True
         if not self.keeping:
-            tracker.history.clear()
+            tracker.forget()
         return self._walk(frame)
 
-    def smoothed(self, timestamp_s: Sequence[float], forget_before_s: float) -> Motion | None:
+    def smoothed(self, timestamp_s: Sequence[float], forget_before_s: float, rest: Callable[[], None]) -> Motion | None:
         """The smoother's result at the times of some rows; None where one of them was not kept.
 
-        What is older than ``forget_before_s`` is given up. Called from the writing thread.
+        What is older than ``forget_before_s`` is given up. Called from one other thread; ``rest`` after each frame.
         """
         tracker = self._walk.tracker
-        moments = tracker.smoothed()
+        moments = tracker.smoothed(rest)
         steps = tracker.history[: len(moments)]
         at = {step.timestamp_s: moment for step, moment in zip(steps, moments, strict=True)}
-        del tracker.history[: sum(step.timestamp_s < forget_before_s for step in steps)]
+        tracker.forget(forget_before_s)
         if any(time_s not in at for time_s in timestamp_s):
             return None
         return motion_of([at[time_s] for time_s in timestamp_s])
 
 
 class SmoothedSession:
-    """A session file that is smoothed as it grows, in the writing thread, so that neither memory nor the end grow.
+    """A session file that is smoothed as it grows, so that neither memory nor the end grow.
 
-    Every half minute the rows are smoothed whose future is known for ``SMOOTHING_LAG_S``; by then what comes later
+    A thread of its own does that: whoever writes rows must not wait, or a kill would lose what waits with it. Now and
+    then the rows are smoothed whose future is known for ``SMOOTHING_LAG_S``; by then what comes later
     changes nothing that matters.
     """
 
@@ -96,7 +101,9 @@ class SmoothedSession:
         self._writer, self._walk = writer, walk
         self._rows = 0
         self._waiting_s: list[float] = []
-        self._pieces: list[Motion | None] = []
+        self._smoothing = ThreadPoolExecutor(1, thread_name_prefix="smoothing")
+        self._pieces: list[Future[Motion | None]] = []
+        self._stopping = threading.Event()
         self._early: list[tuple[str, str]] = []
 
     @property
@@ -125,12 +132,16 @@ class SmoothedSession:
     def close(self) -> None:
         """Smooth the rest and finish; a session without a single frame is none."""
         if not self._rows:
-            self._writer.discard()
+            self.discard()
             raise RecordingEmpty(self.path.name)
+        self._writer.flush()
+        self._stopping.set()
         self._smooth(np.inf)
-        pieces = [piece for piece in self._pieces if piece is not None]
-        if pieces and len(pieces) == len(self._pieces):
+        found = [piece.result() for piece in self._pieces]
+        pieces = [piece for piece in found if piece is not None]
+        if pieces and len(pieces) == len(found):
             self._writer.write_smoothed(_joined(pieces))
+        self._smoothing.shutdown()
         self._writer.close()
 
     def _smooth(self, until_s: float) -> None:
@@ -138,15 +149,25 @@ class SmoothedSession:
             return
         count = bisect_left(self._waiting_s, until_s)
         if count:
-            self._pieces.append(self._walk.smoothed(self._waiting_s[:count], until_s))
+            piece = self._smoothing.submit(self._walk.smoothed, self._waiting_s[:count], until_s, self._rest)
+            self._pieces.append(piece)
             del self._waiting_s[:count]
+
+    def _rest(self) -> None:
+        self._stopping.wait(_REST_S)
+
+    def _end_smoothing(self) -> None:
+        self._stopping.set()
+        self._smoothing.shutdown(cancel_futures=True)
 
     def abandon(self) -> None:
         """Stop after a fault; what is on the disk stays."""
+        self._end_smoothing()
         self._writer.abandon()
 
     def discard(self) -> None:
         """Remove the file again."""
+        self._end_smoothing()
         self._writer.discard()
 
 

@@ -126,7 +126,7 @@ class FingerModel:
         rate = np.arange(layout.rates.start, layout.rates.stop)
         if layout.has_rates:
             covariance[:, rate, rate] = np.where(self._moves, self.settings.initial.joint_rates_rad_s**2, 1e-12)
-        return self._alike(mean, covariance)
+        return self.alike(mean, covariance)
 
     def anywhere(self, mean: FloatArray, covariance: FloatArray) -> RayBeliefs:
         """The anatomy as known by now, (5, n) and (5, n, n), the joints anywhere in their range."""
@@ -141,7 +141,7 @@ class FingerModel:
         if layout.has_rates:
             rate = np.arange(layout.rates.start, layout.rates.stop)
             covariance[:, rate, rate] = np.where(self._moves, _STARTS_AT_RATE_SD**2, 1e-12)
-        return self._alike(mean, covariance)
+        return self.alike(mean, covariance)
 
     def at_postures(self, beliefs: RayBeliefs, postures: dict[int, FloatArray]) -> RayBeliefs:
         """Some rays begun anew about postures, slots (5,) by ray, the anatomy as known by now."""
@@ -159,7 +159,8 @@ class FingerModel:
         probability[rays] = fresh.probability[rays]
         return RayBeliefs(mean, covariance, probability)
 
-    def _alike(self, mean: FloatArray, covariance: FloatArray) -> RayBeliefs:
+    def alike(self, mean: FloatArray, covariance: FloatArray) -> RayBeliefs:
+        """All modes alike and as probable, of means (5, n) and covariances (5, n, n)."""
         count = self.scales.size
         return RayBeliefs(
             np.repeat(mean[:, None], count, axis=1),

@@ -7,7 +7,7 @@ only its anatomy is carried back.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -18,12 +18,14 @@ from core.tracking.hand_geometry import RAYS, SLOTS, JointMoment
 from core.tracking.joint_limits import constrained
 from core.tracking.ray_filter import (
     PINNINGS,
+    RayBeliefs,
     RayForecast,
     corrected,
     forecast,
     learning_shares,
     spread_points,
 )
+from core.tracking.smoother import no_rest
 from core.types import FloatArray
 
 
@@ -55,11 +57,52 @@ class _Filtered:
     is_linked: bool
 
 
+@dataclass(frozen=True, slots=True)
+class FingerStart:
+    """What was believed after the frame before the first step, at its time; ``unseen_s`` (5, 5) as in the tracker."""
+
+    beliefs: RayBeliefs
+    unseen_s: FloatArray
+    timestamp_s: float
+    is_lost: bool
+
+
+@dataclass(frozen=True, slots=True)
+class FingersLookedBack:
+    """The joints of every frame, None where the hand was lost, and what a later look back can go on from."""
+
+    moments: list[JointMoment | None]
+    filtered: list[_Filtered | None]
+    steps: Sequence[FingerStep | None]
+
+    def start_after(self, count: int, model: FingerModel) -> FingerStart | None:
+        """What to go on from when the first ``count`` steps are forgotten; None where nothing is known."""
+        known = [k for k in range(count) if self.filtered[k] is not None and self.steps[k] is not None]
+        if not known:
+            return None
+        now, step = self.filtered[known[-1]], self.steps[known[-1]]
+        assert now is not None
+        assert step is not None
+        lower = np.tril_indices(model.layout.size)
+        shown = (SHOWS & step.shown[:, None, :]).any(axis=-1)
+        return FingerStart(
+            model.alike(now.mean, _whole(now.covariance, lower, model.layout.size)),
+            np.where(shown, 0.0, now.unseen_s),
+            step.timestamp_s,
+            known[-1] != count - 1,
+        )
+
+
 def smooth_fingers(
-    model: FingerModel, steps: Sequence[FingerStep | None], seats: Sequence[Seat | None]
-) -> list[JointMoment | None]:
-    """The joints of every frame; None where the hand was lost. ``seats`` are those of the smoothed palm."""
-    filtered = _filtered(model, steps, seats)
+    model: FingerModel,
+    steps: Sequence[FingerStep | None],
+    seats: Sequence[Seat | None],
+    start: FingerStart | None = None,
+    rest: Callable[[], None] = no_rest,
+) -> FingersLookedBack:
+    """The joints of every frame. ``seats`` are those of the smoothed palm; without ``start`` the first frame begins
+    at the neutral pose. ``rest`` as for :func:`core.tracking.smoother.smooth`."""
+    filtered = _filtered(model, steps, seats, start, rest)
     out: list[JointMoment | None] = [None] * len(steps)
     lower = np.tril_indices(model.layout.size)
     mean, covariance = np.empty(0), np.empty(0)
@@ -74,7 +117,8 @@ def smooth_fingers(
         else:
             mean, covariance = mean_now, covariance_now
         out[k] = model.read(mean, covariance, seat, _line(model, mean, covariance, seat))
-    return out
+        rest()
+    return FingersLookedBack(out, filtered, steps)
 
 
 def _line(model: FingerModel, mean: FloatArray, covariance: FloatArray, seat: Seat) -> RayForecast:
@@ -84,11 +128,17 @@ def _line(model: FingerModel, mean: FloatArray, covariance: FloatArray, seat: Se
 
 
 def _filtered(
-    model: FingerModel, steps: Sequence[FingerStep | None], seats: Sequence[Seat | None]
+    model: FingerModel,
+    steps: Sequence[FingerStep | None],
+    seats: Sequence[Seat | None],
+    start: FingerStart | None,
+    rest: Callable[[], None],
 ) -> list[_Filtered | None]:
     out: list[_Filtered | None] = []
     beliefs, unseen_s, time_s = model.at_neutral(), np.zeros((RAYS, SLOTS)), float("nan")
     is_lost = False
+    if start is not None:
+        beliefs, unseen_s, time_s, is_lost = start.beliefs, start.unseen_s, start.timestamp_s, start.is_lost
     lower = np.tril_indices(model.layout.size)
     for step, seat in zip(steps, seats, strict=True):
         if step is None or seat is None:
@@ -119,6 +169,7 @@ def _filtered(
         shown = (SHOWS & step.shown[:, None, :]).any(axis=-1)
         unseen_s = np.where(shown, 0.0, unseen_s + (step.timestamp_s - time_s if is_linked else 0.0))
         time_s, is_lost = step.timestamp_s, False
+        rest()
     return out
 
 

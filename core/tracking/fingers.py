@@ -20,7 +20,7 @@ from core.tracking.finger_naming import (
     tilt_to,
     tilt_variance,
 )
-from core.tracking.finger_smoother import FingerStep
+from core.tracking.finger_smoother import FingerStart, FingerStep
 from core.tracking.hand_geometry import DISCS, RAYS, SLOTS, JointMoment
 from core.tracking.joint_association import holds_together
 from core.tracking.joint_limits import constrained
@@ -232,6 +232,10 @@ class Fingers:
         if area_px.size:
             disc_m2 = np.where((taken >= 0) & (tilt < _FLAT_RAD), area_px[taken] / facing_m2, np.nan)
         return FingerTrial(seat, scene, named, disc_m2, {})
+
+    def start(self, timestamp_s: float, is_lost: bool) -> FingerStart:
+        """What is believed now, for looking back over the frames to come."""
+        return FingerStart(self._beliefs, self._unseen_s, timestamp_s, is_lost)
 
     def accept(self, trial: FingerTrial, timestamp_s: float, dt_s: float) -> FingerStep:
         """Go on from a trial; what the smoother needs of it."""

@@ -6,7 +6,9 @@ and states the angles with their standard deviations. It reads no picture and wr
 
 from __future__ import annotations
 
+import math
 from collections import deque
+from collections.abc import Callable
 from dataclasses import dataclass, fields, replace
 from typing import Any
 
@@ -18,7 +20,7 @@ from core.calibration.result import Calibration
 from core.camera import Camera
 from core.tracking import modes
 from core.tracking.finger_model import seat_of
-from core.tracking.finger_smoother import FingerStep, smooth_fingers
+from core.tracking.finger_smoother import FingersLookedBack, FingerStart, FingerStep, smooth_fingers
 from core.tracking.fingers import Fingers, FingerTrial
 from core.tracking.geometry import geometry_for, palm_of
 from core.tracking.hand_geometry import RAY_MARKERS
@@ -30,7 +32,7 @@ from core.tracking.reacquire import Reach, find_palm
 from core.tracking.readout import Readout, lost_frame, lost_moment, shown_frame
 from core.tracking.settings import TrackerSettings
 from core.tracking.shape_learning import hidden_by_calibration, slowly_learnt
-from core.tracking.smoother import FilterStep, smooth
+from core.tracking.smoother import FilterStep, no_rest, smooth
 from core.tracking.state import Belief, StateLayout, resting_belief
 from core.types import Detections, FloatArray, Moment, TrackedFrame, TrackStatus
 
@@ -109,6 +111,8 @@ class Tracker:
         self._forecast: tuple[float, Forecast] | None = None
         self.history: list[FilterStep] = []
         self._finger_history: list[FingerStep | None] = []
+        self._finger_start: FingerStart | None = None
+        self._looked_back: FingersLookedBack | None = None
         self.begin_at_neutral()
 
     def begin_at_neutral(self) -> None:
@@ -335,20 +339,39 @@ class Tracker:
         """Whether blobs of a narrowed search are too few to hold the palm, so that the rest is worth a look."""
         return len(blobs) <= LEAST_PALM_MARKERS
 
-    def smoothed(self) -> list[Moment]:
-        """Every frame so far in the light of all the others; needs the history kept. Tracking may go on meanwhile."""
-        beliefs = smooth(list(self.history), self.settings.motion_noise, self.layout)
+    def smoothed(self, rest: Callable[[], None] = no_rest) -> list[Moment]:
+        """Every frame so far in the light of all the others; needs the history kept. Tracking may go on meanwhile.
+
+        ``rest`` as for :func:`core.tracking.smoother.smooth`.
+        """
+        beliefs = smooth(list(self.history), self.settings.motion_noise, self.layout, rest)
         readout = Readout(self._calibration, self.layout)
         lost = lost_moment(self._joint_count, len(self._protocol.markers))
         moments = [lost if belief is None else readout.moment(belief) for belief in beliefs]
         if self._fingers is None:
             return moments
         seats = [None if belief is None else seat_of(belief, self.view, readout) for belief in beliefs]
-        fingers = smooth_fingers(self._fingers.model, self._finger_history[: len(beliefs)], seats)
+        self._looked_back = smooth_fingers(
+            self._fingers.model, self._finger_history[: len(beliefs)], seats, self._finger_start, rest
+        )
         return [
             lost if joints is None else readout.with_joints(moment, joints)
-            for moment, joints in zip(moments, fingers, strict=True)
+            for moment, joints in zip(moments, self._looked_back.moments, strict=True)
         ]
+
+    def forget(self, before_s: float = math.inf) -> None:
+        """Give up what :meth:`smoothed` needs of frames before that time, all of them or some just looked back at."""
+        count = sum(step.timestamp_s < before_s for step in self.history)
+        if not count:
+            return
+        if self._fingers is not None:
+            if count == len(self.history):
+                self._finger_start = self._fingers.start(self.history[-1].timestamp_s, self._bank is None)
+            elif self._looked_back is not None:
+                self._finger_start = self._looked_back.start_after(count, self._fingers.model)
+            self._looked_back = None
+        del self._finger_history[:count]
+        del self.history[:count]
 
     def _measured(self, step: _Step) -> NDArray[np.int64]:
         """Discs of the palm (3,), or whether each joint (J,), that were measured directly."""

@@ -212,8 +212,8 @@ class LiveScreen(QWidget):
     def recording_state(self) -> RecordingState:
         """What the pill says."""
         feed = self._measuring.feed if self._measuring else None
-        if feed is None or not feed.recording:
-            return "off"
+        if feed is None or not feed.recording or (self._stopping and self._count is None):
+            return "off"  # also while it is being started: nothing can be noted in it yet
         return "paused" if feed.paused or self._camera_lost else "recording"
 
     @property

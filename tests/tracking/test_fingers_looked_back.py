@@ -1,0 +1,81 @@
+"""Looking back at the fingers piece by piece, as a running recording does, gives what looking back at once gives."""
+
+from __future__ import annotations
+
+from functools import lru_cache
+
+import numpy as np
+
+from core.calibration.settings import CalibrationSettings
+from core.hand.protocols import joint_angle_names
+from core.pipeline.track import from_neutral, learnt_from
+from core.simulation.measurements import MeasurementSequence, measurement_sequence
+from core.simulation.spec import RecordingSpec
+from core.tracking.settings import TrackerSettings
+from core.tracking.tracker import Tracker
+from core.types import FloatArray
+from tests.accuracy.carpus import measured_hand
+
+RECORDED_S, PIECE_S, LAG_S = 2.0, 2.0, 1.5
+SPEC = RecordingSpec(seed=77, protocol="hand21", motion="fist", seconds=9.0, range_share=0.5, hand_length_mm=185.0)
+
+
+@lru_cache(maxsize=1)
+def sequence() -> MeasurementSequence:
+    return measurement_sequence(SPEC)
+
+
+def looked_back(*, in_pieces: bool) -> tuple[FloatArray, FloatArray, FloatArray]:
+    """Times (N,), joint angles (N, 17) and their sds, of what is recorded from ``RECORDED_S`` on."""
+    blobs = sequence()
+    times = blobs.truth.timestamp_s - blobs.truth.timestamp_s[0]
+    hand, neutral_ends_s = measured_hand(blobs, CalibrationSettings())
+    assert hand.calibration is not None
+    settings = learnt_from(hand.noise, neutral_ends_s, TrackerSettings()).applied(TrackerSettings())
+    tracker = Tracker(hand.calibration, blobs.truth.camera, settings)
+    rows: dict[float, tuple[FloatArray, FloatArray]] = {}
+
+    def take(until_s: float) -> None:
+        steps = list(tracker.history)
+        for step, moment in zip(steps, tracker.smoothed(), strict=True):
+            if RECORDED_S <= step.timestamp_s - blobs.truth.timestamp_s[0] < until_s:
+                rows.setdefault(step.timestamp_s, (moment.joint_angles_rad, moment.joint_angles_sd_rad))
+        tracker.forget(blobs.truth.timestamp_s[0] + until_s)
+
+    due_s = RECORDED_S + PIECE_S + LAG_S
+    every = range(len(times))
+    for i in from_neutral(every, tracker, neutral_ends_s, lambda row: float(blobs.truth.timestamp_s[row])):
+        if times[i] < RECORDED_S and in_pieces:
+            tracker.forget()
+        tracker.expect(float(blobs.truth.timestamp_s[i]))
+        tracker.step(i, float(blobs.truth.timestamp_s[i]), blobs.detections[i])
+        if in_pieces and times[i] >= due_s:
+            take(due_s - LAG_S)
+            due_s += PIECE_S
+    take(np.inf)
+    values = list(rows.values())
+    return np.array(list(rows)), np.array([v[0] for v in values]), np.array([v[1] for v in values])
+
+
+def test_piece_by_piece_is_as_good_as_at_once() -> None:
+    names = joint_angle_names()
+    truth = sequence().truth
+    at_s, whole, whole_sd = looked_back(in_pieces=False)
+    pieces_at_s, pieces, _ = looked_back(in_pieces=True)
+    assert np.array_equal(at_s, pieces_at_s)
+    true = truth.joint_angles_rad[np.isin(truth.timestamp_s, at_s)]
+    bending = [i for i, name in enumerate(names) if "flexion" in name]
+    error_deg = np.degrees([np.sqrt(np.mean((found - true)[:, bending] ** 2)) for found in (whole, pieces)])
+    assert error_deg[1] < 1.4 * error_deg[0] + 0.2
+    assert np.median(np.abs(pieces - whole)[:, bending] / whole_sd[:, bending]) < 0.35
+
+
+def test_what_is_forgotten_leaves_no_steps_of_the_fingers_behind() -> None:
+    blobs = sequence()
+    hand, _ = measured_hand(blobs, CalibrationSettings())
+    assert hand.calibration is not None
+    tracker = Tracker(hand.calibration, blobs.truth.camera, TrackerSettings())
+    for i in range(40):
+        tracker.forget()
+        tracker.step(i, float(blobs.truth.timestamp_s[i]), blobs.detections[i])
+    assert len(tracker.history) == len(tracker._finger_history) == 1
