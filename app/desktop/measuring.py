@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import threading
 from bisect import bisect_left
 from collections.abc import Callable, Sequence
 from concurrent.futures import Future, ThreadPoolExecutor
@@ -35,9 +34,7 @@ _AROUND_HAND = 0.6
 """The picture of the markers reaches this share of their box beyond it."""
 
 
-SMOOTHING_PIECE_S, SMOOTHING_LAG_S = 12.0, 5.0
-_REST_S = 0.004
-"""After each frame looked back at, so that tracking and window come first; nothing of it once the recording stops."""
+SMOOTHING_PIECE_S, SMOOTHING_LAG_S = 25.0, 5.0
 
 
 class SessionPlaces(Protocol):
@@ -74,13 +71,13 @@ class LiveWalk:
             tracker.forget()
         return self._walk(frame)
 
-    def smoothed(self, timestamp_s: Sequence[float], forget_before_s: float, rest: Callable[[], None]) -> Motion | None:
+    def smoothed(self, timestamp_s: Sequence[float], forget_before_s: float) -> Motion | None:
         """The smoother's result at the times of some rows; None where one of them was not kept.
 
-        What is older than ``forget_before_s`` is given up. Called from one other thread; ``rest`` after each frame.
+        What is older than ``forget_before_s`` is given up. Called from one other thread.
         """
         tracker = self._walk.tracker
-        moments = tracker.smoothed(rest)
+        moments = tracker.smoothed()
         steps = tracker.history[: len(moments)]
         at = {step.timestamp_s: moment for step, moment in zip(steps, moments, strict=True)}
         tracker.forget(forget_before_s)
@@ -103,7 +100,6 @@ class SmoothedSession:
         self._waiting_s: list[float] = []
         self._smoothing = ThreadPoolExecutor(1, thread_name_prefix="smoothing")
         self._pieces: list[Future[Motion | None]] = []
-        self._stopping = threading.Event()
         self._early: list[tuple[str, str]] = []
 
     @property
@@ -135,7 +131,6 @@ class SmoothedSession:
             self.discard()
             raise RecordingEmpty(self.path.name)
         self._writer.flush()
-        self._stopping.set()
         self._smooth(np.inf)
         found = [piece.result() for piece in self._pieces]
         pieces = [piece for piece in found if piece is not None]
@@ -149,25 +144,18 @@ class SmoothedSession:
             return
         count = bisect_left(self._waiting_s, until_s)
         if count:
-            piece = self._smoothing.submit(self._walk.smoothed, self._waiting_s[:count], until_s, self._rest)
+            piece = self._smoothing.submit(self._walk.smoothed, self._waiting_s[:count], until_s)
             self._pieces.append(piece)
             del self._waiting_s[:count]
 
-    def _rest(self) -> None:
-        self._stopping.wait(_REST_S)
-
-    def _end_smoothing(self) -> None:
-        self._stopping.set()
-        self._smoothing.shutdown(cancel_futures=True)
-
     def abandon(self) -> None:
         """Stop after a fault; what is on the disk stays."""
-        self._end_smoothing()
+        self._smoothing.shutdown(cancel_futures=True)
         self._writer.abandon()
 
     def discard(self) -> None:
         """Remove the file again."""
-        self._end_smoothing()
+        self._smoothing.shutdown(cancel_futures=True)
         self._writer.discard()
 
 
@@ -248,8 +236,10 @@ class SourceMeasuring:
             parameters=parameters_json(self._settings, source_facts(self._info), learnt),
             dip_free=self._settings.tracker.dip == "free",
         )
-        smoothing = walk if self._settings.smooth else None
-        walk.keeping = True
+        # Looking back at a whole hand takes more time than a running session has; tracking the session again does it.
+        smooths = self._settings.smooth and not calibration.clicks.protocol.has_fingers
+        smoothing = walk if smooths else None
+        walk.keeping = smooths
         try:
             self._session.start_recording(
                 lambda: SmoothedSession(SessionWriter.create(path, header, self.camera, calibration), smoothing),

@@ -7,7 +7,7 @@ only its anatomy is carried back.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -25,7 +25,6 @@ from core.tracking.ray_filter import (
     learning_shares,
     spread_points,
 )
-from core.tracking.smoother import no_rest
 from core.types import FloatArray
 
 
@@ -98,11 +97,10 @@ def smooth_fingers(
     steps: Sequence[FingerStep | None],
     seats: Sequence[Seat | None],
     start: FingerStart | None = None,
-    rest: Callable[[], None] = no_rest,
 ) -> FingersLookedBack:
     """The joints of every frame. ``seats`` are those of the smoothed palm; without ``start`` the first frame begins
-    at the neutral pose. ``rest`` as for :func:`core.tracking.smoother.smooth`."""
-    filtered = _filtered(model, steps, seats, start, rest)
+    at the neutral pose."""
+    filtered = _filtered(model, steps, seats, start)
     out: list[JointMoment | None] = [None] * len(steps)
     lower = np.tril_indices(model.layout.size)
     mean, covariance = np.empty(0), np.empty(0)
@@ -117,7 +115,6 @@ def smooth_fingers(
         else:
             mean, covariance = mean_now, covariance_now
         out[k] = model.read(mean, covariance, seat, _line(model, mean, covariance, seat))
-        rest()
     return FingersLookedBack(out, filtered, steps)
 
 
@@ -132,7 +129,6 @@ def _filtered(
     steps: Sequence[FingerStep | None],
     seats: Sequence[Seat | None],
     start: FingerStart | None,
-    rest: Callable[[], None],
 ) -> list[_Filtered | None]:
     out: list[_Filtered | None] = []
     beliefs, unseen_s, time_s = model.at_neutral(), np.zeros((RAYS, SLOTS)), float("nan")
@@ -169,7 +165,6 @@ def _filtered(
         shown = (SHOWS & step.shown[:, None, :]).any(axis=-1)
         unseen_s = np.where(shown, 0.0, unseen_s + (step.timestamp_s - time_s if is_linked else 0.0))
         time_s, is_lost = step.timestamp_s, False
-        rest()
     return out
 
 

@@ -6,7 +6,7 @@ begun anew the two stretches are smoothed each by itself.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -28,15 +28,8 @@ class FilterStep:
     linked: bool
 
 
-def no_rest() -> None:
-    """Looking back without a pause."""
-
-
-def smooth(
-    steps: Sequence[FilterStep], noise: MotionNoise, layout: StateLayout, rest: Callable[[], None] = no_rest
-) -> list[Belief | None]:
-    """Smoothed belief of every step; None where the hand was lost. ``rest`` is called after every frame, for who wants
-    to leave the processor to others."""
+def smooth(steps: Sequence[FilterStep], noise: MotionNoise, layout: StateLayout) -> list[Belief | None]:
+    """Smoothed belief of every step; None where the hand was lost."""
     out: list[Belief | None] = [step.belief for step in steps]
     for k in range(len(steps) - 2, -1, -1):
         now, later, after = steps[k].belief, out[k + 1], steps[k + 1]
@@ -49,5 +42,4 @@ def smooth(
         error = gain @ predicted.error_to(later, layout)
         covariance = now.covariance + gain @ (later.covariance - predicted.covariance) @ gain.T
         out[k] = now.moved(error, layout, 0.5 * (covariance + covariance.T))
-        rest()
     return out

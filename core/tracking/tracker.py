@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import math
 from collections import deque
-from collections.abc import Callable
 from dataclasses import dataclass, fields, replace
 from typing import Any
 
@@ -32,7 +31,7 @@ from core.tracking.reacquire import Reach, find_palm
 from core.tracking.readout import Readout, lost_frame, lost_moment, shown_frame
 from core.tracking.settings import TrackerSettings
 from core.tracking.shape_learning import hidden_by_calibration, slowly_learnt
-from core.tracking.smoother import FilterStep, no_rest, smooth
+from core.tracking.smoother import FilterStep, smooth
 from core.tracking.state import Belief, StateLayout, resting_belief
 from core.types import Detections, FloatArray, Moment, TrackedFrame, TrackStatus
 
@@ -339,12 +338,9 @@ class Tracker:
         """Whether blobs of a narrowed search are too few to hold the palm, so that the rest is worth a look."""
         return len(blobs) <= LEAST_PALM_MARKERS
 
-    def smoothed(self, rest: Callable[[], None] = no_rest) -> list[Moment]:
-        """Every frame so far in the light of all the others; needs the history kept. Tracking may go on meanwhile.
-
-        ``rest`` as for :func:`core.tracking.smoother.smooth`.
-        """
-        beliefs = smooth(list(self.history), self.settings.motion_noise, self.layout, rest)
+    def smoothed(self) -> list[Moment]:
+        """Every frame so far in the light of all the others; needs the history kept. Tracking may go on meanwhile."""
+        beliefs = smooth(list(self.history), self.settings.motion_noise, self.layout)
         readout = Readout(self._calibration, self.layout)
         lost = lost_moment(self._joint_count, len(self._protocol.markers))
         moments = [lost if belief is None else readout.moment(belief) for belief in beliefs]
@@ -352,7 +348,7 @@ class Tracker:
             return moments
         seats = [None if belief is None else seat_of(belief, self.view, readout) for belief in beliefs]
         self._looked_back = smooth_fingers(
-            self._fingers.model, self._finger_history[: len(beliefs)], seats, self._finger_start, rest
+            self._fingers.model, self._finger_history[: len(beliefs)], seats, self._finger_start
         )
         return [
             lost if joints is None else readout.with_joints(moment, joints)
