@@ -19,7 +19,7 @@ from scipy.optimize import linear_sum_assignment
 from core.camera import Camera
 from core.hand.anatomy import anatomy_from_size
 from core.hand.kinematics import disc_centres
-from core.hand.protocols import HAND21, MarkerProtocol, joint_angle_names
+from core.hand.protocols import HAND21, HAND21_CHAINS, MarkerProtocol, joint_angle_names
 from core.types import Detections, FloatArray, Side
 
 IntArray = NDArray[np.int64]
@@ -36,7 +36,6 @@ _SURE_M = 0.006
 _TRIED = 24
 """So many of the best rough fits are refined."""
 _USUAL_DEPTH_M = 0.7
-_RAYS = ((0, 1, 2, 3, 4), *((0, *range(5 + 4 * k, 9 + 4 * k)) for k in range(4)))
 
 
 @dataclass(frozen=True, slots=True)
@@ -232,7 +231,7 @@ def _rays_moved(laid: FloatArray, place: FloatArray, blob: IntArray) -> FloatArr
     out = laid.copy()
     if laid.size != len(HAND21.markers):
         return _moved(laid, place, blob)
-    for ray in _RAYS:
+    for ray in HAND21_CHAINS:
         chain = np.array(ray[1:])
         named = chain[blob[chain] >= 0]
         if named.size >= 2:

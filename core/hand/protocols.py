@@ -33,6 +33,15 @@ HAND21 = MarkerProtocol(
     + tuple(f"{joint}{k}" for k in (2, 3, 4, 5) for joint in ("MCP", "PIP", "DIP", "TIP")),
 )
 
+HAND21_CHAINS = tuple(
+    tuple(HAND21.markers.index(name) for name in names)
+    for names in (
+        ("WRIST", "CMC1", "MCP1", "IP1", "TIP1"),
+        *(("WRIST", *(f"{joint}{k}" for joint in ("MCP", "PIP", "DIP", "TIP"))) for k in (2, 3, 4, 5)),
+    )
+)
+"""Rows of the markers of thumb and fingers 2 to 5 in ``hand21``, from the wrist to the tip."""
+
 _THUMB = ("CMC1_extension", "CMC1_abduction", "MCP1_flexion", "MCP1_abduction", "IP1_flexion")
 
 

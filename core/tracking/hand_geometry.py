@@ -15,16 +15,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from core.hand.kinematics import DIP_PER_PIP
-from core.hand.protocols import HAND21, joint_angle_names
+from core.hand.protocols import HAND21, HAND21_CHAINS, joint_angle_names
 from core.types import FloatArray, Side
 
 RAYS, SLOTS, CONSTANTS = 5, 5, 11
 DISCS = 3
 """Discs of a ray that move against the palm."""
 
-RAY_MARKERS = np.array([[HAND21.markers.index(name) for name in ray] for ray in (
-    ("MCP1", "IP1", "TIP1"), *((f"PIP{k}", f"DIP{k}", f"TIP{k}") for k in (2, 3, 4, 5))
-)])  # fmt: skip
+RAY_MARKERS = np.array(HAND21_CHAINS)[:, 2:]
 """Places (5, 3) of the rays' discs in ``hand21``."""
 
 CROWDED_SD_PX = 0.5

@@ -31,7 +31,7 @@ LEAVING = RecordingSpec(
 
 @dataclass(slots=True)
 class Costs:
-    """CPU milliseconds for each frame."""
+    """CPU milliseconds for each frame; of a whole hand ``filter`` is all but detection and association."""
 
     whole: list[float] = field(default_factory=list)
     detection: list[float] = field(default_factory=list)
@@ -63,6 +63,15 @@ def walk_of(folder: Path, frames: list[Frame]) -> tuple[FrameWalk, float]:
     return build_walk(outcome, camera, settings, learnt, keep_history=False), ends_s
 
 
+def plain_step(plain: reference.ReferenceFilter, time_s: float, rng: np.random.Generator) -> float:
+    """One step of the yardstick on its own motion; CPU milliseconds."""
+    pixel = reference.measured(reference.motion(time_s)[None])[0] + rng.normal(0.0, 1.0, 2 * reference.MARKERS)
+    times = Times()
+    with times.measured():
+        plain.step(pixel, 1.0 / 30.0)
+    return times.cpu_ms[0]
+
+
 def measure(folder: Path, costs: Costs, rounds: int) -> None:
     """Track the recording so often, the plain filter stepped once after every frame."""
     frames = frames_of(folder)
@@ -75,12 +84,7 @@ def measure(folder: Path, costs: Costs, rounds: int) -> None:
                 if frame.timestamp_s <= ends_s:
                     continue
                 _one_frame(walk, frame, spy, costs)
-                state = reference.motion(frame.timestamp_s - ends_s)
-                pixel = reference.measured(state[None])[0] + rng.normal(0.0, 1.0, 2 * reference.MARKERS)
-                times = Times()
-                with times.measured():
-                    plain.step(pixel, 1.0 / 30.0)
-                costs.reference += times.cpu_ms
+                costs.reference.append(plain_step(plain, frame.timestamp_s - ends_s, rng))
 
 
 class spied:  # noqa: N801  (read as a word)

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass, field
 from pathlib import Path
 
 import numpy as np
@@ -15,7 +14,7 @@ from core.tracking import finger_naming, naming
 from core.types import Frame, TrackStatus
 from tests.bench import reference
 from tests.bench.timing import HEAD, Spy, Times, line
-from tests.bench.tracking import frames_of, walk_of
+from tests.bench.tracking import Costs, frames_of, plain_step, walk_of
 
 FIST, FINGERS = (
     RecordingSpec(
@@ -33,28 +32,7 @@ FIST, FINGERS = (
 MOST_MEDIAN_MS, MOST_P95_MS = 1.5, 3.0
 
 
-@dataclass(slots=True)
-class HandCosts:
-    """CPU milliseconds for each frame; ``filter`` all that is neither detection nor association."""
-
-    whole: list[float] = field(default_factory=list)
-    detection: list[float] = field(default_factory=list)
-    association: list[float] = field(default_factory=list)
-    filter: list[float] = field(default_factory=list)
-    reference: list[float] = field(default_factory=list)
-    tracked: int = 0
-
-
-def plain_step(plain: reference.ReferenceFilter, time_s: float, rng: np.random.Generator) -> float:
-    """One step of the yardstick on its own motion; CPU milliseconds."""
-    pixel = reference.measured(reference.motion(time_s)[None])[0] + rng.normal(0.0, 1.0, 2 * reference.MARKERS)
-    times = Times()
-    with times.measured():
-        plain.step(pixel, 1.0 / 30.0)
-    return times.cpu_ms[0]
-
-
-def measure(folder: Path, costs: HandCosts, rounds: int) -> None:
+def measure(folder: Path, costs: Costs, rounds: int) -> None:
     """Track the recording so often, the plain filter stepped once after every frame."""
     frames = frames_of(folder)
     for _ in range(rounds):
@@ -75,7 +53,7 @@ def measure(folder: Path, costs: HandCosts, rounds: int) -> None:
             spy.leave()
 
 
-def _one_frame(walk: FrameWalk, frame: Frame, spy: Spy, costs: HandCosts) -> None:
+def _one_frame(walk: FrameWalk, frame: Frame, spy: Spy, costs: Costs) -> None:
     before = {label: spy.calls(label) for label in spy.times}
     times = Times()
     with times.measured():
@@ -91,9 +69,9 @@ def _one_frame(walk: FrameWalk, frame: Frame, spy: Spy, costs: HandCosts) -> Non
     costs.tracked += tracked.status is TrackStatus.TRACKED
 
 
-def measured(rounds: int) -> HandCosts:
+def measured(rounds: int) -> Costs:
     """A fist and single fingers, pooled."""
-    costs = HandCosts()
+    costs = Costs()
     for spec in (FIST, FINGERS):
         measure(cached_recording(spec, workers=2), costs, rounds)
     return costs

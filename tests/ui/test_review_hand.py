@@ -10,7 +10,7 @@ import pytest
 from PySide6.QtCore import Qt
 from pytestqt.qtbot import QtBot
 
-from core.hand.protocols import HAND21
+from core.hand.protocols import HAND21, HAND21_CHAINS
 from tests.ui.hand_fakes import FakeHandSessions
 from ui.background import Background
 from ui.figures import Figure
@@ -18,7 +18,7 @@ from ui.keys import Keys
 from ui.report.hand_rows import COLUMNS, limits_words
 from ui.review.hand_curves import HandPlot, joint_at
 from ui.review.screen import ReviewScreen
-from ui.review.skeleton import chain_of, modelled_px
+from ui.review.skeleton import modelled_px
 from ui.theme import Theme
 
 
@@ -117,8 +117,8 @@ def test_space_plays_with_a_finger_chosen_and_the_curves_keep_step(qtbot: QtBot,
 
 def test_the_skeleton_goes_from_the_wrist_to_each_tip(store: FakeHandSessions) -> None:
     for finger in (1, 2, 3, 4, 5):
-        assert HAND21.markers[chain_of(finger)[0]] == "WRIST"
-        assert HAND21.markers[chain_of(finger)[-1]] == f"TIP{finger}"
+        assert HAND21.markers[HAND21_CHAINS[finger - 1][0]] == "WRIST"
+        assert HAND21.markers[HAND21_CHAINS[finger - 1][-1]] == f"TIP{finger}"
     session = store.session("hand-7")
     places = modelled_px(session.camera, session.markers.position_cam_m)
     seen = np.isfinite(session.markers.measured_px)

@@ -12,6 +12,18 @@ from ui.fonts import MEDIUM, font
 from ui.theme import CARD_PADDING_PX, CARD_RADIUS_PX, Theme
 
 
+def paint_card(
+    painter: QPainter, theme: Theme, box: QRectF, fill: str = "surface", edge: str = "line", edge_px: float = 1.0
+) -> QRectF:
+    """The surface of a card that fills ``box``; the rectangle of its line."""
+    half = edge_px / 2
+    frame = box.adjusted(half, half, -half, -half)
+    painter.setPen(QPen(theme.color(edge), edge_px))
+    painter.setBrush(theme.color(fill))
+    painter.drawRoundedRect(frame, CARD_RADIUS_PX, CARD_RADIUS_PX)
+    return frame
+
+
 class Card(QWidget):
     """A rounded surface with a 1 px line; its layout is vertical and already there as ``body``."""
 
@@ -33,10 +45,7 @@ class Card(QWidget):
     def paintEvent(self, event: QPaintEvent) -> None:
         painter = QPainter(self)
         painter.setRenderHint(QPainter.RenderHint.Antialiasing)
-        half = self._edge_px / 2
-        painter.setPen(QPen(self._theme.color(self._edge), self._edge_px))
-        painter.setBrush(self._theme.color(self._fill))
-        painter.drawRoundedRect(QRectF(self.rect()).adjusted(half, half, -half, -half), CARD_RADIUS_PX, CARD_RADIUS_PX)
+        paint_card(painter, self._theme, QRectF(self.rect()), self._fill, self._edge, self._edge_px)
 
 
 class Surface(QWidget):

@@ -8,12 +8,13 @@ from PySide6.QtWidgets import QSizePolicy, QWidget
 
 from core.hand.protocols import HAND21
 from core.types import Side
+from ui.controls.card import paint_card
 from ui.fonts import MEDIUM, REGULAR, SEMIBOLD, font
 from ui.hand_drawing import PLACES, outline, placement
 from ui.icons import paint_state
 from ui.live.hand_words import map_words
 from ui.live.joint_history import Seen
-from ui.theme import CARD_RADIUS_PX, Theme
+from ui.theme import Theme
 
 WORDS_PX = 172
 
@@ -55,10 +56,7 @@ class HandMap(QWidget):
         theme, scale = self._theme, self._theme.text_scale
         painter = QPainter(self)
         painter.setRenderHint(QPainter.RenderHint.Antialiasing)
-        painter.setPen(theme.color("line"))
-        painter.setBrush(theme.color("surface"))
-        frame = QRectF(self.rect()).adjusted(0.5, 0.5, -0.5, -0.5)
-        painter.drawRoundedRect(frame, CARD_RADIUS_PX, CARD_RADIUS_PX)
+        frame = paint_card(painter, theme, QRectF(self.rect()))
         words_left = self.width() - (WORDS_PX + 16) * scale
         to = placement(QRectF(12, 8, words_left - 24, self.height() - 9), self._side)
         painter.setClipRect(frame)

@@ -11,11 +11,12 @@ from PySide6.QtWidgets import QSizePolicy, QWidget
 
 from core.output.exercises import AXIS_TICK_DEG, SIDES
 from ui import numbers, terms
+from ui.controls.card import paint_card
 from ui.figures import Figure
 from ui.fonts import MEDIUM, REGULAR, SEMIBOLD, font
 from ui.plot.axes import hatch
 from ui.plot.style import CURVE_TOKENS, screen_style
-from ui.theme import CARD_RADIUS_PX, Theme
+from ui.theme import Theme
 
 NUMBER_PX, NUMBER_WIDE_PX = 128, 160
 WIDE_FROM_PX = 900
@@ -99,10 +100,7 @@ class NumberCard(QWidget):
         theme, scale, reading = self._theme, self._theme.text_scale, self.reading
         painter = QPainter(self)
         painter.setRenderHint(QPainter.RenderHint.Antialiasing)
-        painter.setPen(theme.color("line"))
-        painter.setBrush(theme.color("surface"))
-        frame = QRectF(self.rect()).adjusted(0.5, 0.5, -0.5, -0.5)
-        painter.drawRoundedRect(frame, CARD_RADIUS_PX, CARD_RADIUS_PX)
+        paint_card(painter, theme, QRectF(self.rect()))
         token = CURVE_TOKENS[reading.angle] if reading.figure is None else reading.figure.token
         painter.setPen(Qt.PenStyle.NoPen)
         painter.setBrush(theme.color(token))

@@ -12,11 +12,12 @@ from PySide6.QtWidgets import QSizePolicy, QWidget
 from core.output.exercises import STILL_RADIUS_MM
 from core.types import FloatArray, Side
 from ui import numbers
+from ui.controls.card import paint_card
 from ui.controls.text import paint_status
 from ui.fonts import MEDIUM, REGULAR, SEMIBOLD, font
 from ui.live.history import History
 from ui.plot.polygon import polygon, runs
-from ui.theme import CARD_RADIUS_PX, Theme
+from ui.theme import Theme
 
 STILL_SPAN_MM, FREE_SPAN_MM = 60.0, 600.0
 """Side of the squares: for exercises with a still forearm, and for all others."""
@@ -61,10 +62,7 @@ class PathView(QWidget):
         theme, scale = self._theme, self._theme.text_scale
         painter = QPainter(self)
         painter.setRenderHint(QPainter.RenderHint.Antialiasing)
-        painter.setPen(theme.color("line"))
-        painter.setBrush(theme.color("surface"))
-        frame = QRectF(self.rect()).adjusted(0.5, 0.5, -0.5, -0.5)
-        painter.drawRoundedRect(frame, CARD_RADIUS_PX, CARD_RADIUS_PX)
+        paint_card(painter, theme, QRectF(self.rect()))
         painter.setFont(font(14 * scale, SEMIBOLD))
         painter.setPen(theme.color("text"))
         head = QRectF(20, 12, self.width() - 40, 24 * scale)

@@ -9,20 +9,12 @@ from PySide6.QtCore import QPointF, QRectF, Qt
 from PySide6.QtGui import QColor, QFontMetricsF, QPainter, QPen
 
 from core.camera import Camera
-from core.hand.protocols import HAND21
+from core.hand.protocols import HAND21_CHAINS
 from core.types import FloatArray, Side, TrackedFrame, TrackStatus
 from ui.fonts import SEMIBOLD, font
 from ui.picture.overlay import HALO, LEAST_RING_PX, ToScreen, ellipse, haloed
 from ui.theme import ON_PICTURE_LABEL, ON_PICTURE_LINE, ON_PICTURE_PARTLY, Theme
 
-CHAINS = tuple(
-    tuple(HAND21.markers.index(name) for name in names)
-    for names in (
-        ("WRIST", "CMC1", "MCP1", "IP1", "TIP1"),
-        *(("WRIST", *(f"{joint}{k}" for joint in ("MCP", "PIP", "DIP", "TIP"))) for k in (2, 3, 4, 5)),
-    )
-)
-"""Rows of the markers of each finger, from the wrist on."""
 SIDE_SPAN_M = 0.105
 """A long finger, straight; bent, it comes back below its knuckle, for which there is room on the left."""
 SIDE_WIDTH_PX, SIDE_HEIGHT_PX = 138, 126
@@ -39,8 +31,8 @@ def paint_skeleton(painter: QPainter, frame: TrackedFrame, camera: Camera, to_sc
     for row in np.flatnonzero(seen):
         u, v = frame.marker_measured_px[row]
         at[row] = to_screen(float(u), float(v))
-    solid = [(at[a], at[b]) for chain in CHAINS for a, b in pairwise(chain) if seen[a] and seen[b]]
-    dashed = [(at[a], at[b]) for chain in CHAINS for a, b in pairwise(chain) if not (seen[a] and seen[b])]
+    solid = [(at[a], at[b]) for chain in HAND21_CHAINS for a, b in pairwise(chain) if seen[a] and seen[b]]
+    dashed = [(at[a], at[b]) for chain in HAND21_CHAINS for a, b in pairwise(chain) if not (seen[a] and seen[b])]
     haloed(painter, ON_PICTURE_LINE, 2.0, lambda: [painter.drawLine(a, b) for a, b in solid])
     haloed(painter, ON_PICTURE_LINE, 1.5, lambda: [painter.drawLine(a, b) for a, b in dashed], dash=True)
     for row, spot in enumerate(at):
@@ -68,7 +60,7 @@ def _paint_hidden(painter: QPainter, covariance_px2: FloatArray, spot: QPointF, 
 def side_points_m(frame: TrackedFrame, finger: int) -> FloatArray:
     """Joints (4, 2) of a finger from the side: along the hand and out of its back, from the knuckle, metres."""
     joints = frame.joint_position_m - frame.position_m
-    chain = (joints @ frame.rotation_w2_w0)[list(CHAINS[finger - 1][1:])]
+    chain = (joints @ frame.rotation_w2_w0)[list(HAND21_CHAINS[finger - 1][1:])]
     along = np.array([1.0, 0.0]) if finger > 1 else chain[1, :2] - chain[0, :2]
     away = chain - chain[0]
     return np.stack((away[:, :2] @ along / max(float(np.linalg.norm(along)), 1e-9), away[:, 2]), axis=1)
@@ -98,7 +90,7 @@ def paint_side(
     unit = (0.72 * box.width() - 12) / SIDE_SPAN_M
     start = QPointF(box.left() + 0.28 * box.width(), box.top() + 0.38 * box.height())
     at = [start + QPointF(float(x) * unit, -float(z) * unit) for x, z in points]
-    seen = np.isfinite(frame.marker_measured_px[list(CHAINS[finger - 1][1:]), 0])
+    seen = np.isfinite(frame.marker_measured_px[list(HAND21_CHAINS[finger - 1][1:]), 0])
     painter.setPen(QPen(QColor(255, 255, 255, 110), 4))
     painter.drawLine(QPointF(box.left() + 8, start.y()), start)
     for row, (a, b) in enumerate(pairwise(at)):

@@ -7,9 +7,10 @@ from PySide6.QtGui import QImage, QPainter, QPaintEvent
 from PySide6.QtWidgets import QSizePolicy, QWidget
 
 from core.output.report_content import Progress
+from ui.controls.card import paint_card
 from ui.plot.style import screen_style
 from ui.progress.chart_painter import paint_chart
-from ui.theme import CARD_RADIUS_PX, Theme
+from ui.theme import Theme
 
 
 class ProgressChart(QWidget):
@@ -49,8 +50,5 @@ class ProgressChart(QWidget):
     def paintEvent(self, event: QPaintEvent) -> None:
         painter = QPainter(self)
         painter.setRenderHint(QPainter.RenderHint.Antialiasing)
-        painter.setPen(self._theme.color("line"))
-        painter.setBrush(self._theme.color("surface"))
-        frame = QRectF(self.rect()).adjusted(0.5, 0.5, -0.5, -0.5)
-        painter.drawRoundedRect(frame, CARD_RADIUS_PX, CARD_RADIUS_PX)
+        frame = paint_card(painter, self._theme, QRectF(self.rect()))
         paint_chart(painter, screen_style(self._theme), frame.adjusted(20, 16, -16, -14), self._progress)

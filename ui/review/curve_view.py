@@ -11,13 +11,14 @@ from PySide6.QtWidgets import QSizePolicy, QWidget
 
 from core.output.exercises import SIDES
 from ui import numbers, terms
+from ui.controls.card import paint_card
 from ui.fonts import MEDIUM, REGULAR, SEMIBOLD, font
 from ui.plot.axes import Panel
 from ui.plot.series import paint_point
 from ui.plot.style import CURVE_TOKENS, screen_style
 from ui.review.curves import SessionPlot, paint_edges, paint_session, place_panels, value_at
 from ui.review.hand_curves import HandPlot, paint_hand_cursor, paint_hand_session, place_hand_panels
-from ui.theme import CARD_RADIUS_PX, Theme
+from ui.theme import Theme
 
 LEFT_PX, RIGHT_PX, TOP_PX, BOTTOM_PX, BETWEEN_PX = 122, 108, 38, 30, 18
 HAND_BETWEEN_PX = 8
@@ -130,9 +131,7 @@ class CurveView(QWidget):
         picture.fill(self._theme.color("canvas"))
         painter = QPainter(picture)
         painter.setRenderHint(QPainter.RenderHint.Antialiasing)
-        painter.setPen(self._theme.color("line"))
-        painter.setBrush(self._theme.color("surface"))
-        painter.drawRoundedRect(QRectF(self.rect()).adjusted(0.5, 0.5, -0.5, -0.5), CARD_RADIUS_PX, CARD_RADIUS_PX)
+        paint_card(painter, self._theme, QRectF(self.rect()))
         if self._plot is not None:
             style = screen_style(self._theme)
             if self._plot.repetitions:

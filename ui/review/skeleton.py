@@ -9,21 +9,13 @@ from PySide6.QtCore import Qt
 from PySide6.QtGui import QColor, QPainter, QPolygonF
 
 from core.camera import Camera
-from core.hand.protocols import HAND21
+from core.hand.protocols import HAND21, HAND21_CHAINS
 from core.types import FloatArray
 from ui.figures import FINGERS
 from ui.picture.overlay import haloed
 from ui.picture.view import PictureView
 from ui.plot.polygon import runs
 from ui.theme import ON_PICTURE_LINE
-
-_WRIST = HAND21.markers.index("WRIST")
-
-
-def chain_of(finger: int) -> list[int]:
-    """Rows of a finger's markers, from the wrist outwards."""
-    joints = ("CMC", "MCP", "IP", "TIP") if finger == 1 else ("MCP", "PIP", "DIP", "TIP")
-    return [_WRIST, *(HAND21.markers.index(f"{joint}{finger}") for joint in joints)]
 
 
 def modelled_px(camera: Camera, position_cam_m: FloatArray) -> FloatArray:
@@ -40,8 +32,7 @@ def paint_skeleton(
 ) -> None:
     """Bones and discs of ``hand21``; ``spots`` (21, 2) pixels, ``seen`` bool (21,), ``finger`` 0 for all."""
     for number in FINGERS:
-        chain = chain_of(number)
-        for a, b in pairwise(chain):
+        for a, b in pairwise(HAND21_CHAINS[number - 1]):
             if np.isfinite(spots[[a, b]]).all():
                 start, end = (picture.to_screen(float(u), float(v)) for u, v in spots[[a, b]])
                 width = 2.5 if number == finger else 1.5
