@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import math
 from collections import deque
+from collections.abc import Sequence
 from dataclasses import dataclass, fields, replace
 from typing import Any
 
@@ -58,6 +59,16 @@ class Expectation:
     pixel: FloatArray
     covariance_px2: FloatArray
     depth_m: FloatArray
+
+
+@dataclass(frozen=True, slots=True)
+class KeptSteps:
+    """What looking back needs of some frames in a row: the palm's and the fingers' steps, and what was believed of the
+    fingers before the first (None at the neutral pose)."""
+
+    steps: Sequence[FilterStep]
+    fingers: Sequence[FingerStep | None]
+    finger_start: FingerStart | None
 
 
 @dataclass(frozen=True, slots=True)
@@ -368,6 +379,20 @@ class Tracker:
             self._looked_back = None
         del self._finger_history[:count]
         del self.history[:count]
+
+    def hand_over(self) -> KeptSteps:
+        """Give up what :meth:`smoothed` needs of the frames so far, for another tracker of the same hand."""
+        kept = KeptSteps(list(self.history), list(self._finger_history), self._finger_start)
+        self.forget()
+        return kept
+
+    def take_over(self, kept: KeptSteps) -> None:
+        """Take what another tracker of the same hand handed over, to look back at it; it goes on from what was taken
+        before."""
+        if not self.history:
+            self._finger_start = kept.finger_start
+        self._finger_history += kept.fingers
+        self.history += kept.steps
 
     def _measured(self, step: _Step) -> NDArray[np.int64]:
         """Discs of the palm (3,), or whether each joint (J,), that were measured directly."""
