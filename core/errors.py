@@ -158,6 +158,10 @@ class DiskTooSlow(CarpusFault):
     """Pictures came faster than they could be stored; what was stored is kept."""
 
 
+class NotLookedBack(CarpusFault):
+    """Told, never raised to a person: looking back at a live session failed or took too long; it is as tracked."""
+
+
 class RegisterUnreadable(CarpusFault):
     """The register of patients cannot be opened, is damaged, or was written by a newer Carpus."""
 

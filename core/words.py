@@ -128,6 +128,11 @@ FAULTS: dict[type[CarpusFault], Words] = {
         "Everything stored up to then is safe.",
         "Record to a disk inside this computer, and close other programs.",
     ),
+    errors.NotLookedBack: Words(
+        "Carpus could not look back at the session: {subject} ({detail}).",
+        "All of it is stored as it was measured live.",
+        "Run “carpus track” on the session to look back at it.",
+    ),
     errors.SessionUnreadable: Words(
         "This session cannot be read: {subject} ({detail}).",
         "The file is untouched, and all other sessions are safe.",

@@ -2,11 +2,9 @@
 
 from __future__ import annotations
 
-from bisect import bisect_left
+import logging
 from collections.abc import Callable, Sequence
-from concurrent.futures import Future, ThreadPoolExecutor
 from contextlib import suppress
-from dataclasses import fields
 from pathlib import Path
 from typing import Protocol
 
@@ -20,21 +18,26 @@ from core.camera import Camera
 from core.capture.raw import SUFFIX as RAW_SUFFIX
 from core.capture.raw import RawWriter
 from core.capture.source import SourceInfo
-from core.errors import RecordingEmpty
+from core.errors import NotLookedBack, RecordingEmpty
 from core.pipeline.frame_walk import FrameWalk
 from core.pipeline.live import LiveSession
+from core.pipeline.looking_back import LookingBack
+from core.pipeline.pieces import TrackedHand
 from core.pipeline.track import Learnt, TrackSettings, build_walk, learnt_from, parameters_json, source_facts
-from core.session.values import Motion, motion_of, new_header
+from core.session.values import new_header
 from core.session.writer import SessionWriter
+from core.tracking.tracker import KeptSteps
 from core.types import ByteImage, FloatArray, Frame, TrackedFrame
+from core.words import one_sentence
 from ui.ports import SetUp
+
+log = logging.getLogger(__name__)
 
 MARKERS_SUFFIX = ".markers.jpg"
 _AROUND_HAND = 0.6
 """The picture of the markers reaches this share of their box beyond it."""
-
-
-SMOOTHING_PIECE_S, SMOOTHING_LAG_S = 25.0, 5.0
+NOT_LOOKED_BACK = "not_looked_back"
+"""The event of a session that is stored as tracked, though looking back was asked for."""
 
 
 class SessionPlaces(Protocol):
@@ -52,13 +55,14 @@ class SessionPlaces(Protocol):
 
 
 class LiveWalk:
-    """One frame's walk in the live session. Keeps what the smoother needs only while something is recorded."""
+    """One frame's walk in the live session, begun at the neutral pose. Hands on what looking back needs, if wanted."""
 
     def __init__(self, walk: FrameWalk, neutral_ends_s: float) -> None:
         self._walk = walk
         self._neutral_ends_s = neutral_ends_s
         self._begun = False
-        self.keeping = False
+        self.keep: Callable[[KeptSteps], None] | None = None
+        """Called in the tracking thread with the step of every frame; must not wait."""
 
     def __call__(self, frame: Frame) -> TrackedFrame:
         """Track one frame; in the tracking thread."""
@@ -67,39 +71,19 @@ class LiveWalk:
             # The still frames made the calibration; counted twice they would make it too sure of itself.
             tracker.begin_at_neutral()
             self._begun = True
-        if not self.keeping:
-            tracker.forget()
-        return self._walk(frame)
-
-    def smoothed(self, timestamp_s: Sequence[float], forget_before_s: float) -> Motion | None:
-        """The smoother's result at the times of some rows; None where one of them was not kept.
-
-        What is older than ``forget_before_s`` is given up. Called from one other thread.
-        """
-        tracker = self._walk.tracker
-        moments = tracker.smoothed()
-        steps = tracker.history[: len(moments)]
-        at = {step.timestamp_s: moment for step, moment in zip(steps, moments, strict=True)}
-        tracker.forget(forget_before_s)
-        if any(time_s not in at for time_s in timestamp_s):
-            return None
-        return motion_of([at[time_s] for time_s in timestamp_s])
+        tracked = self._walk(frame)
+        kept, keep = tracker.hand_over(), self.keep
+        if keep is not None:
+            keep(kept)
+        return tracked
 
 
 class SmoothedSession:
-    """A session file that is smoothed as it grows, so that neither memory nor the end grow.
+    """A session file, looked back at while it grows; without that, or where that fails, stored as tracked."""
 
-    A thread of its own does that: whoever writes rows must not wait, or a kill would lose what waits with it. Now and
-    then the rows are smoothed whose future is known for ``SMOOTHING_LAG_S``; by then what comes later
-    changes nothing that matters.
-    """
-
-    def __init__(self, writer: SessionWriter, walk: LiveWalk | None) -> None:
-        self._writer, self._walk = writer, walk
-        self._rows = 0
-        self._waiting_s: list[float] = []
-        self._smoothing = ThreadPoolExecutor(1, thread_name_prefix="smoothing")
-        self._pieces: list[Future[Motion | None]] = []
+    def __init__(self, writer: SessionWriter, looking_back: LookingBack | None) -> None:
+        self._writer, self._looking_back = writer, looking_back
+        self._times_s: list[float] = []
         self._early: list[tuple[str, str]] = []
 
     @property
@@ -113,10 +97,7 @@ class SmoothedSession:
         for kind, text in self._early:
             self._writer.add_event(tracked.timestamp_s, kind, text)
         self._early.clear()
-        self._rows += 1
-        self._waiting_s.append(tracked.timestamp_s)
-        if tracked.timestamp_s - self._waiting_s[0] > SMOOTHING_PIECE_S + SMOOTHING_LAG_S:
-            self._smooth(tracked.timestamp_s - SMOOTHING_LAG_S)
+        self._times_s.append(tracked.timestamp_s)
 
     def add_event(self, time_s: float, kind: str, text: str) -> None:
         """One event; before the first picture there is no time to put it at, so it waits for the first row."""
@@ -126,37 +107,32 @@ class SmoothedSession:
             self._early.append((kind, text))
 
     def close(self) -> None:
-        """Smooth the rest and finish; a session without a single frame is none."""
-        if not self._rows:
+        """Wait a little for the looking back and finish; a session without a single frame is none."""
+        if not self._times_s:
             self.discard()
             raise RecordingEmpty(self.path.name)
         self._writer.flush()
-        self._smooth(np.inf)
-        found = [piece.result() for piece in self._pieces]
-        pieces = [piece for piece in found if piece is not None]
-        if pieces and len(pieces) == len(found):
-            self._writer.write_smoothed(_joined(pieces))
-        self._smoothing.shutdown()
+        if self._looking_back is not None:
+            try:
+                self._writer.write_smoothed(self._looking_back.finish(self._times_s))
+            except NotLookedBack as fault:
+                log.warning("%s", one_sentence(NotLookedBack(self.path, fault.detail)))
+                self._writer.add_event(self._times_s[-1], NOT_LOOKED_BACK, fault.detail)
         self._writer.close()
-
-    def _smooth(self, until_s: float) -> None:
-        if self._walk is None:
-            return
-        count = bisect_left(self._waiting_s, until_s)
-        if count:
-            piece = self._smoothing.submit(self._walk.smoothed, self._waiting_s[:count], until_s)
-            self._pieces.append(piece)
-            del self._waiting_s[:count]
 
     def abandon(self) -> None:
         """Stop after a fault; what is on the disk stays."""
-        self._smoothing.shutdown(cancel_futures=True)
+        self._end_looking_back()
         self._writer.abandon()
 
     def discard(self) -> None:
         """Remove the file again."""
-        self._smoothing.shutdown(cancel_futures=True)
+        self._end_looking_back()
         self._writer.discard()
+
+    def _end_looking_back(self) -> None:
+        if self._looking_back is not None:
+            self._looking_back.cancel()
 
 
 class SourceMeasuring:
@@ -236,17 +212,21 @@ class SourceMeasuring:
             parameters=parameters_json(self._settings, source_facts(self._info), learnt),
             dip_free=self._settings.tracker.dip == "free",
         )
-        # Looking back at a whole hand takes more time than a running session has; tracking the session again does it.
-        smooths = self._settings.smooth and not calibration.clicks.protocol.has_fingers
-        smoothing = walk if smooths else None
-        walk.keeping = smooths
+        looking_back = None
+        if self._settings.smooth:
+            looking_back = LookingBack(
+                TrackedHand(calibration, self.camera, learnt.applied(self._settings.tracker)),
+            )
+            walk.keep = looking_back.take
         try:
             self._session.start_recording(
-                lambda: SmoothedSession(SessionWriter.create(path, header, self.camera, calibration), smoothing),
+                lambda: SmoothedSession(SessionWriter.create(path, header, self.camera, calibration), looking_back),
                 (lambda: RawWriter(path.with_suffix(RAW_SUFFIX), self._info)) if self._set_up.keep_pictures else None,
             )
         except BaseException:
-            walk.keeping = False
+            walk.keep = None
+            if looking_back is not None:
+                looking_back.cancel()
             raise
         if self._starts_with_recording and not self._played:
             self._played = True
@@ -264,7 +244,7 @@ class SourceMeasuring:
             raise
         finally:
             if self._walk is not None:
-                self._walk.keeping = False
+                self._walk.keep = None
         if self._markers_rgb is not None:
             _keep_picture(path.with_suffix(MARKERS_SUFFIX), self._markers_rgb)
         return self._places.entered(self._set_up, path)
@@ -272,11 +252,6 @@ class SourceMeasuring:
     def close(self) -> None:
         """End the source; a running recording is finished."""
         self._session.stop()
-
-
-def _joined(pieces: Sequence[Motion]) -> Motion:
-    names = [field.name for field in fields(Motion)]
-    return Motion(**{name: np.concatenate([getattr(piece, name) for piece in pieces]) for name in names})
 
 
 def _around_hand(color_rgb: ByteImage, pixel: FloatArray) -> ByteImage | None:

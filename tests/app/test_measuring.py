@@ -1,22 +1,26 @@
-"""The session that is smoothed while it grows: as good as smoothed whole, and it keeps no more than half a minute."""
+"""The session that is looked back at while it grows: as good as looked back at whole, and whole without it."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+import os
+import signal
+from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import numpy as np
 import pytest
 
-from app.desktop import measuring
-from app.desktop.measuring import LiveWalk, SmoothedSession
+from app.desktop.measuring import NOT_LOOKED_BACK, LiveWalk, SmoothedSession
 from core.errors import RecordingEmpty
 from core.pipeline.frame_walk import FrameWalk
+from core.pipeline.looking_back import LookingBack
+from core.pipeline.pieces import TrackedHand
 from core.session.reader import read_session
 from core.session.writer import SessionWriter
 from core.tracking.settings import TrackerSettings
 from core.tracking.tracker import Tracker
 from core.types import Detections, Frame
+from tests.pipeline.live_fakes import wait_until
 from tests.session.samples import make_header
 from tests.tracking.hands import CAMERA, DT_S, Pose, blobs, calibration
 
@@ -49,32 +53,32 @@ def live_walk() -> LiveWalk:
     return LiveWalk(FrameWalk(Blobs(), tracker), neutral_ends_s=10.0)  # type: ignore[arg-type]
 
 
-def open_session(path: Path, walk: LiveWalk | None) -> SmoothedSession:
-    return SmoothedSession(SessionWriter.create(path, make_header(), CAMERA, calibration()), walk)
+def open_session(path: Path, looking_back: LookingBack | None) -> SmoothedSession:
+    return SmoothedSession(SessionWriter.create(path, make_header(), CAMERA, calibration()), looking_back)
 
 
-def recorded(path: Path, monkeypatch: pytest.MonkeyPatch, piece_s: float) -> int:
-    """Records rows 30 to 559, pausing from 200 to 259; the largest number of steps that was kept."""
-    monkeypatch.setattr(measuring, "SMOOTHING_PIECE_S", piece_s)
-    walk, session, most = live_walk(), open_session(path, None), 0
-    session.discard()
-    session = open_session(path, walk)
+def begin_looking_back(piece_s: float = 4.0) -> LookingBack:
+    return LookingBack(TrackedHand(calibration(), CAMERA, TrackerSettings()), piece_s=piece_s)
+
+
+def recorded(path: Path, piece_s: float, at_row: Callable[[LookingBack, int], None] = lambda *_: None) -> LiveWalk:
+    """Records rows 30 to 559, pausing from 200 to 259; ``at_row`` is called before every frame."""
+    walk, looking_back = live_walk(), begin_looking_back(piece_s)
+    session = open_session(path, looking_back)
     for frame in frames():
+        at_row(looking_back, frame.index)
         if frame.index == 30:
-            walk.keeping = True
+            walk.keep = looking_back.take
         tracked = walk(frame)
         if 30 <= frame.index < 560 and not 200 <= frame.index < 260:
             session.append(tracked)
-            for piece in session._pieces:
-                piece.result()  # real time leaves it the time
-        most = max(most, len(walk._walk.tracker.history))
     session.close()
-    return most
+    return walk
 
 
-def test_smoothed_in_pieces_is_as_good_as_smoothed_whole(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    whole_steps = recorded(tmp_path / "whole.h5", monkeypatch, 1e6)
-    piece_steps = recorded(tmp_path / "pieces.h5", monkeypatch, 4.0)
+def test_smoothed_in_pieces_is_as_good_as_smoothed_whole(tmp_path: Path) -> None:
+    recorded(tmp_path / "whole.h5", 1e6)
+    recorded(tmp_path / "pieces.h5", 4.0)
     whole, pieces = read_session(tmp_path / "whole.h5"), read_session(tmp_path / "pieces.h5")
     assert whole.smoothed is not None
     assert pieces.smoothed is not None
@@ -85,19 +89,43 @@ def test_smoothed_in_pieces_is_as_good_as_smoothed_whole(tmp_path: Path, monkeyp
     ratio = pieces.smoothed.angles_sd_rad / sd_rad
     assert ratio.min() > 0.95
     assert ratio.max() < 1.25, "less known, and so stated; here with pieces much shorter than in use"
-    assert whole_steps == 571
-    assert piece_steps < (4.0 + 5.0 + 2.0) / DT_S + 61
 
 
-def test_nothing_is_kept_while_nothing_is_recorded() -> None:
-    walk = live_walk()
+def test_a_session_whose_looking_back_is_killed_is_whole_as_tracked(
+    tmp_path: Path, caplog: pytest.LogCaptureFixture
+) -> None:
+    def kill(looking_back: LookingBack, row: int) -> None:
+        if row == 400:
+            wait_until(lambda: looking_back.pid is not None)
+            os.kill(looking_back.pid or 0, signal.SIGKILL)
+
+    recorded(tmp_path / "killed.h5", 4.0, kill)
+    recorded(tmp_path / "whole.h5", 1e6)
+    killed, whole = read_session(tmp_path / "killed.h5"), read_session(tmp_path / "whole.h5")
+    assert killed.complete
+    assert killed.smoothed is None
+    np.testing.assert_array_equal(killed.motion.angles_rad, whole.motion.angles_rad)
+    assert np.isfinite(killed.motion.angles_rad).all()
+    (event,) = killed.events
+    assert event.kind == NOT_LOOKED_BACK
+    assert "SIGKILL" in event.text
+    (line,) = caplog.records
+    assert "could not look back" in line.getMessage()
+    assert "killed.h5" in line.getMessage()
+    assert line.exc_info is None
+
+
+def test_the_walk_keeps_no_steps() -> None:
+    walk, kept = live_walk(), []
     for frame in frames():
+        walk.keep = kept.append if frame.index in (3, 4) else None
         walk(frame)
-    assert len(walk._walk.tracker.history) <= 1
+        assert not walk._walk.tracker.history
+    assert [[step.timestamp_s for step in steps.steps] for steps in kept] == [[10.0 + 3 * DT_S], [10.0 + 4 * DT_S]]
 
 
 def test_a_session_without_a_frame_is_none(tmp_path: Path) -> None:
-    session = open_session(tmp_path / "empty.h5", live_walk())
+    session = open_session(tmp_path / "empty.h5", begin_looking_back())
     with pytest.raises(RecordingEmpty):
         session.close()
     assert list(tmp_path.iterdir()) == []

@@ -16,6 +16,8 @@ from pytestqt.qtbot import QtBot
 from app.compose import Desktop, application, compose
 from app.settings import RecordingSettings, ScreenSettings, Settings
 from core.hand.protocols import HAND21, joint_angle_names
+from core.pipeline.track import retrack_session
+from core.session.reader import read_session
 from core.simulation.recording import TRUTH_FILE, simulate
 from core.simulation.spec import RecordingSpec
 from tests.journeys.conftest import let_go
@@ -49,7 +51,9 @@ def desktop(qapp: QApplication, hand_take: Path, tmp_path: Path) -> Iterator[Des
     let_go(qapp)
 
 
-def test_the_whole_hand_from_set_up_to_session_file(qtbot: QtBot, desktop: Desktop, hand_take: Path) -> None:
+def test_the_whole_hand_from_set_up_to_session_file(
+    qtbot: QtBot, desktop: Desktop, hand_take: Path, tmp_path: Path
+) -> None:
     journey = desktop.journey
     journey.choose_exercise(PRACTICE_PATIENT)
     at(qtbot, desktop, "exercise")
@@ -91,3 +95,21 @@ def test_the_whole_hand_from_set_up_to_session_file(qtbot: QtBot, desktop: Deskt
         column = names.index(joint)
         assert np.nanmax(angles_deg[:, column]) == pytest.approx(true_deg[:, column].max(), abs=13.0)
         assert np.nanmin(angles_deg[:, column]) == pytest.approx(true_deg[:, column].min(), abs=13.0)
+    looked_back_as_tracking_it_again(path, tmp_path / "again.h5")
+
+
+def looked_back_as_tracking_it_again(path: Path, again: Path) -> None:
+    """What the running session was looked back at is what ``carpus track SESSION.h5`` makes of its detections."""
+    retrack_session(path, again, Settings().track, software_version="test")
+    live, offline = read_session(path), read_session(again)
+    assert live.complete
+    assert not live.events
+    assert live.smoothed is not None
+    assert offline.smoothed is not None
+    for name in ("angles", "joint_angles"):
+        sd_rad = getattr(offline.smoothed, f"{name}_sd_rad")
+        apart = np.abs(getattr(live.smoothed, f"{name}_rad") - getattr(offline.smoothed, f"{name}_rad")) / sd_rad
+        assert np.isfinite(apart).mean() > 0.95
+        # Live, a second more was seen before the recording; the anatomy is known a little better.
+        assert np.nanmedian(apart) < 0.1
+        assert np.nanmax(apart) < 1.0

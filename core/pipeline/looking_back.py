@@ -1,0 +1,156 @@
+"""The owner's end of the looking-back process: hands it the steps of a session and collects what comes back."""
+
+from __future__ import annotations
+
+import multiprocessing
+import signal
+import threading
+from collections import deque
+from collections.abc import Sequence
+from dataclasses import fields, replace
+from multiprocessing.connection import Connection
+
+import numpy as np
+
+from core.errors import NotLookedBack
+from core.pipeline.looking_back_process import run
+from core.pipeline.pieces import LAG_S, PIECE_S, Piece, TrackedHand
+from core.session.values import Motion
+from core.tracking.tracker import KeptSteps
+
+SEND_EVERY_S = 0.5
+FRAMES_AT_ONCE = 15
+"""To pack their steps holds the interpreter's lock for less than a millisecond."""
+MOST_WAITING = 3600
+"""Frames (30 MB of steps) that may wait for a process that is slow or stuck, before it is given up."""
+ANSWER_S = 60.0
+"""A loaded computer may take long to start a process."""
+END_S = 5.0
+"""A finished recording waits so long for what is left to look back at: at most the last 30 s, two seconds' work."""
+KILLED_S = 2.0
+
+
+class LookingBack:
+    """Looks back at one recording while it grows, in a process of its own.
+
+    A thread starts the process and talks to it; nobody else waits for either. Whatever goes wrong there is told by
+    :meth:`finish` alone.
+    """
+
+    def __init__(self, hand: TrackedHand, *, piece_s: float = PIECE_S, lag_s: float = LAG_S) -> None:
+        self._hand, self._piece_s, self._lag_s = hand, piece_s, lag_s
+        self._waiting: deque[KeptSteps] = deque()
+        self._pieces: list[Piece] = []
+        self._begun = False
+        self._trouble = ""
+        self._ending = threading.Event()
+        context = multiprocessing.get_context("spawn")
+        self._link, theirs = context.Pipe()
+        self._process = context.Process(target=run, args=(theirs,), name="carpus-looking-back", daemon=True)
+        self._thread = threading.Thread(target=self._run, args=(theirs,), name="looking-back", daemon=True)
+        self._thread.start()
+
+    @property
+    def pid(self) -> int | None:
+        """The process's number, None before it runs."""
+        return self._process.pid
+
+    def take(self, kept: KeptSteps) -> None:
+        """Take the steps of some frames, in order; never waits and never fails."""
+        if len(self._waiting) >= MOST_WAITING:
+            self._give_up(f"{MOST_WAITING} frames behind")
+        if self._trouble:
+            return
+        # The process goes on from its own steps; what was believed of the fingers is large and wanted once.
+        self._waiting.append(replace(kept, finger_start=None) if self._begun else kept)
+        self._begun = True
+
+    def finish(self, timestamp_s: Sequence[float]) -> Motion:
+        """The motion at the times of some frames taken, in order; waits for what is left.
+
+        Raises :class:`NotLookedBack` where it is not all there after :data:`END_S`.
+        """
+        self._ending.set()
+        self._thread.join(END_S)
+        self._end(f"not done {END_S:g} s after the end")
+        if self._trouble:
+            raise NotLookedBack(detail=self._trouble)
+        return _motion_at(self._pieces, timestamp_s)
+
+    def cancel(self) -> None:
+        """Nobody wants the result; may be called twice and after :meth:`finish`."""
+        self._ending.set()
+        self._end("not wanted")
+
+    def _end(self, why: str) -> None:
+        if self._thread.is_alive():
+            self._give_up(why)
+            self._thread.join(KILLED_S)
+
+    def _give_up(self, why: str) -> None:
+        self._trouble = self._trouble or why
+        self._waiting.clear()
+        self._kill()
+
+    def _kill(self) -> None:
+        if self._process.pid is not None:
+            self._process.kill()
+
+    # --- the thread ---------------------------------------------------------------------------------------
+    def _run(self, theirs: Connection) -> None:
+        try:
+            with self._link:
+                try:
+                    self._process.start()
+                finally:
+                    theirs.close()
+                self._talk()
+        except (EOFError, BrokenPipeError, ConnectionResetError):
+            self._give_up(self._death())
+        except Exception as cause:  # the one catch at the top of this thread
+            self._give_up(f"{type(cause).__name__}: {cause}")
+        finally:
+            self._kill()
+            if self._process.pid is not None:
+                self._process.join(KILLED_S)
+
+    def _talk(self) -> None:
+        self._link.send((self._hand, self._piece_s, self._lag_s))
+        ending = False
+        while not ending:
+            ending = self._ending.wait(SEND_EVERY_S)  # looked at first: all that was taken before the end is sent
+            while self._waiting and not self._trouble:
+                count = min(len(self._waiting), FRAMES_AT_ONCE)
+                self._link.send([self._waiting.popleft() for _ in range(count)])
+                self._hear()
+        self._link.send(None)
+        self._hear()
+
+    def _hear(self) -> None:
+        if not self._link.poll(ANSWER_S):
+            raise TimeoutError(f"no answer for {ANSWER_S:g} s")
+        answer: list[Piece] | str = self._link.recv()
+        if isinstance(answer, str):
+            raise RuntimeError(answer)
+        self._pieces += answer
+
+    def _death(self) -> str:
+        self._process.join(KILLED_S)
+        code = self._process.exitcode
+        if code is not None and code < 0:
+            return f"its process died of {signal.Signals(-code).name}"
+        return f"its process ended with {code}"
+
+
+def _motion_at(pieces: Sequence[Piece], timestamp_s: Sequence[float]) -> Motion:
+    known_s = np.concatenate([np.empty(0), *(piece.timestamp_s for piece in pieces)])
+    missing = ~np.isin(timestamp_s, known_s)
+    if missing.any():
+        raise NotLookedBack(detail=f"{np.count_nonzero(missing)} frames missing")
+    rows = np.searchsorted(known_s, timestamp_s)
+    return Motion(
+        **{
+            field.name: np.concatenate([getattr(piece.motion, field.name) for piece in pieces])[rows]
+            for field in fields(Motion)
+        }
+    )

@@ -1,0 +1,72 @@
+"""Looking back at a session while it grows, piece by piece, so that neither memory nor the end grow with it."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from core.calibration.result import Calibration
+from core.camera import Camera
+from core.session.values import Motion, motion_of
+from core.tracking.settings import TrackerSettings
+from core.tracking.tracker import KeptSteps, Tracker
+from core.types import FloatArray
+
+PIECE_S, LAG_S = 25.0, 5.0
+"""So much is looked back at in one go, once so much that follows is known: what comes later changes nothing that
+matters."""
+
+
+@dataclass(frozen=True, slots=True)
+class TrackedHand:
+    """What the tracker whose steps are looked back at was made of."""
+
+    calibration: Calibration
+    camera: Camera
+    settings: TrackerSettings
+
+
+@dataclass(frozen=True, slots=True)
+class Piece:
+    """Frames in a row, looked back at: times (n,) and n rows of motion."""
+
+    timestamp_s: FloatArray
+    motion: Motion
+
+
+class PieceByPiece:
+    """Takes the steps of a tracker in order and gives them back, looked back at.
+
+    ``piece_s`` and ``lag_s`` as :data:`PIECE_S` and :data:`LAG_S`.
+    """
+
+    def __init__(self, hand: TrackedHand, piece_s: float = PIECE_S, lag_s: float = LAG_S) -> None:
+        self._tracker = Tracker(hand.calibration, hand.camera, hand.settings)
+        self._piece_s, self._lag_s = piece_s, lag_s
+
+    def take(self, kept: KeptSteps) -> Sequence[Piece]:
+        """Take the steps of a frame; the piece that is due, if any."""
+        tracker = self._tracker
+        tracker.take_over(kept)
+        if not tracker.history:
+            return ()
+        newest_s = tracker.history[-1].timestamp_s
+        if newest_s - tracker.history[0].timestamp_s <= self._piece_s + self._lag_s:
+            return ()
+        until_s = newest_s - self._lag_s
+        piece = self._looked_back(until_s)
+        tracker.forget(until_s)
+        return piece
+
+    def rest(self) -> Sequence[Piece]:
+        """All that is left, at the end."""
+        return self._looked_back(math.inf)
+
+    def _looked_back(self, until_s: float) -> Sequence[Piece]:
+        times_s = np.array([step.timestamp_s for step in self._tracker.history])
+        count = int(np.searchsorted(times_s, until_s))
+        moments = self._tracker.smoothed()[:count]
+        return (Piece(times_s[:count], motion_of(moments)),) if moments else ()

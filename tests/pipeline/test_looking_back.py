@@ -1,0 +1,216 @@
+"""The looking-back process gives what looking back here gives, and costs a session nothing else when it fails."""
+
+from __future__ import annotations
+
+import os
+import signal
+import subprocess
+import sys
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from dataclasses import fields
+from functools import lru_cache
+
+import numpy as np
+import pytest
+
+from core.calibration.settings import CalibrationSettings
+from core.errors import NotLookedBack
+from core.pipeline import looking_back
+from core.pipeline.looking_back import LookingBack
+from core.pipeline.looking_back_process import NICER
+from core.pipeline.pieces import PieceByPiece, TrackedHand
+from core.pipeline.track import from_neutral, learnt_from
+from core.session.values import Motion, motion_of
+from core.simulation.measurements import MeasurementSequence, measurement_sequence
+from core.simulation.spec import RecordingSpec
+from core.tracking.settings import TrackerSettings
+from core.tracking.tracker import KeptSteps, Tracker
+from tests.accuracy.carpus import measured_hand
+from tests.pipeline.live_fakes import wait_until
+
+PIECE_S, LAG_S = 1.5, 1.0
+BEGIN = 40
+"""Recording starts in the middle of a movement, so that what was believed before counts."""
+
+
+@lru_cache(maxsize=1)
+def sequence() -> MeasurementSequence:
+    return measurement_sequence(
+        RecordingSpec(seed=77, protocol="hand21", motion="fist", seconds=6.0, range_share=0.5, hand_length_mm=185.0)
+    )
+
+
+@lru_cache(maxsize=1)
+def hand_and_start() -> tuple[TrackedHand, float]:
+    hand, neutral_ends_s = measured_hand(sequence(), CalibrationSettings())
+    assert hand.calibration is not None
+    settings = learnt_from(hand.noise, neutral_ends_s, TrackerSettings()).applied(TrackerSettings())
+    return TrackedHand(hand.calibration, sequence().truth.camera, settings), neutral_ends_s
+
+
+def tracked_hand() -> TrackedHand:
+    return hand_and_start()[0]
+
+
+def live_tracker(each: Callable[[Tracker], None]) -> Tracker:
+    """Tracks the whole sequence and calls ``each`` after every frame."""
+    hand, neutral_ends_s = hand_and_start()
+    tracker, times_s = Tracker(hand.calibration, hand.camera, hand.settings), sequence().truth.timestamp_s
+    for i in from_neutral(range(len(times_s)), tracker, neutral_ends_s, lambda row: float(times_s[row])):
+        tracker.expect(float(times_s[i]))
+        tracker.step(i, float(times_s[i]), sequence().detections[i])
+        each(tracker)
+    return tracker
+
+
+@lru_cache(maxsize=1)
+def steps() -> tuple[KeptSteps, ...]:
+    """What a live tracker hands over after each frame recorded."""
+    kept: list[KeptSteps] = []
+    live_tracker(lambda tracker: kept.append(tracker.hand_over()))
+    return tuple(kept[BEGIN:])
+
+
+def times_s() -> list[float]:
+    return [step.timestamp_s for kept in steps() for step in kept.steps]
+
+
+def assert_same(found: Motion, expected: Motion) -> None:
+    for field in fields(Motion):
+        np.testing.assert_array_equal(getattr(found, field.name), getattr(expected, field.name), field.name)
+
+
+@contextmanager
+def begun() -> Iterator[LookingBack]:
+    """A process that runs and has been sent nothing but the hand."""
+    running = LookingBack(tracked_hand(), piece_s=PIECE_S, lag_s=LAG_S)
+    try:
+        wait_until(lambda: running.pid is not None)
+        yield running
+    finally:
+        running.cancel()
+
+
+def test_the_process_gives_what_looking_back_here_gives() -> None:
+    here = PieceByPiece(tracked_hand(), PIECE_S, LAG_S)
+    pieces = [piece for kept in steps() for piece in here.take(kept)]
+    pieces += here.rest()
+    assert len(pieces) >= 3
+    with begun() as running:
+        for kept in steps():
+            running.take(kept)
+        motion = running.finish(times_s())
+        chosen = running.finish(times_s()[10:50:3])
+    expected = {
+        field.name: np.concatenate([getattr(piece.motion, field.name) for piece in pieces]) for field in fields(Motion)
+    }
+    assert_same(motion, Motion(**expected))
+    assert_same(chosen, Motion(**{name: rows[10:50:3] for name, rows in expected.items()}))
+    assert np.isfinite(motion.joint_angles_rad).mean() > 0.9
+
+
+def test_steps_handed_over_one_by_one_are_looked_back_at_as_where_they_were_made() -> None:
+    count = [0]
+
+    def begin_recording(tracker: Tracker) -> None:
+        count[0] += 1
+        if count[0] <= BEGIN:
+            tracker.forget()
+
+    there = live_tracker(begin_recording)
+    whole = PieceByPiece(tracked_hand(), 1e6, 1e6)
+    assert not any(whole.take(kept) for kept in steps())
+    (rest,) = whole.rest()
+    assert rest.timestamp_s.tolist() == times_s()
+    assert_same(rest.motion, motion_of(there.smoothed()))
+
+
+def test_a_killed_process_is_told_at_the_end() -> None:
+    with begun() as running:
+        running.take(steps()[0])
+        assert running.pid is not None
+        os.kill(running.pid, signal.SIGKILL)
+        for kept in steps():
+            running.take(kept)
+        with pytest.raises(NotLookedBack) as told:
+            running.finish(times_s())
+    assert "SIGKILL" in told.value.detail
+
+
+def test_a_process_that_does_not_answer_holds_nobody_up(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(looking_back, "END_S", 0.2)
+    with begun() as running:
+        assert running.pid is not None
+        os.kill(running.pid, signal.SIGSTOP)
+        for kept in steps():
+            running.take(kept)
+        with pytest.raises(NotLookedBack) as told:
+            running.finish(times_s())
+    assert "0.2 s" in told.value.detail
+    assert not running._thread.is_alive()
+
+
+def test_what_waits_for_a_stuck_process_has_a_bound(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(looking_back, "MOST_WAITING", 50)
+    with begun() as running:
+        assert running.pid is not None
+        os.kill(running.pid, signal.SIGSTOP)
+        for kept in steps():
+            running.take(kept)
+        assert not running._waiting
+        with pytest.raises(NotLookedBack) as told:
+            running.finish(times_s())
+    assert "50 frames behind" in told.value.detail
+
+
+def test_a_process_that_cannot_start_is_told_at_the_end(monkeypatch: pytest.MonkeyPatch) -> None:
+    def refuse(_process: object) -> None:
+        raise OSError("no process left")
+
+    monkeypatch.setattr("multiprocessing.context.SpawnProcess.start", refuse)
+    running = LookingBack(tracked_hand())
+    running.take(steps()[0])
+    with pytest.raises(NotLookedBack) as told:
+        running.finish(times_s())
+    assert "no process left" in told.value.detail
+
+
+def test_a_fault_over_there_is_told_in_one_line(capfd: pytest.CaptureFixture[str]) -> None:
+    with begun() as running:
+        running.take("no steps")  # type: ignore[arg-type]
+        running.take(steps()[0])
+        with pytest.raises(NotLookedBack) as told:
+            running.finish(times_s())
+    assert "AttributeError" in told.value.detail
+    assert capfd.readouterr().err == ""
+
+
+def test_a_frame_that_was_never_handed_over_is_told() -> None:
+    with begun() as running:
+        for kept in steps():
+            running.take(kept)
+        with pytest.raises(NotLookedBack, match="2 frames missing"):
+            running.finish([*times_s(), 1e6, 2e6])
+
+
+@pytest.mark.skipif(not hasattr(os, "getpriority"), reason="this system has no niceness")
+def test_the_process_steps_back_behind_the_tracking() -> None:
+    own = os.getpriority(os.PRIO_PROCESS, 0)
+    with begun() as running:
+        assert running.pid is not None
+        pid = running.pid
+        wait_until(lambda: os.getpriority(os.PRIO_PROCESS, pid) == min(own + NICER, 19))
+
+
+def test_the_process_loads_no_window_and_no_numpy_before_its_threads_are_settled() -> None:
+    code = (
+        "import sys\n"
+        "import core.pipeline.looking_back_process\n"
+        "assert 'numpy' not in sys.modules\n"
+        "import core.pipeline.pieces\n"
+        "loaded = {name.split('.')[0] for name in sys.modules}\n"
+        "assert not loaded & {'PySide6', 'shiboken6', 'pyqtgraph', 'app', 'ui', 'h5py'}, sorted(loaded)\n"
+    )
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, timeout=60, check=False)
+    assert done.returncode == 0, done.stderr
