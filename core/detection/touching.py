@@ -28,17 +28,16 @@ def split_touching(
     """
     out: list[tuple[int, NDArray[np.int64], FloatArray]] = []
     following = len(stats)
-    boxes = enumerate(zip(stats.tolist(), radius_px.tolist(), strict=True))
-    next(boxes)  # the background's
-    for label, ((left, top, width, height, _), radius) in boxes:
-        if max(width, height) <= _LONG_SIDE * radius:
-            continue
+    is_long = np.maximum(stats[:, 2], stats[:, 3]) > _LONG_SIDE * radius_px
+    is_long[0] = False  # the background
+    for label in np.flatnonzero(is_long).tolist():
+        left, top, width, height, _ = stats[label].tolist()
         box = labels[top : top + height, left : left + width]
         row, column = np.nonzero(box == label)
         points = np.empty((row.size, 2))
         points[:, 0], points[:, 1] = column, row
         points += (left, top)
-        parts = _parts(points, radius)
+        parts = _parts(points, float(radius_px[label]))
         if parts is None:
             continue
         area = np.bincount(parts)
@@ -71,11 +70,25 @@ def _parts(points: FloatArray, radius_px: float) -> NDArray[np.int64] | None:
     if count == 2:
         # Two discs: the line between them crosses the main axis in the middle of the blob.
         return np.asarray(along > 0.5 * (high + low), dtype=np.int64)
-    middle = centre + np.linspace(low + radius_px, high - radius_px, count)[:, None] * axis
-    part = np.zeros(len(points), dtype=np.int64)
+    gap = (high - low - 2.0 * radius_px) / (count - 1)
+    middle = (centre + (low + radius_px + gap * np.arange(count))[:, None] * axis).T
+    u, v = points.T.copy()
+    part = np.empty(0, dtype=np.int64)
     for _ in range(_ROUNDS):
-        part = np.linalg.norm(points[:, None] - middle[None], axis=-1).argmin(axis=1)
-        if np.bincount(part, minlength=count).min() == 0:
+        before, part = part, _nearest(u, v, middle)
+        area = np.bincount(part, minlength=count)
+        if area.min() == 0:
             return None
-        middle = np.array([points[part == p].mean(axis=0) for p in range(count)])
+        if np.array_equal(part, before):
+            break
+        middle = np.array((np.bincount(part, u), np.bincount(part, v))) / area
     return part
+
+
+def _nearest(u: FloatArray, v: FloatArray, middle: FloatArray) -> NDArray[np.int64]:
+    """Index of the middle (2, count) nearest to every point (P,)."""
+    across, down = u - middle[0][:, None], v - middle[1][:, None]
+    across *= across
+    down *= down
+    across += down
+    return np.asarray(np.sqrt(across, out=across).argmin(axis=0))
