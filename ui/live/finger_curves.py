@@ -14,12 +14,12 @@ from ui import numbers
 from ui.figures import FIGURES, FINGERS, ROWS, Figure, Row, row_name
 from ui.fonts import MEDIUM, REGULAR, SEMIBOLD, font
 from ui.icons import paint_state
+from ui.live.curve_strips import CurveStrips, PanelCurves, Pens
 from ui.live.history import SHOWN_S
-from ui.live.joint_history import BoolArray, JointHistory
+from ui.live.joint_history import JointHistory
 from ui.marker_words import finger_name
 from ui.plot import axes
 from ui.plot.axes import Panel, Scale
-from ui.plot.polygon import polygon, runs
 from ui.plot.series import LONGEST_STEP_S, paint_series
 from ui.plot.style import screen_style
 from ui.theme import BAND_ALPHA, CARD_RADIUS_PX, Theme
@@ -28,6 +28,7 @@ LEFT_PX, RIGHT_PX, TOP_PX, BETWEEN_PX, ROW_PX = 112, 14, 44, 13, 31
 BENDING = Scale(-15.0, 115.0, (90.0, 45.0, 0.0), ((90.0, "90°"), (45.0, "45°"), (0.0, "0°")))
 SPREADING = Scale(-32.0, 32.0, (20.0, 0.0, -20.0), ((20.0, "20°"), (0.0, "0°"), (-20.0, "20°")))
 BENDING_ROWS: tuple[Row, ...] = ("end", "middle", "knuckle")
+SPREADING_ROWS: tuple[Row, ...] = ("spread",)
 ROOMY_FROM_PX = 290
 WEAK_SD_DEG = 10.0
 """From this spread on a figure is marked as weak."""
@@ -46,6 +47,7 @@ class FingerCurves(QWidget):
         self._waiting = False
         self._still: QPixmap | None = None
         self._figures: QPixmap | None = None
+        self._strips = CurveStrips()
         self._values: dict[Figure, tuple[float, float, bool]] = {}
         self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Expanding)
         self.setAccessibleName(self.tr("Joint angles of the last ten seconds, by finger"))
@@ -69,6 +71,7 @@ class FingerCurves(QWidget):
 
     def _forget_still(self) -> None:
         self._still = self._figures = None
+        self._strips.forget()
         self.update()
 
     def resizeEvent(self, event: QResizeEvent) -> None:
@@ -134,22 +137,20 @@ class FingerCurves(QWidget):
         pens = {token: _pens(style.color(token), style.line_width) for token in ("curve_a", "curve_b", "curve_c")}
         block = self._history.block(self._history.now_s - SHOWN_S)
         even = bool(len(block.time_s)) and bool(np.all(np.diff(block.time_s) <= LONGEST_STEP_S))
+        plain: list[PanelCurves] = []
         for finger in FINGERS:
             bending, spreading = self.panels(finger)
-            x = bending.x(block.time_s)
-            for panel, rows in ((bending, BENDING_ROWS), (spreading, ("spread",))):
-                for row in rows:
-                    k = FIGURES.index(Figure(finger, row))
-                    value, sd = block.value_deg[:, k], block.sd_deg[:, k]
-                    token = FIGURES[k].token
-                    if even and panel.scale.low < value.min() and value.max() < panel.scale.high:
-                        y, upper, lower = panel.y(value), panel.y(value + sd), panel.y(value - sd)
-                        _paint_curve(painter, x, y, upper, lower, block.predicted[:, k], pens[token])
-                    else:  # gaps, or values beyond the scale, which are rare
+            for panel, rows in ((bending, BENDING_ROWS), (spreading, SPREADING_ROWS)):
+                columns = [FIGURES.index(Figure(finger, row)) for row in rows]
+                own = [k for k in columns if even and _stays_in(panel.scale, block.value_deg[:, k])]
+                plain.append(PanelCurves(panel, [(k, pens[FIGURES[k].token]) for k in own]))
+                for k in columns:
+                    if k not in own:  # gaps, or values beyond the scale, which are rare
                         painter.save()
                         painter.setClipRect(panel.box.adjusted(0, -1, 1, 1).toAlignedRect())
-                        paint_series(painter, style, panel, self._history.series(k), token)
+                        paint_series(painter, style, panel, self._history.series(k), FIGURES[k].token)
                         painter.restore()
+        self._strips.paint(painter, plain, block, self._history.now_s)
 
     def _paint_figures(self) -> QPixmap:
         """The numbers below the curves; they change ten times a second at most."""
@@ -243,35 +244,15 @@ class FingerCurves(QWidget):
         painter.drawText(QPointF(left, top + QFontMetricsF(painter.font()).ascent()), text)
 
 
-def _pens(color: QColor, width: float) -> tuple[QColor, QPen, QPen]:
-    """Fill of the band, pen of what is measured, pen of what is predicted."""
+def _stays_in(scale: Scale, value: FloatArray) -> bool:
+    return bool(scale.low < value.min() and value.max() < scale.high)
+
+
+def _pens(color: QColor, width: float) -> Pens:
     fill = QColor(color)
     fill.setAlpha(BAND_ALPHA)
     # Flat and bevelled: round joins double the cost of a curve and are not seen at this width.
     solid = QPen(color, width, Qt.PenStyle.SolidLine, Qt.PenCapStyle.FlatCap, Qt.PenJoinStyle.BevelJoin)
     dashed = QPen(solid)
     dashed.setDashPattern([2.2, 2.2])
-    return fill, solid, dashed
-
-
-def _paint_curve(
-    painter: QPainter,
-    x: FloatArray,
-    y: FloatArray,
-    upper: FloatArray,
-    lower: FloatArray,
-    predicted: BoolArray,
-    pens: tuple[QColor, QPen, QPen],
-) -> None:
-    """A curve without gaps and its band, all in pixels: as :func:`ui.plot.series.paint_series`, in fewer calls."""
-    fill, solid, dashed = pens
-    painter.setPen(Qt.PenStyle.NoPen)
-    painter.setBrush(fill)
-    painter.setRenderHint(QPainter.RenderHint.Antialiasing, False)  # a band's edge is translucent anyway
-    painter.drawPolygon(polygon(np.concatenate((x, x[::-1])), np.concatenate((upper, lower[::-1]))))
-    painter.setRenderHint(QPainter.RenderHint.Antialiasing, True)
-    for flag, pen in ((False, solid), (True, dashed)):
-        painter.setPen(pen)
-        for first, last in runs(predicted == flag):
-            part = slice(max(0, first - 1), last)
-            painter.drawPolyline(polygon(x[part], y[part]))
+    return Pens(fill, solid, dashed)
