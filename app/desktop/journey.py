@@ -6,8 +6,7 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 from datetime import date
 
-from PySide6.QtCore import QCoreApplication, QEvent, QObject, Qt, QTimer, Signal
-from PySide6.QtGui import QKeyEvent
+from PySide6.QtCore import QObject, Qt, QTimer, Signal
 from PySide6.QtWidgets import QWidget
 
 from app.desktop.library import Library, Recovered
@@ -326,9 +325,7 @@ class Journey(QObject):
         sheets = [sheet for sheet in self.shell.findChildren(Sheet) if sheet.isVisible()]
         strips = self.patients.findChildren(NoticeStrip) if self.place == "patients" else []
         if sheets:
-            # The sheet itself knows whether it may be left.
-            escape = QKeyEvent(QEvent.Type.KeyPress, Qt.Key.Key_Escape, Qt.KeyboardModifier.NoModifier)
-            QCoreApplication.sendEvent(sheets[-1], escape)
+            sheets[-1].leave()
         elif strips:
             strips[-1].later.emit()
         elif self.place in ("help", "settings"):

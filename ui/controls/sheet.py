@@ -60,9 +60,14 @@ class Sheet(QWidget):
                 before.setFocus(Qt.FocusReason.OtherFocusReason)
             self.closed.emit()
 
-    def keyPressEvent(self, event: QKeyEvent) -> None:
-        if event.key() == Qt.Key.Key_Escape and self._may_close:
+    def leave(self) -> None:
+        """What Esc does: close where this may be left without an answer."""
+        if self._may_close:
             self.close_sheet()
+
+    def keyPressEvent(self, event: QKeyEvent) -> None:
+        if event.key() == Qt.Key.Key_Escape:
+            self.leave()
         else:
             event.accept()
 

@@ -1,0 +1,48 @@
+"""Esc takes away what lies over a screen, and nothing else."""
+
+from __future__ import annotations
+
+from PySide6.QtCore import Qt
+from pytestqt.qtbot import QtBot
+
+from app.compose import Desktop
+from core.errors import DiskFull
+from tests.journeys.conftest import Open
+from ui.controls.sheet import Sheet
+from ui.messages.stop_card import StopCard
+
+
+def press_escape(qtbot: QtBot, desktop: Desktop) -> None:
+    qtbot.keyClick(desktop.shell.focusWidget() or desktop.shell, Qt.Key.Key_Escape)
+
+
+def test_esc_closes_any_sheet_and_leaves_its_screen(qtbot: QtBot, open_desktop: Open) -> None:
+    desktop = open_desktop()
+    journey = desktop.journey
+    desktop.shell.activateWindow()
+    seen: list[str] = []
+    for place, screen in (
+        ("patients", journey.patients), ("markers", journey.markers), ("live", journey.live),
+        ("review", journey.review),
+    ):  # fmt: skip
+        journey._go(place, screen, screen)  # type: ignore[arg-type]
+        for sheet in screen.findChildren(Sheet):
+            if isinstance(sheet, StopCard):
+                continue
+            sheet.open()
+            assert sheet.isVisible()
+            press_escape(qtbot, desktop)
+            assert not sheet.isVisible(), type(sheet).__name__
+            assert journey.place == place
+            seen.append(type(sheet).__name__)
+    assert set(seen) >= {"PatientForm", "StartAngleSheet", "NoteSheet", "PainSheet", "ReasonSheet"}
+    journey._go("patients", journey.patients, journey.patients)
+
+
+def test_esc_answers_no_message(qtbot: QtBot, open_desktop: Open) -> None:
+    desktop = open_desktop()
+    desktop.journey.teller.fault(DiskFull("x"))
+    press_escape(qtbot, desktop)
+    assert desktop.journey.teller.card.isVisible()
+    desktop.journey.teller.card.answers[-1].click()
+    assert not desktop.journey.teller.busy
