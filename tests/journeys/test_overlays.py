@@ -1,8 +1,12 @@
-"""Esc takes away what lies over a screen, and nothing else."""
+"""What goes for all screens of the window: Esc takes away what lies over one, colours change everywhere."""
 
 from __future__ import annotations
 
+from dataclasses import asdict
+
 from PySide6.QtCore import Qt
+from PySide6.QtGui import QPalette
+from PySide6.QtWidgets import QLabel
 from pytestqt.qtbot import QtBot
 
 from app.compose import Desktop
@@ -46,3 +50,29 @@ def test_esc_answers_no_message(qtbot: QtBot, open_desktop: Open) -> None:
     assert desktop.journey.teller.card.isVisible()
     desktop.journey.teller.card.answers[-1].click()
     assert not desktop.journey.teller.busy
+
+
+def test_every_label_follows_a_change_of_colours_also_on_screens_not_opened_yet(
+    qtbot: QtBot, open_desktop: Open
+) -> None:
+    desktop = open_desktop()
+    journey, theme = desktop.journey, desktop.theme
+
+    def check_all() -> None:
+        labels = 0
+        for place, screen in (
+            ("markers", journey.markers), ("live", journey.live), ("review", journey.review), ("help", journey.help),
+            ("progress", journey.progress), ("report", journey.report), ("patients", journey.patients),
+        ):  # fmt: skip
+            journey._go(place, screen, screen)  # type: ignore[arg-type]
+            for label in desktop.shell.findChildren(QLabel):
+                if label.isVisible() and label.text():
+                    shown = label.palette().color(QPalette.ColorRole.WindowText).name().upper()
+                    assert shown in set(asdict(theme.tokens).values()), (place, label.text())
+                    labels += 1
+        assert labels > 60
+
+    theme.choose("dark")
+    check_all()
+    theme.choose("light")
+    check_all()

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from PySide6.QtCore import QRectF, Qt
-from PySide6.QtGui import QFontMetricsF, QPainter, QPaintEvent, QPalette
+from PySide6.QtGui import QFontMetricsF, QPainter, QPaintEvent, QPalette, QShowEvent
 from PySide6.QtWidgets import QLabel, QSizePolicy, QWidget
 
 from ui.fonts import MEDIUM, REGULAR, SEMIBOLD, font
@@ -40,6 +40,11 @@ class Text(QLabel):
         if token != self._token:
             self._token = token
             self._take_theme()
+
+    def showEvent(self, event: QShowEvent) -> None:
+        # A label that was not on a screen yet when the colours changed is given its old ones back by the style sheet.
+        self._take_theme()
+        super().showEvent(event)
 
     def _take_theme(self) -> None:
         self.setFont(font(self._size_px * self._theme.text_scale, self._weight))
