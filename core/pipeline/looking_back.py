@@ -26,7 +26,7 @@ MOST_WAITING = 3600
 ANSWER_S = 60.0
 """A loaded computer may take long to start a process."""
 END_S = 5.0
-"""A finished recording waits so long for what is left to look back at: at most the last 30 s, two seconds' work."""
+"""A finished recording waits so long for what is left to look back at: at most the last 11 s, a second's work."""
 KILLED_S = 2.0
 
 

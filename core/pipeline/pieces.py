@@ -15,9 +15,9 @@ from core.tracking.settings import TrackerSettings
 from core.tracking.tracker import KeptSteps, Tracker
 from core.types import FloatArray
 
-PIECE_S, LAG_S = 25.0, 5.0
-"""So much is looked back at in one go, once so much that follows is known: what comes later changes nothing that
-matters."""
+PIECE_S, LAG_S = 8.0, 3.0
+"""So much is looked back at in one go, once so much that follows is known. In simulated recordings of 40 s that comes
+as near to the truth as looking back at all of it, and a stop finds 11 s at most still to be looked back at."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -14,7 +14,7 @@ from app.desktop.measuring import NOT_LOOKED_BACK, LiveWalk, SmoothedSession
 from core.errors import RecordingEmpty
 from core.pipeline.frame_walk import FrameWalk
 from core.pipeline.looking_back import LookingBack
-from core.pipeline.pieces import TrackedHand
+from core.pipeline.pieces import PIECE_S, TrackedHand
 from core.session.reader import read_session
 from core.session.writer import SessionWriter
 from core.tracking.settings import TrackerSettings
@@ -57,7 +57,7 @@ def open_session(path: Path, looking_back: LookingBack | None) -> SmoothedSessio
     return SmoothedSession(SessionWriter.create(path, make_header(), CAMERA, calibration()), looking_back)
 
 
-def begin_looking_back(piece_s: float = 4.0) -> LookingBack:
+def begin_looking_back(piece_s: float = PIECE_S) -> LookingBack:
     return LookingBack(TrackedHand(calibration(), CAMERA, TrackerSettings()), piece_s=piece_s)
 
 
@@ -78,17 +78,17 @@ def recorded(path: Path, piece_s: float, at_row: Callable[[LookingBack, int], No
 
 def test_smoothed_in_pieces_is_as_good_as_smoothed_whole(tmp_path: Path) -> None:
     recorded(tmp_path / "whole.h5", 1e6)
-    recorded(tmp_path / "pieces.h5", 4.0)
+    recorded(tmp_path / "pieces.h5", PIECE_S)
     whole, pieces = read_session(tmp_path / "whole.h5"), read_session(tmp_path / "pieces.h5")
     assert whole.smoothed is not None
     assert pieces.smoothed is not None
     assert len(pieces.smoothed.angles_rad) == len(pieces.timestamp_s) == 470
     sd_rad = whole.smoothed.angles_sd_rad
-    # What differs is the palm's shape, slowly learnt: four seconds know less of it than the whole session.
+    # What differs is the palm's shape, slowly learnt: a piece knows less of it than the whole session.
     assert np.abs((pieces.smoothed.angles_rad - whole.smoothed.angles_rad) / sd_rad).max() < 0.25
     ratio = pieces.smoothed.angles_sd_rad / sd_rad
     assert ratio.min() > 0.95
-    assert ratio.max() < 1.25, "less known, and so stated; here with pieces much shorter than in use"
+    assert ratio.max() < 1.25, "less known, and so stated"
 
 
 def test_a_session_whose_looking_back_is_killed_is_whole_as_tracked(
@@ -99,7 +99,7 @@ def test_a_session_whose_looking_back_is_killed_is_whole_as_tracked(
             wait_until(lambda: looking_back.pid is not None)
             os.kill(looking_back.pid or 0, signal.SIGKILL)
 
-    recorded(tmp_path / "killed.h5", 4.0, kill)
+    recorded(tmp_path / "killed.h5", PIECE_S, kill)
     recorded(tmp_path / "whole.h5", 1e6)
     killed, whole = read_session(tmp_path / "killed.h5"), read_session(tmp_path / "whole.h5")
     assert killed.complete
