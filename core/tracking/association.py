@@ -62,23 +62,25 @@ def log_odds(
     ``noise_variance`` (D, 3). A disc whose depth is of something before or behind it is still that disc,
     with the chance ``depth_outlier``.
     """
-    count = len(predicted), len(measured)
-    s = np.empty((*count, 3, 3))
-    s[:] = covariance[:, None]
-    s.reshape(*count, 9)[..., ::4] += noise_variance  # the diagonals
-    # Innovations in units of their spread, depth last: the first two and their roots are those of the pixel alone.
-    root = np.linalg.cholesky(s)
-    u, v, z = (measured - predicted[:, None]).transpose(2, 0, 1)
-    u = u / root[..., 0, 0]
-    v = (v - root[..., 1, 0] * u) / root[..., 1, 1]
-    z = (z - root[..., 2, 0] * u - root[..., 2, 1] * v) / root[..., 2, 2]
-    flat2 = u * u + v * v
-    full2 = flat2 + z * z
-    log_root = np.log(root.reshape(*count, 9)[..., ::4])
+    # Innovations u, v, z and their variances s (each (M, D)) in turn given those before, the depth last: an L D L'
+    # decomposition of the sum of covariance and noise, written out. The first two are those of the pixel alone.
+    u, v, z = measured.T[:, None] - predicted.T[..., None]
+    s_u, s_v, s_z = covariance.diagonal(axis1=1, axis2=2).T[..., None] + noise_variance.T[:, None]
+    uv, uz, vz = covariance[:, :1, 1], covariance[:, :1, 2], covariance[:, 1:2, 2]
+    v_by_u, z_by_u = uv / s_u, uz / s_u
+    v = v - v_by_u * u
+    s_v = s_v - v_by_u * uv
+    vz = vz - v_by_u * uz
+    z_by_v = vz / s_v
+    z = z - z_by_u * u - z_by_v * v
+    s_z = s_z - z_by_u * uz - z_by_v * vz
+    flat2 = u * u / s_u + v * v / s_v
+    z2 = z * z / s_z
+    full2 = flat2 + z2
     has_depth = np.isfinite(measured[:, 2])
     prior = math.log(settings.prior_marker / settings.prior_clutter * resolution_px2 / (2.0 * math.pi))
-    flat = prior - 0.5 * flat2 - log_root[..., 0] - log_root[..., 1]
-    full = flat + math.log(settings.depth_range_m / math.sqrt(2.0 * math.pi)) - 0.5 * z * z - log_root[..., 2]
+    flat = prior - 0.5 * (flat2 + np.log(s_u * s_v))
+    full = flat + math.log(settings.depth_range_m / math.sqrt(2.0 * math.pi)) - 0.5 * (z2 + np.log(s_z))
     flat += math.log(depth_outlier) * has_depth
     gate2 = settings.gate_sd**2
     flat[flat2 > gate2] = IMPOSSIBLE

@@ -6,7 +6,7 @@ along the camera's axis, as in the initialisation (13).
 
 from __future__ import annotations
 
-from dataclasses import dataclass, fields
+from dataclasses import dataclass, field, fields
 from functools import lru_cache
 from typing import Protocol
 
@@ -19,7 +19,7 @@ from core.camera import Camera
 from core.tracking.modes import ModeBank, predicted
 from core.tracking.motion import MotionNoise, advance
 from core.tracking.state import Belief, StateLayout
-from core.tracking.unscented import Spread, deviations, weights_for
+from core.tracking.unscented import Spread, deviations, make_roots, weights_for
 from core.types import FloatArray
 
 
@@ -69,6 +69,14 @@ class View:
     geometry: MarkerGeometry
     hidden: FloatArray | None = None
 
+    _w0_image: tuple[FloatArray, FloatArray] = field(init=False, repr=False, compare=False)
+    """Worked out once: from w0, in metres, to u z, v z, z; applied to rows."""
+
+    def __post_init__(self) -> None:
+        camera = self.camera.matrix
+        image = (camera @ self.rotation_w0_cam).T.copy(), camera @ self.translation_w0_cam_m
+        object.__setattr__(self, "_w0_image", image)
+
     def markers_cam_m(
         self, position_m: FloatArray, rotation_w2_w0: FloatArray, joints_rad: FloatArray, shape: FloatArray
     ) -> FloatArray:
@@ -82,14 +90,14 @@ class View:
         self, position_m: FloatArray, rotation_w2_w0: FloatArray, joints_rad: FloatArray, shape: FloatArray
     ) -> FloatArray:
         """Pixel u, v and depth z (..., M, 3) of every disc, hidden or not."""
-        out = self.markers_cam_m(position_m, rotation_w2_w0, joints_rad, shape)
-        camera, z = self.camera, out[..., 2]
-        out[..., 0] *= camera.fx_px / z
-        out[..., 0] += camera.cx_px
-        out[..., 1] *= camera.fy_px / z
-        out[..., 1] += camera.cy_px
+        in_w0 = self.geometry.positions_w2_m(joints_rad, shape) @ rotation_w2_w0.swapaxes(-1, -2)
+        in_w0 += position_m[..., None, :]
+        turned, shifted = self._w0_image
+        out: FloatArray = in_w0 @ turned
+        out += shifted
+        out[..., :2] /= out[..., 2:]
         if self.hidden is not None:
-            z -= shape @ self.hidden.T
+            out[..., 2] -= shape @ self.hidden.T
         return out
 
 
@@ -119,7 +127,7 @@ class Forecast:
         covariance = (probability @ marker_covariance.reshape(probability.size, -1)).reshape(mean.size, mean.size)
         covariance += (apart.T * probability) @ apart
         count = mean.size // 3
-        own = np.einsum("iaib->iab", covariance.reshape(count, 3, count, 3))
+        own = covariance.reshape(count, 3, count, 3).diagonal(axis1=0, axis2=2).transpose(2, 0, 1)
         return Forecast(bank, marker_mean, marker_covariance, cross, mean, covariance, mean.reshape(count, 3), own)
 
     def by_marker(self) -> tuple[FloatArray, FloatArray]:
@@ -133,7 +141,8 @@ class Forecast:
 
 @dataclass(frozen=True, slots=True)
 class _Order:
-    """``seen`` (s,) states; ``seen_first`` (n,) all states, those first; ``back`` (n,) from there to the layout's."""
+    """``seen`` (s,) states; ``seen_first`` (n n,) where in a covariance, flat, that of all states stands with those
+    first; ``back`` (n,) from that order to the layout's."""
 
     seen: NDArray[np.int64]
     seen_first: NDArray[np.int64]
@@ -144,7 +153,11 @@ class _Order:
 def _order(layout: StateLayout) -> _Order:
     seen = layout.seen
     seen_first = np.concatenate((seen, np.setdiff1d(np.arange(layout.size), seen)))
-    return _Order(seen, seen_first, np.argsort(seen_first))
+    return _Order(seen, (seen_first[:, None] * layout.size + seen_first).ravel(), np.argsort(seen_first))
+
+
+_POSED = 13
+"""Sigma points that stand anywhere but where the first does: that one and two for each state of the pose."""
 
 
 def forecast(bank: ModeBank, layout: StateLayout, view: View, spread: Spread) -> Forecast:
@@ -153,27 +166,33 @@ def forecast(bank: ModeBank, layout: StateLayout, view: View, spread: Spread) ->
     The states that it does not see follow by linear regression on those, exact for a Gaussian: the points
     need not spread over them.
     """
-    order = _order(layout)
+    order, count = _order(layout), bank.probability.size
     size = order.seen.size
     weights = weights_for(size, spread)
     # With the seen states first, the root's first columns hold the points and, below, what they say of the others.
-    root = np.linalg.cholesky(bank.covariance.take(order.seen_first, 1).take(order.seen_first, 2))
+    root = bank.covariance.reshape(count, -1).take(order.seen_first, 1).reshape(bank.covariance.shape)
+    make_roots(root)
     columns = weights.scale * root[:, :, :size].transpose(0, 2, 1)
-    offset = np.empty((bank.probability.size, 2 * size + 1, size))
-    offset[:] = bank.error[:, None, order.seen]
-    offset[:, 1 : size + 1] += columns[..., :size]
-    offset[:, size + 1 :] -= columns[..., :size]
+    # The centre, then two for each column in turn.
+    offset = np.empty((count, 2 * size + 1, size))
+    offset[:] = bank.error.take(order.seen, 1)[:, None]
+    offset[:, 1::2] += columns[..., :size]
+    offset[:, 2::2] -= columns[..., :size]
     nominal, joints = bank.nominal, 6 + layout.joint_count
+    # The root is lower triangular: from the seventh on its columns leave the pose alone.
+    rotation = np.empty((*offset.shape[:2], 3, 3))
+    rotation[:, :_POSED] = nominal.rotation_w2_w0 @ so3.exp(offset[:, :_POSED, 3:6])
+    rotation[:, _POSED:] = rotation[:, :1]
     marker = view.observe(
         nominal.position_m + offset[..., 0:3],
-        nominal.rotation_w2_w0 @ so3.exp(offset[..., 3:6]),
+        rotation,
         nominal.joints_rad + offset[..., 6:joints],
         nominal.shape + offset[..., joints:],
-    ).reshape(*offset.shape[:2], -1)
+    ).reshape(count, 2 * size + 1, -1)
     mean = weights.mean @ marker
     deviation = marker - mean[:, None, :]
     covariance = (deviation * weights.covariance[:, None]).transpose(0, 2, 1) @ deviation
-    pairs = marker[:, 1 : size + 1] - marker[:, size + 1 :]
+    pairs = marker[:, 1::2] - marker[:, 2::2]
     cross = weights.covariance[1] * (pairs.transpose(0, 2, 1) @ columns)
     return Forecast.of(bank, mean, covariance, cross.take(order.back, 2))
 
@@ -285,30 +304,28 @@ def update(
     value, s, cross = forecast.marker_mean, forecast.marker_covariance, forecast.cross
     if rows.size < value.shape[1]:
         value, s, cross = value.take(rows, 1), s.take(rows, 1).take(rows, 2), cross.take(rows, 1)
-    s = s * (unit * unit[:, None])
-    s.reshape(len(s), -1)[:, :: rows.size + 1] += 1.0  # the diagonals
-    root: FloatArray = np.asarray(np.linalg.cholesky(s), dtype=np.float64)
-    white = _inverse_of_lower(root)
+    white: FloatArray = s * (unit * unit[:, None])
+    white.reshape(len(s), -1)[:, :: rows.size + 1] += 1.0  # the diagonals
+    make_roots(white)
+    log_det = 2.0 * np.log(white.reshape(len(s), -1)[:, :: rows.size + 1] / unit).sum(axis=1)
+    _invert_lower(white)
     surprise = white @ ((measured - value) * unit)[..., None]  # (K, m, 1), N(0, 1) when all is right
     gain = white @ (cross * unit[:, None])
     error = bank.error + (surprise.transpose(0, 2, 1) @ gain)[:, 0]
     covariance = bank.covariance - gain.transpose(0, 2, 1) @ gain
     covariance = 0.5 * (covariance + covariance.transpose(0, 2, 1))
     nis = np.vecdot(surprise[..., 0], surprise[..., 0])
-    log_det = 2.0 * np.log(root.reshape(len(s), -1)[:, :: rows.size + 1] / unit).sum(axis=1)
     log_likelihood = -0.5 * (nis + log_det + rows.size * _LOG_2_PI)
     residual = (surprise.transpose(0, 2, 1) @ white)[:, 0] / np.sqrt((white * white).sum(axis=1))
     bank = ModeBank(bank.nominal, error, covariance, bank.probability)
     return bank, Innovation(nis, log_likelihood, int(rows.size), residual)
 
 
-def _inverse_of_lower(root: FloatArray) -> FloatArray:
-    """Inverses of lower triangular matrices (K, m, m)."""
-    out = np.empty_like(root)
-    for one, into in zip(root, out, strict=True):
-        # LAPACK counts by columns: what it is told of is the transpose.
-        into[...] = dtrtri(one.T, lower=0)[0].T
-    return out
+def _invert_lower(root: FloatArray) -> None:
+    """Make lower triangular matrices (K, m, m) their inverses."""
+    for one in root:
+        # LAPACK counts by columns: what it is told of, and changes in place, is the transpose.
+        dtrtri(one.T, lower=0, overwrite_c=1)
 
 
 _LOG_2_PI = float(np.log(2.0 * np.pi))

@@ -163,9 +163,9 @@ def _still(layout: StateLayout) -> tuple[FloatArray, NDArray[np.int64]]:
 
 
 @lru_cache(maxsize=16)
-def _process_terms(noise: MotionNoise, layout: StateLayout) -> tuple[FloatArray, FloatArray, FloatArray]:
-    """Q(dt) = A dt + B dt^2 + C dt^3 of the states that move, from noise that holds over a step and has the density
-    sd^2 / 30."""
+def _process_terms(noise: MotionNoise, layout: StateLayout) -> FloatArray:
+    """A, B, C (3, m m) of Q(dt) = A dt + B dt^2 + C dt^3 of the states that move, flat, from noise that holds over a
+    step and has the density sd^2 / 30."""
     turn = noise.turn_acceleration_rad_s2 if layout.has_rates else noise.turn_rate_rad_s
     joint = noise.joint_acceleration_rad_s2 if layout.has_rates else noise.joint_rate_rad_s
     linear, square, cubic = (np.zeros((layout.moving.stop, layout.moving.stop)) for _ in range(3))
@@ -185,22 +185,24 @@ def _process_terms(noise: MotionNoise, layout: StateLayout) -> tuple[FloatArray,
     else:
         drive(layout.turn, layout.turn, turn, False)
         drive(layout.joints, layout.joints, joint, False)
-    return linear, square, cubic
+    return np.stack((linear, square, cubic)).reshape(3, -1)
 
 
 def _driven(noise: MotionNoise, on_the_way: FloatArray, dt_s: float, layout: StateLayout) -> FloatArray:
-    linear, square, cubic = _process_terms(noise, layout)
-    q = linear * dt_s + square * dt_s**2 + cubic * dt_s**3
+    size = layout.moving.stop
+    q = (np.array((dt_s, dt_s**2, dt_s**3)) @ _process_terms(noise, layout)).reshape(size, size)
     if layout.has_rates:
-        # Turning is pushed about the axes on the way, not about those at the end: Jr, as in the transition.
-        q[6:9, 6:9] = on_the_way @ q[6:9, 6:9] @ on_the_way.T
-        q[6:9, 9:12] = on_the_way @ q[6:9, 9:12]
-        q[9:12, 6:9] = q[6:9, 9:12].T
+        # Turning is pushed about the axes on the way, not about those at the end: Jr, as in the transition. Its noise
+        # is the same about all of them.
+        turn, with_rate = q.item(6, 6), q.item(6, 9)
+        q[6:9, 6:9] = turn * (on_the_way @ on_the_way.T)
+        q[6:9, 9:12] = across = with_rate * on_the_way
+        q[9:12, 6:9] = across.T
     return q
 
 
-def carried(covariance: FloatArray, step: Stride, layout: StateLayout, scale2: FloatArray | float = 1.0) -> FloatArray:
-    """F P F' + Q (..., n, n) of covariances (..., n, n), Q multiplied by ``scale2`` (...).
+def carried(covariance: FloatArray, step: Stride, layout: StateLayout, scale2: FloatArray | None = None) -> FloatArray:
+    """F P F' + Q (..., n, n) of covariances (..., n, n), Q multiplied by ``scale2`` (...) if there is one.
 
     The shape stays: in its rows and columns F is the identity.
     """
@@ -208,7 +210,7 @@ def carried(covariance: FloatArray, step: Stride, layout: StateLayout, scale2: F
     out = covariance.copy()
     out[..., moving, :] = f @ out[..., moving, :]
     out[..., moving] = out[..., moving] @ f.T
-    out[..., moving, moving] += np.multiply.outer(scale2, step.noise)
+    out[..., moving, moving] += step.noise if scale2 is None else scale2[..., None, None] * step.noise
     return out
 
 

@@ -37,18 +37,18 @@ class Readout:
         self._disc_m = calibration.marker_position_w0_m
         self._start = clinical_angles.rotation_from_angles(calibration.start_angles_rad, self._side)
         self._has_start = bool(np.any(calibration.start_angles_rad))
-        self._axes_shape: FloatArray | None = None
+        self._axes_shape = np.full(layout.shape_count, np.nan)
         self._axes = np.eye(3)
         self._sensitivity = np.zeros((3, 18))
         self._unrefined_turn = _neutral_turn_covariance(calibration)
 
     def _axes_of(self, shape: FloatArray) -> tuple[FloatArray, FloatArray]:
-        if self._axes_shape is None or float(np.abs(shape - self._axes_shape).max()) > _SHAPE_MOVED_M:
+        moved_m = shape - self._axes_shape
+        if not np.abs(moved_m).max() <= _SHAPE_MOVED_M:  # so too at first
             self._axes, self._sensitivity = wrist_axes_sensitivity(self._disc_m + shape.reshape(-1, 3), _DORSAL)
             self._axes_shape = shape.copy()
             return self._axes, self._sensitivity
-        turned = self._sensitivity @ (shape - self._axes_shape)
-        return self._axes @ so3.exp(turned), self._sensitivity
+        return self._axes @ so3.exp(self._sensitivity @ moved_m), self._sensitivity
 
     def palm(self, belief: Belief) -> tuple[PalmInBody, FloatArray]:
         """The palm as refined, for the fingers, and the covariance (3, 3) of its axes' turn, in the body."""

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from functools import lru_cache
 
 import numpy as np
+from scipy.linalg.lapack import dpotrf
 
 from core.types import FloatArray
 
@@ -54,3 +55,14 @@ def deviations(covariance: FloatArray, scale: float) -> FloatArray:
     out[..., 1 : n + 1, :] = columns
     out[..., n + 1 :, :] = -columns
     return out
+
+
+def make_roots(matrix: FloatArray) -> None:
+    """Make positive definite matrices (K, n, n), stored row by row, their lower triangular roots.
+
+    In place, as in the filter's step a root by ``numpy.linalg`` costs twice as much; fails as that does.
+    """
+    for one in matrix:
+        # LAPACK counts by columns: what it is told of, and changes in place, is the transpose.
+        if dpotrf(one.T, lower=0, overwrite_a=1)[1]:
+            raise np.linalg.LinAlgError("Matrix is not positive definite")
