@@ -6,6 +6,7 @@ import contextlib
 import sys
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
+from importlib import import_module
 from pathlib import Path
 
 from app.desktop.calibrator import HandCalibrator
@@ -64,6 +65,8 @@ class Sources:
 
     def open(self, choice: SourceChoice, set_up: SetUp, progress: Progress) -> OpenSource:
         """Open the chosen source; waits for camera, disk or renderer, so it is called in the background."""
+        # Counting the first repetition needs it, in the window's thread: half a second in which nothing would answer.
+        import_module("scipy.signal")
         if choice.kind == "file":
             return self._recording(choice, set_up)
         return self._camera(set_up) if choice.kind == "camera" else self._practice(set_up, progress)
