@@ -22,10 +22,11 @@ RAY_DISCS = ((2, 3, 4), (6, 7, 8), (10, 11, 12), (14, 15, 16), (18, 19, 20))
 
 _PALM = list(HAND21.palm)
 
-# Scatter of the depth of each joint centre by itself: a seventh of the ranges of reference 2, which also hold the
-# sizes of hands (the table is scaled by them) and how much flesh there is (common to a ray, ``height_scale``).
-_DEPTH_SD_M = np.array([0.00086, 0.00057, 0.00034, 0.00029])  # CMC1, MCP1, IP1, TIP1
-_FINGER_DEPTH_SD_M = np.array([0.00071, 0.00043, 0.00034, 0.00029])  # MCP, PIP, DIP, TIP
+# Scatter of the depth of each joint centre by itself: a fourteenth of the ranges of reference 2. What else makes these
+# wide is told apart: the sizes of hands (the table is scaled by them) and how much flesh there is (common to a ray,
+# ``height_scale``).
+_DEPTH_SD_M = np.array([0.00043, 0.00029, 0.00017, 0.00014])  # CMC1, MCP1, IP1, TIP1
+_FINGER_DEPTH_SD_M = np.array([0.00036, 0.00021, 0.00017, 0.00014])  # MCP, PIP, DIP, TIP
 _FIXED = 1e-6
 _DOWN = np.array([1.0, 1.0, -1.0])
 
@@ -37,6 +38,8 @@ class AnatomyPrior:
     ``bone_share`` of a bone's length; ``last_bone_share`` of the last one, which ends under a disc whose place on the
     nail varies; ``height_scale`` common to all offsets of a ray, besides the scatter of each in the table;
     ``start_ahead_m`` and ``start_aside_m`` of the first joint centre (MCP, CMC1) from the place under its disc.
+    ``depth_stays_m``: error of a disc's depth that stays over a recording. To the camera it is height, at the neutral
+    pose and after, so it is part of what is not known of the heights.
     ``neutral_*`` of the angles at the neutral pose, about a hand that lies relaxed: joints bent by
     ``relaxed_flexion_rad``, the thumb a little out, ``relaxed_thumb_rad`` CMC extension and abduction.
     """
@@ -49,6 +52,7 @@ class AnatomyPrior:
     height_scale: float = 0.1
     start_ahead_m: float = 0.0015
     start_aside_m: float = 0.0007
+    depth_stays_m: float = 0.0004
     neutral_abduction_rad: float = math.radians(1.8)
     neutral_flexion_rad: float = math.radians(6.0)
     neutral_thumb_rad: float = math.radians(5.0)
@@ -97,13 +101,16 @@ def constants_prior(
         sd[3] = prior.fan_rad if ray else prior.thumb_fan_rad
         if not ray:
             sd[4] = prior.thumb_roll_rad
+        # A disc of the thumb is turned away from a camera above by the thumb's roll.
+        stays_m = prior.depth_stays_m * np.array([1.0, *(3 * [1.0 if ray else math.cos(mean[0, 4])])])
+        sd[7:] = np.maximum(stays_m, _FIXED)
         heights = np.zeros(11)
         if has_offsets:
             sd[5] = math.hypot(prior.start_ahead_m, lateral_sd_m[ray])
             sd[6] = math.hypot(prior.start_aside_m, lateral_sd_m[ray])
-            sd[7:] = _FINGER_DEPTH_SD_M if ray else _DEPTH_SD_M
-            sd[7] = math.hypot(sd[7], depth_sd_m[ray])
+            sd[7:] = np.hypot(_FINGER_DEPTH_SD_M if ray else _DEPTH_SD_M, stays_m)
             heights[7:] = mean[ray, 7:]
+        sd[7] = math.hypot(sd[7], depth_sd_m[ray])
         covariance[ray] = np.diag(sd**2) + prior.height_scale**2 * np.outer(heights, heights)
     return Gaussian(mean, covariance)
 

@@ -41,6 +41,8 @@ _STARTS_AT_RATE_SD = 1.0
 _POSTURE_SD_RAD = math.radians(12.0)
 """Of the grid on which a lost finger is searched."""
 _POSTURE_RATE_SD = 3.0
+_ACROSS_M = 0.00015
+"""How closely a disc holds its joints across the line of sight when errors stay."""
 _SURE_TURN_RAD = math.radians(1.0)
 """Standard deviation of the palm's turn, all axes together, at which half as much is learnt of the fingers."""
 
@@ -214,12 +216,12 @@ class FingerModel:
         """Joints of rays (5, n) with covariance (5, n, n) on that palm; ``line`` what the camera saw of them."""
         palm, state = seat.palm, mean[:, self.layout.seen]
         joints = covariance[:, :SLOTS, :SLOTS]
-        variance = self.reading.variances(joints + self._systematic(joints, seat, line))
+        frames = ray_frames(state)
+        variance = self.reading.variances(joints + self._inherited(joints, seat, line, frames.normal))
         angles = self.reading.angles(mean[:, :SLOTS])
         rates = np.full(angles.size, np.nan)
         if self.layout.has_rates:
             rates = self.reading.angles(mean[:, self.layout.rates])
-        frames = ray_frames(state)
         chain = ray_joints_m(palm.disc_m[1:], state, frames)
         centre = np.empty((1 + RAYS * (DISCS + 1), 3))
         centre[0] = 0.0, 0.0, -self._wrist_depth_m
@@ -230,26 +232,27 @@ class FingerModel:
         disc_cam = disc @ seat.view.rotation.T + seat.view.translation_m
         return JointMoment(angles, np.sqrt(np.maximum(variance, 0.0)), rates, centre, disc_cam)
 
-    def _systematic(self, joints: FloatArray, seat: Seat, line: RayForecast) -> FloatArray:
-        """Covariance (5, 5, 5) that the slots inherit from the turn of W2 and from errors that stay with a disc.
+    def _inherited(self, joints: FloatArray, seat: Seat, line: RayForecast, normal: FloatArray) -> FloatArray:
+        """Covariance (5, 5, 5) that the slots inherit from the turn of W2 and from depths that stay wrong.
 
-        Everything measured in those errors, which no averaging removes, so that a disc's own have unit covariance.
+        What such a depth moves a disc along its normal (5, 3, 3) is taken for height, at the neutral pose and after,
+        and part of what is not known of the heights; what it moves it across, the joints take.
         """
-        own = self.settings.fingers
+        depth_m = self.settings.fingers.depth_stays_m
         unit = np.empty((RAYS, DISCS, 3, 1))
-        unit[..., :2, 0] = line.centre_m[..., 2:] / (self._focal_px * own.lateral_bias_m)
-        unit[..., 2, 0] = 1.0 / own.depth_bias_m
+        unit[..., :2, 0] = line.centre_m[..., 2:] / (self._focal_px * _ACROSS_M)
+        unit[..., 2, 0] = 1.0 / depth_m
         slope = line.slope[..., :SLOTS] * unit.reshape(RAYS, 9, 1)
         across = np.swapaxes(slope, 1, 2)
         doubt = 0.25 * np.linalg.inv(joints + _NARROW2 * np.eye(SLOTS))
         response = np.linalg.solve(across @ slope + doubt, across)
-        # The disc at the ray's root errs as well, and all three seem to go the other way.
-        root = response.reshape(RAYS, SLOTS, DISCS, 3).sum(axis=2)
         root_m = seat.palm.disc_m[1:, None] @ seat.view.rotation.T + seat.view.translation_m
-        by_turn = (line.by_place @ so3.skew(root_m - line.centre_m) * unit).reshape(RAYS, 9, 3)
-        turned = response @ by_turn
+        turned = response @ (line.by_place @ so3.skew(root_m - line.centre_m) * unit).reshape(RAYS, 9, 3)
+        in_camera = normal @ seat.view.rotation.T
+        moved = -in_camera[..., 2:] * in_camera
+        moved[..., 2] += 1.0
+        seen = (line.by_place @ moved[..., None] * (depth_m * unit))[..., 0]
+        by_disc = np.einsum("rsdk,rdk->rsd", response.reshape(RAYS, SLOTS, DISCS, 3), seen)
         return np.asarray(
-            response @ np.swapaxes(response, 1, 2)
-            + root @ np.swapaxes(root, 1, 2)
-            + turned @ seat.turn_covariance @ np.swapaxes(turned, 1, 2)
+            turned @ seat.turn_covariance @ np.swapaxes(turned, 1, 2) + by_disc @ np.swapaxes(by_disc, 1, 2)
         )

@@ -271,7 +271,7 @@ class Fingers:
         squared = squared.reshape(RAYS, DISCS, 3)
         squared[..., :2] = squared[..., :2].mean(axis=-1, keepdims=True)
         grown = self._noise_factor * (1.0 + weight * (squared.reshape(RAYS, 9) - 1.0))
-        self._noise_factor = np.where(used, np.clip(grown, 1.0, noise.most_adapted), self._noise_factor)
+        self._noise_factor = np.where(used, np.clip(grown, noise.least_adapted, noise.most_adapted), self._noise_factor)
 
     def read(self, trial: FingerTrial) -> JointMoment:
         """The joints after that trial was accepted."""

@@ -11,7 +11,7 @@ import pytest
 from scipy.optimize import least_squares
 
 from core.hand.anatomy import HandAnatomy, anatomy_from_size
-from core.hand.anatomy_prior import constants_of, with_constants
+from core.hand.anatomy_prior import AnatomyPrior, constants_of, with_constants
 from core.hand.fitting import AnatomyFit, SeenDiscs, fit_anatomy
 from core.hand.kinematics import disc_centres
 from core.hand.protocols import HAND21, joint_angle_names
@@ -172,10 +172,14 @@ def test_absurd_depth_is_left_out_and_named(marker: str) -> None:
     assert np.max(np.abs(off_deg[5:])) < 12.0
 
 
-def test_chain_of_the_papers_has_no_offsets() -> None:
+@pytest.mark.parametrize(("stays_m", "most_m"), [(0.0, 1e-5), (0.0004, 0.0008)])
+def test_chain_of_the_papers_has_no_offsets(stays_m: float, most_m: float) -> None:
+    """But for depths that stay wrong, which are heights to the camera."""
     hand = _person(9, skin_offsets=False)
-    fit = fit_anatomy(_seen(hand, _neutral(9), 9, 0.0003), hand.side, skin_offsets=False)
-    assert np.allclose(fit.anatomy.skin_offset_m, 0.0, atol=1e-5)
+    prior = AnatomyPrior(depth_stays_m=stays_m)
+    fit = fit_anatomy(_seen(hand, _neutral(9), 9, 0.0003), hand.side, skin_offsets=False, prior=prior)
+    assert np.allclose(fit.anatomy.finger_offset_m, 0.0, atol=most_m)
+    assert np.allclose(fit.anatomy.skin_offset_m, 0.0, atol=0.001)
     flexions = _columns("MCP", "flexion") + _columns("PIP", "flexion")
     assert np.allclose(fit.neutral_angles_rad[flexions], _neutral(9)[flexions], atol=math.radians(2.0))
 

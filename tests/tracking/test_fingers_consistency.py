@@ -1,0 +1,39 @@
+"""What is said of the joints' errors is what they are, over several hands: neither too bold nor too timid."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from threadpoolctl import threadpool_limits
+
+from tests.accuracy.hand21 import ROWS, HandRun, run_on_blobs
+from tests.accuracy.hand21_table import figures
+
+FIRST_SEED, HANDS = 6_000_000, 5
+FLEXION = ("MCP flexion", "PIP flexion", "DIP flexion")
+
+
+@pytest.fixture(scope="module", params=["discs on the skin", "discs in the joints"])
+def runs(request: pytest.FixtureRequest) -> list[HandRun]:
+    row = next(row for row in ROWS if row.name == request.param)
+    with threadpool_limits(1):
+        return [run_on_blobs(row, row.spec(number, FIRST_SEED)) for number in range(HANDS)]
+
+
+def test_joints_seen_err_by_what_is_said(runs: list[HandRun]) -> None:
+    """Errors that stay with a disc are part of the heights, in both kinds of chain, and are counted once."""
+    for group in FLEXION:
+        found = figures(runs, group)
+        assert 0.75 < found.sd_over_rmse < 1.4, group
+        assert found.inside > 0.90, group
+        assert found.back_inside > 0.88, group
+        assert found.back < found.rmse, group
+
+
+def test_joints_hidden_say_so(runs: list[HandRun]) -> None:
+    for group in FLEXION:
+        found = figures(runs, group)
+        assert found.hidden_inside > 0.95, group
+    hidden = np.concatenate([run.joint_sd_deg[~run.seen] for run in runs])
+    seen = np.concatenate([run.joint_sd_deg[run.seen] for run in runs])
+    assert np.nanmean(hidden) > 2.0 * np.nanmean(seen)
