@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import os
 import signal
+from contextlib import suppress
 from multiprocessing.connection import Connection
 
 NICER = 10
@@ -27,10 +28,9 @@ def run(link: Connection) -> None:
         os.nice(NICER)
     try:
         _serve(link)
-    except (EOFError, OSError):
-        return  # the owner is gone
     except Exception as cause:  # the one catch of this process: told, not printed
-        link.send(f"{type(cause).__name__}: {cause}")
+        with suppress(OSError):  # the owner may be gone, which may be the cause
+            link.send(f"{type(cause).__name__}: {cause}")
 
 
 def _serve(link: Connection) -> None:

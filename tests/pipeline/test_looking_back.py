@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import multiprocessing
 import os
 import signal
 import subprocess
@@ -18,7 +19,7 @@ from core.calibration.settings import CalibrationSettings
 from core.errors import NotLookedBack
 from core.pipeline import looking_back
 from core.pipeline.looking_back import LookingBack
-from core.pipeline.looking_back_process import NICER
+from core.pipeline.looking_back_process import NICER, run
 from core.pipeline.pieces import PieceByPiece, TrackedHand
 from core.pipeline.track import from_neutral, learnt_from
 from core.session.values import Motion, motion_of
@@ -183,6 +184,20 @@ def test_a_fault_over_there_is_told_in_one_line(capfd: pytest.CaptureFixture[str
         with pytest.raises(NotLookedBack) as told:
             running.finish(times_s())
     assert "AttributeError" in told.value.detail
+    assert capfd.readouterr().err == ""
+
+
+def test_the_process_ends_with_its_owner(capfd: pytest.CaptureFixture[str]) -> None:
+    context = multiprocessing.get_context("spawn")
+    link, theirs = context.Pipe()
+    process = context.Process(target=run, args=(theirs,), daemon=True)
+    process.start()
+    theirs.close()
+    link.send((tracked_hand(), PIECE_S, LAG_S))
+    link.send(list(steps()[:40]))
+    link.close()
+    process.join(60.0)
+    assert process.exitcode == 0
     assert capfd.readouterr().err == ""
 
 
