@@ -20,6 +20,9 @@ DepthImage = NDArray[np.uint16]
 
 Side = Literal["right", "left"]
 
+SIMULATED = "simulated"
+"""The setting, "yes", of a source whose pictures show a simulated hand; absent for every other."""
+
 
 class TrackStatus(IntEnum):
     """State of one tracked frame, as stored in ``/frames/status``."""

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 from ui import numbers
 from ui.translate import tr
 
@@ -19,6 +21,27 @@ def verdict_word(verdict: str) -> str:
         "no_change": tr("no change"),
         "not_judged": tr("not judged"),
     }.get(verdict, "")
+
+
+def reason_words(reasons: Sequence[str]) -> str:
+    """Why two sessions are not judged, or one is left out, in a few words; empty for no reason."""
+    words = {
+        "side": tr("the other hand"),
+        "protocol": tr("other markers"),
+        "exercise": tr("another exercise"),
+        "few_repetitions_before": tr("fewer than 3 repetitions"),
+        "few_repetitions_after": tr("fewer than 3 repetitions"),
+        "unknown": tr("not measured"),
+        "simulated": tr("a simulated hand"),
+        "not_counted": tr("marked as not counting"),
+        "doubtful": tr("measured although the markers were doubtful"),
+        "distance": tr("the camera was at another distance"),
+        "start_angle": tr("another start angle was given"),
+        "forearm_moved": tr("the forearm moved"),
+        "incomplete": tr("the recording was cut short"),
+        "hidden": tr("hidden in part"),
+    }
+    return ", ".join(dict.fromkeys(words.get(reason, reason) for reason in reasons))
 
 
 def difference(change_deg: float) -> str:

@@ -14,7 +14,8 @@ from core.types import Frame
 class SourceInfo:
     """Facts about a source. ``frame_count`` is None for a live camera; ``has_depth`` whether depth comes at all.
 
-    ``settings`` (sensor name, driver, modes, registration ...) goes into the session's parameters.
+    ``settings`` (sensor name, driver, modes, registration ...) goes into the session's parameters; ``simulated`` is
+    "yes" there for pictures of a simulated hand.
     """
 
     name: str

@@ -25,7 +25,7 @@ from core.errors import (
     RecordingUnreadable,
     TimesUnordered,
 )
-from core.types import FloatArray, Frame
+from core.types import SIMULATED, FloatArray, Frame
 
 COLOR_LIST = "rgb.txt"
 DEPTH_LIST = "depth.txt"
@@ -33,6 +33,8 @@ DEPTH_UNIT_M = 1.0 / 5000.0
 PAIRING_LIMIT_S = 0.020
 _TIME_ROUNDING_S = 1e-6
 """The lists give microseconds; two times 20 ms apart may differ by a little more in floating point."""
+SIMULATED_REMARK = "# simulated by Carpus"
+"""A line among the remarks of the lists of a simulated recording."""
 _READING_THREADS = 2
 _FPS_OF_ONE_PICTURE = 30.0
 
@@ -81,7 +83,7 @@ class TumFolder:
             has_depth=any(frame.depth is not None for frame in self.stored),
             frame_count=len(self.stored),
             nominal_fps=1.0 / float(np.median(np.diff(color_s))) if len(color) > 1 else _FPS_OF_ONE_PICTURE,
-            settings={"format": "tum", "depth_unit_m": repr(DEPTH_UNIT_M)},
+            settings={"format": "tum", "depth_unit_m": repr(DEPTH_UNIT_M), **_simulated(folder / COLOR_LIST)},
         )
 
     def frames(self) -> Iterator[Frame]:
@@ -187,6 +189,13 @@ def _read_list(path: Path) -> list[tuple[float, Path]]:
             raise PictureDamaged(picture, f"missing, {path.name} line {number}")
         entries.append((time_s, picture))
     return entries
+
+
+def _simulated(color_list: Path) -> dict[str, str]:
+    """The setting that says so, for a list that has been read already."""
+    with color_list.open(encoding="utf-8-sig") as lines:
+        remarks = (line.strip() for line in lines if line.startswith("#"))
+        return {SIMULATED: "yes"} if SIMULATED_REMARK in remarks else {}
 
 
 def _entry(path: Path, number: int, content: str) -> tuple[float, Path]:

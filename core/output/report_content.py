@@ -14,6 +14,7 @@ from typing import Literal
 
 import numpy as np
 
+from core.calibration.result import Finding
 from core.hand.protocols import WRIST_ANGLES
 from core.measures.change import TOTAL_ACTIVE_MOTION, MeasuredMean, Obstacle, change_between
 from core.measures.fingers import JointTrack
@@ -31,7 +32,11 @@ from core.session.values import Session
 from core.types import FloatArray, Side, TrackStatus
 
 Verdict = Literal["improved", "worse", "no_change", "not_judged"]
-Unfairness = Literal[Obstacle, "distance", "start_angle", "forearm_moved", "incomplete"]
+Unfairness = Literal[
+    Obstacle, "simulated", "not_counted", "doubtful", "distance", "start_angle", "forearm_moved", "incomplete", "hidden"
+]
+NAMES_DOUBTED = ("swapped", "shifted", "misnamed", "wrong_side", "other_length", "depth_off")
+"""Findings at the calibration after which the angles may be something else: such a session never compares."""
 
 USUAL_ADULT_DEG: Mapping[Movement, tuple[float, float]] = {
     "flexion": (60.0, 80.0), "extension": (60.0, 70.0), "radial": (20.0, 20.0), "ulnar": (30.0, 30.0),
@@ -50,11 +55,13 @@ LARGEST_START_ANGLE_STEP_DEG = 5.0
 class RepetitionChoices:
     """A person's corrections, by the number of the repetition as found (from 0).
 
-    ``left_out`` reasons in words; ``edges_s`` start and end in seconds after the first frame.
+    ``left_out`` reasons in words; ``edges_s`` start and end in seconds after the first frame; ``not_counted``: the
+    whole session is shown, and compared with none.
     """
 
     left_out: Mapping[int, str] = field(default_factory=dict)
     edges_s: Mapping[int, tuple[float, float]] = field(default_factory=dict)
+    not_counted: bool = False
 
 
 @dataclass(frozen=True, slots=True)
@@ -141,6 +148,14 @@ class SessionFigures:
     notes: tuple[tuple[float, str], ...]
     joint_rows: tuple[RangeRow, ...] = ()
     """Of the whole hand: arc, most bent and least bent of every joint, and the TAM of every finger."""
+    findings: tuple[Finding, ...] = ()
+    """What was doubtful at the calibration, and measured all the same."""
+    simulated: bool = False
+    """Whether a simulated hand was measured: nobody's movement."""
+    not_counted: bool = False
+    """Whether a person decided that the session shall not count."""
+    targets_deg: tuple[float, float] = (math.nan, math.nan)
+    """Targets of the trained angle, of its positive and its negative direction, signed; NaN for none."""
 
     @property
     def counted(self) -> int:
@@ -167,6 +182,8 @@ class Comparison:
     joint: str = ""
     limited: tuple[bool, bool] = (False, False)
     """Whether the figure before and the one after are lower bounds, since the joint was hidden in part."""
+    reasons: tuple[Unfairness, ...] = ()
+    """Why the two are not judged; empty when they are."""
 
     @property
     def at_least(self) -> bool:
@@ -208,8 +225,9 @@ class Progress:
 
     @property
     def first(self) -> SessionFigures | None:
-        """The session compared with."""
-        return self.points[0].figures if self.points else None
+        """The session compared with: the first that is fair in itself, else the first of all."""
+        chosen = next((point for point in self.points if point.fair), self.points[0] if self.points else None)
+        return chosen.figures if chosen is not None else None
 
     @property
     def last(self) -> SessionFigures | None:
@@ -307,6 +325,10 @@ def session_figures(session: Session, choices: RepetitionChoices | None = None) 
             if event.kind == "note" and event.text and len(session)
         ),
         joint_rows=() if repetitions and not counted else joint_rows(tracks, counted, exercise),
+        findings=verdict.findings,
+        simulated=session.header.simulated,
+        not_counted=choices.not_counted,
+        targets_deg=session.header.targets_deg,
     )
 
 
@@ -330,7 +352,11 @@ def compare(before: SessionFigures, after: SessionFigures) -> tuple[Comparison, 
 
 
 def compare_rows(before: SessionFigures, after: SessionFigures, rows: Sequence[RangeRow]) -> tuple[Comparison, ...]:
-    """As :func:`compare`, of some rows of the later session. A hidden joint is not judged, but for a sure gain."""
+    """As :func:`compare`, of some rows of the later session. A hidden joint is not judged, but for a sure gain.
+
+    Sessions that the progress leaves out are not judged here either: there is one judgement, wherever it is shown.
+    """
+    unfair = tuple(dict.fromkeys((*unfair_reasons(before, before), *unfair_reasons(before, after))))
     out = []
     for row in rows:
         other = before.row(row.movement, row.angle, row.joint)
@@ -345,21 +371,39 @@ def compare_rows(before: SessionFigures, after: SessionFigures, rows: Sequence[R
         limited = (other.limited, row.limited) if row.joint else (False, False)
         # A lower bound that lies beyond the error above a figure fully seen is a gain; nothing else is known of it.
         sure_gain = row.movement == "arc" and limited == (False, True) and difference > limit
-        if change.comparable and (not any(limited) or sure_gain):
+        reasons: tuple[Unfairness, ...] = tuple(dict.fromkeys((*unfair, *change.obstacles)))
+        if not reasons and any(limited) and not sure_gain:
+            reasons = ("hidden",)
+        if not reasons:
             beyond = abs(difference) > limit
             better = difference > 0 if row.joint == "" or row.movement != "extension" else difference < 0
             verdict = "no_change" if not beyond else "improved" if better else "worse"
         out.append(
             Comparison(
-                row.movement, row.angle, other.mean_deg, row.mean_deg, difference, limit, verdict, row.joint, limited
+                row.movement,
+                row.angle,
+                other.mean_deg,
+                row.mean_deg,
+                difference,
+                limit,
+                verdict,
+                row.joint,
+                limited,
+                reasons,
             )
         )
     return tuple(out)
 
 
 def unfair_reasons(first: SessionFigures, other: SessionFigures) -> tuple[Unfairness, ...]:
-    """Why a session does not compare with the first one."""
+    """Why a session does not compare with the first one; with itself: why it compares with none."""
     reasons: list[Unfairness] = []
+    if other.simulated != first.simulated:
+        reasons.append("simulated")
+    if any(finding.kind in NAMES_DOUBTED for finding in other.findings):
+        reasons.append("doubtful")
+    if other.not_counted:
+        reasons.append("not_counted")
     if abs(first.quality.distance_m - other.quality.distance_m) > LARGEST_DISTANCE_STEP_M:
         reasons.append("distance")
     if float(np.abs(first.start_angles_deg - other.start_angles_deg).max()) > LARGEST_START_ANGLE_STEP_DEG:
@@ -381,7 +425,8 @@ def progress(
     ``keys`` choose what of the whole hand is followed; without them it is the wrist.
     """
     ordered = sorted(sessions, key=lambda figures: figures.when)
-    first = next((figures for figures in ordered if not unfair_reasons(figures, figures)), None)
+    real = [figures for figures in ordered if not figures.simulated]
+    first = next((figures for figures in real or ordered if not unfair_reasons(figures, figures)), None)
     points = tuple(ProgressPoint(figures, unfair_reasons(first or figures, figures)) for figures in ordered)
     fair = [point.figures for point in points if point.fair]
     comparisons: tuple[Comparison, ...] = ()
@@ -392,7 +437,7 @@ def progress(
 
 
 def previous_of(history: Sequence[SessionFigures], figures: SessionFigures) -> SessionFigures | None:
-    """The last earlier session of the same hand, protocol and exercise."""
+    """The last earlier session of the same hand, protocol and exercise that counts."""
     alike = [other for other in history if _alike(other, figures) and other.side == figures.side]
     return max((other for other in alike if other.when < figures.when), key=lambda other: other.when, default=None)
 
@@ -404,7 +449,8 @@ def other_hand_of(history: Sequence[SessionFigures], figures: SessionFigures) ->
 
 
 def _alike(one: SessionFigures, other: SessionFigures) -> bool:
-    return (one.exercise.id, one.protocol) == (other.exercise.id, other.protocol)
+    same_kind = (one.exercise.id, one.protocol, one.simulated) == (other.exercise.id, other.protocol, other.simulated)
+    return same_kind and not one.not_counted
 
 
 def usual_deg(movement: Movement, angle: int) -> tuple[float, float] | None:

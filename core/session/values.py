@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import math
 import uuid
 from collections.abc import Sequence
 from dataclasses import dataclass, fields
@@ -15,9 +16,12 @@ from numpy.typing import NDArray
 from core.calibration.result import Calibration
 from core.camera import Camera
 from core.hand.protocols import MarkerProtocol, joint_angle_names
-from core.types import Detections, FloatArray, Moment, Side, TrackedFrame
+from core.types import SIMULATED, Detections, FloatArray, Moment, Side, TrackedFrame
 
 IntArray = NDArray[np.integer]
+
+SET_UP = "set_up"
+"""The part of a session's parameters that says what was aimed at."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -45,6 +49,22 @@ class SessionHeader:
         json.loads(self.parameters)
         if bool(self.joint_names) != self.protocol.has_fingers:
             raise ValueError(f"{self.protocol.name} with {len(self.joint_names)} joint angles")
+
+    @property
+    def simulated(self) -> bool:
+        """Whether the pictures were of a simulated hand, as their source said: nobody's movement was measured."""
+        parameters = json.loads(self.parameters)
+        source = parameters.get("source") if isinstance(parameters, dict) else None
+        return isinstance(source, dict) and source.get(SIMULATED) == "yes"
+
+    @property
+    def targets_deg(self) -> tuple[float, float]:
+        """Targets of the exercise as set up, signed degrees of its positive and negative direction; NaN for none."""
+        parameters = json.loads(self.parameters)
+        set_up = parameters.get(SET_UP) if isinstance(parameters, dict) else None
+        values = (set_up or {}).get("targets_deg") or (None, None)
+        positive, negative = (math.nan if value is None else float(value) for value in values)
+        return positive, negative
 
 
 def new_header(

@@ -19,7 +19,7 @@ import platformdirs
 
 from core.calibration.result import Clicks
 from core.capture.camera_info import CAMERA_FILE, write_camera_info
-from core.capture.tum import COLOR_LIST, DEPTH_LIST, DEPTH_UNIT_M
+from core.capture.tum import COLOR_LIST, DEPTH_LIST, DEPTH_UNIT_M, SIMULATED_REMARK
 from core.errors import OutputExists, OutputNotWritable
 from core.session.disk import write_fault
 from core.simulation.render import CleanPicture, Renderer
@@ -281,5 +281,5 @@ def _write_pictures(pictures: SimulatedPictures, i: int, clean: CleanPicture, fo
 def _write_lists(folder: Path, lists: dict[str, list[str]]) -> None:
     titles = {"rgb": ("color images", COLOR_LIST), "depth": ("depth maps", DEPTH_LIST)}
     for kind, (title, name) in titles.items():
-        text = "\n".join([f"# {title}", "# simulated by Carpus", "# timestamp filename", *lists[kind], ""])
+        text = "\n".join([f"# {title}", SIMULATED_REMARK, "# timestamp filename", *lists[kind], ""])
         (folder / name).write_text(text, encoding="utf-8")

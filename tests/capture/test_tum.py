@@ -15,7 +15,7 @@ from hypothesis import strategies as st
 from core.camera import DEFAULT_CAMERA, Camera
 from core.capture.camera_info import write_camera_info
 from core.capture.source import FrameSource
-from core.capture.tum import TumFolder, missing_before, nearest_pairs
+from core.capture.tum import SIMULATED_REMARK, TumFolder, missing_before, nearest_pairs
 from core.errors import (
     CameraFileUnreadable,
     CarpusFault,
@@ -27,6 +27,7 @@ from core.errors import (
     RecordingUnreadable,
     TimesUnordered,
 )
+from core.types import SIMULATED
 
 WIDTH, HEIGHT = 64, 48
 TIMES_S = [1305031102.175304 + 0.033 * k for k in (0, 1, 2, 5, 6)]
@@ -296,3 +297,11 @@ def test_missing_frames_are_judged_by_the_median_period() -> None:
     assert missing_before(times) == [0, 0, 0, 0, 3, 0, 2]
     assert missing_before(np.array([0.0, 0.03, 0.07, 0.10, 0.145])) == [0, 0, 0, 0, 0]
     assert missing_before(np.empty(0)) == []
+
+
+def test_a_simulated_recording_says_so_and_no_other_does(tmp_path: Path) -> None:
+    recording = write_recording(tmp_path / "take")
+    assert SIMULATED not in TumFolder(recording).info.settings
+    rgb = recording / "rgb.txt"
+    rgb.write_text(f"{SIMULATED_REMARK}\n{rgb.read_text()}")
+    assert TumFolder(recording).info.settings[SIMULATED] == "yes"

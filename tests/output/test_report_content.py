@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import math
 from dataclasses import replace
 from datetime import timedelta
@@ -9,6 +10,7 @@ from datetime import timedelta
 import numpy as np
 import pytest
 
+from core.calibration.result import Finding
 from core.output.report_content import (
     RepetitionChoices,
     SessionFigures,
@@ -126,6 +128,70 @@ def test_a_session_with_another_camera_height_is_shown_but_not_compared(figures:
     assert course.points[2].reasons == ("distance",)
     assert course.first is sessions[0]
     assert course.last is sessions[3]
+
+
+@pytest.mark.parametrize("reason", ["forearm_moved", "doubtful", "not_counted", "simulated", "distance"])
+@pytest.mark.parametrize("which", ["before", "after"])
+def test_what_the_progress_leaves_out_is_judged_nowhere(figures: SessionFigures, reason: str, which: str) -> None:
+    quality = figures.quality
+    unfair = {
+        "forearm_moved": {"quality": replace(quality, forearm_mm=25.0)},
+        "doubtful": {"findings": (Finding("swapped", ("MCP2", "MCP3")),)},
+        "not_counted": {"not_counted": True},
+        "simulated": {"simulated": True},
+        "distance": {"quality": replace(quality, distance_m=quality.distance_m + 0.2)},
+    }[reason]
+    better = tuple(replace(row, mean_deg=row.mean_deg + 30) for row in figures.rows)
+    before, after = figures, replace(figures, when=NOW + timedelta(days=1), rows=better)
+    assert {item.verdict for item in compare(before, after)} == {"improved"}
+    spoilt = (replace(before, **unfair), after) if which == "before" else (before, replace(after, **unfair))  # type: ignore[arg-type]
+    changes = compare(*spoilt)
+    assert {item.verdict for item in changes} == {"not_judged"}
+    assert all(reason in item.reasons for item in changes)
+    assert not progress(spoilt).comparisons
+
+
+def test_a_doubt_that_leaves_the_angles_what_they_are_is_kept_but_compared(figures: SessionFigures) -> None:
+    near = replace(figures, findings=(Finding("distance", (), 0.5, 0.6, "m"),))
+    assert unfair_reasons(figures, near) == ()
+
+
+def test_simulated_sessions_are_compared_with_each_other_only(figures: SessionFigures) -> None:
+    days = (9, 6, 3, 0)
+    sessions = [replace(figures, when=NOW - timedelta(days=day), session_id=str(day), simulated=True) for day in days]
+    assert all(point.fair for point in progress(sessions).points)
+    sessions[2] = replace(sessions[2], simulated=False)
+    course = progress(sessions)
+    assert [point.fair for point in course.points] == [False, False, True, False]
+    assert course.first is sessions[2]
+    assert previous_of(sessions, sessions[3]) is sessions[1]
+
+
+def test_the_previous_session_is_one_that_counts(figures: SessionFigures) -> None:
+    early, later = (replace(figures, when=NOW - timedelta(days=day), session_id=str(day)) for day in (9, 5))
+    assert previous_of([early, replace(later, not_counted=True)], figures) is early
+
+
+def test_the_findings_of_the_calibration_stay_with_the_figures() -> None:
+    stored = session()
+    doubted = Finding("tilt", (), 22.0, 15.0, "deg")
+    verdict = replace(stored.calibration.verdict, findings=(doubted,))
+    stored = replace(stored, calibration=replace(stored.calibration, verdict=verdict))
+    assert session_figures(stored).findings == (doubted,)
+
+
+def test_a_simulated_source_and_the_targets_are_read_from_the_parameters() -> None:
+    stored = session()
+
+    def with_parameters(content: dict[str, object]) -> SessionFigures:
+        header = replace(stored.header, parameters=json.dumps(content))
+        return session_figures(replace(stored, header=header))
+
+    assert with_parameters({"source": {"simulated": "yes"}}).simulated
+    assert not with_parameters({"source": {"format": "tum"}}).simulated
+    assert with_parameters({"set_up": {"targets_deg": [40.0, None]}}).targets_deg[0] == 40.0
+    assert np.isnan(with_parameters({"set_up": {"targets_deg": [40.0, None]}}).targets_deg[1])
+    assert np.isnan(with_parameters({}).targets_deg).all()
 
 
 def test_the_answer_is_about_the_arc_first(figures: SessionFigures) -> None:

@@ -10,7 +10,7 @@ from core.output.report_content import Comparison, Progress, ProgressPoint
 from ui import numbers, terms
 from ui.figures import figure_of
 from ui.translate import tr
-from ui.verdicts import difference
+from ui.verdicts import difference, reason_words
 
 
 def headline(progress: Progress) -> tuple[str, str]:
@@ -39,8 +39,9 @@ def headline(progress: Progress) -> tuple[str, str]:
     elif main.joint and min(first.counted, last.counted) >= FEWEST_FOR_SPREAD:
         return tr("Not judged: the joints were hidden in part."), tr("What is hidden does not count.")
     else:
-        answer = tr("Not judged: too few repetitions to compare.")
-    others = [item for item in progress.comparisons if item is not main]
+        why = reason_words(main.reasons)
+        return tr("Not judged: {why}.").format(why=why or tr("too few repetitions to compare")), ""
+    others = [item for item in progress.comparisons if item is not main and item.verdict != "not_judged"]
     if main.joint:  # of many joints only those that changed
         others = [item for item in others if item.verdict in ("improved", "worse")]
     return answer, " ".join([_basis(main), *(_rest(item) for item in others)])
@@ -105,13 +106,10 @@ def unfair_words(point: ProgressPoint, progress: Progress) -> str:
         pattern = tr("camera {step} cm further away") if step_cm > 0 else tr("camera {step} cm nearer")
         words = {
             "distance": pattern.format(step=f"{abs(step_cm):.0f}"),
-            "start_angle": tr("another start angle was given"),
             "forearm_moved": tr("the forearm moved {distance}").format(
                 distance=numbers.millimetres(point.figures.quality.forearm_mm)
             ),
-            "incomplete": tr("the recording was cut short"),
-            "few_repetitions_after": tr("fewer than 3 repetitions"),
         }
-        reasons.append(words.get(reason, reason))
+        reasons.append(words.get(reason) or reason_words((reason,)))
     day = numbers.day_month(point.figures.when)
     return tr("{day}: {reasons}. Shown as a ring and left out.").format(day=day, reasons=", ".join(reasons))

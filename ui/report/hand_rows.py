@@ -12,7 +12,7 @@ from ui import numbers
 from ui.figures import FINGERS, Figure, Row
 from ui.marker_words import finger_name
 from ui.translate import tr
-from ui.verdicts import change_short
+from ui.verdicts import change_short, reason_words
 
 COLUMNS: tuple[Row, ...] = ("knuckle", "middle", "end", "spread", "tam")
 AT_LEAST = "≥"
@@ -129,7 +129,8 @@ def _since(figures: SessionFigures, before: SessionFigures, when: str) -> str:
     judged = [item for item in changes if item.verdict != "not_judged"]
     beyond = [item for item in judged if item.verdict != "no_change"]
     if not judged:
-        return tr("Change since {when} is not judged.").format(when=when) if changes else ""
+        why = reason_words([reason for item in changes for reason in item.reasons])
+        return tr("Change since {when} is not judged: {why}.").format(when=when, why=why) if changes else ""
     rest = tr("What was hidden in part is not judged.") if len(judged) < len(changes) else ""
     if not beyond:
         return f"{tr('No change beyond measurement error since {when}.').format(when=when)} {rest}".strip()
@@ -169,8 +170,7 @@ def _finger_row(finger: int, figures: SessionFigures, previous: SessionFigures |
         if found[0].at_least:
             change = tr("at least {change}").format(change=change)
         if verdict == "not_judged":
-            hidden = today.limited or (before is not None and before.limited)
-            change = tr("not judged: hidden in part") if hidden else tr("not judged: fewer than 3 repetitions")
+            change = tr("not judged: {why}").format(why=reason_words(found[0].reasons))
     usual = USUAL_TOTAL_DEG[finger]
     return FingerRow(
         finger,

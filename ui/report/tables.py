@@ -10,7 +10,7 @@ from core.output.report_content import Comparison, SessionFigures, compare, usua
 from ui import numbers, terms
 from ui.plot.style import CURVE_TOKENS
 from ui.translate import tr
-from ui.verdicts import change_short, change_with_limit
+from ui.verdicts import change_short, change_with_limit, reason_words
 
 
 @dataclass(frozen=True, slots=True)
@@ -90,7 +90,7 @@ def _range_row(
     words = ""
     if change is not None:
         words = change_with_limit(change.verdict, change.shown_difference_deg, change.limit_deg)
-        words = words or tr("not judged: fewer than 3 repetitions")
+        words = words or tr("not judged: {why}").format(why=reason_words(change.reasons))
     short = "" if change is None else change_short(change.verdict, change.shown_difference_deg, change.limit_deg)
     if row.limited:
         words = "; ".join(part for part in (words, tr("limited by the camera's view")) if part)

@@ -8,6 +8,7 @@ from core.output.exercises import STILL_RADIUS_MM
 from core.output.report_content import Comparison, SessionFigures, compare
 from ui import numbers, terms
 from ui.translate import tr
+from ui.verdicts import reason_words
 
 
 def summary(figures: SessionFigures, previous: SessionFigures | None, first: SessionFigures | None) -> str:
@@ -41,7 +42,8 @@ def _since(changes: tuple[Comparison, ...], when: str) -> str:
     beyond = [item for item in changes if item.verdict in ("improved", "worse")]
     judged = [item for item in changes if item.verdict != "not_judged"]
     if not judged:
-        return tr("Change since {when} is not judged: fewer than 3 repetitions.").format(when=when) if changes else ""
+        why = reason_words([reason for item in changes for reason in item.reasons])
+        return tr("Change since {when} is not judged: {why}.").format(when=when, why=why) if changes else ""
     if not beyond:
         return tr("No change beyond measurement error since {when}.").format(when=when)
     words = []
