@@ -251,6 +251,10 @@ FINDINGS: dict[str, FindingWords] = {
         "{markers} look swapped.",
         "Swap the two names, or click both markers again.",
     ),
+    "misnamed": FindingWords(
+        "The {markers} does not lie on the line of its finger.",
+        "Look at the lines on the picture, and give the marker its right name.",
+    ),
     "wrong_side": FindingWords(
         "This looks like the other hand.",
         "Choose the other side, or click the markers again.",
@@ -317,12 +321,20 @@ def finding_words(finding: Finding) -> FindingWords:
     if math.isnan(finding.value) and " (" in headline:
         headline = headline[: headline.index(" (")] + "."
     text = headline.format(
-        markers=markers_in_words(finding.markers) or "hand",
+        markers=_exchanged_in_words(finding) or markers_in_words(finding.markers) or "hand",
         value=f"{finding.value:.3g}",
         limit=f"{finding.limit:.3g}",
         unit=finding.unit,
     )
     return FindingWords(text[0].upper() + text[1:], template.remedy)
+
+
+def _exchanged_in_words(finding: Finding) -> str:
+    """``middle finger and ring finger`` where all names of two fingers stand in for each other."""
+    if finding.kind != "swapped" or len(finding.markers) <= 2:
+        return ""
+    firsts = (finding.markers[0], finding.markers[len(finding.markers) // 2])
+    return " and ".join(f"{_FINGERS[name[-1]]} finger" for name in firsts)
 
 
 def finding_sentence(finding: Finding) -> str:

@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.optimize import linear_sum_assignment
 
+from core.calibration.finger_order import misnamed
 from core.calibration.neutral_pose import pose_by_least_squares
 from core.calibration.plausibility import looks_like_other_side, plan_view, swapped_markers
 from core.calibration.registration import SURELY_OFF_PX, depth_offset_px
@@ -241,7 +242,8 @@ def measure_hand(
     view_axis = -origin_cam / np.linalg.norm(origin_cam)
     tilt_deg = float(np.degrees(np.arccos(np.clip(rotation[:, 2] @ view_axis, -1.0, 1.0))))
     verdict = Verdict(residual_mm, hand_length_mm, tilt_deg, float(origin_cam[2]), capture.frames, ())
-    plan = plan_view(point_cam)
+    usual_m = float(np.median(depth_m[seen]))
+    plan = plan_view(camera.back_project(pixel, np.where(seen, depth_m, usual_m)))
     findings += _judged(clicks, verdict, plan, settings)
     calibration = Calibration(
         clicks,
@@ -329,14 +331,18 @@ def _residuals_mm(
 def _judged(clicks: Clicks, verdict: Verdict, plan: FloatArray, settings: CalibrationSettings) -> list[Finding]:
     names = clicks.protocol.markers
     out: list[Finding] = []
-    seen = np.isfinite(plan[:, 0])
-    if seen.all():
-        if looks_like_other_side(clicks.protocol, clicks.side, plan):
-            out.append(Finding("wrong_side"))
-        else:
-            pair = swapped_markers(clicks.protocol, clicks.side, plan)
-            if pair is not None:
-                out.append(Finding("swapped", pair))
+    if looks_like_other_side(clicks.protocol, clicks.side, plan):
+        out.append(Finding("wrong_side"))
+    elif clicks.protocol.has_fingers:
+        names_at_fault = misnamed(clicks.side, plan)
+        if names_at_fault is not None and names_at_fault.alone:
+            out.append(Finding("misnamed", (names_at_fault.alone,)))
+        elif names_at_fault is not None:
+            out.append(Finding("swapped", sum(names_at_fault.swapped, ())))
+    else:
+        pair = swapped_markers(clicks.protocol, clicks.side, plan)
+        if pair is not None:
+            out.append(Finding("swapped", pair))
     for marker in np.flatnonzero(verdict.residual_mm > settings.most_residual_mm):
         out.append(
             Finding("residual", (names[marker],), float(verdict.residual_mm[marker]), settings.most_residual_mm, "mm")

@@ -12,6 +12,7 @@ FindingKind = Literal[
     "click_on_no_marker",
     "two_clicks_on_one",
     "swapped",
+    "misnamed",
     "wrong_side",
     "no_depth",
     "residual",
@@ -35,7 +36,10 @@ class Clicks:
 
 @dataclass(frozen=True, slots=True)
 class Finding:
-    """One thing that is not as it should be. ``value`` in ``unit`` against ``limit``; words are elsewhere."""
+    """One thing that is not as it should be. ``value`` in ``unit`` against ``limit``; words are elsewhere.
+
+    ``markers`` of "swapped": those of one finger, then as many of the other, each for each.
+    """
 
     kind: FindingKind
     markers: tuple[str, ...] = ()

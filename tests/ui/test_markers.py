@@ -10,12 +10,13 @@ from PySide6.QtCore import QPoint, Qt
 from pytestqt.qtbot import QtBot
 
 from core.calibration.result import Finding
-from core.hand.protocols import WRIST6
+from core.hand.protocols import HAND21, WRIST6
 from tests.ui.fakes import FakeCalibrator, FakePhrasebook
 from ui.background import Background
 from ui.keys import Keys
 from ui.markers.clicking import Clicking
 from ui.markers.screen import MarkersScreen
+from ui.ports import ProposedMarker
 from ui.theme import Theme
 
 
@@ -144,10 +145,11 @@ def test_a_doubtful_calibration_starts_only_by_its_own_button(qtbot: QtBot, scre
     assert screen.second.isVisible()
     started: list[bool] = []
     screen.started.connect(lambda: started.append(True))
-    qtbot.keyClick(screen.focusWidget(), Qt.Key.Key_Return)
+    for _ in range(3):
+        qtbot.keyClick(screen.focusWidget(), Qt.Key.Key_Return)
     assert not started
-    click_all(qtbot, screen, calibrator)
-    wait_for_verdict(qtbot, screen)
+    assert screen.clicking is not None
+    assert screen.clicking.complete, "Enter wipes no name"
     qtbot.mouseClick(screen.second, Qt.MouseButton.LeftButton)
     assert started
     assert calibrator.begun is not None
@@ -272,3 +274,83 @@ def test_all_markers_can_still_be_clicked_by_hand(qtbot: QtBot, screen: MarkersS
     click_all(qtbot, screen, calibrator, off_px=1.0)
     wait_for_verdict(qtbot, screen)
     np.testing.assert_allclose(calibrator.judged[-1].pixel, calibrator.disc_px)
+
+
+def test_a_bad_picture_is_taken_again_by_enter_and_wrong_names_are_not(qtbot: QtBot, screen: MarkersScreen) -> None:
+    calibrator = FakeCalibrator(is_live=True)
+    calibrator.findings = (Finding("tilt", (), 19.0, 15.0, "deg"),)
+    screen.begin(calibrator)
+    qtbot.keyClick(screen.picture, Qt.Key.Key_Space)
+    click_all(qtbot, screen, calibrator)
+    wait_for_verdict(qtbot, screen)
+    assert screen.primary.text() == "New picture"
+    assert screen.click_all.isVisible()
+    qtbot.keyClick(screen.focusWidget(), Qt.Key.Key_Return)
+    assert screen.clicking is None
+    calibrator.findings = (Finding("misnamed", ("MCP4",)),)
+    qtbot.keyClick(screen.picture, Qt.Key.Key_Space)
+    click_all(qtbot, screen, calibrator)
+    wait_for_verdict(qtbot, screen)
+    assert screen.primary.text() == "Correct names"
+    assert screen.picture.wrong == {"MCP4"}
+    qtbot.keyClick(screen.focusWidget(), Qt.Key.Key_Return)
+    assert screen.picture.hasFocus()
+    assert screen.clicking is not None
+    assert screen.clicking.complete
+
+
+def test_two_fingers_named_for_each_other_change_places_by_one_key(qtbot: QtBot, screen: MarkersScreen) -> None:
+    fingers = [tuple(f"{joint}{k}" for joint in ("MCP", "PIP", "DIP", "TIP")) for k in (3, 4)]
+    calibrator = proposed(qtbot, screen)
+    calibrator.findings = (Finding("swapped", (*fingers[0], *fingers[1])),)
+    qtbot.keyClick(screen.picture, Qt.Key.Key_Return)
+    wait_for_verdict(qtbot, screen)
+    calibrator.findings = ()
+    qtbot.keyClick(screen.focusWidget(), Qt.Key.Key_S)
+    wait_for_verdict(qtbot, screen)
+    rows = [screen.clicking.order.index(name) for finger in fingers for name in finger]  # type: ignore[union-attr]
+    np.testing.assert_allclose(calibrator.judged[-1].pixel[rows], calibrator.disc_px[[*rows[4:], *rows[:4]]])
+
+
+def test_enter_never_takes_a_doubtful_name_unseen(qtbot: QtBot, screen: MarkersScreen) -> None:
+    calibrator = proposed(qtbot, screen, doubtful=("TIP4", "DIP4"))
+    assert screen.clicking is not None
+    assert screen.primary.text() != "Take all names"
+    for name in ("DIP4", "TIP4"):
+        at = calibrator.disc_px[screen.clicking.order.index(name)]
+        np.testing.assert_allclose(screen.picture.cursor_px, at)  # in the loupe
+        qtbot.keyClick(screen.picture, Qt.Key.Key_Return)
+        np.testing.assert_allclose(screen.clicking.pixel[name], at)
+        assert len(screen.clicking.pixel) <= 2
+    assert screen.primary.text() == "Take all names"
+    assert not screen.take_rest.isVisible()
+
+
+def test_a_proposed_name_dropped_on_a_taken_disc_changes_places_with_it() -> None:
+    clicking = Clicking(HAND21, "right")
+    places = {name: np.array([20.0 * i, 0.0]) for i, name in enumerate(HAND21.markers)}
+    clicking.propose({name: ProposedMarker(at, 9.0, True) for name, at in places.items()})
+    clicking.current = "TIP3"
+    clicking.place(places["TIP4"], 9.0)
+    np.testing.assert_allclose(clicking.pixel["TIP3"], places["TIP4"])
+    np.testing.assert_allclose(clicking.proposed["TIP4"].pixel, places["TIP3"])
+    clicking.take_all()
+    clicking.current = "TIP2"
+    clicking.place(places["PIP2"], 9.0)
+    np.testing.assert_allclose(clicking.pixel["PIP2"], places["TIP2"])
+    assert clicking.complete
+
+
+def test_what_is_proposed_is_not_said_to_be_done(qtbot: QtBot, screen: MarkersScreen) -> None:
+    proposed(qtbot, screen)
+    assert "21 of 21 found" in [cells[2].text() for cells in screen.panel._lines]
+    assert screen.panel.states()[0] == "open"
+
+
+def test_the_loupe_keeps_off_the_discs(qtbot: QtBot, screen: MarkersScreen) -> None:
+    calibrator = proposed(qtbot, screen)
+    assert screen.clicking is not None
+    for pixel in calibrator.disc_px:
+        screen.picture.set_cursor(pixel)
+        at = screen.picture.to_screen(*map(float, pixel))
+        assert not screen.picture.loupe_box().adjusted(-30, -20, 30, 20).contains(at)

@@ -72,6 +72,12 @@ class Clicking:
         self.proposed.clear()
         self._go_on()
 
+    def confirm(self, name: str) -> None:
+        """Confirm one proposal."""
+        one = self.proposed.pop(name)
+        self.pixel[name], self.widths_px[name] = one.pixel, one.width_px
+        self._go_on()
+
     def confirms(self, pixel: FloatArray) -> bool:
         """Whether the current marker is proposed at this very place."""
         mine = self.proposed.get(self.current)
@@ -82,12 +88,20 @@ class Clicking:
 
         A name that was on this disc moves to where the current one was, or is taken off.
         """
+        mine = self.proposed.pop(self.current, None)
         before = self.pixel.pop(self.current, None)
-        for name in [name for name, other in self.pixel.items() if before is not None and _same(other, pixel)]:
-            self.pixel[name] = before  # type: ignore[assignment]
-        self.proposed = {
-            name: one for name, one in self.proposed.items() if name != self.current and not _same(one.pixel, pixel)
-        }
+        before_width_px = self.widths_px.get(self.current, width_px)
+        for name in [name for name, other in self.pixel.items() if _same(other, pixel)]:
+            if before is not None:
+                self.pixel[name], self.widths_px[name] = before, before_width_px
+            elif mine is not None:
+                self.pixel[name], self.widths_px[name] = mine.pixel, mine.width_px
+        for name in [name for name, one in self.proposed.items() if _same(one.pixel, pixel)]:
+            del self.proposed[name]
+            if before is not None:
+                self.proposed[name] = ProposedMarker(before, before_width_px, is_sure=True)
+            elif mine is not None:
+                self.proposed[name] = mine
         self.pixel[self.current] = np.asarray(pixel, dtype=np.float64)
         self.widths_px[self.current] = width_px
         self._go_on()

@@ -255,12 +255,20 @@ class MarkerPicture(PictureView):
         return QRectF(candidates[1], plate.size())
 
     def loupe_box(self) -> QRectF:
-        """Where the loupe is: top right, or top left while the cursor is there."""
+        """Where the loupe is: in the upper corner that covers fewer discs, never over the place one looks at."""
         size = min(LOUPE_PX * self._theme.text_scale, 0.3 * self.width())
-        box = QRectF(self.width() - size - 14, 14, size, size)
-        if self.cursor_px is not None and box.contains(self.to_screen(*map(float, self.cursor_px))):
-            box.moveLeft(14)  # never over the place one is looking at
-        return box
+        right, left = QRectF(self.width() - size - 14, 14, size, size), QRectF(14, 14, size, size)
+        if self.clicking is not None and self._discs_in(left) < self._discs_in(right):
+            right, left = left, right
+        looked_at = self.cursor_px is not None and right.adjusted(-60, -30, 60, 30).contains(
+            self.to_screen(*map(float, self.cursor_px))
+        )
+        return left if looked_at else right
+
+    def _discs_in(self, box: QRectF) -> int:
+        assert self.clicking is not None
+        places = {name: one.pixel for name, one in self.clicking.proposed.items()} | self.clicking.pixel
+        return sum(box.contains(self.to_screen(*map(float, pixel))) for pixel in places.values())
 
     def _paint_loupe(self, painter: QPainter) -> None:
         assert self.cursor_px is not None

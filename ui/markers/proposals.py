@@ -39,8 +39,10 @@ def words_for(clicking: Clicking) -> ProposalWords:
             if len(doubtful) == 1
             else tr("{count} names are doubtful").format(count=len(doubtful))
         )
-        todo = tr("Look at: {markers}. Click each where it is right, or drag it to its disc.")
-        return ProposalWords("warn", step, tr("Look at the amber names"), todo.format(markers=_list(doubtful)), primary)
+        todo = tr("Look at: {markers}. Enter confirms the one in the loupe; drag it to another disc to change it.")
+        name = marker_name(doubtful[0])
+        title = tr("Is this the {marker}?").format(marker=name[0].lower() + name[1:])
+        return ProposalWords("warn", step, title, todo.format(markers=_list(doubtful)), tr("Yes, it is"))
     step = tr("{named} of {asked} markers found").format(named=asked - len(open_names), asked=asked)
     todo = tr("Not found: {markers}. Take the other names with Enter, then click these.")
     return ProposalWords(

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 
 import numpy as np
 from PySide6.QtCore import QEvent, QObject, Qt, QTimer, Signal
@@ -23,8 +23,9 @@ from ui.markers import proposals
 from ui.markers.clicking import Clicking
 from ui.markers.last_picture import LastPicture
 from ui.markers.picture import MarkerPicture
+from ui.markers.remedy import Remedy, face, remedy_of
 from ui.markers.start_angle import StartAngleSheet
-from ui.markers.verdict import VerdictPanel, headline, rows_before, rows_of
+from ui.markers.verdict import NAMES_WRONG, VerdictPanel, headline, rows_before, rows_of
 from ui.picture.view import HAND_ROOM, PALM_ROOM
 from ui.ports import Calibrator, Judged, Phrasebook, ProposedMarker
 from ui.theme import MARGIN_PX, Theme
@@ -61,6 +62,9 @@ class MarkersScreen(QWidget):
         self.second = Button(theme, "", "plain", height_px=52)
         self.start_angle = Button(theme, self.tr("Hand cannot lie straight…"), "quiet", height_px=32)
         self.although = Button(theme, self.tr("Start although &doubtful"), "quiet", height_px=32)
+        self.take_rest = Button(theme, self.tr("Take all names"), "quiet", height_px=32)
+        self.take_rest.hide()
+        self.click_all = Button(theme, self.tr("Click all again"), "quiet", hint="C", height_px=32)
         self.new_picture = Button(theme, self.tr("New picture"), "quiet", hint="N", height_px=32)
         self.hint = Text(theme, "", 14, REGULAR, "text2", wrap=True)
         self.angle_sheet = StartAngleSheet(self, theme)
@@ -87,6 +91,9 @@ class MarkersScreen(QWidget):
         below.addWidget(self.hint, 1)
         below.addWidget(self.new_picture)
         below.addWidget(self.start_angle)
+        below.addWidget(self.take_rest)
+        below.addWidget(self.click_all)
+        self.click_all.hide()
         below.addWidget(self.although)
         self.although.hide()
         left.addLayout(below)
@@ -129,15 +136,17 @@ class MarkersScreen(QWidget):
         self.start_angle.clicked.connect(lambda: self.angle_sheet.begin(self._start_angles_rad))
         self.angle_sheet.kept.connect(self._take_start_angles)
         self.new_picture.clicked.connect(self.preview)
+        self.click_all.clicked.connect(self._click_again)
+        self.take_rest.clicked.connect(self.take_all)
         self.picture.installEventFilter(self)
         actions = {
             "undo": self.undo, "zoom_in": lambda: self.picture.zoom(1), "zoom_out": lambda: self.picture.zoom(-1),
-            "swap": self._swap_if_asked,
+            "swap": self._swap,
         }  # fmt: skip
         for name, action in actions.items():
             bind(self, keys, name, action)
         bind(self.picture, keys, "accept", self.accept, Qt.ShortcutContext.WidgetShortcut)
-        bind(self, keys, "new_picture", self.new_picture.click)
+        bind(self, keys, "new_picture", self.preview)
         bind(self, keys, "last_picture", self.last.toggle)
         bind(self, keys, "click_again", self._click_again)
 
@@ -236,6 +245,7 @@ class MarkersScreen(QWidget):
                 self._ask_for_names()  # clicked meanwhile
                 return
             self.clicking.propose(proposed)
+            self._show_doubtful(self.clicking)
             self._refresh()
             self.picture.update()
 
@@ -243,11 +253,25 @@ class MarkersScreen(QWidget):
             lambda: calibrator.propose(named), take, lambda fault: self._take_fault(self._judging, fault), self
         )
 
+    def _show_doubtful(self, clicking: Clicking) -> None:
+        """Bring the first doubtful disc under the cursor and into the loupe, to be confirmed or changed."""
+        if clicking.doubtful:
+            clicking.current = clicking.doubtful[0]
+            self.picture.set_cursor(clicking.proposed[clicking.current].pixel)
+
     def take_all(self) -> None:
         """Confirm all names that are proposed."""
         if self.clicking is not None and self.clicking.proposed:
             self.clicking.take_all()
             self._changed()
+
+    def _confirm_doubtful(self) -> None:
+        """The doubtful name in the loupe is right; the next one comes into it."""
+        assert self.clicking is not None
+        name = self.clicking.doubtful[0]
+        self.clicking.confirm(name)
+        self._show_doubtful(self.clicking)
+        self._changed()
 
     def click_by_hand(self) -> None:
         """No more proposals: every marker is clicked by the person."""
@@ -314,23 +338,37 @@ class MarkersScreen(QWidget):
     def _primary(self) -> None:
         if not self._held:
             self.accept()
+        elif self._judged is None and self.clicking is not None and self.clicking.doubtful:
+            self._confirm_doubtful()
         elif self._judged is None:
             self.take_all()
         elif self._judged.verdict.is_good:
             self._start()
-        elif self._pair() is not None:
-            self._swap()
         else:
-            self._click_again()
+            actions: dict[Remedy, Callable[[], None]] = {
+                "swap": self._swap, "click_these": self._click_again, "correct": self.correct_names,
+                "new_picture": self.preview,
+            }  # fmt: skip
+            actions[self._remedy()]()
 
     def _second(self) -> None:
-        """Click again after a swap was offered, or start although the verdict is doubtful: only this button does."""
+        """The other way out; a doubtful verdict is passed over by a button that says so only."""
         if self._judged is None:
             self.click_by_hand()
-        elif self._judged.verdict.can_start and self._pair() is None:
+        elif self._judged.verdict.can_start and self._remedy() != "swap":
             self._start()
         else:
-            self._click_again()
+            self.correct_names()
+
+    def _remedy(self) -> Remedy:
+        assert self._judged is not None
+        assert self._calibrator is not None
+        return remedy_of(self._judged.verdict, is_live=self._calibrator.is_live)
+
+    def correct_names(self) -> None:
+        """Everything stays named; the keyboard goes to the picture, where a name is dragged to its disc."""
+        self.hint.setText(self.tr("Drag a name to its disc. Names that change places swap."))
+        self.picture.setFocus(Qt.FocusReason.OtherFocusReason)
 
     def _start_doubtful(self) -> None:
         """The markers look swapped, but the person knows this hand better."""
@@ -342,21 +380,22 @@ class MarkersScreen(QWidget):
             self._calibrator.begin(self._judged.calibration)
             self.started.emit()
 
-    def _pair(self) -> tuple[str, str] | None:
+    def _pairs(self) -> list[tuple[str, str]]:
+        """Names that stand in for each other: two, or those of two fingers each for each."""
         findings = self._judged.verdict.findings if self._judged else ()
-        pair = next((finding.markers for finding in findings if finding.kind == "swapped"), None)
-        return (pair[0], pair[1]) if pair is not None and len(pair) == 2 else None
+        names = next((finding.markers for finding in findings if finding.kind == "swapped"), ())
+        half = len(names) // 2
+        return list(zip(names[:half], names[half:], strict=True))
 
     def _swap(self) -> None:
-        pair = self._pair()
-        if pair is not None and self.clicking is not None:
-            self.clicking.swap(*pair)
+        pairs = self._pairs()
+        if pairs and self.clicking is not None:
+            for one, other in pairs:
+                self.clicking.swap(one, other)
             self._changed()
 
-    def _swap_if_asked(self) -> None:
-        self._swap()
-
     def _click_again(self) -> None:
+        """Take back the markers at fault, or all of them where the fault lies with none."""
         if self.clicking is None or self._judged is None:
             if self.clicking is not None and self.clicking.proposed:
                 self.click_by_hand()
@@ -377,9 +416,13 @@ class MarkersScreen(QWidget):
         if self._calibrator is None:
             return
         self.new_picture.setEnabled(self._held)
-        pair = self._judged is not None and self._judged.verdict.can_start and self._pair() is not None
+        self.take_rest.hide()
+        pair = self._judged is not None and self._judged.verdict.can_start and bool(self._pairs())
+        doubtful = self._judged is not None and not self._judged.verdict.is_good
         self.although.setVisible(pair)
-        self.start_angle.setVisible(not pair)
+        self.click_all.setVisible(doubtful)
+        self.start_angle.setVisible(not doubtful)
+        self.new_picture.setVisible(self._calibrator.is_live and not (doubtful and self._remedy() == "new_picture"))
         if not self._held or self.clicking is None:
             self._show_preview()
         elif self._judged is None:
@@ -433,6 +476,11 @@ class MarkersScreen(QWidget):
         self.primary.set_face(words.primary, icon="", hint=self.tr("Enter"))
         self.second.set_face(self.tr("Click by hand"), hint="C")
         self.second.show()
+        self.take_rest.setVisible(bool(clicking.doubtful))
+        asked, proposed = len(clicking.order), len(clicking.proposed) + len(clicking.pixel)
+        assert self._calibrator is not None
+        checks = self.tr("Names to confirm")
+        self.panel.show_rows(checks, "none", rows_before(proposed, asked, self._calibrator.limits, proposed=True))
 
     def _show_verdict(self, clicking: Clicking, judged: Judged) -> None:
         assert self._calibrator is not None
@@ -453,22 +501,19 @@ class MarkersScreen(QWidget):
             self.second.hide()
             self.primary.setFocus(Qt.FocusReason.OtherFocusReason)
             return
-        first = max(verdict.findings, key=lambda finding: (finding.blocks, finding.kind in ("swapped", "wrong_side")))
+        first = max(verdict.findings, key=lambda finding: (finding.blocks, finding.kind in NAMES_WRONG))
         said = self._phrasebook.finding(first)
         self.step.show_state(state, words, token="bad" if state == "bad" else "warn")
         self.title.setText(said.what.rstrip("."))
         self.place.setText(" ".join(part for part in (said.safe, said.todo) if part))
-        pair = self._pair()
-        if pair is not None:
-            self.primary.set_face(self.tr("Swap the two"), icon="", hint=self.tr("Enter"))
-            self.second.set_face(self.tr("Click again"), hint="C")
-        else:
-            again = self.tr("Click again") if wrong else self.tr("Click all again")
-            self.primary.set_face(again, icon="", hint="C")
-            self.second.set_face(self.tr("Start although &doubtful"), hint="")
-        self.second.setVisible(pair is not None or verdict.can_start)
-        if pair is None and not wrong and self._calibrator.is_live:
-            self.hint.setText(self.tr("Or change the camera or the hand and take a new picture."))
+        remedy = self._remedy()
+        words, key = face(remedy)
+        self.primary.set_face(words, icon="", hint=key)
+        swap = remedy == "swap"
+        self.second.set_face(self.tr("Correct names") if swap else self.tr("Start although &doubtful"), hint="")
+        self.second.setVisible(swap or verdict.can_start)
+        self.click_all.set_face(self.tr("Click these again") if wrong else self.tr("Click all again"))
+        self.hint.setText(self.tr("The names stay as they are until you change one."))
         self.primary.setFocus(Qt.FocusReason.OtherFocusReason)
 
     def _hand_states(self, clicking: Clicking, wrong: Sequence[str]) -> dict[str, MarkerState]:

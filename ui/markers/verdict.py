@@ -22,11 +22,13 @@ MARKER_FINDINGS = (
     "click_on_no_marker",
     "two_clicks_on_one",
     "swapped",
+    "misnamed",
     "wrong_side",
     "no_depth",
     "residual",
     "depth_off",
 )
+NAMES_WRONG = ("swapped", "misnamed", "wrong_side")
 STILL_FINDINGS = ("moved", "few_frames")
 
 
@@ -40,12 +42,13 @@ class Row:
     limit: str
 
 
-def rows_before(done: int, asked: int, limits: VerdictLimits) -> list[Row]:
-    """What can be said while markers are still being clicked."""
-    later = tr("after marker {number}").format(number=asked)
-    count = tr("{done} of {asked}").format(done=done, asked=asked)
+def rows_before(done: int, asked: int, limits: VerdictLimits, *, proposed: bool = False) -> list[Row]:
+    """What can be said while markers are still being clicked, or their names are ``proposed`` only."""
+    later = tr("with the names") if proposed else tr("after marker {number}").format(number=asked)
+    pattern = tr("{done} of {asked} found") if proposed else tr("{done} of {asked}")
+    count = pattern.format(done=done, asked=asked)
     return [
-        Row("good" if done else "open", tr("Markers"), count, _within(limits)),
+        Row("good" if done and not proposed else "open", tr("Markers"), count, _within(limits)),
         Row("open", tr("Distance"), later, _distance(limits)),
         Row("open", tr("Camera tilt"), later, _tilt(limits)),
         Row("open", tr("Hand"), later, tr("flat and still")),
@@ -60,8 +63,8 @@ def rows_of(verdict: Verdict, limits: VerdictLimits) -> list[Row]:
     count = len(verdict.residual_mm)
     worst = float(np.nanmax(verdict.residual_mm)) if np.isfinite(verdict.residual_mm).any() else math.nan
     markers = tr("{count} of {count}").format(count=count)
-    if "swapped" in kinds or "wrong_side" in kinds:
-        markers = tr("order wrong")
+    if kinds.keys() & set(NAMES_WRONG):
+        markers = tr("names wrong")
     elif any(fault.blocks for fault in marker_faults):
         markers = tr("{count} not found").format(count=len({name for fault in marker_faults for name in fault.markers}))
     elif math.isfinite(worst):
@@ -148,7 +151,7 @@ def headline(verdict: Verdict) -> tuple[str, State]:
 def _worst(findings: Sequence[Finding]) -> State:
     if not findings:
         return "good"
-    serious = any(finding.blocks or finding.kind in ("swapped", "wrong_side") for finding in findings)
+    serious = any(finding.blocks or finding.kind in NAMES_WRONG for finding in findings)
     return "bad" if serious else "warn"
 
 

@@ -1,0 +1,39 @@
+"""What mends a doubtful calibration: the cause decides what the primary button does. Nothing here wipes all names."""
+
+from __future__ import annotations
+
+from typing import Literal
+
+from core.calibration.result import Verdict
+from ui.translate import tr
+
+Remedy = Literal["swap", "click_these", "correct", "new_picture"]
+
+_PICTURE = ("tilt", "distance", "moved", "few_frames", "depth_off")
+"""Causes that lie with hand, camera or light, never with the names."""
+
+
+def remedy_of(verdict: Verdict, *, is_live: bool) -> Remedy:
+    """The likeliest way out, that of wrong names before that of a bad picture."""
+    kinds = {finding.kind for finding in verdict.findings}
+    if "swapped" in kinds:
+        return "swap"
+    if any(finding.blocks and finding.markers for finding in verdict.findings):
+        return "click_these"
+    if kinds & {"wrong_side", "misnamed"}:
+        return "correct"
+    if is_live and kinds & set(_PICTURE):
+        return "new_picture"
+    if kinds & {"residual", "no_depth"}:
+        return "click_these"
+    return "correct"
+
+
+def face(remedy: Remedy) -> tuple[str, str]:
+    """Words and key of the primary button."""
+    return {
+        "swap": (tr("Swap the two"), tr("Enter")),
+        "click_these": (tr("Click again"), "C"),
+        "correct": (tr("Correct names"), ""),
+        "new_picture": (tr("New picture"), "N"),
+    }[remedy]
