@@ -12,6 +12,7 @@ import pytest
 
 from app.desktop.measuring import NOT_LOOKED_BACK, LiveWalk, SmoothedSession
 from core.errors import RecordingEmpty
+from core.pipeline import looking_back
 from core.pipeline.frame_walk import FrameWalk
 from core.pipeline.looking_back import LookingBack
 from core.pipeline.pieces import PIECE_S, TrackedHand
@@ -26,6 +27,12 @@ from tests.tracking.hands import CAMERA, DT_S, Pose, blobs, calibration
 
 FRAMES = 600
 NO_PICTURE = np.zeros((1, 1, 3), np.uint8)
+
+
+@pytest.fixture(autouse=True)
+def patience(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A loaded computer may take long to start a process; whether it is done in time is not what is tested."""
+    monkeypatch.setattr(looking_back, "END_S", 60.0)
 
 
 class Blobs:
@@ -53,8 +60,8 @@ def live_walk() -> LiveWalk:
     return LiveWalk(FrameWalk(Blobs(), tracker), neutral_ends_s=10.0)  # type: ignore[arg-type]
 
 
-def open_session(path: Path, looking_back: LookingBack | None) -> SmoothedSession:
-    return SmoothedSession(SessionWriter.create(path, make_header(), CAMERA, calibration()), looking_back)
+def open_session(path: Path, looker: LookingBack | None) -> SmoothedSession:
+    return SmoothedSession(SessionWriter.create(path, make_header(), CAMERA, calibration()), looker)
 
 
 def begin_looking_back(piece_s: float = PIECE_S) -> LookingBack:
@@ -63,12 +70,12 @@ def begin_looking_back(piece_s: float = PIECE_S) -> LookingBack:
 
 def recorded(path: Path, piece_s: float, at_row: Callable[[LookingBack, int], None] = lambda *_: None) -> LiveWalk:
     """Records rows 30 to 559, pausing from 200 to 259; ``at_row`` is called before every frame."""
-    walk, looking_back = live_walk(), begin_looking_back(piece_s)
-    session = open_session(path, looking_back)
+    walk, looker = live_walk(), begin_looking_back(piece_s)
+    session = open_session(path, looker)
     for frame in frames():
-        at_row(looking_back, frame.index)
+        at_row(looker, frame.index)
         if frame.index == 30:
-            walk.keep = looking_back.take
+            walk.keep = looker.take
         tracked = walk(frame)
         if 30 <= frame.index < 560 and not 200 <= frame.index < 260:
             session.append(tracked)
@@ -94,10 +101,10 @@ def test_smoothed_in_pieces_is_as_good_as_smoothed_whole(tmp_path: Path) -> None
 def test_a_session_whose_looking_back_is_killed_is_whole_as_tracked(
     tmp_path: Path, caplog: pytest.LogCaptureFixture
 ) -> None:
-    def kill(looking_back: LookingBack, row: int) -> None:
+    def kill(looker: LookingBack, row: int) -> None:
         if row == 400:
-            wait_until(lambda: looking_back.pid is not None)
-            os.kill(looking_back.pid or 0, signal.SIGKILL)
+            wait_until(lambda: looker.pid is not None)
+            os.kill(looker.pid or 0, signal.SIGKILL)
 
     recorded(tmp_path / "killed.h5", PIECE_S, kill)
     recorded(tmp_path / "whole.h5", 1e6)

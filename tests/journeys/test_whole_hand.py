@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import multiprocessing
 from collections.abc import Iterator
 from dataclasses import replace
 from pathlib import Path
@@ -14,8 +15,10 @@ from PySide6.QtWidgets import QApplication
 from pytestqt.qtbot import QtBot
 
 from app.compose import Desktop, application, compose
+from app.desktop.measuring import NOT_LOOKED_BACK
 from app.settings import RecordingSettings, ScreenSettings, Settings
 from core.hand.protocols import HAND21, joint_angle_names
+from core.pipeline import looking_back
 from core.pipeline.track import retrack_session
 from core.session.reader import read_session
 from core.simulation.recording import TRUTH_FILE, simulate
@@ -29,6 +32,12 @@ SPEC = RecordingSpec(
     seed=5, protocol="hand21", motion="fist", seconds=5.0, fps=15.0, speed_hz=0.6, repetitions=2, range_share=0.5,
     hand_length_mm=192.0, skin_tone=1, light="bright", sleeve="grey", distance_m=0.64, click_error_px=1.0,
 )  # fmt: skip
+
+
+@pytest.fixture(autouse=True)
+def patience(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A loaded computer may take long to start a process; whether it is done in time is not what is tested."""
+    monkeypatch.setattr(looking_back, "END_S", 60.0)
 
 
 @pytest.fixture(scope="module")
@@ -51,9 +60,8 @@ def desktop(qapp: QApplication, hand_take: Path, tmp_path: Path) -> Iterator[Des
     let_go(qapp)
 
 
-def test_the_whole_hand_from_set_up_to_session_file(
-    qtbot: QtBot, desktop: Desktop, hand_take: Path, tmp_path: Path
-) -> None:
+def record(qtbot: QtBot, desktop: Desktop, hand_take: Path) -> None:
+    """From the practice patient's exercise to a running recording."""
     journey = desktop.journey
     journey.choose_exercise(PRACTICE_PATIENT)
     at(qtbot, desktop, "exercise")
@@ -78,6 +86,13 @@ def test_the_whole_hand_from_set_up_to_session_file(
     assert "seen" in journey.live.hand_map.seen.values()
     qtbot.keyClick(journey.live, Qt.Key.Key_Space)
     wait(qtbot, lambda: journey.live.recording_state == "recording")
+
+
+def test_the_whole_hand_from_set_up_to_session_file(
+    qtbot: QtBot, desktop: Desktop, hand_take: Path, tmp_path: Path
+) -> None:
+    record(qtbot, desktop, hand_take)
+    journey = desktop.journey
     wait(qtbot, lambda: journey.live.recorded_s > 3.0)
     qtbot.keyClick(journey.live, Qt.Key.Key_Space)
     path = reviewed(qtbot, desktop)
@@ -96,6 +111,22 @@ def test_the_whole_hand_from_set_up_to_session_file(
         assert np.nanmax(angles_deg[:, column]) == pytest.approx(true_deg[:, column].max(), abs=13.0)
         assert np.nanmin(angles_deg[:, column]) == pytest.approx(true_deg[:, column].min(), abs=13.0)
     looked_back_as_tracking_it_again(path, tmp_path / "again.h5")
+
+
+def test_a_killed_looking_back_costs_the_session_nothing_else(qtbot: QtBot, desktop: Desktop, hand_take: Path) -> None:
+    record(qtbot, desktop, hand_take)
+    journey = desktop.journey
+    wait(qtbot, lambda: journey.live.recorded_s > 0.5)
+    (process,) = (child for child in multiprocessing.active_children() if child.name == "carpus-looking-back")
+    process.kill()
+    wait(qtbot, lambda: journey.live.recorded_s > 1.5)
+    qtbot.keyClick(journey.live, Qt.Key.Key_Space)
+    session = read_session(reviewed(qtbot, desktop))
+    assert session.complete
+    assert session.smoothed is None
+    assert np.mean(session.status == 0) > 0.8
+    assert [event.kind for event in session.events] == [NOT_LOOKED_BACK]
+    assert not journey.teller.busy
 
 
 def looked_back_as_tracking_it_again(path: Path, again: Path) -> None:
