@@ -14,6 +14,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
+from core.hand.anatomy import HARD_LIMITS_RAD
 from core.hand.protocols import HAND21
 from core.measures.motion_range import FEWEST_FOR_SPREAD, Figure, MotionRange, motion_range
 from core.measures.repetitions import Repetition
@@ -25,6 +26,8 @@ DIP_PER_PIP = 2.0 / 3.0
 """Bending of the end joint per bending of the middle joint where no disc measures it (hand paper)."""
 LEAST_SEEN_SHARE = 0.3
 """A repetition in which a joint was seen for less says nothing of that joint."""
+BEYOND_RAD = math.radians(15.0)
+"""So far beyond the limits of a joint an error of tracking may carry its angle."""
 FURTHER_RAD = math.radians(5.0)
 """How far a hidden joint must have been able to go beyond what was seen to be told."""
 FINGERS = (1, 2, 3, 4, 5)
@@ -79,6 +82,14 @@ def valid_joints(
     with np.errstate(invalid="ignore"):
         sure = np.isfinite(angles_rad) & (angles_sd_rad <= LARGEST_SD_RAD)
     return np.asarray(seen & sure & (status == TrackStatus.TRACKED)[:, None], dtype=np.bool_)
+
+
+def possible_joints(names: Sequence[str], angles_rad: FloatArray) -> BoolArray:
+    """Angles (N, J) that a hand can have: within the limits of the model or a little beyond. What lies outside is no
+    angle, whatever its standard deviation, such as the first frames after pictures were missing for long."""
+    low, high = np.array([HARD_LIMITS_RAD[name] for name in names]).T
+    with np.errstate(invalid="ignore"):
+        return np.asarray((angles_rad >= low - BEYOND_RAD) & (angles_rad <= high + BEYOND_RAD), dtype=np.bool_)
 
 
 def joint_track(

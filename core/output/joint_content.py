@@ -15,6 +15,7 @@ from core.measures.fingers import (
     joint_range,
     joint_track,
     joints_seen,
+    possible_joints,
     total_active_motion,
     valid_joints,
 )
@@ -49,12 +50,15 @@ def joint_curves(session: Session) -> JointCurves | None:
         return None
     motion = best_motion(session)
     seen = joints_seen(names, session.markers.measured_px)
+    possible = possible_joints(names, motion.joint_angles_rad)
+    angles = np.where(possible, motion.joint_angles_rad, np.nan)
+    sds = np.where(possible, motion.joint_angles_sd_rad, np.nan)
     return JointCurves(
         names=names,
         time_s=session.timestamp_s - session.timestamp_s[:1],
-        angles_deg=np.degrees(motion.joint_angles_rad),
-        sds_deg=np.degrees(motion.joint_angles_sd_rad),
-        seen=valid_joints(session.status, seen, motion.joint_angles_rad, motion.joint_angles_sd_rad),
+        angles_deg=np.degrees(angles),
+        sds_deg=np.degrees(sds),
+        seen=valid_joints(session.status, seen, angles, sds),
     )
 
 

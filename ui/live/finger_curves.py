@@ -144,11 +144,12 @@ class FingerCurves(QWidget):
                 columns = [FIGURES.index(Figure(finger, row)) for row in rows]
                 own = [k for k in columns if even and _stays_in(panel.scale, block.value_deg[:, k])]
                 plain.append(PanelCurves(panel, [(k, pens[FIGURES[k].token]) for k in own]))
+                numbered: list[QRectF] = []
                 for k in columns:
                     if k not in own:  # gaps, or values beyond the scale, which are rare
                         painter.save()
                         painter.setClipRect(panel.box.adjusted(0, -1, 1, 1).toAlignedRect())
-                        paint_series(painter, style, panel, self._history.series(k), FIGURES[k].token)
+                        paint_series(painter, style, panel, self._history.series(k), FIGURES[k].token, numbered)
                         painter.restore()
         self._strips.paint(painter, plain, block, self._history.now_s)
 

@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 
 from core.hand.kinematics import DIP_PER_PIP
 from core.hand.protocols import HAND21, joint_angle_names
+from core.measures.fingers import possible_joints
 from core.types import FloatArray, TrackedFrame, TrackStatus
 from ui.figures import FIGURES, Figure
 from ui.live.history import KEPT_S
@@ -180,10 +181,13 @@ def figures_of(frames: Sequence[TrackedFrame]) -> tuple[FloatArray, FloatArray, 
     angles = np.array([frame.joint_angles_rad for frame in frames])
     sds = np.array([frame.joint_angles_sd_rad for frame in frames])
     seen = np.isfinite(np.array([frame.marker_measured_px for frame in frames])[..., 0])
-    value = np.degrees(angles @ mixed.weight.T)
-    sd = np.degrees(np.sqrt(sds**2 @ mixed.variance_weight.T))
+    impossible = ~possible_joints(joint_angle_names(angles.shape[1] > 17), angles)
+    value = np.degrees(np.where(impossible, 0.0, angles) @ mixed.weight.T)
+    sd = np.degrees(np.sqrt(np.where(impossible, 0.0, sds) ** 2 @ mixed.variance_weight.T))
+    of_it = impossible.astype(float) @ np.abs(mixed.weight.T) > 0.0
+    value[of_it] = sd[of_it] = math.nan
     tracked = np.array([frame.status == TrackStatus.TRACKED for frame in frames])
     lost = np.array([frame.status == TrackStatus.LOST for frame in frames])
     value[lost] = sd[lost] = math.nan
-    measured = measured_figures(seen) & tracked[:, None]
+    measured = measured_figures(seen) & tracked[:, None] & np.isfinite(value)
     return np.array([frame.timestamp_s for frame in frames]), value, sd, measured, seen

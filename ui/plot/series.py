@@ -21,12 +21,16 @@ LONGEST_STEP_S = 0.2
 
 @dataclass(frozen=True, slots=True)
 class Series:
-    """Samples of one quantity: ``time_s``, ``value``, ``sd`` (n,) with NaN where unknown; ``predicted`` bool (n,)."""
+    """Samples of one quantity: ``time_s``, ``value``, ``sd`` (n,) with NaN where unknown; ``predicted`` bool (n,).
+
+    Samples further apart than ``longest_step_s`` are not joined.
+    """
 
     time_s: FloatArray
     value: FloatArray
     sd: FloatArray | None
     predicted: np.ndarray
+    longest_step_s: float = LONGEST_STEP_S
 
     def gaps_s(self) -> list[tuple[float, float]]:
         """Times without a value, between and inside samples."""
@@ -34,16 +38,19 @@ class Series:
         if len(self.time_s) == 0:
             return []
         times = np.concatenate(([self.time_s[0]], self.time_s[known], [self.time_s[-1]]))
-        return [(float(a), float(b)) for a, b in pairwise(times) if b - a > LONGEST_STEP_S]
+        return [(float(a), float(b)) for a, b in pairwise(times) if b - a > self.longest_step_s]
 
 
-def paint_series(painter: QPainter, style: PlotStyle, panel: Panel, series: Series, token: str) -> None:
-    """Gaps, band, line; values beyond the scale stay at its edge with an arrow and their number."""
+def paint_series(
+    painter: QPainter, style: PlotStyle, panel: Panel, series: Series, token: str, numbered: list[QRectF] | None = None
+) -> None:
+    """Gaps, band, line; measured values beyond the scale stay at its edge with an arrow, and their number where it
+    covers none of ``numbered``, the numbers that stand in the panel already."""
     painter.setRenderHint(QPainter.RenderHint.Antialiasing)
     _paint_gaps(painter, style, panel, series)
     color = style.color(token)
     known = np.isfinite(series.value)
-    joined = np.concatenate(([False], np.diff(series.time_s) <= LONGEST_STEP_S)) if len(series.time_s) else known
+    joined = np.concatenate(([False], np.diff(series.time_s) <= series.longest_step_s)) if len(series.time_s) else known
     x, y = panel.x(series.time_s), panel.y(series.value)
     # Flat and bevelled: round joins double the cost of a curve and are not seen at this width.
     solid_pen = QPen(color, style.line_width, Qt.PenStyle.SolidLine, Qt.PenCapStyle.FlatCap, Qt.PenJoinStyle.BevelJoin)
@@ -60,7 +67,7 @@ def paint_series(painter: QPainter, style: PlotStyle, panel: Panel, series: Seri
                 # One sample of the other kind closes the join, or each change would leave a hole.
                 a, b = start + max(0, first - 1), min(stop, start + last)
                 painter.drawPolyline(polygon(x[a:b], y[a:b]))
-    _paint_beyond(painter, style, panel, series, color)
+    _paint_beyond(painter, style, panel, series, color, [] if numbered is None else numbered)
 
 
 def _stretches(known: np.ndarray, joined: np.ndarray) -> list[tuple[int, int]]:
@@ -94,10 +101,13 @@ def _paint_gaps(painter: QPainter, style: PlotStyle, panel: Panel, series: Serie
             hatch(painter, style, QRectF(float(left), panel.box.top(), float(right - left), panel.box.height()))
 
 
-def _paint_beyond(painter: QPainter, style: PlotStyle, panel: Panel, series: Series, color: QColor) -> None:
-    """Each excursion past the scale: an arrow at the edge with the extreme value."""
+def _paint_beyond(
+    painter: QPainter, style: PlotStyle, panel: Panel, series: Series, color: QColor, numbered: list[QRectF]
+) -> None:
+    """Each measured excursion past the scale: an arrow at the edge with the extreme value."""
     with np.errstate(invalid="ignore"):
         above, below = series.value > panel.scale.high, series.value < panel.scale.low
+    above, below = above & ~series.predicted, below & ~series.predicted
     for beyond, up in ((above, True), (below, False)):
         for start, stop in runs(beyond):
             part = series.value[start:stop]
@@ -115,7 +125,14 @@ def _paint_beyond(painter: QPainter, style: PlotStyle, panel: Panel, series: Ser
             painter.setPen(color)
             metrics = QFontMetricsF(style.end_label)
             baseline = edge + inward + (metrics.ascent() if up else -metrics.descent())
-            painter.drawText(QPointF(x + 6 * style.unit, baseline), f"{abs(series.value[extreme]):.0f}°")
+            text = f"{abs(series.value[extreme]):.0f}°"
+            left = x + 6 * style.unit
+            if left + metrics.horizontalAdvance(text) > panel.box.right():
+                left = x - 6 * style.unit - metrics.horizontalAdvance(text)
+            place = QRectF(left, baseline - metrics.ascent(), metrics.horizontalAdvance(text), metrics.height())
+            if not any(place.adjusted(-4, 0, 4, 0).intersects(other) for other in numbered):
+                numbered.append(place)
+                painter.drawText(QPointF(left, baseline), text)
 
 
 def paint_point(painter: QPainter, style: PlotStyle, panel: Panel, time_s: float, value: float, token: str) -> None:

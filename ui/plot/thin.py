@@ -11,15 +11,22 @@ from ui.plot.series import Series
 POINTS_PER_COLUMN = 2
 
 
+LONGEST_STRETCHES = 3.0
+"""Samples that were kept lie up to two stretches apart, a little more where pictures are missing."""
+
+
 def thinned(series: Series, columns: int) -> Series:
     """At most two samples of each of ``columns`` equal stretches: its smallest and its largest value.
 
-    A stretch without a value keeps one sample of it, so that gaps stay; the widest band of a stretch is kept.
+    A stretch without a value keeps one sample of it, so that gaps stay, also those of missing pictures; the widest
+    band of a stretch is kept.
     """
     count = len(series.time_s)
     if count <= POINTS_PER_COLUMN * columns:
         return series
-    edges = np.linspace(0, count, columns + 1).astype(int)
+    stretch_s = float(np.median(np.diff(series.time_s))) * count / columns
+    series = _with_gaps(series)
+    edges = np.linspace(0, len(series.time_s), columns + 1).astype(int)
     kept: list[int] = []
     sd = None if series.sd is None else series.sd.copy()
     for start, stop in pairwise(edges.tolist()):
@@ -35,4 +42,20 @@ def thinned(series: Series, columns: int) -> Series:
             sd[list(places)] = np.nanmax(sd[start:stop])
         kept += sorted(places)
     index = np.unique(kept)
-    return Series(series.time_s[index], series.value[index], None if sd is None else sd[index], series.predicted[index])
+    return Series(
+        series.time_s[index], series.value[index], None if sd is None else sd[index], series.predicted[index],
+        max(series.longest_step_s, LONGEST_STRETCHES * stretch_s),
+    )  # fmt: skip
+
+
+def _with_gaps(series: Series) -> Series:
+    """A sample without a value in the middle of each step that is too long to be joined."""
+    before = np.flatnonzero(np.diff(series.time_s) > series.longest_step_s)
+    middle_s = 0.5 * (series.time_s[before] + series.time_s[before + 1])
+    return Series(
+        np.insert(series.time_s, before + 1, middle_s),
+        np.insert(series.value, before + 1, np.nan),
+        None if series.sd is None else np.insert(series.sd, before + 1, np.nan),
+        np.insert(series.predicted, before + 1, False),
+        series.longest_step_s,
+    )

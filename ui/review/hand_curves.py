@@ -91,12 +91,13 @@ def paint_hand_session(
         _paint_name(painter, style, plot, panel, place)
         painter.save()
         painter.setClipRect(panel.box.adjusted(0, -2, 0, 2).toAlignedRect(), Qt.ClipOperation.IntersectClip)
+        numbered: list[QRectF] = []
         for figure in plot.figures(place):
             series = plot.joint_series(figure)
             if series is None or (not plot.finger and bool(series.predicted[np.isfinite(series.value)].all())):
                 continue  # bound to another joint, or never seen: only where there is room for it
             most = max(200, int(panel.box.width() / style.unit))
-            paint_series(painter, style, panel, thinned(series, most), figure.token)
+            paint_series(painter, style, panel, thinned(series, most), figure.token, numbered)
         painter.restore()
     last = panels[-1][0]
     axes.paint_times(painter, style, last, last.box.bottom() + 6 * style.unit, time_labels(plot.end_s))
