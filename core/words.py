@@ -255,6 +255,10 @@ FINDINGS: dict[str, FindingWords] = {
         "The {markers} does not lie on the line of its finger.",
         "Look at the lines on the picture, and give the marker its right name.",
     ),
+    "shifted": FindingWords(
+        "The names look shifted: the marker clicked as {first} is the {second}.",
+        "Click all markers again, each under its own name.",
+    ),
     "wrong_side": FindingWords(
         "This looks like the other hand.",
         "Choose the other side, or click the markers again.",
@@ -270,6 +274,10 @@ FINDINGS: dict[str, FindingWords] = {
     "hand_length": FindingWords(
         "The hand measures {value} mm ({limit} mm is the limit).",
         "Check that every marker is clicked under its own name.",
+    ),
+    "other_length": FindingWords(
+        "The hand measures {value} mm, and {limit} mm last time.",
+        "Check the patient, the side, and that every marker is clicked under its own name.",
     ),
     "tilt": FindingWords(
         "The hand is tilted {value}° to the camera (up to {limit}° is good).",
@@ -322,6 +330,8 @@ def finding_words(finding: Finding) -> FindingWords:
         headline = headline[: headline.index(" (")] + "."
     text = headline.format(
         markers=_exchanged_in_words(finding) or markers_in_words(finding.markers) or "hand",
+        first=marker_in_words(finding.markers[0]) if finding.markers else "",
+        second=marker_in_words(finding.markers[1]) if len(finding.markers) > 1 else "",
         value=f"{finding.value:.3g}",
         limit=f"{finding.limit:.3g}",
         unit=finding.unit,

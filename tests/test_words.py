@@ -147,3 +147,8 @@ def test_findings_tell_place_and_number(kind: FindingKind) -> None:
 
 def test_swapped_knuckles_read_as_in_the_design() -> None:
     assert finding_words(Finding("swapped", ("MCP2", "MCP3"))).headline == "Index and middle knuckle look swapped."
+
+
+def test_shifted_names_say_which_marker_is_which() -> None:
+    words = finding_words(Finding("shifted", ("WRIST", "MCP5", "MCP4", "MCP3", "MCP2", "CMC1")))
+    assert words.headline == "The names look shifted: the marker clicked as wrist is the little knuckle."

@@ -11,6 +11,7 @@ from core.calibration.calibrate import CalibrationOutcome, calibrate
 from core.calibration.candidates import disc_at, marker_candidates, snapped
 from core.calibration.naming import propose_names
 from core.calibration.result import Calibration, Clicks
+from core.calibration.same_hand import compared_with_last_time
 from core.camera import Camera
 from core.detection.appearance import expected_radius_px
 from core.hand.protocols import MarkerProtocol
@@ -39,7 +40,10 @@ class Pictures(Protocol):
 
 
 class HandCalibrator:
-    """One calibration, from the held picture to the start of tracking."""
+    """One calibration, from the held picture to the start of tracking.
+
+    ``last_length_mm`` of the same hand in an earlier session, NaN for none.
+    """
 
     def __init__(
         self,
@@ -49,9 +53,10 @@ class HandCalibrator:
         protocol: MarkerProtocol,
         settings: TrackSettings,
         begin: Begin,
+        last_length_mm: float = float("nan"),
     ) -> None:
         self._pictures, self._camera, self._settings, self._begin = pictures, camera, settings, begin
-        self._side, self._protocol = side, protocol
+        self._side, self._protocol, self._last_length_mm = side, protocol, last_length_mm
         self._held: Sequence[Frame] = ()
         self._candidates = Detections.none()
         self._outcomes: list[tuple[CalibrationOutcome, Sequence[Frame]]] = []
@@ -132,6 +137,7 @@ class HandCalibrator:
         """Measure and judge; called in the background."""
         held, settings = self._held, self._settings
         outcome = calibrate(clicks, held, self._camera, settings.calibration, settings.detection, start_angles_rad)
+        outcome = compared_with_last_time(outcome, self._last_length_mm)
         self._outcomes.append((outcome, held))
         return Judged(outcome.verdict, outcome.calibration)
 

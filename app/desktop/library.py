@@ -21,7 +21,7 @@ from core.capture.raw import RawRecording
 from core.capture.raw_pictures import decode_color
 from core.errors import CarpusFault, OutputNotWritable, SessionUnreadable
 from core.output.exercises import exercise_named
-from core.output.report_content import RepetitionChoices, SessionFigures, session_figures
+from core.output.report_content import NAMES_DOUBTED, RepetitionChoices, SessionFigures, session_figures
 from core.session.reader import has_raw, read_outline, read_raw_color, read_session
 from core.session.recovery import Recovery, recover_folder
 from core.session.register import PatientEntry, PatientRegister, SessionEntry
@@ -90,6 +90,22 @@ class Library:
         register, key = self.of(set_up.patient_id)
         self._keep_set_up(set_up)
         return register.enter_session(path, key).session_id
+
+    def last_hand_length_mm(self, set_up: SetUp, *, simulated: bool) -> float:
+        """Length of this hand of the patient as the last session of the kind measured it; NaN before the first."""
+        for entry in self.sessions(set_up.patient_id):
+            if entry.hand != set_up.side:
+                continue
+            with suppress(SessionUnreadable):
+                session = read_session(entry.path)
+                verdict = session.calibration.verdict
+                # Another length that was accepted is the hand's from now on; only wrong names measured no hand.
+                doubted = any(
+                    finding.kind in NAMES_DOUBTED for finding in verdict.findings if finding.kind != "other_length"
+                )
+                if session.header.simulated == simulated and not doubted and np.isfinite(verdict.hand_length_mm):
+                    return verdict.hand_length_mm
+        return float("nan")
 
     def cut_short(self) -> None:
         """Finish what a fault left behind, as far as possible."""

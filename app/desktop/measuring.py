@@ -49,6 +49,11 @@ class SessionPlaces(Protocol):
         """Take a finished file into the register; the session's identity."""
         ...
 
+    def last_hand_length_mm(self, set_up: SetUp, *, simulated: bool) -> float:
+        """Length of this hand of the patient as the last session of the kind (``simulated`` or real) measured it; NaN
+        before the first."""
+        ...
+
     def cut_short(self) -> None:
         """Finish what a fault left behind, as far as possible."""
         ...

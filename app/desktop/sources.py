@@ -16,7 +16,7 @@ from app.sources import open_recording
 from core.capture.camera_info import read_camera_info
 from core.capture.paced import PacedSource
 from core.capture.practice import PracticeSource
-from core.capture.source import FrameSource
+from core.capture.source import FrameSource, is_simulated
 from core.capture.xtion_usb import usb_cameras
 from core.errors import CarpusFault, RecordingEmpty, RegistrationAssumed
 from core.pipeline.live import LiveSession
@@ -136,7 +136,13 @@ class Sources:
         self, pictures: LivePictures | StoredPictures, source: FrameSource, set_up: SetUp, measuring: SourceMeasuring
     ) -> HandCalibrator:
         return HandCalibrator(
-            pictures, source.info.camera, set_up.side, set_up.protocol, self._settings.track, measuring.begin
+            pictures,
+            source.info.camera,
+            set_up.side,
+            set_up.protocol,
+            self._settings.track,
+            measuring.begin,
+            self._places.last_hand_length_mm(set_up, simulated=is_simulated(source.info)),
         )
 
 

@@ -12,7 +12,8 @@ from scipy.optimize import linear_sum_assignment
 
 from core.calibration.finger_order import misnamed
 from core.calibration.neutral_pose import pose_by_least_squares
-from core.calibration.plausibility import looks_like_other_side, plan_view, swapped_markers
+from core.calibration.palm_names import shifted_names
+from core.calibration.plausibility import looks_like_other_side, plan_view
 from core.calibration.registration import SURELY_OFF_PX, depth_offset_px
 from core.calibration.result import Calibration, Clicks, Finding, Verdict
 from core.calibration.settings import CalibrationSettings
@@ -331,18 +332,19 @@ def _residuals_mm(
 def _judged(clicks: Clicks, verdict: Verdict, plan: FloatArray, settings: CalibrationSettings) -> list[Finding]:
     names = clicks.protocol.markers
     out: list[Finding] = []
-    if looks_like_other_side(clicks.protocol, clicks.side, plan):
+    shifted = shifted_names(clicks.side, plan[list(clicks.protocol.palm)])
+    if len(shifted) > 2:
+        out.append(Finding("shifted", shifted))
+    elif looks_like_other_side(clicks.protocol, clicks.side, plan):
         out.append(Finding("wrong_side"))
+    elif shifted and not clicks.protocol.has_fingers:
+        out.append(Finding("swapped", shifted))
     elif clicks.protocol.has_fingers:
         names_at_fault = misnamed(clicks.side, plan)
         if names_at_fault is not None and names_at_fault.alone:
             out.append(Finding("misnamed", (names_at_fault.alone,)))
         elif names_at_fault is not None:
             out.append(Finding("swapped", sum(names_at_fault.swapped, ())))
-    else:
-        pair = swapped_markers(clicks.protocol, clicks.side, plan)
-        if pair is not None:
-            out.append(Finding("swapped", pair))
     for marker in np.flatnonzero(verdict.residual_mm > settings.most_residual_mm):
         out.append(
             Finding("residual", (names[marker],), float(verdict.residual_mm[marker]), settings.most_residual_mm, "mm")

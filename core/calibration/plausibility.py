@@ -1,4 +1,4 @@
-"""Is the clicked constellation a hand, the hand it claims to be, and are the names in their places?"""
+"""Is the clicked constellation the hand it claims to be?"""
 
 from __future__ import annotations
 
@@ -44,26 +44,14 @@ def plan_view(point_cam_m: FloatArray) -> FloatArray:
     return np.stack((point_cam_m[:, 0], -point_cam_m[:, 1]), axis=1)
 
 
-def _best_swap(average: FloatArray, plan: FloatArray) -> tuple[float, tuple[int, int]]:
-    """Least misfit that exchanging two places of a plan (M, 2) leaves, and the two."""
-    best, pair = np.inf, (0, 0)
+def _best_swap(average: FloatArray, plan: FloatArray) -> float:
+    """Least misfit that exchanging two places of a plan (M, 2) leaves."""
+    best = np.inf
     for i, j in combinations(range(len(plan)), 2):
         other = plan.copy()
         other[[i, j]] = other[[j, i]]
-        value = _misfit(average, other)
-        if value < best:
-            best, pair = value, (i, j)
-    return best, pair
-
-
-def swapped_markers(protocol: MarkerProtocol, side: Side, plan: FloatArray) -> tuple[str, str] | None:
-    """The two names whose exchange makes a clear hand out of an unclear one, or None. ``plan`` (M, 2)."""
-    average = _average_plan(protocol.name, side)
-    misfit = _misfit(average, plan)
-    if misfit < _GOOD_MISFIT:
-        return None
-    best, (i, j) = _best_swap(average, plan)
-    return (protocol.markers[i], protocol.markers[j]) if best < _CLEARLY * misfit else None
+        best = min(best, _misfit(average, other))
+    return best
 
 
 def looks_like_other_side(protocol: MarkerProtocol, side: Side, plan: FloatArray) -> bool:
@@ -72,4 +60,4 @@ def looks_like_other_side(protocol: MarkerProtocol, side: Side, plan: FloatArray
     average = _average_plan(protocol.name, side)
     own = _misfit(average, plan)
     mirrored = _misfit(_average_plan(protocol.name, other), plan)
-    return own >= _GOOD_MISFIT and mirrored < _CLEARLY * own and mirrored < _best_swap(average, plan)[0]
+    return own >= _GOOD_MISFIT and mirrored < _CLEARLY * own and mirrored < _best_swap(average, plan)

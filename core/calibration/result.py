@@ -13,10 +13,12 @@ FindingKind = Literal[
     "two_clicks_on_one",
     "swapped",
     "misnamed",
+    "shifted",
     "wrong_side",
     "no_depth",
     "residual",
     "hand_length",
+    "other_length",
     "tilt",
     "distance",
     "moved",
@@ -38,7 +40,8 @@ class Clicks:
 class Finding:
     """One thing that is not as it should be. ``value`` in ``unit`` against ``limit``; words are elsewhere.
 
-    ``markers`` of "swapped": those of one finger, then as many of the other, each for each.
+    ``markers`` of "swapped": those of one finger, then as many of the other, each for each; of "shifted": after each
+    name the one that its disc should have.
     """
 
     kind: FindingKind
@@ -72,7 +75,8 @@ class Verdict:
 
     @property
     def can_start(self) -> bool:
-        return not any(finding.blocks for finding in self.findings)
+        """Whether a person may measure although there are findings: not with names that are surely wrong."""
+        return not any(finding.blocks or finding.kind == "shifted" for finding in self.findings)
 
 
 @dataclass(frozen=True, slots=True)

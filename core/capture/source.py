@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 from typing import Protocol
 
 from core.camera import Camera
-from core.types import Frame
+from core.types import SIMULATED, Frame
 
 
 @dataclass(frozen=True, slots=True)
@@ -24,6 +24,11 @@ class SourceInfo:
     frame_count: int | None
     nominal_fps: float
     settings: Mapping[str, str] = field(default_factory=dict)
+
+
+def is_simulated(info: SourceInfo) -> bool:
+    """Whether a source shows a simulated hand."""
+    return info.settings.get(SIMULATED) == "yes"
 
 
 class FrameSource(Protocol):

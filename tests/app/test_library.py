@@ -4,9 +4,11 @@ from __future__ import annotations
 
 import csv
 import json
+import math
 import shutil
 from collections.abc import Iterator
-from datetime import UTC, datetime
+from dataclasses import replace
+from datetime import UTC, datetime, timedelta
 from pathlib import Path
 
 import numpy as np
@@ -14,6 +16,7 @@ import pytest
 
 from app.desktop.library import CHOICES_SUFFIX, Library
 from app.desktop.patients import PatientShelf
+from core.calibration.result import Finding
 from core.errors import OutputExists, SessionUnreadable
 from core.output.exercises import exercise_named
 from core.output.report_content import RepetitionChoices
@@ -34,17 +37,28 @@ def set_up(patient_id: str, pseudonym: str) -> SetUp:
     return SetUp(patient_id, pseudonym, "right", exercise_named("WRIST_RU"), 8, 25.0, float("nan"), True)
 
 
-def store(library: Library, wanted: SetUp, frames: int = 40) -> str:
+def store(
+    library: Library,
+    wanted: SetUp,
+    frames: int = 40,
+    hand_length_mm: float = 180.0,
+    findings: tuple[Finding, ...] = (),
+    parameters: str = "{}",
+    after: timedelta = timedelta(0),
+) -> str:
     path = library.new_path(wanted)
+    calibration = make_calibration()
+    verdict = replace(calibration.verdict, hand_length_mm=hand_length_mm, findings=findings)
     header = new_header(
         hand="right",
         protocol=make_calibration().clicks.protocol,
         software_version="0",
         subject_id=wanted.pseudonym,
         exercise=wanted.exercise.id,
-        now=datetime.now(UTC),
+        parameters=parameters,
+        now=datetime.now(UTC) + after,
     )
-    with SessionWriter.create(path, header, CAMERA, make_calibration()) as writer:
+    with SessionWriter.create(path, header, CAMERA, replace(calibration, verdict=verdict)) as writer:
         for row in range(frames):
             writer.append(make_frame(row))
     return library.entered(wanted, path)
@@ -61,6 +75,25 @@ def test_practice_is_never_among_the_patients(library: Library) -> None:
     assert [row.session_id for row in shelf.sessions(linden)] == [measured]
     assert [row.session_id for row in shelf.sessions(PRACTICE_PATIENT)] == [practice]
     assert len(library.session(practice)) == 40
+
+
+def test_the_length_of_the_hand_is_that_of_its_last_session_with_right_names(library: Library) -> None:
+    linden = PatientShelf(library).add(PatientEntry("Linden 42", "right", "right"))
+    wanted = set_up(linden, "Linden 42")
+    assert math.isnan(library.last_hand_length_mm(wanted, simulated=False))
+    steps = iter(range(1, 9))
+
+    def stored(length_mm: float, *findings: Finding, parameters: str = "{}") -> None:
+        store(library, wanted, 3, length_mm, findings, parameters, timedelta(minutes=next(steps)))
+
+    stored(180.0)
+    stored(150.0, Finding("shifted", ("WRIST", "MCP5", "MCP4")))
+    stored(140.0, parameters=json.dumps({"source": {"simulated": "yes"}}))
+    assert library.last_hand_length_mm(wanted, simulated=False) == pytest.approx(180.0)
+    assert library.last_hand_length_mm(wanted, simulated=True) == pytest.approx(140.0)
+    assert math.isnan(library.last_hand_length_mm(replace(wanted, side="left"), simulated=False))
+    stored(210.0, Finding("other_length", (), 210.0, 180.0, "mm"))
+    assert library.last_hand_length_mm(wanted, simulated=False) == pytest.approx(210.0), "accepted by a person"
 
 
 def test_the_last_set_up_comes_back_with_its_targets(library: Library) -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import replace
 from itertools import combinations
 
@@ -11,6 +12,7 @@ from scipy.spatial.transform import Rotation
 
 from core.calibration.calibrate import NeutralCapture, calibrate, measure_hand, require_calibration
 from core.calibration.result import Calibration, Clicks, Finding
+from core.calibration.same_hand import compared_with_last_time
 from core.calibration.settings import CalibrationSettings
 from core.detection.settings import DetectionSettings
 from core.errors import ClickOnNoMarker, MarkerWithoutDepth
@@ -135,12 +137,38 @@ def test_two_swapped_clicks_are_named(pair: tuple[int, int], side: Side) -> None
     assert not any(finding.blocks for finding in verdict.findings), "it is told, and tracking may go on"
 
 
+@pytest.mark.parametrize("by", [1, -1, 2, 3])
+@pytest.mark.parametrize("side", SIDES)
+def test_names_shifted_from_disc_to_disc_are_told_and_refused(side: Side, by: int) -> None:
+    scene = Scene(side)
+    outcome = outcome_of(scene, Clicks(side, WRIST6, np.roll(scene.discs_px, by, axis=0)), still(scene, 5))
+    finding = only(outcome.verdict.findings, "shifted")
+    assert set(finding.markers) == set(NAMES)
+    assert finding.markers[:2] == ("WRIST", NAMES[-by])
+    assert not outcome.verdict.can_start
+    assert not finding.blocks, "the command line tells it and goes on"
+
+
 @pytest.mark.parametrize("side", SIDES)
 def test_the_wrong_side_is_told(side: Side) -> None:
     scene = Scene(side)
     claimed: Side = "left" if side == "right" else "right"
     outcome = outcome_of(scene, Clicks(claimed, WRIST6, scene.discs_px))
     assert only(outcome.verdict.findings, "wrong_side").blocks is False
+
+
+def test_a_hand_of_another_length_than_last_time_is_doubted() -> None:
+    outcome = outcome_of(Scene())
+    length_mm = outcome.verdict.hand_length_mm
+    for same in (math.nan, length_mm, 0.9 * length_mm, 1.1 * length_mm):
+        assert compared_with_last_time(outcome, same) is outcome
+    for other in (0.8 * length_mm, 1.25 * length_mm):
+        doubted = compared_with_last_time(outcome, other)
+        finding = only(doubted.verdict.findings, "other_length")
+        assert (finding.value, finding.limit) == (length_mm, other)
+        assert doubted.calibration is not None
+        assert doubted.calibration.verdict is doubted.verdict, "the session keeps it"
+        assert doubted.verdict.can_start
 
 
 @pytest.mark.parametrize("marker", [0, 3, 5])

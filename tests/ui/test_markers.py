@@ -136,6 +136,25 @@ def test_swapped_markers_are_exchanged_by_enter_and_judged_again(qtbot: QtBot, s
     assert calibrator.begun is None
 
 
+def test_shifted_names_are_clicked_again_and_nothing_starts_from_them(qtbot: QtBot, screen: MarkersScreen) -> None:
+    calibrator = FakeCalibrator()
+    names = calibrator.protocol.markers
+    calibrator.findings = (Finding("shifted", names),)
+    screen.begin(calibrator)
+    click_all(qtbot, screen, calibrator)
+    wait_for_verdict(qtbot, screen)
+    assert screen.panel.states()[0] == "bad"
+    assert screen.step.text() == "Cannot start yet"
+    assert not screen.second.isVisible()
+    started: list[bool] = []
+    screen.started.connect(lambda: started.append(True))
+    screen._start_doubtful()
+    qtbot.keyClick(screen.focusWidget(), Qt.Key.Key_Return)
+    assert not started
+    assert screen.clicking is not None
+    assert screen.clicking.missing == names
+
+
 def test_a_doubtful_calibration_starts_only_by_its_own_button(qtbot: QtBot, screen: MarkersScreen) -> None:
     calibrator = FakeCalibrator()
     calibrator.findings = (Finding("tilt", (), 19.0, 15.0, "deg"),)

@@ -18,7 +18,7 @@ def remedy_of(verdict: Verdict, *, is_live: bool) -> Remedy:
     kinds = {finding.kind for finding in verdict.findings}
     if "swapped" in kinds:
         return "swap"
-    if any(finding.blocks and finding.markers for finding in verdict.findings):
+    if "shifted" in kinds or any(finding.blocks and finding.markers for finding in verdict.findings):
         return "click_these"
     if kinds & {"wrong_side", "misnamed"}:
         return "correct"

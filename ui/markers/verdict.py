@@ -23,12 +23,13 @@ MARKER_FINDINGS = (
     "two_clicks_on_one",
     "swapped",
     "misnamed",
+    "shifted",
     "wrong_side",
     "no_depth",
     "residual",
     "depth_off",
 )
-NAMES_WRONG = ("swapped", "misnamed", "wrong_side")
+NAMES_WRONG = ("shifted", "swapped", "misnamed", "wrong_side")
 STILL_FINDINGS = ("moved", "few_frames")
 
 
@@ -74,7 +75,7 @@ def rows_of(verdict: Verdict, limits: VerdictLimits) -> list[Row]:
     pictures = tr("for {count} pictures").format(count=verdict.frames_used) if verdict.frames_used else ""
     distance = _state(kinds.get("distance"), verdict.distance_m)
     tilt = _state(kinds.get("tilt"), verdict.tilt_deg)
-    length = _state(kinds.get("hand_length"), verdict.hand_length_mm)
+    length = _state(kinds.get("other_length") or kinds.get("hand_length"), verdict.hand_length_mm)
     return [
         Row(_worst(marker_faults), tr("Markers"), markers, _within(limits)),
         Row(distance, tr("Distance"), _cm(verdict.distance_m), _distance(limits)),

@@ -1,0 +1,29 @@
+"""Is it the hand of last time? A hand has one length; wrong names, or another patient's set-up, have another."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+
+from core.calibration.calibrate import CalibrationOutcome
+from core.calibration.result import Finding, Verdict
+
+MOST_LENGTH_CHANGE = 0.15
+"""Of last time's length. Discs put on anew lie up to half a centimetre elsewhere on the 8 cm that are measured."""
+
+
+def compared_with_last_time(outcome: CalibrationOutcome, last_length_mm: float) -> CalibrationOutcome:
+    """The outcome, doubted where the hand is not as long as the same hand was; NaN: there is none to compare with."""
+    now_mm = outcome.verdict.hand_length_mm
+    if not (math.isfinite(last_length_mm) and math.isfinite(now_mm)):
+        return outcome
+    if abs(now_mm - last_length_mm) <= MOST_LENGTH_CHANGE * last_length_mm:
+        return outcome
+    finding = Finding("other_length", (), now_mm, last_length_mm, "mm")
+    verdict: Verdict = replace(outcome.verdict, findings=(*outcome.verdict.findings, finding))
+    calibration = outcome.calibration
+    return replace(
+        outcome,
+        verdict=verdict,
+        calibration=None if calibration is None else replace(calibration, verdict=verdict),
+    )
