@@ -69,6 +69,8 @@ def test_the_wording_keeps_the_rules(text: str) -> None:
         "subject",
         "detail",
         "markers",
+        "first",
+        "second",
         "value",
         "limit",
         "unit",
