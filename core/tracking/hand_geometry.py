@@ -14,6 +14,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from core import so3
 from core.hand.kinematics import DIP_PER_PIP
 from core.hand.protocols import HAND21, HAND21_CHAINS, joint_angle_names
 from core.types import FloatArray, Side
@@ -32,6 +33,9 @@ _CROWDED = 2.4
 
 _DOWN = np.array([1.0, 1.0, -1.0])
 _AXES = np.arange(3)
+_DISC = np.arange(DISCS)
+_PAST = np.tri(DISCS)[..., None]
+"""(3, 3, 1) whether a disc (row) moves with a bone."""
 
 
 # Rows: slots, fan and roll; columns: azimuth, then of a finger the pitches of its segments and of its discs'
@@ -70,52 +74,62 @@ def _of_state(phases: FloatArray) -> FloatArray:
 
 
 _FINGER_PHASES = _of_state(_FINGER_PHASES)
-_PHASES = np.stack((_of_state(_THUMB_PHASES), *(_FINGER_PHASES,) * 4))
+# Flexion and abduction of the thumb turn downwards; azimuth, MCP abduction and roll do not.
+_FINGER_TURNS = _FINGER_PHASES * np.array([1.0, -1.0, -1.0, -1.0, -1.0, -1.0, -1.0])
+_TURNS = np.stack((_of_state(_THUMB_PHASES) * np.array([1.0, -1.0, -1.0, 1.0, -1.0, -1.0, 1.0]), *(_FINGER_TURNS,) * 4))
 
 
-def ray_discs_m(root_m: FloatArray, state: FloatArray) -> FloatArray:
-    """Discs (5, S, 3, 3) of all rays in W for S states (5, S, 16) of slots and constants side by side.
+def ray_discs_m(root_m: FloatArray, state: FloatArray, rays: list[int] | None = None) -> FloatArray:
+    """Discs (R, S, 3, 3) in W of all rays, or of some in their order, for S states (R, S, 16) of slots and constants
+    side by side.
 
-    ``root_m`` (5, 3) discs CMC1 and MCP2 to MCP5, under which the rays begin. The chains of
-    :mod:`core.hand.kinematics` written for speed: every ray bends in a plane of its own azimuth, the thumb's rolled.
+    ``root_m`` (R, 3) discs CMC1 and MCP2 to MCP5, under which the rays begin. The chains of
+    :mod:`core.hand.kinematics` written for speed: every ray bends in a plane of its own azimuth, the thumb's rolled;
+    a turn in a plane is a complex factor.
     """
-    phase = state @ _PHASES
-    cos, sin = np.cos(phase), np.sin(phase)
-    length, height = state[..., SLOTS : SLOTS + 3], state[..., SLOTS + 8 :]
-    along, up = np.empty(length.shape), np.empty(length.shape)
-
-    # Fingers: ends of the segments, then the discs on the normals.
-    np.cumsum(length[1:] * cos[1:, :, 1:4], axis=-1, out=along[1:])
-    np.cumsum(length[1:] * sin[1:, :, 1:4], axis=-1, out=up[1:])
-    np.negative(up[1:], out=up[1:])
-    along[1:] += height[1:] * sin[1:, :, 4:]
-    up[1:] += height[1:] * cos[1:, :, 4:]
-
-    # Thumb: in the axes of the metacarpal (its direction, dorsal normal, flexion axis), rolled, then raised.
-    c, s = cos[0].T, sin[0].T
-    (mc, pp, dp), (h1, h2, h3) = length[0].T, height[0].T
-    ahead = np.empty((2, mc.size))  # IP1 and TIP1: along the proximal phalanx and along its normal
-    lift = np.empty((2, mc.size))
-    ahead[0], lift[0] = pp + h2 * s[5], h2 * c[5]
-    ahead[1], lift[1] = pp + dp * c[4] + h3 * s[4], h3 * c[4] - dp * s[4]
-    straight = ahead * c[3]
-    x, y, z = np.empty((3, mc.size)), np.empty((3, mc.size)), np.zeros((3, mc.size))
-    x[0], y[0] = mc, h1
-    x[1:] = mc + straight * c[2] + lift * s[2]
-    y[1:] = lift * c[2] - straight * s[2]
-    z[1:] = ahead * s[3]
-    over, aside = c[6] * y - s[6] * z, s[6] * y + c[6] * z
-    along[0] = (x * c[1] + over * s[1]).T
-    up[0] = (over * c[1] - x * s[1]).T
-
-    start = root_m[:, None] + state[..., SLOTS + 5 : SLOTS + 8] * _DOWN
-    out = np.empty((*length.shape, 3))
-    out[..., 0] = along * cos[..., :1] + start[..., :1]
-    out[..., 1] = along * sin[..., :1] + start[..., 1:2]
-    out[..., 2] = up + start[..., 2:]
-    out[0, :, :, 0] -= (aside * s[0]).T
-    out[0, :, :, 1] += (aside * c[0]).T
+    turn = np.exp(1j * (state @ (_TURNS if rays is None else _TURNS[rays])))
+    thumbs = 1 if rays is None or rays[0] == 0 else 0
+    level, up = np.zeros((*state.shape[:2], DISCS), dtype=np.complex128), np.empty((*state.shape[:2], DISCS))
+    level.real[thumbs:], up[thumbs:] = _finger_arcs(state[thumbs:], turn[thumbs:])
+    if thumbs:
+        level.real[0], level.imag[0], up[0] = _thumb_arc(state[0], turn[0])
+    level *= turn[..., :1]
+    out = np.empty((*up.shape, 3))
+    out[..., 0], out[..., 1], out[..., 2] = level.real, level.imag, up
+    out += (root_m[:, None] + state[..., SLOTS + 5 : SLOTS + 8] * _DOWN)[..., None, :]
     return out
+
+
+def _finger_arcs(state: FloatArray, turn: NDArray[np.complex128]) -> tuple[FloatArray, FloatArray]:
+    """How far ahead and how high over the knuckle the discs (F, S, 3) of fingers are."""
+    arc = np.cumsum(state[..., SLOTS : SLOTS + DISCS] * turn[..., 1:4], axis=-1)
+    arc += (1j * state[..., SLOTS + 8 :]) * turn[..., 4:]
+    return arc.real, arc.imag
+
+
+def _thumb_arc(state: FloatArray, turn: NDArray[np.complex128]) -> tuple[FloatArray, FloatArray, FloatArray]:
+    """How far ahead, aside and up from CMC1 the discs (S, 3) of the thumb are, for states (S, 16).
+
+    In the axes of the metacarpal (its direction, dorsal normal, flexion axis), rolled, then raised.
+    """
+    mc, pp, dp = state[:, SLOTS], state[:, SLOTS + 1 : SLOTS + 2], state[:, SLOTS + 2]
+    height = 1j * state[:, SLOTS + 8 :]
+    # IP1 and TIP1: along the proximal phalanx, and along its normal.
+    bent = np.empty((len(state), 2), dtype=np.complex128)
+    bent[:, 0], bent[:, 1] = height[:, 1] * turn[:, 5], (dp + height[:, 2]) * turn[:, 4]
+    bent += pp
+    straight = bent.real * turn[:, 3:4]
+    in_plane = (straight.real + 1j * bent.imag) * turn[:, 2:3]
+    over = np.empty((len(state), DISCS), dtype=np.complex128)
+    over[:, 0] = state[:, SLOTS + 8]
+    over.real[:, 1:], over.imag[:, 1:] = in_plane.imag, straight.imag
+    over *= turn[:, 6:]
+    raised = np.empty(over.shape, dtype=np.complex128)
+    raised.real = mc[:, None]
+    raised.real[:, 1:] += in_plane.real
+    raised.imag = over.real
+    raised *= turn[:, 1:2]
+    return raised.real, over.imag, raised.imag
 
 
 def is_crowded(pixel: FloatArray, radius_px: FloatArray) -> NDArray[np.bool_]:
@@ -184,14 +198,13 @@ def ray_joints_m(root_m: FloatArray, state: FloatArray, frames: RayFrames) -> Fl
 def slope_by_constants(state: FloatArray, frames: RayFrames, joints_m: FloatArray) -> FloatArray:
     """Derivative (5, 3 discs, 3, 11) of the discs in W by the constants, for states (5, 16)."""
     slope = np.zeros((RAYS, DISCS, 3, CONSTANTS))
-    for disc in range(DISCS):
-        slope[:, disc:, :, disc] = frames.direction[:, None, disc]
-        slope[:, disc, :, 8 + disc] = frames.normal[:, disc]
+    slope[..., :DISCS] = np.swapaxes(frames.direction[:, None] * _PAST, 2, 3)
+    slope[:, _DISC, :, 8 + _DISC] = np.swapaxes(frames.normal, 0, 1)
     slope[..., _AXES, 5 + _AXES] = _DOWN
     lever = joints_m[:, 1:] + state[:, SLOTS + 8 :, None] * frames.normal - joints_m[:, :1]
     slope[..., 0, 3] = -lever[..., 1]
     slope[..., 1, 3] = lever[..., 0]
-    slope[0, :, :, 4] = np.cross(lever[0], frames.direction[0, 0])
+    slope[0, :, :, 4] = lever[0] @ so3.skew(frames.direction[0, 0])
     return slope
 
 

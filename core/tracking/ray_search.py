@@ -53,9 +53,9 @@ def search_rays(
     if not waiting:
         return {}
     postures = _grid()
-    points = np.repeat(state[:, None], postures.shape[1], axis=1)
-    points[..., :SLOTS] = postures
-    disc = ray_discs_m(root_disc_m, points)
+    points = np.repeat(state[waiting, None], postures.shape[1], axis=1)
+    points[..., :SLOTS] = postures[waiting]
+    disc = dict(zip(waiting, ray_discs_m(root_disc_m[waiting], points, waiting), strict=True))
     found: dict[int, FloatArray] = {}
     free = np.ones(len(point_m), dtype=bool)
     while waiting:
