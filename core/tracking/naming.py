@@ -15,6 +15,9 @@ from core.tracking.modes import ModeBank, reweighed
 from core.tracking.settings import MeasurementNoise, TrackerSettings
 from core.types import Detections, FloatArray
 
+LEAST_COMPANY = 3
+"""So many discs at their depth bear out another whose depth is something else's."""
+
 
 @dataclass(frozen=True, slots=True)
 class Measurable:
@@ -126,13 +129,26 @@ def name_and_correct(
     )
     taken = association.resolve(odds.value)
     with_depth = odds.with_depth[np.arange(markers), taken]
+    taken = _in_company(taken, with_depth, blobs)
     simple = correct(forecast, blobs, taken, with_depth, noise_factor)
     named = np.count_nonzero(taken >= 0)
     if (named >= enough or named == len(blobs)) and holds_together(simple.nis, simple.dof):
         return _without_outliers(simple, forecast, blobs, with_depth, noise_factor, settings.noise)
     found = _by_any_mode(forecast, blobs, resolution_px2, settings)
-    jointly = correct(forecast, blobs, found.taken, found.with_depth, noise_factor)
+    taken = _in_company(found.taken, found.with_depth, blobs)
+    jointly = correct(forecast, blobs, taken, found.with_depth, noise_factor)
     return _without_outliers(jointly, forecast, blobs, found.with_depth, noise_factor, settings.noise)
+
+
+def _in_company(taken: NDArray[np.int64], with_depth: NDArray[np.bool_], blobs: Measurable) -> NDArray[np.int64]:
+    """The names without those of blobs at another depth, unless enough discs where they should be bear them out.
+
+    What covers the hand may have blue on it: alone, a blob before or behind a disc's place is not that disc.
+    """
+    elsewhere = (taken >= 0) & ~with_depth & np.isfinite(blobs.value[taken, 2])
+    if not elsewhere.any() or np.count_nonzero((taken >= 0) & ~elsewhere) >= LEAST_COMPANY:
+        return taken
+    return np.where(elsewhere, -1, taken)
 
 
 def _by_any_mode(

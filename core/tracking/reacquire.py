@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from core.so3 import nearest_rotation
+from core import so3
 from core.tracking.measurement import View
 from core.types import Detections, FloatArray
 
@@ -34,22 +34,61 @@ Reach = Callable[[FloatArray], NDArray[np.bool_]]
 """Whether points (..., 3) in the body may be discs of thumb or fingers."""
 
 
+FOUND_SD_M = 0.003
+"""How far a disc may lie from where the found pose puts it: depth noise of one picture, and the shape."""
+
+
+@dataclass(frozen=True, slots=True)
+class FoundPalm:
+    """Pose of the body in W0, ``matched`` (M,) the discs that fix it."""
+
+    position_m: FloatArray
+    rotation_w2_w0: FloatArray
+    matched: NDArray[np.bool_]
+
+    @property
+    def count(self) -> int:
+        return int(np.count_nonzero(self.matched))
+
+    def pose_covariance(self, palm_m: FloatArray) -> FloatArray:
+        """Covariance (6, 6) of position and turn: discs nearly in a line say little of the turn about that line."""
+        discs = palm_m[self.matched]
+        middle = discs.mean(axis=0)
+        lever = so3.skew(discs - middle)
+        turn = np.linalg.inv(np.einsum("mji,mjk->ik", lever, lever) / FOUND_SD_M**2 + _TURN_PRIOR)
+        turn += _FOUND_TURN_SD_RAD**2 * np.eye(3)
+        # The middle of the discs is what is known; the origin swings about it with the turn.
+        swing = self.rotation_w2_w0 @ so3.skew(middle)
+        out = np.empty((6, 6))
+        out[:3, :3] = swing @ turn @ swing.T + _FOUND_PLACE_SD_M**2 * np.eye(3)
+        out[:3, 3:] = swing @ turn
+        out[3:, :3] = out[:3, 3:].T
+        out[3:, 3:] = turn
+        return out
+
+
+_FOUND_TURN_SD_RAD, _FOUND_PLACE_SD_M = 0.05, 0.004
+_TURN_PRIOR = np.eye(3) / 0.6**2
+
+
 @dataclass(frozen=True, slots=True)
 class _Fits:
-    """Poses (N, 3, 3), (N, 3) of a palm, discs matched (N,), their root mean square gap (N,), and blobs explained (N,)
-    by palm and fingers."""
+    """Poses (N, 3, 3), (N, 3) of a palm, discs matched (N, 6), their root mean square gap (N,), and blobs explained
+    (N,) by palm and fingers."""
 
     rotation: FloatArray
     translation: FloatArray
-    count: NDArray[np.int64]
+    matched: NDArray[np.bool_]
     gap_m: FloatArray
     explained: NDArray[np.int64]
 
+    @property
+    def count(self) -> NDArray[np.int64]:
+        return np.asarray(self.matched.sum(axis=1))
 
-def find_palm(
-    detections: Detections, view: View, reach: Reach | None = None
-) -> tuple[FloatArray, FloatArray, int] | None:
-    """Position (3,) and rotation (3, 3) of the body in W0 and the number of discs matched, or None.
+
+def find_palm(detections: Detections, view: View, reach: Reach | None = None) -> FoundPalm | None:
+    """Where the palm is, or None.
 
     Triples of discs with the distances of the palm fix a pose; the pose that most other discs confirm
     wins if it is confirmed by at least four in all and no other, different pose by as many about as well.
@@ -76,7 +115,7 @@ def find_palm(
             return None
     rotation = view.rotation_w0_cam.T @ fits.rotation[best]
     position = view.rotation_w0_cam.T @ (fits.translation[best] - view.translation_w0_cam_m)
-    return position, rotation, int(fits.count[best])
+    return FoundPalm(position, rotation, fits.matched[best])
 
 
 def _triples(palm_m: FloatArray, points: FloatArray) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
@@ -142,7 +181,7 @@ def _fits(
         is_finger = reach(local)
         np.put_along_axis(is_finger, np.where(matched, nearest, nearest[:, :1]), False, axis=1)
         explained = count + is_finger.sum(axis=1)
-    return _Fits(rotation, translation, count, mean_m, explained)
+    return _Fits(rotation, translation, matched, mean_m, explained)
 
 
 def _nearest(
@@ -162,7 +201,7 @@ def _refitted(model: FloatArray, points: FloatArray, used: NDArray[np.bool_]) ->
     model_mean = weight @ model
     point_mean = (weight[:, None] @ points)[:, 0]
     cross = np.swapaxes(points * weight[..., None], -1, -2) @ (model - model_mean[:, None])
-    rotation = nearest_rotation(cross)
+    rotation = so3.nearest_rotation(cross)
     return rotation, point_mean - (rotation @ model_mean[..., None])[..., 0]
 
 

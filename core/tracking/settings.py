@@ -44,7 +44,7 @@ class MeasurementNoise:
     adapt_s: float = 0.5
     most_adapted: float = 100.0
     least_adapted: float = 0.6
-    depth_outlier: float = 1e-3
+    depth_outlier: float = 1e-4
     depth_stays_m: float = 2.5e-4
 
 

@@ -28,7 +28,7 @@ from core.tracking.measurement import Forecast, View, forecast, forecast_augment
 from core.tracking.modes import ModeBank
 from core.tracking.naming import Corrected, Measurable, measurable, name_and_correct
 from core.tracking.noise_watch import watched
-from core.tracking.reacquire import Reach, find_palm
+from core.tracking.reacquire import FoundPalm, Reach, find_palm
 from core.tracking.readout import Readout, lost_frame, lost_moment, shown_frame
 from core.tracking.settings import TrackerSettings
 from core.tracking.shape_learning import hidden_by_calibration, slowly_learnt
@@ -43,6 +43,8 @@ PROBATION_S = 0.2
 """A hand found again out of nothing must keep showing for so long."""
 VAGUE_TURN_RAD = 0.15
 """Expecting the hand's turn less surely than this, the filter may settle on wrong names or at a wrong pose."""
+TOO_VAGUE_TURN_RAD = 0.5
+"""Less surely than this, sigma points reach too far for a correction to be trusted, even by the right names."""
 BLIND_TURN_RAD = (0.1, 0.1, 0.15, 0.35)
 """Expecting it less surely than this, any so many blobs would do for discs: none, one, two, three of them."""
 BLIND_AMONG_FINGERS_RAD = (*BLIND_TURN_RAD, 0.35)
@@ -179,7 +181,7 @@ class Tracker:
             found = find_palm(ideal, self.view, self._reach())
             if found is None:
                 return self._lost(index, timestamp_s, detections, dropped_before)
-            self._begin(self._belief_found(*found[:2]))
+            self._begin(self._belief_found(found))
             self._seen_s, linked, self._time_s = timestamp_s, False, timestamp_s
             self._found_s = timestamp_s
         assert self._bank is not None
@@ -193,11 +195,16 @@ class Tracker:
         if (few or vague) and np.count_nonzero(step.spare) + step.palm_seen > LEAST_PALM_MARKERS:
             # Too little of the palm is where it was expected, or too little was expected: it may be anywhere.
             found = find_palm(ideal if vague else _only(ideal, ~step.is_finger), self.view, self._reach())
-            if found is not None and (vague or found[2] > step.palm_seen) and self._may_be_at(found[1], timestamp_s):
-                bank = ModeBank.of(self._belief_found(*found[:2]), self._scales.size)
+            if found is not None and (vague or found.count > step.palm_seen) and self._may_be_at(found, timestamp_s):
+                bank = ModeBank.of(self._belief_found(found), self._scales.size)
                 there = forecast(bank, self.layout, self.view, self.settings.spread)
                 step_there = self._weighed(timestamp_s, dt_s, there, blobs, ideal)
-                if step_there.palm_seen >= max(LEAST_PALM_MARKERS + 1, step.palm_seen):
+                agreed = (
+                    turn_sd_rad < TOO_VAGUE_TURN_RAD
+                    and np.array_equal(step_there.palm.taken, step.palm.taken)
+                    and self._fits(step.palm)
+                )
+                if not agreed and step_there.palm_seen >= max(LEAST_PALM_MARKERS + 1, step.palm_seen):
                     # A vague belief has nothing against the place found: the smoother may go on through it.
                     ahead, step, linked, turn_sd_rad = there, step_there, linked and vague, 0.0
         blind_rad = BLIND_TURN_RAD if self._fingers is None else BLIND_AMONG_FINGERS_RAD
@@ -236,10 +243,14 @@ class Tracker:
             return LEAST_PALM_MARKERS + 1
         return LEAST_PALM_MARKERS if timestamp_s - self._found_s < PROBATION_S else 0
 
-    def _may_be_at(self, rotation_w2_w0: FloatArray, timestamp_s: float) -> bool:
+    def _fits(self, palm: Corrected) -> bool:
+        """Whether the discs lie where the corrected pose puts them."""
+        return bool((np.abs(palm.raw_residual) <= self.settings.noise.outlier_sd).all())
+
+    def _may_be_at(self, found: FoundPalm, timestamp_s: float) -> bool:
         """Whether a hand can have turned there since it was last seen."""
         assert self._bank is not None
-        apart = so3.log(self._bank.nominal.rotation_w2_w0.T @ rotation_w2_w0)
+        apart = so3.log(self._bank.nominal.rotation_w2_w0.T @ found.rotation_w2_w0)
         gone_s = timestamp_s - max(self._seen_s, self._begun_s)
         return float(np.linalg.norm(apart)) < min(TURN_SLACK_RAD + MOST_TURN_RATE_RAD_S * gone_s, MOST_TURN_RAD)
 
@@ -405,15 +416,17 @@ class Tracker:
         """Where the fingers' discs can be, as seen from the palm."""
         return None if self._fingers is None else self._fingers.reach
 
-    def _belief_found(self, position_m: FloatArray, rotation_w2_w0: FloatArray) -> Belief:
-        initial = replace(self.settings.initial, position_m=0.004, turn_rad=0.08, velocity_m_s=0.5, rate_rad_s=2.0)
+    def _belief_found(self, found: FoundPalm) -> Belief:
+        initial = replace(self.settings.initial, velocity_m_s=0.5, rate_rad_s=2.0)
         belief = resting_belief(
             self.layout,
             initial,
-            position_m=position_m,
-            rotation_w2_w0=rotation_w2_w0,
+            position_m=found.position_m,
+            rotation_w2_w0=found.rotation_w2_w0,
             shape_covariance=self._shape_covariance,
         )
+        pose = np.r_[self.layout.position, self.layout.turn]
+        belief.covariance[np.ix_(pose, pose)] = found.pose_covariance(self.view.geometry.palm_m)
         return replace(belief, shape=self._shape)
 
     def _remember(self, timestamp_s: float, measured: NDArray[np.int64]) -> None:

@@ -7,6 +7,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from core import so3
 from core.tracking.measurement import RigidPalm, View
 from core.tracking.reacquire import find_palm
 from core.types import Detections, Side
@@ -34,11 +35,11 @@ def test_palm_is_found_among_shuffled_blobs_and_clutter(side: Side, seed: int) -
     pose = some_pose(rng)
     found = find_palm(blobs(pose, rng, side=side, false_px=clutter(rng, 8)), view(side))
     assert found is not None
-    position, rotation, count = found
+    position, rotation = found.position_m, found.rotation_w2_w0
     true = rotation_of(*pose.angles_deg, side=side)
     discs, there = palm(side) @ rotation.T + position, palm(side) @ true.T + pose.position_m
     assert np.linalg.norm(discs - there, axis=1).max() < 0.004
-    assert count == 6
+    assert found.count == 6
 
 
 @pytest.mark.parametrize("side", SIDES)
@@ -51,10 +52,13 @@ def test_four_or_five_discs_are_enough(side: Side, hidden: tuple[int, ...]) -> N
         found = find_palm(blobs(pose, rng, side=side, hidden=hidden), view(side))
         if found is None:
             continue  # two poses explain the four discs: then none is taken
-        assert found[2] >= 6 - len(hidden)
+        assert found.count >= 6 - len(hidden)
         there = palm(side) @ rotation_of(*pose.angles_deg, side=side).T + pose.position_m
         shown = np.setdiff1d(np.arange(6), hidden)
-        assert np.linalg.norm((palm(side) @ found[1].T + found[0] - there)[shown], axis=1).max() < 0.006
+        assert (
+            np.linalg.norm((palm(side) @ found.rotation_w2_w0.T + found.position_m - there)[shown], axis=1).max()
+            < 0.006
+        )
         found_right += 1
     assert found_right >= 8
 
@@ -119,4 +123,34 @@ def test_with_many_blobs_the_likest_are_searched() -> None:
     )
     found = find_palm(replace(seen, similarity=likeness), view("right"))
     assert found is not None
-    assert found[2] == 6
+    assert found.count == 6
+
+
+@pytest.mark.parametrize("hidden", [(), (0,), (0, 1), (1, 3)])
+def test_a_found_pose_says_how_sure_it_is(hidden: tuple[int, ...]) -> None:
+    """Its errors are as large as stated, also about the line of the knuckles when only those show."""
+    rng = np.random.default_rng(43)
+    shown = np.setdiff1d(np.arange(6), hidden)
+    squared = []
+    for _ in range(60):
+        pose = Pose(rng.uniform(-1.0, 1.0, 3) * 15.0)
+        found = find_palm(blobs(pose, rng, hidden=hidden), view("right"))
+        if found is None:
+            continue
+        true = rotation_of(*pose.angles_deg)
+        error = np.concatenate((pose.position_m - found.position_m, so3.log(found.rotation_w2_w0.T @ true)))
+        covariance = found.pose_covariance(palm("right"))
+        assert np.linalg.eigvalsh(covariance)[0] > 0.0
+        squared.append(float(error @ np.linalg.solve(covariance, error)))
+        assert np.array_equal(np.flatnonzero(found.matched), shown)
+    assert len(squared) >= 40
+    assert np.mean(np.array(squared) < 16.8) > 0.95  # 99 % of chi squared with six degrees of freedom
+
+
+def test_the_knuckles_alone_leave_the_turn_about_their_line_open() -> None:
+    knuckles = find_palm(blobs(Pose(), hidden=(0, 1)), view("right"))
+    whole = find_palm(blobs(Pose()), view("right"))
+    assert knuckles is not None
+    assert whole is not None
+    about_y = [np.sqrt(f.pose_covariance(palm("right"))[4, 4]) for f in (knuckles, whole)]
+    assert about_y[0] > 2.0 * about_y[1]

@@ -456,3 +456,29 @@ def test_share_of_measured_markers_is_that_of_the_last_second() -> None:
     assert frames[29].measured_share == pytest.approx([1.0] * 3)
     assert frames[45].measured_share == pytest.approx([1.0 - 16 / 31 / 3] * 3, abs=0.02)
     assert frames[74].measured_share == pytest.approx([4 / 6] * 3)
+
+
+def test_a_gap_between_pictures_does_not_make_the_tracker_forget() -> None:
+    """After a drop at 15 pictures a second with only the knuckles in view, the prediction still counts."""
+    errors = []
+    for seed in range(6):
+        rng = np.random.default_rng(seed)
+        motion = swing(1, 20.0, 0.3)
+        at = [k / 15.0 for k in range(75) if k not in (40, 41)]
+        frames = track([(t, blobs(motion(t), rng, hidden=(WRIST, 1) if 2.6 < t < 3.4 else ())) for t in at])
+        blind = [k for k, t in enumerate(at) if 2.7 < t < 3.4]
+        errors.append(np.abs(angles_deg(frames) - truth_deg(motion, at))[blind].max())
+    assert np.median(errors) < 8.0
+
+
+def test_alone_a_blob_at_another_depth_is_no_disc() -> None:
+    """Something over the hand with blue on it where a covered disc is expected."""
+    rng = np.random.default_rng(7)
+    frames = []
+    for k, t in enumerate(times(46)):
+        found = blobs(Pose(), rng, hidden=range(1, 6) if k >= 40 else ())
+        if k >= 40:
+            found = replace(found, depth_m=found.depth_m - 0.12)
+        frames.append((t, found))
+    after = track(frames)[40:]
+    assert all(np.isnan(frame.marker_measured_px).all() for frame in after)
