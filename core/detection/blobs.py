@@ -21,7 +21,10 @@ _LOW, _HIGH = 0.2, 0.8
 """Shares of paper below and above these count as none and all; symmetric, so an edge's centre stays."""
 _FEWEST = np.array([3.0] * WEDGES + [4.0])
 """With fewer pixels than these in a direction of the rim, or in the core, all of the rim or of the blob is taken."""
+_FEWEST_READINGS = 3
 _QUARTERS = np.arange(1, 4)[:, None]
+_BEYOND_M = 1e3
+"""Stands for no reading among readings in order."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -43,8 +46,8 @@ def outlines(
     if inside is not None:  # off the picture a window repeats its border
         mine &= inside
         free &= inside
-    counted = mine.copy()
-    counted[:, stencil.reach] |= free[:, stencil.reach]
+    counted = free & stencil.reach
+    counted |= mine
     return Outline(mine, counted, free[:, stencil.rim])
 
 
@@ -80,7 +83,7 @@ def _totals(color: NDArray[np.float32], outline: Outline, stencil: Stencil) -> N
     """Sums (B, 4, WEDGES + 1) of red, green, blue and 1 over the rim in eight directions and over the core."""
     total = np.empty((color.shape[0], 4, WEDGES + 1), dtype=np.float32)
     rim, core = stencil.rim, stencil.core
-    seen = outline.rim[:, :, None].astype(np.float32) * stencil.wedge
+    seen = outline.rim[:, :, None] * stencil.wedge
     np.matmul(color[:, rim].transpose(0, 2, 1), seen, out=total[..., :WEDGES])
     np.matmul(
         color[:, core].transpose(0, 2, 1), outline.mine[:, core, None].astype(np.float32), out=total[..., WEDGES:]
@@ -117,15 +120,15 @@ def blob_depths(
     own, inner = core.T, metres[:, : core.shape[1]].T.copy()  # (C, B)
     valid = own & (inner > 0.0)
     count = valid.sum(axis=0)
-    ordered = np.where(valid, inner, np.inf)
+    ordered = np.where(valid, inner, _BEYOND_M)
     ordered.sort(axis=0)
-    some = count >= 3
-    rank = _QUARTERS * np.maximum(count - 1, 0) // 4
-    low, middle, high = np.where(some, ordered[rank, np.arange(some.size)], 0.0)
+    rank = _QUARTERS * (count - 1) >> 2  # without any, the last
+    low, middle, high = ordered[rank, np.arange(count.size)]
     near = valid & (np.abs(inner - middle) <= settings.depth_iqr_m)
     depth = (inner * near).sum(axis=0) / np.maximum(near.sum(axis=0), 1)
     iqr = high - low
-    trusted = some & (count >= settings.depth_valid_share * own.sum(axis=0)) & (iqr <= settings.depth_iqr_m)
+    enough = np.maximum(settings.depth_valid_share * own.sum(axis=0), _FEWEST_READINGS)
+    trusted = (count >= enough) & (iqr <= settings.depth_iqr_m)
     # The sensor matches small windows: near an edge of the surface they hold two, and the depth is of neither.
     other = np.abs(metres - depth[:, None]) > settings.edge_step_m
     edge = (settings.edge_sd_m / metres.shape[1]) * other.sum(axis=1)

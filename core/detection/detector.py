@@ -23,8 +23,9 @@ _COARSE = 4
 """The hand's region is looked for in a picture this many times smaller."""
 _SIMILARITY_BINS = 16
 _SKIN_LEVEL = 128
-_UV = np.arange(2)
 _USUAL_DEPTH_M = 0.7
+_MOST_UNSURE_PX = 120.0
+"""However little is known of where a disc is, it is looked for no further away."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -54,15 +55,18 @@ class Detector:
         coarse = looks.paper_histogram.reshape(_SIMILARITY_BINS, 2, _SIMILARITY_BINS, 2).sum(axis=(1, 3))
         self._reference = np.sqrt(coarse.ravel())
         self._cell, self._is_skin = _by_hue_and_saturation(looks)
+        self._least_area = settings.least_area * looks.least_share
+        self._most_area = settings.most_area * looks.most_share
         self._first_cell = self._reference.size * np.arange(settings.most_blobs)[:, None]
 
     def region_about(self, pixel: FloatArray, covariance_px2: FloatArray, depth_m: FloatArray) -> Region:
         """Rectangle that holds all predicted discs (M, 2) with their uncertainty (M, 2, 2)."""
-        sd = np.sqrt(np.maximum(covariance_px2[:, _UV, _UV], 0.0))
-        radius = self._camera.fx_px * self._settings.marker_radius_m / np.maximum(depth_m, 0.2)
-        margin = np.minimum(self._settings.region_sd * sd, 120.0) + (2.2 * radius + 3.0)[:, None]
-        left, top = (pixel - margin).min(axis=0).tolist()
-        right, bottom = (pixel + margin).max(axis=0).tolist()
+        disc_px_m, region_sd = self._camera.fx_px * self._settings.marker_radius_m, self._settings.region_sd
+        variance = np.maximum(covariance_px2.diagonal(axis1=1, axis2=2), 0.0)
+        reach = np.minimum(region_sd * np.sqrt(variance), _MOST_UNSURE_PX)
+        reach += (2.2 * disc_px_m / np.maximum(depth_m, 0.2) + 3.0)[:, None]
+        left, top = (pixel - reach).min(axis=0).tolist()
+        right, bottom = (pixel + reach).max(axis=0).tolist()
         return Region(math.floor(left), math.floor(top), math.ceil(right) + 1, math.ceil(bottom) + 1).clipped(
             self._camera.width_px, self._camera.height_px
         )
@@ -77,11 +81,9 @@ class Detector:
         hsv = color_histogram.to_hsv(color)
         mask = paper_mask(hsv, self._looks, self._settings)
         blobs = components(mask, lambda centre_px: self._radius_at(frame, region, centre_px))
-        full, area = np.pi * blobs.radius_px**2, blobs.area_px
-        fits = np.flatnonzero(
-            (area >= self._settings.least_area * self._looks.least_share * full)
-            & (area <= self._settings.most_area * self._looks.most_share * full)
-        )
+        area = blobs.area_px
+        ratio = area / (np.pi * blobs.radius_px**2)
+        fits = np.flatnonzero((ratio >= self._least_area) & (ratio <= self._most_area))
         if fits.size == 0:
             return Detections.none()
         if fits.size > self._settings.most_blobs:
@@ -115,7 +117,9 @@ class Detector:
         outline = outlines(labels.reshape(-1).take(pixels), own, inside, stencil)
         similarity, skin_share = self._likeness(packed(hsv).take(pixels), outline, stencil)
         offset, area = refined_centres(unpacked(packed(color).take(pixels)), outline, stencil)
-        centre = middle + offset + (region.left, region.top)
+        centre = middle + offset
+        centre[:, 0] += region.left
+        centre[:, 1] += region.top
         if frame.depth_raw is None:
             depth = depth_sd = np.full(own.size, np.nan)
         else:

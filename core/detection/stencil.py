@@ -26,9 +26,9 @@ _CORE, _REACH, _RIM_FROM, _RIM_TO = 0.62, 1.35, 1.35, 1.9
 class Stencil:
     """A round window of P pixels about a blob, ordered by their distance from its middle.
 
-    ``row`` and ``column`` (P,) offsets from the middle, at most ``half``; ``core``, ``reach`` and ``near`` the first
-    so many pixels: those of the disc's own colour, those that may belong to it, those within the sensor's window (at
-    least the core); ``rim`` the pixels around it, ``wedge`` (R, WEDGES) the R pixels of the rim seen in eight
+    ``row`` and ``column`` (P,) offsets from the middle, at most ``half``; ``core`` and ``near`` the first so many
+    pixels: those of the disc's own colour, those within the sensor's window (at least the core); ``reach`` (P,) which
+    may belong to the disc; ``rim`` the pixels around it, ``wedge`` (R, WEDGES) the R pixels of the rim seen in eight
     overlapping quarter circles, 0 or 1; ``pick`` (P,) where in rows of P times WEDGES each pixel finds the wedge in
     whose middle it lies; ``moments`` (P, 3) the columns 1, u, v.
     """
@@ -37,7 +37,7 @@ class Stencil:
     row: NDArray[np.int64]
     column: NDArray[np.int64]
     core: slice
-    reach: slice
+    reach: NDArray[np.bool_]
     near: slice
     rim: slice
     wedge: NDArray[np.float32]
@@ -77,7 +77,7 @@ def _stencil(quarters: int) -> Stencil:
         row,
         column,
         first(core),
-        first(reach),
+        distance <= reach,
         first(max(EDGE_REACH_PX, core)),
         rim,
         is_seen.astype(np.float32),
@@ -94,9 +94,8 @@ def window_pixels(
     height, width = shape
     middle = np.rint(centre_px)
     at = middle.astype(np.int64)
-    (left, top), (right, bottom) = at.min(axis=0).tolist(), at.max(axis=0).tolist()
     half = stencil.half
-    if left >= half and top >= half and right < width - half and bottom < height - half:
+    if all(half <= u < width - half and half <= v < height - half for u, v in at.tolist()):
         flat = at[:, 1] * width + at[:, 0]
         return flat[:, None] + (stencil.row * width + stencil.column), None, middle
     column, row = at[:, :1] + stencil.column, at[:, 1:] + stencil.row

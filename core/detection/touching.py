@@ -35,8 +35,8 @@ def split_touching(
         box = labels[top : top + height, left : left + width]
         row, column = np.nonzero(box == label)
         points = np.empty((row.size, 2))
-        points[:, 0], points[:, 1] = column, row
-        points += (left, top)
+        np.add(column, left, out=points[:, 0])
+        np.add(row, top, out=points[:, 1])
         parts = _parts(points, float(radius_px[label]))
         if parts is None:
             continue
@@ -73,13 +73,13 @@ def _parts(points: FloatArray, radius_px: float) -> NDArray[np.int64] | None:
     gap = (high - low - 2.0 * radius_px) / (count - 1)
     middle = (centre + (low + radius_px + gap * np.arange(count))[:, None] * axis).T
     u, v = points.T.copy()
-    part = np.empty(0, dtype=np.int64)
+    part: NDArray[np.int64] | None = None
     for _ in range(_ROUNDS):
         before, part = part, _nearest(u, v, middle)
         area = np.bincount(part, minlength=count)
         if area.min() == 0:
             return None
-        if np.array_equal(part, before):
+        if before is not None and (part == before).all():
             break
         middle = np.array((np.bincount(part, u), np.bincount(part, v))) / area
     return part
