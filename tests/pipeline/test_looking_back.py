@@ -85,7 +85,9 @@ def times_s() -> list[float]:
 
 def assert_same(found: Motion, expected: Motion) -> None:
     for field in fields(Motion):
-        np.testing.assert_array_equal(getattr(found, field.name), getattr(expected, field.name), field.name)
+        np.testing.assert_allclose(
+            getattr(found, field.name), getattr(expected, field.name), rtol=0, atol=1e-9, err_msg=field.name
+        )
 
 
 @contextmanager
