@@ -9,7 +9,7 @@ import numpy as np
 
 from core.camera import Camera
 from core.capture.camera_info import CAMERA_FILE
-from core.capture.source import SourceInfo
+from core.capture.source import SourceInfo, is_simulated
 from core.capture.tum import TumFolder
 from core.hand.protocols import WRIST_ANGLES
 from core.output.exercises import exercise_named
@@ -38,6 +38,7 @@ def session_summary(session: Session) -> list[str]:
         _line("Exercise", header.exercise or "not given"),
         _line("Created", header.created),
         _line("Markers", f"{header.protocol.name}: {' '.join(header.protocol.markers)}"),
+        *([_line("Source", "simulated: nobody's movement was measured")] if header.simulated else []),
         _line("Complete", _completeness(session)),
         *_frames(session.timestamp_s, np.maximum(quality.dropped_before, 0)),
         _line("Tracking", _shares(session)),
@@ -62,6 +63,7 @@ def recording_summary(folder: Path, recording: TumFolder) -> list[str]:
     camera = recording.info.camera
     return [
         _line("Recording", f"{folder}, a TUM RGB-D folder"),
+        *([_line("Source", "simulated")] if is_simulated(recording.info) else []),
         *_frames(times, dropped),
         _line("Depth", f"{with_depth} of {len(times)} frames have a depth picture"),
         _line("Camera", camera_text(camera, f"no {CAMERA_FILE}")),
@@ -196,7 +198,7 @@ def _calibration(session: Session) -> list[str]:
     if verdict.frames_used:
         known.append(f"from {verdict.frames_used} still pictures")
     lines = [_line("Calibration", ", ".join(known) or "not described")]
-    lines += [f"  {finding_sentence(finding)}" for finding in verdict.findings]
+    lines += [f"  doubtful: {finding_sentence(finding)}" for finding in verdict.findings]
     start_deg = np.degrees(calibration.start_angles_rad)
     if np.any(np.isfinite(start_deg) & (start_deg != 0.0)):
         given = ", ".join(_side(name, float(angle)) for name, angle in zip(WRIST_ANGLES, start_deg, strict=True))

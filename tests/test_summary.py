@@ -134,3 +134,12 @@ def test_durations() -> None:
         "59:59.0",
         "100:00.0",
     ]
+
+
+def test_a_simulated_or_doubtful_session_says_so(tmp_path: Path) -> None:
+    stored = read_session(write(tmp_path / "s.h5"))
+    assert "Source" not in values(session_summary(stored))
+    assert any(line.startswith("  doubtful: The hand is tilted 22°") for line in session_summary(stored))
+    header = dataclasses.replace(stored.header, parameters='{"source": {"simulated": "yes"}}')
+    told = values(session_summary(dataclasses.replace(stored, header=header)))
+    assert told["Source"] == "simulated: nobody's movement was measured"

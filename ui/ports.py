@@ -73,6 +73,8 @@ class PatientCard:
     note: str = ""
     note_when: datetime | None = None
     marker_picture_rgb: ByteImage | None = None
+    warnings: Sequence[str] = ()
+    """What must be known of the last session: simulated, doubtful, cut short, not to count."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -127,6 +129,8 @@ class SetUp:
     target_positive_deg: float
     target_negative_deg: float
     keep_pictures: bool = False
+    ends_free: bool = False
+    """Whether the end joints of the fingers are measured by themselves, not taken to follow the middle joints."""
 
     @property
     def protocol(self) -> MarkerProtocol:

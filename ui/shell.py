@@ -7,6 +7,7 @@ from PySide6.QtGui import QCloseEvent, QKeySequence, QPainter, QPaintEvent, QSho
 from PySide6.QtWidgets import QApplication, QStackedWidget, QVBoxLayout, QWidget
 
 from ui.controls.focus_ring import FocusRing
+from ui.messages.sign import Sign
 from ui.style import apply_style
 from ui.theme import Theme
 from ui.topbar import TopBar
@@ -25,11 +26,13 @@ class Shell(QWidget):
         super().__init__()
         self._theme = theme
         self.bar = TopBar(theme)
+        self.sign = Sign(theme)
         self.stage = QStackedWidget()
         column = QVBoxLayout(self)
         column.setContentsMargins(0, 0, 0, 0)
         column.setSpacing(0)
         column.addWidget(self.bar)
+        column.addWidget(self.sign)
         column.addWidget(self.stage, 1)
         self.ring = FocusRing(self, theme)
         self.setWindowTitle("Carpus")

@@ -400,6 +400,26 @@ class Journey(QObject):
         if self.place != "live":
             bar.disk.show_state("none", "")
             self._show_camera()
+        self.shell.sign.show_lines(self._sign_lines())
+
+    def _sign_lines(self) -> list[str]:
+        """What must not be forgotten of what is on the screen: that it is simulated, or was doubtful."""
+        simulated, findings = False, ()
+        measuring = self.source.measuring if self.source is not None else None
+        if self.place in ("markers", "live") and measuring is not None:
+            simulated = measuring.is_simulated
+            if self.place == "live" and measuring.calibration is not None:
+                findings = measuring.calibration.verdict.findings
+        elif self.place == "review" and self.review.shown and self.review.figures is not None:
+            simulated, findings = self.review.figures.simulated, self.review.figures.findings
+        lines = []
+        if simulated and self.patient is not None and self.patient.patient_id != PRACTICE_PATIENT:
+            words = self.tr("Simulated hand: this is not {name}, and does not count.")
+            lines.append(words.format(name=self.patient.pseudonym))
+        if findings:
+            said = " ".join(self._parts.phrasebook.finding(finding).what for finding in findings)
+            lines.append(self.tr("Measured although doubtful: {findings}").format(findings=said))
+        return lines
 
     def _look_for_camera(self) -> None:
         there = self._parts.sources.camera_there()

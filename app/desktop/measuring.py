@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import logging
 from collections.abc import Callable, Sequence
 from contextlib import suppress
@@ -17,14 +18,14 @@ from core.calibration.result import Calibration
 from core.camera import Camera
 from core.capture.raw import SUFFIX as RAW_SUFFIX
 from core.capture.raw import RawWriter
-from core.capture.source import SourceInfo
+from core.capture.source import SourceInfo, is_simulated
 from core.errors import NotLookedBack, RecordingEmpty
 from core.pipeline.frame_walk import FrameWalk
 from core.pipeline.live import LiveSession
 from core.pipeline.looking_back import LookingBack
 from core.pipeline.pieces import TrackedHand
 from core.pipeline.track import Learnt, TrackSettings, build_walk, learnt_from, parameters_json, source_facts
-from core.session.values import new_header
+from core.session.values import SET_UP, new_header
 from core.session.writer import SessionWriter
 from core.tracking.tracker import KeptSteps
 from core.types import ByteImage, FloatArray, Frame, TrackedFrame
@@ -189,6 +190,11 @@ class SourceMeasuring:
         """Whether the source is a stored recording, which is recorded from its first picture to its last."""
         return self._starts_with_recording
 
+    @property
+    def is_simulated(self) -> bool:
+        """Whether the pictures are of a simulated hand."""
+        return is_simulated(self._info)
+
     def begin(self, outcome: CalibrationOutcome, held: Sequence[Frame]) -> None:
         """Track from a calibration; ``held`` are the pictures it was made from, the clicked one first."""
         used = held[: max(outcome.capture_frames, 1)]
@@ -214,7 +220,7 @@ class SourceMeasuring:
             software_version=__version__,
             subject_id=self._set_up.pseudonym,
             exercise=self._set_up.exercise.id,
-            parameters=parameters_json(self._settings, source_facts(self._info), learnt),
+            parameters=self._parameters(learnt),
             dip_free=self._settings.tracker.dip == "free",
         )
         looking_back = None
@@ -237,6 +243,16 @@ class SourceMeasuring:
             self._played = True
             self._session.start()
         self._on_recording()
+
+    def _parameters(self, learnt: Learnt) -> str:
+        """All settings as JSON, with what the exercise aimed at."""
+        content = json.loads(parameters_json(self._settings, source_facts(self._info), learnt))
+        aims = (self._set_up.target_positive_deg, self._set_up.target_negative_deg)
+        content[SET_UP] = {
+            "repetitions": self._set_up.repetitions,
+            "targets_deg": [aim if np.isfinite(aim) else None for aim in aims],
+        }
+        return json.dumps(content, sort_keys=True)
 
     def stop_recording(self) -> str:
         """Store everything; the session's identity. A fault is raised once what reached the disk is finished."""

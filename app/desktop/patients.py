@@ -7,11 +7,12 @@ from dataclasses import replace
 
 from app.desktop.library import Library
 from core.errors import SessionUnreadable
-from core.output.report_content import SessionFigures, compare, progress
+from core.output.report_content import SessionFigures, compare, unfair_reasons
 from core.session import register
 from core.session.register import PatientRecord
-from ui.ports import PatientCard, PatientEntry, PatientRow, ResultLine, SessionRow
+from ui.ports import PRACTICE_PATIENT, PatientCard, PatientEntry, PatientRow, ResultLine, SessionRow
 from ui.report.tables import repetition_words
+from ui.report.words import warnings
 
 _ENDS = ("arc",)
 """Movements that the card leaves out: it shows the two ends, which the therapist trains."""
@@ -42,7 +43,8 @@ class PatientShelf:
         except SessionUnreadable:
             return PatientCard(row, marker_picture_rgb=picture)
         note = last.notes[-1][1] if last.notes else ""
-        return PatientCard(row, _results(first, last), repetition_words(last), note, last.when, picture)
+        said = () if patient_id == PRACTICE_PATIENT else warnings(last)
+        return PatientCard(row, _results(first, last), repetition_words(last), note, last.when, picture, said)
 
     def sessions(self, patient_id: str) -> Sequence[SessionRow]:
         """Stored sessions, newest first."""
@@ -75,15 +77,17 @@ class PatientShelf:
         self._library.clinic.change(patient_id, new)
 
     def _first_alike(self, patient_id: str, last: SessionFigures) -> SessionFigures | None:
-        """The first session of the same hand and exercise, read only when there is an earlier one."""
+        """The first session of the same hand and exercise that the progress compares with; no more are read."""
         alike = [
             entry
             for entry in self._library.sessions(patient_id)
             if entry.hand == last.side and entry.exercise == last.exercise.id and entry.session_id != last.session_id
         ]
-        if not alike:
-            return None
-        return progress([self._library.figures(alike[-1]), last]).first
+        for entry in reversed(alike):
+            figures = self._library.figures(entry)
+            if figures.simulated == last.simulated and not unfair_reasons(figures, figures):
+                return figures
+        return None
 
 
 def _row(record: PatientRecord) -> PatientRow:

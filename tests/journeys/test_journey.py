@@ -120,12 +120,16 @@ def test_the_whole_journey_by_mouse(
     assert journey.markers.panel.states()[0] == "good"
     click(qtbot, journey.markers.primary)
     at(qtbot, desktop, "live")
+    assert desktop.shell.sign.text == f"Simulated hand: this is not {name}, and does not count."
     click(qtbot, journey.live.main)
     wait(qtbot, lambda: journey.live.recording_state == "recording")
     wait(qtbot, lambda: desktop.shell.bar.pill.state == "recording")
     wait(qtbot, lambda: journey.live.repetitions >= 2)
     click(qtbot, journey.live.main)
     path = reviewed(qtbot, desktop)
+    assert read_session(path).header.simulated
+    assert desktop.shell.sign.isVisible()
+    assert journey.patients._store.card(journey.patients.list.rows.row(0).patient_id).warnings
     check_file(path, name)
     assert path.is_relative_to(desktop.library.clinic.sessions_folder)
     assert desktop.shell.bar.pill.state == "off"

@@ -2,15 +2,18 @@
 
 from __future__ import annotations
 
+import json
 import re
 import shutil
 import subprocess
 import sys
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 import pytest
 
+from core.calibration.result import Finding
 from core.errors import OutputExists, OutputNotWritable
 from core.output.report_content import RepetitionChoices, session_figures
 from tests.ui.fakes import FakeSessions, session
@@ -70,6 +73,32 @@ def test_the_figures_on_the_page_are_those_of_the_session(report: Path) -> None:
 
 def test_the_legal_sentence_is_there_word_for_word(report: Path) -> None:
     assert LEGAL_SENTENCE in words_of(report)
+
+
+@pytest.fixture(scope="module")
+def doubted(tmp_path_factory: pytest.TempPathFactory) -> str:
+    """Words of the report of a simulated session that was started although the camera was tilted."""
+    stored = session()
+    parameters = json.dumps({"source": {"simulated": "yes"}, "set_up": {"targets_deg": [45.0, -30.0]}})
+    verdict = replace(stored.calibration.verdict, findings=(Finding("tilt", (), 22.0, 15.0, "deg"),))
+    stored = replace(
+        stored,
+        header=replace(stored.header, parameters=parameters),
+        calibration=replace(stored.calibration, verdict=verdict),
+    )
+    return words_of(write_session_report(stored, tmp_path_factory.mktemp("doubted") / "report.pdf"))
+
+
+def test_a_simulated_and_doubtful_session_says_so_and_shows_its_targets(doubted: str, report: Path) -> None:
+    for words in (
+        "Simulated hand: nobody’s movement was measured.",
+        "Measured although doubtful: The hand is tilted 22° to the camera",
+        "Markers and camera doubtful, see above",
+        "Flexion 45°, Extension 30°",
+        "dashed: target",
+    ):
+        assert words in doubted
+        assert words not in words_of(report)
 
 
 def test_curves_are_vectors_not_pictures(report: Path) -> None:

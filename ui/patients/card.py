@@ -35,6 +35,7 @@ class PatientCardView(Card):
         self._photo = Photo(theme)
         self._exercise = Text(theme, "", 16, SEMIBOLD)
         self._last = Text(theme, "", 14, REGULAR, "text2", wrap=True)
+        self._warning = Text(theme, "", 14, MEDIUM, "warn", wrap=True)
         self._results = QVBoxLayout()
         self._results.setSpacing(0)
         self._note_when = caption(theme)
@@ -60,6 +61,7 @@ class PatientCardView(Card):
             (self._photo, 14),
             (self._exercise, 2),
             (self._last, 12),
+            (self._warning, 4),
         ):
             recall.addWidget(widget)
             recall.addSpacing(gap)
@@ -113,6 +115,8 @@ class PatientCardView(Card):
         self._photo.show_picture(card.marker_picture_rgb, self.tr("Markers as on {day}").format(day=day) if day else "")
         self._exercise.setText(terms.exercise_name(row.exercise) if row.exercise else self.tr("No session yet"))
         self._last.setText(self._last_words(card, practice))
+        self._warning.setText(" ".join(card.warnings))
+        self._warning.setVisible(bool(card.warnings))
         self._show_results(card)
         self._note_when.setText(
             self.tr("Note of {day}").format(day=numbers.day_month(card.note_when)) if card.note_when else ""

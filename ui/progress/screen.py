@@ -18,7 +18,7 @@ from ui.controls.text import MEDIUM, REGULAR, SEMIBOLD, StateText, Text, caption
 from ui.keys import Keys, bind
 from ui.ports import SessionStore
 from ui.progress.chart import ProgressChart
-from ui.progress.words import before_after, change_line, comparison_name, headline, unfair_words
+from ui.progress.words import before_after, change_line, comparison_name, doubt_words, headline, unfair_words
 from ui.report.hand_rows import followed_keys, followed_kinds
 from ui.theme import GAP_PX, MARGIN_PX, Theme, is_tight
 from ui.verdicts import verdict_token, verdict_word
@@ -205,13 +205,19 @@ class ProgressScreen(QWidget):
         body, theme = self._fair.body, self._theme
         self._fair.setVisible(bool(self.progress.points))
         unfair = [point for point in self.progress.points if not point.fair]
+        doubts = [words for words in map(doubt_words, self.progress.points) if words]
         title = StateText(theme, 16, SEMIBOLD, 20)
-        title.show_state("warn" if unfair else "good", self.tr("Fair comparison"), token="text")
+        title.show_state("warn" if unfair or doubts else "good", self.tr("Fair comparison"), token="text")
         body.addWidget(title)
         for point in unfair:
             body.addWidget(Text(theme, unfair_words(point, self.progress), 14, wrap=True))
+        for words in doubts:
+            body.addWidget(Text(theme, words, 14, REGULAR, "warn", wrap=True))
         if not unfair:
             body.addWidget(Text(theme, self.tr("All sessions were set up alike."), 14, wrap=True))
+        if any(point.figures.simulated for point in self.progress.points):
+            words = self.tr("Simulated sessions are among them.")
+            body.addWidget(Text(theme, words, 14, MEDIUM, "warn", wrap=True))
         words = self.tr("The error limits are published values, until the clinic has measured its own.")
         body.addWidget(Text(theme, words, 14, REGULAR, "text2", wrap=True))
 

@@ -7,6 +7,7 @@ import math
 from core.measures.motion_range import FEWEST_FOR_SPREAD
 from core.output.range_rows import is_total
 from core.output.report_content import Comparison, Progress, ProgressPoint
+from core.words import finding_words
 from ui import numbers, terms
 from ui.figures import figure_of
 from ui.translate import tr
@@ -95,6 +96,15 @@ def change_line(item: Comparison) -> str:
     return tr("{change}, error {limit}").format(
         change=difference(item.shown_difference_deg), limit=numbers.degrees(item.limit_deg)
     )
+
+
+def doubt_words(point: ProgressPoint) -> str:
+    """What was doubtful about a session that is compared all the same; empty for nothing."""
+    said = " ".join(finding_words(finding).headline for finding in point.figures.findings)
+    if not said or not point.fair:
+        return ""
+    day = numbers.day_month(point.figures.when)
+    return tr("{day}: measured although doubtful. {findings}").format(day=day, findings=said)
 
 
 def unfair_words(point: ProgressPoint, progress: Progress) -> str:

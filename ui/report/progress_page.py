@@ -8,9 +8,9 @@ from core.output.report_content import Progress
 from ui import numbers, terms
 from ui.fonts import MEDIUM, REGULAR, SEMIBOLD
 from ui.progress.chart_painter import paint_chart
-from ui.progress.words import before_after, change_line, comparison_name, headline, unfair_words
+from ui.progress.words import before_after, change_line, comparison_name, doubt_words, headline, unfair_words
 from ui.report.page import A4_PT, MARGIN_PT, Page
-from ui.report.session_page import paint_head
+from ui.report.session_page import paint_head, paint_watermark
 from ui.translate import tr
 from ui.verdicts import verdict_token, verdict_word
 
@@ -30,6 +30,8 @@ class ProgressReport:
 def paint_progress_page(page: Page, report: ProgressReport) -> None:
     """Paint everything from the upper to the lower margin."""
     progress = report.progress
+    if any(point.figures.simulated for point in progress.points):
+        paint_watermark(page)
     newest = progress.points[-1].figures
     what = f"{terms.exercise_name(newest.exercise.id)}, {terms.hand_name(newest.side).lower()}"
     y = paint_head(page, tr("Progress report"), report.pseudonym, what)
@@ -83,6 +85,8 @@ def _paint_fairness(page: Page, progress: Progress, top: float) -> float:
     width, y = page.right - page.left, top + 11
     for point in unfair[:MOST_UNFAIR]:
         y = page.paragraph(unfair_words(point, progress), page.left, y, width, 9.0)
+    for words in [words for words in map(doubt_words, progress.points) if words][:MOST_UNFAIR]:
+        y = page.paragraph(words, page.left, y, width, 9.0, REGULAR, "warn")
     if not unfair:
         y = page.paragraph(tr("All sessions were set up alike."), page.left, y, width, 9.0)
     words = tr(

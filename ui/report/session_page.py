@@ -20,7 +20,7 @@ from ui.report.hand_part import paint_finger_curves, paint_finger_table, paint_w
 from ui.report.hand_rows import hand_summary
 from ui.report.page import A4_PT, MARGIN_PT, Page
 from ui.report.tables import TableRow, column_names, repetition_words, table_rows
-from ui.report.words import method, other_lines, quality_lines, summary
+from ui.report.words import method, other_lines, quality_lines, summary, warnings
 from ui.review.curves import SessionPlot, paint_session, place_panels
 from ui.theme import LIGHT
 from ui.translate import tr
@@ -40,8 +40,6 @@ class SessionReport:
     previous: SessionFigures | None = None
     first: SessionFigures | None = None
     other_hand: SessionFigures | None = None
-    target_positive_deg: float = math.nan
-    target_negative_deg: float = math.nan
     joints: JointCurves | None = None
     digest: str = ""
     settings_digest: str = ""
@@ -49,6 +47,8 @@ class SessionReport:
 
 def paint_session_page(page: Page, report: SessionReport) -> None:
     """Paint everything from the upper to the lower margin."""
+    if report.figures.simulated:
+        paint_watermark(page)
     y = paint_head(page, tr("Session report"), report.pseudonym, _what(report))
     y = _paint_facts(page, report, y)
     said = (summary if report.joints is None else hand_summary)(report.figures, report.previous, report.first)
@@ -64,6 +64,17 @@ def paint_session_page(page: Page, report: SessionReport) -> None:
     y = _paint_boxes(page, report, y + 9)
     foot = _paint_foot(page, report, y + 10)
     assert foot < A4_PT[1] - MARGIN_PT + 20
+
+
+def paint_watermark(page: Page) -> None:
+    """SIMULATED across the page, behind everything: no copy of it passes for a patient's."""
+    painter = page.painter
+    painter.save()
+    painter.translate(_point(page, A4_PT[0] / 2, A4_PT[1] / 2))
+    painter.rotate(-55.0)
+    words = tr("SIMULATED")
+    page.text(words, -page.width_of(words, 96.0, SEMIBOLD) / 2, 34.0, 96.0, SEMIBOLD, "norm")
+    painter.restore()
 
 
 def paint_head(page: Page, kind: str, pseudonym: str, what: str) -> float:
@@ -97,10 +108,9 @@ def _paint_facts(page: Page, report: SessionReport, top: float) -> float:
         (tr("Therapist"), report.therapist or numbers.UNKNOWN),
     ]
     page.facts(pairs, top + 5, (0.0, 0.25, 0.44, 0.67, 0.81))
-    if not figures.complete or figures.recovered:
-        words = tr("This recording was cut short and recovered.")
-        page.text(words, page.left, top + 41, 8.5, MEDIUM, "warn")
-        top += 12
+    width = page.right - page.left
+    for words in warnings(figures):
+        top = page.paragraph(words, page.left, top + 31, width, 8.5, SEMIBOLD, "warn") - 31
     page.rule(top + 36)
     return top + 36
 
@@ -143,12 +153,12 @@ def _paint_row(
 
 def _paint_curves(page: Page, report: SessionReport, top: float) -> float:
     aside = tr("grey: repetitions; band: ± 1 sd of the angle")
-    if math.isfinite(report.target_positive_deg) or math.isfinite(report.target_negative_deg):
+    if any(math.isfinite(target) for target in report.figures.targets_deg):
         aside += "; " + tr("dashed: target")
     page.title(tr("Angles over time"), top + 11, aside)
     plot = SessionPlot(
         report.curves, report.figures.exercise, report.figures.repetitions, -1,
-        report.target_positive_deg, report.target_negative_deg,
+        *report.figures.targets_deg,
     )  # fmt: skip
     box = page.box(page.left + 70, top + 30, page.right - page.left - 78, 158)
     style = page.style
@@ -240,7 +250,7 @@ def _paint_boxes(page: Page, report: SessionReport, top: float) -> float:
     for left in (page.left, page.left + width + gap):
         page.card(left, top, width, height)
     page.text(tr("How sure are these figures?"), page.left + inside, top + 17, 10.0, SEMIBOLD)
-    good = all(fine for _, _, fine in lines)
+    good = all(fine for _, _, fine in lines) and not warnings(report.figures)
     sign = page.box(page.left + width - inside - 12, top + 7, 12, 12)
     state, token = ("good", "good") if good else ("warn", "warn")
     paint_state(page.painter, state, sign, QColor(getattr(LIGHT, token)), QColor("#FFFFFF"))  # type: ignore[arg-type]

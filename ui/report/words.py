@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import math
 
-from core.output.exercises import STILL_RADIUS_MM
+from core.output.exercises import SIDES, STILL_RADIUS_MM
 from core.output.report_content import Comparison, SessionFigures, compare
+from core.words import finding_words
 from ui import numbers, terms
 from ui.translate import tr
 from ui.verdicts import reason_words
@@ -86,6 +87,34 @@ def method(figures: SessionFigures, markers: int) -> str:
     return " ".join(sentences)
 
 
+def warnings(figures: SessionFigures) -> list[str]:
+    """What must be read before any figure: that it is simulated, doubtful, cut short, or is not to count."""
+    lines = []
+    if figures.simulated:
+        lines.append(tr("Simulated hand: nobody’s movement was measured."))
+    if figures.findings:
+        said = " ".join(finding_words(finding).headline for finding in figures.findings)
+        lines.append(tr("Measured although doubtful: {findings}").format(findings=said))
+    if figures.not_counted:
+        lines.append(tr("This session is marked as not counting."))
+    if not figures.complete or figures.recovered:
+        lines.append(tr("This recording was cut short and recovered."))
+    return lines
+
+
+def target_words(figures: SessionFigures) -> str:
+    """``Flexion 40°, Extension 35°``; empty without targets."""
+    angle = figures.exercise.angle
+    if angle is None:
+        return ""
+    named = zip(SIDES[angle], figures.targets_deg, strict=True)
+    return ", ".join(
+        f"{terms.movement_name(movement)} {numbers.degrees(abs(value))}"
+        for movement, value in named
+        if math.isfinite(value)
+    )
+
+
 def quality_lines(figures: SessionFigures) -> list[tuple[str, str, bool]]:
     """Name, value, and whether it is as it should be."""
     quality = figures.quality
@@ -112,6 +141,8 @@ def quality_lines(figures: SessionFigures) -> list[tuple[str, str, bool]]:
                 angle=numbers.degrees(value), limit=numbers.degrees(limit)
             )
             lines.append((names[angle], words, value <= limit))
+    if figures.findings:
+        lines.append((tr("Markers and camera"), tr("doubtful, see above"), False))
     return lines
 
 
@@ -126,6 +157,8 @@ def other_lines(figures: SessionFigures) -> list[tuple[str, str]]:
         spread = f"{numbers.NARROW_GAP}±{numbers.NARROW_GAP}{smooth.sd:.1f}" if math.isfinite(smooth.sd) else ""
         value = f"{smooth.mean:.1f}".replace("-", "\N{MINUS SIGN}")
         lines.append((tr("Smoothness (SPARC; 0 is smoothest)"), f"{value}{spread}"))
+    if targets := target_words(figures):
+        lines.append((tr("Target"), targets))
     pain = f"{figures.pain[0]} / {figures.pain[-1]}" if figures.pain else tr("not asked")
     lines.append((tr("Pain first / last (0–10)"), pain))
     return lines

@@ -267,7 +267,7 @@ class ReviewScreen(QWidget):
         figures, curves = self.figures, self._curves
         if figures is None or curves is None:
             return
-        plot = SessionPlot(curves, figures.exercise, figures.repetitions, self._current)
+        plot = SessionPlot(curves, figures.exercise, figures.repetitions, self._current, *figures.targets_deg)
         if self._joints is not None and self._finger != WRIST:
             plot = HandPlot(
                 curves, figures.exercise, figures.repetitions, self._current, joints=self._joints, finger=self._finger
