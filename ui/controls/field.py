@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 
 from PySide6.QtCore import QRectF, Qt, Signal
@@ -13,6 +14,7 @@ from ui.controls.text import MEDIUM, Text
 from ui.fonts import font
 from ui.icons import paint_icon
 from ui.theme import Theme
+from ui.translate import tr
 
 
 class SearchField(QLineEdit):
@@ -71,6 +73,57 @@ def number_field(theme: Theme, most: int, suffix: str = "", nothing: str = "") -
     return field
 
 
+class DegreesField(QLineEdit):
+    """An angle above 0, whole or with a decimal comma or point; empty for none. What is refused stays, and is marked.
+
+    ``problem`` tells in words what is refused; ``checked`` is sent with them, empty words when all is well.
+    """
+
+    checked = Signal(str)
+
+    def __init__(self, theme: Theme, most: int, nothing: str) -> None:
+        super().__init__()
+        self._theme, self._most = theme, most
+        self.setPlaceholderText(nothing)
+        self.setMaxLength(12)
+        self.textChanged.connect(self._check)
+        self.editingFinished.connect(self._tidy)
+        theme.changed.connect(self._take_theme)
+        self._take_theme()
+
+    def value(self) -> float:
+        """Degrees; NaN where nothing, or nothing usable, is written."""
+        text = self.text().strip().removesuffix("°").strip().replace(",", ".")
+        try:
+            value = float(text)
+        except ValueError:
+            return math.nan
+        return value if 0.0 < value <= self._most else math.nan
+
+    def set_value(self, value_deg: float) -> None:
+        """Show an angle; NaN empties the field."""
+        self.setText(f"{value_deg:g}°" if math.isfinite(value_deg) else "")
+
+    @property
+    def problem(self) -> str:
+        """What is wrong, empty when nothing is."""
+        empty = self.text().strip() in ("", "°")
+        return "" if empty or math.isfinite(self.value()) else tr("1° to {most}°, or empty").format(most=self._most)
+
+    def _check(self) -> None:
+        self._take_theme()
+        self.checked.emit(self.problem)
+
+    def _tidy(self) -> None:
+        if math.isfinite(self.value()):
+            self.set_value(self.value())
+
+    def _take_theme(self) -> None:
+        self.setFixedWidth(self._theme.px(110))
+        edge = self._theme.tokens.bad
+        self.setStyleSheet(f"QLineEdit {{ border: 2px solid {edge}; }}" if self.problem else "")
+
+
 class Choices(QWidget):
     """Exclusive choices side by side; arrow keys move, the chosen one is filled and says so by its check state."""
 
@@ -96,9 +149,17 @@ class Choices(QWidget):
         """Select without a signal."""
         self._group.button(self._values.index(value)).setChecked(True)
 
+    def choose_nothing(self) -> None:
+        """Take the choice back: the person must make it."""
+        self._group.setExclusive(False)
+        for button in self.buttons():
+            button.setChecked(False)
+        self._group.setExclusive(True)
+
     def value(self) -> object:
-        """What is chosen."""
-        return self._values[self._group.checkedId()]
+        """What is chosen; None before anything is."""
+        chosen = self._group.checkedId()
+        return self._values[chosen] if chosen >= 0 else None
 
     def buttons(self) -> list[ChoiceButton]:
         """The buttons in order."""
