@@ -26,6 +26,7 @@ def exercise_name(exercise_id: str) -> str:
         "FIST_COMPOSITE": tr("Full fist"),
         "FIST_HOOK": tr("Hook fist"),
         "FINGER_ABAD": tr("Spread the fingers"),
+        "THUMB_OPP": tr("Thumb across the palm"),
         "FREE_HAND": tr("Free movement of the fingers"),
     }.get(exercise_id, exercise_id)
 
@@ -40,6 +41,7 @@ def exercise_instruction(exercise_id: str) -> str:
         "FIST_COMPOSITE": tr("Close all fingers into a full fist, then open flat."),
         "FIST_HOOK": tr("Keep the knuckles straight, bend only the end joints like a hook, then open."),
         "FINGER_ABAD": tr("Spread the fingers wide, then close them."),
+        "THUMB_OPP": tr("Touch each fingertip with the thumb in turn, opening it wide in between."),
         "FREE_HAND": tr("Move the fingers freely. All joint angles are recorded; no repetitions are counted."),
     }.get(exercise_id, "")
 
@@ -54,7 +56,26 @@ def exercise_position(exercise_id: str) -> str:
         "FIST_COMPOSITE": tr("Forearm on the wedge, back of the hand towards the camera, fingers straight."),
         "FIST_HOOK": tr("Forearm on the wedge, back of the hand towards the camera, fingers straight."),
         "FINGER_ABAD": tr("Palm flat on the table, fingers straight and closed."),
+        "THUMB_OPP": tr("Forearm on the wedge, thumb side turned up a little, fingers relaxed."),
         "FREE_HAND": tr("Hand in view of the camera, back of the hand up, fingers straight."),
+    }.get(exercise_id, "")
+
+
+def exercise_view(exercise_id: str) -> str:
+    """What the camera will not see of an exercise, said before it begins; empty where it sees all."""
+    return {
+        "FIST_COMPOSITE": tr(
+            "At the end of a fist the middle and end joints go out of the camera's sight: repetitions are counted all "
+            "the same, and those ranges are given as “at least”. To see more, turn the thumb side up."
+        ),
+        "FIST_HOOK": tr(
+            "About half-way the middle joints go out of the camera's sight: repetitions are counted all the same, and "
+            "their range is given as “at least”. To see more, raise the wrist or turn the thumb side up."
+        ),
+        "THUMB_OPP": tr(
+            "Under the palm the thumb's tip goes out of the camera's sight: what is trained here is its lift away from "
+            "the palm, which stays in view."
+        ),
     }.get(exercise_id, "")
 
 

@@ -201,6 +201,7 @@ class Library:
                 _number(stored["target_positive_deg"]),
                 _number(stored["target_negative_deg"]),
                 bool(stored["keep_pictures"]),
+                bool(stored.get("ends_free", False)),
             )
         except (OSError, ValueError, KeyError, TypeError):
             return None  # only a convenience: without it the set-up is asked for
@@ -219,6 +220,7 @@ class Library:
                 "target_positive_deg": _known(set_up.target_positive_deg),
                 "target_negative_deg": _known(set_up.target_negative_deg),
                 "keep_pictures": set_up.keep_pictures,
+                "ends_free": set_up.ends_free,
             }
             _write_json(path, stored)
 

@@ -14,7 +14,13 @@ from core.simulation.spec import RecordingSpec
 from ui.ports import SetUp
 
 _MOTION = {FLEXION: "flexion", DEVIATION: "deviation", PRONOSUPINATION: "pronosupination", None: "mixed"}
-_HAND_MOTION = {"FIST_COMPOSITE": "fist", "FIST_HOOK": "hook", "FINGER_ABAD": "abduction", "FREE_HAND": "fingers"}
+_HAND_MOTION = {
+    "FIST_COMPOSITE": "fist",
+    "FIST_HOOK": "hook",
+    "FINGER_ABAD": "abduction",
+    "THUMB_OPP": "thumb",
+    "FREE_HAND": "fingers",
+}
 _SPEED_HZ, _RANGE_SHARE, _REPETITIONS, _SECONDS = 0.36, 0.8, 10, 30.0
 _TILT_DEG, _HAND_TILT_DEG = 4.0, 11.0
 """The thumb's discs face sideways: for them the thumb side is turned up."""

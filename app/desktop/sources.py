@@ -20,6 +20,7 @@ from core.capture.source import FrameSource, is_simulated
 from core.capture.xtion_usb import usb_cameras
 from core.errors import CarpusFault, RecordingEmpty, RegistrationAssumed
 from core.pipeline.live import LiveSession
+from core.pipeline.track import TrackSettings
 from core.types import Frame
 from ui.ports import SetUp
 from ui.setup.choice import SourceChoice
@@ -105,10 +106,15 @@ class Sources:
         for fault in () if asks else told:
             session.notice(fault)
         measuring = SourceMeasuring(
-            session, source.info, set_up, self._settings.track, self._places, starts_with_recording=True
+            session, source.info, set_up, self._track(set_up), self._places, starts_with_recording=True
         )
         pictures = StoredPictures(opening)
         return OpenSource(self._calibrator(pictures, source, set_up, measuring), measuring, asks)
+
+    def _track(self, set_up: SetUp) -> TrackSettings:
+        """The settings with what this set-up says of the end joints."""
+        track = self._settings.track
+        return replace(track, tracker=replace(track.tracker, dip="free")) if set_up.ends_free else track
 
     def _session(self, source: FrameSource) -> LiveSession:
         return LiveSession(source, replace(self._settings.live, folder=self._settings.data_folder))
@@ -125,7 +131,7 @@ class Sources:
             session,
             source.info,
             set_up,
-            self._settings.track,
+            self._track(set_up),
             self._places,
             on_begin=on_begin,
             on_recording=on_recording,
@@ -140,7 +146,7 @@ class Sources:
             source.info.camera,
             set_up.side,
             set_up.protocol,
-            self._settings.track,
+            self._track(set_up),
             measuring.begin,
             self._places.last_hand_length_mm(set_up, simulated=is_simulated(source.info)),
         )

@@ -36,7 +36,13 @@ class Exercise:
     protocol: MarkerProtocol = WRIST6
     """The discs it needs."""
     joint: str = ""
-    """The joint angle of the whole hand that is trained, by its name in every file; empty where ``angle`` counts."""
+    """The joint angle of the whole hand that is trained, by its name in every file; empty where ``angle`` counts.
+
+    Of a fist the knuckle: seen from above its discs stay in view longest.
+    """
+
+    ends_free: bool = False
+    """Whether the end joints of the fingers usually do not follow the middle joints in it."""
 
     @property
     def counts(self) -> bool:
@@ -48,9 +54,10 @@ EXERCISES = (
     Exercise("WRIST_FE", FLEXION, 10, 10.0, True),
     Exercise("WRIST_RU", DEVIATION, 10, 10.0, True),
     Exercise("FOREARM_PS", PRONOSUPINATION, 10, float("nan"), False),
-    Exercise("FIST_COMPOSITE", None, 10, float("nan"), False, HAND21, "PIP3_flexion"),
-    Exercise("FIST_HOOK", None, 10, float("nan"), False, HAND21, "PIP3_flexion"),
+    Exercise("FIST_COMPOSITE", None, 10, float("nan"), False, HAND21, "MCP3_flexion"),
+    Exercise("FIST_HOOK", None, 10, float("nan"), False, HAND21, "PIP3_flexion", ends_free=True),
     Exercise("FINGER_ABAD", None, 10, float("nan"), False, HAND21, "MCP2_abduction"),
+    Exercise("THUMB_OPP", None, 10, float("nan"), False, HAND21, "CMC1_abduction"),
     Exercise("FREE_HAND", None, 0, float("nan"), False, HAND21),
     Exercise("FREE", None, 0, float("nan"), False),
 )

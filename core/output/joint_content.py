@@ -25,7 +25,7 @@ from core.output.range_rows import RangeRow, RowKey, best_motion, range_row
 from core.session.values import Session
 from core.types import FloatArray
 
-WITHOUT_TOTAL = ("FIST_HOOK", "FINGER_ABAD")
+WITHOUT_TOTAL = ("FIST_HOOK", "FINGER_ABAD", "THUMB_OPP")
 """Exercises that ask for no fist: a total of their bending is no total active motion."""
 USUAL_TOTAL_DEG = {1: 140.0, 2: 260.0, 3: 260.0, 4: 260.0, 5: 260.0}
 """TAM of a healthy finger where the other hand is not known (clinical reference 4.3)."""

@@ -12,11 +12,16 @@ from PySide6.QtCore import Qt
 from pytestqt.qtbot import QtBot
 
 from core.hand.protocols import HAND21, joint_angle_names
-from core.types import TrackStatus
+from core.output.exercises import exercise_named
+from core.output.report_content import RepetitionChoices, session_figures
+from core.session.values import Session
+from core.types import TrackedFrame, TrackStatus
 from tests.ui.fakes import FakeFeed, FakeMeasuring, set_up
+from tests.ui.hand_fakes import hand_session
 from ui.background import Background
 from ui.figures import FIGURES, Figure, figure_of
 from ui.keys import Keys
+from ui.live.counting import RunningCount
 from ui.live.hand_words import hand_lamp, map_words
 from ui.live.joint_history import JointHistory, figures_of
 from ui.live.screen import LiveScreen
@@ -46,6 +51,23 @@ def run(screen: LiveScreen, feed: FakeFeed, seconds: float) -> None:
     for _ in range(round(15 * seconds)):
         feed.step(2)
         screen.tick()
+
+
+def frames_of(session: Session) -> list[TrackedFrame]:
+    """The frames that were live when the session was recorded."""
+    usual = feed_of().frames[0]
+    return [
+        replace(
+            usual,
+            index=row,
+            timestamp_s=float(session.timestamp_s[row]),
+            status=TrackStatus(int(session.status[row])),
+            joint_angles_rad=session.motion.joint_angles_rad[row],
+            joint_angles_sd_rad=session.motion.joint_angles_sd_rad[row],
+            marker_measured_px=session.markers.measured_px[row],
+        )
+        for row in range(len(session))
+    ]
 
 
 def at(feed: FakeFeed, time_s: float) -> int:
@@ -91,7 +113,8 @@ def test_a_joint_counts_as_measured_only_while_a_disc_beyond_it_is_seen() -> Non
     history = JointHistory()
     history.append(feed_of(hidden).frames[:90])
     measured = {figure: history.value(k)[2] for k, figure in enumerate(FIGURES)}
-    wrong = {Figure(4, "middle"), Figure(4, "end"), Figure(4, "tam"), Figure(1, "middle"), Figure(1, "spread")}
+    wrong = {Figure(4, "middle"), Figure(4, "end"), Figure(4, "tam")}
+    wrong |= {Figure(1, row) for row in ("middle", "spread", "knuckle", "tam")}
     assert {figure for figure, on in measured.items() if not on} == wrong
     assert history.series(FIGURES.index(Figure(4, "middle"))).predicted.all()
     assert history.inferred(FIGURES.index(Figure(2, "end")))  # coupled: it follows the middle joint
@@ -109,7 +132,7 @@ def test_the_band_of_a_hidden_joint_grows() -> None:
 
 
 def test_a_hidden_trained_joint_has_no_number_and_does_not_count_as_best(qtbot: QtBot, theme: Theme) -> None:
-    feed = feed_of([(1.0, 9.0, "DIP3"), (1.0, 9.0, "TIP3")])
+    feed = feed_of([(1.0, 9.0, "PIP3"), (1.0, 9.0, "DIP3")])
     screen = live(qtbot, theme, feed)
     screen.toggle_recording()
     qtbot.waitUntil(lambda: feed.recording and screen._count is not None)
@@ -121,6 +144,7 @@ def test_a_hidden_trained_joint_has_no_number_and_does_not_count_as_best(qtbot: 
     screen._show_values()
     assert math.isnan(screen.number.reading.value_deg)
     assert screen.number.reading.best_positive_deg < 10.0  # by then the finger is bent by 75 degrees
+    assert screen.number.reading.best_at_least
     assert "no value" not in screen.number.movement()
 
 
@@ -128,7 +152,7 @@ def test_the_large_number_is_chosen_by_click_and_by_key(qtbot: QtBot, theme: The
     feed = feed_of()
     screen = live(qtbot, theme, feed)
     run(screen, feed, CLOSED_S)
-    assert screen.number.movement() == "Middle finger, middle joint"
+    assert screen.number.movement() == "Middle finger, knuckle"
     assert screen.number.reading.target_positive_deg == 90.0
     spot = screen.fingers.cell(Figure(4, "knuckle")).center().toPoint()
     qtbot.mouseClick(screen.fingers, Qt.MouseButton.LeftButton, pos=spot)
@@ -181,14 +205,16 @@ def test_the_wrist_keeps_its_own_screen(qtbot: QtBot, theme: Theme) -> None:
 )
 def test_the_light_names_what_is_hidden_and_what_to_do(hidden: tuple[str, ...], state: str, remedy: str) -> None:
     frame = feed_of([(0.0, 9.0, name) for name in hidden]).frames[20]
-    lamp = hand_lamp(frame, MARKERS)
+    lamp = hand_lamp(frame, {name: "hidden" if name in hidden else "seen" for name in MARKERS})
     assert (lamp.state, lamp.remedy) == (state, remedy)
     assert lamp.rank == ("warn" if hidden else "good")
 
 
 def test_the_map_says_it_in_one_sentence() -> None:
     seen = dict.fromkeys(MARKERS, "seen")
-    assert map_words(seen) == "Every joint is measured."  # type: ignore[arg-type]
+    assert map_words(seen) == "All markers seen, every joint is measured."  # type: ignore[arg-type]
+    assert "follow the middle joints" in map_words(seen, infers_ends=True)  # type: ignore[arg-type]
+    assert "every joint is measured" not in map_words(seen, infers_ends=True)  # type: ignore[arg-type]
     sentence = map_words(seen | {"TIP4": "hidden"})  # type: ignore[arg-type]
     assert sentence == "Ring tip hidden: raise the hand. Hidden joints do not count."
     assert "now and then" in map_words(seen | {"TIP4": "partly"})  # type: ignore[arg-type]
@@ -208,3 +234,38 @@ def test_a_bent_finger_goes_below_the_back_of_the_hand_in_the_side_view() -> Non
 def test_a_predicted_frame_supports_no_joint() -> None:
     frame = replace(feed_of().frames[20], status=TrackStatus.PREDICTED)
     assert not figures_of([frame])[3].any()
+
+
+@pytest.mark.parametrize("exercise", ["FIST_COMPOSITE", "FIST_HOOK"])
+def test_what_is_counted_live_is_what_the_review_counts_though_the_joint_hides(exercise: str) -> None:
+    chosen = exercise_named(exercise)
+    session = hand_session(exercise=exercise, motion="hook" if exercise == "FIST_HOOK" else "fist")
+    count = RunningCount(chosen)
+    count.append(frames_of(session))
+    found = session_figures(session, RepetitionChoices({}))
+    assert count.count() == len(found.repetitions) >= 5
+    row = found.row("flexion", -1, chosen.joint)
+    assert row is not None
+    assert count.best_positive_deg == pytest.approx(row.best_deg, abs=3.0)
+    assert count.best_at_least == row.limited
+
+
+def test_light_map_cells_and_large_number_say_the_same_at_every_moment(qtbot: QtBot, theme: Theme) -> None:
+    feed = feed_of([(0.5, 0.6, "PIP4"), (1.0, 2.0, "TIP2"), (1.5, 3.0, "PIP3"), (2.2, 2.5, "MCP1")])
+    screen = live(qtbot, theme, feed)
+    screen.choose_figure(Figure(3, "knuckle"))
+    ranks = set()
+    for _ in range(round(15 * 4.0)):
+        feed.step(2)
+        screen.tick()
+        screen._show_values()
+        seen = screen.hand_map.seen
+        hidden = {name for name, state in seen.items() if state == "hidden"}
+        lamp = screen.light.lamp
+        ranks.add(lamp.rank)
+        assert (lamp.rank == "good") == (set(seen.values()) == {"seen"})
+        for k, figure in enumerate(FIGURES):
+            if figure.row == "knuckle" and figure.finger > 1:
+                assert screen.joints.value(k)[2] != bool(hidden & {f"MCP{figure.finger}", f"PIP{figure.finger}"})
+        assert math.isfinite(screen.number.reading.value_deg) != bool(hidden & {"MCP3", "PIP3"})
+    assert ranks == {"good", "warn"}

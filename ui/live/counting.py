@@ -7,6 +7,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from core.measures.fingers import FURTHER_RAD
 from core.measures.repetitions import find_repetitions
 from core.measures.signals import even_signal
 from core.measures.validity import LARGEST_SD_RAD
@@ -31,6 +32,13 @@ class RunningCount:
         self.recorded_s = 0.0
         self.best_positive_deg = math.nan
         self.best_negative_deg = math.nan
+        self._furthest_hidden_rad = -math.inf
+
+    @property
+    def best_at_least(self) -> bool:
+        """Whether the trained joint may have gone further than the best that was seen, while it was hidden."""
+        best_rad = math.radians(self.best_positive_deg) if math.isfinite(self.best_positive_deg) else 0.0
+        return self._furthest_hidden_rad > best_rad + FURTHER_RAD
 
     def append(self, frames: Sequence[TrackedFrame]) -> None:
         """Add frames that are being recorded."""
@@ -46,11 +54,15 @@ class RunningCount:
             self._valid.append(valid)
             if valid:
                 self._take_best(math.degrees(value))
+            elif self._figure >= 0 and math.isfinite(value + sd):
+                self._furthest_hidden_rad = max(self._furthest_hidden_rad, value + sd)
 
     def count(self) -> int:
-        """Full repetitions so far."""
+        """Full repetitions so far: of a joint on the tracked angle, also through hidden stretches, as the review cuts
+        them, since a fist goes out of sight at its very end."""
         if self._counts and len(self._times) > 2:
-            signal = even_signal(np.array(self._times), np.array(self._values), np.array(self._valid))
+            valid = None if self._figure >= 0 else np.array(self._valid)
+            signal = even_signal(np.array(self._times), np.array(self._values), valid)
             self.repetitions = len(find_repetitions(signal).repetitions) if len(signal.time_s) else 0
         return self.repetitions
 

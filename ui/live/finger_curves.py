@@ -193,6 +193,11 @@ class FingerCurves(QWidget):
         left += metrics.horizontalAdvance(text) + 4
         words = numbers.spread(sd) if math.isfinite(value) else ""
         painter.setFont(font(12 * scale, MEDIUM))
+        inferred = self._history.inferred(FIGURES.index(figure))
+        if inferred and words:
+            words = self.tr("follows the middle joint")
+            if QFontMetricsF(painter.font()).horizontalAdvance(words) > cell.right() - left:
+                words = self.tr("follows")
         lift = f"{words} {self.tr('lift')}"
         room = cell.right() - left - 18
         if figure == Figure(1, "middle") and QFontMetricsF(painter.font()).horizontalAdvance(lift) < room:
@@ -200,9 +205,9 @@ class FingerCurves(QWidget):
         painter.setPen(theme.color("text2"))
         painter.drawText(QPointF(left, baseline), words)
         left += QFontMetricsF(painter.font()).horizontalAdvance(words) + 5
-        if math.isfinite(value) and sd >= WEAK_SD_DEG and left + 13 < cell.right():
-            box = QRectF(left, middle - 6.5, 13, 13)
-            paint_state(painter, "partly", box, theme.color("warn"), theme.color("surface"))
+        if math.isfinite(value) and not inferred and sd >= WEAK_SD_DEG and left + 13 < cell.right():
+            box = QRectF(left, middle - 6.5, 13, 13)  # a triangle: the half disc is that of a marker seen now and then
+            paint_state(painter, "warn", box, theme.color("warn"), theme.color("surface"))
 
     def _paint_still(self) -> QPixmap:
         ratio, theme, scale = self.devicePixelRatioF(), self._theme, self._theme.text_scale

@@ -27,6 +27,7 @@ class HandMap(QWidget):
         self._theme = theme
         self._side: Side = "right"
         self.seen: dict[str, Seen] = {}
+        self._infers_ends = False
         self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Expanding)
         theme.changed.connect(self.update)
 
@@ -35,16 +36,16 @@ class HandMap(QWidget):
         self._side = side
         self.update()
 
-    def show_seen(self, seen: dict[str, Seen]) -> None:
+    def show_seen(self, seen: dict[str, Seen], *, infers_ends: bool = False) -> None:
         """How well each disc is seen; screen readers get the sentence."""
-        if seen != self.seen:
-            self.seen = seen
+        if (seen, infers_ends) != (self.seen, self._infers_ends):
+            self.seen, self._infers_ends = seen, infers_ends
             self.setAccessibleName(self.words())
             self.update()
 
     def words(self) -> str:
         """What is hidden and what to do."""
-        return map_words(self.seen) if self.seen else ""
+        return map_words(self.seen, infers_ends=self._infers_ends) if self.seen else ""
 
     def sizeHint(self) -> QSize:
         return QSize(440, 300)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Mapping, Sequence
 
 from core.hand.protocols import PALM_MARKERS
@@ -16,18 +15,21 @@ LEAST_PALM = 3
 _ENDS = ("PIP", "DIP", "TIP", "IP")
 
 
-def hand_lamp(frame: TrackedFrame | None, markers: Sequence[str]) -> Lamp:
-    """The tracking light for one frame of the whole hand, without any delay."""
+def hand_lamp(frame: TrackedFrame | None, seen: Mapping[str, Seen]) -> Lamp:
+    """The tracking light of the whole hand, from the same state as its map; that state does not flicker."""
     if frame is None:
         return Lamp("idle", tr("Waiting for the first picture"), "")
     if frame.status == TrackStatus.LOST:
         return Lamp("bad", tr("Hand lost"), tr("Hold the hand flat under the camera"))
-    hidden = [name for name, at in zip(markers, frame.marker_measured_px, strict=True) if not math.isfinite(at[0])]
+    hidden = [name for name, state in seen.items() if state == "hidden"]
+    partly = [name for name, state in seen.items() if state == "partly"]
     palm = sum(name in PALM_MARKERS for name in hidden)
     if len(PALM_MARKERS) - palm < LEAST_PALM or frame.status == TrackStatus.PREDICTED:
         return Lamp("warn", tr("Too few markers seen"), tr("Turn the back of the hand to the camera"))
+    if not hidden and partly:
+        return Lamp("warn", _partly_words(partly), remedy(partly))
     if not hidden:
-        return Lamp("good", tr("Tracking well"), tr("All {count} markers seen").format(count=len(markers)))
+        return Lamp("good", tr("Tracking well"), tr("All {count} markers seen").format(count=len(seen)))
     return Lamp("warn", hidden_words(hidden), remedy(hidden))
 
 
@@ -60,12 +62,14 @@ def remedy(hidden: Sequence[str]) -> str:
     return tr("Turn the back of the fingers to the camera")
 
 
-def map_words(seen: Mapping[str, Seen]) -> str:
-    """The sentence beside the hand map: what is hidden, and what to do."""
+def map_words(seen: Mapping[str, Seen], *, infers_ends: bool = False) -> str:
+    """The sentence beside the hand map: what is hidden, and what to do, or that end joints are only inferred."""
     hidden = [name for name, state in seen.items() if state == "hidden"]
     partly = [name for name, state in seen.items() if state == "partly"]
     if not hidden and not partly:
-        return tr("Every joint is measured.")
+        if infers_ends:
+            return tr("All markers seen. End joints are not measured: they follow the middle joints.")
+        return tr("All markers seen, every joint is measured.")
     poor = hidden or partly
     words = hidden_words(poor) if hidden else _partly_words(poor)
     sentence = tr("{what}: {remedy}.").format(what=words, remedy=_lower(remedy(poor)))

@@ -20,8 +20,8 @@ from ui.live.history import KEPT_S
 from ui.plot.series import Series
 
 Seen = Literal["seen", "partly", "hidden"]
-SHARE_S = 1.0
-"""How well a disc is seen is judged over this long."""
+SHARE_S = 0.4
+"""How well a disc is seen is judged over this long: hidden after 0.3 s, and seen again as soon."""
 SEEN_SHARE, HIDDEN_SHARE = 0.75, 0.25
 EVERY = 3
 """Small panels draw every third frame: ten points a second, two pixels each on a large screen."""
@@ -61,22 +61,24 @@ def mix(joint_count: int) -> Mix:
     return Mix(weight, weight**2, inferred)
 
 
-def measured_figures(seen: BoolArray) -> BoolArray:
-    """Which figures (n, F) some disc beyond their joint supports, of discs seen (n, M)."""
-    at = {name: seen[:, row] for row, name in enumerate(HAND21.markers)}
-    out = np.empty((len(seen), len(FIGURES)), dtype=bool)
-    for column, (finger, row) in enumerate((figure.finger, figure.row) for figure in FIGURES):
-        if finger == 1:
-            knuckle, end = at["IP1"], at["TIP1"]
-            needed = {"knuckle": knuckle, "end": end, "middle": at["MCP1"], "spread": at["MCP1"], "tam": knuckle & end}
-        else:
-            knuckle, middle = at[f"PIP{finger}"], at[f"DIP{finger}"] | at[f"TIP{finger}"]
-            end = at[f"DIP{finger}"] & at[f"TIP{finger}"]
-            needed = {
-                "knuckle": knuckle, "middle": middle, "end": end, "spread": knuckle | middle, "tam": knuckle & middle,
-            }  # fmt: skip
-        out[:, column] = needed[row]
+@lru_cache(maxsize=1)
+def _needed() -> BoolArray:
+    """Discs (F, M) a figure needs: of a joint the one over it and the next one outwards, as in every file's figures."""
+    out = np.zeros((len(FIGURES), len(HAND21.markers)), dtype=bool)
+    for row, figure in enumerate(FIGURES):
+        joints = [figure.joint]
+        if figure.row == "tam":
+            joints = ["MCP1_flexion", "IP1_flexion"] if figure.finger == 1 else []
+            joints = joints or [f"MCP{figure.finger}_flexion", f"PIP{figure.finger}_flexion"]
+        for joint in joints:
+            first = HAND21.markers.index(joint.split("_")[0])
+            out[row, first : first + 2] = True
     return out
+
+
+def measured_figures(seen: BoolArray) -> BoolArray:
+    """Which figures (n, F) are seen where discs (n, M) are."""
+    return np.asarray(~(~seen[:, None] & _needed()).any(axis=2), dtype=np.bool_)
 
 
 @dataclass(frozen=True, slots=True)
@@ -107,6 +109,7 @@ class JointHistory:
         self._speed = np.full(count, math.nan)
         self._measured = np.empty((0, count), dtype=bool)
         self._seen = np.empty((0, len(HAND21.markers)), dtype=bool)
+        self._tracked = np.empty(0, dtype=bool)
 
     def append(self, frames: Sequence[TrackedFrame]) -> None:
         """Add frames in order; what is older than needed goes."""
@@ -124,6 +127,8 @@ class JointHistory:
         self._sd = np.concatenate((self._sd[kept], sd))
         self._measured = np.concatenate((self._measured[kept], measured))
         self._seen = np.concatenate((self._seen[kept], seen))
+        tracked = [frame.status == TrackStatus.TRACKED for frame in fresh]
+        self._tracked = np.concatenate((self._tracked[kept], tracked))
 
     def __len__(self) -> int:
         return len(self._time_s)
@@ -134,10 +139,13 @@ class JointHistory:
         return float(self._time_s[-1]) if len(self._time_s) else math.nan
 
     def value(self, figure: int) -> tuple[float, float, bool]:
-        """Newest value, its standard deviation, and whether a disc supports it."""
+        """Newest value, its standard deviation, and whether its discs have been seen of late, as :meth:`seen` says."""
         if not len(self._time_s):
             return math.nan, math.nan, False
-        return float(self._value[-1, figure]), float(self._sd[-1, figure]), bool(self._measured[-1, figure])
+        value, sd = float(self._value[-1, figure]), float(self._sd[-1, figure])
+        visible = self._recent_share() >= HIDDEN_SHARE
+        shown = bool(measured_figures(visible[None])[0, figure]) and bool(self._tracked[-1])
+        return value, sd, shown and math.isfinite(value)
 
     def speed(self, figure: int) -> float:
         """Newest speed, degrees per second."""
@@ -164,15 +172,21 @@ class JointHistory:
         return Block(self._time_s[part], self._value[part], self._sd[part], predicted)
 
     def seen(self) -> dict[str, Seen]:
-        """How well each disc has been seen over the last second."""
+        """How well each disc has been seen of late: light, map, cells and the large number all go by it."""
         if not len(self._time_s):
             return dict.fromkeys(HAND21.markers, "hidden")
-        recent = self._seen[self._time_s >= self._time_s[-1] - SHARE_S]
-        share = recent.mean(axis=0)
         return {
             name: "seen" if part >= SEEN_SHARE else "hidden" if part < HIDDEN_SHARE else "partly"
-            for name, part in zip(HAND21.markers, share.tolist(), strict=True)
+            for name, part in zip(HAND21.markers, self._recent_share().tolist(), strict=True)
         }
+
+    @property
+    def infers(self) -> bool:
+        """Whether the end joints only follow the middle joints."""
+        return bool(self._mix.inferred.any())
+
+    def _recent_share(self) -> FloatArray:
+        return np.asarray(self._seen[self._time_s >= self._time_s[-1] - SHARE_S].mean(axis=0))
 
 
 def figures_of(frames: Sequence[TrackedFrame]) -> tuple[FloatArray, FloatArray, FloatArray, BoolArray, BoolArray]:

@@ -39,6 +39,8 @@ class Reading:
     speed_deg_s: float = math.nan
     best_positive_deg: float = math.nan
     best_negative_deg: float = math.nan
+    best_at_least: bool = False
+    """Whether the joint went out of sight beyond the best that was seen."""
     target_positive_deg: float = math.nan
     target_negative_deg: float = math.nan
 
@@ -168,7 +170,9 @@ class NumberCard(QWidget):
         best = reading.best_positive_deg if positive else reading.best_negative_deg
         across = left + 112 * scale
         self._text(painter, self.tr("Best today"), across, y, 14, REGULAR, "text2")
-        self._text(painter, numbers.degrees(best), across, y + 21 * scale, 20, SEMIBOLD, "text")
+        bound = reading.best_at_least and math.isfinite(best)
+        shown = f"≥{numbers.NARROW_GAP}{numbers.degrees(best)}" if bound else numbers.degrees(best)
+        self._text(painter, shown, across, y + 21 * scale, 20, SEMIBOLD, "text")
 
     def _text(self, painter: QPainter, text: str, left: float, top: float, size: int, weight: int, token: str) -> None:
         painter.setFont(font(size * self._theme.text_scale, weight))

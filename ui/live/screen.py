@@ -378,7 +378,7 @@ class LiveScreen(QWidget):
     def _show_values(self) -> None:
         if self._whole_hand:
             self.fingers.refresh_values()
-            self.hand_map.show_seen(self.joints.seen())
+            self.hand_map.show_seen(self.joints.seen(), infers_ends=self.joints.infers)
         else:
             self.curves.refresh_values()
             self.path.update()
@@ -386,15 +386,15 @@ class LiveScreen(QWidget):
         markers = calibration.clicks.protocol.markers if calibration else ()
         frame = None if self._view is None or self._camera_lost else self._view.tracked
         pure = self._set_up is not None and self._set_up.exercise.pure_wrist
-        lamp = (
-            hand_lamp(frame, markers)
-            if self._whole_hand
-            else lamp_for(frame, markers, pure and self.history.forearm_moved())
-        )
         if self._camera_lost:
             lamp = Lamp("bad", self.tr("No picture"), self.tr("Plug the camera in again"))
-        now = self.history.now_s
-        self.light.show_lamp(self._light.show(lamp, now if math.isfinite(now) else 0.0))
+        elif self._whole_hand:
+            lamp = hand_lamp(frame, self.hand_map.seen)
+        else:
+            now = self.history.now_s
+            lamp = lamp_for(frame, markers, pure and self.history.forearm_moved())
+            lamp = self._light.show(lamp, now if math.isfinite(now) else 0.0)
+        self.light.show_lamp(lamp)
         self.number.show_reading(self._reading())
         self.recording_changed.emit(self.recording_state, self.recorded_s)
 
@@ -417,6 +417,7 @@ class LiveScreen(QWidget):
                 repetition_running=self.recording_state == "recording" and done < asked,
                 speed_deg_s=self.joints.speed(column) if known else math.nan,
                 best_positive_deg=count.best_positive_deg if count and own else math.nan,
+                best_at_least=bool(count and own and count.best_at_least),
             )
         )
 

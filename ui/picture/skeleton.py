@@ -15,6 +15,8 @@ from ui.fonts import SEMIBOLD, font
 from ui.picture.overlay import HALO, LEAST_RING_PX, ToScreen, ellipse, haloed
 from ui.theme import ON_PICTURE_LABEL, ON_PICTURE_LINE, ON_PICTURE_PARTLY, Theme
 
+LARGEST_RING_PX = 26.0
+"""Half of the longest ring drawn around the place of a hidden disc, on the screen."""
 SIDE_SPAN_M = 0.105
 """A long finger, straight; bent, it comes back below its knuckle, for which there is room on the left."""
 SIDE_WIDTH_PX, SIDE_HEIGHT_PX = 138, 126
@@ -49,6 +51,8 @@ def _paint_hidden(painter: QPainter, covariance_px2: FloatArray, spot: QPointF, 
     longer, shorter, turn_deg = LEAST_RING_PX, LEAST_RING_PX, 0.0
     if np.isfinite(covariance_px2).all():
         longer, shorter, turn_deg = ellipse(covariance_px2)
+    if longer * scale > LARGEST_RING_PX:
+        return  # it may be anywhere about: the dashed bone says so, a large ring would cover the hand
     painter.save()
     painter.translate(spot)
     painter.rotate(turn_deg)

@@ -9,7 +9,7 @@ from core.output.joint_content import USUAL_TOTAL_DEG, WITHOUT_TOTAL, finger_key
 from core.output.range_rows import RangeRow, RowKey
 from core.output.report_content import SessionFigures, compare_rows
 from ui import numbers
-from ui.figures import FINGERS, Figure, Row
+from ui.figures import FINGERS, Figure, Row, figure_of
 from ui.marker_words import finger_name
 from ui.translate import tr
 from ui.verdicts import change_short, reason_words
@@ -63,7 +63,7 @@ def compared_row(figures: SessionFigures) -> Row:
     """What of a finger the exercise is about."""
     if figures.exercise.id not in WITHOUT_TOTAL:
         return "tam"
-    return "spread" if "abduction" in figures.exercise.joint else "middle"
+    return figure_of(figures.exercise.joint).row
 
 
 def limits_words(figures: SessionFigures) -> str:

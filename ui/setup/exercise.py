@@ -13,7 +13,7 @@ from core.types import Side
 from ui import terms
 from ui.controls.button import Button
 from ui.controls.card import Card
-from ui.controls.field import Choices, Labelled, number_field
+from ui.controls.field import Choices, DegreesField, Labelled, number_field
 from ui.controls.text import SEMIBOLD, Text, heading
 from ui.figures import figure_of
 from ui.ports import PatientRow, SetUp
@@ -41,9 +41,17 @@ class ExerciseScreen(QWidget):
         sides: list[tuple[object, str]] = [("right", terms.side_name("right")), ("left", terms.side_name("left"))]
         self.side = Choices(theme, sides)
         self.repetitions = number_field(theme, MOST_REPETITIONS, nothing=self.tr("none"))
-        self.targets = tuple(number_field(theme, MOST_TARGET_DEG, "°", self.tr("none")) for _ in range(2))
+        self.targets = tuple(DegreesField(theme, MOST_TARGET_DEG, self.tr("none")) for _ in range(2))
+        self.problem = Text(theme, "", 14, token="bad", wrap=True)
         self._target_fields = tuple(Labelled(theme, "", field) for field in self.targets)
         self._target_names = tuple(_caption(field) for field in self._target_fields)
+        ends: list[tuple[object, str]] = [
+            (False, self.tr("Inferred")),
+            (True, self.tr("Measured")),
+        ]
+        self.ends = Choices(theme, ends)
+        self._ends_field = Labelled(theme, self.tr("End joints of the fingers"), self.ends)
+        self.view = Text(theme, "", 14, token="text2", wrap=True)
         keep: list[tuple[object, str]] = [(False, self.tr("No")), (True, self.tr("Yes, 600 MB a minute"))]
         self.pictures = Choices(theme, keep)
         self.primary = Button(theme, self.tr("Next: the camera"), "primary", icon="arrow-right", hint=self.tr("Enter"))
@@ -53,6 +61,10 @@ class ExerciseScreen(QWidget):
             options.accepted.connect(self._go_on)
         self.protocol.chosen.connect(self._show_protocol)
         self.primary.clicked.connect(self._go_on)
+        self.side.chosen.connect(lambda _: self._show_problem())
+        for field in self.targets:
+            field.checked.connect(lambda _: self._show_problem())
+        self.problem.hide()
         theme.changed.connect(self._fit)
         self._fit()
 
@@ -76,7 +88,10 @@ class ExerciseScreen(QWidget):
         for field in self._target_fields:
             row.addWidget(field)
         body.addLayout(row)
+        body.addWidget(self.problem)
+        body.addWidget(self._ends_field)
         body.addWidget(Labelled(theme, self.tr("Keep the pictures too"), self.pictures))
+        body.addWidget(self.view)
         body.addStretch(1)
         body.addWidget(self.primary)
         columns = QHBoxLayout(self)
@@ -88,17 +103,25 @@ class ExerciseScreen(QWidget):
     def _fit(self) -> None:
         self._card.setFixedWidth(self._theme.px(376))
 
-    def begin(self, row: PatientRow, last: SetUp | None, side: Side, keep_pictures: bool) -> None:
-        """Show for a patient, with the last set-up or the usual one."""
+    def begin(self, row: PatientRow, last: SetUp | None, side: Side | None, keep_pictures: bool) -> None:
+        """Show for a patient, with the last set-up or the usual one; ``side`` None must be chosen by the person."""
         self._row = row
         exercise = last.exercise if last is not None else EXERCISES[0]
         self.choose(exercise)
-        self.side.choose(side)
+        if side is None:
+            self.side.choose_nothing()
+        else:
+            self.side.choose(side)
         self.pictures.choose(keep_pictures)
         if last is not None:
             self.repetitions.setValue(last.repetitions)
+            self.ends.choose(last.ends_free)
             for field, value in zip(self.targets, (last.target_positive_deg, last.target_negative_deg), strict=True):
-                field.setValue(round(abs(value)) if math.isfinite(value) else 0)
+                field.set_value(abs(value))
+        else:
+            for field in self.targets:
+                field.set_value(math.nan)
+        self._show_problem()
 
     @property
     def exercises(self) -> Options:
@@ -120,7 +143,7 @@ class ExerciseScreen(QWidget):
         assert self._row is not None
         exercise = self._exercise()
         side: Side = "left" if self.side.value() == "left" else "right"
-        positive, negative = (float(field.value()) or math.nan for field in self.targets)
+        positive, negative = (field.value() for field in self.targets)
         negative = -negative  # the angle's sign, which the person never sees
         if exercise.angle is None:
             negative = math.nan
@@ -135,6 +158,7 @@ class ExerciseScreen(QWidget):
             positive,
             negative,
             bool(self.pictures.value()),
+            exercise.protocol.has_fingers and bool(self.ends.value()),
         )
 
     def _exercise(self) -> Exercise:
@@ -159,14 +183,29 @@ class ExerciseScreen(QWidget):
                 self.targets[number].setAccessibleName(words)
         if exercise.counts:
             self.repetitions.setValue(exercise.repetitions)
+        self._ends_field.setVisible(exercise.protocol.has_fingers)
+        self.ends.choose(exercise.ends_free)
+        words = terms.exercise_view(exercise.id)
+        self.view.setText(words)
+        self.view.setVisible(bool(words))
+        self._show_problem()
 
     def _show_protocol(self, *_: object) -> None:
         for name, options in self.lists.items():
             options.setVisible(name == self.protocol.value())
         self._show_exercise(self.exercises.value())
 
+    def _show_problem(self) -> None:
+        words = next((field.problem for field in self.targets if field.isVisibleTo(self) and field.problem), "")
+        self.problem.setText(words)
+        self.problem.setVisible(bool(words))
+        to_choose = self.side.value() is None
+        self.primary.setEnabled(not words and not to_choose)
+        self.primary.set_face(self.tr("Which hand is measured?") if to_choose else self.tr("Next: the camera"))
+
     def _go_on(self) -> None:
-        self.ready.emit(self.set_up())
+        if self.primary.isEnabled():
+            self.ready.emit(self.set_up())
 
 
 def _caption(field: Labelled) -> Text:
