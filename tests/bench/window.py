@@ -21,6 +21,7 @@ from app.desktop.unattended import Walker
 from app.settings import RecordingSettings, ScreenSettings, Settings
 from core.calibration.clicks import read_clicks
 from core.output.exercises import exercise_named
+from core.session.reader import read_session
 from core.simulation.recording import CLICKS_FILE, cached_recording
 from ui.live.screen import LiveScreen
 from ui.ports import PRACTICE_PATIENT
@@ -142,6 +143,8 @@ def measure(seconds: float, folder: Path, *, pictures: bool, whole_hand: bool) -
         live.stop()
         walker.at("review")
         facts["stop_s"] = time.monotonic() - stop_s
+        session = read_session(desktop.library.entry(journey.session_id).path)
+        facts["looked_back"] = "all rows" if session.smoothed is not None else "no"
         return run, facts
     finally:
         desktop.close()
@@ -188,4 +191,5 @@ def report(seconds: float, *, pictures: bool = False, whole_hand: bool = False) 
     slope = growth_mb_per_min(run.resident_mb)
     first, last = run.resident_mb[0][1], run.resident_mb[-1][1]
     yield f"| memory at start, at end, growth | {first:.0f} MB, {last:.0f} MB, {slope:+.1f} MB a minute |"
-    yield f"| from Stop to the review (smoothing and storing) | {facts['stop_s']:.1f} s |"
+    yield f"| looked back at while recorded | {facts['looked_back']} |"
+    yield f"| from Stop to the review | {facts['stop_s']:.1f} s |"
