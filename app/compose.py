@@ -107,6 +107,7 @@ def compose(
     qt.styleHints().colorSchemeChanged.connect(lambda _: keeper.follow_system())
     desktop = Desktop(qt, shell, theme, journey, library)
     shell.closing.connect(desktop.close)
+    qt.commitDataRequest.connect(lambda _: shell.close_surely())
     for found in recovered:
         words = journey.teller.recovered_words(found)
         place = journey.patients.notice_place
@@ -147,7 +148,7 @@ def end_on_signals(desktop: Desktop) -> None:
     Python hears of a signal when it next runs, at the latest when the journey looks for a camera.
     """
     for number in (signal.SIGINT, signal.SIGTERM):
-        signal.signal(number, lambda *_: desktop.shell.close())
+        signal.signal(number, lambda *_: desktop.shell.close_surely())
 
 
 def write_log() -> None:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 from PySide6.QtCore import Qt, Signal
 from PySide6.QtGui import QCloseEvent, QKeySequence, QPainter, QPaintEvent, QShortcut
 from PySide6.QtWidgets import QApplication, QStackedWidget, QVBoxLayout, QWidget
@@ -39,6 +41,9 @@ class Shell(QWidget):
         self.resize(*FIRST_SIZE_PX)
         self.setMinimumSize(*LEAST_SIZE_PX)
         self._shortcuts: dict[str, QShortcut] = {}
+        self._surely = False
+        self.asks_before_closing: Callable[[], bool] = lambda: False
+        """Asks the person where something would end with the window; False where nothing does."""
         theme.ground_changed.connect(self._take_theme)
         self._take_theme()
 
@@ -68,6 +73,14 @@ class Shell(QWidget):
     def paintEvent(self, event: QPaintEvent) -> None:
         QPainter(self).fillRect(self.rect(), self._theme.color("canvas"))
 
+    def close_surely(self) -> None:
+        """Close without asking: the person has answered, or the system ends."""
+        self._surely = True
+        self.close()
+
     def closeEvent(self, event: QCloseEvent) -> None:
+        if not self._surely and self.asks_before_closing():
+            event.ignore()
+            return
         self.closing.emit()
         event.accept()

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from datetime import date
+from pathlib import Path
 
 from PySide6.QtCore import QObject, Qt, QTimer, Signal
 from PySide6.QtWidgets import QWidget
@@ -12,6 +13,7 @@ from PySide6.QtWidgets import QWidget
 from app.desktop.library import Library, Recovered
 from app.desktop.live_events import LiveEvents
 from app.desktop.opening import Opener
+from app.desktop.phrases import shortened
 from app.desktop.places import STEPS, TABS, Place
 from app.desktop.printing import Printing
 from app.desktop.sources import OpenSource, Sources
@@ -41,6 +43,8 @@ from ui.shell import Shell
 from ui.theme import Theme
 
 LOOK_FOR_CAMERA_MS = 2000
+MOST_NAME = 24
+"""Letters of a recording's name in the top bar."""
 ALL_KEYS = ("help", "settings", "search", "new_patient", "back")
 
 
@@ -90,6 +94,7 @@ class Journey(QObject):
         self._choice = SourceChoice(self._kind)
         self._camera_there = False
         self._connect(keys)
+        shell.asks_before_closing = self._asks_before_closing
         self._camera_timer = QTimer(self)
         self._camera_timer.setInterval(LOOK_FOR_CAMERA_MS)
         self._camera_timer.timeout.connect(self._look_for_camera)
@@ -136,6 +141,7 @@ class Journey(QObject):
     def show_patients(self, choose: str = "") -> None:
         """The first screen; whatever was open is closed."""
         self.close_source()
+        self._parts.library.cut_short()  # what a full disk kept from the list is taken into it
         self.patient = self.set_up = None
         self.session_id = ""
         self.patients.refresh(choose)
@@ -160,7 +166,8 @@ class Journey(QObject):
         """First step of the set-up."""
         row = self._take_patient(patient_id)
         last = self.set_up or self._parts.library.last_set_up(patient_id)
-        side: Side = last.side if last is not None else "left" if row.side == "left" else "right"
+        affected: Side | None = None if row.side == "both" else row.side
+        side = last.side if last is not None else affected
         keep = last.keep_pictures if last is not None else self._parts.settings.recording.keep_pictures
         self.exercise.begin(row, last, side, keep)
         self._go("exercise", self.exercise, self.exercise.first())
@@ -435,6 +442,9 @@ class Journey(QObject):
             camera.show_state("good", self.tr("Saved {time}").format(time=f"{self.review.saved_at:%H:%M}"))
         elif self._kind == "practice" and (self._parts.is_demo or self.source is not None):
             camera.show_state("good", self.tr("Simulated camera"))
+        elif self._kind == "file" and self.source is not None:
+            name = Path(self._choice.path).name
+            camera.show_state("good", self.tr("Recording {name}").format(name=shortened(name, MOST_NAME)))
         elif self._camera_there:
             camera.show_state("good", self.tr("Camera ready"))
         else:
@@ -455,6 +465,24 @@ class Journey(QObject):
             state = "bad" if minutes < 10.0 else "warn" if minutes < 30.0 else "none"
             words = self.tr("{minutes} min of disk left").format(minutes=f"{min(minutes, 999.0):.0f}")
             self.shell.bar.disk.show_state(state, words, icon="hard-drive")  # type: ignore[arg-type]
+
+    def _asks_before_closing(self) -> bool:
+        """A running recording would end with the window: the person says whether it shall."""
+        if self.live.recording_state == "off":
+            return False
+        if not self.teller.busy:
+            self.teller.ask(
+                Words(
+                    self.tr("A recording is running."),
+                    self.tr("Everything measured up to now is kept, whatever you choose."),
+                    self.tr("Go on measuring, or stop: the session is saved and Carpus closes."),
+                ),
+                (
+                    Answer(self.tr("Stop, save and close"), self.shell.close_surely, "S"),
+                    Answer(self.tr("Go on measuring"), lambda: None, self.tr("Space")),
+                ),
+            )
+        return True
 
     def close(self) -> None:
         """The window closes: finish what runs, in order, and wait for it."""

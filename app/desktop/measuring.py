@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import logging
+import shutil
 from collections.abc import Callable, Sequence
 from contextlib import suppress
 from pathlib import Path
@@ -19,7 +20,7 @@ from core.camera import Camera
 from core.capture.raw import SUFFIX as RAW_SUFFIX
 from core.capture.raw import RawWriter
 from core.capture.source import SourceInfo, is_simulated
-from core.errors import NotLookedBack, RecordingEmpty
+from core.errors import DiskFull, NotLookedBack, RecordingEmpty
 from core.pipeline.frame_walk import FrameWalk
 from core.pipeline.live import LiveSession
 from core.pipeline.looking_back import LookingBack
@@ -37,6 +38,8 @@ log = logging.getLogger(__name__)
 MARKERS_SUFFIX = ".markers.jpg"
 _AROUND_HAND = 0.6
 """The picture of the markers reaches this share of their box beyond it."""
+LEAST_FREE_BYTES = 100_000_000
+"""A recording does not begin with less: ten minutes of rows, or ten seconds of pictures."""
 NOT_LOOKED_BACK = "not_looked_back"
 """The event of a session that is stored as tracked, though looking back was asked for."""
 
@@ -214,6 +217,9 @@ class SourceMeasuring:
         assert walk is not None
         assert learnt is not None
         path = self._places.new_path(self._set_up)
+        free = shutil.disk_usage(path.parent).free
+        if free < LEAST_FREE_BYTES:
+            raise DiskFull(path.parent, f"{free / 1e6:.0f} MB free, {LEAST_FREE_BYTES / 1e6:.0f} MB are needed")
         header = new_header(
             hand=calibration.clicks.side,
             protocol=calibration.clicks.protocol,

@@ -2,10 +2,34 @@
 
 from __future__ import annotations
 
+from pathlib import PureWindowsPath
+
 from core.calibration.result import Finding
 from core.errors import CarpusFault
 from core.words import finding_words, words_of
 from ui.ports import Words
+
+MOST_LETTERS = 32
+
+
+def shortened(name: str, most: int = MOST_LETTERS) -> str:
+    """The beginning and the end of a long name.
+
+    >>> shortened("Linden-42_2026-11-20_113600_WRIST_FE_right.h5", 24)
+    'Linden-42_20…FE_right.h5'
+    """
+    if len(name) <= most:
+        return name
+    tail = (most - 1) // 2
+    return f"{name[: most - 1 - tail]}…{name[-tail:]}"
+
+
+def _end_of_path(text: str) -> str:
+    """The end of a path, so that a card has room for it; the whole path is in the log."""
+    path = PureWindowsPath(text)  # takes both kinds of stroke
+    if not path.root or len(path.parts) < 3:
+        return text
+    return f"…/{shortened(path.parent.name)}/{shortened(path.name)}"
 
 
 class WordTable:
@@ -14,7 +38,7 @@ class WordTable:
     def fault(self, fault: Exception) -> Words:
         """The three answers."""
         if isinstance(fault, CarpusFault):
-            words = words_of(fault)
+            words = words_of(type(fault)(_end_of_path(fault.subject), fault.detail))
             return Words(words.happened, words.safe, words.do)
         return Words(
             "Something happened that Carpus does not know.",

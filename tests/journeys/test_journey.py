@@ -19,11 +19,13 @@ from PySide6.QtWidgets import QFileDialog, QWidget
 from pytestqt.qtbot import QtBot
 
 from app.compose import Desktop
+from app.desktop import measuring
 from app.desktop.sources import RECENT_FRAMES
 from core.capture.oni_writer import sidecar_path, write_oni
 from core.capture.tum import TumFolder
 from core.errors import CameraLost, CameraMissing, CameraReturned
 from core.session.reader import read_session
+from core.session.register import PatientEntry
 from core.session.writer import SessionWriter
 from core.simulation.oni import in_millimetres
 from tests.journeys.conftest import SPEED, Open
@@ -308,11 +310,50 @@ def test_a_window_closed_while_recording_keeps_the_session(qtbot: QtBot, open_de
     desktop.journey.live.toggle_recording()
     wait(qtbot, lambda: desktop.journey.live.recorded_s > 1.0)
     desktop.shell.close()
+    card = desktop.journey.teller.card
+    assert card.isVisible(), "it asks first"
+    assert desktop.shell.isVisible()
+    click(qtbot, card.answers[1])
+    assert desktop.journey.live.recording_state == "recording"
+    desktop.shell.close()
+    click(qtbot, card.answers[0])
+    assert not desktop.shell.isVisible()
     again = open_desktop()
     (entry,) = again.library.sessions(PRACTICE_PATIENT)
     assert entry.complete
     assert entry.duration_s > 0.8
     assert again.journey.patients.findChildren(NoticeStrip) == []
+
+
+def test_a_recording_does_not_begin_on_a_full_disk(
+    qtbot: QtBot, open_desktop: Open, take: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    desktop = open_desktop()
+    journey = desktop.journey
+    to_live(qtbot, desktop, take)
+    usage = shutil.disk_usage(desktop.library.folder)
+    monkeypatch.setattr(measuring.shutil, "disk_usage", lambda _: usage._replace(free=20_000_000))
+    journey.live.toggle_recording()
+    wait(qtbot, journey.teller.card.isVisible)
+    assert "20 MB free" in journey.teller.card.what.text()
+    assert journey.live.recording_state == "off"
+    assert list(desktop.library.folder.rglob("*.h5*")) == []
+
+
+def test_a_session_rescued_later_is_in_the_list_as_soon_as_the_list_is_shown(open_desktop: Open) -> None:
+    desktop = open_desktop()
+    journey, library = desktop.journey, desktop.library
+    linden = library.clinic.add(PatientEntry("Linden 42", "right"))
+    journey.show_patients()
+    folder = library.clinic.sessions_folder / "Linden-42"
+    folder.mkdir()
+    writer = SessionWriter.create(folder / "cut.h5", make_header(), CAMERA, make_calibration())
+    for row in range(60):
+        writer.append(make_frame(row))
+    writer.abandon()  # and the disk was too full to finish it
+    journey.show_patients(linden)
+    row = journey.patients.list.rows.row(0)
+    assert (row.pseudonym, row.session_count) == ("Linden 42", 1)
 
 
 def test_stopping_at_once_stores_nothing_and_says_so(qtbot: QtBot, open_desktop: Open, take: Path) -> None:

@@ -16,6 +16,7 @@ from core.types import TrackStatus
 from tests.ui.fakes import FakeFeed, FakeMeasuring, set_up
 from ui.background import Background
 from ui.keys import Keys
+from ui.live import screen as live_screen
 from ui.live.curves import LiveCurves
 from ui.live.history import KEPT_S, History
 from ui.live.light import Lamp, SteadyLight, lamp_for
@@ -357,3 +358,22 @@ def test_a_letter_outside_the_picture_moves_to_the_nearest_place_inside() -> Non
     assert within(QPointF(40, 40), box) == QPointF(40, 40)
     assert within(QPointF(200, 40), box) == QPointF(116, 40)
     assert within(QPointF(0, 500), box) == QPointF(16, 66)
+
+
+def test_the_key_that_begins_a_stored_recording_does_not_end_it(
+    qtbot: QtBot, theme: Theme, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    feed = FakeFeed()
+    screen, measuring = live(qtbot, theme, feed)
+    measuring.starts_with_recording = True
+    clock_s = [100.0]
+    monkeypatch.setattr(live_screen.time, "monotonic", lambda: clock_s[0])
+    screen.toggle_recording()
+    qtbot.waitUntil(lambda: feed.recording and not screen._stopping)
+    clock_s[0] += 1.9
+    key(qtbot, screen, "Space")
+    assert feed.recording
+    assert not screen._stopping
+    clock_s[0] += 0.2
+    key(qtbot, screen, "Space")
+    qtbot.waitUntil(lambda: not feed.recording)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import time
 from dataclasses import replace
 from typing import Literal
 
@@ -38,6 +39,8 @@ DRAW_EVERY_MS = 50
 """Twenty drawings a second; what arrives in between is in the curves, not drawn on its own."""
 VALUES_EVERY = 2
 SLOW_EVERY = 20
+HASTY_S = 2.0
+"""So soon after a stored recording began to play by itself nobody means to stop it by a key."""
 WRIST_COLUMNS, HAND_COLUMNS = (520, 696), (440, 776)
 
 RecordingState = Literal["off", "recording", "paused"]
@@ -65,6 +68,7 @@ class LiveScreen(QWidget):
         self._camera_lost = False
         self._stopping = False
         self._tick = 0
+        self._started_at_s = -HASTY_S
         self.stage = QWidget()
         """All but the bar below: what a message may cover while the light goes on speaking to the far eye."""
         self.picture = PictureView(theme)
@@ -147,7 +151,7 @@ class LiveScreen(QWidget):
         self.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
         self.setProperty("shows_own_focus", True)
         actions = {
-            "record": self.toggle_recording, "note": self.note.click, "pain": self.pain.click,
+            "record": self._take_record_key, "note": self.note.click, "pain": self.pain.click,
             "pause": self.toggle_pause, "overlay": self.toggle_overlay, "whole_picture": self.toggle_whole,
             "speeds": self.toggle_speeds, "next_angle": self.next_angle, "next_finger": self.next_finger,
             "side_view": self.toggle_side,
@@ -237,9 +241,17 @@ class LiveScreen(QWidget):
         self._stopping = True
         self._background.run(self._measuring.start_recording, lambda _: self._started(), self._not_started, self)
 
+    def _take_record_key(self) -> None:
+        """A stored recording begins by itself: who presses the key to begin it must not end it."""
+        begun_s = time.monotonic() - self._started_at_s
+        if self._measuring is not None and self._measuring.starts_with_recording and begun_s < HASTY_S:
+            return
+        self.toggle_recording()
+
     def _started(self) -> None:
         assert self._set_up is not None
         self._stopping = False
+        self._started_at_s = time.monotonic()
         self._count = RunningCount(self._set_up.exercise)
         self.history.set_home()
         self._show_buttons()

@@ -1,0 +1,73 @@
+"""The first step of the set-up: targets as they are written, and the hand of a patient with two."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+
+import pytest
+from PySide6.QtCore import Qt
+from pytestqt.qtbot import QtBot
+
+from tests.ui.fakes import set_up
+from ui.ports import PatientRow
+from ui.setup.exercise import ExerciseScreen
+from ui.theme import Theme
+
+LINDEN = PatientRow("linden", "Linden 42", "right")
+
+
+@pytest.fixture
+def screen(qtbot: QtBot) -> ExerciseScreen:
+    shown = ExerciseScreen(Theme())
+    qtbot.addWidget(shown)
+    shown.resize(1280, 740)
+    shown.begin(LINDEN, None, "right", False)
+    shown.show()
+    return shown
+
+
+@pytest.mark.parametrize(
+    ("typed", "degrees"), [("37,5", 37.5), ("37.5", 37.5), ("40", 40.0), ("40°", 40.0), (" ", math.nan)]
+)
+def test_a_target_is_taken_as_it_is_written(qtbot: QtBot, screen: ExerciseScreen, typed: str, degrees: float) -> None:
+    qtbot.keyClicks(screen.targets[0], typed)
+    assert screen.primary.isEnabled()
+    assert screen.set_up().target_positive_deg == pytest.approx(degrees, nan_ok=True)
+
+
+@pytest.mark.parametrize("typed", ["-200", "200", "0", "abc", "4o", "1e3", "nan"])
+def test_a_target_that_cannot_be_stays_is_marked_and_stops_the_way(
+    qtbot: QtBot, screen: ExerciseScreen, typed: str
+) -> None:
+    sent: list[object] = []
+    screen.ready.connect(sent.append)
+    qtbot.keyClicks(screen.targets[1], typed)
+    assert screen.targets[1].text() == typed
+    assert screen.problem.isVisible()
+    assert "90°" in screen.problem.text()
+    assert not screen.primary.isEnabled()
+    qtbot.keyClick(screen.exercises.current(), Qt.Key.Key_Return)
+    assert not sent
+    screen.targets[1].clear()
+    qtbot.keyClicks(screen.targets[1], "35")
+    assert not screen.problem.isVisible()
+    qtbot.keyClick(screen.exercises.current(), Qt.Key.Key_Return)
+    assert sent
+
+
+def test_the_last_targets_come_back_and_never_those_of_another_patient(screen: ExerciseScreen) -> None:
+    last = replace(set_up(), target_positive_deg=37.5, target_negative_deg=-20.0)
+    screen.begin(LINDEN, last, "right", False)
+    assert [field.value() for field in screen.targets] == [37.5, 20.0]
+    screen.begin(PatientRow("fir", "Fir 12", "left"), None, "left", False)
+    assert all(math.isnan(field.value()) for field in screen.targets)
+
+
+def test_of_a_patient_with_two_hands_affected_one_must_be_chosen(qtbot: QtBot, screen: ExerciseScreen) -> None:
+    screen.begin(PatientRow("ash", "Ash 7", "both"), None, None, False)
+    assert not screen.primary.isEnabled()
+    assert "hand" in screen.primary.text()
+    qtbot.mouseClick(screen.side.buttons()[1], Qt.MouseButton.LeftButton)
+    assert screen.primary.isEnabled()
+    assert screen.set_up().side == "left"
