@@ -308,9 +308,7 @@ def session_figures(session: Session, choices: RepetitionChoices | None = None) 
         quality=Quality(
             frames=len(session),
             measured_share=float(np.mean(session.status == TrackStatus.TRACKED)) if len(session) else math.nan,
-            hidden_share=float(np.mean(~np.isfinite(session.markers.measured_px[:, :, 0])))
-            if len(session)
-            else math.nan,
+            hidden_share=_hidden_share(session, curves.time_s, counted if tracks else ()),
             dropped=int(np.maximum(session.quality.dropped_before, 0).sum()),
             forearm_mm=_forearm_mm(curves.time_s, motion.position_m, view),
             angle_sd_deg=_typical_joint_sd(tracks) if tracks else _typical_sd(curves, exercise),
@@ -507,6 +505,15 @@ def _spread(values: Sequence[float]) -> Spread:
         return Spread(math.nan, math.nan, math.nan, 0)
     sd = float(known.std(ddof=1)) if len(known) >= FEWEST_FOR_SPREAD else math.nan
     return Spread(float(known.mean()), sd, float(known.max()), len(known))
+
+
+def _hidden_share(session: Session, time_s: FloatArray, within: Sequence[Repetition]) -> float:
+    """Share of all looks at markers in which one was hidden, within repetitions if any: rest hides none."""
+    inside = np.ones(len(time_s), dtype=bool)
+    if within:
+        inside = np.any([(time_s >= rep.start_s) & (time_s <= rep.end_s) for rep in within], axis=0)
+    seen = np.isfinite(session.markers.measured_px[inside, :, 0])
+    return float(np.mean(~seen)) if seen.size else math.nan
 
 
 def _tricks(signals: Sequence[Signal], exercise: Exercise) -> FloatArray:

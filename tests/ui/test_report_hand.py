@@ -7,6 +7,7 @@ import re
 from dataclasses import replace
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 from app.desktop.printing import write_table
@@ -17,8 +18,9 @@ from tests.ui.test_report_pdf import tool, words_of
 from ui import numbers
 from ui.progress.chart_painter import axis_top_deg, panels_of
 from ui.progress.words import headline
-from ui.report.hand_rows import finger_rows, followed_keys, followed_kinds
+from ui.report.hand_rows import finger_rows, followed_keys, followed_kinds, hand_summary, limits_words
 from ui.report.pdf import progress_report, write_progress_report, write_session_report
+from ui.report.words import quality_lines
 from ui.terms import LEGAL_SENTENCE
 
 
@@ -126,3 +128,56 @@ def test_the_table_of_sessions_has_every_joint_and_says_at_least(store: FakeHand
         line = last[row.joint, row.movement]
         assert float(line["mean_deg"]) == pytest.approx(row.mean_deg, abs=0.051)
         assert (line["at_least"] == "yes") == row.limited
+
+
+def test_how_sure_is_amber_as_soon_as_a_joint_is_a_lower_bound() -> None:
+    limited = session_figures(hand_session())
+    lines = {name: (value, fine) for name, value, fine in quality_lines(limited)}
+    value, fine = lines["At least (≥) or not seen"]
+    bounds = sum(row.limited for row in limited.joint_rows if row.movement == "arc")
+    assert value.startswith(f"{bounds} of ")
+    assert bounds
+    assert not fine
+    seen = session_figures(hand_session(hides_beyond_deg=999.0))
+    assert all(fine for _, _, fine in quality_lines(seen))
+
+
+def test_what_was_hidden_is_measured_within_the_repetitions() -> None:
+    made = hand_session(hidden=[(0.0, 99.0, "TIP5")])
+    figures = session_figures(made)
+    time_s = made.timestamp_s - made.timestamp_s[0]
+    inside = np.zeros(len(time_s), dtype=bool)
+    for rep in figures.repetitions:
+        inside |= (time_s >= rep.start_s) & (time_s <= rep.end_s)
+    assert 0.3 < inside.mean() < 1.0
+    hidden = ~np.isfinite(made.markers.measured_px[..., 0])
+    assert figures.quality.hidden_share == pytest.approx(hidden[inside].mean())
+    assert figures.quality.hidden_share != pytest.approx(hidden.mean(), rel=1e-3)
+
+
+def test_a_lower_bound_has_no_spread_and_the_headline_says_what_was_not_seen() -> None:
+    figures = session_figures(hand_session())
+    for row in finger_rows(figures, None):
+        for cell in row.cells:
+            assert not (cell.main.startswith("≥") and "±" in cell.main)
+    assert "the camera did not see" in hand_summary(figures, None, None)
+    assert "did not see" not in hand_summary(session_figures(hand_session(hides_beyond_deg=999.0)), None, None)
+
+
+def test_total_active_motion_is_explained_once_or_its_absence_is() -> None:
+    assert limits_words(session_figures(hand_session())).count("Total active motion (TAM)") == 1
+    hook = session_figures(hand_session(exercise="FIST_HOOK", motion="hook"))
+    assert "asks for no fist" in limits_words(hook)
+    unseen = session_figures(hand_session(hidden=[(0.0, 99.0, f"PIP{k}") for k in (2, 3, 4, 5)]))
+    assert "never all seen at once" in limits_words(unseen)
+
+
+def test_the_thumbs_exercise_is_told_of_the_thumb(tmp_path: Path) -> None:
+    made = hand_session(exercise="THUMB_OPP", motion="thumb")
+    figures = session_figures(made)
+    assert len(figures.repetitions) >= 3
+    said = hand_summary(figures, None, None)
+    assert said.startswith("Thumb: lift ")
+    assert "index" not in said
+    path = write_session_report(made, tmp_path / "h.pdf", history=[figures])
+    assert re.search(r"Pages:\s+1\n", tool("pdfinfo", str(path)))

@@ -84,15 +84,18 @@ def paint_wrist_line(page: Page, figures: SessionFigures, top: float) -> float:
     return baseline + 4.5
 
 
-def paint_finger_curves(page: Page, curves: Curves, joints: JointCurves, figures: SessionFigures, top: float) -> float:
-    """Bending of every finger over time; dashed where it was hidden."""
+def paint_finger_curves(
+    page: Page, curves: Curves, joints: JointCurves, figures: SessionFigures, top: float, room: float
+) -> float:
+    """Bending of every finger over time, in the height that is left; dashed where it was hidden."""
+    height = min(CURVES_PT, room - 28 - 16)
     aside = tr("dashed: hidden, not counted; hatched: lost")
     page.title(tr("Bending over time"), top + 11, aside)
     _paint_key(page, page.right - page.width_of(aside, 8.5) - 12, top + 11)
     plot = HandPlot(curves, figures.exercise, figures.repetitions, -1, joints=joints)
-    box = page.box(page.left + 80, top + 28, page.right - page.left - 88, CURVES_PT)
+    box = page.box(page.left + 80, top + 28, page.right - page.left - 88, height)
     paint_hand_session(page.painter, page.style, plot, place_hand_panels(plot, box, BETWEEN_PT * page.point))
-    return top + 28 + CURVES_PT + 16
+    return top + 28 + height + 16
 
 
 def _paint_key(page: Page, right: float, baseline: float) -> None:

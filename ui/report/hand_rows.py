@@ -51,8 +51,10 @@ def column_heads(figures: SessionFigures, previous: SessionFigures | None) -> li
     """Heads after the finger's name: the columns, the usual value, last time, the change."""
     day = numbers.day_month(previous.when) if previous else ""
     compared = {"tam": tr("TAM"), "spread": tr("spread"), "middle": tr("middle joint")}[compared_row(figures)]
+    if trains_thumb(figures):
+        compared = tr("lift")
     return [
-        tr("Knuckle (MCP)"), tr("Middle (PIP)"), tr("End (DIP)"), tr("Spread"), tr("TAM"),
+        tr("Knuckle (MCP)"), tr("Middle (PIP)"), tr("End (DIP)"), tr("Spread"), tr("Total (TAM)"),
         tr("Usual") if compared_row(figures) == "tam" else "",
         tr("{what}, {day}").format(what=compared, day=day) if day else "",
         tr("Change since {day}").format(day=day) if day else "",
@@ -64,6 +66,17 @@ def compared_row(figures: SessionFigures) -> Row:
     if figures.exercise.id not in WITHOUT_TOTAL:
         return "tam"
     return figure_of(figures.exercise.joint).row
+
+
+def trains_thumb(figures: SessionFigures) -> bool:
+    """Whether the exercise is the thumb's alone."""
+    return bool(figures.exercise.joint) and figure_of(figures.exercise.joint).finger == 1
+
+
+def compared_figures(figures: SessionFigures) -> tuple[Figure, ...]:
+    """What is compared with last time: of every finger, or of the thumb alone."""
+    fingers = (1,) if trains_thumb(figures) else FINGERS
+    return tuple(Figure(finger, compared_row(figures)) for finger in fingers)
 
 
 def limits_words(figures: SessionFigures) -> str:
@@ -98,22 +111,43 @@ def limits_words(figures: SessionFigures) -> str:
         words.append(pattern.format(sign=AT_LEAST, parts="; ".join(parts)))
     if unseen:
         words.append(tr("Not seen: {joints}.").format(joints="; ".join(unseen)))
-    if any(row.inferred for row in figures.joint_rows):
+    return " ".join([*words, *total_words(figures)])
+
+
+def total_words(figures: SessionFigures) -> list[str]:
+    """What TAM is, or why there is none."""
+    totals = [row for row in figures.joint_rows if row.joint.startswith("TAM")]
+    if not totals:
+        return [tr("No total active motion (TAM): this exercise asks for no fist.")] if figures.joint_rows else []
+    words = [tr("Total active motion (TAM): the largest sum of a finger’s bending in one moment, all its joints seen.")]
+    if not any(row.count for row in totals):
+        words = [tr("No total active motion (TAM): no finger’s joints were all seen at once.")]
+    elif any(not row.count for row in totals):
+        words.append(tr("It is missing where a finger’s joints were never all seen at once."))
+    if any(row.inferred for row in totals):
         words.append(tr("DIP not measured: TAM takes it as two thirds of PIP."))
-    return " ".join(words)
+    return words
 
 
 def hand_summary(figures: SessionFigures, previous: SessionFigures | None, first: SessionFigures | None) -> str:
     """Today's figure of every finger, then what may be said of change."""
     compared = compared_row(figures)
     what = {"tam": tr("TAM"), "spread": tr("Spreading"), "middle": tr("Middle joints")}[compared]
-    today = []
-    for finger in FINGERS:
-        row = figures.row("arc", -1, Figure(finger, compared).joint)
+    shown = compared_figures(figures)
+    if trains_thumb(figures):
+        what = tr("Thumb")
+        shown = tuple(Figure(1, row) for row in ("middle", "spread", "knuckle", "end"))
+    today, bounds = [], 0
+    for figure in shown:
+        row = figures.row("arc", -1, figure.joint)
         known = row is not None and row.count
         words = _range_words(row, spread=False) if row is not None and known else tr("not seen")
-        today.append(f"{finger_name(str(finger)).lower()} {words}")
+        name = figure.row_name if trains_thumb(figures) else finger_name(str(figure.finger))
+        today.append(f"{name.lower()} {words}")
+        bounds += bool(known and row is not None and row.limited)
     parts = [tr("{what}: {fingers}.").format(what=what, fingers=", ".join(today))]
+    if bounds:
+        parts.append(tr("{sign}: the camera did not see the end of that movement.").format(sign=AT_LEAST))
     if previous is not None:
         parts.append(_since(figures, previous, numbers.day_month(previous.when)))
     if first is not None and (previous is None or first.session_id != previous.session_id):
@@ -123,7 +157,7 @@ def hand_summary(figures: SessionFigures, previous: SessionFigures | None, first
 
 
 def _since(figures: SessionFigures, before: SessionFigures, when: str) -> str:
-    keys = [Figure(finger, compared_row(figures)).joint for finger in FINGERS]
+    keys = [figure.joint for figure in compared_figures(figures)]
     rows = [row for row in figures.joint_rows if row.joint in keys and row.movement == "arc"]
     changes = compare_rows(before, figures, rows)
     judged = [item for item in changes if item.verdict != "not_judged"]
@@ -161,6 +195,9 @@ def cell_of(figures: SessionFigures, figure: Figure) -> FingerCell:
 
 def _finger_row(finger: int, figures: SessionFigures, previous: SessionFigures | None) -> FingerRow:
     compared = Figure(finger, compared_row(figures))
+    if compared not in compared_figures(figures):
+        cells = tuple(cell_of(figures, Figure(finger, row)) for row in COLUMNS)
+        return FingerRow(finger, finger_name(str(finger)), cells, "", "", "", "")
     today = figures.row("arc", -1, compared.joint)
     before = previous.row("arc", -1, compared.joint) if previous else None
     change, verdict = "", ""
@@ -185,8 +222,9 @@ def _finger_row(finger: int, figures: SessionFigures, previous: SessionFigures |
 
 def _range_words(row: RangeRow, *, spread: bool = True) -> str:
     sd = row.sd_deg if math.isfinite(row.sd_deg) else row.measurement_sd_deg
-    words = numbers.with_spread(row.mean_deg, sd) if spread else numbers.degrees(row.mean_deg)
-    return f"{AT_LEAST}{numbers.NARROW_GAP}{words}" if row.limited else words
+    if row.limited:  # a spread would be that of where the joint went out of sight
+        return f"{AT_LEAST}{numbers.NARROW_GAP}{numbers.degrees(row.mean_deg)}"
+    return numbers.with_spread(row.mean_deg, sd) if spread else numbers.degrees(row.mean_deg)
 
 
 def _ends(figures: SessionFigures, figure: Figure) -> str:

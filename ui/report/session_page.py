@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from PySide6.QtCore import QPointF, Qt
-from PySide6.QtGui import QColor, QPen
+from PySide6.QtGui import QColor, QPainter, QPen, QPicture
 
 from core.output.exercises import AXIS_TICK_DEG, SIDES
 from core.output.joint_content import JointCurves
@@ -24,6 +24,9 @@ from ui.report.words import method, other_lines, quality_lines, summary, warning
 from ui.review.curves import SessionPlot, paint_session, place_panels
 from ui.theme import LIGHT
 from ui.translate import tr
+
+LOWEST_PT = A4_PT[1] - MARGIN_PT + 20
+"""Lower edge of what a page may carry."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -60,10 +63,21 @@ def paint_session_page(page: Page, report: SessionReport) -> None:
     else:
         y = paint_finger_table(page, report.figures, report.previous, y + 7)
         y = paint_wrist_line(page, report.figures, y + 7)
-        y = paint_finger_curves(page, report.curves, report.joints, report.figures, y + 8)
+        room = LOWEST_PT - 2 - y - 8 - _lower_part_pt(page, report)
+        y = paint_finger_curves(page, report.curves, report.joints, report.figures, y + 8, room)
     y = _paint_boxes(page, report, y + 9)
     foot = _paint_foot(page, report, y + 10)
-    assert foot < A4_PT[1] - MARGIN_PT + 20
+    assert foot < LOWEST_PT
+
+
+def _lower_part_pt(page: Page, report: SessionReport) -> float:
+    """Height that boxes and foot need, found by painting them on nothing."""
+    nowhere = QPicture()
+    painter = QPainter(nowhere)
+    trial = Page(painter, page.point)
+    below = _paint_foot(trial, report, _paint_boxes(trial, report, 9.0) + 10)
+    painter.end()
+    return below
 
 
 def paint_watermark(page: Page) -> None:
@@ -289,4 +303,4 @@ def _paint_foot(page: Page, report: SessionReport, top: float) -> float:
         parts.append(tr("calibrated to {size} mm").format(size=f"{residual:.1f}"))
     parts.append(tr("smoothed") if figures.smoothed else tr("as measured live"))
     page.text(" · ".join(parts), page.left, max(y + 12, A4_PT[1] - MARGIN_PT + 8), 8.0, REGULAR, "text2")
-    return max(y + 12, A4_PT[1] - MARGIN_PT + 8)
+    return y + 12

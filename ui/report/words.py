@@ -122,11 +122,19 @@ def quality_lines(figures: SessionFigures) -> list[tuple[str, str, bool]]:
     missed = tr("{share} of {frames}; {dropped} missed").format(
         share=measured, frames=f"{quality.frames:,}".replace(",", numbers.NARROW_GAP), dropped=quality.dropped
     )
-    hidden = tr("{share} % of the time").format(share=f"{100 * quality.hidden_share:.1f}")
+    pattern = tr("{share} % of the time")
+    if figures.joint_rows and figures.counted:
+        pattern = tr("{share} % of the repetitions")
+    hidden = pattern.format(share=f"{100 * quality.hidden_share:.1f}")
     lines = [
         (tr("Pictures measured"), missed, quality.measured_share > 0.9),
         (tr("Markers hidden"), hidden, quality.hidden_share < 0.1),
     ]
+    arcs = [row for row in figures.joint_rows if row.movement == "arc"]
+    if arcs:
+        bounds = sum(row.limited or not row.count for row in arcs)
+        words = tr("{count} of {all} figures").format(count=bounds, all=len(arcs)) if bounds else tr("none")
+        lines.append((tr("At least (≥) or not seen"), words, not bounds))
     if figures.exercise.pure_wrist and math.isfinite(quality.forearm_mm):
         words = tr("{distance} (limit {limit})").format(
             distance=numbers.millimetres(quality.forearm_mm), limit=numbers.millimetres(STILL_RADIUS_MM)
