@@ -90,14 +90,16 @@ class View:
         self, position_m: FloatArray, rotation_w2_w0: FloatArray, joints_rad: FloatArray, shape: FloatArray
     ) -> FloatArray:
         """Pixel u, v and depth z (..., M, 3) of every disc, hidden or not."""
-        in_w0 = self.geometry.positions_w2_m(joints_rad, shape) @ rotation_w2_w0.swapaxes(-1, -2)
-        in_w0 += position_m[..., None, :]
+        about_wrist = self.geometry.positions_w2_m(joints_rad, shape) @ rotation_w2_w0.swapaxes(-1, -2)
         turned, shifted = self._w0_image
-        out: FloatArray = in_w0 @ turned
-        out += shifted
-        out[..., :2] /= out[..., 2:]
+        out: FloatArray = (about_wrist.reshape(-1, 3) @ turned).reshape(about_wrist.shape)
+        out += (position_m @ turned + shifted)[..., None, :]
+        z = out[..., 2]
+        per_z = 1.0 / z
+        out[..., 0] *= per_z
+        out[..., 1] *= per_z
         if self.hidden is not None:
-            out[..., 2] -= shape @ self.hidden.T
+            z -= shape @ self.hidden.T
         return out
 
 
