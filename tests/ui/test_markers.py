@@ -79,6 +79,33 @@ def test_the_whole_way_by_keyboard_alone(qtbot: QtBot, screen: MarkersScreen) ->
         qtbot.keyClick(screen.focusWidget(), Qt.Key.Key_Return)
 
 
+def test_a_disc_that_has_a_name_is_refused_at_once(qtbot: QtBot, screen: MarkersScreen) -> None:
+    calibrator = FakeCalibrator()
+    screen.begin(calibrator)
+    spot = place_of(screen, calibrator.disc_px[0])
+    qtbot.mouseMove(screen.picture, spot)
+    qtbot.mouseClick(screen.picture, Qt.MouseButton.LeftButton, pos=spot)
+    for _ in range(3):
+        qtbot.keyClick(screen.picture, Qt.Key.Key_Space)
+        assert screen.clicking is not None
+        assert set(screen.clicking.pixel) == {"WRIST"}
+        assert screen.clicking.current == "CMC1"
+        assert screen.picture.no_marker_words == "Already the wrist"
+
+
+def test_the_cursor_of_the_last_picture_is_forgotten(qtbot: QtBot, screen: MarkersScreen) -> None:
+    calibrator = FakeCalibrator()
+    screen.begin(calibrator)
+    qtbot.mouseMove(screen.picture, place_of(screen, calibrator.disc_px[0]))
+    qtbot.keyClick(screen.picture, Qt.Key.Key_Right)
+    assert screen.picture.cursor_px is not None
+    screen.begin(FakeCalibrator())
+    assert screen.picture.cursor_px is None
+    qtbot.keyClick(screen.picture, Qt.Key.Key_Space)
+    assert screen.clicking is not None
+    assert not screen.clicking.pixel
+
+
 def test_a_click_beside_every_disc_sets_nothing_and_says_so(qtbot: QtBot, screen: MarkersScreen) -> None:
     screen.begin(FakeCalibrator())
     qtbot.mouseClick(screen.picture, Qt.MouseButton.LeftButton, pos=QPoint(30, 30))

@@ -83,6 +83,12 @@ class Clicking:
         mine = self.proposed.get(self.current)
         return mine is not None and _same(mine.pixel, pixel)
 
+    def taken_by(self, pixel: FloatArray) -> str:
+        """The name a person has given to this disc, where the current marker has no place it could change for it."""
+        if self.current in self.pixel or self.current in self.proposed:
+            return ""
+        return next((name for name, other in self.pixel.items() if _same(other, pixel)), "")
+
     def place(self, pixel: FloatArray, width_px: float) -> None:
         """Set the current marker and go on to the next one that is missing.
 

@@ -78,6 +78,11 @@ class MarkerPicture(PictureView):
         self.wrong = frozenset(names)
         self.update()
 
+    def forget_cursor(self) -> None:
+        """Another picture: where the cursor was on the last one means nothing here."""
+        self.cursor_px = self.found = None
+        self.no_marker_words = ""
+
     def set_cursor(self, pixel: FloatArray) -> None:
         """Put the cursor on a pixel, kept inside the picture."""
         if self.image is not None:
@@ -292,7 +297,7 @@ class MarkerPicture(PictureView):
         painter.setClipping(False)
         paint_label(painter, self._theme, f"×{LOUPE_TIMES:.0f}", inner.left() + 8, inner.top() + 8)
         words = self.no_marker_words
-        if self.found is not None:
+        if self.found is not None and not words:
             pattern = self.tr("Marker found · {width} px wide") if box.width() >= 200 else self.tr("Found · {width} px")
             words = pattern.format(width=f"{self.found.width_px:.0f}")
         if words:

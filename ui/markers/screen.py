@@ -18,7 +18,7 @@ from ui.controls.card import KeyCaps
 from ui.controls.text import MEDIUM, REGULAR, StateText, Text, heading
 from ui.hand_drawing import HandDrawing, MarkerState
 from ui.keys import Keys, bind
-from ui.marker_words import click_instruction, marker_place
+from ui.marker_words import click_instruction, marker_name, marker_place
 from ui.markers import proposals
 from ui.markers.clicking import Clicking
 from ui.markers.last_picture import LastPicture
@@ -189,6 +189,7 @@ class MarkersScreen(QWidget):
         frame = self._calibrator.hold()
         self._held = True
         self._judged = None
+        self.picture.forget_cursor()
         self.clicking = self.picture.clicking = Clicking(self._calibrator.protocol, self._calibrator.side)
         self.picture.show_wrong(())
         self.picture.show_frame(frame.color_rgb)
@@ -215,6 +216,13 @@ class MarkersScreen(QWidget):
         found = self._calibrator.marker_at(pixel)
         if found is None:
             self.picture.no_marker_words = self.tr("No blue marker here. Click nearer.")
+            self.picture.update()
+            return
+        taken = self.clicking.taken_by(found.pixel)
+        if taken:
+            name = marker_name(taken).lower()
+            self.picture.no_marker_words = self.tr("Already the {name}").format(name=name)
+            self.hint.setText(self.tr("This marker is the {name} already. Click another one.").format(name=name))
             self.picture.update()
             return
         agreed = self.clicking.confirms(found.pixel)
