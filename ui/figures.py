@@ -68,6 +68,11 @@ class Figure:
         return _long_name(self)
 
     @property
+    def short_name(self) -> str:
+        """``Ring``, where the row is said elsewhere."""
+        return finger_name(str(self.finger))
+
+    @property
     def end_names(self) -> tuple[str, str]:
         """What the two ends of the gauge are called."""
         return _end_names(self)
@@ -102,6 +107,12 @@ def _end_names(figure: Figure) -> tuple[str, str]:
     if figure.finger == 3:
         return tr("Little-finger side {angle}").format(angle=low), tr("Thumb side {angle}").format(angle=high)
     return tr("Inwards {angle}").format(angle=low), tr("Away {angle}").format(angle=high)
+
+
+def followed_name(joint: str) -> str:
+    """What is followed of every finger: ``Total active motion (TAM)``, ``Middle joint, range``."""
+    figure = figure_of(joint)
+    return tr("Total active motion (TAM)") if figure.row == "tam" else tr("{row}, range").format(row=figure.row_name)
 
 
 def figure_of(joint: str) -> Figure:

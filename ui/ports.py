@@ -61,6 +61,10 @@ class ResultLine:
     sd_deg: float
     change_deg: float
     verdict: str
+    joint: str = ""
+    """The joint angle or ``TAM3`` of the whole hand, by its name in every file; empty for the wrist."""
+    at_least: bool = False
+    """Whether the joint went out of the camera's sight beyond this figure."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -245,9 +245,9 @@ class Journey(QObject):
         assert self.source is not None
         assert self.set_up is not None
         library, patient_id = self._parts.library, self.set_up.patient_id
-        sessions = library.sessions(patient_id)
-        day = numbers.day_month(sessions[0].created) if sessions else ""
-        self.markers.begin(self.source.calibrator, library.marker_picture(patient_id), day)
+        alike = library.sessions_alike(patient_id, self.set_up)
+        day = numbers.day_month(alike[0].created) if alike else ""
+        self.markers.begin(self.source.calibrator, library.marker_picture(patient_id, self.set_up), day)
         self._go("markers", self.markers, self.markers.picture)
 
     # --- measuring ----------------------------------------------------------------------------------------

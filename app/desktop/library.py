@@ -73,6 +73,12 @@ class Library:
         register, key = self.of(patient_id)
         return register.sessions(key)
 
+    def sessions_alike(self, patient_id: str, set_up: SetUp) -> Sequence[SessionEntry]:
+        """Those with the discs of a set-up on the same hand, newest first."""
+        own = (set_up.side, set_up.protocol)
+        entries = self.sessions(patient_id)
+        return [entry for entry in entries if (entry.hand, exercise_named(entry.exercise).protocol) == own]
+
     def entry(self, session_id: str) -> SessionEntry:
         """One session by its identity. Raises :class:`SessionUnreadable` for one that is not there."""
         for register in (self.clinic, self._practice):
@@ -177,9 +183,9 @@ class Library:
         """Write a session as open formats into a folder; the names of the files."""
         return [export_csv(self.session(session_id), Path(folder))]
 
-    def marker_picture(self, patient_id: str) -> ByteImage | None:
-        """The markers as they were stuck last time."""
-        for entry in self.sessions(patient_id):
+    def marker_picture(self, patient_id: str, set_up: SetUp | None = None) -> ByteImage | None:
+        """The markers as they were stuck last time, or when last on the hand and of the protocol of a set-up."""
+        for entry in self.sessions(patient_id) if set_up is None else self.sessions_alike(patient_id, set_up):
             path = entry.path.with_suffix(MARKERS_SUFFIX)
             if path.exists():
                 with suppress(CarpusFault):

@@ -7,10 +7,11 @@ from dataclasses import replace
 
 from app.desktop.library import Library
 from core.errors import SessionUnreadable
-from core.output.report_content import SessionFigures, compare, unfair_reasons
+from core.output.report_content import SessionFigures, compare, compare_rows, unfair_reasons
 from core.session import register
 from core.session.register import PatientRecord
 from ui.ports import PRACTICE_PATIENT, PatientCard, PatientEntry, PatientRow, ResultLine, SessionRow
+from ui.report.hand_rows import compared_figures
 from ui.report.tables import repetition_words
 from ui.report.words import warnings
 
@@ -105,10 +106,29 @@ def _row(record: PatientRecord) -> PatientRow:
     )
 
 
+def _joint_results(first: SessionFigures | None, last: SessionFigures) -> Sequence[ResultLine]:
+    """Of the whole hand what the exercise is about, finger by finger."""
+    rows = [last.row("arc", -1, figure.joint) for figure in compared_figures(last)]
+    known = [row for row in rows if row is not None and row.count]
+    changes = {}
+    if first is not None and first.session_id != last.session_id:
+        changes = {item.joint: item for item in compare_rows(first, last, known)}
+    out = []
+    for row in known:
+        change = changes.get(row.joint)
+        difference, verdict = (change.difference_deg, change.verdict) if change else (float("nan"), "not_judged")
+        out.append(
+            ResultLine(row.movement, row.mean_deg, row.sd_deg, difference, verdict, row.joint, at_least=row.limited)
+        )
+    return out
+
+
 def _results(first: SessionFigures | None, last: SessionFigures) -> Sequence[ResultLine]:
     changes = {}
     if first is not None and first.session_id != last.session_id:
         changes = {(item.movement, item.angle): item for item in compare(first, last)}
+    if last.joint_rows:
+        return _joint_results(first, last)
     out = []
     for row in last.rows:
         if row.movement in _ENDS or last.exercise.angle is None:

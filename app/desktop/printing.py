@@ -53,7 +53,13 @@ class Printing(QObject):
         journey = self._journey
         if sessions and journey.patient is not None:
             therapist = journey.settings.report.therapist
-            report = progress_report(sessions, pseudonym=journey.patient.pseudonym, therapist=therapist)
+            what = journey.progress.followed.currentData()  # what of the whole hand is on the screen
+            report = progress_report(
+                sessions,
+                pseudonym=journey.patient.pseudonym,
+                therapist=therapist,
+                what=what if isinstance(what, str) else None,
+            )
             journey.report.begin(report, documents())
             journey.show_report()
 

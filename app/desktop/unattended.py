@@ -29,6 +29,7 @@ from core.output.report_content import SessionFigures
 from core.simulation.recording import CLICKS_FILE, cached_recording
 from core.types import FloatArray
 from ui import numbers, terms
+from ui.figures import figure_of
 from ui.ports import PRACTICE_PATIENT
 
 REPETITIONS = 6
@@ -184,4 +185,9 @@ def lines_of(figures: SessionFigures) -> list[str]:
     for row in figures.rows:
         name = terms.movement_long_name(row.movement)
         lines.append(f"{name}: {numbers.with_spread(row.mean_deg, row.sd_deg)}")
+    for row in figures.joint_rows:
+        if row.movement == "arc" and row.count:
+            value = numbers.with_spread(row.mean_deg, row.sd_deg)
+            value = f"at least {numbers.degrees(row.mean_deg)}" if row.limited else value
+            lines.append(f"{figure_of(row.joint).long_name}: {value}")
     return lines

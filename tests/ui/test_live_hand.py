@@ -165,7 +165,7 @@ def test_the_large_number_is_chosen_by_click_and_by_key(qtbot: QtBot, theme: The
     assert screen.number.movement() == "Little finger, middle joint"
     for _ in range(3):
         screen.next_angle()
-    assert screen.number.movement() == "Little finger, TAM"
+    assert screen.number.movement() == "Little finger, total active motion (TAM)"
 
 
 def test_a_lost_hand_leaves_no_number_anywhere(qtbot: QtBot, theme: Theme) -> None:

@@ -70,6 +70,8 @@ class NumberCard(QWidget):
     def movement(self) -> str:
         """The word shown for the present direction, or the finger and its joint."""
         figure = self.reading.figure
+        if figure is not None and figure.row == "tam":
+            return self.tr("{finger}, total active motion (TAM)").format(finger=figure.long_name.split(",")[0])
         if figure is not None:
             return figure.long_name
         value = self.reading.value_deg

@@ -9,7 +9,8 @@ from PySide6.QtWidgets import QHBoxLayout, QScrollArea, QVBoxLayout, QWidget
 from ui import numbers, terms
 from ui.controls.button import Button
 from ui.controls.card import Card, Line
-from ui.controls.text import MEDIUM, REGULAR, SEMIBOLD, Text, caption, heading
+from ui.controls.text import MEDIUM, REGULAR, SEMIBOLD, ElidedText, Text, caption
+from ui.figures import figure_of, followed_name
 from ui.picture.photo import Photo
 from ui.ports import PRACTICE_PATIENT, PatientCard, ResultLine
 from ui.theme import Theme
@@ -30,7 +31,7 @@ class PatientCardView(Card):
     def __init__(self, theme: Theme) -> None:
         super().__init__(theme, 24)
         self._theme = theme
-        self._name = heading(theme)
+        self._name = ElidedText(theme, "", 28, SEMIBOLD)
         self._hand = Text(theme, "", 14, REGULAR, "text2")
         self._photo = Photo(theme)
         self._exercise = Text(theme, "", 16, SEMIBOLD)
@@ -104,7 +105,7 @@ class PatientCardView(Card):
         row = card.row
         practice = row.patient_id == PRACTICE_PATIENT
         self._name.setText(row.pseudonym)
-        self._name.setToolTip(row.name)
+        self._name.setToolTip(" · ".join(part for part in (row.pseudonym, row.name) if part))
         self.edit_button.setVisible(not practice)
         self._hand.setText(
             self.tr("Simulated camera: nothing here counts")
@@ -153,6 +154,9 @@ class PatientCardView(Card):
             if (widget := item.widget()) is not None:
                 widget.hide()
                 widget.deleteLater()
+        joint = card.results[0].joint if card.results else ""
+        if joint:
+            self._results.addWidget(caption(self._theme, followed_name(joint)))
         for line in card.results:
             self._results.addWidget(Line(self._theme))
             self._results.addWidget(_ResultRow(self._theme, line))
@@ -164,11 +168,16 @@ class _ResultRow(QWidget):
     def __init__(self, theme: Theme, line: ResultLine) -> None:
         super().__init__()
         row = QHBoxLayout(self)
-        row.setContentsMargins(0, 10, 0, 10)
-        name = Text(theme, terms.movement_name(line.movement), 14, REGULAR, "text2")
+        gap = 5 if line.joint else 10  # five fingers
+        row.setContentsMargins(0, gap, 0, gap)
+        words = figure_of(line.joint).short_name if line.joint else terms.movement_name(line.movement)
+        name = Text(theme, words, 14, REGULAR, "text2")
         name.setFixedWidth(theme.px(88))
         row.addWidget(name)
-        row.addWidget(Text(theme, numbers.with_spread(line.mean_deg, line.sd_deg), 16, SEMIBOLD))
+        value = f"≥{numbers.NARROW_GAP}{numbers.degrees(line.mean_deg)}"
+        if not line.at_least:
+            value = numbers.with_spread(line.mean_deg, line.sd_deg)
+        row.addWidget(Text(theme, value, 16, SEMIBOLD))
         words = change_since_first(line.verdict, line.change_deg)
         change = Text(theme, words, 12, MEDIUM, verdict_token(line.verdict), wrap=True)
         change.setAlignment(Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter)

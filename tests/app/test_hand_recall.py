@@ -1,0 +1,60 @@
+"""What is recalled of the whole hand before the next session: totals on the card, the markers of the same hand."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+
+import cv2
+import numpy as np
+
+from app.desktop.library import MARKERS_SUFFIX, Library
+from app.desktop.patients import PatientShelf, _results
+from app.desktop.unattended import lines_of
+from core.output.exercises import exercise_named
+from core.output.report_content import session_figures
+from tests.app.test_library import set_up, store
+from tests.ui.hand_fakes import FakeHandSessions, hand_session
+from ui.ports import PatientEntry
+
+
+def test_the_card_of_the_hand_has_every_fingers_total_with_its_change_and_at_least() -> None:
+    sessions = FakeHandSessions(pictures=False)
+    first, last = (session_figures(sessions.session(key)) for key in ("hand-3", "hand-7"))
+    lines = _results(first, last)
+    assert [line.joint for line in lines] == [f"TAM{k}" for k in (1, 2, 3, 4, 5)]
+    for line in lines:
+        row = last.row("arc", -1, line.joint)
+        assert row is not None
+        assert (line.mean_deg, line.at_least) == (row.mean_deg, row.limited)
+    assert any(line.at_least for line in lines)
+    assert any(line.verdict == "improved" for line in lines)
+
+
+def test_the_card_of_a_hook_fist_has_the_middle_joints() -> None:
+    lines = _results(None, session_figures(hand_session(exercise="FIST_HOOK", motion="hook")))
+    assert {line.joint for line in lines} <= {f"PIP{k}_flexion" for k in (2, 3, 4, 5)} | {"CMC1_abduction"}
+    assert len(lines) >= 4
+
+
+def test_plain_lines_have_every_joint() -> None:
+    lines = lines_of(session_figures(hand_session()))
+    assert any(line.startswith("Ring finger, TAM: at least ") for line in lines)
+    assert any(line.startswith("Index finger, knuckle: ") for line in lines)
+
+
+def test_the_markers_shown_are_those_of_the_same_hand_with_the_same_discs(tmp_path: Path) -> None:
+    library = Library(tmp_path / "data")
+    try:
+        linden = PatientShelf(library).add(PatientEntry("Linden 42", "right", "right"))
+        wanted = set_up(linden, "Linden 42")
+        path = library.entry(store(library, wanted)).path
+        cv2.imwrite(str(path.with_suffix(MARKERS_SUFFIX)), np.full((40, 60, 3), 90, np.uint8))
+        assert library.marker_picture(linden, wanted) is not None
+        assert library.marker_picture(linden) is not None
+        assert library.marker_picture(linden, replace(wanted, side="left")) is None
+        whole_hand = replace(wanted, exercise=exercise_named("FIST_COMPOSITE"))
+        assert library.marker_picture(linden, whole_hand) is None
+        assert library.sessions_alike(linden, replace(wanted, exercise=exercise_named("WRIST_FE")))
+    finally:
+        library.close()
