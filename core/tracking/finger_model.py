@@ -46,11 +46,6 @@ _ACROSS_M = 0.00015
 _SURE_TURN_RAD = math.radians(1.0)
 """Standard deviation of the palm's turn, all axes together, at which half as much is learnt of the fingers."""
 
-# Which discs move with a slot: 0 the first of the ray's three and those after it, and so on; 3 none.
-_FIRST_DISC = np.array([[0, 0, 1, 1, 2], *([0, 0, 1, 2, 3],) * 4])
-SHOWS = np.arange(DISCS) >= _FIRST_DISC[..., None]
-"""(5, 5, 3) whether a disc moves with a slot."""
-
 
 @dataclass(frozen=True, slots=True)
 class Seat:

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from core.tracking import association
 from core.tracking.finger_settings import FingerSettings
-from core.tracking.hand_geometry import CROWDED_SD_PX, DISCS, RAYS, SLOTS, is_crowded, ray_frames
+from core.tracking.hand_geometry import CROWDED_SD_PX, DISCS, RAYS, SHOWS, SLOTS, is_crowded, ray_frames
 from core.tracking.joint_association import holds_together
 from core.tracking.joint_limits import SOFT_RAD, outside_limits
 from core.tracking.naming import Measurable
@@ -30,6 +30,8 @@ _BENDS = np.array([[0.0, 0.0, 1.0, 0.0, 1.0], *([0.0, 1.0, 1.0, 1.0, 0.0],) * 4]
 _CANDIDATES = 4
 _WAS_SEEN = 0.5
 _SURELY_SD = 1.5
+_FAR_RAD = np.radians(10.0)
+"""Of a joint that was expected less surely than this, a line drawn where it was expected need not fit."""
 _LOG_2_PI = float(np.log(2.0 * np.pi))
 
 
@@ -55,12 +57,14 @@ class NamedFingers:
 class FingerScene:
     """One frame before the fingers are named.
 
-    ``line`` forecast; ``spread`` (5, 9, 9) covariance of the discs' images, the palm's error included; ``palm_part``
-    that error alone; ``visible`` (5, 3) chance that each disc is to be seen; ``free`` (D,) blobs
-    that are not the palm's; ``area_px`` (D,) of the blobs, ``whole_px`` (5, 3) of each disc where nothing hides it, NaN
-    where not known yet; ``noise_factor`` (5, 9); ``learning`` share of what is said of the anatomy that is believed.
+    ``covariance`` (5, n, n) of the rays; ``line`` forecast; ``spread`` (5, 9, 9) covariance of the discs' images, the
+    palm's error included; ``palm_part`` that error alone; ``visible`` (5, 3) chance that each disc is to be seen;
+    ``free`` (D,) blobs that are not the palm's; ``area_px`` (D,) of the blobs, ``whole_px`` (5, 3) of each disc where
+    nothing hides it, NaN where not known yet; ``noise_factor`` (5, 9); ``learning`` share of what is said of the
+    anatomy that is believed.
     """
 
+    covariance: FloatArray
     line: RayForecast
     spread: FloatArray
     palm_part: FloatArray
@@ -89,11 +93,38 @@ def name_fingers(beliefs: RayBeliefs, scene: FingerScene, settings: TrackerSetti
             taken[ray], with_depth[ray] = _ray_jointly(ray, scene, others, settings)
         names = FingerNames(taken, with_depth)
         found = corrected_as_named(beliefs, scene, names, settings)
-    impossible = _impossible(found, scene, settings.fingers)
-    if impossible.any():
-        names = FingerNames(np.where(impossible, -1, names.taken), names.with_depth & ~impossible)
-        found = corrected_as_named(beliefs, scene, names, settings)
-    return found
+    impossible = _impossible(found, scene, settings.fingers) | _lone(names, scene)
+    return without(impossible, found, beliefs, scene, settings) if impossible.any() else found
+
+
+def without(
+    discs: NDArray[np.bool_], found: NamedFingers, beliefs: RayBeliefs, scene: FingerScene, settings: TrackerSettings
+) -> NamedFingers:
+    """The rays corrected anew without the names of some ``discs`` (5, 3)."""
+    names = FingerNames(np.where(discs, -1, found.names.taken), found.names.with_depth & ~discs)
+    return corrected_as_named(beliefs, scene, names, settings)
+
+
+def _lone(names: FingerNames, scene: FingerScene) -> NDArray[np.bool_]:
+    """Discs (5, 3) further out than the first that come back alone on a ray that may be far from where it is expected:
+    any blob would do for them."""
+    is_named = names.taken >= 0
+    lone = is_named & (is_named.sum(axis=1) == 1)[:, None] & (scene.visible < _WAS_SEEN)
+    lone[:, 0] = False
+    return lone & far_rays(scene.covariance, is_named)[:, None]
+
+
+def far_rays(covariance: FloatArray, named: NDArray[np.bool_]) -> NDArray[np.bool_]:
+    """Rays (5,) whose discs (5, 3) that are seen may find their joints far from where they were expected, with
+    covariances (5, n, n)."""
+    shown = (SHOWS & named[:, None, :]).any(axis=-1)
+    return np.asarray((shown & (covariance[:, _SLOT, _SLOT] > _FAR_RAD**2)).any(axis=1))
+
+
+def beyond_reach(mean: FloatArray, covariance: FloatArray) -> NDArray[np.bool_]:
+    """Rays (5,) bent surely beyond their limits, by means (5, n) and covariances (5, n, n)."""
+    sd = np.sqrt(np.diagonal(covariance, axis1=1, axis2=2)[:, :SLOTS] + SOFT_RAD**2)
+    return np.asarray((np.abs(outside_limits(mean[:, :SLOTS])) > _SURELY_SD * sd).any(axis=1))
 
 
 def _impossible(found: NamedFingers, scene: FingerScene, own: FingerSettings) -> NDArray[np.bool_]:
@@ -108,10 +139,7 @@ def _impossible(found: NamedFingers, scene: FingerScene, own: FingerSettings) ->
     tilt = tilt_to(scene.view, frames.normal, scene.line.centre_m)
     bend = tilt_variance(covariance)
     hidden = tilt - own.steepest_rad > _SURELY_SD * np.sqrt(bend + own.steepest_sd_rad**2)
-    slots = mean[:, :SLOTS]
-    sd = np.sqrt(np.diagonal(covariance, axis1=1, axis2=2)[:, :SLOTS] + SOFT_RAD**2)
-    bent = np.asarray((np.abs(outside_limits(slots)) > _SURELY_SD * sd).any(axis=1))
-    return back & (hidden | bent[:, None])
+    return back & (hidden | beyond_reach(mean, covariance)[:, None])
 
 
 def tilt_to(view: RayView, normal: FloatArray, centre_m: FloatArray) -> FloatArray:

@@ -13,8 +13,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from core.tracking.finger_model import SHOWS, FingerModel, Seat
-from core.tracking.hand_geometry import RAYS, SLOTS, JointMoment
+from core.tracking.finger_model import FingerModel, Seat
+from core.tracking.finger_naming import far_rays
+from core.tracking.hand_geometry import RAYS, SHOWS, SLOTS, JointMoment
 from core.tracking.joint_limits import constrained
 from core.tracking.ray_filter import (
     PINNINGS,
@@ -153,7 +154,8 @@ def _filtered(
         if step.postures:
             beliefs = model.at_postures(beliefs, step.postures)
         nearest, shares = beliefs, learning_shares(model.layout, model.learning(seat))
-        for _ in range(1 + (PINNINGS if step.postures else 0)):
+        is_far = bool(step.postures) or bool(far_rays(beliefs.merged()[1], step.shown).any())
+        for _ in range(1 + (PINNINGS if is_far else 0)):
             line = _line(model, *nearest.merged(), seat)
             palm_part = model.palm_part(line, seat)
             nearest = corrected(beliefs, line, step.measured, step.variance, palm_part, shares).beliefs

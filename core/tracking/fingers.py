@@ -10,18 +10,21 @@ from numpy.typing import NDArray
 
 from core.calibration.result import Calibration
 from core.camera import Camera
-from core.tracking.finger_model import SHOWS, FingerModel, Seat, ray_view
+from core.tracking.finger_model import FingerModel, Seat, ray_view
 from core.tracking.finger_naming import (
     FingerScene,
     NamedFingers,
+    beyond_reach,
     corrected_as_named,
+    far_rays,
     name_fingers,
     seen_chance,
     tilt_to,
     tilt_variance,
+    without,
 )
 from core.tracking.finger_smoother import FingerStart, FingerStep
-from core.tracking.hand_geometry import DISCS, RAYS, SLOTS, JointMoment
+from core.tracking.hand_geometry import DISCS, RAYS, SHOWS, SLOTS, JointMoment
 from core.tracking.joint_association import holds_together
 from core.tracking.joint_limits import constrained
 from core.tracking.measurement import View
@@ -157,8 +160,8 @@ class Fingers:
         ``area_px`` (D,) of the blobs.
         """
         beliefs, points = self._ahead_at(timestamp_s, dt_s)
-        trial = self._tried(beliefs, points, dt_s, seat, blobs, area_px, free)
-        anew = self._searched(trial, points, seat, blobs, free)
+        trial, given_up = self._found_far(beliefs, self._tried(beliefs, points, dt_s, seat, blobs, area_px, free))
+        anew = self._searched(trial, points, seat, blobs, free, given_up)
         if not anew:
             return trial
         rays = np.array(list(anew))
@@ -168,8 +171,22 @@ class Fingers:
         better = np.count_nonzero(other.blob[rays] >= 0) > np.count_nonzero(trial.blob[rays] >= 0)
         return replace(other, postures=anew) if better and other.holds_together(rays) else trial
 
+    def _found_far(self, beliefs: RayBeliefs, trial: FingerTrial) -> tuple[FingerTrial, NDArray[np.bool_]]:
+        """The trial, its line drawn anew where joints may be far from where they were expected (iterated posterior
+        linearisation, Garcia-Fernandez 2015), and rays (5,) given up because they would be where they cannot be."""
+        far = far_rays(trial.scene.covariance, trial.blob >= 0)
+        if not far.any():
+            return trial, far
+        pinned = self._pinned(beliefs, trial)
+        wrong = far & beyond_reach(*pinned.named.update.beliefs.merged())
+        wrong |= far & np.array([not pinned.holds_together(np.array([ray])) for ray in range(RAYS)])
+        if not wrong.any():
+            return pinned, wrong
+        discs = np.repeat(wrong[:, None], DISCS, axis=1)
+        return replace(pinned, named=without(discs, pinned.named, beliefs, pinned.scene, self._settings)), wrong
+
     def _pinned(self, beliefs: RayBeliefs, trial: FingerTrial) -> FingerTrial:
-        """The same names, the line drawn anew about what they say: a posture of the grid is some way off."""
+        """The same names, the line drawn anew about what they say: what was expected is some way off."""
         for _ in range(PINNINGS):
             nearer = spread_points(
                 *trial.named.update.beliefs.merged(), self._palm.disc_m[1:], self.model.layout, self._settings.spread
@@ -181,11 +198,18 @@ class Fingers:
         return trial
 
     def _searched(
-        self, trial: FingerTrial, points: RayPoints, seat: Seat, blobs: Measurable, free: NDArray[np.bool_]
+        self,
+        trial: FingerTrial,
+        points: RayPoints,
+        seat: Seat,
+        blobs: Measurable,
+        free: NDArray[np.bool_],
+        given_up: NDArray[np.bool_],
     ) -> dict[int, FloatArray]:
-        """Postures (5,) of rays that have been missing for some frames, if the blobs left over show them."""
+        """Postures (5,) of rays just given up or missing for some frames, if the blobs left over show them."""
         named = np.count_nonzero(trial.blob >= 0, axis=1)
-        rays = np.flatnonzero((named < LEAST_DISCS) & (self._missing >= _PATIENCE) & (self._missing % 2 == 0))
+        is_due = given_up | ((self._missing >= _PATIENCE) & (self._missing % 2 == 0))
+        rays = np.flatnonzero((named < LEAST_DISCS) & is_due)
         if not rays.size:
             return {}
         spare = free & np.isfinite(blobs.value[:, 2])
@@ -212,6 +236,7 @@ class Fingers:
         shift = self.model.palm_part(line, seat)
         facing_m2 = np.maximum(np.cos(tilt), _LEAST_FACING) * (seat.view.camera.fx_px / line.centre_m[..., 2]) ** 2
         scene = FingerScene(
+            points.covariance,
             line,
             line.spread + shift,
             shift,

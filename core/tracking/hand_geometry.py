@@ -26,6 +26,11 @@ DISCS = 3
 RAY_MARKERS = np.array(HAND21_CHAINS)[:, 2:]
 """Places (5, 3) of the rays' discs in ``hand21``."""
 
+# The first disc that moves with a slot: 0 the first of the ray's three; 3 none.
+_FIRST_DISC = np.array([[0, 0, 1, 1, 2], *([0, 0, 1, 2, 3],) * 4])
+SHOWS = np.arange(DISCS) >= _FIRST_DISC[..., None]
+"""(5, 5, 3) whether a disc moves with a slot."""
+
 CROWDED_SD_PX = 0.5
 """How far the centre of a disc strays that nearly touches its neighbour on the finger: their edges blur into one."""
 _CROWDED = 2.4

@@ -30,7 +30,7 @@ from core.tracking.unscented import Spread, weights_for
 from core.types import FloatArray
 
 PINNINGS = 2
-"""How often the line of a ray found anew is drawn again about what the discs say: the posture found is some way off."""
+"""How often the line of a ray found far from where it was expected is drawn again about what its discs say."""
 _FLOOR = 1e-14
 _SEEN = {
     False: np.arange(SLOTS + CONSTANTS),

@@ -37,3 +37,16 @@ def test_joints_hidden_say_so(runs: list[HandRun]) -> None:
     hidden = np.concatenate([run.joint_sd_deg[~run.seen] for run in runs])
     seen = np.concatenate([run.joint_sd_deg[run.seen] for run in runs])
     assert np.nanmean(hidden) > 2.0 * np.nanmean(seen)
+
+
+def test_fingers_found_again_are_where_they_say() -> None:
+    """Expected anywhere in their range, fingers come back to postures far from where the line was drawn, and blobs that
+    are no discs lie where discs might."""
+    row = next(row for row in ROWS if row.name == "leaves and returns")
+    for number in (0, 1, 3):
+        with threadpool_limits(1):
+            run = run_on_blobs(row, row.spec(number, FIRST_SEED))
+        off = run.seen & (np.abs(run.joint_deg) > 12.0)
+        surely = off & (np.abs(run.joint_deg) > 4.0 * run.joint_sd_deg)
+        assert surely.any(axis=1).sum() <= 1
+        assert run.longest_wrong_s < 0.3
