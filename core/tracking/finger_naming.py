@@ -111,7 +111,7 @@ def _lone(names: FingerNames, scene: FingerScene) -> NDArray[np.bool_]:
     is_named = names.taken >= 0
     lone = is_named & (is_named.sum(axis=1) == 1)[:, None] & (scene.visible < _WAS_SEEN)
     lone[:, 0] = False
-    return lone & far_rays(scene.covariance, is_named)[:, None]
+    return np.asarray(lone & far_rays(scene.covariance, is_named)[:, None])
 
 
 def far_rays(covariance: FloatArray, named: NDArray[np.bool_]) -> NDArray[np.bool_]:
