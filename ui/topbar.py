@@ -17,6 +17,7 @@ from ui.icons import paint_mark, paint_state
 from ui.theme import MARGIN_PX, TIGHT_BELOW_PX, Theme
 
 BAR_PX = 56
+MOST_NAME_PX = 190
 RECORDING_LINE_PX = 3
 
 
@@ -90,12 +91,18 @@ class TopBar(QWidget):
 
     def show_place(self, pseudonym: str, where: str) -> None:
         """Whose session this is, and hand and exercise; empty on the first screen."""
-        self.back_button.set_face(pseudonym)
+        self.back_button.set_face(self._elided(pseudonym))
+        self.back_button.setToolTip(pseudonym)
         self.back_button.setAccessibleName(self.tr("Back from {name}").format(name=pseudonym))
         for widget in (self._bar_line, self.back_button):
             widget.setVisible(bool(pseudonym))
         self.where.setText(where)
         self._fit()
+
+    def _elided(self, pseudonym: str) -> str:
+        """A long name must not push the way through the session aside."""
+        face = font(14 * self._theme.text_scale, SEMIBOLD)
+        return QFontMetricsF(face).elidedText(pseudonym, Qt.TextElideMode.ElideRight, self._theme.px(MOST_NAME_PX))
 
     def show_steps(self, names: Sequence[str], current: int) -> None:
         """The way through the set-up: done, here, to come."""

@@ -6,13 +6,14 @@ from dataclasses import replace
 from datetime import date, datetime
 
 import pytest
-from PySide6.QtCore import Qt
+from PySide6.QtCore import QRectF, QSize, Qt
 from pytestqt.qtbot import QtBot
 
 from tests.ui.fakes import FakeStore
 from ui.numbers import clock, clock_tenths, days_ago, degrees, ordinal, spread, with_spread
 from ui.patients.listing import cells
 from ui.patients.screen import PatientsScreen
+from ui.picture.photo import fitted
 from ui.ports import PRACTICE_PATIENT
 from ui.terms import LEGAL_SENTENCE
 from ui.theme import Theme
@@ -178,3 +179,27 @@ def test_nothing_moves_while_a_search_finds_nobody(qtbot: QtBot, screen: Patient
     qtbot.waitUntil(lambda: not screen.card.isVisible())
     screen.layout().activate()
     assert (screen.search.geometry(), screen.new_button.geometry()) == before
+
+
+def test_a_long_name_moves_no_button_and_widens_nothing(qtbot: QtBot, screen: PatientsScreen, store: FakeStore) -> None:
+    screen.refresh("linden")
+    screen.layout().activate()
+    edit, card = screen.card.edit_button, screen.card
+    before = edit.geometry(), card.geometry(), screen.list.geometry()
+    place = next(n for n, row in enumerate(store.rows) if row.patient_id == "linden")
+    store.rows[place] = replace(store.rows[place], pseudonym="Blue Hummingbird Mountain 42 and more of it")
+    screen.refresh("linden")
+    screen.layout().activate()
+    qtbot.wait(1)
+    assert (edit.geometry(), card.geometry(), screen.list.geometry()) == before
+    assert card._name.shown_text.startswith("Blue Humm")
+    assert card._name.shown_text.endswith("…")
+    assert "and more of it" in card._name.toolTip()
+
+
+def test_a_picture_keeps_its_shape_whole() -> None:
+    for size, room in ((QSize(300, 280), QRectF(0, 0, 465, 185)), (QSize(300, 280), QRectF(3, 3, 152, 112))):
+        box = fitted(size, room)
+        assert room.contains(box)
+        assert box.width() / box.height() == pytest.approx(300 / 280)
+        assert box.width() == pytest.approx(room.width()) or box.height() == pytest.approx(room.height())

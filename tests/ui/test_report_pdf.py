@@ -118,6 +118,14 @@ def test_nothing_is_painted_outside_the_margins(report: Path, tmp_path: Path) ->
     assert (grey[inside] < 100).any()
 
 
+def test_a_long_name_and_exercise_stay_within_the_margins(tmp_path: Path) -> None:
+    path = write_session_report(session(), tmp_path / "x.pdf", pseudonym="Blue Hummingbird Mountain 42 and more of")
+    boxes = tool("pdftotext", "-bbox", "-f", "1", "-l", "1", str(path), "-")
+    right = max(float(found) for found in re.findall(r'xMax="([0-9.]+)"', boxes))
+    assert right <= 595.28 - 42.52 + 2.0
+    assert "Blue Hummingbird Mountain 42 and more of" in words_of(path)
+
+
 @pytest.mark.parametrize("exercise", ["WRIST_FE", "WRIST_RU", "FOREARM_PS", "FREE", "something old"])
 def test_every_exercise_fits_the_page(tmp_path: Path, exercise: str) -> None:
     motion = {"WRIST_RU": "deviation", "FOREARM_PS": "pronosupination", "FREE": "mixed"}.get(exercise, "flexion")

@@ -53,6 +53,26 @@ class Text(QLabel):
         self.setPalette(palette)
 
 
+class ElidedText(Text):
+    """One line that never asks for room: what does not fit is left out at its end, and told by the tooltip."""
+
+    def __init__(
+        self, theme: Theme, text: str = "", size_px: int = 14, weight: int = REGULAR, token: str = "text"
+    ) -> None:
+        super().__init__(theme, text, size_px, weight, token)
+        self.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Preferred)
+
+    @property
+    def shown_text(self) -> str:
+        """What there is room for."""
+        return self.fontMetrics().elidedText(self.text(), Qt.TextElideMode.ElideRight, self.width())
+
+    def paintEvent(self, event: QPaintEvent) -> None:
+        painter = QPainter(self)
+        painter.setPen(self.palette().color(QPalette.ColorRole.WindowText))
+        painter.drawText(self.rect(), int(Qt.AlignmentFlag.AlignVCenter | Qt.AlignmentFlag.AlignLeft), self.shown_text)
+
+
 def heading(theme: Theme, text: str = "", *, wrap: bool = False) -> Text:
     """The 28 px title of a page."""
     return Text(theme, text, 28, SEMIBOLD, wrap=wrap)

@@ -8,7 +8,7 @@ from PySide6.QtWidgets import QWidget
 
 from core.types import ByteImage
 from ui.picture.convert import image_of
-from ui.picture.photo import paint_label
+from ui.picture.photo import fitted, paint_label
 from ui.theme import CARD_RADIUS_PX, ON_PICTURE_LABEL, Theme
 
 SMALL_PX, LARGE_PX = (158, 138), (420, 335)
@@ -64,5 +64,5 @@ class LastPicture(QWidget):
         frame.addRoundedRect(QRectF(self.rect()), CARD_RADIUS_PX, CARD_RADIUS_PX)
         painter.fillPath(frame, QColor(ON_PICTURE_LABEL))
         room = QRectF(self.rect()).adjusted(3, 3, -3, -self._theme.px(23))
-        painter.drawImage(room, self._image)
+        painter.drawImage(fitted(self._image.size(), room), self._image)
         paint_label(painter, self._theme, self._label, 3, self.height() - self._theme.px(22))

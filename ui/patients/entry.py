@@ -16,6 +16,7 @@ from ui.ports import PatientEntry
 from ui.theme import Theme
 
 NOTE_HEIGHT_PX = 84
+MOST_LETTERS = 40
 
 
 class PatientForm(Sheet):
@@ -28,6 +29,7 @@ class PatientForm(Sheet):
         self._suggest = suggest
         self._title = Text(theme, "", 20, SEMIBOLD)
         self.name = QLineEdit()
+        self.name.setMaxLength(MOST_LETTERS)
         another = Button(theme, self.tr("&Another"), "plain", height_px=40)
         another.clicked.connect(lambda: self.name.setText(suggest()))
         name_row = QWidget()

@@ -1,4 +1,4 @@
-"""A still picture in a rounded frame, cropped to fill it, with a label on it."""
+"""A still picture in a rounded frame, whole and in its own shape, with a label on it."""
 
 from __future__ import annotations
 
@@ -13,6 +13,14 @@ from ui.picture.convert import image_of
 from ui.theme import CARD_RADIUS_PX, LIGHT, ON_PICTURE_LABEL, Theme
 
 LABEL_ALPHA = 180
+
+
+def fitted(size: QSize, room: QRectF) -> QRectF:
+    """The largest box of a picture's shape in the middle of a room: nothing of it is cut or stretched."""
+    scale = min(room.width() / max(size.width(), 1), room.height() / max(size.height(), 1))
+    box = QRectF(0.0, 0.0, scale * size.width(), scale * size.height())
+    box.moveCenter(room.center())
+    return box
 
 
 def paint_label(painter: QPainter, theme: Theme, text: str, left: float, top: float) -> QRectF:
@@ -78,10 +86,7 @@ class Photo(QWidget):
         frame = QPainterPath()
         frame.addRoundedRect(QRectF(self.rect()), CARD_RADIUS_PX, CARD_RADIUS_PX)
         painter.setClipPath(frame)
-        source = QRectF(self._image.rect())
-        scale = max(self.width() / source.width(), self.height() / source.height())
-        width, height = self.width() / scale, self.height() / scale
-        part = QRectF((source.width() - width) / 2, (source.height() - height) / 2, width, height)
-        painter.drawImage(QRectF(self.rect()), self._image, part)
+        painter.fillRect(self.rect(), QColor(ON_PICTURE_LABEL))
+        painter.drawImage(fitted(self._image.size(), QRectF(self.rect())), self._image)
         if self._label:
             paint_label(painter, self._theme, self._label, 10, 10)

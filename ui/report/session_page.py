@@ -97,8 +97,13 @@ def paint_head(page: Page, kind: str, pseudonym: str, what: str) -> float:
     paint_mark(page.painter, page.box(page.left, top, 15, 15), QColor(LIGHT.accent))
     page.text("Carpus", page.left + 20, top + 12, 11.5, SEMIBOLD)
     page.text_right(kind, page.right, top + 12, 8.5, REGULAR, "text2")
-    end = page.text(pseudonym, page.left, top + 46, 21.0, SEMIBOLD)
-    page.text(what, end + 11, top + 46, 14.0, REGULAR, "text2")
+    size, beside = 21.0, 14.0
+    while size > 9.0 and page.width_of(pseudonym, size, SEMIBOLD) + 11 + page.width_of(what, beside) > (
+        page.right - page.left
+    ):
+        size, beside = size - 0.5, max(9.0, beside - 0.25)
+    end = page.text(pseudonym, page.left, top + 46, size, SEMIBOLD)
+    page.text(what, end + 11, top + 46, beside, REGULAR, "text2")
     page.rule(top + 57)
     return top + 57
 
@@ -124,7 +129,7 @@ def _paint_facts(page: Page, report: SessionReport, top: float) -> float:
     page.facts(pairs, top + 5, (0.0, 0.25, 0.44, 0.67, 0.81))
     width = page.right - page.left
     for words in warnings(figures):
-        top = page.paragraph(words, page.left, top + 31, width, 8.5, SEMIBOLD, "warn") - 31
+        top = page.paragraph(words, page.left, top + 35, width, 8.5, SEMIBOLD, "warn") - 33
     page.rule(top + 36)
     return top + 36
 

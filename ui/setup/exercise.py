@@ -13,6 +13,7 @@ from core.types import Side
 from ui import terms
 from ui.controls.button import Button
 from ui.controls.card import Card
+from ui.controls.column import scrolled
 from ui.controls.field import Choices, DegreesField, Labelled, number_field
 from ui.controls.text import SEMIBOLD, Text, heading
 from ui.figures import figure_of
@@ -74,12 +75,15 @@ class ExerciseScreen(QWidget):
         left.setSpacing(16)
         left.addWidget(heading(theme, self.tr("Which exercise?")))
         left.addWidget(self.protocol)
+        offered = QVBoxLayout()
         for options in self.lists.values():
-            left.addWidget(options, 1)
+            offered.addWidget(options, 1)
+        left.addWidget(scrolled(offered), 1)
         self._card = Card(theme, 24)
-        body = self._card.body
+        self._card.body.setSpacing(12)
+        self._card.body.addWidget(Text(theme, self.tr("This set"), 20, SEMIBOLD))
+        body = QVBoxLayout()
         body.setSpacing(16)
-        body.addWidget(Text(theme, self.tr("This set"), 20, SEMIBOLD))
         body.addWidget(Labelled(theme, self.tr("Hand that is measured"), self.side))
         self._repetition_field = Labelled(theme, self.tr("Repetitions"), self.repetitions)
         body.addWidget(self._repetition_field)
@@ -93,7 +97,8 @@ class ExerciseScreen(QWidget):
         body.addWidget(Labelled(theme, self.tr("Keep the pictures too"), self.pictures))
         body.addWidget(self.view)
         body.addStretch(1)
-        body.addWidget(self.primary)
+        self._card.body.addWidget(scrolled(body), 1)
+        self._card.body.addWidget(self.primary)
         columns = QHBoxLayout(self)
         columns.setContentsMargins(MARGIN_PX, MARGIN_PX - 4, MARGIN_PX, MARGIN_PX - 4)
         columns.setSpacing(MARGIN_PX)
