@@ -19,7 +19,7 @@ from app.desktop.printing import Printing
 from app.desktop.sources import OpenSource, Sources
 from app.desktop.teller import Teller
 from app.settings import Settings
-from core.output.exercises import EXERCISES
+from core.output.exercises import EXERCISES, exercise_named
 from core.pipeline.live_values import LiveCounters
 from core.types import Side
 from ui import numbers, terms
@@ -286,7 +286,8 @@ class Journey(QObject):
         assert self.patient is not None
         self.session_id = session_id
         may_repeat = self.source is None or not self.source.measuring.starts_with_recording
-        self.review.begin(self.patient.patient_id, session_id, may_repeat=may_repeat)
+        protocol = exercise_named(self._parts.library.entry(session_id).exercise).protocol
+        self.review.begin(self.patient.patient_id, session_id, may_repeat=may_repeat, whole_hand=protocol.has_fingers)
         self._go("review", self.review, self.review)
 
     def _review_newest(self, patient_id: str) -> None:

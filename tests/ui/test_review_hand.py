@@ -7,7 +7,9 @@ from collections.abc import Iterator
 
 import numpy as np
 import pytest
-from PySide6.QtCore import Qt
+from PySide6.QtCore import QPoint, QPointF, QRect, Qt
+from PySide6.QtGui import QWheelEvent
+from PySide6.QtWidgets import QApplication, QWidget
 from pytestqt.qtbot import QtBot
 
 from core.hand.protocols import HAND21, HAND21_CHAINS
@@ -124,3 +126,60 @@ def test_the_skeleton_goes_from_the_wrist_to_each_tip(store: FakeHandSessions) -
     seen = np.isfinite(session.markers.measured_px)
     assert np.abs(places - session.markers.measured_px)[seen].max() < 2.0
     assert np.isnan(places[session.status == 2]).all()
+
+
+def test_the_places_are_final_before_the_session_is_read(qtbot: QtBot, theme: Theme, store: FakeHandSessions) -> None:
+    background = Background()
+    screen = ReviewScreen(theme, Keys(), background, store)
+    qtbot.addWidget(screen)
+    screen.resize(1280, 744)
+    screen.show()
+
+    def places() -> list[QRect]:
+        QApplication.processEvents()
+        parts = (screen.picture, screen.curves, screen.hand_table, screen.finger, screen.player)
+        return [QRect(part.mapTo(screen, part.rect().topLeft()), part.size()) for part in parts]
+
+    screen.begin("linden", "hand-7", whole_hand=True)
+    before = places()
+    assert not screen.shown
+    qtbot.waitUntil(lambda: screen.shown and not background.busy)
+    assert places() == before
+    screen.end()
+
+
+def test_the_wheel_shows_less_time_about_the_mouse_and_a_double_click_the_repetitions(
+    qtbot: QtBot, screen: ReviewScreen
+) -> None:
+    curves = screen.curves
+    whole = plot_of(screen).shown_s
+    assert whole == (0.0, plot_of(screen).end_s)
+    box = curves.panels()[0][0].box
+    at = QPointF(box.left() + 0.25 * box.width(), box.center().y())
+    time_s = curves._time_at(at.x())
+    for _ in range(4):
+        wheel(curves, at, 120)
+    start_s, end_s = plot_of(screen).shown_s
+    assert end_s - start_s == pytest.approx((whole[1] - whole[0]) / 1.25**4)
+    assert curves._time_at(at.x()) == pytest.approx(time_s)
+    screen.seek(whole[1] - 0.5)  # what is shown follows the cursor
+    assert plot_of(screen).shown_s[1] == pytest.approx(whole[1])
+    for _ in range(30):
+        wheel(curves, at, -120)
+    assert plot_of(screen).window_s is None
+    qtbot.mouseDClick(curves, Qt.MouseButton.LeftButton, pos=at.toPoint())
+    repetitions = plot_of(screen).repetitions
+    start_s, end_s = plot_of(screen).shown_s
+    assert 0.0 <= start_s <= repetitions[0].start_s
+    assert repetitions[-1].end_s <= end_s <= whole[1]
+    assert plot_of(screen).window_s == plot_of(screen).repetitions_s
+    qtbot.mouseDClick(curves, Qt.MouseButton.LeftButton, pos=at.toPoint())
+    assert plot_of(screen).shown_s == whole
+
+
+def wheel(widget: QWidget, at: QPointF, turn: int) -> None:
+    event = QWheelEvent(
+        at, at, QPoint(), QPoint(0, turn), Qt.MouseButton.NoButton, Qt.KeyboardModifier.NoModifier,
+        Qt.ScrollPhase.NoScrollPhase, False,
+    )  # fmt: skip
+    QApplication.sendEvent(widget, event)

@@ -29,6 +29,8 @@ from ui.theme import (
 
 LOUPE_PX, LOUPE_TIMES = 204, 8.0
 GRAB_PX = 12.0
+LABEL_ROOM_PX = 150.0
+"""Beside a disc, for its name: the loupe covers neither."""
 RING_LEAST_PX = 12.0
 ARROWS = {
     Qt.Key.Key_Left: (-1.0, 0.0), Qt.Key.Key_Right: (1.0, 0.0),
@@ -265,7 +267,7 @@ class MarkerPicture(PictureView):
         right, left = QRectF(self.width() - size - 14, 14, size, size), QRectF(14, 14, size, size)
         if self.clicking is not None and self._discs_in(left) < self._discs_in(right):
             right, left = left, right
-        looked_at = self.cursor_px is not None and right.adjusted(-60, -30, 60, 30).contains(
+        looked_at = self.cursor_px is not None and right.adjusted(-LABEL_ROOM_PX, -40, LABEL_ROOM_PX, 40).contains(
             self.to_screen(*map(float, self.cursor_px))
         )
         return left if looked_at else right

@@ -48,6 +48,17 @@ def thinned(series: Series, columns: int) -> Series:
     )  # fmt: skip
 
 
+def within(series: Series, start_s: float, end_s: float) -> Series:
+    """The samples of a stretch of time, with one beyond each end so that the line goes to the edge."""
+    first = max(int(np.searchsorted(series.time_s, start_s)) - 1, 0)
+    last = int(np.searchsorted(series.time_s, end_s, side="right")) + 1
+    if first == 0 and last >= len(series.time_s):
+        return series
+    part = slice(first, last)
+    sd = None if series.sd is None else series.sd[part]
+    return Series(series.time_s[part], series.value[part], sd, series.predicted[part], series.longest_step_s)
+
+
 def _with_gaps(series: Series) -> Series:
     """A sample without a value in the middle of each step that is too long to be joined."""
     before = np.flatnonzero(np.diff(series.time_s) > series.longest_step_s)

@@ -6,7 +6,16 @@ import math
 from dataclasses import replace
 
 from PySide6.QtCore import QPointF, QRectF, QSize, Qt, Signal
-from PySide6.QtGui import QFontMetricsF, QMouseEvent, QPainter, QPaintEvent, QPen, QPixmap, QResizeEvent
+from PySide6.QtGui import (
+    QFontMetricsF,
+    QMouseEvent,
+    QPainter,
+    QPaintEvent,
+    QPen,
+    QPixmap,
+    QResizeEvent,
+    QWheelEvent,
+)  # fmt: skip
 from PySide6.QtWidgets import QSizePolicy, QWidget
 
 from core.output.exercises import SIDES
@@ -24,6 +33,8 @@ LEFT_PX, RIGHT_PX, TOP_PX, BOTTOM_PX, BETWEEN_PX = 122, 108, 38, 30, 18
 HAND_BETWEEN_PX = 8
 GRIP_PX = 16
 """Half the width of the target around an edge: the grip is 8 px wide, the target 32."""
+SHORTEST_S, ZOOM_STEP = 2.0, 1.25
+"""Shortest stretch of time that is shown, and how much a notch of the wheel changes it."""
 EDGES_S = 0.2
 """Least length a repetition can be cut to."""
 
@@ -40,6 +51,7 @@ class CurveView(QWidget):
         self._plot: SessionPlot | None = None
         self._time_s = 0.0
         self._still: QPixmap | None = None
+        self._window_s: tuple[float, float] | None = None
         self._dragged_edge = -1
         self._single = False
         self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Expanding)
@@ -48,9 +60,20 @@ class CurveView(QWidget):
         theme.changed.connect(self._forget)
 
     def show_plot(self, plot: SessionPlot) -> None:
-        """Draw another session, or the same with other repetitions."""
-        self._plot = plot
+        """Draw another session, or the same with other repetitions, where it was looked at."""
+        self._plot = replace(plot, window_s=self._window_s)
         self._forget()
+
+    def clear(self) -> None:
+        """Nothing, as before another session is there."""
+        self._plot = self._window_s = None
+        self._forget()
+
+    def show_window(self, window_s: tuple[float, float] | None) -> None:
+        """Show a part of the time axis, or all of it."""
+        self._window_s = window_s
+        if self._plot is not None:
+            self.show_plot(self._plot)
 
     def show_single(self, on: bool) -> None:
         """Only the trained angle, where large text leaves no room for three."""
@@ -59,8 +82,13 @@ class CurveView(QWidget):
             self._forget()
 
     def set_time(self, time_s: float) -> None:
-        """Put the cursor."""
+        """Put the cursor; what is shown goes on with it."""
         self._time_s = time_s
+        if self._window_s is not None and self._plot is not None and not self._dragged_edge >= 0:
+            start_s, end_s = self._window_s
+            if not start_s <= time_s <= end_s:
+                begin_s = min(max(time_s - 0.1 * (end_s - start_s), 0.0), self._plot.end_s - (end_s - start_s))
+                self.show_window((begin_s, begin_s + end_s - start_s))
         self.update()
 
     def _forget(self) -> None:
@@ -96,6 +124,8 @@ class CurveView(QWidget):
         style, panels = screen_style(self._theme), self.panels()
         paint_edges(painter, style, self._plot, panels)
         x = float(panels[0][0].x(self._time_s))
+        if not panels[0][0].box.left() <= x <= panels[0][0].box.right():
+            return
         painter.setPen(QPen(self._theme.color("text"), 1.5))
         for panel, _ in panels:
             painter.drawLine(QPointF(x, panel.box.top() - 2), QPointF(x, panel.box.bottom() + 2))
@@ -138,6 +168,9 @@ class CurveView(QWidget):
                 painter.setFont(style.label)
                 painter.setPen(style.color("text2"))
                 painter.drawText(QPointF(20, (TOP_PX - 7) * self._theme.text_scale), self.tr("Repetitions"))
+            painter.setFont(style.label)
+            painter.setPen(style.color("text2"))
+            painter.drawText(QPointF(20, self.height() - 10 * self._theme.text_scale), self.tr("Wheel: zoom"))
             if isinstance(self._plot, HandPlot):
                 paint_hand_session(painter, style, self._plot, self.panels())
             else:
@@ -162,7 +195,29 @@ class CurveView(QWidget):
     def _time_at(self, x: float) -> float:
         panel = self.panels()[0][0]
         share = (x - panel.box.left()) / max(panel.box.width(), 1.0)
-        return min(max(share, 0.0), 1.0) * panel.end_s
+        return panel.start_s + min(max(share, 0.0), 1.0) * (panel.end_s - panel.start_s)
+
+    def wheelEvent(self, event: QWheelEvent) -> None:
+        """Longer or shorter a time about the mouse; sideways, or with Shift, along the session."""
+        plot = self._plot
+        if plot is None:
+            return
+        start_s, end_s = plot.shown_s
+        along, turn = event.angleDelta().x(), event.angleDelta().y()
+        if event.modifiers() & Qt.KeyboardModifier.ShiftModifier:
+            along, turn = along or turn, 0
+        span_s = min(max((end_s - start_s) * ZOOM_STEP ** (-turn / 120.0), min(SHORTEST_S, plot.end_s)), plot.end_s)
+        at_s = self._time_at(event.position().x())
+        begin_s = at_s - (at_s - start_s) / (end_s - start_s) * span_s - along / 120.0 * 0.1 * span_s
+        begin_s = min(max(begin_s, 0.0), plot.end_s - span_s)
+        whole = span_s >= plot.end_s - 1e-6
+        self.show_window(None if whole else (begin_s, begin_s + span_s))
+        event.accept()
+
+    def mouseDoubleClickEvent(self, event: QMouseEvent) -> None:
+        """The repetitions alone, and the whole again."""
+        if self._plot is not None:
+            self.show_window(self._plot.repetitions_s if self._window_s is None else None)
 
     def mousePressEvent(self, event: QMouseEvent) -> None:
         if self._plot is None or event.button() != Qt.MouseButton.LeftButton:

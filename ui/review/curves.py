@@ -18,8 +18,11 @@ from ui.plot import axes
 from ui.plot.axes import Panel
 from ui.plot.series import LONGEST_STEP_S, Series, paint_series
 from ui.plot.style import CURVE_TOKENS, PlotStyle
-from ui.plot.thin import thinned
+from ui.plot.thin import thinned, within
 from ui.translate import tr
+
+BESIDE_S = 1.0
+"""Shown before the first and after the last repetition where the rest is left away."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -32,6 +35,21 @@ class SessionPlot:
     current: int = -1
     target_positive_deg: float = math.nan
     target_negative_deg: float = math.nan
+    window_s: tuple[float, float] | None = None
+    """The part of the time axis that is shown; None for all of it."""
+
+    @property
+    def shown_s(self) -> tuple[float, float]:
+        """Left and right end of what is shown."""
+        return self.window_s or (0.0, self.end_s)
+
+    @property
+    def repetitions_s(self) -> tuple[float, float]:
+        """From shortly before the first repetition to shortly after the last; the whole where there is none."""
+        if not self.repetitions:
+            return 0.0, self.end_s
+        start_s, end_s = self.repetitions[0].start_s, max(repetition.end_s for repetition in self.repetitions)
+        return max(start_s - BESIDE_S, 0.0), min(end_s + BESIDE_S, self.end_s)
 
     @property
     def end_s(self) -> float:
@@ -63,7 +81,7 @@ def place_panels(plot: SessionPlot, box: QRectF, between: float, *, single: bool
         height = unit * (2 if place == 0 else 1)
         upper, lower = (terms.movement_name(name) for name in SIDES[column])
         scale = axes.angle_scale(AXIS_TICK_DEG[column], AXIS_LIMIT_DEG[column], upper, lower, tight=place > 0)
-        out.append((Panel(QRectF(box.left(), top, box.width(), height), scale, 0.0, plot.end_s), column))
+        out.append((Panel(QRectF(box.left(), top, box.width(), height), scale, *plot.shown_s), column))
         top += height + between
     return out
 
@@ -87,18 +105,19 @@ def paint_session(painter: QPainter, style: PlotStyle, plot: SessionPlot, panels
                     )
         painter.save()
         painter.setClipRect(panel.box.adjusted(0, -2, 0, 2).toAlignedRect(), Qt.ClipOperation.IntersectClip)
-        series = thinned(plot.series(column), max(200, int(panel.box.width() / style.unit)))
+        series = thinned(within(plot.series(column), *plot.shown_s), max(200, int(panel.box.width() / style.unit)))
         paint_series(painter, style, panel, series, CURVE_TOKENS[column])
         painter.restore()
     last = panels[-1][0]
-    axes.paint_times(painter, style, last, last.box.bottom() + 6 * style.unit, time_labels(plot.end_s))
+    axes.paint_times(painter, style, last, last.box.bottom() + 6 * style.unit, time_labels(*plot.shown_s))
 
 
-def time_labels(end_s: float) -> list[tuple[float, str]]:
+def time_labels(start_s: float, end_s: float) -> list[tuple[float, str]]:
     """Round times along the axis, about six of them."""
-    step = next((step for step in (1, 2, 5, 10, 20, 30, 60, 120, 300, 600) if end_s / step <= 7), 1200)
-    ticks = np.arange(0, end_s + 1e-6, step)
-    return [(float(t), f"{t:.0f} s" if end_s <= 180 else numbers.clock(float(t))) for t in ticks]
+    span_s = end_s - start_s
+    step = next((step for step in (0.5, 1, 2, 5, 10, 20, 30, 60, 120, 300, 600) if span_s / step <= 7), 1200)
+    ticks = step * np.arange(math.ceil(start_s / step - 1e-6), math.floor(end_s / step + 1e-6) + 1)
+    return [(float(t), f"{t:g} s" if end_s <= 180 else numbers.clock(float(t))) for t in ticks]
 
 
 def value_at(curves: Curves, column: int, time_s: float) -> tuple[float, float]:
@@ -127,6 +146,9 @@ def _paint_shading(painter: QPainter, style: PlotStyle, plot: SessionPlot, panel
     for number, repetition in enumerate(plot.repetitions):
         left, right = float(panel.x(repetition.start_s)), float(panel.x(repetition.end_s))
         box = QRectF(left + style.unit, panel.box.top(), right - left - 2 * style.unit, panel.box.height())
+        box = box.intersected(panel.box)
+        if box.isEmpty():
+            continue
         painter.fillRect(box, style.color("soft" if number == plot.current else "sunken"))
         if not repetition.counts:
             axes.hatch(painter, style, box)
@@ -141,6 +163,8 @@ def _paint_numbers(painter: QPainter, style: PlotStyle, plot: SessionPlot, panel
         text = str(number + 1) if repetition.counts else tr("{number} out").format(number=number + 1)
         middle = float(panel.x(0.5 * (repetition.start_s + repetition.end_s)))
         width = metrics.horizontalAdvance(text)
+        if not panel.box.left() <= middle <= panel.box.right():
+            continue
         if middle - width / 2 < taken and number != plot.current:
             continue
         taken = middle + width / 2 + 4 * style.unit
@@ -157,6 +181,8 @@ def paint_edges(painter: QPainter, style: PlotStyle, plot: SessionPlot, panels: 
     repetition = plot.repetitions[plot.current]
     for time_s in (repetition.start_s, repetition.end_s):
         x = float(panel.x(time_s))
+        if not panel.box.left() - 1 <= x <= panel.box.right() + 1:
+            continue
         painter.setPen(QPen(style.color("accent"), 1.5))
         painter.drawLine(QPointF(x, panel.box.top()), QPointF(x, panel.box.bottom()))
         painter.setBrush(style.color("surface"))

@@ -19,7 +19,7 @@ from ui.plot import axes
 from ui.plot.axes import Panel, Scale
 from ui.plot.series import LONGEST_STEP_S, Series, paint_point, paint_series
 from ui.plot.style import PlotStyle
-from ui.plot.thin import thinned
+from ui.plot.thin import thinned, within
 from ui.review.curves import SessionPlot, paint_repetitions, row_at, time_labels
 from ui.translate import tr
 
@@ -64,7 +64,7 @@ def place_hand_panels(plot: HandPlot, box: QRectF, between: float, *, single: bo
     for place, weight in enumerate(weights):
         spread = bool(plot.finger) and place == 1
         area = QRectF(box.left(), top, box.width(), unit * weight)
-        out.append((Panel(area, _spread_scale() if spread else _bend_scale(plot.finger > 0), 0.0, plot.end_s), place))
+        out.append((Panel(area, _spread_scale() if spread else _bend_scale(plot.finger > 0), *plot.shown_s), place))
         top += unit * weight + between
     return out
 
@@ -94,13 +94,14 @@ def paint_hand_session(
         numbered: list[QRectF] = []
         for figure in plot.figures(place):
             series = plot.joint_series(figure)
+            series = None if series is None else within(series, *plot.shown_s)
             if series is None or (not plot.finger and bool(series.predicted[np.isfinite(series.value)].all())):
                 continue  # bound to another joint, or never seen: only where there is room for it
             most = max(200, int(panel.box.width() / style.unit))
             paint_series(painter, style, panel, thinned(series, most), figure.token, numbered)
         painter.restore()
     last = panels[-1][0]
-    axes.paint_times(painter, style, last, last.box.bottom() + 6 * style.unit, time_labels(plot.end_s))
+    axes.paint_times(painter, style, last, last.box.bottom() + 6 * style.unit, time_labels(*plot.shown_s))
 
 
 def _paint_name(painter: QPainter, style: PlotStyle, plot: HandPlot, panel: Panel, place: int) -> None:

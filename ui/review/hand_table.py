@@ -8,7 +8,7 @@ from PySide6.QtCore import QPointF, QRectF, QSize, Qt
 from PySide6.QtGui import QFont, QFontMetricsF, QPainter, QPaintEvent, QPen
 from PySide6.QtWidgets import QSizePolicy, QWidget
 
-from ui.figures import TOKENS
+from ui.figures import FINGERS, TOKENS
 from ui.fonts import MEDIUM, REGULAR, SEMIBOLD, font
 from ui.report.hand_rows import COLUMNS, FingerRow
 from ui.theme import Theme
@@ -49,7 +49,7 @@ class HandTable(QWidget):
         return self._rows
 
     def sizeHint(self) -> QSize:
-        return QSize(900, self._theme.px(HEAD_PX + ROW_PX * max(1, len(self._rows))))
+        return QSize(900, self._theme.px(HEAD_PX + ROW_PX * len(FINGERS)))
 
     def minimumSizeHint(self) -> QSize:
         return QSize(500, self.sizeHint().height())

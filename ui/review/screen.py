@@ -110,6 +110,7 @@ class ReviewScreen(QWidget):
         self.report_button = Button(
             theme, self.tr("Make report"), "primary", icon="file-text", hint="Ctrl+P", height_px=44
         )
+        self._is_hand = False
         self.reason = ReasonSheet(self, theme)
         self._lay_out()
         self._connect(keys)
@@ -173,7 +174,7 @@ class ReviewScreen(QWidget):
             return
         most = self.height() * (0.36 if tight else 0.48)
         needed = self.table.sizeHint().height()
-        if self._joints is not None:
+        if self._is_hand:
             words = self.limits.heightForWidth(max(self._scroll.width() - 24, 300))
             needed = self.hand_table.sizeHint().height() + self._below.spacing() + words + 10
         self._scroll.setFixedHeight(round(min(needed + 2, most)))
@@ -205,10 +206,16 @@ class ReviewScreen(QWidget):
             bind(self, keys, name, action)
 
     # --- life ---------------------------------------------------------------------------------------------
-    def begin(self, patient_id: str, session_id: str, *, may_repeat: bool = False) -> None:
-        """Read a session in the background, then show it."""
+    def begin(
+        self, patient_id: str, session_id: str, *, may_repeat: bool = False, whole_hand: bool | None = None
+    ) -> None:
+        """Read a session in the background, then show it. ``whole_hand`` where that is known: then everything has its
+        place at once."""
         self._session_id = session_id
         self._session = None
+        self.curves.clear()
+        if whole_hand is not None:
+            self._lay_out_for(whole_hand)
         self.again_button.setVisible(may_repeat)
         self.picture.clear(self.tr("Reading the session…"))
         store = self._store
@@ -244,9 +251,7 @@ class ReviewScreen(QWidget):
         self._joints = joint_curves(session)
         is_hand = self._joints is not None
         self._modelled_px = modelled_px(session.camera, session.markers.position_cam_m) if is_hand else None
-        for widget in (self.finger, self.hand_table, self.limits):
-            widget.setVisible(is_hand)
-        self.table.setVisible(not is_hand)
+        self._show_parts(is_hand)
         self._row = self._asked_row = -1
         self.picture.clear("")
         self.picture.set_hand_area(session.calibration.clicks.pixel)
@@ -258,6 +263,21 @@ class ReviewScreen(QWidget):
         self._refresh()
         self.seek(self.figures.repetitions[self._current].start_s if counted and self.figures else 0.0)
         self.arrived.emit()
+
+    def _lay_out_for(self, whole_hand: bool) -> None:
+        """The places of a session that is still being read, with nothing of the one before."""
+        self._joints = self.figures = None
+        self._show_parts(whole_hand)
+        self.count.setText("")
+        self.limits.setText("\n")
+        self.hand_table.show_rows((), ())
+        self._fit()
+
+    def _show_parts(self, whole_hand: bool) -> None:
+        self._is_hand = whole_hand
+        for widget in (self.finger, self.hand_table, self.limits):
+            widget.setVisible(whole_hand)
+        self.table.setVisible(not whole_hand)
 
     def _compute(self) -> None:
         if self._session is not None:
