@@ -18,12 +18,12 @@ class Sign(QWidget):
         super().__init__()
         self._theme = theme
         icon = StateText(theme, icon_px=18)
-        icon.show_state("warn", "")
         self._words = Text(theme, "", 14, MEDIUM, wrap=True)
         row = QHBoxLayout(self)
         row.setContentsMargins(MARGIN_PX, 5, MARGIN_PX, 5)
         row.setSpacing(10)
         row.addWidget(icon)
+        icon.show_state("warn", "")  # in its place by now: shown before, it would be a window of its own for a moment
         row.addWidget(self._words, 1)
         theme.changed.connect(self.update)
         self.show_lines(())
