@@ -10,6 +10,7 @@ from pathlib import Path
 from PySide6.QtCore import QObject, Qt, QTimer, Signal
 from PySide6.QtWidgets import QWidget
 
+from app.desktop.last_places import LastPlaces
 from app.desktop.library import Library, Recovered
 from app.desktop.live_events import LiveEvents
 from app.desktop.opening import Opener
@@ -72,6 +73,7 @@ class Journey(QObject):
         self.library, self.settings = parts.library, parts.settings
         self.background = Background()
         self.opener = Opener(parts.sources)
+        self.places = LastPlaces(parts.library.folder)
         self.teller = Teller(shell.stage, theme, parts.phrasebook)
         self.patients = PatientsScreen(theme, parts.patients, parts.today)
         self.exercise = ExerciseScreen(theme)
@@ -117,6 +119,7 @@ class Journey(QObject):
         self.patients.progress.connect(self._open_progress)
         self.exercise.ready.connect(self._choose_camera)
         self.camera.wanted.connect(self.open_source)
+        self.camera.picked.connect(lambda path: self.places.keep("recordings", str(Path(path).parent)))
         self.opener.opened.connect(self._source_opened)
         self.opener.failed.connect(self._source_failed)
         self.opener.progressed.connect(self.camera.show_progress)
@@ -136,6 +139,7 @@ class Journey(QObject):
         self.progress.table_wanted.connect(self.printing.table)
         self.progress.told.connect(self.teller.fault)
         self.report.told.connect(self.teller.fault)
+        self.report.saved.connect(lambda path: self.places.keep("reports", str(Path(path).parent)))
 
     # --- patients -----------------------------------------------------------------------------------------
     def show_patients(self, choose: str = "") -> None:
@@ -188,13 +192,14 @@ class Journey(QObject):
         """Render the practice patient's usual exercise now, so that nobody waits for it later."""
         nothing = float("nan")
         set_up = SetUp(PRACTICE_PATIENT, "", "right", EXERCISES[0], EXERCISES[0].repetitions, nothing, nothing)
-        self.opener.prepare(lambda progress: self._parts.sources.prepare_practice(set_up, progress))
+        self.opener.prepare(set_up)
         self.patients.refresh(PRACTICE_PATIENT)
 
     # --- set-up -------------------------------------------------------------------------------------------
     def _choose_camera(self, set_up: SetUp) -> None:
         self.close_source()
         self.set_up = set_up
+        self.camera.start_folder = self.places.folder("recordings")
         self.camera.begin(set_up, "practice" if set_up.patient_id == PRACTICE_PATIENT else self._kind)
         self._go("camera", self.camera, self.camera.first())
 
@@ -205,7 +210,7 @@ class Journey(QObject):
         words = {
             "camera": self.tr("The camera is being opened."),
             "file": self.tr("The recording is being opened."),
-            "practice": self.tr("The simulated patient is being drawn: once for each exercise, then it is kept."),
+            "practice": self.tr("The simulated patient is drawn: about half a minute, once for each exercise."),
         }[choice.kind]
         self.camera.show_opening(True, words)
         self.opener.open(choice, self.set_up)
@@ -303,6 +308,7 @@ class Journey(QObject):
 
     def _open_progress(self, patient_id: str) -> None:
         self._take_patient(patient_id)
+        self.progress.start_folder = self.places.folder("exports")
         self.progress.begin(patient_id, self.session_id)
         self._go("progress", self.progress, self.progress)
 

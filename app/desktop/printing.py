@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from PySide6.QtCore import QObject, QStandardPaths
+from PySide6.QtCore import QObject
 from PySide6.QtWidgets import QFileDialog
 
 from core.errors import OutputNotWritable
@@ -43,7 +43,7 @@ class Printing(QObject):
             )
 
         def show(report: SessionReport) -> None:
-            journey.report.begin(report, documents())
+            journey.report.begin(report, journey.places.folder("reports"))
             journey.show_report()
 
         journey.background.run(gather, show, journey.teller.fault)
@@ -60,14 +60,16 @@ class Printing(QObject):
                 therapist=therapist,
                 what=what if isinstance(what, str) else None,
             )
-            journey.report.begin(report, documents())
+            journey.report.begin(report, journey.places.folder("reports"))
             journey.show_report()
 
     def export(self, session_id: str) -> None:
         """Ask for a folder and write the open formats into it."""
         journey = self._journey
-        folder = QFileDialog.getExistingDirectory(journey.shell, self.tr("Export into a folder"), documents())
+        start = journey.places.folder("exports")
+        folder = QFileDialog.getExistingDirectory(journey.shell, self.tr("Export into a folder"), start)
         if folder:
+            journey.places.keep("exports", folder)
             journey.background.run(
                 lambda: journey.library.export(session_id, folder), lambda _: None, journey.teller.fault
             )
@@ -75,15 +77,11 @@ class Printing(QObject):
     def table(self, progress: Progress) -> None:
         """Ask for a name and write the sessions of the progress screen as CSV."""
         journey = self._journey
-        start = str(Path(documents()) / "progress.csv")
+        start = str(Path(journey.places.folder("exports")) / "progress.csv")
         path, _ = QFileDialog.getSaveFileName(journey.shell, self.tr("Save table"), start, "CSV (*.csv)")
         if path:
+            journey.places.keep("exports", str(Path(path).parent))
             journey.background.run(lambda: write_table(Path(path), progress), lambda _: None, journey.teller.fault)
-
-
-def documents() -> str:
-    """Where a person keeps papers."""
-    return QStandardPaths.writableLocation(QStandardPaths.StandardLocation.DocumentsLocation)
 
 
 def write_table(path: Path, progress: Progress) -> None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from pathlib import Path
 
 from PySide6.QtCore import Qt, Signal
 from PySide6.QtGui import QResizeEvent
@@ -35,6 +36,8 @@ class ProgressScreen(QWidget):
         super().__init__()
         self._theme, self._background, self._store = theme, background, store
         self._all: tuple[SessionFigures, ...] = ()
+        self.start_folder = ""
+        """Where saving a picture begins."""
         self._kinds: list[tuple[str, str]] = []
         self.progress = Progress((), (), None)
         self.exercise = QComboBox()
@@ -222,7 +225,8 @@ class ProgressScreen(QWidget):
         body.addWidget(Text(theme, words, 14, REGULAR, "text2", wrap=True))
 
     def _save_picture(self) -> None:
-        path, _ = QFileDialog.getSaveFileName(self, self.tr("Save picture"), self.tr("progress.png"), "PNG (*.png)")
+        start = str(Path(self.start_folder) / self.tr("progress.png"))
+        path, _ = QFileDialog.getSaveFileName(self, self.tr("Save picture"), start, "PNG (*.png)")
         if path:
             self.chart.picture().save(path)
 

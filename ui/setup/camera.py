@@ -19,15 +19,19 @@ from ui.theme import MARGIN_PX, Theme
 
 
 class CameraScreen(QWidget):
-    """``wanted`` carries the :class:`SourceChoice`."""
+    """``wanted`` carries the :class:`SourceChoice`; ``picked`` the path of a recording that was chosen."""
 
     wanted = Signal(object)
+    picked = Signal(str)
 
     def __init__(self, theme: Theme) -> None:
         super().__init__()
         self._theme = theme
         self._camera_there = False
         self._path = ""
+        self._patient_id = ""
+        self.start_folder = ""
+        """Where choosing a recording begins."""
         self._opening = False
         self.sources = Options(
             theme,
@@ -37,7 +41,7 @@ class CameraScreen(QWidget):
                 (
                     "practice",
                     self.tr("Simulated camera"),
-                    self.tr("A simulated hand does the exercise. To try things out."),
+                    self.tr("A simulated hand does the exercise, to try things out. It is marked as simulated."),
                 ),
             ],
         )
@@ -99,7 +103,9 @@ class CameraScreen(QWidget):
         self.progress.setFixedHeight(8)
 
     def begin(self, set_up: SetUp, kind: SourceKind) -> None:
-        """Ask for the source of this set."""
+        """Ask for the source of this set; a recording chosen for another patient is forgotten."""
+        if set_up.patient_id != self._patient_id:
+            self._patient_id, self._path = set_up.patient_id, ""
         self._show_exercise(set_up.exercise)
         self.show_opening(False)
         self.sources.choose(kind)
@@ -172,15 +178,17 @@ class CameraScreen(QWidget):
 
     def _ask_file(self) -> None:
         kinds = self.tr("Recordings (*.oni *.carpusraw);;All files (*)")
-        start = str(Path(self._path).parent) if self._path else ""
+        start = str(Path(self._path).parent) if self._path else self.start_folder
         path, _ = QFileDialog.getOpenFileName(self, self.tr("Choose a recording"), start, kinds)
         if path:
+            self.picked.emit(path)
             self.set_path(path)
             self.first().setFocus(Qt.FocusReason.OtherFocusReason)
 
     def _ask_folder(self) -> None:
-        start = str(Path(self._path).parent) if self._path else ""
+        start = str(Path(self._path).parent) if self._path else self.start_folder
         path = QFileDialog.getExistingDirectory(self, self.tr("Choose a folder of pictures"), start)
         if path:
+            self.picked.emit(path)
             self.set_path(path)
             self.first().setFocus(Qt.FocusReason.OtherFocusReason)

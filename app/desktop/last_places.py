@@ -1,0 +1,45 @@
+"""Where a person last opened and saved things; the folder for papers before the first time."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+from typing import Any, Literal
+
+from PySide6.QtCore import QStandardPaths
+
+Kind = Literal["recordings", "reports", "exports"]
+FILE = "last_places.json"
+
+
+class LastPlaces:
+    """A folder for each kind of thing, kept in the data folder; only a convenience, so nothing here is a fault."""
+
+    def __init__(self, folder: Path) -> None:
+        self._path = folder / FILE
+
+    def folder(self, kind: Kind) -> str:
+        """Where to begin looking: the last place if it is still there, else documents, else home."""
+        for candidate in (self._stored().get(kind), documents()):
+            if isinstance(candidate, str) and candidate and Path(candidate).is_dir():
+                return candidate
+        return str(Path.home())
+
+    def keep(self, kind: Kind, folder: str) -> None:
+        """Remember a folder."""
+        try:
+            self._path.write_text(json.dumps(self._stored() | {kind: folder}), encoding="utf-8")
+        except OSError:
+            return  # a full or read-only disk tells elsewhere
+
+    def _stored(self) -> dict[str, Any]:
+        try:
+            found = json.loads(self._path.read_text(encoding="utf-8"))
+        except (OSError, ValueError):
+            return {}
+        return found if isinstance(found, dict) else {}
+
+
+def documents() -> str:
+    """Where a person keeps papers."""
+    return QStandardPaths.writableLocation(QStandardPaths.StandardLocation.DocumentsLocation)
