@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import threading
-from collections.abc import Callable
 
 from PySide6.QtCore import QObject, Signal
 
@@ -31,21 +30,35 @@ class Opener(QObject):
         self._ending = threading.Event()
         self._ready: list[OpenSource] = []
         self._number = 0
+        self._preparing: tuple[str, str] | None = None
+        self._not_wanted = threading.Event()
         self._last_percent = -1
 
     def open(self, choice: SourceChoice, set_up: SetUp) -> None:
         """Begin; one of the two answers comes unless it is cancelled."""
         self._number += 1
         number = self._number
+        self._last_percent = -1
+        if choice.kind != "practice" or self._preparing != _take_of(set_up):
+            self._not_wanted.set()  # nobody waits for what is prepared: it would only take twice as long
         self._background.run(
             lambda: self._ready.append(self._sources.open(choice, set_up, self._progress)),
             lambda _: self._take(number),
             lambda fault: self._fail(number, fault),
         )
 
-    def prepare(self, work: Callable[[Callable[[int, int], None]], object]) -> None:
-        """Do something beforehand that a later opening would have to wait for; its fault is that one's to tell."""
-        self._background.run(lambda: work(self._progress), lambda _: None, lambda _: None)
+    def prepare(self, set_up: SetUp) -> None:
+        """Render the practice patient's take beforehand; its fault is a later opening's to tell. An opening of anything
+        else ends it: there is one bar, and it is of what one waits for."""
+        self._preparing = _take_of(set_up)
+        self._not_wanted.clear()
+
+        def progress(done: int, total: int) -> None:
+            if self._not_wanted.is_set():
+                raise _CancelledError
+            self._progress(done, total)
+
+        self._background.run(lambda: self._sources.prepare_practice(set_up, progress), lambda _: None, lambda _: None)
 
     def cancel(self) -> None:
         """Nobody waits any more: a source that still comes is closed."""
@@ -78,3 +91,8 @@ class Opener(QObject):
     def _fail(self, number: int, fault: Exception) -> None:
         if number == self._number and not isinstance(fault, _CancelledError):
             self.failed.emit(fault)
+
+
+def _take_of(set_up: SetUp) -> tuple[str, str]:
+    """Which simulated take belongs to a set-up."""
+    return set_up.exercise.id, set_up.side

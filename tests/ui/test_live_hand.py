@@ -20,6 +20,7 @@ from tests.ui.fakes import FakeFeed, FakeMeasuring, set_up
 from tests.ui.hand_fakes import hand_session
 from ui.background import Background
 from ui.figures import FIGURES, Figure, figure_of
+from ui.help.guide import chapters
 from ui.keys import Keys
 from ui.live.counting import RunningCount
 from ui.live.hand_words import hand_lamp, map_words
@@ -269,3 +270,9 @@ def test_light_map_cells_and_large_number_say_the_same_at_every_moment(qtbot: Qt
                 assert screen.joints.value(k)[2] != bool(hidden & {f"MCP{figure.finger}", f"PIP{figure.finger}"})
         assert math.isfinite(screen.number.reading.value_deg) != bool(hidden & {"MCP3", "PIP3"})
     assert ranks == {"good", "warn"}
+
+
+def test_the_help_covers_what_the_whole_hand_shows() -> None:
+    text = " ".join(paragraph for _, paragraphs in chapters() for paragraph in paragraphs)
+    for word in ("21", "≥", "TAM", "hide", "inferred", "straight finger", "F2", "F3", "Shift+F8", "nail", "zoom"):
+        assert word in text, word

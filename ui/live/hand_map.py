@@ -17,6 +17,8 @@ from ui.live.joint_history import Seen
 from ui.theme import Theme
 
 WORDS_PX = 172
+MOST_LINES = 4.2
+"""Lines of the sentence beside the map, below which the keys have room."""
 
 
 class HandMap(QWidget):
@@ -106,5 +108,12 @@ class HandMap(QWidget):
         y += 12 * scale
         painter.setFont(font(14 * scale, MEDIUM))
         painter.setPen(theme.color("text"))
+        keys = self.tr("F2 next joint · F3 next finger\nShift+F8 from the side")
+        small = font(12 * scale, REGULAR)
+        below = QFontMetricsF(small).height() * 2 + 12
         room = QRectF(left, y, self.width() - left - 14, self.height() - y - 8)
         painter.drawText(room, int(Qt.TextFlag.TextWordWrap), self.words())
+        if self.height() - below > y + QFontMetricsF(painter.font()).height() * MOST_LINES:
+            painter.setFont(small)
+            painter.setPen(theme.color("text2"))
+            painter.drawText(QRectF(left, self.height() - below, self.width() - left - 8, below), 0, keys)

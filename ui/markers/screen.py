@@ -60,7 +60,7 @@ class MarkersScreen(QWidget):
         self.panel = VerdictPanel(theme)
         self.primary = Button(theme, "", "primary")
         self.second = Button(theme, "", "plain", height_px=52)
-        self.start_angle = Button(theme, self.tr("Hand cannot lie straight…"), "quiet", height_px=32)
+        self.start_angle = Button(theme, self.tr("Wrist cannot lie straight…"), "quiet", height_px=32)
         self.although = Button(theme, self.tr("Start although &doubtful"), "quiet", height_px=32)
         self.take_rest = Button(theme, self.tr("Take all names"), "quiet", height_px=32)
         self.take_rest.hide()
@@ -338,7 +338,7 @@ class MarkersScreen(QWidget):
         self._start_angles_rad = angles_rad
         words = terms.start_angle_words(angles_rad)
         pattern = self.tr("Starts at {angles} (given)")
-        self.start_angle.set_face(pattern.format(angles=words) if words else self.tr("Hand cannot lie straight…"))
+        self.start_angle.set_face(pattern.format(angles=words) if words else self.tr("Wrist cannot lie straight…"))
         if self.clicking is not None and self.clicking.complete:
             self._changed()
 
@@ -443,7 +443,9 @@ class MarkersScreen(QWidget):
         assert self._calibrator is not None
         self.step.show_state("none", self.tr("Picture"))
         self.title.setText(self.tr("Lay the hand flat and still"))
-        self.place.setText(self.tr("Palm down, fingers straight, forearm in line. Then take the picture."))
+        self.place.setText(
+            self.tr("Palm down, fingers as straight as they go, forearm in line. Then take the picture.")
+        )
         order = self._calibrator.protocol.markers
         self.hand.show_markers(self._calibrator.side, dict.fromkeys(order, "later"))
         self.panel.show_rows(self.tr("Checks"), "none", rows_before(0, len(order), self._calibrator.limits))
@@ -469,7 +471,7 @@ class MarkersScreen(QWidget):
         words = self.tr("Start measuring · {left}").format(left=left) if to_go else self.tr("Checking the markers…")
         self.primary.set_face(words, icon="", hint="")
         self.second.hide()
-        self.hint.setText(self.tr("The hand lies flat and still, palm down, fingers straight."))
+        self.hint.setText(self.tr("The hand lies flat and still, palm down. Fingers that stay bent are fine."))
         if self._waits_for_names:
             self.step.show_state("none", self.tr("Looking for the markers…"))
         elif clicking.proposed:

@@ -31,10 +31,11 @@ class StartAngleSheet(Sheet):
         super().__init__(host, theme, 620)
         body = self.card.body
         body.setSpacing(16)
-        body.addWidget(Text(theme, self.tr("The hand cannot lie straight"), 20, SEMIBOLD))
+        body.addWidget(Text(theme, self.tr("The wrist cannot lie straight"), 20, SEMIBOLD))
         words = self.tr(
             "Measure with a goniometer how far the wrist is from straight as it lies now. Carpus adds these "
-            "angles to all it measures and says so in the report."
+            "angles to all it measures of the wrist and says so in the report. Bent fingers are fine as they are: zero "
+            "of a finger joint is the straight finger, whatever the picture."
         )
         body.addWidget(Text(theme, words, 14, token="text2", wrap=True))
         self.fields: dict[int, tuple[Choices, QSpinBox]] = {}
