@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.optimize import linear_sum_assignment
 
+from core.calibration.candidates import marker_candidates
 from core.calibration.finger_order import misnamed
 from core.calibration.neutral_pose import pose_by_least_squares
 from core.calibration.palm_names import shifted_names
@@ -96,12 +97,22 @@ def calibrate(
     ``frames``: the clicked frame first, then those that follow it.
     """
     first = frames[0]
-    appearance, _ = learn_appearance(first, clicks.pixel, camera, detection)
-    detector = Detector(appearance, camera, detection)
     radius_px = np.array([expected_radius_px(first, click, camera, detection) for click in clicks.pixel])
     region = _around(clicks.pixel, 3.0 * float(radius_px.max()) + 12.0, camera)
-    blobs = detector.detect(first, region)
-    taken, findings = _named(clicks, blobs, radius_px)
+
+    def tried(pixel: FloatArray) -> _Found:
+        """The discs under the clicks, the colours learnt where the discs are taken to be, at ``pixel`` (M, 2)."""
+        appearance, _ = learn_appearance(first, pixel, camera, detection)
+        blobs = Detector(appearance, camera, detection).detect(first, region)
+        return _Found(appearance, blobs, *_named(clicks, blobs, radius_px))
+
+    found = tried(clicks.pixel)
+    if np.any(found.taken < 0):
+        # Small discs and clicks at their edges: colours are better learnt in the middle of what is blue.
+        again = tried(_snapped(clicks.pixel, marker_candidates(first, camera, detection), radius_px))
+        found = max(found, again, key=lambda each: int(np.count_nonzero(each.taken >= 0)))
+    appearance, blobs, taken, findings = found.appearance, found.blobs, found.taken, found.findings
+    detector = Detector(appearance, camera, detection)
     found_px = np.where((taken >= 0)[:, None], _rows(blobs.pixel, taken), np.nan)
     if np.any(taken < 0):
         verdict = _no_verdict(clicks, findings)
@@ -120,6 +131,29 @@ def calibrate(
     capture = still_capture(seen(), taken, settings)
     hand = measure_hand(clicks, capture, camera, settings, findings, start_angles_rad)
     return CalibrationOutcome(hand.verdict, appearance, found_px, hand.calibration, capture.frames, hand.noise)
+
+
+@dataclass(frozen=True, slots=True)
+class _Found:
+    """Colours of the discs, blobs of the clicked frame, blob ``taken`` (M,) of every click or -1, what was wrong."""
+
+    appearance: MarkerAppearance
+    blobs: Detections
+    taken: NDArray[np.int64]
+    findings: list[Finding]
+
+
+def _snapped(pixel: FloatArray, blobs: Detections, radius_px: FloatArray) -> FloatArray:
+    """Clicks (M, 2) moved onto the blob that each means, all together; where there is none, as clicked."""
+    if not len(blobs):
+        return pixel
+    distance = np.linalg.norm(pixel[:, None] - blobs.pixel[None], axis=-1)
+    far = distance > REACH * radius_px[:, None]
+    rows, columns = linear_sum_assignment(np.where(far, 1e6, distance))
+    good = ~far[rows, columns]
+    out = pixel.copy()
+    out[rows[good]] = blobs.pixel[columns[good]]
+    return out
 
 
 def require_calibration(outcome: CalibrationOutcome) -> Calibration:

@@ -7,11 +7,13 @@ from functools import lru_cache
 import numpy as np
 import pytest
 
+from core.calibration.calibrate import calibrate
 from core.calibration.candidates import disc_at, marker_candidates, snapped
 from core.calibration.naming import propose_names
+from core.calibration.settings import CalibrationSettings
 from core.camera import Camera
 from core.detection.settings import DetectionSettings
-from core.simulation.recording import SimulatedPictures
+from core.simulation.recording import SimulatedPictures, clicks_of
 from core.simulation.spec import RecordingSpec
 from core.types import FloatArray, Frame, Side
 
@@ -54,6 +56,20 @@ def test_all_discs_of_a_whole_hand_are_found_and_named_before_any_click(seed: in
     proposal = propose_names(found, pictures.truth.camera, side)
     assert proposal.is_complete
     assert np.linalg.norm(found.pixel[proposal.blob] - pictures.truth.disc_pixel[0], axis=1).max() < 3.0  # under a disc
+
+
+def test_clicks_at_the_edges_of_small_discs_are_found_all_the_same() -> None:
+    """Colours learnt under them alone are half skin, and discs fall in two."""
+    spec = RecordingSpec(
+        seed=22, protocol="hand21", motion="fingers", seconds=0.2, hidden_share=0.03, false_blobs=1.0,
+        distance_m=0.66, light="normal",
+    )  # fmt: skip
+    pictures = SimulatedPictures(spec)
+    frames = [Frame(i, i / 30.0, *pictures.sensed(i, pictures.clean(i)), 1.0 / 5000.0) for i in range(3)]
+    clicks, camera = clicks_of(pictures.truth), pictures.truth.camera
+    outcome = calibrate(clicks, frames, camera, CalibrationSettings(), SETTINGS)
+    assert not any(finding.blocks for finding in outcome.verdict.findings)
+    assert np.linalg.norm(outcome.pixel - pictures.truth.disc_pixel[0], axis=1).max() < 1.5
 
 
 @pytest.mark.parametrize("paper_to", ["blue", "green"])
