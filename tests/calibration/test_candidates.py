@@ -61,7 +61,7 @@ def test_all_discs_of_a_whole_hand_are_found_and_named_before_any_click(seed: in
 def test_clicks_at_the_edges_of_small_discs_are_found_all_the_same() -> None:
     """Colours learnt under them alone are half skin, and discs fall in two."""
     spec = RecordingSpec(
-        seed=22, protocol="hand21", motion="fingers", seconds=0.2, hidden_share=0.03, false_blobs=1.0,
+        seed=22, protocol="hand21", motion="fingers", seconds=5.0, hidden_share=0.03, false_blobs=1.0,
         distance_m=0.66, light="normal",
     )  # fmt: skip
     pictures = SimulatedPictures(spec)
