@@ -47,8 +47,8 @@ TOO_VAGUE_TURN_RAD = 0.5
 """Less surely than this, sigma points reach too far for a correction to be trusted, even by the right names."""
 BLIND_TURN_RAD = (0.1, 0.1, 0.15, 0.35)
 """Expecting it less surely than this, any so many blobs would do for discs: none, one, two, three of them."""
-BLIND_AMONG_FINGERS_RAD = (*BLIND_TURN_RAD, 0.35)
-"""Where there are discs on fingers, four of these can look like four of the palm."""
+BLIND_AMONG_FINGERS_RAD = (0.1, 0.06, 0.15, 0.25, 0.35)
+"""Where there are discs on fingers, these can look like some of the palm, even like four of them."""
 
 TURN_SLACK_RAD, MOST_TURN_RATE_RAD_S, MOST_TURN_RAD = 0.35, 12.0, 1.9
 """A hand gone from sight is not found turned further than it may have turned meanwhile, nor ever the other way."""
@@ -146,7 +146,7 @@ class Tracker:
 
     def expect(self, timestamp_s: float) -> Expectation | None:
         """Where to look at that time; None when the hand is lost."""
-        if self._bank is None:
+        if self._bank is None or self._is_past(timestamp_s):
             return None
         mean, covariance = self._forecast_at(timestamp_s, self._bank).by_marker()
         palm = Expectation(mean[:, :2], covariance[:, :2, :2], mean[:, 2])
@@ -177,6 +177,8 @@ class Tracker:
         linked, self._anew = not self._anew, False
         if not linked:
             self._begun_s = timestamp_s
+        if self._is_past(timestamp_s):
+            self._give_up()
         if self._bank is None:
             found = find_palm(ideal, self.view, self._reach())
             if found is None:
@@ -236,6 +238,15 @@ class Tracker:
             self._finger_history.append(finger_step)
             self.history.append(FilterStep(timestamp_s, belief, scale, linked))
         return self._shown(index, timestamp_s, status, ahead, step, detections, dropped_before)
+
+    def _is_past(self, timestamp_s: float) -> bool:
+        """Whether no picture came for so long that where the hand was says nothing of where it is."""
+        return self._time_s is not None and timestamp_s - self._time_s > self.settings.lost_after_s
+
+    def _give_up(self) -> None:
+        self._bank, self._forecast = None, None
+        if self._fingers is not None:
+            self._fingers.begin_anywhere()
 
     def _least_seen(self, timestamp_s: float) -> int:
         """Discs of the palm without which a hand found again is given up."""
@@ -345,9 +356,8 @@ class Tracker:
         )
 
     def _lost(self, index: int, timestamp_s: float, detections: Detections, dropped_before: int) -> TrackedFrame:
-        self._bank, self._forecast, self._time_s = None, None, timestamp_s
-        if self._fingers is not None:
-            self._fingers.begin_anywhere()
+        self._give_up()
+        self._time_s = timestamp_s
         self._remember(timestamp_s, np.zeros(self._joint_count or 3, dtype=np.int64))
         if self._keep_history:
             self._finger_history.append(None)

@@ -190,3 +190,20 @@ def test_looking_back_is_no_worse_than_live() -> None:
         for errors in ([run.joint_deg for run in runs], [run.smoothed_deg for run in runs])
     )
     assert back < 1.05 * live
+
+
+def test_a_long_pause_without_pictures_bends_no_finger_further() -> None:
+    """The camera stood still for twelve seconds while the fingers closed: their rates are not carried over them."""
+    still = sequence()
+    hand, _ = measured_hand(still, CalibrationSettings())
+    assert hand.calibration is not None
+    tracker = Tracker(hand.calibration, still.truth.camera, TrackerSettings())
+    times = still.truth.timestamp_s
+    rate = np.abs(still.truth.joint_velocity_rad_s).max(axis=1)
+    pause = int(np.argmax(rate))
+    assert rate[pause] > 1.0
+    for i, found in enumerate(still.detections):
+        frame = tracker.step(i, float(times[i]) + (12.0 if i > pause else 0.0), found)
+        if np.isfinite(frame.joint_angles_rad).any():
+            assert np.abs(np.degrees(frame.joint_angles_rad)).max() < 150.0
+    assert frame.status is TrackStatus.TRACKED

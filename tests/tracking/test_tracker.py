@@ -482,3 +482,20 @@ def test_alone_a_blob_at_another_depth_is_no_disc() -> None:
         frames.append((t, found))
     after = track(frames)[40:]
     assert all(np.isnan(frame.marker_measured_px).all() for frame in after)
+
+
+def test_after_a_long_pause_without_pictures_the_hand_is_found_anew() -> None:
+    """The camera stood still for twelve seconds in the middle of a stroke: nothing is carried over them."""
+    rng = np.random.default_rng(8)
+    moving, elsewhere = swing(1, 30.0, 0.5), moved(Pose(np.array([-10.0, 20.0, 5.0])), [0.04, 0.03, 0.0])
+    before = [(t, blobs(moving(t), rng)) for t in times(65)]
+    after = [(before[-1][0] + 12.0 + t, blobs(elsewhere, rng)) for t in times(10)]
+    tracker = Tracker(calibration(), CAMERA, TrackerSettings())
+    for i, (t, found) in enumerate(before):
+        tracker.step(i, t, found)
+    assert tracker.expect(after[0][0]) is None
+    for i, (t, found) in enumerate(after):
+        frame = tracker.step(len(before) + i, t, found)
+        assert frame.status is TrackStatus.TRACKED
+        assert np.abs(np.degrees(frame.angles_rad) - elsewhere.angles_deg).max() < 4.0
+        assert np.linalg.norm(frame.velocity_m_s) < 0.3
