@@ -28,6 +28,9 @@ _GENERATORS = np.array(
 
 def skew(vector: FloatArray) -> FloatArray:
     """Matrix (..., 3, 3) of the cross product with ``vector`` (..., 3)."""
+    if vector.ndim == 1:
+        x, y, z = vector.tolist()
+        return np.array([[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]])
     return np.asarray((vector @ _GENERATORS).reshape(*vector.shape, 3))
 
 

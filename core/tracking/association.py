@@ -101,12 +101,10 @@ def resolve(odds: FloatArray) -> NDArray[np.int64]:
 
     Leaving a blob to clutter costs nothing, so only positive odds are taken.
     """
-    m, d = odds.shape
-    taken = np.full(m, -1, dtype=np.int64)
-    if d == 0:
-        return taken
-    gain = np.maximum(odds, 0.0)
-    rows, columns = linear_sum_assignment(gain, maximize=True)
-    good = gain[rows, columns] > 0.0
-    taken[rows[good]] = columns[good]
-    return taken
+    taken = [-1] * odds.shape[0]
+    if odds.shape[1]:
+        rows, columns = linear_sum_assignment(np.maximum(odds, 0.0), maximize=True)
+        for marker, blob in zip(rows.tolist(), columns.tolist(), strict=True):
+            if odds.item(marker, blob) > 0.0:
+                taken[marker] = blob
+    return np.array(taken, dtype=np.int64)

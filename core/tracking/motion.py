@@ -117,7 +117,9 @@ def process_covariance(belief: Belief, noise: MotionNoise, dt_s: float, layout: 
 
 def coasted(belief: Belief, step: Stride, dt_s: float, layout: StateLayout) -> Belief:
     """The mean after ``dt_s`` without noise: :func:`advance` with the turn at hand."""
-    joints = belief.joints_rad + belief.joint_rates_rad_s * dt_s if layout.has_rates else belief.joints_rad
+    joints = belief.joints_rad
+    if layout.has_rates and layout.joint_count:
+        joints = joints + belief.joint_rates_rad_s * dt_s
     return Belief(
         belief.position_m + belief.velocity_m_s * dt_s,
         belief.velocity_m_s,
