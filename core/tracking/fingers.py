@@ -106,7 +106,8 @@ class Fingers:
         self._noise_factor = np.ones((RAYS, 3 * DISCS))
         self._disc_m2 = np.full((RAYS, DISCS), np.nan)
         self._begins = True
-        self._take(self.model.at_neutral())
+        neutral = self.model.at_neutral()
+        self._take(neutral, neutral.merged())
 
     def reach(self, point_m: FloatArray) -> NDArray[np.bool_]:
         """Whether points (..., 3) in the tracked body may be discs of these fingers."""
@@ -118,11 +119,11 @@ class Fingers:
         self._visible = np.full((RAYS, DISCS), 0.5)
         self._missing = np.full(RAYS, _PATIENCE)
         self._unseen_s = np.full((RAYS, SLOTS), self._settings.fingers.range_after_s)
-        self._take(self.model.anywhere(self._mean, self._covariance))
+        anywhere = self.model.anywhere(self._mean, self._covariance)
+        self._take(anywhere, anywhere.merged())
 
-    def _take(self, beliefs: RayBeliefs) -> None:
-        self._beliefs = beliefs
-        self._mean, self._covariance = beliefs.merged()
+    def _take(self, beliefs: RayBeliefs, merged: tuple[FloatArray, FloatArray]) -> None:
+        self._beliefs, (self._mean, self._covariance) = beliefs, merged
         self._ahead: tuple[float, RayBeliefs, RayPoints] | None = None
 
     def _ahead_at(self, timestamp_s: float, dt_s: float) -> tuple[RayBeliefs, RayPoints]:
@@ -141,7 +142,7 @@ class Fingers:
         """Where to look: pixels (5, 3, 2) with covariance (5, 3, 2, 2) given the palm, and depths (5, 3)."""
         _, points = self._ahead_at(timestamp_s, dt_s)
         image = ray_view(belief, view, self._palm).observe(points.disc_m)
-        count = points.root.shape[-1]
+        count = points.unroot.shape[-1]
         half = image[:, 1 : count + 1, :, :2] - image[:, count + 1 :, :, :2]
         by_disc = half.transpose(0, 2, 3, 1) * (0.5 / weights_for(count, self._settings.spread).scale)
         return image[:, 0, :, :2], by_disc @ np.swapaxes(by_disc, -1, -2), image[:, 0, :, 2]
@@ -274,8 +275,9 @@ class Fingers:
         self._watch_noise(named, dt_s)
         self._learn_sizes(trial.disc_m2)
         after = named.update.beliefs
-        merged, _ = after.merged()
-        self._take(constrained(after, merged[:, :SLOTS]))
+        merged = after.merged()
+        kept = constrained(after, merged[0][:, :SLOTS])
+        self._take(kept, merged if kept is after else kept.merged())
         self._palm = trial.seat.palm
         begins, self._begins = self._begins, False
         return FingerStep(timestamp_s, named.measured, named.variance, is_named, trial.postures, begins)

@@ -200,14 +200,15 @@ class RayPoints:
     """Sigma points of a Gaussian over joints and constants, their discs in W.
 
     The points stand along the first six columns of the Cholesky factor, the joints' and the roll's: what bends the
-    discs' places. In the other constants these are all but linear. ``root`` (5, 6, 6) of joints and roll, ``along``
-    (5, 6, 10) by how much the other constants go with each column; ``disc_m`` (5, 13, 3, 3), the centre first;
-    ``by_constants`` (5, 3, 3, 10) derivative there; ``normal`` (5, 3, 3) of the discs; ``root_disc_m`` (5, 3) under
-    which the rays begin; ``mean`` (5, n) and ``covariance`` (5, n, n) of the state.
+    discs' places. In the other constants these are all but linear. ``unroot`` (5, 6, 6) inverse of the
+    factor, ``along`` (5, 6, 10) by how much the other constants go with each column; ``disc_m`` (5, 13, 3, 3), the
+    centre first;
+    ``by_constants`` (5, 3, 3, 10) derivative there; ``normal`` (5, 3, 3) of the discs; ``mean`` (5, n) and
+    ``covariance`` (5, n, n) of the state.
     """
 
     disc_m: FloatArray
-    root: FloatArray
+    unroot: FloatArray
     along: FloatArray
     by_constants: FloatArray
     normal: FloatArray
@@ -223,7 +224,8 @@ def spread_points(
     block = covariance[:, bent[:, None], bent]
     block[:, _BENT, _BENT] += _FLOOR
     root = np.asarray(np.linalg.cholesky(block), dtype=np.float64)
-    along = np.asarray(np.linalg.solve(root, covariance[:, bent[:, None], other]), dtype=np.float64)
+    unroot = np.asarray(np.linalg.inv(root), dtype=np.float64)
+    along = unroot @ covariance[:, bent[:, None], other]
     scale = weights_for(_BENT.size, spread).scale
     point = np.repeat(mean[:, None, layout.seen], 2 * _BENT.size + 1, axis=1)
     step = np.empty((RAYS, _BENT.size, SLOTS + CONSTANTS))
@@ -233,7 +235,7 @@ def spread_points(
     state = point[:, 0]
     frames = ray_frames(state)
     by_constants = slope_by_constants(state, frames, ray_joints_m(root_disc_m, state, frames))[..., _OTHER_CONSTANT]
-    return RayPoints(ray_discs_m(root_disc_m, point), root, along, by_constants, frames.normal, mean, covariance)
+    return RayPoints(ray_discs_m(root_disc_m, point), unroot, along, by_constants, frames.normal, mean, covariance)
 
 
 @dataclass(frozen=True, slots=True)
@@ -302,7 +304,7 @@ def forecast(points: RayPoints, view: RayView, layout: RayLayout, spread: Spread
     by_constants = ((by_place @ view.rotation) @ points.by_constants).reshape(RAYS, 3 * DISCS, -1)
     own = half - points.along @ np.swapaxes(by_constants, 1, 2)
     slope = np.zeros((RAYS, 3 * DISCS, layout.size))
-    slope[:, :, layout.bent] = np.swapaxes(np.linalg.solve(np.swapaxes(points.root, 1, 2), own), 1, 2)
+    slope[:, :, layout.bent] = np.swapaxes(own, 1, 2) @ points.unroot
     slope[:, :, layout.other] = by_constants
     spread_out = slope @ points.covariance @ np.swapaxes(slope, 1, 2) + error
     centre = points.disc_m[:, 0] @ view.rotation.T + view.translation_m
