@@ -205,9 +205,7 @@ class Gallery:
         self._proposed()
 
     def markers_proposed_doubtful(self) -> None:
-        screen = self._proposed(doubtful=("DIP4", "TIP4"))
-        screen.picture.set_cursor(screen.clicking.proposed["PIP2"].pixel)  # type: ignore[union-attr]
-        self.settle()
+        self._proposed(doubtful=("DIP4", "TIP4"))
 
     def markers_proposed_incomplete(self) -> None:
         self._proposed(not_found=("TIP1",))

@@ -4,21 +4,26 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
+from dataclasses import replace
 
 import numpy as np
 import pytest
-from PySide6.QtCore import QPoint, QPointF, QRect, Qt
-from PySide6.QtGui import QWheelEvent
+from PySide6.QtCore import QPoint, QPointF, QRect, QRectF, Qt
+from PySide6.QtGui import QImage, QPainter, QWheelEvent
 from PySide6.QtWidgets import QApplication, QWidget
 from pytestqt.qtbot import QtBot
 
-from core.hand.protocols import HAND21, HAND21_CHAINS
-from tests.ui.hand_fakes import FakeHandSessions
+from core.hand.protocols import HAND21, HAND21_CHAINS, joint_angle_names
+from core.output.joint_content import joint_curves
+from core.output.report_content import session_curves, session_figures
+from core.session.values import Session
+from tests.ui.hand_fakes import FakeHandSessions, hand_session
 from ui.background import Background
 from ui.figures import Figure
 from ui.keys import Keys
+from ui.plot.style import screen_style
 from ui.report.hand_rows import COLUMNS, limits_words
-from ui.review.hand_curves import HandPlot, joint_at
+from ui.review.hand_curves import HandPlot, joint_at, paint_hand_cursor, place_hand_panels
 from ui.review.screen import ReviewScreen
 from ui.review.skeleton import modelled_px
 from ui.theme import Theme
@@ -183,3 +188,42 @@ def wheel(widget: QWidget, at: QPointF, turn: int) -> None:
         Qt.ScrollPhase.NoScrollPhase, False,
     )  # fmt: skip
     QApplication.sendEvent(widget, event)
+
+
+def test_numbers_beside_the_curves_never_overlap_also_with_end_joints_of_their_own(qtbot: QtBot, theme: Theme) -> None:
+    session = free_ends(hand_session())
+    figures = session_figures(session)
+    for height in (190.0, 620.0):
+        plot = HandPlot(session_curves(session), figures.exercise, figures.repetitions, joints=joint_curves(session))
+        panels = place_hand_panels(plot, QRectF(100.0, 30.0, 500.0, height), 8.0)
+        picture = QImage(800, 700, QImage.Format.Format_RGB32)
+        painter = RecordingPainter(picture)
+        paint_hand_cursor(painter, screen_style(theme), plot, panels, 3.0)
+        painter.end()
+        assert len(painter.boxes) == 15  # three joints of five fingers
+        for i, one in enumerate(painter.boxes):
+            assert not any(one.intersects(other) for other in painter.boxes[i + 1 :])
+
+
+class RecordingPainter(QPainter):
+    """Remembers where texts stand."""
+
+    def __init__(self, picture: QImage) -> None:
+        super().__init__(picture)
+        self.boxes: list[QRectF] = []
+
+    def drawText(self, at: QPointF, text: str) -> None:  # type: ignore[override]  # noqa: N802
+        self.boxes.append(self.fontMetrics().tightBoundingRect(text).translated(at.toPoint()).toRectF())
+        super().drawText(at, text)
+
+
+def free_ends(session: Session) -> Session:
+    """The same with end joints that were measured by themselves."""
+    names, free = joint_angle_names(), joint_angle_names(True)
+    source = [names.index(name) if name in names else names.index(f"PIP{name[3]}_flexion") for name in free]
+    motion = replace(
+        session.motion,
+        joint_angles_rad=session.motion.joint_angles_rad[:, source],
+        joint_angles_sd_rad=session.motion.joint_angles_sd_rad[:, source],
+    )
+    return replace(session, motion=motion, header=replace(session.header, joint_names=free))

@@ -39,7 +39,9 @@ def words_for(clicking: Clicking) -> ProposalWords:
             if len(doubtful) == 1
             else tr("{count} names are doubtful").format(count=len(doubtful))
         )
-        todo = tr("Look at: {markers}. Enter confirms the one in the loupe; drag it to another disc to change it.")
+        todo = tr(
+            "Look at: {markers}. Enter says yes to the one that is asked; drag a name to another disc to change it."
+        )
         name = marker_name(doubtful[0])
         title = tr("Is this the {marker}?").format(marker=name[0].lower() + name[1:])
         return ProposalWords("warn", step, title, todo.format(markers=_list(doubtful)), tr("Yes, it is"))

@@ -136,6 +136,9 @@ def paint_hand_cursor(
         if not plot.finger:
             figures = [figure for figure in figures if not _is_bound(plot, figure)]
         step = (20.0 if plot.finger else 15.0) * scale
+        if not plot.finger and step * len(figures) > _pitch(panels):
+            _paint_in_one_line(painter, style, plot, panel, figures, time_s)
+            continue
         line = panel.box.center().y() - step * (len(figures) - 1) / 2
         for figure in figures:
             value, sd, hidden = joint_at(plot, figure, time_s)
@@ -153,6 +156,34 @@ def paint_hand_cursor(
             words = numbers.with_spread(value, sd)
             painter.drawText(QPointF(left + 18 * scale, line + 5 * scale), words)
             line += step
+
+
+def _pitch(panels: Sequence[tuple[Panel, int]]) -> float:
+    """From one panel to the next."""
+    return panels[1][0].box.top() - panels[0][0].box.top() if len(panels) > 1 else math.inf
+
+
+def _paint_in_one_line(
+    painter: QPainter, style: PlotStyle, plot: HandPlot, panel: Panel, figures: Sequence[Figure], time_s: float
+) -> None:
+    """The numbers side by side, each over a line in its colour, where there is no room for a row each."""
+    scale = style.end_label.pixelSize() / 12.0
+    left, middle = panel.box.right() + 12 * scale, panel.box.center().y()
+    room = 32.0 * scale
+    for figure in figures:
+        value, _, hidden = joint_at(plot, figure, time_s)
+        if not hidden:
+            paint_point(painter, style, panel, time_s, value, figure.token)
+        painter.setFont(font(12 * scale, SEMIBOLD if not hidden else MEDIUM))
+        painter.setPen(style.color("text" if not hidden else "text2"))
+        painter.drawText(QPointF(left, middle + 3 * scale), numbers.degrees(value))
+        pen = QPen(style.color(figure.token), 2.0 * style.unit)
+        pen.setCapStyle(Qt.PenCapStyle.FlatCap)
+        if hidden:
+            pen.setDashPattern([1.6, 1.4])
+        painter.setPen(pen)
+        painter.drawLine(QPointF(left, middle + 8 * scale), QPointF(left + 22 * scale, middle + 8 * scale))
+        left += room
 
 
 def _is_bound(plot: HandPlot, figure: Figure) -> bool:
