@@ -200,10 +200,9 @@ class RayPoints:
     """Sigma points of a Gaussian over joints and constants, their discs in W.
 
     The points stand along the first six columns of the Cholesky factor, the joints' and the roll's: what bends the
-    discs' places. In the other constants these are all but linear. ``unroot`` (5, 6, 6) inverse of the
-    factor, ``along`` (5, 6, 10) by how much the other constants go with each column; ``disc_m`` (5, 13, 3, 3), the
-    centre first;
-    ``by_constants`` (5, 3, 3, 10) derivative there; ``normal`` (5, 3, 3) of the discs; ``mean`` (5, n) and
+    discs' places. In the other constants these are all but linear. ``unroot`` (5, 6, 6) inverse of the factor,
+    ``along`` (5, 6, 10) by how much the other constants go with each column; ``disc_m`` (5, 13, 3, 3), the centre
+    first; ``by_constants`` (5, 3, 3, 10) derivative there; ``normal`` (5, 3, 3) of the discs; ``mean`` (5, n) and
     ``covariance`` (5, n, n) of the state.
     """
 
