@@ -94,16 +94,20 @@ def find_repetitions(angle: Signal) -> Exercise:
 
 
 def _visits(value: FloatArray, middle: float, hysteresis: float) -> list[_Visit]:
-    """Stays on alternating sides, in order, each with its extreme."""
-    visits: list[_Visit] = []
-    for k in np.flatnonzero(np.isfinite(value)):
-        offset = float(value[k]) - middle
-        if abs(offset) < hysteresis and not visits:
-            continue
-        if abs(offset) >= hysteresis and (not visits or visits[-1].high != (offset > 0.0)):
-            visits.append(_Visit(offset > 0.0, int(k), int(k), float(value[k])))
-        elif (value[k] > visits[-1].value) == visits[-1].high and value[k] != visits[-1].value:
-            visits[-1] = _Visit(visits[-1].high, visits[-1].entry, int(k), float(value[k]))
+    """Stays on alternating sides, in order, each with its extreme, the first of several as far out."""
+    known = np.flatnonzero(np.isfinite(value))
+    offset = value[known] - middle
+    beyond = np.flatnonzero(np.abs(offset) >= hysteresis)
+    if not len(beyond):
+        return []
+    high = offset[beyond] > 0.0
+    entries = beyond[np.concatenate(([True], high[1:] != high[:-1]))]
+    visits = []
+    for entry, following in pairwise((*entries.tolist(), len(known))):
+        stay = value[known[entry:following]]
+        is_high = bool(offset[entry] > 0.0)
+        turn = known[entry + int(np.argmax(stay if is_high else -stay))]
+        visits.append(_Visit(is_high, int(known[entry]), int(turn), float(value[turn])))
     return visits
 
 
@@ -126,13 +130,16 @@ def _bounds(visits: list[_Visit], value: FloatArray, middle: float, hysteresis: 
         visits = visits[:-1]
     if len(visits) % 2 == 1 or came_back is None:
         return [(a.turn, b.turn) for a, b in zip(visits[0:-2:2], visits[2::2], strict=True)]
-    firsts = [_last_on_other_side(value, middle, visit) for visit in visits[::2]]
+    # The visit before began on the other side: nothing earlier needs to be looked at.
+    since = [0, *(visit.turn for visit in visits[1::2])]
+    firsts = [_last_on_other_side(value, middle, visit, k) for visit, k in zip(visits[::2], since, strict=False)]
     return list(zip(firsts, [*firsts[1:], came_back], strict=True))
 
 
-def _last_on_other_side(value: FloatArray, middle: float, visit: _Visit) -> int:
-    """The sample before a visit at which the middle was passed; the first known one where it never was."""
-    before = np.flatnonzero(np.isfinite(value[: visit.entry + 1]))
+def _last_on_other_side(value: FloatArray, middle: float, visit: _Visit, since: int) -> int:
+    """The sample before a visit at which the middle was passed, not before ``since``; the first known one where it
+    never was."""
+    before = since + np.flatnonzero(np.isfinite(value[since : visit.entry + 1]))
     other = before[(value[before] - middle > 0.0) != visit.high]
     return int(other[-1]) if len(other) else int(before[0])
 

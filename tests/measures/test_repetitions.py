@@ -9,7 +9,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from core.measures.repetitions import find_repetitions
+from core.measures.repetitions import _visits, find_repetitions
 from core.measures.signals import Signal, even_signal
 from core.types import FloatArray
 
@@ -121,3 +121,34 @@ def test_a_hidden_stretch_shows_in_the_repetition_it_hurts() -> None:
     assert len(shares) == 6
     assert shares[2] == pytest.approx(1.0 - 16 / 60, abs=0.05)
     assert shares[:2] + shares[3:] == [1.0] * 5
+
+
+def stays_sample_by_sample(value: FloatArray, middle: float, hysteresis: float) -> list[tuple[bool, int, int]]:
+    """Side, first sample and sample of the extreme of every stay, as one would read them off a curve."""
+    out: list[tuple[bool, int, int]] = []
+    for k, sample in enumerate(value.tolist()):
+        if math.isnan(sample):
+            continue
+        if abs(sample - middle) >= hysteresis and (not out or out[-1][0] != (sample > middle)):
+            out.append((sample > middle, k, k))
+        elif out:
+            high, entry, turn = out[-1]
+            if (sample > value[turn]) if high else (sample < value[turn]):
+                out[-1] = (high, entry, k)
+    return out
+
+
+@settings(max_examples=200, deadline=None)
+@given(
+    steps=st.lists(st.integers(-8, 8), max_size=80),
+    hidden=st.sets(st.integers(0, 80)),
+    middle=st.integers(-6, 6),
+    hysteresis=st.integers(1, 6),
+)
+def test_stays_and_their_extremes_are_those_read_sample_by_sample(
+    steps: list[int], hidden: set[int], middle: int, hysteresis: int
+) -> None:
+    value = np.cumsum(np.array(steps, dtype=float))
+    value[[k for k in hidden if k < len(value)]] = np.nan
+    found = [(visit.high, visit.entry, visit.turn) for visit in _visits(value, middle, hysteresis)]
+    assert found == stays_sample_by_sample(value, middle, hysteresis)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from array import array
 from collections.abc import Sequence
 
 import numpy as np
@@ -25,9 +26,7 @@ class RunningCount:
         self.joint = exercise.joint
         self._figure = FIGURES.index(figure_of(exercise.joint)) if exercise.joint else -1
         self._counts = exercise.counts
-        self._times: list[float] = []
-        self._values: list[float] = []
-        self._valid: list[bool] = []
+        self._times, self._values, self._valid = array("d"), array("d"), array("b")
         self.repetitions = 0
         self.recorded_s = 0.0
         self.best_positive_deg = math.nan
@@ -61,7 +60,7 @@ class RunningCount:
         """Full repetitions so far: of a joint on the tracked angle, also through hidden stretches, as the review cuts
         them, since a fist goes out of sight at its very end."""
         if self._counts and len(self._times) > 2:
-            valid = None if self._figure >= 0 else np.array(self._valid)
+            valid = None if self._figure >= 0 else np.array(self._valid, dtype=bool)
             signal = even_signal(np.array(self._times), np.array(self._values), valid)
             self.repetitions = len(find_repetitions(signal).repetitions) if len(signal.time_s) else 0
         return self.repetitions
