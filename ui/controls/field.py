@@ -14,7 +14,6 @@ from ui.controls.text import MEDIUM, Text
 from ui.fonts import font
 from ui.icons import paint_icon
 from ui.theme import Theme
-from ui.translate import tr
 
 
 class SearchField(QLineEdit):
@@ -108,7 +107,9 @@ class DegreesField(QLineEdit):
     def problem(self) -> str:
         """What is wrong, empty when nothing is."""
         empty = self.text().strip() in ("", "°")
-        return "" if empty or math.isfinite(self.value()) else tr("1° to {most}°, or empty").format(most=self._most)
+        return (
+            "" if empty or math.isfinite(self.value()) else self.tr("1° to {most}°, or empty").format(most=self._most)
+        )
 
     def _check(self) -> None:
         self._take_theme()
