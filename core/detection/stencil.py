@@ -58,6 +58,8 @@ def _stencil(quarters: int) -> Stencil:
     row, column = (grid.ravel() for grid in np.meshgrid(offset, offset, indexing="ij"))
     distance = np.hypot(row, column)
     core, reach, rim_from, rim_to = _CORE * radius + 0.25, _REACH * radius + 0.5, _RIM_FROM * radius, _RIM_TO * radius
+    used = distance <= max(reach, rim_to, EDGE_REACH_PX)
+    row, column, distance = row[used], column[used], distance[used]
     # Rings between the limits from the middle outwards, in each of them row by row.
     ring = sum((distance > limit).astype(np.int64) for limit in (core, reach, rim_to, EDGE_REACH_PX))
     order = np.argsort(ring + (distance >= rim_from), kind="stable")
