@@ -5,6 +5,7 @@ from __future__ import annotations
 from PySide6.QtCore import QEvent, QObject, Qt, Signal
 from PySide6.QtGui import QColor, QKeyEvent, QPainter, QPaintEvent
 from PySide6.QtWidgets import QHBoxLayout, QVBoxLayout, QWidget
+from shiboken6 import isValid
 
 from ui.controls.card import Card
 from ui.theme import Theme
@@ -56,7 +57,7 @@ class Sheet(QWidget):
         if self.isVisibleTo(self.parentWidget()):
             self.hide()
             before = self._focus_before
-            if before is not None and before.isVisible():
+            if before is not None and isValid(before) and before.isVisible():  # a card's own old button is gone
                 before.setFocus(Qt.FocusReason.OtherFocusReason)
             self.closed.emit()
 
