@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import contextlib
 import gc
 import logging
+import os
 import signal
 import sys
 from collections.abc import Callable
@@ -20,13 +22,15 @@ from PySide6.QtWidgets import QApplication
 from app import __version__
 from app.desktop.journey import Journey, Parts
 from app.desktop.library import Library
+from app.desktop.no_folder import NoFolder
 from app.desktop.patients import PatientShelf
 from app.desktop.phrases import WordTable
 from app.desktop.practice import practice_take
 from app.desktop.preferences import PreferenceKeeper
 from app.desktop.sources import Sources
-from app.settings import Settings
+from app.settings import DATA_VARIABLE, Settings, keep_preferences
 from core.capture.source import FrameSource
+from core.errors import CarpusFault
 from ui.fonts import load_fonts
 from ui.keys import Keys
 from ui.ports import SetUp, Words
@@ -57,6 +61,12 @@ class Desktop:
         # All that was built by now stays: the collector need not look through it again while frames come.
         gc.collect()
         gc.freeze()
+
+    def come_to_front(self) -> None:
+        """Another start on the same data folder: this window is what was wanted."""
+        self.shell.setWindowState(self.shell.windowState() & ~Qt.WindowState.WindowMinimized)
+        self.shell.raise_()
+        self.shell.activateWindow()
 
     def close(self) -> None:
         """Finish what runs and let go of everything; may be called twice."""
@@ -122,6 +132,22 @@ def compose(
             icon="hard-drive",
         )
     return desktop
+
+
+def ask_for_folder(qt: QApplication, settings: Settings, fault: CarpusFault) -> Path | None:
+    """Tell why the data folder cannot be used; the folder the person chose instead, None to end."""
+    theme = Theme(theme_name(qt, settings), settings.screen.text_scale)
+    apply_style(qt, theme)
+    return NoFolder(theme, WordTable().fault(fault), Path.home()).ask()
+
+
+def with_kept_folder(settings: Settings, folder: Path, settings_folder: Path | None = None) -> Settings:
+    """The settings with another data folder, also from the next start on."""
+    os.environ.pop(DATA_VARIABLE, None)  # it would go over what was just chosen
+    chosen = replace(settings, recording=replace(settings.recording, folder=str(folder)))
+    with contextlib.suppress(CarpusFault):
+        keep_preferences(chosen, settings_folder)
+    return chosen
 
 
 def theme_name(qt: QApplication, settings: Settings) -> ThemeName:

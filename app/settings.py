@@ -30,6 +30,8 @@ from core.tracking.settings import TrackerSettings
 SETTINGS_FILE, PREFERENCES_FILE = "settings.toml", "preferences.toml"
 """The first is written by people, the second by the window; the second goes over the first."""
 
+DATA_VARIABLE = "CARPUS_DATA"
+
 T = TypeVar("T")
 Values = Mapping[str, Any]
 
@@ -89,7 +91,7 @@ class Settings:
     @property
     def data_folder(self) -> Path:
         """Where patients and sessions are; ``CARPUS_DATA`` goes over the setting."""
-        named = os.environ.get("CARPUS_DATA") or self.recording.folder
+        named = os.environ.get(DATA_VARIABLE) or self.recording.folder
         return Path(named).expanduser() if named else default_data_folder()
 
 

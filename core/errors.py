@@ -166,5 +166,9 @@ class RegisterUnreadable(CarpusFault):
     """The register of patients cannot be opened, is damaged, or was written by a newer Carpus."""
 
 
+class FolderInUse(CarpusFault):
+    """Another Carpus has the data folder open and does not answer."""
+
+
 class PseudonymTaken(CarpusFault):
     """Another patient of the register has this pseudonym."""

@@ -148,6 +148,11 @@ FAULTS: dict[type[CarpusFault], Words] = {
         "The session files are safe; the list can be made again from them, without the names.",
         "Start Carpus again, or move the file away and let Carpus make a new list.",
     ),
+    errors.FolderInUse: Words(
+        "Another Carpus is using the patients of {subject}.",
+        "Nothing has been changed.",
+        "Go to the window that is open already, or choose another folder.",
+    ),
     errors.PseudonymTaken: Words(
         "The name {subject} belongs to another patient.",
         _UNTOUCHED,

@@ -1,0 +1,53 @@
+"""The window that opens instead when the data folder cannot be used: what is wrong, and another folder."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from PySide6.QtCore import QEventLoop
+from PySide6.QtWidgets import QFileDialog
+
+from ui.messages.stop_card import Answer, StopCard
+from ui.ports import Words
+from ui.shell import Shell
+from ui.theme import Theme
+
+
+class NoFolder:
+    """A card in an empty window. ``chosen`` is the folder that the person named, None when they closed the window."""
+
+    def __init__(self, theme: Theme, words: Words, start: Path) -> None:
+        self.chosen: Path | None = None
+        self._start = start
+        self.shell = Shell(theme)
+        self.shell.bar.help_button.hide()
+        self.shell.bar.settings_button.hide()
+        self.card = StopCard(self.shell.stage, theme)
+        self._words = words
+        self._loop = QEventLoop()
+        self.shell.closing.connect(self._loop.quit)
+
+    def ask(self) -> Path | None:
+        """Show it and wait for the answer."""
+        self.shell.show()
+        self._show()
+        self._loop.exec()
+        self.shell.hide()
+        self.shell.deleteLater()
+        return self.chosen
+
+    def _show(self) -> None:
+        tr = self.shell.tr
+        self.card.show_words(
+            self._words,
+            (Answer(tr("Close Carpus"), self.shell.close), Answer(tr("Choose another folder"), self._choose)),
+        )
+
+    def _choose(self) -> None:
+        title = self.shell.tr("Folder of patients and sessions")
+        named = QFileDialog.getExistingDirectory(self.shell, title, str(self._start))
+        if not named:
+            self._show()
+            return
+        self.chosen = Path(named)
+        self._loop.quit()
