@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import logging
 import shutil
 from collections.abc import Callable, Sequence
@@ -26,7 +25,7 @@ from core.pipeline.live import LiveSession
 from core.pipeline.looking_back import LookingBack
 from core.pipeline.pieces import TrackedHand
 from core.pipeline.track import Learnt, TrackSettings, build_walk, learnt_from, parameters_json, source_facts
-from core.session.values import SET_UP, new_header
+from core.session.values import new_header
 from core.session.writer import SessionWriter
 from core.tracking.tracker import KeptSteps
 from core.types import ByteImage, FloatArray, Frame, TrackedFrame
@@ -252,13 +251,12 @@ class SourceMeasuring:
 
     def _parameters(self, learnt: Learnt) -> str:
         """All settings as JSON, with what the exercise aimed at."""
-        content = json.loads(parameters_json(self._settings, source_facts(self._info), learnt))
         aims = (self._set_up.target_positive_deg, self._set_up.target_negative_deg)
-        content[SET_UP] = {
+        set_up = {
             "repetitions": self._set_up.repetitions,
             "targets_deg": [aim if np.isfinite(aim) else None for aim in aims],
         }
-        return json.dumps(content, sort_keys=True)
+        return parameters_json(self._settings, source_facts(self._info), learnt, set_up)
 
     def stop_recording(self) -> str:
         """Store everything; the session's identity. A fault is raised once what reached the disk is finished."""

@@ -9,7 +9,7 @@ from core.capture.source import SourceInfo
 from core.errors import PictureDamaged
 from core.session.reader import raw_depth_unit_m, read_raw
 from core.session.values import Session
-from core.types import Frame
+from core.types import SIMULATED, Frame
 
 
 class SessionPictures:
@@ -24,7 +24,7 @@ class SessionPictures:
             has_depth=True,
             frame_count=len(session),
             nominal_fps=30.0,
-            settings={"format": "session"},
+            settings={"format": "session"} | ({SIMULATED: "yes"} if session.header.simulated else {}),
         )
 
     def frames(self) -> Iterator[Frame]:

@@ -22,11 +22,11 @@ from core.errors import DiskFull, OutputExists, RecordingEmpty
 from core.pipeline.frame_walk import FrameWalk
 from core.pipeline.session_source import SessionPictures
 from core.session.reader import has_raw, read_detections, read_session
-from core.session.values import motion_of, new_header
+from core.session.values import SET_UP, motion_of, new_header
 from core.session.writer import SessionWriter
 from core.tracking.settings import TrackerSettings
 from core.tracking.tracker import Tracker
-from core.types import FloatArray, Frame, TrackedFrame, TrackStatus
+from core.types import SIMULATED, FloatArray, Frame, TrackedFrame, TrackStatus
 
 T = TypeVar("T")
 
@@ -73,9 +73,13 @@ class Learnt:
         return replace(settings, noise=noise, marker_radius_m=self.disc_radius_m)
 
 
-def parameters_json(settings: TrackSettings, source: Mapping[str, Any], learnt: Learnt) -> str:
-    """All settings, what was learnt and the facts of the source, as stored in the session."""
-    content = {"settings": asdict(settings), "learnt": asdict(learnt), "source": dict(source)}
+def parameters_json(
+    settings: TrackSettings, source: Mapping[str, Any], learnt: Learnt, set_up: Mapping[str, Any] | None = None
+) -> str:
+    """All settings, what was learnt, the facts of the source and what was aimed at, as stored in the session."""
+    content: dict[str, Any] = {"settings": asdict(settings), "learnt": asdict(learnt), "source": dict(source)}
+    if set_up:
+        content[SET_UP] = dict(set_up)
     return json.dumps(content, sort_keys=True)
 
 
@@ -151,6 +155,7 @@ def track_recording(
     progress: Progress | None = None,
     on_verdict: Callable[[Verdict], None] | None = None,
     origin: str = "",
+    set_up: Mapping[str, Any] | None = None,
 ) -> TrackReport:
     """Track a recording from its first frame to its last into ``output``; smooth it if asked.
 
@@ -177,7 +182,7 @@ def track_recording(
         software_version=software_version,
         subject_id=subject_id,
         exercise=exercise,
-        parameters=parameters_json(settings, source_facts(source.info), learnt),
+        parameters=parameters_json(settings, source_facts(source.info), learnt, set_up),
         origin=origin,
         dip_free=settings.tracker.dip == "free",
     )
@@ -199,7 +204,8 @@ def retrack_session(
     """Track a session again, from its pictures where it kept them, else from its detections.
 
     From detections the session's own calibration and what it learnt are used again, so that equal settings
-    give equal angles. The old file is not touched; the new one names it as its origin.
+    give equal angles. The old file is not touched; the new one names it as its origin, aims at the same, and is
+    simulated where that was.
     """
     if output.exists():
         raise OutputExists(output)
@@ -218,6 +224,7 @@ def retrack_session(
             progress=progress,
             on_verdict=on_verdict,
             origin=old.session_id,
+            set_up=old.set_up,
         )
     table = read_detections(origin)
     learnt = learnt_in(old.parameters) or learnt_from(StillNoise(), -np.inf, settings.tracker)
@@ -231,13 +238,14 @@ def retrack_session(
             dropped = max(int(session.quality.dropped_before[row]), 0)
             yield tracker.step(row, float(time_s[row]), table.of_frame(row), dropped)
 
+    source = {"session": old.session_id, "from": "detections"} | ({SIMULATED: "yes"} if old.simulated else {})
     header = new_header(
         hand=old.hand,
         protocol=old.protocol,
         software_version=software_version,
         subject_id=old.subject_id,
         exercise=old.exercise,
-        parameters=parameters_json(settings, {"session": old.session_id, "from": "detections"}, learnt),
+        parameters=parameters_json(settings, source, learnt, old.set_up),
         origin=old.session_id,
         dip_free=settings.tracker.dip == "free",
     )

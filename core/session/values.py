@@ -5,10 +5,11 @@ from __future__ import annotations
 import json
 import math
 import uuid
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, fields
 from datetime import datetime
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -53,18 +54,24 @@ class SessionHeader:
     @property
     def simulated(self) -> bool:
         """Whether the pictures were of a simulated hand, as their source said: nobody's movement was measured."""
-        parameters = json.loads(self.parameters)
-        source = parameters.get("source") if isinstance(parameters, dict) else None
-        return isinstance(source, dict) and source.get(SIMULATED) == "yes"
+        return self._part("source").get(SIMULATED) == "yes"
+
+    @property
+    def set_up(self) -> Mapping[str, Any]:
+        """What was aimed at; empty where the session does not say."""
+        return self._part(SET_UP)
 
     @property
     def targets_deg(self) -> tuple[float, float]:
         """Targets of the exercise as set up, signed degrees of its positive and negative direction; NaN for none."""
-        parameters = json.loads(self.parameters)
-        set_up = parameters.get(SET_UP) if isinstance(parameters, dict) else None
-        values = (set_up or {}).get("targets_deg") or (None, None)
+        values = self.set_up.get("targets_deg") or (None, None)
         positive, negative = (math.nan if value is None else float(value) for value in values)
         return positive, negative
+
+    def _part(self, name: str) -> Mapping[str, Any]:
+        parameters = json.loads(self.parameters)
+        part = parameters.get(name) if isinstance(parameters, dict) else None
+        return part if isinstance(part, dict) else {}
 
 
 def new_header(

@@ -16,16 +16,20 @@ import pytest
 from core.calibration.clicks import read_clicks
 from core.calibration.result import Clicks, Verdict
 from core.calibration.settings import CalibrationSettings
+from core.capture.raw_pictures import encode_color, encode_depth
 from core.capture.source import SourceInfo
-from core.capture.tum import TumFolder
+from core.capture.tum import DEPTH_UNIT_M, TumFolder
 from core.errors import ClickOnNoMarker, OutputExists, PictureDamaged, RecordingEmpty
 from core.pipeline.track import TrackReport, TrackSettings, from_neutral, retrack_session, track_recording
 from core.session.reader import read_session
+from core.session.values import RawPictures
+from core.session.writer import SessionWriter
 from core.simulation.recording import CLICKS_FILE, simulate
 from core.simulation.spec import RecordingSpec
 from core.simulation.truth import Truth
 from core.tracking.settings import TrackerSettings
 from core.types import FloatArray, Frame
+from tests.session.samples import make_frame
 
 SPEC = RecordingSpec(seed=5, motion="deviation", seconds=1.3, speed_hz=0.9, hand="left", distance_m=0.68)
 VERSION = "1.2.3-test"
@@ -278,3 +282,37 @@ def test_a_recording_without_pictures_is_empty_not_a_session(made: Made, tmp_pat
     with pytest.raises(RecordingEmpty):
         track_recording(NoFrames(info), made.clicks, tmp_path / "s.h5", TrackSettings(), software_version=VERSION)
     assert list(tmp_path.iterdir()) == []
+
+
+@pytest.mark.parametrize("with_pictures", [False, True])
+def test_what_was_simulated_and_what_was_aimed_at_stay_when_it_is_tracked_again(
+    made: Made, tmp_path: Path, with_pictures: bool
+) -> None:
+    aims = {"repetitions": 7, "targets_deg": [20.0, None]}
+    settings = replace(TrackSettings(), smooth=False)
+    track(made.folder, made.clicks, tmp_path / "s.h5", settings, set_up=aims)
+    if with_pictures:
+        keep_pictures(made.folder, tmp_path / "s.h5", tmp_path / "p.h5")
+    origin = tmp_path / ("p.h5" if with_pictures else "s.h5")
+    retrack_session(origin, tmp_path / "t.h5", settings, software_version="1")
+    header = read_session(tmp_path / "t.h5").header
+    assert json.loads(header.parameters)["source"].get("format") == ("session" if with_pictures else None)
+    assert header.simulated
+    assert header.set_up == aims
+    assert header.targets_deg[0] == 20.0
+    assert np.isnan(header.targets_deg[1])
+    real = replace(header, parameters=json.dumps({"source": {"format": "tum"}}))
+    assert not real.simulated
+
+
+def keep_pictures(folder: Path, session: Path, output: Path) -> None:
+    """A session with the head of another and the pictures that one was tracked from."""
+    stored = read_session(session)
+    writer = SessionWriter.create(
+        output, stored.header, stored.camera, stored.calibration, raw_depth_unit_m=DEPTH_UNIT_M
+    )
+    for frame in TumFolder(folder).frames():
+        assert frame.depth_raw is not None
+        pictures = RawPictures(encode_color(frame.color_rgb, lossless=True), encode_depth(frame.depth_raw))
+        writer.append(replace(make_frame(frame.index), timestamp_s=frame.timestamp_s), pictures)
+    writer.close()
