@@ -131,12 +131,11 @@ def paint_hand_cursor(
 ) -> None:
     """Dots on the curves under the cursor and their numbers at the right; a hidden joint in the second colour."""
     scale = style.end_label.pixelSize() / 12.0
-    for panel, place in panels:
-        figures = [figure for figure in plot.figures(place) if plot.joint_series(figure) is not None]
-        if not plot.finger:
-            figures = [figure for figure in figures if not _is_bound(plot, figure)]
+    shown = [_with_numbers(plot, place) for _, place in panels]
+    most = max(map(len, shown))
+    for (panel, _), figures in zip(panels, shown, strict=True):
         step = (20.0 if plot.finger else 15.0) * scale
-        if not plot.finger and step * len(figures) > _pitch(panels):
+        if not plot.finger and step * most > _pitch(panels):
             _paint_in_one_line(painter, style, plot, panel, figures, time_s)
             continue
         line = panel.box.center().y() - step * (len(figures) - 1) / 2
@@ -156,6 +155,12 @@ def paint_hand_cursor(
             words = numbers.with_spread(value, sd)
             painter.drawText(QPointF(left + 18 * scale, line + 5 * scale), words)
             line += step
+
+
+def _with_numbers(plot: HandPlot, place: int) -> list[Figure]:
+    """The figures of a panel that have a number beside it."""
+    figures = [figure for figure in plot.figures(place) if plot.joint_series(figure) is not None]
+    return figures if plot.finger else [figure for figure in figures if not _is_bound(plot, figure)]
 
 
 def _pitch(panels: Sequence[tuple[Panel, int]]) -> float:
