@@ -15,7 +15,7 @@ from core.calibration.clicks import read_clicks
 from core.calibration.result import Verdict
 from core.errors import IntrinsicsAssumed, RecordingMissing
 from core.hand.protocols import MarkerProtocol
-from core.pipeline.track import TrackReport, TrackSettings, retrack_session, track_recording
+from core.pipeline.track import TrackReport, TrackSettings, fingers_as_tracked, retrack_session, track_recording
 from core.session.reader import read_outline
 from core.tracking.finger_settings import FingerSettings
 from core.tracking.settings import PROFILES, TrackerSettings
@@ -49,13 +49,15 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         help="use each marker's depth (default) or colour only, as the papers do",
     )
     parser.add_argument(
-        "--dip", choices=("coupled", "free"), default="coupled", help="end joints bound to the middle joints, or free"
+        "--dip",
+        choices=("coupled", "free"),
+        help="end joints bound to the middle joints (default), or free; a session's own unless given",
     )
     parser.add_argument(
         "--discs",
         choices=("on-skin", "in-joints"),
-        default="on-skin",
-        help="where the discs of the fingers are: on the skin over the joints, or in the joints, the papers' chain",
+        help="where the discs of the fingers are: on the skin over the joints (default), or in the joints, the papers' "
+        "chain; a session's own unless given",
     )
     parser.add_argument("--profile", choices=tuple(PROFILES), default="standard", help="how lively the hand is")
     parser.add_argument(
@@ -100,16 +102,17 @@ HAND_COLOR_ALONE = (
 )
 
 
-def settings_from(arguments: argparse.Namespace) -> TrackSettings:
-    """The settings that the options name."""
-    fingers = FingerSettings(skin_offsets=arguments.discs == "on-skin")
+def settings_from(arguments: argparse.Namespace, parameters: str = "") -> TrackSettings:
+    """The settings that the options name, and for a session tracked with ``parameters`` what they leave to it."""
+    own = fingers_as_tracked(TrackerSettings(), parameters)
+    skin_offsets = own.fingers.skin_offsets if arguments.discs is None else arguments.discs == "on-skin"
     tracker = TrackerSettings(
-        fingers=fingers,
+        fingers=FingerSettings(skin_offsets=skin_offsets),
         form=arguments.filter,
         motion="paper" if arguments.motion == "paper" else "constant_rate",
         profile=arguments.profile,
         use_depth=arguments.depth,
-        dip=arguments.dip,
+        dip=arguments.dip or own.dip,
     )
     return replace(TrackSettings(), tracker=tracker, smooth=arguments.smooth)
 
@@ -125,7 +128,9 @@ def run(arguments: argparse.Namespace) -> int:
         if told:
             print(f"carpus track: a session brings its own; leave out {' and '.join(told)}.", file=sys.stderr)
             return 2
-        warn_of_experiment(settings, read_outline(arguments.recording).header.protocol)
+        header = read_outline(arguments.recording).header
+        settings = settings_from(arguments, header.parameters)
+        warn_of_experiment(settings, header.protocol)
         with bar("tracking again") as progress:
             report = retrack_session(
                 arguments.recording,
@@ -180,7 +185,7 @@ def warn(verdict: Verdict) -> None:
     for finding in verdict.findings:
         if finding.blocks:
             continue  # this ends the command, and is said there
-        print(f"carpus: {finding_sentence(finding)}", file=sys.stderr)
+        print(f"carpus: warning: {finding_sentence(finding)}", file=sys.stderr)
 
 
 def print_report(report: TrackReport) -> None:

@@ -91,6 +91,17 @@ def learnt_in(parameters: str) -> Learnt | None:
         return None
 
 
+def fingers_as_tracked(settings: TrackerSettings, parameters: str) -> TrackerSettings:
+    """The settings with the end joints and the places of the fingers' discs of an earlier session, which are facts of
+    that hand; unchanged where its parameters do not say."""
+    try:
+        told = json.loads(parameters)["settings"]["tracker"]
+        fingers = replace(settings.fingers, skin_offsets=bool(told["fingers"]["skin_offsets"]))
+        return replace(settings, dip="free" if told["dip"] == "free" else "coupled", fingers=fingers)
+    except (KeyError, TypeError, ValueError):
+        return settings
+
+
 def source_facts(info: SourceInfo) -> dict[str, Any]:
     """What a session says about where its pictures came from."""
     return {
