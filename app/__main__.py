@@ -18,7 +18,8 @@ from pathlib import Path
 from typing import NoReturn
 
 from app import __version__
-from app.commands import COMMANDS
+from app.commands import COMMANDS, not_yet
+from app.commands.not_yet import NOT_YET
 from core.errors import CarpusFault
 
 EXIT_DONE, EXIT_COULD_NOT = 0, 1
@@ -33,10 +34,10 @@ def parser(asked: Sequence[str]) -> argparse.ArgumentParser:
     )
     out.add_argument("--version", action="version", version=f"carpus {__version__}")
     subparsers = out.add_subparsers(dest="command", metavar="COMMAND")
-    for name, words in COMMANDS.items():
+    for name, words in (COMMANDS | NOT_YET).items():
         sub = subparsers.add_parser(name, help=words, description=words)
         if name == next((word for word in asked if not word.startswith("-")), None):
-            command = import_module(f"app.commands.{name}")
+            command = not_yet if name in NOT_YET else import_module(f"app.commands.{name}")
             command.add_arguments(sub)
             sub.set_defaults(run=command.run)
     return out
@@ -45,6 +46,8 @@ def parser(asked: Sequence[str]) -> argparse.ArgumentParser:
 def main(argv: Sequence[str] | None = None) -> int:
     """Run one command; 0 done, 1 could not be done (one line on stderr), 2 wrong usage."""
     asked = sys.argv[1:] if argv is None else argv
+    if asked and asked[0] in NOT_YET and not {"-h", "--help"} & set(asked):
+        asked = asked[:1]  # whatever follows cannot be judged yet
     _open_closed_streams()
     _stop_on_signals()
     try:

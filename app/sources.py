@@ -26,7 +26,7 @@ def open_recording(
     if path.is_dir():
         from core.capture.tum import TumFolder
 
-        return TumFolder(path, need_depth=need_depth, read_ahead=8)
+        return TumFolder(path, need_depth=need_depth, read_ahead=8, leave_out_damaged=True, notice=notice)
     if path.suffix.lower() == ".oni":
         from core.capture.oni_source import OniSource
 

@@ -166,6 +166,10 @@ class RegisterUnreadable(CarpusFault):
     """The register of patients cannot be opened, is damaged, or was written by a newer Carpus."""
 
 
+class FolderMissing(CarpusFault):
+    """There is no folder at the path where sessions were looked for."""
+
+
 class FolderInUse(CarpusFault):
     """Another Carpus has the data folder open and does not answer."""
 

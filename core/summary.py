@@ -48,7 +48,7 @@ def session_summary(session: Session) -> list[str]:
         _line("Smoothed", "yes" if session.smoothed is not None else "no"),
         _line("Pictures", "kept" if has_raw(session.path) else "not kept"),
         _line("Events", _events(session)),
-        _line("Settings", header.parameters),
+        _line("Settings", "carpus info --json FILE shows them"),
     ]
     if header.origin:
         lines.append(_line("Origin", f"tracked again from {header.origin}"))

@@ -148,6 +148,11 @@ FAULTS: dict[type[CarpusFault], Words] = {
         "The session files are safe; the list can be made again from them, without the names.",
         "Start Carpus again, or move the file away and let Carpus make a new list.",
     ),
+    errors.FolderMissing: Words(
+        "There is no folder {subject}.",
+        "Nothing has been changed.",
+        "Name the folder that holds the sessions.",
+    ),
     errors.FolderInUse: Words(
         "Another Carpus is using the patients of {subject}.",
         "Nothing has been changed.",

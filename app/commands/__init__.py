@@ -12,6 +12,7 @@ COMMANDS = {
     "simulate": "Make a synthetic recording with ground truth.",
     "info": "Say what a recording or session holds.",
     "report": "The report of a session, or the progress report of several, as a PDF.",
+    "export": "A session in open formats.",
     "recover": "Finish the interrupted sessions of a folder.",
     "doctor": "Check driver, camera, window libraries, fonts, disk and data folder.",
 }

@@ -5,6 +5,7 @@ from __future__ import annotations
 import argparse
 from pathlib import Path
 
+from app.commands.progress import tell
 from core.capture.tum import TumFolder
 from core.errors import RecordingMissing
 from core.session.reader import read_session
@@ -13,6 +14,7 @@ from core.summary import recording_summary, session_summary, source_summary
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("file", type=Path, help="session (.h5), TUM folder, .oni file or raw recording")
+    parser.add_argument("--json", action="store_true", help="of a session only its settings, as JSON")
 
 
 def run(arguments: argparse.Namespace) -> int:
@@ -20,11 +22,12 @@ def run(arguments: argparse.Namespace) -> int:
     if not path.exists():
         raise RecordingMissing(path)
     if path.suffix in {".h5", ".part"}:
-        lines = session_summary(read_session(path))
+        session = read_session(path)
+        lines = [session.header.parameters] if arguments.json else session_summary(session)
     else:
         from app.sources import open_recording
 
-        source = open_recording(path, need_depth=False)
+        source = open_recording(path, need_depth=False, notice=tell)
         try:
             if isinstance(source, TumFolder):
                 lines = recording_summary(path, source)

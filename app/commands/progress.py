@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import sys
+import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 
@@ -10,6 +11,9 @@ from tqdm import tqdm
 
 from core.errors import CarpusFault
 from core.words import one_sentence
+
+SPEAK_EVERY_S = 10.0
+"""Where stderr is no terminal a line as often says that the work goes on."""
 
 
 def tell(fault: CarpusFault) -> None:
@@ -19,10 +23,18 @@ def tell(fault: CarpusFault) -> None:
 
 @contextmanager
 def bar(what: str) -> Iterator[Callable[[int, int | None], None]]:
-    """A function (done, total) that draws; the bar goes when the work is over. Silent when stderr is no terminal."""
-    with tqdm(desc=what, unit="frame", leave=False, disable=not sys.stderr.isatty()) as drawn:
+    """A function (done, total) that draws; the bar goes when the work is over. A line now and then for no terminal."""
+    is_terminal = sys.stderr.isatty()
+    spoken_s = time.monotonic()
+    with tqdm(desc=what, unit="frame", leave=False, disable=not is_terminal) as drawn:
 
         def show(done: int, total: int | None) -> None:
+            nonlocal spoken_s
+            if not is_terminal:
+                if time.monotonic() - spoken_s >= SPEAK_EVERY_S:
+                    spoken_s = time.monotonic()
+                    print(f"carpus: {what}, {done}{f' of {total}' if total else ''}", file=sys.stderr, flush=True)
+                return
             drawn.total = total
             drawn.update(done - drawn.n)
 

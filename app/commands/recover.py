@@ -6,7 +6,7 @@ import argparse
 import sys
 from pathlib import Path
 
-from core.errors import RecordingMissing
+from core.errors import FolderMissing
 from core.session.recovery import recover_folder
 from core.words import one_sentence
 
@@ -17,7 +17,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(arguments: argparse.Namespace) -> int:
     if not arguments.folder.is_dir():
-        raise RecordingMissing(arguments.folder)
+        raise FolderMissing(arguments.folder)
     found = recover_folder(arguments.folder)
     for path in found.recovered:
         print(f"Recovered: {path}")

@@ -6,13 +6,15 @@ import math
 from collections import deque
 from collections.abc import Iterator
 from concurrent.futures import Future, ThreadPoolExecutor
-from dataclasses import dataclass
+from contextlib import closing
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
 
 from core.camera import Camera
 from core.capture.camera_info import CAMERA_FILE, default_camera, read_camera_info
+from core.capture.notice import Notice, ignore
 from core.capture.picture_file import read_color, read_depth
 from core.capture.source import SourceInfo
 from core.errors import (
@@ -20,6 +22,7 @@ from core.errors import (
     DepthMissing,
     PictureDamaged,
     PictureSizeChanged,
+    PicturesLost,
     RecordingEmpty,
     RecordingMissing,
     RecordingUnreadable,
@@ -35,6 +38,9 @@ _TIME_ROUNDING_S = 1e-6
 """The lists give microseconds; two times 20 ms apart may differ by a little more in floating point."""
 SIMULATED_REMARK = "# simulated by Carpus"
 """A line among the remarks of the lists of a simulated recording."""
+_Entry = tuple[float, Path, str]
+"""Time, picture and where the list names it."""
+_Decoded = tuple[Frame | None, bool]
 _READING_THREADS = 2
 _FPS_OF_ONE_PICTURE = 30.0
 
@@ -54,19 +60,32 @@ class TumFolder:
 
     Every colour picture is yielded once. With ``need_depth`` a folder without usable depth is a fault. With
     ``read_ahead`` > 0 that many frames are decoded in advance by two threads. Opening reads the lists, checks
-    that every picture is there, and decodes the first; the others are decoded, and checked, as they come.
+    that every picture is there, and decodes the first; the others are decoded, and checked, as they come. A picture
+    that is missing or damaged is a fault; with ``leave_out_damaged`` only the first colour picture is, the frames of
+    others count as missing, a depth picture as none, and ``notice`` hears :class:`PicturesLost`.
     """
 
-    def __init__(self, folder: Path, *, need_depth: bool = True, read_ahead: int = 0) -> None:
+    def __init__(
+        self,
+        folder: Path,
+        *,
+        need_depth: bool = True,
+        read_ahead: int = 0,
+        leave_out_damaged: bool = False,
+        notice: Notice = ignore,
+    ) -> None:
         if not folder.exists():
             raise RecordingMissing(folder)
         if not folder.is_dir():
             raise RecordingUnreadable(folder, "not a folder")
         self._read_ahead = read_ahead
-        color = _read_list(folder / COLOR_LIST)
+        self._folder, self._leave_out, self._notice = folder, leave_out_damaged, notice
+        color, color_gone = _there(_read_list(folder / COLOR_LIST), leave_out_damaged)
         if not color:
             raise RecordingEmpty(folder, f"no picture in {COLOR_LIST}")
-        depth = _depth_list(folder, need_depth)
+        depth, depth_gone = _there(_depth_list(folder, need_depth), leave_out_damaged)
+        if color_gone or depth_gone:
+            notice(PicturesLost(folder, _counted(color_gone, depth_gone, "missing")))
         color_s = np.array([time_s for time_s, _ in color])
         partner = nearest_pairs(color_s, np.array([time_s for time_s, _ in depth]))
         if need_depth and not any(index is not None for index in partner):
@@ -88,19 +107,49 @@ class TumFolder:
 
     def frames(self) -> Iterator[Frame]:
         """The frames in order; may be asked for again."""
-        if self._read_ahead > 0:
-            return self._frames_ahead(self._read_ahead)
-        return (self._frame(index) for index in range(len(self.stored)))
+        decoded = self._frames_ahead(self._read_ahead) if self._read_ahead > 0 else self._frames_now()
+        return self._whole(decoded)
 
     def close(self) -> None:
         """Nothing is held open between two frames."""
 
-    def _frames_ahead(self, bound: int) -> Iterator[Frame]:
-        pending: deque[Future[Frame]] = deque()
+    def _frames_now(self) -> Iterator[_Decoded]:
+        return (self._decoded(index) for index in range(len(self.stored)))
+
+    def _whole(self, decoded: Iterator[_Decoded]) -> Iterator[Frame]:
+        """The frames that could be decoded, one after another; those left out are missing before the next."""
+        number, color_lost, depth_lost, missing = 0, 0, 0, 0
+        with closing(decoded) as all_of_them:  # type: ignore[type-var]
+            for frame, depth_is_lost in all_of_them:
+                depth_lost += depth_is_lost
+                if frame is None:
+                    color_lost += 1
+                    missing += 1 + self.stored[number + color_lost - 1].dropped_before
+                    continue
+                yield replace(frame, index=number, dropped_before=frame.dropped_before + missing)
+                number, missing = number + 1, 0
+        if color_lost or depth_lost:
+            self._notice(PicturesLost(self._folder, _counted(color_lost, depth_lost, "damaged")))
+
+    def _decoded(self, index: int) -> _Decoded:
+        """A frame, None where its colour picture is left out, and whether a depth picture was."""
+        if not self._leave_out:
+            return self._frame(index, with_depth=True), False
+        try:
+            return self._frame(index, with_depth=True), False
+        except PictureDamaged:
+            pass
+        try:
+            return self._frame(index, with_depth=False), True
+        except PictureDamaged:
+            return None, False
+
+    def _frames_ahead(self, bound: int) -> Iterator[_Decoded]:
+        pending: deque[Future[_Decoded]] = deque()
         with ThreadPoolExecutor(_READING_THREADS, thread_name_prefix="read-ahead") as pool:
             try:
                 for index in range(len(self.stored)):
-                    pending.append(pool.submit(self._frame, index))
+                    pending.append(pool.submit(self._decoded, index))
                     if len(pending) > bound:
                         yield pending.popleft().result()
                 while pending:
@@ -109,11 +158,11 @@ class TumFolder:
                 for future in pending:
                     future.cancel()
 
-    def _frame(self, index: int) -> Frame:
+    def _frame(self, index: int, *, with_depth: bool) -> Frame:
         stored = self.stored[index]
         color = read_color(stored.color)
         self._check_size(stored.color, color.shape)
-        depth = None if stored.depth is None else read_depth(stored.depth)
+        depth = None if stored.depth is None or not with_depth else read_depth(stored.depth)
         if stored.depth is not None and depth is not None:
             self._check_size(stored.depth, depth.shape)
         return Frame(index, stored.timestamp_s, color, depth, DEPTH_UNIT_M, stored.dropped_before)
@@ -159,7 +208,7 @@ def missing_before(timestamp_s: FloatArray) -> list[int]:
     return [0, *(max(0, round(float(gap)) - 1) for gap in gap_s / np.median(gap_s))]
 
 
-def _depth_list(folder: Path, need_depth: bool) -> list[tuple[float, Path]]:
+def _depth_list(folder: Path, need_depth: bool) -> list[_Entry]:
     path = folder / DEPTH_LIST
     depth = _read_list(path) if path.exists() else []
     if need_depth and not depth:
@@ -167,8 +216,8 @@ def _depth_list(folder: Path, need_depth: bool) -> list[tuple[float, Path]]:
     return depth
 
 
-def _read_list(path: Path) -> list[tuple[float, Path]]:
-    """Times and picture files of ``rgb.txt`` or ``depth.txt``; the times rise strictly and every file is there."""
+def _read_list(path: Path) -> list[_Entry]:
+    """Times, picture files and lines of ``rgb.txt`` or ``depth.txt``; the times rise strictly."""
     try:
         text = path.read_text(encoding="utf-8-sig")
     except FileNotFoundError as cause:
@@ -177,7 +226,7 @@ def _read_list(path: Path) -> list[tuple[float, Path]]:
         raise RecordingUnreadable(path, cause.strerror or "cannot be opened") from cause
     except UnicodeDecodeError as cause:
         raise RecordingUnreadable(path, "not a text file") from cause
-    entries: list[tuple[float, Path]] = []
+    entries: list[_Entry] = []
     for number, line in enumerate(text.splitlines(), start=1):
         content = line.strip()
         if not content or content.startswith("#"):
@@ -185,10 +234,24 @@ def _read_list(path: Path) -> list[tuple[float, Path]]:
         time_s, picture = _entry(path, number, content)
         if entries and time_s <= entries[-1][0]:
             raise TimesUnordered(path, f"line {number}: {time_s:.6f} s after {entries[-1][0]:.6f} s")
-        if not picture.is_file():
-            raise PictureDamaged(picture, f"missing, {path.name} line {number}")
-        entries.append((time_s, picture))
+        entries.append((time_s, picture, f"{path.name} line {number}"))
     return entries
+
+
+def _there(entries: list[_Entry], leave_out: bool) -> tuple[list[tuple[float, Path]], int]:
+    """Times and pictures that are there, and how many are not; the first, on which is clicked, must be."""
+    out: list[tuple[float, Path]] = []
+    for time_s, picture, place in entries:
+        if picture.is_file():
+            out.append((time_s, picture))
+        elif not leave_out or not out:
+            raise PictureDamaged(picture, f"missing, {place}")
+    return out, len(entries) - len(out)
+
+
+def _counted(color: int, depth: int, how: str) -> str:
+    counts = [f"{count} {kind}" for count, kind in ((color, "colour"), (depth, "depth")) if count]
+    return f"{' and '.join(counts)} {how}"
 
 
 def _simulated(color_list: Path) -> dict[str, str]:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+import shutil
 import signal
 import subprocess
 import sys
@@ -15,6 +16,7 @@ import pytest
 from tqdm import tqdm
 
 from app.__main__ import main
+from app.commands import progress
 from app.sources import open_recording
 from core.capture.camera_info import CAMERA_FILE
 from core.capture.oni_writer import write_oni
@@ -259,3 +261,67 @@ def test_depth_beside_colour_is_told_also_where_a_marker_has_none(
     assert "Depth and colour do not lie on each other" in said
     assert said.count("measures no depth") == 1
     assert not output.exists()
+
+
+def test_damaged_pictures_are_left_out_and_told(
+    recording: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    copy = tmp_path / "copy"
+    shutil.copytree(recording, copy)
+    color = sorted((copy / "rgb").iterdir())
+    color[4].write_text("no picture")
+    color[7].unlink()
+    assert main(["info", str(copy)]) == 0
+    assert "1 colour missing" in capsys.readouterr().err
+    output = tmp_path / "session.h5"
+    assert main(["track", str(copy), "--calibration", str(copy / CLICKS_FILE), "--output", str(output)]) == 0
+    assert "1 colour damaged" in capsys.readouterr().err
+    tracked = read_session(output)
+    assert len(tracked) == len(color) - 2
+    assert tracked.quality.dropped_before.sum() == 2
+    assert tracked.header.simulated
+
+
+def test_a_session_is_exported_as_csv_and_other_formats_are_said_to_be_missing(
+    session: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    folder = tmp_path / "new" / "export"
+    assert main(["export", str(session), "--format", "csv", "--output", str(folder)]) == 0
+    assert [path.name for path in folder.iterdir()] == ["session.wrist.csv"]
+    assert main(["export", str(session), "--format", "csv", "--output", str(folder)]) == 1, "nothing is overwritten"
+    capsys.readouterr()
+    assert main(["export", str(session), "--format", "csv,c3d", "--output", str(folder)]) == 1
+    assert "c3d is not there yet" in capsys.readouterr().err
+    assert usage_code("export", str(session), "--format", "xls", "--output", str(folder)) == 2
+
+
+@pytest.mark.parametrize("command", [["compare", "a.h5", "b.c3d"], ["calibrate-camera", "--board", "9x6"]])
+def test_a_command_to_come_says_so(command: list[str], capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(command) == 1
+    said = capsys.readouterr().err
+    assert said.count("\n") == 1
+    assert f"{command[0]} is not there yet" in said
+
+
+def test_settings_of_a_session_are_json_where_asked_for(session: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["info", str(session), "--json"]) == 0
+    assert isinstance(json.loads(capsys.readouterr().out), dict)
+
+
+def test_recovering_a_folder_that_is_not_there_speaks_of_a_folder(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert main(["recover", str(tmp_path / "nope")]) == 1
+    assert "no folder" in capsys.readouterr().err
+
+
+def test_long_work_without_a_terminal_says_a_line_now_and_then(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    clock_s = [0.0]
+    monkeypatch.setattr(progress.time, "monotonic", lambda: clock_s[0])
+    with progress.bar("tracking") as show:
+        for done in range(1, 31):
+            clock_s[0] += 1.0
+            show(done, 40)
+    assert capsys.readouterr().err.splitlines() == [f"carpus: tracking, {n} of 40" for n in (10, 20, 30)]

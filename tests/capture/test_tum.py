@@ -22,6 +22,7 @@ from core.errors import (
     DepthMissing,
     PictureDamaged,
     PictureSizeChanged,
+    PicturesLost,
     RecordingEmpty,
     RecordingMissing,
     RecordingUnreadable,
@@ -305,3 +306,31 @@ def test_a_simulated_recording_says_so_and_no_other_does(tmp_path: Path) -> None
     rgb = recording / "rgb.txt"
     rgb.write_text(f"{SIMULATED_REMARK}\n{rgb.read_text()}")
     assert TumFolder(recording).info.settings[SIMULATED] == "yes"
+
+
+@pytest.mark.parametrize("read_ahead", [0, 3])
+def test_damaged_and_missing_pictures_can_be_left_out_and_are_told(tmp_path: Path, read_ahead: int) -> None:
+    folder = write_recording(tmp_path / "take")
+    color, depth = (sorted((folder / kind).iterdir()) for kind in ("rgb", "depth"))
+    color[1].write_text("no picture")
+    color[3].unlink()
+    depth[2].write_bytes(b"")
+    told: list[CarpusFault] = []
+    source = TumFolder(folder, read_ahead=read_ahead, leave_out_damaged=True, notice=told.append)
+    frames = list(source.frames())
+    assert [frame.index for frame in frames] == [0, 1, 2]
+    assert [frame.timestamp_s for frame in frames] == [round(TIMES_S[k], 6) for k in (0, 2, 4)]
+    for frame, number in zip(frames, (0, 2, 4), strict=True):
+        np.testing.assert_array_equal(frame.color_rgb, color_picture(number))
+    assert frames[1].depth_raw is None
+    assert frames[1].dropped_before == 1, "the damaged one"
+    assert all(isinstance(fault, PicturesLost) for fault in told)
+    assert [fault.detail for fault in told] == ["1 colour missing", "1 colour and 1 depth damaged"]
+
+
+def test_the_first_picture_must_be_there_whole(tmp_path: Path) -> None:
+    for spoil in (lambda path: path.write_text("no picture"), Path.unlink):
+        folder = write_recording(tmp_path / f"take {spoil}")
+        spoil(sorted((folder / "rgb").iterdir())[0])
+        with pytest.raises(PictureDamaged):
+            TumFolder(folder, leave_out_damaged=True)
