@@ -11,6 +11,7 @@ import yaml
 
 from core.camera import DEFAULT_CAMERA, Camera
 from core.errors import CameraFileUnreadable, OutputExists, OutputNotWritable
+from core.types import SIMULATED
 
 CAMERA_FILE = "camera_info.yaml"
 DISTORTION_MODEL = "plumb_bob"
@@ -21,11 +22,13 @@ _FOCAL_SHARE = (0.2, 10.0)
 
 @dataclass(frozen=True, slots=True)
 class CameraInfo:
-    """What the file says. ``registered`` and ``mirrored`` are None where it does not say."""
+    """What the file says. ``registered`` and ``mirrored`` are None where it does not say; ``simulated``: the pictures
+    beside it are of a simulated hand."""
 
     camera: Camera
     registered: bool | None = None
     mirrored: bool | None = None
+    simulated: bool = False
 
 
 def read_camera_info(path: Path) -> CameraInfo:
@@ -47,7 +50,8 @@ def read_camera_info(path: Path) -> CameraInfo:
         raise CameraFileUnreadable(path, "not YAML") from cause
     if not isinstance(content, dict):
         raise CameraFileUnreadable(path, "not a camera calibration")
-    return CameraInfo(_camera(path, content), _flag(path, content, "registered"), _flag(path, content, "mirrored"))
+    registered, mirrored, simulated = (_flag(path, content, key) for key in ("registered", "mirrored", SIMULATED))
+    return CameraInfo(_camera(path, content), registered, mirrored, bool(simulated))
 
 
 def write_camera_info(
@@ -57,6 +61,7 @@ def write_camera_info(
     camera_name: str = "carpus",
     registered: bool | None = None,
     mirrored: bool | None = None,
+    simulated: bool = False,
 ) -> None:
     """Write ``camera`` as a ROS camera calibration file; a file that is there already is kept."""
     k = [camera.fx_px, 0.0, camera.cx_px, 0.0, camera.fy_px, camera.cy_px, 0.0, 0.0, 1.0]
@@ -73,6 +78,8 @@ def write_camera_info(
     for name, value in (("registered", registered), ("mirrored", mirrored)):
         if value is not None:
             content[name] = value
+    if simulated:
+        content[SIMULATED] = True
     text = yaml.safe_dump(content, sort_keys=False, default_flow_style=None, width=120)
     try:
         with path.open("x", encoding="utf-8") as file:

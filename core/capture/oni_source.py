@@ -35,7 +35,7 @@ from core.errors import (
     RecordingUnsupported,
     RegistrationAssumed,
 )
-from core.types import Frame
+from core.types import SIMULATED, Frame
 
 WAITING_PICTURES = 64
 """How far apart in the file colour and depth of one moment may lie."""
@@ -177,6 +177,8 @@ class OniSource:
         if layout.enlarged:
             settings["enlarged"] = layout.enlarged
             self._notice(PicturesEnlarged(self._path, layout.enlarged))
+        if told is not None and told.simulated:
+            settings[SIMULATED] = "yes"
         has_depth, count = contents.depth is not None, len(contents.color)
         return SourceInfo(self._path.name, camera, has_depth, count, float(contents.color.fps), settings)
 

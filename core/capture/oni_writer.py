@@ -224,10 +224,12 @@ def write_oni(
     color: ColorCodec = "jpeg",
     registered: bool = True,
     mirrored: bool = False,
+    simulated: bool = False,
 ) -> int:
     """Write ``frames`` to ``path`` and the camera beside it (``NAME.camera_info.yaml``); returns how many.
 
-    With ``mirrored`` the pictures are written left for right, as a camera left on its default does.
+    With ``mirrored`` the pictures are written left for right, as a camera left on its default does. ``simulated``
+    pictures are said to be in the file beside, since the recording itself has no place for it.
     """
     sidecar = sidecar_path(path)
     if sidecar.exists():
@@ -253,7 +255,7 @@ def write_oni(
         if writer is not None:
             writer.abandon()
     if written:
-        write_camera_info(sidecar, camera, registered=registered, mirrored=mirrored)
+        write_camera_info(sidecar, camera, registered=registered, mirrored=mirrored, simulated=simulated)
     return written
 
 

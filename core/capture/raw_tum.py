@@ -13,8 +13,8 @@ import numpy as np
 
 from core.capture.camera_info import CAMERA_FILE, write_camera_info
 from core.capture.raw_pictures import encode_color, encode_depth
-from core.capture.source import SourceInfo
-from core.capture.tum import COLOR_LIST, DEPTH_LIST, DEPTH_UNIT_M
+from core.capture.source import SourceInfo, is_simulated
+from core.capture.tum import COLOR_LIST, DEPTH_LIST, DEPTH_UNIT_M, SIMULATED_REMARK
 from core.errors import DiskFull, OutputExists, OutputNotWritable
 from core.types import DepthImage, Frame
 
@@ -34,7 +34,8 @@ class TumWriter:
             for name, kind in ((COLOR_LIST, "rgb"), (DEPTH_LIST, "depth")):
                 (path / kind).mkdir(parents=True)
                 self._lists[kind] = (path / name).open("x", encoding="utf-8")
-                self._lists[kind].write(f"# {kind} pictures of {info.name}\n# timestamp filename\n")
+                remark = f"{SIMULATED_REMARK}\n" if is_simulated(info) else ""
+                self._lists[kind].write(f"# {kind} pictures of {info.name}\n{remark}# timestamp filename\n")
         except OSError as cause:
             self.abandon()
             raise OutputNotWritable(path, cause.strerror or "") from cause

@@ -41,7 +41,8 @@ def simulate_oni(
         pictures = Path(scratch) / "tum"
         simulate(spec, pictures, progress)
         source = TumFolder(pictures, read_ahead=4)
-        write_oni(target, in_millimetres(source.frames()), source.info.camera, fps=round(spec.fps), color=color)
+        frames = in_millimetres(source.frames())
+        write_oni(target, frames, source.info.camera, fps=round(spec.fps), color=color, simulated=True)
         for name in (CLICKS_FILE, TRUTH_FILE, CAMERA_FILE):
             shutil.move(pictures / name, folder / name)
     return target

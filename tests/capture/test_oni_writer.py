@@ -13,6 +13,7 @@ from core.capture.camera_info import read_camera_info
 from core.capture.oni_check import check_recording
 from core.capture.oni_source import OniSource
 from core.capture.oni_writer import OniWriter, sidecar_path, write_oni
+from core.capture.source import is_simulated
 from core.errors import DiskFull, OutputExists, OutputNotWritable, RecordingDamaged
 from core.types import Frame
 from tests.capture.oni_samples import CAMERA, PERIOD_S, color_picture, depth_picture, write_sample
@@ -22,6 +23,13 @@ ROOT = Path(__file__).parents[2]
 
 def frames(count: int, depth_unit_m: float = 1e-3) -> list[Frame]:
     return [Frame(i, 100.0 + i * PERIOD_S, color_picture(i), depth_picture(i), depth_unit_m) for i in range(count)]
+
+
+@pytest.mark.parametrize("simulated", [False, True])
+def test_what_is_simulated_is_said_beside_it(tmp_path: Path, simulated: bool) -> None:
+    path = tmp_path / "take.oni"
+    write_oni(path, frames(2), CAMERA, simulated=simulated)
+    assert is_simulated(OniSource(path).info) == simulated
 
 
 @pytest.mark.parametrize("mirrored", [False, True])

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 
 import cv2
@@ -11,7 +12,7 @@ import pytest
 from core.camera import Camera
 from core.capture.camera_info import read_camera_info
 from core.capture.raw_tum import TumWriter, tum_depth
-from core.capture.source import SourceInfo
+from core.capture.source import SourceInfo, is_simulated
 from core.capture.tum import TumFolder
 from core.errors import OutputExists, OutputNotWritable
 from core.types import Frame
@@ -42,6 +43,13 @@ def test_the_reader_gives_the_same_pictures_back(tmp_path: Path) -> None:
         if read.depth_raw is not None and written.depth_raw is not None:
             assert np.array_equal(read.depth_raw, written.depth_raw * 5)
             assert read.depth_raw[0, 0] * read.depth_unit_m == pytest.approx(written.depth_raw[0, 0] * 1e-3)
+
+
+@pytest.mark.parametrize("settings", [{}, {"simulated": "yes"}])
+def test_what_was_simulated_stays_simulated(tmp_path: Path, settings: dict[str, str]) -> None:
+    with TumWriter(tmp_path / "take", replace(INFO, settings=settings)) as writer:
+        writer.append_frame(frames()[0])
+    assert is_simulated(TumFolder(tmp_path / "take").info) == bool(settings)
 
 
 def test_the_files_are_what_the_format_says(tmp_path: Path) -> None:
