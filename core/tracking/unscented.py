@@ -62,6 +62,8 @@ def make_roots(matrix: FloatArray) -> None:
 
     In place, as in the filter's step a root by ``numpy.linalg`` costs twice as much; fails as that does.
     """
+    if not matrix.flags.c_contiguous:
+        raise ValueError("not stored row by row: LAPACK would change a copy")
     for one in matrix:
         # LAPACK counts by columns: what it is told of, and changes in place, is the transpose.
         if dpotrf(one.T, lower=0, overwrite_a=1)[1]:
