@@ -75,6 +75,12 @@ def day_month(when: date | datetime) -> str:
     return QLocale().toString(_qdate(when), "d MMM")
 
 
+def day_beside(when: datetime, *others: datetime) -> str:
+    """``13 Nov``, or ``13 Nov, 15:29`` where another session is of the same day."""
+    same = any(other != when and other.date() == when.date() for other in others)
+    return f"{day_month(when)}, {when:%H:%M}" if same else day_month(when)
+
+
 def long_date(when: date | datetime) -> str:
     """``Friday 20 November 2026``."""
     return QLocale().toString(_qdate(when), "dddd d MMMM yyyy")

@@ -430,6 +430,8 @@ class Journey(QObject):
         if simulated and self.patient is not None and self.patient.patient_id != PRACTICE_PATIENT:
             words = self.tr("Simulated hand: this is not {name}, and does not count.")
             lines.append(words.format(name=self.patient.pseudonym))
+        if self.place == "review" and self.review.figures is not None and self.review.figures.not_counted:
+            lines.append(self.tr("This session does not count."))
         if findings:
             said = " ".join(self._parts.phrasebook.finding(finding).what for finding in findings)
             lines.append(self.tr("Measured although doubtful: {findings}").format(findings=said))

@@ -159,6 +159,7 @@ class Library:
         content = {
             "left_out": {str(number): reason for number, reason in choices.left_out.items()},
             "edges_s": {str(number): list(edges) for number, edges in choices.edges_s.items()},
+            "not_counted": choices.not_counted,
         }
         _write_json(path, content)
 
@@ -254,7 +255,7 @@ def _read_choices(path: Path) -> RepetitionChoices:
         stored = json.loads(path.with_suffix(CHOICES_SUFFIX).read_text(encoding="utf-8"))
         left_out = {int(number): str(reason) for number, reason in stored["left_out"].items()}
         edges_s = {int(number): (float(start), float(end)) for number, (start, end) in stored["edges_s"].items()}
-        return RepetitionChoices(left_out, edges_s)
+        return RepetitionChoices(left_out, edges_s, stored.get("not_counted") is True)
     except FileNotFoundError:
         return RepetitionChoices()
     except (OSError, ValueError, KeyError, TypeError, AttributeError) as cause:

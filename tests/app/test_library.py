@@ -111,7 +111,7 @@ def test_the_last_set_up_comes_back_with_its_targets(library: Library) -> None:
 
 def test_choices_lie_beside_the_session_and_a_damaged_file_of_them_is_told(library: Library) -> None:
     session_id = store(library, set_up(PRACTICE_PATIENT, "Practice patient"))
-    choices = RepetitionChoices({2: "pain", 0: ""}, {1: (3.5, 6.25)})
+    choices = RepetitionChoices({2: "pain", 0: ""}, {1: (3.5, 6.25)}, not_counted=True)
     library.keep_choices(session_id, choices)
     assert library.choices(session_id) == choices
     beside = library.entry(session_id).path.with_suffix(CHOICES_SUFFIX)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
+from datetime import datetime
 
 import numpy as np
 import pytest
@@ -14,6 +15,7 @@ from core.output.report_content import Progress
 from tests.ui.fakes import FakeSessions
 from ui.background import Background
 from ui.keys import Keys
+from ui.numbers import day_beside, day_month
 from ui.plot.series import Series
 from ui.plot.thin import thinned
 from ui.progress.chart_painter import panels_of
@@ -62,6 +64,29 @@ def test_arrows_step_by_one_picture_and_the_picture_follows(qtbot: QtBot, screen
     key(qtbot, screen, Qt.Key.Key_Left)
     assert screen.time_s == pytest.approx(before, abs=0.02)
     qtbot.waitUntil(lambda: screen._asked_row < 0)
+
+
+def test_a_session_can_be_set_aside_and_taken_back(qtbot: QtBot, screen: ReviewScreen, store: FakeSessions) -> None:
+    assert screen.figures is not None
+    qtbot.mouseClick(screen.count_button, Qt.MouseButton.LeftButton)
+    qtbot.waitUntil(lambda: store.kept["session-7"].not_counted)
+    assert screen.figures.not_counted
+    assert screen.count_button.text() == "Let it count again"
+    screen.toggle_left_out()
+    screen._leave_out("pain")
+    assert screen.figures.not_counted, "other corrections leave it"
+    qtbot.mouseClick(screen.count_button, Qt.MouseButton.LeftButton)
+    qtbot.waitUntil(lambda: not store.kept["session-7"].not_counted)
+    assert not screen.figures.not_counted
+    assert screen.figures.repetitions[screen.current].reason == "pain"
+
+
+def test_notes_of_the_session_are_read_in_the_review(screen: ReviewScreen) -> None:
+    assert screen.figures is not None
+    assert screen.figures.notes
+    for _, text in screen.figures.notes:
+        assert text in screen.notes.text()
+    assert screen.notes.isVisible()
 
 
 def test_space_plays_and_stops(qtbot: QtBot, screen: ReviewScreen) -> None:
@@ -214,3 +239,10 @@ def test_a_session_on_the_screen_says_when_it_was_stored(screen: ReviewScreen) -
     assert (screen.saved_at - screen.figures.when).total_seconds() == pytest.approx(screen.figures.duration_s)
     screen.begin("linden", "session-6")
     assert screen.saved_at is None
+
+
+def test_sessions_of_one_day_are_told_apart_by_their_time() -> None:
+    first, second = datetime(2026, 11, 21, 9, 5), datetime(2026, 11, 21, 15, 29)
+    assert day_beside(first, second) == f"{day_month(first)}, 09:05"
+    assert day_beside(first, first) == day_month(first)
+    assert day_beside(first, datetime(2026, 11, 20, 9, 5)) == day_month(first)

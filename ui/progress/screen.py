@@ -186,7 +186,7 @@ class ProgressScreen(QWidget):
             return
         body.addWidget(Text(theme, self.tr("First to last session"), 16, SEMIBOLD))
         days = self.tr("{first} and {last}").format(
-            first=numbers.day_month(first.when), last=numbers.day_month(last.when)
+            first=numbers.day_beside(first.when, last.when), last=numbers.day_beside(last.when, first.when)
         )
         counts = self.tr("{before} and {after} repetitions").format(before=first.counted, after=last.counted)
         body.addWidget(caption(theme, f"{days} · {counts}", wrap=True))
@@ -208,7 +208,7 @@ class ProgressScreen(QWidget):
         body, theme = self._fair.body, self._theme
         self._fair.setVisible(bool(self.progress.points))
         unfair = [point for point in self.progress.points if not point.fair]
-        doubts = [words for words in map(doubt_words, self.progress.points) if words]
+        doubts = [words for point in self.progress.points if (words := doubt_words(point, self.progress))]
         title = StateText(theme, 16, SEMIBOLD, 20)
         title.show_state("warn" if unfair or doubts else "good", self.tr("Fair comparison"), token="text")
         body.addWidget(title)

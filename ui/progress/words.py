@@ -21,7 +21,7 @@ def headline(progress: Progress) -> tuple[str, str]:
     first, last, main = progress.first, progress.last, progress.headline
     if first is None or last is None or main is None or first is last:
         return tr("One session does not make a course."), tr("Compare after the next session of the same kind.")
-    day = numbers.day_month(first.when)
+    day = numbers.day_beside(first.when, last.when)
     name = _subject(main)
     size = numbers.degrees(main.shown_difference_deg)
     if main.at_least:
@@ -98,12 +98,16 @@ def change_line(item: Comparison) -> str:
     )
 
 
-def doubt_words(point: ProgressPoint) -> str:
+def _day_of(point: ProgressPoint, progress: Progress) -> str:
+    return numbers.day_beside(point.figures.when, *(other.figures.when for other in progress.points))
+
+
+def doubt_words(point: ProgressPoint, progress: Progress) -> str:
     """What was doubtful about a session that is compared all the same; empty for nothing."""
     said = " ".join(finding_words(finding).headline for finding in point.figures.findings)
     if not said or not point.fair:
         return ""
-    day = numbers.day_month(point.figures.when)
+    day = _day_of(point, progress)
     return tr("{day}: measured although doubtful. {findings}").format(day=day, findings=said)
 
 
@@ -121,5 +125,5 @@ def unfair_words(point: ProgressPoint, progress: Progress) -> str:
             ),
         }
         reasons.append(words.get(reason) or reason_words((reason,)))
-    day = numbers.day_month(point.figures.when)
+    day = _day_of(point, progress)
     return tr("{day}: {reasons}. Shown as a ring and left out.").format(day=day, reasons=", ".join(reasons))

@@ -49,7 +49,7 @@ def finger_rows(figures: SessionFigures, previous: SessionFigures | None) -> lis
 
 def column_heads(figures: SessionFigures, previous: SessionFigures | None) -> list[str]:
     """Heads after the finger's name: the columns, the usual value, last time, the change."""
-    day = numbers.day_month(previous.when) if previous else ""
+    day = numbers.day_beside(previous.when, figures.when) if previous else ""
     compared = {"tam": tr("TAM"), "spread": tr("spread"), "middle": tr("middle joint")}[compared_row(figures)]
     if trains_thumb(figures):
         compared = tr("lift")
@@ -149,9 +149,9 @@ def hand_summary(figures: SessionFigures, previous: SessionFigures | None, first
     if bounds:
         parts.append(tr("{sign}: the camera did not see the end of that movement.").format(sign=AT_LEAST))
     if previous is not None:
-        parts.append(_since(figures, previous, numbers.day_month(previous.when)))
+        parts.append(_since(figures, previous, numbers.day_beside(previous.when, figures.when)))
     if first is not None and (previous is None or first.session_id != previous.session_id):
-        day = numbers.day_month(first.when)
+        day = numbers.day_beside(first.when, figures.when)
         parts.append(_since(figures, first, tr("the first session on {day}").format(day=day)))
     return " ".join(part for part in parts if part)
 

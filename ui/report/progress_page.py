@@ -62,7 +62,9 @@ def _paint_table(page: Page, progress: Progress, top: float) -> float:
     first, last = progress.first, progress.last
     if first is None or last is None or not progress.comparisons:
         return top
-    days = tr("{first} and {last}").format(first=numbers.day_month(first.when), last=numbers.day_month(last.when))
+    days = tr("{first} and {last}").format(
+        first=numbers.day_beside(first.when, last.when), last=numbers.day_beside(last.when, first.when)
+    )
     counts = tr("{before} and {after} repetitions").format(before=first.counted, after=last.counted)
     page.title(tr("First to last session"), top, f"{days} · {counts}")
     baseline = top + 6
@@ -85,7 +87,7 @@ def _paint_fairness(page: Page, progress: Progress, top: float) -> float:
     width, y = page.right - page.left, top + 11
     for point in unfair[:MOST_UNFAIR]:
         y = page.paragraph(unfair_words(point, progress), page.left, y, width, 9.0)
-    for words in [words for words in map(doubt_words, progress.points) if words][:MOST_UNFAIR]:
+    for words in [said for point in progress.points if (said := doubt_words(point, progress))][:MOST_UNFAIR]:
         y = page.paragraph(words, page.left, y, width, 9.0, REGULAR, "warn")
     if not unfair:
         y = page.paragraph(tr("All sessions were set up alike."), page.left, y, width, 9.0)

@@ -194,7 +194,7 @@ def _paint_bars(page: Page, report: SessionReport, top: float) -> float:
         suffix = "" if len(angles) == 1 else " " + {0: tr("side"), 1: tr("bending"), 2: tr("turning")}[angle]
         bars.append((tr("Today") + suffix, figures, angle, 8.0, CURVE_TOKENS[angle]))
     if len(angles) == 1 and report.previous is not None:
-        bars.append((numbers.day_month(report.previous.when), report.previous, angles[0], 6.0, "border"))
+        bars.append((numbers.day_beside(report.previous.when, figures.when), report.previous, angles[0], 6.0, "border"))
     if len(angles) == 1 and report.other_hand is not None:
         bars.append((terms.hand_name(report.other_hand.side), report.other_hand, angles[0], 3.0, "text2"))
     bars = [bar for bar in bars if any(row.angle == bar[2] for row in bar[1].rows)]

@@ -31,7 +31,7 @@ class TableRow:
 
 def column_names(figures: SessionFigures, previous: SessionFigures | None, other: SessionFigures | None) -> TableRow:
     """Heads of the columns; a column without content has an empty head."""
-    day = numbers.day_month(previous.when) if previous else ""
+    day = numbers.day_beside(previous.when, figures.when) if previous else ""
     return TableRow(
         movement=tr("Movement"),
         today=tr("Today, mean ± sd"),

@@ -21,10 +21,13 @@ def summary(figures: SessionFigures, previous: SessionFigures | None, first: Ses
         return tr("No range could be measured.")
     parts = [f"{today[0].upper()}{today[1:]}."]
     if previous is not None:
-        parts.append(_since(compare(previous, figures), numbers.day_month(previous.when)))
+        parts.append(_since(compare(previous, figures), numbers.day_beside(previous.when, figures.when)))
     if first is not None and (previous is None or first.session_id != previous.session_id):
         parts.append(
-            _since(compare(first, figures), tr("the first session on {day}").format(day=numbers.day_month(first.when)))
+            _since(
+                compare(first, figures),
+                tr("the first session on {day}").format(day=numbers.day_beside(first.when, figures.when)),
+            )
         )
     return " ".join(part for part in parts if part)
 

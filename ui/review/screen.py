@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from datetime import datetime, timedelta
 
 import numpy as np
@@ -103,9 +103,13 @@ class ReviewScreen(QWidget):
         fingers: list[tuple[object, str]] = [(0, self.tr("All fingers"))]
         fingers += [(finger, finger_name(str(finger))) for finger in FINGERS]
         self.finger = Choices(theme, [*fingers, (WRIST, self.tr("Wrist"))])
+        self.notes = Text(theme, "", 14, REGULAR, wrap=True)
         self.title = Text(theme, self.tr("Range of motion"), 20, SEMIBOLD)
         self.count = Text(theme, "", 14, REGULAR, "text2", wrap=True)
         self.again_button = Button(theme, self.tr("Another set"), "quiet", icon="plus")
+        self.count_button = Button(theme, self.tr("Do not count"), "quiet")
+        self.count_button.setFocusPolicy(Qt.FocusPolicy.TabFocus)  # Space stays with the player after a click
+        self.count_button.setToolTip(self.tr("The session stays, and is compared with none. Can be taken back."))
         self.export_button = Button(theme, self.tr("Export…"), hint="Ctrl+E")
         self.report_button = Button(
             theme, self.tr("Make report"), "primary", icon="file-text", hint="Ctrl+P", height_px=44
@@ -135,6 +139,7 @@ class ReviewScreen(QWidget):
         head.setSpacing(12)
         head.addWidget(self.title)
         head.addWidget(self.count, 1)
+        head.addWidget(self.count_button)
         head.addWidget(self.again_button)
         head.addWidget(self.export_button)
         head.addWidget(self.report_button)
@@ -146,7 +151,7 @@ class ReviewScreen(QWidget):
         below = self._below = QVBoxLayout(tables)
         below.setContentsMargins(0, 0, 0, 0)
         below.setSpacing(4)
-        for widget in (self.table, self.hand_table, self.limits):
+        for widget in (self.table, self.hand_table, self.limits, self.notes):
             below.addWidget(widget)
         below.addStretch(1)
         self._scroll.setWidget(tables)
@@ -177,6 +182,8 @@ class ReviewScreen(QWidget):
         if self._is_hand:
             words = self.limits.heightForWidth(max(self._scroll.width() - 24, 300))
             needed = self.hand_table.sizeHint().height() + self._below.spacing() + words + 10
+        if self.figures is not None and self.figures.notes:
+            needed += self.notes.heightForWidth(max(self._scroll.width() - 24, 300)) + 2 * self._below.spacing()
         self._scroll.setFixedHeight(round(min(needed + 2, most)))
 
     def _connect(self, keys: Keys) -> None:
@@ -192,6 +199,7 @@ class ReviewScreen(QWidget):
         self.report_button.clicked.connect(lambda: self.report.emit(self._session_id))
         self.export_button.clicked.connect(lambda: self.export.emit(self._session_id))
         self.again_button.clicked.connect(self.again)
+        self.count_button.clicked.connect(self.toggle_counted)
         self.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
         self.setProperty("shows_own_focus", True)
         actions = {
@@ -302,6 +310,11 @@ class ReviewScreen(QWidget):
             self.limits.setText(limits_words(figures))
             self.picture.update()
         self.count.setText(repetition_words(figures))
+        said = "  ".join(f"{numbers.clock(time_s)} “{text}”" for time_s, text in figures.notes)
+        self.notes.setText(self.tr("Notes: {notes}").format(notes=said))
+        self.notes.setVisible(bool(said))
+        counts = self.tr("Let it count again") if figures.not_counted else self.tr("Do not count")
+        self.count_button.set_face(counts)
         self._fit()
 
     @property
@@ -381,16 +394,22 @@ class ReviewScreen(QWidget):
             return
         if self._current in self._choices.left_out:
             reasons = {n: words for n, words in self._choices.left_out.items() if n != self._current}
-            self._choose(RepetitionChoices(reasons, self._choices.edges_s))
+            self._choose(replace(self._choices, left_out=reasons))
         else:
             self.reason.begin(self._current + 1)
 
+    def toggle_counted(self) -> None:
+        """Let the whole session count no more, or again."""
+        if self._session is not None:
+            self._choose(replace(self._choices, not_counted=not self._choices.not_counted))
+            self.arrived.emit()
+
     def _leave_out(self, reason: str) -> None:
         reasons = {**self._choices.left_out, self._current: reason}
-        self._choose(RepetitionChoices(reasons, self._choices.edges_s))
+        self._choose(replace(self._choices, left_out=reasons))
 
     def _take_edges(self, number: int, start_s: float, end_s: float) -> None:
-        self._choose(RepetitionChoices(self._choices.left_out, {**self._choices.edges_s, number: (start_s, end_s)}))
+        self._choose(replace(self._choices, edges_s={**self._choices.edges_s, number: (start_s, end_s)}))
 
     def nudge_edge(self, by_s: float) -> None:
         """Move the edge of the current repetition that is nearer to the cursor."""
