@@ -246,8 +246,8 @@ class FingerModel:
         in_camera = normal @ seat.view.rotation.T
         moved = -in_camera[..., 2:] * in_camera
         moved[..., 2] += 1.0
-        seen = (line.by_place @ moved[..., None] * (depth_m * unit))[..., 0]
-        by_disc = np.einsum("rsdk,rdk->rsd", response.reshape(RAYS, SLOTS, DISCS, 3), seen)
+        seen = line.by_place @ moved[..., None] * (depth_m * unit)
+        by_disc = (response.reshape(RAYS, SLOTS, DISCS, 1, 3) @ seen[:, None])[..., 0, 0]
         return np.asarray(
             turned @ seat.turn_covariance @ np.swapaxes(turned, 1, 2) + by_disc @ np.swapaxes(by_disc, 1, 2)
         )

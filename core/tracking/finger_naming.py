@@ -111,6 +111,8 @@ def _lone(names: FingerNames, scene: FingerScene) -> NDArray[np.bool_]:
     is_named = names.taken >= 0
     lone = is_named & (is_named.sum(axis=1) == 1)[:, None] & (scene.visible < _WAS_SEEN)
     lone[:, 0] = False
+    if not lone.any():
+        return np.asarray(lone)
     return np.asarray(lone & far_rays(scene.covariance, is_named)[:, None])
 
 
