@@ -179,3 +179,30 @@ def test_a_report_is_written_without_any_window_or_display(tmp_path: Path) -> No
     )  # fmt: skip
     assert done.stdout.strip() == "False"
     assert (tmp_path / "x.pdf").stat().st_size > 10_000
+
+
+def test_many_warnings_make_the_page_smaller_and_nothing_is_lost(tmp_path: Path, report: Path) -> None:
+    stored = session()
+    findings = tuple(Finding("residual", (name,), 5.0, 2.0, "mm") for name in stored.header.protocol.markers)
+    findings += (Finding("tilt", (), 22.0, 15.0, "deg"), Finding("distance", (), 1.22, 1.1, "m"))
+    doubtful = replace(stored.calibration, verdict=replace(stored.calibration.verdict, findings=findings))
+    path = write_session_report(replace(stored, calibration=doubtful), tmp_path / "x.pdf")
+    assert re.search(r"Pages:\s+1\n", tool("pdfinfo", str(path)))
+    words = words_of(path)
+    assert words.count("off its place") == len(stored.header.protocol.markers)
+    assert LEGAL_SENTENCE in words
+    assert f"Session {stored.header.session_id[:8]}" in words
+    boxes = tool("pdftotext", "-bbox", str(path), "-")
+    assert max(float(y) for y in re.findall(r'yMax="([0-9.]+)"', boxes)) < 841.9 - 28.3, "a centimetre of margin"
+
+
+def test_a_page_that_cannot_be_painted_leaves_the_program_running(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def refuse(*_: object) -> None:
+        raise RuntimeError("no page")
+
+    monkeypatch.setattr("ui.report.pdf.paint_session_page", refuse)
+    with pytest.raises(RuntimeError, match="no page"):
+        write_session_report(session(), tmp_path / "x.pdf")
+    assert list(tmp_path.iterdir()) == []

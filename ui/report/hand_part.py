@@ -19,7 +19,7 @@ from ui.translate import tr
 
 EDGES = (0.0, 0.070, 0.185, 0.297, 0.392, 0.515, 0.660, 0.706, 0.798)
 """Left edge of the finger, the five figures, usual, last time, change, as shares of the width."""
-ROW_PT, CURVES_PT, BETWEEN_PT = 21.5, 176.0, 6.0
+ROW_PT, CURVES_PT, LEAST_CURVES_PT, BETWEEN_PT = 21.5, 176.0, 110.0, 6.0
 LEAST_SIZE_PT = 6.0
 
 
@@ -88,7 +88,7 @@ def paint_finger_curves(
     page: Page, curves: Curves, joints: JointCurves, figures: SessionFigures, top: float, room: float
 ) -> float:
     """Bending of every finger over time, in the height that is left; dashed where it was hidden."""
-    height = min(CURVES_PT, room - 28 - 16)
+    height = min(CURVES_PT, max(room - 28 - 16, LEAST_CURVES_PT))
     aside = tr("dashed: hidden, not counted; hatched: lost")
     page.title(tr("Bending over time"), top + 11, aside)
     _paint_key(page, page.right - page.width_of(aside, 8.5) - 12, top + 11)

@@ -119,8 +119,10 @@ def _write(output_path: Path, paint: Callable[[Page], None], title: str) -> Path
     writer.setTitle(title)
     writer.setCreator("Carpus")
     painter = QPainter(writer)
-    paint(Page(painter, RESOLUTION_DPI / POINTS_PER_INCH))
-    painter.end()
+    try:
+        paint(Page(painter, RESOLUTION_DPI / POINTS_PER_INCH))
+    finally:
+        painter.end()  # a writer that goes while it is painted on ends the program
     buffer.close()
     del application
     _store(output_path, bytes(store.data()))

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 from PySide6.QtCore import QPointF, Qt
@@ -49,9 +49,17 @@ class SessionReport:
 
 
 def paint_session_page(page: Page, report: SessionReport) -> None:
-    """Paint everything from the upper to the lower margin."""
+    """Paint everything from the upper to the lower margin, smaller where many warnings leave too little room."""
     if report.figures.simulated:
         paint_watermark(page)
+    share = min(1.0, LOWEST_PT / _on_nothing(page, lambda trial: _paint_all(trial, report)))
+    page.painter.translate(0.5 * (1.0 - share) * A4_PT[0] * page.point, 0.0)
+    page.painter.scale(share, share)
+    _paint_all(page, report)
+
+
+def _paint_all(page: Page, report: SessionReport) -> float:
+    """Everything but what lies behind; returns the lower edge."""
     y = paint_head(page, tr("Session report"), report.pseudonym, _what(report))
     y = _paint_facts(page, report, y)
     said = (summary if report.joints is None else hand_summary)(report.figures, report.previous, report.first)
@@ -63,21 +71,21 @@ def paint_session_page(page: Page, report: SessionReport) -> None:
     else:
         y = paint_finger_table(page, report.figures, report.previous, y + 7)
         y = paint_wrist_line(page, report.figures, y + 7)
-        room = LOWEST_PT - 2 - y - 8 - _lower_part_pt(page, report)
+        below = _on_nothing(page, lambda trial: _paint_foot(trial, report, _paint_boxes(trial, report, 9.0) + 10))
+        room = LOWEST_PT - 2 - y - 8 - below
         y = paint_finger_curves(page, report.curves, report.joints, report.figures, y + 8, room)
     y = _paint_boxes(page, report, y + 9)
-    foot = _paint_foot(page, report, y + 10)
-    assert foot < LOWEST_PT
+    return _paint_foot(page, report, y + 10)
 
 
-def _lower_part_pt(page: Page, report: SessionReport) -> float:
-    """Height that boxes and foot need, found by painting them on nothing."""
+def _on_nothing(page: Page, paint: Callable[[Page], float]) -> float:
+    """The lower edge that painting would have, in points."""
     nowhere = QPicture()
     painter = QPainter(nowhere)
-    trial = Page(painter, page.point)
-    below = _paint_foot(trial, report, _paint_boxes(trial, report, 9.0) + 10)
-    painter.end()
-    return below
+    try:
+        return paint(Page(painter, page.point))
+    finally:
+        painter.end()
 
 
 def paint_watermark(page: Page) -> None:
