@@ -12,11 +12,17 @@ COLOR_LIST, RECORDING_FILE = "rgb.txt", "recording.oni"
 
 
 def open_recording(
-    path: Path, *, need_depth: bool = True, registered: bool | None = None, notice: Notice = ignore
+    path: Path,
+    *,
+    need_depth: bool = True,
+    registered: bool | None = None,
+    leave_out_damaged: bool = False,
+    notice: Notice = ignore,
 ) -> FrameSource:
     """A TUM folder, an .oni file or a raw recording as a source. The readers are loaded when needed.
 
     ``registered``: whether depth lies on colour in an .oni file that does not say so itself, None when nobody knows.
+    ``leave_out_damaged``: a missing or damaged picture of a folder is left out, counted and told, not a fault.
     """
     if not path.exists():
         raise RecordingMissing(path)
@@ -26,7 +32,7 @@ def open_recording(
     if path.is_dir():
         from core.capture.tum import TumFolder
 
-        return TumFolder(path, need_depth=need_depth, read_ahead=8, leave_out_damaged=True, notice=notice)
+        return TumFolder(path, need_depth=need_depth, read_ahead=8, leave_out_damaged=leave_out_damaged, notice=notice)
     if path.suffix.lower() == ".oni":
         from core.capture.oni_source import OniSource
 

@@ -27,7 +27,7 @@ def run(arguments: argparse.Namespace) -> int:
     else:
         from app.sources import open_recording
 
-        source = open_recording(path, need_depth=False, notice=tell)
+        source = open_recording(path, need_depth=False, leave_out_damaged=True, notice=tell)
         try:
             if isinstance(source, TumFolder):
                 lines = recording_summary(path, source)

@@ -59,6 +59,11 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         help="where the discs of the fingers are: on the skin over the joints (default), or in the joints, the papers' "
         "chain; a session's own unless given",
     )
+    parser.add_argument(
+        "--leave-out-damaged",
+        action="store_true",
+        help="go on without missing and damaged pictures of a folder, as frames that were lost; else they are a fault",
+    )
     parser.add_argument("--profile", choices=tuple(PROFILES), default="standard", help="how lively the hand is")
     parser.add_argument(
         "--smooth",
@@ -147,7 +152,7 @@ def run(arguments: argparse.Namespace) -> int:
         return 2
     from app.sources import open_recording
 
-    source = open_recording(arguments.recording, need_depth=True, notice=tell)
+    source = open_recording(arguments.recording, leave_out_damaged=arguments.leave_out_damaged, notice=tell)
     try:
         camera = source.info.camera
         if camera.origin in _INTRINSICS:

@@ -99,7 +99,9 @@ class Sources:
 
     def _recording(self, choice: SourceChoice, set_up: SetUp) -> OpenSource:
         told: list[CarpusFault] = []
-        source = open_recording(Path(choice.path), registered=choice.registered, notice=told.append)
+        source = open_recording(
+            Path(choice.path), registered=choice.registered, leave_out_damaged=True, notice=told.append
+        )
         opening = opening_frames(source, self._settings.calibration.still_s)
         session = self._session(PacedSource(source, self._speed))
         asks = any(isinstance(fault, RegistrationAssumed) for fault in told)

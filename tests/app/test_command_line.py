@@ -263,7 +263,7 @@ def test_depth_beside_colour_is_told_also_where_a_marker_has_none(
     assert not output.exists()
 
 
-def test_damaged_pictures_are_left_out_and_told(
+def test_damaged_pictures_are_a_fault_or_left_out_and_told(
     recording: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     copy = tmp_path / "copy"
@@ -274,7 +274,11 @@ def test_damaged_pictures_are_left_out_and_told(
     assert main(["info", str(copy)]) == 0
     assert "1 colour missing" in capsys.readouterr().err
     output = tmp_path / "session.h5"
-    assert main(["track", str(copy), "--calibration", str(copy / CLICKS_FILE), "--output", str(output)]) == 0
+    track = ["track", str(copy), "--calibration", str(copy / CLICKS_FILE), "--output", str(output)]
+    assert main(track) == 1
+    assert color[7].name in capsys.readouterr().err
+    assert not output.exists()
+    assert main([*track, "--leave-out-damaged"]) == 0
     assert "1 colour damaged" in capsys.readouterr().err
     tracked = read_session(output)
     assert len(tracked) == len(color) - 2
