@@ -81,6 +81,14 @@ def day_beside(when: datetime, *others: datetime) -> str:
     return f"{day_month(when)}, {when:%H:%M}" if same else day_month(when)
 
 
+def room_left(minutes: float) -> str:
+    """How long a disk takes recordings: ``8 min``, ``17 h``, ``more than 99 h``."""
+    if minutes < 600.0:
+        return tr("{minutes} min").format(minutes=f"{minutes:.0f}")
+    hours = minutes / 60.0
+    return tr("more than 99 h") if hours > 99.0 else tr("{hours} h").format(hours=f"{hours:.0f}")
+
+
 def long_date(when: date | datetime) -> str:
     """``Friday 20 November 2026``."""
     return QLocale().toString(_qdate(when), "dddd d MMMM yyyy")

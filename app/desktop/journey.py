@@ -472,7 +472,7 @@ class Journey(QObject):
         minutes = counters.disk_minutes_left
         if minutes == minutes:
             state = "bad" if minutes < 10.0 else "warn" if minutes < 30.0 else "none"
-            words = self.tr("{minutes} min of disk left").format(minutes=f"{min(minutes, 999.0):.0f}")
+            words = self.tr("{time} of disk left").format(time=numbers.room_left(minutes))
             self.shell.bar.disk.show_state(state, words, icon="hard-drive")  # type: ignore[arg-type]
 
     def _asks_before_closing(self) -> bool:

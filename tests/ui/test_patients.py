@@ -7,10 +7,11 @@ from datetime import date, datetime
 
 import pytest
 from PySide6.QtCore import QRectF, QSize, Qt
+from PySide6.QtWidgets import QPushButton
 from pytestqt.qtbot import QtBot
 
 from tests.ui.fakes import FakeStore
-from ui.numbers import clock, clock_tenths, days_ago, degrees, ordinal, spread, with_spread
+from ui.numbers import clock, clock_tenths, days_ago, degrees, ordinal, room_left, spread, with_spread
 from ui.patients.listing import cells
 from ui.patients.screen import PatientsScreen
 from ui.picture.photo import fitted
@@ -195,6 +196,19 @@ def test_a_long_name_moves_no_button_and_widens_nothing(qtbot: QtBot, screen: Pa
     assert card._name.shown_text.startswith("Blue Humm")
     assert card._name.shown_text.endswith("…")
     assert "and more of it" in card._name.toolTip()
+
+
+def test_an_empty_register_offers_one_way_to_a_new_patient(screen: PatientsScreen, store: FakeStore) -> None:
+    store.rows.clear()
+    screen.refresh()
+    offered = [button for button in screen.findChildren(QPushButton) if "New patient" in button.text()]
+    assert [button for button in offered if button.isVisible()] == [screen.new_button]
+
+
+def test_room_on_the_disk_is_told_in_fitting_units() -> None:
+    assert [room_left(minutes) for minutes in (0.0, 8.4, 599.0, 1020.0, 60_000.0)] == [
+        "0 min", "8 min", "599 min", "17 h", "more than 99 h",
+    ]  # fmt: skip
 
 
 def test_a_picture_keeps_its_shape_whole() -> None:

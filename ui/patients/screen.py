@@ -209,6 +209,7 @@ class _Nobody(QWidget):
     def show_for(self, search: str, register_empty: bool, rows_shown: bool) -> None:
         """Choose the sentence, or hide."""
         self.setVisible(register_empty or not rows_shown)
+        self.button.setVisible(not rows_shown)  # beside an empty list there is “New patient” above
         if not rows_shown:
             self._words.setText(self.tr("No patient “{name}”.").format(name=search.strip()))
             self.button.set_face(self.tr("Create “{name}”").format(name=search.strip()))
@@ -216,7 +217,6 @@ class _Nobody(QWidget):
             self._words.setText(
                 self.tr("No patients yet. Add the first one, or try everything with the practice patient.")
             )
-            self.button.set_face(self.tr("New patient"))
 
 
 def _matches(row: PatientRow, wanted: list[str]) -> bool:

@@ -69,7 +69,7 @@ def method(figures: SessionFigures, markers: int) -> str:
     )
     given = terms.start_angle_words(figures.start_angles_deg * math.pi / 180.0)
     zero = tr("zero is the neutral hand, palm down")
-    order = tr("Angles in the order deviation, flexion, pro/supination (ZYX); {zero}.")
+    order = tr("Angles in the order deviation, flexion, pro/supination; {zero}.")
     if figures.joint_rows:
         order = tr(
             "Fingers: zero is the straight finger; TAM is bending less what is missing to straight. Wrist: {zero}."

@@ -85,6 +85,8 @@ class RangeTable(QWidget):
             if column == 1:
                 room = COLUMNS[2] * width - 52 * self._theme.text_scale - edge
             box = QRectF(edge, top, room, height) if left_sided else QRectF(edge - room, top, room, height)
+            if column == 6 and row.short_change and QFontMetricsF(faces[6]).horizontalAdvance(text) > room:
+                text = row.short_change  # with its limit, rather than without its end
             painter.setFont(faces[column])
             painter.setPen(self._theme.color(tokens[column]))
             shown = QFontMetricsF(faces[column]).elidedText(text, Qt.TextElideMode.ElideRight, max(room, 20.0))
