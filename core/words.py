@@ -56,7 +56,7 @@ FAULTS: dict[type[CarpusFault], Words] = {
     errors.PictureDamaged: Words(
         "A picture of the recording cannot be used: {subject} ({detail}).",
         _UNTOUCHED,
-        "Copy the recording again from where it was made; carpus track --leave-out-damaged goes on without such pictures.",
+        "Copy the recording again from where it was made; carpus track --leave-out-damaged goes on without it.",
     ),
     errors.PictureSizeChanged: Words(
         "The pictures of the recording differ in size: {subject} ({detail}).",

@@ -33,7 +33,8 @@ def format_page() -> str:
     rows = "".join(map(_row, (field for field in schema.ALL_FIELDS if field not in schema.SMOOTHED_FIELDS)))
     parts.append("## Datasets\n\n| path | shape | type | unit | meaning |\n|---|---|---|---|---|\n" + rows)
     parts.append(
-        "`/smoothed/wrist` and `/smoothed/joints` hold what `/wrist` and `/joints` hold, by the smoother; whole or not there.\n"
+        "`/smoothed/wrist` and `/smoothed/joints` hold what `/wrist` and `/joints` hold, by the smoother; "
+        "whole or not there.\n"
         "The event `not_looked_back` says why a live session is without.\n"
         "`/raw` has the attribute `depth_unit_m`: metres per count of the depth pictures.\n"
     )
