@@ -108,15 +108,14 @@ class Forecast:
     """All modes as predicted, and what the camera should see of each; 3M components u, v, z of M markers.
 
     ``marker_mean`` (K, 3M) is (10), ``marker_covariance`` (K, 3M, 3M) is (11) for all markers together and
-    without the measurement noise, ``cross`` (K, 3M, n) the covariance of measurements and state.
+    without the measurement noise, ``cross`` (K, 3M, n) the covariance of measurements and state. Over all modes,
+    ``own_mean`` (M, 3) and ``own_covariance`` (M, 3, 3) of each marker's own measurement.
     """
 
     bank: ModeBank
     marker_mean: FloatArray
     marker_covariance: FloatArray
     cross: FloatArray
-    mixture_mean: FloatArray
-    mixture_covariance: FloatArray
     own_mean: FloatArray
     own_covariance: FloatArray
 
@@ -130,15 +129,11 @@ class Forecast:
         covariance += (apart.T * probability) @ apart
         count = mean.size // 3
         own = covariance.reshape(count, 3, count, 3).diagonal(axis1=0, axis2=2).transpose(2, 0, 1)
-        return Forecast(bank, marker_mean, marker_covariance, cross, mean, covariance, mean.reshape(count, 3), own)
+        return Forecast(bank, marker_mean, marker_covariance, cross, mean.reshape(count, 3), own)
 
     def by_marker(self) -> tuple[FloatArray, FloatArray]:
         """Mean (M, 3) and covariance (M, 3, 3) of each marker's own measurement over all modes; views."""
         return self.own_mean, self.own_covariance
-
-    def mixture(self) -> tuple[FloatArray, FloatArray]:
-        """Mean (3M,) and covariance (3M, 3M) of the measurements over all modes."""
-        return self.mixture_mean, self.mixture_covariance
 
 
 @dataclass(frozen=True, slots=True)
