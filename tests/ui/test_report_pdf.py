@@ -206,3 +206,19 @@ def test_a_page_that_cannot_be_painted_leaves_the_program_running(
     with pytest.raises(RuntimeError, match="no page"):
         write_session_report(session(), tmp_path / "x.pdf")
     assert list(tmp_path.iterdir()) == []
+
+
+def test_many_doubts_in_the_course_leave_less_room_for_its_chart(tmp_path: Path) -> None:
+    names = session().header.protocol.markers
+    findings = tuple(Finding("residual", (name,), 5.0, 2.0, "mm") for name in names)
+    history = [replace(figures, findings=findings) for figures in FakeSessions().history("linden")]
+    path = write_progress_report(history, tmp_path / "p.pdf")
+    assert "off its place" in words_of(path)
+    boxes = tool("pdftotext", "-bbox", str(path), "-")
+    places = [
+        (word, float(top), float(low)) for top, low, word in re.findall(r'yMin="(.*?)".*?yMax="(.*?)">(.*?)<', boxes)
+    ]
+    first = next(k for k in range(len(places)) if [word for word, _, _ in places[k : k + 2]] == ["For", "research"])
+    legal_top = places[first][1]
+    assert all(low <= legal_top + 0.5 for _, top, low in places if top < legal_top - 1.0)
+    assert any("clinic" in word for word, top, _ in places if top < legal_top), "what stands over it is all there"

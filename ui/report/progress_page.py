@@ -10,11 +10,11 @@ from ui.fonts import MEDIUM, REGULAR, SEMIBOLD
 from ui.progress.chart_painter import paint_chart
 from ui.progress.words import before_after, change_line, comparison_name, doubt_words, headline, unfair_words
 from ui.report.page import A4_PT, MARGIN_PT, Page
-from ui.report.session_page import paint_head, paint_watermark
+from ui.report.session_page import paint_head, paint_watermark, painted_on_nothing
 from ui.translate import tr
 from ui.verdicts import verdict_token, verdict_word
 
-CHART_HEIGHT_PT = 390.0
+CHART_HEIGHT_PT, LEAST_CHART_PT = 390.0, 180.0
 MOST_UNFAIR = 4
 
 
@@ -48,14 +48,20 @@ def paint_progress_page(page: Page, report: ProgressReport) -> None:
     width = page.right - page.left
     y = page.paragraph(answer, page.left, y + 44, width, 14.0, SEMIBOLD)
     y = page.paragraph(basis, page.left, y + 1, width, 9.5, REGULAR, "text2")
-    paint_chart(page.painter, page.style, page.box(page.left, y + 8, width, CHART_HEIGHT_PT), progress)
-    y = _paint_table(page, progress, y + CHART_HEIGHT_PT + 22)
-    y = _paint_fairness(page, progress, y + 16)
     foot = A4_PT[1] - MARGIN_PT
+    below = painted_on_nothing(page, lambda trial: _paint_below(trial, progress, 22.0))
+    height = min(CHART_HEIGHT_PT, max(foot - 34 - 8 - below - y, LEAST_CHART_PT))
+    paint_chart(page.painter, page.style, page.box(page.left, y + 8, width, height), progress)
+    _paint_below(page, progress, y + height + 22)
     page.paragraph(terms.LEGAL_SENTENCE, page.left, foot - 34, width, 8.0, SEMIBOLD)
     ids = " · ".join(point.figures.session_id[:8] for point in progress.points[-8:])
     words = tr("Sessions {ids} · Carpus {version}").format(ids=ids, version=newest.software_version)
     page.text(words, page.left, foot + 8, 8.0, REGULAR, "text2")
+
+
+def _paint_below(page: Page, progress: Progress, top: float) -> float:
+    """What stands under the chart; returns the lower edge."""
+    return _paint_fairness(page, progress, _paint_table(page, progress, top) + 16)
 
 
 def _paint_table(page: Page, progress: Progress, top: float) -> float:

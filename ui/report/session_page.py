@@ -52,7 +52,7 @@ def paint_session_page(page: Page, report: SessionReport) -> None:
     """Paint everything from the upper to the lower margin, smaller where many warnings leave too little room."""
     if report.figures.simulated:
         paint_watermark(page)
-    share = min(1.0, LOWEST_PT / _on_nothing(page, lambda trial: _paint_all(trial, report)))
+    share = min(1.0, LOWEST_PT / painted_on_nothing(page, lambda trial: _paint_all(trial, report)))
     page.painter.translate(0.5 * (1.0 - share) * A4_PT[0] * page.point, 0.0)
     page.painter.scale(share, share)
     _paint_all(page, report)
@@ -71,14 +71,16 @@ def _paint_all(page: Page, report: SessionReport) -> float:
     else:
         y = paint_finger_table(page, report.figures, report.previous, y + 7)
         y = paint_wrist_line(page, report.figures, y + 7)
-        below = _on_nothing(page, lambda trial: _paint_foot(trial, report, _paint_boxes(trial, report, 9.0) + 10))
+        below = painted_on_nothing(
+            page, lambda trial: _paint_foot(trial, report, _paint_boxes(trial, report, 9.0) + 10)
+        )
         room = LOWEST_PT - 2 - y - 8 - below
         y = paint_finger_curves(page, report.curves, report.joints, report.figures, y + 8, room)
     y = _paint_boxes(page, report, y + 9)
     return _paint_foot(page, report, y + 10)
 
 
-def _on_nothing(page: Page, paint: Callable[[Page], float]) -> float:
+def painted_on_nothing(page: Page, paint: Callable[[Page], float]) -> float:
     """The lower edge that painting would have, in points."""
     nowhere = QPicture()
     painter = QPainter(nowhere)
