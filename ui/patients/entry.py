@@ -89,6 +89,7 @@ class PatientForm(Sheet):
         self._title.setText(self.tr("New patient") if entry is None else self.tr("Change patient"))
         self.save.set_face(self.tr("Add patient") if entry is None else self.tr("Keep changes"))
         entry = entry or PatientEntry(name or self._suggest(), "right", "right")
+        self.name.setMaxLength(max(MOST_LETTERS, len(entry.pseudonym)))  # a longer one of old is not cut
         self.name.setText(entry.pseudonym)
         self.side.choose(entry.side)
         self.dominance.choose(entry.dominance if entry.dominance != "both" else "unknown")

@@ -1,0 +1,29 @@
+"""The sheet of a patient's facts."""
+
+from __future__ import annotations
+
+import pytest
+from PySide6.QtWidgets import QWidget
+from pytestqt.qtbot import QtBot
+
+from ui.patients.entry import MOST_LETTERS, PatientForm
+from ui.ports import PatientEntry
+from ui.theme import Theme
+
+
+@pytest.mark.parametrize("letters", [5, MOST_LETTERS, 3 * MOST_LETTERS])
+def test_a_name_is_kept_whole_however_long_it_is(qtbot: QtBot, theme: Theme, letters: int) -> None:
+    host = QWidget()
+    qtbot.addWidget(host)
+    host.resize(1280, 800)
+    host.show()
+    form = PatientForm(host, theme, lambda: "Fir 12")
+    given: list[PatientEntry] = []
+    form.accepted.connect(given.append)
+    form.begin(PatientEntry("n" * letters, "left", "right"), frozenset())
+    form.save.click()
+    assert [entry.pseudonym for entry in given] == ["n" * letters]
+    form.begin(None, frozenset())
+    form.name.clear()
+    qtbot.keyClicks(form.name, "m" * (MOST_LETTERS + 5))
+    assert form.name.text() == "m" * MOST_LETTERS
