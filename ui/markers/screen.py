@@ -523,6 +523,7 @@ class MarkersScreen(QWidget):
         self.second.set_face(self.tr("Correct names") if swap else self.tr("Start although &doubtful"), hint="")
         self.second.setVisible(swap or verdict.can_start)
         self.click_all.set_face(self.tr("Click these again") if wrong else self.tr("Click all again"))
+        self.click_all.setVisible(remedy != "click_these")  # the primary says it
         self.hint.setText(self.tr("The names stay as they are until you change one."))
         self.primary.setFocus(Qt.FocusReason.OtherFocusReason)
 
