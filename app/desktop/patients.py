@@ -124,11 +124,11 @@ def _joint_results(first: SessionFigures | None, last: SessionFigures) -> Sequen
 
 
 def _results(first: SessionFigures | None, last: SessionFigures) -> Sequence[ResultLine]:
+    if last.joint_rows:
+        return _joint_results(first, last)
     changes = {}
     if first is not None and first.session_id != last.session_id:
         changes = {(item.movement, item.angle): item for item in compare(first, last)}
-    if last.joint_rows:
-        return _joint_results(first, last)
     out = []
     for row in last.rows:
         if row.movement in _ENDS or last.exercise.angle is None:

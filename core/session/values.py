@@ -64,8 +64,10 @@ class SessionHeader:
     @property
     def targets_deg(self) -> tuple[float, float]:
         """Targets of the exercise as set up, signed degrees of its positive and negative direction; NaN for none."""
-        values = self.set_up.get("targets_deg") or (None, None)
-        positive, negative = (math.nan if value is None else float(value) for value in values)
+        values = self.set_up.get("targets_deg")
+        if not isinstance(values, list) or len(values) != 2:
+            return math.nan, math.nan
+        positive, negative = (float(value) if isinstance(value, (int, float)) else math.nan for value in values)
         return positive, negative
 
     def _part(self, name: str) -> Mapping[str, Any]:

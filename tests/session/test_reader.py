@@ -199,3 +199,22 @@ def test_a_new_header_has_its_own_id_and_a_zone() -> None:
     first, second = (new_header(hand="right", protocol=HAND21, software_version="0.1.0") for _ in range(2))
     assert first.session_id != second.session_id
     assert len(first.joint_names) == 17
+
+
+@pytest.mark.parametrize(
+    ("parameters", "simulated", "targets_deg"),
+    [
+        ("[]", False, (np.nan, np.nan)),
+        ('{"source": [], "set_up": 3}', False, (np.nan, np.nan)),
+        ('{"set_up": {"targets_deg": [1]}}', False, (np.nan, np.nan)),
+        ('{"source": {"simulated": "yes"}, "set_up": {"targets_deg": ["a", -20]}}', True, (np.nan, -20.0)),
+    ],
+)
+def test_parameters_of_another_program_are_no_trouble(
+    tmp_path: Path, parameters: str, simulated: bool, targets_deg: tuple[float, float]
+) -> None:
+    header = dataclasses.replace(make_header(), parameters=parameters)
+    SessionWriter.create(tmp_path / "s.h5", header, CAMERA, make_calibration()).close()
+    found = read_session(tmp_path / "s.h5").header
+    assert found.simulated == simulated
+    np.testing.assert_array_equal(found.targets_deg, targets_deg)
