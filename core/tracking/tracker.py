@@ -281,7 +281,7 @@ class Tracker:
         spare[corrected.taken[named]] = False
         palm_seen = int(np.count_nonzero(named))
         if self._fingers is None:
-            return _Step(corrected, bank, palm_seen, None, spare, np.zeros_like(spare))
+            return _Step(corrected, bank, palm_seen, None, spare, np.zeros(len(blobs), dtype=bool))
         seat = seat_of(bank.nominal, self.view, self._readout)
         fingers = self._fingers.weigh(timestamp_s, dt_s, seat, blobs, ideal.area_px, spare)
         is_finger = np.zeros_like(spare)
@@ -351,7 +351,7 @@ class Tracker:
             detections=detections,
             dropped_before=dropped_before,
             measured_share=self._share(),
-            nis=float(nis),
+            nis=float(nis) if dof else math.nan,
             nis_dof=dof,
         )
 
@@ -459,5 +459,5 @@ def _only(blobs: Detections, kept: NDArray[np.bool_]) -> Detections:
 
 def _turn_sd_rad(bank: ModeBank, layout: StateLayout) -> float:
     """How surely the hand's turn is known, all axes and modes together."""
-    variance = np.trace(bank.covariance[:, layout.turn, layout.turn], axis1=1, axis2=2)
-    return float(np.sqrt(bank.probability @ variance))
+    variance = bank.covariance.diagonal(axis1=1, axis2=2)[:, layout.turn]
+    return math.sqrt((bank.probability @ variance).sum())

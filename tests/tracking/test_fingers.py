@@ -207,3 +207,10 @@ def test_a_long_pause_without_pictures_bends_no_finger_further() -> None:
         if np.isfinite(frame.joint_angles_rad).any():
             assert np.abs(np.degrees(frame.joint_angles_rad)).max() < 150.0
     assert frame.status is TrackStatus.TRACKED
+
+
+def test_where_no_disc_was_measured_the_innovation_is_not_known() -> None:
+    everything = tuple(range(len(HAND21.markers)))
+    frames, _ = frames_of({40: everything, 41: everything}, 44)
+    assert [frame.status for frame in frames[40:42]] == [TrackStatus.PREDICTED] * 2
+    assert [np.isfinite(frame.nis) for frame in frames[38:]] == [True, True, False, False, True, True]
