@@ -61,9 +61,11 @@ def measurable(blobs: Detections, radius_px: float, settings: TrackerSettings) -
     value = np.empty((len(blobs), 3))
     value[:, :2], value[:, 2] = blobs.pixel, depth
     known = np.isfinite(depth)
-    at_m = np.where(known, depth, 1.0)
+    at_m, sd_m = depth, blobs.depth_sd_m
+    if not known.all():
+        at_m, sd_m = np.where(known, depth, 1.0), np.where(known, sd_m, 1.0)
     book2 = reading_sd_m(at_m) ** 2
-    beyond2 = np.maximum(np.where(known, blobs.depth_sd_m, 1.0) ** 2 - book2, 0.0)
+    beyond2 = np.maximum(sd_m**2 - book2, 0.0)
     variance = np.empty((len(blobs), 3))
     variance[:, :2] = (noise.pixel_sd_px**2 + wander_px**2)[:, None]
     variance[:, 2] = noise.depth_ratio**2 * book2 + beyond2 + pattern_sd_m(at_m) ** 2
@@ -145,7 +147,10 @@ def _in_company(taken: NDArray[np.int64], with_depth: NDArray[np.bool_], blobs: 
 
     What covers the hand may have blue on it: alone, a blob before or behind a disc's place is not that disc.
     """
-    elsewhere = (taken >= 0) & ~with_depth & np.isfinite(blobs.value[taken, 2])
+    elsewhere = (taken >= 0) & ~with_depth
+    if not elsewhere.any():
+        return taken
+    elsewhere &= np.isfinite(blobs.value[taken, 2])
     if not elsewhere.any() or np.count_nonzero((taken >= 0) & ~elsewhere) >= LEAST_COMPANY:
         return taken
     return np.where(elsewhere, -1, taken)

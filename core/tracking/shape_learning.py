@@ -7,7 +7,6 @@ depths stay as long as the pose does: neighbouring frames tell little that is ne
 
 from __future__ import annotations
 
-from dataclasses import replace
 from functools import lru_cache
 
 import numpy as np
@@ -50,10 +49,11 @@ def slowly_learnt(before: ModeBank, after: ModeBank, layout: StateLayout, news: 
     if not layout.shape_count:
         return after
     kept, kept_both = _kept(layout, news)
-    return replace(
-        after,
-        error=after.error + kept * (before.error - after.error),
-        covariance=after.covariance + kept_both * (before.covariance - after.covariance),
+    return ModeBank(
+        after.nominal,
+        after.error + kept * (before.error - after.error),
+        after.covariance + kept_both * (before.covariance - after.covariance),
+        after.probability,
     )
 
 
