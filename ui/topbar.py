@@ -140,6 +140,15 @@ class TopBar(QWidget):
         self._under.recording = recording
         self._under.update()
 
+    def lock_aside(self, locked: bool) -> None:
+        """Help and settings cannot be opened, nor take the keys, from a running recording."""
+        for button, words in (
+            (self.help_button, self.tr("Help (F1)")),
+            (self.settings_button, self.tr("Settings (Ctrl+,)")),
+        ):
+            button.setEnabled(not locked)
+            button.setToolTip(self.tr("After the recording") if locked else words)
+
     def paintEvent(self, event: QPaintEvent) -> None:
         QPainter(self).fillRect(self.rect(), self._theme.color("surface"))
 

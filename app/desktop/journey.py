@@ -462,6 +462,7 @@ class Journey(QObject):
     def _show_recording(self, state: str, seconds: float) -> None:
         self.shell.bar.pill.show_state(state, seconds)  # type: ignore[arg-type]
         self.shell.bar.show_recording(state == "recording")
+        self.shell.bar.lock_aside(state != "off")
 
     def _show_counters(self, counters: LiveCounters) -> None:
         words = self.tr("{count} pictures/s").format(count=round(counters.fps))

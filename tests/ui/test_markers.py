@@ -106,6 +106,19 @@ def test_the_cursor_of_the_last_picture_is_forgotten(qtbot: QtBot, screen: Marke
     assert not screen.clicking.pixel
 
 
+def test_markers_of_the_last_source_are_not_judged_on_the_next(qtbot: QtBot, screen: MarkersScreen) -> None:
+    calibrator = FakeCalibrator()
+    screen.begin(calibrator)
+    click_all(qtbot, screen, calibrator)
+    wait_for_verdict(qtbot, screen)
+    screen.end()
+    following = FakeCalibrator()
+    screen.begin(following)
+    assert screen.clicking is None or not screen.clicking.pixel
+    qtbot.wait(50)
+    assert not following.judged
+
+
 def test_a_click_beside_every_disc_sets_nothing_and_says_so(qtbot: QtBot, screen: MarkersScreen) -> None:
     screen.begin(FakeCalibrator())
     qtbot.mouseClick(screen.picture, Qt.MouseButton.LeftButton, pos=QPoint(30, 30))

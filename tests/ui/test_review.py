@@ -69,7 +69,7 @@ def test_arrows_step_by_one_picture_and_the_picture_follows(qtbot: QtBot, screen
 def test_a_session_can_be_set_aside_and_taken_back(qtbot: QtBot, screen: ReviewScreen, store: FakeSessions) -> None:
     assert screen.figures is not None
     qtbot.mouseClick(screen.count_button, Qt.MouseButton.LeftButton)
-    qtbot.waitUntil(lambda: store.kept["session-7"].not_counted)
+    qtbot.waitUntil(lambda: "session-7" in store.kept and store.kept["session-7"].not_counted)
     assert screen.figures.not_counted
     assert screen.count_button.text() == "Let it count again"
     screen.toggle_left_out()

@@ -154,6 +154,8 @@ class MarkersScreen(QWidget):
     def begin(self, calibrator: Calibrator, last_rgb: ByteImage | None = None, last_day: str = "") -> None:
         """Show a source's picture and begin."""
         self._calibrator = calibrator
+        self._held, self._judged = False, None
+        self.clicking = self.picture.clicking = None  # of another picture
         self._start_angles_rad = np.zeros(3)
         self._take_start_angles(self._start_angles_rad)
         self.last.show_picture(last_rgb, last_day)
