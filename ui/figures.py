@@ -10,6 +10,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Literal
 
+from ui import numbers
 from ui.marker_words import finger_name
 from ui.translate import tr
 
@@ -41,6 +42,11 @@ class Figure:
         return f"MCP{self.finger}_abduction" if self.row == "spread" else _JOINTS[self.row].format(self.finger)
 
     @property
+    def is_lift(self) -> bool:
+        """Whether it is the thumb's lift away from the palm, which stands in the row of the middle joints."""
+        return self.finger == 1 and self.row == "middle"
+
+    @property
     def token(self) -> str:
         """Colour of its curve."""
         return TOKENS[self.row]
@@ -55,12 +61,14 @@ class Figure:
         """Ends of the gauge."""
         if self.row == "spread":
             return -30.0, 30.0
+        if self.is_lift:
+            return 0.0, 60.0
         return 0.0, {"tam": 140.0 if self.finger == 1 else 270.0}.get(self.row, 120.0)
 
     @property
     def row_name(self) -> str:
         """``Knuckle``; the thumb's second row is its lift."""
-        return row_name("lift" if self.finger == 1 and self.row == "middle" else self.row)
+        return row_name("lift" if self.is_lift else self.row)
 
     @property
     def long_name(self) -> str:
@@ -102,11 +110,25 @@ def _long_name(figure: Figure) -> str:
 
 def _end_names(figure: Figure) -> tuple[str, str]:
     low, high = (f"{abs(value):.0f}°" for value in figure.range_deg)
+    if figure.is_lift:
+        return tr("In the palm’s plane"), tr("Lifted {angle}").format(angle=high)
     if figure.row != "spread":
         return tr("Straight"), tr("Bent {angle}").format(angle=high)
     if figure.finger == 3:
         return tr("Little-finger side {angle}").format(angle=low), tr("Thumb side {angle}").format(angle=high)
     return tr("Inwards {angle}").format(angle=low), tr("Away {angle}").format(angle=high)
+
+
+def side_word(value_deg: float) -> str:
+    """``in`` or ``out`` beside an angle of spreading; empty about the middle and where there is no value."""
+    if not abs(value_deg) >= 0.5:
+        return ""
+    return tr("in") if value_deg < 0 else tr("out")
+
+
+def with_side(value_deg: float) -> str:
+    """``12° out``: an angle of spreading with its side."""
+    return f"{numbers.degrees(value_deg)} {side_word(value_deg)}".strip()
 
 
 def followed_name(joint: str) -> str:

@@ -22,6 +22,17 @@ def degrees(value_deg: float) -> str:
     return f"{_whole(abs(value_deg))}°" if math.isfinite(value_deg) else UNKNOWN
 
 
+def signed_degrees(value_deg: float) -> str:
+    """``−3°`` below zero, where no word carries the sign.
+
+    >>> signed_degrees(-3.2), signed_degrees(-0.3)
+    ('−3°', '0°')
+    """
+    shown = degrees(value_deg)
+    minus = "\N{MINUS SIGN}" if value_deg < 0 and shown != degrees(0.0) else ""
+    return f"{minus}{shown}"
+
+
 def with_spread(value_deg: float, spread_deg: float) -> str:
     """``57° ± 2°`` with no-break spaces; without the spread when that is unknown."""
     if not math.isfinite(value_deg) or not math.isfinite(spread_deg):

@@ -121,6 +121,12 @@ def spread_keys() -> tuple[RowKey, ...]:
     return tuple((name, "arc", -1) for name in names)
 
 
+def thumb_keys() -> tuple[RowKey, ...]:
+    """What is followed where the thumb's base is trained: its lift and spread first, then its bending."""
+    names = ("CMC1_abduction", "CMC1_extension", *bending_joints(1, joint_angle_names(True))[0])
+    return tuple((name, "arc", -1) for name in names)
+
+
 def _total_rows(total: TotalMotion) -> list[RangeRow]:
     row = range_row("arc", -1, total.total, total.limited)
     deficit = range_row("extension", -1, total.deficit, total.limited)

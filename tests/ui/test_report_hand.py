@@ -16,9 +16,10 @@ from core.output.report_content import compare_rows, progress, session_figures
 from tests.ui.hand_fakes import FakeHandSessions, hand_session, without_hidden
 from tests.ui.test_report_pdf import tool, words_of
 from ui import numbers
+from ui.figures import Figure, with_side
 from ui.progress.chart_painter import axis_top_deg, panels_of
 from ui.progress.words import headline
-from ui.report.hand_rows import finger_rows, followed_keys, followed_kinds, hand_summary, limits_words
+from ui.report.hand_rows import cell_of, finger_rows, followed_keys, followed_kinds, hand_summary, limits_words
 from ui.report.pdf import progress_report, write_progress_report, write_session_report
 from ui.report.words import quality_lines
 from ui.terms import LEGAL_SENTENCE
@@ -43,7 +44,7 @@ def test_one_page_with_every_finger_its_total_and_the_limits_of_view_in_words(
     for row in finger_rows(figures, None):
         assert row.name in words
         for cell in row.cells:
-            assert plain(cell.main) in words
+            assert plain(cell.shown) in words
             assert plain(cell.small) in words
     for head in ("(MCP)", "(PIP)", "(DIP)", "TAM", "Bending arc", "Limited by the camera’s view", "DIP not measured"):
         assert head in words
@@ -170,6 +171,32 @@ def test_total_active_motion_is_explained_once_or_its_absence_is() -> None:
     assert "asks for no fist" in limits_words(hook)
     unseen = session_figures(hand_session(hidden=[(0.0, 99.0, f"PIP{k}") for k in (2, 3, 4, 5)]))
     assert "never all seen at once" in limits_words(unseen)
+
+
+def test_no_figure_of_the_thumb_can_be_read_as_a_fingers_joint() -> None:
+    thumb, *fingers = finger_rows(session_figures(hand_session()), None)
+    assert [cell.shown.split()[0] for cell in thumb.cells[:3]] == ["MCP", "Lift", "IP"]
+    assert all(not cell.joint for row in fingers for cell in row.cells)
+
+
+def test_an_angle_beyond_straight_has_its_sign_and_spreading_its_side() -> None:
+    figures = session_figures(hand_session())
+    low = figures.row("extension", -1, "PIP3_flexion")
+    assert low is not None
+    rows = tuple(replace(row, mean_deg=-3.2) if row == low else row for row in figures.joint_rows)
+    cell = cell_of(replace(figures, joint_rows=rows), Figure(3, "middle"))
+    assert cell.small.startswith("−3° to ")
+    spread = cell_of(figures, Figure(4, "spread")).small
+    assert re.fullmatch(r"\d+°( in| out)? to \d+°( in| out)?", spread)
+    assert with_side(-2.0) == "2° in"
+    assert with_side(0.4) == "0°"
+
+
+def test_progress_of_the_thumbs_exercise_draws_lift_and_spread_first() -> None:
+    figures = session_figures(hand_session(exercise="THUMB_OPP", motion="thumb"))
+    kind = followed_kinds(figures)[0][0]
+    shown = [key[0] for key in panels_of(progress([figures], None, followed_keys(kind)))]
+    assert shown == ["CMC1_abduction", "CMC1_extension", "MCP1_flexion", "IP1_flexion"]
 
 
 def test_the_thumbs_exercise_is_told_of_the_thumb(tmp_path: Path) -> None:

@@ -44,10 +44,10 @@ def _paint_row(page: Page, row: FingerRow, top: float) -> None:
     _fitted(page, row.name, 0, middle, 9.0, MEDIUM)
     for column, cell in enumerate(row.cells, 1):
         if cell.small:
-            _fitted(page, cell.main, column, top + 9.5, 9.0, SEMIBOLD)
+            _fitted(page, cell.shown, column, top + 9.5, 9.0, SEMIBOLD)
             _fitted(page, cell.small, column, top + 18.5, 7.5, REGULAR, "text2")
         else:
-            _fitted(page, cell.main, column, middle, 8.5, REGULAR, "text2")
+            _fitted(page, cell.shown, column, middle, 8.5, REGULAR, "text2")
     _fitted(page, row.usual, 6, middle, 8.5, REGULAR, "text2")
     _fitted(page, row.last, 7, middle, 8.5)
     _fitted(page, row.change, 8, middle, 8.0, MEDIUM)

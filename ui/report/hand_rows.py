@@ -5,11 +5,11 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-from core.output.joint_content import USUAL_TOTAL_DEG, WITHOUT_TOTAL, finger_keys, spread_keys
+from core.output.joint_content import USUAL_TOTAL_DEG, WITHOUT_TOTAL, finger_keys, spread_keys, thumb_keys
 from core.output.range_rows import RangeRow, RowKey
 from core.output.report_content import SessionFigures, compare_rows
 from ui import numbers
-from ui.figures import FINGERS, Figure, Row, figure_of
+from ui.figures import FINGERS, Figure, Row, figure_of, with_side
 from ui.marker_words import finger_name
 from ui.translate import tr
 from ui.verdicts import change_short, reason_words
@@ -21,11 +21,18 @@ AT_LEAST = "≥"
 
 @dataclass(frozen=True, slots=True)
 class FingerCell:
-    """One figure: the range with its spread, and from where to where."""
+    """One figure: the range with its spread, and from where to where. ``joint`` is set where the column's head is not
+    its name: a thumb has no middle joint, and none of its angles may be copied as a finger's PIP or DIP."""
 
     main: str
     small: str = ""
     limited: bool = False
+    joint: str = ""
+
+    @property
+    def shown(self) -> str:
+        """``Lift 18° ± 2°``."""
+        return f"{self.joint} {self.main}" if self.joint else self.main
 
 
 @dataclass(frozen=True, slots=True)
@@ -183,14 +190,13 @@ def _since(figures: SessionFigures, before: SessionFigures, when: str) -> str:
 def cell_of(figures: SessionFigures, figure: Figure) -> FingerCell:
     """The range of one joint or finger in words."""
     row = figures.row("arc", -1, figure.joint)
+    thumb: dict[Row, str] = {"knuckle": tr("MCP"), "middle": tr("Lift"), "end": tr("IP")}
+    joint = thumb.get(figure.row, "") if figure.finger == 1 else ""
     if row is None:
-        return FingerCell(tr("not measured") if figure.row == "end" else numbers.UNKNOWN)
+        return FingerCell(tr("not measured") if figure.row == "end" else numbers.UNKNOWN, joint=joint)
     if not row.count:
-        return FingerCell(tr("not seen"), limited=True)
-    ends = _ends(figures, figure)
-    if figure.finger == 1 and figure.row == "middle":  # the thumb has no middle joint: its column holds the lift
-        ends = tr("lift, {ends}").format(ends=ends)
-    return FingerCell(_range_words(row), ends, row.limited)
+        return FingerCell(tr("not seen"), limited=True, joint=joint)
+    return FingerCell(_range_words(row), _ends(figures, figure), row.limited, joint)
 
 
 def _finger_row(finger: int, figures: SessionFigures, previous: SessionFigures | None) -> FingerRow:
@@ -228,7 +234,7 @@ def _range_words(row: RangeRow, *, spread: bool = True) -> str:
 
 
 def _ends(figures: SessionFigures, figure: Figure) -> str:
-    """``3° to 87°``; beyond straight in words."""
+    """``3° to 87°``; ``−3° to 87°`` where it bends back beyond straight; spreading with its sides."""
     low, high = (figures.row(end, -1, figure.joint) for end in ("extension", "flexion"))
     if low is None or high is None:
         return ""
@@ -237,13 +243,8 @@ def _ends(figures: SessionFigures, figure: Figure) -> str:
             full=numbers.degrees(high.mean_deg), missing=numbers.degrees(low.mean_deg)
         )
     ends = sorted((figure.sign * low.mean_deg, figure.sign * high.mean_deg))
-    texts = [numbers.degrees(value) for value in ends]
-    if figure.row == "spread":
-        sides = [tr("{angle} in") if value < -0.5 else tr("{angle} out") for value in ends]
-        return tr("{low} to {high}").format(low=sides[0].format(angle=texts[0]), high=sides[1].format(angle=texts[1]))
-    if ends[0] < -0.5:
-        return tr("{low} over to {high}").format(low=texts[0], high=texts[1])
-    return tr("{low} to {high}").format(low=texts[0], high=texts[1])
+    write = with_side if figure.row == "spread" else numbers.signed_degrees
+    return tr("{low} to {high}").format(low=write(ends[0]), high=write(ends[1]))
 
 
 def followed_kinds(figures: SessionFigures) -> list[tuple[str, str]]:
@@ -256,6 +257,8 @@ def followed_kinds(figures: SessionFigures) -> list[tuple[str, str]]:
     kinds = [("tam", tr("TAM of all fingers"))] if compared_row(figures) == "tam" else []
     kinds.append(("spread", tr("Spreading of all fingers")))
     kinds += [(str(finger), _whole_name(finger)) for finger in FINGERS]
+    if trains_thumb(figures):
+        return [("lift", tr("Lift and spread of the thumb")), *kinds[1:], kinds[0], ("", tr("Wrist"))]
     if compared_row(figures) == "middle":
         kinds = [*kinds[1:], kinds[0]]
     return [*kinds, ("", tr("Wrist"))]
@@ -265,6 +268,8 @@ def followed_keys(what: str) -> tuple[RowKey, ...]:
     """What a choice of :func:`followed_kinds` follows."""
     if what == "spread":
         return spread_keys()
+    if what == "lift":
+        return thumb_keys()
     return finger_keys(0 if what == "tam" else int(what)) if what else ()
 
 

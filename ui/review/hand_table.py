@@ -36,7 +36,8 @@ class HandTable(QWidget):
         """Replace the table."""
         self._heads, self._rows = tuple(heads), tuple(rows)
         lines = [
-            f"{row.name}: " + ", ".join(f"{head} {cell.main}" for head, cell in zip(heads, row.cells, strict=False))
+            f"{row.name}: "
+            + ", ".join(f"{cell.joint or head} {cell.main}" for head, cell in zip(heads, row.cells, strict=False))
             for row in rows
         ]
         self.setAccessibleName("; ".join(lines))
@@ -84,10 +85,10 @@ class HandTable(QWidget):
         for column, cell in enumerate(row.cells, 1):
             face, token = (strong, "text") if cell.small else (body, "text2")
             if cell.small:
-                self._text(painter, cell.main, column, upper, 0.5 * height, face, token)
+                self._text(painter, cell.shown, column, upper, 0.5 * height, face, token)
                 self._text(painter, cell.small, column, lower - scale, 0.45 * height, small, "text2")
             else:
-                self._text(painter, cell.main, column, top, height, face, token)
+                self._text(painter, cell.shown, column, top, height, face, token)
         self._text(painter, row.usual, 6, top, height, body, "text2")
         self._text(painter, row.last, 7, top, height, body, "text")
         token = {"improved": "good", "worse": "bad"}.get(row.verdict, "text2")
