@@ -156,6 +156,8 @@ class SessionFigures:
     """Whether a person decided that the session shall not count."""
     targets_deg: tuple[float, float] = (math.nan, math.nan)
     """Targets of the trained angle, of its positive and its negative direction, signed; NaN for none."""
+    pain_s: tuple[float, ...] = ()
+    """When each of ``pain`` was said, after the first frame."""
 
     @property
     def counted(self) -> int:
@@ -287,6 +289,8 @@ def session_figures(session: Session, choices: RepetitionChoices | None = None) 
         trained = tracks[exercise.joint].seen
     strokes = _strokes(trained, found, counted)
     verdict = session.calibration.verdict
+    pains = [event for event in session.events if event.kind == "pain" and event.text.isdigit()]
+    start_s = float(session.timestamp_s[0]) if len(session) else math.nan
     return SessionFigures(
         session_id=session.header.session_id,
         subject_id=session.header.subject_id,
@@ -316,9 +320,10 @@ def session_figures(session: Session, choices: RepetitionChoices | None = None) 
             distance_m=verdict.distance_m,
             residual_mm=float(np.nanmax(verdict.residual_mm)) if np.isfinite(verdict.residual_mm).any() else math.nan,
         ),
-        pain=tuple(int(event.text) for event in session.events if event.kind == "pain" and event.text.isdigit()),
+        pain=tuple(int(event.text) for event in pains),
+        pain_s=tuple(event.time_s - start_s for event in pains),
         notes=tuple(
-            (event.time_s - float(session.timestamp_s[0]), event.text)
+            (event.time_s - start_s, event.text)
             for event in session.events
             if event.kind == "note" and event.text and len(session)
         ),

@@ -219,6 +219,7 @@ def test_pain_and_notes_come_from_the_events() -> None:
     )
     figures = session_figures(stored)
     assert figures.pain == (2, 4)
+    assert figures.pain_s == pytest.approx((1.0, 9.0))
     assert figures.notes == ((pytest.approx(5.0), "rest"),)
 
 

@@ -18,6 +18,7 @@ from core.errors import OutputExists, OutputNotWritable
 from core.output.report_content import RepetitionChoices, session_figures
 from tests.ui.fakes import FakeSessions, session
 from ui.report.pdf import write_progress_report, write_session_report
+from ui.report.words import other_lines
 from ui.terms import LEGAL_SENTENCE
 
 ROOT = Path(__file__).parents[2]
@@ -99,6 +100,21 @@ def test_a_simulated_and_doubtful_session_says_so_and_shows_its_targets(doubted:
     ):
         assert words in doubted
         assert words not in words_of(report)
+
+
+def test_error_is_explained_only_where_a_change_is_judged(report: Path, tmp_path: Path) -> None:
+    assert "within error" in words_of(report) or "beyond error" in words_of(report)
+    assert "“Error” is" in words_of(report)
+    alone = write_session_report(session(), tmp_path / "x.pdf")
+    assert "rror" not in words_of(alone)
+
+
+def test_a_single_pain_is_said_with_its_time_and_two_as_first_and_last() -> None:
+    figures = session_figures(session())
+    once = dict(other_lines(replace(figures, pain=(3,), pain_s=(74.2,))))
+    assert once["Pain (0–10)"] == "3 at 01:14"
+    assert dict(other_lines(replace(figures, pain=(2, 3), pain_s=(1.0, 9.0))))["Pain first / last (0–10)"] == "2 / 3"
+    assert dict(other_lines(replace(figures, pain=(), pain_s=())))["Pain (0–10)"] == "not asked"
 
 
 def test_curves_are_vectors_not_pictures(report: Path) -> None:

@@ -11,13 +11,13 @@ from PySide6.QtGui import QColor, QPainter, QPen, QPicture
 
 from core.output.exercises import AXIS_TICK_DEG, SIDES
 from core.output.joint_content import JointCurves
-from core.output.report_content import Curves, SessionFigures, usual_deg
+from core.output.report_content import Curves, SessionFigures, compare_rows, usual_deg
 from ui import numbers, terms
 from ui.fonts import MEDIUM, REGULAR, SEMIBOLD
 from ui.icons import paint_mark, paint_state
 from ui.plot.style import CURVE_TOKENS
 from ui.report.hand_part import paint_finger_curves, paint_finger_table, paint_wrist_line
-from ui.report.hand_rows import hand_summary
+from ui.report.hand_rows import compared_figures, hand_summary
 from ui.report.page import A4_PT, MARGIN_PT, Page
 from ui.report.tables import TableRow, column_names, repetition_words, table_rows
 from ui.report.words import method, other_lines, quality_lines, summary, warnings
@@ -302,11 +302,23 @@ def _paint_boxes(page: Page, report: SessionReport, top: float) -> float:
     return top + height
 
 
+def _speaks_of_error(report: SessionReport) -> bool:
+    """Whether any change is judged on the page, against its measurement error."""
+    figures = report.figures
+    rows = list(figures.rows)
+    if report.joints is not None:
+        joints = [figure.joint for figure in compared_figures(figures)]
+        rows = [row for row in figures.joint_rows if row.movement == "arc" and row.joint in joints]
+    before = [item for item in (report.previous, report.first) if item is not None]
+    return any(item.verdict != "not_judged" for earlier in before for item in compare_rows(earlier, figures, rows))
+
+
 def _paint_foot(page: Page, report: SessionReport, top: float) -> float:
     figures = report.figures
     page.rule(top)
     width = page.right - page.left
-    y = page.paragraph(method(figures, report.markers), page.left, top + 4, width, 8.0, REGULAR, "text2")
+    said = method(figures, report.markers, compared=_speaks_of_error(report))
+    y = page.paragraph(said, page.left, top + 4, width, 8.0, REGULAR, "text2")
     y = page.paragraph(terms.LEGAL_SENTENCE, page.left, y + 3, width, 8.0, SEMIBOLD)
     residual = figures.quality.residual_mm
     parts = [tr("Session {id}").format(id=figures.session_id[:8]), f"Carpus {figures.software_version}"]

@@ -59,8 +59,8 @@ def _since(changes: tuple[Comparison, ...], when: str) -> str:
     return tr("Since {when}: {changes}.").format(when=when, changes=", ".join(words))
 
 
-def method(figures: SessionFigures, markers: int) -> str:
-    """How it was measured, in three lines."""
+def method(figures: SessionFigures, markers: int, *, compared: bool) -> str:
+    """How it was measured, in three lines; ``compared``: the page speaks of measurement error, which is explained."""
     quality = figures.quality
     distance = (
         f"{100 * quality.distance_m:.0f}{numbers.NARROW_GAP}cm"
@@ -72,7 +72,8 @@ def method(figures: SessionFigures, markers: int) -> str:
     order = tr("Angles in the order deviation, flexion, pro/supination; {zero}.")
     if figures.joint_rows:
         order = tr(
-            "Fingers: zero is the straight finger; TAM is bending less what is missing to straight. Wrist: {zero}."
+            "Fingers: zero is straight, below it bent back; TAM is bending less what is missing to straight. "
+            "Wrist: {zero}."
         )
     if given:
         zero = tr("zero is straight by the therapist’s goniometer: the hand started at {angles}").format(angles=given)
@@ -81,13 +82,15 @@ def method(figures: SessionFigures, markers: int) -> str:
             markers=markers, distance=distance
         ),
         order.format(zero=zero),
-        tr("± is the spread between repetitions; each angle itself is known to about {sd}.").format(
+        tr("± is the spread between repetitions; each angle itself is known to about {sd} where seen.").format(
             sd=numbers.spread(quality.angle_sd_deg)
         ),
-        tr("“Error” is the smallest difference that can be called a change (published; same protocol and set-up)."),
+        tr("“Error” is the smallest difference that can be called a change (published; same protocol and set-up).")
+        if compared
+        else "",
         tr("Carpus measures the hand in the room: it is the wrist only while the forearm rests."),
     ]
-    return " ".join(sentences)
+    return " ".join(filter(None, sentences))
 
 
 def warnings(figures: SessionFigures) -> list[str]:
@@ -170,6 +173,16 @@ def other_lines(figures: SessionFigures) -> list[tuple[str, str]]:
         lines.append((tr("Smoothness (SPARC; 0 is smoothest)"), f"{value}{spread}"))
     if targets := target_words(figures):
         lines.append((tr("Target"), targets))
-    pain = f"{figures.pain[0]} / {figures.pain[-1]}" if figures.pain else tr("not asked")
-    lines.append((tr("Pain first / last (0–10)"), pain))
+    if len(figures.pain) > 1:
+        lines.append((tr("Pain first / last (0–10)"), f"{figures.pain[0]} / {figures.pain[-1]}"))
+    else:
+        lines.append((tr("Pain (0–10)"), _single_pain(figures)))
     return lines
+
+
+def _single_pain(figures: SessionFigures) -> str:
+    """``3 at 01:14``."""
+    if not figures.pain:
+        return tr("not asked")
+    said, when = figures.pain[0], (*figures.pain_s, math.nan)[0]
+    return tr("{pain} at {time}").format(pain=said, time=numbers.clock(when)) if math.isfinite(when) else str(said)
