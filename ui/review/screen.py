@@ -184,9 +184,9 @@ class ReviewScreen(QWidget):
         needed = self.table.sizeHint().height()
         if self._is_hand:
             words = self.limits.heightForWidth(max(self._scroll.width() - 24, 300))
-            needed = self.hand_table.sizeHint().height() + self._below.spacing() + words + 10
-        if self.figures is not None and self.figures.notes:
-            needed += self.notes.heightForWidth(max(self._scroll.width() - 24, 300)) + 2 * self._below.spacing()
+            needed = self.hand_table.sizeHint().height() + self._below.spacing() + words
+        # A line for notes, also while nobody knows yet whether there are any: nothing jumps when they are read.
+        needed += self.notes.fontMetrics().height() + 2 * self._below.spacing()
         self._scroll.setFixedHeight(round(min(needed + 2, most)))
 
     def _connect(self, keys: Keys) -> None:
@@ -279,7 +279,7 @@ class ReviewScreen(QWidget):
         """The places of a session that is still being read, with nothing of the one before."""
         self._joints = self.figures = None
         self._show_parts(whole_hand)
-        self.count.setText("")
+        self.count.setText("\N{NO-BREAK SPACE}")
         self.limits.setText("\n")
         self.hand_table.show_rows((), ())
         self._fit()
