@@ -131,6 +131,13 @@ def with_side(value_deg: float) -> str:
     return f"{numbers.degrees(value_deg)} {side_word(value_deg)}".strip()
 
 
+def spread_labels(tick_deg: float) -> tuple[tuple[float, str], ...]:
+    """``Out 20°``, ``0°``, ``In 20°``: ticks of an axis of spreading."""
+    angle = numbers.degrees(tick_deg)
+    out, inward = tr("Out {angle}").format(angle=angle), tr("In {angle}").format(angle=angle)
+    return (tick_deg, out), (0.0, "0°"), (-tick_deg, inward)
+
+
 def followed_name(joint: str) -> str:
     """What is followed of every finger: ``Total active motion (TAM)``, ``Middle joint, range``."""
     figure = figure_of(joint)

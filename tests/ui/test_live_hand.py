@@ -23,8 +23,10 @@ from ui.figures import FIGURES, Figure, figure_of
 from ui.help.guide import chapters
 from ui.keys import Keys
 from ui.live.counting import RunningCount
+from ui.live.finger_curves import cell_word
 from ui.live.hand_words import hand_lamp, map_words
 from ui.live.joint_history import JointHistory, figures_of
+from ui.live.number_card import NumberCard, Reading
 from ui.live.screen import LiveScreen
 from ui.picture.skeleton import side_points_m
 from ui.theme import Theme
@@ -167,6 +169,23 @@ def test_the_large_number_is_chosen_by_click_and_by_key(qtbot: QtBot, theme: The
     for _ in range(3):
         screen.next_angle()
     assert screen.number.movement() == "Little finger, total active motion (TAM)"
+
+
+def test_spreading_says_its_side_and_the_thumbs_lift_runs_from_the_palms_plane(qtbot: QtBot, theme: Theme) -> None:
+    card = NumberCard(theme)
+    qtbot.addWidget(card)
+    for value, words in (
+        (2.0, "Ring finger, spread, out"),
+        (-2.0, "Ring finger, spread, in"),
+        (0.2, "Ring finger, spread"),
+    ):
+        card.show_reading(Reading(figure=Figure(4, "spread"), value_deg=value, sd_deg=1.0))
+        assert card.movement() == words
+        assert cell_word(Figure(4, "spread"), value) == words.removeprefix("Ring finger, spread").removeprefix(", ")
+    lift = Figure(1, "middle")
+    assert lift.joint == "CMC1_abduction"
+    assert (lift.range_deg, lift.end_names) == ((0.0, 60.0), ("In the palm’s plane", "Lifted 60°"))
+    assert cell_word(lift, 20.0) == "lift"
 
 
 def test_a_lost_hand_leaves_no_number_anywhere(qtbot: QtBot, theme: Theme) -> None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 
 import numpy as np
 from PySide6.QtCore import QPointF, QRectF, QSize, Qt, Signal
@@ -11,7 +12,7 @@ from PySide6.QtWidgets import QSizePolicy, QWidget
 
 from core.types import FloatArray
 from ui import numbers
-from ui.figures import FIGURES, FINGERS, ROWS, Figure, Row, row_name
+from ui.figures import FIGURES, FINGERS, ROWS, Figure, Row, row_name, side_word, spread_labels
 from ui.fonts import MEDIUM, REGULAR, SEMIBOLD, font
 from ui.icons import paint_state
 from ui.live.curve_strips import CurveStrips, PanelCurves, Pens
@@ -23,10 +24,11 @@ from ui.plot.axes import Panel, Scale
 from ui.plot.series import LONGEST_STEP_S, paint_series
 from ui.plot.style import screen_style
 from ui.theme import BAND_ALPHA, CARD_RADIUS_PX, Theme
+from ui.translate import tr
 
 LEFT_PX, RIGHT_PX, TOP_PX, BETWEEN_PX, ROW_PX = 112, 14, 44, 13, 31
 BENDING = Scale(-15.0, 115.0, (90.0, 45.0, 0.0), ((90.0, "90°"), (45.0, "45°"), (0.0, "0°")))
-SPREADING = Scale(-32.0, 32.0, (20.0, 0.0, -20.0), ((20.0, "20°"), (0.0, "0°"), (-20.0, "20°")))
+SPREADING = Scale(-32.0, 32.0, (20.0, 0.0, -20.0), ())
 BENDING_ROWS: tuple[Row, ...] = ("end", "middle", "knuckle")
 SPREADING_ROWS: tuple[Row, ...] = ("spread",)
 ROOMY_FROM_PX = 290
@@ -198,10 +200,10 @@ class FingerCurves(QWidget):
             words = self.tr("follows the middle joint")
             if QFontMetricsF(painter.font()).horizontalAdvance(words) > cell.right() - left:
                 words = self.tr("follows")
-        lift = f"{words} {self.tr('lift')}"
-        room = cell.right() - left - 18
-        if figure == Figure(1, "middle") and QFontMetricsF(painter.font()).horizontalAdvance(lift) < room:
-            words = lift if math.isfinite(value) else ""
+        if math.isfinite(value) and (name := cell_word(figure, value)):
+            both, room = f"{words} {name}", cell.right() - left - 18
+            # What an angle is goes before how sure it is.
+            words = both if QFontMetricsF(painter.font()).horizontalAdvance(both) < room else name
         painter.setPen(theme.color("text2"))
         painter.drawText(QPointF(left, baseline), words)
         left += QFontMetricsF(painter.font()).horizontalAdvance(words) + 5
@@ -228,7 +230,8 @@ class FingerCurves(QWidget):
             bending, spreading = self.panels(finger)
             self._text(painter, finger_name(str(finger)), bending.box.left(), 13 * scale, 16, SEMIBOLD, "text")
             for panel in (bending, spreading):
-                shown = panel.scale if finger == 1 else Scale(panel.scale.low, panel.scale.high, panel.scale.ticks, ())
+                labels = spread_labels(20.0) if panel is spreading else panel.scale.labels
+                shown = replace(panel.scale, labels=labels if finger == 1 else ())
                 axes.paint_scale(painter, style, Panel(panel.box, shown, panel.start_s, panel.end_s))
             if finger == self._figure.finger and math.isfinite(self._target_deg) and self._figure.row != "tam":
                 own = spreading if self._figure.row == "spread" else bending
@@ -248,6 +251,13 @@ class FingerCurves(QWidget):
         painter.setFont(font(size * self._theme.text_scale, weight))
         painter.setPen(self._theme.color(token))
         painter.drawText(QPointF(left, top + QFontMetricsF(painter.font()).ascent()), text)
+
+
+def cell_word(figure: Figure, value_deg: float) -> str:
+    """What the row's name does not say: that the thumb's is its lift, and to which side a finger is spread."""
+    if figure.is_lift:
+        return tr("lift")
+    return side_word(value_deg) if figure.row == "spread" else ""
 
 
 def _stays_in(scale: Scale, value: FloatArray) -> bool:

@@ -12,7 +12,7 @@ from PySide6.QtWidgets import QSizePolicy, QWidget
 from core.output.exercises import AXIS_TICK_DEG, SIDES
 from ui import numbers, terms
 from ui.controls.card import paint_card
-from ui.figures import Figure
+from ui.figures import Figure, side_word
 from ui.fonts import MEDIUM, REGULAR, SEMIBOLD, font
 from ui.plot.axes import hatch
 from ui.plot.style import CURVE_TOKENS, screen_style
@@ -72,6 +72,8 @@ class NumberCard(QWidget):
         figure = self.reading.figure
         if figure is not None and figure.row == "tam":
             return self.tr("{finger}, total active motion (TAM)").format(finger=figure.long_name.split(",")[0])
+        if figure is not None and figure.row == "spread" and (side := side_word(self.reading.value_deg)):
+            return self.tr("{joint}, {side}").format(joint=figure.long_name, side=side)
         if figure is not None:
             return figure.long_name
         value = self.reading.value_deg

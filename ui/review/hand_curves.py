@@ -12,7 +12,7 @@ from PySide6.QtGui import QPainter, QPen
 
 from core.output.joint_content import JointCurves
 from ui import numbers
-from ui.figures import FINGERS, Figure, Row
+from ui.figures import FINGERS, Figure, Row, spread_labels, with_side
 from ui.fonts import MEDIUM, SEMIBOLD, font
 from ui.marker_words import finger_name
 from ui.plot import axes
@@ -77,8 +77,7 @@ def _bend_scale(roomy: bool) -> Scale:
 
 
 def _spread_scale() -> Scale:
-    labels = ((20.0, tr("Out {angle}").format(angle="20°")), (0.0, "0°"), (-20.0, tr("In {angle}").format(angle="20°")))
-    return Scale(-_SPREAD_DEG, _SPREAD_DEG, (20.0, 0.0, -20.0), labels, strong_ends=False)
+    return Scale(-_SPREAD_DEG, _SPREAD_DEG, (20.0, 0.0, -20.0), spread_labels(20.0), strong_ends=False)
 
 
 def paint_hand_session(
@@ -152,8 +151,13 @@ def paint_hand_cursor(
             painter.drawLine(QPointF(left, line), QPointF(left + 12 * scale, line))
             painter.setFont(font(14 * scale, SEMIBOLD if not hidden else MEDIUM))
             painter.setPen(style.color("text" if not hidden else "text2"))
-            words = numbers.with_spread(value, sd)
-            painter.drawText(QPointF(left + 18 * scale, line + 5 * scale), words)
+            at = QPointF(left + 18 * scale, line + 5 * scale)
+            if figure.row == "spread":  # with its side, and so with no room beside it
+                painter.drawText(at, with_side(value))
+                painter.setFont(font(12 * scale, MEDIUM))
+                painter.drawText(at + QPointF(0.0, 16 * scale), numbers.spread(sd) if math.isfinite(value) else "")
+            else:
+                painter.drawText(at, numbers.with_spread(value, sd))
             line += step
 
 
