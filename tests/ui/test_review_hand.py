@@ -122,6 +122,15 @@ def test_space_plays_with_a_finger_chosen_and_the_curves_keep_step(qtbot: QtBot,
     qtbot.keyClick(screen, Qt.Key.Key_Space)
 
 
+def test_a_time_in_no_repetition_has_no_number(screen: ReviewScreen) -> None:
+    assert screen.figures is not None
+    first, *_, last = screen.figures.repetitions
+    screen.seek(first.start_s + 0.5)
+    assert screen._clock_words().startswith("Repetition 1 of 8 · ")
+    screen.seek(last.end_s + 0.3)
+    assert "Repetition" not in screen._clock_words()
+
+
 def test_the_skeleton_goes_from_the_wrist_to_each_tip(store: FakeHandSessions) -> None:
     for finger in (1, 2, 3, 4, 5):
         assert HAND21.markers[HAND21_CHAINS[finger - 1][0]] == "WRIST"

@@ -341,11 +341,7 @@ class ReviewScreen(QWidget):
         if self._curves is None or self.figures is None or not len(self._curves.time_s):
             return
         self._time_s = float(np.clip(time_s, 0.0, self._curves.time_s[-1]))
-        under = [
-            n
-            for n, rep in enumerate(self.figures.repetitions)
-            if rep.start_s - 1e-6 <= self._time_s <= rep.end_s + 1e-6
-        ]
+        under = self._under(self._time_s)
         if under and self._current not in under:
             self._current = under[0]
             self._refresh()
@@ -497,14 +493,23 @@ class ReviewScreen(QWidget):
         paint_skeleton(painter, picture, spots, seen, finger)
         self._paint_labels(painter, picture)
 
+    def _under(self, time_s: float) -> list[int]:
+        """Numbers of the repetitions that a time is in."""
+        repetitions = self.figures.repetitions if self.figures is not None else ()
+        return [n for n, rep in enumerate(repetitions) if rep.start_s - 1e-6 <= time_s <= rep.end_s + 1e-6]
+
+    def _clock_words(self) -> str:
+        """``Repetition 3 of 8 · 00:12.0``, the time alone between the repetitions."""
+        clock = numbers.clock_tenths(self._time_s)
+        if self.figures is None or self._current not in self._under(self._time_s):
+            return clock
+        pattern = self.tr("Repetition {number} of {count} · {time}")
+        return pattern.format(number=self._current + 1, count=len(self.figures.repetitions), time=clock)
+
     def _paint_labels(self, painter: QPainter, picture: PictureView) -> None:
         assert self.figures is not None
         assert self._curves is not None
-        clock = numbers.clock_tenths(self._time_s)
-        if 0 <= self._current < len(self.figures.repetitions):
-            pattern = self.tr("Repetition {number} of {count} · {time}")
-            clock = pattern.format(number=self._current + 1, count=len(self.figures.repetitions), time=clock)
-        paint_label(painter, self._theme, clock, 12, 12)
+        paint_label(painter, self._theme, self._clock_words(), 12, 12)
         if self._joints is not None:
             hidden = (
                 int((~np.isfinite(self._session.markers.measured_px[self._row, :, 0])).sum()) if self._session else 0
