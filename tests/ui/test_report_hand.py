@@ -208,3 +208,4 @@ def test_the_thumbs_exercise_is_told_of_the_thumb(tmp_path: Path) -> None:
     assert "index" not in said
     path = write_session_report(made, tmp_path / "h.pdf", history=[figures])
     assert re.search(r"Pages:\s+1\n", tool("pdfinfo", str(path)))
+    assert "Middle joint, of the thumb lift" in words_of(path)

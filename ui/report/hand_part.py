@@ -101,7 +101,7 @@ def paint_finger_curves(
 def _paint_key(page: Page, right: float, baseline: float) -> None:
     """Which colour is which joint, ending at ``right``."""
     for row in reversed(BENDING):
-        name = row_name(row)
+        name = tr("Middle joint, of the thumb lift") if row == "middle" else row_name(row)
         left = right - page.width_of(name, 8.5)
         page.text(name, left, baseline, 8.5, REGULAR, "text2")
         page.painter.setPen(QPen(QColor(getattr(LIGHT, TOKENS[row])), 1.6 * page.point))
