@@ -295,7 +295,7 @@ def _written(
             done += 1
             if progress is not None:
                 progress(done, total)
-        if smooth:
+        if smooth and done:  # of no frame there is nothing to look back at
             writer.write_smoothed(motion_of(tracker.smoothed()))
         writer.close()
     except DiskFull:

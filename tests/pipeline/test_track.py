@@ -316,3 +316,14 @@ def keep_pictures(folder: Path, session: Path, output: Path) -> None:
         pictures = RawPictures(encode_color(frame.color_rgb, lossless=True), encode_depth(frame.depth_raw))
         writer.append(replace(make_frame(frame.index), timestamp_s=frame.timestamp_s), pictures)
     writer.close()
+
+
+def test_a_session_without_a_row_can_be_tracked_again(made: Made, tmp_path: Path) -> None:
+    """A program that ended at once leaves one: there is nothing to look back at, and nothing to fail over."""
+    whole = read_session(made.session)
+    empty = tmp_path / "empty.h5"
+    with SessionWriter.create(empty, whole.header, whole.camera, whole.calibration):
+        pass
+    again = tmp_path / "again.h5"
+    retrack_session(empty, again, TrackSettings(), software_version="test")
+    assert len(read_session(again)) == 0
