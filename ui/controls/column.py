@@ -1,4 +1,4 @@
-"""What lies in a scroll area and holds wrapped texts."""
+"""Scroll areas, and what lies in them and holds wrapped texts."""
 
 from __future__ import annotations
 
@@ -15,14 +15,19 @@ class ScrolledColumn(QWidget):
         return QSize(super().minimumSizeHint().width(), 0)
 
 
+def scroll_area(host: QWidget, focus: Qt.FocusPolicy = Qt.FocusPolicy.NoFocus) -> QScrollArea:
+    """Scrolls what it holds up and down, never aside; Tab passes it by unless ``focus`` says otherwise."""
+    area = QScrollArea()
+    area.setWidget(host)
+    area.setWidgetResizable(True)
+    area.setFocusPolicy(focus)
+    area.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
+    return area
+
+
 def scrolled(layout: QVBoxLayout) -> QScrollArea:
     """A column that scrolls where large text leaves no room; at its edges there is room for the focus ring."""
     layout.setContentsMargins(RING_PX, RING_PX, RING_PX, RING_PX)
     host = ScrolledColumn()
     host.setLayout(layout)
-    area = QScrollArea()
-    area.setWidget(host)
-    area.setWidgetResizable(True)
-    area.setFocusPolicy(Qt.FocusPolicy.NoFocus)
-    area.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
-    return area
+    return scroll_area(host)

@@ -8,6 +8,7 @@ from PySide6.QtWidgets import QGridLayout, QHBoxLayout, QScrollArea, QVBoxLayout
 from ui import terms
 from ui.controls.button import Button
 from ui.controls.card import Card, KeyCaps
+from ui.controls.column import scroll_area
 from ui.controls.text import SEMIBOLD, Text, heading
 from ui.help.guide import chapters
 from ui.keys import DEFAULT_KEYS, Keys, action_words
@@ -73,8 +74,4 @@ class HelpScreen(QWidget):
     def _scrolled(self, column: QVBoxLayout) -> QScrollArea:
         host = QWidget()
         host.setLayout(column)
-        scroll = QScrollArea()
-        scroll.setWidget(host)
-        scroll.setWidgetResizable(True)
-        scroll.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
-        return scroll
+        return scroll_area(host, Qt.FocusPolicy.StrongFocus)

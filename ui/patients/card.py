@@ -4,11 +4,12 @@ from __future__ import annotations
 
 from PySide6.QtCore import Qt, Signal
 from PySide6.QtGui import QResizeEvent
-from PySide6.QtWidgets import QHBoxLayout, QScrollArea, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QHBoxLayout, QVBoxLayout, QWidget
 
 from ui import numbers, terms
 from ui.controls.button import Button
 from ui.controls.card import Card, Line
+from ui.controls.column import scroll_area
 from ui.controls.text import MEDIUM, REGULAR, SEMIBOLD, ElidedText, Text, caption
 from ui.figures import figure_of, followed_name
 from ui.picture.photo import Photo
@@ -73,12 +74,8 @@ class PatientCardView(Card):
         recall.addStretch(1)
         host = QWidget()
         host.setLayout(recall)
-        scroll = QScrollArea()  # large text: what must be recalled scrolls, the buttons stay
-        scroll.setWidget(host)
-        scroll.setWidgetResizable(True)
-        scroll.setFocusPolicy(Qt.FocusPolicy.NoFocus)
-        scroll.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
-        self.body.addWidget(scroll, 1)
+        # Large text: what must be recalled scrolls, the buttons stay.
+        self.body.addWidget(scroll_area(host), 1)
         self.body.addSpacing(16)
         self.body.addWidget(self.start_button)
         self.body.addSpacing(12)

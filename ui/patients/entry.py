@@ -5,10 +5,11 @@ from __future__ import annotations
 from collections.abc import Callable
 
 from PySide6.QtCore import Qt, Signal
-from PySide6.QtWidgets import QHBoxLayout, QLineEdit, QPlainTextEdit, QScrollArea, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QHBoxLayout, QLineEdit, QPlainTextEdit, QVBoxLayout, QWidget
 
 from ui import terms
 from ui.controls.button import Button
+from ui.controls.column import scroll_area
 from ui.controls.field import Choices, Labelled
 from ui.controls.sheet import Sheet
 from ui.controls.text import SEMIBOLD, Text
@@ -65,11 +66,7 @@ class PatientForm(Sheet):
         column.addWidget(Labelled(theme, self.tr("Affected hand"), self.side))
         column.addWidget(Labelled(theme, self.tr("Writes with"), self.dominance))
         column.addWidget(Labelled(theme, self.tr("N&ote (no diagnosis, no names)"), self.note))
-        self._scroll = QScrollArea()  # large text on a small screen: the fields scroll, the buttons stay
-        self._scroll.setWidget(self._fields)
-        self._scroll.setWidgetResizable(True)
-        self._scroll.setFocusPolicy(Qt.FocusPolicy.NoFocus)
-        self._scroll.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
+        self._scroll = scroll_area(self._fields)  # large text on a small screen: the fields scroll, the buttons stay
         self.body.addWidget(self._scroll)
         self.body.addWidget(self._fault)
         buttons = QHBoxLayout()

@@ -7,14 +7,14 @@ from pathlib import Path
 
 from PySide6.QtCore import Qt, Signal
 from PySide6.QtGui import QResizeEvent
-from PySide6.QtWidgets import QComboBox, QFileDialog, QHBoxLayout, QScrollArea, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QComboBox, QFileDialog, QHBoxLayout, QVBoxLayout, QWidget
 
 from core.output.report_content import Comparison, Progress, SessionFigures, other_hand_of, progress
 from ui import numbers, terms
 from ui.background import Background
 from ui.controls.button import Button
 from ui.controls.card import Card, Line
-from ui.controls.column import ScrolledColumn
+from ui.controls.column import ScrolledColumn, scroll_area
 from ui.controls.text import MEDIUM, REGULAR, SEMIBOLD, StateText, Text, caption, heading
 from ui.keys import Keys, bind
 from ui.ports import SessionStore
@@ -86,11 +86,7 @@ class ProgressScreen(QWidget):
         right.addStretch(1)
         host = ScrolledColumn()
         host.setLayout(right)
-        self._side = QScrollArea()
-        self._side.setWidget(host)
-        self._side.setWidgetResizable(True)
-        self._side.setFocusPolicy(Qt.FocusPolicy.NoFocus)
-        self._side.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
+        self._side = scroll_area(host)
         self._theme.changed.connect(self._fit)
         self._fit()
         columns = QHBoxLayout()

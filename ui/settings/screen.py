@@ -12,7 +12,6 @@ from PySide6.QtWidgets import (
     QHBoxLayout,
     QKeySequenceEdit,
     QLineEdit,
-    QScrollArea,
     QVBoxLayout,
     QWidget,
 )
@@ -20,6 +19,7 @@ from PySide6.QtWidgets import (
 from ui import terms
 from ui.controls.button import Button
 from ui.controls.card import Card
+from ui.controls.column import scroll_area
 from ui.controls.field import Choices
 from ui.controls.text import REGULAR, SEMIBOLD, Text, heading
 from ui.keys import DEFAULT_KEYS, action_words
@@ -110,11 +110,7 @@ class SettingsScreen(QWidget):
         page.addStretch(1)
         host = QWidget()
         host.setLayout(page)
-        scroll = QScrollArea()
-        scroll.setWidget(host)
-        scroll.setWidgetResizable(True)
-        scroll.setFocusPolicy(Qt.FocusPolicy.NoFocus)
-        scroll.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
+        scroll = scroll_area(host)
         head = QHBoxLayout()
         head.setContentsMargins(0, 0, 8, 0)
         head.addWidget(heading(theme, self.tr("Settings")), 1)
