@@ -7,6 +7,8 @@ The covariance of an angle holds both the pose's and the calibration's part.
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 
 from core import so3
@@ -104,18 +106,12 @@ class Readout:
     def with_joints(self, moment: Moment, joints: JointMoment) -> Moment:
         """The moment with what is known of the fingers."""
         rotation = self._start.T @ moment.rotation_w2_w0
-        return Moment(
-            moment.position_m,
-            moment.velocity_m_s,
-            moment.rotation_w2_w0,
-            moment.angular_velocity_rad_s,
-            moment.angles_rad,
-            moment.angles_sd_rad,
-            moment.angles_zyz_rad,
-            joints.angles_rad,
-            joints.sd_rad,
-            joints.rate_rad_s,
-            moment.position_m + joints.joint_w2_m @ rotation.T,
+        return replace(
+            moment,
+            joint_angles_rad=joints.angles_rad,
+            joint_angles_sd_rad=joints.sd_rad,
+            joint_velocity_rad_s=joints.rate_rad_s,
+            joint_position_m=moment.position_m + joints.joint_w2_m @ rotation.T,
         )
 
 
