@@ -108,7 +108,7 @@ class DegreesField(QLineEdit):
         """What is wrong, empty when nothing is."""
         empty = self.text().strip() in ("", "°")
         return (
-            "" if empty or math.isfinite(self.value()) else self.tr("1° to {most}°, or empty").format(most=self._most)
+            "" if empty or math.isfinite(self.value()) else self.tr("Up to {most}°, or empty").format(most=self._most)
         )
 
     def _check(self) -> None:
