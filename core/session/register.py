@@ -129,6 +129,7 @@ class PatientRegister:
         self.sessions_folder = folder / SESSIONS_FOLDER
         make_private(folder)
         make_private(self.sessions_folder)
+        self._resolved_folder = self.sessions_folder.resolve()  # asked of every file whenever the list is shown
         self._database = Database(folder / REGISTER_FILE, MIGRATIONS)
         if self._database.is_new:
             try:
@@ -264,7 +265,7 @@ class PatientRegister:
     def _stored_path(self, path: Path) -> str:
         """Relative to the sessions folder, so that the data folder can be moved as a whole."""
         try:
-            return path.resolve().relative_to(self.sessions_folder.resolve()).as_posix()
+            return path.resolve().relative_to(self._resolved_folder).as_posix()
         except ValueError:
             return str(path.resolve())
 
