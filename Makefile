@@ -1,9 +1,13 @@
 # Everything sets itself up: `make run` and `make test` are enough on a fresh machine.
 PY := .venv/bin/python
+# An empty environment has none.
+export PATH := $(or $(PATH),/usr/local/sbin:/usr/local/bin:/usr/sbin:/usr/bin:/sbin:/bin)
 export OPENBLAS_NUM_THREADS := 1
 export OMP_NUM_THREADS := 1
 
-.PHONY: run test lint pytest bench accuracy screenshots setup setup-test lock clean
+PACKAGE_PY := $(or $(PYTHON),python3)
+
+.PHONY: run test lint pytest bench accuracy torture screenshots fresh package package-test windows-test release setup setup-test lock clean
 
 run: setup                      ## the application on a simulated camera and patient
 	.venv/bin/carpus demo
@@ -13,11 +17,14 @@ test: lint pytest               ## everything that must hold before a change lan
 lint: setup-test                ## style, types, layers
 	$(PY) -m ruff check .
 	$(PY) -m ruff format --check .
-	$(PY) -m mypy
-	.venv/bin/lint-imports --no-cache
+	@rm -rf build/lint && mkdir -p build/lint/carpus  # the package as it is when installed: what the tools look for
+	@ln -s ../../../carpus.py build/lint/carpus/__init__.py
+	@for part in app core ui resources; do ln -s ../../../$$part build/lint/carpus/$$part; done
+	cd build/lint && ../../$(PY) -m mypy --config-file ../../pyproject.toml
+	cd build/lint && ../../.venv/bin/lint-imports --no-cache --config ../../pyproject.toml
 
 pytest: setup-test
-	$(PY) -m pytest -q
+	$(PY) -m pytest -q -n auto --maxprocesses 4 --dist loadgroup
 
 bench: setup-test               ## cost per frame and of the screen
 	$(PY) -m tests.bench
@@ -25,8 +32,26 @@ bench: setup-test               ## cost per frame and of the screen
 accuracy: setup-test            ## errors against simulated truth
 	$(PY) -m tests.accuracy
 
+torture: setup-test             ## kills, damaged files, bad disks: what is lost and let in (an hour or two)
+	$(PY) -m tests.torture
+
 screenshots: setup-test         ## every screen, light and dark, into out/screenshots
 	$(PY) -m tests.screenshots
+
+fresh:                          ## `make run` and `make test` in clean roots of Debian 12 and 13; as root, long
+	installer/fresh.sh $(SUITES)
+
+package:                        ## archive and .deb with their own Python, into dist/; on a Debian 12 for it and Ubuntu 24.04
+	$(PACKAGE_PY) installer/package/build.py
+
+package-test:                   ## the .deb in clean roots: install, start, measure, upgrade, remove; as root, long
+	installer/package/clean_root.sh $(SUITES)
+
+windows-test:                   ## the Windows installer around a stand-in, its handling of files under Wine
+	installer/package/windows/try_under_wine.sh
+
+release: setup-test             ## all that is handed out, or why not; RELEASE_KEY=... signs the checksums
+	$(PACKAGE_PY) installer/release.py
 
 setup:
 	@installer/setup.sh run

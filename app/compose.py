@@ -6,11 +6,12 @@ import contextlib
 import gc
 import logging
 import os
-import signal
+import re
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from datetime import date
+from functools import partial
 from logging.handlers import RotatingFileHandler
 from pathlib import Path
 from types import TracebackType
@@ -19,28 +20,57 @@ import platformdirs
 from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QApplication
 
-from app import __version__
-from app.desktop.journey import Journey, Parts
-from app.desktop.library import Library
-from app.desktop.no_folder import NoFolder
-from app.desktop.patients import PatientShelf
-from app.desktop.phrases import WordTable
-from app.desktop.practice import practice_take
-from app.desktop.preferences import PreferenceKeeper
-from app.desktop.sources import Sources
-from app.settings import DATA_VARIABLE, Settings, keep_preferences
-from core.capture.source import FrameSource
-from core.errors import CarpusFault
-from ui.fonts import load_fonts
-from ui.keys import Keys
-from ui.ports import SetUp, Words
-from ui.shell import Shell
-from ui.style import apply_style
-from ui.theme import Theme, ThemeName
+from carpus import __version__
+from carpus.app.desktop.backing_up import BackingUp
+from carpus.app.desktop.encrypting import AskPin, SwitchingEncryption
+from carpus.app.desktop.erasing import Erasing
+from carpus.app.desktop.journey import Journey, Parts
+from carpus.app.desktop.last_places import LastPlaces
+from carpus.app.desktop.locking import Locking
+from carpus.app.desktop.no_folder import NoFolder
+from carpus.app.desktop.patients import PatientShelf
+from carpus.app.desktop.phrases import WordTable
+from carpus.app.desktop.practice import practice_take
+from carpus.app.desktop.preferences import PreferenceKeeper
+from carpus.app.desktop.record_lists import RecordLists
+from carpus.app.desktop.sources import Sources
+from carpus.app.desktop.touring import Tour
+from carpus.app.desktop.welcoming import Welcome
+from carpus.app.desktop.witness import Witness
+from carpus.app.settings import DATA_VARIABLE, LockSettings, RecordsSettings, Settings, keep_preferences
+from carpus.app.settings import settings_folder as own_settings_folder
+from carpus.app.stop_signals import on_stop
+from carpus.core.capture.source import FrameSource
+from carpus.core.encryption import keys
+from carpus.core.errors import CarpusFault, OutputNotWritable
+from carpus.core.library.library import Library
+from carpus.core.library.records import Records
+from carpus.core.library.set_up import SetUp
+from carpus.core.session.database import make_private
+from carpus.ui.fonts import load_fonts
+from carpus.ui.keys import Keys
+from carpus.ui.ports import Words
+from carpus.ui.shell import Shell
+from carpus.ui.style import apply_style
+from carpus.ui.theme import Theme, ThemeName
+from carpus.ui.window_place import place_of, put_in_place
 
 Take = Callable[[SetUp, Callable[[int, int], None]], tuple[FrameSource, float]]
 SWITCH_S = 0.001
+SESSION_PATH = re.compile(r"\S*(?:sessions[\\/]|_\d{4}-\d\d-\d\d_\d{6}_)\S*")
+"""A path or a file's name with a pseudonym in it."""
 LOG_FILE, LOG_BYTES = "carpus.log", 1_000_000
+
+
+@dataclass(eq=False)
+class Safe:
+    """What keeps, hides and erases."""
+
+    erasing: Erasing
+    lists: RecordLists
+    backing_up: BackingUp
+    locking: Locking
+    encryption: SwitchingEncryption
 
 
 @dataclass(eq=False)
@@ -52,12 +82,19 @@ class Desktop:
     theme: Theme
     journey: Journey
     library: Library
+    safe: Safe
+    welcome: Welcome
+    tour: Tour
     _closed: bool = False
 
     def show(self) -> None:
         """Bring up the first screen and tell of what was recovered."""
         self.journey.show_patients()
+        put_in_place(self.shell, LastPlaces(self.library.folder).window())
+        self.shell.create()  # what hides the names must be there before anything is seen
+        self.safe.locking.lock_at_start()
         self.shell.show()
+        self.welcome.begin()
         # All that was built by now stays: the collector need not look through it again while frames come.
         gc.collect()
         gc.freeze()
@@ -68,10 +105,36 @@ class Desktop:
         self.shell.raise_()
         self.shell.activateWindow()
 
+    def called(self, session: Path | None) -> None:
+        """Another start on the same data folder, with the session file that it was to open."""
+        self.come_to_front()
+        if session is not None:
+            self.open_session(session)
+
+    def open_session(self, session: Path) -> None:
+        """Show a session by its file; where the window is locked, once somebody has opened it."""
+        locking = self.safe.locking
+        if locking.locked:
+            once = Qt.ConnectionType.SingleShotConnection
+            locking.sheet.closed.connect(lambda: self.journey.review_file(session), once)
+        else:
+            self.journey.review_file(session)
+
+    @property
+    def closed(self) -> bool:
+        """Whether everything was let go of."""
+        return self._closed
+
     def close(self) -> None:
         """Finish what runs and let go of everything; may be called twice."""
         if not self._closed:
             self._closed = True
+            self.tour.end()
+            self.welcome.end()
+            self.safe.locking.end()
+            self.safe.backing_up.end()
+            self.safe.encryption.end()
+            LastPlaces(self.library.folder).keep_window(place_of(self.shell))
             self.journey.close()
             self.shell.hide()
             self.library.close()
@@ -98,31 +161,47 @@ def compose(
     speed: float = 1.0,
     settings_folder: Path | None = None,
     today: date | None = None,
+    told: Sequence[CarpusFault] = (),
 ) -> Desktop:
     """Put the application together. Raises what the data folder raises (:class:`RegisterUnreadable` and others).
 
-    ``take`` renders the practice patient; ``speed`` plays what is stored faster than it was.
+    ``take`` renders the practice patient; ``speed`` plays what is stored faster than it was; ``told`` is told
+    on the first screen.
     """
     # Tracking must not wait 5 ms, Python's usual turn, while the window paints, nor the window for tracking.
     sys.setswitchinterval(SWITCH_S)
     theme = Theme(theme_name(qt, settings), settings.screen.text_scale)
     apply_style(qt, theme)
     library = Library(settings.data_folder)
+    library.who = lambda: settings.report.therapist
+    library.angle_order = lambda: settings.report.angle_order
+    LINES.names = library.pseudonyms
     recovered, faults = library.recover()
     sources = Sources(settings, library, take, speed)
     parts = Parts(library, PatientShelf(library), sources, WordTable(), settings, is_demo, today or date.today())
     shell = Shell(theme)
     journey = Journey(shell, theme, Keys(settings.screen.keys), parts)
-    keeper = PreferenceKeeper(journey, theme, settings, settings_folder, lambda chosen: theme_name(qt, chosen))
+    keeper = PreferenceKeeper(
+        journey, theme, settings, settings_folder, lambda chosen: theme_name(qt, chosen), library.error_limits
+    )
+    keeper.screen.retest_wanted.connect(journey.show_retest)
+    journey.retesting.in_force.connect(lambda: keeper.screen.show_limits(library.error_limits))
     qt.styleHints().colorSchemeChanged.connect(lambda _: keeper.follow_system())
-    desktop = Desktop(qt, shell, theme, journey, library)
+    library.who = lambda: journey.settings.report.therapist
+    library.angle_order = lambda: journey.settings.report.angle_order
+    sources.streams = lambda: journey.settings.stream.on
+    Witness(journey, library)
+    safe = _safekeeping(shell, theme, journey, library, keeper, settings, settings_folder, parts.today)
+    tour = Tour(journey)
+    welcome = Welcome(journey, theme, tour, keeper, library)
+    desktop = Desktop(qt, shell, theme, journey, library, safe, welcome, tour)
     shell.closing.connect(desktop.close)
     qt.commitDataRequest.connect(lambda _: shell.close_surely())
     for found in recovered:
         words = journey.teller.recovered_words(found)
         place = journey.patients.notice_place
-        journey.teller.strip(place, words, shell.tr("Re&view it"), lambda found=found: journey.review_recovered(found))
-    for fault in faults:
+        journey.teller.strip(place, words, shell.tr("Re&view it"), partial(journey.review_recovered, found))
+    for fault in (*told, *faults):
         said = WordTable().fault(fault)
         journey.teller.strip(
             journey.patients.notice_place,
@@ -134,11 +213,62 @@ def compose(
     return desktop
 
 
+def _safekeeping(
+    shell: Shell,
+    theme: Theme,
+    journey: Journey,
+    library: Library,
+    keeper: PreferenceKeeper,
+    settings: Settings,
+    folder: Path | None,
+    today: date,
+) -> Safe:
+    """The flows about records, back-up and lock, and their cards among the settings."""
+    records = Records(library)
+
+    def is_recording() -> bool:
+        return journey.live.recording_state != "off"
+
+    backing_up = BackingUp(
+        journey, theme, library, settings.backup, folder or own_settings_folder(),
+        keep=lambda chosen: keeper.keep(backup=chosen), close_window=shell.close_surely, is_recording=is_recording,
+    )  # fmt: skip
+    erasing = Erasing(
+        journey, shell.stage, theme, records, today,
+        years=lambda: lists.years, last_backup=lambda: backing_up.last.made if backing_up.last else None,
+    )  # fmt: skip
+    lists = RecordLists(
+        journey, shell.stage, theme, records, erasing, years=settings.records.retention_years, today=today,
+        keep_years=lambda years: keeper.keep(records=RecordsSettings(years)),
+    )  # fmt: skip
+    locking = Locking(
+        journey, shell, theme, library, WordTable(), key=Keys(settings.screen.keys)["lock"],
+        minutes=settings.lock.after_min, is_busy=is_recording,
+        keep_minutes=lambda minutes: keeper.keep(lock=LockSettings(minutes)),
+    )  # fmt: skip
+    encryption = SwitchingEncryption(journey, shell, theme, library, is_recording=is_recording)
+    encryption.changed.connect(locking.look_again)
+    keeper.screen.add_cards(backing_up.card, locking.card, encryption.card, lists.card)
+    backing_up.remind()
+    return Safe(erasing, lists, backing_up, locking, encryption)
+
+
 def ask_for_folder(qt: QApplication, settings: Settings, fault: CarpusFault) -> Path | None:
     """Tell why the data folder cannot be used; the folder the person chose instead, None to end."""
     theme = Theme(theme_name(qt, settings), settings.screen.text_scale)
     apply_style(qt, theme)
     return NoFolder(theme, WordTable().fault(fault), Path.home()).ask()
+
+
+def ask_for_pin(qt: QApplication, settings: Settings) -> bool:
+    """Whether an encrypted data folder was opened by its PIN, which is asked for; True for one that is not encrypted.
+    False where the person closed the window."""
+    folder = settings.data_folder
+    if not keys.has_key(folder) or keys.known_key(folder) is not None:
+        return True
+    theme = Theme(theme_name(qt, settings), settings.screen.text_scale)
+    apply_style(qt, theme)
+    return AskPin(theme, folder).ask()
 
 
 def with_kept_folder(settings: Settings, folder: Path, settings_folder: Path | None = None) -> Settings:
@@ -169,12 +299,30 @@ def speak_in_the_window(desktop: Desktop) -> None:
 
 
 def end_on_signals(desktop: Desktop) -> None:
-    """Ctrl+C in the terminal, a log-out or a shutdown close the window as a person would: recordings are finished.
+    """Ctrl+C in the terminal, its closing, a log-out or a shutdown close the window as a person would.
 
-    Python hears of a signal when it next runs, at the latest when the journey looks for a camera.
+    Recordings are finished. Python hears of a signal when it next runs, at the latest when the journey looks for a
+    camera.
     """
-    for number in (signal.SIGINT, signal.SIGTERM):
-        signal.signal(number, lambda *_: desktop.shell.close_surely())
+    on_stop(desktop.shell.close_surely)
+
+
+class NobodysLines(logging.Formatter):
+    """Lines of the log without pseudonyms: the names of patients' folders and files are cut out of every path."""
+
+    def __init__(self) -> None:
+        super().__init__("%(asctime)s %(name)s %(levelname)s %(message)s")
+        self.names: Callable[[], Sequence[str]] = lambda: ()
+        """What else must not be in the log: asked for each line, of which there are few."""
+
+    def format(self, record: logging.LogRecord) -> str:
+        text = SESSION_PATH.sub("…", super().format(record))
+        for name in self.names():
+            text = re.sub(rf"(?<!\w){re.escape(name)}(?!\w)", "…", text, flags=re.IGNORECASE)
+        return text
+
+
+LINES = NobodysLines()
 
 
 def write_log() -> None:
@@ -182,11 +330,14 @@ def write_log() -> None:
     folder = Path(platformdirs.user_log_dir("carpus", appauthor=False))
     handler: logging.Handler
     try:
-        folder.mkdir(parents=True, exist_ok=True)
+        make_private(folder)
+        for old in folder.glob(f"{LOG_FILE}*"):
+            old.chmod(0o600)
         handler = RotatingFileHandler(folder / LOG_FILE, maxBytes=LOG_BYTES, backupCount=2, encoding="utf-8")
-    except OSError:
+    except (OSError, OutputNotWritable):
         handler = logging.NullHandler()
-    logging.basicConfig(level=logging.INFO, handlers=[handler], format="%(asctime)s %(name)s %(levelname)s %(message)s")
+    handler.setFormatter(LINES)
+    logging.basicConfig(level=logging.INFO, handlers=[handler])
 
 
 def with_data_folder(settings: Settings, folder: Path | None) -> Settings:

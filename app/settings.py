@@ -19,17 +19,20 @@ from typing import Any, Literal, TypeVar
 
 import platformdirs
 
-from core.calibration.settings import CalibrationSettings
-from core.detection.settings import DetectionSettings
-from core.errors import OutputNotWritable, SettingsInvalid
-from core.pipeline.live import LiveSettings
-from core.pipeline.track import TrackSettings
-from core.session.register import default_data_folder
-from core.tracking.settings import TrackerSettings
+from carpus.core.calibration.settings import CalibrationSettings
+from carpus.core.detection.settings import DetectionSettings
+from carpus.core.errors import CarpusFault, OutputNotWritable, SettingsInvalid
+from carpus.core.pipeline.live import LiveSettings
+from carpus.core.pipeline.track import TrackSettings
+from carpus.core.session.register import default_data_folder
+from carpus.core.session.values import ANGLE_ORDERS as ANGLE_ORDERS
+from carpus.core.session.values import AngleOrder
+from carpus.core.tracking.settings import TrackerSettings
 
 SETTINGS_FILE, PREFERENCES_FILE = "settings.toml", "preferences.toml"
 """The first is written by people, the second by the window; the second goes over the first."""
 
+MOST_NUMBER = 1e15
 DATA_VARIABLE = "CARPUS_DATA"
 
 T = TypeVar("T")
@@ -44,6 +47,10 @@ class ScreenSettings:
     text_scale: float = 1.0
     keys: Mapping[str, str] = field(default_factory=dict)
 
+    def __post_init__(self) -> None:
+        if not 0.5 <= self.text_scale <= 4.0:
+            raise ValueError(f"text_scale {self.text_scale} is not between 0.5 and 4")
+
 
 @dataclass(frozen=True, slots=True)
 class CameraSettings:
@@ -55,19 +62,74 @@ class CameraSettings:
 
 @dataclass(frozen=True, slots=True)
 class RecordingSettings:
-    """``folder`` of patients and sessions, empty for the user's own; ``keep_pictures`` raw pictures with each
-    session; ``smooth`` each session when it is stored."""
+    """``folder`` of patients and sessions, empty for the user's own; ``keep_pictures`` pictures of the hand with
+    each session where the disk has room; ``smooth`` each session when it is stored."""
 
     folder: str = ""
-    keep_pictures: bool = False
+    keep_pictures: bool = True
     smooth: bool = True
 
 
 @dataclass(frozen=True, slots=True)
 class ReportSettings:
-    """``therapist`` initials that are printed on reports."""
+    """``therapist`` initials that are printed on reports; ``angle_order`` of the wrist's angles in the window and on
+    reports: the papers' ``zyx`` or ``isb``; ``agreement_limit_deg`` what two measurements may differ by, 0 for none."""
 
     therapist: str = ""
+    angle_order: AngleOrder = "zyx"
+    agreement_limit_deg: float = 0.0
+
+
+@dataclass(frozen=True, slots=True)
+class BackupSettings:
+    """``folder`` for back-ups, empty for none; by itself each day from ``hour`` on, -1 for never; a reminder after
+    ``remind_days``. The newest ``keep`` are kept, and one of each month for ``months``."""
+
+    folder: str = ""
+    hour: int = 18
+    remind_days: int = 3
+    keep: int = 14
+    months: int = 24
+
+    def __post_init__(self) -> None:
+        if not (-1 <= self.hour <= 23 and self.keep >= 1 and self.months >= 0 and self.remind_days >= 1):
+            raise ValueError("hours are -1 to 23, at least one back-up is kept, reminders come after a day or more")
+
+
+@dataclass(frozen=True, slots=True)
+class RecordsSettings:
+    """``retention_years`` for which records must be kept, 0 for not set: laws differ."""
+
+    retention_years: int = 0
+
+    def __post_init__(self) -> None:
+        if not 0 <= self.retention_years <= 100:
+            raise ValueError(f"retention_years {self.retention_years} is not between 0 and 100")
+
+
+@dataclass(frozen=True, slots=True)
+class LockSettings:
+    """``after_min`` minutes without a key the window locks, where there is a PIN; 0 for never."""
+
+    after_min: int = 10
+
+    def __post_init__(self) -> None:
+        if not 0 <= self.after_min <= 600:
+            raise ValueError(f"after_min {self.after_min} is not between 0 and 600")
+
+
+@dataclass(frozen=True, slots=True)
+class StreamSettings:
+    """``on``: live angles, places and events go out over Lab Streaming Layer, which anybody in the network can read."""
+
+    on: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class FirstStartSettings:
+    """``answered``: what the first start offers was taken up or declined, and is not offered again."""
+
+    answered: bool = False
 
 
 @dataclass(frozen=True, slots=True)
@@ -78,6 +140,11 @@ class Settings:
     camera: CameraSettings = field(default_factory=CameraSettings)
     recording: RecordingSettings = field(default_factory=RecordingSettings)
     report: ReportSettings = field(default_factory=ReportSettings)
+    backup: BackupSettings = field(default_factory=BackupSettings)
+    records: RecordsSettings = field(default_factory=RecordsSettings)
+    lock: LockSettings = field(default_factory=LockSettings)
+    stream: StreamSettings = field(default_factory=StreamSettings)
+    first_start: FirstStartSettings = field(default_factory=FirstStartSettings)
     live: LiveSettings = field(default_factory=LiveSettings)
     detection: DetectionSettings = field(default_factory=DetectionSettings)
     calibration: CalibrationSettings = field(default_factory=CalibrationSettings)
@@ -92,7 +159,7 @@ class Settings:
     def data_folder(self) -> Path:
         """Where patients and sessions are; ``CARPUS_DATA`` goes over the setting."""
         named = os.environ.get(DATA_VARIABLE) or self.recording.folder
-        return Path(named).expanduser() if named else default_data_folder()
+        return _path(named) if named else default_data_folder()
 
 
 def settings_folder() -> Path:
@@ -103,18 +170,34 @@ def settings_folder() -> Path:
 def load_settings(folder: Path | None = None) -> Settings:
     """The shipped defaults with this person's settings and what was chosen in the window over them."""
     folder = folder or settings_folder()
-    defaults = resources.files("resources") / "defaults.toml"
+    defaults = resources.files("carpus.resources") / "defaults.toml"
     merged = _read("defaults.toml", defaults.read_bytes())
     for name in (SETTINGS_FILE, PREFERENCES_FILE):
-        path = folder / name
-        if path.exists():
-            try:
-                own = _read(str(path), path.read_bytes())
-            except OSError as cause:
-                raise SettingsInvalid(path, cause.strerror or "cannot be read") from cause
-            _filled(Settings, own, "", str(path))  # faults name the file they are in
-            merged = _merged(merged, own)
+        merged = _merged(merged, _own(folder / name))
     return _filled(Settings, merged, "", "defaults.toml")
+
+
+def load_sound_settings(folder: Path | None = None) -> tuple[Settings, list[CarpusFault]]:
+    """For the window, which starts whatever a file holds: one that cannot be used is left out, and its fault told."""
+    folder = folder or settings_folder()
+    merged = _read("defaults.toml", (resources.files("carpus.resources") / "defaults.toml").read_bytes())
+    faults: list[CarpusFault] = []
+    for name in (SETTINGS_FILE, PREFERENCES_FILE):
+        try:
+            merged = _merged(merged, _own(folder / name))
+        except CarpusFault as fault:
+            faults.append(fault)
+    return _filled(Settings, merged, "", "defaults.toml"), faults
+
+
+def _own(path: Path) -> Values:
+    """What a person's file says, sound as far as it goes; nothing where there is no file."""
+    try:
+        own = _read(str(path), path.read_bytes()) if path.exists() else {}
+    except OSError as cause:
+        raise SettingsInvalid(path, cause.strerror or "cannot be read") from cause
+    _filled(Settings, own, "", str(path))  # faults name the file they are in
+    return own
 
 
 def keep_preferences(chosen: Settings, folder: Path | None = None) -> None:
@@ -132,14 +215,46 @@ def keep_preferences(chosen: Settings, folder: Path | None = None) -> None:
         f"folder = {_text(chosen.recording.folder)}",
         "[report]",
         f"therapist = {_text(chosen.report.therapist)}",
+        f"angle_order = {_text(chosen.report.angle_order)}",
+        f"agreement_limit_deg = {float(chosen.report.agreement_limit_deg)}",
+        "[backup]",
+        f"folder = {_text(chosen.backup.folder)}",
+        f"hour = {chosen.backup.hour}",
+        "[records]",
+        f"retention_years = {chosen.records.retention_years}",
+        "[lock]",
+        f"after_min = {chosen.lock.after_min}",
+        "[stream]",
+        f"on = {'true' if chosen.stream.on else 'false'}",
+        "[first_start]",
+        f"answered = {'true' if chosen.first_start.answered else 'false'}",
     ]
     try:
         path.parent.mkdir(parents=True, exist_ok=True)
         part = path.with_suffix(".part")
+        part.unlink(missing_ok=True)
+        part.touch(mode=0o600)
+        _keep_unusable(path)
         part.write_text("\n".join([*lines, ""]), encoding="utf-8")
         part.replace(path)
     except OSError as cause:
         raise OutputNotWritable(path, cause.strerror or "") from cause
+
+
+def _keep_unusable(path: Path) -> None:
+    """A file that is about to be replaced and could not be used is kept under another name."""
+    try:
+        _own(path)
+    except SettingsInvalid:
+        path.replace(path.with_name(f"{path.stem}.unusable{path.suffix}"))
+
+
+def _path(named: str) -> Path:
+    """A path with the person's home in the place of ``~``; as it is where nobody has that name."""
+    try:
+        return Path(named).expanduser()
+    except RuntimeError:
+        return Path(named)
 
 
 def _text(value: str) -> str:
@@ -149,8 +264,10 @@ def _text(value: str) -> str:
 def _read(name: str, data: bytes) -> Values:
     try:
         return tomllib.loads(data.decode("utf-8"))
-    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as cause:
-        raise SettingsInvalid(name, f"not TOML: {cause}") from cause
+    except RecursionError as cause:
+        raise SettingsInvalid(name, "not TOML: tables within tables without end") from cause
+    except ValueError as cause:  # TOML's own faults, text that is none, numbers without end
+        raise SettingsInvalid(name, f"not TOML: {cause}"[:200]) from cause
 
 
 def _merged(below: Values, above: Values) -> Values:
@@ -193,9 +310,13 @@ def _value(hint: Any, value: Any, place: str, file: str) -> Any:
     if origin in (typing.Union, types.UnionType):
         wanted = next(one for one in arguments if one is not type(None))
         return _value(wanted, value, place, file)
+    if isinstance(value, str) and "\0" in value:
+        raise SettingsInvalid(place, f"a text with a character that is none, in {file}")
     if hint is Path and isinstance(value, str):
-        return Path(value).expanduser()
-    if hint is float and isinstance(value, int) and not isinstance(value, bool):
+        return _path(value)
+    if hint is float and isinstance(value, (int, float)) and not isinstance(value, bool):
+        if not abs(value) < MOST_NUMBER:
+            raise SettingsInvalid(place, f"{str(value)[:20]} is not a possible number, in {file}")
         return float(value)
     if isinstance(hint, type) and type(value) is hint:
         return value

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import cv2
 import numpy as np
 
-from core.types import FloatArray
+from carpus.core.types import FloatArray
 
 
 @dataclass(frozen=True, slots=True)
@@ -22,7 +22,7 @@ class Camera:
     height_px: int = 480
     distortion: tuple[float, float, float, float, float] = (0.0, 0.0, 0.0, 0.0, 0.0)
     origin: str = "default"
-    """Where the numbers come from: ``file``, ``driver`` or ``default``."""
+    """Where the numbers come from: ``file``, ``calibration`` (kept for this camera), ``driver`` or ``default``."""
 
     @property
     def matrix(self) -> FloatArray:

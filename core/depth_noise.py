@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from core.types import FloatArray
+from carpus.core.types import FloatArray
 
 DISPARITY_NOISE_PER_M = 1.425e-3
 """Standard deviation of one depth reading over z^2 (Khoshelham and Elberink 2012)."""

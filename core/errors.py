@@ -78,6 +78,18 @@ class OutputExists(CarpusFault):
     """The output file is there already and is never overwritten."""
 
 
+class ExtraMissing(CarpusFault):
+    """A part of Carpus that is installed only when asked for is not installed."""
+
+
+class SchedulerUnreachable(CarpusFault):
+    """The scheduler of a cluster does not answer."""
+
+
+class OutputBusy(CarpusFault):
+    """Another process is writing the output at this moment."""
+
+
 class OutputNotWritable(CarpusFault):
     """The output's folder cannot be written to."""
 
@@ -88,6 +100,26 @@ class DiskFull(CarpusFault):
 
 class SessionUnreadable(CarpusFault):
     """A file is not a session that this version reads."""
+
+
+class SessionChanged(CarpusFault):
+    """A session can be read, but its seal does not fit: something in it was changed after it was finished."""
+
+
+class SessionUnfinished(CarpusFault):
+    """A session that is still being recorded or was cut short; it has no seal yet."""
+
+
+class ReferenceUnreadable(CarpusFault):
+    """A file of another measurement, to be compared with, cannot be read."""
+
+
+class ReferenceUnsuited(CarpusFault):
+    """A reference can be read, but nothing in it can be compared with the session."""
+
+
+class StudyUnsuited(CarpusFault):
+    """Sessions of test and retest do not make a study, or one that may be put into force."""
 
 
 class SettingsInvalid(CarpusFault):
@@ -162,8 +194,48 @@ class NotLookedBack(CarpusFault):
     """Told, never raised to a person: looking back at a live session failed or took too long; it is as tracked."""
 
 
+class NotCorrectable(CarpusFault):
+    """A session does not hold what correcting its markers needs."""
+
+
+class NotCorrected(CarpusFault):
+    """Tracking a session again with corrected markers did not come to its end; the old result is unchanged."""
+
+
 class RegisterUnreadable(CarpusFault):
     """The register of patients cannot be opened, is damaged, or was written by a newer Carpus."""
+
+
+class RegisterDamaged(RegisterUnreadable):
+    """The register's file is broken or not a register; reading it again does not help."""
+
+
+class RegisterSetAside(CarpusFault):
+    """Told, never raised: a damaged register was given another name, and the list made again from the sessions."""
+
+
+class FilesSetApart(CarpusFault):
+    """Told, never raised: files among the sessions that are none; ``subject`` names some, ``detail`` counts them."""
+
+
+class FolderGone(OutputNotWritable):
+    """The folder of a running recording is no longer there."""
+
+
+class DiskStalled(CarpusFault):
+    """A disk that neither stores nor refuses; ``subject`` is the folder, ``detail`` for how long."""
+
+
+class EndStalled(CarpusFault):
+    """All of a recording is stored, but its disk stopped answering before the file was ended."""
+
+
+class RecordingMoved(CarpusFault):
+    """Told, never raised: a recording whose folder went away goes on at ``subject``; ``detail`` what stayed behind."""
+
+
+class RecordingReturned(CarpusFault):
+    """Told, never raised: a session that had to be recorded elsewhere is among the others now."""
 
 
 class FolderMissing(CarpusFault):
@@ -174,5 +246,69 @@ class FolderInUse(CarpusFault):
     """Another Carpus has the data folder open and does not answer."""
 
 
+class EncryptionMissing(CarpusFault):
+    """The library that encrypts is not installed."""
+
+
+class FolderLocked(CarpusFault):
+    """A file is encrypted, and its folder's PIN is not known here."""
+
+
+class KeyRefused(CarpusFault):
+    """Neither the PIN nor the recovery code of the folder's key, or its key files are damaged."""
+
+
+class ContentDamaged(CarpusFault):
+    """An encrypted file does not fit its check sums or its key."""
+
+
+class ContentUnequal(CarpusFault):
+    """What was written in place of a file is not what was in it; the file is as it was."""
+
+
+class EncryptionUnfinished(CarpusFault):
+    """Some files could not be encrypted or decrypted; ``subject`` names the first, ``detail`` counts them."""
+
+
 class PseudonymTaken(CarpusFault):
     """Another patient of the register has this pseudonym."""
+
+
+class ErasureUnfinished(CarpusFault):
+    """Files of what was erased could not be deleted yet; ``subject`` names one, ``detail`` counts them."""
+
+
+class BackupPlaceUnsuited(CarpusFault):
+    """The folder for back-ups cannot be one."""
+
+
+class BackupUnequal(CarpusFault):
+    """What is read back of a back-up is not what was written; ``subject`` begins the name of its content."""
+
+
+class BackupUnreadable(CarpusFault):
+    """The list of a back-up is damaged, or of a newer Carpus."""
+
+
+class BackupMissing(CarpusFault):
+    """There is no back-up in the folder."""
+
+
+class BoardMissing(CarpusFault):
+    """The printed board was seen in no picture."""
+
+
+class BoardViewsAlike(CarpusFault):
+    """The pictures of the board are too few, or too alike, to calibrate a camera."""
+
+
+class BoardUnfit(CarpusFault):
+    """The corners found are not those of a flat board: bent, blurred, or another board."""
+
+
+class CardMissing(CarpusFault):
+    """The check card, all six discs of it, was seen in too few pictures."""
+
+
+class PinUncheckable(CarpusFault):
+    """The part that compares a PIN with what is kept of it (argon2) is not installed or cannot be loaded."""

@@ -10,7 +10,7 @@ import math
 
 import numpy as np
 
-from core.types import FloatArray
+from carpus.core.types import FloatArray
 
 _SMALL = 1e-8
 _TINY = 1e-300
@@ -74,6 +74,10 @@ def _exp_one(x: float, y: float, z: float) -> FloatArray:
 
 def log(rotation: FloatArray) -> FloatArray:
     """Turns (..., 3) of rotation matrices (..., 3, 3), length at most pi."""
+    if rotation.ndim == 2:
+        turn = _log_one(rotation)
+        if turn is not None:
+            return turn
     r = rotation
     vee = 0.5 * np.stack((r[..., 2, 1] - r[..., 1, 2], r[..., 0, 2] - r[..., 2, 0], r[..., 1, 0] - r[..., 0, 1]), -1)
     sine = np.linalg.norm(vee, axis=-1)
@@ -93,6 +97,17 @@ def log(rotation: FloatArray) -> FloatArray:
                 axis = -axis
             out[where] = angle[where] * axis
     return out
+
+
+def _log_one(rotation: FloatArray) -> FloatArray | None:
+    """Turn (3,) of one rotation (3, 3) without the cost of array calls; None near half a turn."""
+    (r00, r01, r02), (r10, r11, r12), (r20, r21, r22) = rotation.tolist()
+    x, y, z = 0.5 * (r21 - r12), 0.5 * (r02 - r20), 0.5 * (r10 - r01)
+    sine, cosine = math.sqrt(x * x + y * y + z * z), 0.5 * (r00 + r11 + r22 - 1.0)
+    if sine < 1e-4 and cosine < 0.0:
+        return None
+    scale = 1.0 if sine < 1e-7 else math.atan2(sine, cosine) / sine
+    return np.array((scale * x, scale * y, scale * z))
 
 
 def right_jacobian(turn_rad: FloatArray) -> FloatArray:

@@ -2,24 +2,28 @@
 
 from __future__ import annotations
 
+import json
 from collections import Counter
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 
-from core.camera import Camera
-from core.capture.camera_info import CAMERA_FILE
-from core.capture.source import SourceInfo, is_simulated
-from core.capture.tum import TumFolder
-from core.hand.protocols import WRIST_ANGLES
-from core.output.exercises import exercise_named
-from core.output.joint_content import joint_rows, joint_tracks
-from core.output.range_rows import is_total
-from core.session.reader import has_raw
-from core.session.values import Session
-from core.types import FloatArray, TrackStatus
-from core.words import finding_sentence
+from carpus.core.camera import Camera
+from carpus.core.capture.camera_info import CAMERA_FILE
+from carpus.core.capture.source import SourceInfo, is_simulated
+from carpus.core.capture.tum import TumFolder
+from carpus.core.hand.protocols import WRIST_ANGLES
+from carpus.core.output.exercises import SIDES
+from carpus.core.output.range_rows import is_total
+from carpus.core.output.report_content import RepetitionChoices, session_figures
+from carpus.core.session.reader import has_raw
+from carpus.core.session.values import Session
+from carpus.core.types import FloatArray, TrackStatus
+from carpus.core.words import finding_sentence
 
+LIMITED = ", limited by the camera's view"
+FREE_MOVEMENT = "FREE"
 _WRIST_DIRECTIONS = {
     "deviation": ("ulnar", "radial"),
     "flexion": ("extension", "flexion"),
@@ -28,7 +32,7 @@ _WRIST_DIRECTIONS = {
 """Words for the negative and the positive side of each wrist angle."""
 
 
-def session_summary(session: Session) -> list[str]:
+def session_summary(session: Session, choices: RepetitionChoices | None = None) -> list[str]:
     """Everything a person asks of a session file, the identity first and the settings last."""
     header, quality = session.header, session.quality
     lines = [
@@ -36,18 +40,21 @@ def session_summary(session: Session) -> list[str]:
         _line("Identity", f"{header.session_id}, written by Carpus {header.software_version}"),
         _line("Patient", f"{header.subject_id or 'not given'}, {header.hand} hand"),
         _line("Exercise", header.exercise or "not given"),
+        _line("Recorded", header.recorded or "not known"),
         _line("Created", header.created),
+        _line("Recording", header.recording_id),
         _line("Markers", f"{header.protocol.name}: {' '.join(header.protocol.markers)}"),
         *([_line("Source", "simulated: nobody's movement was measured")] if header.simulated else []),
         _line("Complete", _completeness(session)),
         *_frames(session.timestamp_s, np.maximum(quality.dropped_before, 0)),
         _line("Tracking", _shares(session)),
-        *_ranges(session),
+        *_ranges(session, choices),
         *_calibration(session),
-        _line("Camera", camera_text(session.camera)),
+        _line("Camera", camera_text(session.camera) + _calibrated(header.parameters)),
         _line("Smoothed", "yes" if session.smoothed is not None else "no"),
         _line("Pictures", "kept" if has_raw(session.path) else "not kept"),
         _line("Events", _events(session)),
+        *_provenance(session),
         _line("Settings", "carpus info --json FILE shows them"),
     ]
     if header.origin:
@@ -94,7 +101,11 @@ def duration_text(duration_s: float) -> str:
 
 def camera_text(camera: Camera, without_file: str = "no camera file") -> str:
     """Size and intrinsics, and where they come from."""
-    sources = {"file": "from a calibration", "driver": "from the driver's field of view"}
+    sources = {
+        "file": "from a calibration",
+        "calibration": "from the camera's own calibration",
+        "driver": "from the driver's field of view",
+    }
     source = sources.get(camera.origin, f"usual values, {without_file}")
     numbers = f"fx {camera.fx_px:.2f}, fy {camera.fy_px:.2f}, cx {camera.cx_px:.2f}, cy {camera.cy_px:.2f}"
     distortion = ", distorted" if camera.is_distorted else ""
@@ -103,6 +114,19 @@ def camera_text(camera: Camera, without_file: str = "no camera file") -> str:
 
 def _line(title: str, text: str) -> str:
     return f"{title:<12} {text}"
+
+
+def _calibrated(parameters: str) -> str:
+    """When the camera was calibrated with a board and how old that was, where the session was measured with it.
+
+    >>> _calibrated('{"source": {"calibrated": "2026-11-20T08:00:00+00:00", "calibration_age_days": "2.0"}}')
+    '; calibrated 2026-11-20, 2 days before'
+    """
+    try:
+        source = json.loads(parameters)["source"]
+        return f"; calibrated {source['calibrated'][:10]}, {float(source['calibration_age_days']):.0f} days before"
+    except (ValueError, KeyError, TypeError):
+        return ""
 
 
 def _completeness(session: Session) -> str:
@@ -130,38 +154,52 @@ def _counted(number: int, thing: str) -> str:
 
 def _shares(session: Session) -> str:
     count = max(len(session), 1)
-    shares = (
-        f"{status.name.lower()} {100.0 * np.count_nonzero(session.status == status) / count:.1f} %"
-        for status in TrackStatus
-    )
-    return ", ".join(shares)
+    frames = {status: np.count_nonzero(session.status == status) for status in TrackStatus}
+    if not frames[TrackStatus.DOUBTFUL]:
+        del frames[TrackStatus.DOUBTFUL]
+    return ", ".join(f"{status.name.lower()} {100.0 * number / count:.1f} %" for status, number in frames.items())
 
 
-def _ranges(session: Session) -> list[str]:
-    """Lowest, highest and arc of the wrist over the tracked frames, then the joints."""
-    tracked = session.status == TrackStatus.TRACKED
-    lines = ["Range of motion over the tracked frames"]
-    columns = [*zip(WRIST_ANGLES, session.motion.angles_rad.T, strict=True)]
-    for name, values_rad in columns:
-        known = np.degrees(values_rad[tracked & np.isfinite(values_rad)])
-        if not known.size:
+def range_lines(session: Session, choices: RepetitionChoices | None = None) -> list[str]:
+    """Range of each wrist angle, in the same figures as review, report and export: of the trained one the mean of its
+    repetitions, else over the whole recording."""
+    figures = session_figures(session, choices)
+    header = replace(session.header, exercise=FREE_MOVEMENT)
+    whole = session_figures(replace(session, header=header)) if figures.exercise.counts else figures
+    lines = []
+    for angle, name in enumerate(WRIST_ANGLES):
+        of = figures if figures.exercise.angle == angle else whole
+        rows = {row.movement: row for row in of.rows if row.angle == angle}
+        if "arc" not in rows:
             lines.append(f"  {name:<18} not measured")
             continue
-        low, high = float(known.min()), float(known.max())
-        ends = f"from {_side(name, low)} to {_side(name, high)}"
-        lines.append(f"  {name:<18} {ends}, arc {high - low:.1f}°")
-    return lines + _joint_ranges(session)
+        positive, negative = SIDES[angle]
+        arc = rows["arc"].mean_deg
+        # Without repetitions a side that was never reached has no row: it lies as far back as the arc says.
+        low = -rows[negative].mean_deg if negative in rows else None
+        high = rows[positive].mean_deg if positive in rows else arc + (low or 0.0)
+        low = high - arc if low is None else low
+        text = f"from {_side(name, low)} to {_side(name, high)}, arc {arc:.1f}°"
+        if of.counted:
+            text += ", of 1 repetition" if of.counted == 1 else f", mean of {of.counted} repetitions"
+        lines.append(f"  {name:<18} {text}" + (LIMITED if rows["arc"].limited else ""))
+    return lines
 
 
-def _joint_ranges(session: Session) -> list[str]:
+def _ranges(session: Session, choices: RepetitionChoices | None) -> list[str]:
+    """Ranges of the wrist's angles, then of the joints."""
+    return ["Range of motion", *range_lines(session, choices), *_joint_ranges(session, choices)]
+
+
+def _joint_ranges(session: Session, choices: RepetitionChoices | None) -> list[str]:
     """Of the whole hand: every joint over the frames in which it was seen, and the total of every finger."""
-    tracks = joint_tracks(session)
-    if not tracks:
+    if not session.header.joint_names:
         return []
-    rows = joint_rows(tracks, (), exercise_named(session.header.exercise))
-    ends = {(row.joint, row.movement): row.mean_deg for row in rows}
-    lines = ["Joints of the fingers over the frames in which they were seen (TAM: total active motion)"]
-    for row in rows:
+    figures = session_figures(session, choices)
+    ends = {(row.joint, row.movement): row.mean_deg for row in figures.joint_rows}
+    over = "mean of the repetitions, " if figures.counted else ""
+    lines = [f"Joints of the fingers, {over}while they were seen (TAM: total active motion)"]
+    for row in figures.joint_rows:
         if row.movement != "arc":
             continue
         if not row.count:
@@ -174,7 +212,7 @@ def _joint_ranges(session: Session) -> list[str]:
         else:
             text = f"from {low:.1f}° to {high:.1f}°, {text}"
         text += ", end joint not measured" if row.inferred else ""
-        lines.append(f"  {row.joint:<18} {text}" + (", limited by the camera's view" if row.limited else ""))
+        lines.append(f"  {row.joint:<18} {text}" + (LIMITED if row.limited else ""))
     return lines
 
 
@@ -204,6 +242,19 @@ def _calibration(session: Session) -> list[str]:
         given = ", ".join(_side(name, float(angle)) for name, angle in zip(WRIST_ANGLES, start_deg, strict=True))
         lines.append(f"  Start angles as given by the therapist: {given}.")
     return lines
+
+
+def _provenance(session: Session) -> list[str]:
+    """By which revision, of which recording, with which settings; what an older session does not say is left out."""
+    parameters = json.loads(session.header.parameters)
+    parts = [parameters.get(name) if isinstance(parameters, dict) else None for name in ("provenance", "source")]
+    said, source = (part if isinstance(part, dict) else {} for part in parts)
+    facts = (
+        ("Revision", said.get("revision")),
+        ("Of", source.get("sha256") and f"a recording with SHA-256 {source['sha256']}"),
+        ("Set", said.get("settings_sha256") and f"by settings with SHA-256 {said['settings_sha256']}"),
+    )
+    return [_line(title, str(text)) for title, text in facts if text]
 
 
 def _events(session: Session) -> str:

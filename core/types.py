@@ -7,7 +7,7 @@ at the neutral pose (origin WRIST disc, X to MCP3, Z out of the back of the hand
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from enum import IntEnum
 from typing import Literal
 
@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 FloatArray = NDArray[np.float64]
 ByteImage = NDArray[np.uint8]
 DepthImage = NDArray[np.uint16]
+BoolArray = NDArray[np.bool_]
 
 Side = Literal["right", "left"]
 
@@ -30,6 +31,8 @@ class TrackStatus(IntEnum):
     TRACKED = 0
     PREDICTED = 1
     LOST = 2
+    DOUBTFUL = 3
+    """Measured, but what is seen contradicts what is stated; the standard deviations are widened accordingly."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -49,13 +52,28 @@ class Frame:
     dropped_before: int = 0
 
 
+SURFACE_READINGS, FINGER_READINGS = 224, 352
+"""Most readings on the back of the hand, and about the fingers, that a frame keeps."""
+FINGER_STEP_PX = 4
+"""Between two readings about the fingers."""
+
+
+@dataclass(frozen=True, slots=True)
+class SurfaceSamples:
+    """Depth readings on the back of the hand: ``pixel`` (S, 2), u right, v down, and ``depth_m`` (S,)."""
+
+    pixel: FloatArray
+    depth_m: FloatArray
+
+
 @dataclass(frozen=True, slots=True)
 class Detections:
     """Blobs of one frame, D of them, in no particular order.
 
     ``pixel`` (D, 2) centre, u right, v down; ``depth_m`` (D,) along the camera's z, NaN when unknown;
     ``depth_sd_m`` (D,) its standard deviation; ``area_px`` (D,); ``similarity`` (D,) Bhattacharyya
-    coefficient to the reference colour, 0 to 1.
+    coefficient to the reference colour, 0 to 1. ``surface`` and ``fingers`` depth readings on the back of the hand and
+    about the fingers, None where none were taken.
     """
 
     pixel: FloatArray
@@ -63,6 +81,22 @@ class Detections:
     depth_sd_m: FloatArray
     area_px: FloatArray
     similarity: FloatArray
+    surface: SurfaceSamples | None = None
+    fingers: SurfaceSamples | None = None
+
+    def only(self, kept: NDArray[np.bool_]) -> Detections:
+        """The blobs ``kept`` (D,) alone."""
+        if kept.all():
+            return self
+        return Detections(
+            self.pixel[kept],
+            self.depth_m[kept],
+            self.depth_sd_m[kept],
+            self.area_px[kept],
+            self.similarity[kept],
+            self.surface,
+            self.fingers,
+        )
 
     def __len__(self) -> int:
         return int(self.pixel.shape[0])
@@ -76,10 +110,11 @@ class Detections:
 
 @dataclass(frozen=True, slots=True)
 class Moment:
-    """Wrist and joints at one moment, in the refined W0 and W2; fields as in :class:`TrackedFrame`."""
+    """Wrist and joints at one moment, of the refined palm; fields as in :class:`TrackedFrame`."""
 
     position_m: FloatArray
     velocity_m_s: FloatArray
+    w0_turn_rad: FloatArray
     rotation_w2_w0: FloatArray
     angular_velocity_rad_s: FloatArray
     angles_rad: FloatArray
@@ -96,7 +131,8 @@ class TrackedFrame:
     """What Carpus knows about one frame; the row of every dataset of the session file.
 
     M markers of the protocol, J joint angles (0 for ``wrist6``). Unknown is NaN.
-    ``position_m`` and ``velocity_m_s`` (3,) of W2's origin in W0; ``rotation_w2_w0`` (3, 3);
+    ``position_m`` and ``velocity_m_s`` (3,) of W2's origin, the WRIST disc, in W0 as calibrated; ``rotation_w2_w0``
+    (3, 3) in W0 as refined by then, which ``w0_turn_rad`` (3,), a rotation vector, turns into W0 as calibrated;
     ``angular_velocity_rad_s`` (3,) in W2; ``angles_rad`` and ``angles_sd_rad`` (3,) deviation,
     flexion, pronosupination with clinical signs; ``angles_zyz_rad`` (3,).
     ``joint_*`` (J,); ``joint_position_m`` (M, 3) in W0;
@@ -105,6 +141,7 @@ class TrackedFrame:
     ``marker_measured_depth_m`` (M,) the blob taken for the marker.
     ``measured_share`` (3,) or (J,) share of direct measurement in the last second; ``nis`` normalised
     innovation squared and ``nis_dof`` its degrees of freedom.
+    ``doubted`` (M,) whether what is seen contradicts what is stated of the marker; none when not given.
     """
 
     index: int
@@ -112,6 +149,7 @@ class TrackedFrame:
     status: TrackStatus
     position_m: FloatArray
     velocity_m_s: FloatArray
+    w0_turn_rad: FloatArray
     rotation_w2_w0: FloatArray
     angular_velocity_rad_s: FloatArray
     angles_rad: FloatArray
@@ -131,3 +169,8 @@ class TrackedFrame:
     measured_share: FloatArray
     nis: float
     nis_dof: int
+    doubted: BoolArray = field(default_factory=lambda: np.zeros(0, dtype=np.bool_))
+
+    def __post_init__(self) -> None:
+        if not len(self.doubted):
+            object.__setattr__(self, "doubted", np.zeros(len(self.marker_measured_px), dtype=np.bool_))

@@ -10,10 +10,10 @@ import math
 import re
 from dataclasses import dataclass
 
-from core import errors
-from core.calibration.result import Finding
-from core.errors import CarpusFault
-from core.hand.protocols import HAND21
+from carpus.core import errors
+from carpus.core.calibration.result import Finding
+from carpus.core.errors import CarpusFault
+from carpus.core.hand.protocols import HAND21
 
 
 @dataclass(frozen=True, slots=True)
@@ -113,6 +113,21 @@ FAULTS: dict[type[CarpusFault], Words] = {
         "That file is untouched; Carpus never overwrites.",
         "Choose another name.",
     ),
+    errors.ExtraMissing: Words(
+        "This needs carpus[{subject}] ({detail}), which is not installed.",
+        _UNTOUCHED,
+        "Install it with pip.",
+    ),
+    errors.SchedulerUnreachable: Words(
+        "The scheduler at {subject} does not answer ({detail}).",
+        _UNTOUCHED,
+        "Check the address, or leave out --scheduler to use this machine.",
+    ),
+    errors.OutputBusy: Words(
+        "Another program is making {subject} at this moment.",
+        "It is left to that program.",
+        "Wait until it has ended, or choose another folder.",
+    ),
     errors.OutputNotWritable: Words(
         "Carpus cannot write to {subject} ({detail}).",
         "What was stored before is safe.",
@@ -133,10 +148,45 @@ FAULTS: dict[type[CarpusFault], Words] = {
         "All of it is stored as it was measured live.",
         "Run “carpus track” on the session to look back at it.",
     ),
+    errors.NotCorrectable: Words(
+        "The markers of this session cannot be corrected: {subject} ({detail}).",
+        "The session is unchanged, and its repetitions can be left out.",
+        "Leave out the repetitions that should not count, or track the recording again with “carpus track”.",
+    ),
+    errors.NotCorrected: Words(
+        "Tracking again stopped: {subject} ({detail}).",
+        "The old result is unchanged.",
+        "Try again, or correct another picture too.",
+    ),
     errors.SessionUnreadable: Words(
         "This session cannot be read: {subject} ({detail}).",
         "The file is untouched, and all other sessions are safe.",
         "Check that it is a session of this or an older Carpus, or take it from a backup.",
+    ),
+    errors.SessionChanged: Words(
+        "This session was changed after it was finished: {subject}.",
+        "It can still be read; its seal does not fit what it holds now.",
+        "Take it from a backup, or do not rely on its figures.",
+    ),
+    errors.SessionUnfinished: Words(
+        "This session is not finished: {subject}.",
+        "What was recorded of it is there.",
+        "Finish it with “carpus recover”, or wait until its recording has ended.",
+    ),
+    errors.ReferenceUnreadable: Words(
+        "The reference cannot be read: {subject} ({detail}).",
+        _UNTOUCHED,
+        "Use C3D, TRC, MOT, a CSV table with its column map, or a session.",
+    ),
+    errors.ReferenceUnsuited: Words(
+        "Nothing in the reference can be compared: {subject} ({detail}).",
+        _UNTOUCHED,
+        "Check that it is the same movement, and say which column or marker is which.",
+    ),
+    errors.StudyUnsuited: Words(
+        "These sessions make no test and retest: {subject} ({detail}).",
+        "What counts as a change stays as it is.",
+        "Measure each person twice, discs put on anew, within 14 days; 10 people are the least.",
     ),
     errors.SettingsInvalid: Words(
         "A setting cannot be used: {subject} ({detail}).",
@@ -148,6 +198,46 @@ FAULTS: dict[type[CarpusFault], Words] = {
         "The session files are safe; the list can be made again from them, without the names.",
         "Start Carpus again, or move the file away and let Carpus make a new list.",
     ),
+    errors.RegisterDamaged: Words(
+        "The list of patients is damaged: {subject} ({detail}).",
+        "The session files are safe; the list can be made again from them, without the names.",
+        "Start Carpus again, or take the list from a backup.",
+    ),
+    errors.RegisterSetAside: Words(
+        "The list of patients was damaged ({detail}), so Carpus has made a new one from the sessions.",
+        "All sessions are safe; names and notes are missing. The damaged list is kept as {subject}.",
+        "Restore the list from a backup, or enter the names again.",
+    ),
+    errors.FilesSetApart: Words(
+        "{detail} among the sessions cannot be read and are set apart: {subject}.",
+        "They are untouched where they are, and all other sessions are safe.",
+        "Take them from a backup, or leave them; Carpus does not open them again.",
+    ),
+    errors.FolderGone: Words(
+        "The folder of the recording is gone: {subject} ({detail}).",
+        "What was stored before it went is there when it comes back.",
+        "Connect the disk or the network again, or choose another folder.",
+    ),
+    errors.DiskStalled: Words(
+        "The disk of {subject} has not answered for {detail}.",
+        "The recording goes on; what came since waits in memory.",
+        "Look at the disk or the network. If it stays silent, the recording goes on on this computer.",
+    ),
+    errors.EndStalled: Words(
+        "The recording could not be ended: the disk of {subject} does not answer.",
+        "Everything that was recorded is stored there.",
+        "Once the disk answers, start Carpus again: it finishes the recording.",
+    ),
+    errors.RecordingMoved: Words(
+        "The folder of the sessions is gone; the recording goes on in {subject} ({detail}).",
+        "All of it is safe on this computer.",
+        "Go on; connect the disk or the network again later, and Carpus brings the session home when it starts.",
+    ),
+    errors.RecordingReturned: Words(
+        "A session that was recorded while the folder of the sessions was away is there now: {subject}.",
+        "All of it is safe.",
+        "Review it as any other.",
+    ),
     errors.FolderMissing: Words(
         "There is no folder {subject}.",
         "Nothing has been changed.",
@@ -158,10 +248,90 @@ FAULTS: dict[type[CarpusFault], Words] = {
         "Nothing has been changed.",
         "Go to the window that is open already, or choose another folder.",
     ),
+    errors.EncryptionMissing: Words(
+        "The part of Carpus that encrypts is not installed here ({detail}).",
+        "Nothing has been changed.",
+        "Install Carpus anew, with the Python package sqlcipher3.",
+    ),
+    errors.FolderLocked: Words(
+        "{subject} is encrypted, and its PIN has not been given.",
+        "Nothing has been changed.",
+        "Type the PIN when asked, or set CARPUS_PIN to it.",
+    ),
+    errors.KeyRefused: Words(
+        "This is not the PIN of {subject}, and not its recovery code.",
+        "Nothing has been changed.",
+        "Try again; if the PIN is right, bring the key files (encryption…) back from a back-up.",
+    ),
+    errors.ContentDamaged: Words(
+        "An encrypted file cannot be read: {subject} ({detail}).",
+        "All other files are as they were.",
+        "Bring it back from a back-up.",
+    ),
+    errors.ContentUnequal: Words(
+        "{subject} could not be exchanged: what was read back is not what was written.",
+        "The file is as it was.",
+        "Check this computer’s disk, and back up.",
+    ),
+    errors.EncryptionUnfinished: Words(
+        "Not every file could be encrypted or decrypted: {subject}, {detail} in all.",
+        "These are as they were, and the key is kept.",
+        "See to the disk or bring them back from a back-up; Carpus goes on with them at its next start.",
+    ),
     errors.PseudonymTaken: Words(
         "The name {subject} belongs to another patient.",
         _UNTOUCHED,
         "Choose another name.",
+    ),
+    errors.ErasureUnfinished: Words(
+        "Not all files could be deleted yet ({detail} left, such as {subject}).",
+        "They are in no list any more, and Carpus tries again whenever it starts.",
+        "Close other programs that have them open, or allow Carpus to write in their folder, and start it again.",
+    ),
+    errors.BackupPlaceUnsuited: Words(
+        "Back-ups cannot lie there: {subject} ({detail}).",
+        _UNTOUCHED,
+        "Choose a folder on another disk.",
+    ),
+    errors.BackupUnequal: Words(
+        "The back-up is damaged: a content read back is not what was written ({subject}, {detail}).",
+        "The data on this computer are as they were.",
+        "Back up onto another disk now, and do not trust this one any more.",
+    ),
+    errors.BackupUnreadable: Words(
+        "The back-up cannot be read: {subject} ({detail}).",
+        _UNTOUCHED,
+        "Choose another back-up, or bring Carpus up to date.",
+    ),
+    errors.BackupMissing: Words(
+        "There is no back-up in {subject}.",
+        _UNTOUCHED,
+        "Choose the folder that holds the back-ups.",
+    ),
+    errors.BoardMissing: Words(
+        "The printed board is not to be seen: {subject} ({detail}).",
+        _UNTOUCHED,
+        "Print it with carpus calibrate-camera --board, and hold all of it in the picture, in good light.",
+    ),
+    errors.BoardViewsAlike: Words(
+        "The pictures of the board are too few or too alike: {subject} ({detail}).",
+        _UNTOUCHED,
+        "Show the board in every part of the picture, tilted to all four sides, near and far, and hold it still.",
+    ),
+    errors.BoardUnfit: Words(
+        "The corners do not fit a flat board: {subject} ({detail}).",
+        _UNTOUCHED,
+        "Glue the board onto something stiff and flat, give it light, and hold it still.",
+    ),
+    errors.CardMissing: Words(
+        "The check card is not to be seen well enough: {subject} ({detail}).",
+        _UNTOUCHED,
+        "Lay it flat under the camera, all of it in the picture, about 60 cm away, in good light.",
+    ),
+    errors.PinUncheckable: Words(
+        "The PIN cannot be checked: {subject} is missing on this computer ({detail}).",
+        "Nothing is lost; everything stays hidden.",
+        "Whoever looks after this computer installs Carpus again, with all its parts.",
     ),
     errors.DriverMissing: Words(
         "The driver of the camera, OpenNI2, is not on this computer ({detail}).",
@@ -284,6 +454,18 @@ FINDINGS: dict[str, FindingWords] = {
     "hand_length": FindingWords(
         "The hand measures {value} mm ({limit} mm is the limit).",
         "Check that every marker is clicked under its own name.",
+    ),
+    "other_spot": FindingWords(
+        "Another blue spot fits the {markers} better.",
+        "Take the spot with the question mark, if it is the disc.",
+    ),
+    "spare_spot": FindingWords(
+        "There is one more blue spot on the hand than there are names.",
+        "Cover the spot with the question mark, or give it its name.",
+    ),
+    "no_palm": FindingWords(
+        "No hand has this shape: the {markers} does not lie where the other discs expect it.",
+        "Check that a disc was clicked there, and not another blue spot.",
     ),
     "other_length": FindingWords(
         "The hand measures {value} mm, and {limit} mm last time.",

@@ -5,6 +5,8 @@
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
+export PATH  # where nobody set one, bash has its own and keeps it to itself; Python finds itself by it
+
 purpose=${1:-run}
 case "$purpose" in
     run) lock=requirements.lock ;;
@@ -63,6 +65,8 @@ programs=""
 pdftotext poppler-utils
 Xvfb xvfb
 xdotool xdotool
+desktop-file-validate desktop-file-utils
+update-mime-database shared-mime-info
 "
 
 missing_packages() {

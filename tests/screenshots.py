@@ -10,6 +10,13 @@ import tempfile
 from pathlib import Path
 
 FOLDER = Path("out/screenshots")
+GUIDE = Path("resources/guide")
+GUIDE_PICTURES = {
+    "patients": "patients", "exercise": "exercise", "markers": "markers_clicking", "live": "live", "review": "review",
+    "progress": "progress", "correct": "correct", "sessions": "sessions_list",
+}  # fmt: skip
+"""Names of the guide's pictures, and the states they show."""
+GUIDE_QUALITY = 82
 README_PICTURE = Path("resources/pictures/live.jpg")
 README_SIZE = (1280, 800)
 README_QUALITY = 92
@@ -22,6 +29,7 @@ def main() -> int:
     parser.add_argument("--output", type=Path, default=FOLDER, metavar="FOLDER")
     parser.add_argument("--large-text", action="store_true", help="also at 150 %% text size")
     parser.add_argument("--readme", action="store_true", help=f"only the README's picture, {README_PICTURE}")
+    parser.add_argument("--guide", action="store_true", help=f"only the guide's pictures and cards, into {GUIDE}")
     arguments = parser.parse_args()
     for name in ("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS"):
         os.environ.setdefault(name, "1")  # before anything loads NumPy
@@ -29,6 +37,8 @@ def main() -> int:
 
     if arguments.readme:
         return write_readme_picture()
+    if arguments.guide:
+        return write_guide()
     if not arguments.only and arguments.output == FOLDER:
         shutil.rmtree(arguments.output, ignore_errors=True)  # no picture of a screen that is no more
     scales = (1.0, 1.5) if arguments.large_text else (1.0,)
@@ -49,6 +59,38 @@ def write_readme_picture() -> int:
     README_PICTURE.parent.mkdir(exist_ok=True)
     picture.save(str(README_PICTURE), None, README_QUALITY)
     print(f"{README_PICTURE}, {README_PICTURE.stat().st_size // 1000} kB")
+    return 0
+
+
+def write_guide() -> int:
+    """Pictures of the screens, drawings, and the cards to print."""
+    from PySide6.QtCore import QRectF
+    from PySide6.QtGui import QColor, QImage, QPainter
+
+    from carpus.ui.help.cards import FILE_NAME, write_cards
+    from carpus.ui.help.drawings import paint_camera, paint_discs
+    from tests.ui.gallery import render_all_screens
+
+    folder = GUIDE / "pictures"
+    folder.mkdir(parents=True, exist_ok=True)
+    for name, state in GUIDE_PICTURES.items():
+        with tempfile.TemporaryDirectory() as rendered:
+            written = render_all_screens(Path(rendered), sizes=(README_SIZE,), only=state)
+            picture = QImage(str(next(path for path in written if f"-{state}-light-" in path.name)))
+        picture.save(str(folder / f"{name}.jpg"), None, GUIDE_QUALITY)
+    for name, paint in (
+        ("discs-6", lambda painter, box: paint_discs(painter, box, "right", whole_hand=False, unit=2.0)),
+        ("discs-21", lambda painter, box: paint_discs(painter, box, "right", whole_hand=True, unit=2.0)),
+        ("camera-setup", lambda painter, box: paint_camera(painter, box, 2.0)),
+    ):
+        drawn = QImage(1440, 900, QImage.Format.Format_RGB32)
+        drawn.fill(QColor("#FFFFFF"))
+        painter = QPainter(drawn)
+        paint(painter, QRectF(60, 30, 1320, 840))
+        painter.end()
+        drawn.save(str(folder / f"{name}.png"))
+    write_cards(GUIDE / FILE_NAME)
+    print(f"{len(list(folder.iterdir()))} pictures and {FILE_NAME} in {GUIDE}")
     return 0
 
 

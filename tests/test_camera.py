@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from core.camera import Camera
-from core.types import FloatArray
+from carpus.core.camera import Camera
+from carpus.core.types import FloatArray
 
 CAMERA = Camera(520.0, 530.0, 322.0, 236.0)
 LENS = Camera(520.0, 530.0, 322.0, 236.0, distortion=(0.05, -0.12, 0.001, -0.002, 0.03))

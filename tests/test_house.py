@@ -13,10 +13,13 @@ import pytest
 from threadpoolctl import threadpool_info
 
 ROOT = Path(__file__).parents[1]
-OWN = ("app", "core", "ui", "resources")
+OWN = ("carpus",)
 PROGRAM = ("app", "core", "ui")
 """What runs at the user's; ``resources`` also keeps the scripts that made its files."""
+EXTRAS = ("cluster", "tables", "stream")
+"""What is installed only when asked for; the code that needs it says so where it is missing."""
 BROUGHT_BY = {
+    "argon2": "argon2-cffi",
     "cv2": "opencv-python-headless",
     "yaml": "pyyaml",
     "PySide6": "pyside6-essentials",
@@ -43,9 +46,10 @@ def imported_packages(path: Path) -> set[str]:
     return names
 
 
-def declared() -> set[str]:
+def declared(*extras: str) -> set[str]:
     project = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]
-    return {re.split(r"[<>=!~ \[;]", line)[0].lower() for line in project["dependencies"]}
+    lines = project["dependencies"] + [line for name in extras for line in project["optional-dependencies"][name]]
+    return {re.split(r"[<>=!~ \[;]", line)[0].lower() for line in lines}
 
 
 def pinned(lock: str) -> dict[str, str]:
@@ -58,8 +62,11 @@ def test_every_import_is_declared_as_a_run_time_need() -> None:
         name for path in modules() for name in imported_packages(path) if name not in sys.stdlib_module_names | set(OWN)
     }
     assert "numpy" in foreign
-    undeclared = {name for name in foreign if BROUGHT_BY.get(name, name.lower()) not in declared()}
+    undeclared = {name for name in foreign if BROUGHT_BY.get(name, name.lower()) not in declared(*EXTRAS)}
     assert not undeclared
+    assert declared(*EXTRAS) <= set(pinned("requirements-dev.lock")), (
+        "what is not always installed is tested all the same"
+    )
 
 
 @pytest.mark.parametrize("lock", ["requirements.lock", "requirements-dev.lock"])
@@ -77,7 +84,7 @@ def test_both_locks_agree() -> None:
 
 def test_core_loads_no_window_and_no_command_line() -> None:
     names = [
-        ".".join(path.relative_to(ROOT).with_suffix("").parts)
+        ".".join(("carpus", *path.relative_to(ROOT).with_suffix("").parts))
         for path in modules()
         if path.is_relative_to(ROOT / "core")
     ]
@@ -87,14 +94,36 @@ def test_core_loads_no_window_and_no_command_line() -> None:
     assert done.stdout.strip() == "[]"
 
 
-def test_readme_tells_the_two_commands_the_limits_and_the_map() -> None:
+def test_readme_tells_the_two_commands_and_contributing_has_the_map() -> None:
     text = (ROOT / "README.md").read_text(encoding="utf-8")
     assert LEGAL_SENTENCE in " ".join(text.replace("> ", "").split())
     assert "make run" in text
     assert "make test" in text
+    assert "## Limits" in text
+    house = (ROOT / "CONTRIBUTING.md").read_text(encoding="utf-8")
     for package in sorted((ROOT / "core").iterdir()):
         if (package / "__init__.py").exists():
-            assert f"{package.name}/" in text, f"the map misses core/{package.name}"
+            assert f"{package.name}/" in house, f"the map misses core/{package.name}"
+
+
+LINK = re.compile(r"\]\(([^)#:]+)(?:#([\w-]+))?\)")
+
+
+@pytest.mark.parametrize(
+    "page",
+    [ROOT / "README.md", ROOT / "CONTRIBUTING.md", *sorted((ROOT / "resources").glob("*.md"))],
+    ids=lambda p: p.name,
+)
+def test_links_between_pages_lead_somewhere(page: Path) -> None:
+    for target, heading in LINK.findall(page.read_text(encoding="utf-8")):
+        there = page.parent / target
+        assert there.exists(), f"{page.name}: {target}"
+        if heading:
+            lines = there.read_text(encoding="utf-8").splitlines()
+            titles = {
+                re.sub(r"[^\w -]", "", line.lstrip("# ")).lower().replace(" ", "-") for line in lines if line[:1] == "#"
+            }
+            assert heading in titles, f"{page.name}: {target}#{heading}"
 
 
 def test_no_file_names_a_place_of_one_machine() -> None:

@@ -8,8 +8,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
 
-from core import so3
-from core.types import FloatArray
+from carpus.core import so3
+from carpus.core.types import FloatArray
 
 NO_LIMIT = settings(deadline=None, max_examples=150)
 

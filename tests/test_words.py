@@ -11,12 +11,12 @@ from collections.abc import Iterator
 
 import pytest
 
-import core
-from core import errors
-from core.calibration.result import Finding, FindingKind
-from core.errors import CarpusFault
-from core.hand.protocols import HAND21, WRIST6
-from core.words import (
+import carpus.core
+from carpus.core import errors
+from carpus.core.calibration.result import Finding, FindingKind
+from carpus.core.errors import CarpusFault
+from carpus.core.hand.protocols import HAND21, WRIST6
+from carpus.core.words import (
     FAULTS,
     FINDINGS,
     finding_sentence,
@@ -41,9 +41,9 @@ def kinds(of: type[CarpusFault] = CarpusFault) -> Iterator[type[CarpusFault]]:
 
 def all_kinds() -> set[type[CarpusFault]]:
     """Faults are defined in core.errors, but a kind that hides in another module is found too."""
-    for module in pkgutil.walk_packages(core.__path__, "core."):
+    for module in pkgutil.walk_packages(carpus.core.__path__, "carpus.core."):
         importlib.import_module(module.name)
-    return {kind for kind in kinds() if kind.__module__.startswith("core.")}
+    return {kind for kind in kinds() if kind.__module__.startswith("carpus.core.")}
 
 
 def texts() -> list[str]:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from contextlib import suppress
 from typing import Any
 
 import shiboken6
@@ -20,12 +21,17 @@ class _Task(QRunnable):
         self._work, self._answer = work, answer
 
     def run(self) -> None:
+        fault: Exception | None = None
+        result = None
         try:
             result = self._work()
-        except Exception as fault:  # the one catch at the top of this thread
-            self._answer.failed.emit(fault)
-        else:
-            self._answer.done.emit(result)
+        except Exception as cause:  # the one catch at the top of this thread
+            fault = cause
+        with suppress(RuntimeError):  # the program has ended meanwhile, and the answer with its window
+            if fault is None:
+                self._answer.done.emit(result)
+            else:
+                self._answer.failed.emit(fault)
 
 
 class Background(QObject):
@@ -63,6 +69,7 @@ class Background(QObject):
         """Whether an answer is still awaited."""
         return bool(self._answers)
 
-    def wait(self, timeout_ms: int = 10_000) -> bool:
-        """Wait until all work has run, as when the program ends."""
+    def wait(self, timeout_ms: int = 60_000) -> bool:
+        """Wait until all work has run, as when the program ends: a slow computer stores a session for many seconds. A
+        disk that does not answer is not waited for for ever; what it has is finished at the next start."""
         return self._pool.waitForDone(timeout_ms)

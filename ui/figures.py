@@ -10,9 +10,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Literal
 
-from ui import numbers
-from ui.marker_words import finger_name
-from ui.translate import tr
+from carpus.ui import numbers
+from carpus.ui.marker_words import finger_name
+from carpus.ui.translate import tr
 
 Row = Literal["knuckle", "middle", "end", "spread", "tam"]
 ROWS: tuple[Row, ...] = ("knuckle", "middle", "end", "spread")
@@ -115,26 +115,32 @@ def _end_names(figure: Figure) -> tuple[str, str]:
     if figure.row != "spread":
         return tr("Straight"), tr("Bent {angle}").format(angle=high)
     if figure.finger == 3:
-        return tr("Little-finger side {angle}").format(angle=low), tr("Thumb side {angle}").format(angle=high)
+        return tr("Ulnar {angle}").format(angle=low), tr("Radial {angle}").format(angle=high)
     return tr("Inwards {angle}").format(angle=low), tr("Away {angle}").format(angle=high)
 
 
-def side_word(value_deg: float) -> str:
-    """``in`` or ``out`` beside an angle of spreading; empty about the middle and where there is no value."""
+def side_word(value_deg: float, finger: int = 0) -> str:
+    """``in`` or ``out`` beside an angle of spreading, of the middle finger ``radial`` or ``ulnar``; empty about the
+    middle and where there is no value."""
     if not abs(value_deg) >= 0.5:
         return ""
+    if finger == 3:
+        return tr("ulnar") if value_deg < 0 else tr("radial")
     return tr("in") if value_deg < 0 else tr("out")
 
 
-def with_side(value_deg: float) -> str:
+def with_side(value_deg: float, finger: int = 0) -> str:
     """``12° out``: an angle of spreading with its side."""
-    return f"{numbers.degrees(value_deg)} {side_word(value_deg)}".strip()
+    return f"{numbers.degrees(value_deg)} {side_word(value_deg, finger)}".strip()
 
 
-def spread_labels(tick_deg: float) -> tuple[tuple[float, str], ...]:
-    """``Out 20°``, ``0°``, ``In 20°``: ticks of an axis of spreading."""
+def spread_labels(tick_deg: float, finger: int = 0) -> tuple[tuple[float, str], ...]:
+    """``Out 20°``, ``0°``, ``In 20°``: ticks of an axis of spreading; of the middle finger ``Radial``, ``Ulnar``."""
     angle = numbers.degrees(tick_deg)
-    out, inward = tr("Out {angle}").format(angle=angle), tr("In {angle}").format(angle=angle)
+    out, inward = tr("Out {angle}"), tr("In {angle}")
+    if finger == 3:
+        out, inward = tr("Radial {angle}"), tr("Ulnar {angle}")
+    out, inward = out.format(angle=angle), inward.format(angle=angle)
     return (tick_deg, out), (0.0, "0°"), (-tick_deg, inward)
 
 

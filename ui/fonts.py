@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from functools import lru_cache
 from importlib.resources import files
 
 from PySide6.QtCore import QByteArray
@@ -14,15 +13,21 @@ DISPLAY_FROM_PX = 28
 REGULAR, MEDIUM, SEMIBOLD = 400, 500, 600
 
 
-@lru_cache(maxsize=1)
+_loaded: list[str] = []
+
+
 def load_fonts() -> tuple[str, ...]:
-    """Register the bundled faces with Qt; the families found. Needs a QGuiApplication, costs nothing twice."""
+    """Register the bundled faces with Qt; the families found. Needs a QGuiApplication; costs nothing twice, and does it
+    again where Qt has forgotten them, as it may with an application that was made anew."""
+    if _loaded and QFontDatabase.hasFamily(TEXT_FAMILY):
+        return tuple(_loaded)
     families: set[str] = set()
-    for entry in sorted(files("resources").joinpath("fonts").iterdir(), key=lambda item: item.name):
+    for entry in sorted(files("carpus.resources").joinpath("fonts").iterdir(), key=lambda item: item.name):
         if entry.name.endswith(".otf"):
             number = QFontDatabase.addApplicationFontFromData(QByteArray(entry.read_bytes()))
             families.update(QFontDatabase.applicationFontFamilies(number))
-    return tuple(sorted(families))
+    _loaded[:] = sorted(families)
+    return tuple(_loaded)
 
 
 def font(size_px: float, weight: int = REGULAR, *, display: bool | None = None) -> QFont:

@@ -10,10 +10,10 @@ from PySide6.QtCore import QPointF, QRectF, QSize, Qt
 from PySide6.QtGui import QColor, QPainter, QPainterPath, QPainterPathStroker, QPaintEvent, QPen, QTransform
 from PySide6.QtWidgets import QSizePolicy, QWidget
 
-from core.types import Side
-from ui.fonts import MEDIUM, SEMIBOLD, font
-from ui.icons import octagon, paint_state
-from ui.theme import CARD_RADIUS_PX, Theme
+from carpus.core.types import Side
+from carpus.ui.fonts import MEDIUM, SEMIBOLD, font
+from carpus.ui.icons import octagon, paint_state
+from carpus.ui.theme import CARD_RADIUS_PX, Theme
 
 SIZE = (200.0, 290.0)
 """The drawing's own unit; a right hand from above, fingers to the top, thumb on the left."""

@@ -18,7 +18,7 @@ STROKE_WIDTH = "2.1"
 
 @lru_cache(maxsize=256)
 def _renderer(name: str, color: str) -> QSvgRenderer:
-    text = files("resources").joinpath("icons", f"{name}.svg").read_text("utf-8")
+    text = files("carpus.resources").joinpath("icons", f"{name}.svg").read_text("utf-8")
     text = text.replace('stroke-width="2"', f'stroke-width="{STROKE_WIDTH}"').replace("currentColor", color)
     if name in FILLED:
         text = text.replace('fill="none"', f'fill="{color}"')

@@ -9,17 +9,23 @@ from PySide6.QtCore import Qt
 from PySide6.QtGui import QKeySequence, QShortcut
 from PySide6.QtWidgets import QWidget
 
-from ui.translate import tr
+from carpus.ui.translate import tr
 
 DEFAULT_KEYS = {
-    "help": "F1", "settings": "Ctrl+,", "search": "Ctrl+F", "new_patient": "Ctrl+N", "report": "Ctrl+P",
+    "help": "F1", "settings": "Ctrl+,", "lock": "Ctrl+L", "search": "Ctrl+F", "new_patient": "Ctrl+N",
+    "report": "Ctrl+P",
     "export": "Ctrl+E", "back": "Esc",
     "record": "Space", "note": "F5", "pain": "F6", "pause": "F7", "overlay": "F8", "whole_picture": "F9",
     "speeds": "F4", "next_angle": "F2", "next_finger": "F3", "side_view": "Shift+F8",
     "accept": "Space", "undo": "Backspace", "next_marker": "Tab", "zoom_in": "+", "zoom_out": "-", "swap": "S",
     "new_picture": "N", "last_picture": "M", "click_again": "C",
+    "finger_1": "1", "finger_2": "2", "finger_3": "3", "finger_4": "4", "finger_5": "5",
     "play": "Space", "frame_back": "Left", "frame_on": "Right", "repetition_back": "[", "repetition_on": "]",
-    "leave_out": "X", "edge_back": ",", "edge_on": ".",
+    "leave_out": "X", "next_view": "V", "edge_back": ",", "edge_on": ".",
+    "plot_in": "+", "plot_out": "-", "plot_all": "0", "point_back": "Left", "point_on": "Right",
+    "point_open": "Return",
+    "correct": "Shift+F10", "correct_back": ",", "correct_on": ".", "correct_hide": "H", "correct_undo": "Z",
+    "correct_doubtful": "D",
 }  # fmt: skip
 """While measuring only the space bar and function keys, so that no keyboard layout or language matters."""
 
@@ -44,7 +50,7 @@ def bind(
     """Make a key work while the host or a child of it has the keyboard."""
     shortcut = QShortcut(QKeySequence(keys[name]), host)
     shortcut.setContext(context)
-    shortcut.setAutoRepeat(name in ("frame_back", "frame_on", "edge_back", "edge_on"))
+    shortcut.setAutoRepeat(name in ("frame_back", "frame_on", "edge_back", "edge_on", "plot_in", "plot_out"))
     shortcut.activated.connect(action)
     return shortcut
 
@@ -52,7 +58,7 @@ def bind(
 def action_words(name: str) -> str:
     """What a key does, for the help and the settings."""
     words = {
-        "help": tr("Help"), "settings": tr("Settings"), "search": tr("Search for a patient"),
+        "help": tr("Help"), "settings": tr("Settings"), "lock": tr("Lock"), "search": tr("Search for a patient"),
         "new_patient": tr("New patient"), "report": tr("Report"), "export": tr("Export"),
         "back": tr("Back"), "record": tr("Record, and stop and review"), "note": tr("Note"),
         "pain": tr("Pain score"), "pause": tr("Pause and go on"),
@@ -64,11 +70,21 @@ def action_words(name: str) -> str:
         "zoom_in": tr("Larger loupe"), "zoom_out": tr("Smaller loupe"),
         "swap": tr("Swap two markers"), "new_picture": tr("New picture"),
         "last_picture": tr("Last time's picture larger"), "click_again": tr("Click again"),
+        "finger_1": tr("Thumb cannot lie straight"), "finger_2": tr("Index finger cannot lie straight"),
+        "finger_3": tr("Middle finger cannot lie straight"), "finger_4": tr("Ring finger cannot lie straight"),
+        "finger_5": tr("Little finger cannot lie straight"),
         "play": tr("Play and stop"),
         "frame_back": tr("Previous picture"), "frame_on": tr("Next picture"),
         "repetition_back": tr("Previous repetition"), "repetition_on": tr("Next repetition"),
         "leave_out": tr("Leave a repetition out, or take it back"),
+        "next_view": tr("Angles, path, speeds, ZYZ in turn"),
         "edge_back": tr("Move the repetition's edge back"),
         "edge_on": tr("Move the repetition's edge on"),
+        "plot_in": tr("Less time of the curves, larger"), "plot_out": tr("More time of the curves"),
+        "plot_all": tr("All of the curves"), "point_back": tr("Point at the session before"),
+        "point_on": tr("Point at the next session"), "point_open": tr("Open the session pointed at"),
+        "correct": tr("Put a marker right"), "correct_back": tr("Previous picture to put right"),
+        "correct_on": tr("Next picture to put right"), "correct_hide": tr("Marker not to be seen here"),
+        "correct_undo": tr("Take a step back"), "correct_doubtful": tr("Next doubtful picture"),
     }  # fmt: skip
     return words[name]

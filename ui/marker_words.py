@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from ui.translate import tr
+from carpus.ui.translate import tr
 
 
 def marker_name(marker: str) -> str:

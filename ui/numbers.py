@@ -7,7 +7,7 @@ from datetime import date, datetime
 
 from PySide6.QtCore import QDate, QLocale
 
-from ui.translate import tr
+from carpus.ui.translate import tr
 
 NARROW_GAP = "\N{NO-BREAK SPACE}"
 UNKNOWN = "\N{EN DASH}"
@@ -103,6 +103,11 @@ def room_left(minutes: float) -> str:
 def long_date(when: date | datetime) -> str:
     """``Friday 20 November 2026``."""
     return QLocale().toString(_qdate(when), "dddd d MMMM yyyy")
+
+
+def day_of_year(when: date | datetime) -> str:
+    """``20 Nov 2026``."""
+    return QLocale().toString(_qdate(when), "d MMM yyyy")
 
 
 def report_date(when: datetime) -> str:

@@ -10,19 +10,16 @@ from dataclasses import dataclass, field
 from datetime import datetime
 from typing import Literal, Protocol
 
-from core.calibration.result import Calibration, Clicks, Finding, Verdict
-from core.camera import Camera
-from core.hand.protocols import MarkerProtocol
-from core.output.exercises import Exercise
-from core.output.report_content import RepetitionChoices, SessionFigures
-from core.pipeline.live_values import LiveCounters, LiveEvent, TrackedView
-from core.session.values import Session
-from core.types import ByteImage, FloatArray, Frame, Side, TrackedFrame
+from carpus.core.calibration.result import Calibration, Clicks, Finding, Verdict
+from carpus.core.camera import Camera
+from carpus.core.hand.protocols import MarkerProtocol
+from carpus.core.output.report_content import RepetitionChoices, SessionFigures
+from carpus.core.pipeline.live_values import LiveCounters, LiveEvent, TrackedView
+from carpus.core.session.values import AngleOrder, Session
+from carpus.core.types import ByteImage, FloatArray, Frame, Side, TrackedFrame
 
 AffectedSide = Literal["right", "left", "both"]
 Dominance = Literal["right", "left", "both", "unknown"]
-PRACTICE_PATIENT = "practice"
-"""Identity of the practice patient: always the last row, simulated camera, nothing counts."""
 
 
 # --- patients ---------------------------------------------------------------------------------------------
@@ -50,6 +47,8 @@ class PatientRow:
     session_count: int = 0
     note: str = ""
     name: str = ""
+    result_count: int = 0
+    """Results of all recordings; more than ``session_count`` where one was tracked again: it counts once."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -79,6 +78,10 @@ class PatientCard:
     marker_picture_rgb: ByteImage | None = None
     warnings: Sequence[str] = ()
     """What must be known of the last session: simulated, doubtful, cut short, not to count."""
+    has_sessions: bool = False
+    """Whether there are sessions at all, also such as are not counted."""
+    about: str = ""
+    """What a reach or a touch of finger tips came to, in place of ``results``; empty for other exercises."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -91,6 +94,53 @@ class SessionRow:
     side: str
     duration_s: float
     complete: bool = True
+
+
+@dataclass(frozen=True, slots=True)
+class SessionLine:
+    """One row of the list of sessions. What must be read from the file is empty until it has been: ``figure`` the main
+    one in words, ``counted`` ``8 of 9``, ``counted_words`` and ``warning`` for the card."""
+
+    session_id: str
+    when: datetime
+    exercise: str
+    side: Side
+    duration_s: float
+    complete: bool
+    simulated: bool = False
+    of_practice: bool = False
+    set_aside: str = ""
+    """Why it does not count; empty when it does."""
+    damaged: bool = False
+    figure: str = ""
+    counted: str = ""
+    counted_words: str = ""
+    warning: str = ""
+    corrected: str = ""
+    """That and since when markers were put right, in words; empty as measured."""
+
+
+class SessionShelf(Protocol):
+    """All sessions of a patient and what can be done with them. All but ``lines`` and ``other_patients`` may read or
+    write the disk: called in the background."""
+
+    def lines(self, patient_id: str) -> Sequence[SessionLine]:
+        """Newest first, without what only the files know."""
+        ...
+
+    def with_figures(self, line: SessionLine) -> SessionLine: ...
+
+    def other_patients(self, patient_id: str) -> Sequence[tuple[str, str]]:
+        """Identity and pseudonym of everybody else."""
+        ...
+
+    def set_aside(self, session_id: str, reason: str) -> None:
+        """Let a session count nowhere, with the reason; with an empty one let it count again."""
+        ...
+
+    def move(self, session_id: str, patient_id: str) -> None: ...
+
+    def rename_exercise(self, session_id: str, exercise: str) -> None: ...
 
 
 class PatientStore(Protocol):
@@ -118,30 +168,6 @@ class PatientStore(Protocol):
 
 
 # --- measuring --------------------------------------------------------------------------------------------
-@dataclass(frozen=True, slots=True)
-class SetUp:
-    """What was chosen before measuring.
-
-    Targets in degrees of the trained angle with its sign (the negative direction below zero), NaN for none.
-    """
-
-    patient_id: str
-    pseudonym: str
-    side: Side
-    exercise: Exercise
-    repetitions: int
-    target_positive_deg: float
-    target_negative_deg: float
-    keep_pictures: bool = False
-    ends_free: bool = False
-    """Whether the end joints of the fingers are measured by themselves, not taken to follow the middle joints."""
-
-    @property
-    def protocol(self) -> MarkerProtocol:
-        """The discs on the hand, which the exercise decides."""
-        return self.exercise.protocol
-
-
 class LiveFeed(Protocol):
     """The running source, as :class:`core.pipeline.live.LiveSession` offers it to a screen."""
 
@@ -266,6 +292,11 @@ class Calibrator(Protocol):
     def limits(self) -> VerdictLimits: ...
 
     @property
+    def last_straight_fingers(self) -> tuple[bool, ...]:
+        """What was said of this hand last time, thumb to little: the same is proposed again."""
+        ...
+
+    @property
     def is_live(self) -> bool:
         """Whether pictures keep coming and another one can be taken; a recording has its first picture only."""
         ...
@@ -274,6 +305,10 @@ class Calibrator(Protocol):
 
     def hold(self) -> Frame:
         """Fix the picture on which will be clicked."""
+        ...
+
+    def discs_seen(self) -> int:
+        """How many spots of the held picture look like discs of paper."""
         ...
 
     def hand_area(self) -> FloatArray | None:
@@ -297,6 +332,16 @@ class Calibrator(Protocol):
 
 
 # --- stored sessions --------------------------------------------------------------------------------------
+class StoredResult(Protocol):
+    """One result of a recording, which may have been tracked more than once."""
+
+    @property
+    def session_id(self) -> str: ...
+
+    @property
+    def created(self) -> datetime: ...
+
+
 class SessionStore(Protocol):
     """Stored sessions and what is said of them. All but ``choices`` may read the disk: called in the background."""
 
@@ -304,6 +349,10 @@ class SessionStore(Protocol):
 
     def picture(self, session_id: str, row: int) -> ByteImage | None:
         """The stored colour picture of a row, None when pictures were not kept."""
+        ...
+
+    def results_of(self, session_id: str) -> Sequence[StoredResult]:
+        """Every result of the recording of a session, the first one first; the last one counts."""
         ...
 
     def choices(self, session_id: str) -> RepetitionChoices:
@@ -316,9 +365,33 @@ class SessionStore(Protocol):
         """Figures of all of a patient's sessions, choices applied, in no particular order."""
         ...
 
-    def export(self, session_id: str, folder: str) -> Sequence[str]:
-        """Write the open formats into a folder; the names of the files written."""
-        ...
+
+@dataclass(frozen=True, slots=True)
+class StoredMoment:
+    """One stored picture: the colours, None where none were kept, and the middles (S, 2) of its blue spots."""
+
+    picture_rgb: ByteImage | None
+    spots_px: FloatArray
+
+
+class CorrectionStore(Protocol):
+    """What the correction of markers reads; called in the background."""
+
+    def moment(self, session_id: str, row: int) -> StoredMoment: ...
+
+
+# --- agreement with another measurement ---------------------------------------------------------------------
+@dataclass(frozen=True, slots=True)
+class ReferenceChoice:
+    """Another measurement: a file, or another session. ``columns`` angle (or ``time``) to column, a minus before it
+    turns its sign; ``markers`` disc to marker; ``radians`` None as the file says."""
+
+    name: str
+    path: str = ""
+    session_id: str = ""
+    columns: Mapping[str, str] = field(default_factory=dict)
+    markers: Mapping[str, str] = field(default_factory=dict)
+    radians: bool | None = None
 
 
 # --- what a person chooses for the program ----------------------------------------------------------------
@@ -327,10 +400,15 @@ ThemeChoice = Literal["light", "dark", "system"]
 
 @dataclass(frozen=True, slots=True)
 class Preferences:
-    """Choices of the settings screen. ``therapist`` initials are printed on reports."""
+    """Choices of the settings screen. ``therapist`` initials are printed on reports; ``angle_order`` of the wrist's
+    angles, zyx or isb; ``stream``: live values go out to other programs; ``agreement_limit_deg`` what two measurements
+    may differ by and still stand for each other, 0 for none set."""
 
     theme: ThemeChoice = "system"
     text_scale: float = 1.0
     data_folder: str = ""
     therapist: str = ""
     keys: Mapping[str, str] = field(default_factory=dict)
+    angle_order: AngleOrder = "zyx"
+    stream: bool = False
+    agreement_limit_deg: float = 0.0

@@ -8,11 +8,11 @@ from PySide6.QtCore import Qt, Signal
 from PySide6.QtGui import QCloseEvent, QKeySequence, QPainter, QPaintEvent, QShortcut
 from PySide6.QtWidgets import QApplication, QStackedWidget, QVBoxLayout, QWidget
 
-from ui.controls.focus_ring import FocusRing
-from ui.messages.sign import Sign
-from ui.style import apply_style
-from ui.theme import Theme
-from ui.topbar import TopBar
+from carpus.ui.controls.focus_ring import FocusRing
+from carpus.ui.messages.sign import Sign
+from carpus.ui.style import apply_style
+from carpus.ui.theme import Theme
+from carpus.ui.topbar import TopBar
 
 FIRST_SIZE_PX = (1280, 800)
 LEAST_SIZE_PX = (1024, 700)

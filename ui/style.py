@@ -7,8 +7,8 @@ from importlib.resources import as_file, files
 from PySide6.QtGui import QPalette
 from PySide6.QtWidgets import QApplication
 
-from ui.fonts import font
-from ui.theme import Theme
+from carpus.ui.fonts import font
+from carpus.ui.theme import Theme
 
 _SHEET = """
 QLineEdit, QPlainTextEdit, QSpinBox, QDoubleSpinBox, QComboBox, QKeySequenceEdit {{
@@ -63,5 +63,5 @@ def apply_style(application: QApplication, theme: Theme) -> None:
     application.setFont(font(14 * theme.text_scale))
     colors = {name: getattr(tokens, name) for name in _SHEET_TOKENS}
     sizes = {"pad": 12, "pad_focus": 11, "field": theme.px(38), "row": theme.px(36)}
-    with as_file(files("resources").joinpath("icons", f"chevron-down-{theme.name}.svg")) as chevron:
+    with as_file(files("carpus.resources").joinpath("icons", f"chevron-down-{theme.name}.svg")) as chevron:
         application.setStyleSheet(_SHEET.format(**colors, **sizes, chevron=chevron.as_posix()))

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import math
 
-from core.output.exercises import SIDES
-from core.types import FloatArray
-from ui import numbers
-from ui.translate import tr
+from carpus.core.output.exercises import SIDES
+from carpus.core.types import FloatArray
+from carpus.ui import numbers
+from carpus.ui.translate import tr
 
 LEGAL_SENTENCE = (
     "For research and education. Not a medical device, not CE-marked or FDA-cleared; values support, and do not "
@@ -27,6 +27,7 @@ def exercise_name(exercise_id: str) -> str:
         "FIST_HOOK": tr("Hook fist"),
         "FINGER_ABAD": tr("Spread the fingers"),
         "THUMB_OPP": tr("Thumb across the palm"),
+        "REACH_GRASP": tr("Reach and grasp"),
         "FREE_HAND": tr("Free movement of the fingers"),
     }.get(exercise_id, exercise_id)
 
@@ -42,6 +43,7 @@ def exercise_instruction(exercise_id: str) -> str:
         "FIST_HOOK": tr("Keep the knuckles straight, bend only the end joints like a hook, then open."),
         "FINGER_ABAD": tr("Spread the fingers wide, then close them."),
         "THUMB_OPP": tr("Touch each fingertip with the thumb in turn, opening it wide in between."),
+        "REACH_GRASP": tr("Reach, take the cup, lift it a little, put it back, return."),
         "FREE_HAND": tr("Move the fingers freely. All joint angles are recorded; no repetitions are counted."),
     }.get(exercise_id, "")
 
@@ -57,6 +59,7 @@ def exercise_position(exercise_id: str) -> str:
         "FIST_HOOK": tr("Forearm on the wedge, back of the hand towards the camera, fingers straight."),
         "FINGER_ABAD": tr("Palm flat on the table, fingers straight and closed."),
         "THUMB_OPP": tr("Forearm on the wedge, thumb side turned up a little, fingers relaxed."),
+        "REACH_GRASP": tr("Hand at its place at the edge, a cup of 5 to 7 cm at 20 to 30 cm."),
         "FREE_HAND": tr("Hand in view of the camera, back of the hand up, fingers straight."),
     }.get(exercise_id, "")
 
@@ -90,6 +93,22 @@ def movement_name(movement: str) -> str:
         "pronation": tr("Pronation"),
         "arc": tr("Whole arc"),
     }.get(movement, movement)
+
+
+def deficit_name(movement: str) -> str:
+    """``Extension deficit``: what is missing to neutral."""
+    return tr("{movement} deficit").format(movement=movement_long_name(movement))
+
+
+def lacking(size: str) -> str:
+    """``lacks 20°``: so much is missing to the neutral pose on a side that was never reached."""
+    return tr("lacks {angle}").format(angle=size)
+
+
+def end_words(mean_deg: float) -> str:
+    """``42°``; ``lacks 20°`` of an end that was never reached, whatever stands beside it."""
+    shown = numbers.degrees(mean_deg)
+    return lacking(shown) if mean_deg < 0.0 and shown != numbers.degrees(0.0) else shown
 
 
 def movement_long_name(movement: str) -> str:

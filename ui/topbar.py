@@ -5,16 +5,17 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from PySide6.QtCore import QPointF, QRectF, QSize, Qt, Signal
-from PySide6.QtGui import QFontMetricsF, QPainter, QPaintEvent, QPen, QResizeEvent
+from PySide6.QtGui import QFont, QFontMetricsF, QPainter, QPaintEvent, QPen, QResizeEvent
 from PySide6.QtWidgets import QHBoxLayout, QSizePolicy, QVBoxLayout, QWidget
 
-from ui.controls.button import Button, icon_button
-from ui.controls.card import Line
-from ui.controls.pill import RecordingPill
-from ui.controls.text import MEDIUM, REGULAR, SEMIBOLD, StateText, Text
-from ui.fonts import font
-from ui.icons import paint_mark, paint_state
-from ui.theme import MARGIN_PX, TIGHT_BELOW_PX, Theme
+from carpus.ui.controls.button import Button, icon_button
+from carpus.ui.controls.card import Line
+from carpus.ui.controls.pill import RecordingPill
+from carpus.ui.controls.text import MEDIUM, REGULAR, SEMIBOLD, StateText, Text
+from carpus.ui.controls.tooltip import plain_tooltip
+from carpus.ui.fonts import font
+from carpus.ui.icons import paint_mark, paint_state
+from carpus.ui.theme import MARGIN_PX, Theme
 
 BAR_PX = 56
 MOST_NAME_PX = 190
@@ -22,13 +23,15 @@ RECORDING_LINE_PX = 3
 
 
 class TopBar(QWidget):
-    """Signals: ``back``, ``tab`` (number), ``step`` (number of a step already done), ``help``, ``settings``."""
+    """Signals: ``back``, ``tab`` (number), ``step`` (number of a step already done), ``help``, ``settings``,
+    ``again_wanted`` for what is tracked again or waits for a decision."""
 
     back = Signal()
     tab = Signal(int)
     step = Signal(int)
     help = Signal()
     settings = Signal()
+    again_wanted = Signal()
 
     def __init__(self, theme: Theme) -> None:
         super().__init__()
@@ -42,6 +45,8 @@ class TopBar(QWidget):
         self.camera = StateText(theme)
         self.disk = StateText(theme)
         self.pill = RecordingPill(theme)
+        self.again = AgainButton(theme)
+        self.again.clicked.connect(self.again_wanted)
         self.help_button = icon_button(theme, "circle-help", self.tr("Help (F1)"))
         self.settings_button = icon_button(theme, "settings", self.tr("Settings (Ctrl+,)"))
         self.help_button.clicked.connect(self.help)
@@ -52,7 +57,7 @@ class TopBar(QWidget):
         self._left, self._right = QWidget(), QWidget()
         left = _row(self._left, 8, self.brand, self._bar_line, self.back_button, self.where)
         left.addStretch(1)
-        right = _row(self._right, 16, self.camera, self.disk, self.pill)
+        right = _row(self._right, 16, self.camera, self.disk, self.again, self.pill)
         right.insertStretch(0, 1)
         right.addSpacing(-4)
         right.addWidget(self.help_button)
@@ -64,6 +69,8 @@ class TopBar(QWidget):
         row.addWidget(self._left, 1)
         row.addLayout(self._middle)
         row.addWidget(self._right, 1)
+        for said in (self.camera, self.disk, self.again, self.pill):
+            said.resized.connect(self._fit)
         whole = QVBoxLayout(self)
         whole.setContentsMargins(0, 0, 0, 0)
         whole.setSpacing(0)
@@ -84,15 +91,44 @@ class TopBar(QWidget):
         self._fit()
 
     def _fit(self) -> None:
-        """With large text on a narrow window the exercise and an ample disk give way to what must be seen."""
-        tight = self.width() < TIGHT_BELOW_PX[0] * self._theme.text_scale
-        self.where.setVisible(bool(self.back_button.text()) and not tight)
-        self.disk.setVisible(bool(self.disk.text()) and not (tight and self.disk.state == "none"))
+        """What there is no room for gives way to what must be seen: an ample disk, the exercise, the program's name, a
+        camera that works."""
+        named = bool(self.back_button.text())
+        shown = {
+            "disk": bool(self.disk.text()), "where": named and bool(self.where.text()), "again": True, "name": True,
+            "camera": bool(self.camera.text()),
+        }  # fmt: skip
+        may_go = {
+            "disk": self.disk.state == "none", "where": True, "again": True, "name": named,
+            "camera": self.camera.state == "good",
+        }  # fmt: skip
+        for part in may_go:
+            if self._needed_px(shown) <= self.width():
+                break
+            shown[part] = shown[part] and not may_go[part]
+        self.disk.setVisible(shown["disk"])
+        self.where.setVisible(shown["where"])
+        self.brand.show_name(shown["name"])
+        self.camera.setVisible(shown["camera"])
+        self.again.shorten(not shown["again"])
+
+    def _needed_px(self, shown: dict[str, bool]) -> float:
+        """What a choice of parts asks for, side by side."""
+        named = [self._bar_line, self.back_button] if self.back_button.text() else []
+        left = [self.brand.width_px(shown["name"]), *(one.sizeHint().width() for one in named)]
+        left += [self.where.sizeHint().width()] if shown["where"] else []
+        right = [one.sizeHint().width() for one in (self.help_button, self.settings_button)]
+        right += [one.width() for one in (self.camera, self.disk) if shown["camera" if one is self.camera else "disk"]]
+        right += [self.again.width_px(short=not shown["again"])] if self.again.words else []
+        right += [self.pill.sizeHint().width()] if self.pill.state != "off" else []
+        middle = [one.sizeHint().width() for one in self._way]
+        gaps = 8 * (len(left) - 1) + 4 * max(len(middle) - 1, 0) + 16 * (len(right) - 1) - 16
+        return sum(left) + sum(middle) + sum(right) + gaps + 2 * MARGIN_PX - 14 + 3 * 8
 
     def show_place(self, pseudonym: str, where: str) -> None:
         """Whose session this is, and hand and exercise; empty on the first screen."""
         self.back_button.set_face(self._elided(pseudonym))
-        self.back_button.setToolTip(pseudonym)
+        self.back_button.setToolTip(plain_tooltip(pseudonym))
         self.back_button.setAccessibleName(self.tr("Back from {name}").format(name=pseudonym))
         for widget in (self._bar_line, self.back_button):
             widget.setVisible(bool(pseudonym))
@@ -134,6 +170,7 @@ class TopBar(QWidget):
         for button in buttons:
             self._middle.addWidget(button)
             button.show()
+        self._fit()
 
     def show_recording(self, recording: bool) -> None:
         """The red line that is seen from afar."""
@@ -172,7 +209,7 @@ class WayButton(Button):
         """Whether this is where the person is."""
         return self._number == self._current
 
-    def _face(self):  # type: ignore[no-untyped-def]
+    def _face(self) -> QFont:
         return font(14 * self._theme.text_scale, SEMIBOLD if self.is_current else MEDIUM)
 
     def sizeHint(self) -> QSize:
@@ -213,23 +250,78 @@ class WayButton(Button):
         painter.drawText(box.translated(QPointF(0, 0)), Qt.AlignmentFlag.AlignCenter, str(self._number + 1))
 
 
+class AgainButton(Button):
+    """What is tracked again, or waits for a decision, in words or, where there is little room, in short. ``resized``
+    when it needs other room; hidden without words."""
+
+    resized = Signal()
+
+    def __init__(self, theme: Theme) -> None:
+        super().__init__(theme, "", "plain", icon="history", height_px=36)
+        self.words = self._in_short = ""
+        self._short = False
+        self.setFocusPolicy(Qt.FocusPolicy.TabFocus)  # after a click Space and Enter stay with the screen
+        self.hide()
+
+    def show_words(self, words: str, in_short: str, tip: str = "") -> None:
+        """Say something, or with empty words nothing; ``tip`` says what a click is for."""
+        if (words, in_short) == (self.words, self._in_short):
+            return
+        self.words, self._in_short = words, in_short
+        self._show()
+        self.setToolTip(tip)
+        self.setVisible(bool(words))
+        self.resized.emit()
+
+    def shorten(self, short: bool) -> None:
+        """Say it in short, or in words again."""
+        if short != self._short:
+            self._short = short
+            self._show()
+
+    def width_px(self, *, short: bool) -> int:
+        """Room for it."""
+        face = QFontMetricsF(font(14 * self._theme.text_scale, SEMIBOLD))
+        text = self._in_short if short else self.words
+        return round(face.horizontalAdvance(text)) + self._theme.px(18) + 8 + 2 * 16
+
+    def _show(self) -> None:
+        self.set_face(self._in_short if self._short else self.words)
+        self.setAccessibleName(self.words)
+
+
 class _Brand(QWidget):
     def __init__(self, theme: Theme) -> None:
         super().__init__()
         self._theme = theme
+        self._named = True
+        self._word_px = 0
         self.setAccessibleName("Carpus")
         theme.changed.connect(self._take_theme)
         self._take_theme()
 
     def _take_theme(self) -> None:
         word = QFontMetricsF(font(16 * self._theme.text_scale, SEMIBOLD)).horizontalAdvance("Carpus")
-        self.setFixedSize(round(word) + self._theme.px(22) + 20, self._theme.px(32))
+        self._word_px = round(word) + 16
+        self.setFixedSize(self.width_px(self._named), self._theme.px(32))
         self.update()
+
+    def width_px(self, named: bool) -> int:
+        """Room for the mark, with or without the word."""
+        return self._theme.px(22) + 4 + (self._word_px if named else 0)
+
+    def show_name(self, named: bool) -> None:
+        """The mark with or without the word beside it."""
+        if named != self._named:
+            self._named = named
+            self._take_theme()
 
     def paintEvent(self, event: QPaintEvent) -> None:
         painter = QPainter(self)
         size = self._theme.px(22)
         paint_mark(painter, QRectF(0, (self.height() - size) / 2, size, size), self._theme.color("accent"))
+        if not self._named:
+            return
         painter.setFont(font(16 * self._theme.text_scale, SEMIBOLD))
         painter.setPen(self._theme.color("text"))
         painter.drawText(QRectF(size + 10, 0, 200, self.height()), int(Qt.AlignmentFlag.AlignVCenter), "Carpus")

@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from datetime import datetime
 
-from ui import numbers
-from ui.translate import tr
+from carpus.core.measures.error_limits import RetestStudy
+from carpus.ui import numbers
+from carpus.ui.translate import tr
 
 
 def verdict_token(verdict: str) -> str:
@@ -40,8 +42,33 @@ def reason_words(reasons: Sequence[str]) -> str:
         "forearm_moved": tr("the forearm moved"),
         "incomplete": tr("the recording was cut short"),
         "hidden": tr("hidden in part"),
+        "angle_order": tr("angles in another order"),
     }
     return ", ".join(dict.fromkeys(words.get(reason, reason) for reason in reasons))
+
+
+def counted_once_words(earlier_results: int) -> str:
+    """That a recording counts once, where one was tracked again; else empty."""
+    if not earlier_results:
+        return ""
+    words = tr("A recording counts once, by its newest result: 1 earlier result is left out.")
+    if earlier_results > 1:
+        words = tr("A recording counts once, by its newest result: {count} earlier results are left out.")
+    return words.format(count=earlier_results)
+
+
+def limit_words(study: RetestStudy | None = None) -> str:
+    """Whose the error limits are, beside every judgement; ``study`` the clinic's own."""
+    if study is not None:
+        return tr(
+            "“Error” is the smallest real change (MDC95), measured by this clinic on {date} with {count} people; where "
+            "it has none of its own, experts’ choice for Carpus. For the same protocol, side and set-up."
+        ).format(date=numbers.day_of_year(datetime.fromisoformat(study.made)), count=study.people)
+    return tr(
+        "“Error” is the smallest difference called a change: experts’ choice for Carpus, not published figures; of an "
+        "arc, which has two ends, √2 as much. For the same protocol, side and set-up, until the clinic has measured "
+        "its own."
+    )
 
 
 def difference(change_deg: float) -> str:

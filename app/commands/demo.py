@@ -5,9 +5,9 @@ from __future__ import annotations
 import argparse
 from pathlib import Path
 
-from app.commands import desktop
-from app.commands.progress import bar
-from app.settings import load_settings
+from carpus.app.commands import desktop
+from carpus.app.commands.progress import bar
+from carpus.app.settings import load_settings
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -20,8 +20,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 def run(arguments: argparse.Namespace) -> int:
     if desktop.has_display() and not arguments.unattended:
         return desktop.open_window(arguments.data_folder, is_demo=True)
-    from app import compose
-    from app.desktop.unattended import walk
+    from carpus.app import compose
+    from carpus.app.desktop.unattended import walk
 
     compose.write_log()
     settings = compose.with_data_folder(load_settings(), arguments.data_folder)

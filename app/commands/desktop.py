@@ -5,12 +5,16 @@ from __future__ import annotations
 import argparse
 import os
 import sys
+from datetime import datetime
 from pathlib import Path
 
-from app.settings import load_settings
-from core.errors import CarpusFault, FolderInUse
-from core.session.database import make_private
-from core.words import one_sentence
+from carpus.app.commands.kept import initials
+from carpus.app.settings import load_sound_settings
+from carpus.core.errors import CarpusFault, FolderInUse
+from carpus.core.safekeeping.audit import AuditLog
+from carpus.core.safekeeping.backup import put_in_place
+from carpus.core.session.database import make_private
+from carpus.core.words import one_sentence
 
 
 def has_display() -> bool:
@@ -25,28 +29,32 @@ def run(arguments: argparse.Namespace) -> int:
     return open_window(getattr(arguments, "data_folder", None), is_demo=False)
 
 
-def open_window(data_folder: Path | None, *, is_demo: bool) -> int:
-    """The window, on the real world or on the simulated camera."""
+def open_window(data_folder: Path | None, *, is_demo: bool, session: Path | None = None) -> int:
+    """The window, on the real world or on the simulated camera; ``session`` is opened in it, or in the one there is."""
     if not has_display():
         print("carpus: there is no display here; “carpus demo” shows the whole way without one.", file=sys.stderr)
         return 1
-    from app import compose
-    from app.desktop.alone import Alone
+    from carpus.app import compose
+    from carpus.app.desktop.alone import Alone
 
     compose.write_log()
-    settings = compose.with_data_folder(load_settings(), data_folder)
+    loaded, told = load_sound_settings()
+    settings = compose.with_data_folder(loaded, data_folder)
     qt = compose.application(["carpus"])
     alone = Alone(settings.data_folder)
-    while True:
+    desktop: compose.Desktop | None = None
+    while desktop is None:
         try:
             make_private(settings.data_folder)
             if not alone.take():
-                if alone.call_first():
+                if alone.call_first(session):
                     print("carpus: it is open already, and has come to the front.", file=sys.stderr)
                     return 0
                 raise FolderInUse(settings.data_folder)
-            desktop = compose.compose(qt, settings, is_demo=is_demo)
-            break
+            if not compose.ask_for_pin(qt, settings):
+                alone.let_go()
+                return 0
+            desktop = compose.compose(qt, settings, is_demo=is_demo, told=told)
         except CarpusFault as fault:
             alone.let_go()
             print(f"carpus: {one_sentence(fault)}", file=sys.stderr)
@@ -55,14 +63,25 @@ def open_window(data_folder: Path | None, *, is_demo: bool) -> int:
                 return 1
             settings = compose.with_kept_folder(settings, chosen)
             alone = Alone(settings.data_folder)
-    alone.listen(desktop.come_to_front)
+    alone.listen(desktop.called)
     compose.speak_in_the_window(desktop)
     compose.end_on_signals(desktop)
-    desktop.show()
-    if is_demo:
-        desktop.journey.prepare_practice()
     try:
-        return qt.exec()
+        desktop.show()
+        if is_demo and not desktop.closed:
+            desktop.journey.prepare_practice()
+        if session is not None and not desktop.closed:
+            desktop.open_session(session)
+        return 0 if desktop.closed else qt.exec()
+    except CarpusFault:
+        # A signal may close the window while it is still coming up: what then finds the list closed is no fault.
+        if not desktop.closed:
+            raise
+        return 0
     finally:
         desktop.close()
         alone.let_go()
+        restored = desktop.safe.backing_up.restored
+        if restored is not None:
+            put_in_place(restored.staged, restored.data_folder, datetime.now())
+            AuditLog(restored.data_folder, "window", initials).note("restored", "everything")

@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 import argparse
+from datetime import UTC, datetime
+from itertools import chain
 from pathlib import Path
 
-from app.settings import Settings, load_settings
-from core.capture.doctor import examine
-from core.errors import CarpusFault
-from core.words import one_sentence
+from carpus.app.settings import Settings, load_settings
+from carpus.core.capture.doctor import examine
+from carpus.core.check_card.ages import camera_ages
+from carpus.core.errors import CarpusFault
+from carpus.core.words import one_sentence
 
 _MARK = {"good": "ok     ", "warning": "look   ", "bad": "missing"}
 
@@ -24,7 +27,8 @@ def run(arguments: argparse.Namespace) -> int:
     except CarpusFault as fault:
         print(f"{_MARK['bad']}  Settings: {one_sentence(fault)}")
         worst = 1
-    for finding in examine(arguments.data_folder or settings.data_folder):
+    folder = arguments.data_folder or settings.data_folder
+    for finding in chain(examine(folder), camera_ages(folder, datetime.now(UTC))):
         print(f"{_MARK[finding.state]}  {finding.name}: {finding.found}")
         if finding.remedy:
             print(f"         {finding.remedy}")

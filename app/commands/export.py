@@ -1,4 +1,4 @@
-"""``carpus export``: a session in open formats."""
+"""``carpus export``: sessions in open formats."""
 
 from __future__ import annotations
 
@@ -6,45 +6,73 @@ import argparse
 import sys
 from pathlib import Path
 
-from app.desktop.export import export_csv
-from core.errors import OutputNotWritable
-from core.session.reader import read_session
+from carpus import __version__
+from carpus.app.commands.kept import note_exported
+from carpus.app.commands.progress import bar
+from carpus.core.errors import SessionUnreadable
+from carpus.core.formats.formats import FORMATS
+from carpus.core.words import one_sentence
 
-FORMATS = ("csv", "c3d", "trc", "mot", "bids")
-WRITTEN = ("csv",)
+ALL = "all"
 
 
 def some_formats(text: str) -> tuple[str, ...]:
     """Names of formats, separated by commas; an unknown one is wrong usage."""
     names = tuple(dict.fromkeys(name.strip().lower() for name in text.split(",") if name.strip()))
-    unknown = [name for name in names if name not in FORMATS]
+    unknown = [name for name in names if name not in (*FORMATS, ALL)]
     if unknown or not names:
-        raise argparse.ArgumentTypeError(f"{text!r} is not made of {', '.join(FORMATS)}")
-    return names
+        raise argparse.ArgumentTypeError(f"{text!r} is not made of {', '.join(FORMATS)} or {ALL}")
+    return tuple(FORMATS) if ALL in names else names
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    parser.add_argument("session", type=Path, metavar="SESSION.h5")
+    parser.add_argument("sessions", type=Path, nargs="+", metavar="SESSION.h5", help="or a folder of them")
     parser.add_argument(
         "--format",
         type=some_formats,
         default=("csv",),
         metavar="FORMAT,...",
-        help="csv; c3d, trc, mot and bids are not there yet",
+        help="; ".join(f"{name}: {kind.words}" for name, kind in FORMATS.items()) + f"; {ALL} of them",
     )
     parser.add_argument("--output", type=Path, required=True, metavar="FOLDER", help="files in it are not overwritten")
+    parser.add_argument(
+        "--deidentified",
+        action="store_true",
+        help="new random names, days counted from each patient's first session, no texts, nothing of the device",
+    )
 
 
 def run(arguments: argparse.Namespace) -> int:
-    later = [name for name in arguments.format if name not in WRITTEN]
-    if later:
-        names = ", ".join(later)
-        print(f"carpus: exporting {names} is not there yet; --format csv writes the wrist's angles.", file=sys.stderr)
-        return 1
-    session = read_session(arguments.session)
-    try:
-        arguments.output.mkdir(parents=True, exist_ok=True)
-    except OSError as cause:
-        raise OutputNotWritable(arguments.output, cause.strerror or "") from cause
-    print(f"Written: {arguments.output / export_csv(session, arguments.output)}")
-    return 0
+    from carpus.core.formats.export import Wanted, export_sessions
+    from carpus.core.library.library import read_choices
+
+    paths = session_files(arguments.sessions)
+    with bar("exporting", "file") as progress:
+        done = export_sessions(
+            [Wanted.stored(path, read_choices) for path in paths],
+            arguments.output,
+            arguments.format,
+            software_version=__version__,
+            deidentified=arguments.deidentified,
+            progress=progress,
+        )
+    note_exported(done, deidentified=arguments.deidentified)
+    for refused in done.refused:
+        print(f"carpus: {one_sentence(refused.fault)}", file=sys.stderr)
+    for path in done.files if len(paths) == 1 else ():
+        print(f"Written: {path}")
+    count = len(done.files)
+    if len(paths) > 1 and count:
+        print(f"Written: {count} files of {len(paths) - len(done.refused)} sessions into {arguments.output}")
+    return 1 if done.refused else 0
+
+
+def session_files(named: list[Path]) -> list[Path]:
+    """The sessions named, of folders all that lie in them; each once. Raises :class:`SessionUnreadable`."""
+    out: list[Path] = []
+    for path in named:
+        found = sorted(path.rglob("*.h5")) if path.is_dir() else [path]
+        if not found:
+            raise SessionUnreadable(path, "no session in this folder")
+        out += found
+    return list(dict.fromkeys(out))

@@ -5,11 +5,13 @@ from __future__ import annotations
 import argparse
 from pathlib import Path
 
-from app.commands.progress import tell
-from core.capture.tum import TumFolder
-from core.errors import RecordingMissing
-from core.session.reader import read_session
-from core.summary import recording_summary, session_summary, source_summary
+from carpus.app.commands.kept import note
+from carpus.app.commands.progress import tell
+from carpus.core.capture.tum import TumFolder
+from carpus.core.errors import RecordingMissing
+from carpus.core.library.library import read_choices
+from carpus.core.session.reader import read_session
+from carpus.core.summary import recording_summary, session_summary, source_summary
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -23,9 +25,10 @@ def run(arguments: argparse.Namespace) -> int:
         raise RecordingMissing(path)
     if path.suffix in {".h5", ".part"}:
         session = read_session(path)
-        lines = [session.header.parameters] if arguments.json else session_summary(session)
+        note("opened", path, session.header.session_id)
+        lines = [session.header.parameters] if arguments.json else session_summary(session, read_choices(path))
     else:
-        from app.sources import open_recording
+        from carpus.app.sources import open_recording
 
         source = open_recording(path, need_depth=False, leave_out_damaged=True, notice=tell)
         try:

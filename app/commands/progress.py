@@ -9,8 +9,12 @@ from contextlib import contextmanager
 
 from tqdm import tqdm
 
-from core.errors import CarpusFault
-from core.words import one_sentence
+from carpus.app.commands.patient_progress import add_arguments, run
+from carpus.core.errors import CarpusFault
+from carpus.core.words import one_sentence
+
+__all__ = ["add_arguments", "bar", "run", "tell"]
+"""The module has the name of a command: `carpus progress` finds its own two here."""
 
 SPEAK_EVERY_S = 10.0
 """Where stderr is no terminal a line as often says that the work goes on."""
@@ -22,11 +26,11 @@ def tell(fault: CarpusFault) -> None:
 
 
 @contextmanager
-def bar(what: str) -> Iterator[Callable[[int, int | None], None]]:
+def bar(what: str, unit: str = "frame") -> Iterator[Callable[[int, int | None], None]]:
     """A function (done, total) that draws; the bar goes when the work is over. A line now and then for no terminal."""
     is_terminal = sys.stderr.isatty()
     spoken_s = time.monotonic()
-    with tqdm(desc=what, unit="frame", leave=False, disable=not is_terminal) as drawn:
+    with tqdm(desc=what, unit=unit, leave=False, disable=not is_terminal) as drawn:
 
         def show(done: int, total: int | None) -> None:
             nonlocal spoken_s

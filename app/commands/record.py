@@ -5,14 +5,21 @@ from __future__ import annotations
 import argparse
 import contextlib
 import time
+import uuid
+from dataclasses import replace
+from datetime import datetime
 from pathlib import Path
 
-from app.commands.progress import bar, tell
-from core.capture.raw import RawWriter
-from core.capture.raw_tum import TumWriter
-from core.errors import OutputExists
-from core.pipeline.recorder import Recorder
-from core.types import Frame
+from carpus.app.commands.progress import bar, tell
+from carpus.app.settings import load_settings
+from carpus.core.capture.calibrated import with_stored_calibration
+from carpus.core.capture.identity import recorded_at
+from carpus.core.capture.raw import RawWriter
+from carpus.core.capture.raw_tum import TumWriter
+from carpus.core.dates import iso
+from carpus.core.errors import OutputExists
+from carpus.core.pipeline.recorder import Recorder
+from carpus.core.types import Frame
 
 LONGEST_S = 86400.0
 WAITING_FRAMES = 90
@@ -43,22 +50,30 @@ def run(arguments: argparse.Namespace) -> int:
     if arguments.output.exists():
         raise OutputExists(arguments.output)
     if arguments.origin is not None:
-        from app.sources import open_recording
+        from carpus.app.sources import open_recording
 
         source = open_recording(arguments.origin, notice=tell)
     else:
-        from core.capture.xtion import XtionSource
+        from carpus.core.capture.xtion import XtionSource
 
         source = XtionSource(notice=tell)
+        if arguments.format == "tum":
+            # A folder of pictures cannot say which camera it came from; a raw recording can, and stays as it came.
+            source = with_stored_calibration(source, load_settings().data_folder)
 
     def open_writer() -> RawWriter | TumWriter:
         if arguments.format == "raw":
-            return RawWriter(arguments.output, source.info, lossless=arguments.lossless)
-        return TumWriter(arguments.output, source.info)
+            return RawWriter(arguments.output, said, lossless=arguments.lossless)
+        return TumWriter(arguments.output, said)
+
+    live = arguments.origin is None
+    when = recorded_at(source.info, float("nan"), arguments.origin)
+    said = replace(source.info, recorded=when.when if when else "")
+    if live:
+        said = replace(source.info, recorded=iso(datetime.now().astimezone()), recording_id=str(uuid.uuid4()))
 
     # The disk has a thread of its own: a slow moment of it must not hold up the camera.
     recorder = Recorder("pictures", open_writer, _store, WAITING_FRAMES, _fault_told)
-    live = arguments.origin is None
     total = None if arguments.seconds is None else max(1, round(arguments.seconds * source.info.nominal_fps))
     count, missed = 0, 0
     try:

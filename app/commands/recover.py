@@ -6,9 +6,11 @@ import argparse
 import sys
 from pathlib import Path
 
-from core.errors import FolderMissing
-from core.session.recovery import recover_folder
-from core.words import one_sentence
+from carpus.app.commands.kept import note
+from carpus.core.errors import FolderMissing
+from carpus.core.session.reader import read_outline
+from carpus.core.session.recovery import recover_folder
+from carpus.core.words import one_sentence
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -21,6 +23,7 @@ def run(arguments: argparse.Namespace) -> int:
     found = recover_folder(arguments.folder)
     for path in found.recovered:
         print(f"Recovered: {path}")
+        note("recovered", path, read_outline(path).header.session_id)
     for path in found.busy:
         print(f"Still being written, left alone: {path}")
     for path in found.empty:

@@ -3,33 +3,52 @@
 from __future__ import annotations
 
 import argparse
+import sys
 from pathlib import Path
 
-from app.settings import load_settings
-from core.errors import OutputExists
-from core.session.reader import read_session
+from carpus import __version__
+from carpus.app.commands.kept import made
+from carpus.app.settings import ANGLE_ORDERS, load_settings
+from carpus.core.errors import OutputExists
+from carpus.core.output.angle_order import in_order
+from carpus.core.session.reader import read_session
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("sessions", type=Path, nargs="+", metavar="SESSION.h5")
     parser.add_argument("--output", type=Path, required=True, metavar="REPORT.pdf", help="never overwritten")
+    parser.add_argument(
+        "--angle-order",
+        choices=ANGLE_ORDERS,
+        help="order of the wrist's angles: the papers' zyx, or isb (flexion first); as in the settings without it",
+    )
 
 
 def run(arguments: argparse.Namespace) -> int:
     if arguments.output.exists():
         raise OutputExists(arguments.output)
-    sessions = [read_session(path) for path in arguments.sessions]
-    therapist = load_settings().report.therapist
+    settings = load_settings()
+    chosen = settings.report
+    order, therapist = arguments.angle_order or chosen.angle_order, chosen.therapist
+    sessions = [in_order(read_session(path), order) for path in arguments.sessions]
     # Qt is loaded only now: a wrong file is told without it.
-    from core.output.report_content import session_figures
-    from ui.report.pdf import ensure_application, write_progress_report, write_session_report
+    from carpus.core.agreement.limits_file import read_limits
+    from carpus.core.library.library import read_choices
+    from carpus.core.output.report_content import newest_results, session_figures
+    from carpus.ui.report.pdf import ensure_application, write_progress_report, write_session_report
 
+    choices = [read_choices(path) for path in arguments.sessions]
     application = ensure_application()
     if len(sessions) == 1:
-        write_session_report(sessions[0], arguments.output, therapist=therapist)
+        write_session_report(sessions[0], arguments.output, therapist=therapist, choices=choices[0])
     else:
-        figures = [session_figures(session) for session in sessions]
-        write_progress_report(figures, arguments.output, therapist=therapist)
+        limits = read_limits(settings.data_folder)
+        figures = [session_figures(*one, limits) for one in zip(sessions, choices, strict=True)]
+        for older in {one.session_id for one in figures} - {one.session_id for one in newest_results(figures)}:
+            print(f"carpus: session {older} is left out: a newer result of its recording counts.", file=sys.stderr)
+        write_progress_report(figures, arguments.output, therapist=therapist, software_version=__version__)
     del application
+    kept = [(path, one.header.session_id) for path, one in zip(arguments.sessions, sessions, strict=True)]
+    made(kept, [arguments.output], "report")
     print(f"Report: {arguments.output}")
     return 0

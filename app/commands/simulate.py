@@ -7,9 +7,18 @@ from dataclasses import fields
 from pathlib import Path
 from typing import Any
 
-from app.commands.progress import bar
-from core.simulation.motions import MOTIONS
-from core.simulation.spec import RecordingSpec
+from carpus.app.commands.progress import bar
+from carpus.core.simulation.motions import MOTIONS
+from carpus.core.simulation.spec import HABITS, WORN, RecordingSpec
+
+
+def number_or_drawn(text: str) -> float | None:
+    """A number, or None for ``drawn``: each person's own."""
+    try:
+        return None if text == "drawn" else float(text)
+    except ValueError:
+        raise argparse.ArgumentTypeError(f"a number or drawn, not {text}") from None
+
 
 _OPTIONS: tuple[tuple[str, dict[str, Any]], ...] = (
     ("protocol", {"choices": ("wrist6", "hand21"), "help": "6 discs on the palm or 21 on the hand"}),
@@ -24,13 +33,23 @@ _OPTIONS: tuple[tuple[str, dict[str, Any]], ...] = (
     ("tremor-deg", {"type": float}),
     ("dip", {"choices": ("coupled", "free"), "help": "end joints bound to the middle joints, or free"}),
     ("hand-length-mm", {"type": float, "help": "130 a child, 200 a tall man"}),
+    ("skin-glide-mm", {"type": number_or_drawn, "help": "how far skin glides over a knuckle bent by 90, or drawn"}),
+    (
+        "cupping",
+        {"type": number_or_drawn, "help": "how far ring and little metacarpal flex in a grip, 0 to 1, or drawn"},
+    ),
+    ("habit", {"help": f"with + between: {', '.join(HABITS)}"}),
+    ("anatomy", {"choices": ("usual", "wide"), "help": "wide: other disc heights, palms, discs stuck off"}),
+    ("worn", {"help": f"with + between: {', '.join(WORN)}"}),
+    ("pen-marks", {"type": int, "help": "blue dots of a pen on the skin"}),
     ("skin-tone", {"type": int, "help": "0 light to 5 dark"}),
     ("skin-movement-mm", {"type": float, "help": "how far the WRIST disc slides on the bone"}),
     ("light", {"choices": ("drawn", "bright", "normal", "dim")}),
-    ("sleeve", {"choices": ("drawn", "none", "grey", "white", "blue")}),
+    ("sleeve", {"choices": ("drawn", "none", "grey", "white", "blue", "jeans")}),
     ("distance-m", {"type": float, "help": "camera to hand"}),
     ("yaw-deg", {"type": float}),
     ("tilt-deg", {"type": float}),
+    ("tilt-heading-deg", {"type": float, "help": "0: a side of the hand nearer, -90: its tips"}),
     ("false-blobs", {"type": float, "help": "false blue blobs in each picture, on average"}),
     ("hidden-share", {"type": float, "help": "share of the time each disc is covered"}),
     ("dropped-share", {"type": float, "help": "share of the frames that is missing"}),
@@ -71,13 +90,13 @@ def spec_from(arguments: argparse.Namespace) -> RecordingSpec:
 
 
 def run(arguments: argparse.Namespace) -> int:
-    from core.simulation.recording import simulate
+    from carpus.core.simulation.recording import simulate
 
     with bar("rendering") as progress:
         if arguments.format == "tum":
             simulate(spec_from(arguments), arguments.output, progress)
         else:
-            from core.simulation.oni import simulate_oni
+            from carpus.core.simulation.oni import simulate_oni
 
             simulate_oni(spec_from(arguments), arguments.output, progress)
     print(f"Recording: {arguments.output}")

@@ -5,23 +5,36 @@ from __future__ import annotations
 import argparse
 import sys
 from dataclasses import replace
+from datetime import datetime
 from pathlib import Path
 
 import numpy as np
 
-from app import __version__
-from app.commands.progress import bar, tell
-from core.calibration.clicks import read_clicks
-from core.calibration.result import Verdict
-from core.errors import IntrinsicsAssumed, RecordingMissing
-from core.hand.protocols import MarkerProtocol
-from core.pipeline.track import TrackReport, TrackSettings, fingers_as_tracked, retrack_session, track_recording
-from core.session.reader import read_outline
-from core.tracking.finger_settings import FingerSettings
-from core.tracking.settings import PROFILES, TrackerSettings
-from core.words import finding_sentence
+from carpus import __version__
+from carpus.app.batch.places import is_many
+from carpus.app.commands.kept import note
+from carpus.app.commands.progress import bar, tell
+from carpus.app.settings import load_settings
+from carpus.core.calibration.clicks import read_clicks
+from carpus.core.calibration.result import Clicks, Verdict
+from carpus.core.capture.identity import Recorded
+from carpus.core.capture.paced import PacedSource
+from carpus.core.dates import iso
+from carpus.core.errors import IntrinsicsAssumed, RecordingMissing
+from carpus.core.hand.protocols import MarkerProtocol
+from carpus.core.output.exercises import EXERCISES
+from carpus.core.papers.settings import PaperSettings
+from carpus.core.pipeline.live import Listener
+from carpus.core.pipeline.told_settings import Told, differences, settings_told
+from carpus.core.pipeline.track import TrackReport, TrackSettings, retrack_session, track_recording
+from carpus.core.session.reader import read_outline, read_session
+from carpus.core.summary import range_lines
+from carpus.core.tracking.settings import PROFILES
+from carpus.core.words import finding_sentence
 
 LARGEST_START_DEG = 120.0
+LISTENER_PATIENCE_S = 20.0
+EXERCISE_NAMES = tuple(exercise.id for exercise in EXERCISES)
 
 
 def an_angle_deg(text: str) -> float:
@@ -34,19 +47,77 @@ def an_angle_deg(text: str) -> float:
     return angle
 
 
+def a_pseudonym(text: str) -> str:
+    """A name that can stand in a list; anything else is wrong usage."""
+    name = text.strip()
+    if not name or not name.isprintable() or len(name) > 100:
+        raise argparse.ArgumentTypeError("a pseudonym is a short line of text")
+    return name
+
+
+def a_count(text: str) -> int:
+    """A number from 1 on; anything else is wrong usage."""
+    if not text.isdecimal() or not 1 <= int(text) <= 1000:
+        raise argparse.ArgumentTypeError(f"{text} is not a number from 1 to 1000")
+    return int(text)
+
+
+def a_moment(text: str) -> str:
+    """A date, or a date and time, here where no zone is given; anything else is wrong usage."""
+    try:
+        return iso(datetime.fromisoformat(text))
+    except ValueError:
+        raise argparse.ArgumentTypeError(f"{text} is not a date such as 2023-04-05 or 2023-04-05T14:30") from None
+
+
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    parser.add_argument("recording", type=Path, help="TUM RGB-D folder, .oni file, raw recording, or a session (.h5)")
     parser.add_argument(
-        "--calibration", type=Path, metavar="CLICKS.json", help="first-frame clicks (not for a session)"
+        "recording",
+        type=Path,
+        nargs="+",
+        help="TUM RGB-D folder, .oni file, raw recording, or a session (.h5); several, or a folder that is searched "
+        "for recordings, are tracked side by side into the folder --output, what is there already left as it is",
     )
     parser.add_argument(
-        "--output", type=Path, required=True, metavar="SESSION.h5", help="the file to write; never overwritten"
+        "--calibration",
+        type=Path,
+        metavar="CLICKS.json",
+        help="first-frame clicks (not for a session; of many recordings calibration.json in each one's folder, or "
+        "NAME.calibration.json beside its file)",
+    )
+    parser.add_argument(
+        "--output",
+        type=Path,
+        required=True,
+        metavar="SESSION.h5",
+        help="the file to write, never overwritten; of many recordings the folder for their sessions and tables",
+    )
+    parser.add_argument(
+        "--jobs", type=a_count, metavar="N", help="of many recordings so many at a time (default: one for each core)"
+    )
+    parser.add_argument(
+        "--table",
+        type=Path,
+        metavar="FILE",
+        help="of many recordings: the measures of all sessions also as this .csv or .parquet, never overwritten "
+        "(Parquet needs carpus[tables])",
+    )
+    parser.add_argument(
+        "--scheduler",
+        metavar="ADDRESS",
+        help="of many recordings: track them on the workers of this Dask scheduler, as tcp://host:8786, which see the "
+        "same folders (needs carpus[cluster])",
+    )
+    parser.add_argument(
+        "--filter",
+        choices=("default", "paper"),
+        help="the default filter, or both papers' method exactly as written, by colour alone and without looking back; "
+        "a session's own unless given",
     )
     parser.add_argument(
         "--depth",
         action=argparse.BooleanOptionalAction,
-        default=True,
-        help="use each marker's depth (default) or colour only, as the papers do",
+        help="use each marker's depth (default) or colour only",
     )
     parser.add_argument(
         "--dip",
@@ -64,24 +135,11 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         action="store_true",
         help="go on without missing and damaged pictures of a folder, as frames that were lost; else they are a fault",
     )
-    parser.add_argument("--profile", choices=tuple(PROFILES), default="standard", help="how lively the hand is")
+    parser.add_argument("--profile", choices=tuple(PROFILES), help="how lively the hand is (default: standard)")
     parser.add_argument(
         "--smooth",
         action=argparse.BooleanOptionalAction,
-        default=True,
-        help="add /smoothed, every frame in the light of those after it",
-    )
-    parser.add_argument(
-        "--filter",
-        choices=("reduced", "augmented"),
-        default="reduced",
-        help="the default filter, or the papers' augmented one",
-    )
-    parser.add_argument(
-        "--motion",
-        choices=("constant-rate", "paper"),
-        default="constant-rate",
-        help="motion model; paper: equation (1)",
+        help="add /smoothed, every frame in the light of those after it (default), or not",
     )
     parser.add_argument(
         "--start-angles",
@@ -90,12 +148,34 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         metavar=("DEVIATION", "FLEXION", "SUPINATION"),
         help="degrees at the first frame, for a hand that cannot lie neutral; added to all angles and marked as given",
     )
-    parser.add_argument("--subject", default="", metavar="PSEUDONYM", help="stored in the session; never a name")
-    parser.add_argument("--exercise", default="", help="stored in the session")
+    parser.add_argument("--subject", type=a_pseudonym, metavar="PSEUDONYM", help="stored in the session; never a name")
+    parser.add_argument(
+        "--exercise",
+        choices=EXERCISE_NAMES,
+        default="",
+        metavar="NAME",
+        help=f"stored in the session; one of {', '.join(EXERCISE_NAMES)}",
+    )
+    parser.add_argument(
+        "--recorded",
+        type=a_moment,
+        metavar="DATE",
+        help="when the hand moved, as 2023-04-05 or 2023-04-05T14:30, for a recording that does not say",
+    )
+    parser.add_argument(
+        "--stream",
+        action="store_true",
+        help="play one recording in its own time and send what is tracked over Lab Streaming Layer, as in the window; "
+        "waits up to 20 s for a listener (needs carpus[stream])",
+    )
+    parser.epilog = (
+        "A session is tracked again with the settings it was tracked with, a recording with those of settings.toml, "
+        "unless an option says otherwise."
+    )
 
 
 _INTRINSICS = {"default": "the usual values of the Xtion", "driver": "the driver's field of view"}
-_OF_RECORDINGS = ("calibration", "start_angles", "subject", "exercise")
+_OF_RECORDINGS = ("calibration", "start_angles", "subject", "exercise", "recorded")
 """Options that a session answers itself."""
 COLOR_ALONE = (
     "Without depth a palm tilted towards the camera looks almost like one tilted away, its mirror image; "
@@ -105,60 +185,88 @@ HAND_COLOR_ALONE = (
     "Tracking 21 markers without depth is experimental: the picture hardly shows how far a finger that is almost "
     "straight is bent, or to which side; do not rely on these joint angles."
 )
+_NOT_OF_THE_PAPERS = {
+    "--depth": ("depth", True),
+    "--dip free": ("dip", "free"),
+    "--discs on-skin": ("discs", "on-skin"),
+    "--smooth": ("smooth", True),
+}
+"""Options that ask for what the papers' method has not."""
 
 
-def settings_from(arguments: argparse.Namespace, parameters: str = "") -> TrackSettings:
-    """The settings that the options name, and for a session tracked with ``parameters`` what they leave to it."""
-    own = fingers_as_tracked(TrackerSettings(), parameters)
-    skin_offsets = own.fingers.skin_offsets if arguments.discs is None else arguments.discs == "on-skin"
-    tracker = TrackerSettings(
-        fingers=FingerSettings(skin_offsets=skin_offsets),
-        form=arguments.filter,
-        motion="paper" if arguments.motion == "paper" else "constant_rate",
-        profile=arguments.profile,
-        use_depth=arguments.depth,
-        dip=arguments.dip or own.dip,
-    )
-    return replace(TrackSettings(), tracker=tracker, smooth=arguments.smooth)
+def settings_from(arguments: argparse.Namespace, base: TrackSettings) -> TrackSettings:
+    """``base`` with what the options say over it; an option that was not given leaves it as it is."""
+    tracker = base.tracker
+    told = {"profile": arguments.profile, "use_depth": arguments.depth, "dip": arguments.dip}
+    tracker = replace(tracker, **{name: value for name, value in told.items() if value is not None})
+    if arguments.discs is not None:
+        tracker = replace(tracker, fingers=replace(tracker.fingers, skin_offsets=arguments.discs == "on-skin"))
+    smooth = base.smooth if arguments.smooth is None else arguments.smooth
+    paper = base.paper if arguments.filter is None else None
+    if arguments.filter == "paper" or (paper is not None and arguments.profile is not None):
+        paper = PaperSettings.for_profile(arguments.profile or "standard")
+    return replace(base, tracker=tracker, smooth=smooth, paper=paper)
+
+
+def not_of_the_papers(arguments: argparse.Namespace) -> list[str]:
+    """Options given that the papers' method could only pass over."""
+    return [option for option, (name, value) in _NOT_OF_THE_PAPERS.items() if getattr(arguments, name) == value]
+
+
+def _refused(arguments: argparse.Namespace, settings: TrackSettings) -> bool:
+    """Whether the options contradict each other, told on stderr."""
+    told = not_of_the_papers(arguments) if settings.paper is not None else []
+    if told:
+        print(
+            f"carpus track: the papers' method works by colour alone on the papers' chain and does not look back; "
+            f"leave out {' and '.join(told)}.",
+            file=sys.stderr,
+        )
+    return bool(told)
 
 
 def run(arguments: argparse.Namespace) -> int:
-    settings = settings_from(arguments)
-    if not settings.tracker.use_depth:
+    named = arguments.recording
+    if is_many(named, arguments.output):
+        if arguments.stream:
+            print("carpus track: --stream is for one recording; leave it out.", file=sys.stderr)
+            return 2
+        return _many(named, arguments)
+    of_many = [name for name in ("jobs", "scheduler", "table") if getattr(arguments, name) is not None]
+    if of_many:
+        print(f"carpus track: --{of_many[0]} is for many recordings; leave it out.", file=sys.stderr)
+        return 2
+    arguments.recording = named[0]
+    is_session = arguments.recording.suffix == ".h5" and arguments.recording.is_file()
+    settings = settings_from(arguments, TrackSettings() if is_session else load_settings().track)
+    if is_color_alone(settings):
         print(f"carpus: {COLOR_ALONE}", file=sys.stderr)
     if not arguments.recording.exists():
         raise RecordingMissing(arguments.recording)
-    if arguments.recording.suffix == ".h5" and arguments.recording.is_file():
-        told = [f"--{name.replace('_', '-')}" for name in _OF_RECORDINGS if getattr(arguments, name)]
-        if told:
-            print(f"carpus track: a session brings its own; leave out {' and '.join(told)}.", file=sys.stderr)
-            return 2
-        header = read_outline(arguments.recording).header
-        settings = settings_from(arguments, header.parameters)
-        warn_of_experiment(settings, header.protocol)
-        with bar("tracking again") as progress:
-            report = retrack_session(
-                arguments.recording,
-                arguments.output,
-                settings,
-                software_version=__version__,
-                progress=progress,
-                on_verdict=warn,
-            )
-        print_report(report)
-        return 0
+    if is_session:
+        return _again(arguments, was_told=is_color_alone(settings))
     if arguments.calibration is None:
         print("carpus track: a recording needs --calibration CLICKS.json.", file=sys.stderr)
         return 2
-    from app.sources import open_recording
+    if _refused(arguments, settings):
+        return 2
+    from carpus.app.sources import open_recording
 
-    source = open_recording(arguments.recording, leave_out_damaged=arguments.leave_out_damaged, notice=tell)
+    source = open_recording(
+        arguments.recording,
+        leave_out_damaged=arguments.leave_out_damaged,
+        data_folder=load_settings().data_folder,
+        notice=tell,
+    )
+    if arguments.stream:
+        source = PacedSource(source)
     try:
         camera = source.info.camera
         if camera.origin in _INTRINSICS:
             tell(IntrinsicsAssumed(arguments.recording, _INTRINSICS[camera.origin]))
         clicks = read_clicks(arguments.calibration, camera.width_px, camera.height_px)
         warn_of_experiment(settings, clicks.protocol)
+        listener = _stream(clicks, source.info.nominal_fps, settings) if arguments.stream else None
         start = None if arguments.start_angles is None else np.radians(arguments.start_angles)
         with bar("tracking") as progress:
             report = track_recording(
@@ -167,11 +275,15 @@ def run(arguments: argparse.Namespace) -> int:
                 arguments.output,
                 settings,
                 software_version=__version__,
-                subject_id=arguments.subject,
+                subject_id=arguments.subject or "",
                 exercise=arguments.exercise,
                 start_angles_rad=start,
                 progress=progress,
                 on_verdict=warn,
+                recorded=Recorded(arguments.recorded, "asked") if arguments.recorded else None,
+                path=arguments.recording,
+                on_date=say_doubtful_date,
+                listener=listener,
             )
     finally:
         source.close()
@@ -179,9 +291,90 @@ def run(arguments: argparse.Namespace) -> int:
     return 0
 
 
+def _stream(clicks: Clicks, rate_hz: float, settings: TrackSettings) -> Listener:
+    """The open stream of a hand, once somebody listens, though not waited for without end."""
+    from carpus.core.pipeline.stream import Stream, library
+
+    begun_s: list[float] = []
+    dip_free = settings.paper is None and settings.tracker.dip == "free"
+    stream = Stream.of_hand(clicks, rate_hz, dip_free=dip_free, clock=lambda: begun_s[0])
+    if not stream.wait_for_listener(LISTENER_PATIENCE_S):
+        print("carpus: nobody listens to the stream; it goes on.", file=sys.stderr)
+    begun_s.append(library().local_clock())
+    return stream
+
+
+def _many(named: list[Path], arguments: argparse.Namespace) -> int:
+    """All that is named, into a folder."""
+    usual = load_settings().track
+    chosen = settings_from(arguments, usual)
+    if _refused(arguments, chosen):
+        return 2
+    if is_color_alone(chosen):
+        print(f"carpus: {COLOR_ALONE}", file=sys.stderr)
+    from carpus.app.commands.track_many import run_many
+
+    return run_many(named, arguments.output, arguments, usual, lambda base: settings_from(arguments, base))
+
+
+def is_color_alone(settings: TrackSettings) -> bool:
+    """Whether no depth takes part in tracking."""
+    return settings.paper is not None or not settings.tracker.use_depth
+
+
+def _again(arguments: argparse.Namespace, *, was_told: bool) -> int:
+    """A session tracked again: as it was, and what differs is said."""
+    given = [f"--{name.replace('_', '-')}" for name in _OF_RECORDINGS if getattr(arguments, name)]
+    if given:
+        print(f"carpus track: a session brings its own; leave out {' and '.join(given)}.", file=sys.stderr)
+        return 2
+    header = read_outline(arguments.recording).header
+    before = settings_told(header.parameters)
+    settings = settings_from(arguments, before.settings if before else load_settings().track)
+    if _refused(arguments, settings):
+        return 2
+    if is_color_alone(settings) and not was_told:
+        print(f"carpus: {COLOR_ALONE}", file=sys.stderr)
+    warn_of_experiment(settings, header.protocol)
+    with bar("tracking again") as progress:
+        report = retrack_session(
+            arguments.recording,
+            arguments.output,
+            settings,
+            software_version=__version__,
+            progress=progress,
+            on_verdict=warn,
+        )
+    note("tracked_again", arguments.recording, header.session_id)
+    print_report(report)
+    print(f"Origin: session {header.session_id}, of recording {header.recording_id}")
+    for line in _what_differs(before, settings, header.software_version):
+        print(line)
+    return 0
+
+
+def _what_differs(before: Told | None, settings: TrackSettings, version: str) -> list[str]:
+    if before is None:
+        return ["Settings: the session does not say with which it was tracked; your own were used"]
+    changed = differences(before.settings, settings)
+    if version != __version__:
+        changed.append(f"software {__version__} (was {version})")
+    changed += [f"{name} no longer there" for name in before.unknown]
+    return [f"Differs: {change}" for change in changed] or ["Differs: nothing, same settings as before"]
+
+
+def say_doubtful_date(recorded: Recorded | None) -> None:
+    """Say on stderr where a session's date is only that of a file."""
+    if recorded is None or recorded.said_by == "file":
+        day = "unknown" if recorded is None else f"taken from its file ({recorded.when[:10]})"
+        print(
+            f"carpus: the recording does not say when the hand moved: {day}; --recorded DATE says it.", file=sys.stderr
+        )
+
+
 def warn_of_experiment(settings: TrackSettings, protocol: MarkerProtocol) -> None:
     """Say on stderr that fingers by colour alone are an experiment."""
-    if protocol.has_fingers and not settings.tracker.use_depth:
+    if protocol.has_fingers and is_color_alone(settings):
         print(f"carpus: {HAND_COLOR_ALONE}", file=sys.stderr)
 
 
@@ -195,14 +388,10 @@ def warn(verdict: Verdict) -> None:
 
 def print_report(report: TrackReport) -> None:
     """Where the session is and its main figures."""
-    degrees = np.degrees(report.angle_range_rad)
     print(f"Session: {report.output}")
-    print(f"Frames: {report.frames}, tracked {report.tracked}, predicted {report.predicted}, lost {report.lost}")
-    pairs = (
-        ("Deviation", "ulnar", "radial"),
-        ("Flexion", "extension", "flexion"),
-        ("Pro/supination", "pronation", "supination"),
+    doubtful = f", doubtful {report.doubtful}" if report.doubtful else ""
+    print(
+        f"Frames: {report.frames}, tracked {report.tracked}, predicted {report.predicted}, lost {report.lost}{doubtful}"
     )
-    for (name, minus, plus), low, high in zip(pairs, degrees[0], degrees[1], strict=True):
-        if np.isfinite(low):
-            print(f"{name}: {minus} {max(-low, 0.0):.1f}°, {plus} {max(high, 0.0):.1f}°, arc {high - low:.1f}°")
+    for line in range_lines(read_session(report.output)):
+        print(line.strip())

@@ -7,17 +7,17 @@ from typing import Protocol
 
 import numpy as np
 
-from core.calibration.calibrate import CalibrationOutcome, calibrate
-from core.calibration.candidates import disc_at, marker_candidates, snapped
-from core.calibration.naming import propose_names
-from core.calibration.result import Calibration, Clicks
-from core.calibration.same_hand import compared_with_last_time
-from core.camera import Camera
-from core.detection.appearance import expected_radius_px
-from core.hand.protocols import MarkerProtocol
-from core.pipeline.track import TrackSettings
-from core.types import Detections, FloatArray, Frame, Side
-from ui.ports import FoundMarker, Judged, ProposedMarker, VerdictLimits
+from carpus.core.calibration.calibrate import CalibrationOutcome, calibrate
+from carpus.core.calibration.candidates import disc_at, marker_candidates, snapped
+from carpus.core.calibration.naming import propose_names
+from carpus.core.calibration.result import ALL_STRAIGHT, Calibration, Clicks
+from carpus.core.calibration.same_hand import compared_with_last_time
+from carpus.core.camera import Camera
+from carpus.core.detection.appearance import expected_radius_px
+from carpus.core.hand.protocols import MarkerProtocol
+from carpus.core.pipeline.track import TrackSettings
+from carpus.core.types import Detections, FloatArray, Frame, Side
+from carpus.ui.ports import FoundMarker, Judged, ProposedMarker, VerdictLimits
 
 SAME_DISC_PX = 3.0
 """Nearer than this two places are the same disc."""
@@ -54,7 +54,9 @@ class HandCalibrator:
         settings: TrackSettings,
         begin: Begin,
         last_length_mm: float = float("nan"),
+        last_straight_fingers: tuple[bool, ...] = ALL_STRAIGHT,
     ) -> None:
+        self._last_straight_fingers = last_straight_fingers
         self._pictures, self._camera, self._settings, self._begin = pictures, camera, settings, begin
         self._side, self._protocol, self._last_length_mm = side, protocol, last_length_mm
         self._held: Sequence[Frame] = ()
@@ -80,6 +82,11 @@ class HandCalibrator:
         )
 
     @property
+    def last_straight_fingers(self) -> tuple[bool, ...]:
+        """What was said of this hand last time, thumb to little."""
+        return self._last_straight_fingers
+
+    @property
     def is_live(self) -> bool:
         """Whether another picture can be taken."""
         return self._pictures.is_live
@@ -98,6 +105,10 @@ class HandCalibrator:
         self._held = tuple(self._pictures.still())
         self._candidates = marker_candidates(self._held[0], self._camera, self._settings.detection)
         return self._held[0]
+
+    def discs_seen(self) -> int:
+        """How many spots of the held picture look like discs of paper."""
+        return len(self._candidates)
 
     def hand_area(self) -> FloatArray | None:
         """Box of the blue discs: corners (2, 2); None when hardly any is seen."""

@@ -27,15 +27,27 @@ class LastPlaces:
 
     def keep(self, kind: Kind, folder: str) -> None:
         """Remember a folder."""
+        self._keep(kind, folder)
+
+    def _keep(self, name: str, value: str) -> None:
         try:
-            self._path.write_text(json.dumps(self._stored() | {kind: folder}), encoding="utf-8")
+            self._path.write_text(json.dumps(self._stored() | {name: value}), encoding="utf-8")
         except OSError:
             return  # a full or read-only disk tells elsewhere
+
+    def window(self) -> str:
+        """The window's place as it was kept, empty before the first time."""
+        kept = self._stored().get("window")
+        return kept if isinstance(kept, str) else ""
+
+    def keep_window(self, place: str) -> None:
+        """Remember the window's place."""
+        self._keep("window", place)
 
     def _stored(self) -> dict[str, Any]:
         try:
             found = json.loads(self._path.read_text(encoding="utf-8"))
-        except (OSError, ValueError):
+        except (OSError, ValueError, RecursionError):
             return {}
         return found if isinstance(found, dict) else {}
 

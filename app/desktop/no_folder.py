@@ -7,10 +7,10 @@ from pathlib import Path
 from PySide6.QtCore import QEventLoop
 from PySide6.QtWidgets import QFileDialog
 
-from ui.messages.stop_card import Answer, StopCard
-from ui.ports import Words
-from ui.shell import Shell
-from ui.theme import Theme
+from carpus.ui.messages.stop_card import Answer, StopCard
+from carpus.ui.ports import Words
+from carpus.ui.shell import Shell
+from carpus.ui.theme import Theme
 
 
 class NoFolder:

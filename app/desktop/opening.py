@@ -6,10 +6,10 @@ import threading
 
 from PySide6.QtCore import QObject, Signal
 
-from app.desktop.sources import OpenSource, Sources
-from ui.background import Background
-from ui.ports import SetUp
-from ui.setup.choice import SourceChoice
+from carpus.app.desktop.sources import OpenSource, Sources
+from carpus.core.library.set_up import SetUp
+from carpus.ui.background import Background
+from carpus.ui.setup.choice import SourceChoice
 
 
 class _CancelledError(Exception):

@@ -5,15 +5,17 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 
-from app.desktop.library import Library
-from core.errors import SessionUnreadable
-from core.output.report_content import SessionFigures, compare, compare_rows, unfair_reasons
-from core.session import register
-from core.session.register import PatientRecord
-from ui.ports import PRACTICE_PATIENT, PatientCard, PatientEntry, PatientRow, ResultLine, SessionRow
-from ui.report.hand_rows import compared_figures
-from ui.report.tables import repetition_words
-from ui.report.words import warnings
+from carpus.core.errors import SessionUnreadable
+from carpus.core.library.library import Library
+from carpus.core.library.set_up import PRACTICE_PATIENT
+from carpus.core.output.report_content import SessionFigures, compare, compare_rows, unfair_reasons
+from carpus.core.session import register
+from carpus.core.session.register import PatientRecord
+from carpus.ui.ports import PatientCard, PatientEntry, PatientRow, ResultLine, SessionRow
+from carpus.ui.report.further_rows import main_words
+from carpus.ui.report.hand_rows import compared_figures
+from carpus.ui.report.tables import repetition_words
+from carpus.ui.report.words import warnings
 
 _ENDS = ("arc",)
 """Movements that the card leaves out: it shows the two ends, which the therapist trains."""
@@ -38,19 +40,25 @@ class PatientShelf:
         if not entries:
             return PatientCard(row)
         picture = self._library.marker_picture(patient_id)
+        real = [entry for entry in entries if not entry.simulated]
+        if not real and patient_id != PRACTICE_PATIENT:
+            return PatientCard(row, marker_picture_rgb=picture, has_sessions=True)
         try:
-            last = self._library.figures(entries[0])
+            last = self._library.figures((real or entries)[0])
             first = self._first_alike(patient_id, last)
         except SessionUnreadable:
-            return PatientCard(row, marker_picture_rgb=picture)
+            return PatientCard(row, marker_picture_rgb=picture, has_sessions=True)
         note = last.notes[-1][1] if last.notes else ""
         said = () if patient_id == PRACTICE_PATIENT else warnings(last)
-        return PatientCard(row, _results(first, last), repetition_words(last), note, last.when, picture, said)
+        # A reach or a touch is not told by how far the joints bend.
+        about = main_words(last)
+        results = () if about else _results(first, last)
+        return PatientCard(row, results, repetition_words(last), note, last.when, picture, said, True, about)
 
     def sessions(self, patient_id: str) -> Sequence[SessionRow]:
         """Stored sessions, newest first."""
         return [
-            SessionRow(entry.session_id, entry.created, entry.exercise, entry.hand, entry.duration_s, entry.complete)
+            SessionRow(entry.session_id, entry.recorded, entry.exercise, entry.hand, entry.duration_s, entry.complete)
             for entry in self._library.sessions(patient_id)
         ]
 
@@ -60,9 +68,11 @@ class PatientShelf:
 
     def add(self, entry: PatientEntry) -> str:
         """Enter a new patient."""
-        return self._library.clinic.add(
+        patient_id = self._library.clinic.add(
             register.PatientEntry(entry.pseudonym, entry.side, entry.dominance, note=entry.note, name=entry.name)
         )
+        self._library.note_patient("added", patient_id)
+        return patient_id
 
     def change(self, patient_id: str, entry: PatientEntry) -> None:
         """Change what a person wrote; what the form does not show stays."""
@@ -76,6 +86,7 @@ class PatientShelf:
             name=entry.name,
         )
         self._library.clinic.change(patient_id, new)
+        self._library.note_patient("changed", patient_id)
 
     def _first_alike(self, patient_id: str, last: SessionFigures) -> SessionFigures | None:
         """The first session of the same hand and exercise that the progress compares with; no more are read."""
@@ -103,6 +114,7 @@ def _row(record: PatientRecord) -> PatientRow:
         record.session_count,
         entry.note,
         entry.name,
+        record.result_count,
     )
 
 

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from pathlib import PureWindowsPath
 
-from core.calibration.result import Finding
-from core.errors import CarpusFault
-from core.words import finding_words, words_of
-from ui.ports import Words
+from carpus.core.calibration.result import Finding
+from carpus.core.errors import CarpusFault
+from carpus.core.words import finding_words, words_of
+from carpus.ui.ports import Words
 
 MOST_LETTERS = 32
 

@@ -4,40 +4,52 @@ from __future__ import annotations
 
 import os
 from collections.abc import Callable
+from dataclasses import replace
+from typing import Any
 
-from core.capture.source import FrameSource
-from core.capture.tum import TumFolder
-from core.output.exercises import DEVIATION, FLEXION, PRONOSUPINATION
-from core.simulation.motions import STILL_S
-from core.simulation.recording import cached_recording
-from core.simulation.spec import RecordingSpec
-from ui.ports import SetUp
+from carpus.core.capture.source import FrameSource
+from carpus.core.capture.tum import TumFolder
+from carpus.core.library.set_up import SetUp
+from carpus.core.output.exercises import DEVIATION, FLEXION, PRONOSUPINATION
+from carpus.core.simulation.hand_motion import STILL_S
+from carpus.core.simulation.recording import cached_recording
+from carpus.core.simulation.spec import RecordingSpec
 
 _MOTION = {FLEXION: "flexion", DEVIATION: "deviation", PRONOSUPINATION: "pronosupination", None: "mixed"}
 _HAND_MOTION = {
     "FIST_COMPOSITE": "fist",
     "FIST_HOOK": "hook",
     "FINGER_ABAD": "abduction",
-    "THUMB_OPP": "thumb",
+    "THUMB_OPP": "opposition",
+    "REACH_GRASP": "reach_grasp",
     "FREE_HAND": "fingers",
 }
-_SPEED_HZ, _RANGE_SHARE, _REPETITIONS, _SECONDS = 0.36, 0.8, 10, 30.0
+_SPEED_HZ, _RANGE_SHARE, _SECONDS = 0.4, 0.8, 9.0
+PRACTICE_REPETITIONS = 3
+_OTHERWISE: dict[str, dict[str, Any]] = {
+    "THUMB_OPP": {"seconds": 11.5, "repetitions": 4, "range_share": 1.0},
+    "REACH_GRASP": {"speed_hz": 0.3, "repetitions": 2, "range_share": 0.6},
+}
+"""A touch of each finger, which falls short of none; reaches that so few pictures can follow."""
+_FPS = 15.0
+"""Few pictures: they are drawn before the first report can be made. A real camera has 30 a second."""
 _TILT_DEG, _HAND_TILT_DEG = 4.0, 11.0
 """The thumb's discs face sideways: for them the thumb side is turned up."""
 _READ_AHEAD = 8
 
 
-def practice_spec(set_up: SetUp, seconds: float = _SECONDS) -> RecordingSpec:
-    """A take of half a minute: ten repetitions, now and then a hidden marker, a false blue spot."""
+def practice_spec(set_up: SetUp, seconds: float | None = None) -> RecordingSpec:
+    """A short take: three repetitions, now and then a hidden marker, a false blue spot."""
     exercise = set_up.exercise
-    return RecordingSpec(
+    usual = RecordingSpec(
         seed=5,
         hand=set_up.side,
         protocol=exercise.protocol.name,
         motion=_HAND_MOTION.get(exercise.id, _MOTION[exercise.angle]),
-        seconds=seconds,
+        seconds=_SECONDS,
+        fps=_FPS,
         speed_hz=_SPEED_HZ,
-        repetitions=_REPETITIONS,
+        repetitions=PRACTICE_REPETITIONS,
         range_share=_RANGE_SHARE,
         hand_length_mm=188.0,
         skin_tone=1,
@@ -47,13 +59,14 @@ def practice_spec(set_up: SetUp, seconds: float = _SECONDS) -> RecordingSpec:
         yaw_deg=3.0,
         tilt_deg=_HAND_TILT_DEG if exercise.protocol.has_fingers else _TILT_DEG,
         hidden_share=0.02,
-        false_blobs=0.4,
     )
+    own = replace(usual, **_OTHERWISE.get(exercise.id, {}))
+    return own if seconds is None else replace(own, seconds=seconds)
 
 
 def practice_take(
-    set_up: SetUp, progress: Callable[[int, int], None], seconds: float = _SECONDS
+    set_up: SetUp, progress: Callable[[int, int], None], seconds: float | None = None
 ) -> tuple[FrameSource, float]:
     """The take as a source, and how long it is still at its start."""
     folder = cached_recording(practice_spec(set_up, seconds), progress, workers=os.cpu_count() or 1)
-    return TumFolder(folder, read_ahead=_READ_AHEAD), STILL_S - 1.0 / 30.0
+    return TumFolder(folder, read_ahead=_READ_AHEAD), STILL_S - 1.0 / _FPS

@@ -8,13 +8,26 @@ from pathlib import Path
 
 from PySide6.QtCore import QObject
 
-from app import __version__
-from app.desktop.journey import Journey
-from app.settings import ReportSettings, ScreenSettings, Settings, keep_preferences
-from core.errors import CarpusFault
-from ui.ports import Preferences
-from ui.settings.screen import SettingsScreen
-from ui.theme import Theme, ThemeName
+from carpus import __version__
+from carpus.app.desktop.journey import Journey
+from carpus.app.settings import (
+    BackupSettings,
+    FirstStartSettings,
+    LockSettings,
+    RecordsSettings,
+    ReportSettings,
+    ScreenSettings,
+    Settings,
+    StreamSettings,
+    keep_preferences,
+)
+from carpus.core.bundled_parts import licence_texts
+from carpus.core.errors import CarpusFault
+from carpus.core.measures.error_limits import DEFAULT_LIMITS, ErrorLimits
+from carpus.ui.ports import Preferences
+from carpus.ui.settings.licences import LicencesWindow
+from carpus.ui.settings.screen import SettingsScreen
+from carpus.ui.theme import Theme, ThemeName
 
 
 class PreferenceKeeper(QObject):
@@ -27,6 +40,7 @@ class PreferenceKeeper(QObject):
         settings: Settings,
         folder: Path | None,
         theme_of: Callable[[Settings], ThemeName],
+        measured: ErrorLimits = DEFAULT_LIMITS,
     ) -> None:
         super().__init__(journey)
         self._journey, self._theme, self._settings = journey, theme, settings
@@ -37,12 +51,17 @@ class PreferenceKeeper(QObject):
             str(settings.data_folder),
             settings.report.therapist,
             settings.screen.keys,
+            settings.report.angle_order,
+            settings.stream.on,
+            settings.report.agreement_limit_deg,
         )
-        self.screen = SettingsScreen(theme, chosen, __version__)
+        self.screen = SettingsScreen(theme, chosen, __version__, measured)
         self._shown_folder = chosen.data_folder
         self.screen.changed.connect(self.take)
-        self.screen.done.connect(journey.back)
-        journey.settings_wanted.connect(lambda: journey.aside("settings", self.screen))
+        self.screen.done.connect(journey.way.back)
+        self.screen.licences.clicked.connect(lambda: LicencesWindow(self.screen, theme, licence_texts()).exec())
+        journey.put_settings(self.screen)
+        journey.settings_wanted.connect(lambda: journey.way.aside("settings"))
 
     def take(self, chosen: Preferences) -> None:
         """Something was changed."""
@@ -53,14 +72,41 @@ class PreferenceKeeper(QObject):
             self._settings,
             screen=ScreenSettings(chosen.theme, chosen.text_scale, chosen.keys),
             recording=recording,
-            report=ReportSettings(chosen.therapist),
+            report=ReportSettings(chosen.therapist, chosen.angle_order, chosen.agreement_limit_deg),
+            stream=StreamSettings(chosen.stream),
         )
         self._theme.choose(self._theme_of(self._settings), chosen.text_scale)
-        self._journey.settings = replace(self._journey.settings, report=self._settings.report)
+        self._journey.settings = replace(
+            self._journey.settings, report=self._settings.report, stream=self._settings.stream
+        )
+        self._store()
+
+    @property
+    def first_start_answered(self) -> bool:
+        """Whether what the first start offers was answered before."""
+        return self._settings.first_start.answered
+
+    def _store(self) -> None:
         try:
             keep_preferences(self._settings, self._folder)
         except CarpusFault as fault:
             self._journey.teller.fault(fault)
+
+    def keep(
+        self,
+        *,
+        backup: BackupSettings | None = None,
+        records: RecordsSettings | None = None,
+        lock: LockSettings | None = None,
+        first_start: FirstStartSettings | None = None,
+    ) -> None:
+        """Store what a card of its own has changed."""
+        now = self._settings
+        self._settings = replace(
+            now, backup=backup or now.backup, records=records or now.records, lock=lock or now.lock,
+            first_start=first_start or now.first_start,
+        )  # fmt: skip
+        self._store()
 
     def follow_system(self) -> None:
         """The system changed between light and dark."""

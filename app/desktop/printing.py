@@ -3,85 +3,211 @@
 from __future__ import annotations
 
 import csv
-from collections.abc import Sequence
+import threading
+from collections.abc import Callable, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import Protocol
 
-from PySide6.QtCore import QObject
-from PySide6.QtWidgets import QFileDialog
+from PySide6.QtCore import QObject, Qt, QUrl, Signal
+from PySide6.QtGui import QDesktopServices
+from PySide6.QtWidgets import QFileDialog, QWidget
 
-from core.errors import OutputNotWritable
-from core.output.report_content import Progress, SessionFigures
-from ui.report.pdf import progress_report, session_report
-from ui.report.session_page import SessionReport
+from carpus import __version__
+from carpus.app.desktop.last_places import LastPlaces
+from carpus.app.desktop.now_open import NowOpen
+from carpus.app.desktop.ways import Tell, Way
+from carpus.core.errors import OutputNotWritable
+from carpus.core.output.report_content import Progress, RepetitionChoices, SessionFigures
+from carpus.core.session.values import Session
+from carpus.ui.background import Background
+from carpus.ui.export.sheet import ExportSheet
+from carpus.ui.messages.stop_card import Answer
+from carpus.ui.ports import Words
+from carpus.ui.report.pdf import progress_report, session_report
+from carpus.ui.report.screen import ReportScreen
+from carpus.ui.report.session_page import SessionReport
+from carpus.ui.theme import Theme
 
-if TYPE_CHECKING:
-    from app.desktop.journey import Journey
+
+class Printable(Protocol):
+    """What is stored of a patient, for paper and for other programs."""
+
+    def session(self, session_id: str) -> Session: ...
+
+    def choices(self, session_id: str) -> RepetitionChoices: ...
+
+    def history(self, patient_id: str) -> Sequence[SessionFigures]: ...
+
+    def export(
+        self,
+        session_id: str,
+        folder: str,
+        formats: Sequence[str],
+        progress: Callable[[int, int], None] | None,
+        cancelled: Callable[[], bool],
+        deidentified: bool,
+        software_version: str,
+    ) -> Sequence[str]: ...
 
 
 class Printing(QObject):
-    """What leaves Carpus from the review and the progress screen."""
+    """What leaves Carpus from the review and the progress screen. ``reported`` and ``tabled`` carry a path and the
+    sessions that went into it."""
 
-    def __init__(self, journey: Journey) -> None:
-        super().__init__(journey)
-        self._journey = journey
+    reported = Signal(str, object)
+    tabled = Signal(str, object)
+    _stepped = Signal(int, int)
+
+    def __init__(
+        self,
+        window: QWidget,
+        screen: ReportScreen,
+        way: Way,
+        tell: Tell,
+        now: NowOpen,
+        stored: Printable,
+        places: LastPlaces,
+        background: Background,
+        *,
+        theme: Theme,
+        therapist: Callable[[], str],
+    ) -> None:
+        super().__init__(window)
+        self._window, self._screen, self._way, self._tell, self._now = window, screen, way, tell, now
+        self._stored, self._places, self._background, self._therapist = stored, places, background, therapist
+        self._shown: Sequence[str] = ()
+        self._stop = threading.Event()
+        self._exported = ""
+        self.formats = ExportSheet(window, theme)
+        self.formats.wanted.connect(self._export)
+        self.formats.stop.connect(self._stop.set)
+        self._stepped.connect(self.formats.progress, Qt.ConnectionType.QueuedConnection)
+        screen.told.connect(tell.fault)
+        screen.saved.connect(lambda path: self.reported.emit(path, self._shown))
+        screen.saved.connect(lambda path: places.keep("reports", str(Path(path).parent)))
 
     def session(self, session_id: str) -> None:
         """Make the report of a session and show it."""
-        journey = self._journey
-        row, library = journey.patient, journey.library
+        row, stored = self._now.patient, self._stored
         assert row is not None
 
         def gather() -> SessionReport:
             return session_report(
-                library.session(session_id),
-                choices=library.choices(session_id),
-                history=library.history(row.patient_id),
+                stored.session(session_id),
+                choices=stored.choices(session_id),
+                history=stored.history(row.patient_id),
                 pseudonym=row.pseudonym,
                 dominance=row.dominance,
-                therapist=journey.settings.report.therapist,
+                therapist=self._therapist(),
             )
 
         def show(report: SessionReport) -> None:
-            journey.report.begin(report, journey.places.folder("reports"))
-            journey.show_report()
+            self._shown = [session_id]
+            self._screen.begin(report, self._places.folder("reports"))
+            self._way.go("report")
 
-        journey.background.run(gather, show, journey.teller.fault)
+        self._background.run(gather, show, self._tell.fault)
 
-    def course(self, sessions: Sequence[SessionFigures]) -> None:
-        """Make the report over sessions and show it."""
-        journey = self._journey
-        if sessions and journey.patient is not None:
-            therapist = journey.settings.report.therapist
-            what = journey.progress.followed.currentData()  # what of the whole hand is on the screen
+    def course(self, sessions: Sequence[SessionFigures], followed: object) -> None:
+        """Make the report over sessions and show it; ``followed`` is what of the whole hand is on the screen."""
+        row = self._now.patient
+        if sessions and row is not None:
+            self._shown = [one.session_id for one in sessions]
             report = progress_report(
                 sessions,
-                pseudonym=journey.patient.pseudonym,
-                therapist=therapist,
-                what=what if isinstance(what, str) else None,
+                pseudonym=row.pseudonym,
+                therapist=self._therapist(),
+                what=followed if isinstance(followed, str) else None,
+                software_version=__version__,
             )
-            journey.report.begin(report, journey.places.folder("reports"))
-            journey.show_report()
+            self._screen.begin(report, self._places.folder("reports"))
+            self._way.go("report")
 
     def export(self, session_id: str) -> None:
-        """Ask for a folder and write the open formats into it."""
-        journey = self._journey
-        start = journey.places.folder("exports")
-        folder = QFileDialog.getExistingDirectory(journey.shell, self.tr("Export into a folder"), start)
-        if folder:
-            journey.places.keep("exports", folder)
-            journey.background.run(
-                lambda: journey.library.export(session_id, folder), lambda _: None, journey.teller.fault
+        """Ask for the formats and a folder, and write them."""
+        self._exported = session_id
+        self.formats.begin()
+
+    def _export(self, formats: Sequence[str], deidentified: bool) -> None:
+        """Beside the window; the sheet shows how far it is and stops it."""
+        start = self._places.folder("exports")
+        folder = QFileDialog.getExistingDirectory(self._window, self.tr("Export into a folder"), start)
+        if not folder:
+            return
+        self._places.keep("exports", folder)
+        self._stop.clear()
+        self.formats.running()
+        session_id = self._exported
+
+        def write() -> Sequence[str]:
+            return self._stored.export(
+                session_id, folder, formats, self._stepped.emit, self._stop.is_set, deidentified, __version__
             )
+
+        def written(names: Sequence[str]) -> None:
+            self.formats.close_sheet()
+            if names:
+                self._written(folder, names)
+
+        def refused(fault: Exception) -> None:
+            self.formats.close_sheet()
+            self._tell.fault(fault)
+
+        self._background.run(write, written, refused)
 
     def table(self, progress: Progress) -> None:
         """Ask for a name and write the sessions of the progress screen as CSV."""
-        journey = self._journey
-        start = str(Path(journey.places.folder("exports")) / "progress.csv")
-        path, _ = QFileDialog.getSaveFileName(journey.shell, self.tr("Save table"), start, "CSV (*.csv)")
+        start = str(Path(self._places.folder("exports")) / "progress.csv")
+        path, _ = QFileDialog.getSaveFileName(self._window, self.tr("Save table"), start, "CSV (*.csv)")
         if path:
-            journey.places.keep("exports", str(Path(path).parent))
-            journey.background.run(lambda: write_table(Path(path), progress), lambda _: None, journey.teller.fault)
+            self._places.keep("exports", str(Path(path).parent))
+            self._background.run(
+                lambda: write_table(Path(path), progress),
+                lambda _: self._table_written(path, [point.figures.session_id for point in progress.points]),
+                self._tell.fault,
+            )
+
+    def _table_written(self, path: str, sessions: Sequence[str]) -> None:
+        self.tabled.emit(path, sessions)
+        self._written(str(Path(path).parent), [Path(path).name])
+
+    def _written(self, folder: str, names: Sequence[str]) -> None:
+        """Say what went where, and offer to open the folder."""
+        count = len(names)
+        what = self.tr("1 file was written.") if count == 1 else self.tr("{count} files were written.")
+        self._tell.ask(
+            Words(
+                what.format(count=count),
+                self.tr("Folder: {folder}").format(folder=folder),
+                self.tr("Files: {names}").format(names=shown(names)),
+            ),
+            (
+                Answer(self.tr("Open the folder"), lambda: open_folder(folder), "O"),
+                Answer(self.tr("Go on"), lambda: None, self.tr("Enter")),
+            ),
+            icon="download",
+        )
+
+
+MOST_NAMES = 3
+"""On the card; a data set has dozens, and each name may need two lines."""
+BREAK = "\u200b"
+"""Where a long name may go on in the next line; it takes no room."""
+
+
+def shown(names: Sequence[str]) -> str:
+    """Names for a card.
+
+    >>> shown(["a", "b"]), shown(list("abcdefgh"))
+    ('a, b', 'a, b, c, …')
+    """
+    listed = [name.replace("_", f"_{BREAK}").replace(".", f"{BREAK}.") for name in names[:MOST_NAMES]]
+    return ", ".join([*listed, *(["…"] if len(names) > MOST_NAMES else [])])
+
+
+def open_folder(folder: str) -> None:
+    """Show a folder in the system's own way."""
+    QDesktopServices.openUrl(QUrl.fromLocalFile(folder))
 
 
 def write_table(path: Path, progress: Progress) -> None:
@@ -96,13 +222,23 @@ def write_table(path: Path, progress: Progress) -> None:
             table.writerow(head)
             for point in progress.points:
                 figures = point.figures
-                facts = [figures.session_id, figures.when.isoformat(), figures.side, figures.exercise.id]
+                who = (figures.session_id, figures.when.isoformat(), figures.side, figures.exercise.id)
+                facts = [plain_cell(text) for text in who]
                 for row in (*figures.rows, *figures.joint_rows):
                     values = [_decimal(value) for value in (row.mean_deg, row.sd_deg, row.best_deg)]
                     reasons, limited = " ".join(point.reasons), "yes" if row.limited else ""
                     table.writerow([*facts, row.movement, *values, row.count, reasons, row.joint, limited])
     except OSError as cause:
         raise OutputNotWritable(path, cause.strerror or "") from cause
+
+
+def plain_cell(text: str) -> str:
+    """A text that a spreadsheet shows and does not calculate.
+
+    >>> plain_cell("=1+2"), plain_cell("fist")
+    ("'=1+2", 'fist')
+    """
+    return f"'{text}" if text[:1] in tuple("=+-@\t\r\n") and text else text
 
 
 def _decimal(value: float) -> str:

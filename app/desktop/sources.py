@@ -9,21 +9,24 @@ from dataclasses import dataclass, replace
 from importlib import import_module
 from pathlib import Path
 
-from app.desktop.calibrator import HandCalibrator
-from app.desktop.measuring import SessionPlaces, SourceMeasuring
-from app.settings import Settings
-from app.sources import open_recording
-from core.capture.camera_info import read_camera_info
-from core.capture.paced import PacedSource
-from core.capture.practice import PracticeSource
-from core.capture.source import FrameSource, is_simulated
-from core.capture.xtion_usb import usb_cameras
-from core.errors import CarpusFault, RecordingEmpty, RegistrationAssumed
-from core.pipeline.live import LiveSession
-from core.pipeline.track import TrackSettings
-from core.types import Frame
-from ui.ports import SetUp
-from ui.setup.choice import SourceChoice
+from carpus import __version__
+from carpus.app.desktop.calibrator import HandCalibrator
+from carpus.app.settings import Settings
+from carpus.app.sources import open_recording
+from carpus.core.calibration.result import Calibration
+from carpus.core.capture.calibrated import with_stored_calibration
+from carpus.core.capture.camera_info import read_camera_info
+from carpus.core.capture.paced import PacedSource
+from carpus.core.capture.practice import PracticeSource
+from carpus.core.capture.source import FrameSource, is_simulated
+from carpus.core.capture.xtion_usb import usb_cameras
+from carpus.core.errors import CarpusFault, RecordingEmpty, RegistrationAssumed
+from carpus.core.library.set_up import SetUp
+from carpus.core.pipeline.live import Listener, LiveSession
+from carpus.core.pipeline.measuring import SessionPlaces, SourceMeasuring
+from carpus.core.pipeline.track import TrackSettings
+from carpus.core.types import Frame
+from carpus.ui.setup.choice import SourceChoice
 
 Progress = Callable[[int, int], None]
 """Called with pictures done and pictures in all."""
@@ -54,6 +57,8 @@ class Sources:
         speed: float = 1.0,
     ) -> None:
         self._settings, self._places, self._practice_take, self._speed = settings, places, practice_take, speed
+        self.streams: Callable[[], bool] = lambda: settings.stream.on
+        """Whether live values go out to other programs; asked whenever tracking begins."""
 
     def camera_there(self) -> bool:
         """Whether a camera is plugged in; taken for true where the system does not tell."""
@@ -66,29 +71,29 @@ class Sources:
 
     def open(self, choice: SourceChoice, set_up: SetUp, progress: Progress) -> OpenSource:
         """Open the chosen source; waits for camera, disk or renderer, so it is called in the background."""
-        # Counting the first repetition needs it, in the window's thread: half a second in which nothing would answer.
+        # The first calibration and the first repetition need them: half a second each in which nothing would answer.
+        import_module("scipy.optimize")
         import_module("scipy.signal")
         if choice.kind == "file":
             return self._recording(choice, set_up)
         return self._camera(set_up) if choice.kind == "camera" else self._practice(set_up, progress)
 
     def _camera(self, set_up: SetUp) -> OpenSource:
-        from core.capture.xtion import XtionSource  # needs the driver, which only a live camera does
+        from carpus.core.capture.xtion import XtionSource  # needs the driver, which only a live camera does
 
         told: list[CarpusFault] = []
         heard: list[Callable[[CarpusFault], None]] = [told.append]
         named = self._settings.camera.intrinsics
         camera = read_camera_info(Path(named).expanduser()).camera if named else None
-        source = XtionSource(
-            uri=self._settings.camera.uri or None, camera=camera, notice=lambda fault: heard[-1](fault)
-        )
+        xtion = XtionSource(uri=self._settings.camera.uri or None, camera=camera, notice=lambda fault: heard[-1](fault))
+        source = with_stored_calibration(xtion, self._settings.data_folder)
         session = self._session(source)
         heard.append(session.notice)
         for fault in told:
             session.notice(fault)
         session.start()
         # From the calibration on, the markers must keep their colours.
-        return self._live(session, source, set_up, on_begin=source.lock_exposure)
+        return self._live(session, source, set_up, on_begin=xtion.lock_exposure)
 
     def _practice(self, set_up: SetUp, progress: Progress) -> OpenSource:
         take, still_s = self._practice_take(set_up, progress)
@@ -100,15 +105,26 @@ class Sources:
     def _recording(self, choice: SourceChoice, set_up: SetUp) -> OpenSource:
         told: list[CarpusFault] = []
         source = open_recording(
-            Path(choice.path), registered=choice.registered, leave_out_damaged=True, notice=told.append
+            Path(choice.path),
+            registered=choice.registered,
+            leave_out_damaged=True,
+            data_folder=self._settings.data_folder,
+            notice=told.append,
         )
         opening = opening_frames(source, self._settings.calibration.still_s)
-        session = self._session(PacedSource(source, self._speed))
+        session = self._session(PacedSource(source, self._speed), source_waits=True)
         asks = any(isinstance(fault, RegistrationAssumed) for fault in told)
         for fault in () if asks else told:
             session.notice(fault)
         measuring = SourceMeasuring(
-            session, source.info, set_up, self._track(set_up), self._places, starts_with_recording=True
+            session,
+            source.info,
+            set_up,
+            self._track(set_up),
+            self._places,
+            software_version=__version__,
+            recording=Path(choice.path),
+            listener=self._listener(session, set_up),
         )
         pictures = StoredPictures(opening)
         return OpenSource(self._calibrator(pictures, source, set_up, measuring), measuring, asks)
@@ -118,8 +134,20 @@ class Sources:
         track = self._settings.track
         return replace(track, tracker=replace(track.tracker, dip="free")) if set_up.ends_free else track
 
-    def _session(self, source: FrameSource) -> LiveSession:
-        return LiveSession(source, replace(self._settings.live, folder=self._settings.data_folder))
+    def _listener(self, session: LiveSession, set_up: SetUp) -> Callable[[Calibration], Listener | None]:
+        def listener(calibration: Calibration) -> Listener | None:
+            if not self.streams():
+                return None
+            from carpus.core.pipeline.stream import Stream
+
+            rate_hz, dip_free = session.info.nominal_fps, self._track(set_up).tracker.dip == "free"
+            return Stream.of_hand(calibration.clicks, rate_hz, dip_free=dip_free)
+
+        return listener
+
+    def _session(self, source: FrameSource, *, source_waits: bool = False) -> LiveSession:
+        settings = replace(self._settings.live, folder=self._settings.data_folder)
+        return LiveSession(source, settings, source_waits=source_waits)
 
     def _live(
         self,
@@ -135,8 +163,10 @@ class Sources:
             set_up,
             self._track(set_up),
             self._places,
+            software_version=__version__,
             on_begin=on_begin,
             on_recording=on_recording,
+            listener=self._listener(session, set_up),
         )
         return OpenSource(self._calibrator(LivePictures(session), source, set_up, measuring), measuring)
 
@@ -151,6 +181,7 @@ class Sources:
             self._track(set_up),
             measuring.begin,
             self._places.last_hand_length_mm(set_up, simulated=is_simulated(source.info)),
+            self._places.last_straight_fingers(set_up),
         )
 
 

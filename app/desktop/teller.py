@@ -10,13 +10,13 @@ from dataclasses import dataclass
 from PySide6.QtCore import QObject, QTimer, Signal
 from PySide6.QtWidgets import QVBoxLayout, QWidget
 
-from app.desktop.library import Recovered
-from core.errors import CameraLost
-from ui import numbers
-from ui.messages.stop_card import Answer, StopCard
-from ui.messages.strip import NoticeStrip
-from ui.ports import Phrasebook, Words
-from ui.theme import Theme
+from carpus.core.errors import CameraLost
+from carpus.core.library.library import Recovered
+from carpus.ui import numbers
+from carpus.ui.messages.stop_card import Answer, StopCard
+from carpus.ui.messages.strip import NoticeStrip
+from carpus.ui.ports import Phrasebook, Words
+from carpus.ui.theme import Theme
 
 log = logging.getLogger(__name__)
 
@@ -28,6 +28,7 @@ class _Message:
     icon: str
     detail: str
     safe_detail: str
+    alarm: bool = True
 
 
 class Teller(QObject):
@@ -58,11 +59,17 @@ class Teller(QObject):
         return self._shown is not None
 
     def cover(self, host: QWidget) -> None:
-        """Lay cards over this part of the window from now on; what is beside it stays to be seen."""
-        if host is not self._host and self._shown is None:
-            self._host = host
-            self.card.deleteLater()
-            self.card = self._card_on(host)
+        """Lay cards over this part of the window from now on, also the one that is shown; what is beside it stays to be
+        seen."""
+        if host is self._host:
+            return
+        self._host, old = host, self.card
+        old.closed.disconnect(self._next)
+        old.close_sheet()
+        old.deleteLater()
+        self.card = self._card_on(host)
+        if self._shown is not None:
+            self._show(self._shown)
 
     def fault(
         self, fault: Exception, answers: Sequence[Answer] = (), *, detail: str = "", safe_detail: str = ""
@@ -80,11 +87,19 @@ class Teller(QObject):
         if self._shown is None:
             self._next()
 
-    def ask(self, question: Words, answers: Sequence[Answer]) -> None:
-        """A card for something that only the person knows."""
-        self._waiting.append(_Message(question, tuple(answers), "", "", ""))
+    def ask(self, question: Words, answers: Sequence[Answer], *, icon: str = "", detail: str = "") -> None:
+        """A card for something that only the person knows; the same question is not asked twice at once."""
+        if any(other is not None and other.words == question for other in (self._shown, *self._waiting)):
+            return
+        self._waiting.append(_Message(question, tuple(answers), icon, detail, "", alarm=False))
         if self._shown is None:
             self._next()
+
+    def withdraw(self, question: Words) -> None:
+        """Take a question back that has answered itself."""
+        self._waiting = [message for message in self._waiting if message.words != question]
+        if self._shown is not None and self._shown.words == question:
+            self.card.close_sheet()
 
     def camera_lost(self, fault: Exception, answers: Sequence[Answer], detail: str, safe_detail: str) -> None:
         """The card that waits for the camera and goes by itself when it is back."""
@@ -131,14 +146,14 @@ class Teller(QObject):
     def _next(self) -> None:
         self._shown = None
         if self._waiting:
-            message = self._shown = self._waiting.pop(0)
-            self.card.show_words(
-                message.words,
-                message.answers,
-                icon=message.icon,
-                detail=message.detail,
-                safe_detail=message.safe_detail,
-            )
+            self._shown = self._waiting.pop(0)
+            self._show(self._shown)
+
+    def _show(self, message: _Message) -> None:
+        self.card.show_words(
+            message.words, message.answers, icon=message.icon, detail=message.detail, safe_detail=message.safe_detail,
+            alarm=message.alarm,
+        )  # fmt: skip
 
     def _count_wait(self) -> None:
         seconds = round(time.monotonic() - self._lost_since_s)

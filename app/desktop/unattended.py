@@ -6,7 +6,8 @@ patient -> simulated camera -> markers -> live -> record -> stop -> review -> pr
 from __future__ import annotations
 
 import os
-import signal
+import sys
+import threading
 import time
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
@@ -14,25 +15,26 @@ from pathlib import Path
 
 os.environ.setdefault("QT_QPA_PLATFORM", "offscreen")
 
-from PySide6.QtCore import QPoint, Qt
+from PySide6.QtCore import QPoint, Qt, qInstallMessageHandler
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QWidget
 
-from app import compose
-from app.desktop.places import TABS, Place
-from app.desktop.practice import practice_spec
-from app.desktop.sources import RECENT_FRAMES
-from app.settings import ScreenSettings, Settings
-from core.calibration.clicks import read_clicks
-from core.errors import CalibrationImpossible
-from core.output.report_content import SessionFigures
-from core.simulation.recording import CLICKS_FILE, cached_recording
-from core.types import FloatArray
-from ui import numbers, terms
-from ui.figures import figure_of
-from ui.ports import PRACTICE_PATIENT
+from carpus.app import compose
+from carpus.app.desktop.places import TABS, Place
+from carpus.app.desktop.practice import practice_spec
+from carpus.app.desktop.sources import RECENT_FRAMES
+from carpus.app.settings import FirstStartSettings, ScreenSettings, Settings
+from carpus.app.stop_signals import on_stop
+from carpus.core.calibration.clicks import read_clicks
+from carpus.core.errors import CalibrationImpossible
+from carpus.core.library.set_up import PRACTICE_PATIENT
+from carpus.core.output.report_content import SessionFigures
+from carpus.core.simulation.recording import CLICKS_FILE, cached_recording
+from carpus.core.types import FloatArray
+from carpus.ui import numbers, terms
+from carpus.ui.figures import figure_of
 
-REPETITIONS = 6
+REPETITIONS = 2
 PATIENCE_S = 60.0
 Progress = Callable[[int, int | None], None]
 
@@ -49,22 +51,19 @@ class Walked:
 class Walker:
     """Presses keys and clicks as a person would; waits for what must follow, never for a time."""
 
-    def __init__(self, desktop: compose.Desktop) -> None:
+    def __init__(self, desktop: compose.Desktop, is_stopping: Callable[[], bool] = lambda: False) -> None:
+        """``is_stopping`` ends the way, by a KeyboardInterrupt at its next wait."""
         self.desktop = desktop
         self.journey = desktop.journey
         self._faults: list[Exception] = []
-        self._stopping = False
+        self._is_stopping = is_stopping
         desktop.journey.teller.told.connect(self._faults.append)
-
-    def stop(self) -> None:
-        """End the way at the next wait. A signal may come in the middle of a window's own work, which would lose it."""
-        self._stopping = True
 
     def until(self, condition: Callable[[], bool], patience_s: float = PATIENCE_S) -> None:
         """Let the window live until something holds; a fault it tells meanwhile ends the way."""
         end_s = time.monotonic() + patience_s
         while not condition():
-            if self._stopping:
+            if self._is_stopping():
                 raise KeyboardInterrupt
             if self._faults:
                 raise self._faults[0]
@@ -79,7 +78,8 @@ class Walker:
 
     def press(self, key: Qt.Key, widget: QWidget | None = None) -> None:
         """A key on a widget, or on the one that has the keyboard."""
-        QTest.keyClick(widget or self.desktop.shell.focusWidget() or self.desktop.shell, key)
+        now: QWidget | None = self.desktop.shell.focusWidget()
+        QTest.keyClick(widget or now or self.desktop.shell, key)
 
     def start_practice(self) -> None:
         """Choose the practice patient and press Enter."""
@@ -103,6 +103,7 @@ class Walker:
         """Click on pixels of the picture, in the order of the protocol, and start."""
         markers = self.journey.markers
         for u, v in pixel:
+            self.desktop.application.processEvents()  # what came or went beside the picture may still make it smaller
             spot: QPoint = markers.picture.to_screen(float(u), float(v)).toPoint()
             QTest.mouseMove(markers.picture, spot)
             QTest.mouseClick(markers.picture, Qt.MouseButton.LeftButton, Qt.KeyboardModifier.NoModifier, spot)
@@ -146,13 +147,14 @@ class Walker:
 
 def walk(settings: Settings, progress: Progress, *, repetitions: int = REPETITIONS, speed: float = 1.0) -> Walked:
     """Walk the whole way on the practice patient; raises the first fault that the windows would tell."""
-    settings = replace(settings, screen=ScreenSettings("light"))
+    settings = replace(settings, screen=ScreenSettings("light"), first_start=FirstStartSettings(answered=True))
+    stopping = threading.Event()
+    on_stop(stopping.set)  # first of all: an exception out of the middle of a window's own work would be lost
+    qInstallMessageHandler(_told_by_qt)
     qt = compose.application(["carpus"])
     desktop = compose.compose(qt, settings, is_demo=True, speed=speed)
     try:
-        walker = Walker(desktop)
-        for number in (signal.SIGINT, signal.SIGTERM):
-            signal.signal(number, lambda *_: walker.stop())
+        walker = Walker(desktop, stopping.is_set)
         desktop.show()
         walker.at("patients")
         desktop.journey.opener.progressed.connect(lambda done, total: progress(done, total))
@@ -176,6 +178,12 @@ def walk(settings: Settings, progress: Progress, *, repetitions: int = REPETITIO
         desktop.close()
 
 
+def _told_by_qt(_kind: object, _context: object, message: str) -> None:
+    """What Qt has to say, but for what a platform without a screen cannot do for windows that have none."""
+    if "does not support propagateSizeHints" not in message:
+        sys.stderr.write(f"{message}\n")
+
+
 def lines_of(figures: SessionFigures) -> list[str]:
     """The main figures of a session as plain lines."""
     quality = figures.quality
@@ -184,7 +192,8 @@ def lines_of(figures: SessionFigures) -> list[str]:
     lines.append(f"Repetitions: {figures.counted}")
     for row in figures.rows:
         name = terms.movement_long_name(row.movement)
-        lines.append(f"{name}: {numbers.with_spread(row.mean_deg, row.sd_deg)}")
+        value = numbers.with_spread(row.mean_deg, row.sd_deg)
+        lines.append(f"{name}: {value if row.mean_deg >= 0.0 else terms.lacking(value)}")
     for row in figures.joint_rows:
         if row.movement == "arc" and row.count:
             value = numbers.with_spread(row.mean_deg, row.sd_deg)

@@ -8,24 +8,27 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.optimize import linear_sum_assignment
 
-from core.calibration.candidates import marker_candidates
-from core.calibration.finger_order import misnamed
-from core.calibration.neutral_pose import pose_by_least_squares
-from core.calibration.palm_names import shifted_names
-from core.calibration.plausibility import looks_like_other_side, plan_view
-from core.calibration.registration import SURELY_OFF_PX, depth_offset_px
-from core.calibration.result import Calibration, Clicks, Finding, Verdict
-from core.calibration.settings import CalibrationSettings
-from core.camera import Camera
-from core.depth_noise import pattern_sd_m, reading_sd_m
-from core.detection.appearance import REACH, MarkerAppearance, expected_radius_px, learn_appearance
-from core.detection.detector import Detector, Region
-from core.detection.settings import DetectionSettings
-from core.errors import CalibrationImpossible, ClickOnNoMarker, MarkerWithoutDepth
-from core.hand.wrist_frame import wrist_axes
-from core.types import Detections, FloatArray, Frame
+from carpus.core.assignment import linear_sum_assignment
+from carpus.core.calibration.back import surface_of
+from carpus.core.calibration.candidates import is_paper, marker_candidates
+from carpus.core.calibration.finger_order import misnamed
+from carpus.core.calibration.neutral_pose import pose_by_least_squares
+from carpus.core.calibration.odd_disc import odd_disc
+from carpus.core.calibration.palm_names import shifted_names
+from carpus.core.calibration.plausibility import looks_like_other_side, plan_view
+from carpus.core.calibration.registration import SURELY_OFF_PX, depth_offset_px
+from carpus.core.calibration.result import Calibration, Clicks, Finding, FindingKind, Verdict
+from carpus.core.calibration.settings import CalibrationSettings
+from carpus.core.camera import Camera
+from carpus.core.depth_noise import pattern_sd_m, reading_sd_m
+from carpus.core.detection.appearance import REACH, MarkerAppearance, expected_radius_px, learn_appearance
+from carpus.core.detection.color_histogram import to_hsv
+from carpus.core.detection.detector import Detector, Region
+from carpus.core.detection.settings import DetectionSettings
+from carpus.core.errors import CalibrationImpossible, ClickOnNoMarker, MarkerWithoutDepth
+from carpus.core.hand.wrist_frame import wrist_axes
+from carpus.core.types import Detections, FloatArray, Frame
 
 _MCP3_OVER_HAND_LENGTH = 0.446
 """Wrist crease to middle knuckle over hand length (reference 3.3)."""
@@ -35,12 +38,13 @@ _TOWARDS_CAMERA = np.array([0.0, 0.0, -1.0])
 @dataclass(frozen=True, slots=True)
 class NeutralCapture:
     """The discs over the still first frames: pixels (F, M, 2), depths (F, M), what the detector said of the
-    depths' sd (F, M), and areas (F, M); NaN where not seen."""
+    depths' sd (F, M), and areas (F, M); NaN where not seen; ``lasted_s`` from the first to the last."""
 
     pixel: FloatArray
     depth_m: FloatArray
     depth_sd_m: FloatArray
     area_px: FloatArray
+    lasted_s: float = 0.0
 
     @property
     def frames(self) -> int:
@@ -130,7 +134,51 @@ def calibrate(
 
     capture = still_capture(seen(), taken, settings)
     hand = measure_hand(clicks, capture, camera, settings, findings, start_angles_rad)
-    return CalibrationOutcome(hand.verdict, appearance, found_px, hand.calibration, capture.frames, hand.noise)
+    if not any(finding.kind in _NAMES_WRONG for finding in hand.verdict.findings):
+        hand = _with_odd_disc(hand, clicks, first, found_px, detector.detect(first), camera, detection)
+    calibration = hand.calibration
+    if calibration is not None:
+        still = [frame for frame in frames if frame.timestamp_s <= first.timestamp_s + capture.lasted_s]
+        calibration = replace(calibration, surface=surface_of(calibration, still, camera))
+    return CalibrationOutcome(hand.verdict, appearance, found_px, calibration, capture.frames, hand.noise)
+
+
+_NAMES_WRONG = ("shifted", "swapped", "misnamed", "wrong_side")
+_SAME_SPOT_PX = 4.0
+_OF_THE_HAND_M = 0.06
+"""A spot farther than this from the depth of the palm lies on something else."""
+
+
+def _with_odd_disc(
+    hand: MeasuredHand,
+    clicks: Clicks,
+    first: Frame,
+    found_px: FloatArray,
+    everywhere: Detections,
+    camera: Camera,
+    detection: DetectionSettings,
+) -> MeasuredHand:
+    """The measured hand, doubted where a disc makes no palm, or where a spot that nobody named fits better."""
+    palm = list(clicks.protocol.palm)
+    taken = np.linalg.norm(everywhere.pixel[:, None] - found_px[None], axis=-1).min(axis=1) < _SAME_SPOT_PX
+    depth_m = float(hand.verdict.distance_m)
+    near = ~np.isfinite(everywhere.depth_m) | (np.abs(everywhere.depth_m - depth_m) < _OF_THE_HAND_M)
+    spare_px = everywhere.pixel[~taken & near]
+    spare_px = spare_px[is_paper(spare_px, first, to_hsv(first.color_rgb), camera, detection)]
+    names = clicks.protocol.markers
+
+    def plan(pixel: FloatArray) -> FloatArray:
+        return plan_view(camera.back_project(camera.undistort(pixel), np.full(len(pixel), depth_m)))
+
+    odd = odd_disc(clicks.side, plan(found_px[palm]), plan(spare_px))
+    if odd is None or not np.isfinite(depth_m):
+        return hand
+    kind: FindingKind = "other_spot" if odd.fits else "spare_spot" if odd.spot >= 0 else "no_palm"
+    spot_px = tuple(map(float, spare_px[odd.spot])) if odd.spot >= 0 else ()
+    marker = (names[palm[odd.marker]],) if odd.marker >= 0 else ()
+    verdict = replace(hand.verdict, findings=(*hand.verdict.findings, Finding(kind, marker, spot_px=spot_px)))
+    calibration = None if hand.calibration is None else replace(hand.calibration, verdict=verdict)
+    return replace(hand, verdict=verdict, calibration=calibration)
 
 
 @dataclass(frozen=True, slots=True)
@@ -212,6 +260,7 @@ def still_capture(
     start_px = blobs.pixel[taken]
     pixels, depths, said = [start_px], [blobs.depth_m[taken]], [blobs.depth_sd_m[taken]]
     areas = [blobs.area_px[taken]]
+    lasted_s = 0.0
     for time_s, blobs in frames:
         if time_s - begin_s > settings.still_s:
             break
@@ -225,11 +274,12 @@ def still_capture(
         moved_px = np.median(blobs.pixel[nearest[near]] - start_px[near], axis=0)
         if float(np.hypot(*moved_px)) > settings.still_px:
             break
+        lasted_s = time_s - begin_s
         pixels.append(np.where(near[:, None], blobs.pixel[nearest], np.nan))
         depths.append(np.where(near, blobs.depth_m[nearest], np.nan))
         said.append(np.where(near, blobs.depth_sd_m[nearest], np.nan))
         areas.append(np.where(near, blobs.area_px[nearest], np.nan))
-    return NeutralCapture(np.stack(pixels), np.stack(depths), np.stack(said), np.stack(areas))
+    return NeutralCapture(np.stack(pixels), np.stack(depths), np.stack(said), np.stack(areas), lasted_s)
 
 
 def measure_hand(
@@ -304,8 +354,9 @@ def _noise(capture: NeutralCapture) -> StillNoise:
         return StillNoise()
     about = capture.pixel - np.nanmean(capture.pixel, axis=0)  # first: a disc not seen must not move the median
     drift = about - np.nanmedian(about, axis=1, keepdims=True)
-    # Six discs share the median that is taken away: a little of their own scatter goes with it.
-    pixel_sd = math.sqrt(_mean_variance(drift) * 6.0 / 5.0)
+    # The discs share the median that is taken away: a little of their own scatter goes with it, the more the fewer.
+    seen = int(np.count_nonzero(np.isfinite(capture.pixel[..., 0]).sum(axis=0) > 1))
+    pixel_sd = math.sqrt(_mean_variance(drift) * seen / max(seen - 1, 1))
     depth_sd = math.sqrt(_mean_variance(capture.depth_m))
     return StillNoise(pixel_sd, depth_sd, depth_sd / float(np.nanmean(reading_sd_m(capture.depth_m))))
 

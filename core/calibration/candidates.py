@@ -7,24 +7,34 @@ from typing import Any
 
 import cv2
 import numpy as np
+from numpy.typing import NDArray
 
-from core.camera import Camera
-from core.detection import color_histogram
-from core.detection.appearance import REACH, expected_radius_px, learn_appearance
-from core.detection.components import components
-from core.detection.detector import Detector
-from core.detection.settings import DetectionSettings
-from core.types import Detections, FloatArray, Frame
+from carpus.core.camera import Camera
+from carpus.core.detection import color_histogram
+from carpus.core.detection.appearance import REACH, expected_radius_px, learn_appearance
+from carpus.core.detection.components import components
+from carpus.core.detection.detector import Detector
+from carpus.core.detection.settings import DetectionSettings
+from carpus.core.types import ByteImage, Detections, FloatArray, Frame
 
 _BLUE = ((90, 60, 30), (130, 255, 255))
 """Lowest and highest hue, saturation and value of blue paper in any usual light (OpenCV's scales)."""
 _TINGED_BLUE = ((85, 50, 25), (145, 255, 255))
 """The same of discs so small that they take on some of the skin; with it a sleeve falls into specks."""
+_MOST_TRIED = 400
 _FEWEST = 3
 """Fewer blue spots are not taken for a marked hand."""
 _WINDOW_RADII = 8.0
-_MOST_ALIKE = 0.55
-"""Bhattacharyya coefficient of a clicked spot to what lies around it, above which it is no paper."""
+_MOST_ALIKE = 0.6
+"""Bhattacharyya coefficient of a spot to what lies around it, above which it is no paper."""
+_LEAST_COLOUR = 24.0
+"""Strongest channel less the weakest, of 255: coloured paper in a dim room has 60, a dark pullover up to 15."""
+_LEAST_VALUE = 60.0
+"""Strongest channel of a spot, of 255: 90 on paper in a dim room; darker nothing has such a colour but by chance."""
+_LEAST_STEP = 50.0
+"""Distance in colour (RGB) of most of the ring about a disc from the disc: 65 in a dim room, in cloth rarely 45."""
+_OF_THE_USUAL = 0.35
+"""All discs are of one paper: a spot with less than this share of the usual colour of the spots is none of them."""
 
 
 def marker_candidates(frame: Frame, camera: Camera, settings: DetectionSettings) -> Detections:
@@ -35,14 +45,58 @@ def marker_candidates(frame: Frame, camera: Camera, settings: DetectionSettings)
     hsv = color_histogram.to_hsv(frame.color_rgb)
     blue = cv2.inRange(hsv, *(np.array(limit) for limit in _BLUE))
     opened = cv2.morphologyEx(blue, cv2.MORPH_OPEN, np.ones((3, 3), np.uint8))
-    spots = _disc_sized(opened, 0.3, frame, camera, settings)
+    spots = _paper(_disc_sized(opened, 0.3, frame, camera, settings), frame, hsv, camera, settings)
     if len(spots) < _FEWEST:
         tinged = cv2.inRange(hsv, *(np.array(limit) for limit in _TINGED_BLUE))
-        spots = _disc_sized(tinged, 0.2, frame, camera, settings)
+        spots = _paper(_disc_sized(tinged, 0.2, frame, camera, settings), frame, hsv, camera, settings)
     if len(spots) < _FEWEST:
         return Detections.none()
     looks, _ = learn_appearance(frame, spots, camera, settings)
-    return Detector(looks, camera, settings).detect(frame)
+    # In cloth of the paper's hue there are more spots than discs: they must not crowd these out before they are tried.
+    found = Detector(looks, camera, replace(settings, most_blobs=_MOST_TRIED)).detect(frame)
+    kept = is_paper(found.pixel, frame, hsv, camera, settings)
+    return _some(found, kept) if np.count_nonzero(kept) >= _FEWEST else Detections.none()
+
+
+def _paper(pixel: FloatArray, frame: Frame, hsv: ByteImage, camera: Camera, settings: DetectionSettings) -> FloatArray:
+    return pixel[is_paper(pixel, frame, hsv, camera, settings)]
+
+
+def is_paper(
+    pixel: FloatArray, frame: Frame, hsv: ByteImage, camera: Camera, settings: DetectionSettings
+) -> NDArray[np.bool_]:
+    """Which spots (B, 2) have a colour of their own, other than what lies around them, and about as much of it as
+    the others. Dark cloth falls into specks whose hue is blue by chance; they have hardly any colour."""
+    colour = np.zeros(len(pixel))
+    for i, (at, radius_px) in enumerate(zip(pixel, _radii_px(frame, pixel, camera, settings), strict=True)):
+        others = pixel[(np.abs(pixel - at).max(axis=1) < 4.0 * radius_px) & (np.arange(len(pixel)) != i)]
+        colour[i] = _own_colour(frame.color_rgb, hsv, at, radius_px, others)
+    coloured = colour >= _LEAST_COLOUR
+    usual = float(np.median(colour[coloured])) if coloured.any() else 0.0
+    return np.asarray(coloured & (colour >= _OF_THE_USUAL * usual))
+
+
+def _own_colour(color_rgb: ByteImage, hsv: ByteImage, at: FloatArray, radius_px: float, others: FloatArray) -> float:
+    """Strongest channel less the weakest of a spot, 0 for one that looks like what lies around it."""
+    half = int(3.0 * radius_px) + 2
+    left, top = (max(0, round(float(value)) - half) for value in at)
+    rows, columns = slice(top, top + 2 * half + 1), slice(left, left + 2 * half + 1)
+    rgb, part = color_rgb[rows, columns].astype(np.float64), hsv[rows, columns]
+    v, u = np.ogrid[: part.shape[0], : part.shape[1]]
+    squared = (u + left - at[0]) ** 2 + (v + top - at[1]) ** 2
+    own = squared <= (0.7 * radius_px) ** 2
+    ring = (squared > (1.6 * radius_px) ** 2) & (squared < (2.6 * radius_px) ** 2)
+    for other in others:  # the two discs of a fingertip nearly touch
+        ring &= (u + left - other[0]) ** 2 + (v + top - other[1]) ** 2 > (1.3 * radius_px) ** 2
+    if not own.any() or not ring.any():
+        return 0.0
+    step = np.linalg.norm(rgb[ring] - np.median(rgb[own], axis=0), axis=1)
+    mine, around = (color_histogram.histogram(part, mask, smooth_bins=1.2).ravel() for mask in (own, ring))
+    if np.quantile(step, 0.7) < _LEAST_STEP or color_histogram.bhattacharyya(mine, around) > _MOST_ALIKE:
+        return 0.0
+    if np.median(rgb[own].max(axis=1)) < _LEAST_VALUE:
+        return 0.0
+    return float(np.median(rgb[own].max(axis=1) - rgb[own].min(axis=1)))
 
 
 def _disc_sized(mask: Any, least_area: float, frame: Frame, camera: Camera, settings: DetectionSettings) -> FloatArray:
@@ -77,6 +131,8 @@ def disc_at(frame: Frame, pixel: FloatArray, camera: Camera, settings: Detection
     around = color_histogram.histogram(hsv, ring, smooth_bins=1.2)
     if color_histogram.bhattacharyya(looks.paper_histogram.ravel(), around.ravel()) > _MOST_ALIKE:
         return Detections.none()
+    if not is_paper(centre + corner, frame, color_histogram.to_hsv(frame.color_rgb), camera, settings).all():
+        return Detections.none()
     window = Detector(looks, camera, settings).region_about(centre, np.zeros((1, 2, 2)), np.array([0.5]))
     return _nearest(_moved(Detector(looks, camera, settings).detect(part, window), corner), pixel, radius_px)
 
@@ -94,9 +150,12 @@ def _nearest(blobs: Detections, pixel: FloatArray, radius_px: float) -> Detectio
     distance = np.linalg.norm(blobs.pixel - pixel, axis=1)
     if not distance.size or float(distance.min()) > REACH * radius_px:
         return Detections.none()
-    one = slice(int(distance.argmin()), int(distance.argmin()) + 1)
+    return _some(blobs, slice(int(distance.argmin()), int(distance.argmin()) + 1))
+
+
+def _some(blobs: Detections, rows: slice | NDArray[np.bool_]) -> Detections:
     return Detections(
-        blobs.pixel[one], blobs.depth_m[one], blobs.depth_sd_m[one], blobs.area_px[one], blobs.similarity[one]
+        blobs.pixel[rows], blobs.depth_m[rows], blobs.depth_sd_m[rows], blobs.area_px[rows], blobs.similarity[rows]
     )
 
 

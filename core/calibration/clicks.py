@@ -8,10 +8,10 @@ from typing import Any
 
 import numpy as np
 
-from core.calibration.result import Clicks
-from core.errors import ClickOutsidePicture, ClicksUnreadable, OutputExists, OutputNotWritable, ProtocolUnknown
-from core.hand.protocols import protocol_named
-from core.types import FloatArray, Side
+from carpus.core.calibration.result import ALL_STRAIGHT, Clicks
+from carpus.core.errors import ClickOutsidePicture, ClicksUnreadable, OutputExists, OutputNotWritable, ProtocolUnknown
+from carpus.core.hand.protocols import protocol_named
+from carpus.core.types import FloatArray, Side
 
 _MOST_BYTES = 1_000_000
 """Clicks take some hundred bytes; more is another file, or one that never ends."""
@@ -32,7 +32,7 @@ def read_clicks(path: Path, width_px: int | None = None, height_px: int | None =
     except ProtocolUnknown as cause:
         raise ProtocolUnknown(name, f"{path}: {cause.detail}") from cause
     pixel = _pixels(path, content.get("markers"), protocol.markers)
-    clicks = Clicks(side, protocol, pixel)
+    clicks = Clicks(side, protocol, pixel, _straight(path, content.get("straight_fingers")))
     if width_px is not None and height_px is not None:
         check_inside(clicks, width_px, height_px)
     return clicks
@@ -41,7 +41,10 @@ def read_clicks(path: Path, width_px: int | None = None, height_px: int | None =
 def write_clicks(path: Path, clicks: Clicks) -> None:
     """Write clicks in the agreed form; a file that is there already is kept."""
     markers = dict(zip(clicks.protocol.markers, clicks.pixel.tolist(), strict=True))
-    text = json.dumps({"hand": clicks.side, "protocol": clicks.protocol.name, "markers": markers}, indent=1)
+    content: dict[str, Any] = {"hand": clicks.side, "protocol": clicks.protocol.name, "markers": markers}
+    if clicks.straight_fingers:
+        content["straight_fingers"] = list(clicks.straight_fingers)
+    text = json.dumps(content, indent=1)
     try:
         with path.open("x", encoding="utf-8") as file:
             file.write(text + "\n")
@@ -101,6 +104,14 @@ def _side(path: Path, hand: Any) -> Side:
     if hand == "left":
         return "left"
     raise ClicksUnreadable(path, f"hand is {json.dumps(hand)[:40]}, right or left expected")
+
+
+def _straight(path: Path, said: Any) -> tuple[bool, ...]:
+    if said is None:
+        return ()
+    if isinstance(said, list) and len(said) == len(ALL_STRAIGHT) and all(isinstance(each, bool) for each in said):
+        return tuple(said)
+    raise ClicksUnreadable(path, "straight_fingers is not five times true or false, thumb to little")
 
 
 def _pixels(path: Path, markers: Any, names: tuple[str, ...]) -> FloatArray:

@@ -12,8 +12,8 @@ from itertools import combinations
 import numpy as np
 from numpy.typing import NDArray
 
-from core.hand.protocols import HAND21, HAND21_CHAINS
-from core.types import FloatArray, Side
+from carpus.core.hand.protocols import HAND21, HAND21_CHAINS
+from carpus.core.types import FloatArray, Side
 
 _MOST_TURN_DEG = 50.0
 _MOST_THUMB_TURN_DEG = 75.0

@@ -14,13 +14,13 @@ from functools import lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.optimize import linear_sum_assignment
 
-from core.camera import Camera
-from core.hand.anatomy import anatomy_from_size
-from core.hand.kinematics import disc_centres
-from core.hand.protocols import HAND21, HAND21_CHAINS, MarkerProtocol, joint_angle_names
-from core.types import Detections, FloatArray, Side
+from carpus.core.assignment import linear_sum_assignment
+from carpus.core.camera import Camera
+from carpus.core.hand.anatomy import anatomy_from_size
+from carpus.core.hand.kinematics import disc_centres
+from carpus.core.hand.protocols import HAND21, HAND21_CHAINS, MarkerProtocol, joint_angle_names
+from carpus.core.types import Detections, FloatArray, Side
 
 IntArray = NDArray[np.int64]
 

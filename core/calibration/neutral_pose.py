@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from core import so3
-from core.camera import Camera
-from core.types import FloatArray
+from carpus.core import so3
+from carpus.core.camera import Camera
+from carpus.core.types import FloatArray
 
 _ROUNDS = 30
 _SETTLED = 1e-12

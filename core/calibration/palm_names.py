@@ -12,9 +12,9 @@ from itertools import permutations
 import numpy as np
 from numpy.typing import NDArray
 
-from core.hand.anatomy import anatomy_from_size
-from core.hand.protocols import PALM_MARKERS
-from core.types import FloatArray, Side
+from carpus.core.hand.anatomy import anatomy_from_size
+from carpus.core.hand.protocols import PALM_MARKERS
+from carpus.core.types import FloatArray, Side
 
 _CLEARLY = 0.6
 """The better order must leave less than this share of the misfit of the names as clicked."""
@@ -32,18 +32,19 @@ def shifted_names(side: Side, palm_plan: FloatArray) -> tuple[str, ...]:
     was given a wrong name comes first, and after each name the one that its disc should have: WRIST, MCP5 say that
     the disc clicked as wrist is the little knuckle. Two names only are two that were exchanged.
     """
-    misfit = _misfits(_average_palm(side), palm_plan)
+    misfit = _misfits(average_palm(side), palm_plan)
     best = int(misfit.argmin())
     if misfit[0] < _GOOD_MISFIT or misfit[best] > _CLEARLY * misfit[0]:
         return ()
-    if misfit[best] > _misfits(_average_palm("left" if side == "right" else "right"), palm_plan)[0]:
+    if misfit[best] > _misfits(average_palm("left" if side == "right" else "right"), palm_plan)[0]:
         return ()  # the names are in order, but on the other hand
     right_name = np.argsort(_ORDERS[best])  # of the disc clicked under each name
     return tuple(PALM_MARKERS[i] for i in _ring_by_ring(right_name))
 
 
 @lru_cache(maxsize=2)
-def _average_palm(side: Side) -> FloatArray:
+def average_palm(side: Side) -> FloatArray:
+    """The discs (6, 2) of the average palm in the order of ``PALM_MARKERS``, seen from the camera, y up, in metres."""
     return anatomy_from_size(0.18).palm_disc_m[:, :2] * (1.0, 1.0 if side == "right" else -1.0)
 
 

@@ -7,10 +7,10 @@ from itertools import combinations
 
 import numpy as np
 
-from core.hand.anatomy import anatomy_from_size
-from core.hand.kinematics import disc_centres
-from core.hand.protocols import HAND21, MarkerProtocol
-from core.types import FloatArray, Side
+from carpus.core.hand.anatomy import anatomy_from_size
+from carpus.core.hand.kinematics import disc_centres
+from carpus.core.hand.protocols import HAND21, MarkerProtocol
+from carpus.core.types import FloatArray, Side
 
 _CLEARLY = 0.6
 """Another reading must leave less than this share of the misfit to be called the likelier one."""

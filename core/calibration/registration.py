@@ -6,9 +6,9 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from core.detection import color_histogram
-from core.detection.appearance import MarkerAppearance
-from core.types import FloatArray, Frame
+from carpus.core.detection import color_histogram
+from carpus.core.detection.appearance import MarkerAppearance
+from carpus.core.types import FloatArray, Frame
 
 _WIDTH_PX = 640
 """Pictures are compared at this width."""

@@ -5,8 +5,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Literal
 
-from core.hand.protocols import MarkerProtocol
-from core.types import FloatArray, Side
+from carpus.core.hand.back_surface import BackSurface
+from carpus.core.hand.protocols import MarkerProtocol
+from carpus.core.types import FloatArray, Side
 
 FindingKind = Literal[
     "click_on_no_marker",
@@ -24,16 +25,27 @@ FindingKind = Literal[
     "moved",
     "few_frames",
     "depth_off",
+    "other_spot",
+    "spare_spot",
+    "no_palm",
 ]
+
+ALL_STRAIGHT = (True, True, True, True, True)
+"""Thumb to little; what is taken for granted of a hand unless a person says otherwise."""
 
 
 @dataclass(frozen=True, slots=True)
 class Clicks:
-    """A person's clicks on the first colour frame: ``pixel`` (M, 2), in the order of the protocol."""
+    """A person's clicks on the first colour frame: ``pixel`` (M, 2), in the order of the protocol.
+
+    ``straight_fingers`` thumb to little: what the person says of each finger at the neutral pose; empty where nobody
+    said anything.
+    """
 
     side: Side
     protocol: MarkerProtocol
     pixel: FloatArray
+    straight_fingers: tuple[bool, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)
@@ -51,6 +63,11 @@ class Finding:
     unit: str = ""
     blocks: bool = False
     """True when no tracking can start from it (a click with no blob, a marker with no depth)."""
+    spot_px: tuple[float, ...] = ()
+    """Pixel (u, v) of the spot in question that has no name; nothing where it is about the markers themselves."""
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "spot_px", tuple(self.spot_px))  # a list in the session file
 
 
 @dataclass(frozen=True, slots=True)
@@ -87,7 +104,8 @@ class Calibration:
     ``translation_w0_cam_m`` (3,) the pose g_w0c of the wrist paper; ``marker_covariance_w0_m2`` (M, 3, 3)
     how well each disc's place is known, which every later angle inherits;
     ``start_angles_rad`` (3,) deviation, flexion, pronosupination given by the therapist for a patient who
-    cannot lie neutral, zero otherwise.
+    cannot lie neutral, zero otherwise; ``surface`` of the back of the hand over its fixed unit, None where too little
+    of it was seen.
     """
 
     clicks: Clicks
@@ -97,3 +115,9 @@ class Calibration:
     marker_covariance_w0_m2: FloatArray
     start_angles_rad: FloatArray
     verdict: Verdict
+    surface: BackSurface | None = None
+
+    @property
+    def straight_fingers(self) -> tuple[bool, ...]:
+        """Thumb to little: False for a finger that could not lie straight at the neutral pose."""
+        return self.clicks.straight_fingers or ALL_STRAIGHT

@@ -5,8 +5,8 @@ from __future__ import annotations
 import math
 from dataclasses import replace
 
-from core.calibration.calibrate import CalibrationOutcome
-from core.calibration.result import Finding, Verdict
+from carpus.core.calibration.calibrate import CalibrationOutcome
+from carpus.core.calibration.result import Finding, Verdict
 
 MOST_LENGTH_CHANGE = 0.15
 """Of last time's length. Discs put on anew lie up to half a centimetre elsewhere on the 8 cm that are measured."""

@@ -3,21 +3,39 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Any
 
 import yaml
 
-from core.camera import DEFAULT_CAMERA, Camera
-from core.errors import CameraFileUnreadable, OutputExists, OutputNotWritable
-from core.types import SIMULATED
+from carpus.core.camera import DEFAULT_CAMERA, Camera
+from carpus.core.errors import CameraFileUnreadable, OutputExists, OutputNotWritable
+from carpus.core.types import SIMULATED
 
 CAMERA_FILE = "camera_info.yaml"
 DISTORTION_MODEL = "plumb_bob"
 _MOST_BYTES = 1_000_000
+_SCALES, _MOST_OFFSET_M = (0.8, 1.25), 0.1
 _FOCAL_SHARE = (0.2, 10.0)
 """Focal length over the picture's width: beyond these a camera sees more than 136 or less than 6 degrees."""
+
+
+_CALIBRATION = "carpus_calibration"
+
+
+@dataclass(frozen=True, slots=True)
+class StoredCalibration:
+    """What Carpus measured on a printed board: which camera (``serial``), ``calibrated`` when (ISO 8601 with zone), how
+    far depth was off (measured = ``depth_scale`` * true + ``depth_offset_m``; 1 and 0 where it was not checked), how
+    far the corners landed and with how many pictures of the board."""
+
+    serial: str
+    calibrated: str
+    depth_scale: float = 1.0
+    depth_offset_m: float = 0.0
+    error_px: float = 0.0
+    pictures: int = 0
 
 
 @dataclass(frozen=True, slots=True)
@@ -29,6 +47,7 @@ class CameraInfo:
     registered: bool | None = None
     mirrored: bool | None = None
     simulated: bool = False
+    calibration: StoredCalibration | None = None
 
 
 def read_camera_info(path: Path) -> CameraInfo:
@@ -51,7 +70,7 @@ def read_camera_info(path: Path) -> CameraInfo:
     if not isinstance(content, dict):
         raise CameraFileUnreadable(path, "not a camera calibration")
     registered, mirrored, simulated = (_flag(path, content, key) for key in ("registered", "mirrored", SIMULATED))
-    return CameraInfo(_camera(path, content), registered, mirrored, bool(simulated))
+    return CameraInfo(_camera(path, content), registered, mirrored, bool(simulated), _calibration(path, content))
 
 
 def write_camera_info(
@@ -62,6 +81,7 @@ def write_camera_info(
     registered: bool | None = None,
     mirrored: bool | None = None,
     simulated: bool = False,
+    calibration: StoredCalibration | None = None,
 ) -> None:
     """Write ``camera`` as a ROS camera calibration file; a file that is there already is kept."""
     k = [camera.fx_px, 0.0, camera.cx_px, 0.0, camera.fy_px, camera.cy_px, 0.0, 0.0, 1.0]
@@ -80,6 +100,8 @@ def write_camera_info(
             content[name] = value
     if simulated:
         content[SIMULATED] = True
+    if calibration is not None:
+        content[_CALIBRATION] = asdict(calibration)
     text = yaml.safe_dump(content, sort_keys=False, default_flow_style=None, width=120)
     try:
         with path.open("x", encoding="utf-8") as file:
@@ -129,6 +151,26 @@ def _camera(path: Path, content: dict[str, Any]) -> Camera:
         raise CameraFileUnreadable(path, f"distortion_coefficients has {len(distortion)} numbers, 5 expected")
     k1, k2, p1, p2, k3 = [*distortion, *[0.0] * (5 - len(distortion))]
     return Camera(fx, fy, cx, cy, width, height, (k1, k2, p1, p2, k3), origin="file")
+
+
+def _calibration(path: Path, content: dict[str, Any]) -> StoredCalibration | None:
+    said = content.get(_CALIBRATION)
+    if said is None:
+        return None
+    try:
+        out = StoredCalibration(
+            str(said["serial"]),
+            str(said["calibrated"]),
+            float(said["depth_scale"]),
+            float(said["depth_offset_m"]),
+            float(said["error_px"]),
+            int(said["pictures"]),
+        )
+    except (KeyError, TypeError, ValueError) as cause:
+        raise CameraFileUnreadable(path, f"{_CALIBRATION} is not as Carpus writes it") from cause
+    if not (_SCALES[0] <= out.depth_scale <= _SCALES[1] and abs(out.depth_offset_m) <= _MOST_OFFSET_M):
+        raise CameraFileUnreadable(path, f"{_CALIBRATION} has depth that no camera reads")
+    return out
 
 
 def _size(path: Path, content: dict[str, Any], key: str) -> int:

@@ -20,16 +20,18 @@ from typing import Literal
 
 import numpy as np
 
-from core.capture.openni2 import load_library
-from core.capture.xtion import XtionSource
-from core.capture.xtion_usb import UsbCamera, usb_cameras
-from core.errors import CameraBusy, CameraMissing, CameraPermission, CarpusFault, DriverMissing
-from core.types import Frame
+from carpus.core.capture.openni2 import load_library
+from carpus.core.capture.xtion import XtionSource
+from carpus.core.capture.xtion_usb import UsbCamera, usb_cameras
+from carpus.core.errors import CameraBusy, CameraMissing, CameraPermission, CarpusFault, DriverMissing
+from carpus.core.types import Frame
 
 State = Literal["good", "warning", "bad"]
 
 PACKAGES = ("numpy", "scipy", "opencv-python-headless", "h5py", "PyYAML", "platformdirs", "threadpoolctl")
 WINDOW_LIBRARIES = ("GL", "EGL", "fontconfig", "dbus-1", "xkbcommon", "xcb-cursor")
+PACKED_WITHOUT = ("GL", "EGL")
+"""Of these what a packed program does not bring: they belong to the graphics card."""
 RULES_FOLDERS = tuple(Path(root) / "udev/rules.d" for root in ("/etc", "/run", "/usr/lib", "/lib"))
 LOW_DISK_BYTES = 2_000_000_000
 RAW_BYTES_S = 10_000_000
@@ -74,6 +76,22 @@ def examine(data_folder: Path, *, camera_uri: str | None = None, measure_s: floa
         yield rates_finding(camera_uri, measure_s)
 
 
+def examine_at_start(data_folder: Path) -> Iterator[Finding]:
+    """What a person must know before the first session; nothing is opened, so it takes no time and disturbs nobody.
+
+    ``data_folder`` need not be there yet. What only the window knows, its screen, is not among it.
+    """
+    on_linux = sys.platform.startswith("linux")
+    if on_linux:  # elsewhere only opening it tells
+        yield camera_finding(usb_cameras())
+    yield driver_finding(asks_version=False)
+    if on_linux:
+        yield rules_finding(RULES_FOLDERS)
+    yield data_folder_finding(data_folder)
+    yield disk_finding(data_folder, shutil.disk_usage(_existing(data_folder)).free)
+    yield fonts_finding()
+
+
 def python_finding(found: tuple[int, int, int]) -> Finding:
     """Python itself."""
     text = ".".join(map(str, found)) + f", {platform.system()} {platform.machine()}"
@@ -107,9 +125,12 @@ def window_finding() -> Finding:
         return Finding("Window", "bad", f"Qt {qt}", remedy)
     if not sys.platform.startswith("linux"):
         return Finding("Window", "good", f"Qt {qt}")
-    missing = [name for name in WINDOW_LIBRARIES if ctypes.util.find_library(name) is None]
+    is_packed = getattr(sys, "frozen", False)
+    wanted = PACKED_WITHOUT if is_packed else WINDOW_LIBRARIES
+    missing = [name for name in wanted if ctypes.util.find_library(name) is None]
     if missing:
-        remedy = "Run: installer/setup.sh run, or install the packages that bring these libraries."
+        remedy = "Install the packages that bring these libraries."
+        remedy = remedy if is_packed else f"Run: installer/setup.sh run. Or: {remedy[0].lower()}{remedy[1:]}"
         return Finding("Window", "warning", f"Qt {qt}; missing: " + ", ".join(f"lib{name}" for name in missing), remedy)
     if not (os.environ.get("DISPLAY") or os.environ.get("WAYLAND_DISPLAY") or os.environ.get("QT_QPA_PLATFORM")):
         remedy = "Start the window from a desktop. The commands for files work without a screen."
@@ -119,7 +140,7 @@ def window_finding() -> Finding:
 
 def fonts_finding() -> Finding:
     """The typefaces that come with Carpus."""
-    folder = files("resources").joinpath("fonts")
+    folder = files("carpus.resources").joinpath("fonts")
     faces = [each.name for each in folder.iterdir() if each.name.endswith(".otf")] if folder.is_dir() else []
     if not faces:
         return Finding("Fonts", "bad", "none of the program's own", "Install Carpus again: part of it is missing.")
@@ -149,8 +170,11 @@ def disk_finding(folder: Path, free_bytes: int) -> Finding:
     return Finding("Disk", "good", text)
 
 
-def driver_finding() -> Finding:
-    """The OpenNI2 library; loaded, but not started."""
+def driver_finding(*, asks_version: bool = True) -> Finding:
+    """The OpenNI2 library; loaded, but not started.
+
+    ``asks_version`` calls it, which may end the process (a second thread that asks is enough): not where a window is.
+    """
     try:
         library = load_library()
     except DriverMissing as fault:
@@ -162,6 +186,8 @@ def driver_finding() -> Finding:
         return Finding(
             "Driver", "bad", fault.detail or "not found", f"Needed for live cameras and .oni files. {remedy}"
         )
+    if not asks_version:
+        return Finding("Driver", "good", "OpenNI2")
     found = library.oniGetVersion()
     return Finding("Driver", "good", f"OpenNI2 {found.major}.{found.minor}.{found.maintenance}.{found.build}")
 

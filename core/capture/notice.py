@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-from core.errors import CarpusFault
+from carpus.core.errors import CarpusFault
 
 Notice = Callable[[CarpusFault], None]
 """Hears of faults that are told and not raised: the source goes on. Called where it is opened or frames are read."""

@@ -18,10 +18,10 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from core.capture import oni_format as oni
-from core.capture.oni_format import Codec, NodeType, RecordType
-from core.capture.openni2 import PixelFormat
-from core.errors import (
+from carpus.core.capture import oni_format as oni
+from carpus.core.capture.oni_format import Codec, NodeType, RecordType
+from carpus.core.capture.openni2 import PixelFormat
+from carpus.core.errors import (
     CarpusFault,
     RecordingDamaged,
     RecordingEmpty,

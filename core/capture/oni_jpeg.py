@@ -9,7 +9,7 @@ from __future__ import annotations
 import re
 from pathlib import Path
 
-from core.capture.oni_check import OniStream
+from carpus.core.capture.oni_check import OniStream
 
 START, END, SCAN = 0xD8, 0xD9, 0xDA
 _MARKER = re.compile(rb"\xff+([^\x00\xff])")

@@ -10,23 +10,23 @@ from typing import Literal
 
 import numpy as np
 
-from core.capture.camera_info import CameraInfo, read_camera_info
-from core.capture.notice import Notice, ignore
-from core.capture.oni_check import OniContents, check_recording
-from core.capture.oni_jpeg import deadly_pictures
-from core.capture.oni_writer import sidecar_path
-from core.capture.openni2 import Sensor, VideoMode
-from core.capture.source import SourceInfo
-from core.capture.xtion_assembly import (
+from carpus.core.capture.camera_info import CameraInfo, read_camera_info
+from carpus.core.capture.notice import Notice, ignore
+from carpus.core.capture.oni_check import OniContents, check_recording
+from carpus.core.capture.oni_jpeg import deadly_pictures
+from carpus.core.capture.oni_writer import sidecar_path
+from carpus.core.capture.openni2 import Sensor, VideoMode
+from carpus.core.capture.source import SourceInfo
+from carpus.core.capture.xtion_assembly import (
     DEPTH_UNIT_M,
     Assembler,
     Layout,
     camera_of_view,
     fitted_camera,
 )
-from core.capture.xtion_link import ANSWER_S, OPEN_FILE_S, CaptureProcess
-from core.capture.xtion_messages import Arrived, Ended, FilePlan
-from core.errors import (
+from carpus.core.capture.xtion_link import ANSWER_S, OPEN_FILE_S, CaptureProcess
+from carpus.core.capture.xtion_messages import Arrived, Ended, FilePlan
+from carpus.core.errors import (
     CameraFileUnreadable,
     DepthNotRegistered,
     DriverFailed,
@@ -35,7 +35,7 @@ from core.errors import (
     RecordingUnsupported,
     RegistrationAssumed,
 )
-from core.types import SIMULATED, Frame
+from carpus.core.types import SIMULATED, Frame
 
 WAITING_PICTURES = 64
 """How far apart in the file colour and depth of one moment may lie."""

@@ -7,7 +7,7 @@ import struct
 import numpy as np
 from numpy.typing import NDArray
 
-from core.types import DepthImage
+from carpus.core.types import DepthImage
 
 MAX_VALUES = 0x8000
 """An index written in full has 15 bits."""

@@ -12,15 +12,15 @@ from typing import BinaryIO, Literal
 
 import numpy as np
 
-from core.camera import Camera
-from core.capture import oni_format as oni
-from core.capture.camera_info import write_camera_info
-from core.capture.oni_format import Codec, NodeType, RecordType
-from core.capture.oni_table_codec import encode_depth
-from core.capture.openni2 import PixelFormat
-from core.capture.raw_pictures import encode_color
-from core.errors import DiskFull, OutputExists, OutputNotWritable
-from core.types import ByteImage, DepthImage, Frame
+from carpus.core.camera import Camera
+from carpus.core.capture import oni_format as oni
+from carpus.core.capture.camera_info import write_camera_info
+from carpus.core.capture.oni_format import Codec, NodeType, RecordType
+from carpus.core.capture.oni_table_codec import encode_depth
+from carpus.core.capture.openni2 import PixelFormat
+from carpus.core.capture.raw_pictures import encode_color
+from carpus.core.errors import DiskFull, OutputExists, OutputNotWritable
+from carpus.core.types import ByteImage, DepthImage, Frame
 
 ColorCodec = Literal["jpeg", "raw"]
 DepthCodec = Literal["table", "raw"]
@@ -47,7 +47,7 @@ class OniWriter:
     """Writes one recording. Use as a context manager; the file is whole only after :meth:`close`.
 
     >>> import tempfile
-    >>> from core.camera import DEFAULT_CAMERA
+    >>> from carpus.core.camera import DEFAULT_CAMERA
     >>> folder = tempfile.TemporaryDirectory()
     >>> with folder, OniWriter(Path(folder.name) / "a.oni", DEFAULT_CAMERA) as writer:
     ...     writer.add_color(np.zeros((480, 640, 3), np.uint8), 0.0)

@@ -19,7 +19,7 @@ from enum import IntEnum
 from pathlib import Path
 from typing import Any
 
-from core.errors import DriverMissing
+from carpus.core.errors import DriverMissing
 
 API_VERSION = 2002
 LIBRARY_NAMES = {"win32": ("OpenNI2.dll",), "darwin": ("libOpenNI2.dylib",)}

@@ -7,8 +7,8 @@ import time
 from collections.abc import Iterator
 from dataclasses import replace
 
-from core.capture.source import FrameSource, SourceInfo
-from core.types import Frame
+from carpus.core.capture.source import FrameSource, SourceInfo
+from carpus.core.types import Frame
 
 
 class PacedSource:

@@ -11,8 +11,9 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from core.errors import PictureDamaged
-from core.types import ByteImage, DepthImage
+from carpus.core.encryption.content import read_kept
+from carpus.core.errors import ContentDamaged, PictureDamaged
+from carpus.core.types import ByteImage, DepthImage
 
 _PNG_START = b"\x89PNG\r\n\x1a\n"
 _GREY_TYPES = (0, 4)
@@ -43,11 +44,13 @@ def read_depth(path: Path) -> DepthImage:
 def _checked_bytes(path: Path) -> bytes:
     """The file's bytes; of a PNG every checksum is compared, for a decoder may fill a damaged rest with grey."""
     try:
-        data = path.read_bytes()
+        data = read_kept(path)
     except FileNotFoundError as cause:
         raise PictureDamaged(path, "missing") from cause
     except OSError as cause:
         raise PictureDamaged(path, cause.strerror or "cannot be opened") from cause
+    except ContentDamaged as cause:
+        raise PictureDamaged(path, cause.detail) from cause
     if not data:
         raise PictureDamaged(path, "empty file")
     if data.startswith(_PNG_START) and not _png_is_whole(data):

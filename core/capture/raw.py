@@ -14,8 +14,9 @@ import json
 import math
 import os
 import struct
+import time
 import zlib
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
@@ -24,11 +25,13 @@ from typing import Any, BinaryIO
 
 import numpy as np
 
-from core.camera import Camera
-from core.capture.notice import Notice, ignore
-from core.capture.raw_pictures import decode_color, decode_depth, encode_color, encode_depth
-from core.capture.source import SourceInfo
-from core.errors import (
+from carpus.core.camera import Camera
+from carpus.core.capture.notice import Notice, ignore
+from carpus.core.capture.raw_pictures import decode_color, decode_depth, encode_color, encode_depth
+from carpus.core.capture.source import SourceInfo
+from carpus.core.encryption.content import open_kept
+from carpus.core.errors import (
+    ContentDamaged,
     DiskFull,
     OutputExists,
     OutputNotWritable,
@@ -37,7 +40,8 @@ from core.errors import (
     RecordingMissing,
     RecordingUnreadable,
 )
-from core.types import ByteImage, Frame
+from carpus.core.private import copy_open_file, is_still_there, private
+from carpus.core.types import ByteImage, Frame
 
 SUFFIX = ".carpusraw"
 MAGIC = b"CARPUSRW"
@@ -46,14 +50,29 @@ _START = struct.Struct("<8sI")
 _RECORD = struct.Struct("<4sIdIIII")
 _CHECKED_FROM = 8
 _FULL = (errno.ENOSPC, errno.EDQUOT, errno.EFBIG)
+LOOK_EVERY_S = 0.8
 MAX_PICTURE_BYTES = 1 << 27
 
 
 class RawWriter:
-    """Writes one raw recording. Use as a context manager, or end it by :meth:`close`."""
+    """Writes one raw recording. Use as a context manager, or end it by :meth:`close`.
 
-    def __init__(self, path: Path, info: SourceInfo, *, lossless: bool = False) -> None:
+    When its folder goes away it goes on in the one that ``fallback`` names, with what was recorded if that can still be
+    read.
+    """
+
+    def __init__(
+        self,
+        path: Path,
+        info: SourceInfo,
+        *,
+        lossless: bool = False,
+        fallback: Callable[[], Path] | None = None,
+        clock: Callable[[], float] = time.monotonic,
+    ) -> None:
         self._path = path
+        self._fallback, self._clock = fallback, clock
+        self._looked_s = clock()
         self._info = info
         self._lossless = lossless
         self._depth_unit_m: float | None = None
@@ -82,6 +101,10 @@ class RawWriter:
 
     def append_frame(self, frame: Frame) -> None:
         """Store one frame: depth without loss, colour as JPEG 95 or without loss. Times rise strictly."""
+        if self._fallback is not None and self._clock() - self._looked_s >= LOOK_EVERY_S:
+            self._looked_s = self._clock()
+            if self._file is not None and not is_still_there(self._file.fileno(), self._path):
+                self._move(self._fallback())
         if self._count == 0:
             self._depth_unit_m = frame.depth_unit_m
             self._put(_packed(b"HEAD", 0.0, 0, 0, self._head(), b""))
@@ -91,6 +114,17 @@ class RawWriter:
         color = encode_color(frame.color_rgb, lossless=self._lossless)
         self._put(_packed(b"FRAM", frame.timestamp_s, frame.dropped_before, self._count, color, depth))
         self._count += 1
+
+    def go_on_elsewhere(self, frame: Frame | None) -> RawWriter:
+        """A new recording in the fallback's folder, beginning with ``frame``, for another thread while the one that
+        writes hangs in the disk; what was stored stays there. Raises :class:`OutputNotWritable` without a fallback."""
+        if self._fallback is None:
+            raise OutputNotWritable(self._path)
+        folder, self._fallback = self._fallback(), None
+        new = RawWriter(folder / self._path.name, self._info, lossless=self._lossless, clock=self._clock)
+        if frame is not None:
+            new.append_frame(frame)
+        return new
 
     def close(self) -> None:
         """Mark the recording as whole and bring it to the disk; may be called twice."""
@@ -118,6 +152,23 @@ class RawWriter:
         self.abandon()
         self._path.unlink(missing_ok=True)
 
+    def _move(self, folder: Path) -> None:
+        """Go on elsewhere; what was recorded comes along where it can still be read."""
+        assert self._file is not None
+        path, old = folder / self._path.name, self._file
+        self._fallback = None  # one disaster at a time
+        try:
+            copy_open_file(old.fileno(), path)
+            self._file = path.open("r+b")
+            self._file.seek(self._end)
+        except OSError:
+            path.unlink(missing_ok=True)
+            self._file, self._end, self._count = _create(path), 0, 0
+            self._put(_START.pack(MAGIC, VERSION))
+        self._path = path
+        with suppress(OSError):
+            old.close()
+
     def _head(self) -> bytes:
         info, camera = self._info, self._info.camera
         content = {
@@ -127,6 +178,8 @@ class RawWriter:
             "depth_unit_m": self._depth_unit_m,
             "color": "png" if self._lossless else "jpeg",
             "settings": dict(info.settings),
+            "recording_id": info.recording_id,
+            "recorded": info.recorded,
             "camera": {
                 "fx_px": camera.fx_px,
                 "fy_px": camera.fy_px,
@@ -179,10 +232,12 @@ class RawRecording:
         self._path = path
         self._notice = notice
         try:
-            with path.open("rb") as file:
+            with open_kept(path) as file:
                 head, self._entries, self.complete = _index(path, file)
         except OSError as cause:
             raise RecordingUnreadable(path, cause.strerror or "") from cause
+        except ContentDamaged as cause:
+            raise RecordingUnreadable(path, cause.detail) from cause
         if not self._entries:
             raise RecordingEmpty(path)
         self._times_s = np.array([entry.timestamp_s for entry in self._entries])
@@ -198,8 +253,10 @@ class RawRecording:
                 float(head["nominal_fps"]),
                 {str(key): str(value) for key, value in head["settings"].items()}
                 | ({} if self.complete else {"complete": "no: cut short, read up to its last whole frame"}),
+                str(head.get("recording_id", "")),
+                str(head.get("recorded", "")),
             )
-        except (KeyError, TypeError, ValueError, AttributeError) as cause:
+        except (KeyError, TypeError, ValueError, AttributeError, OverflowError) as cause:
             raise RecordingUnreadable(path, "its head is damaged") from cause
 
     @property
@@ -211,7 +268,7 @@ class RawRecording:
         """All frames from the first on; may be walked through again."""
         lost = missing = index = 0
         last_s = -math.inf
-        with self._path.open("rb") as file:
+        with open_kept(self._path) as file:
             for entry in self._entries:
                 pictures = _read(file, entry)
                 color = decode_color(pictures[: entry.color_size])
@@ -231,19 +288,26 @@ class RawRecording:
         if place == len(self._times_s) or self._times_s[place] > timestamp_s + 1e-6:
             return None
         entry = self._entries[place]
-        with self._path.open("rb") as file:
+        with open_kept(self._path) as file:
             return decode_color(_read(file, entry)[: entry.color_size])
 
     def close(self) -> None:
         """Nothing is held open between two walks."""
 
 
+def was_closed(path: Path) -> bool:
+    """Whether a plain recording ends as :meth:`RawWriter.close` ends one: nobody writes it any more. Raises OSError."""
+    with path.open("rb") as file:
+        file.seek(max(0, file.seek(0, os.SEEK_END) - _RECORD.size))
+        return file.read(4) == b"DONE"
+
+
 def is_raw_recording(path: Path) -> bool:
     """Whether a file begins like a raw recording."""
     try:
-        with path.open("rb") as file:
+        with open_kept(path) as file:
             return file.read(len(MAGIC)) == MAGIC
-    except OSError:
+    except (OSError, ContentDamaged):
         return False
 
 
@@ -255,7 +319,8 @@ def _packed(kind: bytes, time_s: float, dropped: int, number: int, color: bytes,
 
 def _index(path: Path, file: BinaryIO) -> tuple[Mapping[str, Any], list[_Entry], bool]:
     """Head, frames and whether the recording was closed; a torn end is passed over."""
-    size = os.fstat(file.fileno()).st_size
+    size = file.seek(0, os.SEEK_END)
+    file.seek(0)
     start = file.read(_START.size)
     if len(start) < _START.size or not start.startswith(MAGIC):
         raise RecordingUnreadable(path, "not a raw recording")
@@ -285,7 +350,7 @@ def _index(path: Path, file: BinaryIO) -> tuple[Mapping[str, Any], list[_Entry],
 def _json(path: Path, data: bytes) -> Mapping[str, Any]:
     try:
         content = json.loads(data)
-    except ValueError as cause:
+    except (ValueError, RecursionError) as cause:
         raise RecordingUnreadable(path, "its head is damaged") from cause
     if not isinstance(content, dict):
         raise RecordingUnreadable(path, "its head is damaged")
@@ -301,7 +366,7 @@ def _read(file: BinaryIO, entry: _Entry) -> bytes:
 
 def _create(path: Path) -> BinaryIO:
     try:
-        return path.open("xb")
+        return open(path, "x+b", opener=private)
     except FileExistsError as cause:
         raise OutputExists(path) from cause
     except OSError as cause:

@@ -11,12 +11,19 @@ from typing import TextIO
 
 import numpy as np
 
-from core.capture.camera_info import CAMERA_FILE, write_camera_info
-from core.capture.raw_pictures import encode_color, encode_depth
-from core.capture.source import SourceInfo, is_simulated
-from core.capture.tum import COLOR_LIST, DEPTH_LIST, DEPTH_UNIT_M, SIMULATED_REMARK
-from core.errors import DiskFull, OutputExists, OutputNotWritable
-from core.types import DepthImage, Frame
+from carpus.core.capture.camera_info import CAMERA_FILE, write_camera_info
+from carpus.core.capture.raw_pictures import encode_color, encode_depth
+from carpus.core.capture.source import SourceInfo, is_simulated
+from carpus.core.capture.tum import (
+    COLOR_LIST,
+    DEPTH_LIST,
+    DEPTH_UNIT_M,
+    RECORDED_REMARK,
+    RECORDING_ID_REMARK,
+    SIMULATED_REMARK,
+)
+from carpus.core.errors import DiskFull, OutputExists, OutputNotWritable
+from carpus.core.types import DepthImage, Frame
 
 _FULL = (errno.ENOSPC, errno.EDQUOT, errno.EFBIG)
 
@@ -35,6 +42,7 @@ class TumWriter:
                 (path / kind).mkdir(parents=True)
                 self._lists[kind] = (path / name).open("x", encoding="utf-8")
                 remark = f"{SIMULATED_REMARK}\n" if is_simulated(info) else ""
+                remark += "".join(f"{name}{value}\n" for name, value in _said(info) if value)
                 self._lists[kind].write(f"# {kind} pictures of {info.name}\n{remark}# timestamp filename\n")
         except OSError as cause:
             self.abandon()
@@ -95,6 +103,10 @@ class TumWriter:
             self._lists[kind].flush()
         except OSError as cause:
             raise _write_fault(self._path, cause) from cause
+
+
+def _said(info: SourceInfo) -> tuple[tuple[str, str], ...]:
+    return (RECORDED_REMARK, info.recorded), (RECORDING_ID_REMARK, info.recording_id)
 
 
 def tum_depth(depth_raw: DepthImage, depth_unit_m: float) -> DepthImage:

@@ -6,8 +6,8 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from typing import Protocol
 
-from core.camera import Camera
-from core.types import SIMULATED, Frame
+from carpus.core.camera import Camera
+from carpus.core.types import SIMULATED, Frame
 
 
 @dataclass(frozen=True, slots=True)
@@ -15,7 +15,8 @@ class SourceInfo:
     """Facts about a source. ``frame_count`` is None for a live camera; ``has_depth`` whether depth comes at all.
 
     ``settings`` (sensor name, driver, modes, registration ...) goes into the session's parameters; ``simulated`` is
-    "yes" there for pictures of a simulated hand.
+    "yes" there for pictures of a simulated hand. ``recording_id`` and ``recorded`` (ISO 8601 with zone) where the
+    recording says itself which it is and when the hand moved; empty where it does not.
     """
 
     name: str
@@ -24,6 +25,8 @@ class SourceInfo:
     frame_count: int | None
     nominal_fps: float
     settings: Mapping[str, str] = field(default_factory=dict)
+    recording_id: str = ""
+    recorded: str = ""
 
 
 def is_simulated(info: SourceInfo) -> bool:

@@ -8,16 +8,16 @@ from collections.abc import Iterator
 from concurrent.futures import Future, ThreadPoolExecutor
 from contextlib import closing
 from dataclasses import dataclass, replace
-from pathlib import Path
+from pathlib import Path, PurePath
 
 import numpy as np
 
-from core.camera import Camera
-from core.capture.camera_info import CAMERA_FILE, default_camera, read_camera_info
-from core.capture.notice import Notice, ignore
-from core.capture.picture_file import read_color, read_depth
-from core.capture.source import SourceInfo
-from core.errors import (
+from carpus.core.camera import Camera
+from carpus.core.capture.camera_info import CAMERA_FILE, default_camera, read_camera_info
+from carpus.core.capture.notice import Notice, ignore
+from carpus.core.capture.picture_file import read_color, read_depth
+from carpus.core.capture.source import SourceInfo
+from carpus.core.errors import (
     CameraFileUnreadable,
     DepthMissing,
     PictureDamaged,
@@ -28,7 +28,7 @@ from core.errors import (
     RecordingUnreadable,
     TimesUnordered,
 )
-from core.types import SIMULATED, FloatArray, Frame
+from carpus.core.types import SIMULATED, FloatArray, Frame
 
 COLOR_LIST = "rgb.txt"
 DEPTH_LIST = "depth.txt"
@@ -38,6 +38,8 @@ _TIME_ROUNDING_S = 1e-6
 """The lists give microseconds; two times 20 ms apart may differ by a little more in floating point."""
 SIMULATED_REMARK = "# simulated by Carpus"
 """A line among the remarks of the lists of a simulated recording."""
+RECORDED_REMARK, RECORDING_ID_REMARK = "# carpus recorded ", "# carpus recording_id "
+"""Such lines say when the hand moved and which recording it is."""
 _Entry = tuple[float, Path, str]
 """Time, picture and where the list names it."""
 _Decoded = tuple[Frame | None, bool]
@@ -103,6 +105,8 @@ class TumFolder:
             frame_count=len(self.stored),
             nominal_fps=1.0 / float(np.median(np.diff(color_s))) if len(color) > 1 else _FPS_OF_ONE_PICTURE,
             settings={"format": "tum", "depth_unit_m": repr(DEPTH_UNIT_M), **_simulated(folder / COLOR_LIST)},
+            recording_id=_remark(folder / COLOR_LIST, RECORDING_ID_REMARK),
+            recorded=_remark(folder / COLOR_LIST, RECORDED_REMARK),
         )
 
     def frames(self) -> Iterator[Frame]:
@@ -242,11 +246,18 @@ def _there(entries: list[_Entry], leave_out: bool) -> tuple[list[tuple[float, Pa
     """Times and pictures that are there, and how many are not; the first, on which is clicked, must be."""
     out: list[tuple[float, Path]] = []
     for time_s, picture, place in entries:
-        if picture.is_file():
+        if _is_file(picture):
             out.append((time_s, picture))
         elif not leave_out or not out:
             raise PictureDamaged(picture, f"missing, {place}")
     return out, len(entries) - len(out)
+
+
+def _is_file(path: Path) -> bool:
+    try:
+        return path.is_file()
+    except OSError:  # a name longer than a system takes
+        return False
 
 
 def _counted(color: int, depth: int, how: str) -> str:
@@ -261,6 +272,12 @@ def _simulated(color_list: Path) -> dict[str, str]:
         return {SIMULATED: "yes"} if SIMULATED_REMARK in remarks else {}
 
 
+def _remark(color_list: Path, remark: str) -> str:
+    """What follows a remark of a list that has been read already, else nothing."""
+    with color_list.open(encoding="utf-8-sig") as lines:
+        return next((line.removeprefix(remark).strip() for line in lines if line.startswith(remark)), "")
+
+
 def _entry(path: Path, number: int, content: str) -> tuple[float, Path]:
     time_text, *names = content.split(maxsplit=1)
     try:
@@ -269,7 +286,10 @@ def _entry(path: Path, number: int, content: str) -> tuple[float, Path]:
         time_s = math.nan
     if not math.isfinite(time_s) or not names:
         raise RecordingUnreadable(path, f"line {number} is not a time and a file name: {content[:60]!r}")
-    return time_s, path.parent / names[0]
+    inside = PurePath(names[0])
+    if inside.is_absolute() or ".." in inside.parts or "\0" in names[0]:
+        raise RecordingUnreadable(path, f"line {number} leads out of the folder: {content[:60]!r}")
+    return time_s, path.parent / inside
 
 
 def _camera(folder: Path, width_px: int, height_px: int) -> Camera:

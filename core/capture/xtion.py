@@ -7,14 +7,14 @@ import threading
 import time
 from collections.abc import Iterator
 
-from core.camera import Camera
-from core.capture.notice import Notice, ignore
-from core.capture.openni2 import Sensor
-from core.capture.source import SourceInfo
-from core.capture.xtion_assembly import Assembler, Layout, camera_of_view, fitted_camera
-from core.capture.xtion_link import ANSWER_S, OPEN_CAMERA_S, CaptureProcess
-from core.capture.xtion_messages import Arrived, CameraPlan, Ended, ExposureSet, LockExposure, Opened
-from core.errors import (
+from carpus.core.camera import Camera
+from carpus.core.capture.notice import Notice, ignore
+from carpus.core.capture.openni2 import Sensor
+from carpus.core.capture.source import SourceInfo
+from carpus.core.capture.xtion_assembly import Assembler, Layout, camera_of_view, fitted_camera
+from carpus.core.capture.xtion_link import ANSWER_S, OPEN_CAMERA_S, CaptureProcess
+from carpus.core.capture.xtion_messages import Arrived, CameraPlan, Ended, ExposureSet, LockExposure, Opened
+from carpus.core.errors import (
     CameraBusy,
     CameraFileUnreadable,
     CameraLost,
@@ -27,7 +27,7 @@ from core.errors import (
     DriverFailed,
     PicturesEnlarged,
 )
-from core.types import Frame
+from carpus.core.types import Frame
 
 SIZE_PX = (640, 480)
 WAITING_PICTURES = 3

@@ -11,11 +11,11 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from core.camera import Camera
-from core.capture.camera_info import default_camera
-from core.capture.openni2 import PixelFormat
-from core.capture.xtion_pairing import NearestPairing, Pair, Stamped
-from core.types import Frame
+from carpus.core.camera import Camera
+from carpus.core.capture.camera_info import default_camera
+from carpus.core.capture.openni2 import PixelFormat
+from carpus.core.capture.xtion_pairing import NearestPairing, Pair, Stamped
+from carpus.core.types import Frame
 
 AnyImage = NDArray[Any]
 

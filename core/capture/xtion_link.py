@@ -13,10 +13,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from core.capture.openni2 import Sensor, VideoMode
-from core.capture.xtion_messages import Arrived, Command, Free, Opened, Plan, Report, Ring, Stop, Trouble
-from core.capture.xtion_process import run
-from core.errors import DriverFailed
+from carpus.core.capture.openni2 import Sensor, VideoMode
+from carpus.core.capture.xtion_messages import Arrived, Command, Free, Opened, Plan, Report, Ring, Stop, Trouble
+from carpus.core.capture.xtion_process import run
+from carpus.core.errors import DriverFailed
 
 SLOTS = 8
 START_S = 30.0

@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-from core.capture.openni2 import Sensor, VideoMode
-from core.errors import CarpusFault
+from carpus.core.capture.openni2 import Sensor, VideoMode
+from carpus.core.errors import CarpusFault
 
 
 @dataclass(frozen=True, slots=True)

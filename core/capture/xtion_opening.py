@@ -7,7 +7,7 @@ import tempfile
 from collections.abc import Callable, Sequence
 from pathlib import Path
 
-from core.capture.openni2 import (
+from carpus.core.capture.openni2 import (
     CallFailed,
     Context,
     Device,
@@ -18,9 +18,9 @@ from core.capture.openni2 import (
     StreamProperty,
     VideoMode,
 )
-from core.capture.xtion_messages import CameraPlan, FilePlan, Opened
-from core.capture.xtion_usb import usb_cameras
-from core.errors import (
+from carpus.core.capture.xtion_messages import CameraPlan, FilePlan, Opened
+from carpus.core.capture.xtion_usb import usb_cameras
+from carpus.core.errors import (
     CameraBusy,
     CameraMissing,
     CameraPermission,

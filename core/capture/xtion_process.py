@@ -21,7 +21,7 @@ from collections.abc import Mapping
 from multiprocessing.connection import Connection
 from multiprocessing.shared_memory import SharedMemory
 
-from core.capture.openni2 import (
+from carpus.core.capture.openni2 import (
     CallFailed,
     Context,
     Device,
@@ -33,7 +33,7 @@ from core.capture.openni2 import (
     StreamProperty,
     VideoMode,
 )
-from core.capture.xtion_messages import (
+from carpus.core.capture.xtion_messages import (
     Alive,
     Arrived,
     Broken,
@@ -50,7 +50,7 @@ from core.capture.xtion_messages import (
     Stop,
     Trouble,
 )
-from core.capture.xtion_opening import (
+from carpus.core.capture.xtion_opening import (
     GaveUp,
     open_camera,
     open_unchanged,
@@ -58,7 +58,7 @@ from core.capture.xtion_opening import (
     survivable_name,
     without_deadly,
 )
-from core.errors import (
+from carpus.core.errors import (
     CameraLost,
     DriverFailed,
     DriverMissing,

@@ -7,15 +7,15 @@ from dataclasses import dataclass, replace
 import cv2
 import numpy as np
 from numpy.typing import NDArray
-from scipy.optimize import linear_sum_assignment
 
-from core.camera import Camera
-from core.detection import color_histogram
-from core.detection.blobs import outlines, refined_centres
-from core.detection.components import Components, components
-from core.detection.settings import DetectionSettings
-from core.detection.stencil import packed, stencil_for, unpacked, window_pixels
-from core.types import ByteImage, FloatArray, Frame
+from carpus.core.assignment import linear_sum_assignment
+from carpus.core.camera import Camera
+from carpus.core.detection import color_histogram
+from carpus.core.detection.blobs import outlines, refined_centres
+from carpus.core.detection.components import Components, components
+from carpus.core.detection.settings import DetectionSettings
+from carpus.core.detection.stencil import packed, stencil_for, unpacked, window_pixels
+from carpus.core.types import ByteImage, FloatArray, Frame
 
 _FALLBACK_RADIUS_PX = 5.0
 _ROUNDS = 3

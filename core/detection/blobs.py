@@ -12,10 +12,10 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from core.depth_noise import reading_sd_m
-from core.detection.settings import DetectionSettings
-from core.detection.stencil import WEDGES, Stencil
-from core.types import FloatArray
+from carpus.core.depth_noise import reading_sd_m
+from carpus.core.detection.settings import DetectionSettings
+from carpus.core.detection.stencil import WEDGES, Stencil
+from carpus.core.types import FloatArray
 
 _LOW, _HIGH = 0.2, 0.8
 """Shares of paper below and above these count as none and all; symmetric, so an edge's centre stays."""

@@ -9,7 +9,7 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from core.types import ByteImage, FloatArray
+from carpus.core.types import ByteImage, FloatArray
 
 BINS = 32
 """Bins of hue (of 180) and of saturation (of 256)."""

@@ -9,8 +9,8 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from core.detection.touching import split_touching
-from core.types import ByteImage, FloatArray
+from carpus.core.detection.touching import split_touching
+from carpus.core.types import ByteImage, FloatArray
 
 
 @dataclass(frozen=True, slots=True)

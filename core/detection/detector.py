@@ -10,14 +10,14 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from core.camera import Camera
-from core.detection import color_histogram
-from core.detection.appearance import MarkerAppearance, paper_mask
-from core.detection.blobs import Outline, blob_depths, outlines, refined_centres
-from core.detection.components import Components, components
-from core.detection.settings import DetectionSettings
-from core.detection.stencil import Stencil, packed, stencil_for, unpacked, window_pixels
-from core.types import ByteImage, Detections, FloatArray, Frame
+from carpus.core.camera import Camera
+from carpus.core.detection import color_histogram
+from carpus.core.detection.appearance import MarkerAppearance, paper_mask
+from carpus.core.detection.blobs import Outline, blob_depths, outlines, refined_centres
+from carpus.core.detection.components import Components, components
+from carpus.core.detection.settings import DetectionSettings
+from carpus.core.detection.stencil import Stencil, packed, stencil_for, unpacked, window_pixels
+from carpus.core.types import ByteImage, Detections, FloatArray, Frame
 
 _COARSE = 4
 """The hand's region is looked for in a picture this many times smaller."""

@@ -13,7 +13,7 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from core.types import ByteImage, FloatArray
+from carpus.core.types import ByteImage, FloatArray
 
 EDGE_REACH_PX = 6
 """The sensor's matching window reaches this far."""

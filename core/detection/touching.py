@@ -7,12 +7,14 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
-from core.types import FloatArray
+from carpus.core.types import FloatArray
 
 _LONG_SIDE = 2.8
 """A blob's box longer than this many radii is more than one disc facing any way."""
 _LONG_AXIS = 0.72
 """So is one whose pixels scatter along their main axis by more than this many radii (a disc: one half)."""
+_EDGE_PX = 0.5
+"""By so much a blurred edge widens every disc, large or small."""
 _ROUNDS = 6
 MOST_PARTS = 4
 
@@ -28,7 +30,7 @@ def split_touching(
     """
     out: list[tuple[int, NDArray[np.int64], FloatArray]] = []
     following = len(stats)
-    is_long = np.maximum(stats[:, 2], stats[:, 3]) > _LONG_SIDE * radius_px
+    is_long = np.maximum(stats[:, 2], stats[:, 3]) > _LONG_SIDE * (radius_px + _EDGE_PX)
     is_long[0] = False  # the background
     for label in np.flatnonzero(is_long).tolist():
         left, top, width, height, _ = stats[label].tolist()
@@ -58,7 +60,7 @@ def _parts(points: FloatArray, radius_px: float) -> NDArray[np.int64] | None:
     centred = points - centre
     (xx, xy), (_, yy) = (centred.T @ centred / len(points)).tolist()
     half_gap = math.hypot(0.5 * (xx - yy), xy)
-    if math.sqrt(0.5 * (xx + yy) + half_gap) <= _LONG_AXIS * radius_px:
+    if math.sqrt(0.5 * (xx + yy) + half_gap) <= _LONG_AXIS * (radius_px + _EDGE_PX):
         return None
     tilt = 0.5 * math.atan2(2.0 * xy, xx - yy)
     axis = np.array([math.cos(tilt), math.sin(tilt)])

@@ -12,9 +12,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from core.hand.protocols import HAND21
-from core.hand.wrist_frame import wrist_axes
-from core.types import FloatArray, Side
+from carpus.core.hand.protocols import HAND21
+from carpus.core.hand.wrist_frame import wrist_axes
+from carpus.core.types import FloatArray, Side
 
 BREADTH_SHARE = 0.45
 """Hand breadth over hand length where only the length is known (reference 3.3)."""

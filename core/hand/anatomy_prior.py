@@ -11,22 +11,17 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from core.hand.anatomy import HandAnatomy, anatomy_from_size
-from core.hand.kinematics import DIP_PER_PIP
-from core.hand.protocols import HAND21
-from core.hand.ray_fitting import Gaussian
-from core.types import FloatArray, Side
+from carpus.core.hand.anatomy import HandAnatomy, anatomy_from_size
+from carpus.core.hand.kinematics import DIP_PER_PIP
+from carpus.core.hand.protocols import HAND21
+from carpus.core.hand.ray_fitting import Gaussian
+from carpus.core.types import FloatArray, Side
 
 RAY_DISCS = ((2, 3, 4), (6, 7, 8), (10, 11, 12), (14, 15, 16), (18, 19, 20))
 """Places in ``hand21`` of the three moving discs of the thumb and of fingers 2 to 5."""
 
 _PALM = list(HAND21.palm)
 
-# Scatter of the depth of each joint centre by itself: a fourteenth of the ranges of reference 2. What else makes these
-# wide is told apart: the sizes of hands (the table is scaled by them) and how much flesh there is (common to a ray,
-# ``height_scale``).
-_DEPTH_SD_M = np.array([0.00043, 0.00029, 0.00017, 0.00014])  # CMC1, MCP1, IP1, TIP1
-_FINGER_DEPTH_SD_M = np.array([0.00036, 0.00021, 0.00017, 0.00014])  # MCP, PIP, DIP, TIP
 _FIXED = 1e-6
 _DOWN = np.array([1.0, 1.0, -1.0])
 
@@ -40,25 +35,47 @@ class AnatomyPrior:
     ``start_ahead_m`` and ``start_aside_m`` of the first joint centre (MCP, CMC1) from the place under its disc.
     ``depth_stays_m``: error of a disc's depth that stays over a recording. To the camera it is height, at the neutral
     pose and after, so it is part of what is not known of the heights.
+    ``stuck_off_m``: how far a disc on a finger is stuck beside the middle of its joint.
+    ``finger_depth_m`` of each disc's height over its joint centre by itself (MCP, PIP, DIP, TIP), ``thumb_depth_m``
+    (CMC1, MCP1, IP1, TIP1): with ``height_scale`` somewhat more than a quarter of the ranges of reference 2, as hands
+    after an injury are swollen.
     ``neutral_*`` of the angles at the neutral pose, about a hand that lies relaxed: joints bent by
     ``relaxed_flexion_rad``, the thumb a little out, ``relaxed_thumb_rad`` CMC extension and abduction.
+    ``straight_rad``: how straight a finger lies of which a person says that it does, each joint by itself;
+    ``straight_thumb_rad`` a thumb, which nobody aligns. ``bent_rad``: flexion of a finger that cannot, or whose discs
+    lie ``evidently_sd`` standard deviations from where a straight one's would.
+    ``dip_free_rad``: how far an end joint is from 2/3 of the middle one; ``dip_slack_rad`` one that should follow it.
+    A neutral ray that costs more than ``absurd_cost`` (sum of squares in standard deviations) may have an absurd depth:
+    one that lies farther than ``absurd_m`` from where the others say, and that costs ``absurd_gain``. Less than that is
+    flesh, or a disc stuck askew.
     """
 
     bone_share: float = 0.06
     last_bone_share: float = 0.20
-    fan_rad: float = math.radians(1.8)
+    fan_rad: float = math.radians(2.5)
     thumb_fan_rad: float = math.radians(5.0)
     thumb_roll_rad: float = math.radians(6.0)
     height_scale: float = 0.1
+    finger_depth_m: tuple[float, ...] = (0.0015, 0.0007, 0.0005, 0.0004)
+    thumb_depth_m: tuple[float, ...] = (0.0015, 0.0010, 0.00065, 0.00045)
     start_ahead_m: float = 0.0015
     start_aside_m: float = 0.0007
     depth_stays_m: float = 0.0004
-    neutral_abduction_rad: float = math.radians(1.8)
-    neutral_flexion_rad: float = math.radians(6.0)
+    stuck_off_m: float = 0.0006
+    neutral_abduction_rad: float = math.radians(2.2)
+    neutral_flexion_rad: float = math.radians(4.5)
     neutral_thumb_rad: float = math.radians(5.0)
     relaxed_flexion_rad: float = math.radians(4.0)
-    relaxed_thumb_rad: tuple[float, float] = (math.radians(8.0), math.radians(8.0))
-    dip_free_rad: float = math.radians(8.0)
+    relaxed_thumb_rad: tuple[float, ...] = (math.radians(10.0), math.radians(9.0))
+    straight_rad: float = math.radians(3.0)
+    straight_thumb_rad: float = math.radians(6.0)
+    bent_rad: float = math.radians(20.0)
+    evidently_sd: float = 3.5
+    dip_free_rad: float = math.radians(10.0)
+    dip_slack_rad: float = math.radians(4.0)
+    absurd_m: float = 0.008
+    absurd_cost: float = 30.0
+    absurd_gain: float = 12.0
 
 
 def average_hand(disc_m: FloatArray, side: Side, skin_offsets: bool) -> HandAnatomy:
@@ -108,7 +125,7 @@ def constants_prior(
         if has_offsets:
             sd[5] = math.hypot(prior.start_ahead_m, lateral_sd_m[ray])
             sd[6] = math.hypot(prior.start_aside_m, lateral_sd_m[ray])
-            sd[7:] = np.hypot(_FINGER_DEPTH_SD_M if ray else _DEPTH_SD_M, stays_m)
+            sd[7:] = np.hypot(prior.finger_depth_m if ray else prior.thumb_depth_m, stays_m)
             heights[7:] = mean[ray, 7:]
         sd[7] = math.hypot(sd[7], depth_sd_m[ray])
         covariance[ray] = np.diag(sd**2) + prior.height_scale**2 * np.outer(heights, heights)
@@ -142,8 +159,13 @@ def with_constants(hand: HandAnatomy, constants: FloatArray) -> HandAnatomy:
     )
 
 
-def neutral_prior(ray: int, prior: AnatomyPrior, dip_free: bool) -> Gaussian:
-    """Angles of one ray at the neutral pose, a relaxed hand on average; (1, 4 or 5)."""
+FLEXIONS = ((2, 4), (1, 2))
+"""Which angles of the thumb, and of a finger, are flexions that a straight finger has not; a finger's end follows."""
+
+
+def neutral_prior(ray: int, prior: AnatomyPrior, dip_free: bool, is_straight: bool | None = None) -> Gaussian:
+    """Angles of one ray at the neutral pose, (1, 4 or 5): a relaxed hand on average; where a person said whether the
+    finger lies straight, with that."""
     bent = prior.relaxed_flexion_rad
     if ray == 0:
         sd = np.full(5, prior.neutral_thumb_rad)
@@ -152,17 +174,28 @@ def neutral_prior(ray: int, prior: AnatomyPrior, dip_free: bool) -> Gaussian:
     else:
         sd = np.full(4, prior.neutral_flexion_rad)
         sd[0] = prior.neutral_abduction_rad
-        mean = np.array([0.0, bent, bent, DIP_PER_PIP * bent])
-    covariance = angles_covariance(sd, ray, dip_free, prior.dip_free_rad)
+        mean = np.array([0.0, bent, bent, 0.0])
+    flexions = list(FLEXIONS[min(ray, 1)])
+    if is_straight is not None:
+        if is_straight:
+            straight = prior.straight_rad if ray else prior.straight_thumb_rad
+            share = sd[flexions] ** 2 / (sd[flexions] ** 2 + straight**2)
+            mean[flexions] *= 1.0 - share
+            sd[flexions] = np.sqrt(share) * straight
+        else:
+            sd[flexions] = np.hypot(sd[flexions], prior.bent_rad)
+    if ray:
+        mean[3] = DIP_PER_PIP * mean[2]
+    covariance = angles_covariance(sd, ray, prior.dip_free_rad if dip_free else prior.dip_slack_rad)
     return Gaussian(mean[None], covariance[None])
 
 
-def angles_covariance(sd_rad: FloatArray, ray: int, dip_free: bool, dip_sd_rad: float) -> FloatArray:
-    """Covariance of one ray's angles where DIP is 2/3 PIP, exactly or give or take ``dip_sd_rad``."""
+def angles_covariance(sd_rad: FloatArray, ray: int, dip_sd_rad: float) -> FloatArray:
+    """Covariance of one ray's angles where DIP is 2/3 PIP give or take ``dip_sd_rad``."""
     if ray == 0:
         return np.diag(sd_rad**2)
     follow = np.eye(4)
     follow[3, 2] = DIP_PER_PIP
     own = sd_rad.copy()
-    own[3] = dip_sd_rad if dip_free else math.radians(0.05)
+    own[3] = dip_sd_rad
     return np.asarray(follow @ np.diag(own**2) @ follow.T)

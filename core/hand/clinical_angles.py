@@ -9,10 +9,12 @@ import math
 
 import numpy as np
 
-from core.types import FloatArray, Side
+from carpus.core.types import FloatArray, Side
 
 ZYZ_UNDEFINED_BELOW_RAD = math.radians(3.0)
 """Below this beta only alpha + gamma is defined (reference 1.4)."""
+ZYZ_MOST_SD_RAD = math.radians(30.0)
+"""An alpha or gamma known worse than this is not given."""
 
 
 def side_sign(side: Side) -> float:
@@ -70,6 +72,61 @@ def angle_rates_matrix(rotation_w2_w0: FloatArray, side: Side) -> FloatArray:
     out[..., 2, 1] = sx * t
     out[..., 2, 2] = cx * t
     return out
+
+
+def isb_from_rotation(rotation_w2_w0: FloatArray, side: Side) -> FloatArray:
+    """Deviation (+ radial), flexion, pro/supination (+ supination) in the order of the ISB, shape (..., 3).
+
+    Flexion about the forearm's axis first, deviation about the floating axis, turning about the hand's (reference 1.3;
+    Wu 2005). Not to be mixed with :func:`angles_from_rotation` between sessions.
+
+    >>> pose = rotation_from_angles(np.radians([20.0, 60.0, 0.0]), "right")
+    >>> np.degrees(isb_from_rotation(pose, "right")).round(1)
+    array([  9.8,  61.5, -17.5])
+    """
+    r = rotation_w2_w0
+    s = side_sign(side)
+    deviation = np.arcsin(np.clip(r[..., 1, 0], -1.0, 1.0))
+    flexion = np.arctan2(-r[..., 2, 0], r[..., 0, 0])
+    turning = np.arctan2(-r[..., 1, 2], r[..., 1, 1])
+    return np.stack((s * deviation, flexion + 0.0, s * turning), axis=-1)
+
+
+def zyz_with_sd(
+    rotation_w2_w0: FloatArray, angles_sd_rad: FloatArray, side: Side
+) -> tuple[FloatArray, FloatArray, FloatArray]:
+    """ZYZ angles (..., 3) wherever they mean anything, their standard deviations (..., 3), and alpha + gamma (...,).
+
+    ``angles_sd_rad`` (..., 3) of the clinical angles, taken as independent. Near the neutral pose alpha and gamma drown
+    in the uncertainty of the pose while beta and their sum stay known: they are NaN where their sd passes 30 degrees,
+    and the sds say how well they are known elsewhere. Beta has no sign: within its sd of zero it is too large.
+    """
+    r = rotation_w2_w0
+    sine = np.hypot(r[..., 0, 2], r[..., 1, 2])
+    beta = np.arctan2(sine, r[..., 2, 2])
+    alpha = np.arctan2(r[..., 1, 2], r[..., 0, 2])
+    gamma = np.arctan2(r[..., 2, 1], -r[..., 2, 0])
+    whole = np.asarray(np.isfinite(r).all(axis=(-2, -1)))[..., None, None]
+    back = np.linalg.inv(np.where(whole, angle_rates_matrix(r, side), np.eye(3)))
+    turn = back @ (np.square(angles_sd_rad)[..., None] * np.swapaxes(back, -1, -2))
+    cg, sg, cb = np.cos(gamma), np.sin(gamma), np.cos(beta)
+    safe = np.maximum(sine, 1e-9)
+    zero = np.zeros_like(beta)
+    by_turn = np.stack(
+        (
+            np.stack((-cg / safe, sg / safe, zero), -1),
+            np.stack((sg, cg, zero), -1),
+            np.stack((cg * cb / safe, -sg * cb / safe, np.ones_like(beta)), -1),
+        ),
+        axis=-2,
+    )
+    variance = np.einsum("...ij,...jk,...ik->...i", by_turn, turn, by_turn)
+    sd = np.sqrt(np.maximum(variance, 0.0))
+    apart = np.isfinite(beta) & (sd[..., [0, 2]] <= ZYZ_MOST_SD_RAD).all(axis=-1)
+    known = np.stack((apart, np.isfinite(beta), apart), axis=-1)
+    zyz = np.where(known, np.stack((alpha, beta, gamma), axis=-1), np.nan)
+    total = np.arctan2(r[..., 1, 0] - r[..., 0, 1], r[..., 0, 0] + r[..., 1, 1])
+    return zyz, np.where(known, sd, np.nan), total
 
 
 def zyz_from_rotation(rotation_w2_w0: FloatArray) -> FloatArray:

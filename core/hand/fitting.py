@@ -11,8 +11,9 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from core.hand.anatomy import HandAnatomy
-from core.hand.anatomy_prior import (
+from carpus.core.hand.anatomy import HandAnatomy
+from carpus.core.hand.anatomy_prior import (
+    FLEXIONS,
     RAY_DISCS,
     AnatomyPrior,
     average_hand,
@@ -20,12 +21,9 @@ from core.hand.anatomy_prior import (
     neutral_prior,
     with_constants,
 )
-from core.hand.protocols import HAND21
-from core.hand.ray_fitting import Gaussian, RayModel, finger_model, fit_ray, thumb_model
-from core.types import FloatArray, Side
-
-_ABSURD_COST = 30.0
-_ABSURD_GAIN = 12.0
+from carpus.core.hand.protocols import HAND21
+from carpus.core.hand.ray_fitting import Gaussian, RayModel, finger_model, fit_ray, thumb_model
+from carpus.core.types import FloatArray, Side
 
 
 @dataclass(frozen=True, slots=True)
@@ -74,13 +72,25 @@ class AnatomyFit:
 
 
 def fit_anatomy(
-    seen: SeenDiscs, side: Side, *, dip_free: bool = False, skin_offsets: bool = True, prior: AnatomyPrior | None = None
+    seen: SeenDiscs,
+    side: Side,
+    *,
+    dip_free: bool = False,
+    skin_offsets: bool = True,
+    prior: AnatomyPrior | None = None,
+    straight: tuple[bool, ...] = (),
 ) -> AnatomyFit:
     """The hand whose discs were measured at the neutral pose (F = 1); the palm's discs are taken as measured.
 
-    With ``skin_offsets=False`` discs are joints, as in the papers.
+    With ``skin_offsets=False`` discs are joints, as in the papers. ``straight`` (5,) or empty: what a person says of
+    each finger.
     """
     prior = prior or AnatomyPrior()
+    lateral = seen.lateral_sd_m.copy()
+    if skin_offsets:
+        moving = np.array(RAY_DISCS)
+        lateral[:, moving] = np.hypot(lateral[:, moving], prior.stuck_off_m)
+    seen = replace(seen, lateral_sd_m=lateral)
     disc, information = _right_handed(seen, side)
     blind = replace(seen, depth_sd_m=np.full_like(seen.depth_sd_m, np.inf))
     across = _right_handed(blind, side)[1]
@@ -88,33 +98,57 @@ def fit_anatomy(
     starts = list(HAND21.palm[1:])
     rays = constants_prior(average, prior, seen.lateral_sd_m[0, starts], seen.depth_sd_m[0, starts])
     absurd: list[str] = []
+    neutral: list[Gaussian] = []
     for ray, discs in enumerate(RAY_DISCS):
         own = list(discs)
         known = Gaussian(rays.mean[ray], rays.covariance[ray])
-        angles = neutral_prior(ray, prior, dip_free)
         model = _ray_model(average, ray)
-        for i in _absurd_depths(model, known, angles, disc[:, own], information[:, own], across[:, own]):
+        is_straight = straight[ray] if straight else None
+        angles = _not_evidently_bent(model, known, ray, prior, dip_free, is_straight, disc[:, own], information[:, own])
+        neutral.append(angles)
+        for i in _absurd_depths(model, known, angles, disc[:, own], information[:, own], across[:, own], prior):
             information[:, own[i]] = across[:, own[i]]
             absurd.append(HAND21.markers[own[i]])
-    return _fitted(average, rays, prior, disc, information, tuple(absurd), dip_free)
+    return _fitted(average, rays, neutral, disc, information, tuple(absurd), dip_free)
+
+
+def _not_evidently_bent(
+    model: RayModel,
+    known: Gaussian,
+    ray: int,
+    prior: AnatomyPrior,
+    dip_free: bool,
+    is_straight: bool | None,
+    disc_m: FloatArray,
+    information_m2: FloatArray,
+) -> Gaussian:
+    """What is expected of a ray's angles at the neutral pose, unless its discs show a finger that is bent: then it is
+    not drawn towards straight."""
+    expected = neutral_prior(ray, prior, dip_free, is_straight)
+    bent = neutral_prior(ray, prior, dip_free, is_straight=False)
+    shown = fit_ray(model, known, bent, disc_m, information_m2).angles
+    flexions = list(FLEXIONS[min(ray, 1)])
+    off = (shown.mean - expected.mean)[0, flexions]
+    variance = np.diagonal((shown.covariance + expected.covariance)[0])[flexions]
+    return bent if (np.abs(off) > prior.evidently_sd * np.sqrt(variance)).any() else expected
 
 
 def _fitted(
     hand: HandAnatomy,
     average: Gaussian,
-    prior: AnatomyPrior,
+    neutral: list[Gaussian],
     disc_m: FloatArray,
     information_m2: FloatArray,
     absurd_depth: tuple[str, ...],
     dip_free: bool,
 ) -> AnatomyFit:
-    """Fit each ray to the neutral pose, discs (1, 21, 3) in axes of a right hand; ``average`` constants (5, 11)."""
+    """Fit each ray to the neutral pose, discs (1, 21, 3) in axes of a right hand; ``average`` constants (5, 11);
+    ``neutral`` angles expected of each."""
     fits = []
     for ray, discs in enumerate(RAY_DISCS):
         own = list(discs)
         known = Gaussian(average.mean[ray], average.covariance[ray])
-        angles = neutral_prior(ray, prior, dip_free)
-        fits.append(fit_ray(_ray_model(hand, ray), known, angles, disc_m[:, own], information_m2[:, own]))
+        fits.append(fit_ray(_ray_model(hand, ray), known, neutral[ray], disc_m[:, own], information_m2[:, own]))
     rays = Gaussian(
         np.stack([fit.constants.mean for fit in fits]), np.stack([fit.constants.covariance for fit in fits])
     )
@@ -157,18 +191,23 @@ def _absurd_depths(
     disc_m: FloatArray,
     information_m2: FloatArray,
     across_m2: FloatArray,
+    prior: AnatomyPrior,
 ) -> list[int]:
     """Which of the three depths of a neutral ray no likely hand explains."""
     absurd: list[int] = []
     cost = fit_ray(model, constants, angles, disc_m, information_m2).cost
-    while cost > _ABSURD_COST and len(absurd) < 3:
+    while cost > prior.absurd_cost and len(absurd) < 3:
         without = {}
         for i in set(range(3)) - set(absurd):
             lighter = information_m2.copy()
             lighter[:, [*absurd, i]] = across_m2[:, [*absurd, i]]
-            without[i] = fit_ray(model, constants, angles, disc_m, lighter).cost
+            fit = fit_ray(model, constants, angles, disc_m, lighter)
+            if np.linalg.norm(fit.residual_m[0, i]) > prior.absurd_m:
+                without[i] = fit.cost
+        if not without:
+            break
         best = min(without, key=lambda i: without[i])
-        if cost - without[best] < _ABSURD_GAIN:
+        if cost - without[best] < prior.absurd_gain:
             break
         cost = without[best]
         absurd.append(best)

@@ -13,9 +13,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from core.hand.anatomy import HandAnatomy
-from core.hand.protocols import HAND21
-from core.types import FloatArray
+from carpus.core.hand.anatomy import HandAnatomy
+from carpus.core.hand.protocols import HAND21
+from carpus.core.types import FloatArray
 
 DIP_PER_PIP = 2.0 / 3.0
 """DIP flexion over PIP flexion of a healthy finger moving freely (hand paper, section 2)."""
@@ -38,7 +38,7 @@ class SegmentFrames:
 def joint_centres(anatomy: HandAnatomy, angles_rad: FloatArray) -> FloatArray:
     """Joint centres and tips, (..., 21, 3) in W.
 
-    >>> from core.hand.anatomy import anatomy_from_size
+    >>> from carpus.core.hand.anatomy import anatomy_from_size
     >>> straight = joint_centres(anatomy_from_size(0.180, 0.080, arch=0.0, skin_offsets=False), np.zeros(17))
     >>> straight[HAND21.markers.index("TIP2")].round(4)
     array([0.1674, 0.0277, 0.    ])

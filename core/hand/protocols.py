@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from core.errors import ProtocolUnknown
+from carpus.core.errors import ProtocolUnknown
 
 WRIST_ANGLES = ("deviation", "flexion", "pronosupination")
 PALM_MARKERS = ("WRIST", "CMC1", "MCP2", "MCP3", "MCP4", "MCP5")

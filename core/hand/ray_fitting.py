@@ -12,8 +12,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from core.hand.kinematics import finger_discs, thumb_discs
-from core.types import FloatArray
+from carpus.core.hand.kinematics import finger_discs, thumb_discs
+from carpus.core.types import FloatArray
 
 RAY_CONSTANTS = (
     "length_1", "length_2", "length_3", "fan", "roll", "start_ahead", "start_aside", "start_depth",

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from core.types import FloatArray
+from carpus.core.types import FloatArray
 
 WRIST, CMC1, MCP2, MCP3, MCP4, MCP5 = range(6)
 _PLANE = [WRIST, MCP2, MCP3, MCP4, MCP5]

@@ -6,8 +6,8 @@ import math
 from dataclasses import dataclass
 from typing import Literal
 
-from core.measures.motion_range import FEWEST_FOR_SPREAD
-from core.types import Side
+from carpus.core.measures.motion_range import FEWEST_FOR_SPREAD
+from carpus.core.types import Side
 
 MDC95_FACTOR = 1.96 * math.sqrt(2.0)
 """Minimal detectable change at 95 % per standard error of measurement: 2.77."""
@@ -26,6 +26,9 @@ _LIMIT_DEG = {
     "IP1": 15.0,
     TOTAL_ACTIVE_MOTION: 22.0,
 }
+
+ARC_LIMIT_FACTOR = math.sqrt(2.0)
+"""Error limit of an arc against that of one of its two ends, whose errors are independent; of TAM there is an own."""
 
 Obstacle = Literal["side", "protocol", "exercise", "few_repetitions_before", "few_repetitions_after", "unknown"]
 
@@ -63,8 +66,8 @@ class Change:
 def change_limit_rad(angle_name: str) -> float:
     """Difference of two sessions' means above which it exceeds measurement error, for an angle of the session file.
 
-    Defaults of the reference until a clinic has test-retest data of its own; the free DIP takes the PIP's. Raises
-    KeyError for an unknown name.
+    Defaults of the reference, which are its authors' choice and no published figures, until a clinic has
+    test-retest data of its own; the free DIP takes the PIP's. Raises KeyError for an unknown name.
 
     >>> round(math.degrees(change_limit_rad("MCP4_flexion")))
     12

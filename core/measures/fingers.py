@@ -14,13 +14,14 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from core.hand.anatomy import HARD_LIMITS_RAD
-from core.hand.protocols import HAND21
-from core.measures.motion_range import FEWEST_FOR_SPREAD, Figure, MotionRange, motion_range
-from core.measures.repetitions import Repetition
-from core.measures.signals import BoolArray, Signal, even_signal, low_pass
-from core.measures.validity import LARGEST_SD_RAD
-from core.types import FloatArray, TrackStatus
+from carpus.core.hand.anatomy import HARD_LIMITS_RAD
+from carpus.core.hand.protocols import HAND21
+from carpus.core.measures.motion_range import FEWEST_FOR_SPREAD, Figure, MotionRange, motion_range
+from carpus.core.measures.noise import HIGHEST_CUTOFF_HZ
+from carpus.core.measures.repetitions import Repetition
+from carpus.core.measures.signals import BoolArray, Signal, even_signal, low_pass
+from carpus.core.measures.validity import LARGEST_SD_RAD
+from carpus.core.types import FloatArray, TrackStatus
 
 DIP_PER_PIP = 2.0 / 3.0
 """Bending of the end joint per bending of the middle joint where no disc measures it (hand paper)."""
@@ -44,6 +45,8 @@ class JointTrack:
     tracked: Signal
     tracked_sd: Signal
     seen_share: float
+    smoothed: bool | None = None
+    """Whether the smoother tracked it, or the filter; None for an angle without noise of tracking."""
 
     @property
     def known(self) -> bool:
@@ -93,13 +96,24 @@ def possible_joints(names: Sequence[str], angles_rad: FloatArray) -> BoolArray:
 
 
 def joint_track(
-    name: str, timestamp_s: FloatArray, angle_rad: FloatArray, sd_rad: FloatArray, valid: BoolArray
+    name: str,
+    timestamp_s: FloatArray,
+    angle_rad: FloatArray,
+    sd_rad: FloatArray,
+    valid: BoolArray,
+    smoothed: bool | None = None,
 ) -> JointTrack:
     """One joint from its columns (N,) of the session."""
     both = np.column_stack((angle_rad, sd_rad))
     seen, tracked = even_signal(timestamp_s, both, valid), even_signal(timestamp_s, both)
     return JointTrack(
-        name, low_pass(seen.column(0)), seen.column(1), tracked.column(0), tracked.column(1), seen.valid_share
+        name,
+        low_pass(seen.column(0), HIGHEST_CUTOFF_HZ),
+        seen.column(1),
+        tracked.column(0),
+        tracked.column(1),
+        seen.valid_share,
+        smoothed,
     )
 
 
@@ -122,8 +136,12 @@ def joint_range(track: JointTrack, repetitions: Sequence[Repetition]) -> MotionR
         limits.append((_exceeds(angle - np.nanmax(part) + sd), _exceeds(np.nanmin(part) - angle + sd)))
     whole = tuple(rep for rep, limit in zip(usable, limits, strict=False) if not any(limit))
     if len(whole) >= FEWEST_FOR_SPREAD:
-        return replace(motion_range(track.seen, track.seen_sd, whole), top_limited=False, bottom_limited=False)
-    measured = motion_range(track.seen, track.seen_sd, usable)
+        return replace(
+            motion_range(track.seen, track.seen_sd, whole, smoothed=track.smoothed),
+            top_limited=False,
+            bottom_limited=False,
+        )
+    measured = motion_range(track.seen, track.seen_sd, usable, smoothed=track.smoothed)
     top, bottom = (any(limit[end] for limit in limits) for end in (0, 1))
     return replace(measured, top_limited=top, bottom_limited=bottom)
 

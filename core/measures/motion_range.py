@@ -7,12 +7,15 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from core.measures.repetitions import Repetition
-from core.measures.signals import Signal
-from core.types import FloatArray
+from carpus.core.measures.noise import STAYING_SHARE_OF_SD, clean_cutoff_hz, extreme, moving_noise
+from carpus.core.measures.repetitions import Repetition
+from carpus.core.measures.signals import Signal, low_pass
+from carpus.core.types import FloatArray
 
 FEWEST_FOR_SPREAD = 3
 """Fewer repetitions are listed one by one: they have no mean worth a spread."""
+USUAL_STROKE_S = 1.5
+"""How long one movement takes where nothing was repeated."""
 LEAST_VALID_SHARE = 0.7
 """A repetition seen for less than this is not measured."""
 
@@ -68,10 +71,14 @@ class MotionRange:
     bottom_limited: bool
 
 
-def motion_range(angle: Signal, sd: Signal, repetitions: tuple[Repetition, ...]) -> MotionRange:
+def motion_range(
+    angle: Signal, sd: Signal, repetitions: tuple[Repetition, ...], *, smoothed: bool | None = None
+) -> MotionRange:
     """Maximum, minimum and arc of an angle (rad, low-passed) in each repetition that was seen well enough.
 
-    ``sd`` has the angle's standard deviation on the same time base.
+    ``sd`` has the angle's standard deviation on the same time base. ``smoothed``: whether the smoother tracked it, or
+    the filter; then what noise adds to an extreme is taken off it, and each figure has the deviation of its noise. None
+    for an angle without noise of tracking.
     """
     usable = [rep for rep in repetitions if rep.valid_share >= LEAST_VALID_SHARE]
     windows = [(rep.start_s, rep.end_s) for rep in usable]
@@ -84,10 +91,20 @@ def motion_range(angle: Signal, sd: Signal, repetitions: tuple[Repetition, ...])
         if not part.finite.any():
             continue
         top, bottom = int(np.nanargmax(part.value)), int(np.nanargmin(part.value))
-        tops.append(part.value[top])
-        bottoms.append(part.value[bottom])
-        top_sds.append(part_sd.value[top])
-        bottom_sds.append(part_sd.value[bottom])
+        highest, lowest = float(part.value[top]), float(part.value[bottom])
+        highest_sd, lowest_sd = float(part_sd.value[top]), float(part_sd.value[bottom])
+        if smoothed is not None:
+            stroke_s = 0.5 * (end_s - start_s) if usable else USUAL_STROKE_S
+            noise = moving_noise(part, part_sd, stroke_s, smoothed=smoothed)
+            clean = low_pass(part, clean_cutoff_hz(stroke_s)).value
+            highest, moving = extreme(part.value, clean, noise, part.rate_hz, largest=True)
+            highest_sd = math.hypot(moving, STAYING_SHARE_OF_SD * highest_sd)
+            lowest, moving = extreme(part.value, clean, noise, part.rate_hz, largest=False)
+            lowest_sd = math.hypot(moving, STAYING_SHARE_OF_SD * lowest_sd)
+        tops.append(highest)
+        bottoms.append(lowest)
+        top_sds.append(highest_sd)
+        bottom_sds.append(lowest_sd)
         top_limited |= angle.beside_gap(float(part.time_s[top]))
         bottom_limited |= angle.beside_gap(float(part.time_s[bottom]))
     top_values, bottom_values = np.array(tops), np.array(bottoms)

@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from core.types import FloatArray
+from carpus.core.types import FloatArray
 
 BoolArray = NDArray[np.bool_]
 
@@ -16,6 +16,8 @@ LONGEST_GAP_S = 0.2
 """Gaps up to this are filled by straight lines, longer ones stay gaps (reference 5)."""
 SPEED_CUTOFF_HZ = 6.0
 """Low-pass before any speed or smoothness is taken (reference 4.4)."""
+_PASSES_APART = (math.sqrt(2.0) - 1.0) ** 0.25
+"""Cut-off of both passes of a second-order filter against that of each."""
 _SHORTEST_FILTERED = 4
 """Samples between two gaps below which there is nothing to filter."""
 
@@ -83,7 +85,8 @@ def even_signal(timestamp_s: FloatArray, value: FloatArray, valid: BoolArray | N
 
 
 def low_pass(signal: Signal, cutoff_hz: float = SPEED_CUTOFF_HZ) -> Signal:
-    """Second-order Butterworth forwards and backwards (no delay), each stretch between gaps on its own.
+    """Second-order Butterworth forwards and backwards (no delay), each stretch between gaps on its own; both passes
+    together have -3 dB at the cut-off.
 
     Stretches of fewer than 4 samples become gaps. A recording too slow for the cut-off is left as it is.
     """
@@ -91,7 +94,9 @@ def low_pass(signal: Signal, cutoff_hz: float = SPEED_CUTOFF_HZ) -> Signal:
         return signal
     from scipy import signal as sps  # half a second to load, and not needed before something has been recorded
 
-    b, a = sps.butter(2, cutoff_hz, fs=signal.rate_hz)
+    # Each pass has -1.5 dB at the cut-off, so its own lies higher (Winter 2009), in the bilinear transform's scale.
+    turn = math.atan(math.tan(math.pi * cutoff_hz / signal.rate_hz) / _PASSES_APART)
+    b, a = sps.butter(2, turn / math.pi * signal.rate_hz, fs=signal.rate_hz)
     out = np.full_like(signal.value, np.nan)
     for part in stretches(signal.finite):
         length = part.stop - part.start
@@ -101,11 +106,18 @@ def low_pass(signal: Signal, cutoff_hz: float = SPEED_CUTOFF_HZ) -> Signal:
 
 
 def rate_of_change(signal: Signal) -> Signal:
-    """Central differences (one-sided at the ends of a stretch), unit of the value per second."""
+    """Central differences of fourth order (plain at the ends of a stretch), unit of the value per second.
+
+    Plain ones take 3 % off a movement of two cycles a second at 30 samples a second.
+    """
     out = np.full_like(signal.value, np.nan)
     for part in stretches(signal.finite):
         if part.stop - part.start >= 2:
-            out[part] = np.gradient(signal.value[part], 1.0 / signal.rate_hz, axis=0)
+            value = signal.value[part]
+            out[part] = np.gradient(value, 1.0 / signal.rate_hz, axis=0)
+            if len(value) >= 5:
+                inner = (value[:-4] - 8.0 * value[1:-3] + 8.0 * value[3:-1] - value[4:]) * (signal.rate_hz / 12.0)
+                out[part.start + 2 : part.stop - 2] = inner
     return replace(signal, value=out)
 
 

@@ -7,11 +7,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from core.measures.motion_range import MotionRange, motion_range
-from core.measures.repetitions import Repetition, find_repetitions
-from core.measures.signals import BoolArray, even_signal, low_pass
-from core.measures.speed import StrokeMeasures, measure_stroke
-from core.types import FloatArray
+from carpus.core.measures.motion_range import MotionRange, motion_range
+from carpus.core.measures.repetitions import Repetition, find_repetitions
+from carpus.core.measures.signals import BoolArray, even_signal, low_pass
+from carpus.core.measures.speed import StrokeMeasures, measure_stroke
+from carpus.core.types import FloatArray
 
 
 @dataclass(frozen=True, slots=True)
@@ -31,12 +31,17 @@ class AngleSummary:
 
 
 def summarise_angle(
-    timestamp_s: FloatArray, angle_rad: FloatArray, angle_sd_rad: FloatArray, valid: BoolArray
+    timestamp_s: FloatArray,
+    angle_rad: FloatArray,
+    angle_sd_rad: FloatArray,
+    valid: BoolArray,
+    *,
+    smoothed: bool | None = None,
 ) -> AngleSummary:
     """Measures of one angle; all arrays (N,), ``valid`` from :mod:`core.measures.validity`.
 
-    Times are those of the session file. Repetitions are counted on the angle as it came, everything else is taken
-    from the angle after the 6 Hz low-pass.
+    Times are those of the session file. Repetitions are counted on the angle as it came, ranges are those after the
+    6 Hz low-pass, and speeds are smoothed as much as their noise asks for. ``smoothed`` as in :func:`motion_range`.
     """
     both = even_signal(timestamp_s, np.column_stack((angle_rad, angle_sd_rad)), valid)
     raw, sd = both.column(0), both.column(1)
@@ -45,6 +50,9 @@ def summarise_angle(
     return AngleSummary(
         valid_share=raw.valid_share,
         repetitions=exercise.repetitions,
-        range=motion_range(angle, sd, exercise.repetitions),
-        strokes=tuple(measure_stroke(angle, stroke) for stroke in exercise.strokes),
+        range=motion_range(angle, sd, exercise.repetitions, smoothed=smoothed),
+        strokes=tuple(
+            measure_stroke(raw, stroke, None if smoothed is None else sd, smoothed=smoothed is not False)
+            for stroke in exercise.strokes
+        ),
     )

@@ -7,12 +7,14 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
-from core.measures.signals import BoolArray
-from core.types import FloatArray, TrackStatus
+from carpus.core.measures.signals import LONGEST_GAP_S, BoolArray, stretches
+from carpus.core.types import FloatArray, TrackStatus
 
 FEWEST_PALM_MARKERS = 4
 STEEPEST_VIEW_RAD = math.radians(70.0)
 """Tilt of the back of the hand to the camera's axis beyond which a disc is a sliver."""
+SETTLING_S = 0.09
+"""Some three pictures."""
 LARGEST_SD_RAD = math.radians(8.0)
 """An angle less sure than this says nothing about a range (our choice, about half of the change limits)."""
 ZYX_FLEXION_LIMIT_RAD = math.radians(75.0)
@@ -39,6 +41,17 @@ def valid_view(
     with np.errstate(invalid="ignore"):
         facing = view_tilt_rad(rotation_w2_w0, rotation_w0_cam) <= STEEPEST_VIEW_RAD
     return np.asarray((status == TrackStatus.TRACKED) & seen & facing, dtype=np.bool_)
+
+
+def settled(view: BoolArray, time_s: FloatArray) -> BoolArray:
+    """Frames (N,) of a view without those just before a hand goes out of it for longer than a gap that is filled, and
+    just after it is back: what is told of them rests on few discs at the edge, and may be tens of degrees off."""
+    out = view.copy()
+    for part in stretches(~view):
+        before, after = max(part.start - 1, 0), min(part.stop, len(view) - 1)
+        if time_s[after] - time_s[before] > LONGEST_GAP_S:
+            out &= (time_s < time_s[part.start] - SETTLING_S) | (time_s > time_s[part.stop - 1] + SETTLING_S)
+    return out
 
 
 def valid_angle(view: BoolArray, angle_rad: FloatArray, angle_sd_rad: FloatArray) -> BoolArray:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Literal
 
-from core.hand.protocols import HAND21, WRIST6, MarkerProtocol
+from carpus.core.hand.protocols import HAND21, WRIST6, MarkerProtocol
 
 DEVIATION, FLEXION, PRONOSUPINATION = 0, 1, 2
 """Columns of the wrist angles, as in every file."""
@@ -58,6 +58,7 @@ EXERCISES = (
     Exercise("FIST_HOOK", None, 10, float("nan"), False, HAND21, "PIP3_flexion", ends_free=True),
     Exercise("FINGER_ABAD", None, 10, float("nan"), False, HAND21, "MCP2_abduction"),
     Exercise("THUMB_OPP", None, 10, float("nan"), False, HAND21, "CMC1_abduction"),
+    Exercise("REACH_GRASP", None, 5, float("nan"), False, HAND21),
     Exercise("FREE_HAND", None, 0, float("nan"), False, HAND21),
     Exercise("FREE", None, 0, float("nan"), False),
 )

@@ -7,8 +7,8 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from core.hand.protocols import joint_angle_names
-from core.measures.fingers import (
+from carpus.core.hand.protocols import joint_angle_names
+from carpus.core.measures.fingers import (
     FINGERS,
     JointTrack,
     TotalMotion,
@@ -19,16 +19,15 @@ from core.measures.fingers import (
     total_active_motion,
     valid_joints,
 )
-from core.measures.repetitions import Repetition
-from core.output.exercises import Exercise
-from core.output.range_rows import RangeRow, RowKey, best_motion, range_row
-from core.session.values import Session
-from core.types import FloatArray
+from carpus.core.measures.grade import USUAL_TOTAL_DEG as USUAL_TOTAL_DEG
+from carpus.core.measures.repetitions import Repetition
+from carpus.core.output.exercises import Exercise
+from carpus.core.output.range_rows import RangeRow, RowKey, best_motion, range_row
+from carpus.core.session.values import Session
+from carpus.core.types import FloatArray
 
-WITHOUT_TOTAL = ("FIST_HOOK", "FINGER_ABAD", "THUMB_OPP")
+WITHOUT_TOTAL = ("FIST_HOOK", "FINGER_ABAD", "THUMB_OPP", "REACH_GRASP")
 """Exercises that ask for no fist: a total of their bending is no total active motion."""
-USUAL_TOTAL_DEG = {1: 140.0, 2: 260.0, 3: 260.0, 4: 260.0, 5: 260.0}
-"""TAM of a healthy finger where the other hand is not known (clinical reference 4.3)."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -69,7 +68,7 @@ def joint_tracks(session: Session) -> dict[str, JointTrack]:
         return {}
     angles, sds = np.radians(curves.angles_deg), np.radians(curves.sds_deg)
     return {
-        name: joint_track(name, curves.time_s, angles[:, k], sds[:, k], curves.seen[:, k])
+        name: joint_track(name, curves.time_s, angles[:, k], sds[:, k], curves.seen[:, k], session.smoothed is not None)
         for k, name in enumerate(curves.names)
     }
 

@@ -5,9 +5,9 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-from core.measures.motion_range import Figure
-from core.output.exercises import Movement
-from core.session.values import Motion, Session
+from carpus.core.measures.motion_range import Figure
+from carpus.core.output.exercises import Movement
+from carpus.core.session.values import Motion, Session
 
 RowKey = tuple[str, Movement, int]
 """Joint (empty for the wrist), movement, column of the wrist's angle (-1 for a joint)."""

@@ -7,35 +7,54 @@ from __future__ import annotations
 
 import hashlib
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from datetime import datetime
 from typing import Literal
 
 import numpy as np
 
-from core.calibration.result import Finding
-from core.hand.protocols import WRIST_ANGLES
-from core.measures.change import TOTAL_ACTIVE_MOTION, MeasuredMean, Obstacle, change_between
-from core.measures.fingers import JointTrack
-from core.measures.motion_range import FEWEST_FOR_SPREAD, LEAST_VALID_SHARE, MotionRange, motion_range
-from core.measures.path import farthest_from_start_m
-from core.measures.repetitions import Exercise as FoundExercise
-from core.measures.repetitions import Repetition, find_repetitions
-from core.measures.signals import Signal, even_signal, low_pass
-from core.measures.speed import StrokeMeasures, measure_stroke
-from core.measures.validity import valid_view, valid_wrist_angles
-from core.output.exercises import SIDES, STILL_RADIUS_MM, Exercise, Movement, exercise_named
-from core.output.joint_content import joint_rows, joint_tracks
-from core.output.range_rows import RangeRow, RowKey, best_motion, is_total, range_row
-from core.session.values import Session
-from core.types import FloatArray, Side, TrackStatus
+from carpus.core.calibration.result import Finding
+from carpus.core.hand.protocols import WRIST_ANGLES
+from carpus.core.measures.change import ARC_LIMIT_FACTOR, TOTAL_ACTIVE_MOTION, MeasuredMean, Obstacle, change_between
+from carpus.core.measures.error_limits import DEFAULT_LIMITS, ErrorLimits, RetestStudy
+from carpus.core.measures.fingers import JointTrack
+from carpus.core.measures.forearm import WristCentre, rotation_in_place, wrist_centre
+from carpus.core.measures.motion_range import FEWEST_FOR_SPREAD, LEAST_VALID_SHARE, MotionRange, motion_range
+from carpus.core.measures.noise import HIGHEST_CUTOFF_HZ
+from carpus.core.measures.repetitions import Exercise as FoundExercise
+from carpus.core.measures.repetitions import Repetition, Uncounted, find_repetitions, what_was_not_counted
+from carpus.core.measures.signals import Signal, even_signal, low_pass
+from carpus.core.measures.speed import StrokeMeasures, measure_stroke
+from carpus.core.measures.validity import settled, valid_view, valid_wrist_angles
+from carpus.core.output.exercises import SIDES, STILL_RADIUS_MM, Exercise, Movement, exercise_named
+from carpus.core.output.further_measures import (
+    FurtherMeasure,
+    GradedTotal,
+    further_measures,
+    graded_totals,
+    held_tremor,
+)
+from carpus.core.output.joint_content import joint_rows, joint_tracks
+from carpus.core.output.range_rows import RangeRow, RowKey, best_motion, is_total, range_row
+from carpus.core.session.corrected import CorrectedFrom, corrected_from
+from carpus.core.session.values import AngleOrder, Session
+from carpus.core.types import FloatArray, Side, TrackStatus
 
 Verdict = Literal["improved", "worse", "no_change", "not_judged"]
 Unfairness = Literal[
-    Obstacle, "simulated", "not_counted", "doubtful", "distance", "start_angle", "forearm_moved", "incomplete", "hidden"
+    Obstacle,
+    "simulated",
+    "not_counted",
+    "doubtful",
+    "distance",
+    "start_angle",
+    "forearm_moved",
+    "incomplete",
+    "hidden",
+    "angle_order",
 ]
-NAMES_DOUBTED = ("swapped", "shifted", "misnamed", "wrong_side", "other_length", "depth_off")
+NAMES_DOUBTED = ("swapped", "shifted", "misnamed", "wrong_side", "other_length", "depth_off", "other_spot", "no_palm")
 """Findings at the calibration after which the angles may be something else: such a session never compares."""
 
 USUAL_ADULT_DEG: Mapping[Movement, tuple[float, float]] = {
@@ -44,8 +63,10 @@ USUAL_ADULT_DEG: Mapping[Movement, tuple[float, float]] = {
 """AMA and AAOS values for adults (clinical reference 4.1). None for pro/supination: its zero here is palm down."""
 FREE_ORDER = (1, 0, 2)
 """Bending first where no angle is trained."""
-ARC_LIMIT_FACTOR = math.sqrt(2.0)
-"""Error limit of an arc against that of one end, both ends being independent (design, screen 6)."""
+TREMOR_NOISE_RAD = math.radians(0.25)
+"""What the tracker shows between 3 and 12 Hz of a hand that lies still: the sd that moves from frame to frame."""
+STILLNESS_CUTOFF_HZ = 3.0
+"""A forearm does not move faster than this; noise does."""
 LARGEST_DISTANCE_STEP_M = 0.10
 LARGEST_START_ANGLE_STEP_DEG = 5.0
 """Beyond these two sessions were not set up alike."""
@@ -62,6 +83,7 @@ class RepetitionChoices:
     left_out: Mapping[int, str] = field(default_factory=dict)
     edges_s: Mapping[int, tuple[float, float]] = field(default_factory=dict)
     not_counted: bool = False
+    not_counted_reason: str = ""
 
 
 @dataclass(frozen=True, slots=True)
@@ -84,12 +106,46 @@ class ShownRepetition:
 
 @dataclass(frozen=True, slots=True)
 class Spread:
-    """A quantity over strokes or repetitions."""
+    """A quantity over strokes or repetitions; ``best`` the quickest or smoothest, NaN where neither way is better;
+    ``measurement_sd`` of one of them by the tracker's noise, NaN unknown."""
 
     mean: float
     sd: float
     best: float
     count: int
+    measurement_sd: float = math.nan
+
+
+@dataclass(frozen=True, slots=True)
+class SpeedFigures:
+    """Strokes in figures beside their peak speed and SPARC: degrees per second, seconds, shares, dimensionless.
+
+    ``too_slow`` strokes of ``count`` whose speed is lost in the tracker's noise, ``too_slow_to_be_smooth`` those whose
+    smoothness is: of them nothing is said.
+    """
+
+    count: int
+    too_slow: int
+    too_slow_to_be_smooth: int
+    mean_speed: Spread
+    movement_time: Spread
+    time_to_peak: Spread
+    peaks: Spread
+    ldlj: Spread
+
+    @classmethod
+    def of(cls, strokes: Sequence[StrokeMeasures]) -> SpeedFigures:
+        """Of the strokes that count."""
+        return cls(
+            len(strokes),
+            sum(stroke.too_slow for stroke in strokes),
+            sum(stroke.too_slow_to_be_smooth for stroke in strokes),
+            _spread([math.degrees(stroke.mean_speed_rad_s) for stroke in strokes]),
+            _spread([stroke.movement_time_s for stroke in strokes], best=min),
+            _spread([stroke.time_to_peak_share for stroke in strokes], best=None),
+            _spread([stroke.peaks for stroke in strokes], best=min),
+            _spread([stroke.ldlj for stroke in strokes]),
+        )
 
 
 @dataclass(frozen=True, slots=True)
@@ -105,10 +161,13 @@ class Quality:
     tilt_deg: float
     distance_m: float
     residual_mm: float
+    centre_mm: tuple[float, float, float] = (math.nan,) * 3
+    centre_residual_mm: float = math.nan
+    """Where the wrist turns, from the WRIST disc in the hand's axes, and how well that fits."""
 
     @property
     def forearm_moved(self) -> bool:
-        """Whether the wrist left the ball it must stay in."""
+        """Whether the wrist's centre left the ball it must stay in."""
         return self.forearm_mm > STILL_RADIUS_MM
 
 
@@ -158,6 +217,29 @@ class SessionFigures:
     """Targets of the trained angle, of its positive and its negative direction, signed; NaN for none."""
     pain_s: tuple[float, ...] = ()
     """When each of ``pain`` was said, after the first frame."""
+    further: tuple[FurtherMeasure, ...] = ()
+    """Reaches, finger tips, moving together, tremor: what the exercise has beside its ranges."""
+    grades: tuple[GradedTotal, ...] = ()
+    speed: SpeedFigures | None = None
+    uncounted: Uncounted | None = None
+    """Why there is no repetition, None where there are some or none are counted."""
+    unseen_s: float = 0.0
+    """How long nothing was seen, each time for longer than can be counted across."""
+    recording_id: str = ""
+    created: datetime | None = None
+    """Which recording it is a result of, and when that result was made."""
+    angle_order: AngleOrder = "zyx"
+    earlier_results: int = 0
+    """Results of the same recording that were made before this one: they do not count."""
+    error_limits: ErrorLimits = DEFAULT_LIMITS
+    """Against which its changes are judged."""
+    corrected: CorrectedFrom | None = None
+    """Since when it stands with markers that a person put right; None as measured."""
+
+    @property
+    def study(self) -> RetestStudy | None:
+        """The clinic's own test and retest of such sessions, None where the default limits hold."""
+        return self.error_limits.study(self.protocol, self.exercise.id, self.angle_order)
 
     @property
     def counted(self) -> int:
@@ -217,13 +299,20 @@ class ProgressPoint:
 class Progress:
     """Sessions of one hand and exercise in order of time; first and last fair ones compared, arc first.
 
-    ``keys`` what of the whole hand is followed, of any session; empty for the wrist.
+    ``keys`` what of the whole hand is followed, of any session; empty for the wrist. ``replaced`` earlier results of
+    recordings that were tracked again: a recording counts once, by its newest result.
     """
 
     points: tuple[ProgressPoint, ...]
     comparisons: tuple[Comparison, ...]
     other_hand: SessionFigures | None
     keys: tuple[RowKey, ...] = ()
+    replaced: tuple[SessionFigures, ...] = ()
+
+    @property
+    def earlier_results(self) -> int:
+        """How many earlier results of the same recordings there are, read or not."""
+        return max(len(self.replaced), sum(point.figures.earlier_results for point in self.points))
 
     @property
     def first(self) -> SessionFigures | None:
@@ -236,6 +325,11 @@ class Progress:
         """The last one that compares."""
         fair = [point.figures for point in self.points if point.fair]
         return fair[-1] if fair else None
+
+    @property
+    def study(self) -> RetestStudy | None:
+        """The clinic's own test and retest by which changes are judged, None for the default limits."""
+        return self.last.study if self.last is not None else None
 
     @property
     def headline(self) -> Comparison | None:
@@ -253,17 +347,21 @@ def session_curves(session: Session) -> Curves:
     return Curves(time_s, np.degrees(motion.angles_rad), np.degrees(motion.angles_sd_rad), np.asarray(session.status))
 
 
-def session_figures(session: Session, choices: RepetitionChoices | None = None) -> SessionFigures:
+def session_figures(
+    session: Session, choices: RepetitionChoices | None = None, error_limits: ErrorLimits = DEFAULT_LIMITS
+) -> SessionFigures:
     """All figures of one session, with a person's corrections to its repetitions."""
     choices = choices or RepetitionChoices()
     exercise = exercise_named(session.header.exercise)
-    motion = best_motion(session)
+    motion, looked_back = best_motion(session), session.smoothed is not None
     curves = session_curves(session)
     palm = list(session.header.protocol.palm)
     view = valid_view(
         session.status, session.markers.measured_px[:, palm], motion.rotation_w2_w0, session.calibration.rotation_w0_cam
     )
+    view = settled(view, curves.time_s)
     valid = valid_wrist_angles(view, motion.angles_rad, motion.angles_sd_rad)
+    centre = wrist_centre(motion.position_m, rotation_in_place(motion.rotation_w2_w0, motion.w0_turn_rad), view)
     signals = [
         even_signal(curves.time_s, np.column_stack((motion.angles_rad[:, k], motion.angles_sd_rad[:, k])), valid[:, k])
         for k in range(3)
@@ -272,8 +370,11 @@ def session_figures(session: Session, choices: RepetitionChoices | None = None) 
     if exercise.angle is not None and len(signals[exercise.angle].time_s):
         found = find_repetitions(signals[exercise.angle].column(0))
     tracks = joint_tracks(session)
+    trained = signals[exercise.angle].column(0) if exercise.angle is not None else None
+    trained_sd = signals[exercise.angle].column(1) if exercise.angle is not None else None
     if exercise.joint in tracks and tracks[exercise.joint].known:
         found = find_repetitions(tracks[exercise.joint].tracked)
+        trained, trained_sd = tracks[exercise.joint].seen, tracks[exercise.joint].seen_sd
     repetitions = _shown(found.repetitions, choices)
     counted = tuple(
         Repetition(rep.start_s, rep.end_s, source.valid_share)
@@ -283,18 +384,19 @@ def session_figures(session: Session, choices: RepetitionChoices | None = None) 
     angles: tuple[int, ...] = FREE_ORDER if exercise.angle is None else (exercise.angle,)
     if repetitions and not counted:
         angles = ()  # all were left out: nothing is measured, least of all the whole recording
-    rows = [row for k in angles for row in _rows(k, signals[k], counted)]
-    trained = signals[exercise.angle].column(0) if exercise.angle is not None else None
-    if exercise.joint in tracks:
-        trained = tracks[exercise.joint].seen
-    strokes = _strokes(trained, found, counted)
+    rows = [row for k in angles for row in _rows(k, signals[k], counted, looked_back)]
+    shown_joints = () if repetitions and not counted else joint_rows(tracks, counted, exercise)
+    shaken = held_tremor(session, 1 if exercise.angle is None else exercise.angle, TREMOR_NOISE_RAD)
+    further = (*further_measures(session, exercise, tracks, view), *([shaken] if shaken is not None else []))
+    strokes = _strokes(trained, trained_sd, found, counted, looked_back)
+    uncounted = what_was_not_counted(trained, found) if trained is not None and len(trained.time_s) else None
     verdict = session.calibration.verdict
     pains = [event for event in session.events if event.kind == "pain" and event.text.isdigit()]
     start_s = float(session.timestamp_s[0]) if len(session) else math.nan
     return SessionFigures(
         session_id=session.header.session_id,
         subject_id=session.header.subject_id,
-        when=datetime.fromisoformat(session.header.created),
+        when=session.header.when,
         side=session.header.hand,
         protocol=session.header.protocol.name,
         exercise=exercise,
@@ -307,14 +409,22 @@ def session_figures(session: Session, choices: RepetitionChoices | None = None) 
         repetitions=repetitions,
         rows=tuple(rows),
         trick_deg=_tricks(signals, exercise),
-        peak_speed=_spread([math.degrees(stroke.peak_speed_rad_s) for stroke in strokes]),
+        peak_speed=_spread(
+            [math.degrees(stroke.peak_speed_rad_s) for stroke in strokes],
+            [math.degrees(stroke.peak_speed_sd_rad_s) for stroke in strokes],
+        ),
         smoothness=_spread([stroke.sparc for stroke in strokes]),
+        speed=SpeedFigures.of(strokes),
+        uncounted="nothing_seen" if exercise.counts and trained is not None and not len(trained.time_s) else uncounted,
+        unseen_s=sum(end - start for start, end in found.unseen_s),
         quality=Quality(
             frames=len(session),
             measured_share=float(np.mean(session.status == TrackStatus.TRACKED)) if len(session) else math.nan,
             hidden_share=_hidden_share(session, curves.time_s, counted if tracks else ()),
             dropped=int(np.maximum(session.quality.dropped_before, 0).sum()),
-            forearm_mm=_forearm_mm(curves.time_s, motion.position_m, view),
+            forearm_mm=_forearm_mm(curves.time_s, centre),
+            centre_mm=tuple((1e3 * centre.centre_w2_m).tolist()),
+            centre_residual_mm=1e3 * centre.residual_m,
             angle_sd_deg=_typical_joint_sd(tracks) if tracks else _typical_sd(curves, exercise),
             tilt_deg=verdict.tilt_deg,
             distance_m=verdict.distance_m,
@@ -327,11 +437,18 @@ def session_figures(session: Session, choices: RepetitionChoices | None = None) 
             for event in session.events
             if event.kind == "note" and event.text and len(session)
         ),
-        joint_rows=() if repetitions and not counted else joint_rows(tracks, counted, exercise),
+        joint_rows=shown_joints,
+        further=further,
+        grades=graded_totals(shown_joints),
         findings=verdict.findings,
         simulated=session.header.simulated,
         not_counted=choices.not_counted,
         targets_deg=session.header.targets_deg,
+        recording_id=session.header.recording_id,
+        created=datetime.fromisoformat(session.header.created),
+        angle_order=session.angle_order,
+        error_limits=error_limits,
+        corrected=corrected_from(session),
     )
 
 
@@ -360,6 +477,7 @@ def compare_rows(before: SessionFigures, after: SessionFigures, rows: Sequence[R
     Sessions that the progress leaves out are not judged here either: there is one judgement, wherever it is shown.
     """
     unfair = tuple(dict.fromkeys((*unfair_reasons(before, before), *unfair_reasons(before, after))))
+    study = after.study
     out = []
     for row in rows:
         other = before.row(row.movement, row.angle, row.joint)
@@ -368,7 +486,8 @@ def compare_rows(before: SessionFigures, after: SessionFigures, rows: Sequence[R
         name = TOTAL_ACTIVE_MOTION if is_total(row.joint) else row.joint or WRIST_ANGLES[row.angle]
         change = change_between(_mean(before, other), _mean(after, row), name)
         factor = ARC_LIMIT_FACTOR if row.movement == "arc" and not is_total(row.joint) else 1.0
-        limit = math.degrees(change.limit_rad) * factor
+        own = study.limit_deg(row.joint or name, row.movement) if study is not None else None
+        limit = math.degrees(change.limit_rad) * factor if own is None else own
         difference = row.mean_deg - other.mean_deg
         verdict: Verdict = "not_judged"
         limited = (other.limited, row.limited) if row.joint else (False, False)
@@ -403,6 +522,8 @@ def unfair_reasons(first: SessionFigures, other: SessionFigures) -> tuple[Unfair
     reasons: list[Unfairness] = []
     if other.simulated != first.simulated:
         reasons.append("simulated")
+    if other.angle_order != first.angle_order:
+        reasons.append("angle_order")
     if any(finding.kind in NAMES_DOUBTED for finding in other.findings):
         reasons.append("doubtful")
     if other.not_counted:
@@ -427,7 +548,7 @@ def progress(
 
     ``keys`` choose what of the whole hand is followed; without them it is the wrist.
     """
-    ordered = sorted(sessions, key=lambda figures: figures.when)
+    ordered = newest_results(sessions)
     real = [figures for figures in ordered if not figures.simulated]
     first = next((figures for figures in real or ordered if not unfair_reasons(figures, figures)), None)
     points = tuple(ProgressPoint(figures, unfair_reasons(first or figures, figures)) for figures in ordered)
@@ -436,24 +557,42 @@ def progress(
     if len(fair) > 1:
         wanted = [row for key in keys for row in fair[-1].joint_rows if row.key == key]
         comparisons = compare_rows(fair[0], fair[-1], wanted if keys else fair[-1].rows)
-    return Progress(points, comparisons, other_hand, tuple(keys))
+    replaced = tuple(figures for figures in sessions if all(figures is not kept for kept in ordered))
+    return Progress(points, comparisons, other_hand, tuple(keys), replaced)
+
+
+def newest_results(sessions: Sequence[SessionFigures]) -> list[SessionFigures]:
+    """Of every recording its newest result, in order of when the hand moved."""
+    newest: dict[str, SessionFigures] = {}
+    for figures in sorted(sessions, key=lambda figures: figures.created or figures.when):
+        newest[figures.recording_id or figures.session_id] = figures
+    return sorted(newest.values(), key=lambda figures: figures.when)
 
 
 def previous_of(history: Sequence[SessionFigures], figures: SessionFigures) -> SessionFigures | None:
     """The last earlier session of the same hand, protocol and exercise that counts."""
-    alike = [other for other in history if _alike(other, figures) and other.side == figures.side]
+    alike = [other for other in newest_results(history) if _alike(other, figures) and other.side == figures.side]
     return max((other for other in alike if other.when < figures.when), key=lambda other: other.when, default=None)
+
+
+def limits_of(history: Sequence[SessionFigures]) -> ErrorLimits:
+    """Against which the figures of a patient are judged; of nobody the default ones."""
+    return history[0].error_limits if history else DEFAULT_LIMITS
 
 
 def other_hand_of(history: Sequence[SessionFigures], figures: SessionFigures) -> SessionFigures | None:
     """The last session of the other hand in the same protocol and exercise."""
-    alike = [other for other in history if _alike(other, figures) and other.side != figures.side]
+    alike = [other for other in newest_results(history) if _alike(other, figures) and other.side != figures.side]
     return max(alike, key=lambda other: other.when, default=None)
 
 
 def _alike(one: SessionFigures, other: SessionFigures) -> bool:
     same_kind = (one.exercise.id, one.protocol, one.simulated) == (other.exercise.id, other.protocol, other.simulated)
-    return same_kind and not one.not_counted
+    return same_kind and not one.not_counted and not _same_recording(one, other)
+
+
+def _same_recording(one: SessionFigures, other: SessionFigures) -> bool:
+    return bool(one.recording_id) and one.recording_id == other.recording_id
 
 
 def usual_deg(movement: Movement, angle: int) -> tuple[float, float] | None:
@@ -475,12 +614,13 @@ def _shown(found: Sequence[Repetition], choices: RepetitionChoices) -> tuple[Sho
     return tuple(out)
 
 
-def _rows(angle: int, signal: Signal, counted: tuple[Repetition, ...]) -> list[RangeRow]:
-    """Arc, positive and negative direction of one angle; a direction that was never reached is left out."""
+def _rows(angle: int, signal: Signal, counted: tuple[Repetition, ...], looked_back: bool) -> list[RangeRow]:
+    """Arc, positive and negative direction of one angle. A direction that was never reached is below zero: by so much
+    the other one does not come back to neutral (a deficit). Without repetitions it is left out."""
     if not len(signal.time_s):
         return []
-    smooth = low_pass(signal)
-    measured: MotionRange = motion_range(smooth.column(0), signal.column(1), counted)
+    smooth = low_pass(signal, HIGHEST_CUTOFF_HZ)
+    measured: MotionRange = motion_range(smooth.column(0), signal.column(1), counted, smoothed=looked_back)
     positive, negative = SIDES[angle]
     turned = replace(measured.minimum, values=-measured.minimum.values, best=-measured.minimum.best)
     rows = [
@@ -488,28 +628,39 @@ def _rows(angle: int, signal: Signal, counted: tuple[Repetition, ...]) -> list[R
         range_row(positive, angle, measured.maximum, measured.top_limited),
         range_row(negative, angle, turned, measured.bottom_limited),
     ]
-    return [row for row in rows if row.count and (row.movement == "arc" or row.mean_deg > 0.0)]
+    least = -math.inf if counted else 0.0
+    return [row for row in rows if row.count and (row.movement == "arc" or row.mean_deg > least)]
 
 
-def _strokes(trained: Signal | None, found: FoundExercise, counted: tuple[Repetition, ...]) -> list[StrokeMeasures]:
+def _strokes(
+    trained: Signal | None,
+    trained_sd: Signal | None,
+    found: FoundExercise,
+    counted: tuple[Repetition, ...],
+    looked_back: bool,
+) -> list[StrokeMeasures]:
     """Measures of the strokes whose middle lies in a counted repetition."""
     if trained is None or not counted:
         return []
-    angle = low_pass(trained)
     inside = [
         stroke
         for stroke in found.strokes
         if any(rep.start_s <= 0.5 * (stroke.start_s + stroke.end_s) <= rep.end_s for rep in counted)
     ]
-    return [measure_stroke(angle, stroke) for stroke in inside]
+    return [measure_stroke(trained, stroke, trained_sd, smoothed=looked_back) for stroke in inside]
 
 
-def _spread(values: Sequence[float]) -> Spread:
+def _spread(
+    values: Sequence[float], sds: Sequence[float] = (), best: Callable[[Sequence[float]], float] | None = max
+) -> Spread:
     known = np.array([value for value in values if math.isfinite(value)])
     if not len(known):
         return Spread(math.nan, math.nan, math.nan, 0)
+    stated = np.array([sd for value, sd in zip(values, sds, strict=False) if math.isfinite(value + sd)])
     sd = float(known.std(ddof=1)) if len(known) >= FEWEST_FOR_SPREAD else math.nan
-    return Spread(float(known.mean()), sd, float(known.max()), len(known))
+    measurement_sd = float(np.sqrt(np.mean(stated**2))) if len(stated) else math.nan
+    the_best = math.nan if best is None else float(best(known.tolist()))
+    return Spread(float(known.mean()), sd, the_best, len(known), measurement_sd)
 
 
 def _hidden_share(session: Session, time_s: FloatArray, within: Sequence[Repetition]) -> float:
@@ -532,10 +683,13 @@ def _tricks(signals: Sequence[Signal], exercise: Exercise) -> FloatArray:
     return out
 
 
-def _forearm_mm(time_s: FloatArray, position_m: FloatArray, view: np.ndarray) -> float:
-    if int(view.sum()) < 2:
+def _forearm_mm(time_s: FloatArray, centre: WristCentre) -> float:
+    """How far the forearm went: what the centre of the wrist's turning moved, without a frame's noise."""
+    known = np.isfinite(centre.moved_m)
+    if int(known.sum()) < 2:
         return math.nan
-    return 1000.0 * farthest_from_start_m(low_pass(even_signal(time_s, position_m, view)))
+    moved = low_pass(even_signal(time_s, centre.moved_m, known), STILLNESS_CUTOFF_HZ).value
+    return 1000.0 * float(np.nanmax(moved)) if np.isfinite(moved).any() else math.nan
 
 
 def _typical_sd(curves: Curves, exercise: Exercise) -> float:

@@ -1,10 +1,11 @@
-"""Channels between threads. Each has a bound and one policy for when it is reached; none blocks who puts.
+"""Channels between threads. Each has a bound and one policy for when it is reached; only one blocks who puts.
 
 ===================  ===========================  ================================================
 channel              where                        policy at the bound
 ===================  ===========================  ================================================
 :class:`DropOldest`  capture -> tracking          the oldest is lost, counted, told to who takes next
 :class:`NeverDrop`   tracking or capture -> disk  :class:`ChannelFull`: the recording ends with a fault
+:class:`Waits`       file -> tracking -> disk     who puts waits: a file has time, and nothing of it is lost
 :class:`Newest`      anything -> screen           only the newest value is kept; who looks takes nothing away
 ===================  ===========================  ================================================
 """
@@ -149,6 +150,40 @@ class NeverDrop(_Bounded[T]):
                     return
                 item = self._items.popleft()
             yield item
+
+
+class Waits(_Bounded[T]):
+    """Nothing is lost: whoever puts waits for room. For sources that can wait, as files can."""
+
+    def put(self, item: T) -> None:
+        """Adds an item when there is room; raises :class:`ChannelClosed` after the end, also while waiting for it."""
+        with self._changed:
+            while len(self._items) >= self.capacity and not self._closed:
+                self._changed.wait()
+            if self._closed:
+                raise ChannelClosed
+            self._append(item)
+
+    @property
+    def lost(self) -> int:
+        """Always nothing."""
+        return 0
+
+    def clear(self) -> None:
+        """Forgets what waits: nobody wants these any more."""
+        with self._changed:
+            self._items.clear()
+            self._changed.notify_all()
+
+    def __iter__(self) -> Iterator[Taken[T]]:
+        """Items in order until the channel is closed and empty; waits for each."""
+        while True:
+            with self._changed:
+                if not self._wait_for_item():
+                    return
+                item = self._items.popleft()
+                self._changed.notify_all()
+            yield Taken(item, 0)
 
 
 class Newest(Generic[T]):

@@ -2,17 +2,64 @@
 
 from __future__ import annotations
 
-from core.detection.detector import Detector
-from core.tracking.tracker import Tracker
-from core.types import Frame, TrackedFrame
+from dataclasses import replace
+from typing import Generic, Protocol, TypeVar
+
+from carpus.core.detection.detector import Detector
+from carpus.core.detection.surface_samples import SamplingSettings, finger_samples, surface_samples
+from carpus.core.types import Detections, FloatArray, Frame, TrackedFrame
 
 
-class FrameWalk:
+class Expected(Protocol):
+    """Where to look: pixels (M, 2) with covariance (M, 2, 2), depths (M,); ``back_px`` (C, 2) of the discs that
+    span the surface of the back of the hand, ``finger_px`` (F, 2) of those about the fingers."""
+
+    @property
+    def pixel(self) -> FloatArray: ...
+
+    @property
+    def covariance_px2(self) -> FloatArray: ...
+
+    @property
+    def depth_m(self) -> FloatArray: ...
+
+    @property
+    def back_px(self) -> FloatArray: ...
+
+    @property
+    def finger_px(self) -> FloatArray: ...
+
+
+class HandTracker(Protocol):
+    """Follows one calibrated hand through frames in order of time."""
+
+    def begin_at_neutral(self, at_s: float | None = None) -> None:
+        """Start (again) from the calibrated pose."""
+        ...
+
+    def expect(self, timestamp_s: float) -> Expected | None:
+        """Where to look at that time; None for the whole picture."""
+        ...
+
+    def would_miss(self, blobs: Detections) -> bool:
+        """Whether blobs of a narrowed search are too few, so that the rest is worth a look."""
+        ...
+
+    def step(self, index: int, timestamp_s: float, detections: Detections, dropped_before: int = 0) -> TrackedFrame:
+        """The frame's result from its blobs."""
+        ...
+
+
+AnyTracker = TypeVar("AnyTracker", bound=HandTracker)
+
+
+class FrameWalk(Generic[AnyTracker]):
     """Detector and tracker of one calibrated hand; call it with each frame in order."""
 
-    def __init__(self, detector: Detector, tracker: Tracker) -> None:
+    def __init__(self, detector: Detector, tracker: AnyTracker) -> None:
         self.detector = detector
         self.tracker = tracker
+        self.sampling = SamplingSettings()
 
     def __call__(self, frame: Frame) -> TrackedFrame:
         """Track one frame. Without a prediction the whole picture is searched."""
@@ -23,4 +70,10 @@ class FrameWalk:
         blobs = self.detector.detect(frame, region)
         if region is not None and self.tracker.would_miss(blobs):
             blobs = self.detector.detect(frame, None)
+        if expected is not None:
+            blobs = replace(
+                blobs,
+                surface=surface_samples(frame, expected.back_px, self.sampling),
+                fingers=finger_samples(frame, expected.finger_px, self.sampling),
+            )
         return self.tracker.step(frame.index, frame.timestamp_s, blobs, frame.dropped_before)

@@ -28,12 +28,12 @@ from typing import NamedTuple, Protocol, Self
 
 import numpy as np
 
-from core.capture.source import FrameSource, SourceInfo
-from core.errors import CameraLost, CameraReturned
-from core.pipeline.channels import DropOldest, Newest
-from core.pipeline.live_values import LiveCounters, LiveEvent, LiveEventKind, TrackedView
-from core.pipeline.recorder import Recorder, Sink
-from core.types import Frame, TrackedFrame
+from carpus.core.capture.source import FrameSource, SourceInfo
+from carpus.core.errors import CameraLost, CameraReturned
+from carpus.core.pipeline.channels import ChannelClosed, DropOldest, Newest, Waits
+from carpus.core.pipeline.live_values import LiveCounters, LiveEvent, LiveEventKind, TrackedView
+from carpus.core.pipeline.recorder import Patience, Recorder, Sink
+from carpus.core.types import Frame, TrackedFrame
 
 log = logging.getLogger(__name__)
 
@@ -50,11 +50,27 @@ class SessionSink(Sink, Protocol):
 
     def add_event(self, time_s: float, kind: str, text: str) -> None: ...
 
+    def go_on_elsewhere(self) -> SessionSink:
+        """Another file with what this one, which hangs in the disk, has taken and not stored."""
+        ...
+
 
 class PictureSink(Sink, Protocol):
     """The raw recording in the making."""
 
     def append_frame(self, frame: Frame) -> None: ...
+
+    def go_on_elsewhere(self, frame: Frame | None) -> PictureSink:
+        """Another file that begins with the frame at which this one hangs in the disk."""
+        ...
+
+
+class Listener(Protocol):
+    """Who hears every tracked frame and every event at once; called in the threads they come from, must not wait."""
+
+    def push(self, frame: TrackedFrame) -> None: ...
+
+    def event(self, time_s: float, kind: str) -> None: ...
 
 
 @dataclass(frozen=True, slots=True)
@@ -65,7 +81,8 @@ class LiveSettings:
     ``pictures_waiting`` what may wait for the disk before the recording ends (30 s of rows, 5 s of pictures, 230 MB);
     ``history_s`` of tracked frames kept for curves; ``row_bytes`` and ``picture_bytes`` on the disk by experience, for
     the time that is left; a warning comes once below ``low_disk_bytes``. ``folder`` is where sessions will go, for the
-    room on the disk before a recording runs.
+    room on the disk before a recording runs. A disk that neither stores nor refuses is told after ``told_stall_s``, and
+    the recording goes on elsewhere after ``moved_stall_s``; the pictures at once.
     """
 
     tracking_waiting: int = 16
@@ -74,10 +91,17 @@ class LiveSettings:
     recent_frames: int = 20
     history_s: float = 12.0
     row_bytes: int = 4_000
-    picture_bytes: int = 800_000
+    picture_bytes: int = 100_000
     low_disk_bytes: int = 1_000_000_000
     stop_patience_s: float = 10.0
     folder: Path | None = None
+    told_stall_s: float = 3.0
+    moved_stall_s: float = 8.0
+
+    def __post_init__(self) -> None:
+        for name in ("tracking_waiting", "rows_waiting", "pictures_waiting", "recent_frames", "history_s"):
+            if not 0 < getattr(self, name) <= 1_000_000:
+                raise ValueError(f"{name} {getattr(self, name)} is not between 0 and 1000000")
 
 
 class _Captured(NamedTuple):
@@ -102,17 +126,23 @@ class LiveSession:
 
     Nothing but :meth:`start_recording`, :meth:`stop_recording` and :meth:`stop` waits for anything, and these wait for
     the disk only. The session owns its source and closes it; where the source does not come back with a frame, it is
-    closed from the stopping thread, and its ``frames()`` must end then.
+    closed from the stopping thread, and its ``frames()`` must end then. With ``source_waits`` the source is a file:
+    reading waits for tracking, tracking waits for the disk, and no frame is lost on the way.
     """
 
-    def __init__(self, source: FrameSource, settings: LiveSettings | None = None) -> None:
+    def __init__(
+        self, source: FrameSource, settings: LiveSettings | None = None, *, source_waits: bool = False
+    ) -> None:
         self._source = source
         self._settings = settings or LiveSettings()
         fps = source.info.nominal_fps if source.info.nominal_fps > 0.0 else 30.0
         self._lock = threading.Lock()
         self._stopping = threading.Event()
-        self._to_tracking: DropOldest[_Captured] = DropOldest(
-            self._settings.tracking_waiting, weight=lambda captured: 1 + captured.frame.dropped_before
+        self._source_waits = source_waits
+        self._to_tracking: DropOldest[_Captured] | Waits[_Captured] = (
+            Waits(self._settings.tracking_waiting)
+            if source_waits
+            else DropOldest(self._settings.tracking_waiting, weight=lambda captured: 1 + captured.frame.dropped_before)
         )
         self._newest_frame: Newest[Frame] = Newest()
         self._newest_view: Newest[TrackedView] = Newest()
@@ -122,7 +152,9 @@ class LiveSession:
         self._arrivals: deque[float] = deque(maxlen=math.ceil(2.0 * fps) + 1)
         self._latencies: deque[float] = deque(maxlen=math.ceil(10.0 * fps))
         self._captured = self._tracked = self._missing = 0
+        self._handed = self._worked = 0
         self._walk: Walk | None = None
+        self._listener: Listener | None = None
         self._rows: Recorder[SessionSink, TrackedFrame | _Note] | None = None
         self._pictures: Recorder[PictureSink, Frame] | None = None
         self._paused = False
@@ -201,11 +233,16 @@ class LiveSession:
             self._history.clear()
             self._newest_view.clear()
             self._to_tracking.clear()
+            self._handed = self._worked = 0
 
     def end_tracking(self) -> None:
         """No further frame is tracked; the pictures go on."""
         with self._lock:
             self._walk = None
+
+    def listen(self, listener: Listener | None) -> None:
+        """Hand every tracked frame and event on from now; None for nobody. One that raises hears nothing more."""
+        self._listener = listener
 
     @property
     def tracking(self) -> bool:
@@ -234,6 +271,7 @@ class LiveSession:
         """
         if self.recording:
             raise RuntimeError("a recording runs already")
+        settings = self._settings
         self._row_count, self._disk_warned, self._disk_free = 0, False, None
         rows: Recorder[SessionSink, TrackedFrame | _Note] = Recorder(
             "writing",
@@ -241,6 +279,10 @@ class LiveSession:
             self._write_row,
             self._settings.rows_waiting,
             lambda cause: self._tell("recording_failed", cause),
+            waits=self._source_waits,
+            patience=Patience(
+                self.notice, lambda sink, _: sink.go_on_elsewhere(), settings.told_stall_s, settings.moved_stall_s
+            ),
         )
         rows.start()
         pictures: Recorder[PictureSink, Frame] | None = None
@@ -251,6 +293,13 @@ class LiveSession:
                 lambda sink, frame: sink.append_frame(frame),
                 self._settings.pictures_waiting,
                 lambda cause: self._tell("pictures_failed", cause),
+                waits=self._source_waits,
+                patience=Patience(
+                    self.notice,
+                    lambda sink, frame: sink.go_on_elsewhere(frame),
+                    settings.told_stall_s,
+                    min(settings.told_stall_s, settings.moved_stall_s),  # no more than these have room to wait for
+                ),
             )
             try:
                 pictures.start()
@@ -276,8 +325,9 @@ class LiveSession:
 
     def add_event(self, kind: str, text: str = "") -> bool:
         """Notes something at the newest frame's time in the running recording; False when there is none."""
-        rows = self._rows
-        return rows is not None and rows.put(_Note(self._now_s(), kind, text))
+        rows, now_s = self._rows, self._now_s()
+        self._hear(lambda listener: listener.event(now_s, kind))
+        return rows is not None and rows.put(_Note(now_s, kind, text))
 
     def stop_recording(self) -> Path:
         """Waits until all is stored and the files are closed; the session file's path.
@@ -373,6 +423,7 @@ class LiveSession:
                     break
                 self._take(frame)
             else:
+                self._let_tracking_come_up()
                 if not self._stopping.is_set():
                     self._tell("source_ended")
         except Exception as cause:  # the one catch at the top of this thread
@@ -382,6 +433,11 @@ class LiveSession:
             close = getattr(frames, "close", None)  # a generator gives its files back here, in its own thread
             if close is not None:
                 close()
+
+    def _let_tracking_come_up(self) -> None:
+        """A file has ended when its last frame is tracked: who then stops the recording loses none."""
+        while self._source_waits and self._worked < self._handed and not self._stopping.wait(0.005):
+            pass
 
     def _take(self, frame: Frame) -> None:
         at_s = time.monotonic()
@@ -397,19 +453,22 @@ class LiveSession:
             pictures.put(frame)
         self._newest_frame.put(frame)
         if walk is not None:
-            self._to_tracking.put(_Captured(frame, at_s, walk, rows))
+            with suppress(ChannelClosed):  # the session ended while a file waited for the tracker
+                self._to_tracking.put(_Captured(frame, at_s, walk, rows))
+                self._handed += 1
 
     def _track(self) -> None:
         for captured, lost_before in self._to_tracking:
-            if captured.walk is not self._walk:
-                continue  # captured for a walk that has ended
             try:
-                self._track_one(captured, lost_before)
+                if captured.walk is self._walk:  # else captured for a walk that has ended
+                    self._track_one(captured, lost_before)
             except Exception as cause:  # the one catch at the top of this thread
                 with self._lock:
                     if self._walk is captured.walk:
                         self._walk = None
                 self._tell("tracking_failed", cause)
+            finally:
+                self._worked += 1
 
     def _track_one(self, captured: _Captured, lost_before: int) -> None:
         frame = captured.frame
@@ -426,8 +485,19 @@ class LiveSession:
             self._newest_view.put(TrackedView(frame, tracked, captured.at_s))
         if rows is not None and rows is captured.rows and not paused:
             rows.put(tracked)
+        self._hear(lambda listener: listener.push(tracked))
 
     # --- small things -------------------------------------------------------------------------
+    def _hear(self, say: Callable[[Listener], None]) -> None:
+        listener = self._listener
+        if listener is None:
+            return
+        try:
+            say(listener)
+        except Exception:  # whoever listens must not end the measuring
+            log.warning("the live stream ended", exc_info=True)
+            self._listener = None
+
     def _tell(self, kind: LiveEventKind, cause: Exception | None = None, value: float = math.nan) -> None:
         if cause is not None:
             log.warning("%s", kind, exc_info=cause)
@@ -444,6 +514,10 @@ class LiveSession:
 
     def _write_row(self, sink: SessionSink, item: TrackedFrame | _Note) -> None:
         """In the writing thread, which alone may be held up by a slow disk; looks at the room left now and then."""
+        if isinstance(item, _Note):
+            sink.add_event(item.time_s, item.kind, item.text)
+        else:
+            sink.append(item)
         if self._row_count % 30 == 0:
             self._disk_free = _free_bytes(sink.path.parent)
             low = self._disk_free is not None and self._disk_free < self._settings.low_disk_bytes
@@ -451,10 +525,6 @@ class LiveSession:
                 self._disk_warned = True
                 self._tell("disk_low", value=float(self._disk_free or 0))
         self._row_count += 1
-        if isinstance(item, _Note):
-            sink.add_event(item.time_s, item.kind, item.text)
-        else:
-            sink.append(item)
 
 
 def _free_bytes(folder: Path | None) -> int | None:

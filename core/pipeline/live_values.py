@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Literal
 
-from core.types import Frame, TrackedFrame
+from carpus.core.types import Frame, TrackedFrame
 
 LiveEventKind = Literal[
     "camera_lost",

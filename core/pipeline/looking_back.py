@@ -12,11 +12,11 @@ from multiprocessing.connection import Connection
 
 import numpy as np
 
-from core.errors import NotLookedBack
-from core.pipeline.looking_back_process import run
-from core.pipeline.pieces import LAG_S, PIECE_S, Piece, TrackedHand
-from core.session.values import Motion
-from core.tracking.tracker import KeptSteps
+from carpus.core.errors import NotLookedBack
+from carpus.core.pipeline.looking_back_process import run
+from carpus.core.pipeline.pieces import LAG_S, PIECE_S, Piece, TrackedHand
+from carpus.core.session.values import Motion
+from carpus.core.tracking.tracker import KeptSteps
 
 SEND_EVERY_S = 0.5
 FRAMES_AT_ONCE = 15

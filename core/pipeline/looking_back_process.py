@@ -34,7 +34,7 @@ def run(link: Connection) -> None:
 
 
 def _serve(link: Connection) -> None:
-    from core.pipeline.pieces import PieceByPiece
+    from carpus.core.pipeline.pieces import PieceByPiece
 
     pieces = PieceByPiece(*link.recv())
     while (frames := link.recv()) is not None:

@@ -8,12 +8,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from core.calibration.result import Calibration
-from core.camera import Camera
-from core.session.values import Motion, motion_of
-from core.tracking.settings import TrackerSettings
-from core.tracking.tracker import KeptSteps, Tracker
-from core.types import FloatArray
+from carpus.core.calibration.result import Calibration
+from carpus.core.camera import Camera
+from carpus.core.session.values import Motion, motion_of
+from carpus.core.tracking.settings import TrackerSettings
+from carpus.core.tracking.tracker import KeptSteps, Tracker
+from carpus.core.types import FloatArray
 
 PIECE_S, LAG_S = 8.0, 3.0
 """So much is looked back at in one go, once so much that follows is known. In simulated recordings of 40 s that comes

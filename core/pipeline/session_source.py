@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from core.capture.raw_pictures import decode_color, decode_depth
-from core.capture.source import SourceInfo
-from core.errors import PictureDamaged
-from core.session.reader import raw_depth_unit_m, read_raw
-from core.session.values import Session
-from core.types import SIMULATED, Frame
+from carpus.core.capture.raw_pictures import decode_color, decode_depth
+from carpus.core.capture.source import SourceInfo
+from carpus.core.errors import PictureDamaged
+from carpus.core.session.reader import raw_depth_unit_m, read_raw
+from carpus.core.session.values import Session
+from carpus.core.types import SIMULATED, Frame
 
 
 class SessionPictures:
@@ -25,6 +25,8 @@ class SessionPictures:
             frame_count=len(session),
             nominal_fps=30.0,
             settings={"format": "session"} | ({SIMULATED: "yes"} if session.header.simulated else {}),
+            recording_id=session.header.recording_id,
+            recorded=session.header.recorded,
         )
 
     def frames(self) -> Iterator[Frame]:

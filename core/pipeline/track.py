@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import json
+import math
 from collections.abc import Callable, Iterable, Iterator, Mapping
+from contextlib import suppress
 from dataclasses import asdict, dataclass, field, replace
 from itertools import chain
 from pathlib import Path
@@ -11,22 +13,28 @@ from typing import Any, TypeVar
 
 import numpy as np
 
-from core.calibration.calibrate import CalibrationOutcome, StillNoise, calibrate, require_calibration
-from core.calibration.result import Clicks, Verdict
-from core.calibration.settings import CalibrationSettings
-from core.camera import Camera
-from core.capture.source import FrameSource, SourceInfo
-from core.detection.detector import Detector
-from core.detection.settings import DetectionSettings
-from core.errors import DiskFull, OutputExists, RecordingEmpty
-from core.pipeline.frame_walk import FrameWalk
-from core.pipeline.session_source import SessionPictures
-from core.session.reader import has_raw, read_detections, read_session
-from core.session.values import SET_UP, motion_of, new_header
-from core.session.writer import SessionWriter
-from core.tracking.settings import TrackerSettings
-from core.tracking.tracker import Tracker
-from core.types import SIMULATED, FloatArray, Frame, TrackedFrame, TrackStatus
+from carpus.core.calibration.calibrate import CalibrationOutcome, StillNoise, calibrate, require_calibration
+from carpus.core.calibration.result import Calibration, Clicks, Verdict
+from carpus.core.calibration.settings import CalibrationSettings
+from carpus.core.camera import Camera
+from carpus.core.capture.identity import Recorded, recorded_at, recording_id
+from carpus.core.capture.source import FrameSource, SourceInfo
+from carpus.core.detection.detector import Detector
+from carpus.core.detection.settings import DetectionSettings
+from carpus.core.errors import DiskFull, OutputExists, RecordingEmpty
+from carpus.core.papers.neutral import as_written, by_the_discs
+from carpus.core.papers.settings import PaperSettings
+from carpus.core.papers.tracker import PaperTracker
+from carpus.core.pipeline.frame_walk import FrameWalk, HandTracker
+from carpus.core.pipeline.live import Listener
+from carpus.core.pipeline.session_source import SessionPictures
+from carpus.core.provenance import revision, sha256_of_file, sha256_of_recording, sha256_of_settings
+from carpus.core.session.reader import has_raw, read_detections, read_session
+from carpus.core.session.values import SET_UP, motion_of, new_header
+from carpus.core.session.writer import SessionWriter
+from carpus.core.tracking.settings import TrackerSettings
+from carpus.core.tracking.tracker import Tracker
+from carpus.core.types import SIMULATED, FloatArray, Frame, Moment, TrackedFrame, TrackStatus
 
 T = TypeVar("T")
 
@@ -36,25 +44,27 @@ Progress = Callable[[int, int | None], None]
 
 @dataclass(frozen=True, slots=True)
 class TrackSettings:
-    """Everything that decides how a recording becomes a session."""
+    """Everything that decides how a recording becomes a session. With ``paper`` both papers' own filter tracks, which
+    knows nothing of ``tracker`` and does not look back."""
 
     detection: DetectionSettings = field(default_factory=DetectionSettings)
     calibration: CalibrationSettings = field(default_factory=CalibrationSettings)
     tracker: TrackerSettings = field(default_factory=TrackerSettings)
     smooth: bool = True
+    paper: PaperSettings | None = None
 
 
 @dataclass(frozen=True, slots=True)
 class TrackReport:
-    """What came of it: frames by status, range (min, max) of each wrist angle over tracked frames in radians."""
+    """What came of it: frames by status."""
 
     output: Path
     frames: int
     tracked: int
     predicted: int
     lost: int
+    doubtful: int
     verdict: Verdict
-    angle_range_rad: FloatArray
 
 
 @dataclass(frozen=True, slots=True)
@@ -76,8 +86,10 @@ class Learnt:
 def parameters_json(
     settings: TrackSettings, source: Mapping[str, Any], learnt: Learnt, set_up: Mapping[str, Any] | None = None
 ) -> str:
-    """All settings, what was learnt, the facts of the source and what was aimed at, as stored in the session."""
-    content: dict[str, Any] = {"settings": asdict(settings), "learnt": asdict(learnt), "source": dict(source)}
+    """All settings, what was learnt, the facts of the source, what was aimed at, and by which revision."""
+    chosen = asdict(settings)
+    content: dict[str, Any] = {"settings": chosen, "learnt": asdict(learnt), "source": dict(source)}
+    content["provenance"] = {"revision": revision(), "settings_sha256": sha256_of_settings(chosen)}
     if set_up:
         content[SET_UP] = dict(set_up)
     return json.dumps(content, sort_keys=True)
@@ -91,15 +103,12 @@ def learnt_in(parameters: str) -> Learnt | None:
         return None
 
 
-def fingers_as_tracked(settings: TrackerSettings, parameters: str) -> TrackerSettings:
-    """The settings with the end joints and the places of the fingers' discs of an earlier session, which are facts of
-    that hand; unchanged where its parameters do not say."""
+def paper_as_tracked(parameters: str) -> PaperSettings | None:
+    """How an earlier session was tracked by the papers' filter; None where it was not, or does not say."""
     try:
-        told = json.loads(parameters)["settings"]["tracker"]
-        fingers = replace(settings.fingers, skin_offsets=bool(told["fingers"]["skin_offsets"]))
-        return replace(settings, dip="free" if told["dip"] == "free" else "coupled", fingers=fingers)
+        return PaperSettings(**json.loads(parameters)["settings"]["paper"])
     except (KeyError, TypeError, ValueError):
-        return settings
+        return None
 
 
 def source_facts(info: SourceInfo) -> dict[str, Any]:
@@ -130,7 +139,7 @@ def learnt_from(still: StillNoise, neutral_ends_s: float, settings: TrackerSetti
 
 def build_walk(
     outcome: CalibrationOutcome, camera: Camera, settings: TrackSettings, learnt: Learnt, keep_history: bool = True
-) -> FrameWalk:
+) -> FrameWalk[Tracker]:
     """Detector and tracker for a calibrated hand; raises what :func:`require_calibration` does."""
     calibration = require_calibration(outcome)
     detector = Detector(outcome.appearance, camera, settings.detection)
@@ -138,18 +147,42 @@ def build_walk(
     return FrameWalk(detector, tracker)
 
 
+def _calibrated(calibration: Calibration, camera: Camera, paper: PaperSettings | None) -> Calibration:
+    """The calibration as the chosen filter has it."""
+    return calibration if paper is None else as_written(calibration, camera, paper.palm)
+
+
+def _following(
+    calibration: Calibration, camera: Camera, settings: TrackSettings, learnt: Learnt
+) -> tuple[HandTracker, Callable[[], list[Moment]] | None]:
+    """The chosen filter, and how it looks back if it is to."""
+    if settings.paper is not None:
+        return PaperTracker(calibration, camera, settings.paper), None
+    tracker = Tracker(calibration, camera, learnt.applied(settings.tracker), keep_history=settings.smooth)
+    return tracker, tracker.smoothed if settings.smooth else None
+
+
+_SOON_S = 0.25
+"""So soon after the still frames a hand is as it was."""
+
+
 def from_neutral(
-    frames: Iterable[T], tracker: Tracker, neutral_ends_s: float, time_of: Callable[[T], float]
+    frames: Iterable[T], tracker: HandTracker, neutral_ends_s: float, time_of: Callable[[T], float]
 ) -> Iterator[T]:
     """The frames, the tracker set back to the neutral pose before the first that was not used to calibrate.
 
-    The still frames made the calibration; counted twice they would make it too sure of itself.
+    The still frames made the calibration; counted twice they would make it too sure of itself. Where the first frame
+    comes later than these, the hand may have moved meanwhile.
     """
-    begun = False
+    begun, is_first = False, True
     for frame in frames:
-        if not begun and time_of(frame) > neutral_ends_s:
-            tracker.begin_at_neutral()
+        if not begun and (late_s := time_of(frame) - neutral_ends_s) > 0.0:
+            if is_first and _SOON_S < late_s < math.inf:
+                tracker.begin_at_neutral(neutral_ends_s)
+            else:
+                tracker.begin_at_neutral()
             begun = True
+        is_first = False
         yield frame
 
 
@@ -167,9 +200,15 @@ def track_recording(
     on_verdict: Callable[[Verdict], None] | None = None,
     origin: str = "",
     set_up: Mapping[str, Any] | None = None,
+    recorded: Recorded | None = None,
+    path: Path | None = None,
+    on_date: Callable[[Recorded | None], None] | None = None,
+    listener: Listener | None = None,
 ) -> TrackReport:
     """Track a recording from its first frame to its last into ``output``; smooth it if asked.
 
+    ``recorded`` is when the hand moved, if somebody knows; else the recording is asked, at last the date of the file
+    or folder ``path``, and ``on_date`` hears what it was. ``listener`` hears every frame as it is tracked.
     A poor verdict is handed to ``on_verdict`` and tracking goes on; a click with no blob or no depth raises.
     When a picture cannot be read, nothing half-done is left behind.
     """
@@ -185,22 +224,33 @@ def track_recording(
     calibration = require_calibration(outcome)
     neutral_ends_s = opening[outcome.capture_frames - 1].timestamp_s
     learnt = learnt_from(outcome.noise, neutral_ends_s, settings.tracker)
-    walk = build_walk(outcome, source.info.camera, settings, learnt, keep_history=settings.smooth)
-    ordered = from_neutral(chain(opening, frames), walk.tracker, neutral_ends_s, lambda frame: frame.timestamp_s)
+    calibration = _calibrated(calibration, source.info.camera, settings.paper)
+    tracker, look_back = _following(calibration, source.info.camera, settings, learnt)
+    walk = FrameWalk(Detector(outcome.appearance, source.info.camera, settings.detection), tracker)
+    ordered = from_neutral(chain(opening, frames), tracker, neutral_ends_s, lambda frame: frame.timestamp_s)
+    if recorded is None:
+        recorded = recorded_at(source.info, opening[0].timestamp_s, path)
+    if on_date is not None:
+        on_date(recorded)
+    facts = source_facts(source.info) | ({"recorded_by": recorded.said_by} if recorded else {})
+    if path is not None:
+        with suppress(OSError):  # a picture that is not there is told where it is read
+            facts["sha256"] = sha256_of_recording(path)
     header = new_header(
         hand=clicks.side,
         protocol=clicks.protocol,
         software_version=software_version,
         subject_id=subject_id,
         exercise=exercise,
-        parameters=parameters_json(settings, source_facts(source.info), learnt, set_up),
+        parameters=parameters_json(settings, facts, learnt, set_up),
         origin=origin,
-        dip_free=settings.tracker.dip == "free",
+        dip_free=settings.paper is None and settings.tracker.dip == "free",
+        recorded=recorded.when if recorded else "",
+        recording_id=recording_id(source.info, opening[0]),
     )
     writer = SessionWriter.create(output, header, source.info.camera, calibration)
-    return _written(
-        writer, map(walk, ordered), walk.tracker, outcome.verdict, settings.smooth, source.info.frame_count, progress
-    )
+    tracked = _heard(map(walk, ordered), listener)
+    return _written(writer, tracked, look_back, outcome.verdict, source.info.frame_count, progress)
 
 
 def retrack_session(
@@ -236,11 +286,16 @@ def retrack_session(
             on_verdict=on_verdict,
             origin=old.session_id,
             set_up=old.set_up,
+            recorded=Recorded(old.recorded, "recording"),
+            path=origin,
         )
     table = read_detections(origin)
     learnt = learnt_in(old.parameters) or learnt_from(StillNoise(), -np.inf, settings.tracker)
     calibration = session.calibration
-    tracker = Tracker(calibration, session.camera, learnt.applied(settings.tracker), keep_history=settings.smooth)
+    before = paper_as_tracked(old.parameters)
+    if (before and before.palm) != (settings.paper and settings.paper.palm):
+        calibration = _calibrated(by_the_discs(calibration) if before else calibration, session.camera, settings.paper)
+    tracker, look_back = _following(calibration, session.camera, settings, learnt)
     time_s = session.timestamp_s
 
     def tracked() -> Iterator[TrackedFrame]:
@@ -249,7 +304,8 @@ def retrack_session(
             dropped = max(int(session.quality.dropped_before[row]), 0)
             yield tracker.step(row, float(time_s[row]), table.of_frame(row), dropped)
 
-    source = {"session": old.session_id, "from": "detections"} | ({SIMULATED: "yes"} if old.simulated else {})
+    source = {"session": old.session_id, "from": "detections", "sha256": sha256_of_file(origin)}
+    source |= {SIMULATED: "yes"} if old.simulated else {}
     header = new_header(
         hand=old.hand,
         protocol=old.protocol,
@@ -258,10 +314,19 @@ def retrack_session(
         exercise=old.exercise,
         parameters=parameters_json(settings, source, learnt, old.set_up),
         origin=old.session_id,
-        dip_free=settings.tracker.dip == "free",
+        dip_free=settings.paper is None and settings.tracker.dip == "free",
+        recorded=old.recorded,
+        recording_id=old.recording_id,
     )
     writer = SessionWriter.create(output, header, session.camera, calibration)
-    return _written(writer, tracked(), tracker, calibration.verdict, settings.smooth, len(session), progress)
+    return _written(writer, tracked(), look_back, calibration.verdict, len(session), progress)
+
+
+def _heard(frames: Iterator[TrackedFrame], listener: Listener | None) -> Iterator[TrackedFrame]:
+    for frame in frames:
+        if listener is not None:
+            listener.push(frame)
+        yield frame
 
 
 def _opening(frames: Iterator[Frame], still_s: float) -> list[Frame]:
@@ -277,26 +342,22 @@ def _opening(frames: Iterator[Frame], still_s: float) -> list[Frame]:
 def _written(
     writer: SessionWriter,
     tracked: Iterator[TrackedFrame],
-    tracker: Tracker,
+    look_back: Callable[[], list[Moment]] | None,
     verdict: Verdict,
-    smooth: bool,
     total: int | None,
     progress: Progress | None,
 ) -> TrackReport:
     counts = dict.fromkeys(TrackStatus, 0)
-    low, high = np.full(3, np.inf), np.full(3, -np.inf)
     try:
         done = 0
         for frame in tracked:
             writer.append(frame)
             counts[frame.status] += 1
-            if frame.status is TrackStatus.TRACKED:
-                low, high = np.minimum(low, frame.angles_rad), np.maximum(high, frame.angles_rad)
             done += 1
             if progress is not None:
                 progress(done, total)
-        if smooth and done:  # of no frame there is nothing to look back at
-            writer.write_smoothed(motion_of(tracker.smoothed()))
+        if look_back is not None and done:  # of no frame there is nothing to look back at
+            writer.write_smoothed(motion_of(look_back()))
         writer.close()
     except DiskFull:
         writer.abandon()
@@ -305,13 +366,12 @@ def _written(
         # The recording is still there: a session cut short would only be taken for a whole one.
         writer.discard()
         raise
-    reach = np.stack((low, high))
     return TrackReport(
         writer.path,
         done,
         counts[TrackStatus.TRACKED],
         counts[TrackStatus.PREDICTED],
         counts[TrackStatus.LOST],
+        counts[TrackStatus.DOUBTFUL],
         verdict,
-        np.where(np.isfinite(reach), reach, np.nan),
     )

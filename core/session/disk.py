@@ -2,19 +2,22 @@
 
 from __future__ import annotations
 
-import errno
 import os
 import re
 import shutil
+import struct
 import sys
 from pathlib import Path
 
-from core.errors import CarpusFault, DiskFull, OutputExists, OutputNotWritable
+from carpus.core.durable import FULL, sync_folder, write_fault
+from carpus.core.errors import DiskFull, OutputExists
 
 if sys.platform != "win32":
     import fcntl
 
-_FULL = {errno.ENOSPC, errno.EDQUOT, errno.EFBIG}
+_SUPERBLOCK = struct.Struct("<8sB4xB10xQ8xQ")
+"""Start of an HDF5 file: signature, version, size of addresses, base address, end-of-file address."""
+_END_OF_FILE_AT = _SUPERBLOCK.size - 8
 _PART = re.compile(r"(?P<target>.+)\.[0-9a-f]{8}\.part")
 
 
@@ -39,7 +42,7 @@ def reserve(descriptor: int, path: Path, begin: int, length: int) -> None:
             os.posix_fallocate(descriptor, begin, length)
             return
     except OSError as cause:
-        if cause.errno in _FULL:
+        if cause.errno in FULL:
             raise DiskFull(path, f"no room for another {length / 1e6:.1f} MB") from cause
         # this file system cannot reserve: ask how much is free instead
     if shutil.disk_usage(path.parent).free < length:
@@ -62,15 +65,6 @@ def is_being_written(path: Path) -> bool:
         except OSError:  # a disk without locks
             return False
     return False
-
-
-def write_fault(path: Path, cause: OSError | RuntimeError) -> CarpusFault:
-    """The fault behind an exception of a write; h5py hides some error numbers in the text."""
-    found = re.search(r"errno = (\d+)", str(cause))
-    number = getattr(cause, "errno", None) or (int(found[1]) if found else None)
-    if number in _FULL:
-        return DiskFull(path, os.strerror(number))
-    return OutputNotWritable(path, os.strerror(number) if number else "")
 
 
 def publish(part: Path, target: Path) -> None:
@@ -99,15 +93,30 @@ def _rename_to_free_name(part: Path, target: Path) -> None:
         part.unlink()
 
 
-def sync_folder(folder: Path) -> None:
-    """Bring a new name to the disk, where the system can (Windows cannot open a folder)."""
+def allow_written_bytes(part: Path) -> None:
+    """Set the end-of-file address to the file's true length.
+
+    HDF5 writes that address last. A kill before it leaves good data behind an end that is too early, which HDF5
+    then refuses to read; the writer reserves room in advance, so the true length always covers them.
+    """
     try:
-        descriptor = os.open(folder, os.O_RDONLY)
-    except OSError:
-        return
-    try:
-        os.fsync(descriptor)
-    except OSError:
-        pass  # some network shares refuse; the file itself has been synchronised
-    finally:
-        os.close(descriptor)
+        with part.open("r+b") as file:
+            start = file.read(_SUPERBLOCK.size)
+            length = file.seek(0, 2)
+            if len(start) < _SUPERBLOCK.size:
+                return
+            *kind, end = _SUPERBLOCK.unpack(start)
+            if kind == [b"\x89HDF\r\n\x1a\n", 0, 8, 0] and end < length:
+                file.seek(_END_OF_FILE_AT)
+                file.write(struct.pack("<Q", length))
+    except OSError as cause:
+        raise write_fault(part, cause) from cause
+
+
+def free_name(target: Path) -> Path:
+    """The name itself, or with a number where a file has it."""
+    candidate, number = target, 1
+    while candidate.exists() or candidate.is_symlink():
+        number += 1
+        candidate = target.with_name(f"{target.stem}-{number}{target.suffix}")
+    return candidate

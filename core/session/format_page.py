@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from core.session import schema
-from core.session.schema import Field
+from carpus.core.session import schema
+from carpus.core.session.schema import Field
+from carpus.core.session.seal import ATTRIBUTE
 
 _HEAD = f"""\
 # Session file
@@ -17,6 +18,12 @@ Axes: {{axes}}.
 While a session runs it is `NAME.xxxxxxxx.part` beside its place, with `complete` false. Frame by frame the time is \
 written last: a row with a time has all the rest. `carpus recover FOLDER` finishes what was cut short; the attribute \
 `{schema.RECOVERED}` then says when.
+
+Every chunk has a Fletcher32 check sum, which any HDF5 library checks when it reads. A finished session has the \
+attribute `{ATTRIBUTE}`: SHA-256 over all datasets, attributes and names but itself; \
+`carpus verify FILE` compares it. It has no key: it shows changes by accident, not who made them. Only \
+hard links and plain chunked or contiguous storage inside the file \
+are read, unpacked.
 """
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import os
 from dataclasses import asdict
 from pathlib import Path
 from typing import Any
@@ -10,24 +11,31 @@ from typing import Any
 import h5py
 import numpy as np
 
-from core.calibration.result import Calibration
-from core.camera import Camera
-from core.session import schema
-from core.session.schema import Field, Layout
-from core.session.values import SessionHeader
+from carpus.core.calibration.result import Calibration
+from carpus.core.camera import Camera
+from carpus.core.hand.back_surface import TABLE_ROWS
+from carpus.core.session import schema
+from carpus.core.session.schema import Field, Layout
+from carpus.core.session.values import SessionHeader
 
 _CHUNK_ROWS = {"N": 1024, "D": 32768, "E": 256, "C": 1 << 23, "B": 1 << 23}
 """Large: most flushes then fill chunks that are there already and leave HDF5's index alone. Up to 64 chunks the index
 of a dataset is one node, changed by one write; 64 x 1024 rows are 36 minutes at 30 frames a second."""
 
 
+READINGS = (*schema.SURFACE_FIELDS, *schema.FINGER_FIELDS)
+_SURFACE_ROWS = 512
+"""Of the readings on the back of the hand, which are many for each frame."""
+
+
 def new_file(path: Path) -> h5py.File:
-    """An empty HDF5 file.
+    """An empty HDF5 file, for its owner only; one that is there already is a FileExistsError.
 
     The oldest format has no checksums that a kill would leave wrong; without the chunk cache rows go to the file
     when they are written, before the index that makes them visible.
     """
-    return h5py.File(path, "x", libver="earliest", rdcc_nbytes=0)
+    os.close(os.open(path, os.O_WRONLY | os.O_CREAT | os.O_EXCL, 0o600))
+    return h5py.File(path, "w", libver="earliest", rdcc_nbytes=0)
 
 
 def write_header(file: h5py.File, header: SessionHeader, camera: Camera) -> None:
@@ -48,13 +56,19 @@ def write_header(file: h5py.File, header: SessionHeader, camera: Camera) -> None
 def write_calibration(file: h5py.File, layout: Layout, calibration: Calibration) -> None:
     """The datasets of ``/calibration`` and the verdict as its attributes."""
     verdict = calibration.verdict
-    elsewhere = {"clicks_px": calibration.clicks.pixel, "residual_m": verdict.residual_mm * 1e-3}
+    surface = calibration.surface
+    elsewhere = {
+        "clicks_px": calibration.clicks.pixel,
+        "residual_m": verdict.residual_mm * 1e-3,
+        "surface": np.full((TABLE_ROWS, 5), np.nan) if surface is None else surface.as_table(),
+    }
     for field in schema.CALIBRATION_FIELDS:
         value = elsewhere[field.attribute] if field.attribute in elsewhere else getattr(calibration, field.attribute)
-        describe(file.create_dataset(field.path, data=checked(field, value, layout.row_shape(field))), field, layout)
+        describe(create_checked(file, field.path, checked(field, value, layout.row_shape(field))), field, layout)
     findings = json.dumps([_known(asdict(finding)) for finding in verdict.findings])
+    straight = np.array(calibration.clicks.straight_fingers, dtype=np.uint8)
     said = (verdict.hand_length_mm * 1e-3, np.radians(verdict.tilt_deg), verdict.distance_m, verdict.frames_used)
-    for name, value in zip(schema.VERDICT_ATTRIBUTES, (*said, findings), strict=True):
+    for name, value in zip(schema.VERDICT_ATTRIBUTES, (*said, findings, straight), strict=True):
         file["/calibration"].attrs[name] = value
 
 
@@ -63,7 +77,7 @@ def create_growing(file: h5py.File, layout: Layout, raw_depth_unit_m: float | No
     raw = (*schema.RAW_STREAMS, *schema.RAW_ENDS) if raw_depth_unit_m is not None else ()
     detections = (schema.DETECTION_FRAME, *schema.DETECTION_FIELDS, schema.DETECTION_COUNT)
     growing: dict[str, h5py.Dataset] = {}
-    for field in (*schema.FRAME_FIELDS, *detections, *schema.EVENT_FIELDS, *raw):
+    for field in (*schema.FRAME_FIELDS, *detections, *READINGS, *schema.EVENT_FIELDS, *raw):
         if not layout.has(field):
             continue
         row = layout.row_shape(field)
@@ -71,7 +85,8 @@ def create_growing(file: h5py.File, layout: Layout, raw_depth_unit_m: float | No
             field.path,
             shape=(0, *row),
             maxshape=(None, *row),
-            chunks=(_CHUNK_ROWS[str(field.shape[0])], *row),
+            chunks=(_SURFACE_ROWS if field in READINGS else _CHUNK_ROWS[str(field.shape[0])], *row),
+            fletcher32=field.dtype != "text",  # the seal alone guards texts, which lie outside their chunks
             dtype=field.h5_dtype,
             fillvalue=None if field.dtype == "text" else field.fill,
             fill_time="never" if field in schema.RAW_STREAMS else "ifset",
@@ -82,6 +97,14 @@ def create_growing(file: h5py.File, layout: Layout, raw_depth_unit_m: float | No
     if raw_depth_unit_m is not None:
         file["/raw"].attrs[schema.RAW_DEPTH_UNIT] = raw_depth_unit_m
     return growing
+
+
+def create_checked(file: h5py.File, path: str, data: Any) -> h5py.Dataset:
+    """A dataset that is written once, in chunks with check sums."""
+    if not data.size:
+        return file.create_dataset(path, data=data)
+    chunks = (min(len(data), _CHUNK_ROWS["N"]), *data.shape[1:])
+    return file.create_dataset(path, data=data, chunks=chunks, fletcher32=True)
 
 
 def describe(dataset: h5py.Dataset, field: Field, layout: Layout) -> None:

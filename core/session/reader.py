@@ -1,36 +1,38 @@
-"""Reads session files, whole or cut short, by the schema."""
+"""Reads session files, whole or cut short, without opening one in this process.
+
+Whatever a file does to the HDF5 library, it does it to the reading process (:mod:`core.session.reading_process`),
+which has limits of time and memory, serves many questions and is started anew when it has died. What is read comes
+back as values with read-only arrays.
+"""
 
 from __future__ import annotations
 
 import contextlib
-import json
+import io
+import multiprocessing
+import os
+import pickle
+import sys
+import threading
+import types
 from collections.abc import Iterator
+from multiprocessing.connection import Connection
 from pathlib import Path
-from typing import Any
+from typing import Any, cast
 
-import h5py
-import numpy as np
-from numpy.typing import NDArray
+from carpus.core import errors
+from carpus.core.encryption.cipher import is_encrypted
+from carpus.core.encryption.keys import key_for
+from carpus.core.errors import CarpusFault, SessionUnreadable
+from carpus.core.session import reading_process
+from carpus.core.session.values import DetectionTable, RawPictures, Session, SessionOutline, Verified
 
-from core.calibration.result import Calibration, Clicks, Finding, Verdict
-from core.camera import Camera
-from core.errors import ProtocolUnknown, SessionUnreadable
-from core.hand.protocols import protocol_named
-from core.session import schema
-from core.session.rows import Rows, whole_rows
-from core.session.schema import Field, Layout
-from core.session.values import (
-    DetectionTable,
-    Event,
-    MarkerSeries,
-    Motion,
-    QualitySeries,
-    RawPictures,
-    Session,
-    SessionHeader,
-    SessionOutline,
-)
-from core.types import Detections
+PATIENCE_S, BYTES_PER_S = 20.0, 2e6
+"""An answer may take so long by the clock, and a second more for so many bytes: a slow share is no damaged file."""
+RAW_BYTES_AT_ONCE = 1 << 24
+_NUMPY_NAMES = ("ndarray", "dtype", "_reconstruct", "_frombuffer", "scalar")
+"""An answer is made of these and of this program's own classes; a process that a file has taken over could send others.
+"""
 
 
 def read_session(path: Path) -> Session:
@@ -38,229 +40,195 @@ def read_session(path: Path) -> Session:
 
     Blobs and pictures stay in the file: :func:`read_detections`, :func:`read_raw`.
     """
-    with open_session(path) as file:
-        return _Source(path, file).session()
+    return cast(Session, _ask("session", path))
 
 
 def read_outline(path: Path) -> SessionOutline:
     """Header, length and state of a session, without its data: quick enough for a whole folder."""
-    with open_session(path) as file:
-        return _Source(path, file).outline()
+    return cast(SessionOutline, _ask("outline", path))
 
 
 def read_detections(path: Path) -> DetectionTable:
     """Every blob of every frame of a session."""
-    with open_session(path) as file:
-        source = _Source(path, file)
-        blobs = {field.attribute: source.array(field) for field in schema.DETECTION_FIELDS}
-        return DetectionTable(source.array(schema.DETECTION_FRAME), Detections(**blobs))
+    return cast(DetectionTable, _ask("detections", path))
 
 
 def has_raw(path: Path) -> bool:
     """Whether the session kept its pictures."""
-    with open_session(path) as file:
-        return all(field.path in file for field in (*schema.RAW_STREAMS, *schema.RAW_ENDS))
+    return bool(_ask("has_raw", path))
 
 
 def raw_depth_unit_m(path: Path) -> float:
     """Metres per count of the depth pictures kept."""
-    with open_session(path) as file:
-        return float(file["/raw"].attrs[schema.RAW_DEPTH_UNIT])
+    return float(_ask("raw_depth_unit_m", path))
 
 
 def read_raw(path: Path) -> Iterator[RawPictures]:
     """The pictures kept, frame by frame."""
-    with open_session(path) as file:
-        source = _Source(path, file)
-        color_end, depth_end = (source.array(field) for field in schema.RAW_ENDS)
-        color, depth = (file[field.path] for field in schema.RAW_STREAMS)
-        color_at, depth_at = 0, 0
-        for color_to, depth_to in zip(color_end.tolist(), depth_end.tolist(), strict=True):
-            yield RawPictures(color[color_at:color_to].tobytes(), depth[depth_at:depth_to].tobytes())
-            color_at, depth_at = color_to, depth_to
+    row = 0
+    while some := cast("list[RawPictures]", _ask("raw_some", path, row, RAW_BYTES_AT_ONCE)):
+        yield from some
+        row += len(some)
 
 
 def read_raw_color(path: Path, row: int) -> bytes:
     """The colour picture kept of one row; no bytes where there is none."""
-    with open_session(path) as file:
-        color_end, color = _Source(path, file).array(schema.RAW_ENDS[0]), file[schema.RAW_STREAMS[0].path]
-        start = int(color_end[row - 1]) if row else 0
-        return bytes(color[start : int(color_end[row])].tobytes())
+    return cast(bytes, _ask("raw_color", path, row))
+
+
+def verify(path: Path) -> Verified:
+    """Whether a session is whole and unchanged; as :func:`core.session.opened.verify`."""
+    return cast(Verified, _ask("verify", path))
+
+
+def finish_part(part: Path, when: str) -> Path | None:
+    """Finish a part file where it can be ended by force; as :func:`core.session.recovery.finish_part`."""
+    return cast("Path | None", _ask("recover", part, when))
+
+
+class ReadingProcess:
+    """The one process that reads for this one; used from any thread, one question at a time."""
+
+    def __init__(self) -> None:
+        self._lock = threading.Lock()
+        self._process: Any = None
+        self._link: Connection | None = None
+        self._owner = os.getpid()
+
+    def ask(self, name: str, path: Path, *arguments: object) -> Any:
+        """The answer to a question about a file. Raises the fault that came instead, or :class:`SessionUnreadable`."""
+        key = key_for(path) if is_encrypted(path) else None
+        with self._lock:
+            question = (name, os.fspath(path), arguments, key)
+            link = self._started()
+            try:
+                link.send(question)
+            except OSError:  # it died of something after its last answer
+                self._end()
+                link = self._started()
+                link.send(question)
+            size = _size(path)
+            if not link.poll(PATIENCE_S + size / BYTES_PER_S):
+                self._end()
+                raise SessionUnreadable(path, "damaged: reading it does not end")
+            try:
+                said, value = _received(link)
+            except (EOFError, OSError):
+                self._end()
+                raise SessionUnreadable(path, "damaged: it cannot be read to its end") from None
+            except Exception as cause:
+                self._end()
+                raise SessionUnreadable(path, "damaged: what was read of it makes no sense") from cause
+        if said == "done":
+            return value
+        kind = getattr(errors, said, SessionUnreadable)
+        subject, detail = value
+        if isinstance(kind, type) and issubclass(kind, CarpusFault):
+            raise kind(subject or path, detail)
+        raise SessionUnreadable(path, detail)
+
+    def start(self) -> None:
+        """Have it ready before the first question; may be called from a thread that nobody waits for."""
+        with self._lock:
+            self._started()
+
+    def end(self) -> None:
+        """May be called twice; the next question starts it again."""
+        with self._lock:
+            self._end()
+
+    def _started(self) -> Connection:
+        if self._link is not None and self._owner == os.getpid() and self._process.is_alive():
+            return self._link
+        if self._owner == os.getpid():
+            self._end()
+        self._link, theirs = multiprocessing.Pipe()
+        if _may_fork():
+            of_a_kind: Any = multiprocessing.get_context("fork")
+            target = _run_forked
+        else:
+            of_a_kind, target = multiprocessing.get_context("spawn"), reading_process.run
+        self._process = of_a_kind.Process(target=target, args=(theirs,), name="carpus-reading", daemon=True)
+        with _nobodys_main():
+            self._process.start()
+        theirs.close()
+        self._owner = os.getpid()
+        return self._link
+
+    def _end(self) -> None:
+        if self._link is not None:
+            self._link.close()
+            self._link = None
+        if self._process is not None:
+            self._process.kill()
+            self._process.join()
+            self._process.close()
+            self._process = None
+
+
+READING = ReadingProcess()
+"""One for the whole program: it holds nothing but a process, and ends with the program."""
+
+
+def _ask(name: str, path: Path, *arguments: object) -> Any:
+    try:
+        is_there, is_folder = path.is_file(), path.is_dir()
+    except (OSError, ValueError):
+        is_there = is_folder = False
+    if not is_there:  # neither a folder nor a pipe is handed to HDF5, which would wait for the pipe
+        raise SessionUnreadable(path, "a folder" if is_folder else "there is no such file")
+    return READING.ask(name, path, *arguments)
+
+
+def _may_fork() -> bool:
+    """Whether a copy of this process is as good as a new one, and half a second quicker: nothing else runs in it."""
+    if not sys.platform.startswith("linux") or threading.active_count() > 1 or "PySide6" in sys.modules:
+        return False
+    import h5py
+
+    # An HDF5 file that is open here would be the same open file there.
+    return bool(h5py.h5f.get_obj_count(h5py.h5f.OBJ_ALL, h5py.h5f.OBJ_ALL) == 0)
 
 
 @contextlib.contextmanager
-def open_session(path: Path) -> Iterator[h5py.File]:
-    """The open file of a session that this version reads; whatever goes wrong inside is :class:`SessionUnreadable`."""
-    if not path.is_file():
-        raise SessionUnreadable(path, "a folder" if path.is_dir() else "there is no such file")
+def _nobodys_main() -> Iterator[None]:
+    """A new process would run the main script again, which need not be written for that: here it need not be."""
+    main = sys.modules["__main__"]
+    sys.modules["__main__"] = types.ModuleType("__main__")
     try:
-        with h5py.File(path, "r") as file:
-            _check_format(path, file)
-            yield file
-    except BlockingIOError as cause:
-        raise SessionUnreadable(path, "still being recorded") from cause
-    except KeyError as cause:
-        raise SessionUnreadable(path, f"damaged: {cause.args[0] if cause.args else ''}") from cause
-    except (OSError, RuntimeError, ValueError, TypeError) as cause:
-        known = h5py.is_hdf5(path)
-        raise SessionUnreadable(path, f"damaged: {cause}" if known else "not a session file") from cause
+        yield
+    finally:
+        sys.modules["__main__"] = main
 
 
-def _check_format(path: Path, file: h5py.File) -> None:
-    if file.attrs.get("format") != schema.FORMAT:
-        raise SessionUnreadable(path, "an HDF5 file, but not a session")
-    version = int(file.attrs.get("format_version", 0))
-    if not 1 <= version <= schema.FORMAT_VERSION:
-        raise SessionUnreadable(path, f"format version {version}, this Carpus reads up to {schema.FORMAT_VERSION}")
+def _run_forked(link: Connection) -> None:
+    """Let go of everything that the copy would hold open, our end of the pipe above all."""
+    kept = link.fileno()
+    os.closerange(3, kept)
+    os.closerange(kept + 1, 4096)
+    reading_process.run(link)
+    os._exit(0)
 
 
-class _Source:
-    """One open session: its header, and its datasets checked against the schema."""
+def _size(path: Path) -> int:
+    try:
+        return path.stat().st_size
+    except OSError:
+        return 0
 
-    def __init__(self, path: Path, file: h5py.File) -> None:
-        self._path = path
-        self._file = file
-        self._header = self._read_header()
-        self._layout = Layout(self._header.protocol, self._header.joint_names)
-        self._complete = bool(self._attribute("complete"))
-        self._rows = self._read_rows()
 
-    def session(self) -> Session:
-        frames = {field.attribute: self.array(field) for field in schema.FRAME_FIELDS if self._layout.has(field)}
-        return Session(
-            path=self._path,
-            header=self._header,
-            camera=self._camera(),
-            calibration=self._calibration(),
-            timestamp_s=frames["timestamp_s"],
-            status=frames["status"],
-            motion=self._motion(schema.MOTION_FIELDS),
-            markers=MarkerSeries(
-                frames["marker_position_cam_m"], frames["marker_measured_px"], frames["marker_measured_depth_m"]
-            ),
-            quality=QualitySeries(frames["dropped_before"], frames["measured_share"], frames["nis"], frames["nis_dof"]),
-            events=tuple(map(Event, *(self._list(field) for field in schema.EVENT_FIELDS))),
-            smoothed=self._motion(schema.SMOOTHED_FIELDS) if "/smoothed" in self._file else None,
-            complete=self._complete,
-            recovered=str(self._file.attrs.get(schema.RECOVERED, "")),
-        )
+def _received(link: Connection) -> tuple[str, Any]:
+    count = int(link.recv_bytes())
+    packed = link.recv_bytes()
+    buffers = [link.recv_bytes() for _ in range(count)]
+    said, value = _Unpacked(io.BytesIO(packed), buffers=buffers).load()
+    return str(said), value
 
-    def outline(self) -> SessionOutline:
-        frames = self._rows.frames
-        times = self._file["/frames/timestamp"]
-        return SessionOutline(
-            header=self._header,
-            frames=frames,
-            duration_s=float(times[frames - 1] - times[0]) if frames else 0.0,
-            complete=self._complete,
-            recovered=str(self._file.attrs.get(schema.RECOVERED, "")),
-        )
 
-    def array(self, field: Field) -> NDArray[Any]:
-        """A dataset with the type and shape of the schema, read-only; an optional one that is not there is unknown."""
-        expected = tuple(
-            self._rows.along(str(axis)) if axis in schema.GROWING_AXES else size
-            for axis, size in zip(field.shape, self._sizes(field), strict=True)
-        )
-        if field.path not in self._file:
-            if not field.optional:
-                raise SessionUnreadable(self._path, f"no dataset {field.path}")
-            return np.full(expected, field.fill, dtype=field.h5_dtype)
-        dataset = self._file[field.path]
-        if not self._complete and field.shape[0] in schema.GROWING_AXES and dataset.ndim == len(expected):
-            data = dataset[: expected[0]]
-        else:
-            data = dataset[()]
-        kinds = {"f": "f", "u": "iu", "i": "iu", "t": "O"}[field.dtype[0]]
-        if data.shape != expected or data.dtype.kind not in kinds:
-            raise SessionUnreadable(
-                self._path, f"{field.path} is {data.dtype} {data.shape}, {field.dtype} {expected} expected"
-            )
-        array: NDArray[Any] = data.astype(field.h5_dtype, copy=False)
-        array.setflags(write=False)
-        return array
-
-    def _sizes(self, field: Field) -> tuple[int, ...]:
-        row = self._layout.row_shape(field)
-        return (0, *row) if field.shape[0] in schema.GROWING_AXES else row
-
-    def _list(self, field: Field) -> list[Any]:
-        values = self.array(field).tolist()
-        return [value.decode("utf-8") if isinstance(value, bytes) else value for value in values]
-
-    def _attribute(self, name: str) -> Any:
-        try:
-            return self._file.attrs[name]
-        except KeyError as cause:
-            raise SessionUnreadable(self._path, f"no attribute {name}") from cause
-
-    def _read_header(self) -> SessionHeader:
-        try:
-            protocol = protocol_named(str(self._attribute("protocol")))
-        except ProtocolUnknown as cause:
-            raise SessionUnreadable(self._path, f"marker protocol {cause.subject}") from cause
-        hand = str(self._attribute("hand"))
-        if hand not in ("right", "left"):
-            raise SessionUnreadable(self._path, f"hand {hand!r}")
-        joints = self._file["/joints"].attrs["names"] if protocol.has_fingers else ()
-        return SessionHeader(
-            session_id=str(self._attribute("session_id")),
-            subject_id=str(self._attribute("subject_id")),
-            created=str(self._attribute("created")),
-            hand="right" if hand == "right" else "left",
-            protocol=protocol,
-            exercise=str(self._attribute("exercise")),
-            software_version=str(self._attribute("software_version")),
-            parameters=str(self._attribute("parameters")),
-            origin=str(self._file.attrs.get("origin", "")),
-            joint_names=tuple(str(name) for name in joints),
-        )
-
-    def _read_rows(self) -> Rows:
-        if not self._complete:
-            return whole_rows(self._file)
-        lengths = (self._file[path].shape[0] for path in ("/frames/timestamp", "/detections/frame", "/events/time"))
-        streams = (self._file[f.path].shape[0] if f.path in self._file else 0 for f in schema.RAW_STREAMS)
-        return Rows(*lengths, *streams)
-
-    def _motion(self, fields: tuple[Field, ...]) -> Motion:
-        rows = self._rows.frames
-        nothing = {2: (rows, 0), 3: (rows, 0, 3)}
-        values = {
-            field.attribute: self.array(field) if self._layout.has(field) else np.empty(nothing[len(field.shape)])
-            for field in fields
-        }
-        return Motion(**values)
-
-    def _camera(self) -> Camera:
-        said = self._file["/camera"].attrs
-        k1, k2, p1, p2, k3 = (float(value) for value in said["distortion"])
-        return Camera(
-            fx_px=float(said["fx"]),
-            fy_px=float(said["fy"]),
-            cx_px=float(said["cx"]),
-            cy_px=float(said["cy"]),
-            width_px=int(said["width"]),
-            height_px=int(said["height"]),
-            distortion=(k1, k2, p1, p2, k3),
-            origin=str(said.get("origin", "file")),
-        )
-
-    def _calibration(self) -> Calibration:
-        arrays = {field.attribute: self.array(field) for field in schema.CALIBRATION_FIELDS}
-        clicks_px, residual_m = arrays.pop("clicks_px"), arrays.pop("residual_m")
-        said = self._file["/calibration"].attrs
-        findings = []
-        for fact in json.loads(said.get("findings", "[]")):
-            findings.append(Finding(**(fact | {"markers": tuple(fact.get("markers", ()))})))
-        unknown = float("nan")
-        verdict = Verdict(
-            residual_mm=residual_m * 1e3,
-            hand_length_mm=float(said.get("hand_length_m", unknown)) * 1e3,
-            tilt_deg=float(np.degrees(said.get("tilt_rad", unknown))),
-            distance_m=float(said.get("distance_m", unknown)),
-            frames_used=int(said.get("frames_used", 0)),
-            findings=tuple(findings),
-        )
-        clicks = Clicks(self._header.hand, self._header.protocol, clicks_px)
-        return Calibration(clicks=clicks, verdict=verdict, **arrays)
+class _Unpacked(pickle.Unpickler):
+    def find_class(self, module: str, name: str) -> Any:
+        found = super().find_class(module, name) if module.split(".")[0] in ("carpus", "numpy", "pathlib") else None
+        own = isinstance(found, type) and not module.startswith("numpy")
+        if not own and not (module.startswith("numpy") and name in _NUMPY_NAMES):
+            raise pickle.UnpicklingError(f"{module}.{name} is no part of an answer")
+        return found

@@ -2,22 +2,20 @@
 
 from __future__ import annotations
 
-import struct
+from collections.abc import Collection
 from dataclasses import dataclass
 from datetime import datetime
 from pathlib import Path
 
 import h5py
 
-from core.errors import CarpusFault, RecordingMissing, SessionUnreadable
-from core.session import schema
-from core.session.disk import is_being_written, publish, target_of_part, write_fault
-from core.session.reader import open_session, read_session
-from core.session.rows import growing_fields, readable_rows, whole_rows
-
-_SUPERBLOCK = struct.Struct("<8sB4xB10xQ8xQ")
-"""Start of an HDF5 file: signature, version, size of addresses, base address, end-of-file address."""
-_END_OF_FILE_AT = _SUPERBLOCK.size - 8
+from carpus.core.durable import write_fault
+from carpus.core.errors import CarpusFault, RecordingMissing, SessionUnreadable
+from carpus.core.session import heartbeat, reader, schema
+from carpus.core.session.disk import allow_written_bytes, free_name, is_being_written, publish, target_of_part
+from carpus.core.session.opened import open_session, read_session
+from carpus.core.session.rows import growing_fields, readable_rows, unchecked_chunk, whole_rows
+from carpus.core.session.seal import ATTRIBUTE, seal_of
 
 
 @dataclass(frozen=True, slots=True)
@@ -36,20 +34,25 @@ def interrupted_sessions(folder: Path) -> list[Path]:
     return sorted(path for path in folder.rglob("*.part") if target_of_part(path) is not None)
 
 
-def recover_folder(folder: Path, now: datetime | None = None) -> Recovery:
-    """Finish every interrupted session of a folder and the folders in it; what cannot be finished stays as it is.
+def recover_folder(folder: Path, now: datetime | None = None, given_up: Collection[Path] = ()) -> Recovery:
+    """Finish every interrupted session of a folder and the folders in it; what cannot be finished stays as it is,
+    and the part files ``given_up`` are not looked at.
 
     Raises :class:`RecordingMissing` when there is no such folder.
     """
     if not folder.is_dir():
         raise RecordingMissing(folder)
+    when = (now or datetime.now().astimezone()).isoformat(timespec="seconds")
     recovered, busy, faults, empty = [], [], [], []
-    for part in interrupted_sessions(folder):
+    parts = [part for part in interrupted_sessions(folder) if part not in given_up]
+    beating = heartbeat.still_beating(parts)
+    for part in parts:
         try:
-            if is_being_written(part):
+            if part in beating or is_being_written(part):
                 busy.append(part)
                 continue
-            target = recover(part, now)
+            target = reader.finish_part(part, when)
+            heartbeat.remove(part)
             if target is None:
                 empty.append(part)
             else:
@@ -61,9 +64,9 @@ def recover_folder(folder: Path, now: datetime | None = None) -> Recovery:
     return Recovery(tuple(recovered), tuple(busy), tuple(faults), tuple(empty))
 
 
-def recover(part: Path, now: datetime | None = None) -> Path | None:
+def finish_part(part: Path, when: str) -> Path | None:
     """Finish one part file and return the session's path: its own name, or a free one beside it. None, and the file
-    stays, where it ended before the first frame was stored."""
+    stays, where it ended before the first frame was stored. Runs in the reading process."""
     own_name = target_of_part(part)
     if own_name is None:
         raise SessionUnreadable(part, "not the part file of a session")
@@ -72,16 +75,18 @@ def recover(part: Path, now: datetime | None = None) -> Path | None:
     ):  # ended between the last two steps: only the old name is left over
         part.unlink()
         return own_name
+    if not _holds_anything(part):
+        return None
     if not _is_reachable(part):
-        _allow_written_bytes(part)
+        allow_written_bytes(part)
     with open_session(part) as file:
         finished = bool(file.attrs["complete"])
         if not finished and whole_rows(file).frames == 0:
             return None
     if not finished:
-        _finish(part, (now or datetime.now().astimezone()).isoformat(timespec="seconds"))
+        _finish(part, when)
     read_session(part)
-    target = _free_name(own_name)
+    target = free_name(own_name)
     publish(part, target)
     return target
 
@@ -92,15 +97,40 @@ def _finish(part: Path, when: str) -> None:
         with h5py.File(part, "r+") as file:
             rows = whole_rows(file)
             for field, dataset in growing_fields(file):
-                dataset.resize(rows.along(str(field.shape[0])), axis=0)
+                end = rows.along(str(field.shape[0]))
+                _mend_last_chunk(dataset, end)
+                dataset.resize(end, axis=0)
             if "/smoothed" in file and not _smoothed_is_whole(file, rows.frames):
                 del file["/smoothed"]  # half of a result that can be computed again
             file.attrs[schema.RECOVERED] = when
             file.attrs.modify("complete", True)
+            file.attrs[ATTRIBUTE] = seal_of(file)
     except (OSError, RuntimeError, KeyError) as cause:
         if isinstance(cause, KeyError):
             raise SessionUnreadable(part, f"damaged: {cause.args[0]}") from cause
         raise write_fault(part, cause) from cause
+
+
+def _mend_last_chunk(dataset: h5py.Dataset, end: int) -> None:
+    """A chunk that the program was adding to when it ended has the check sum of another moment: write it again."""
+    if end == 0 or not dataset.fletcher32 or dataset.dtype.kind == "O":
+        return
+    last = (end - 1) // dataset.chunks[0] * dataset.chunks[0]
+    try:
+        dataset[last:end]
+    except (OSError, RuntimeError):
+        rows = unchecked_chunk(dataset, last)
+        dataset.resize(last + dataset.chunks[0], axis=0)  # a whole chunk is written without being read before
+        dataset[last:] = rows
+
+
+def _holds_anything(part: Path) -> bool:
+    """Whether a byte was written; a program that ended while it began leaves room that was only reserved."""
+    with part.open("rb") as file:
+        while block := file.read(1 << 20):
+            if block.strip(b"\0"):
+                return True
+    return False
 
 
 def _smoothed_is_whole(file: h5py.File, frames: int) -> bool:
@@ -118,31 +148,3 @@ def _is_reachable(part: Path) -> bool:
             return all(readable_rows(dataset) == dataset.shape[0] for _, dataset in growing_fields(file))
     except (OSError, RuntimeError, KeyError):
         return False
-
-
-def _allow_written_bytes(part: Path) -> None:
-    """Set the end-of-file address to the file's true length.
-
-    HDF5 writes that address last. A kill before it leaves good data behind an end that is too early, which HDF5
-    then refuses to read; the writer reserves room in advance, so the true length always covers them.
-    """
-    try:
-        with part.open("r+b") as file:
-            start = file.read(_SUPERBLOCK.size)
-            length = file.seek(0, 2)
-            if len(start) < _SUPERBLOCK.size:
-                return
-            *kind, end = _SUPERBLOCK.unpack(start)
-            if kind == [b"\x89HDF\r\n\x1a\n", 0, 8, 0] and end < length:
-                file.seek(_END_OF_FILE_AT)
-                file.write(struct.pack("<Q", length))
-    except OSError as cause:
-        raise write_fault(part, cause) from cause
-
-
-def _free_name(target: Path) -> Path:
-    candidate, number = target, 1
-    while candidate.exists() or candidate.is_symlink():
-        number += 1
-        candidate = target.with_name(f"{target.stem}-{number}{target.suffix}")
-    return candidate

@@ -11,10 +11,12 @@ from typing import Any
 import h5py
 import numpy as np
 
-from core.hand.protocols import WRIST_ANGLES, MarkerProtocol
+from carpus.core.hand.back_surface import TABLE_ROWS
+from carpus.core.hand.protocols import WRIST_ANGLES, MarkerProtocol
+from carpus.core.types import FINGER_READINGS, SURFACE_READINGS
 
 FORMAT = "carpus-session"
-FORMAT_VERSION = 1
+FORMAT_VERSION = 2
 
 ZYZ_ANGLES = ("alpha", "beta", "gamma")
 
@@ -22,15 +24,17 @@ ROOT_ATTRIBUTES = {
     "format": f"always {FORMAT}",
     "format_version": f"{FORMAT_VERSION}",
     "session_id": "UUID of this session",
+    "recording_id": "UUID of the recording, the same for every result of it; since version 2",
     "subject_id": "pseudonym of the patient",
-    "created": "ISO 8601 with zone",
+    "recorded": "when the hand moved, ISO 8601 with zone, empty where nobody knows; since version 2",
+    "created": "when this file was made, ISO 8601 with zone",
     "hand": "right or left",
     "protocol": "wrist6 or hand21",
     "exercise": "what was trained",
     "software_version": "of the Carpus that wrote the file",
     "parameters": "JSON of all settings",
     "complete": "false while written, true once closed",
-    "origin": "session or recording this one was tracked again from, else empty",
+    "origin": "session_id of the session this one was tracked again from, else empty",
 }
 RECOVERED = "recovered"
 """Root attribute of an interrupted session that was finished later: when, ISO 8601."""
@@ -51,6 +55,7 @@ VERDICT_ATTRIBUTES = {
     "distance_m": "of WRIST from the camera",
     "frames_used": "still frames averaged",
     "findings": "JSON, what was not as it should be",
+    "straight_fingers": "thumb to little, 1 where a person said it lay straight at the neutral pose; empty: not said",
 }
 
 NAMED_AXES = {"M": "markers", "J": "joint angles", "A": "wrist angles", "Z": "ZYZ angles", "Q": "joint or wrist angles"}
@@ -61,7 +66,7 @@ GROWING_AXES = {"N": "frames", "D": "blobs of all frames", "E": "events", "C": "
 
 @dataclass(frozen=True, slots=True)
 class Field:
-    """One dataset. ``shape`` holds numbers and axis letters; ``dtype`` f8, u1, i4, i8 or text.
+    """One dataset. ``shape`` holds numbers and axis letters; ``dtype`` f4, f8, u1, u2, i4, i8 or text.
 
     ``attribute`` names the value in the object it is written from (a frame, blobs, an event, a calibration).
     ``fill`` stands where nothing was written; it is never a number that could be a measurement.
@@ -137,12 +142,19 @@ CALIBRATION_FIELDS = (
           "angles of the neutral pose as the therapist gave them, zero when none were", optional=True),
     Field("/calibration/residual", "residual_m", "f8", ("M",), "m",
           "distance of each disc from its fitted place", optional=True),
+    Field("/calibration/surface", "surface", "f8", (TABLE_ROWS, 5), "m",
+          "back of the hand over its fixed unit in W0, NaN below its end: origin x, y, step, rows, columns of a grid;"
+          " its middle; then every node as row, column, height, slopes", optional=True),
 )
 
 MOTION_FIELDS = (
     Field("/wrist/position", "position_m", "f8", ("N", 3), "m", "T: origin of W2 in W0"),
     Field("/wrist/velocity", "velocity_m_s", "f8", ("N", 3), "m/s",
           "v: velocity of the origin of W2 in W0"),
+    Field("/wrist/w0_turn", "w0_turn_rad", "f8", ("N", 3), "rad",
+          "rotation vector: W0 as refined by this frame, in whose axes rotation and angles are read, to W0 of "
+          "/calibration, in whose axes all places are; W2 to the camera: calibration rotation, this, R",
+          optional=True, since=2),
     Field("/wrist/rotation", "rotation_w2_w0", "f8", ("N", 3, 3), "1",
           "R: rotation of W2 in W0, not mirrored for a left hand"),
     Field("/wrist/angular_velocity", "angular_velocity_rad_s", "f8", ("N", 3), "rad/s",
@@ -167,7 +179,8 @@ MOTION_FIELDS = (
 FRAME_FIELDS = (
     Field("/frames/timestamp", "timestamp_s", "f8", ("N",), "s",
           "time of the colour picture as in the recording, strictly rising"),
-    Field("/frames/status", "status", "u1", ("N",), "1", "0 tracked, 1 predicted, 2 lost", fill=2),
+    Field("/frames/status", "status", "u1", ("N",), "1", "0 tracked, 1 predicted, 2 lost,"
+          " 3 doubtful: measured, but what is seen contradicts what is stated", fill=2),
     *MOTION_FIELDS,
     Field("/markers/position_camera", "marker_position_cam_m", "f8", ("N", "M", 3), "m",
           "centres of the discs as the model has them, in camera axes; finite for hidden ones too"),
@@ -175,6 +188,8 @@ FRAME_FIELDS = (
           "the blob taken for the marker; NaN when none"),
     Field("/markers/measured_depth", "marker_measured_depth_m", "f8", ("N", "M"), "m",
           "depth of that blob along the camera's z; NaN when none"),
+    Field("/markers/doubted", "doubted", "u1", ("N", "M"), "1",
+          "1 where what is seen contradicts what is stated of the marker", optional=True, fill=0),
     Field("/quality/dropped_frames", "dropped_before", "i4", ("N",), "1",
           "frames missing before this one", fill=-1),
     Field("/quality/measured_share", "measured_share", "f8", ("N", "Q"), "1",
@@ -197,6 +212,22 @@ DETECTION_FIELDS = (
 )
 DETECTION_COUNT = Field("/detections/count", "count", "i4", ("N",), "1",
                         "blobs of this frame", optional=True, fill=-1)
+
+SURFACE_FIELDS = (
+    Field("/surface/pixel", "pixel", "u2", ("N", SURFACE_READINGS, 2), "px",
+          "where the depth of the back of the hand was read, u right, v down; 65535 for none",
+          optional=True, fill=65535),
+    Field("/surface/depth", "depth_m", "f4", ("N", SURFACE_READINGS), "m",
+          "depth read there along the camera's z; NaN for none", optional=True),
+)
+FINGER_FIELDS = (
+    Field("/surface/finger_pixel", "pixel", "u2", ("N", FINGER_READINGS, 2), "px",
+          "where the depth about the fingers was read, u right, v down; 65535 for none",
+          optional=True, fingers_only=True, fill=65535),
+    Field("/surface/finger_depth", "depth_m", "f4", ("N", FINGER_READINGS), "m",
+          "depth read there along the camera's z; NaN for none", optional=True, fingers_only=True),
+)
+"""What tracking again needs of the depth pictures."""
 
 RAW_STREAMS = (
     Field("/raw/color", "color", "u1", ("C",), "1",
@@ -231,6 +262,7 @@ SMOOTHED_FIELDS = tuple(
         field.description + "; by the smoother",
         optional=True,
         fingers_only=field.fingers_only,
+        since=field.since,
     )
     for field in MOTION_FIELDS
 )
@@ -244,6 +276,8 @@ ALL_FIELDS = (
     DETECTION_FRAME,
     *DETECTION_FIELDS,
     DETECTION_COUNT,
+    *SURFACE_FIELDS,
+    *FINGER_FIELDS,
     *EVENT_FIELDS,
     *SMOOTHED_FIELDS,
     *RAW_STREAMS,

@@ -9,18 +9,21 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, fields
 from datetime import datetime
 from pathlib import Path
-from typing import Any
+from typing import Any, Literal
 
 import numpy as np
 from numpy.typing import NDArray
 
-from core.calibration.result import Calibration
-from core.camera import Camera
-from core.hand.protocols import MarkerProtocol, joint_angle_names
-from core.types import SIMULATED, Detections, FloatArray, Moment, Side, TrackedFrame
+from carpus.core.calibration.result import Calibration
+from carpus.core.camera import Camera
+from carpus.core.dates import is_moment
+from carpus.core.hand.protocols import MarkerProtocol, joint_angle_names
+from carpus.core.types import SIMULATED, BoolArray, Detections, FloatArray, Moment, Side, SurfaceSamples, TrackedFrame
 
 IntArray = NDArray[np.integer]
 
+MOST_TARGET_DEG = 180.0
+"""No joint goes further; what a file claims beyond it is no target."""
 SET_UP = "set_up"
 """The part of a session's parameters that says what was aimed at."""
 
@@ -29,7 +32,9 @@ SET_UP = "set_up"
 class SessionHeader:
     """Who, when, what and with which settings; never a name or a birth date.
 
-    ``created`` ISO 8601 with zone; ``joint_names`` empty for ``wrist6``; ``parameters`` JSON of all settings;
+    ``recorded`` when the hand moved, empty where nobody knows, and ``created`` when the file was made, both ISO 8601
+    with zone; ``recording_id`` is that of every result of one recording; ``joint_names`` empty for ``wrist6``;
+    ``parameters`` JSON of all settings;
     ``origin`` the session this one was tracked again from, else empty.
     """
 
@@ -43,13 +48,22 @@ class SessionHeader:
     parameters: str
     origin: str = ""
     joint_names: tuple[str, ...] = ()
+    recorded: str = ""
+    recording_id: str = ""
 
     def __post_init__(self) -> None:
-        if datetime.fromisoformat(self.created).utcoffset() is None:
-            raise ValueError(f"created without a time zone: {self.created}")
+        for name, moment in (("created", self.created), ("recorded", self.recorded or self.created)):
+            if not is_moment(moment):
+                raise ValueError(f"{name} without a time zone: {moment}")
+        object.__setattr__(self, "recording_id", self.recording_id or self.session_id)
         json.loads(self.parameters)
         if bool(self.joint_names) != self.protocol.has_fingers:
             raise ValueError(f"{self.protocol.name} with {len(self.joint_names)} joint angles")
+
+    @property
+    def when(self) -> datetime:
+        """When the hand moved; where nobody knows, when the file was made."""
+        return datetime.fromisoformat(self.recorded or self.created)
 
     @property
     def simulated(self) -> bool:
@@ -67,7 +81,10 @@ class SessionHeader:
         values = self.set_up.get("targets_deg")
         if not isinstance(values, list) or len(values) != 2:
             return math.nan, math.nan
-        positive, negative = (float(value) if isinstance(value, (int, float)) else math.nan for value in values)
+        positive, negative = (
+            float(value) if isinstance(value, (int, float)) and abs(value) <= MOST_TARGET_DEG else math.nan
+            for value in values
+        )
         return positive, negative
 
     def _part(self, name: str) -> Mapping[str, Any]:
@@ -88,12 +105,18 @@ def new_header(
     dip_free: bool = False,
     now: datetime | None = None,
     session_id: uuid.UUID | None = None,
+    recorded: str | None = None,
+    recording_id: str = "",
 ) -> SessionHeader:
-    """A header for a session that begins now; ``now`` needs a zone, and is injectable as ``session_id`` is."""
+    """A header for a session that begins now; ``now`` needs a zone, and is injectable as ``session_id`` is.
+
+    Without ``recorded`` the hand moves now, without ``recording_id`` the session is a recording's first result.
+    """
+    created = (now or datetime.now().astimezone()).isoformat(timespec="seconds")
     return SessionHeader(
         session_id=str(session_id or uuid.uuid4()),
-        subject_id=subject_id,
-        created=(now or datetime.now().astimezone()).isoformat(timespec="seconds"),
+        subject_id=subject_id.strip(),
+        created=created,
         hand=hand,
         protocol=protocol,
         exercise=exercise,
@@ -101,6 +124,8 @@ def new_header(
         parameters=parameters,
         origin=origin,
         joint_names=joint_angle_names(dip_free) if protocol.has_fingers else (),
+        recorded=created if recorded is None else recorded,
+        recording_id=recording_id,
     )
 
 
@@ -113,6 +138,7 @@ class Motion:
 
     position_m: FloatArray
     velocity_m_s: FloatArray
+    w0_turn_rad: FloatArray
     rotation_w2_w0: FloatArray
     angular_velocity_rad_s: FloatArray
     angles_rad: FloatArray
@@ -133,11 +159,13 @@ def motion_of(frames: Sequence[TrackedFrame | Moment]) -> Motion:
 
 @dataclass(frozen=True, slots=True)
 class MarkerSeries:
-    """M markers over N frames: model position (N, M, 3) in camera axes; blob taken (N, M, 2) and its depth (N, M)."""
+    """M markers over N frames: model position (N, M, 3) in camera axes; blob taken (N, M, 2) and its depth (N, M);
+    whether what is seen contradicts what is stated of it (N, M)."""
 
     position_cam_m: FloatArray
     measured_px: FloatArray
     measured_depth_m: FloatArray
+    doubted: BoolArray
 
 
 @dataclass(frozen=True, slots=True)
@@ -169,17 +197,41 @@ class RawPictures:
 
 @dataclass(frozen=True, slots=True)
 class DetectionTable:
-    """Every blob of every frame: ``frame`` (D,) row of the frame, rising; ``blobs`` all D of them."""
+    """Every blob of every frame: ``frame`` (D,) row of the frame, rising; ``blobs`` all D of them.
+
+    ``surface`` and ``fingers`` readings on the back of the hand and about the fingers: pixels (N, S, 2) and depths
+    (N, S), NaN for none; empty where the session kept none.
+    """
 
     frame: IntArray
     blobs: Detections
+    surface: tuple[NDArray[Any], NDArray[Any]] = (np.empty((0, 0)), np.empty((0, 0)))
+    fingers: tuple[NDArray[Any], NDArray[Any]] = (np.empty((0, 0)), np.empty((0, 0)))
 
     def of_frame(self, row: int) -> Detections:
         """The blobs of one frame."""
         begin, end = np.searchsorted(self.frame, (row, row + 1))
         some = slice(int(begin), int(end))
         b = self.blobs
-        return Detections(b.pixel[some], b.depth_m[some], b.depth_sd_m[some], b.area_px[some], b.similarity[some])
+        return Detections(
+            b.pixel[some],
+            b.depth_m[some],
+            b.depth_sd_m[some],
+            b.area_px[some],
+            b.similarity[some],
+            _readings(self.surface, row),
+            _readings(self.fingers, row),
+        )
+
+
+def _readings(kept: tuple[NDArray[Any], NDArray[Any]], row: int) -> SurfaceSamples | None:
+    pixel, depth_m = kept
+    if row >= len(depth_m):
+        return None
+    known = np.isfinite(depth_m[row])
+    if not known.any():
+        return None
+    return SurfaceSamples(pixel[row][known].astype(np.float64), depth_m[row][known].astype(np.float64))
 
 
 @dataclass(frozen=True, slots=True)
@@ -191,6 +243,20 @@ class SessionOutline:
     duration_s: float
     complete: bool
     recovered: str
+
+
+@dataclass(frozen=True, slots=True)
+class Verified:
+    """A session that is whole: all of its ``frames`` can be read; ``sealed``: and nothing was changed since it was
+    finished, which sessions from before there were seals cannot tell."""
+
+    frames: int
+    sealed: bool
+
+
+AngleOrder = Literal["zyx", "isb"]
+"""Order of the wrist's angles: the papers' ZYX, or flexion first as the ISB has it."""
+ANGLE_ORDERS: tuple[AngleOrder, ...] = ("zyx", "isb")
 
 
 @dataclass(frozen=True, slots=True)
@@ -214,6 +280,8 @@ class Session:
     smoothed: Motion | None
     complete: bool
     recovered: str
+    angle_order: AngleOrder = "zyx"
+    """In which order the wrist's angles are read; in every file it is the papers'."""
 
     def __len__(self) -> int:
         return len(self.timestamp_s)

@@ -5,7 +5,9 @@ from __future__ import annotations
 import contextlib
 import os
 import time
+import uuid
 from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass, replace
 from pathlib import Path
 from types import TracebackType
 from typing import Any, Self
@@ -13,15 +15,36 @@ from typing import Any, Self
 import h5py
 import numpy as np
 
-from core.calibration.result import Calibration
-from core.camera import Camera
-from core.errors import CarpusFault, OutputExists, OutputNotWritable, TimesUnordered
-from core.session import schema
-from core.session.disk import part_path, publish, reserve, sync_folder, write_fault
-from core.session.new_file import checked, create_growing, describe, new_file, write_calibration, write_header
-from core.session.schema import Field, Layout
-from core.session.values import Event, Motion, RawPictures, SessionHeader
-from core.types import TrackedFrame
+from carpus.core.calibration.result import Calibration
+from carpus.core.camera import Camera
+from carpus.core.durable import sync_folder, write_fault
+from carpus.core.errors import (
+    CarpusFault,
+    DiskFull,
+    EndStalled,
+    FolderGone,
+    OutputExists,
+    OutputNotWritable,
+    RecordingMoved,
+    TimesUnordered,
+)
+from carpus.core.private import copy_open_file, is_still_there
+from carpus.core.session import schema
+from carpus.core.session.disk import allow_written_bytes, free_name, part_path, publish, reserve
+from carpus.core.session.heartbeat import Heartbeat
+from carpus.core.session.new_file import (
+    checked,
+    create_checked,
+    create_growing,
+    describe,
+    new_file,
+    write_calibration,
+    write_header,
+)
+from carpus.core.session.schema import Field, Layout
+from carpus.core.session.seal import ATTRIBUTE, Digests, seal_of
+from carpus.core.session.values import Event, Motion, RawPictures, SessionHeader
+from carpus.core.types import SurfaceSamples, TrackedFrame
 
 FLUSH_EVERY_S = 0.8
 """A kill loses what came since the last flush; with a frame and the flush itself that stays below a second."""
@@ -35,6 +58,25 @@ Block = tuple[Field, Any]
 """Rows to add to the dataset of a field."""
 
 
+@dataclass(frozen=True, slots=True)
+class Fallback:
+    """Where a recording goes on when its folder goes away: ``folder`` names (and makes) the place, ``told`` hears of it
+    as :class:`RecordingMoved`, in the writing thread."""
+
+    folder: Callable[[], Path]
+    told: Callable[[CarpusFault], None]
+
+
+@dataclass(frozen=True, slots=True)
+class _Beginning:
+    """What a file begins with, for one that has to begin again elsewhere."""
+
+    header: SessionHeader
+    camera: Camera
+    calibration: Calibration
+    raw_depth_unit_m: float | None
+
+
 class SessionWriter:
     """One session file in the making; used by one thread, from :meth:`create` to :meth:`close`.
 
@@ -43,16 +85,31 @@ class SessionWriter:
     is ended. The file lies beside its target as
     ``NAME.xxxxxxxx.part`` and gets its name in :meth:`close`; nothing is ever overwritten. After a fault the part
     file stays, and :mod:`core.session.recovery` finishes it.
+
+    A heartbeat beside the part file (:mod:`core.session.heartbeat`) says that it is being written, and looks every
+    second whether the file is still where it was. Where it is not, or cannot be written any more, the recording goes
+    on in the ``fallback``'s folder, with all that was recorded where that can still be read.
     """
 
-    def __init__(self, file: h5py.File, path: Path, part: Path, layout: Layout, clock: Callable[[], float]) -> None:
+    def __init__(
+        self,
+        file: h5py.File,
+        path: Path,
+        part: Path,
+        layout: Layout,
+        clock: Callable[[], float],
+        beginning: _Beginning,
+        fallback: Fallback | None,
+    ) -> None:
         self.path = path
+        self._beginning, self._fallback = beginning, fallback
         self.part_path = part
         self._file = file
         self._layout = layout
         self._clock = clock
         self._descriptor = os.open(part, os.O_RDWR)
         self._growing: dict[str, h5py.Dataset] = {}
+        self._digests = Digests()
         self._rows: list[TrackedFrame] = []
         self._raw: list[RawPictures] = []
         self._events: list[Event] = []
@@ -61,6 +118,7 @@ class SessionWriter:
         self._last_time_s = -np.inf
         self._flushed_at_s = clock()
         self._fault: CarpusFault | None = None
+        self._heart = Heartbeat(part, self._look)
 
     @classmethod
     def create(
@@ -72,6 +130,7 @@ class SessionWriter:
         *,
         raw_depth_unit_m: float | None = None,
         clock: Callable[[], float] = time.monotonic,
+        fallback: Fallback | None = None,
     ) -> Self:
         """Begin a session that is to become ``path``. With ``raw_depth_unit_m`` every frame brings its pictures.
 
@@ -87,18 +146,22 @@ class SessionWriter:
         except OSError as cause:
             raise OutputNotWritable(path.parent, os.strerror(cause.errno) if cause.errno else "") from cause
         layout = Layout(header.protocol, header.joint_names)
-        writer = cls(file, path, part, layout, clock)
+        beginning = _Beginning(header, camera, calibration, raw_depth_unit_m)
+        writer = cls(file, path, part, layout, clock, beginning, fallback)
         try:
-            with writer._writing(0):
-                write_header(file, header, camera)
-                write_calibration(file, layout, calibration)
-                writer._growing = create_growing(file, layout, raw_depth_unit_m)
+            writer._begin()
         except CarpusFault:
             writer._release()
             part.unlink(missing_ok=True)
             raise
         sync_folder(part.parent)
         return writer
+
+    def _begin(self) -> None:
+        with self._writing(0):
+            write_header(self._file, self._beginning.header, self._beginning.camera)
+            write_calibration(self._file, self._layout, self._beginning.calibration)
+            self._growing = create_growing(self._file, self._layout, self._beginning.raw_depth_unit_m)
 
     def __enter__(self) -> Self:
         return self
@@ -112,7 +175,7 @@ class SessionWriter:
             self.abandon()
 
     def __len__(self) -> int:
-        """Frames taken so far."""
+        """Frames taken so far; those since it began again, where what was recorded before could not be taken along."""
         return self._count
 
     def append(self, tracked: TrackedFrame, raw: RawPictures | None = None) -> None:
@@ -136,8 +199,17 @@ class SessionWriter:
         self._flush_when_due()
 
     def flush(self) -> None:
-        """Bring everything taken so far to the disk."""
+        """Bring everything taken so far to the disk, or to another where this one cannot be reached any more."""
         self._check_open()
+        if self._heart.trouble is not None:
+            self._move(self._heart.trouble)
+        try:
+            self._flush()
+        except OutputNotWritable as fault:
+            self._move(fault)
+            self._flush()
+
+    def _flush(self) -> None:
         blocks = [*self._frame_blocks(), *self._event_blocks()]
         self._flushed_at_s = self._clock()
         if not blocks:
@@ -146,6 +218,8 @@ class SessionWriter:
             self._grow([block for block in blocks if block[0] not in schema.COMMIT_FIELDS])
             self._synchronise()
             self._grow([block for block in blocks if block[0] in schema.COMMIT_FIELDS])
+        for field, data in blocks:
+            self._digests.add(field.path, np.asarray(data, dtype=field.h5_dtype))
         self._rows, self._raw, self._events = [], [], []
 
     def write_smoothed(self, motion: Motion) -> None:
@@ -155,7 +229,7 @@ class SessionWriter:
         blocks = [(field, self._rows_of(field, getattr(motion, field.attribute), self._count)) for field in fields]
         with self._writing(sum(data.nbytes for _, data in blocks)):
             for field, data in blocks:
-                describe(self._file.create_dataset(field.path, data=data), field, self._layout)
+                describe(create_checked(self._file, field.path, data), field, self._layout)
             for group, names in self._layout.group_names().items():
                 if "/smoothed" + group in self._file:
                     self._file["/smoothed" + group].attrs["names"] = names
@@ -168,9 +242,13 @@ class SessionWriter:
             self.abandon()
             return
         try:
+            self._heart.trouble = self._heart.trouble or self._look()
             self.flush()
-            with self._writing(0):
-                self._file.attrs.modify("complete", True)
+            try:
+                self._seal()
+            except OutputNotWritable as fault:
+                self._move(fault)
+                self._seal()
         except CarpusFault:
             self._release()
             raise
@@ -189,7 +267,72 @@ class SessionWriter:
         self._release()
         self.part_path.unlink(missing_ok=True)
 
+    def _seal(self) -> None:
+        with self._writing(0):
+            self._file.attrs.modify("complete", True)
+            self._file.attrs[ATTRIBUTE] = seal_of(self._file, self._digests.known())
+
+    def _look(self) -> CarpusFault | None:
+        """Whether the part file is still the file that is written; from the heartbeat's thread."""
+        return None if is_still_there(self._descriptor, self.part_path) else FolderGone(self.part_path.parent)
+
+    def _move(self, fault: CarpusFault) -> None:
+        """Go on elsewhere, with all that was recorded if it can still be read, else with what was not yet written."""
+        if self._fallback is None or isinstance(fault, DiskFull):
+            self._fault = self._fault or fault
+            raise fault
+        lost_folder = self.part_path.parent
+        path = free_name(self._fallback.folder() / self.path.name)
+        self._heart.end()
+        stored = self._count - len(self._rows)
+        header = self._beginning.header
+        part = part_path(path, header.session_id)
+        taken_along = self._copy_to(part, stored)
+        if not taken_along:
+            part = self._begin_again(path, stored)
+        self._fault = None
+        self.path, self.part_path = path, part
+        self._heart = Heartbeat(part, self._look)
+        told, self._fallback = self._fallback.told, None  # one disaster at a time
+        told(RecordingMoved(path, "" if taken_along else f"the first {stored} rows stay in {lost_folder}"))
+
+    def go_on_elsewhere(self) -> Self:
+        """A new file in the fallback's folder with what this one has not stored, for another thread while the one that
+        writes hangs in the disk. What was stored stays there and is finished once the disk answers.
+
+        Raises :class:`FolderGone` where there is no other place, :class:`EndStalled` where all is stored.
+        """
+        if self._fallback is None:
+            raise FolderGone(self.part_path.parent)
+        fallback, self._fallback = self._fallback, None
+        rows, raw, events = list(self._rows), list(self._raw), list(self._events)
+        stored = self._count - len(rows)
+        if stored and not rows:
+            raise EndStalled(self.part_path.parent)
+        begun = self._beginning
+        new_id = str(uuid.uuid4())
+        header = replace(begun.header, session_id=new_id, recording_id=new_id) if stored else begun.header
+        writer = type(self).create(
+            free_name(fallback.folder() / self.path.name),
+            header,
+            begun.camera,
+            begun.calibration,
+            raw_depth_unit_m=begun.raw_depth_unit_m,
+            clock=self._clock,
+        )
+        if stored and rows:
+            text = f"goes on from session {begun.header.session_id}, {stored} rows of which are elsewhere"
+            events.insert(0, Event(rows[0].timestamp_s, "moved", text))
+        writer._rows, writer._raw, writer._events = rows, raw, events
+        writer._count, writer._last_time_s = len(rows), self._last_time_s
+        fallback.told(
+            RecordingMoved(writer.path, f"the first {stored} rows stay in {self.part_path.parent}" if stored else "")
+        )
+        return writer
+
     def _flush_when_due(self) -> None:
+        if self._heart.trouble is not None:
+            self.flush()
         if self._clock() - self._flushed_at_s >= FLUSH_EVERY_S or len(self._rows) >= ROWS_HELD:
             self.flush()
 
@@ -232,15 +375,68 @@ class SessionWriter:
             self._fault = write_fault(self.part_path, cause)
             raise self._fault from cause
 
+    def _copy_to(self, part: Path, stored: int) -> bool:
+        """Write on in a copy of the part file: its bytes can be read through what is open, wherever its name has gone.
+        False where they cannot."""
+        with contextlib.suppress(OSError, RuntimeError):
+            self._file.close()
+        try:
+            copy_open_file(self._descriptor, part)
+            allow_written_bytes(part)
+            file = h5py.File(part, "r+", libver="earliest", rdcc_nbytes=0)
+        except (OSError, RuntimeError, CarpusFault):
+            part.unlink(missing_ok=True)
+            return False
+        growing = {path: file[path] for path in self._growing}
+        ends = self._ends_of(growing, stored)
+        if ends is None:
+            file.close()
+            part.unlink(missing_ok=True)
+            return False
+        for path, end in ends.items():
+            growing[path].resize(end, axis=0)
+        os.close(self._descriptor)
+        self._file, self._growing, self._descriptor = file, growing, os.open(part, os.O_RDWR)
+        return True
+
+    def _ends_of(self, growing: dict[str, h5py.Dataset], stored: int) -> dict[str, int] | None:
+        """To what the datasets of a copy are cut, so that what was not wholly written is written again; None where
+        something that was written is not there."""
+        ends = {path: self._digests.rows(path) for path in growing}
+        if ends[schema.FRAME_FIELDS[0].path] != stored:
+            return None
+        return None if any(growing[path].shape[0] < end for path, end in ends.items()) else ends
+
+    def _begin_again(self, path: Path, stored: int) -> Path:
+        """A new file for what comes from now on; it says where the beginning is."""
+        old = self._beginning.header
+        new_id = str(uuid.uuid4())
+        header = replace(old, session_id=new_id, recording_id=new_id)  # two halves, not two results of one recording
+        part = part_path(path, header.session_id)
+        with contextlib.suppress(OSError):
+            os.close(self._descriptor)
+        self._file, self._descriptor = new_file(part), os.open(part, os.O_RDWR)
+        self._beginning = replace(self._beginning, header=header)
+        self._digests, self._count = Digests(), len(self._rows)
+        self._raw_bytes = {field.attribute: 0 for field in schema.RAW_STREAMS}
+        self._fault = None
+        self._begin()
+        if self._rows:
+            text = f"goes on from session {old.session_id}, {stored} rows of which are elsewhere"
+            self._events.insert(0, Event(self._rows[0].timestamp_s, "moved", text))
+        return part
+
     def _release(self) -> None:
         """Close the file and cut off the room that was reserved and not used."""
         if not self._file:
             return
+        self._heart.end()
         used = self._file.id.get_filesize()
         with contextlib.suppress(OSError, RuntimeError):  # after a fault; what reached the disk stays
             self._file.close()
-        os.truncate(self._descriptor, used)
-        os.fsync(self._descriptor)
+        with contextlib.suppress(OSError):  # a disk that is gone; what reached it stays
+            os.truncate(self._descriptor, used)
+            os.fsync(self._descriptor)
         os.close(self._descriptor)
 
     def _frame_blocks(self) -> list[Block]:
@@ -256,6 +452,11 @@ class SessionWriter:
             data = np.concatenate([getattr(some, field.attribute) for some in blobs])
             blocks.append((field, self._rows_of(field, data, len(frame))))
         blocks.append((schema.DETECTION_COUNT, counts))
+        blocks += [(field, _reading_rows(field, [some.surface for some in blobs])) for field in schema.SURFACE_FIELDS]
+        if self._layout.protocol.has_fingers:
+            blocks += [
+                (field, _reading_rows(field, [some.fingers for some in blobs])) for field in schema.FINGER_FIELDS
+            ]
         blocks += self._raw_blocks()
         for field in schema.FRAME_FIELDS:
             if self._layout.has(field):
@@ -283,6 +484,17 @@ class SessionWriter:
 
     def _rows_of(self, field: Field, value: Any, rows: int) -> Any:
         return checked(field, value, (rows, *self._layout.row_shape(field)))
+
+
+def _reading_rows(field: Field, readings: Sequence[SurfaceSamples | None]) -> Any:
+    """The depth readings of some frames, filled up to the same number."""
+    row_shape = tuple(size for size in field.shape[1:] if isinstance(size, int))
+    out = np.full((len(readings), *row_shape), field.fill, dtype=field.h5_dtype)
+    for row, some in zip(out, readings, strict=True):
+        if some is not None:
+            value = getattr(some, field.attribute)
+            row[: len(value)] = value
+    return out
 
 
 def _text_bytes(data: Any) -> int:

@@ -8,18 +8,26 @@ from dataclasses import dataclass
 import cv2
 import numpy as np
 
-from core.camera import Camera
-from core.simulation.scene import Scene
-from core.simulation.spec import RecordingSpec, Stream
-from core.simulation.trace import FloatImage
-from core.types import FloatArray
+from carpus.core.camera import Camera
+from carpus.core.simulation.scene import Scene
+from carpus.core.simulation.spec import RecordingSpec, Stream
+from carpus.core.simulation.trace import FloatImage
+from carpus.core.types import FloatArray
 
 # Skin of Fitzpatrick types I to VI, sRGB.
 SKIN_TONES_SRGB = np.array(
     [[238, 200, 180], [226, 178, 150], [202, 149, 117], [166, 112, 82], [118, 77, 55], [80, 53, 41]], dtype=np.float64
 )
 PAPER_BLUE_SRGB = np.array([38.0, 72.0, 165.0])
-_SLEEVES_SRGB = {"grey": (95.0, 98.0, 104.0), "white": (215.0, 213.0, 207.0), "blue": (40.0, 66.0, 140.0)}
+_SLEEVES_SRGB = {
+    "grey": (95.0, 98.0, 104.0),
+    "white": (215.0, 213.0, 207.0),
+    "blue": (40.0, 66.0, 140.0),
+    "jeans": (74.0, 98.0, 142.0),
+}
+_METALS_SRGB = np.array([[212.0, 175.0, 95.0], [200.0, 202.0, 206.0]])
+_STRAPS_SRGB = np.array([[38.0, 36.0, 35.0], [98.0, 66.0, 42.0], [40.0, 60.0, 120.0]])
+_BANDAGE_SRGB = (226.0, 214.0, 196.0)
 _WOODS_SRGB = np.array([[170.0, 128.0, 88.0], [120.0, 84.0, 56.0], [205.0, 175.0, 135.0]])
 _PLAIN_SRGB = np.array([[205.0, 205.0, 200.0], [140.0, 146.0, 148.0], [92.0, 100.0, 96.0]])
 
@@ -35,16 +43,27 @@ def linear(srgb: FloatArray) -> FloatArray:
 
 
 @dataclass(frozen=True, slots=True)
+class Band:
+    """What is worn round the forearm: linear ``color`` (3,), from and to which distance from the wrist; of cloth it
+    has folds."""
+
+    color: FloatArray
+    from_m: float
+    to_m: float
+    is_cloth: bool
+
+
+@dataclass(frozen=True, slots=True)
 class Appearance:
-    """Linear colours (3,) of skin, paper, sleeve and thing; ``sleeve_start_m`` from the wrist along the forearm,
-    None without sleeve; unit ``light_cam`` (3,) from the surface to the lamp; ``lamp`` and ``ambient`` (3,)
-    strengths; ``electrons`` at full scale; ``blur_px`` of the lens; ``mottling`` (5, 3) rad/m of the waves in the
-    skin's colour; ``table`` its albedo (H, W, 3) and ``table_depth_m`` (H, W)."""
+    """Linear colours (3,) of skin, paper, ``ring`` (None without) and thing; ``bands`` round the forearm; unit
+    ``light_cam`` (3,) from the surface to the lamp; ``lamp`` and ``ambient`` (3,) strengths; ``electrons`` at full
+    scale; ``blur_px`` of the lens; ``mottling`` (5, 3) rad/m of the waves in the skin's colour; ``table`` its albedo
+    (H, W, 3) and ``table_depth_m`` (H, W)."""
 
     skin: FloatArray
     paper: FloatArray
-    sleeve: FloatArray
-    sleeve_start_m: float | None
+    bands: tuple[Band, ...]
+    ring: FloatArray | None
     thing: FloatArray
     light_cam: FloatArray
     lamp: FloatArray
@@ -85,8 +104,8 @@ def appearance_of(scene: Scene) -> Appearance:
     return Appearance(
         skin=linear(SKIN_TONES_SRGB[tone] * rng.uniform(0.96, 1.04, 3)),
         paper=linear(PAPER_BLUE_SRGB * rng.uniform(0.85, 1.15, 3)),
-        sleeve=linear(np.array(_SLEEVES_SRGB.get(sleeve, _SLEEVES_SRGB["grey"])) * rng.uniform(0.85, 1.1)),
-        sleeve_start_m=None if sleeve == "none" else sleeve_start,
+        bands=_bands(spec, sleeve, sleeve_start, rng.uniform(0.85, 1.1)),
+        ring=linear(_METALS_SRGB[int(spec.random(Stream.WORN).integers(2))]) if "ring" in spec.things_worn else None,
         thing=linear(np.array([150.0, 140.0, 130.0]) * rng.uniform(0.4, 1.3)),
         light_cam=to_lamp,
         lamp=level * lamp_share * 1.25 * white,
@@ -97,6 +116,20 @@ def appearance_of(scene: Scene) -> Appearance:
         table=table,
         table_depth_m=depth,
     )
+
+
+def _bands(spec: RecordingSpec, sleeve: str, sleeve_start_m: float, shade: float) -> tuple[Band, ...]:
+    """Bandage, watch and sleeve in the order in which they are put on."""
+    rng = np.random.default_rng([spec.seed, Stream.WORN, 1])
+    bandage_m, watch_m, strap = rng.uniform(0.010, 0.025), rng.uniform(0.020, 0.040), int(rng.integers(3))
+    out = []
+    if "bandage" in spec.things_worn:
+        out.append(Band(linear(np.array(_BANDAGE_SRGB)), bandage_m, bandage_m + 0.09, is_cloth=True))
+    if "watch" in spec.things_worn:
+        out.append(Band(linear(_STRAPS_SRGB[strap]), watch_m, watch_m + 0.020, is_cloth=False))
+    if sleeve != "none":
+        out.append(Band(linear(np.array(_SLEEVES_SRGB[sleeve]) * shade), sleeve_start_m, math.inf, is_cloth=True))
+    return tuple(out)
 
 
 def table_depth(camera: Camera, scene: Scene) -> FloatImage:

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
-from core.simulation.strokes import StrokePath, minimum_jerk
-from core.types import FloatArray
+from carpus.core.simulation.strokes import StrokePath, minimum_jerk
+from carpus.core.types import FloatArray
 
 STILL_S = 0.8
 """Length of the still neutral pose at the start."""
@@ -16,6 +16,12 @@ STILL_S = 0.8
 _SWAY_WRIST_RAD = np.radians([1.0, 1.5, 1.5])
 _SWAY_CARRY_M = 0.0008
 _SWAY_JOINT_RAD = math.radians(0.7)
+_TENODESIS_BEND_RAD = math.radians(5.0)
+_CLOSING = {"MCP": 1.0, "PIP": 1.0, "DIP": 2.0 / 3.0, "MCP1_flexion": 0.3, "IP1_flexion": 0.4}
+_TENODESIS = (0.75, 1.0)
+_ROLLING = np.concatenate((np.radians([0.8, 1.2, 4.0]), np.full(3, 0.002)))
+_RESTLESS = np.concatenate((np.radians([0.8, 1.0, 1.0]), np.full(3, 0.0012)))
+_RESTLESS_JOINT_RAD = math.radians(2.0)
 
 
 @dataclass(frozen=True, slots=True)
@@ -33,24 +39,33 @@ class HandMotion:
     tremor_rad: float
     tremor_hz: float
     tremor_axis: FloatArray
+    habits: Habits
 
     def wrist_angles_rad(self, time_s: FloatArray) -> FloatArray:
         """Deviation, flexion, pro/supination, (N, 3)."""
         ramp = _ramp(time_s)
         tremor = self.tremor_rad * np.sin(2.0 * math.pi * self.tremor_hz * (time_s - STILL_S)) * ramp
         sway = self.sway.wrist_rad(time_s) * ramp[:, None]
-        return np.asarray(self.wrist.at(time_s) + sway + tremor[:, None] * self.tremor_axis)
+        own = self.wrist.at(time_s) + sway + tremor[:, None] * self.tremor_axis
+        return np.asarray(own + self.habits.at(time_s, ramp)[:, :3])
 
     def joint_angles_rad(self, time_s: FloatArray) -> FloatArray:
         """Finger joint angles, (N, J)."""
         ramp = _ramp(time_s)[:, None]
         tremor = 0.5 * self.tremor_rad * np.sin(2.0 * math.pi * self.tremor_hz * (time_s[:, None] - STILL_S) + 1.0)
         flexing = np.array([name.startswith(("MCP", "IP1")) and name.endswith("flexion") for name in self.joint_names])
-        return np.asarray(self.joints.at(time_s) + ramp * (self.sway.joint_rad(time_s) + tremor * flexing))
+        own = self.joints.at(time_s) + ramp * (self.sway.joint_rad(time_s) + tremor * flexing)
+        unrest = self.habits.at(time_s, ramp[:, 0])[:, 6:]
+        if self.habits.tenodesis == 0.0:
+            return np.asarray(own + unrest)
+        extension = -self.wrist_angles_rad(time_s)[:, 1]
+        return np.asarray(own + unrest + self.habits.closing_rad(extension)[:, None] * _closing(self.joint_names))
 
     def carry_m(self, time_s: FloatArray) -> FloatArray:
         """Displacement of the arm in W0, (N, 3)."""
-        return np.asarray(self.carry.at(time_s) + self.sway.carry_m(time_s) * _ramp(time_s)[:, None])
+        ramp = _ramp(time_s)
+        own = self.carry.at(time_s) + self.sway.carry_m(time_s) * ramp[:, None]
+        return np.asarray(own + self.habits.at(time_s, ramp)[:, 3:6])
 
 
 @dataclass(frozen=True, slots=True)
@@ -61,18 +76,47 @@ class Sway:
     phase_rad: FloatArray
     amount: FloatArray
 
-    def _at(self, time_s: FloatArray) -> FloatArray:
+    def at(self, time_s: FloatArray) -> FloatArray:
+        """All channels, (N, C): three of the wrist, three of the arm's place, the joints."""
         waves = np.sin(self.rate_rad_s * time_s[:, None, None] + self.phase_rad)
         return np.asarray((self.amount * waves).sum(axis=-1))
 
     def wrist_rad(self, time_s: FloatArray) -> FloatArray:
-        return self._at(time_s)[:, :3]
+        return self.at(time_s)[:, :3]
 
     def carry_m(self, time_s: FloatArray) -> FloatArray:
-        return self._at(time_s)[:, 3:6]
+        return self.at(time_s)[:, 3:6]
 
     def joint_rad(self, time_s: FloatArray) -> FloatArray:
-        return self._at(time_s)[:, 6:]
+        return self.at(time_s)[:, 6:]
+
+
+@dataclass(frozen=True, slots=True)
+class Habits:
+    """What the hand does besides the exercise: fingers close by ``tenodesis`` of the wrist's extension; ``moving`` is
+    further unrest once the exercise runs, ``always`` from the first frame on, counted from there."""
+
+    tenodesis: float
+    moving: Sway
+    always: Sway
+
+    def at(self, time_s: FloatArray, ramp: FloatArray) -> FloatArray:
+        """Channels (N, C) as of :class:`Sway`, for the ramp (N,) of the exercise."""
+        begun = self.always.at(np.zeros(1))
+        return np.asarray(self.moving.at(time_s) * ramp[:, None] + self.always.at(time_s) - begun)
+
+    def closing_rad(self, extension_rad: FloatArray) -> FloatArray:
+        """Flexion (N,) of knuckles and middle joints: they close with extension, and open a third as far with
+        flexion."""
+        bend = np.sqrt(extension_rad**2 + _TENODESIS_BEND_RAD**2) - _TENODESIS_BEND_RAD
+        return np.asarray(self.tenodesis * (2.0 * extension_rad + bend) / 3.0)
+
+
+def _closing(names: tuple[str, ...]) -> FloatArray:
+    """Share (J,) of each joint in the fingers' closing by themselves."""
+    return np.array(
+        [_CLOSING.get(name, _CLOSING.get(name[:3], 0.0) if name.endswith("flexion") else 0.0) for name in names]
+    )
 
 
 def _ramp(time_s: FloatArray) -> FloatArray:
@@ -82,10 +126,26 @@ def _ramp(time_s: FloatArray) -> FloatArray:
 
 def drawn_sway(rng: np.random.Generator, joint_count: int) -> Sway:
     """A person's unrest: about a degree in each angle, under a millimetre in place."""
-    shape = (6 + joint_count, 3)
     amount = np.concatenate((_SWAY_WRIST_RAD, np.full(3, _SWAY_CARRY_M), np.full(joint_count, _SWAY_JOINT_RAD)))
+    return _drawn(rng, amount, (0.08, 0.4))
+
+
+def drawn_habits(rng: np.random.Generator, habits: tuple[str, ...], joint_count: int) -> Habits:
+    """How far one person's habits go; those that are not named are drawn, too, and left out."""
+    tenodesis = float(rng.uniform(*_TENODESIS))
+    rolling = _drawn(rng, np.concatenate((_ROLLING, np.zeros(joint_count))), (0.15, 0.5))
+    restless = _drawn(rng, np.concatenate((_RESTLESS, np.full(joint_count, _RESTLESS_JOINT_RAD))), (0.2, 0.7))
+    return Habits(
+        tenodesis if "tenodesis" in habits else 0.0,
+        rolling if "rolling_forearm" in habits else replace(rolling, amount=0.0 * rolling.amount),
+        restless if "restless_clicks" in habits else replace(restless, amount=0.0 * restless.amount),
+    )
+
+
+def _drawn(rng: np.random.Generator, amount: FloatArray, rate_hz: tuple[float, float]) -> Sway:
+    shape = (len(amount), 3)
     return Sway(
-        rate_rad_s=2.0 * math.pi * rng.uniform(0.08, 0.4, shape),
+        rate_rad_s=2.0 * math.pi * rng.uniform(*rate_hz, shape),
         phase_rad=rng.uniform(0.0, 2.0 * math.pi, shape),
         amount=amount[:, None] * rng.dirichlet(np.ones(3), shape[0]),
     )

@@ -5,10 +5,10 @@ from __future__ import annotations
 import cv2
 import numpy as np
 
-from core.camera import Camera
-from core.simulation.appearance import Appearance
-from core.simulation.trace import FloatImage, Surface
-from core.types import FloatArray
+from carpus.core.camera import Camera
+from carpus.core.simulation.appearance import Appearance
+from carpus.core.simulation.trace import FloatImage, Surface
+from carpus.core.types import FloatArray
 
 _GLOSS, _GLOSS_POWER = 0.05, 24
 _SHADOW_STRENGTH = 0.8

@@ -13,14 +13,14 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from core.simulation.appearance import light_of
-from core.simulation.scene import Scene
-from core.simulation.sensor import depth_scale
-from core.simulation.spec import RecordingSpec, Stream
-from core.simulation.trouble import covered_discs, false_blobs, frame_times, passing_thing
-from core.simulation.truth import Truth, protocol_rows, truth_of
-from core.simulation.visibility import coarse_visibility
-from core.types import Detections, FloatArray
+from carpus.core.simulation.appearance import light_of
+from carpus.core.simulation.scene import Scene
+from carpus.core.simulation.sensor import depth_scale
+from carpus.core.simulation.spec import RecordingSpec, Stream
+from carpus.core.simulation.trouble import LEAST_FOUND_M, covered_discs, false_blobs, frame_times, passing_thing
+from carpus.core.simulation.truth import Truth, protocol_rows, truth_of
+from carpus.core.simulation.visibility import coarse_visibility
+from carpus.core.types import Detections, FloatArray
 
 CENTER_SD_PX = {"bright": 0.018, "normal": 0.04, "dim": 0.1}
 """Of a blob's centre, per axis, independent from frame to frame."""
@@ -146,7 +146,7 @@ class _Noise:
 
 def _false_places(scene: Scene, time_s: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray, NDArray[np.bool_]]:
     """Pixels (N, B, 2), depths (N, B), radii (B,) and presence (N, B) of the false blobs."""
-    blobs = false_blobs(scene)
+    blobs = [blob for blob in false_blobs(scene) if blob.radius_m >= LEAST_FOUND_M]
     count = len(time_s)
     if not blobs:
         return np.empty((count, 0, 2)), np.empty((count, 0)), np.empty(0), np.empty((count, 0), dtype=bool)

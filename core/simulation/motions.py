@@ -12,12 +12,12 @@ from collections.abc import Callable
 
 import numpy as np
 
-from core.errors import SettingsInvalid
-from core.hand.protocols import joint_angle_names
-from core.simulation.hand_motion import STILL_S, HandMotion, drawn_sway
-from core.simulation.spec import RecordingSpec, Stream
-from core.simulation.strokes import StrokeWriter
-from core.types import FloatArray
+from carpus.core.errors import SettingsInvalid
+from carpus.core.hand.protocols import joint_angle_names
+from carpus.core.simulation.hand_motion import STILL_S, HandMotion, drawn_habits, drawn_sway
+from carpus.core.simulation.spec import RecordingSpec, Stream
+from carpus.core.simulation.strokes import StrokeWriter
+from carpus.core.types import FloatArray
 
 FLEXION_RAD, DEVIATION_RAD, SUPINATION_RAD = math.radians(50.0), math.radians(25.0), math.radians(35.0)
 REACH_M, REACH_S = 0.39, 1.05
@@ -220,6 +220,127 @@ def _thumb(patient: _Patient) -> None:
     patient.repeat(patient.joints, [wide, across], patient.neutral)
 
 
+_TOUCHES = {
+    2: {"CMC1_extension": -9, "CMC1_abduction": 35, "MCP1_flexion": 19, "IP1_flexion": 21, "MCP2_flexion": 64,
+        "PIP2_flexion": 45},
+    3: {"CMC1_extension": -20, "CMC1_abduction": 37, "MCP1_flexion": 25, "IP1_flexion": 22, "MCP3_flexion": 65,
+        "PIP3_flexion": 49},
+    4: {"CMC1_extension": -28, "CMC1_abduction": 36, "MCP1_flexion": 35, "IP1_flexion": 25, "MCP4_flexion": 67,
+        "PIP4_flexion": 46},
+    5: {"CMC1_extension": -28, "CMC1_abduction": 34, "MCP1_flexion": 55, "MCP1_abduction": -9, "IP1_flexion": 28,
+        "MCP5_flexion": 76, "PIP5_flexion": 41},
+}  # fmt: skip
+"""Angles in degrees at which the tip of the thumb meets that of a finger, within 12 mm on hands of any size."""
+
+
+def _opposition(patient: _Patient) -> None:
+    """The thumb's tip to that of each finger in turn, opened wide in between; each touch is a repetition."""
+    wide = patient.fingers(CMC1_extension=28, CMC1_abduction=25)
+    way_s = 0.5 * patient.cycle_s
+    done = 0
+    while done < patient.repetitions and patient.joints.time_s + way_s < patient.end_s:
+        touch = patient.fingers(**{name: float(angle) for name, angle in _TOUCHES[2 + done % 4].items()})
+        if not patient.pain_limited:  # the tips stop each other: no touch falls short
+            patient.joints.move(touch, way_s * (1.0 - _HOLD_SHARE) * patient.rng.uniform(0.93, 1.07))
+            patient.joints.hold(way_s * _HOLD_SHARE)
+        else:
+            patient.stroke(patient.joints, touch, way_s, _HOLD_SHARE)
+        patient.stroke(patient.joints, wide, way_s, 0.0)
+        done += 1
+    patient.joints.move(patient.neutral, way_s)
+
+
+def _bend45(patient: _Patient) -> None:
+    """All fingers to 45 degrees and back: what the palm's skin does then is no movement of the wrist."""
+    closed = patient.fingers(MCP_flexion=45, PIP_flexion=45)
+    patient.repeat(patient.joints, [closed, patient.neutral], patient.neutral)
+
+
+def _power_grip(patient: _Patient) -> None:
+    """A full grip; the wrist extends a little with it, as it does by itself."""
+    closed = patient.fingers(MCP_flexion=75, PIP_flexion=85, MCP_abduction=0, **_GRIPPING_THUMB)
+    extended = patient.wrist_target(flexion=-patient.rng.uniform(0.15, 0.4))
+    grip = np.concatenate((extended, closed))
+    both = StrokeWriter(np.concatenate((np.zeros(3), patient.neutral)), STILL_S)
+    patient.repeat(both, [grip, both.posture], both.posture, hold_share=0.4)
+    _split(patient, both)
+
+
+def _grasp_mug(patient: _Patient) -> None:
+    """Reach for a mug, close finger after finger around it, lift, put it back, let go."""
+    rng = patient.rng
+    way, lift = 0.5 * _reach_way(patient), np.array([0.0, 0.0, 0.05])
+    opened = patient.fingers(MCP_flexion=12, PIP_flexion=25, CMC1_extension=28, CMC1_abduction=42)
+    bend = {
+        f"MCP{k}_flexion": angle + rng.normal(0.0, 6.0) for k, angle in ((2, 42.0), (3, 50.0), (4, 56.0), (5, 60.0))
+    }
+    bend |= {
+        f"PIP{k}_flexion": angle + rng.normal(0.0, 6.0) for k, angle in ((2, 42.0), (3, 48.0), (4, 50.0), (5, 46.0))
+    }
+    closed = patient.fingers(**bend, CMC1_extension=12, CMC1_abduction=48, MCP1_flexion=15, IP1_flexion=30)
+    early = closed.copy()
+    late = [
+        i for i, name in enumerate(patient.joint_names) if name[:4] in ("MCP2", "PIP2", "DIP2", "MCP3", "PIP3", "DIP3")
+    ]
+    early[late] = 0.5 * (opened[late] + closed[late])
+    turned = patient.wrist_target(flexion=-rng.uniform(0.3, 0.6), supination=rng.uniform(0.2, 0.5), deviation=-0.2)
+    pace = patient.cycle_s / _DEFAULT_REACH_S
+    done = 0
+    while done < patient.repetitions and patient.carry.time_s < patient.end_s:
+        for place, posture, joints, duration_s in (
+            (way, turned, opened, 0.9),
+            (way, turned, early, 0.25),
+            (way, turned, closed, 0.25),
+            (way + lift, turned, closed, 0.5),
+            (way + lift, turned, closed, 0.4),
+            (way, turned, closed, 0.5),
+            (way, turned, opened, 0.4),
+            (np.zeros(3), np.zeros(3), patient.neutral, 0.9),
+        ):
+            patient.carry.move(place, duration_s * pace)
+            patient.wrist.move(posture, duration_s * pace)
+            patient.joints.move(joints, duration_s * pace)
+        done += 1
+
+
+def _split(patient: _Patient, both: StrokeWriter) -> None:
+    """Strokes of wrist (3) and joints at once, into the two."""
+    path = both.path()
+    for time_s, value in zip(path.time_s[2:], path.value[2:], strict=True):
+        patient.wrist.move(value[:3], time_s - patient.wrist.time_s)
+        patient.joints.move(value[3:], time_s - patient.joints.time_s)
+
+
+_GRIPPING_THUMB = {"CMC1_extension": -5.0, "CMC1_abduction": 35.0, "MCP1_flexion": 30.0, "IP1_flexion": 35.0}
+
+
+def _hold_grip(patient: _Patient) -> None:
+    """A grip that is held while the wrist does its exercise, let go once, never quite steady."""
+    rng = patient.rng
+    patient.joints.move(patient.neutral, 0.1)
+    lets_go_s = float(rng.uniform(0.45, 0.7)) * patient.end_s
+    mcp, pip = rng.uniform(50.0, 65.0), rng.uniform(55.0, 75.0)
+    while patient.joints.time_s < patient.end_s:
+        if patient.joints.time_s > lets_go_s:
+            patient.joints.move(patient.neutral, 0.6)
+            patient.joints.hold(0.5)
+            lets_go_s = math.inf
+        squeeze = rng.uniform(0.9, 1.1)
+        held = patient.fingers(MCP_flexion=mcp * squeeze, PIP_flexion=pip * squeeze, **_GRIPPING_THUMB)
+        patient.joints.move(held, 0.7)
+        patient.joints.hold(0.6)
+
+
+def _open_and_close(patient: _Patient) -> None:
+    """Fingers that open and close, as they do while somebody waits."""
+    rng = patient.rng
+    while patient.joints.time_s < patient.end_s:
+        closed = patient.fingers(MCP_flexion=rng.uniform(30, 65), PIP_flexion=rng.uniform(30, 75))
+        patient.joints.move(closed, rng.uniform(0.5, 0.9))
+        patient.joints.move(patient.neutral, rng.uniform(0.5, 0.9))
+        patient.joints.hold(rng.uniform(0.0, 0.6))
+
+
 _DEFAULT_REACH_S = 4.0
 
 MOTIONS: dict[str, tuple[Callable[[_Patient], None], float]] = {
@@ -236,7 +357,11 @@ MOTIONS: dict[str, tuple[Callable[[_Patient], None], float]] = {
     "fingers": (_fingers, 0.4),
     "abduction": (_abduction, 0.4),
     "thumb": (_thumb, 0.35),
+    "opposition": (_opposition, 0.35),
     "tremor": (_rest, 0.3),
+    "bend45": (_bend45, 0.35),
+    "power_grip": (_power_grip, 0.3),
+    "grasp_mug": (_grasp_mug, 1.0 / _DEFAULT_REACH_S),
 }
 """Exercise and its repetitions per second where the spec gives none."""
 
@@ -251,6 +376,8 @@ def motion_of(spec: RecordingSpec) -> HandMotion:
     rng = spec.random(Stream.MOTION)
     patient = _Patient(spec, rng, default_hz)
     write(patient)
+    habit = spec.random(Stream.HABIT)
+    _with_fingers(patient, spec, habit)
     if spec.leaves_picture:
         _leave(patient)
     tremor_deg = spec.tremor_deg or (_TREMOR_DEG if spec.motion == "tremor" else 0.0)
@@ -264,7 +391,20 @@ def motion_of(spec: RecordingSpec) -> HandMotion:
         tremor_rad=math.radians(tremor_deg),
         tremor_hz=spec.tremor_hz,
         tremor_axis=axis / np.linalg.norm(axis),
+        habits=drawn_habits(habit, spec.habits, len(patient.joint_names)),
     )
+
+
+def _with_fingers(patient: _Patient, spec: RecordingSpec, rng: np.random.Generator) -> None:
+    """Habits of the fingers, where the exercise leaves these alone."""
+    if patient.joints.time_s > STILL_S:
+        return
+    exercise, patient.rng = patient.rng, rng
+    if "grip" in spec.habits:
+        _hold_grip(patient)
+    elif "open_close" in spec.habits:
+        _open_and_close(patient)
+    patient.rng = exercise
 
 
 def _leave(patient: _Patient) -> None:

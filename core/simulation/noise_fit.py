@@ -1,6 +1,6 @@
 """Fits the noise of :mod:`core.simulation.measurements` to what the detector makes of rendered pictures.
 
-``python -c "from core.simulation.noise_fit import fitted_noise; print(fitted_noise())"`` (some minutes).
+``python -c "from carpus.core.simulation.noise_fit import fitted_noise; print(fitted_noise())"`` (some minutes).
 """
 
 from __future__ import annotations
@@ -10,13 +10,13 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from core.detection.appearance import learn_appearance
-from core.detection.detector import Detector
-from core.detection.settings import DetectionSettings
-from core.simulation.recording import SimulatedPictures, clicks_of
-from core.simulation.sensor import depth_scale
-from core.simulation.spec import RecordingSpec
-from core.types import FloatArray
+from carpus.core.detection.appearance import learn_appearance
+from carpus.core.detection.detector import Detector
+from carpus.core.detection.settings import DetectionSettings
+from carpus.core.simulation.recording import SimulatedPictures, clicks_of
+from carpus.core.simulation.sensor import depth_scale
+from carpus.core.simulation.spec import RecordingSpec
+from carpus.core.types import FloatArray
 
 _NEAR_PX = 4.0
 _WELL_SEEN_SHARE = 0.6

@@ -10,13 +10,13 @@ from pathlib import Path
 
 import numpy as np
 
-from core.capture.camera_info import CAMERA_FILE
-from core.capture.oni_writer import ColorCodec, write_oni
-from core.capture.tum import TumFolder
-from core.errors import OutputExists
-from core.simulation.recording import CLICKS_FILE, TRUTH_FILE, simulate
-from core.simulation.spec import RecordingSpec
-from core.types import Frame
+from carpus.core.capture.camera_info import CAMERA_FILE
+from carpus.core.capture.oni_writer import ColorCodec, write_oni
+from carpus.core.capture.tum import TumFolder
+from carpus.core.errors import OutputExists
+from carpus.core.simulation.recording import CLICKS_FILE, TRUTH_FILE, simulate
+from carpus.core.simulation.spec import RecordingSpec
+from carpus.core.types import Frame
 
 RECORDING_FILE = "recording.oni"
 _MILLIMETRE = 1e-3

@@ -7,10 +7,10 @@ from dataclasses import dataclass
 import cv2
 import numpy as np
 
-from core.camera import Camera
-from core.simulation.appearance import Appearance
-from core.simulation.trace import Box, FloatImage, box_around
-from core.types import FloatArray
+from carpus.core.camera import Camera
+from carpus.core.simulation.appearance import Appearance
+from carpus.core.simulation.trace import Box, FloatImage, box_around
+from carpus.core.types import FloatArray
 
 _EDGE_ON = 0.02
 _LARGEST_SAG_M, _HIDING_GAP_M = 0.004, 0.004
@@ -27,6 +27,9 @@ class Patch:
     bend: float
 
 
+_BAND_EDGE_M = np.float32(0.0012)
+_RING_M, _RING_SHARE, _RING_AWAY_M = 0.002, 0.5, 0.011
+"""Half width of a ring, its place on the bone, and how far from the bone it may lie."""
 _KNUCKLES = (2, 3, 6, 7, 10, 11, 14, 15, 18, 19)
 _NAILS = (4, 8, 12, 16, 20)
 _KNUCKLE_RADIUS_M, _NAIL_RADIUS_M = 0.006, 0.0048
@@ -128,12 +131,29 @@ def dress(
     albedo: FloatImage, looks: Appearance, points: FloatImage, is_forearm: np.ndarray, wrist_m: FloatArray,
     forearm_axis: FloatArray,
 ) -> None:  # fmt: skip
-    """The sleeve, from its start on up the forearm; ``forearm_axis`` points to the hand."""
-    if looks.sleeve_start_m is None:
+    """Sleeve and what else is worn round the forearm; ``forearm_axis`` points to the hand."""
+    if not looks.bands:
         return
-    along = (points - wrist_m.astype(np.float32)) @ forearm_axis.astype(np.float32)
-    along += np.float32(looks.sleeve_start_m)
-    share = np.clip(0.5 - along / np.float32(0.0012), 0.0, 1.0) * is_forearm
-    folds = 1.0 + 0.06 * np.sin(along * 310.0 + 9.0 * np.sin(along * 41.0))
-    cloth = looks.sleeve.astype(np.float32) * folds[..., None]
-    albedo += share[..., None] * (cloth - albedo)
+    to_wrist = (points - wrist_m.astype(np.float32)) @ forearm_axis.astype(np.float32)
+    for band in looks.bands:
+        along = to_wrist + np.float32(band.from_m)
+        share = np.clip(0.5 - along / _BAND_EDGE_M, 0.0, 1.0) * is_forearm
+        if np.isfinite(band.to_m):
+            share *= np.clip(0.5 + (to_wrist + np.float32(band.to_m)) / _BAND_EDGE_M, 0.0, 1.0)
+        folds = (
+            1.0 + 0.06 * np.sin(along * 310.0 + 9.0 * np.sin(along * 41.0)) if band.is_cloth else np.ones_like(along)
+        )
+        stuff = band.color.astype(np.float32) * folds[..., None]
+        albedo += share[..., None] * (stuff - albedo)
+
+
+def paint_ring(albedo: FloatImage, points: FloatImage, color: FloatArray, bone_m: FloatArray, size: float) -> None:
+    """A ring round the first bone of a finger, from joint to joint (2, 3)."""
+    along_m = bone_m[1] - bone_m[0]
+    length = float(np.linalg.norm(along_m))
+    offset = points - bone_m[0].astype(np.float32)
+    along = offset @ (along_m / length).astype(np.float32)
+    away = np.sqrt(np.maximum(np.einsum("hwi,hwi->hw", offset, offset) - along * along, 0.0))
+    share = np.clip(0.5 + (_RING_M - np.abs(along - np.float32(_RING_SHARE * length))) / _BAND_EDGE_M, 0.0, 1.0)
+    share *= away < _RING_AWAY_M * size
+    albedo += share[..., None].astype(np.float32) * (color.astype(np.float32) - albedo)

@@ -3,16 +3,16 @@
 from __future__ import annotations
 
 import dataclasses
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 
-from core.hand.anatomy import HandAnatomy, anatomy_from_size
-from core.hand.kinematics import disc_centres
-from core.hand.protocols import HAND21, MarkerProtocol
-from core.hand.wrist_frame import wrist_axes
-from core.simulation.spec import RecordingSpec, Stream
-from core.types import FloatArray
+from carpus.core.hand.anatomy import HandAnatomy, anatomy_from_size
+from carpus.core.hand.kinematics import disc_centres
+from carpus.core.hand.protocols import HAND21, MarkerProtocol
+from carpus.core.hand.wrist_frame import wrist_axes
+from carpus.core.simulation.spec import RecordingSpec, Stream
+from carpus.core.types import FloatArray
 
 WRIST_JOINT_DEPTH_M = 0.015
 """Depth of the wrist's centre of rotation under the WRIST disc of a hand 180 mm long (reference 2)."""
@@ -33,12 +33,15 @@ _DISC_PLACE_SD_M = np.array([0.0007, 0.0007, 0.0007])
 @dataclass(frozen=True, slots=True)
 class Patient:
     """``anatomy`` in W with its side; ``wrist_joint_m`` (3,) centre of the wrist's rotation in W;
-    ``disc_radius_m`` (21,); ``size`` hand length over 180 mm."""
+    ``disc_radius_m`` (21,); ``size`` hand length over 180 mm; ``digit_width`` of the digits over the usual;
+    ``stuck_off_m`` (21, 2) of each disc from its place in the anatomy, distally and to the radial side."""
 
     anatomy: HandAnatomy
     wrist_joint_m: FloatArray
     disc_radius_m: FloatArray
     size: float
+    digit_width: float = 1.0
+    stuck_off_m: FloatArray = field(default_factory=lambda: np.zeros((21, 2)))
 
 
 def patient_of(spec: RecordingSpec) -> Patient:
@@ -73,20 +76,23 @@ def patient_of(spec: RecordingSpec) -> Patient:
         finger_offset_m=average.finger_offset_m * rng.normal(flesh, _OFFSET_SD, (4, 3)),
     )
     return Patient(
-        anatomy, np.array([0.0, 0.0, -WRIST_JOINT_DEPTH_M * size]), _disc_radii(anatomy, spec.marker_protocol), size
+        anatomy,
+        np.array([0.0, 0.0, -WRIST_JOINT_DEPTH_M * size]),
+        disc_radii(disc_centres(anatomy, np.zeros(17)), spec.marker_protocol),
+        size,
     )
 
 
-def _disc_radii(anatomy: HandAnatomy, protocol: MarkerProtocol) -> FloatArray:
-    """Radius of each disc of ``hand21``: all small on a hand whose palm is too narrow for large ones, and at the ends
-    of the fingers where two discs of the protocol would nearly touch."""
-    flat = disc_centres(anatomy, np.zeros(17))
+def disc_radii(flat_m: FloatArray, protocol: MarkerProtocol, usual_m: float = DISC_RADIUS_M) -> FloatArray:
+    """Radius of each disc of ``hand21``, at places (21, 3) of the straight hand, usually ``usual_m``: all small on a
+    hand whose palm is too narrow for large ones, and at the ends of the fingers where two discs of the protocol would
+    nearly touch."""
     used = [HAND21.markers.index(name) for name in protocol.markers]
-    gap = np.linalg.norm(flat[used][:, None] - flat[used][None], axis=-1) + np.eye(len(used))
+    gap = np.linalg.norm(flat_m[used][:, None] - flat_m[used][None], axis=-1) + np.eye(len(used))
     is_tight = np.zeros(len(HAND21.markers), dtype=bool)
-    is_tight[used] = gap.min(axis=1) < _LEAST_SPACING_M
+    is_tight[used] = gap.min(axis=1) < _LEAST_SPACING_M + 2.0 * (usual_m - DISC_RADIUS_M)
     ends = [row for row, name in enumerate(HAND21.markers) if name[:3] in ("DIP", "TIP") and name != "TIP1"]
-    radius = np.full(len(HAND21.markers), DISC_RADIUS_M)
+    radius = np.full(len(HAND21.markers), usual_m)
     if is_tight[list(HAND21.palm)].any():
         radius[:] = SMALL_DISC_RADIUS_M
     elif is_tight.any():

@@ -17,19 +17,19 @@ import cv2
 import numpy as np
 import platformdirs
 
-from core.calibration.result import Clicks
-from core.capture.camera_info import CAMERA_FILE, write_camera_info
-from core.capture.tum import COLOR_LIST, DEPTH_LIST, DEPTH_UNIT_M, SIMULATED_REMARK
-from core.errors import OutputExists, OutputNotWritable
-from core.session.disk import write_fault
-from core.simulation.render import CleanPicture, Renderer
-from core.simulation.scene import Scene
-from core.simulation.sensor import ColorSensor, DepthSensor
-from core.simulation.spec import RecordingSpec, Stream
-from core.simulation.trouble import FrameTimes, covered_discs, frame_times
-from core.simulation.truth import RECORDING_EPOCH_S, Truth, truth_of
-from core.simulation.truth_file import read_visible_share, write_truth
-from core.types import ByteImage, DepthImage, FloatArray, Frame
+from carpus.core.calibration.result import Clicks
+from carpus.core.capture.camera_info import CAMERA_FILE, write_camera_info
+from carpus.core.capture.tum import COLOR_LIST, DEPTH_LIST, DEPTH_UNIT_M, SIMULATED_REMARK
+from carpus.core.durable import write_fault
+from carpus.core.errors import OutputExists, OutputNotWritable
+from carpus.core.simulation.render import CleanPicture, Renderer
+from carpus.core.simulation.scene import Scene
+from carpus.core.simulation.sensor import ColorSensor, DepthSensor
+from carpus.core.simulation.spec import RecordingSpec, Stream
+from carpus.core.simulation.trouble import FrameTimes, covered_discs, frame_times
+from carpus.core.simulation.truth import RECORDING_EPOCH_S, Truth, truth_of
+from carpus.core.simulation.truth_file import read_visible_share, write_truth
+from carpus.core.types import ByteImage, DepthImage, FloatArray, Frame
 
 CLICKS_FILE, TRUTH_FILE = "calibration.json", "truth.h5"
 _MADE = ("rgb", "depth", COLOR_LIST, DEPTH_LIST, CAMERA_FILE, CLICKS_FILE, TRUTH_FILE)
@@ -215,10 +215,9 @@ def cached_recording(
 @contextlib.contextmanager
 def _rendering(pictures: SimulatedPictures, folder: Path, workers: int) -> Iterator[Iterator[FloatArray]]:
     """Renders and writes every frame; gives what was visible of each disc, frame by frame in order."""
-    if workers > 1:
-        with ProcessPoolExecutor(
-            workers, multiprocessing.get_context("spawn"), initializer=_begin_worker, initargs=(pictures.spec, folder)
-        ) as processes:
+    helpers = _rendering_processes(pictures.spec, folder, workers) if workers > 1 else None
+    if helpers is not None:
+        with helpers as processes:
             try:
                 yield processes.map(_render_in_worker, range(len(pictures)), chunksize=4)
             finally:
@@ -226,6 +225,15 @@ def _rendering(pictures: SimulatedPictures, folder: Path, workers: int) -> Itera
     else:
         with ThreadPoolExecutor(2) as pool:
             yield _rendered_ahead(pictures, folder, pool)
+
+
+def _rendering_processes(spec: RecordingSpec, folder: Path, workers: int) -> ProcessPoolExecutor | None:
+    """None where processes can share nothing (a container without /dev/shm); it then takes longer."""
+    context = multiprocessing.get_context("spawn")
+    try:
+        return ProcessPoolExecutor(workers, context, initializer=_begin_worker, initargs=(spec, folder))
+    except (OSError, NotImplementedError):
+        return None
 
 
 def _rendered_ahead(pictures: SimulatedPictures, folder: Path, pool: ThreadPoolExecutor) -> Iterator[FloatArray]:

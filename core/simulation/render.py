@@ -8,18 +8,20 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from core.hand.protocols import HAND21
-from core.simulation import paint
-from core.simulation.appearance import Appearance, appearance_of
-from core.simulation.lighting import corner_light, shaded_skin, shadow_on_table
-from core.simulation.scene import HandPose, Scene
-from core.simulation.skin import Cones, Part
-from core.simulation.trace import FloatImage, Surface, trace
-from core.simulation.trouble import false_blobs, passing_thing
-from core.simulation.truth import protocol_rows
-from core.types import FloatArray
+from carpus.core.hand.kinematics import SEGMENTS
+from carpus.core.hand.protocols import HAND21
+from carpus.core.simulation import paint
+from carpus.core.simulation.appearance import Appearance, appearance_of
+from carpus.core.simulation.lighting import corner_light, shaded_skin, shadow_on_table
+from carpus.core.simulation.scene import HandPose, Scene
+from carpus.core.simulation.skin import Cones, Part
+from carpus.core.simulation.trace import FloatImage, Surface, trace
+from carpus.core.simulation.trouble import false_blobs, passing_thing
+from carpus.core.simulation.truth import protocol_rows
+from carpus.core.types import FloatArray
 
 _NOTHING_M = 9.0
+_RING_BONE = SEGMENTS.index("PP4")
 _PALM_BEND, _DIGIT_BEND = 0.3, 0.6
 """How far the paper follows the skin's curve: the back of the hand gives way under it, a knuckle does not."""
 
@@ -126,6 +128,11 @@ class Renderer:
         paint.paint_nails(albedo, scene.camera, skin.box, points, discs, scene.patient.size)
         wrist = scene.to_camera(pose.carry_m[0])
         paint.dress(albedo, looks, points, skin.part == Part.FOREARM, wrist, scene.rotation_w0_cam[:, 0])
+        if looks.ring is not None:
+            bones = scene.bones_w(pose)
+            ends = np.stack((bones.start_m[0, _RING_BONE], bones.end_m[0, _RING_BONE]))
+            ends = ends @ pose.rotation_w2_w0[0].T + pose.position_m[0]
+            paint.paint_ring(albedo, points, looks.ring, scene.to_camera(ends), scene.patient.size)
         corners = corner_light(skin, looks.table_depth_m[rows, columns])
         inner = color[rows, columns]
         inner += skin.coverage[..., None] * (shaded_skin(albedo, skin.normal, corners, looks) - inner)

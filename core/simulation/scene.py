@@ -8,16 +8,19 @@ from dataclasses import dataclass
 import cv2
 import numpy as np
 
-from core.camera import Camera
-from core.hand.clinical_angles import rotation_from_angles, side_sign
-from core.hand.kinematics import disc_centres, joint_centres, segment_frames
-from core.hand.protocols import HAND21
-from core.simulation.hand_motion import HandMotion
-from core.simulation.motions import motion_of
-from core.simulation.patient import Patient, patient_of
-from core.simulation.skin import Cones, HandSkin, joined
-from core.simulation.spec import RecordingSpec, Stream
-from core.types import FloatArray
+from carpus.core.camera import Camera
+from carpus.core.hand.clinical_angles import rotation_from_angles, side_sign
+from carpus.core.hand.kinematics import SegmentFrames, disc_centres, joint_centres, segment_frames
+from carpus.core.hand.protocols import HAND21
+from carpus.core.hand.wrist_frame import wrist_axes
+from carpus.core.simulation.hand_motion import HandMotion
+from carpus.core.simulation.motions import motion_of
+from carpus.core.simulation.patient import Patient, patient_of
+from carpus.core.simulation.skin import Cones, HandSkin, joined, on_surface
+from carpus.core.simulation.soft_tissue import TissueMovement, TissueState, tissue_of
+from carpus.core.simulation.spec import RecordingSpec, Stream
+from carpus.core.simulation.wide_anatomy import widened
+from carpus.core.types import FloatArray
 
 _FROM_ABOVE = np.array([[0.0, -1.0, 0.0], [-1.0, 0.0, 0.0], [0.0, 0.0, -1.0]])
 """W0 seen by a camera that looks straight down, fingers up in the picture (reference 1.1)."""
@@ -33,13 +36,15 @@ _SKIN_MOVEMENT_SHARE = np.array([1.0, 0.6, 0.5, 0.5, 0.5, 0.5])
 @dataclass(frozen=True, slots=True)
 class HandPose:
     """Pose at N times: ``rotation_w2_w0`` (N, 3, 3), ``position_m`` (N, 3) of W2 in W0, clinical wrist angles
-    ``angles_rad`` (N, 3), ``joint_angles_rad`` (N, J), displacement of the arm ``carry_m`` (N, 3)."""
+    ``angles_rad`` (N, 3), ``joint_angles_rad`` (N, J), displacement of the arm ``carry_m`` (N, 3), soft parts
+    ``tissue``. The angles are those of the fixed unit and of each finger against its own metacarpal."""
 
     rotation_w2_w0: FloatArray
     position_m: FloatArray
     angles_rad: FloatArray
     joint_angles_rad: FloatArray
     carry_m: FloatArray
+    tissue: TissueState
 
 
 class Scene:
@@ -48,8 +53,14 @@ class Scene:
     def __init__(self, spec: RecordingSpec) -> None:
         self.spec = spec
         self.patient: Patient = patient_of(spec)
+        if spec.anatomy == "wide":
+            self.patient = widened(self.patient, spec)
         self.motion: HandMotion = motion_of(spec)
-        self.skin = HandSkin(self.patient)
+        self.tissue = tissue_of(spec)
+        self._tissue_movement = TissueMovement(self.tissue, self.motion, spec.seconds)
+        self.skin = HandSkin(self.patient, self.tissue.knuckle_rise_m)
+        self._last_ridden: tuple[HandPose, tuple[FloatArray, FloatArray]] | None = None
+        self._discs_ride = not self.tissue.is_rigid or bool(self.patient.stuck_off_m.any())
         self._palm_normals = self.skin.palm_normals()
         self._skin_rise_m = self._skin_rises_m() if spec.skin_movement_mm > 0.0 else np.zeros((2, 6))
         rng = spec.random(Stream.SCENE)
@@ -69,10 +80,13 @@ class Scene:
         rotation = rotation_from_angles(angles, self.spec.hand)
         joint = self.patient.wrist_joint_m
         position = joint - rotation @ joint + carry
-        return HandPose(rotation, position, angles, self.motion.joint_angles_rad(time_s), carry)
+        joints, tissue = self.motion.joint_angles_rad(time_s), self._tissue_movement.at(time_s)
+        return HandPose(rotation, position, angles, joints, carry, tissue)
 
     def discs_w0_m(self, pose: HandPose) -> FloatArray:
         """All 21 disc centres in W0, (N, 21, 3)."""
+        if self._discs_ride:
+            return _moved(self._riding_discs_w(pose)[0], pose)
         local = disc_centres(self.patient.anatomy, pose.joint_angles_rad)
         if self.spec.skin_movement_mm > 0.0:
             share = np.clip(pose.angles_rad[:, 1] / _FULL_FLEXION_RAD, -1.0, 1.0)
@@ -81,7 +95,9 @@ class Scene:
 
     def disc_normals_w0(self, pose: HandPose) -> FloatArray:
         """Unit normals of the 21 discs in W0, (N, 21, 3): of the skin on the palm, the bisectors of the bones that
-        meet under them on the digits."""
+        meet under them on the digits; of the skin everywhere where discs ride on it."""
+        if self._discs_ride:
+            return np.asarray(self._riding_discs_w(pose)[1] @ pose.rotation_w2_w0.transpose(0, 2, 1))
         bones = segment_frames(self.patient.anatomy, pose.joint_angles_rad).dorsal_normal[:, 1:].reshape(-1, 5, 3, 3)
         normals = np.empty((len(bones), 21, 3))
         normals[:, list(HAND21.palm)] = self._palm_normals
@@ -92,6 +108,58 @@ class Scene:
         rays[:, :, 3] = bones[:, :, 2]
         normals = normals / np.linalg.norm(normals, axis=-1, keepdims=True)
         return np.asarray(normals @ pose.rotation_w2_w0.transpose(0, 2, 1))
+
+    def bones_w(self, pose: HandPose) -> SegmentFrames:
+        """All bones in W, as :func:`core.hand.kinematics.segment_frames`, rays 4 and 5 cupped."""
+        bones = segment_frames(self.patient.anatomy, pose.joint_angles_rad)
+        if self.tissue.is_rigid:
+            return bones
+        turns = self.skin.cup_rotations(pose.tissue.cup_rad)
+        for ray, rows in enumerate((slice(10, 13), slice(13, 16))):
+            turn, pivot = turns[:, ray].transpose(0, 2, 1), self.skin.pivots_m[ray]
+            bones.start_m[:, rows] = (bones.start_m[:, rows] - pivot) @ turn + pivot
+            bones.end_m[:, rows] = (bones.end_m[:, rows] - pivot) @ turn + pivot
+            bones.dorsal_normal[:, rows] = bones.dorsal_normal[:, rows] @ turn
+        return bones
+
+    def _riding_discs_w(self, pose: HandPose) -> tuple[FloatArray, FloatArray]:
+        """Centres and normals (N, 21, 3) in W of discs that ride on the skin; those of the last pose are kept, as
+        most callers ask for both."""
+        if self._last_ridden is None or self._last_ridden[0] is not pose:
+            self._last_ridden = (pose, self._ridden_w(pose))
+        return self._last_ridden[1]
+
+    def _ridden_w(self, pose: HandPose) -> tuple[FloatArray, FloatArray]:
+        anatomy, tissue = self.patient.anatomy, pose.tissue
+        discs = disc_centres(anatomy, pose.joint_angles_rad)
+        discs = discs + self._displacement_m(segment_frames(anatomy, pose.joint_angles_rad), tissue.glide_m)
+        share = np.clip(pose.angles_rad[:, 1] / _FULL_FLEXION_RAD, -1.0, 1.0)
+        discs[:, list(HAND21.palm), 0] += self._skin_shift_m(share)[..., 0]
+        cones = self.skin.cones_w(pose.joint_angles_rad, tissue)
+        return on_surface(self.skin.cupped(discs, tissue.cup_rad), cones)
+
+    def _displacement_m(self, bones: SegmentFrames, glide_m: FloatArray) -> FloatArray:
+        """Displacements (N, 21, 3) of an uncupped hand's discs: where they were stuck, and their glides (N, 21)."""
+        along = bones.end_m - bones.start_m
+        along = along / np.linalg.norm(along, axis=-1, keepdims=True)
+        digits = along[:, 1:].reshape(-1, 5, 3, 3)
+        distal, up = np.empty((len(along), 21, 3)), np.zeros((len(along), 21, 3))
+        distal[:, 0], up[:, 0, 2] = along[:, 0], 1.0
+        rays, normals = distal[:, 1:].reshape(-1, 5, 4, 3), up[:, 1:].reshape(-1, 5, 4, 3)
+        fan = self.patient.anatomy.fan_rad
+        mirror = -1.0 if self.patient.anatomy.side == "left" else 1.0
+        rays[:, :, 0] = np.stack((np.cos(fan), mirror * np.sin(fan), np.zeros(5)), axis=-1)
+        rays[:, :, 1:3] = digits[:, :, :2] + digits[:, :, 1:]
+        rays[:, :, 3] = digits[:, :, 2]
+        normals[:, :, 0, 2] = 1.0
+        normals[:, :, 1:] = bones.dorsal_normal[:, 1:].reshape(-1, 5, 3, 3)
+        distal = distal / np.linalg.norm(distal, axis=-1, keepdims=True)
+        radial = mirror * np.cross(up, distal)
+        off_m = self.patient.stuck_off_m
+        glides = distal.copy()
+        palm = list(HAND21.palm)
+        glides[:, palm, 1] += mirror * self.tissue.swerve_rad[palm]
+        return np.asarray(glide_m[..., None] * glides + off_m[:, :1] * distal + off_m[:, 1:] * radial)
 
     def _skin_shift_m(self, share: FloatArray) -> FloatArray:
         """Movement (N, 6, 3) of the palm's discs over the skin at shares -1 to 1 of full flexion, staying on it."""
@@ -115,9 +183,23 @@ class Scene:
             ]
         )
 
+    def disc_frame(self) -> tuple[FloatArray, FloatArray]:
+        """Axes (3, 3) and origin (3,), in the frame W0 of the bones, of the W that the discs span in the first frame.
+
+        The two are one where every disc lies in its place; where some were stuck off it, all true values count from
+        the discs' own frame, as it is the only one that can be seen.
+        """
+        if not self.patient.stuck_off_m.any():
+            return np.eye(3), np.zeros(3)
+        palm = self.discs_w0_m(self.pose(np.zeros(1)))[0, list(HAND21.palm)]
+        return wrist_axes(palm, towards=np.array([0.0, 0.0, 1.0])), palm[0]
+
     def joints_w0_m(self, pose: HandPose) -> FloatArray:
         """All 21 joint centres and tips in W0, (N, 21, 3)."""
-        return _moved(joint_centres(self.patient.anatomy, pose.joint_angles_rad), pose)
+        joints = joint_centres(self.patient.anatomy, pose.joint_angles_rad)
+        if not self.tissue.is_rigid:
+            joints = self.skin.cupped(joints, pose.tissue.cup_rad)
+        return _moved(joints, pose)
 
     def to_camera(self, point_w0_m: FloatArray) -> FloatArray:
         """Points (..., 3) of W0 in camera axes."""
@@ -125,22 +207,27 @@ class Scene:
 
     def cones_cam(self, pose: HandPose, i: int) -> Cones:
         """Skin of hand and forearm at the i-th time, in camera axes."""
-        hand = self.skin.cones_w(pose.joint_angles_rad[i]).moved(pose.rotation_w2_w0[i], pose.position_m[i])
+        hand = self._hand_w(pose, i).moved(pose.rotation_w2_w0[i], pose.position_m[i])
         supination = side_sign(self.spec.hand) * float(pose.angles_rad[i, 2])
         forearm = self.skin.forearm_w0(supination).moved(np.eye(3), pose.carry_m[i])
         return joined(hand, forearm).moved(self.rotation_w0_cam, self.translation_w0_cam_m)
+
+    def _hand_w(self, pose: HandPose, i: int) -> Cones:
+        """Skin of the hand at the i-th time, in W."""
+        tissue = None if self.tissue.is_rigid else pose.tissue.only(i)
+        return self.skin.cones_w(pose.joint_angles_rad[i], tissue)
 
     def _lowest_m(self) -> float:
         """Height in W0 of the lowest point that the skin reaches."""
         times = self._samples()
         pose = self.pose(times)
-        lowest = -0.040 * self.patient.size
-        for i in range(len(times)):
-            cones = self.skin.cones_w(pose.joint_angles_rad[i]).moved(pose.rotation_w2_w0[i], pose.position_m[i])
-            lower_a = cones.a_m[:, 2] - cones.radius_a_m - cones.width_a_m * np.abs(cones.lateral[:, 2])
-            lower_b = cones.b_m[:, 2] - cones.radius_b_m - cones.width_b_m * np.abs(cones.lateral[:, 2])
-            lowest = min(lowest, float(lower_a.min()), float(lower_b.min()))
-        return lowest
+        cones = self.skin.cones_w(pose.joint_angles_rad, None if self.tissue.is_rigid else pose.tissue)
+        up = pose.rotation_w2_w0[:, 2, :, None]  # of W0, in W2
+        side = np.abs((cones.lateral @ up)[..., 0])
+        low_a = (cones.a_m @ up)[..., 0] - cones.radius_a_m - cones.width_a_m * side
+        low_b = (cones.b_m @ up)[..., 0] - cones.radius_b_m - cones.width_b_m * side
+        lowest = (np.minimum(low_a, low_b) + pose.position_m[:, 2:]).min()
+        return min(-0.040 * self.patient.size, float(lowest))
 
     def _samples(self) -> FloatArray:
         """Times that show how far the motion goes."""
@@ -154,6 +241,7 @@ class Scene:
             drawn_tilt, heading = 0.6 * drawn_tilt + 6.0, 0.2 * heading
             if self.spec.hand == "left":
                 heading += math.pi
+        heading = heading if self.spec.tilt_heading_deg is None else math.radians(self.spec.tilt_heading_deg)
         tilt = math.radians(drawn_tilt if self.spec.tilt_deg is None else self.spec.tilt_deg)
         axis = np.array([math.cos(heading), math.sin(heading), 0.0])
         turned, _ = cv2.Rodrigues(np.array([0.0, 0.0, yaw]))

@@ -10,10 +10,10 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from core.simulation.appearance import READ_NOISE_ELECTRONS, Appearance
-from core.simulation.spec import RecordingSpec, Stream
-from core.simulation.trace import FloatImage
-from core.types import ByteImage, DepthImage
+from carpus.core.simulation.appearance import READ_NOISE_ELECTRONS, Appearance
+from carpus.core.simulation.spec import RecordingSpec, Stream
+from carpus.core.simulation.trace import FloatImage
+from carpus.core.types import ByteImage, DepthImage
 
 DISPARITY_PX_M = 575.0 * 0.075
 """Focal length of the depth camera in pixels times the baseline in metres."""

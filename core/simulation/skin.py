@@ -2,22 +2,27 @@
 
 Every body part is a set of flattened round cones: the points within a radius, linear from ``radius_a`` to
 ``radius_b``, of a segment a-b that is widened sideways by a half width, linear too. Parts are united by a smooth
-minimum of finite reach (:func:`smooth_minimum`), so that bending a finger does not touch the skin under the palm's
-discs: these stay exactly rigid, and exactly on the rendered surface.
+minimum of finite reach (:func:`smooth_minimum`), so that bending a finger does not touch the skin over the fixed unit.
+On a rigid hand the palm's discs stay exactly on the rendered surface; a soft one has a palm that cups
+(:meth:`HandSkin.cones_w`) and discs that ride on it (:func:`on_surface`).
 """
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 from enum import IntEnum
 
 import numpy as np
+from numpy.typing import NDArray
 
-from core.hand.anatomy import anatomy_from_size
-from core.hand.kinematics import SEGMENTS, disc_centres, segment_frames
-from core.hand.protocols import HAND21
-from core.simulation.patient import Patient
-from core.types import FloatArray
+from carpus.core import so3
+from carpus.core.hand.anatomy import anatomy_from_size
+from carpus.core.hand.kinematics import SEGMENTS, disc_centres, segment_frames
+from carpus.core.hand.protocols import HAND21
+from carpus.core.simulation.patient import WRIST_JOINT_DEPTH_M, Patient
+from carpus.core.simulation.soft_tissue import TissueState
+from carpus.core.types import FloatArray
 
 
 class Part(IntEnum):
@@ -48,11 +53,25 @@ _DIGIT_WIDTH_M = (
 _THUMB_BASE_TILT_RAD = np.radians(20.0)
 _BEYOND_NAIL = 0.32
 
+_NEWTON_STEPS = 2
+_SLOPE_STEP_M = 1e-6
+
+_METACARPALS = slice(2, 6)
+_RING_METACARPAL, _LITTLE_METACARPAL, _SLAB, _HYPOTHENAR = 4, 5, 6, 7
+"""Rows of the palm's cones."""
+_CUP_AXES = np.array([[0.25, 0.97, 0.0], [0.36, 0.93, 0.0]])
+"""Of a right hand's metacarpals 4 and 5: they flex and turn towards the thumb."""
+_SLAB_ROLL = 0.8
+"""Roll of the flesh between the metacarpals for each angle of the little one's."""
+_KNUCKLE_REACH_M = 0.004
+"""How far beyond the disc the head of a metacarpal stands out when its finger is bent."""
+
 
 @dataclass(frozen=True, slots=True)
 class Cones:
     """P flattened round cones in one frame: ``a_m``, ``b_m`` (P, 3), unit ``lateral`` (P, 3) across the axis,
-    ``radius_a_m``, ``radius_b_m``, ``width_a_m``, ``width_b_m`` (half widths) (P,), ``part`` (P,) of :class:`Part`."""
+    ``radius_a_m``, ``radius_b_m``, ``width_a_m``, ``width_b_m`` (half widths) (P,), ``part`` (P,) of :class:`Part`.
+    All but ``part`` may have leading axes, the poses."""
 
     a_m: FloatArray
     b_m: FloatArray
@@ -72,36 +91,92 @@ class Cones:
             lateral=self.lateral @ rotation.T,
         )
 
+    def repeated(self, lead: tuple[int, ...]) -> Cones:
+        """The same for poses of leading shape ``lead``."""
+
+        def whole(values: FloatArray) -> FloatArray:
+            return np.broadcast_to(values, (*lead, *values.shape)).copy()
+
+        return self._with(whole, whole, self.part)
+
+    def chosen(self, rows: NDArray[np.bool_]) -> Cones:
+        """Some of the cones (P,)."""
+        return self._with(lambda points: points[..., rows, :], lambda sizes: sizes[..., rows], self.part[rows])
+
+    def regrouped(self, groups: int) -> Cones:
+        """Equal groups of cones, one after the other, as a further leading axis."""
+        count = len(self) // groups
+
+        def points(values: FloatArray) -> FloatArray:
+            return values.reshape(*values.shape[:-2], groups, count, 3)
+
+        def sizes(values: FloatArray) -> FloatArray:
+            return values.reshape(*values.shape[:-1], groups, count)
+
+        return self._with(points, sizes, self.part.reshape(groups, count))
+
+    def _with(
+        self, points: Callable[[FloatArray], FloatArray], sizes: Callable[[FloatArray], FloatArray], part: FloatArray
+    ) -> Cones:
+        """The same with its points and its sizes rearranged."""
+        return Cones(
+            points(self.a_m),
+            points(self.b_m),
+            points(self.lateral),
+            sizes(self.radius_a_m),
+            sizes(self.radius_b_m),
+            sizes(self.width_a_m),
+            sizes(self.width_b_m),
+            part,
+        )
+
+    def turn(self, rows: NDArray[np.int64], rotation: FloatArray, pivot_m: FloatArray) -> None:
+        """Turn some cones in place by rotations (..., 3, 3) about a point."""
+        for points in (self.a_m, self.b_m):
+            points[..., rows, :] = _turned(points[..., rows, :], rotation, pivot_m)
+        self.lateral[..., rows, :] = _turned(self.lateral[..., rows, :], rotation, np.zeros(3))
+
     def __len__(self) -> int:
         return len(self.part)
 
 
+def _turned(point_m: FloatArray, rotation: FloatArray, pivot_m: FloatArray) -> FloatArray:
+    """Points (..., K, 3) turned by rotations (..., 3, 3) about a point."""
+    return np.asarray((point_m - pivot_m) @ np.swapaxes(rotation, -1, -2) + pivot_m)
+
+
 def joined(*sets: Cones) -> Cones:
-    """Several sets as one."""
-    return Cones(*(np.concatenate([getattr(s, name) for s in sets]) for name in Cones.__slots__))
+    """Several sets of the same poses as one."""
+
+    def whole(name: str) -> FloatArray:
+        values = [getattr(one, name) for one in sets]
+        return np.asarray(np.concatenate(values, axis=-2 if name in ("a_m", "b_m", "lateral") else -1))
+
+    return Cones(*(whole(name) for name in Cones.__slots__))
 
 
-def cone_distance(point_m: FloatArray, cones: Cones, i: int) -> FloatArray:
-    """Signed distance of points (..., 3) to cone i, metres, negative inside."""
-    axis = cones.b_m[i] - cones.a_m[i]
-    length = float(np.linalg.norm(axis))
-    axis = axis / length
-    lateral = cones.lateral[i] - (cones.lateral[i] @ axis) * axis
-    lateral = lateral / np.linalg.norm(lateral)
-    local = point_m - cones.a_m[i]
-    along = local @ axis
-    side = local @ lateral
-    up = local @ np.cross(axis, lateral)
-    share = np.clip(along / length, 0.0, 1.0)
-    half_width = cones.width_a_m[i] + share * (cones.width_b_m[i] - cones.width_a_m[i])
+def cone_distances(point_m: FloatArray, cones: Cones) -> FloatArray:
+    """Signed distance of points (..., K, 3) to every cone, (..., K, P), metres, negative inside."""
+    along_axis = cones.b_m - cones.a_m
+    length = np.linalg.norm(along_axis, axis=-1)
+    axis = along_axis / length[..., None]
+    lateral = cones.lateral - np.sum(cones.lateral * axis, axis=-1, keepdims=True) * axis
+    lateral = lateral / np.linalg.norm(lateral, axis=-1, keepdims=True)
+    axes = np.stack((axis, lateral, np.cross(axis, lateral)), axis=-2)
+    local = point_m[..., :, None, :] - cones.a_m[..., None, :, :]
+    along, side, up = (np.einsum("...kpj,...pj->...kp", local, axes[..., i, :]) for i in range(3))
+    length = length[..., None, :]
+    width_a, width_b = cones.width_a_m[..., None, :], cones.width_b_m[..., None, :]
+    radius_a, radius_b = cones.radius_a_m[..., None, :], cones.radius_b_m[..., None, :]
+    half_width = width_a + np.clip(along / length, 0.0, 1.0) * (width_b - width_a)
     side = side - np.clip(side, -half_width, half_width)
     radial = np.hypot(side, up)
-    taper = (cones.radius_a_m[i] - cones.radius_b_m[i]) / length
+    taper = (radius_a - radius_b) / length
     foot = np.clip(along - radial * taper / np.sqrt(1.0 - taper * taper), 0.0, length)
-    return np.asarray(np.hypot(along - foot, radial) - (cones.radius_a_m[i] - taper * foot))
+    return np.asarray(np.hypot(along - foot, radial) - (radius_a - taper * foot))
 
 
-def smooth_minimum(a: FloatArray, b: FloatArray, reach: float) -> FloatArray:
+def smooth_minimum(a: FloatArray, b: FloatArray, reach: float | FloatArray) -> FloatArray:
     """Minimum with a fillet; equal to the sharp minimum wherever a and b differ by more than ``reach``."""
     near = np.maximum(reach - np.abs(a - b), 0.0)
     return np.asarray(np.minimum(a, b) - near * near * (0.25 / reach))
@@ -109,28 +184,76 @@ def smooth_minimum(a: FloatArray, b: FloatArray, reach: float) -> FloatArray:
 
 def skin_distance(point_m: FloatArray, cones: Cones) -> FloatArray:
     """Signed distance of points (..., 3) to the skin; the surface that the renderer shows."""
-    parts: dict[Part, FloatArray] = {}
-    for i in range(len(cones)):
-        part = Part(int(cones.part[i]))
-        d = cone_distance(point_m, cones, i)
-        if part not in parts:
-            parts[part] = d
-        elif part is Part.PALM:
-            parts[part] = smooth_minimum(parts[part], d, BLEND_M[part])
-        else:
-            parts[part] = np.minimum(parts[part], d)
-    palm = parts.pop(Part.PALM)
+    palm, digits = _parts(cone_distances(point_m.reshape(-1, 3), cones), cones.part)
     out = palm
-    for part, d in parts.items():
-        out = np.minimum(out, smooth_minimum(palm, d, BLEND_M.get(part, FINGER_BLEND_M)))
-    return np.asarray(out)
+    for part, distance in digits.items():
+        out = np.minimum(out, smooth_minimum(palm, distance, BLEND_M.get(part, FINGER_BLEND_M)))
+    return np.asarray(out.reshape(point_m.shape[:-1]))
+
+
+def _parts(distance: FloatArray, part_of_cone: FloatArray) -> tuple[FloatArray, dict[Part, FloatArray]]:
+    """Distance to the palm and to each other part from those (..., P) to the cones."""
+    palm: FloatArray | None = None
+    others: dict[Part, FloatArray] = {}
+    for i, number in enumerate(part_of_cone):
+        part, d = Part(int(number)), distance[..., i]
+        if part is Part.PALM:
+            palm = d if palm is None else smooth_minimum(palm, d, BLEND_M[part])
+        else:
+            others[part] = d if part not in others else np.minimum(others[part], d)
+    assert palm is not None
+    return palm, others
+
+
+class _DiscSupport:
+    """The palm, and each finger for its own discs: another finger that lies over a disc hides it, but does not carry
+    it."""
+
+    def __init__(self, cones: Cones) -> None:
+        self._palm = cones.chosen(cones.part == Part.PALM)
+        digits = cones.chosen((cones.part >= Part.THUMB) & (cones.part <= Part.LITTLE))
+        self._digits = digits.regrouped(5)
+        self._blend_m = np.array([BLEND_M.get(Part(n), FINGER_BLEND_M) for n in range(Part.THUMB, Part.FOREARM)])
+
+    def distance(self, disc_m: FloatArray) -> FloatArray:
+        """Signed distance (..., 21) of discs (..., 21, 3) to what carries them."""
+        to_cones = cone_distances(disc_m, self._palm)
+        out = to_cones[..., 0]
+        for i in range(1, to_cones.shape[-1]):
+            out = smooth_minimum(out, to_cones[..., i], BLEND_M[Part.PALM])
+        on_digits = disc_m[..., 1:, :].reshape(*disc_m.shape[:-2], 5, 4, 3)
+        digit = cone_distances(on_digits, self._digits).min(axis=-1)
+        palm = out[..., 1:].reshape(digit.shape)
+        carried = smooth_minimum(palm, digit, self._blend_m[:, None])
+        return np.concatenate((out[..., :1], carried.reshape(*disc_m.shape[:-2], 20)), axis=-1)
+
+    def slope(self, disc_m: FloatArray, distance: FloatArray) -> FloatArray:
+        """Its gradient (..., 21, 3)."""
+        steps = _SLOPE_STEP_M * np.eye(3)
+        return np.stack([self.distance(disc_m + step) - distance for step in steps], axis=-1) / _SLOPE_STEP_M
+
+
+def on_surface(disc_m: FloatArray, cones: Cones) -> tuple[FloatArray, FloatArray]:
+    """The places on the skin of palm and own finger nearest to discs (..., 21, 3), and the unit normals there."""
+    support, place = _DiscSupport(cones), disc_m
+    step = normal = np.zeros_like(disc_m)
+    for _ in range(_NEWTON_STEPS):
+        distance = support.distance(place)
+        slope = support.slope(place, distance)
+        steepness = np.linalg.norm(slope, axis=-1, keepdims=True)
+        normal = slope / np.maximum(steepness, 1e-12)
+        step = normal / np.maximum(steepness, 0.3)
+        place = place - distance[..., None] * step
+    # Near by now: the slope stays as it was.
+    return place - support.distance(place)[..., None] * step, normal
 
 
 class HandSkin:
     """The skin of one patient; built once, then posed for every frame."""
 
-    def __init__(self, patient: Patient) -> None:
+    def __init__(self, patient: Patient, knuckle_rise_m: float = 0.0) -> None:
         self._patient = patient
+        self._knuckle_rise_m = knuckle_rise_m
         self._size = patient.size
         self._mirror = np.array([1.0, -1.0 if patient.anatomy.side == "left" else 1.0, 1.0])
         offset = anatomy_from_size(patient.anatomy.hand_length_m, nail_discs=True).skin_offset_m
@@ -139,14 +262,70 @@ class HandSkin:
         own = patient.anatomy.skin_offset_m
         self._radius = np.where(own > 0.0, own, offset)
         self._palm = self._fitted_palm()
+        self.pivots_m = self._palm.a_m[[_RING_METACARPAL, _LITTLE_METACARPAL]]
+        """Bases (2, 3) in W of metacarpals 4 and 5, about which these flex."""
 
-    def cones_w(self, joint_angles_rad: FloatArray) -> Cones:
-        """Palm, thumb and fingers in W for joint angles (J,)."""
-        return joined(self._palm, self._digits(joint_angles_rad))
+    def cones_w(self, joint_angles_rad: FloatArray, tissue: TissueState | None = None) -> Cones:
+        """Palm, thumb and fingers in W for joint angles (..., J) and, of a soft hand, its tissue."""
+        digits = self._digits(joint_angles_rad)
+        palm = self._palm.repeated(joint_angles_rad.shape[:-1])
+        if tissue is None:
+            return joined(palm, digits)
+        turns = self.cup_rotations(tissue.cup_rad)
+        for ray, part in enumerate((Part.RING, Part.LITTLE)):
+            digits.turn(np.flatnonzero(digits.part == part), turns[..., ray, :, :], self.pivots_m[ray])
+        self._cup(palm, tissue.cup_rad, turns)
+        return joined(palm, self._knuckles(palm, tissue.rise), digits)
+
+    def cup_rotations(self, cup_rad: FloatArray) -> FloatArray:
+        """Rotations (..., 2, 3, 3) of rays 4 and 5 in W for flexions (..., 2) of their metacarpals."""
+        axes = _CUP_AXES / np.linalg.norm(_CUP_AXES, axis=1, keepdims=True)
+        right = so3.exp(cup_rad[..., None] * axes)
+        return np.asarray(self._mirror[:, None] * right * self._mirror)
+
+    def cupped(self, point_m: FloatArray, cup_rad: FloatArray) -> FloatArray:
+        """Points (..., 21, 3) of W, in the order of ``hand21``, with rays 4 and 5 flexed about their bases."""
+        out = point_m.copy()
+        turns = self.cup_rotations(cup_rad)
+        for ray, rows in enumerate((slice(13, 17), slice(17, 21))):
+            out[..., rows, :] = _turned(out[..., rows, :], turns[..., ray, :, :], self.pivots_m[ray])
+        return out
+
+    def _cup(self, palm: Cones, cup_rad: FloatArray, turns: FloatArray) -> None:
+        """Flex metacarpals 4 and 5 of palms in place, with the flesh on them; the flesh between the metacarpals rolls
+        about its radial edge."""
+        palm.turn(np.array([_RING_METACARPAL]), turns[..., 0, :, :], self.pivots_m[0])
+        palm.turn(np.array([_LITTLE_METACARPAL, _HYPOTHENAR]), turns[..., 1, :, :], self.pivots_m[1])
+        edge = self._palm.a_m[_SLAB] + self._palm.lateral[_SLAB] * self._palm.width_a_m[_SLAB]
+        roll = so3.exp(_SLAB_ROLL * cup_rad[..., 1:] * np.array([1.0, 0.0, 0.0]))
+        palm.turn(np.array([_SLAB]), self._mirror[:, None] * roll * self._mirror, edge)
+
+    def _knuckles(self, palm: Cones, rise: FloatArray) -> Cones:
+        """Heads of the metacarpals that stand out under the skin as the fingers bend; at ``rise`` (..., 4) 0 they are
+        too deep to lift it."""
+        heads = palm.b_m[..., _METACARPALS, :]
+        along = heads - palm.a_m[..., _METACARPALS, :]
+        along = along / np.linalg.norm(along, axis=-1, keepdims=True)
+        reach = BLEND_M[Part.PALM]
+        # The smooth union lifts the skin by the square of what is missing to its reach, over four times the reach.
+        up = np.sqrt(4.0 * reach * self._knuckle_rise_m)
+        radius = palm.radius_b_m[..., _METACARPALS] - reach + rise * up
+        width = palm.width_b_m[..., _METACARPALS]
+        return Cones(
+            a_m=heads - 0.002 * along,
+            b_m=heads + (_KNUCKLE_REACH_M * self._size * rise[..., None] + 1e-5) * along,
+            lateral=palm.lateral[..., _METACARPALS, :],
+            radius_a_m=radius,
+            radius_b_m=radius,
+            width_a_m=width,
+            width_b_m=width,
+            part=np.full(4, float(Part.PALM)),
+        )
 
     def forearm_w0(self, supination_rad: float) -> Cones:
         """The forearm in W0, turned about its own axis as far as the hand's (signed Euler phi)."""
-        s, joint = self._size, self._patient.wrist_joint_m
+        s = self._size
+        joint = np.array([0.0, 0.0, -WRIST_JOINT_DEPTH_M * s])  # where it usually is: the skin joins there
         turn = 0.85 * supination_rad
         lateral = np.array([0.0, np.cos(turn), np.sin(turn)])
         down = np.array([0.0, np.sin(turn), -np.cos(turn)])
@@ -246,17 +425,23 @@ class HandSkin:
         discs = disc_centres(anatomy, joint_angles_rad)
         frames = segment_frames(anatomy, joint_angles_rad)
         normal = frames.dorsal_normal
-        rows: list[tuple[FloatArray, FloatArray, FloatArray, float, float, float, float, float]] = []
+        a: list[FloatArray] = []
+        b: list[FloatArray] = []
+        lateral: list[FloatArray] = []
+        radius_a: list[float] = []
+        radius_b: list[float] = []
+        width_a: list[float] = []
+        width_b: list[float] = []
         for digit in range(5):
             segments = [SEGMENTS.index("MC1") + 3 * digit + i for i in range(3)]
-            n = normal[segments]
+            n = np.moveaxis(normal[..., segments, :], -2, 0)
             standing = [n[0] if digit == 0 else n[0] + n[1], n[1] + n[2], n[2]]
             first = 1 + 4 * digit
             lowered = (0.009 if digit == 0 else 0.003) * s
-            under = [discs[first] - np.array([0.0, 0.0, radius[first] + lowered])]
+            under = [discs[..., first, :] - np.array([0.0, 0.0, radius[first] + lowered])]
             for i in range(3):
-                up = standing[i] / np.linalg.norm(standing[i])
-                under.append(discs[first + 1 + i] - radius[first + 1 + i] * up)
+                up = standing[i] / np.linalg.norm(standing[i], axis=-1, keepdims=True)
+                under.append(discs[..., first + 1 + i, :] - radius[first + 1 + i] * up)
             # The digit goes on beyond the disc on the nail, and tapers.
             under[3] = under[3] + _BEYOND_NAIL * (under[3] - under[2])
             # The digit's base stays out of the fillet's reach below the palm's disc, which it would lift.
@@ -264,21 +449,29 @@ class HandSkin:
             base = min(_BASE_RADIUS_M[digit] * s, radius[first] + lowered - reach)
             pip, dip, nail = radius[first + 1 : first + 4]
             radii = [base, pip, dip, nail + _BEYOND_NAIL * (nail - dip)]
-            widths = np.array(_DIGIT_WIDTH_M[digit]) * s
+            widths = np.array(_DIGIT_WIDTH_M[digit]) * s * self._patient.digit_width
             for i in range(3):
-                direction = (under[i + 1] - under[i]) / np.linalg.norm(under[i + 1] - under[i])
-                across = np.cross(n[i], direction)
-                rows.append(
-                    (
-                        under[i],
-                        under[i + 1],
-                        across,
-                        radii[i],
-                        radii[i + 1],
-                        widths[i],
-                        widths[i + 1],
-                        Part.THUMB + digit,
-                    )
-                )
-        columns = (np.array([row[i] for row in rows], dtype=np.float64) for i in range(8))
-        return Cones(*columns)
+                direction = under[i + 1] - under[i]
+                direction = direction / np.linalg.norm(direction, axis=-1, keepdims=True)
+                a.append(under[i])
+                b.append(under[i + 1])
+                lateral.append(np.cross(n[i], direction))
+                radius_a.append(radii[i])
+                radius_b.append(radii[i + 1])
+                width_a.append(widths[i])
+                width_b.append(widths[i + 1])
+        lead = joint_angles_rad.shape[:-1]
+
+        def for_all(values: list[float]) -> FloatArray:
+            return np.broadcast_to(np.array(values), (*lead, len(values)))
+
+        return Cones(
+            np.stack(a, axis=-2),
+            np.stack(b, axis=-2),
+            np.stack(lateral, axis=-2),
+            for_all(radius_a),
+            for_all(radius_b),
+            for_all(width_a),
+            for_all(width_b),
+            np.repeat(np.arange(Part.THUMB, Part.FOREARM, dtype=np.float64), 3),
+        )

@@ -12,15 +12,19 @@ from typing import Any, Literal
 
 import numpy as np
 
-from core.errors import SettingsInvalid
-from core.hand.protocols import MarkerProtocol, protocol_named
-from core.types import Side
+from carpus.core.errors import SettingsInvalid
+from carpus.core.hand.protocols import MarkerProtocol, protocol_named
+from carpus.core.types import Side
 
-RENDERER_VERSION = 4
+RENDERER_VERSION = 5
 """Part of the cache key: raise it whenever the same spec gives other pictures than before."""
 
+WORN = ("ring", "watch", "bandage")
+HABITS = ("tenodesis", "grip", "open_close", "rolling_forearm", "restless_clicks")
+NONE = "none"
+
 Light = Literal["drawn", "bright", "normal", "dim"]
-Sleeve = Literal["drawn", "none", "grey", "white", "blue"]
+Sleeve = Literal["drawn", "none", "grey", "white", "blue", "jeans"]
 
 
 class Stream(IntEnum):
@@ -35,6 +39,10 @@ class Stream(IntEnum):
     CLICKS = 7
     TIMES = 8
     MEASUREMENTS = 9
+    TISSUE = 10
+    HABIT = 11
+    ANATOMY = 12
+    WORN = 13
 
 
 _LIMITS: Mapping[str, tuple[float, float]] = {
@@ -48,10 +56,14 @@ _LIMITS: Mapping[str, tuple[float, float]] = {
     "tremor_hz": (0.0, 30.0),
     "hand_length_mm": (100.0, 240.0),
     "skin_movement_mm": (-30.0, 30.0),
+    "skin_glide_mm": (0.0, 12.0),
+    "cupping": (0.0, 1.5),
     "skin_tone": (0, 5),
+    "pen_marks": (0, 30),
     "distance_m": (0.3, 4.0),
     "yaw_deg": (-360.0, 360.0),
     "tilt_deg": (-75.0, 75.0),
+    "tilt_heading_deg": (-360.0, 360.0),
     "false_blobs": (0.0, 100.0),
     "hidden_share": (0.0, 0.9),
     "hidden_mean_s": (0.01, 60.0),
@@ -72,6 +84,16 @@ class RecordingSpec:
     ``range_share`` scales the motion's range; ``repetitions`` ends the motion early; ``pain_limited`` stops strokes
     short, in several sub-movements. ``skin_movement_mm`` shifts the WRIST disc along X between full flexion and
     extension. ``skin_offsets=False`` puts the joint centres into the discs (the papers' chain).
+
+    A hand that is not rigid (reference 10): ``skin_glide_mm`` of the knuckle discs for 90 degrees of their joints,
+    other discs less; ``cupping`` share of the full flexion of metacarpals 4 and 5 in a power grip; both 0 for the
+    rigid hand, None drawn per person. ``habit``: names of :data:`HABITS` joined by ``+``, or ``none``.
+
+    ``anatomy="wide"``: hands and discs that differ from the tables by more than these say (:mod:`.wide_anatomy`).
+    ``worn``: names of :data:`WORN` joined by ``+``, or ``none``; ``pen_marks`` small blue marks on the skin.
+
+    Camera: ``distance_m`` to the hand, turned by ``yaw_deg``, off the vertical by ``tilt_deg`` about the axis in the
+    table at ``tilt_heading_deg`` from the fingers' direction: 0 has a side of the hand nearer, -90 its finger tips.
 
     Trouble: ``false_blobs`` mean number in each frame; ``hidden_share`` of the time each disc is covered, for
     ``hidden_mean_s`` on average; ``dropped_share`` of the frames. ``click_error_px`` standard deviation per axis.
@@ -97,12 +119,19 @@ class RecordingSpec:
     hand_length_mm: float | None = None
     skin_offsets: bool = True
     skin_movement_mm: float = 0.0
+    skin_glide_mm: float | None = 0.0
+    cupping: float | None = 0.0
+    habit: str = NONE
+    anatomy: Literal["usual", "wide"] = "usual"
+    worn: str = NONE
+    pen_marks: int = 0
     skin_tone: int | None = None
     light: Light = "drawn"
     sleeve: Sleeve = "drawn"
     distance_m: float | None = None
     yaw_deg: float | None = None
     tilt_deg: float | None = None
+    tilt_heading_deg: float | None = None
     false_blobs: float = 0.0
     hidden_share: float = 0.0
     hidden_mean_s: float = 0.4
@@ -123,6 +152,22 @@ class RecordingSpec:
                 raise SettingsInvalid("simulation", f"{name} = {value}, from {low:g} to {high:g}")
         if self.hand not in ("right", "left"):
             raise SettingsInvalid("simulation", f"hand = {self.hand}")
+        if self.anatomy not in ("usual", "wide"):
+            raise SettingsInvalid("simulation", f"anatomy = {self.anatomy}")
+        for name, given, known in (("habit", self.habits, HABITS), ("worn", self.things_worn, WORN)):
+            if not set(given) <= set(known):
+                wanted = f"{NONE}, or with + between: {', '.join(known)}"
+                raise SettingsInvalid("simulation", f"{name} = {getattr(self, name)} ({wanted})")
+
+    @property
+    def habits(self) -> tuple[str, ...]:
+        """Names of the habits; empty for none."""
+        return () if self.habit == NONE else tuple(self.habit.split("+"))
+
+    @property
+    def things_worn(self) -> tuple[str, ...]:
+        """Names of what is worn; empty for none."""
+        return () if self.worn == NONE else tuple(self.worn.split("+"))
 
     @property
     def marker_protocol(self) -> MarkerProtocol:

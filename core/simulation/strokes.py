@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from core.types import FloatArray
+from carpus.core.types import FloatArray
 
 
 def minimum_jerk(share: FloatArray) -> FloatArray:

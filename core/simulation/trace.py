@@ -10,9 +10,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from core.camera import Camera
-from core.simulation.skin import BLEND_M, FINGER_BLEND_M, Cones, Part
-from core.types import FloatArray
+from carpus.core.camera import Camera
+from carpus.core.simulation.skin import BLEND_M, FINGER_BLEND_M, Cones, Part
+from carpus.core.types import FloatArray
 
 FloatImage = NDArray[np.float32]
 

@@ -3,21 +3,25 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Literal
 
 import numpy as np
 from numpy.typing import NDArray
 
-from core.hand.protocols import PALM_MARKERS
-from core.simulation.hand_motion import STILL_S
-from core.simulation.patient import DISC_RADIUS_M
-from core.simulation.scene import Scene
-from core.simulation.spec import RecordingSpec, Stream
-from core.types import FloatArray
+from carpus.core.hand.protocols import PALM_MARKERS
+from carpus.core.simulation.hand_motion import STILL_S
+from carpus.core.simulation.patient import DISC_RADIUS_M
+from carpus.core.simulation.scene import Scene
+from carpus.core.simulation.spec import RecordingSpec, Stream
+from carpus.core.types import FloatArray
 
 BLOB_MEAN_S = 0.8
 _BLOB_GAP_TO_DISC_M = 0.015
+_PEN_AWAY_M, _PEN_RADIUS_M = (0.009, 0.016), (0.0008, 0.002)
+LEAST_FOUND_M = 0.0021
+"""Radius of the smallest spot that the detector takes for a disc at all."""
 
 BlobPlace = Literal["table", "air", "skin"]
 
@@ -111,7 +115,21 @@ def false_blobs(scene: Scene) -> tuple[FalseBlob, ...]:
             end_s = now_s + 0.1 + rng.exponential(BLOB_MEAN_S)
             blobs.append(_blob(scene, rng, now_s, end_s))
             now_s = end_s
-    return tuple(blob for blob in blobs if blob.end_s > 0.0)
+    return (*(blob for blob in blobs if blob.end_s > 0.0), *_pen_marks(scene))
+
+
+def _pen_marks(scene: Scene) -> Iterator[FalseBlob]:
+    """Dots of a blue pen beside the discs, as somebody made who marked their places; there all the time."""
+    spec = scene.spec
+    rng = spec.random(Stream.WORN)
+    discs = scene.patient.anatomy.palm_disc_m * [1.0, -1.0 if spec.hand == "left" else 1.0, 1.0]
+    for _ in range(spec.pen_marks):
+        disc = discs[int(rng.integers(len(discs)))]
+        away_m, way = rng.uniform(*_PEN_AWAY_M), rng.uniform(0.0, 2.0 * math.pi)
+        place = disc + away_m * np.array([math.cos(way), math.sin(way), 0.0])
+        place[2] = scene.skin.palm_height_m(place[:2])
+        radius_m, hue = rng.uniform(*_PEN_RADIUS_M), rng.uniform(0.5, 1.1, 3)
+        yield FalseBlob("skin", -1.0, math.inf, place, np.array([0.0, 0.0, 1.0]), radius_m, hue)
 
 
 def _blob(scene: Scene, rng: np.random.Generator, start_s: float, end_s: float) -> FalseBlob:

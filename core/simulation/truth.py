@@ -2,17 +2,18 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
-from core.camera import Camera
-from core.hand.protocols import HAND21
-from core.simulation.scene import HandPose, Scene
-from core.simulation.spec import RecordingSpec
-from core.simulation.trouble import FrameTimes, frame_times
-from core.types import FloatArray
+from carpus.core.camera import Camera
+from carpus.core.hand.clinical_angles import angles_from_rotation
+from carpus.core.hand.protocols import HAND21
+from carpus.core.simulation.scene import HandPose, Scene
+from carpus.core.simulation.spec import RecordingSpec
+from carpus.core.simulation.trouble import FrameTimes, frame_times
+from carpus.core.types import FloatArray, Side
 
 RECORDING_EPOCH_S = 1_700_000_000.0
 """Time stamps of a recording start here, as of a real one: large numbers, not zero."""
@@ -66,10 +67,13 @@ def truth_of(scene: Scene, times: FrameTimes | None = None) -> Truth:
     spec = scene.spec
     times = frame_times(spec) if times is None else times
     t = times.color_s
-    pose, before, after = scene.pose(t), scene.pose(t - _STEP_S), scene.pose(t + _STEP_S)
+    axes, origin = scene.disc_frame()
+    pose = scene.pose(t)
+    now, before, after = (
+        _in_frame(at, axes, origin, spec.hand) for at in (pose, scene.pose(t - _STEP_S), scene.pose(t + _STEP_S))
+    )
     rows = protocol_rows(spec)
-    discs_w0 = scene.discs_w0_m(pose)[:, rows]
-    discs_cam = scene.to_camera(discs_w0)
+    discs_cam = scene.to_camera(scene.discs_w0_m(pose)[:, rows])
     fingers = spec.marker_protocol.has_fingers
     joint_velocity = (after.joint_angles_rad - before.joint_angles_rad) / (2.0 * _STEP_S)
     empty = np.empty((len(t), 0))
@@ -79,22 +83,32 @@ def truth_of(scene: Scene, times: FrameTimes | None = None) -> Truth:
         timestamp_s=np.round(RECORDING_EPOCH_S + t, 6),
         time_s=t,
         dropped_before=times.dropped_before,
-        position_m=pose.position_m,
+        position_m=now.position_m,
         velocity_m_s=(after.position_m - before.position_m) / (2.0 * _STEP_S),
-        rotation_w2_w0=pose.rotation_w2_w0,
+        rotation_w2_w0=now.rotation_w2_w0,
         angular_velocity_rad_s=_turn_rate(before, after),
-        angles_rad=pose.angles_rad,
+        angles_rad=now.angles_rad,
         joint_names=scene.motion.joint_names if fingers else (),
         joint_angles_rad=pose.joint_angles_rad if fingers else empty,
         joint_velocity_rad_s=joint_velocity if fingers else empty,
-        joint_position_w0_m=scene.joints_w0_m(pose)[:, rows],
+        joint_position_w0_m=(scene.joints_w0_m(pose)[:, rows] - origin) @ axes,
         disc_position_cam_m=discs_cam,
         disc_pixel=scene.camera.project(discs_cam),
         visible_share=np.full((len(t), len(rows)), np.nan),
-        marker_position_w0_m=scene.discs_w0_m(scene.pose(np.zeros(1)))[0, rows],
-        rotation_w0_cam=scene.rotation_w0_cam,
-        translation_w0_cam_m=scene.translation_w0_cam_m,
+        marker_position_w0_m=(scene.discs_w0_m(scene.pose(np.zeros(1)))[0, rows] - origin) @ axes,
+        rotation_w0_cam=scene.rotation_w0_cam @ axes,
+        translation_w0_cam_m=scene.to_camera(origin),
     )
+
+
+def _in_frame(pose: HandPose, axes: FloatArray, origin_m: FloatArray, side: Side) -> HandPose:
+    """The pose told in another W, given by axes and origin in the bones' W."""
+    if not origin_m.any():
+        return pose
+    rotation = axes.T @ pose.rotation_w2_w0 @ axes
+    position = (pose.rotation_w2_w0 @ origin_m + pose.position_m - origin_m) @ axes
+    angles = angles_from_rotation(rotation, side)
+    return replace(pose, rotation_w2_w0=rotation, position_m=position, angles_rad=angles)
 
 
 def _turn_rate(before: HandPose, after: HandPose) -> FloatArray:

@@ -10,12 +10,12 @@ from pathlib import Path
 import h5py
 import numpy as np
 
-from core.calibration.result import Calibration, Clicks, Verdict
-from core.hand.clinical_angles import zyz_from_rotation
-from core.session.values import new_header
-from core.session.writer import SessionWriter
-from core.simulation.truth import Truth
-from core.types import Detections, FloatArray, TrackedFrame, TrackStatus
+from carpus.core.calibration.result import Calibration, Clicks, Verdict
+from carpus.core.hand.clinical_angles import zyz_from_rotation
+from carpus.core.session.values import new_header
+from carpus.core.session.writer import SessionWriter
+from carpus.core.simulation.truth import Truth
+from carpus.core.types import Detections, FloatArray, TrackedFrame, TrackStatus
 
 SEEN_SHARE = 0.35
 """A disc of which less than this can be seen counts as not measured."""
@@ -87,6 +87,7 @@ def _tracked(truth: Truth, i: int) -> TrackedFrame:
         status=TrackStatus.TRACKED if palm_seen >= _PALM_NEEDED else TrackStatus.PREDICTED,
         position_m=truth.position_m[i],
         velocity_m_s=truth.velocity_m_s[i],
+        w0_turn_rad=np.zeros(3),
         rotation_w2_w0=truth.rotation_w2_w0[i],
         angular_velocity_rad_s=truth.angular_velocity_rad_s[i],
         angles_rad=truth.angles_rad[i],

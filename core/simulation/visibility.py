@@ -6,11 +6,11 @@ import math
 
 import numpy as np
 
-from core.hand.kinematics import SEGMENTS, segment_frames
-from core.hand.protocols import HAND21
-from core.simulation.scene import HandPose, Scene
-from core.simulation.trouble import PassingThing
-from core.types import FloatArray
+from carpus.core.hand.kinematics import SEGMENTS
+from carpus.core.hand.protocols import HAND21
+from carpus.core.simulation.scene import HandPose, Scene
+from carpus.core.simulation.trouble import PassingThing
+from carpus.core.types import FloatArray
 
 LARGEST_TILT_RAD = math.radians(75.0)
 
@@ -58,7 +58,7 @@ def coarse_visibility(
 def _behind_bones(
     scene: Scene, pose: HandPose, discs: FloatArray, normals: FloatArray, towards: FloatArray
 ) -> np.ndarray:
-    frames = segment_frames(scene.patient.anatomy, pose.joint_angles_rad)
+    frames = scene.bones_w(pose)
     turn = scene.rotation_w0_cam @ pose.rotation_w2_w0
     place = scene.to_camera(pose.position_m)
 

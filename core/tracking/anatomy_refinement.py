@@ -6,14 +6,14 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from core.calibration.result import Calibration
-from core.camera import Camera
-from core.hand.fitting import AnatomyFit, SeenDiscs, fit_anatomy
-from core.hand.kinematics import DIP_PER_PIP
-from core.tracking.hand_geometry import CONSTANTS, CROWDED_SD_PX, RAY_MARKERS, RAYS, SLOTS, is_crowded
-from core.types import FloatArray
+from carpus.core.calibration.result import Calibration
+from carpus.core.camera import Camera
+from carpus.core.hand.fitting import AnatomyFit, SeenDiscs, fit_anatomy
+from carpus.core.hand.kinematics import DIP_PER_PIP
+from carpus.core.tracking.finger_settings import FingerSettings
+from carpus.core.tracking.hand_geometry import CONSTANTS, RAY_MARKERS, RAYS, SLOTS, is_crowded
+from carpus.core.types import FloatArray
 
-_CLICK_SD_PX = 2.0
 _NARROW_RAD = 1e-6
 """Of a slot that does not move: the fifth of a finger, the third while the end joint is coupled."""
 
@@ -28,11 +28,24 @@ class RayStart:
 
 
 def ray_start(
-    calibration: Calibration, camera: Camera, *, dip_free: bool, skin_offsets: bool, marker_radius_m: float
+    calibration: Calibration,
+    camera: Camera,
+    *,
+    dip_free: bool,
+    skin_offsets: bool,
+    marker_radius_m: float,
+    own: FingerSettings,
 ) -> RayStart:
     """The anatomy of a calibrated ``hand21``."""
-    seen = _seen(calibration, camera, marker_radius_m)
-    fit = fit_anatomy(seen, calibration.clicks.side, dip_free=dip_free, skin_offsets=skin_offsets)
+    seen = _seen(calibration, camera, marker_radius_m, own)
+    fit = fit_anatomy(
+        seen,
+        calibration.clicks.side,
+        dip_free=dip_free,
+        skin_offsets=skin_offsets,
+        prior=own.anatomy,
+        straight=calibration.clicks.straight_fingers,
+    )
     mean = np.zeros((RAYS, SLOTS + CONSTANTS))
     covariance = np.zeros((RAYS, SLOTS + CONSTANTS, SLOTS + CONSTANTS))
     for ray in range(RAYS):
@@ -40,8 +53,6 @@ def ray_start(
         to_slots = np.eye(count)
         if ray:
             to_slots[3, 2] = -DIP_PER_PIP
-            if not dip_free:
-                to_slots[3] = 0.0
         cross = to_slots @ fit.neutral_cross[ray]
         mean[ray, :count] = to_slots @ fit.neutral_rays[ray].mean
         mean[ray, SLOTS:] = fit.rays.mean[ray]
@@ -54,7 +65,7 @@ def ray_start(
     return RayStart(mean, covariance, fit)
 
 
-def _seen(calibration: Calibration, camera: Camera, marker_radius_m: float) -> SeenDiscs:
+def _seen(calibration: Calibration, camera: Camera, marker_radius_m: float, own: FingerSettings) -> SeenDiscs:
     """The calibrated discs; where one has no depth, the line of sight through its click."""
     disc = calibration.marker_position_w0_m.copy()
     rotation, translation = calibration.rotation_w0_cam, calibration.translation_w0_cam_m
@@ -68,9 +79,10 @@ def _seen(calibration: Calibration, camera: Camera, marker_radius_m: float) -> S
     across = np.sqrt(np.maximum(np.linalg.eigvalsh(covariance)[:, 0], 1e-10))
     pixel_m = in_camera[:, 2] / camera.fx_px
     crowded = np.zeros(len(disc), dtype=bool)
-    crowded[RAY_MARKERS] = is_crowded(camera.project(in_camera)[RAY_MARKERS], (marker_radius_m / pixel_m)[RAY_MARKERS])
-    across = np.where(crowded, np.hypot(across, CROWDED_SD_PX * pixel_m), across)
-    blind_m = _CLICK_SD_PX * pixel_m
+    radius_px = (marker_radius_m / pixel_m)[RAY_MARKERS]
+    crowded[RAY_MARKERS] = is_crowded(camera.project(in_camera)[RAY_MARKERS], radius_px, own.crowded_radii)
+    across = np.where(crowded, np.hypot(across, own.crowded_px * pixel_m), across)
+    blind_m = own.click_px * pixel_m
     return SeenDiscs(
         disc[None],
         view[None],

@@ -13,9 +13,9 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.optimize import linear_sum_assignment
 
-from core.types import FloatArray
+from carpus.core.assignment import linear_sum_assignment
+from carpus.core.types import FloatArray
 
 IMPOSSIBLE = -1e9
 

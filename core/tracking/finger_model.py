@@ -7,13 +7,13 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from core import so3
-from core.calibration.result import Calibration
-from core.camera import Camera
-from core.tracking import modes
-from core.tracking.anatomy_refinement import RayStart, ray_start
-from core.tracking.geometry import palm_of
-from core.tracking.hand_geometry import (
+from carpus.core import so3
+from carpus.core.calibration.result import Calibration
+from carpus.core.camera import Camera
+from carpus.core.tracking.anatomy_refinement import RayStart, ray_start
+from carpus.core.tracking.finger_depth import FLEXION
+from carpus.core.tracking.geometry import palm_of
+from carpus.core.tracking.hand_geometry import (
     DISCS,
     RAYS,
     SLOTS,
@@ -24,27 +24,18 @@ from core.tracking.hand_geometry import (
     ray_frames,
     ray_joints_m,
 )
-from core.tracking.joint_limits import MID_RANGE_RAD, RANGE_SD_RAD
-from core.tracking.measurement import View
-from core.tracking.motion import REFERENCE_DT_S
-from core.tracking.ray_filter import Forgetting, RayBeliefs, RayForecast, RayLayout, RayMotion, RayView, mixed
-from core.tracking.readout import Readout
-from core.tracking.settings import TrackerSettings
-from core.tracking.state import Belief
-from core.types import FloatArray
+from carpus.core.tracking.joint_limits import MID_RANGE_RAD, RANGE_SD_RAD
+from carpus.core.tracking.kernel import Bank, mixed, switching
+from carpus.core.tracking.motion import REFERENCE_DT_S
+from carpus.core.tracking.palm_state import POSE, PalmBelief
+from carpus.core.tracking.palm_view import View
+from carpus.core.tracking.ray_filter import JOINTS, RATES, RAY_SIZE, SEEN, Forgetting, RayForecast, RayMotion, RayView
+from carpus.core.tracking.readout import Readout
+from carpus.core.tracking.settings import TrackerSettings
+from carpus.core.types import FloatArray
 
-_POSE = np.array([0, 1, 2, 6, 7, 8])
-"""Position and turn in the palm's error vector."""
 _SLOT = np.arange(SLOTS)
 _NARROW2 = 1e-10
-_STARTS_AT_RATE_SD = 1.0
-_POSTURE_SD_RAD = math.radians(12.0)
-"""Of the grid on which a lost finger is searched."""
-_POSTURE_RATE_SD = 3.0
-_ACROSS_M = 0.00015
-"""How closely a disc holds its joints across the line of sight when errors stay."""
-_SURE_TURN_RAD = math.radians(1.0)
-"""Standard deviation of the palm's turn, all axes together, at which half as much is learnt of the fingers."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -61,17 +52,17 @@ class Seat:
     turn_covariance: FloatArray
 
 
-def seat_of(belief: Belief, view: View, readout: Readout) -> Seat:
+def seat_of(belief: PalmBelief, view: View, readout: Readout) -> Seat:
     """The seat that a belief about the palm gives to the fingers."""
     palm, turn_covariance = readout.palm(belief)
     body_cam = view.rotation_w0_cam @ belief.rotation_w2_w0
     to_camera = np.zeros((6, 6))
     to_camera[:3, :3], to_camera[3:, 3:] = view.rotation_w0_cam, body_cam
-    pose = to_camera @ belief.covariance[_POSE[:, None], _POSE] @ to_camera.T
+    pose = to_camera @ belief.covariance[POSE[:, None], POSE] @ to_camera.T
     return Seat(palm, ray_view(belief, view, palm), pose, body_cam @ turn_covariance @ body_cam.T)
 
 
-def ray_view(belief: Belief, view: View, palm: PalmInBody) -> RayView:
+def ray_view(belief: PalmBelief, view: View, palm: PalmInBody) -> RayView:
     """How the camera sees W2 of a right hand on that palm."""
     body_cam = view.rotation_w0_cam @ belief.rotation_w2_w0
     origin = body_cam @ palm.origin_m + view.rotation_w0_cam @ belief.position_m + view.translation_w0_cam_m
@@ -85,91 +76,92 @@ class FingerModel:
         own, dip_free = settings.fingers, settings.dip == "free"
         self.settings = settings
         self.side = calibration.clicks.side
-        self.layout = RayLayout(settings.motion == "constant_rate")
         self.reading = JointReading.of(dip_free)
         self.direct_markers = direct_markers(dip_free)
         self.resolution_px2 = float(camera.width_px * camera.height_px)
         self.calibrated_palm = PalmInBody.of(palm_of(calibration).marker_position_w0_m, np.eye(3), self.side)
-        self.scales = np.array(settings.mode_scales if self.layout.has_rates else (1.0,))
+        self.scales = np.array(settings.mode_scales)
         self._start: RayStart = ray_start(
             calibration,
             camera,
             dip_free=dip_free,
             skin_offsets=own.skin_offsets,
             marker_radius_m=settings.marker_radius_m,
+            own=own,
         )
         self._wrist_depth_m = -float(self._start.fit.anatomy.palm_joint_m[0, 2])
         self._focal_px = np.array([camera.fx_px, camera.fy_px])
         motion = settings.motion_noise
-        sd = np.full(
-            (RAYS, SLOTS), motion.joint_acceleration_rad_s2 if self.layout.has_rates else motion.joint_rate_rad_s
-        )
+        sd = np.full((RAYS, SLOTS), motion.joint_acceleration_rad_s2)
         sd[0, [0, 1, 3]] *= own.abduction_share
         sd[1:, 0] *= own.abduction_share
         sd[1:, 4] = 0.0
+        sd[0, 3] = 0.0
+        settled2 = np.zeros((RAYS, SLOTS))
+        settled2[0, 3] = own.thumb_aside_rad**2
         if not dip_free:
             sd[1:, 3] = 0.0
+            settled2[1:, 3] = own.dip_slack_rad**2
         self._moves = sd > 0.0
-        self._range2 = np.where(self._moves, RANGE_SD_RAD**2, 1e-12)
+        self._settled2 = np.maximum(settled2, 1e-12)
+        self._range2 = np.where(self._moves, RANGE_SD_RAD**2, self._settled2)
         drift = own.drift_per_s * np.diagonal(self._start.fit.rays.covariance, axis1=1, axis2=2)
-        self.motion = RayMotion(sd**2 * REFERENCE_DT_S, self.scales, drift, self.layout)
+        self.motion = RayMotion(sd**2 * REFERENCE_DT_S, self.scales, drift, settled2, own.settles_s)
 
-    def at_neutral(self) -> RayBeliefs:
+    def at_neutral(self) -> Bank:
         """At the neutral pose, at rest."""
-        layout, seen = self.layout, self.layout.seen
-        mean, covariance = np.zeros((RAYS, layout.size)), np.zeros((RAYS, layout.size, layout.size))
+        seen = SEEN
+        mean, covariance = np.zeros((RAYS, RAY_SIZE)), np.zeros((RAYS, RAY_SIZE, RAY_SIZE))
         mean[:, seen] = self._start.mean
         covariance[:, seen[:, None], seen] = self._start.covariance
-        rate = np.arange(layout.rates.start, layout.rates.stop)
-        if layout.has_rates:
-            covariance[:, rate, rate] = np.where(self._moves, self.settings.initial.joint_rates_rad_s**2, 1e-12)
+        rate = np.arange(RATES.start, RATES.stop)
+        covariance[:, rate, rate] = np.where(self._moves, self.settings.initial.joint_rates_rad_s**2, 1e-12)
         return self.alike(mean, covariance)
 
-    def anywhere(self, mean: FloatArray, covariance: FloatArray) -> RayBeliefs:
+    def anywhere(self, mean: FloatArray, covariance: FloatArray) -> Bank:
         """The anatomy as known by now, (5, n) and (5, n, n), the joints anywhere in their range."""
-        layout = self.layout
-        moving = np.arange(layout.constants.start)
+        moving = np.arange(RATES.stop)
         mean, covariance = mean.copy(), covariance.copy()
         mean[:, moving] = 0.0
-        mean[:, layout.joints] = np.where(self._moves, MID_RANGE_RAD, 0.0)
+        mean[:, JOINTS] = np.where(self._moves, MID_RANGE_RAD, 0.0)
         covariance[:, moving, :] = 0.0
         covariance[:, :, moving] = 0.0
         covariance[:, _SLOT, _SLOT] = self._range2
-        if layout.has_rates:
-            rate = np.arange(layout.rates.start, layout.rates.stop)
-            covariance[:, rate, rate] = np.where(self._moves, _STARTS_AT_RATE_SD**2, 1e-12)
+        rate = np.arange(RATES.start, RATES.stop)
+        covariance[:, rate, rate] = np.where(self._moves, self.settings.fingers.begins_rate_sd**2, 1e-12)
         return self.alike(mean, covariance)
 
-    def at_postures(self, beliefs: RayBeliefs, postures: dict[int, FloatArray]) -> RayBeliefs:
+    def at_postures(self, beliefs: Bank, postures: dict[int, FloatArray]) -> Bank:
         """Some rays begun anew about postures, slots (5,) by ray, the anatomy as known by now."""
         rays, slots = np.array(list(postures)), np.array(list(postures.values()))
         fresh = self.anywhere(*beliefs.merged())
         mean, covariance = beliefs.mean.copy(), beliefs.covariance.copy()
         mean[rays], covariance[rays] = fresh.mean[rays], fresh.covariance[rays]
         mean[rays, :, :SLOTS] = slots[:, None]
-        covariance[rays[:, None], :, _SLOT, _SLOT] = np.where(self._moves[rays], _POSTURE_SD_RAD**2, 1e-12)[..., None]
-        if self.layout.has_rates:
-            rate = SLOTS + _SLOT
-            moving = np.where(self._moves[rays], _POSTURE_RATE_SD**2, 1e-12)
-            covariance[rays[:, None], :, rate, rate] = moving[..., None]
+        own = self.settings.fingers
+        moving = np.where(self._moves[rays], own.posture_sd_rad**2, self._settled2[rays])
+        covariance[rays[:, None], :, _SLOT, _SLOT] = moving[..., None]
+        rate = SLOTS + _SLOT
+        moving = np.where(self._moves[rays], own.posture_rate_sd**2, 1e-12)
+        covariance[rays[:, None], :, rate, rate] = moving[..., None]
         probability = beliefs.probability.copy()
         probability[rays] = fresh.probability[rays]
-        return RayBeliefs(mean, covariance, probability)
+        return Bank(mean, covariance, probability)
 
-    def alike(self, mean: FloatArray, covariance: FloatArray) -> RayBeliefs:
+    def alike(self, mean: FloatArray, covariance: FloatArray) -> Bank:
         """All modes alike and as probable, of means (5, n) and covariances (5, n, n)."""
         count = self.scales.size
-        return RayBeliefs(
+        return Bank(
             np.repeat(mean[:, None], count, axis=1),
             np.repeat(covariance[:, None], count, axis=1),
             np.full((RAYS, count), 1.0 / count),
         )
 
-    def predicted(self, beliefs: RayBeliefs, unseen_s: FloatArray, dt_s: float) -> RayBeliefs:
+    def predicted(self, beliefs: Bank, unseen_s: FloatArray, dt_s: float) -> Bank:
         """The rays ``dt_s`` later; ``unseen_s`` (5, 5) for how long nothing has shown each slot."""
         if dt_s <= 0.0:
             return beliefs
-        switch = modes.switching(self.scales.size, self.settings.mode_dwell_s, dt_s)
+        switch = switching(self.scales.size, self.settings.mode_dwell_s, dt_s)
         mean = (beliefs.probability[:, None] @ beliefs.mean)[:, 0]
         return self.motion.predicted(mixed(beliefs, switch), dt_s, self.forgetting(mean, unseen_s, dt_s))
 
@@ -185,18 +177,20 @@ class FingerModel:
         whole_s = self.settings.fingers.range_after_s
         before = np.minimum(unseen_s, whole_s) / whole_s
         after = np.minimum(unseen_s + dt_s, whole_s) / whole_s
-        angle2 = np.where(is_unseen, RANGE_SD_RAD**2 * (after**3 - before**3), 0.0)
-        if not self.layout.has_rates:
-            return Forgetting(np.ones((RAYS, SLOTS)), angle2, np.zeros((RAYS, SLOTS)))
+        # Once it may be anywhere it goes on moving as it likes: else looking back would carry what is seen at its
+        # return far into the time it was hidden.
+        goes_on = np.where(before >= 1.0, dt_s / whole_s, 0.0)
+        angle2 = np.where(is_unseen, RANGE_SD_RAD**2 * (after**3 - before**3 + goes_on), 0.0)
         keep = math.exp(-dt_s / self.settings.rate_memory_s)
-        rate2 = np.where(is_unseen, (1.0 - keep**2) * mean[:, self.layout.rates] ** 2, 0.0)
+        rate2 = np.where(is_unseen, (1.0 - keep**2) * mean[:, RATES] ** 2, 0.0)
         return Forgetting(np.where(is_unseen, keep, 1.0), angle2, rate2)
 
     def learning(self, seat: Seat) -> float:
         """Share of what this picture says of the anatomy that is believed: little while the palm is unsure, as its
         error stays for as long as its discs are hidden."""
         variance = float(np.trace(seat.pose_covariance[3:, 3:]))
-        return self.settings.fingers.learning / (1.0 + (variance / _SURE_TURN_RAD**2) ** 2)
+        own = self.settings.fingers
+        return own.learning / (1.0 + (variance / own.sure_turn_rad**2) ** 2)
 
     @staticmethod
     def palm_part(line: RayForecast, seat: Seat) -> FloatArray:
@@ -209,14 +203,19 @@ class FingerModel:
 
     def read(self, mean: FloatArray, covariance: FloatArray, seat: Seat, line: RayForecast) -> JointMoment:
         """Joints of rays (5, n) with covariance (5, n, n) on that palm; ``line`` what the camera saw of them."""
-        palm, state = seat.palm, mean[:, self.layout.seen]
+        palm, state = seat.palm, mean[:, SEEN]
         joints = covariance[:, :SLOTS, :SLOTS]
         frames = ray_frames(state)
-        variance = self.reading.variances(joints + self._inherited(joints, seat, line, frames.normal))
-        angles = self.reading.angles(mean[:, :SLOTS])
-        rates = np.full(angles.size, np.nan)
-        if self.layout.has_rates:
-            rates = self.reading.angles(mean[:, self.layout.rates])
+        # A knuckle's flexion is against its own metacarpal.
+        slots, own = mean[:, :SLOTS].copy(), joints.copy()
+        slots[:, FLEXION] -= palm.cup_rad
+        own[:, FLEXION, FLEXION] += palm.cup_sd_rad**2
+        own[:, _SLOT, _SLOT] += np.where(
+            self._moves & self.settings.fingers.skin_offsets, self.settings.fingers.skin_sd_rad**2, 0.0
+        )
+        angles = self.reading.angles(slots)
+        variance = self.reading.variances(own + self._inherited(joints, seat, line, frames.normal))
+        rates = self.reading.angles(mean[:, RATES])
         chain = ray_joints_m(palm.disc_m[1:], state, frames)
         centre = np.empty((1 + RAYS * (DISCS + 1), 3))
         centre[0] = 0.0, 0.0, -self._wrist_depth_m
@@ -235,7 +234,7 @@ class FingerModel:
         """
         depth_m = self.settings.fingers.depth_stays_m
         unit = np.empty((RAYS, DISCS, 3, 1))
-        unit[..., :2, 0] = line.centre_m[..., 2:] / (self._focal_px * _ACROSS_M)
+        unit[..., :2, 0] = line.centre_m[..., 2:] / (self._focal_px * self.settings.fingers.across_m)
         unit[..., 2, 0] = 1.0 / depth_m
         slope = line.slope[..., :SLOTS] * unit.reshape(RAYS, 9, 1)
         across = np.swapaxes(slope, 1, 2)

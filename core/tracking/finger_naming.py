@@ -13,25 +13,22 @@ from itertools import product
 import numpy as np
 from numpy.typing import NDArray
 
-from core.tracking import association
-from core.tracking.finger_settings import FingerSettings
-from core.tracking.hand_geometry import CROWDED_SD_PX, DISCS, RAYS, SHOWS, SLOTS, is_crowded, ray_frames
-from core.tracking.joint_association import holds_together
-from core.tracking.joint_limits import SOFT_RAD, outside_limits
-from core.tracking.naming import Measurable
-from core.tracking.ray_filter import RayBeliefs, RayForecast, RayLayout, RayUpdate, RayView, corrected, learning_shares
-from core.tracking.settings import TrackerSettings
-from core.types import FloatArray
+from carpus.core.tracking import association
+from carpus.core.tracking.finger_settings import FingerSettings
+from carpus.core.tracking.hand_geometry import DISCS, RAYS, SHOWS, SLOTS, is_crowded, ray_frames
+from carpus.core.tracking.joint_association import holds_together
+from carpus.core.tracking.joint_limits import SOFT_RAD, outside_limits
+from carpus.core.tracking.kernel import Bank, Update, corrected, learning_shares
+from carpus.core.tracking.naming import Measurable
+from carpus.core.tracking.ray_filter import ANATOMY, RAY_SIZE, SEEN, RayForecast, RayView
+from carpus.core.tracking.settings import TrackerSettings
+from carpus.core.types import FloatArray
 
 _AXES = np.arange(3)
 _SLOT = np.arange(SLOTS)
 _BENDS = np.array([[0.0, 0.0, 1.0, 0.0, 1.0], *([0.0, 1.0, 1.0, 1.0, 0.0],) * 4])
 """Slots (5, 5) that tilt the discs past them."""
 _CANDIDATES = 4
-_WAS_SEEN = 0.5
-_SURELY_SD = 1.5
-_FAR_RAD = np.radians(10.0)
-"""Of a joint that was expected less surely than this, a line drawn where it was expected need not fit."""
 _LOG_2_PI = float(np.log(2.0 * np.pi))
 
 
@@ -48,7 +45,7 @@ class NamedFingers:
     """The rays corrected by the blobs as named; ``measured`` and ``variance`` (5, 9) what they were corrected by."""
 
     names: FingerNames
-    update: RayUpdate
+    update: Update
     measured: FloatArray
     variance: FloatArray
 
@@ -76,11 +73,10 @@ class FingerScene:
     noise_factor: FloatArray
     resolution_px2: float
     view: RayView
-    layout: RayLayout
     learning: float
 
 
-def name_fingers(beliefs: RayBeliefs, scene: FingerScene, settings: TrackerSettings) -> NamedFingers:
+def name_fingers(beliefs: Bank, scene: FingerScene, settings: TrackerSettings) -> NamedFingers:
     """Names and corrects all rays."""
     names = _each_by_itself(scene, settings)
     found = corrected_as_named(beliefs, scene, names, settings)
@@ -93,55 +89,57 @@ def name_fingers(beliefs: RayBeliefs, scene: FingerScene, settings: TrackerSetti
             taken[ray], with_depth[ray] = _ray_jointly(ray, scene, others, settings)
         names = FingerNames(taken, with_depth)
         found = corrected_as_named(beliefs, scene, names, settings)
-    impossible = _impossible(found, scene, settings.fingers) | _lone(names, scene)
+    impossible = _impossible(found, scene, settings.fingers) | _lone(names, scene, settings.fingers)
     return without(impossible, found, beliefs, scene, settings) if impossible.any() else found
 
 
 def without(
-    discs: NDArray[np.bool_], found: NamedFingers, beliefs: RayBeliefs, scene: FingerScene, settings: TrackerSettings
+    discs: NDArray[np.bool_], found: NamedFingers, beliefs: Bank, scene: FingerScene, settings: TrackerSettings
 ) -> NamedFingers:
     """The rays corrected anew without the names of some ``discs`` (5, 3)."""
     names = FingerNames(np.where(discs, -1, found.names.taken), found.names.with_depth & ~discs)
     return corrected_as_named(beliefs, scene, names, settings)
 
 
-def _lone(names: FingerNames, scene: FingerScene) -> NDArray[np.bool_]:
-    """Discs (5, 3) further out than the first that come back alone on a ray that may be far from where it is expected:
-    any blob would do for them."""
+def _lone(names: FingerNames, scene: FingerScene, own: FingerSettings) -> NDArray[np.bool_]:
+    """Discs (5, 3) further out than the first that stand without the one before them on a ray that may be far from
+    where it is expected: those that come back alone, and the end of the thumb, whose joints can bring it anywhere. Any
+    blob would do for them."""
     is_named = names.taken >= 0
-    lone = is_named & (is_named.sum(axis=1) == 1)[:, None] & (scene.visible < _WAS_SEEN)
+    lone = is_named & (is_named.sum(axis=1) == 1)[:, None] & (scene.visible < own.was_seen)
     lone[:, 0] = False
+    lone[0, 2] |= is_named[0, 2] & ~is_named[0, 1]
     if not lone.any():
         return np.asarray(lone)
-    return np.asarray(lone & far_rays(scene.covariance, is_named)[:, None])
+    return np.asarray(lone & far_rays(scene.covariance, is_named, own)[:, None])
 
 
-def far_rays(covariance: FloatArray, named: NDArray[np.bool_]) -> NDArray[np.bool_]:
+def far_rays(covariance: FloatArray, named: NDArray[np.bool_], own: FingerSettings) -> NDArray[np.bool_]:
     """Rays (5,) whose discs (5, 3) that are seen may find their joints far from where they were expected, with
     covariances (5, n, n)."""
     shown = (SHOWS & named[:, None, :]).any(axis=-1)
-    return np.asarray((shown & (covariance[:, _SLOT, _SLOT] > _FAR_RAD**2)).any(axis=1))
+    return np.asarray((shown & (covariance[:, _SLOT, _SLOT] > own.far_rad**2)).any(axis=1))
 
 
-def beyond_reach(mean: FloatArray, covariance: FloatArray) -> NDArray[np.bool_]:
+def beyond_reach(mean: FloatArray, covariance: FloatArray, own: FingerSettings) -> NDArray[np.bool_]:
     """Rays (5,) bent surely beyond their limits, by means (5, n) and covariances (5, n, n)."""
     sd = np.sqrt(np.diagonal(covariance, axis1=1, axis2=2)[:, :SLOTS] + SOFT_RAD**2)
-    return np.asarray((np.abs(outside_limits(mean[:, :SLOTS])) > _SURELY_SD * sd).any(axis=1))
+    return np.asarray((np.abs(outside_limits(mean[:, :SLOTS])) > own.surely_sd * sd).any(axis=1))
 
 
 def _impossible(found: NamedFingers, scene: FingerScene, own: FingerSettings) -> NDArray[np.bool_]:
     """Discs (5, 3) that were hidden a moment ago and are where, if they were there, they could not be seen, or where
     no finger can reach."""
-    back = (found.names.taken >= 0) & (scene.visible < _WAS_SEEN)
+    back = (found.names.taken >= 0) & (scene.visible < own.was_seen)
     rays = np.flatnonzero(back.any(axis=1))
     if not rays.size:
         return back
-    mean, covariance = found.update.beliefs.merged()
-    frames = ray_frames(mean[:, scene.layout.seen])
+    mean, covariance = found.update.bank.merged()
+    frames = ray_frames(mean[:, SEEN])
     tilt = tilt_to(scene.view, frames.normal, scene.line.centre_m)
     bend = tilt_variance(covariance)
-    hidden = tilt - own.steepest_rad > _SURELY_SD * np.sqrt(bend + own.steepest_sd_rad**2)
-    return back & (hidden | beyond_reach(mean, covariance)[:, None])
+    hidden = tilt - own.steepest_rad > own.surely_sd * np.sqrt(bend + own.steepest_sd_rad**2)
+    return back & (hidden | beyond_reach(mean, covariance, own)[:, None])
 
 
 def tilt_to(view: RayView, normal: FloatArray, centre_m: FloatArray) -> FloatArray:
@@ -182,10 +180,10 @@ def _each_by_itself(scene: FingerScene, settings: TrackerSettings) -> FingerName
 
 
 def corrected_as_named(
-    beliefs: RayBeliefs, scene: FingerScene, names: FingerNames, settings: TrackerSettings
+    beliefs: Bank, scene: FingerScene, names: FingerNames, settings: TrackerSettings
 ) -> NamedFingers:
     """All rays corrected by the blobs as named."""
-    noise = settings.noise
+    noise, fingers = settings.noise, settings.fingers
     blob = np.maximum(names.taken, 0)
     is_named = names.taken >= 0
     if len(scene.blobs):
@@ -197,8 +195,8 @@ def corrected_as_named(
         wander_px = noise.shade_share * np.sqrt(scene.whole_px / np.pi) * np.maximum(missing, 0.0)
         expected = scene.line.value.reshape(RAYS, DISCS, 3)
         radius_px = settings.marker_radius_m * scene.view.camera.fx_px / expected[..., 2]
-        crowded_px = np.where(is_crowded(expected[..., :2], radius_px), CROWDED_SD_PX, 0.0)
-        own = (noise.pixel_sd_px**2 + settings.fingers.skin_px**2 + wander_px**2 + crowded_px**2)[..., None]
+        crowded_px = np.where(is_crowded(expected[..., :2], radius_px, fingers.crowded_radii), fingers.crowded_px, 0.0)
+        own = (noise.pixel_sd_px**2 + fingers.skin_px**2 + wander_px**2 + crowded_px**2)[..., None]
         variance[..., :2] = np.where(np.isfinite(own) & is_named[..., None], own, variance[..., :2])
     else:
         measured, variance = np.full((RAYS, DISCS, 3), np.nan), np.ones((RAYS, DISCS, 3))
@@ -209,7 +207,7 @@ def corrected_as_named(
         measured,
         variance,
         scene.palm_part,
-        learning_shares(scene.layout, scene.learning),
+        learning_shares(RAY_SIZE, ANATOMY, scene.learning),
     )
     return NamedFingers(names, update, measured, variance)
 

@@ -2,7 +2,11 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+import math
+from dataclasses import dataclass, field
+
+from carpus.core.hand.anatomy_prior import AnatomyPrior
+from carpus.core.tracking.finger_depth import FingerDepthSettings
 
 
 @dataclass(frozen=True, slots=True)
@@ -17,7 +21,22 @@ class FingerSettings:
     ``skin_px``: how far a disc on a finger strays from where the model has it, besides the noise of its centre.
     ``depth_stays_m``: error of a disc's depth that no averaging removes. ``hidden_s`` and ``shown_s``: how long a disc
     stays hidden or seen on average; ``steepest_rad``: tilt at which discs vanish, give or take ``steepest_sd_rad``.
-    ``clutter``: other blobs expected in a picture.
+    ``clutter``: other blobs expected in a picture. ``skin_sd_rad``: how far discs
+    that ride on gliding skin mislead about a joint, however long it is seen. ``anatomy``: how far a hand may
+    differ from the average one. ``depth``: what depth says where discs are hidden.
+
+    ``dip_slack_rad``: how far end joints that follow the middle ones stray from two thirds of them;
+    ``thumb_aside_rad``: how far the thumb's MCP joint, which hardly moves sideways, strays from straight; both return
+    within ``settles_s``.
+    ``patience_frames`` for which a ray may show fewer than two discs before it is searched; ``posture_sd_rad`` of the
+    grid on which it is, ``posture_rate_sd`` of its rates then, ``begins_rate_sd`` of those of a hand found again.
+    A joint expected less surely than ``far_rad`` may be far from where a line was drawn; a disc seen with less than the
+    chance ``was_seen`` was hidden a moment ago; ``surely_sd`` beyond its reach a joint surely is not.
+    ``size_grows``, ``size_shrinks``: how much of a picture's is taken into a disc's size, which half a disc understates
+    and nothing overstates, while it is tilted by less than ``flat_rad``; tilted discs show no less than
+    ``least_facing``. Centres of discs nearer than ``crowded_radii`` stray by ``crowded_px``. ``click_px`` of a disc
+    with no depth. ``across_m``: how closely a disc holds its joints across the line of sight where errors stay;
+    ``sure_turn_rad`` of the palm, all axes, at which half as much is learnt of the fingers.
     """
 
     skin_offsets: bool = True
@@ -32,3 +51,25 @@ class FingerSettings:
     steepest_rad: float = 1.22
     steepest_sd_rad: float = 0.15
     clutter: float = 3.0
+    skin_sd_rad: float = 0.022
+    anatomy: AnatomyPrior = field(default_factory=AnatomyPrior)
+    depth: FingerDepthSettings = field(default_factory=FingerDepthSettings)
+    dip_slack_rad: float = math.radians(6.0)
+    thumb_aside_rad: float = math.radians(6.0)
+    settles_s: float = 1.0
+    patience_frames: int = 2
+    posture_sd_rad: float = math.radians(12.0)
+    posture_rate_sd: float = 3.0
+    begins_rate_sd: float = 1.0
+    far_rad: float = math.radians(10.0)
+    was_seen: float = 0.5
+    surely_sd: float = 1.5
+    size_grows: float = 0.2
+    size_shrinks: float = 0.02
+    flat_rad: float = math.radians(50.0)
+    least_facing: float = 0.15
+    crowded_px: float = 0.5
+    crowded_radii: float = 2.4
+    click_px: float = 2.0
+    across_m: float = 0.00015
+    sure_turn_rad: float = math.radians(1.0)

@@ -8,31 +8,25 @@ only its anatomy is carried back.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 from numpy.typing import NDArray
 
-from core.tracking.finger_model import FingerModel, Seat
-from core.tracking.finger_naming import far_rays
-from core.tracking.hand_geometry import RAYS, SHOWS, SLOTS, JointMoment
-from core.tracking.joint_limits import constrained
-from core.tracking.ray_filter import (
-    PINNINGS,
-    RayBeliefs,
-    RayForecast,
-    corrected,
-    forecast,
-    learning_shares,
-    spread_points,
-)
-from core.types import FloatArray
+from carpus.core.tracking.finger_depth import KnuckleBends, with_bends
+from carpus.core.tracking.finger_model import FingerModel, Seat
+from carpus.core.tracking.finger_naming import far_rays
+from carpus.core.tracking.hand_geometry import RAYS, SHOWS, SLOTS, JointMoment
+from carpus.core.tracking.joint_limits import constrained
+from carpus.core.tracking.kernel import Bank, corrected, learning_shares, looked_back
+from carpus.core.tracking.ray_filter import ANATOMY, PINNINGS, RATES, RAY_SIZE, RayForecast, forecast, spread_points
+from carpus.core.types import FloatArray
 
 
 @dataclass(frozen=True, slots=True)
 class FingerStep:
     """What one frame told: ``measured`` and ``variance`` (5, 9), ``shown`` (5, 3) discs named, ``postures`` of rays
-    found anew; ``begins`` at the neutral pose."""
+    found anew; ``begins`` at the neutral pose; ``bends`` what depth said of knuckles."""
 
     timestamp_s: float
     measured: FloatArray
@@ -40,6 +34,7 @@ class FingerStep:
     shown: NDArray[np.bool_]
     postures: dict[int, FloatArray]
     begins: bool
+    bends: KnuckleBends = field(default_factory=KnuckleBends.none)
 
 
 @dataclass(frozen=True, slots=True)
@@ -61,7 +56,7 @@ class _Filtered:
 class FingerStart:
     """What was believed after the frame before the first step, at its time; ``unseen_s`` (5, 5) as in the tracker."""
 
-    beliefs: RayBeliefs
+    beliefs: Bank
     unseen_s: FloatArray
     timestamp_s: float
     is_lost: bool
@@ -83,10 +78,10 @@ class FingersLookedBack:
         now, step = self.filtered[known[-1]], self.steps[known[-1]]
         assert now is not None
         assert step is not None
-        lower = np.tril_indices(model.layout.size)
+        lower = np.tril_indices(RAY_SIZE)
         shown = (SHOWS & step.shown[:, None, :]).any(axis=-1)
         return FingerStart(
-            model.alike(now.mean, _whole(now.covariance, lower, model.layout.size)),
+            model.alike(now.mean, _whole(now.covariance, lower, RAY_SIZE)),
             np.where(shown, 0.0, now.unseen_s),
             step.timestamp_s,
             known[-1] != count - 1,
@@ -103,13 +98,13 @@ def smooth_fingers(
     at the neutral pose."""
     filtered = _filtered(model, steps, seats, start)
     out: list[JointMoment | None] = [None] * len(steps)
-    lower = np.tril_indices(model.layout.size)
+    lower = np.tril_indices(RAY_SIZE)
     mean, covariance = np.empty(0), np.empty(0)
     for k in range(len(steps) - 1, -1, -1):
         now, seat = filtered[k], seats[k]
         if now is None or seat is None:
             continue
-        mean_now, covariance_now = now.mean, _whole(now.covariance, lower, model.layout.size)
+        mean_now, covariance_now = now.mean, _whole(now.covariance, lower, RAY_SIZE)
         later = filtered[k + 1] if k + 1 < len(steps) else None
         if later is not None and later.is_linked:
             mean, covariance = _back(model, mean_now, covariance_now, steps, k, later, mean, covariance)
@@ -121,8 +116,8 @@ def smooth_fingers(
 
 def _line(model: FingerModel, mean: FloatArray, covariance: FloatArray, seat: Seat) -> RayForecast:
     spread = model.settings.spread
-    points = spread_points(mean, covariance, seat.palm.disc_m[1:], model.layout, spread)
-    return forecast(points, seat.view, model.layout, spread)
+    points = spread_points(mean, covariance, seat.palm.disc_m[1:], spread)
+    return forecast(points, seat.view, spread)
 
 
 def _filtered(
@@ -136,7 +131,7 @@ def _filtered(
     is_lost = False
     if start is not None:
         beliefs, unseen_s, time_s, is_lost = start.beliefs, start.unseen_s, start.timestamp_s, start.is_lost
-    lower = np.tril_indices(model.layout.size)
+    lower = np.tril_indices(RAY_SIZE)
     for step, seat in zip(steps, seats, strict=True):
         if step is None or seat is None:
             out.append(None)
@@ -153,13 +148,13 @@ def _filtered(
             beliefs = model.predicted(beliefs, unseen_s, step.timestamp_s - time_s)
         if step.postures:
             beliefs = model.at_postures(beliefs, step.postures)
-        nearest, shares = beliefs, learning_shares(model.layout, model.learning(seat))
-        is_far = bool(step.postures) or bool(far_rays(beliefs.merged()[1], step.shown).any())
+        nearest, shares = beliefs, learning_shares(RAY_SIZE, ANATOMY, model.learning(seat))
+        is_far = bool(step.postures) or bool(far_rays(beliefs.merged()[1], step.shown, model.settings.fingers).any())
         for _ in range(1 + (PINNINGS if is_far else 0)):
             line = _line(model, *nearest.merged(), seat)
             palm_part = model.palm_part(line, seat)
-            nearest = corrected(beliefs, line, step.measured, step.variance, palm_part, shares).beliefs
-        beliefs = nearest
+            nearest = corrected(beliefs, line, step.measured, step.variance, palm_part, shares).bank
+        beliefs = with_bends(nearest, step.bends) if step.bends.is_any else nearest
         beliefs = constrained(beliefs, beliefs.merged()[0][:, :SLOTS])
         mean, covariance = beliefs.merged()
         scale = np.sqrt(beliefs.probability @ model.scales**2)
@@ -188,19 +183,16 @@ def _back(
     if dt_s <= 0.0:
         return later_mean, later_covariance
     forward, noise = model.motion.step(dt_s, later.scale, model.forgetting(mean, later.unseen_s, dt_s))
-    moving = np.arange(model.layout.constants.start)
+    moving = np.arange(RATES.stop)
     for ray in after.postures:
         # Nothing of the joints passes through: only what the later frames say of the anatomy goes back.
         forward[ray][moving] = 0.0
         noise[ray][moving, moving] = 1.0
         later_mean = later_mean.copy()
         later_mean[ray, moving] = 0.0
-    predicted_mean = (forward @ mean[..., None])[..., 0]
-    predicted = forward @ covariance @ np.swapaxes(forward, 1, 2) + noise
-    gain = np.swapaxes(np.linalg.solve(predicted, forward @ covariance), 1, 2)
-    smoothed_mean = mean + (gain @ (later_mean - predicted_mean)[..., None])[..., 0]
-    smoothed = covariance + gain @ (later_covariance - predicted) @ np.swapaxes(gain, 1, 2)
-    return smoothed_mean, 0.5 * (smoothed + np.swapaxes(smoothed, 1, 2))
+    apart = later_mean - (forward @ mean[..., None])[..., 0]
+    correction, smoothed = looked_back(covariance, forward, noise, apart, later_covariance)
+    return mean + correction, smoothed
 
 
 def _whole(triangle: FloatArray, lower: tuple[NDArray[np.int64], NDArray[np.int64]], size: int) -> FloatArray:

@@ -2,16 +2,16 @@
 
 from __future__ import annotations
 
-import math
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
-from core.calibration.result import Calibration
-from core.camera import Camera
-from core.tracking.finger_model import FingerModel, Seat, ray_view
-from core.tracking.finger_naming import (
+from carpus.core.calibration.result import Calibration
+from carpus.core.camera import Camera
+from carpus.core.tracking.finger_depth import FLEXION, KnuckleBends, knuckle_bends, with_bends
+from carpus.core.tracking.finger_model import FingerModel, Seat, ray_view
+from carpus.core.tracking.finger_naming import (
     FingerScene,
     NamedFingers,
     beyond_reach,
@@ -23,24 +23,22 @@ from core.tracking.finger_naming import (
     tilt_variance,
     without,
 )
-from core.tracking.finger_smoother import FingerStart, FingerStep
-from core.tracking.hand_geometry import DISCS, RAYS, SHOWS, SLOTS, JointMoment
-from core.tracking.joint_association import holds_together
-from core.tracking.joint_limits import constrained
-from core.tracking.measurement import View
-from core.tracking.naming import Measurable
-from core.tracking.ray_filter import PINNINGS, RayBeliefs, RayPoints, forecast, spread_points
-from core.tracking.ray_search import LEAST_DISCS, in_reach, search_rays
-from core.tracking.settings import TrackerSettings
-from core.tracking.state import Belief
-from core.tracking.unscented import weights_for
-from core.types import FloatArray
+from carpus.core.tracking.finger_settings import FingerSettings
+from carpus.core.tracking.finger_smoother import FingerStart, FingerStep
+from carpus.core.tracking.hand_geometry import DISCS, RAYS, SHOWS, SLOTS, JointMoment
+from carpus.core.tracking.joint_association import holds_together
+from carpus.core.tracking.joint_limits import constrained
+from carpus.core.tracking.kernel import Bank
+from carpus.core.tracking.naming import Measurable
+from carpus.core.tracking.noise_watch import watched_factor
+from carpus.core.tracking.palm_state import PalmBelief
+from carpus.core.tracking.palm_view import View
+from carpus.core.tracking.ray_filter import PINNINGS, SEEN, RayPoints, forecast, spread_points
+from carpus.core.tracking.ray_search import LEAST_DISCS, in_reach, search_rays
+from carpus.core.tracking.settings import TrackerSettings
+from carpus.core.tracking.unscented import weights_for
+from carpus.core.types import FloatArray, SurfaceSamples
 
-_PATIENCE = 2
-"""Frames for which a ray may show fewer than two discs before it is searched."""
-_LEAST_FACING = 0.15
-_FLAT_RAD = math.radians(50.0)
-_GROWING, _SHRINKING = 0.2, 0.02
 _UV = 3 * np.arange(DISCS)[:, None] + np.arange(2)
 
 
@@ -57,6 +55,7 @@ class FingerTrial:
     named: NamedFingers
     disc_m2: FloatArray
     postures: dict[int, FloatArray]
+    bends: KnuckleBends = field(default_factory=KnuckleBends.none)
 
     @property
     def predicted_px(self) -> FloatArray:
@@ -67,6 +66,11 @@ class FingerTrial:
     def predicted_cov_px2(self) -> FloatArray:
         """Covariance (5, 3, 2, 2) of that."""
         return self.scene.spread[:, _UV[:, :, None], _UV[:, None, :]]
+
+    @property
+    def surprise(self) -> FloatArray:
+        """Sum of squared residuals (5, 3) of each disc."""
+        return np.asarray((self.named.update.residual**2).reshape(RAYS, DISCS, 3).sum(axis=-1))
 
     @property
     def nis(self) -> float:
@@ -112,32 +116,32 @@ class Fingers:
     def reach(self, point_m: FloatArray) -> NDArray[np.bool_]:
         """Whether points (..., 3) in the tracked body may be discs of these fingers."""
         palm = self._palm
-        return in_reach((point_m - palm.origin_m) @ palm.axes, palm.disc_m[1:], self._mean[:, self.model.layout.seen])
+        return in_reach((point_m - palm.origin_m) @ palm.axes, palm.disc_m[1:], self._mean[:, SEEN])
 
     def begin_anywhere(self) -> None:
         """Start again after the hand was lost: the anatomy is known, the joints may be anywhere."""
         self._visible = np.full((RAYS, DISCS), 0.5)
-        self._missing = np.full(RAYS, _PATIENCE)
+        self._missing = np.full(RAYS, self._settings.fingers.patience_frames)
         self._unseen_s = np.full((RAYS, SLOTS), self._settings.fingers.range_after_s)
         anywhere = self.model.anywhere(self._mean, self._covariance)
         self._take(anywhere, anywhere.merged())
 
-    def _take(self, beliefs: RayBeliefs, merged: tuple[FloatArray, FloatArray]) -> None:
+    def _take(self, beliefs: Bank, merged: tuple[FloatArray, FloatArray]) -> None:
         self._beliefs, (self._mean, self._covariance) = beliefs, merged
-        self._ahead: tuple[float, RayBeliefs, RayPoints] | None = None
+        self._ahead: tuple[float, Bank, RayPoints] | None = None
 
-    def _ahead_at(self, timestamp_s: float, dt_s: float) -> tuple[RayBeliefs, RayPoints]:
+    def _ahead_at(self, timestamp_s: float, dt_s: float) -> tuple[Bank, RayPoints]:
         """The rays predicted, and their discs on the palm as it was known last."""
         if self._ahead is not None and self._ahead[0] == timestamp_s:
             return self._ahead[1:]
         beliefs = self.model.predicted(self._beliefs, self._unseen_s, dt_s)
         mean, covariance = beliefs.merged()
-        points = spread_points(mean, covariance, self._palm.disc_m[1:], self.model.layout, self._settings.spread)
+        points = spread_points(mean, covariance, self._palm.disc_m[1:], self._settings.spread)
         self._ahead = (timestamp_s, beliefs, points)
         return beliefs, points
 
     def expected(
-        self, timestamp_s: float, dt_s: float, belief: Belief, view: View
+        self, timestamp_s: float, dt_s: float, belief: PalmBelief, view: View
     ) -> tuple[FloatArray, FloatArray, FloatArray]:
         """Where to look: pixels (5, 3, 2) with covariance (5, 3, 2, 2) given the palm, and depths (5, 3)."""
         _, points = self._ahead_at(timestamp_s, dt_s)
@@ -155,11 +159,36 @@ class Fingers:
         blobs: Measurable,
         area_px: FloatArray,
         free: NDArray[np.bool_],
+        samples: SurfaceSamples | None = None,
     ) -> FingerTrial:
         """Name the blobs that are ``free`` (D,), not the palm's, as if the palm were there; nothing is remembered.
 
-        ``area_px`` (D,) of the blobs.
+        ``area_px`` (D,) of the blobs; ``samples`` depth readings about the fingers.
         """
+        return self._bent(self._named(timestamp_s, dt_s, seat, blobs, area_px, free), samples)
+
+    def _bent(self, trial: FingerTrial, samples: SurfaceSamples | None) -> FingerTrial:
+        """The trial with what depth says of knuckles whose fingers' discs are hidden."""
+        hidden = [ray for ray in range(1, RAYS) if trial.blob[ray, 0] < 0 and self._unseen_s[ray, FLEXION] > 0.0]
+        if samples is None or not hidden:
+            return trial
+        mean = trial.named.update.bank.merged()[0]
+        own = self._settings.fingers.depth
+        bends = knuckle_bends(hidden, mean, self._palm.disc_m[1:], trial.seat.view, samples, own)
+        if not bends.is_any:
+            return trial
+        update = replace(trial.named.update, bank=with_bends(trial.named.update.bank, bends))
+        return replace(trial, named=replace(trial.named, update=update), bends=bends)
+
+    def _named(
+        self,
+        timestamp_s: float,
+        dt_s: float,
+        seat: Seat,
+        blobs: Measurable,
+        area_px: FloatArray,
+        free: NDArray[np.bool_],
+    ) -> FingerTrial:
         beliefs, points = self._ahead_at(timestamp_s, dt_s)
         trial, given_up = self._found_far(beliefs, self._tried(beliefs, points, dt_s, seat, blobs, area_px, free))
         anew = self._searched(trial, points, seat, blobs, free, given_up)
@@ -167,32 +196,30 @@ class Fingers:
             return trial
         rays = np.array(list(anew))
         restarted = self.model.at_postures(beliefs, anew)
-        points = spread_points(*restarted.merged(), self._palm.disc_m[1:], self.model.layout, self._settings.spread)
+        points = spread_points(*restarted.merged(), self._palm.disc_m[1:], self._settings.spread)
         other = self._pinned(restarted, self._tried(restarted, points, dt_s, seat, blobs, area_px, free))
         better = np.count_nonzero(other.blob[rays] >= 0) > np.count_nonzero(trial.blob[rays] >= 0)
         return replace(other, postures=anew) if better and other.holds_together(rays) else trial
 
-    def _found_far(self, beliefs: RayBeliefs, trial: FingerTrial) -> tuple[FingerTrial, NDArray[np.bool_]]:
+    def _found_far(self, beliefs: Bank, trial: FingerTrial) -> tuple[FingerTrial, NDArray[np.bool_]]:
         """The trial, its line drawn anew where joints may be far from where they were expected (iterated posterior
         linearisation, Garcia-Fernandez 2015), and rays (5,) given up because they would be where they cannot be."""
-        far = far_rays(trial.scene.covariance, trial.blob >= 0)
+        far = far_rays(trial.scene.covariance, trial.blob >= 0, self._settings.fingers)
         if not far.any():
             return trial, far
         pinned = self._pinned(beliefs, trial)
-        wrong = far & beyond_reach(*pinned.named.update.beliefs.merged())
+        wrong = far & beyond_reach(*pinned.named.update.bank.merged(), self._settings.fingers)
         wrong |= far & np.array([not pinned.holds_together(np.array([ray])) for ray in range(RAYS)])
         if not wrong.any():
             return pinned, wrong
         discs = np.repeat(wrong[:, None], DISCS, axis=1)
         return replace(pinned, named=without(discs, pinned.named, beliefs, pinned.scene, self._settings)), wrong
 
-    def _pinned(self, beliefs: RayBeliefs, trial: FingerTrial) -> FingerTrial:
+    def _pinned(self, beliefs: Bank, trial: FingerTrial) -> FingerTrial:
         """The same names, the line drawn anew about what they say: what was expected is some way off."""
         for _ in range(PINNINGS):
-            nearer = spread_points(
-                *trial.named.update.beliefs.merged(), self._palm.disc_m[1:], self.model.layout, self._settings.spread
-            )
-            line = forecast(nearer, trial.seat.view, self.model.layout, self._settings.spread)
+            nearer = spread_points(*trial.named.update.bank.merged(), self._palm.disc_m[1:], self._settings.spread)
+            line = forecast(nearer, trial.seat.view, self._settings.spread)
             scene = replace(trial.scene, line=line)
             named = corrected_as_named(beliefs, scene, trial.named.names, self._settings)
             trial = replace(trial, named=named)
@@ -209,7 +236,7 @@ class Fingers:
     ) -> dict[int, FloatArray]:
         """Postures (5,) of rays just given up or missing for some frames, if the blobs left over show them."""
         named = np.count_nonzero(trial.blob >= 0, axis=1)
-        is_due = given_up | ((self._missing >= _PATIENCE) & (self._missing % 2 == 0))
+        is_due = given_up | ((self._missing >= self._settings.fingers.patience_frames) & (self._missing % 2 == 0))
         rays = np.flatnonzero((named < LEAST_DISCS) & is_due)
         if not rays.size:
             return {}
@@ -218,11 +245,11 @@ class Fingers:
         value, camera = blobs.value[spare], seat.view.camera
         in_camera = camera.back_project(value[:, :2], value[:, 2])
         point = (in_camera - seat.view.translation_m) @ seat.view.rotation
-        return search_rays(rays, points.mean[:, self.model.layout.seen], self._palm.disc_m[1:], point)
+        return search_rays(rays, points.mean[:, SEEN], self._palm.disc_m[1:], point)
 
     def _tried(
         self,
-        beliefs: RayBeliefs,
+        beliefs: Bank,
         points: RayPoints,
         dt_s: float,
         seat: Seat,
@@ -230,12 +257,13 @@ class Fingers:
         area_px: FloatArray,
         free: NDArray[np.bool_],
     ) -> FingerTrial:
-        line = forecast(points, seat.view, self.model.layout, self._settings.spread)
+        line = forecast(points, seat.view, self._settings.spread)
         tilt = tilt_to(seat.view, points.normal, line.centre_m)
         tilt_sd = np.sqrt(tilt_variance(points.covariance))
         visible = seen_chance(self._visible, tilt, tilt_sd, dt_s, self._settings.fingers)
         shift = self.model.palm_part(line, seat)
-        facing_m2 = np.maximum(np.cos(tilt), _LEAST_FACING) * (seat.view.camera.fx_px / line.centre_m[..., 2]) ** 2
+        facing = np.maximum(np.cos(tilt), self._settings.fingers.least_facing)
+        facing_m2 = facing * (seat.view.camera.fx_px / line.centre_m[..., 2]) ** 2
         scene = FingerScene(
             points.covariance,
             line,
@@ -249,14 +277,15 @@ class Fingers:
             self._noise_factor,
             self.model.resolution_px2,
             seat.view,
-            self.model.layout,
             self.model.learning(seat),
         )
         named = name_fingers(beliefs, scene, self._settings)
         taken = named.names.taken
         disc_m2 = np.full((RAYS, DISCS), np.nan)
         if area_px.size:
-            disc_m2 = np.where((taken >= 0) & (tilt < _FLAT_RAD), area_px[taken] / facing_m2, np.nan)
+            disc_m2 = np.where(
+                (taken >= 0) & (tilt < self._settings.fingers.flat_rad), area_px[taken] / facing_m2, np.nan
+            )
         return FingerTrial(seat, scene, named, disc_m2, {})
 
     def start(self, timestamp_s: float, is_lost: bool) -> FingerStart:
@@ -272,34 +301,27 @@ class Fingers:
         self._unseen_s = np.where(shown, 0.0, self._unseen_s + dt_s)
         count = np.count_nonzero(is_named, axis=1)
         self._missing = np.where(count < LEAST_DISCS, self._missing + 1, 0)
-        self._watch_noise(named, dt_s)
-        self._learn_sizes(trial.disc_m2)
-        after = named.update.beliefs
+        residual, measured = (values.reshape(RAYS, DISCS, 3) for values in (named.update.residual, named.measured))
+        factor = self._noise_factor.reshape(RAYS, DISCS, 3)
+        watched = watched_factor(factor, residual, np.isfinite(measured), dt_s, self._settings.noise)
+        self._noise_factor = watched.reshape(RAYS, 3 * DISCS)
+        self._disc_m2 = learnt_sizes(self._disc_m2, trial.disc_m2, self._settings.fingers)
+        after = named.update.bank
         merged = after.merged()
         kept = constrained(after, merged[0][:, :SLOTS])
         self._take(kept, merged if kept is after else kept.merged())
         self._palm = trial.seat.palm
         begins, self._begins = self._begins, False
-        return FingerStep(timestamp_s, named.measured, named.variance, is_named, trial.postures, begins)
-
-    def _learn_sizes(self, seen_m2: FloatArray) -> None:
-        """How large each disc is: quick to grow, slow to shrink, as a disc may be half hidden but never too large."""
-        weight = np.where(seen_m2 > self._disc_m2, _GROWING, _SHRINKING)
-        known = np.isfinite(seen_m2)
-        learnt = np.where(np.isnan(self._disc_m2), seen_m2, self._disc_m2 + weight * (seen_m2 - self._disc_m2))
-        self._disc_m2 = np.where(known, learnt, self._disc_m2)
-
-    def _watch_noise(self, named: NamedFingers, dt_s: float) -> None:
-        """Let each disc's noise follow its residuals, as the palm's does."""
-        noise = self._settings.noise
-        used = np.isfinite(named.measured)
-        weight = 1.0 - np.exp(-dt_s / noise.adapt_s)
-        squared = np.where(used, np.minimum(named.update.residual**2, noise.most_adapted), 1.0)
-        squared = squared.reshape(RAYS, DISCS, 3)
-        squared[..., :2] = squared[..., :2].mean(axis=-1, keepdims=True)
-        grown = self._noise_factor * (1.0 + weight * (squared.reshape(RAYS, 9) - 1.0))
-        self._noise_factor = np.where(used, np.clip(grown, noise.least_adapted, noise.most_adapted), self._noise_factor)
+        return FingerStep(timestamp_s, named.measured, named.variance, is_named, trial.postures, begins, trial.bends)
 
     def read(self, trial: FingerTrial) -> JointMoment:
         """The joints after that trial was accepted."""
         return self.model.read(self._mean, self._covariance, trial.seat, trial.scene.line)
+
+
+def learnt_sizes(known_m2: FloatArray, seen_m2: FloatArray, own: FingerSettings) -> FloatArray:
+    """How large each disc is, after one more picture, NaN where not known: quick to grow, slow to shrink, as a disc may
+    be half hidden but never too large."""
+    weight = np.where(seen_m2 > known_m2, own.size_grows, own.size_shrinks)
+    learnt = np.where(np.isnan(known_m2), seen_m2, known_m2 + weight * (seen_m2 - known_m2))
+    return np.where(np.isfinite(seen_m2), learnt, known_m2)

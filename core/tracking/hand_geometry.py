@@ -14,10 +14,10 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from core import so3
-from core.hand.kinematics import DIP_PER_PIP
-from core.hand.protocols import HAND21, HAND21_CHAINS, joint_angle_names
-from core.types import FloatArray, Side
+from carpus.core import so3
+from carpus.core.hand.kinematics import DIP_PER_PIP
+from carpus.core.hand.protocols import HAND21, HAND21_CHAINS, joint_angle_names
+from carpus.core.types import FloatArray, Side
 
 RAYS, SLOTS, CONSTANTS = 5, 5, 11
 DISCS = 3
@@ -31,11 +31,8 @@ _FIRST_DISC = np.array([[0, 0, 1, 1, 2], *([0, 0, 1, 2, 3],) * 4])
 SHOWS = np.arange(DISCS) >= _FIRST_DISC[..., None]
 """(5, 5, 3) whether a disc moves with a slot."""
 
-CROWDED_SD_PX = 0.5
-"""How far the centre of a disc strays that nearly touches its neighbour on the finger: their edges blur into one."""
-_CROWDED = 2.4
-"""Radii between the middles of two discs below which they crowd each other."""
-
+NO_CUP = np.zeros(RAYS)
+"""No metacarpal has flexed."""
 _DOWN = np.array([1.0, 1.0, -1.0])
 _AXES = np.arange(3)
 _DISC = np.arange(DISCS)
@@ -137,10 +134,10 @@ def _thumb_arc(state: FloatArray, turn: NDArray[np.complex128]) -> tuple[FloatAr
     return raised.real, over.imag, raised.imag
 
 
-def is_crowded(pixel: FloatArray, radius_px: FloatArray) -> NDArray[np.bool_]:
+def is_crowded(pixel: FloatArray, radius_px: FloatArray, radii: float) -> NDArray[np.bool_]:
     """Which discs of each ray (5, 3) nearly touch the one before or after, from their middles (5, 3, 2) and the radius
-    (5, 3) of a large disc there."""
-    near = ((pixel[:, 1:] - pixel[:, :-1]) ** 2).sum(axis=-1) < (_CROWDED * radius_px[:, 1:]) ** 2
+    (5, 3) of a large disc there: nearer than so many ``radii``, their edges blur into one."""
+    near = ((pixel[:, 1:] - pixel[:, :-1]) ** 2).sum(axis=-1) < (radii * radius_px[:, 1:]) ** 2
     out = np.zeros(radius_px.shape, dtype=bool)
     out[:, 1:], out[:, :-1] = near, near
     out[:, 1] |= near[:, 0]
@@ -218,19 +215,28 @@ class PalmInBody:
     """The palm as refined so far, in the axes of the tracked body (W0 as calibrated).
 
     ``axes`` (3, 3) maps W of a right hand into the body: for a left hand it mirrors; ``origin_m`` (3,) the WRIST disc
-    in the body; ``disc_m`` (6, 3) the palm's discs in W of a right hand.
+    in the body; ``disc_m`` (6, 3) the palm's discs in W of a right hand, those of ring and little finger as their
+    metacarpals carry them. ``cup_rad`` (5,) by how much each ray's metacarpal has flexed, ``cup_sd_rad`` (5,).
     """
 
     axes: FloatArray
     origin_m: FloatArray
     disc_m: FloatArray
+    cup_rad: FloatArray
+    cup_sd_rad: FloatArray
 
     @staticmethod
-    def of(palm_body_m: FloatArray, axes: FloatArray, side: Side) -> PalmInBody:
+    def of(
+        palm_body_m: FloatArray,
+        axes: FloatArray,
+        side: Side,
+        cup_rad: FloatArray = NO_CUP,
+        cup_sd_rad: FloatArray = NO_CUP,
+    ) -> PalmInBody:
         """From the palm's discs (6, 3) and the axes (3, 3) of W as columns, both in the body."""
         if side == "left":
             axes = axes * np.array([1.0, -1.0, 1.0])
-        return PalmInBody(axes, palm_body_m[0], (palm_body_m - palm_body_m[0]) @ axes)
+        return PalmInBody(axes, palm_body_m[0], (palm_body_m - palm_body_m[0]) @ axes, cup_rad, cup_sd_rad)
 
 
 @dataclass(frozen=True, slots=True)

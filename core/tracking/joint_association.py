@@ -14,8 +14,8 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.special import gammaincinv
 
-from core.tracking.association import AssociationSettings
-from core.types import FloatArray
+from carpus.core.tracking.association import AssociationSettings
+from carpus.core.types import FloatArray
 
 BEAM = 10
 CONSISTENT = 0.9995

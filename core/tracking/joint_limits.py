@@ -13,11 +13,11 @@ import math
 import numpy as np
 from scipy.special import erfcx
 
-from core.hand.anatomy import ABDUCTION_LIMIT_RAD, HARD_LIMITS_RAD
-from core.hand.kinematics import DIP_PER_PIP
-from core.tracking.hand_geometry import RAYS, SLOTS
-from core.tracking.ray_filter import RayBeliefs
-from core.types import FloatArray
+from carpus.core.hand.anatomy import ABDUCTION_LIMIT_RAD, HARD_LIMITS_RAD
+from carpus.core.hand.kinematics import DIP_PER_PIP
+from carpus.core.tracking.hand_geometry import RAYS, SLOTS
+from carpus.core.tracking.kernel import Bank
+from carpus.core.types import FloatArray
 
 SOFT_RAD = math.radians(3.0)
 _NEAR_SD = 3.0
@@ -67,7 +67,7 @@ def _softened(mean: FloatArray, variance: FloatArray, edge: FloatArray) -> tuple
     return shifted, variance - variance**2 * ratio * (z + ratio) / total
 
 
-def constrained(beliefs: RayBeliefs, slots: FloatArray) -> RayBeliefs:
+def constrained(beliefs: Bank, slots: FloatArray) -> Bank:
     """Beliefs with the limits taken into account; ``slots`` (5, 5) the merged joints, for the abduction's limit.
 
     Each angle's pull is found by itself, then all pulls of a ray act together, as measurements with independent
@@ -95,4 +95,4 @@ def constrained(beliefs: RayBeliefs, slots: FloatArray) -> RayBeliefs:
     mean, covariance = beliefs.mean.copy(), beliefs.covariance.copy()
     mean[ray] += (gain @ pull[..., None])[..., 0]
     covariance[ray] -= (gain * precision[..., None, :]) @ np.swapaxes(across[ray], -1, -2)
-    return RayBeliefs(mean, covariance, beliefs.probability)
+    return Bank(mean, covariance, beliefs.probability)

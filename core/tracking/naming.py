@@ -7,13 +7,13 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from core.depth_noise import pattern_sd_m, reading_sd_m
-from core.tracking import association
-from core.tracking.joint_association import JointAssociation, associate_jointly, holds_together
-from core.tracking.measurement import Forecast, update
-from core.tracking.modes import ModeBank, reweighed
-from core.tracking.settings import MeasurementNoise, TrackerSettings
-from core.types import Detections, FloatArray
+from carpus.core.depth_noise import pattern_sd_m, reading_sd_m
+from carpus.core.tracking import association
+from carpus.core.tracking.joint_association import JointAssociation, associate_jointly, holds_together
+from carpus.core.tracking.kernel import Bank, corrected
+from carpus.core.tracking.palm_view import Forecast
+from carpus.core.tracking.settings import MeasurementNoise, TrackerSettings
+from carpus.core.types import Detections, FloatArray
 
 LEAST_COMPANY = 3
 """So many discs at their depth bear out another whose depth is something else's."""
@@ -34,16 +34,16 @@ class Measurable:
 class Corrected:
     """All modes corrected by the blobs as named.
 
-    ``taken`` (M,) blob of every marker or -1; ``nis`` over all modes with ``dof``; ``rows`` (m,) the measured
-    components of the 3M and their ``residual`` (m,) in standard deviations, ``raw_residual`` (m,) before the
-    worst were given more noise.
+    ``taken`` (M,) blob of every marker or -1; ``nis`` over all modes with ``dof``; ``measured`` (M, 3) whether each
+    component was, and its ``residual`` (M, 3) in standard deviations, ``raw_residual`` (M, 3) before the worst were
+    given more noise; both 0 where nothing was measured.
     """
 
-    bank: ModeBank
+    bank: Bank
     taken: NDArray[np.int64]
     nis: float
     dof: int
-    rows: NDArray[np.int64]
+    measured: NDArray[np.bool_]
     residual: FloatArray
     raw_residual: FloatArray
 
@@ -83,23 +83,16 @@ def correct(
     used = np.empty((taken.size, 3), dtype=bool)
     used[:] = (taken >= 0)[:, None]
     used[:, 2] &= with_depth
-    rows = np.flatnonzero(used)
-    if rows.size == 0:
-        zero = np.empty(0)
-        return Corrected(forecast.bank, taken, float("nan"), 0, rows, zero, zero)
-    variance = (blobs.variance.take(taken, 0) * noise_factor).take(rows)
-    bank, innovation = update(forecast, rows, blobs.value.take(taken, 0).take(rows), variance)
-    probability = reweighed(bank.probability, innovation.log_likelihood)
-    residual = probability @ innovation.residual
-    return Corrected(
-        ModeBank(bank.nominal, bank.error, bank.covariance, probability),
-        taken,
-        float(probability @ innovation.nis),
-        innovation.dof,
-        rows,
-        residual,
-        residual,
+    if not used.any():
+        nothing = np.zeros(used.shape)
+        return Corrected(forecast.bank, taken, float("nan"), 0, used, nothing, nothing)
+    value = np.where(used, blobs.value.take(taken, 0), np.nan)
+    variance = blobs.variance.take(taken, 0) * noise_factor
+    update = corrected(
+        forecast.bank, forecast.line, value.reshape(1, -1), variance.reshape(1, -1), shares=forecast.shares
     )
+    residual = update.residual.reshape(used.shape)
+    return Corrected(update.bank, taken, float(update.nis[0]), int(update.dof[0]), used, residual, residual)
 
 
 def name_and_correct(
@@ -115,7 +108,7 @@ def name_and_correct(
     Holding together: the joint NIS is credible, and ``enough`` markers are named unless no blob is left that could
     be one.
     """
-    mean, covariance = forecast.by_marker()
+    mean, covariance = forecast.own_mean, forecast.own_covariance
     markers = len(mean)
     if not len(blobs):
         nothing = np.full(markers, -1, dtype=np.int64)
@@ -173,14 +166,14 @@ def _by_any_mode(
             settings.noise.depth_outlier,
             settings.association,
         )
-        for mean, covariance in zip(forecast.marker_mean, forecast.marker_covariance, strict=True)
+        for mean, covariance in zip(*forecast.by_mode(), strict=True)
     ]
-    score = [one.log_posterior for one in every] + np.log(forecast.bank.probability)
+    score = [one.log_posterior for one in every] + np.log(forecast.bank.probability[0])
     return every[int(np.argmax(score))]
 
 
 def _without_outliers(
-    corrected: Corrected,
+    named: Corrected,
     forecast: Forecast,
     blobs: Measurable,
     with_depth: NDArray[np.bool_],
@@ -193,17 +186,12 @@ def _without_outliers(
     """
     factor = noise_factor
     for _ in range(noise.most_outliers):
-        if not corrected.rows.size:
-            break
-        worst = int(np.abs(corrected.residual).argmax())
-        size = abs(float(corrected.residual[worst]))
+        marker, axis = divmod(int(np.abs(named.residual).argmax()), 3)
+        size = abs(float(named.residual[marker, axis]))
         if size <= noise.outlier_sd:
             break
-        marker, axis = divmod(int(corrected.rows[worst]), 3)
         factor = factor.copy()
         factor[marker, 2:] *= size**2 if axis == 2 else 1.0
         factor[marker, :2] *= 1.0 if axis == 2 else size**2
-        corrected = replace(
-            correct(forecast, blobs, corrected.taken, with_depth, factor), raw_residual=corrected.raw_residual
-        )
-    return corrected
+        named = replace(correct(forecast, blobs, named.taken, with_depth, factor), raw_residual=named.raw_residual)
+    return named

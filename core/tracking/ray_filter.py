@@ -13,10 +13,9 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
-from core.camera import Camera
-from core.tracking.hand_geometry import (
+from carpus.core.camera import Camera
+from carpus.core.tracking.hand_geometry import (
     CONSTANTS,
     DISCS,
     RAYS,
@@ -26,97 +25,26 @@ from core.tracking.hand_geometry import (
     ray_joints_m,
     slope_by_constants,
 )
-from core.tracking.unscented import Spread, weights_for
-from core.types import FloatArray
+from carpus.core.tracking.kernel import Bank, Line, predicted
+from carpus.core.tracking.unscented import Spread, weights_for
+from carpus.core.types import FloatArray
 
 PINNINGS = 2
 """How often the line of a ray found far from where it was expected is drawn again about what its discs say."""
 _FLOOR = 1e-14
-_SEEN = {
-    False: np.arange(SLOTS + CONSTANTS),
-    True: np.concatenate((np.arange(SLOTS), np.arange(2 * SLOTS, 2 * SLOTS + CONSTANTS))),
-}
 _SLOT = np.arange(SLOTS)
 _ROLL = 4
 _BENT = np.arange(SLOTS + 1)
 _OTHER_CONSTANT = np.delete(np.arange(CONSTANTS), _ROLL)
 _BENT_STATE, _OTHER_STATE = np.append(_SLOT, SLOTS + _ROLL), SLOTS + _OTHER_CONSTANT
 
-_BENT_OF = {has_rates: np.asarray(seen[_BENT_STATE]) for has_rates, seen in _SEEN.items()}
-_OTHER_OF = {has_rates: np.asarray(seen[_OTHER_STATE]) for has_rates, seen in _SEEN.items()}
-
-
-@dataclass(frozen=True, slots=True)
-class RayLayout:
-    """Where joints, their rates (constant-rate model only) and constants stand in a ray's state."""
-
-    has_rates: bool
-
-    @property
-    def joints(self) -> slice:
-        return slice(0, SLOTS)
-
-    @property
-    def rates(self) -> slice:
-        return slice(SLOTS, 2 * SLOTS if self.has_rates else SLOTS)
-
-    @property
-    def constants(self) -> slice:
-        return slice(self.rates.stop, self.rates.stop + CONSTANTS)
-
-    @property
-    def size(self) -> int:
-        return int(self.constants.stop)
-
-    @property
-    def seen(self) -> NDArray[np.int64]:
-        """States on which the discs depend: joints and constants."""
-        return _SEEN[self.has_rates]
-
-    @property
-    def bent(self) -> NDArray[np.int64]:
-        """Joints and roll, in which the discs' places bend."""
-        return _BENT_OF[self.has_rates]
-
-    @property
-    def other(self) -> NDArray[np.int64]:
-        """The constants but for the roll."""
-        return _OTHER_OF[self.has_rates]
-
-
-@dataclass(frozen=True, slots=True)
-class RayBeliefs:
-    """Gaussians: ``mean`` (5, K, n), ``covariance`` (5, K, n, n), mode ``probability`` (5, K)."""
-
-    mean: FloatArray
-    covariance: FloatArray
-    probability: FloatArray
-
-    def merged(self) -> tuple[FloatArray, FloatArray]:
-        """Mean (5, n) and covariance (5, n, n) over the modes."""
-        if self.probability.shape[1] == 1:
-            return self.mean[:, 0], self.covariance[:, 0]
-        share = self.probability[:, None]
-        mean = (share @ self.mean)[:, 0]
-        apart = self.mean - mean[:, None]
-        n = mean.shape[-1]
-        inner = (share @ self.covariance.reshape(RAYS, -1, n * n)).reshape(RAYS, n, n)
-        return mean, inner + np.swapaxes(apart, 1, 2) @ (apart * self.probability[..., None])
-
-
-def mixed(beliefs: RayBeliefs, switch: FloatArray) -> RayBeliefs:
-    """Each mode's start from all modes (interacting multiple model); ``switch`` (K, K) from row to column."""
-    if switch.shape[0] == 1:
-        return beliefs
-    joint = switch * beliefs.probability[:, :, None]
-    predicted = joint.sum(axis=1)
-    share = np.swapaxes(joint / predicted[:, None, :], 1, 2)  # (5, to, from)
-    mean = share @ beliefs.mean
-    apart = beliefs.mean[:, None, :, :] - mean[:, :, None, :]  # (5, to, from, n)
-    n = mean.shape[-1]
-    inner = (share @ beliefs.covariance.reshape(RAYS, -1, n * n)).reshape(*mean.shape, n)
-    between = np.swapaxes(apart, -1, -2) @ (apart * share[..., None])
-    return RayBeliefs(mean, inner + between, predicted)
+JOINTS, RATES = slice(0, SLOTS), slice(SLOTS, 2 * SLOTS)
+ANATOMY = slice(RATES.stop, RATES.stop + CONSTANTS)
+"""Where joints, their rates and the constants of the anatomy stand in a ray's state."""
+RAY_SIZE = ANATOMY.stop
+SEEN = np.r_[JOINTS, ANATOMY]
+"""States on which the discs depend."""
+_BENT_AT, _OTHER_AT = SEEN[_BENT_STATE], SEEN[_OTHER_STATE]
 
 
 @dataclass(frozen=True, slots=True)
@@ -130,14 +58,18 @@ class Forgetting:
 
 
 class RayMotion:
-    """How the rays may move between two frames: constant rates or, as in the papers, random walks.
+    """How the rays may move between two frames: constant rates, pushed by white accelerations.
 
-    ``density`` (5, 5) by ray and slot: variance per second of the rate (constant rate) or of the angle (random walk);
-    ``scales`` (K,) of its root by mode; ``drift`` (5, 11) variance per second of the constants, skin over bone.
+    ``density`` (5, 5) by ray and slot: variance per second of the rate; ``scales`` (K,) of its root by mode; ``drift``
+    (5, 11) variance per second of the constants, skin over bone. Slots with a ``settled2`` (5, 5), their variance in
+    the long run, have no rate: they return to zero within ``settles_s``.
     """
 
-    def __init__(self, density: FloatArray, scales: FloatArray, drift: FloatArray, layout: RayLayout) -> None:
-        self._density, self._scales, self._drift, self._layout = density, scales, drift, layout
+    def __init__(
+        self, density: FloatArray, scales: FloatArray, drift: FloatArray, settled2: FloatArray, settles_s: float
+    ) -> None:
+        self._density, self._scales, self._drift = density, scales, drift
+        self._settled2, self._settles_s = settled2, settles_s
         self._dt_s = math.nan
         self._forward = self._noise = self._modes = drift
 
@@ -145,54 +77,51 @@ class RayMotion:
         """Transition (n, n) and noise of a step; frames come evenly, so the last ones mostly serve again."""
         if self._dt_s == dt_s:
             return
-        layout, density = self._layout, self._density
-        forward = np.eye(layout.size)
-        noise = np.zeros((2, RAYS, layout.size, layout.size))
+        density = self._density
+        forward = np.repeat(np.eye(RAY_SIZE)[None], RAYS, axis=0)
+        noise = np.zeros((2, RAYS, RAY_SIZE, RAY_SIZE))
         angle, rate = _SLOT, SLOTS + _SLOT
-        if layout.has_rates:
-            forward[angle, rate] = dt_s
-            noise[0][:, angle, angle] = density * (dt_s**3 / 3.0)
-            noise[0][:, angle, rate] = noise[0][:, rate, angle] = density * (0.5 * dt_s**2)
-            noise[0][:, rate, rate] = density * dt_s
-        else:
-            noise[0][:, angle, angle] = density * dt_s
-        constant = np.arange(layout.constants.start, layout.constants.stop)
+        forward[:, angle, rate] = dt_s
+        settles = self._settled2 > 0.0
+        keep = np.where(settles, math.exp(-dt_s / self._settles_s), 1.0)
+        forward[:, angle, angle] = keep
+        noise[0][:, angle, angle] = density * (dt_s**3 / 3.0)
+        noise[0][:, angle, rate] = noise[0][:, rate, angle] = density * (0.5 * dt_s**2)
+        noise[0][:, rate, rate] = density * dt_s
+        constant = np.arange(ANATOMY.start, ANATOMY.stop)
         noise[1][:, constant, constant] = self._drift * dt_s
+        noise[1][:, angle, angle] = self._settled2 * (1.0 - keep**2)
         self._forward, self._noise = forward, noise
         self._modes = noise[0][:, None] * (self._scales**2)[:, None, None] + noise[1][:, None]
         self._dt_s = dt_s
 
-    def predicted(self, beliefs: RayBeliefs, dt_s: float, forgetting: Forgetting | None) -> RayBeliefs:
+    def predicted(self, beliefs: Bank, dt_s: float, forgetting: Forgetting | None) -> Bank:
         """The beliefs ``dt_s`` later."""
         self._set_step(dt_s)
-        forward = self._forward if forgetting is None else self._fading(forgetting)[:, None]
-        mean = (forward @ beliefs.mean[..., None])[..., 0]
-        covariance = forward @ beliefs.covariance @ np.swapaxes(forward, -1, -2)
-        covariance += self._modes
-        if forgetting is not None:
-            self._spread(covariance, forgetting)
-        return RayBeliefs(mean, covariance, beliefs.probability)
+        if forgetting is None:
+            return predicted(beliefs, self._forward, self._modes)
+        noise = self._modes.copy()
+        self._spread(noise, forgetting)
+        return predicted(beliefs, self._fading(forgetting), noise)
 
     def step(self, dt_s: float, scale: FloatArray, forgetting: Forgetting | None) -> tuple[FloatArray, FloatArray]:
         """Transition and noise (5, n, n) of a step with the noise's root scaled by ``scale`` (5,)."""
         self._set_step(dt_s)
-        forward = np.repeat(self._forward[None], RAYS, axis=0) if forgetting is None else self._fading(forgetting)
+        forward = self._forward.copy() if forgetting is None else self._fading(forgetting)
         noise = self._noise[0] * (scale**2)[:, None, None] + self._noise[1]
         if forgetting is not None:
             self._spread(noise[:, None], forgetting)
         return forward, noise
 
     def _fading(self, forgetting: Forgetting) -> FloatArray:
-        forward = np.repeat(self._forward[None], RAYS, axis=0)
-        if self._layout.has_rates:
-            forward[:, SLOTS + _SLOT, SLOTS + _SLOT] = forgetting.keep_rate
-            forward[:, _SLOT, SLOTS + _SLOT] = forgetting.keep_rate * self._dt_s
+        forward = self._forward.copy()
+        forward[:, SLOTS + _SLOT, SLOTS + _SLOT] = forgetting.keep_rate
+        forward[:, _SLOT, SLOTS + _SLOT] = forgetting.keep_rate * self._dt_s
         return forward
 
     def _spread(self, covariance: FloatArray, forgetting: Forgetting) -> None:
         covariance[..., _SLOT, _SLOT] += forgetting.angle2[:, None]
-        if self._layout.has_rates:
-            covariance[..., SLOTS + _SLOT, SLOTS + _SLOT] += forgetting.rate2[:, None]
+        covariance[..., SLOTS + _SLOT, SLOTS + _SLOT] += forgetting.rate2[:, None]
 
 
 @dataclass(frozen=True, slots=True)
@@ -215,18 +144,16 @@ class RayPoints:
     covariance: FloatArray
 
 
-def spread_points(
-    mean: FloatArray, covariance: FloatArray, root_disc_m: FloatArray, layout: RayLayout, spread: Spread
-) -> RayPoints:
+def spread_points(mean: FloatArray, covariance: FloatArray, root_disc_m: FloatArray, spread: Spread) -> RayPoints:
     """Sigma points of states (5, n) with covariances (5, n, n); ``root_disc_m`` (5, 3) discs under which rays begin."""
-    bent, other = layout.bent, layout.other
+    bent, other = _BENT_AT, _OTHER_AT
     block = covariance[:, bent[:, None], bent]
     block[:, _BENT, _BENT] += _FLOOR
     root = np.asarray(np.linalg.cholesky(block), dtype=np.float64)
     unroot = np.asarray(np.linalg.inv(root), dtype=np.float64)
     along = unroot @ covariance[:, bent[:, None], other]
     scale = weights_for(_BENT.size, spread).scale
-    point = np.repeat(mean[:, None, layout.seen], 2 * _BENT.size + 1, axis=1)
+    point = np.repeat(mean[:, None, SEEN], 2 * _BENT.size + 1, axis=1)
     step = np.empty((RAYS, _BENT.size, SLOTS + CONSTANTS))
     step[..., _BENT_STATE], step[..., _OTHER_STATE] = np.swapaxes(root, 1, 2) * scale, along * scale
     point[:, 1 : _BENT.size + 1] += step
@@ -269,24 +196,19 @@ class RayView:
 
 
 @dataclass(frozen=True, slots=True)
-class RayForecast:
-    """What the camera should see, linearised statistically: y = ``value`` + ``slope`` (x - ``about``) + error.
+class RayForecast(Line):
+    """What the camera should see: the line of u, v, z of the three discs in turn, (5, 9).
 
-    ``value`` (5, 9) u, v, z of the three discs in turn; ``slope`` (5, 9, n); ``error`` (5, 9, 9) covariance of what
-    the line misses; ``about`` (5, n); ``spread`` (5, 9, 9) covariance of the images, both parts together.
-    ``centre_m`` (5, 3, 3) the discs in camera axes; ``by_place`` (5, 3, 3, 3) derivative of the images by that.
+    ``spread`` (5, 9, 9) covariance of the images, slope and error together. ``centre_m`` (5, 3, 3) the discs in camera
+    axes; ``by_place`` (5, 3, 3, 3) derivative of the images by that.
     """
 
-    value: FloatArray
-    slope: FloatArray
-    error: FloatArray
-    about: FloatArray
     spread: FloatArray
     centre_m: FloatArray
     by_place: FloatArray
 
 
-def forecast(points: RayPoints, view: RayView, layout: RayLayout, spread: Spread) -> RayForecast:
+def forecast(points: RayPoints, view: RayView, spread: Spread) -> RayForecast:
     """Statistical linear regression of the discs' images on the joints, and their slope by the constants."""
     count = _BENT.size
     weights = weights_for(count, spread)
@@ -302,76 +224,9 @@ def forecast(points: RayPoints, view: RayView, layout: RayLayout, spread: Spread
     by_place = view.slope(image[:, 0].reshape(RAYS, DISCS, 3))
     by_constants = ((by_place @ view.rotation) @ points.by_constants).reshape(RAYS, 3 * DISCS, -1)
     own = half - points.along @ np.swapaxes(by_constants, 1, 2)
-    slope = np.zeros((RAYS, 3 * DISCS, layout.size))
-    slope[:, :, layout.bent] = np.swapaxes(own, 1, 2) @ points.unroot
-    slope[:, :, layout.other] = by_constants
+    slope = np.zeros((RAYS, 3 * DISCS, RAY_SIZE))
+    slope[:, :, _BENT_AT] = np.swapaxes(own, 1, 2) @ points.unroot
+    slope[:, :, _OTHER_AT] = by_constants
     spread_out = slope @ points.covariance @ np.swapaxes(slope, 1, 2) + error
     centre = points.disc_m[:, 0] @ view.rotation.T + view.translation_m
     return RayForecast(value, slope, error, points.mean, spread_out, centre, by_place)
-
-
-@dataclass(frozen=True, slots=True)
-class RayUpdate:
-    """Corrected beliefs, ``nis`` (5,) with ``dof`` (5,) components, ``residual`` (5, 9) of each component in its own
-    standard deviations (0 where nothing was measured)."""
-
-    beliefs: RayBeliefs
-    nis: FloatArray
-    dof: NDArray[np.int64]
-    residual: FloatArray
-
-
-def learning_shares(layout: RayLayout, learning: float) -> tuple[FloatArray, FloatArray]:
-    """Shares of a correction that the mean (n,) and the covariance (n, n) take, the constants only ``learning``.
-
-    Partial-update Schmidt-Kalman filter (Brink 2017): errors that stay with a disc come again in every picture, and
-    believed in full they would bend the anatomy until it explains them.
-    """
-    mean = np.ones(layout.size)
-    mean[layout.constants] = learning
-    covariance = mean[:, None] + mean - mean[:, None] * mean
-    return mean, covariance
-
-
-def corrected(
-    beliefs: RayBeliefs,
-    line: RayForecast,
-    measured: FloatArray,
-    variance: FloatArray,
-    palm_part: FloatArray,
-    shares: tuple[FloatArray, FloatArray],
-) -> RayUpdate:
-    """Kalman correction of every ray and mode by ``measured`` (5, 9), NaN where there is nothing, of ``variance``
-    (5, 9); ``palm_part`` (5, 9, 9) covariance that the palm's error gives them; ``shares`` of :func:`learning_shares`.
-
-    That error is taken as new in every frame; what of it stays is added when the joints are read.
-    """
-    used = np.isfinite(measured)
-    unit = np.where(used, 1.0 / np.sqrt(np.where(used, variance, 1.0)), 0.0)
-    slope = line.slope * unit[..., None]
-    own = (line.error + palm_part) * (unit[:, :, None] * unit[:, None, :])
-    diagonal = np.arange(3 * DISCS)
-    own[:, diagonal, diagonal] += 1.0
-    guess = (slope[:, None] @ (beliefs.mean - line.about[:, None])[..., None])[..., 0]
-    value = (np.where(used, measured - line.value, 0.0) * unit)[:, None] - guess
-    cross = slope[:, None] @ beliefs.covariance  # (5, K, 9, n)
-    s = cross @ np.swapaxes(slope, 1, 2)[:, None] + own[:, None]
-    inverse = np.linalg.inv(s)
-    gain_t = inverse @ cross
-    mean = beliefs.mean + (value[..., None, :] @ gain_t)[..., 0, :] * shares[0]
-    covariance = beliefs.covariance - (np.swapaxes(gain_t, -1, -2) @ cross) * shares[1]
-    covariance = 0.5 * (covariance + np.swapaxes(covariance, -1, -2))
-    surprise = (inverse @ value[..., None])[..., 0]
-    nis = np.sum(value * surprise, axis=-1)
-    log_likelihood = -0.5 * (nis + np.linalg.slogdet(s)[1])
-    log_weight = np.log(beliefs.probability) + log_likelihood
-    weight = np.exp(log_weight - log_weight.max(axis=1, keepdims=True))
-    weight = np.maximum(weight / weight.sum(axis=1, keepdims=True), 1e-6)
-    weight = weight / weight.sum(axis=1, keepdims=True)
-    residual = surprise / np.sqrt(np.diagonal(inverse, axis1=-2, axis2=-1))
-    return RayUpdate(
-        RayBeliefs(mean, covariance, weight),
-        np.sum(weight * nis, axis=1),
-        used.sum(axis=1),
-        np.where(used, np.sum(weight[..., None] * residual, axis=1), 0.0),
-    )

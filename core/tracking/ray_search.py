@@ -8,8 +8,8 @@ from itertools import product
 import numpy as np
 from numpy.typing import NDArray
 
-from core.tracking.hand_geometry import DISCS, RAYS, SLOTS, ray_discs_m
-from core.types import FloatArray
+from carpus.core.tracking.hand_geometry import DISCS, RAYS, SLOTS, ray_discs_m
+from carpus.core.types import FloatArray
 
 NEAR_M = 0.012
 """How far from a posture of the grid a disc may lie: half a step of it and the noise of a depth."""

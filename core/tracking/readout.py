@@ -11,36 +11,41 @@ from dataclasses import replace
 
 import numpy as np
 
-from core import so3
-from core.calibration.result import Calibration
-from core.hand import clinical_angles
-from core.hand.wrist_frame import wrist_axes_sensitivity
-from core.tracking.hand_geometry import JointMoment, PalmInBody
-from core.tracking.state import Belief, StateLayout
-from core.types import Detections, FloatArray, Moment, TrackedFrame, TrackStatus
+from carpus.core import so3
+from carpus.core.calibration.result import Calibration
+from carpus.core.hand import clinical_angles
+from carpus.core.hand.wrist_frame import wrist_axes_sensitivity
+from carpus.core.tracking.hand_geometry import NO_CUP, JointMoment, PalmInBody
+from carpus.core.tracking.palm_state import SHAPE, SIZE, SKIN, TURN, PalmBelief
+from carpus.core.tracking.soft_tissue import LOOSE
+from carpus.core.types import BoolArray, Detections, FloatArray, Moment, TrackedFrame, TrackStatus
 
 _NONE = np.empty(0)
 _NOWHERE = np.empty((0, 3))
 _IDENTITY = np.eye(3)
 _AXES = np.arange(3)
 _DORSAL = np.array([0.0, 0.0, 1.0])
+_READ = slice(TURN.start, SHAPE.stop)
+_SHAPE_SIZE = SHAPE.stop - SHAPE.start
 _SHAPE_MOVED_M = 3e-4
 """The axes are computed anew when a disc's refined place has moved by this much; before, to first order."""
+
+
+METACARPAL_M = 0.055
+"""From the joint at its base to its head, of ring and little finger (clinical reference 3.3)."""
 
 
 class Readout:
     """Reads beliefs of one calibrated palm; remembers only the axes of the last shape."""
 
-    def __init__(self, calibration: Calibration, layout: StateLayout) -> None:
-        self._layout = layout
+    def __init__(self, calibration: Calibration) -> None:
         self._side = calibration.clicks.side
         self._disc_m = calibration.marker_position_w0_m
         self._start = clinical_angles.rotation_from_angles(calibration.start_angles_rad, self._side)
         self._has_start = bool(np.any(calibration.start_angles_rad))
-        self._axes_shape = np.full(layout.shape_count, np.nan)
+        self._axes_shape = np.full(_SHAPE_SIZE, np.nan)
         self._axes = np.eye(3)
-        self._sensitivity = np.zeros((3, 18))
-        self._unrefined_turn = _neutral_turn_covariance(calibration)
+        self._sensitivity = np.zeros((3, _SHAPE_SIZE))
 
     def _axes_of(self, shape: FloatArray) -> tuple[FloatArray, FloatArray]:
         moved_m = shape - self._axes_shape
@@ -50,87 +55,75 @@ class Readout:
             return self._axes, self._sensitivity
         return self._axes @ so3.exp(self._sensitivity @ moved_m), self._sensitivity
 
-    def palm(self, belief: Belief) -> tuple[PalmInBody, FloatArray]:
+    def palm(self, belief: PalmBelief) -> tuple[PalmInBody, FloatArray]:
         """The palm as refined, for the fingers, and the covariance (3, 3) of its axes' turn, in the body."""
-        layout, p = self._layout, belief.covariance
-        discs = self._disc_m
-        if layout.shape_count:
-            axes, sensitivity = self._axes_of(belief.shape)
-            discs = discs + belief.shape.reshape(-1, 3)
-            error = np.zeros((3, layout.size))
-            error[_AXES, layout.turn.start + _AXES] = 1.0
-            error[:, layout.shape] = axes @ sensitivity
-            covariance = error @ p @ error.T
-        else:
-            axes = np.eye(3)
-            covariance = p[layout.turn, layout.turn] + self._unrefined_turn
-        return PalmInBody.of(discs, axes, self._side), covariance
+        axes, sensitivity = self._axes_of(belief.value[SHAPE])
+        error = np.zeros((3, SIZE))
+        error[_AXES, TURN.start + _AXES] = 1.0
+        error[:, SHAPE] = axes @ sensitivity
+        disc_m = self._disc_m + belief.shape_m
+        # Ring and little metacarpal flex and take their fingers along; what else a disc moves is skin.
+        disc_m[LOOSE, 1:] += belief.skin_m[LOOSE, 1:]
+        cup, cup_sd = NO_CUP.copy(), NO_CUP.copy()
+        cup[-2:] = -belief.skin_m[LOOSE, 2] / METACARPAL_M
+        down = SKIN.start + 3 * LOOSE + 2
+        cup_sd[-2:] = np.sqrt(belief.covariance[down, down]) / METACARPAL_M
+        palm = PalmInBody.of(disc_m, axes, self._side, cup, cup_sd)
+        return palm, error @ belief.covariance @ error.T
 
-    def moment(self, belief: Belief) -> Moment:
-        """Wrist pose, rates, angles and their standard deviations of a single belief."""
-        layout, p = self._layout, belief.covariance
-        if layout.shape_count:
-            axes, sensitivity = self._axes_of(belief.shape)
-            wrist_disc = self._disc_m[0] + belief.shape[:3]
-            lever = belief.rotation_w2_w0 @ wrist_disc
-            position = axes.T @ (belief.position_m + lever - wrist_disc)
-            rotation = axes.T @ belief.rotation_w2_w0 @ axes
-            error = np.zeros((3, layout.size))
-            error[:, layout.turn] = axes.T
-            # The turn of the axes enters before and after: R' = Exp(-a) R Exp(a).
-            error[:, layout.shape] = (_IDENTITY - rotation.T) @ sensitivity
-            turn_covariance = error @ p @ error.T
-        else:
-            axes, position, rotation = _IDENTITY, belief.position_m, belief.rotation_w2_w0
-            turn_covariance = p[layout.turn, layout.turn] + rotation.T @ self._unrefined_turn @ rotation
-        velocity = axes.T @ belief.velocity_m_s
-        # In eq. (1) the angular velocity is white: there is none to report.
-        rate = axes.T @ belief.rate_rad_s if layout.has_rates else np.full(3, np.nan)
+    def moment(self, belief: PalmBelief) -> Moment:
+        """Wrist pose, rates, angles and their standard deviations of a single belief.
+
+        The origin of W2 is the WRIST disc where the skin has carried it; the axes are those of the fixed unit.
+        """
+        axes, sensitivity = self._axes_of(belief.value[SHAPE])
+        place = self._disc_m[0] + belief.shape_m[0] + belief.skin_m[0]
+        position = belief.position_m + belief.rotation_w2_w0 @ place
+        rotation = axes.T @ belief.rotation_w2_w0 @ axes
+        error = np.zeros((3, SHAPE.stop - TURN.start))
+        error[:, :3] = axes.T
+        # The turn of the axes enters before and after: R' = Exp(-a) R Exp(a).
+        error[:, SHAPE.start - TURN.start :] = (_IDENTITY - rotation.T) @ sensitivity
+        turn_covariance = error @ belief.covariance[_READ, _READ] @ error.T
         shown = self._start @ rotation if self._has_start else rotation
         angles, by_turn, zyz = clinical_angles.read_one(shown, self._side)
         variance = np.vecdot(by_turn @ turn_covariance, by_turn)
+        # Places keep the axes of W0 as calibrated and stored, whatever is learnt of the palm; turns are read in the
+        # axes as they are known by now, and what lies between the two goes with them.
         return Moment(
             position,
-            velocity,
+            belief.velocity_m_s,
+            so3.log(axes @ self._start.T),
             shown,
-            rate,
+            axes.T @ belief.rate_rad_s,
             angles,
             np.sqrt(np.maximum(variance, 0.0)),
             zyz,
-            belief.joints_rad,
+            _NONE,
             _NONE,
             _NONE,
             _NOWHERE,
         )
 
-    def with_joints(self, moment: Moment, joints: JointMoment) -> Moment:
-        """The moment with what is known of the fingers."""
-        rotation = self._start.T @ moment.rotation_w2_w0
+    def with_joints(self, moment: Moment, joints: JointMoment, belief: PalmBelief) -> Moment:
+        """The moment of a belief with what is known of the fingers, whose bones stand on the fixed unit, not on the
+        skin."""
+        rotation = so3.exp(moment.w0_turn_rad) @ moment.rotation_w2_w0
+        origin_m = moment.position_m - belief.rotation_w2_w0 @ belief.skin_m[0]
         return replace(
             moment,
             joint_angles_rad=joints.angles_rad,
             joint_angles_sd_rad=joints.sd_rad,
             joint_velocity_rad_s=joints.rate_rad_s,
-            joint_position_m=moment.position_m + joints.joint_w2_m @ rotation.T,
+            joint_position_m=origin_m + joints.joint_w2_m @ rotation.T,
         )
-
-
-def _neutral_turn_covariance(calibration: Calibration) -> FloatArray:
-    """Covariance (3, 3) of the turn that the discs' calibration errors give the whole palm."""
-    palm = np.array(calibration.clicks.protocol.palm)
-    discs = calibration.marker_position_w0_m[palm]
-    centred = so3.skew(discs - discs.mean(axis=0))
-    inverse = np.linalg.inv(np.einsum("mji,mjk->ik", centred, centred))
-    by_disc = inverse @ centred  # (M, 3, 3)
-    covariance = calibration.marker_covariance_w0_m2[palm]
-    return np.asarray(np.einsum("mij,mjk,mlk->il", by_disc, covariance, by_disc))
 
 
 def lost_moment(joint_count: int, marker_count: int) -> Moment:
     """Nothing is known of ``joint_count`` joint angles, nor of the ``marker_count`` joint centres that go with them."""
     three, joints = np.full(3, np.nan), np.full(joint_count, np.nan)
     places = np.full((marker_count if joint_count else 0, 3), np.nan)
-    return Moment(three, three, np.full((3, 3), np.nan), *(three,) * 4, *(joints,) * 3, places)
+    return Moment(three, three, three, np.full((3, 3), np.nan), *(three,) * 4, *(joints,) * 3, places)
 
 
 def shown_frame(
@@ -149,6 +142,7 @@ def shown_frame(
     measured_share: FloatArray,
     nis: float,
     nis_dof: int,
+    doubted: BoolArray,
 ) -> TrackedFrame:
     """The whole row of one frame."""
     return TrackedFrame(
@@ -157,6 +151,7 @@ def shown_frame(
         status,
         moment.position_m,
         moment.velocity_m_s,
+        moment.w0_turn_rad,
         moment.rotation_w2_w0,
         moment.angular_velocity_rad_s,
         moment.angles_rad,
@@ -176,6 +171,7 @@ def shown_frame(
         measured_share,
         nis,
         nis_dof,
+        doubted,
     )
 
 
@@ -205,4 +201,5 @@ def lost_frame(
         measured_share=measured_share,
         nis=float("nan"),
         nis_dof=0,
+        doubted=np.zeros(marker_count, dtype=np.bool_),
     )

@@ -5,20 +5,25 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from typing import Literal
 
-from core.tracking.association import AssociationSettings
-from core.tracking.finger_settings import FingerSettings
-from core.tracking.motion import MotionModel, MotionNoise
-from core.tracking.state import InitialSd
-from core.tracking.unscented import Spread
+from carpus.core.tracking.association import AssociationSettings
+from carpus.core.tracking.doubt import DoubtSettings
+from carpus.core.tracking.finger_settings import FingerSettings
+from carpus.core.tracking.holding import HoldingSettings
+from carpus.core.tracking.motion import MotionNoise
+from carpus.core.tracking.palm_state import InitialSd
+from carpus.core.tracking.reacquire import FindingSettings
+from carpus.core.tracking.soft_tissue import SoftTissue
+from carpus.core.tracking.surface_fit import SurfaceSettings
+from carpus.core.tracking.unscented import Spread
 
 Profile = Literal["slow", "standard", "brisk"]
 
 PROFILES: dict[Profile, MotionNoise] = {
-    "slow": MotionNoise(0.7, 2.0, 0.75, 6.0, 1.0),
-    "standard": MotionNoise(2.0, 8.0, 1.5, 12.0, 2.5),
-    "brisk": MotionNoise(6.0, 40.0, 4.0, 60.0, 5.0),
+    "slow": MotionNoise(0.7, 2.0, 6.0),
+    "standard": MotionNoise(2.0, 8.0, 12.0),
+    "brisk": MotionNoise(6.0, 40.0, 60.0),
 }
-"""Process noise by reference 4.5: wrist acceleration, turning acceleration and rate, the same of joints."""
+"""Process noise by reference 4.5: acceleration of wrist, turning and joints."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -52,29 +57,34 @@ class MeasurementNoise:
 class TrackerSettings:
     """Defaults of the tracker; all of it is stored with every session.
 
-    ``form``: the reduced filter or the papers' augmented one; ``motion``: constant rate or the papers'
-    model (1); ``mode_scales``: the motion modes run side by side, as factors on the process noise;
-    ``dip``: end joints bound to the middle joints or free; ``refine_shape``: keep measuring the palm while it
-    moves, the share ``shape_hidden`` of a correction taken for a depth that stays wrong, the share ``shape_news``
-    of what a frame says of it taken for new; ``marker_radius_m`` of the paper discs; ``lost_after_s`` without
-    three palm markers the hand is lost; ``rate_memory_s``: how long an unseen hand is taken to go on as it moved.
+    ``mode_scales``: the motion modes run side by side, as factors on the process noise, each kept for ``mode_dwell_s``;
+    ``dip``: end joints bound to the middle joints or free. The palm goes on being measured while it moves:
+    ``shape_hidden`` the share of a correction taken for a depth that stays wrong, ``shape_news`` the share of what a
+    frame says of it taken for new. ``tissue``: how skin and relief move; ``use_surface``: measure the back of the hand
+    by its depth, as ``surface`` says. ``unseen_scale``: the factor on the noise of turns that no disc shows.
+    ``marker_radius_m`` of the paper discs; ``lost_after_s`` without three palm markers the hand is lost;
+    ``rate_memory_s``: how long an unseen hand is taken to go on as it moved.
     """
 
-    form: Literal["reduced", "augmented"] = "reduced"
-    motion: MotionModel = "constant_rate"
     profile: Profile = "standard"
     use_depth: bool = True
     dip: Literal["coupled", "free"] = "coupled"
-    refine_shape: bool = True
     shape_hidden: float = 0.5
     shape_news: float = 0.1
     mode_scales: tuple[float, ...] = (0.5, 4.0)
     mode_dwell_s: float = 0.5
+    unseen_scale: float = 3.0
     spread: Spread = field(default_factory=Spread)
     initial: InitialSd = field(default_factory=InitialSd)
     noise: MeasurementNoise = field(default_factory=MeasurementNoise)
     association: AssociationSettings = field(default_factory=AssociationSettings)
     fingers: FingerSettings = field(default_factory=FingerSettings)
+    tissue: SoftTissue = field(default_factory=SoftTissue)
+    use_surface: bool = True
+    surface: SurfaceSettings = field(default_factory=SurfaceSettings)
+    doubt: DoubtSettings = field(default_factory=DoubtSettings)
+    holding: HoldingSettings = field(default_factory=HoldingSettings)
+    finding: FindingSettings = field(default_factory=FindingSettings)
     marker_radius_m: float = 0.006
     lost_after_s: float = 1.5
     rate_memory_s: float = 0.2

@@ -7,14 +7,17 @@ depths stay as long as the pose does: neighbouring frames tell little that is ne
 
 from __future__ import annotations
 
-from functools import lru_cache
+import math
 
 import numpy as np
 
-from core.calibration.result import Calibration
-from core.tracking.modes import ModeBank
-from core.tracking.state import StateLayout
-from core.types import FloatArray
+from carpus.core.calibration.result import Calibration
+from carpus.core.tracking.kernel import learning_shares
+from carpus.core.tracking.palm_state import SHAPE, SIZE
+from carpus.core.types import FloatArray
+
+_FLOOR_M = 1e-5
+"""Keeps the covariance of a perfectly measured disc positive definite."""
 
 
 def along_rays(calibration: Calibration, sd_m: float) -> FloatArray:
@@ -41,24 +44,16 @@ def _cam_m(calibration: Calibration) -> FloatArray:
     return calibration.marker_position_w0_m @ calibration.rotation_w0_cam.T + calibration.translation_w0_cam_m
 
 
-def slowly_learnt(before: ModeBank, after: ModeBank, layout: StateLayout, news: float) -> ModeBank:
-    """A correction of which the shape takes only the share ``news`` of the information (0 to 1).
-
-    The partial update of Brink (2017): the rest of the state is corrected as ever, and the covariance stays one.
-    """
-    if not layout.shape_count:
-        return after
-    kept, kept_both = _kept(layout, news)
-    return ModeBank(
-        after.nominal,
-        after.error + kept * (before.error - after.error),
-        after.covariance + kept_both * (before.covariance - after.covariance),
-        after.probability,
-    )
+def shape_shares(news: float) -> tuple[FloatArray, FloatArray]:
+    """Shares of a correction that mean and covariance take, the shape only ``news`` (0 to 1) of its information."""
+    return learning_shares(SIZE, SHAPE, 1.0 - math.sqrt(1.0 - news))
 
 
-@lru_cache(maxsize=8)
-def _kept(layout: StateLayout, news: float) -> tuple[FloatArray, FloatArray]:
-    kept = np.zeros(layout.size)
-    kept[layout.shape] = np.sqrt(1.0 - news)
-    return kept, np.outer(kept, kept)
+def shape_covariance(calibration: Calibration, depth_stays_m: float) -> FloatArray:
+    """Covariance (18, 18) of the discs' places as calibrated; ``depth_stays_m`` what the scatter of a still hand's
+    depths does not show of their error."""
+    own = calibration.marker_covariance_w0_m2 + along_rays(calibration, depth_stays_m) + _FLOOR_M**2 * np.eye(3)
+    count = len(own)
+    covariance = np.zeros((count, 3, count, 3))
+    covariance[np.arange(count), :, np.arange(count), :] = own
+    return covariance.reshape(3 * count, -1)

@@ -1,7 +1,8 @@
 """The tracker: the only part of the walk that remembers.
 
-For every frame it forecasts where the discs are, lets the association name the blobs, corrects the belief
-and states the angles with their standard deviations. It reads no picture and writes no file.
+For every frame it predicts where the discs are, lets the association name the blobs, updates the belief by them and by
+the surface of the back of the hand, looks for the hand anew where too little was where it should be, and states the
+angles with their standard deviations. It reads no picture and writes no file.
 """
 
 from __future__ import annotations
@@ -9,58 +10,53 @@ from __future__ import annotations
 import math
 from collections import deque
 from collections.abc import Sequence
-from dataclasses import dataclass, fields, replace
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from core import so3
-from core.calibration.result import Calibration
-from core.camera import Camera
-from core.tracking import modes
-from core.tracking.finger_model import seat_of
-from core.tracking.finger_smoother import FingersLookedBack, FingerStart, FingerStep, smooth_fingers
-from core.tracking.fingers import Fingers, FingerTrial
-from core.tracking.geometry import geometry_for, palm_of
-from core.tracking.hand_geometry import RAY_MARKERS
-from core.tracking.measurement import Forecast, View, forecast, forecast_augmented, forecast_reduced
-from core.tracking.modes import ModeBank
-from core.tracking.naming import Corrected, Measurable, measurable, name_and_correct
-from core.tracking.noise_watch import watched
-from core.tracking.reacquire import FoundPalm, Reach, find_palm
-from core.tracking.readout import Readout, lost_frame, lost_moment, shown_frame
-from core.tracking.settings import TrackerSettings
-from core.tracking.shape_learning import hidden_by_calibration, slowly_learnt
-from core.tracking.smoother import FilterStep, smooth
-from core.tracking.state import Belief, StateLayout, resting_belief
-from core.types import Detections, FloatArray, Moment, TrackedFrame, TrackStatus
+from carpus.core import so3
+from carpus.core.calibration.result import Calibration
+from carpus.core.camera import Camera
+from carpus.core.tracking.doubt import DoubtWatch, passed_over
+from carpus.core.tracking.finger_model import seat_of
+from carpus.core.tracking.finger_smoother import FingersLookedBack, FingerStart, FingerStep, smooth_fingers
+from carpus.core.tracking.fingers import Fingers, FingerTrial
+from carpus.core.tracking.geometry import palm_of
+from carpus.core.tracking.hand_geometry import RAY_MARKERS
+from carpus.core.tracking.kernel import Bank, carried, corrected, mixed, switching
+from carpus.core.tracking.motion import PalmMotion, mode_scale, palm_step, slowing, slowing_unseen, unseen_turns
+from carpus.core.tracking.naming import Corrected, Measurable, measurable, name_and_correct
+from carpus.core.tracking.noise_watch import watched
+from carpus.core.tracking.palm_state import POSE, RELIEF, SHAPE, SIZE, SKIN, TURN, InitialSd, PalmBelief, resting_belief
+from carpus.core.tracking.palm_view import Forecast, View, forecast, recentred
+from carpus.core.tracking.reacquire import FoundPalm, Reach, find_palm
+from carpus.core.tracking.readout import Readout, lost_frame, lost_moment, shown_frame
+from carpus.core.tracking.settings import TrackerSettings
+from carpus.core.tracking.shape_learning import hidden_by_calibration, shape_covariance, shape_shares
+from carpus.core.tracking.smoother import FilterStep, smooth
+from carpus.core.tracking.soft_tissue import settled_covariance
+from carpus.core.tracking.surface_fit import surface_measurement
+from carpus.core.types import Detections, FloatArray, Moment, TrackedFrame, TrackStatus
 
-SHARE_WINDOW_S = 1.0
 _SAME_AXIS = np.eye(2)
-LEAST_PALM_MARKERS = 3
-PROBATION_S = 0.2
-"""A hand found again out of nothing must keep showing for so long."""
-VAGUE_TURN_RAD = 0.15
-"""Expecting the hand's turn less surely than this, the filter may settle on wrong names or at a wrong pose."""
-TOO_VAGUE_TURN_RAD = 0.5
-"""Less surely than this, sigma points reach too far for a correction to be trusted, even by the right names."""
-BLIND_TURN_RAD = (0.1, 0.1, 0.15, 0.35)
-"""Expecting it less surely than this, any so many blobs would do for discs: none, one, two, three of them."""
-BLIND_AMONG_FINGERS_RAD = (0.1, 0.06, 0.15, 0.25, 0.35)
-"""Where there are discs on fingers, these can look like some of the palm, even like four of them."""
-
-TURN_SLACK_RAD, MOST_TURN_RATE_RAD_S, MOST_TURN_RAD = 0.35, 12.0, 1.9
-"""A hand gone from sight is not found turned further than it may have turned meanwhile, nor ever the other way."""
+_NO_NOISE = np.full((1, 3), 1e-12)
+BACK_DISCS, KNUCKLES = np.arange(4), slice(2, 6)
+"""WRIST, CMC1, MCP2, MCP3, which span the surface of the fixed unit."""
 
 
 @dataclass(frozen=True, slots=True)
 class Expectation:
-    """Where the discs should be in the next frame: pixels (M, 2) with covariance (M, 2, 2), depths (M,)."""
+    """Where the discs should be in the next frame: pixels (M, 2) with covariance (M, 2, 2), depths (M,); ``back_px``
+    (C, 2) of those that span the surface of the back of the hand, ``finger_px`` (F, 2) of those on long fingers and
+    their knuckles."""
 
     pixel: FloatArray
     covariance_px2: FloatArray
     depth_m: FloatArray
+    back_px: FloatArray
+    finger_px: FloatArray
 
 
 @dataclass(frozen=True, slots=True)
@@ -75,17 +71,43 @@ class KeptSteps:
 
 @dataclass(frozen=True, slots=True)
 class _Step:
-    """One frame weighed: the palm as named, its modes merged, and the fingers on it.
+    """One frame weighed: the palm as named, its modes as errors from ``belief``, and the fingers on it.
 
-    ``spare`` (D,) blobs that are neither's, ``is_finger`` (D,) blobs that are the fingers'.
+    ``spare`` (D,) blobs that are neither's, ``is_finger`` (D,) blobs that are the fingers'; ``levelled``: the back of
+    the hand was measured too.
     """
 
     palm: Corrected
-    bank: ModeBank
+    belief: PalmBelief
+    bank: Bank
     palm_seen: int
     fingers: FingerTrial | None
     spare: NDArray[np.bool_]
     is_finger: NDArray[np.bool_]
+    levelled: bool
+
+
+@dataclass(frozen=True, slots=True)
+class _Picture:
+    """What one frame brings: its time, the time since the last, the blobs where an ideal camera would see them, and
+    these as measurements."""
+
+    timestamp_s: float
+    dt_s: float
+    ideal: Detections
+    blobs: Measurable
+
+
+@dataclass(frozen=True, slots=True)
+class _Foreseen:
+    """What was foreseen of what was known, for a time. Beliefs are never changed, only replaced."""
+
+    timestamp_s: float
+    known: tuple[PalmBelief, Bank]
+    ahead: Forecast
+
+    def holds(self, timestamp_s: float, known: tuple[PalmBelief, Bank]) -> bool:
+        return self.known is known and self.timestamp_s == timestamp_s
 
 
 class Tracker:
@@ -100,204 +122,298 @@ class Tracker:
         self._rows = np.array(self._protocol.palm)
         self._fingers = Fingers(calibration, camera, settings) if self._protocol.has_fingers else None
         self._joint_count = 0 if self._fingers is None else self._fingers.model.reading.ray.size
+        self._surface = calibration.surface if settings.use_surface and settings.use_depth else None
         calibration = palm_of(calibration)
         self._calibration = calibration
-        geometry, shape_covariance = geometry_for(calibration, settings.refine_shape, settings.noise.depth_stays_m)
-        hidden = hidden_by_calibration(calibration, settings.shape_hidden) if settings.refine_shape else None
-        self.layout = StateLayout(0, settings.motion == "constant_rate", shape_covariance.shape[0])
-        self.view = View(camera, calibration.rotation_w0_cam, calibration.translation_w0_cam_m, geometry, hidden)
-        self._scales = np.array(settings.mode_scales if settings.motion == "constant_rate" else (1.0,))
+        self._calibrated_shape = shape_covariance(calibration, settings.noise.depth_stays_m)
+        self.view = View(
+            camera,
+            calibration.rotation_w0_cam,
+            calibration.translation_w0_cam_m,
+            calibration.marker_position_w0_m,
+            hidden_by_calibration(calibration, settings.shape_hidden),
+        )
+        self._scales = np.array(settings.mode_scales)
+        self._motion = PalmMotion(settings.motion_noise, settings.tissue, self._scales, settings.unseen_scale)
+        self._unseen: FloatArray | None = None
+        self._shares = shape_shares(settings.shape_news)
+        self._settled = settled_covariance(settings.tissue)
         self._resolution_px2 = float(camera.width_px * camera.height_px)
-        self._readout = Readout(calibration, self.layout)
+        self._readout = Readout(calibration)
+        self._doubt = DoubtWatch(len(self._protocol.markers), settings.doubt)
         self._noise_factor = np.ones((self._rows.size, 3))
         self._recent: deque[tuple[float, NDArray[np.int64]]] = deque()
         self._recently_measured = np.zeros(self._joint_count or 3, dtype=np.int64)
-        self._bank: ModeBank | None = None
-        self._shape = np.zeros(shape_covariance.shape[0])
-        self._shape_covariance = self._calibrated_shape = shape_covariance
+        self._known: tuple[PalmBelief, Bank] | None = None
+        self._foreseen: _Foreseen | None = None
+        self._shape = np.zeros(SHAPE.stop - SHAPE.start)
+        self._shape_covariance = self._calibrated_shape
         self._time_s: float | None = None
         self._seen_s = -np.inf
         self._begun_s = -np.inf
         self._found_s = -np.inf
         self._anew = True
-        self._forecast: tuple[float, Forecast] | None = None
         self.history: list[FilterStep] = []
         self._finger_history: list[FingerStep | None] = []
         self._finger_start: FingerStart | None = None
         self._looked_back: FingersLookedBack | None = None
         self.begin_at_neutral()
 
-    def begin_at_neutral(self) -> None:
-        """Start (again) from the calibrated pose, the hand at rest."""
+    def begin_at_neutral(self, at_s: float | None = None) -> None:
+        """Start (again) from the calibrated pose, the hand at rest; at that time, or else with the next frame."""
+        if at_s is not None:
+            self._time_s = self._seen_s = at_s
         self._shape, self._shape_covariance = np.zeros_like(self._shape), self._calibrated_shape
-        start = resting_belief(self.layout, self.settings.initial, shape_covariance=self._shape_covariance)
+        start = resting_belief(self.settings.initial, self._shape_covariance)
+        start.covariance[RELIEF, RELIEF] = self._settled[RELIEF, RELIEF]
         self._begin(start)
+        self._doubt.forget()
         if self._fingers is not None:
             self._fingers.begin_at_neutral()
         self._anew = True
 
-    def _begin(self, belief: Belief) -> None:
-        self._bank = ModeBank.of(belief, self._scales.size)
-        self._forecast = None
+    def _begin(self, belief: PalmBelief) -> None:
+        self._known = belief, self._resting_bank(belief)
+        self._unseen = None
+
+    def _resting_bank(self, belief: PalmBelief) -> Bank:
+        return Bank.alike(np.zeros((1, SIZE)), belief.covariance[None], self._scales.size)
 
     @property
     def is_lost(self) -> bool:
-        return self._bank is None
+        return self._known is None
 
     def expect(self, timestamp_s: float) -> Expectation | None:
         """Where to look at that time; None when the hand is lost."""
-        if self._bank is None or self._is_past(timestamp_s):
+        if self._known is None or self._is_past(timestamp_s):
             return None
-        mean, covariance = self._forecast_at(timestamp_s, self._bank).by_marker()
-        palm = Expectation(mean[:, :2], covariance[:, :2, :2], mean[:, 2])
-        return palm if self._fingers is None else self._with_fingers(palm, timestamp_s, self._fingers)
+        ahead = self._predicted(timestamp_s, self._known)
+        mean, covariance = ahead.own_mean, ahead.own_covariance
+        palm = Expectation(mean[:, :2], covariance[:, :2, :2], mean[:, 2], mean[BACK_DISCS, :2], mean[:0, :2])
+        return palm if self._fingers is None else self._with_fingers(palm, ahead, timestamp_s, self._fingers)
 
-    def _forecast_at(self, timestamp_s: float, bank: ModeBank) -> Forecast:
-        if self._forecast is not None and self._forecast[0] == timestamp_s:
-            return self._forecast[1]
-        settings, layout = self.settings, self.layout
+    def _predicted(self, timestamp_s: float, known: tuple[PalmBelief, Bank]) -> Forecast:
+        """The belief at that time and what the camera should see of it.
+
+        Asked once before the picture is searched and once again for its blobs: the second answer is the first.
+        """
+        if self._foreseen is not None and self._foreseen.holds(timestamp_s, known):
+            return self._foreseen.ahead
+        settings, (belief, bank) = self.settings, known
         dt_s = 0.0 if self._time_s is None else timestamp_s - self._time_s
-        if dt_s <= 0.0:
-            # The first frame: the belief already is of this moment.
-            found = forecast(bank, layout, self.view, settings.spread)
-        else:
-            switch = modes.switching(self._scales.size, settings.mode_dwell_s, dt_s)
-            form = forecast_reduced if settings.form == "reduced" else forecast_augmented
-            found = form(
-                modes.mixed(bank, switch), settings.motion_noise, self._scales, dt_s, layout, self.view, settings.spread
-            )
-        self._forecast = (timestamp_s, found)
-        return found
+        if dt_s > 0.0:
+            step = palm_step(belief.rate_rad_s, self._motion, dt_s, self._unseen)
+            start = mixed(bank, switching(self._scales.size, settings.mode_dwell_s, dt_s))
+            bank = carried(start, step)
+            belief = replace(step.carries(belief, dt_s), covariance=bank.merged()[1][0])
+        ahead = forecast(belief, bank, self.view, settings.spread, self._shares)
+        self._foreseen = _Foreseen(timestamp_s, known, ahead)
+        return ahead
 
-    def step(self, index: int, timestamp_s: float, detections: Detections, dropped_before: int = 0) -> TrackedFrame:
+    def step(
+        self,
+        index: int,
+        timestamp_s: float,
+        detections: Detections,
+        dropped_before: int = 0,
+    ) -> TrackedFrame:
         """Associate the blobs of one frame and correct the belief; the frame's result."""
+        picture, linked = self._begun(timestamp_s, detections)
+        if self._known is None:
+            return self._lost(index, timestamp_s, detections, dropped_before)
+        ahead = self._predicted(timestamp_s, self._known)
+        picture = replace(picture, blobs=self._measurable(ahead, picture.ideal))
+        step = self._weighed(picture, ahead)
+        ahead, step, linked, turn_sd_rad = self._found_elsewhere(picture, ahead, step, linked)
+        holding = self.settings.holding
+        blind_rad = holding.blind_rad if self._fingers is None else holding.blind_among_fingers_rad
+        if step.palm_seen < len(blind_rad) and turn_sd_rad > blind_rad[step.palm_seen]:
+            step = self._weighed(self._blind(picture, ahead), ahead)
+        if step.palm_seen < self._least_seen(timestamp_s):
+            # Found a moment ago, and the next pictures do not bear it out: it was no hand, or not there.
+            return self._lost(index, timestamp_s, detections, dropped_before)
+        unseen = self._unseen
+        status = self._accepted(picture, step)
+        if status is None:
+            return self._lost(index, timestamp_s, detections, dropped_before)
+        finger_step = None
+        if self._fingers is not None and step.fingers is not None:
+            finger_step = self._fingers.accept(step.fingers, timestamp_s, picture.dt_s)
+        self._remember(timestamp_s, self._measured(step))
+        if self._keep_history and self._known is not None:
+            self._finger_history.append(finger_step)
+            scale = mode_scale(step.bank.probability[0], self._scales)
+            self.history.append(FilterStep(timestamp_s, self._known[0], scale, linked, unseen))
+        return self._shown(index, status, picture, ahead, step, detections, dropped_before)
+
+    def _begun(self, timestamp_s: float, detections: Detections) -> tuple[_Picture, bool]:
+        """The picture to weigh, and whether it follows from the one before; the belief may be lost or found here."""
         ideal = detections
         if self.view.camera.is_distorted:
-            ideal = replace(detections, pixel=self.view.camera.undistort(detections.pixel))
+            undistort = self.view.camera.undistort
+            surface, fingers = (
+                None if some is None else replace(some, pixel=undistort(some.pixel))
+                for some in (detections.surface, detections.fingers)
+            )
+            ideal = replace(detections, pixel=undistort(detections.pixel), surface=surface, fingers=fingers)
         linked, self._anew = not self._anew, False
         if not linked:
             self._begun_s = timestamp_s
         if self._is_past(timestamp_s):
             self._give_up()
-        if self._bank is None:
-            found = find_palm(ideal, self.view, self._reach())
-            if found is None:
-                return self._lost(index, timestamp_s, detections, dropped_before)
-            self._begin(self._belief_found(found))
-            self._seen_s, linked, self._time_s = timestamp_s, False, timestamp_s
-            self._found_s = timestamp_s
-        assert self._bank is not None
+        if self._known is None:
+            found = find_palm(ideal, self.view, self.settings.finding, self._reach())
+            if found is not None:
+                self._begin(self._belief_found(found))
+                self._seen_s, linked, self._time_s = timestamp_s, False, timestamp_s
+                self._found_s = timestamp_s
         dt_s = 0.0 if self._time_s is None else timestamp_s - self._time_s
-        ahead = self._forecast_at(timestamp_s, self._bank)
-        blobs = self._measurable(ahead, ideal)
-        step = self._weighed(timestamp_s, dt_s, ahead, blobs, ideal)
-        turn_sd_rad = _turn_sd_rad(ahead.bank, self.layout)
-        vague = turn_sd_rad > VAGUE_TURN_RAD
-        few = step.palm_seen <= LEAST_PALM_MARKERS
-        if (few or vague) and np.count_nonzero(step.spare) + step.palm_seen > LEAST_PALM_MARKERS:
-            # Too little of the palm is where it was expected, or too little was expected: it may be anywhere.
-            found = find_palm(ideal if vague else _only(ideal, ~step.is_finger), self.view, self._reach())
-            if found is not None and (vague or found.count > step.palm_seen) and self._may_be_at(found, timestamp_s):
-                bank = ModeBank.of(self._belief_found(found), self._scales.size)
-                there = forecast(bank, self.layout, self.view, self.settings.spread)
-                step_there = self._weighed(timestamp_s, dt_s, there, blobs, ideal)
-                agreed = (
-                    turn_sd_rad < TOO_VAGUE_TURN_RAD
-                    and np.array_equal(step_there.palm.taken, step.palm.taken)
-                    and self._fits(step.palm)
-                )
-                if not agreed and step_there.palm_seen >= max(LEAST_PALM_MARKERS + 1, step.palm_seen):
-                    # A vague belief has nothing against the place found: the smoother may go on through it.
-                    ahead, step, linked, turn_sd_rad = there, step_there, linked and vague, 0.0
-        blind_rad = BLIND_TURN_RAD if self._fingers is None else BLIND_AMONG_FINGERS_RAD
-        if step.palm_seen < len(blind_rad) and turn_sd_rad > blind_rad[step.palm_seen]:
-            none = _only(ideal, np.zeros(len(ideal), dtype=bool))
-            step = self._weighed(timestamp_s, dt_s, ahead, self._measurable(ahead, none), none)
-        if step.palm_seen < self._least_seen(timestamp_s):
-            # Found a moment ago, and the next pictures do not bear it out: it was no hand, or not there.
-            return self._lost(index, timestamp_s, detections, dropped_before)
-        self._time_s, self._forecast = timestamp_s, None
+        nothing = Measurable(np.empty((0, 3)), np.empty((0, 3)))
+        return _Picture(timestamp_s, dt_s, ideal, nothing), linked
+
+    def _found_elsewhere(
+        self, picture: _Picture, ahead: Forecast, step: _Step, linked: bool
+    ) -> tuple[Forecast, _Step, bool, float]:
+        """The step from a place found without prediction, where too little of the palm is where it was expected or too
+        little was expected; else all as it was. With it how surely the turn was expected, radians."""
+        turn_sd_rad = _turn_sd_rad(ahead.nominal)
+        vague = turn_sd_rad > self.settings.holding.vague_rad
+        few = step.palm_seen <= self.settings.holding.least_discs
+        if not ((few or vague) and np.count_nonzero(step.spare) + step.palm_seen > self.settings.holding.least_discs):
+            return ahead, step, linked, turn_sd_rad
+        ideal = picture.ideal if vague else picture.ideal.only(~step.is_finger)
+        found = find_palm(ideal, self.view, self.settings.finding, self._reach())
+        if found is None or not (vague or found.count > step.palm_seen):
+            return ahead, step, linked, turn_sd_rad
+        if not self._may_be_at(found, ahead.nominal, picture.timestamp_s):
+            return ahead, step, linked, turn_sd_rad
+        belief = self._belief_found(found)
+        there = forecast(belief, self._resting_bank(belief), self.view, self.settings.spread, self._shares)
+        step_there = self._weighed(picture, there)
+        agreed = (
+            turn_sd_rad < self.settings.holding.too_vague_rad
+            and np.array_equal(step_there.palm.taken, step.palm.taken)
+            and self._fits(step.palm)
+        )
+        if agreed or step_there.palm_seen < max(self.settings.holding.least_discs + 1, step.palm_seen):
+            return ahead, step, linked, turn_sd_rad
+        # A vague belief has nothing against the place found: the smoother may go on through it.
+        return there, step_there, linked and vague, 0.0
+
+    def _blind(self, picture: _Picture, ahead: Forecast) -> _Picture:
+        """The picture without any blob: any would do for a disc of a hand that may be anywhere."""
+        none = picture.ideal.only(np.zeros(len(picture.ideal), dtype=bool))
+        return replace(picture, ideal=none, blobs=self._measurable(ahead, none))
+
+    def _accepted(self, picture: _Picture, step: _Step) -> TrackStatus | None:
+        """Go on from a step; its status, None when the hand has been out of sight for too long."""
+        timestamp_s, dt_s = picture.timestamp_s, picture.dt_s
+        self._time_s = timestamp_s
+        self._unseen = None
+        if step.palm_seen >= self.settings.holding.least_discs and not step.levelled:
+            seen = step.palm.taken >= 0
+            self._unseen = unseen_turns(self.view.palm_m[seen], self.settings.holding.narrow_m)
         self._noise_factor = watched(self._noise_factor, step.palm, dt_s, self.settings.noise)
-        belief = step.bank.nominal
-        self._shape, self._shape_covariance = belief.shape, belief.covariance[self.layout.shape, self.layout.shape]
-        finger_step = None
-        if self._fingers is not None and step.fingers is not None:
-            finger_step = self._fingers.accept(step.fingers, timestamp_s, dt_s)
-        self._remember(timestamp_s, self._measured(step))
-        if step.palm_seen >= LEAST_PALM_MARKERS:
-            status, self._bank, self._seen_s = TrackStatus.TRACKED, step.bank, timestamp_s
-        elif timestamp_s - max(self._seen_s, self._begun_s) > self.settings.lost_after_s:
-            return self._lost(index, timestamp_s, detections, dropped_before)
-        else:
-            # An unseen hand is not taken to go on for ever: its velocity fades, its uncertainty grows.
-            keep = float(np.exp(-dt_s / self.settings.rate_memory_s))
-            status, self._bank = TrackStatus.PREDICTED, modes.slowed(step.bank, keep, self.layout)
-            belief = self._bank.nominal  # what the next frame is predicted from
-        if self._keep_history:
-            scale = float(np.sqrt(step.bank.probability @ self._scales**2))
-            self._finger_history.append(finger_step)
-            self.history.append(FilterStep(timestamp_s, belief, scale, linked))
-        return self._shown(index, timestamp_s, status, ahead, step, detections, dropped_before)
+        self._shape = step.belief.value[SHAPE]
+        self._shape_covariance = step.belief.covariance[SHAPE, SHAPE]
+        if step.palm_seen >= self.settings.holding.least_discs:
+            self._known, self._seen_s = (step.belief, step.bank), timestamp_s
+            if self._unseen is not None:
+                self._slow(slowing_unseen(float(np.exp(-dt_s / self.settings.rate_memory_s)), self._unseen))
+            return TrackStatus.TRACKED
+        if timestamp_s - max(self._seen_s, self._begun_s) > self.settings.lost_after_s:
+            return None
+        # An unseen hand is not taken to go on for ever: its velocity fades, its uncertainty grows.
+        self._known = step.belief, step.bank
+        self._slow(np.diag(slowing(float(np.exp(-dt_s / self.settings.rate_memory_s)))))
+        return TrackStatus.PREDICTED
+
+    def _slow(self, kept: FloatArray) -> None:
+        """Let velocities fade: what is known times ``kept`` (n, n)."""
+        assert self._known is not None
+        belief, bank = self._known
+        belief = PalmBelief(belief.rotation_w2_w0, kept @ belief.value, kept @ belief.covariance @ kept.T)
+        self._known = belief, Bank(bank.mean @ kept.T, kept @ bank.covariance @ kept.T, bank.probability)
 
     def _is_past(self, timestamp_s: float) -> bool:
         """Whether no picture came for so long that where the hand was says nothing of where it is."""
         return self._time_s is not None and timestamp_s - self._time_s > self.settings.lost_after_s
 
     def _give_up(self) -> None:
-        self._bank, self._forecast = None, None
+        self._known = None
         if self._fingers is not None:
             self._fingers.begin_anywhere()
 
     def _least_seen(self, timestamp_s: float) -> int:
         """Discs of the palm without which a hand found again is given up."""
         if timestamp_s == self._found_s:
-            return LEAST_PALM_MARKERS + 1
-        return LEAST_PALM_MARKERS if timestamp_s - self._found_s < PROBATION_S else 0
+            return self.settings.holding.least_discs + 1
+        return (
+            self.settings.holding.least_discs if timestamp_s - self._found_s < self.settings.holding.probation_s else 0
+        )
 
     def _fits(self, palm: Corrected) -> bool:
         """Whether the discs lie where the corrected pose puts them."""
         return bool((np.abs(palm.raw_residual) <= self.settings.noise.outlier_sd).all())
 
-    def _may_be_at(self, found: FoundPalm, timestamp_s: float) -> bool:
+    def _may_be_at(self, found: FoundPalm, expected: PalmBelief, timestamp_s: float) -> bool:
         """Whether a hand can have turned there since it was last seen."""
-        assert self._bank is not None
-        apart = so3.log(self._bank.nominal.rotation_w2_w0.T @ found.rotation_w2_w0)
-        gone_s = timestamp_s - max(self._seen_s, self._begun_s)
-        return float(np.linalg.norm(apart)) < min(TURN_SLACK_RAD + MOST_TURN_RATE_RAD_S * gone_s, MOST_TURN_RAD)
+        apart = so3.log(expected.rotation_w2_w0.T @ found.rotation_w2_w0)
+        gone_s, holding = timestamp_s - max(self._seen_s, self._begun_s), self.settings.holding
+        return float(np.linalg.norm(apart)) < min(
+            holding.turn_slack_rad + holding.most_rate_rad_s * gone_s, holding.most_turn_rad
+        )
 
     def _measurable(self, ahead: Forecast, ideal: Detections) -> Measurable:
-        depth_m = max(float(ahead.marker_mean[0, 2]), 0.1)
+        depth_m = max(float(ahead.own_mean[0, 2]), 0.1)
         return measurable(ideal, self.view.camera.fx_px * self.settings.marker_radius_m / depth_m, self.settings)
 
-    def _weighed(self, timestamp_s: float, dt_s: float, ahead: Forecast, blobs: Measurable, ideal: Detections) -> _Step:
+    def _weighed(self, picture: _Picture, ahead: Forecast) -> _Step:
         """Palm and fingers named and corrected, the fingers by what the palm leaves; nothing is remembered."""
-        corrected = name_and_correct(
-            ahead, blobs, LEAST_PALM_MARKERS + 1, self._resolution_px2, self._noise_factor, self.settings
+        blobs = picture.blobs
+        named = name_and_correct(
+            ahead, blobs, self.settings.holding.least_discs + 1, self._resolution_px2, self._noise_factor, self.settings
         )
-        learnt = slowly_learnt(ahead.bank, corrected.bank, self.layout, self.settings.shape_news)
-        bank = modes.merged(learnt, self.layout)
+        belief, bank = recentred(ahead.nominal, named.bank)
+        corrected_belief, bank = self._levelled(picture, belief, bank)
+        levelled, belief = corrected_belief is not belief, corrected_belief
         spare = np.ones(len(blobs), dtype=bool)
-        named = corrected.taken >= 0
-        spare[corrected.taken[named]] = False
-        palm_seen = int(np.count_nonzero(named))
+        is_named = named.taken >= 0
+        spare[named.taken[is_named]] = False
+        palm_seen = int(np.count_nonzero(is_named))
         if self._fingers is None:
-            return _Step(corrected, bank, palm_seen, None, spare, np.zeros(len(blobs), dtype=bool))
-        seat = seat_of(bank.nominal, self.view, self._readout)
-        fingers = self._fingers.weigh(timestamp_s, dt_s, seat, blobs, ideal.area_px, spare)
+            return _Step(named, belief, bank, palm_seen, None, spare, np.zeros(len(blobs), dtype=bool), levelled)
+        seat = seat_of(belief, self.view, self._readout)
+        fingers = self._fingers.weigh(
+            picture.timestamp_s, picture.dt_s, seat, blobs, picture.ideal.area_px, spare, picture.ideal.fingers
+        )
         is_finger = np.zeros_like(spare)
         is_finger[fingers.blob[fingers.blob >= 0]] = True
-        return _Step(corrected, bank, palm_seen, fingers, spare & ~is_finger, is_finger)
+        return _Step(named, belief, bank, palm_seen, fingers, spare & ~is_finger, is_finger, levelled)
 
-    def _with_fingers(self, palm: Expectation, timestamp_s: float, fingers: Fingers) -> Expectation:
-        assert self._bank is not None
+    def _levelled(self, picture: _Picture, belief: PalmBelief, bank: Bank) -> tuple[PalmBelief, Bank]:
+        """The palm corrected by the surface of the back of the hand, where that is seen."""
+        if self._surface is None or picture.ideal.surface is None:
+            return belief, bank
+        found = surface_measurement(belief, picture.ideal.surface, self._surface, self.view, self.settings.surface)
+        if found is None:
+            return belief, bank
+        # Its noise has no scale of its own: the covariance is that of the line.
+        update = corrected(bank, found.line(), found.value[None], _NO_NOISE, shares=self._shares)
+        if float(update.nis[0]) > self.settings.surface.most_nis:
+            return belief, bank
+        return recentred(belief, update.bank)
+
+    def _with_fingers(self, palm: Expectation, ahead: Forecast, timestamp_s: float, fingers: Fingers) -> Expectation:
         dt_s = 0.0 if self._time_s is None else timestamp_s - self._time_s
-        ahead = self._forecast_at(timestamp_s, self._bank).bank
         pixel, covariance, depth = fingers.expected(timestamp_s, dt_s, ahead.nominal, self.view)
         covariance = covariance + palm.covariance_px2.max(axis=0)
         return Expectation(
             self._by_marker(palm.pixel, pixel),
             self._by_marker(palm.covariance_px2, covariance),
             self._by_marker(palm.depth_m, depth),
+            palm.back_px,
+            np.concatenate((palm.pixel[KNUCKLES], pixel[1:].reshape(-1, 2))),
         )
 
     def _by_marker(self, palm: NDArray[Any], fingers: NDArray[Any] | None) -> NDArray[Any]:
@@ -311,15 +427,15 @@ class Tracker:
     def _shown(
         self,
         index: int,
-        timestamp_s: float,
         status: TrackStatus,
+        picture: _Picture,
         ahead: Forecast,
         step: _Step,
         detections: Detections,
         dropped_before: int,
     ) -> TrackedFrame:
         """The row of a tracked or predicted frame."""
-        belief, fingers = step.bank.nominal, step.fingers
+        belief, fingers = step.belief, step.fingers
         taken = self._by_marker(step.palm.taken, None if fingers is None else fingers.blob)
         used = np.flatnonzero(taken >= 0)
         blob = taken[used]
@@ -327,20 +443,33 @@ class Tracker:
         measured_depth_m = np.full(taken.size, np.nan)
         measured_px[used] = detections.pixel[blob]
         measured_depth_m[used] = detections.depth_m[blob]
-        mean, covariance = ahead.by_marker()
-        predicted_px, predicted_cov_px2 = mean[:, :2], covariance[:, :2, :2]
-        discs = self.view.markers_cam_m(belief.position_m, belief.rotation_w2_w0, belief.joints_rad, belief.shape)
+        predicted_px, predicted_cov_px2 = ahead.own_mean[:, :2], ahead.own_covariance[:, :2, :2]
+        discs = self.view.discs_cam_m(belief)
         moment, nis, dof = self._readout.moment(belief), step.palm.nis, step.palm.dof
+        surprise = (step.palm.raw_residual**2).sum(axis=-1)
         if self._fingers is not None and fingers is not None:
             joints = self._fingers.read(fingers)
-            moment = self._readout.with_joints(moment, joints)
+            moment = self._readout.with_joints(moment, joints, belief)
             discs = self._by_marker(discs, joints.disc_cam_m)
             predicted_px = self._by_marker(predicted_px, fingers.predicted_px)
             predicted_cov_px2 = self._by_marker(predicted_cov_px2, fingers.predicted_cov_px2)
-            nis, dof = np.nansum([nis, fingers.nis]), dof + fingers.dof
+            surprise = self._by_marker(surprise, fingers.surprise)
+            nis, dof = float(np.nansum([nis, fingers.nis])), dof + fingers.dof
+        over = passed_over(
+            self.view.camera.project(discs), discs[:, 2], taken, picture.ideal.pixel, picture.ideal.depth_m,
+            self.view.camera.fx_px, self.settings.doubt,
+        )  # fmt: skip
+        doubt = self._doubt.watch(picture.dt_s, over, nis, dof, int(surprise.argmax()))
+        if doubt.is_any and status is TrackStatus.TRACKED:
+            status = TrackStatus.DOUBTFUL
+            moment = replace(
+                moment,
+                angles_sd_rad=moment.angles_sd_rad * doubt.widens,
+                joint_angles_sd_rad=moment.joint_angles_sd_rad * doubt.widens,
+            )
         return shown_frame(
             index,
-            timestamp_s,
+            picture.timestamp_s,
             status,
             moment,
             marker_position_cam_m=discs,
@@ -351,12 +480,14 @@ class Tracker:
             detections=detections,
             dropped_before=dropped_before,
             measured_share=self._share(),
-            nis=float(nis) if dof else math.nan,
+            nis=nis if dof else math.nan,
             nis_dof=dof,
+            doubted=doubt.doubted,
         )
 
     def _lost(self, index: int, timestamp_s: float, detections: Detections, dropped_before: int) -> TrackedFrame:
         self._give_up()
+        self._doubt.forget()
         self._time_s = timestamp_s
         self._remember(timestamp_s, np.zeros(self._joint_count or 3, dtype=np.int64))
         if self._keep_history:
@@ -368,12 +499,12 @@ class Tracker:
 
     def would_miss(self, blobs: Detections) -> bool:
         """Whether blobs of a narrowed search are too few to hold the palm, so that the rest is worth a look."""
-        return len(blobs) <= LEAST_PALM_MARKERS
+        return len(blobs) <= self.settings.holding.least_discs
 
     def smoothed(self) -> list[Moment]:
         """Every frame so far in the light of all the others; needs the history kept. Tracking may go on meanwhile."""
-        beliefs = smooth(list(self.history), self.settings.motion_noise, self.layout)
-        readout = Readout(self._calibration, self.layout)
+        beliefs = smooth(list(self.history), self._motion)
+        readout = Readout(self._calibration)
         lost = lost_moment(self._joint_count, len(self._protocol.markers))
         moments = [lost if belief is None else readout.moment(belief) for belief in beliefs]
         if self._fingers is None:
@@ -383,8 +514,8 @@ class Tracker:
             self._fingers.model, self._finger_history[: len(beliefs)], seats, self._finger_start
         )
         return [
-            lost if joints is None else readout.with_joints(moment, joints)
-            for moment, joints in zip(moments, self._looked_back.moments, strict=True)
+            lost if joints is None or belief is None else readout.with_joints(moment, joints, belief)
+            for moment, joints, belief in zip(moments, self._looked_back.moments, beliefs, strict=True)
         ]
 
     def forget(self, before_s: float = math.inf) -> None:
@@ -394,7 +525,7 @@ class Tracker:
             return
         if self._fingers is not None:
             if count == len(self.history):
-                self._finger_start = self._fingers.start(self.history[-1].timestamp_s, self._bank is None)
+                self._finger_start = self._fingers.start(self.history[-1].timestamp_s, self._known is None)
             elif self._looked_back is not None:
                 self._finger_start = self._looked_back.start_after(count, self._fingers.model)
             self._looked_back = None
@@ -426,23 +557,19 @@ class Tracker:
         """Where the fingers' discs can be, as seen from the palm."""
         return None if self._fingers is None else self._fingers.reach
 
-    def _belief_found(self, found: FoundPalm) -> Belief:
-        initial = replace(self.settings.initial, velocity_m_s=0.5, rate_rad_s=2.0)
-        belief = resting_belief(
-            self.layout,
-            initial,
-            position_m=found.position_m,
-            rotation_w2_w0=found.rotation_w2_w0,
-            shape_covariance=self._shape_covariance,
-        )
-        pose = np.r_[self.layout.position, self.layout.turn]
-        belief.covariance[np.ix_(pose, pose)] = found.pose_covariance(self.view.geometry.palm_m)
-        return replace(belief, shape=self._shape)
+    def _belief_found(self, found: FoundPalm) -> PalmBelief:
+        initial = InitialSd(velocity_m_s=0.5, rate_rad_s=2.0)
+        belief = resting_belief(initial, self._shape_covariance)
+        belief.covariance[POSE[:, None], POSE] = found.pose_covariance(self.view.palm_m, self.settings.finding)
+        belief.covariance[SKIN, SKIN] = self._settled[SKIN, SKIN]
+        belief.covariance[RELIEF, RELIEF] = self._settled[RELIEF, RELIEF]
+        belief.value[SHAPE], belief.value[:3] = self._shape, found.position_m
+        return replace(belief, rotation_w2_w0=found.rotation_w2_w0)
 
     def _remember(self, timestamp_s: float, measured: NDArray[np.int64]) -> None:
         self._recent.append((timestamp_s, measured))
         self._recently_measured = self._recently_measured + measured
-        while self._recent[0][0] < timestamp_s - SHARE_WINDOW_S:
+        while self._recent[0][0] < timestamp_s - self.settings.holding.share_window_s:
             self._recently_measured = self._recently_measured - self._recent.popleft()[1]
 
     def _share(self) -> FloatArray:
@@ -451,13 +578,6 @@ class Tracker:
         return np.asarray(self._recently_measured / (possible * len(self._recent)))
 
 
-def _only(blobs: Detections, kept: NDArray[np.bool_]) -> Detections:
-    if kept.all():
-        return blobs
-    return Detections(*(getattr(blobs, field.name)[kept] for field in fields(Detections)))
-
-
-def _turn_sd_rad(bank: ModeBank, layout: StateLayout) -> float:
+def _turn_sd_rad(belief: PalmBelief) -> float:
     """How surely the hand's turn is known, all axes and modes together."""
-    variance = bank.covariance.diagonal(axis1=1, axis2=2)[:, layout.turn]
-    return math.sqrt((bank.probability @ variance).sum())
+    return math.sqrt(float(np.trace(belief.covariance[TURN, TURN])))

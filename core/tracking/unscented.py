@@ -8,7 +8,7 @@ from functools import lru_cache
 import numpy as np
 from scipy.linalg.lapack import dpotrf
 
-from core.types import FloatArray
+from carpus.core.types import FloatArray
 
 
 @dataclass(frozen=True, slots=True)

@@ -8,21 +8,33 @@ from __future__ import annotations
 import argparse
 import sys
 import time
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
+from typing import TypeVar
 
-from tests.accuracy import hand21_table
+from tests.accuracy import hand21_table, papers, readings_table, second
+from tests.accuracy.hand21 import ROWS, HandScenario
 from tests.accuracy.jobs import all_runs, jobs_for
 from tests.accuracy.robustness import robustness_verdicts
-from tests.accuracy.scenarios import GROUPS
-from tests.accuracy.table import markdown, rows_of, terminal
+from tests.accuracy.scenarios import GROUPS, Scenario
+from tests.accuracy.soft import SOFT_HAND, SOFT_WRIST
+from tests.accuracy.table import markdown, read_rows, rows_of, terminal
 from tests.accuracy.targets import verdicts
 
+_Row = TypeVar("_Row", Scenario, HandScenario)
+
 QUICK_SEEDS = 3
+WRIST_ROWS: Mapping[str, tuple[Scenario, ...]] = {**GROUPS, "soft": SOFT_WRIST}
+HAND_ROWS: Mapping[str, tuple[HandScenario, ...]] = {"hand": ROWS, "soft": SOFT_HAND}
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
     parser = argparse.ArgumentParser(prog="python -m tests.accuracy", description=__doc__)
-    parser.add_argument("--group", choices=("all", *GROUPS, "hand"), default="all", help="which rows")
+    parser.add_argument(
+        "--group",
+        choices=("all", *dict.fromkeys((*WRIST_ROWS, *HAND_ROWS)), "papers", "second"),
+        default="all",
+        help="which rows; second: the patient that is for judging only, by rendered pictures alone",
+    )
     parser.add_argument("--only", default="", metavar="TEXT", help="rows whose name holds this")
     parser.add_argument(
         "--seeds", type=int, default=10, help="simulated recordings a row (the fast row takes three times)"
@@ -33,30 +45,46 @@ def main(arguments: Sequence[str] | None = None) -> int:
     parser.add_argument("--processes", type=int, default=2)
     options = parser.parse_args(arguments)
     seeds, pictures = (QUICK_SEEDS, 0) if options.quick else (options.seeds, options.pictures)
-    hand = hand21_table.rows_named(options.only) if options.group in ("all", "hand") else []
-    if options.group == "hand":
-        print(hand21_table.report(hand, seeds, pictures, options.processes, as_markdown=options.markdown))
-        return 0 if hand else 2
-    groups = GROUPS.values() if options.group == "all" else (GROUPS[options.group],)
-    scenarios = [row for group in groups for row in group if options.only.lower() in row.name.lower()]
-    if not scenarios and not hand:
+    wrist, hand = (_named(rows, options.group, options.only) for rows in (WRIST_ROWS, HAND_ROWS))
+    judged = second.rows_named(options.only) if options.group in ("all", "second") and pictures else []
+    if not wrist and not hand and not judged and options.group != "papers":
         print(f"no row of {options.group} is named like {options.only}", file=sys.stderr)
         return 2
     begin = time.monotonic()
-    runs = all_runs(jobs_for(scenarios, seeds, pictures), options.processes)
-    rows = list(rows_of(runs, scenarios))
-    if options.markdown:
-        print(markdown(rows))
-    else:
-        print(terminal(rows))
-    print("\nSynthetic: simulated hands before a simulated camera. What was promised:")
-    for verdict in (*verdicts(runs, scenarios), *robustness_verdicts(runs, scenarios)):
-        print(verdict)
+    if wrist:
+        print(_wrist_report(wrist, seeds, pictures, options.processes, as_markdown=options.markdown))
     if hand:
         print()
         print(hand21_table.report(hand, seeds, pictures, options.processes, as_markdown=options.markdown))
+    if options.group in ("all", "papers"):
+        print("", papers.report(options.only, seeds, options.processes, as_markdown=options.markdown), sep="\n")
+    if judged:
+        print()
+        print(second.report(judged, pictures, options.processes, as_markdown=options.markdown))
     print(f"{time.monotonic() - begin:.0f} s", file=sys.stderr)
     return 0
+
+
+def _named(rows: Mapping[str, tuple[_Row, ...]], group: str, only: str) -> list[_Row]:
+    """The rows of a group, or of all, whose name holds ``only``."""
+    groups = rows.values() if group == "all" else (rows.get(group, ()),)
+    return [row for some in groups for row in some if only.lower() in row.name.lower()]
+
+
+def _wrist_report(
+    scenarios: Sequence[Scenario], seeds: int, pictures: int, processes: int, *, as_markdown: bool
+) -> str:
+    """Run these rows and tell."""
+    runs = all_runs(jobs_for(scenarios, seeds, pictures), processes)
+    rows = list(rows_of(runs, scenarios))
+    form, read_form = (markdown, readings_table.markdown) if as_markdown else (terminal, readings_table.terminal)
+    lines = [form(rows), "", read_form(read_rows(rows))]
+    promised = [row for row in scenarios if row not in SOFT_WRIST]
+    names = {row.name for row in promised}
+    kept = [run for run in runs if run.scenario in names]
+    lines += ["", "Synthetic: simulated hands before a simulated camera. What was promised:"] if kept else []
+    lines += [str(verdict) for verdict in (*verdicts(kept, promised), *robustness_verdicts(kept, promised))]
+    return "\n".join(lines)
 
 
 if __name__ == "__main__":

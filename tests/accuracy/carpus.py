@@ -9,19 +9,20 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from core.calibration.calibrate import MeasuredHand, measure_hand, still_capture
-from core.calibration.clicks import read_clicks
-from core.calibration.settings import CalibrationSettings
-from core.capture.tum import TumFolder
-from core.errors import CalibrationImpossible
-from core.pipeline.track import TrackSettings, from_neutral, learnt_from, learnt_in, track_recording
-from core.session.reader import read_session
-from core.session.values import Motion, motion_of
-from core.simulation.measurements import MeasurementSequence
-from core.simulation.recording import CLICKS_FILE, cached_recording, clicks_of, truth_in
-from core.tracking.settings import TrackerSettings
-from core.tracking.tracker import Tracker
-from core.types import FloatArray, TrackedFrame, TrackStatus
+from carpus.core.calibration.calibrate import MeasuredHand, measure_hand, still_capture
+from carpus.core.calibration.clicks import read_clicks
+from carpus.core.calibration.settings import CalibrationSettings
+from carpus.core.capture.tum import TumFolder
+from carpus.core.errors import CalibrationImpossible
+from carpus.core.pipeline.track import TrackSettings, from_neutral, learnt_from, learnt_in, track_recording
+from carpus.core.session.reader import read_session
+from carpus.core.session.values import Motion, motion_of
+from carpus.core.simulation.measurements import MeasurementSequence
+from carpus.core.simulation.recording import CLICKS_FILE, cached_recording, clicks_of, truth_in
+from carpus.core.tracking.settings import TrackerSettings
+from carpus.core.tracking.tracker import Tracker
+from carpus.core.types import FloatArray, TrackedFrame, TrackStatus
+from tests.accuracy.readings import Reading, reading_of
 from tests.accuracy.runs import CARPUS, Estimate, Run, degrees_between, longest_s
 from tests.accuracy.scenarios import Scenario
 from tests.accuracy.sequences import detected_sequence, longest_untracked_s, scored_frames, true_names, wrongly_taken
@@ -66,13 +67,15 @@ def run_on_blobs(
     status = np.array([frame.status for frame in frames])
     smoothed = motion_of(tracker.smoothed())
     measured_px = np.array([frame.marker_measured_px for frame in frames])[scored]
-    wrong = wrongly_taken(measured_px, _part(sequence, scored))
+    part = _part(sequence, scored)
+    wrong = wrongly_taken(measured_px, part)
+    live = _estimate(motion_of(frames), truth.angles_rad, scored)
     return Run(
         scenario.name,
         truth.spec.seed,
         "blobs",
         method,
-        _estimate(motion_of(frames), truth.angles_rad, scored),
+        live,
         _estimate(smoothed, truth.angles_rad, scored),
         status[scored],
         int(np.isfinite(measured_px[..., 0]).sum()),
@@ -81,6 +84,7 @@ def run_on_blobs(
         longest_untracked_s(sequence, status == TrackStatus.TRACKED),
         ms,
         stroke_speeds(truth, scored, smoothed),
+        _reading(part, scored, live, measured_px),
     ), neutral_ends_s
 
 
@@ -107,14 +111,16 @@ def run_on_pictures(
     assert learnt is not None
     scored = scored_frames(truth, learnt.neutral_ends_s)
     measured_px = session.markers.measured_px[scored]
-    wrong = wrongly_taken(measured_px, _part(sequence, scored))
+    part = _part(sequence, scored)
+    wrong = wrongly_taken(measured_px, part)
+    live = _estimate(session.motion, truth.angles_rad, scored)
     assert session.smoothed is not None
     run = Run(
         scenario.name,
         seed,
         "pictures",
         CARPUS,
-        _estimate(session.motion, truth.angles_rad, scored),
+        live,
         _estimate(session.smoothed, truth.angles_rad, scored),
         session.status[scored].astype(np.int64),
         int(np.isfinite(measured_px[..., 0]).sum()),
@@ -123,6 +129,7 @@ def run_on_pictures(
         longest_untracked_s(sequence, session.status == TrackStatus.TRACKED),
         ms,
         stroke_speeds(truth, scored, session.smoothed),
+        _reading(part, scored, live, measured_px),
     )
     return run, sequence, learnt.neutral_ends_s, folder
 
@@ -132,6 +139,16 @@ def _part(sequence: MeasurementSequence, rows: NDArray[np.bool_]) -> Measurement
     kept = np.flatnonzero(rows)
     return MeasurementSequence(
         sequence.truth, tuple(sequence.detections[i] for i in kept), tuple(sequence.marker[i] for i in kept)
+    )
+
+
+def _reading(part: MeasurementSequence, scored: NDArray[np.bool_], live: Estimate, measured_px: FloatArray) -> Reading:
+    """What a therapist reads live off the wrist; ``part`` and ``measured_px`` are of the scored frames alone."""
+    truth = part.truth
+    present = np.array([np.isin(np.arange(measured_px.shape[1]), names) for names in part.marker])
+    unused = present & ~np.isfinite(measured_px[..., 0])
+    return reading_of(
+        truth, scored, truth.angles_rad, live.error_deg, live.sd_deg, unused=int(unused.sum()), shown=int(present.sum())
     )
 
 

@@ -11,23 +11,24 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from core.calibration.clicks import read_clicks
-from core.calibration.settings import CalibrationSettings
-from core.capture.tum import TumFolder
-from core.hand.kinematics import DIP_PER_PIP
-from core.hand.protocols import HAND21, joint_angle_names
-from core.pipeline.track import TrackSettings, from_neutral, learnt_from, learnt_in, track_recording
-from core.session.reader import read_session
-from core.session.values import Motion
-from core.simulation.measurements import MeasurementSequence, measurement_sequence
-from core.simulation.recording import CLICKS_FILE, cached_recording, truth_in
-from core.simulation.sensor import depth_scale
-from core.simulation.spec import RecordingSpec
-from core.simulation.truth import Truth
-from core.tracking.settings import TrackerSettings
-from core.tracking.tracker import Tracker
-from core.types import FloatArray, Moment, TrackedFrame, TrackStatus
+from carpus.core.calibration.clicks import read_clicks
+from carpus.core.calibration.settings import CalibrationSettings
+from carpus.core.capture.tum import TumFolder
+from carpus.core.hand.kinematics import DIP_PER_PIP
+from carpus.core.hand.protocols import HAND21, joint_angle_names
+from carpus.core.pipeline.track import TrackSettings, from_neutral, learnt_from, learnt_in, track_recording
+from carpus.core.session.reader import read_session
+from carpus.core.session.values import Motion
+from carpus.core.simulation.measurements import MeasurementSequence, measurement_sequence
+from carpus.core.simulation.recording import CLICKS_FILE, cached_recording, truth_in
+from carpus.core.simulation.sensor import depth_scale
+from carpus.core.simulation.spec import RecordingSpec
+from carpus.core.simulation.truth import Truth
+from carpus.core.tracking.settings import TrackerSettings
+from carpus.core.tracking.tracker import Tracker
+from carpus.core.types import FloatArray, Moment, TrackedFrame, TrackStatus
 from tests.accuracy.carpus import measured_hand
+from tests.accuracy.readings import Reading, reading_of
 from tests.accuracy.runs import Mode, degrees_between, longest_s
 from tests.accuracy.sequences import detected_sequence, scored_frames, true_names, wrongly_taken
 
@@ -93,7 +94,6 @@ ROWS = (
     HandScenario("end joints free", ("hook", "fist", "fingers"), {"dip": "free"}, _FREE, limits="skin", weight=2),
     HandScenario("end joints free, taken as coupled", ("hook",), {"dip": "free"}),
     HandScenario("discs on the skin, taken as in the joints", EXERCISES, {}, _IN_JOINTS),
-    HandScenario("joints without rates, the papers' model (1)", EXERCISES, {}, TrackerSettings(motion="paper")),
     HandScenario("child, 135 mm", EXERCISES, {"hand_length_mm": 135.0}),
     HandScenario("10 false blobs", EXERCISES, {"false_blobs": 10.0}),
     HandScenario("30 % hidden", EXERCISES, {"hidden_share": 0.3}),
@@ -111,7 +111,7 @@ class HandRun:
     ``seen`` (N, 21) the discs at and past the joint were there to be seen; ``compared`` (N, 21) where the angle means
     something; ``disc_mm`` errors of the discs that were seen, after the unit's depth scale; ``status`` (N,);
     measurements ``taken`` and ``wrong``, ``longest_wrong_s`` on end; ``missed`` of ``shown`` discs; ``ms`` of CPU time
-    a frame.
+    a frame; what a therapist reads live off wrist and joints, the latter while seen.
     """
 
     scenario: str
@@ -134,6 +134,8 @@ class HandRun:
     missed: int
     shown: int
     ms: float
+    wrist_reading: Reading
+    joint_reading: Reading
 
 
 def with_end_joints(joints: FloatArray) -> FloatArray:
@@ -252,27 +254,42 @@ def _scored(
     off_m = disc_m[kept] / depth_scale(truth.spec) - truth.disc_position_cam_m[kept]
     disc_mm = 1e3 * np.linalg.norm(off_m, axis=-1)[present]
     joint_true = with_end_joints(truth.joint_angles_rad)
+    joint_deg = degrees_between(with_end_joints(live[0]), joint_true)[kept]
+    joint_sd_deg = np.degrees(with_end_joints(live[1]))[kept]
+    wrist_deg, wrist_sd_deg = degrees_between(live[2], truth.angles_rad)[kept], np.degrees(live[3])[kept]
+    seen, compared = seen_joints(present), _compared(truth, joint_true)[kept]
+    missed, shown = int((present & ~taken).sum()), int(present.sum())
     return HandRun(
         row.name,
         truth.spec.motion,
         truth.spec.seed,
         mode,
-        degrees_between(with_end_joints(live[0]), joint_true)[kept],
-        np.degrees(with_end_joints(live[1]))[kept],
+        joint_deg,
+        joint_sd_deg,
         degrees_between(with_end_joints(back[0]), joint_true)[kept],
         np.degrees(with_end_joints(back[1]))[kept],
-        degrees_between(live[2], truth.angles_rad)[kept],
-        np.degrees(live[3])[kept],
-        seen_joints(present),
-        _compared(truth, joint_true)[kept],
+        wrist_deg,
+        wrist_sd_deg,
+        seen,
+        compared,
         disc_mm[np.isfinite(disc_mm)],
         status[kept],
         int(taken.sum()),
         int(wrong.sum()),
         longest_s(wrong, truth.timestamp_s[kept]),
-        int((present & ~taken).sum()),
-        int(present.sum()),
+        missed,
+        shown,
         ms,
+        reading_of(truth, kept, truth.angles_rad, wrist_deg, wrist_sd_deg, unused=missed, shown=shown),
+        reading_of(
+            truth,
+            kept,
+            joint_true,
+            np.where(seen & compared, joint_deg, np.nan),
+            joint_sd_deg,
+            unused=missed,
+            shown=shown,
+        ),
     )
 
 

@@ -12,12 +12,12 @@ import numpy as np
 from threadpoolctl import threadpool_limits
 from tqdm import tqdm
 
-from core.types import FloatArray
+from carpus.core.types import FloatArray
+from tests.accuracy import readings_table
 from tests.accuracy.hand21 import (
     ANGLES,
     JOINT_GROUPS,
     REPORT_SEEDS,
-    ROWS,
     WRIST,
     HandRun,
     HandScenario,
@@ -25,6 +25,7 @@ from tests.accuracy.hand21 import (
     run_on_pictures,
     tracked,
 )
+from tests.accuracy.readings_table import WRIST_COLUMNS, ReadRow
 from tests.accuracy.runs import Mode
 from tests.accuracy.targets import Verdict
 
@@ -34,6 +35,8 @@ MOST_RMSE_DEG = {
 }
 MOST_RMSE_ALWAYS = {"thumb MCP": 3.0, "thumb IP": 4.0, "abduction": 2.0}
 MOST_WRIST_DEG = (0.3, 1.0, 1.2)
+READ_JOINTS = ("MCP flexion", "PIP flexion", "thumb CMC")
+"""Groups of joints of which the therapist's columns are told."""
 MOST_DISC_MM = (1.0, 3.0)
 INSIDE = (0.90, 0.98)
 MOST_SD_OVER_RMSE = 1.5
@@ -219,6 +222,17 @@ def _hidden(values: FloatArray, run: HandRun) -> FloatArray:
     return np.asarray(values[~run.seen & np.isfinite(run.joint_deg)])
 
 
+def read_rows(runs: Sequence[HandRun], rows: Sequence[HandScenario]) -> list[ReadRow]:
+    """What a therapist reads, wrist and joints of every row."""
+    groups = {name: tuple(ANGLES.index(one) for one in JOINT_GROUPS[name]) for name in READ_JOINTS}
+    out = []
+    for row, mode, mine in _by_row(runs, rows):
+        name = f"21 discs, {row.name}" + ("" if mode == "blobs" else " (pictures)")
+        out.append(ReadRow(f"{name}: wrist", WRIST_COLUMNS, tuple(run.wrist_reading for run in mine)))
+        out.append(ReadRow(f"{name}: joints", groups, tuple(run.joint_reading for run in mine)))
+    return out
+
+
 def hand_verdicts(runs: Sequence[HandRun], rows: Sequence[HandScenario]) -> Iterator[Verdict]:
     """What was promised of the hand, by the simulated measurements."""
     for row, mode, mine in _by_row(runs, rows):
@@ -249,14 +263,12 @@ def hand_verdicts(runs: Sequence[HandRun], rows: Sequence[HandScenario]) -> Iter
             yield Verdict(f"{row.name}: {name} of the discs at most {limit:g} mm", f"{value:.2f}", bool(value <= limit))
 
 
-def rows_named(only: str) -> list[HandScenario]:
-    """The rows whose name holds ``only``."""
-    return [row for row in ROWS if only.lower() in row.name.lower()]
-
-
 def report(rows: Sequence[HandScenario], seeds: int, pictures: int, processes: int, *, as_markdown: bool) -> str:
     """Run these rows and tell."""
     runs = all_hand_runs(hand_jobs(rows, seeds, pictures), processes)
+    read = read_rows(runs, rows)
     if as_markdown:
-        return markdown(runs, rows)
-    return "\n".join([terminal(runs, rows), "", *map(str, hand_verdicts(runs, rows))])
+        return "\n\n".join((markdown(runs, rows), readings_table.markdown(read)))
+    return "\n".join(
+        [terminal(runs, rows), "", readings_table.terminal(read), "", *map(str, hand_verdicts(runs, rows))]
+    )

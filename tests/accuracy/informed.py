@@ -8,22 +8,24 @@ noise model could mend; only another filter could.
 from __future__ import annotations
 
 import time
+from dataclasses import replace
 
 import numpy as np
 
-from core.hand import clinical_angles
-from core.simulation.measurements import MeasurementSequence
-from core.tracking import modes
-from core.tracking.measurement import RigidPalm, View, forecast_reduced
-from core.tracking.modes import ModeBank
-from core.tracking.naming import Measurable, correct
-from core.tracking.settings import TrackerSettings
-from core.tracking.smoother import FilterStep, smooth
-from core.tracking.state import Belief, StateLayout, resting_belief
-from core.types import FloatArray, Side, TrackStatus
+from carpus.core.hand import clinical_angles
+from carpus.core.simulation.measurements import MeasurementSequence
+from carpus.core.tracking.kernel import Bank, mixed, predicted, switching
+from carpus.core.tracking.motion import PalmMotion, mode_scale, palm_step, slowing
+from carpus.core.tracking.naming import Measurable, correct
+from carpus.core.tracking.palm_state import SIZE, TURN, PalmBelief, resting_belief
+from carpus.core.tracking.palm_view import View, forecast, recentred
+from carpus.core.tracking.settings import TrackerSettings
+from carpus.core.tracking.smoother import FilterStep, smooth
+from carpus.core.types import FloatArray, Side, TrackStatus
 from tests.accuracy.runs import INFORMED, Estimate, Mode, Run, degrees_between
 from tests.accuracy.scenarios import Scenario
 from tests.accuracy.sequences import LEAST_DISCS, measured_and_errors, scored_frames
+from tests.tracking.hands import RIGID
 
 
 def informed_run(
@@ -39,39 +41,49 @@ def informed_run(
     measured, error = measured_and_errors(sequence)
     measured = measured - np.nanmean(error, axis=0)
     variance = np.nanmean(np.nanvar(error, axis=0), axis=0)
-    layout = StateLayout(0, settings.motion == "constant_rate", 0)
-    view = View(truth.camera, truth.rotation_w0_cam, truth.translation_w0_cam_m, RigidPalm(truth.marker_position_w0_m))
+    view = View(
+        truth.camera,
+        truth.rotation_w0_cam,
+        truth.translation_w0_cam_m,
+        truth.marker_position_w0_m,
+        np.zeros((6, 18)),
+    )
     scales = np.array(settings.mode_scales)
-    bank = ModeBank.of(resting_belief(layout, settings.initial), scales.size)
+    motion = PalmMotion(settings.motion_noise, RIGID.tissue, scales)
+    belief = resting_belief(settings.initial, 1e-14 * np.eye(18))
+    bank = Bank.alike(np.zeros((1, SIZE)), belief.covariance[None], scales.size)
     steps: list[FilterStep] = []
-    beliefs: list[Belief] = []
+    beliefs: list[PalmBelief] = []
     as_stated = np.ones(measured.shape[1:])
     times = truth.timestamp_s
     begin = time.process_time()
     for i, seen in enumerate(measured):
         dt_s = float(times[i] - times[i - 1]) if i else 1e-6
-        switch = modes.switching(scales.size, settings.mode_dwell_s, dt_s)
-        ahead = forecast_reduced(
-            modes.mixed(bank, switch), settings.motion_noise, scales, dt_s, layout, view, settings.spread
-        )
+        step = palm_step(belief.rate_rad_s, motion, dt_s)
+        start = mixed(bank, switching(scales.size, settings.mode_dwell_s, dt_s))
+        bank = predicted(start, step.forward[None], step.noise[None])
+        ahead_of = replace(step.carries(belief, dt_s), covariance=bank.merged()[1][0])
+        ahead = forecast(ahead_of, bank, view, settings.spread)
         names = np.where(np.isfinite(seen[:, 0]), np.arange(len(seen)), -1)
         blobs = Measurable(seen, np.broadcast_to(variance, seen.shape))
-        bank = modes.merged(correct(ahead, blobs, names, np.isfinite(seen[:, 2]), as_stated).bank, layout)
+        belief, bank = recentred(ahead_of, correct(ahead, blobs, names, np.isfinite(seen[:, 2]), as_stated).bank)
         if np.count_nonzero(names >= 0) < LEAST_DISCS:
-            bank = modes.slowed(bank, float(np.exp(-dt_s / settings.rate_memory_s)), layout)
-        beliefs.append(bank.nominal)
-        steps.append(FilterStep(float(times[i]), bank.nominal, float(np.sqrt(bank.probability @ scales**2)), True))
+            kept = slowing(float(np.exp(-dt_s / settings.rate_memory_s)))
+            belief = replace(belief, value=belief.value * kept, covariance=belief.covariance * np.outer(kept, kept))
+            bank = Bank(bank.mean * kept, bank.covariance * np.outer(kept, kept), bank.probability)
+        beliefs.append(belief)
+        steps.append(FilterStep(float(times[i]), belief, mode_scale(bank.probability[0], scales), True))
     ms = 1e3 * (time.process_time() - begin) / len(times)
     scored = scored_frames(truth, begin_s)
-    smoothed = [belief for belief in smooth(steps, settings.motion_noise, layout) if belief is not None]
+    smoothed = [belief for belief in smooth(steps, motion) if belief is not None]
     true_rad = truth.angles_rad[scored]
     return Run(
         scenario.name,
         truth.spec.seed,
         mode,
         INFORMED,
-        _estimate(_only(beliefs, scored), truth.spec.hand, layout, true_rad),
-        _estimate(_only(smoothed, scored), truth.spec.hand, layout, true_rad),
+        _estimate(_only(beliefs, scored), truth.spec.hand, true_rad),
+        _estimate(_only(smoothed, scored), truth.spec.hand, true_rad),
         np.full(int(scored.sum()), TrackStatus.TRACKED),
         int(np.isfinite(measured[scored, :, 0]).sum()),
         0,
@@ -81,13 +93,13 @@ def informed_run(
     )
 
 
-def _only(beliefs: list[Belief], scored: np.ndarray) -> list[Belief]:
+def _only(beliefs: list[PalmBelief], scored: np.ndarray) -> list[PalmBelief]:
     return [belief for belief, keep in zip(beliefs, scored, strict=True) if keep]
 
 
-def _estimate(beliefs: list[Belief], side: Side, layout: StateLayout, true_rad: FloatArray) -> Estimate:
+def _estimate(beliefs: list[PalmBelief], side: Side, true_rad: FloatArray) -> Estimate:
     rotation = np.array([belief.rotation_w2_w0 for belief in beliefs])
-    turn = np.array([belief.covariance[layout.turn, layout.turn] for belief in beliefs])
+    turn = np.array([belief.covariance[TURN, TURN] for belief in beliefs])
     by_turn = clinical_angles.angle_rates_matrix(rotation, side)
     variance = np.einsum("nij,njk,nik->ni", by_turn, turn, by_turn)
     angles = clinical_angles.angles_from_rotation(rotation, side)

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from threadpoolctl import threadpool_limits
 from tqdm import tqdm
 
-from core.simulation.measurements import measurement_sequence
+from carpus.core.simulation.measurements import measurement_sequence
 from tests.accuracy.carpus import run_on_blobs, run_on_pictures
 from tests.accuracy.informed import informed_run
 from tests.accuracy.runs import UNTROUBLED, Mode, Run
@@ -37,11 +37,15 @@ def done(job: Job) -> list[Run]:
         if job.mode == "blobs":
             sequence = measurement_sequence(job.scenario.spec(job.seed, BLOB_SECONDS))
             carpus, begin_s = run_on_blobs(job.scenario, sequence)
-            untroubled, _ = run_on_blobs(job.scenario, without_false(sequence), method=UNTROUBLED)
             simplest = simplest_run(job.scenario, sequence, begin_s)
+            if not job.scenario.has_bound:
+                return [carpus, simplest]
+            untroubled, _ = run_on_blobs(job.scenario, without_false(sequence), method=UNTROUBLED)
             return [carpus, untroubled, simplest, informed_run(job.scenario, sequence, begin_s, job.mode)]
         carpus, sequence, begin_s, folder = run_on_pictures(job.scenario, job.seed, PICTURE_SECONDS)
         simplest = simplest_run(job.scenario, sequence, begin_s, folder)
+        if not job.scenario.has_bound:
+            return [carpus, simplest]
         return [carpus, simplest, informed_run(job.scenario, sequence, begin_s, job.mode)]
 
 

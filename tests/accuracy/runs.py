@@ -8,7 +8,8 @@ from typing import Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from core.types import FloatArray, TrackStatus
+from carpus.core.types import FloatArray, TrackStatus
+from tests.accuracy.readings import Reading
 from tests.accuracy.speeds import StrokeSpeeds
 
 Mode = Literal["blobs", "pictures"]
@@ -33,7 +34,7 @@ class Run:
     ``smoothed`` None where it does not look back; ``status`` (N,) as in a session; ``taken`` measurements were taken
     for a marker, ``wrong`` of them another thing's, for at most ``longest_wrong_s`` on end; ``longest_untracked_s`` it
     was not tracked while four discs of the palm showed; ``ms`` CPU time per frame;
-    ``speeds`` of its strokes, where they were looked at.
+    ``speeds`` of its strokes and the therapist's ``reading``, live, where they were looked at.
     """
 
     scenario: str
@@ -49,6 +50,7 @@ class Run:
     longest_untracked_s: float
     ms: float
     speeds: StrokeSpeeds | None = None
+    reading: Reading | None = None
 
     @property
     def ends_lost(self) -> bool:

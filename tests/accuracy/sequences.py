@@ -2,16 +2,15 @@
 
 from __future__ import annotations
 
-from dataclasses import fields
 from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
 
-from core.session.reader import read_detections
-from core.simulation.measurements import MeasurementSequence
-from core.simulation.truth import Truth
-from core.types import Detections, FloatArray
+from carpus.core.session.reader import read_detections
+from carpus.core.simulation.measurements import MeasurementSequence
+from carpus.core.simulation.truth import Truth
+from carpus.core.types import Detections, FloatArray
 
 OWN_PX = 6.0
 """A blob's middle further than this from a disc's is not that disc's, even half covered."""
@@ -74,7 +73,7 @@ def without_false(sequence: MeasurementSequence) -> MeasurementSequence:
     """The blobs of true markers only."""
     kept = [np.flatnonzero(labels >= 0) for labels in sequence.marker]
     blobs = tuple(
-        Detections(*(getattr(b, field.name)[rows] for field in fields(Detections)))
+        Detections(b.pixel[rows], b.depth_m[rows], b.depth_sd_m[rows], b.area_px[rows], b.similarity[rows])
         for b, rows in zip(sequence.detections, kept, strict=True)
     )
     names = tuple(labels[rows] for labels, rows in zip(sequence.marker, kept, strict=True))

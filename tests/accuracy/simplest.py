@@ -15,14 +15,14 @@ import cv2
 import numpy as np
 from scipy.optimize import linear_sum_assignment
 
-from core.camera import Camera
-from core.capture.tum import TumFolder
-from core.hand.clinical_angles import angles_from_rotation
-from core.hand.wrist_frame import wrist_axes
-from core.simulation.measurements import MeasurementSequence
-from core.simulation.recording import clicks_of
-from core.so3 import nearest_rotation
-from core.types import FloatArray, Frame, TrackStatus
+from carpus.core.camera import Camera
+from carpus.core.capture.tum import TumFolder
+from carpus.core.hand.clinical_angles import angles_from_rotation
+from carpus.core.hand.wrist_frame import wrist_axes
+from carpus.core.simulation.measurements import MeasurementSequence
+from carpus.core.simulation.recording import clicks_of
+from carpus.core.so3 import nearest_rotation
+from carpus.core.types import FloatArray, Frame, TrackStatus
 from tests.accuracy.runs import SIMPLEST, Estimate, Mode, Run, degrees_between, longest_s
 from tests.accuracy.scenarios import Scenario
 from tests.accuracy.sequences import OWN_PX, longest_untracked_s, scored_frames

@@ -7,7 +7,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from core.types import FloatArray
+from carpus.core.types import FloatArray
+from tests.accuracy.readings_table import ReadRow
 from tests.accuracy.runs import CARPUS, INFORMED, SIMPLEST, UNTROUBLED, Mode, Run
 from tests.accuracy.scenarios import Scenario
 from tests.accuracy.scores import Score, score
@@ -51,6 +52,19 @@ def rows_of(runs: Sequence[Run], scenarios: Sequence[Scenario]) -> Iterator[Row]
             some = tuple(run for run in mine if run.scenario in {member.name for member in members})
             if len(members) > 1 and some:
                 yield Row(f"{pool}, pooled", mode, members[0].columns, some)
+
+
+def read_rows(rows: Sequence[Row]) -> list[ReadRow]:
+    """What a therapist reads live off Carpus, by every row."""
+    out = []
+    for row in rows:
+        readings = tuple(run.reading for run in row.runs if run.method == CARPUS and run.reading is not None)
+        columns = {
+            name: tuple(i for i, one in enumerate(row.columns) if one == name) for name in dict.fromkeys(row.columns)
+        }
+        if readings:
+            out.append(ReadRow(row.name if row.mode == "blobs" else f"{row.name} (pictures)", columns, readings))
+    return out
 
 
 def _three(values: FloatArray, digits: int = 2, factor: float = 1.0) -> str:

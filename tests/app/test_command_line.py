@@ -10,30 +10,31 @@ import subprocess
 import sys
 import time
 from pathlib import Path
+from subprocess import PIPE
 
 import cv2
 import pytest
 from tqdm import tqdm
 
-from app.__main__ import main
-from app.commands import progress
-from app.sources import open_recording
-from core.capture.camera_info import CAMERA_FILE
-from core.capture.oni_writer import write_oni
-from core.capture.tum import COLOR_LIST, TumFolder
-from core.errors import RecordingEmpty
-from core.hand.protocols import WRIST6
-from core.session.reader import read_session
-from core.session.recovery import interrupted_sessions
-from core.session.values import new_header
-from core.session.writer import SessionWriter
-from core.simulation.oni import in_millimetres
-from core.simulation.recording import CLICKS_FILE, simulate
-from core.simulation.spec import RecordingSpec
+from carpus.app.__main__ import main
+from carpus.app.commands import COMMANDS, progress
+from carpus.app.sources import open_recording
+from carpus.core.capture.camera_info import CAMERA_FILE
+from carpus.core.capture.oni_writer import write_oni
+from carpus.core.capture.tum import COLOR_LIST, TumFolder
+from carpus.core.errors import RecordingEmpty
+from carpus.core.hand.protocols import WRIST6
+from carpus.core.session.reader import read_session
+from carpus.core.session.recovery import interrupted_sessions
+from carpus.core.session.values import new_header
+from carpus.core.session.writer import SessionWriter
+from carpus.core.simulation.oni import in_millimetres
+from carpus.core.simulation.recording import CLICKS_FILE, TRUTH_FILE, simulate
+from carpus.core.simulation.spec import RecordingSpec
 from tests.session.samples import CAMERA, make_calibration
 
 ROOT = Path(__file__).parents[2]
-COMMAND = (sys.executable, "-m", "app")
+COMMAND = (sys.executable, "-m", "carpus")
 
 
 @pytest.fixture(autouse=True)
@@ -56,6 +57,23 @@ def session(tmp_path: Path) -> Path:
     return path
 
 
+def buffered() -> dict[str, str]:
+    """The environment of a child that keeps its output in hand for a while, as it does at a user's."""
+    return {name: value for name, value in os.environ.items() if name != "PYTHONUNBUFFERED"}
+
+
+def hear_all() -> None:
+    """In a child: stop on what a terminal would send, also where these tests were started by nohup or aside."""
+    for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
+        signal.signal(number, signal.SIG_DFL)
+
+
+def ignore_all() -> None:
+    """In a child: as nohup and a job in the background start it."""
+    for number in (signal.SIGINT, signal.SIGHUP):
+        signal.signal(number, signal.SIG_IGN)
+
+
 def usage_code(*arguments: str) -> int:
     with pytest.raises(SystemExit) as ended:
         main(arguments)
@@ -76,7 +94,12 @@ def test_recording_lasts_a_positive_time(seconds: str, tmp_path: Path) -> None:
 
 @pytest.mark.parametrize(
     "option",
-    [("--subject", "Fern 12"), ("--exercise", "fist"), ("--start-angles", "5", "0", "0"), ("--calibration", "c.json")],
+    [
+        ("--subject", "Fern 12"),
+        ("--exercise", "WRIST_FE"),
+        ("--start-angles", "5", "0", "0"),
+        ("--calibration", "c.json"),
+    ],
 )
 def test_a_session_answers_for_itself(
     option: tuple[str, ...], session: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
@@ -140,21 +163,50 @@ def test_a_closed_stream_is_no_trouble(stream: int, recording: Path, tmp_path: P
     assert len(read_session(output)) > 10
 
 
-def test_a_full_disk_under_the_output_is_told(session: Path) -> None:
+ASKED = [["info", "SESSION"], ["info", "SESSION", "--json"], ["--version"], ["--help"]]
+ASKED += [[command, "--help"] for command in COMMANDS]
+
+
+@pytest.mark.parametrize("asked", ASKED, ids=" ".join)
+def test_a_full_disk_under_the_output_is_told(asked: list[str], session: Path) -> None:
+    words = (*COMMAND, *(str(session) if word == "SESSION" else word for word in asked))
     with Path("/dev/full").open("w", encoding="utf-8") as full:
-        words = (*COMMAND, "info", str(session))
-        ended = subprocess.run(words, cwd=ROOT, stdout=full, stderr=subprocess.PIPE, check=False, text=True)
+        ended = subprocess.run(words, cwd=ROOT, env=buffered(), stdout=full, stderr=PIPE, check=False, text=True)
     assert ended.returncode == 1
+    assert ended.stderr.startswith("carpus: ")
+    assert ended.stderr.count("\n") == 1
     assert "No space left" in ended.stderr
     assert "unforeseen" not in ended.stderr
-    assert "Traceback" not in ended.stderr
+
+
+def test_a_full_disk_under_the_messages_changes_no_exit_code(session: Path, tmp_path: Path) -> None:
+    for path, code in ((session, 0), (tmp_path / "gone.h5", 1)):
+        with Path("/dev/full").open("w", encoding="utf-8") as full:
+            words = (*COMMAND, "info", str(path))
+            ended = subprocess.run(words, cwd=ROOT, env=buffered(), stdout=PIPE, stderr=full, check=False)
+        assert ended.returncode == code
+
+
+@pytest.mark.parametrize(
+    ("asked", "unbuffered"), [(["info", "SESSION"], False), (["info", "SESSION"], True), (["track", "--help"], False)]
+)
+def test_a_reader_that_goes_away_is_no_trouble(asked: list[str], unbuffered: bool, session: Path) -> None:
+    """As `carpus info FILE | head -1`, with a head that has gone before the first line comes."""
+    reading, writing = os.pipe()
+    os.close(reading)
+    words = (*COMMAND, *(str(session) if word == "SESSION" else word for word in asked))
+    environment = buffered() | ({"PYTHONUNBUFFERED": "1"} if unbuffered else {})
+    ended = subprocess.run(words, cwd=ROOT, env=environment, stdout=writing, stderr=PIPE, check=False, text=True)
+    os.close(writing)
+    assert ended.returncode == 1
+    assert ended.stderr == ""
 
 
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM, signal.SIGHUP])
 def test_stopped_while_rendering_leaves_nothing(number: signal.Signals, tmp_path: Path) -> None:
     folder = tmp_path / "rendered"
     words = (*COMMAND, "simulate", "--output", str(folder), "--seconds", "60")
-    with subprocess.Popen(words, cwd=ROOT, stderr=subprocess.PIPE, text=True) as process:
+    with subprocess.Popen(words, cwd=ROOT, stderr=PIPE, text=True, preexec_fn=hear_all) as process:
         while not any(folder.glob("rgb/*.png")):
             assert process.poll() is None
             time.sleep(0.02)
@@ -165,16 +217,32 @@ def test_stopped_while_rendering_leaves_nothing(number: signal.Signals, tmp_path
     assert not folder.exists()
 
 
+def test_what_a_parent_told_to_ignore_is_ignored(tmp_path: Path) -> None:
+    """A rendering in the background outlives the Ctrl+C meant for another job, and the end of its terminal."""
+    folder = tmp_path / "rendered"
+    words = (*COMMAND, "simulate", "--output", str(folder), "--seconds", "1")
+    with subprocess.Popen(words, cwd=ROOT, stderr=PIPE, text=True, preexec_fn=ignore_all) as process:
+        while not any(folder.glob("rgb/*.png")):
+            assert process.poll() is None
+            time.sleep(0.02)
+        process.send_signal(signal.SIGINT)
+        process.send_signal(signal.SIGHUP)
+        said = process.communicate(timeout=120)[1]
+    assert process.returncode == 0
+    assert "stopped" not in said
+    assert (folder / COLOR_LIST).exists()
+
+
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
 def test_stopped_while_tracking_leaves_no_part(number: signal.Signals, recording: Path, tmp_path: Path) -> None:
     """What can be tracked again is not kept by halves."""
     words = ["track", str(recording), "--calibration", str(recording / CLICKS_FILE), "--output", str(tmp_path / "s.h5")]
-    slow = "import time\nfrom app.__main__ import main\nfrom core.session.writer import SessionWriter\n"
+    slow = "import time\nfrom carpus.app.__main__ import main\nfrom carpus.core.session.writer import SessionWriter\n"
     slow += "append = SessionWriter.append\n"
     slow += "def slowly(*a):\n    print('.', flush=True)\n    time.sleep(0.5)\n    append(*a)\n"
     slow += f"SessionWriter.append = slowly\nraise SystemExit(main({words!r}))\n"
     with subprocess.Popen(
-        [sys.executable, "-c", slow], cwd=ROOT, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
+        [sys.executable, "-c", slow], cwd=ROOT, stdout=PIPE, stderr=PIPE, text=True, preexec_fn=hear_all
     ) as process:
         assert process.stdout is not None
         assert process.stdout.readline() == ".\n"
@@ -203,6 +271,16 @@ def test_a_simulation_beyond_all_limits_is_refused(
     assert not (tmp_path / "r").exists()
 
 
+def test_a_simulated_person_is_drawn_or_given(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    words = ("simulate", "--output", str(tmp_path / "r"), "--seconds=0.05", "--skin-glide-mm=drawn", "--cupping=0.5")
+    assert main([*words, "--habit=grip+rolling_forearm"]) == 0
+    spec = RecordingSpec.from_json(str(read_session(tmp_path / "r" / TRUTH_FILE).header.parameters))
+    assert (spec.skin_glide_mm, spec.cupping, spec.habits) == (None, 0.5, ("grip", "rolling_forearm"))
+    with pytest.raises(SystemExit):
+        main([*words, "--skin-glide-mm=much"])
+    assert "a number or drawn, not much" in capsys.readouterr().err
+
+
 def test_the_folder_of_a_rendered_oni_file_opens_it(recording: Path, tmp_path: Path) -> None:
     source = TumFolder(recording)
     write_oni(tmp_path / "recording.oni", in_millimetres(source.frames()), source.info.camera, fps=30, color="jpeg")
@@ -226,14 +304,15 @@ def test_info_says_that_a_raw_recording_was_cut_short(
     assert "cut short" in capsys.readouterr().out
 
 
-def test_the_unattended_way_can_be_stopped(tmp_path: Path) -> None:
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM, signal.SIGHUP])
+def test_the_unattended_way_can_be_stopped(number: signal.Signals, tmp_path: Path) -> None:
     words = (*COMMAND, "demo", "--unattended", "--data-folder", str(tmp_path / "data"))
-    with subprocess.Popen(words, cwd=ROOT, stderr=subprocess.PIPE, text=True) as process:
+    with subprocess.Popen(words, cwd=ROOT, stderr=PIPE, text=True, preexec_fn=hear_all) as process:
         while not (tmp_path / "data" / "patients.sqlite3").exists():
             assert process.poll() is None
             time.sleep(0.02)
         time.sleep(0.5)
-        process.send_signal(signal.SIGTERM)
+        process.send_signal(number)
         said = process.communicate(timeout=60)[1]
     assert process.returncode == 1
     assert said == "carpus: stopped.\n"
@@ -286,25 +365,20 @@ def test_damaged_pictures_are_a_fault_or_left_out_and_told(
     assert tracked.header.simulated
 
 
-def test_a_session_is_exported_as_csv_and_other_formats_are_said_to_be_missing(
+def test_a_session_is_exported_in_every_format_and_nothing_is_overwritten(
     session: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     folder = tmp_path / "new" / "export"
-    assert main(["export", str(session), "--format", "csv", "--output", str(folder)]) == 0
-    assert [path.name for path in folder.iterdir()] == ["session.wrist.csv"]
+    assert main(["export", str(session), "--format", "csv,json,c3d,trc,mot", "--output", str(folder)]) == 0
+    names = {path.name for path in folder.iterdir()}
+    assert names >= {"session.wrist.csv", "session.measures.json", "session.c3d", "session.trc", "session.mot"}
+    said = capsys.readouterr().out
+    assert all(name in said for name in names)
     assert main(["export", str(session), "--format", "csv", "--output", str(folder)]) == 1, "nothing is overwritten"
-    capsys.readouterr()
-    assert main(["export", str(session), "--format", "csv,c3d", "--output", str(folder)]) == 1
-    assert "c3d is not there yet" in capsys.readouterr().err
+    assert "session.wrist.csv" in capsys.readouterr().err
+    assert main(["export", str(session), "--format", "bids", "--output", str(tmp_path / "set")]) == 0
+    assert (tmp_path / "set" / "dataset_description.json").exists()
     assert usage_code("export", str(session), "--format", "xls", "--output", str(folder)) == 2
-
-
-@pytest.mark.parametrize("command", [["compare", "a.h5", "b.c3d"], ["calibrate-camera", "--board", "9x6"]])
-def test_a_command_to_come_says_so(command: list[str], capsys: pytest.CaptureFixture[str]) -> None:
-    assert main(command) == 1
-    said = capsys.readouterr().err
-    assert said.count("\n") == 1
-    assert f"{command[0]} is not there yet" in said
 
 
 def test_settings_of_a_session_are_json_where_asked_for(session: Path, capsys: pytest.CaptureFixture[str]) -> None:

@@ -8,14 +8,15 @@ from pathlib import Path
 import cv2
 import numpy as np
 
-from app.desktop.library import MARKERS_SUFFIX, Library
-from app.desktop.patients import PatientShelf, _results
-from app.desktop.unattended import lines_of
-from core.output.exercises import exercise_named
-from core.output.report_content import session_figures
+from carpus.app.desktop.patients import PatientShelf, _results
+from carpus.app.desktop.unattended import lines_of
+from carpus.core.library.beside import MARKERS_SUFFIX
+from carpus.core.library.library import Library
+from carpus.core.output.exercises import exercise_named
+from carpus.core.output.report_content import session_figures
+from carpus.ui.ports import PatientEntry
 from tests.app.test_library import set_up, store
 from tests.ui.hand_fakes import FakeHandSessions, hand_session
-from ui.ports import PatientEntry
 
 
 def test_the_card_of_the_hand_has_every_fingers_total_with_its_change_and_at_least() -> None:

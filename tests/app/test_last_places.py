@@ -6,8 +6,8 @@ from pathlib import Path
 
 import pytest
 
-from app.desktop import last_places
-from app.desktop.last_places import FILE, LastPlaces
+from carpus.app.desktop import last_places
+from carpus.app.desktop.last_places import FILE, LastPlaces
 
 
 def test_the_first_time_it_is_documents_or_home(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -14,16 +14,22 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from app.desktop.library import CHOICES_SUFFIX, Library
-from app.desktop.patients import PatientShelf
-from core.calibration.result import Finding
-from core.errors import OutputExists, SessionUnreadable
-from core.output.exercises import exercise_named
-from core.output.report_content import RepetitionChoices
-from core.session.values import new_header
-from core.session.writer import SessionWriter
+from carpus.app.desktop.patients import PatientShelf
+from carpus.app.desktop.shelf import StoredSessions
+from carpus.core.calibration.result import Finding
+from carpus.core.errors import OutputExists, SessionUnreadable
+from carpus.core.library.beside import CHOICES_SUFFIX
+from carpus.core.library.library import Library
+from carpus.core.library.records import Records
+from carpus.core.library.set_up import PRACTICE_PATIENT, SetUp
+from carpus.core.output.exercises import exercise_named
+from carpus.core.output.report_content import RepetitionChoices
+from carpus.core.session.reader import read_session
+from carpus.core.session.register import MIGRATIONS
+from carpus.core.session.values import new_header
+from carpus.core.session.writer import SessionWriter
+from carpus.ui.ports import PatientEntry
 from tests.session.samples import CAMERA, make_calibration, make_frame
-from ui.ports import PRACTICE_PATIENT, PatientEntry, SetUp
 
 
 @pytest.fixture
@@ -96,6 +102,36 @@ def test_the_length_of_the_hand_is_that_of_its_last_session_with_right_names(lib
     assert library.last_hand_length_mm(wanted, simulated=False) == pytest.approx(210.0), "accepted by a person"
 
 
+def test_a_simulated_session_of_a_patient_counts_nowhere_and_hides_no_real_result(library: Library) -> None:
+    shelf = PatientShelf(library)
+    linden = shelf.add(PatientEntry("Linden 42", "right", "right"))
+    wanted, simulated = set_up(linden, "Linden 42"), json.dumps({"source": {"simulated": "yes"}})
+    store(library, wanted, parameters=simulated)
+    (row,) = shelf.patients()
+    assert (row.session_count, row.last_session) == (0, None)
+    assert shelf.card(linden).results == ()
+    real = store(library, wanted)
+    store(library, wanted, parameters=simulated, after=timedelta(days=1))
+    (row,) = shelf.patients()
+    assert (row.session_count, row.last_session) == (1, library.entry(real).created)
+    card = shelf.card(linden)
+    assert card.note_when == library.entry(real).created
+    assert not any("imulated" in said for said in card.warnings)
+    assert sorted(entry.simulated for entry in library.sessions(linden)) == [False, True, True]
+
+
+def test_an_index_of_an_earlier_carpus_learns_what_was_simulated(library: Library) -> None:
+    linden = PatientShelf(library).add(PatientEntry("Linden 42", "right", "right"))
+    store(library, set_up(linden, "Linden 42"), parameters=json.dumps({"source": {"simulated": "yes"}}))
+    with library.clinic.database.transaction() as database:
+        database.execute("UPDATE session SET simulated = 0")
+        for step in MIGRATIONS[3].split(";")[1:]:
+            database.execute(step)
+    assert library.clinic.is_behind()
+    library.recover()
+    assert [entry.simulated for entry in library.sessions(linden)] == [True]
+
+
 def test_the_last_set_up_comes_back_with_its_targets(library: Library) -> None:
     linden = PatientShelf(library).add(PatientEntry("Linden 42", "right", "right"))
     assert library.last_set_up(linden) is None
@@ -138,7 +174,7 @@ def test_a_session_copied_into_the_folder_is_taken_in_at_the_next_start(library:
 
 def test_the_exported_table_holds_the_angles_and_is_never_overwritten(library: Library, tmp_path: Path) -> None:
     session_id = store(library, set_up(PRACTICE_PATIENT, "Practice patient"))
-    (name,) = library.export(session_id, str(tmp_path))
+    (name,) = [name for name in library.export(session_id, str(tmp_path)) if name.endswith(".wrist.csv")]
     session = library.session(session_id)
     with (tmp_path / name).open(newline="", encoding="utf-8") as file:
         rows = list(csv.DictReader(file))
@@ -150,3 +186,56 @@ def test_the_exported_table_holds_the_angles_and_is_never_overwritten(library: L
             np.testing.assert_allclose(known, np.degrees(angle), atol=6e-4)
     with pytest.raises(OutputExists):
         library.export(session_id, str(tmp_path))
+
+
+def test_a_session_is_moved_renamed_set_aside_and_deleted_with_all_its_files(library: Library) -> None:
+    shelf, stored = PatientShelf(library), StoredSessions(library)
+    linden = shelf.add(PatientEntry("Linden 42", "right", "right"))
+    heron = shelf.add(PatientEntry("Heron 17", "right", "right"))
+    one = store(library, set_up(linden, "Linden 42"))
+    two = store(library, set_up(linden, "Linden 42"), after=timedelta(hours=1))
+    path = library.entry(one).path
+    stored.set_aside(one, "discs lost")
+    assert {line.session_id: line.set_aside for line in stored.lines(linden)} == {one: "discs lost", two: ""}
+    assert library.figures(library.entry(one)).not_counted
+    stored.set_aside(one, "")
+    assert not library.figures(library.entry(one)).not_counted
+    stored.rename_exercise(one, "FOREARM_PS")
+    assert library.figures(library.entry(one)).exercise.id == "FOREARM_PS"
+    assert library.session(one).header.exercise == "FOREARM_PS"
+    assert read_session(path).header.exercise == "WRIST_RU", "the file is not changed"
+    stored.move(one, heron)
+    assert [line.session_id for line in stored.lines(linden)] == [two]
+    assert [line.session_id for line in stored.lines(heron)] == [one]
+    library.recover()
+    assert [line.session_id for line in stored.lines(heron)] == [one], "the files do not undo it"
+    path.with_suffix(".markers.jpg").write_bytes(b"x")
+    records = Records(library)
+    plan = records.plan_session(one)
+    assert {file.name for file in plan.files} == {
+        path.name, path.with_suffix(CHOICES_SUFFIX).name, path.with_suffix(".markers.jpg").name,
+    }  # fmt: skip
+    records.erase(plan)
+    assert stored.lines(heron) == []
+    assert list(path.parent.glob(f"{path.stem}.*")) == []
+    assert len(library.session(two)) == 40
+    assert not library.clinic.is_behind()
+    with pytest.raises(SessionUnreadable):
+        records.plan_session(one)
+
+
+def test_another_order_of_the_angles_is_read_everywhere_but_in_files(library: Library, tmp_path: Path) -> None:
+    patient_id = PatientShelf(library).add(PatientEntry("Linden 42", "right", "right"))
+    session_id = store(library, set_up(patient_id, "Linden 42"))
+    plain = library.session(session_id)
+    assert [figures.angle_order for figures in library.history(patient_id)] == ["zyx"]
+    library.angle_order = lambda: "isb"
+    turned = library.session(session_id)
+    assert turned.angle_order == "isb"
+    assert not np.allclose(turned.motion.angles_rad, plain.motion.angles_rad, equal_nan=True)
+    assert [figures.angle_order for figures in library.history(patient_id)] == ["isb"]
+    library.export(session_id, str(tmp_path))
+    with next(tmp_path.rglob("*.wrist.csv")).open(encoding="utf-8") as file:
+        first = next(row for row in csv.DictReader(file) if row["flexion_deg"])
+    row = int(np.flatnonzero(np.isfinite(plain.motion.angles_rad[:, 1]))[0])
+    assert float(first["flexion_deg"]) == pytest.approx(math.degrees(plain.motion.angles_rad[row, 1]), abs=1e-3)

@@ -10,17 +10,17 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from app.desktop.measuring import NOT_LOOKED_BACK, LiveWalk, SmoothedSession
-from core.errors import RecordingEmpty
-from core.pipeline import looking_back
-from core.pipeline.frame_walk import FrameWalk
-from core.pipeline.looking_back import LookingBack
-from core.pipeline.pieces import PIECE_S, TrackedHand
-from core.session.reader import read_session
-from core.session.writer import SessionWriter
-from core.tracking.settings import TrackerSettings
-from core.tracking.tracker import Tracker
-from core.types import Detections, Frame
+from carpus.core.errors import RecordingEmpty
+from carpus.core.pipeline import looking_back
+from carpus.core.pipeline.frame_walk import FrameWalk
+from carpus.core.pipeline.looking_back import LookingBack
+from carpus.core.pipeline.measuring import NOT_LOOKED_BACK, LiveWalk, SmoothedSession
+from carpus.core.pipeline.pieces import PIECE_S, TrackedHand
+from carpus.core.session.reader import read_session
+from carpus.core.session.writer import SessionWriter
+from carpus.core.tracking.settings import TrackerSettings
+from carpus.core.tracking.tracker import Tracker
+from carpus.core.types import Detections, Frame
 from tests.pipeline.live_fakes import wait_until
 from tests.session.samples import make_header
 from tests.tracking.hands import CAMERA, DT_S, Pose, blobs, calibration
@@ -32,7 +32,7 @@ NO_PICTURE = np.zeros((1, 1, 3), np.uint8)
 @pytest.fixture(autouse=True)
 def patience(monkeypatch: pytest.MonkeyPatch) -> None:
     """A loaded computer may take long to start a process; whether it is done in time is not what is tested."""
-    monkeypatch.setattr(looking_back, "END_S", 60.0)
+    monkeypatch.setattr(looking_back, "END_S", 150.0)
 
 
 class Blobs:

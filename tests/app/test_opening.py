@@ -10,11 +10,11 @@ from typing import Any
 
 from pytestqt.qtbot import QtBot
 
-from app.desktop.opening import Opener
-from core.output.exercises import exercise_named
+from carpus.app.desktop.opening import Opener
+from carpus.core.library.set_up import SetUp
+from carpus.core.output.exercises import exercise_named
+from carpus.ui.setup.choice import SourceChoice
 from tests.ui.fakes import set_up
-from ui.ports import SetUp
-from ui.setup.choice import SourceChoice
 
 
 class SlowSources:

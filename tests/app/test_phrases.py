@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import pytest
 
-from app.desktop.phrases import WordTable, shortened
-from core.errors import DiskFull
+from carpus.app.desktop.phrases import WordTable, shortened
+from carpus.core.errors import DiskFull
 
 
 @pytest.mark.parametrize("root", ["/home/someone/.local/share/carpus", "C:\\Users\\Some One\\AppData\\carpus"])

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import os
 import shutil
 import subprocess
@@ -14,9 +15,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from core.session.values import new_header
-from core.session.writer import SessionWriter
-from core.types import TrackedFrame
+from carpus.app import python_face
+from carpus.core.session.values import new_header
+from carpus.core.session.writer import SessionWriter
+from carpus.core.types import TrackedFrame, TrackStatus
 from tests.session.samples import CAMERA, make_calibration, make_frame
 
 ROOT = Path(__file__).parents[2]
@@ -25,7 +27,11 @@ ROOT = Path(__file__).parents[2]
 def carpus(*arguments: str | Path) -> subprocess.CompletedProcess[str]:
     environment = {name: value for name, value in os.environ.items() if name not in ("DISPLAY", "QT_QPA_PLATFORM")}
     return subprocess.run(
-        [sys.executable, "-m", "app", *map(str, arguments)], cwd=ROOT, env=environment, capture_output=True, text=True
+        [sys.executable, "-m", "carpus", *map(str, arguments)],
+        cwd=ROOT,
+        env=environment,
+        capture_output=True,
+        text=True,
     )
 
 
@@ -73,6 +79,36 @@ def test_one_session_makes_a_session_report(sessions: list[Path], tmp_path: Path
     page = words(tmp_path / "one.pdf")
     assert "Linden 42" in page
     assert "Session report" in page
+
+
+def test_what_was_left_out_in_the_review_is_left_out_everywhere(tmp_path: Path) -> None:
+    path = tmp_path / "day.h5"
+    calibration = replace(make_calibration(), rotation_w0_cam=np.diag([1.0, -1.0, -1.0]))
+    header = new_header(
+        hand="right", protocol=calibration.clicks.protocol, software_version="0", exercise="WRIST_FE",
+        now=datetime(2026, 11, 1, 9, 0, tzinfo=UTC), session_id=uuid.uuid4(),
+    )  # fmt: skip
+    still = {"rotation_w2_w0": np.eye(3), "position_m": np.zeros(3), "status": TrackStatus.TRACKED}
+    with SessionWriter.create(path, header, CAMERA, calibration) as writer:
+        for row in range(20 * 30):
+            writer.append(replace(frame(row), w0_turn_rad=np.zeros(3), dropped_before=0, **still))
+    whole = {row.measure: row.count for row in python_face.open_session(path).measures()}
+    choices = {"left_out": {"0": "pain", "1": "pain"}, "edges_s": {}, "not_counted": False}
+    path.with_suffix(".choices.json").write_text(json.dumps(choices), encoding="utf-8")
+    assert carpus("report", path, "--output", tmp_path / "day.pdf").returncode == 0
+    left = whole["arc"] - 2
+    assert f"mean of {left} repetitions; number 1 left out: pain" in words(tmp_path / "day.pdf")
+    assert {row.measure: row.count for row in python_face.open_session(path).measures()}["arc"] == left
+    assert carpus("export", path, "--format", "json", "--output", tmp_path / "out").returncode == 0
+    (made,) = (tmp_path / "out").rglob("*.measures.json")
+    content = json.loads(made.read_text(encoding="utf-8"))
+    assert next(row["count"] for row in content["measures"] if row["measure"] == "arc") == left
+    assert [one["reason"] for one in content["repetitions"] if not one["counts"]] == ["pain", "pain"]
+    nobody = carpus("export", path, "--format", "json", "--deidentified", "--output", tmp_path / "nobody")
+    assert nobody.returncode == 0
+    (made,) = (tmp_path / "nobody").rglob("*.measures.json")
+    assert "pain" not in made.read_text(encoding="utf-8").replace('"pain": []', "")
+    assert f"mean of {left} repetitions" in carpus("info", path).stdout
 
 
 def test_several_sessions_make_a_progress_report(sessions: list[Path], tmp_path: Path) -> None:

@@ -9,7 +9,7 @@ from typing import Any
 
 import pytest
 
-from app.settings import (
+from carpus.app.settings import (
     PREFERENCES_FILE,
     SETTINGS_FILE,
     RecordingSettings,
@@ -20,8 +20,8 @@ from app.settings import (
     load_settings,
     settings_folder,
 )
-from core.errors import SettingsInvalid
-from core.words import one_sentence
+from carpus.core.errors import SettingsInvalid
+from carpus.core.words import one_sentence
 
 DEFAULTS = Path(__file__).parents[2] / "resources" / "defaults.toml"
 

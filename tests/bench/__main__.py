@@ -7,7 +7,7 @@ import os
 import platform
 import sys
 
-PARTS = ("tracking", "whole-hand", "writing", "window")
+PARTS = ("start", "tracking", "whole-hand", "writing", "batch", "zoom", "window")
 
 
 def main() -> int:
@@ -32,6 +32,12 @@ def main() -> int:
     print(f"{platform.platform()}, Python {platform.python_version()}, {os.cpu_count()} processors")
     load = os.getloadavg()[0] if hasattr(os, "getloadavg") else float("nan")
     print(f"CPU time; ratios to the yardstick of the same run. Load at the start: {load:.1f}\n")
+    if "start" in parts:
+        from tests.bench import starting
+
+        for text in starting.report():
+            print(text, flush=True)
+        print()
     if "tracking" in parts:
         from tests.bench import tracking
 
@@ -48,6 +54,18 @@ def main() -> int:
         from tests.bench import writing
 
         for text in writing.report():
+            print(text, flush=True)
+        print()
+    if "batch" in parts:
+        from tests.bench import batch
+
+        for text in batch.report():
+            print(text, flush=True)
+        print()
+    if "zoom" in parts:
+        from tests.bench import zooming
+
+        for text in zooming.report():
             print(text, flush=True)
         print()
     if "window" in parts:

@@ -18,10 +18,10 @@ from pathlib import Path
 import numpy as np
 import platformdirs
 
-from core.hand.protocols import HAND21
-from core.simulation.render import Renderer
-from core.simulation.scene import Scene
-from core.simulation.sensor import ColorSensor
+from carpus.core.hand.protocols import HAND21
+from carpus.core.simulation.render import Renderer
+from carpus.core.simulation.scene import Scene
+from carpus.core.simulation.sensor import ColorSensor
 from tests.bench.timing import line
 from tests.bench.whole_hand import FINGERS
 

@@ -5,11 +5,11 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from core.pipeline.frame_walk import FrameWalk
-from core.tracking import naming
-from core.tracking.settings import TrackerSettings
-from core.tracking.tracker import Tracker
-from core.types import Detections, Frame
+from carpus.core.pipeline.frame_walk import FrameWalk
+from carpus.core.tracking import naming
+from carpus.core.tracking.settings import TrackerSettings
+from carpus.core.tracking.tracker import Tracker
+from carpus.core.types import Detections, Frame
 from tests.bench import reference
 from tests.bench.timing import HEAD, line
 from tests.bench.tracking import spied
@@ -41,16 +41,17 @@ def test_the_spy_measures_the_parts_of_a_frame_and_leaves_no_trace() -> None:
             return object()
 
     walk = FrameWalk(Blobs(), Tracker(calibration(), CAMERA, TrackerSettings()))  # type: ignore[arg-type]
-    true = naming.update
+    true = naming.corrected
     with spied(walk) as spy:
         for index in range(5):
             walk(Frame(index, index / 30.0, np.zeros((1, 1, 3), np.uint8), None, 1e-3))
-        assert naming.update is not true
-    assert naming.update is true
+        assert naming.corrected is not true
+    assert naming.corrected is true
     assert spy.calls("narrow") == 5
     assert spy.calls("update") >= 5
     assert spy.calls("names") >= 5
-    assert spy.calls("forecast") == 4  # none for the first frame
+    assert spy.calls("predict") == 3 * 4  # nothing moves before the first frame
+    assert spy.calls("forecast") == 5  # once for each: what the search expects, its blobs are named by
     assert spy.cpu_since("update", 0) > 0.0
 
 

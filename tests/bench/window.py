@@ -14,17 +14,17 @@ from typing import Any
 import numpy as np
 from PySide6.QtCore import QEvent, QEventLoop, QObject, QTimer
 
-from app import compose
-from app.desktop.journey import Journey
-from app.desktop.practice import practice_spec
-from app.desktop.unattended import Walker
-from app.settings import RecordingSettings, ScreenSettings, Settings
-from core.calibration.clicks import read_clicks
-from core.output.exercises import exercise_named
-from core.session.reader import read_session
-from core.simulation.recording import CLICKS_FILE, cached_recording
-from ui.live.screen import LiveScreen
-from ui.ports import PRACTICE_PATIENT
+from carpus.app import compose
+from carpus.app.desktop.journey import Journey
+from carpus.app.desktop.practice import practice_spec
+from carpus.app.desktop.unattended import Walker
+from carpus.app.settings import RecordingSettings, ScreenSettings, Settings
+from carpus.core.calibration.clicks import read_clicks
+from carpus.core.library.set_up import PRACTICE_PATIENT
+from carpus.core.output.exercises import exercise_named
+from carpus.core.session.reader import read_session
+from carpus.core.simulation.recording import CLICKS_FILE, cached_recording
+from carpus.ui.live.screen import LiveScreen
 
 SIZE_PX = (1920, 1080)
 SETTLED_S = 10.0
@@ -50,7 +50,7 @@ class Watcher(QObject):
         super().__init__(live)
         self._live, self._run = live, run
         self._awaited = False
-        live.plots().installEventFilter(self)
+        live.plots().face.installEventFilter(self)
 
     def eventFilter(self, watched: QObject, event: QEvent) -> bool:  # noqa: N802  (Qt's name)
         if event.type() == QEvent.Type.Paint and not self._awaited:
@@ -68,7 +68,7 @@ class Watcher(QObject):
 
 def choose_whole_hand(journey: Journey) -> None:
     """The way to the practice patient's fist with 21 markers."""
-    journey.choose_exercise(PRACTICE_PATIENT)
+    journey.setting_up.choose_exercise(PRACTICE_PATIENT)
     journey.exercise.choose(exercise_named("FIST_COMPOSITE"))
     journey.exercise.primary.click()
     journey.camera.sources.choose("practice")
@@ -136,7 +136,7 @@ def measure(seconds: float, folder: Path, *, pictures: bool, whole_hand: bool) -
             "tracked_p95_ms": after.latency_p95_ms,
             "threads": threading.active_count(),
         }
-        live.plots().removeEventFilter(watcher)
+        live.plots().face.removeEventFilter(watcher)
         pulse.stop()
         again.stop()
         stop_s = time.monotonic()

@@ -8,10 +8,10 @@ from pathlib import Path
 
 import numpy as np
 
-from core.capture.raw import RawWriter
-from core.capture.tum import TumFolder
-from core.session.writer import SessionWriter
-from core.simulation.recording import cached_recording
+from carpus.core.capture.raw import RawWriter
+from carpus.core.capture.tum import TumFolder
+from carpus.core.session.writer import SessionWriter
+from carpus.core.simulation.recording import cached_recording
 from tests.bench.timing import HEAD, Times, line
 from tests.bench.tracking import ORDINARY, frames_of
 from tests.session.samples import CAMERA, make_calibration, make_frame, make_header

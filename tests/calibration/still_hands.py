@@ -8,14 +8,14 @@ from functools import lru_cache
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from core.calibration.calibrate import CalibrationOutcome, calibrate
-from core.calibration.result import Clicks
-from core.calibration.settings import CalibrationSettings
-from core.detection.appearance import disc_mask
-from core.detection.settings import DetectionSettings
-from core.hand.protocols import WRIST6
-from core.types import FloatArray, Frame, Side
-from tests.detection.pictures import CAMERA, Look, depth_picture, frame, picture
+from carpus.core.calibration.calibrate import CalibrationOutcome, calibrate
+from carpus.core.calibration.result import Clicks
+from carpus.core.calibration.settings import CalibrationSettings
+from carpus.core.detection.appearance import disc_mask
+from carpus.core.detection.settings import DetectionSettings
+from carpus.core.hand.protocols import WRIST6
+from carpus.core.types import FloatArray, Frame, Side
+from tests.detection.pictures import CAMERA, Extra, Look, depth_picture, frame, picture
 from tests.tracking.hands import FROM_ABOVE, palm
 
 
@@ -47,9 +47,15 @@ class Scene:
 
 
 def frames_of(
-    scene: Scene, count: int = 17, seed: int = 0, shift_px: FloatArray | None = None, hole_at: int | None = None
+    scene: Scene,
+    count: int = 17,
+    seed: int = 0,
+    shift_px: FloatArray | None = None,
+    hole_at: int | None = None,
+    extras: tuple[Extra, ...] = (),
 ) -> list[Frame]:
-    """Pictures at 30 a second; ``shift_px`` (count, 2) moves all discs, ``hole_at`` takes a disc's depth away."""
+    """Pictures at 30 a second; ``shift_px`` (count, 2) moves all discs, ``hole_at`` takes a disc's depth away,
+    ``extras`` are spots that are no discs."""
     rng = np.random.default_rng(seed)
     shift = np.zeros((count, 2)) if shift_px is None else shift_px
     look = Look(noise=3.0 * scene.noise)
@@ -57,7 +63,7 @@ def frames_of(
     out = []
     for k in range(count):
         pixel = scene.discs_px + shift[k]
-        color = picture(pixel, look, rng if scene.noise else None, radius_px=radius_px)
+        color = picture(pixel, look, rng if scene.noise else None, radius_px=radius_px, extras=extras)
         depth = depth_picture(None, scene.distance_m)
         for j, (point, z) in enumerate(zip(pixel, scene.discs_cam_m[:, 2], strict=True)):
             depth[disc_mask(depth.shape, point, 9.0)] = 0.0 if j == hole_at else z

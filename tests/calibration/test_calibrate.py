@@ -10,14 +10,15 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from core.calibration.calibrate import NeutralCapture, calibrate, measure_hand, require_calibration
-from core.calibration.result import Calibration, Clicks, Finding
-from core.calibration.same_hand import compared_with_last_time
-from core.calibration.settings import CalibrationSettings
-from core.detection.settings import DetectionSettings
-from core.errors import ClickOnNoMarker, MarkerWithoutDepth
-from core.hand.protocols import WRIST6
-from core.types import FloatArray, Side
+from carpus.core.calibration.calibrate import NeutralCapture, calibrate, measure_hand, require_calibration
+from carpus.core.calibration.result import Calibration, Clicks, Finding
+from carpus.core.calibration.same_hand import compared_with_last_time
+from carpus.core.calibration.settings import CalibrationSettings
+from carpus.core.depth_noise import reading_sd_m
+from carpus.core.detection.settings import DetectionSettings
+from carpus.core.errors import ClickOnNoMarker, MarkerWithoutDepth
+from carpus.core.hand.protocols import HAND21, WRIST6, MarkerProtocol
+from carpus.core.types import FloatArray, Side
 from tests.calibration.still_hands import Scene, clicks_on, frames_of, outcome_of, still
 from tests.detection.pictures import CAMERA, PALM_PX
 from tests.tracking.hands import palm
@@ -319,3 +320,46 @@ def test_a_disc_seen_once_says_nothing_of_the_noise() -> None:
     noise = measure_hand(clicks, capture, CAMERA, CalibrationSettings()).noise
     assert 0.05 < noise.pixel_sd_px < 0.2
     assert 0.0005 < noise.depth_sd_m < 0.002
+
+
+def _still_capture(clicks: Clicks, frames: int, pixel_sd: float, depth_sd_m: float, said_m: float) -> NeutralCapture:
+    rng = np.random.default_rng(7)
+    count = len(clicks.pixel)
+    sway = rng.normal(0.0, 0.3, (frames, 1, 2))  # the arm's, common to all discs
+    pixel = clicks.pixel + sway + rng.normal(0.0, pixel_sd, (frames, count, 2))
+    depth_m = 0.7 + rng.normal(0.0, depth_sd_m, (frames, count))
+    return NeutralCapture(pixel, depth_m, np.full((frames, count), said_m), np.full((frames, count), 60.0))
+
+
+@pytest.mark.parametrize("protocol", [WRIST6, HAND21])
+def test_the_noise_of_discs_is_that_of_their_own_whatever_their_number(protocol: MarkerProtocol) -> None:
+    """What all share is the hand's; each disc's part of that is given back, to few discs more than to many."""
+    spread = np.column_stack((np.arange(21) % 5 * 40.0 + 200.0, np.arange(21) // 5 * 40.0 + 150.0))
+    palm = list(HAND21.palm)
+    spread[palm] = PALM_PX
+    pixel = spread if protocol is HAND21 else PALM_PX
+    capture = _still_capture(Clicks("right", protocol, pixel), 300, 0.1, 0.001, 0.001)
+    noise = measure_hand(Clicks("right", protocol, pixel), capture, CAMERA, CalibrationSettings()).noise
+    assert noise.pixel_sd_px == pytest.approx(0.1, rel=0.045)
+    assert noise.depth_sd_m == pytest.approx(0.001, rel=0.04)
+
+
+@pytest.mark.parametrize("frames", [8, 200])
+@pytest.mark.parametrize("said_over_book", [1.0, 3.0])
+def test_how_well_a_disc_is_known_after_so_many_pictures(frames: int, said_over_book: float) -> None:
+    """Scatter is averaged away; the pattern of the depth and a slope stay; across, a tenth of a pixel stays."""
+    book_m = float(reading_sd_m(np.array(0.7)))
+    clicks = Clicks("right", WRIST6, PALM_PX)
+    capture = _still_capture(clicks, frames, 0.1, 0.001, said_over_book * book_m)
+    calibration = measure_hand(clicks, capture, CAMERA, CalibrationSettings()).calibration
+    assert calibration is not None
+    in_cam = (
+        calibration.rotation_w0_cam @ calibration.marker_covariance_w0_m2 @ np.transpose(calibration.rotation_w0_cam)
+    )
+    steep2 = (said_over_book**2 - 1.0) * book_m**2
+    pattern_m = 0.5e-3 * 0.7**2
+    along_m = np.sqrt(0.001**2 / frames + pattern_m**2 + steep2)
+    assert np.sqrt(in_cam[:, 2, 2]) == pytest.approx(np.full(6, along_m), rel=0.25 if frames == 8 else 0.03)
+    across_m = np.hypot(0.1 / np.sqrt(frames), 0.1) * 0.7 / CAMERA.fx_px
+    flat = np.linalg.eigvalsh(in_cam)[:, 0]
+    assert np.sqrt(flat) == pytest.approx(np.full(6, across_m), rel=0.15)

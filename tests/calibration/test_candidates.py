@@ -4,18 +4,19 @@ from __future__ import annotations
 
 from functools import lru_cache
 
+import cv2
 import numpy as np
 import pytest
 
-from core.calibration.calibrate import calibrate
-from core.calibration.candidates import disc_at, marker_candidates, snapped
-from core.calibration.naming import propose_names
-from core.calibration.settings import CalibrationSettings
-from core.camera import Camera
-from core.detection.settings import DetectionSettings
-from core.simulation.recording import SimulatedPictures, clicks_of
-from core.simulation.spec import RecordingSpec
-from core.types import FloatArray, Frame, Side
+from carpus.core.calibration.calibrate import calibrate
+from carpus.core.calibration.candidates import disc_at, marker_candidates, snapped
+from carpus.core.calibration.naming import propose_names
+from carpus.core.calibration.settings import CalibrationSettings
+from carpus.core.camera import Camera
+from carpus.core.detection.settings import DetectionSettings
+from carpus.core.simulation.recording import SimulatedPictures, clicks_of
+from carpus.core.simulation.spec import RecordingSpec
+from carpus.core.types import FloatArray, Frame, Side
 
 SETTINGS = DetectionSettings()
 RADIUS_PX = 4.8
@@ -97,3 +98,40 @@ def test_a_picture_without_a_hand_has_no_candidates_and_a_click_at_its_edge_find
     assert len(marker_candidates(grey, camera, SETTINGS)) == 0
     for corner in ((0.0, 0.0), (639.0, 479.0)):
         assert len(disc_at(grey, np.array(corner), camera, SETTINGS)) == 0
+
+
+def in_dark_cloth(frame: Frame, base: tuple[int, int, int], from_row: int, seed: int) -> Frame:
+    """The picture with a dark pullover from a row down: folds, weave and noise, its hue blue by chance."""
+    rng = np.random.default_rng(seed)
+    shape = frame.color_rgb.shape
+    folds, weave = cv2.GaussianBlur(rng.normal(size=shape[:2]), (0, 0), 3.0), rng.normal(size=shape)
+    tint = cv2.GaussianBlur(rng.normal(size=shape), (0, 0), 3.0)
+    cloth = np.array(base) * (1.0 + 0.35 * folds / folds.std())[..., None] + 3.0 * weave + 4.0 * tint / tint.std()
+    color = frame.color_rgb.copy()
+    color[from_row:] = np.clip(cloth, 0, 255).astype(np.uint8)[from_row:]
+    return Frame(0, 0.0, color, frame.depth_raw, frame.depth_unit_m)
+
+
+CLOTHS = [(26, 29, 40), (20, 20, 24), (40, 46, 66)]
+
+
+@pytest.mark.parametrize("base", CLOTHS)
+@pytest.mark.parametrize("seed", [0, 1])
+def test_a_dark_pullover_has_no_discs(seed: int, base: tuple[int, int, int]) -> None:
+    frame, camera, _ = seen(0)
+    cloth = in_dark_cloth(frame, base, 0, seed)
+    found = marker_candidates(cloth, camera, SETTINGS)
+    assert len(found) <= 8  # it was all that is ever handed on, 48
+    assert not (propose_names(found, camera, "right").blob >= 0).any()
+    clicks = np.random.default_rng(seed).uniform((20, 20), (620, 460), (60, 2))
+    assert sum(len(disc_at(cloth, click, camera, SETTINGS)) for click in clicks) <= 1
+
+
+@pytest.mark.parametrize("base", CLOTHS)
+def test_a_dark_pullover_beside_the_hand_hides_no_disc(base: tuple[int, int, int]) -> None:
+    frame, camera, discs = seen(0)
+    below = int(discs[:, 1].max() + 25)
+    found = marker_candidates(in_dark_cloth(frame, base, below, 0), camera, SETTINGS)
+    for disc in discs:
+        assert np.linalg.norm(found.pixel - disc, axis=1).min() < 1.0
+    assert len(found) <= 14

@@ -9,9 +9,9 @@ from typing import Any
 import numpy as np
 import pytest
 
-from core.calibration.clicks import check_inside, read_clicks, write_clicks
-from core.calibration.result import Clicks
-from core.errors import (
+from carpus.core.calibration.clicks import check_inside, read_clicks, write_clicks
+from carpus.core.calibration.result import Clicks
+from carpus.core.errors import (
     CarpusFault,
     ClickOutsidePicture,
     ClicksUnreadable,
@@ -19,7 +19,7 @@ from core.errors import (
     OutputNotWritable,
     ProtocolUnknown,
 )
-from core.hand.protocols import HAND21, WRIST6
+from carpus.core.hand.protocols import HAND21, WRIST6
 
 MARKERS = {
     "MCP5": [260.5, 200],
@@ -54,6 +54,19 @@ def test_what_is_written_is_read_and_has_the_agreed_form(tmp_path: Path) -> None
     content = json.loads(path.read_text())
     assert set(content) == {"hand", "protocol", "markers"}
     assert content["markers"]["TIP5"] == pixel[20].tolist()
+
+
+def test_a_finger_that_cannot_lie_straight_stays_said(tmp_path: Path) -> None:
+    path, said = tmp_path / "c.json", (True, True, False, True, True)
+    write_clicks(path, Clicks("left", HAND21, np.zeros((21, 2)), said))
+    assert read_clicks(path).straight_fingers == said
+    assert read_clicks(write(tmp_path / "d.json", GOOD)).straight_fingers == ()
+    said = (True,) * 5
+    write_clicks(tmp_path / "f.json", Clicks("left", HAND21, np.zeros((21, 2)), said))
+    assert read_clicks(tmp_path / "f.json").straight_fingers == said
+    for wrong in ([True] * 4, "yes", [1] * 5):
+        with pytest.raises(ClicksUnreadable, match="straight_fingers"):
+            read_clicks(write(tmp_path / "e.json", GOOD | {"straight_fingers": wrong}))
 
 
 def test_clicks_are_never_overwritten(tmp_path: Path) -> None:

@@ -7,15 +7,15 @@ from itertools import combinations
 import numpy as np
 import pytest
 
-from core.calibration.finger_order import misnamed
-from core.calibration.plausibility import plan_view
-from core.hand.anatomy import anatomy_from_size
-from core.hand.kinematics import disc_centres
-from core.hand.protocols import HAND21, joint_angle_names
-from core.simulation.scene import Scene
-from core.simulation.spec import RecordingSpec
-from core.simulation.truth import truth_of
-from core.types import FloatArray, Side
+from carpus.core.calibration.finger_order import misnamed
+from carpus.core.calibration.plausibility import plan_view
+from carpus.core.hand.anatomy import anatomy_from_size
+from carpus.core.hand.kinematics import disc_centres
+from carpus.core.hand.protocols import HAND21, joint_angle_names
+from carpus.core.simulation.scene import Scene
+from carpus.core.simulation.spec import RecordingSpec
+from carpus.core.simulation.truth import truth_of
+from carpus.core.types import FloatArray, Side
 
 ROW = HAND21.markers.index
 

@@ -2,18 +2,16 @@
 
 from __future__ import annotations
 
-from dataclasses import fields
-
 import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from core.calibration.naming import propose_names
-from core.camera import DEFAULT_CAMERA
-from core.hand.protocols import HAND21, WRIST6
-from core.simulation.measurements import measurement_sequence
-from core.simulation.spec import RecordingSpec
-from core.types import Detections, FloatArray, Side
+from carpus.core.calibration.naming import propose_names
+from carpus.core.camera import DEFAULT_CAMERA
+from carpus.core.hand.protocols import HAND21, WRIST6
+from carpus.core.simulation.measurements import measurement_sequence
+from carpus.core.simulation.spec import RecordingSpec
+from carpus.core.types import Detections, FloatArray, Side
 
 IntArray = NDArray[np.int64]
 SEEDS = range(200, 206)
@@ -44,7 +42,7 @@ def blob_of(marker: IntArray, count: int) -> IntArray:
 
 def without(blobs: Detections, gone: IntArray) -> Detections:
     kept = np.setdiff1d(np.arange(len(blobs)), gone)
-    return Detections(*(getattr(blobs, field.name)[kept] for field in fields(Detections)))
+    return blobs.only(kept)
 
 
 @pytest.mark.parametrize("seed", SEEDS)

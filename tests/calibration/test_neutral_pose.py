@@ -7,9 +7,9 @@ import pytest
 from scipy.spatial.transform import Rotation
 from scipy.stats import chi2
 
-from core.calibration.neutral_pose import pose_by_least_squares
-from core.camera import Camera
-from core.types import FloatArray
+from carpus.core.calibration.neutral_pose import pose_by_least_squares
+from carpus.core.camera import Camera
+from carpus.core.types import FloatArray
 
 CAMERA = Camera(520.0, 530.0, 318.0, 243.0)
 PALM_M = np.array(

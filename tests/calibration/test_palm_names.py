@@ -8,9 +8,9 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from core.calibration.palm_names import shifted_names
-from core.hand.protocols import HAND21, PALM_MARKERS
-from core.types import Side
+from carpus.core.calibration.palm_names import shifted_names
+from carpus.core.hand.protocols import HAND21, PALM_MARKERS
+from carpus.core.types import Side
 from tests.calibration.test_plausibility import seen_plan
 
 SIDES: tuple[Side, ...] = ("right", "left")

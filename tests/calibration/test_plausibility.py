@@ -5,12 +5,12 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from core.calibration.plausibility import looks_like_other_side, plan_view
-from core.hand.protocols import HAND21, WRIST6
-from core.simulation.scene import Scene
-from core.simulation.spec import RecordingSpec
-from core.simulation.truth import truth_of
-from core.types import FloatArray, Side
+from carpus.core.calibration.plausibility import looks_like_other_side, plan_view
+from carpus.core.hand.protocols import HAND21, WRIST6
+from carpus.core.simulation.scene import Scene
+from carpus.core.simulation.spec import RecordingSpec
+from carpus.core.simulation.truth import truth_of
+from carpus.core.types import FloatArray, Side
 
 PROTOCOLS = {"wrist6": WRIST6, "hand21": HAND21}
 

@@ -7,14 +7,14 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from core.calibration.calibrate import calibrate
-from core.calibration.registration import depth_offset_px
-from core.calibration.settings import CalibrationSettings
-from core.detection.appearance import learn_appearance
-from core.detection.settings import DetectionSettings
-from core.simulation.recording import SimulatedPictures, clicks_of
-from core.simulation.spec import RecordingSpec
-from core.types import FloatArray, Frame
+from carpus.core.calibration.calibrate import calibrate
+from carpus.core.calibration.registration import depth_offset_px
+from carpus.core.calibration.settings import CalibrationSettings
+from carpus.core.detection.appearance import learn_appearance
+from carpus.core.detection.settings import DetectionSettings
+from carpus.core.simulation.recording import SimulatedPictures, clicks_of
+from carpus.core.simulation.spec import RecordingSpec
+from carpus.core.types import FloatArray, Frame
 
 DETECTION = DetectionSettings()
 SEEDS = (1, 2, 5, 11)

@@ -9,10 +9,10 @@ from pathlib import Path
 
 import numpy as np
 
-from core.camera import Camera
-from core.capture.oni_format import RecordType
-from core.capture.oni_writer import ColorCodec, DepthCodec, OniWriter
-from core.types import ByteImage, DepthImage
+from carpus.core.camera import Camera
+from carpus.core.capture.oni_format import RecordType
+from carpus.core.capture.oni_writer import ColorCodec, DepthCodec, OniWriter
+from carpus.core.types import ByteImage, DepthImage
 
 WIDTH, HEIGHT = 64, 48
 CAMERA = Camera(52.5, 52.5, 31.5, 23.5, WIDTH, HEIGHT)

@@ -8,9 +8,9 @@ import numpy as np
 import pytest
 import yaml
 
-from core.camera import DEFAULT_CAMERA, Camera
-from core.capture.camera_info import default_camera, read_camera_info, write_camera_info
-from core.errors import CameraFileUnreadable, OutputExists, OutputNotWritable
+from carpus.core.camera import DEFAULT_CAMERA, Camera
+from carpus.core.capture.camera_info import default_camera, read_camera_info, write_camera_info
+from carpus.core.errors import CameraFileUnreadable, OutputExists, OutputNotWritable
 
 CAMERA = Camera(570.3, 571.9, 314.2, 235.1, 640, 480, (0.041, -0.12, 1e-5, -3e-4, 0.07), origin="file")
 

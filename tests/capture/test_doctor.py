@@ -7,11 +7,11 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from core.capture import doctor
-from core.capture.doctor import Finding, examine
-from core.capture.xtion_usb import UsbCamera
-from core.errors import CameraBusy, DriverMissing
-from core.types import Frame
+from carpus.core.capture import doctor
+from carpus.core.capture.doctor import Finding, examine
+from carpus.core.capture.xtion_usb import UsbCamera
+from carpus.core.errors import CameraBusy, DriverMissing
+from carpus.core.types import Frame
 
 
 def test_everything_is_examined_with_a_camera_that_always_is_there(tmp_path: Path) -> None:

@@ -9,11 +9,11 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from core.capture import oni_format as oni
-from core.capture.oni_check import check_recording
-from core.capture.oni_format import NodeType, RecordType
-from core.capture.openni2 import PixelFormat
-from core.errors import (
+from carpus.core.capture import oni_format as oni
+from carpus.core.capture.oni_check import check_recording
+from carpus.core.capture.oni_format import NodeType, RecordType
+from carpus.core.capture.openni2 import PixelFormat
+from carpus.core.errors import (
     CarpusFault,
     RecordingDamaged,
     RecordingEmpty,

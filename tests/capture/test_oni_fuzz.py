@@ -16,13 +16,14 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from core.capture.oni_source import OniSource
-from core.errors import CarpusFault, DriverFailed
+from carpus.core.capture.oni_source import OniSource
+from carpus.core.capture.xtion_link import START_S
+from carpus.core.errors import CarpusFault, DriverFailed
 from tests.capture.oni_samples import HEIGHT, WIDTH, records, write_sample
 
 COUNT = int(os.environ.get("CARPUS_FUZZ_FILES", "2000"))
 LIMIT_S = 5.0
-"""For the library to answer, or to be given up. Starting the process comes on top on a busy computer."""
+"""For the library to answer, or to be given up. Starting the process comes on top: long, on a busy computer."""
 NUMBERS = (0, 1, 2, 27, 29, 255, 65_535, 65_536, 5_760_000, 0x7FFFFFFF, 0x80000000, 0xFFFFFFFF)
 
 Mutation = Callable[[bytearray, np.random.Generator], None]
@@ -164,7 +165,7 @@ def test_no_mutated_file_takes_carpus_along(tmp_path: Path) -> None:
     slowest = max(outcomes, key=lambda outcome: outcome.took_s)
     print(dict(kinds), slowest)
     assert sum(kinds.values()) == COUNT
-    assert slowest.took_s < 2 * LIMIT_S, slowest
+    assert slowest.took_s < START_S + 2 * LIMIT_S, slowest
     assert kinds["played"] > COUNT // 10
     assert kinds["RecordingDamaged"] > COUNT // 4
     # the check is there so that the library never sees what it would die of

@@ -8,19 +8,22 @@ import subprocess
 import sys
 import threading
 import time
+from multiprocessing.shared_memory import SharedMemory
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
 
-from core.capture.camera_info import write_camera_info
-from core.capture.oni_check import check_recording
-from core.capture.oni_format import RecordType
-from core.capture.oni_jpeg import deadly_pictures
-from core.capture.oni_source import OniSource
-from core.capture.oni_writer import sidecar_path
-from core.capture.paced import PacedSource
-from core.errors import (
+from carpus.core.capture import xtion_link
+from carpus.core.capture.camera_info import write_camera_info
+from carpus.core.capture.oni_check import check_recording
+from carpus.core.capture.oni_format import RecordType
+from carpus.core.capture.oni_jpeg import deadly_pictures
+from carpus.core.capture.oni_source import OniSource
+from carpus.core.capture.oni_writer import sidecar_path
+from carpus.core.capture.paced import PacedSource
+from carpus.core.errors import (
     CameraFileUnreadable,
     CarpusFault,
     DepthNotRegistered,
@@ -31,7 +34,7 @@ from core.errors import (
     RecordingUnsupported,
     RegistrationAssumed,
 )
-from core.types import Frame
+from carpus.core.types import Frame
 from tests.capture.oni_samples import (
     CAMERA,
     HEIGHT,
@@ -298,7 +301,7 @@ def test_a_library_that_dies_or_hangs_is_a_fault(
     tmp_path: Path, blow: signal.Signals, detail: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     source = OniSource(write_sample(tmp_path / "a.oni", 60))
-    monkeypatch.setattr("core.capture.oni_source.ANSWER_S", 0.5)
+    monkeypatch.setattr("carpus.core.capture.oni_source.ANSWER_S", 0.5)
     frames = source.frames()
     next(frames)
     os.kill(processes_of(source), blow)
@@ -332,19 +335,38 @@ def test_a_new_walk_ends_the_one_before(tmp_path: Path) -> None:
     assert told == []
 
 
-def shared_memory() -> set[str]:
-    return {entry.name for entry in Path("/dev/shm").iterdir() if entry.name.startswith("psm_")}
+@pytest.fixture
+def memories(monkeypatch: pytest.MonkeyPatch) -> list[str]:
+    """Names of the shared memories that a test's own capture processes were given."""
+    names: list[str] = []
+
+    def noted(*arguments: Any, **options: Any) -> SharedMemory:
+        memory = SharedMemory(*arguments, **options)
+        names.append(memory.name)
+        return memory
+
+    monkeypatch.setattr(xtion_link, "SharedMemory", noted)
+    return names
 
 
-def test_nothing_is_left_behind(tmp_path: Path) -> None:
-    before = shared_memory()
+def exists(name: str) -> bool:
+    try:
+        SharedMemory(name).close()
+    except FileNotFoundError:
+        return False
+    return True
+
+
+def test_nothing_is_left_behind(tmp_path: Path, memories: list[str]) -> None:
     source = OniSource(write_sample(tmp_path / "a.oni", 30))
     next(source.frames())
     frames = source.frames()
     next(frames)
     pid = processes_of(source)
+    assert exists(memories[-1])
     frames.close()  # type: ignore[attr-defined]
-    assert shared_memory() == before
+    assert len(memories) == 2
+    assert not any(exists(name) for name in memories)
     with pytest.raises(ProcessLookupError):
         os.kill(pid, 0)
 
@@ -353,8 +375,10 @@ def test_the_capture_process_does_not_outlive_its_owner(tmp_path: Path) -> None:
     path = write_sample(tmp_path / "a.oni", 60)
     program = """
 import sys, time
+from multiprocessing.shared_memory import SharedMemory
 from pathlib import Path
-from core.capture.oni_source import OniSource
+from typing import Any
+from carpus.core.capture.oni_source import OniSource
 if __name__ == "__main__":
     source = OniSource(Path(sys.argv[1]))
     frames = source.frames()
@@ -382,8 +406,9 @@ if __name__ == "__main__":
     pytest.fail("the capture process lives on")
 
 
-def test_a_process_that_cannot_start_leaves_no_memory(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    before = shared_memory()
+def test_a_process_that_cannot_start_leaves_no_memory(
+    tmp_path: Path, memories: list[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
     source = OniSource(write_sample(tmp_path / "a.oni", 2))
 
     def refuse(*_: object) -> None:
@@ -392,4 +417,4 @@ def test_a_process_that_cannot_start_leaves_no_memory(tmp_path: Path, monkeypatc
     monkeypatch.setattr("multiprocessing.context.SpawnProcess.start", refuse)
     with pytest.raises(OSError, match="no more processes"):
         list(source.frames())
-    assert shared_memory() == before
+    assert [exists(name) for name in memories] == [False]

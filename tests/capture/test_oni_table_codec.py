@@ -10,7 +10,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from numpy.typing import NDArray
 
-from core.capture.oni_table_codec import encode_depth
+from carpus.core.capture.oni_table_codec import encode_depth
 
 
 def decode(data: bytes, pixels: int) -> list[int]:

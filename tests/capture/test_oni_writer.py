@@ -9,13 +9,13 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from core.capture.camera_info import read_camera_info
-from core.capture.oni_check import check_recording
-from core.capture.oni_source import OniSource
-from core.capture.oni_writer import OniWriter, sidecar_path, write_oni
-from core.capture.source import is_simulated
-from core.errors import DiskFull, OutputExists, OutputNotWritable, RecordingDamaged
-from core.types import Frame
+from carpus.core.capture.camera_info import read_camera_info
+from carpus.core.capture.oni_check import check_recording
+from carpus.core.capture.oni_source import OniSource
+from carpus.core.capture.oni_writer import OniWriter, sidecar_path, write_oni
+from carpus.core.capture.source import is_simulated
+from carpus.core.errors import DiskFull, OutputExists, OutputNotWritable, RecordingDamaged
+from carpus.core.types import Frame
 from tests.capture.oni_samples import CAMERA, PERIOD_S, color_picture, depth_picture, write_sample
 
 ROOT = Path(__file__).parents[2]
@@ -70,7 +70,7 @@ def test_the_librarys_own_recorder_agrees(tmp_path: Path) -> None:
     first, second = write_sample(tmp_path / "first.oni", 6), tmp_path / "second.oni"
     program = """
 import ctypes, sys, time
-from core.capture.openni2 import *
+from carpus.core.capture.openni2 import *
 with Context() as library:
     c = library.c
     device = library.open(sys.argv[1])
@@ -152,7 +152,7 @@ def test_a_full_disk_is_a_fault(tmp_path: Path) -> None:
     program = """
 import resource, signal, sys
 from pathlib import Path
-from core.errors import DiskFull
+from carpus.core.errors import DiskFull
 from tests.capture.oni_samples import write_sample
 signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
 resource.setrlimit(resource.RLIMIT_FSIZE, (200_000, 200_000))

@@ -11,9 +11,9 @@ from typing import Any
 
 import pytest
 
-from core.capture import openni2
-from core.capture.openni2 import PixelFormat, VideoMode, load_library
-from core.errors import DriverMissing
+from carpus.core.capture import openni2
+from carpus.core.capture.openni2 import PixelFormat, VideoMode, load_library
+from carpus.core.errors import DriverMissing
 from tests.capture.oni_samples import HEIGHT, WIDTH, write_sample
 
 ROOT = Path(__file__).parents[2]
@@ -22,7 +22,9 @@ ROOT = Path(__file__).parents[2]
 def in_process(body: str, *arguments: str) -> Any:
     """Run ``body`` with the library at hand; what it puts into ``result``."""
     program = (
-        "import json, sys\nfrom core.capture.openni2 import *\nresult = None\n" + body + "\nprint(json.dumps(result))"
+        "import json, sys\nfrom carpus.core.capture.openni2 import *\nresult = None\n"
+        + body
+        + "\nprint(json.dumps(result))"
     )
     done = subprocess.run(
         [sys.executable, "-c", program, *arguments], cwd=ROOT, capture_output=True, text=True, timeout=120

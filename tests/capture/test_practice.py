@@ -7,10 +7,10 @@ from itertools import islice
 
 import numpy as np
 
-from core.camera import DEFAULT_CAMERA
-from core.capture.practice import PracticeSource
-from core.capture.source import SourceInfo
-from core.types import Frame
+from carpus.core.camera import DEFAULT_CAMERA
+from carpus.core.capture.practice import PracticeSource
+from carpus.core.capture.source import SourceInfo
+from carpus.core.types import Frame
 
 STILL, TOTAL = 6, 15
 

@@ -14,11 +14,11 @@ import cv2
 import numpy as np
 import pytest
 
-from core.camera import Camera
-from core.capture.raw import RawRecording, RawWriter, is_raw_recording
-from core.capture.raw_pictures import decode_color, decode_depth, encode_color, encode_depth
-from core.capture.source import SourceInfo
-from core.errors import (
+from carpus.core.camera import Camera
+from carpus.core.capture.raw import RawRecording, RawWriter, is_raw_recording
+from carpus.core.capture.raw_pictures import decode_color, decode_depth, encode_color, encode_depth
+from carpus.core.capture.source import SourceInfo
+from carpus.core.errors import (
     CarpusFault,
     OutputExists,
     OutputNotWritable,
@@ -27,7 +27,7 @@ from core.errors import (
     RecordingMissing,
     RecordingUnreadable,
 )
-from core.types import Frame
+from carpus.core.types import Frame
 from tests.capture.oni_samples import HEIGHT, WIDTH, color_picture, depth_picture
 
 ROOT = Path(__file__).parents[2]
@@ -206,7 +206,7 @@ def test_a_full_disk_ends_the_recording_and_keeps_it(tmp_path: Path) -> None:
     program = """
 import resource, signal, sys
 from pathlib import Path
-from core.errors import DiskFull
+from carpus.core.errors import DiskFull
 from tests.capture.test_raw_recording import INFO, RawWriter, frames
 signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
 resource.setrlimit(resource.RLIMIT_FSIZE, (100_000, 100_000))

@@ -9,13 +9,13 @@ import cv2
 import numpy as np
 import pytest
 
-from core.camera import Camera
-from core.capture.camera_info import read_camera_info
-from core.capture.raw_tum import TumWriter, tum_depth
-from core.capture.source import SourceInfo, is_simulated
-from core.capture.tum import TumFolder
-from core.errors import OutputExists, OutputNotWritable
-from core.types import Frame
+from carpus.core.camera import Camera
+from carpus.core.capture.camera_info import read_camera_info
+from carpus.core.capture.raw_tum import TumWriter, tum_depth
+from carpus.core.capture.source import SourceInfo, is_simulated
+from carpus.core.capture.tum import TumFolder
+from carpus.core.errors import OutputExists, OutputNotWritable
+from carpus.core.types import Frame
 from tests.capture.oni_samples import HEIGHT, WIDTH, color_picture, depth_picture
 
 CAMERA = Camera(52.0, 53.0, 31.0, 23.0, WIDTH, HEIGHT, origin="file")

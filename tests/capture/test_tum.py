@@ -12,11 +12,11 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from core.camera import DEFAULT_CAMERA, Camera
-from core.capture.camera_info import write_camera_info
-from core.capture.source import FrameSource
-from core.capture.tum import SIMULATED_REMARK, TumFolder, missing_before, nearest_pairs
-from core.errors import (
+from carpus.core.camera import DEFAULT_CAMERA, Camera
+from carpus.core.capture.camera_info import write_camera_info
+from carpus.core.capture.source import FrameSource
+from carpus.core.capture.tum import SIMULATED_REMARK, TumFolder, missing_before, nearest_pairs
+from carpus.core.errors import (
     CameraFileUnreadable,
     CarpusFault,
     DepthMissing,
@@ -28,7 +28,7 @@ from core.errors import (
     RecordingUnreadable,
     TimesUnordered,
 )
-from core.types import SIMULATED
+from carpus.core.types import SIMULATED
 
 WIDTH, HEIGHT = 64, 48
 TIMES_S = [1305031102.175304 + 0.033 * k for k in (0, 1, 2, 5, 6)]

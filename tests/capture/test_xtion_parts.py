@@ -9,14 +9,14 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from core.camera import Camera
-from core.capture import xtion_opening
-from core.capture.openni2 import CallFailed, Picture, PixelFormat, Sensor, VideoMode
-from core.capture.xtion_assembly import Assembler, Layout, camera_of_view, fitted_camera
-from core.capture.xtion_pairing import TOLERANCE_US, NearestPairing, Stamped
-from core.capture.xtion_process import agreed_size
-from core.capture.xtion_usb import UsbCamera, usb_cameras
-from core.errors import CameraBusy, CameraMissing, CameraPermission, CarpusFault, DriverFailed
+from carpus.core.camera import Camera
+from carpus.core.capture import xtion_opening
+from carpus.core.capture.openni2 import CallFailed, Picture, PixelFormat, Sensor, VideoMode
+from carpus.core.capture.xtion_assembly import Assembler, Layout, camera_of_view, fitted_camera
+from carpus.core.capture.xtion_pairing import TOLERANCE_US, NearestPairing, Stamped
+from carpus.core.capture.xtion_process import agreed_size
+from carpus.core.capture.xtion_usb import UsbCamera, usb_cameras
+from carpus.core.errors import CameraBusy, CameraMissing, CameraPermission, CarpusFault, DriverFailed
 
 PERIOD_US = 33_333
 

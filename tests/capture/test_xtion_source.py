@@ -12,10 +12,10 @@ from itertools import islice, pairwise
 
 import pytest
 
-from core.camera import Camera
-from core.capture.xtion import XtionSource
-from core.capture.xtion_messages import CameraPlan
-from core.errors import (
+from carpus.core.camera import Camera
+from carpus.core.capture.xtion import XtionSource
+from carpus.core.capture.xtion_messages import CameraPlan
+from carpus.core.errors import (
     CameraFileUnreadable,
     CameraLost,
     CameraMissing,
@@ -25,7 +25,7 @@ from core.errors import (
     DriverFailed,
     DriverMissing,
 )
-from core.types import Frame
+from carpus.core.types import Frame
 
 PERIOD_S = 0.033
 
@@ -132,7 +132,7 @@ def test_what_a_slow_reader_misses_is_counted(camera: XtionSource) -> None:
 def test_a_lost_camera_comes_back(
     camera: XtionSource, told: list[CarpusFault], how: signal.Signals, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("core.capture.xtion.ANSWER_S", 2.0)
+    monkeypatch.setattr("carpus.core.capture.xtion.ANSWER_S", 2.0)
     frames = []
     for frame in camera.frames():
         frames.append(frame)
@@ -159,7 +159,7 @@ def test_a_camera_lost_before_anyone_looked_comes_back_too(camera: XtionSource, 
 def test_a_camera_that_stays_away_is_a_fault(
     camera: XtionSource, told: list[CarpusFault], monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("core.capture.xtion.RETRY_S", 0.05)
+    monkeypatch.setattr("carpus.core.capture.xtion.RETRY_S", 0.05)
     camera._patience_s = 0.1
     frames = camera.frames()
     next(frames)

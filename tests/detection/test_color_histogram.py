@@ -8,8 +8,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from core.detection import color_histogram as ch
-from core.types import ByteImage
+from carpus.core.detection import color_histogram as ch
+from carpus.core.types import ByteImage
 
 
 def random_hsv(seed: int, hue: tuple[int, int] = (0, 180)) -> ByteImage:

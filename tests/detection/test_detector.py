@@ -8,11 +8,11 @@ import cv2
 import numpy as np
 import pytest
 
-from core.camera import Camera
-from core.detection.appearance import MarkerAppearance, learn_appearance
-from core.detection.detector import Detector, Region
-from core.detection.settings import DetectionSettings
-from core.types import Detections, FloatArray
+from carpus.core.camera import Camera
+from carpus.core.detection.appearance import MarkerAppearance, learn_appearance
+from carpus.core.detection.detector import Detector, Region
+from carpus.core.detection.settings import DetectionSettings
+from carpus.core.types import Detections, FloatArray
 from tests.detection.pictures import (
     CAMERA,
     DARK_SKIN,

@@ -8,9 +8,9 @@ import math
 import numpy as np
 import pytest
 
-from core.hand.anatomy import HARD_LIMITS_RAD, anatomy_from_size, joint_limits_rad, palm_axes
-from core.hand.protocols import HAND21, PALM_MARKERS, joint_angle_names
-from core.hand.wrist_frame import wrist_axes
+from carpus.core.hand.anatomy import HARD_LIMITS_RAD, anatomy_from_size, joint_limits_rad, palm_axes
+from carpus.core.hand.protocols import HAND21, PALM_MARKERS, joint_angle_names
+from carpus.core.hand.wrist_frame import wrist_axes
 
 
 def test_flat_hand_without_offsets_is_the_chain_of_the_papers() -> None:

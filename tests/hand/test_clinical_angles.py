@@ -10,10 +10,10 @@ from hypothesis import example, given, settings
 from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
 
-from core import so3
-from core.camera import Camera
-from core.hand import clinical_angles
-from core.types import FloatArray, Side
+from carpus.core import so3
+from carpus.core.camera import Camera
+from carpus.core.hand import clinical_angles
+from carpus.core.types import FloatArray, Side
 
 DEVIATION, FLEXION, PRONOSUPINATION = range(3)
 SIDES: tuple[Side, Side] = ("right", "left")

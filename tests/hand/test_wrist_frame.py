@@ -5,9 +5,9 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from core import so3
-from core.hand.wrist_frame import is_right_hand, wrist_axes, wrist_axes_sensitivity
-from core.types import FloatArray, Side
+from carpus.core import so3
+from carpus.core.hand.wrist_frame import is_right_hand, wrist_axes, wrist_axes_sensitivity
+from carpus.core.types import FloatArray, Side
 
 PALM_M = np.array(
     [

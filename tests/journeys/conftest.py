@@ -14,13 +14,28 @@ import pytest
 from PySide6.QtCore import QCoreApplication, QEvent, QLocale
 from PySide6.QtWidgets import QApplication
 
-from app.compose import Desktop, application, compose
-from app.settings import RecordingSettings, ScreenSettings, Settings
+from carpus.app.compose import Desktop, application, compose
+from carpus.app.settings import RecordingSettings, ScreenSettings, Settings
+from carpus.core.pipeline import looking_back
+from carpus.ui.live import screen as live_screen
 from tests.journeys.takes import render, take_of
 
 SPEED = 1.5
 """How much faster than recorded everything plays."""
 Open = Callable[[], Desktop]
+
+
+def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
+    """One after the other: each keeps two cores busy in real time, and the take is rendered once."""
+    for item in items:
+        if item.path.parent == Path(__file__).parent:
+            item.add_marker(pytest.mark.xdist_group("journeys"))
+
+
+@pytest.fixture(autouse=True)
+def patience(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A loaded computer may take long to start a process; whether it is done in time is not what is tested."""
+    monkeypatch.setattr(looking_back, "END_S", 150.0)
 
 
 @pytest.fixture(scope="session")
@@ -36,10 +51,15 @@ def data(tmp_path: Path) -> Path:
 
 
 @pytest.fixture
-def open_desktop(qapp: QApplication, take: Path, data: Path, tmp_path: Path) -> Iterator[Open]:
+def open_desktop(
+    qapp: QApplication, take: Path, data: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> Iterator[Open]:
     """Puts the application together; may be called again after closing. Whatever is open is closed at the end."""
     QLocale.setDefault(QLocale(QLocale.Language.English, QLocale.Country.UnitedKingdom))
-    settings = replace(Settings(), screen=ScreenSettings("light"), recording=RecordingSettings(folder=str(data)))
+    monkeypatch.setattr(live_screen, "HASTY_S", 0.0)  # a take is over in a few seconds
+    settings = replace(
+        Settings(), screen=ScreenSettings("light"), recording=RecordingSettings(folder=str(data), keep_pictures=False)
+    )
     opened: list[Desktop] = []
 
     def open_one() -> Desktop:

@@ -5,14 +5,14 @@ from __future__ import annotations
 from collections.abc import Callable
 from pathlib import Path
 
-from core.calibration.clicks import read_clicks
-from core.capture.source import FrameSource
-from core.capture.tum import TumFolder
-from core.simulation.motions import STILL_S
-from core.simulation.recording import CLICKS_FILE, simulate
-from core.simulation.spec import RecordingSpec
-from core.types import FloatArray
-from ui.ports import SetUp
+from carpus.core.calibration.clicks import read_clicks
+from carpus.core.capture.source import FrameSource
+from carpus.core.capture.tum import TumFolder
+from carpus.core.library.set_up import SetUp
+from carpus.core.simulation.motions import STILL_S
+from carpus.core.simulation.recording import CLICKS_FILE, simulate
+from carpus.core.simulation.spec import RecordingSpec
+from carpus.core.types import FloatArray
 
 Take = Callable[[SetUp, Callable[[int, int], None]], tuple[FrameSource, float]]
 

@@ -8,6 +8,7 @@ import re
 import shutil
 import subprocess
 import time
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -15,24 +16,26 @@ import h5py
 import numpy as np
 import pytest
 from PySide6.QtCore import QPoint, Qt
-from PySide6.QtWidgets import QFileDialog, QWidget
+from PySide6.QtWidgets import QApplication, QFileDialog, QWidget
 from pytestqt.qtbot import QtBot
 
-from app.compose import Desktop
-from app.desktop import measuring
-from app.desktop.sources import RECENT_FRAMES
-from core.capture.oni_writer import sidecar_path, write_oni
-from core.capture.tum import TumFolder
-from core.errors import CameraLost, CameraMissing, CameraReturned
-from core.session.reader import read_session
-from core.session.register import PatientEntry
-from core.session.writer import SessionWriter
-from core.simulation.oni import in_millimetres
+from carpus.app.compose import Desktop
+from carpus.app.desktop.sources import RECENT_FRAMES, Sources
+from carpus.core.calibration.result import Finding
+from carpus.core.capture.oni_writer import sidecar_path, write_oni
+from carpus.core.capture.tum import TumFolder
+from carpus.core.errors import CameraLost, CameraMissing, CameraReturned, DiskFull
+from carpus.core.library.set_up import PRACTICE_PATIENT
+from carpus.core.pipeline import measuring
+from carpus.core.session.reader import read_session
+from carpus.core.session.register import PatientEntry
+from carpus.core.session.writer import SessionWriter
+from carpus.core.simulation.oni import in_millimetres
+from carpus.ui.messages.strip import NoticeStrip
+from carpus.ui.setup.choice import SourceChoice
 from tests.journeys.conftest import SPEED, Open
 from tests.journeys.takes import RANGE_DEG, SPEC, clicks_of
 from tests.session.samples import CAMERA, make_calibration, make_frame, make_header
-from ui.messages.strip import NoticeStrip
-from ui.ports import PRACTICE_PATIENT
 
 PATIENCE_MS = 60_000
 """Only a failing test ever waits that long."""
@@ -66,6 +69,7 @@ def still_hand(qtbot: QtBot, desktop: Desktop) -> None:
 def click_discs(qtbot: QtBot, desktop: Desktop, take: Path) -> None:
     picture = desktop.journey.markers.picture
     for u, v in clicks_of(take):
+        QApplication.processEvents()  # what came or went beside the picture has made it larger or smaller
         click(qtbot, picture, picture.to_screen(float(u), float(v)).toPoint())
     wait(qtbot, desktop.journey.markers.primary.isEnabled)
 
@@ -131,13 +135,19 @@ def test_the_whole_journey_by_mouse(
     path = reviewed(qtbot, desktop)
     assert read_session(path).header.simulated
     assert desktop.shell.sign.isVisible()
-    assert journey.patients._store.card(journey.patients.list.rows.row(0).patient_id).warnings
+    assert any("imulated" in line for line in journey.bar.sign_lines())
     check_file(path, name)
     assert path.is_relative_to(desktop.library.clinic.sessions_folder)
     assert desktop.shell.bar.pill.state == "off"
     click(qtbot, desktop.shell.bar.way()[2])
     at(qtbot, desktop, "progress")
     click(qtbot, desktop.shell.bar.way()[1])
+    reviewed(qtbot, desktop)
+    click(qtbot, desktop.shell.bar.way()[2])
+    at(qtbot, desktop, "progress")
+    wait(qtbot, lambda: bool(journey.progress.chart.points()))
+    spot = journey.progress.chart.points()[0][2].toPoint()
+    qtbot.mouseClick(journey.progress.chart.face, Qt.MouseButton.LeftButton, pos=spot)
     reviewed(qtbot, desktop)
     click(qtbot, journey.review.report_button)
     at(qtbot, desktop, "report")
@@ -151,7 +161,8 @@ def test_the_whole_journey_by_mouse(
     click(qtbot, desktop.shell.bar.back_button)
     at(qtbot, desktop, "patients")
     row = journey.patients.list.rows.row(0)
-    assert (row.pseudonym, row.session_count, row.exercise) == (name, 1, "WRIST_FE")
+    assert (row.pseudonym, row.session_count) == (name, 0), "a simulated hand counts nowhere"
+    assert journey.patients._store.card(row.patient_id).has_sessions
     assert (data_mode(desktop.library.folder), data_mode(path.parent)) == (0o700, 0o700)
 
 
@@ -223,9 +234,9 @@ def test_a_recording_is_measured_from_its_first_picture_to_its_last(
 ) -> None:
     desktop = open_desktop()
     journey = desktop.journey
-    journey.start(PRACTICE_PATIENT)
+    journey.setting_up.start(PRACTICE_PATIENT)
     at(qtbot, desktop, "markers")
-    journey.back()
+    journey.way.back()
     at(qtbot, desktop, "camera")
     journey.camera.set_path(str(take))
     click(qtbot, journey.camera.primary)
@@ -233,6 +244,9 @@ def test_a_recording_is_measured_from_its_first_picture_to_its_last(
     assert not journey.markers.new_picture.isVisible()
     click_discs(qtbot, desktop, take)
     qtbot.keyClick(desktop.shell.focusWidget(), Qt.Key.Key_Return)
+    at(qtbot, desktop, "live")
+    assert journey.live.recording_state == "off", "it waits for the key, as every source does"
+    qtbot.keyClick(desktop.shell.focusWidget(), Qt.Key.Key_Space)
     path = reviewed(qtbot, desktop)  # recorded, played to its end and stopped by itself
     stored = [float(line.split()[0]) for line in (take / "rgb.txt").read_text().splitlines() if line[:1] != "#"]
     with h5py.File(path) as file:
@@ -253,25 +267,64 @@ def test_a_recording_of_the_camera_plays_through_its_own_library_in_real_time(
     camera_info.write_text(re.sub("registered: .*\n", "", camera_info.read_text()))
     desktop = open_desktop()
     journey = desktop.journey
-    journey.start(PRACTICE_PATIENT)
+    journey.setting_up.start(PRACTICE_PATIENT)
     at(qtbot, desktop, "markers")
-    journey.back()
+    journey.way.back()
     journey.camera.set_path(str(recording))
     click(qtbot, journey.camera.primary)
-    wait(qtbot, journey.teller.card.isVisible)
-    assert recording.name in journey.teller.card.what.text()
-    click(qtbot, journey.teller.card.answers[-1])
-    at(qtbot, desktop, "markers")
+    at(qtbot, desktop, "markers")  # nothing says that depth lies on colour: it is measured, nobody is asked
     click_discs(qtbot, desktop, take)
+    assert not journey.teller.busy
     qtbot.keyClick(desktop.shell.focusWidget(), Qt.Key.Key_Return)
+    at(qtbot, desktop, "live")
+    journey.live.toggle_recording()
     begun_s = time.monotonic()
     path = reviewed(qtbot, desktop)
     with h5py.File(path) as file:
         times = file["frames/timestamp"][:]
         assert len(times) + int(file["quality/dropped_frames"][:].sum()) == source.info.frame_count
-    assert json.loads(read_session(path).header.parameters)["source"]["registered"] == "yes"
+    assert json.loads(read_session(path).header.parameters)["source"]["registered"] == "assumed"
     assert time.monotonic() - begun_s > 0.9 * (times[-1] - times[0]) / SPEED
     check_file(path, "Practice patient")
+
+
+def test_depth_that_is_measured_beside_the_colours_is_opened_again_the_other_way(
+    qtbot: QtBot, open_desktop: Open, take: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    desktop = open_desktop()
+    journey = desktop.journey
+    journey.setting_up.start(PRACTICE_PATIENT)
+    at(qtbot, desktop, "markers")
+    assert journey.source is not None
+    verdict = make_calibration().verdict
+    off = replace(verdict, findings=(Finding("depth_off", (), 11.0, 3.0, "px"),))
+    journey.setting_up.check_registration(off)
+    assert not journey.teller.busy, "a camera says it itself"
+    journey.now.source = replace(journey.source, asks_registration=True)
+    journey.now.choice = SourceChoice("file", str(take))
+    journey.setting_up.check_registration(replace(verdict, findings=()))
+    assert not journey.teller.busy
+    wanted: list[SourceChoice] = []
+    monkeypatch.setattr(journey.setting_up, "open_source", wanted.append)
+    journey.setting_up.check_registration(off)
+    assert "11 pixels" in journey.teller.card.what.text()
+    click(qtbot, journey.teller.card.answers[-1])
+    assert wanted == [SourceChoice("file", str(take), registered=False)]
+
+
+def test_a_recording_that_is_being_stored_is_not_stopped_again_by_closing(
+    qtbot: QtBot, open_desktop: Open, take: Path, caplog: pytest.LogCaptureFixture
+) -> None:
+    desktop = open_desktop()
+    to_live(qtbot, desktop, take)
+    desktop.journey.live.toggle_recording()
+    wait(qtbot, lambda: desktop.journey.live.recorded_s > 0.5)
+    desktop.journey.live.stop()
+    assert desktop.journey.live.storing
+    desktop.shell.close_surely()
+    assert not [record for record in caplog.records if record.name != "carpus.core.pipeline.measuring"]
+    (entry,) = open_desktop().library.sessions(PRACTICE_PATIENT)
+    assert entry.complete
 
 
 def test_a_second_set_needs_no_new_markers(qtbot: QtBot, open_desktop: Open, take: Path) -> None:
@@ -288,7 +341,7 @@ def test_a_second_set_needs_no_new_markers(qtbot: QtBot, open_desktop: Open, tak
 
 
 def to_live(qtbot: QtBot, desktop: Desktop, take: Path) -> None:
-    desktop.journey.start(PRACTICE_PATIENT)
+    desktop.journey.setting_up.start(PRACTICE_PATIENT)
     still_hand(qtbot, desktop)
     desktop.journey.markers.accept()
     click_discs(qtbot, desktop, take)
@@ -323,6 +376,76 @@ def test_a_window_closed_while_recording_keeps_the_session(qtbot: QtBot, open_de
     assert entry.complete
     assert entry.duration_s > 0.8
     assert again.journey.patients.findChildren(NoticeStrip) == []
+
+
+def test_a_card_takes_every_key_and_its_first_button_does_what_it_says(
+    qtbot: QtBot, open_desktop: Open, take: Path
+) -> None:
+    desktop = open_desktop()
+    journey, shell = desktop.journey, desktop.shell
+    to_live(qtbot, desktop, take)
+    shell.activateWindow()
+    qtbot.keyClick(shell.focusWidget(), Qt.Key.Key_Space)
+    wait(qtbot, lambda: journey.live.recorded_s > 0.5)
+    shell.close()
+    card = journey.teller.card
+    assert card.isVisible()
+    whole = journey.live.picture.shows_whole
+    for key in (Qt.Key.Key_F7, Qt.Key.Key_F9, Qt.Key.Key_F5, Qt.Key.Key_F1, Qt.Key.Key_Escape):
+        qtbot.keyClick(shell.focusWidget(), key)
+    assert card.isVisible()
+    assert journey.live.recording_state == "recording"
+    assert (journey.live.picture.shows_whole, journey.place) == (whole, "live")
+    journey.live.setFocus()  # as a click beside the card would
+    assert card.isAncestorOf(shell.focusWidget())
+    qtbot.mouseClick(journey.live.main, Qt.MouseButton.LeftButton)
+    assert journey.live.recording_state == "recording"
+    qtbot.keyClick(shell.focusWidget(), Qt.Key.Key_Space)  # "Go on measuring"
+    assert not card.isVisible()
+    assert journey.live.recording_state == "recording"
+    shell.close()
+    journey.live.stop()  # as the end of the source does
+    at(qtbot, desktop, "review")
+    assert not journey.teller.busy, "the question has answered itself"
+    wait(qtbot, lambda: journey.review.shown)
+    qtbot.keyClick(shell.focusWidget(), Qt.Key.Key_Escape)
+    at(qtbot, desktop, "patients")
+
+
+def test_a_message_moves_with_the_screen(qtbot: QtBot, open_desktop: Open, take: Path) -> None:
+    desktop = open_desktop()
+    journey = desktop.journey
+    to_live(qtbot, desktop, take)
+    journey.teller.fault(DiskFull("x"))
+    journey.live.toggle_recording()
+    wait(qtbot, lambda: journey.live.recorded_s > 0.5)
+    journey.live.stop()
+    at(qtbot, desktop, "review")
+    assert journey.teller.card.isVisible()
+    assert "disk" in journey.teller.card.what.text()
+    journey.teller.card.answers[-1].click()
+    assert not journey.teller.busy
+
+
+def test_a_hasty_end_asks_and_the_recording_goes_on(
+    qtbot: QtBot, open_desktop: Open, take: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    desktop = open_desktop()
+    monkeypatch.setattr("carpus.ui.live.screen.HASTY_S", 3600.0)
+    journey = desktop.journey
+    to_live(qtbot, desktop, take)
+    journey.live.toggle_recording()
+    wait(qtbot, lambda: journey.live.recorded_s > 0.3)
+    journey.live.toggle_recording()
+    card = journey.teller.card
+    assert card.isVisible()
+    assert journey.live.recording_state == "recording"
+    qtbot.keyClick(card.answers[-1], Qt.Key.Key_Return)
+    assert not card.isVisible()
+    assert journey.live.recording_state == "recording"
+    journey.live.toggle_recording()
+    card.answers[0].click()
+    at(qtbot, desktop, "review")
 
 
 def test_a_recording_does_not_begin_on_a_full_disk(
@@ -374,6 +497,30 @@ def test_stopping_at_once_stores_nothing_and_says_so(qtbot: QtBot, open_desktop:
     at(qtbot, desktop, "patients")
 
 
+@pytest.mark.parametrize("demo", [False, True])
+def test_the_simulated_camera_is_the_practice_patient_s_and_nobody_else_s(
+    qtbot: QtBot, open_desktop: Open, take: Path, demo: bool, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(Sources, "camera_there", lambda _: False)
+    desktop = open_desktop()
+    journey = desktop.journey
+    if demo:
+        journey.now.choice = SourceChoice("practice")
+    to_live(qtbot, desktop, take)
+    journey.show_patients()
+    linden = desktop.library.clinic.add(PatientEntry("Linden 42", "right"))
+    for _ in range(2):
+        journey.setting_up.choose_exercise(linden)
+        click(qtbot, journey.exercise.primary)
+        at(qtbot, desktop, "camera")
+        assert journey.camera.sources.value() == "camera"
+        assert not journey.camera.primary.isEnabled()
+        click(qtbot, journey.camera.sources.option("practice"))  # by hand, each time
+        click(qtbot, journey.camera.primary)
+        at(qtbot, desktop, "markers")
+        journey.show_patients()
+
+
 def test_an_interrupted_session_is_told_at_the_next_start_and_can_be_reviewed(qtbot: QtBot, open_desktop: Open) -> None:
     first = open_desktop()
     folder = first.library.clinic.sessions_folder / "Heron"
@@ -402,10 +549,10 @@ def test_a_camera_that_is_not_there_is_told_with_what_to_do(
     def missing(**_: object) -> None:
         raise CameraMissing("", "no device")
 
-    monkeypatch.setattr("core.capture.xtion.XtionSource", missing)
-    journey.start(PRACTICE_PATIENT)
+    monkeypatch.setattr("carpus.core.capture.xtion.XtionSource", missing)
+    journey.setting_up.start(PRACTICE_PATIENT)
     at(qtbot, desktop, "markers")
-    journey.back()
+    journey.way.back()
     journey.camera.set_camera_ready(True)
     click(qtbot, journey.camera.sources.option("camera"))
     click(qtbot, journey.camera.primary)
@@ -442,7 +589,7 @@ def test_a_lost_camera_stops_the_eye_and_goes_by_itself_when_it_is_back(
 def test_raw_pictures_are_kept_on_request_and_shown_in_the_review(qtbot: QtBot, open_desktop: Open, take: Path) -> None:
     desktop = open_desktop()
     journey = desktop.journey
-    journey.choose_exercise(PRACTICE_PATIENT)
+    journey.setting_up.choose_exercise(PRACTICE_PATIENT)
     journey.exercise.pictures.choose(True)
     click(qtbot, journey.exercise.primary)
     at(qtbot, desktop, "camera")
@@ -484,4 +631,4 @@ def test_what_was_left_out_is_stored_beside_the_session(qtbot: QtBot, open_deskt
     again = open_desktop()
     stored = again.library.figures(again.library.sessions(PRACTICE_PATIENT)[0])
     assert stored.counted == counted - 1
-    assert math.isfinite(stored.rows[0].mean_deg) or stored.counted == 0
+    assert stored.counted == 0 or math.isfinite(stored.rows[0].mean_deg)

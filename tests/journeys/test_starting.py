@@ -11,27 +11,32 @@ from PySide6.QtCore import QTimer
 from PySide6.QtWidgets import QApplication, QFileDialog
 from pytestqt.qtbot import QtBot
 
-from app import compose
-from app.commands import desktop
-from app.desktop.alone import Alone
-from app.desktop.no_folder import NoFolder
-from app.settings import load_settings
+from carpus.app import compose
+from carpus.app.commands import desktop
+from carpus.app.desktop.alone import Alone
+from carpus.app.desktop.no_folder import NoFolder
+from carpus.app.settings import load_settings
+from carpus.ui.ports import Words
+from carpus.ui.theme import Theme
 from tests.journeys.conftest import let_go
-from ui.ports import Words
-from ui.theme import Theme
 
 ROOT = Path(__file__).parents[2]
-CALL = "import sys; from pathlib import Path; from app.desktop.alone import Alone; a = Alone(Path(sys.argv[1]));"
-CALL += "print(a.take(), a.call_first())"
+CALL = "import sys; from pathlib import Path; from carpus.app.desktop.alone import Alone; a = Alone(Path(sys.argv[1]));"
+CALL += "print(a.take(), a.call_first(Path(sys.argv[2]) if sys.argv[2:] else None))"
 
 
-def test_a_second_carpus_does_not_get_the_folder_and_calls_the_first(qtbot: QtBot, tmp_path: Path) -> None:
+@pytest.mark.parametrize("handed", [(), ("/tmp/Grüße in einem/langen Ordner/сессия.h5",)], ids=["alone", "a file"])
+def test_a_second_carpus_does_not_get_the_folder_and_calls_the_first(
+    qtbot: QtBot, tmp_path: Path, handed: tuple[str, ...]
+) -> None:
     first = Alone(tmp_path)
     assert first.take()
-    called: list[bool] = []
-    first.listen(lambda: called.append(True))
-    second = subprocess.Popen((sys.executable, "-c", CALL, str(tmp_path)), cwd=ROOT, stdout=subprocess.PIPE, text=True)
+    called: list[Path | None] = []
+    first.listen(called.append)
+    command = (sys.executable, "-c", CALL, str(tmp_path), *handed)
+    second = subprocess.Popen(command, cwd=ROOT, stdout=subprocess.PIPE, text=True)
     qtbot.waitUntil(lambda: bool(called), timeout=30_000)
+    assert called == [Path(*handed) if handed else None]
     assert second.communicate(timeout=30)[0].split() == ["False", "True"]
     first.let_go()
     third = Alone(tmp_path)
@@ -105,3 +110,23 @@ def test_nobody_chooses_and_it_ends_with_a_sentence(
     monkeypatch.setattr(compose, "ask_for_folder", lambda *_: None)
     assert desktop.open_window(tmp_path / "blocked", is_demo=False) == 1
     assert capsys.readouterr().err.count("\n") == 1
+
+
+def test_a_window_that_is_closed_while_it_comes_up_ends_in_peace(
+    qapp: QApplication, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.setattr(desktop, "has_display", lambda: True)
+    monkeypatch.setattr(compose, "write_log", lambda: None)
+    monkeypatch.setattr(compose, "end_on_signals", lambda _: None)
+    monkeypatch.setattr(compose, "speak_in_the_window", lambda _: None)
+    monkeypatch.setattr(QApplication, "exec", lambda *_: pytest.fail("a closed window waits for nobody"))
+    close_early = compose.Desktop.close
+
+    def closes_at_once(self: compose.Desktop) -> None:
+        close_early(self)
+        self.journey.show_patients()  # what it was about to do, on what is closed now
+
+    monkeypatch.setattr(compose.Desktop, "show", closes_at_once)
+    assert desktop.open_window(tmp_path / "early", is_demo=True) == 0
+    assert capsys.readouterr().err == ""
+    let_go(qapp)

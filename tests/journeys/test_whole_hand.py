@@ -14,30 +14,23 @@ from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QApplication
 from pytestqt.qtbot import QtBot
 
-from app.compose import Desktop, application, compose
-from app.desktop.measuring import NOT_LOOKED_BACK
-from app.settings import RecordingSettings, ScreenSettings, Settings
-from core.hand.protocols import HAND21, joint_angle_names
-from core.pipeline import looking_back
-from core.pipeline.track import retrack_session
-from core.session.reader import read_session
-from core.simulation.recording import TRUTH_FILE, simulate
-from core.simulation.spec import RecordingSpec
+from carpus.app.compose import Desktop, application, compose
+from carpus.app.settings import RecordingSettings, ScreenSettings, Settings
+from carpus.core.hand.protocols import HAND21, joint_angle_names
+from carpus.core.library.set_up import PRACTICE_PATIENT
+from carpus.core.pipeline.measuring import NOT_LOOKED_BACK
+from carpus.core.pipeline.track import retrack_session
+from carpus.core.session.reader import read_session
+from carpus.core.simulation.recording import TRUTH_FILE, simulate
+from carpus.core.simulation.spec import RecordingSpec
 from tests.journeys.conftest import let_go
 from tests.journeys.takes import clicks_of, take_of
 from tests.journeys.test_journey import at, click, reviewed, still_hand, wait
-from ui.ports import PRACTICE_PATIENT
 
 SPEC = RecordingSpec(
     seed=5, protocol="hand21", motion="fist", seconds=5.0, fps=15.0, speed_hz=0.6, repetitions=2, range_share=0.5,
     hand_length_mm=192.0, skin_tone=1, light="bright", sleeve="grey", distance_m=0.64, click_error_px=1.0,
 )  # fmt: skip
-
-
-@pytest.fixture(autouse=True)
-def patience(monkeypatch: pytest.MonkeyPatch) -> None:
-    """A loaded computer may take long to start a process; whether it is done in time is not what is tested."""
-    monkeypatch.setattr(looking_back, "END_S", 60.0)
 
 
 @pytest.fixture(scope="module")
@@ -63,7 +56,7 @@ def desktop(qapp: QApplication, hand_take: Path, tmp_path: Path) -> Iterator[Des
 def record(qtbot: QtBot, desktop: Desktop, hand_take: Path) -> None:
     """From the practice patient's exercise to a running recording."""
     journey = desktop.journey
-    journey.choose_exercise(PRACTICE_PATIENT)
+    journey.setting_up.choose_exercise(PRACTICE_PATIENT)
     at(qtbot, desktop, "exercise")
     click(qtbot, journey.exercise.protocol.buttons()[1])
     click(qtbot, journey.exercise.exercises.option("FIST_COMPOSITE"))
@@ -82,7 +75,7 @@ def record(qtbot: QtBot, desktop: Desktop, hand_take: Path) -> None:
     wait(qtbot, lambda: journey.markers._judged is not None)
     qtbot.keyClick(desktop.shell.focusWidget(), Qt.Key.Key_Return)
     at(qtbot, desktop, "live")
-    wait(qtbot, lambda: len(journey.live.joints) > 5)
+    wait(qtbot, lambda: len(journey.live.history) > 5)
     assert "seen" in journey.live.hand_map.seen.values()
     qtbot.keyClick(journey.live, Qt.Key.Key_Space)
     wait(qtbot, lambda: journey.live.recording_state == "recording")
@@ -119,7 +112,7 @@ def test_a_killed_looking_back_costs_the_session_nothing_else(qtbot: QtBot, desk
     wait(qtbot, lambda: journey.live.recorded_s > 0.5)
     (process,) = (child for child in multiprocessing.active_children() if child.name == "carpus-looking-back")
     process.kill()
-    wait(qtbot, lambda: journey.live.recorded_s > 1.5)
+    wait(qtbot, lambda: journey.live.recorded_s > 3.3)
     qtbot.keyClick(journey.live, Qt.Key.Key_Space)
     session = read_session(reviewed(qtbot, desktop))
     assert session.complete
@@ -142,5 +135,5 @@ def looked_back_as_tracking_it_again(path: Path, again: Path) -> None:
         apart = np.abs(getattr(live.smoothed, f"{name}_rad") - getattr(offline.smoothed, f"{name}_rad")) / sd_rad
         assert np.isfinite(apart).mean() > 0.95
         # Live, a second more was seen before the recording; the anatomy is known a little better.
-        assert np.nanmedian(apart) < 0.1
+        assert np.nanmedian(apart) < 0.15
         assert np.nanmax(apart) < 1.0

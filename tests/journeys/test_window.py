@@ -129,7 +129,7 @@ def person(display: str, take: Path, tmp_path: Path) -> Iterator[Person]:
 def test_a_person_measures_in_a_real_window(person: Person, tmp_path: Path) -> None:
     person.sees("started")
     person.sees("place patients")
-    person.use("search", "--sync", "--name", "^Carpus$", "windowfocus", "--sync")
+    person.use("search", "--sync", "--onlyvisible", "--name", "^Carpus$", "windowfocus", "--sync")
     person.use("type", "--delay", "30", "practice")
     person.press("Return")
     person.sees("place markers")
@@ -150,7 +150,7 @@ def test_a_person_measures_in_a_real_window(person: Person, tmp_path: Path) -> N
     person.sees("place report")
     pdf = tmp_path / "real.pdf"
     person.press("ctrl+p")
-    person.use("search", "--sync", "--name", "^Save report$", "windowfocus", "--sync")
+    person.use("search", "--sync", "--onlyvisible", "--name", "^Save report$", "windowfocus", "--sync")
     person.press("ctrl+a")
     person.use("type", "--delay", "5", str(pdf))
     person.press("Return")

@@ -12,9 +12,9 @@ from pathlib import Path
 
 from PySide6.QtCore import QPoint, QTimer
 
-from app import compose
-from app.desktop.sources import RECENT_FRAMES
-from app.settings import RecordingSettings, ScreenSettings, Settings
+from carpus.app import compose
+from carpus.app.desktop.sources import RECENT_FRAMES
+from carpus.app.settings import RecordingSettings, ScreenSettings, Settings
 from tests.journeys.takes import clicks_of, take_of
 
 LOOK_MS = 50

@@ -7,8 +7,8 @@ import math
 import numpy as np
 import pytest
 
-from core.hand.protocols import HAND21, joint_angle_names
-from core.measures.fingers import (
+from carpus.core.hand.protocols import HAND21, joint_angle_names
+from carpus.core.measures.fingers import (
     JointTrack,
     joint_range,
     joint_track,
@@ -16,12 +16,12 @@ from core.measures.fingers import (
     total_active_motion,
     valid_joints,
 )
-from core.measures.repetitions import Repetition
-from core.output.exercises import exercise_named
-from core.output.joint_content import bending_joints, joint_rows
-from core.simulation.scene import Scene
-from core.simulation.spec import RecordingSpec
-from core.simulation.truth import truth_of
+from carpus.core.measures.repetitions import Repetition
+from carpus.core.output.exercises import exercise_named
+from carpus.core.output.joint_content import bending_joints, joint_rows
+from carpus.core.simulation.scene import Scene
+from carpus.core.simulation.spec import RecordingSpec
+from carpus.core.simulation.truth import truth_of
 
 TIME_S = np.arange(0.0, 12.0, 1.0 / 30.0)
 REPETITIONS = tuple(Repetition(4.0 * k, 4.0 * k + 4.0, 1.0) for k in range(3))

@@ -7,11 +7,11 @@ import math
 import numpy as np
 import pytest
 
-from core.hand.clinical_angles import rotation_from_angles
-from core.measures.motion_range import Figure
-from core.measures.summary import AngleSummary, summarise_angle
-from core.measures.validity import valid_angle, valid_view, valid_wrist_angles, view_tilt_rad
-from core.types import FloatArray
+from carpus.core.hand.clinical_angles import rotation_from_angles
+from carpus.core.measures.motion_range import Figure
+from carpus.core.measures.summary import AngleSummary, summarise_angle
+from carpus.core.measures.validity import settled, valid_angle, valid_view, valid_wrist_angles, view_tilt_rad
+from carpus.core.types import FloatArray
 
 RATE = 30.0
 LOOKING_DOWN = np.array([[0.0, -1.0, 0.0], [-1.0, 0.0, 0.0], [0.0, 0.0, -1.0]])
@@ -44,6 +44,21 @@ def test_tilt_of_known_poses() -> None:
     angles = np.radians([[0.0, 0.0, 0.0], [10.0, 0.0, 0.0], [0.0, 50.0, 0.0], [0.0, 0.0, -80.0]])
     tilt = view_tilt_rad(rotation_from_angles(angles, "right"), LOOKING_DOWN)
     np.testing.assert_allclose(np.degrees(tilt), [0.0, 0.0, 50.0, 80.0], atol=1e-6)
+
+
+def test_frames_beside_a_hand_out_of_sight_are_not_measured() -> None:
+    time_s = np.arange(60) / 30.0
+    view = np.ones(60, dtype=bool)
+    view[20:30] = False  # a third of a second
+    view[45:48] = False  # a gap that is filled
+    kept = settled(view, time_s)
+    assert not kept[18:32].any()
+    assert kept[:17].all()
+    assert kept[33:45].all()
+    assert kept[48:].all()
+    assert (kept <= view).all()
+    assert settled(np.ones(60, dtype=bool), time_s).all()
+    assert settled(np.empty(0, dtype=bool), np.empty(0)).shape == (0,)
 
 
 def test_invalid_views_are_found_each_for_its_reason() -> None:

@@ -9,9 +9,9 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from core.measures.repetitions import _visits, find_repetitions
-from core.measures.signals import Signal, even_signal
-from core.types import FloatArray
+from carpus.core.measures.repetitions import _turning_points, find_repetitions, what_was_not_counted
+from carpus.core.measures.signals import Signal, even_signal
+from carpus.core.types import FloatArray
 
 RATE = 30.0
 
@@ -102,13 +102,9 @@ def test_a_last_swing_that_never_comes_back_is_no_repetition() -> None:
     assert len(find_repetitions(signal_of(value)).repetitions) == 5
 
 
-def test_small_range_short_or_mostly_missing_gives_none() -> None:
+def test_small_range_short_or_nothing_seen_gives_none() -> None:
     assert find_repetitions(signal_of(both_sides(4.5, 0.5))).repetitions == ()
     assert find_repetitions(signal_of(both_sides(30.0, 0.5)[40:65])).repetitions == ()
-    value = both_sides(30.0, 0.5)
-    rng = np.random.default_rng(1)
-    assert find_repetitions(signal_of(value, rng.random(len(value)) > 0.35)).repetitions == ()
-    assert len(find_repetitions(signal_of(value, rng.random(len(value)) > 0.2)).repetitions) == 6
     assert find_repetitions(signal_of(np.full(200, np.nan))).repetitions == ()
 
 
@@ -123,18 +119,22 @@ def test_a_hidden_stretch_shows_in_the_repetition_it_hurts() -> None:
     assert shares[:2] + shares[3:] == [1.0] * 5
 
 
-def stays_sample_by_sample(value: FloatArray, middle: float, hysteresis: float) -> list[tuple[bool, int, int]]:
-    """Side, first sample and sample of the extreme of every stay, as one would read them off a curve."""
-    out: list[tuple[bool, int, int]] = []
-    for k, sample in enumerate(value.tolist()):
-        if math.isnan(sample):
-            continue
-        if abs(sample - middle) >= hysteresis and (not out or out[-1][0] != (sample > middle)):
-            out.append((sample > middle, k, k))
-        elif out:
-            high, entry, turn = out[-1]
-            if (sample > value[turn]) if high else (sample < value[turn]):
-                out[-1] = (high, entry, k)
+def turns_sample_by_sample(value: FloatArray, least: float) -> list[tuple[bool, float]]:
+    """Side and value of every turning point, by looking at every pair of samples."""
+    known = value[np.isfinite(value)].tolist()
+    out: list[tuple[bool, float]] = []
+    low = high = None
+    for sample in known:
+        low = sample if low is None else min(low, sample)
+        high = sample if high is None else max(high, sample)
+        if (not out or not out[-1][0]) and high - sample >= least:
+            out.append((True, high))
+            low = sample
+        elif (not out or out[-1][0]) and sample - low >= least:
+            out.append((False, low))
+            high = sample
+    if out and low is not None and high is not None:
+        out.append((False, low) if out[-1][0] else (True, high))
     return out
 
 
@@ -142,13 +142,55 @@ def stays_sample_by_sample(value: FloatArray, middle: float, hysteresis: float) 
 @given(
     steps=st.lists(st.integers(-8, 8), max_size=80),
     hidden=st.sets(st.integers(0, 80)),
-    middle=st.integers(-6, 6),
-    hysteresis=st.integers(1, 6),
+    least=st.integers(1, 12),
 )
-def test_stays_and_their_extremes_are_those_read_sample_by_sample(
-    steps: list[int], hidden: set[int], middle: int, hysteresis: int
-) -> None:
+def test_turning_points_are_those_read_sample_by_sample(steps: list[int], hidden: set[int], least: int) -> None:
     value = np.cumsum(np.array(steps, dtype=float))
     value[[k for k in hidden if k < len(value)]] = np.nan
-    found = [(visit.high, visit.entry, visit.turn) for visit in _visits(value, middle, hysteresis)]
-    assert found == stays_sample_by_sample(value, middle, hysteresis)
+    found = [(turn.high, turn.value) for turn in _turning_points(value, least)]
+    assert found == (turns_sample_by_sample(value, least) if np.isfinite(value).sum() > 1 else [])
+
+
+def test_missing_frames_anywhere_unmake_no_clear_wave() -> None:
+    waves = one_side(60.0, 0.5, count=10)
+    away = np.concatenate((waves, np.zeros(20 * 30), one_side(60.0, 0.5, count=2)))
+    keep = np.ones(len(away), dtype=bool)
+    keep[len(waves) + 10 : len(waves) + 20 * 30 - 10] = False
+    found = find_repetitions(signal_of(away, keep))
+    whole = [rep for rep in found.repetitions if rep.valid_share == 1.0]
+    assert signal_of(away, keep).valid_share < 0.65
+    assert len(whole) >= 12
+    # Every third frame missing, anywhere, leaves all ten.
+    scattered = np.random.default_rng(1).random(len(waves)) > 0.35
+    assert len(find_repetitions(signal_of(waves, scattered)).repetitions) == 10
+
+
+@pytest.mark.parametrize("end", ["rest", "away", "turned over"])
+@pytest.mark.parametrize("count", [4, 10])
+def test_what_comes_after_unmakes_no_repetition(end: str, count: int) -> None:
+    waves = both_sides(15.0, 0.4, count=count)
+    after = {
+        "rest": np.zeros(600 * 30),
+        "away": np.full(5 * 30, np.nan),
+        "turned over": np.concatenate((np.linspace(0.0, 150.0, 20), np.full(60, 150.0))),
+    }[end]
+    before = find_repetitions(signal_of(waves)).repetitions
+    assert len(before) == count
+    found = find_repetitions(signal_of(np.concatenate((waves, after)))).repetitions
+    assert len(found) >= count
+    for one in before[:-1]:
+        middle_s = 0.5 * (one.start_s + one.end_s)
+        assert any(other.start_s <= middle_s <= other.end_s for other in found)
+
+
+def test_why_there_is_none_is_said() -> None:
+    def why(value: FloatArray) -> str | None:
+        signal = signal_of(value)
+        return what_was_not_counted(signal, find_repetitions(signal))
+
+    assert why(np.full(200, np.nan)) == "nothing_seen"
+    assert why(both_sides(30.0, 0.5)[:20]) == "too_short"
+    assert why(both_sides(4.5, 0.5)) == "small_range"
+    assert why(np.linspace(0.0, 50.0, 90)) == "no_return"
+    assert why(40.0 * np.sin(2.0 * math.pi * 3.0 * np.arange(180) / 30.0)) == "too_quick"
+    assert why(both_sides(30.0, 0.5)) is None

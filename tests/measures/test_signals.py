@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from scipy import signal as sps
 
-from core.measures.signals import even_signal, low_pass, rate_of_change, stretches
+from carpus.core.measures.signals import even_signal, low_pass, rate_of_change, stretches
 
 RATE = 30.0
 
@@ -76,14 +76,22 @@ def test_low_pass_does_not_delay_and_stops_fast_noise() -> None:
     assert np.abs(fast[30:-30]).max() < 0.02
 
 
+@pytest.mark.parametrize("cutoff_hz", [2.0, 4.0, 6.0])
+def test_low_pass_halves_the_power_at_its_cut_off(cutoff_hz: float) -> None:
+    t = np.arange(0.0, 40.0, 1.0 / RATE)
+    passed = low_pass(even_signal(t, np.sin(2 * math.pi * cutoff_hz * t)), cutoff_hz).value[150:-150]
+    assert float(np.std(passed)) * math.sqrt(2.0) == pytest.approx(math.sqrt(0.5), abs=0.003)
+
+
 def test_each_stretch_is_filtered_on_its_own() -> None:
     t = np.arange(0.0, 4.0, 1.0 / RATE)
     value = np.sin(t)
     value[50:60] = np.nan
     value[63:80] = np.nan
     smooth = low_pass(even_signal(t, value))
-    b, a = sps.butter(2, 6.0, fs=RATE)
-    np.testing.assert_allclose(smooth.value[:50], sps.filtfilt(b, a, value[:50]), atol=1e-9)
+    # Two passes together are 3 dB down at 6 Hz where each is so at 7.03 Hz, at 30 samples a second.
+    b, a = sps.butter(2, 7.0299, fs=RATE)
+    np.testing.assert_allclose(smooth.value[:50], sps.filtfilt(b, a, value[:50]), atol=1e-5)
     assert np.isnan(smooth.value[50:80]).all()
     assert np.isfinite(smooth.value[80:]).all()
 

@@ -10,8 +10,8 @@ from datetime import timedelta
 import numpy as np
 import pytest
 
-from core.calibration.result import Finding
-from core.output.report_content import (
+from carpus.core.calibration.result import Finding
+from carpus.core.output.report_content import (
     RepetitionChoices,
     SessionFigures,
     compare,
@@ -23,7 +23,7 @@ from core.output.report_content import (
     unfair_reasons,
     usual_deg,
 )
-from core.session.values import Event
+from carpus.core.session.values import Event
 from tests.ui.fakes import NOW, session
 
 
@@ -121,7 +121,9 @@ def test_two_repetitions_are_never_compared(figures: SessionFigures) -> None:
 
 def test_a_session_with_another_camera_height_is_shown_but_not_compared(figures: SessionFigures) -> None:
     days = (21, 14, 7, 0)
-    sessions = [replace(figures, when=NOW - timedelta(days=day), session_id=str(day)) for day in days]
+    sessions = [
+        replace(figures, when=NOW - timedelta(days=day), session_id=str(day), recording_id=str(day)) for day in days
+    ]
     sessions[2] = replace(sessions[2], quality=replace(sessions[2].quality, distance_m=0.9))
     course = progress(sessions[::-1])
     assert [point.fair for point in course.points] == [True, True, False, True]
@@ -142,7 +144,7 @@ def test_what_the_progress_leaves_out_is_judged_nowhere(figures: SessionFigures,
         "distance": {"quality": replace(quality, distance_m=quality.distance_m + 0.2)},
     }[reason]
     better = tuple(replace(row, mean_deg=row.mean_deg + 30) for row in figures.rows)
-    before, after = figures, replace(figures, when=NOW + timedelta(days=1), rows=better)
+    before, after = figures, replace(figures, when=NOW + timedelta(days=1), recording_id="2", rows=better)
     assert {item.verdict for item in compare(before, after)} == {"improved"}
     spoilt = (replace(before, **unfair), after) if which == "before" else (before, replace(after, **unfair))  # type: ignore[arg-type]
     changes = compare(*spoilt)
@@ -158,7 +160,10 @@ def test_a_doubt_that_leaves_the_angles_what_they_are_is_kept_but_compared(figur
 
 def test_simulated_sessions_are_compared_with_each_other_only(figures: SessionFigures) -> None:
     days = (9, 6, 3, 0)
-    sessions = [replace(figures, when=NOW - timedelta(days=day), session_id=str(day), simulated=True) for day in days]
+    sessions = [
+        replace(figures, when=NOW - timedelta(days=day), session_id=str(day), recording_id=str(day), simulated=True)
+        for day in days
+    ]
     assert all(point.fair for point in progress(sessions).points)
     sessions[2] = replace(sessions[2], simulated=False)
     course = progress(sessions)
@@ -168,7 +173,9 @@ def test_simulated_sessions_are_compared_with_each_other_only(figures: SessionFi
 
 
 def test_the_previous_session_is_one_that_counts(figures: SessionFigures) -> None:
-    early, later = (replace(figures, when=NOW - timedelta(days=day), session_id=str(day)) for day in (9, 5))
+    early, later = (
+        replace(figures, when=NOW - timedelta(days=day), session_id=str(day), recording_id=str(day)) for day in (9, 5)
+    )
     assert previous_of([early, replace(later, not_counted=True)], figures) is early
 
 
@@ -196,14 +203,16 @@ def test_a_simulated_source_and_the_targets_are_read_from_the_parameters() -> No
 
 def test_the_answer_is_about_the_arc_first(figures: SessionFigures) -> None:
     better = tuple(replace(row, mean_deg=row.mean_deg + 30) for row in figures.rows)
-    course = progress([figures, replace(figures, when=NOW + timedelta(days=1), rows=better)])
+    course = progress([figures, replace(figures, when=NOW + timedelta(days=1), recording_id="2", rows=better)])
     assert course.headline is not None
     assert (course.headline.movement, course.headline.verdict) == ("arc", "improved")
 
 
 def test_previous_and_other_hand_are_the_last_of_their_kind(figures: SessionFigures) -> None:
     def at(days: int, **changes: object) -> SessionFigures:
-        return replace(figures, when=NOW - timedelta(days=days), session_id=str(days), **changes)  # type: ignore[arg-type]
+        return replace(
+            figures, when=NOW - timedelta(days=days), session_id=str(days), recording_id=str(days), **changes
+        )  # type: ignore[arg-type]
 
     history = [at(9), at(5), at(3, side="left"), at(2, side="left"), at(-1), figures]
     found, other = previous_of(history, figures), other_hand_of(history, figures)
@@ -239,3 +248,24 @@ def test_shown_differences_agree_with_the_shown_means(figures: SessionFigures) -
         rows = tuple(replace(row, mean_deg=row.mean_deg + float(step)) for row in figures.rows)
         for item in compare(figures, replace(figures, rows=rows)):
             assert item.shown_difference_deg == math.floor(item.after_deg + 0.5) - math.floor(item.before_deg + 0.5)
+
+
+def test_the_best_is_the_quickest_and_the_smoothest() -> None:
+    figures = session_figures(session())
+    speed = figures.speed
+    assert speed is not None
+    assert speed.movement_time.count >= 3
+    assert speed.movement_time.best < speed.movement_time.mean
+    assert speed.mean_speed.best > speed.mean_speed.mean
+    assert speed.peaks.best == 1.0
+    assert speed.ldlj.best >= speed.ldlj.mean
+    assert math.isnan(speed.time_to_peak.best), "neither way is better"
+
+
+def test_of_the_other_hand_too_a_recording_counts_by_its_newest_result() -> None:
+    mine = session_figures(session())
+    first = session_figures(session(NOW - timedelta(days=7), side="left", session_id="one"))
+    again = replace(first, session_id="two", created=NOW)
+    assert first.recording_id == again.recording_id
+    for history in ([first, again], [again, first]):
+        assert other_hand_of(history, mine) is again

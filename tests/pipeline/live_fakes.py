@@ -9,9 +9,9 @@ from pathlib import Path
 
 import numpy as np
 
-from core.camera import DEFAULT_CAMERA
-from core.capture.source import SourceInfo
-from core.types import Detections, Frame, TrackedFrame, TrackStatus
+from carpus.core.camera import DEFAULT_CAMERA
+from carpus.core.capture.source import SourceInfo
+from carpus.core.types import Detections, Frame, TrackedFrame, TrackStatus
 
 PATIENCE_S = 20.0
 """How long a test waits for what must happen; only a failing test ever waits that long."""
@@ -40,6 +40,7 @@ def tracked(of: Frame) -> TrackedFrame:
         status=TrackStatus.TRACKED,
         position_m=three,
         velocity_m_s=three,
+        w0_turn_rad=three,
         rotation_w2_w0=np.eye(3),
         angular_velocity_rad_s=three,
         angles_rad=three,

@@ -9,7 +9,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from core.pipeline.channels import ChannelClosed, ChannelFull, DropOldest, NeverDrop, Newest
+from carpus.core.pipeline.channels import ChannelClosed, ChannelFull, DropOldest, NeverDrop, Newest
 
 
 def in_thread(work: Callable[[], None]) -> threading.Thread:

@@ -10,10 +10,10 @@ from pathlib import Path
 
 import pytest
 
-from core.errors import CameraLost, CameraReturned, DiskTooSlow, OutputExists, PictureDamaged
-from core.pipeline.live import LiveSession, LiveSettings
-from core.pipeline.live_values import LiveEvent
-from core.types import Frame, TrackedFrame
+from carpus.core.errors import CameraLost, CameraReturned, DiskTooSlow, OutputExists, PictureDamaged
+from carpus.core.pipeline.live import LiveSession, LiveSettings
+from carpus.core.pipeline.live_values import LiveEvent
+from carpus.core.types import Frame, TrackedFrame
 from tests.pipeline.live_fakes import FakeSession, Gate, HeldSource, tracked, wait_until
 
 OUT = Path("session.h5")
@@ -305,6 +305,40 @@ def test_pause_and_notes_are_in_the_file() -> None:
     assert [time_s for time_s, _, _ in sink.events] == pytest.approx([100 + 2 / 30, 100 + 6 / 30, 100 + 8 / 30])
 
 
+class Heard:
+    """Hears frames and events; breaks at one frame."""
+
+    def __init__(self, breaks_at: int = -1) -> None:
+        self.frames: list[int] = []
+        self.events: list[tuple[float, str]] = []
+        self._breaks_at = breaks_at
+
+    def push(self, frame: TrackedFrame) -> None:
+        if frame.index == self._breaks_at:
+            raise OSError("no network")
+        self.frames.append(frame.index)
+
+    def event(self, time_s: float, kind: str) -> None:
+        self.events.append((time_s, kind))
+
+
+def test_a_listener_hears_frames_and_events_and_cannot_end_the_measuring() -> None:
+    source, heard, breaking = HeldSource(), Heard(), Heard(breaks_at=4)
+    with LiveSession(source) as live:
+        live.begin_tracking(tracked)
+        live.listen(heard)
+        deliver_tracked(live, source, 3)
+        wait_until(lambda: len(heard.frames) == 3)
+        live.add_event("repetition", "1")
+        live.listen(breaking)
+        deliver_tracked(live, source, 4)
+        assert live.tracking
+    assert heard.frames == [0, 1, 2]
+    assert heard.events == [(pytest.approx(100 + 2 / 30), "repetition")]
+    assert breaking.frames == [3]
+    assert live.drain_events() == []
+
+
 def test_raw_pictures_branch_off_before_anything_is_lost() -> None:
     source, gate = HeldSource(), Gate()
     rows, pictures = FakeSession(OUT), FakeSession(Path("pictures"))
@@ -443,3 +477,48 @@ def test_latency_counts_from_arrival_to_result() -> None:
         counters = live.counters()
     assert counters.latency_p50_ms >= 20.0
     assert counters.latency_p95_ms >= counters.latency_p50_ms
+
+
+def test_nothing_of_a_file_is_lost_however_slow_the_tracker_and_the_disk() -> None:
+    """A file can wait: the source is far ahead of a slow walk and a slower disk, with next to no room between them."""
+    settings = LiveSettings(tracking_waiting=2, rows_waiting=2)
+    stored: list[int] = []
+
+    class Slow(FakeSession):
+        def append(self, tracked: TrackedFrame) -> None:
+            time.sleep(0.004)
+            stored.append(tracked.index)
+
+    def walk(frame: Frame) -> TrackedFrame:
+        time.sleep(0.002)
+        return tracked(frame)
+
+    source = HeldSource(total=120)
+    source.let(200)
+    live = LiveSession(source, settings, source_waits=True)
+    live.begin_tracking(walk)
+    live.start_recording(lambda: Slow(OUT))
+    live.start()
+    wait_until(lambda: "source_ended" in kinds(live.drain_events()))
+    live.stop_recording()
+    assert stored == list(range(120))
+    assert live.counters().dropped == 0
+    live.stop()
+
+
+def test_a_file_that_waits_can_be_stopped() -> None:
+    held = threading.Event()
+
+    def walk(frame: Frame) -> TrackedFrame:
+        held.wait(20.0)
+        return tracked(frame)
+
+    source = HeldSource(total=50)
+    source.let(60)
+    live = LiveSession(source, LiveSettings(tracking_waiting=2), source_waits=True)
+    live.begin_tracking(walk)
+    live.start()
+    wait_until(lambda: live.counters().waiting_tracking == 2)
+    threading.Timer(0.1, held.set).start()
+    live.stop()
+    assert not live.running

@@ -8,9 +8,9 @@ import h5py
 import numpy as np
 import pytest
 
-from core.errors import OutputExists
-from core.pipeline.live import LiveSession
-from core.session.writer import SessionWriter
+from carpus.core.errors import OutputExists
+from carpus.core.pipeline.live import LiveSession
+from carpus.core.session.writer import SessionWriter
 from tests.pipeline.live_fakes import HeldSource, tracked, wait_until
 from tests.session.samples import CAMERA, make_calibration, make_header
 

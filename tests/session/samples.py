@@ -7,11 +7,11 @@ from datetime import UTC, datetime
 
 import numpy as np
 
-from core.calibration.result import Calibration, Clicks, Finding, Verdict
-from core.camera import Camera
-from core.hand.protocols import HAND21, WRIST6, MarkerProtocol
-from core.session.values import SessionHeader, new_header
-from core.types import Detections, TrackedFrame, TrackStatus
+from carpus.core.calibration.result import Calibration, Clicks, Finding, Verdict
+from carpus.core.camera import Camera
+from carpus.core.hand.protocols import HAND21, WRIST6, MarkerProtocol
+from carpus.core.session.values import SessionHeader, new_header
+from carpus.core.types import Detections, TrackedFrame, TrackStatus
 
 CAMERA = Camera(570.25, 571.5, 314.0, 235.5, 640, 480, (0.04, -0.12, 0.001, -0.0003, 0.07), origin="file")
 SESSION_ID = uuid.UUID("12345678-1234-5678-1234-567812345678")
@@ -51,7 +51,7 @@ def make_calibration(protocol: MarkerProtocol = WRIST6) -> Calibration:
         findings=(Finding("swapped", ("MCP2", "MCP3")), Finding("tilt", (), 22.0, 15.0, "deg")),
     )
     return Calibration(
-        clicks=Clicks("left", protocol, rng.uniform(100, 400, (m, 2))),
+        clicks=Clicks("left", protocol, rng.uniform(100, 400, (m, 2)), (True, True, False, True, True)),
         marker_position_w0_m=rng.normal(size=(m, 3)),
         rotation_w0_cam=rotation,
         translation_w0_cam_m=rng.normal(size=3),
@@ -65,7 +65,7 @@ def make_frame(row: int, protocol: MarkerProtocol = WRIST6, joints: int | None =
     """Row ``row`` of a session at 30 frames a second; every fifth row is lost, some markers are never measured."""
     rng = np.random.default_rng(row)
     m = len(protocol.markers)
-    j = (17 if protocol is HAND21 else 0) if joints is None else joints
+    j = (17 if protocol == HAND21 else 0) if joints is None else joints
     lost = row % 5 == 4
     blank = np.nan if lost else 1.0
     blobs = int(rng.integers(0, 9))
@@ -74,9 +74,10 @@ def make_frame(row: int, protocol: MarkerProtocol = WRIST6, joints: int | None =
     return TrackedFrame(
         index=row,
         timestamp_s=time_of(row),
-        status=TrackStatus.LOST if lost else TrackStatus(row % 2),
+        status=TrackStatus.LOST if lost else TrackStatus((0, 1, 3)[row % 3]),
         position_m=blank * rng.normal(size=3),
         velocity_m_s=blank * rng.normal(size=3),
+        w0_turn_rad=blank * rng.normal(size=3),
         rotation_w2_w0=blank * np.linalg.qr(rng.normal(size=(3, 3)))[0],
         angular_velocity_rad_s=blank * rng.normal(size=3),
         angles_rad=blank * rng.uniform(-1, 1, 3),
@@ -96,6 +97,7 @@ def make_frame(row: int, protocol: MarkerProtocol = WRIST6, joints: int | None =
         measured_share=rng.uniform(0, 1, j or 3),
         nis=float(rng.uniform(0, 20)),
         nis_dof=int(rng.integers(0, 18)),
+        doubted=np.arange(m) == row,
     )
 
 

@@ -11,9 +11,9 @@ import h5py
 import numpy as np
 import pytest
 
-from core.hand.protocols import HAND21, WRIST6, MarkerProtocol
-from core.session.values import motion_of
-from core.session.writer import SessionWriter
+from carpus.core.hand.protocols import HAND21, WRIST6, MarkerProtocol
+from carpus.core.session.values import motion_of
+from carpus.core.session.writer import SessionWriter
 from tests.session.samples import CAMERA, make_calibration, make_frame, make_header, time_of
 
 N = 40
@@ -40,6 +40,7 @@ def contract(m: int, j: int, d: int, e: int) -> dict[str, tuple[tuple[int, ...],
     wrist = {
         "position": ((N, 3), "m", ""),
         "velocity": ((N, 3), "m/s", ""),
+        "w0_turn": ((N, 3), "rad", ""),
         "rotation": ((N, 3, 3), "1", ""),
         "angular_velocity": ((N, 3), "rad/s", ""),
         "angles": ((N, 3), "rad", "angles"),
@@ -129,7 +130,9 @@ def test_attributes(tmp_path: Path) -> None:
     with h5py.File(write(tmp_path / "s.h5", WRIST6), "r") as file:
         said = file.attrs
         assert said["format"] == "carpus-session"
-        assert said["format_version"] == 1
+        assert said["format_version"] == 2
+        assert UUID(said["recording_id"]) == UUID(said["session_id"]), "the first result of its recording"
+        assert datetime.fromisoformat(said["recorded"]).utcoffset() is not None
         assert UUID(said["session_id"]) == UUID("12345678-1234-5678-1234-567812345678")
         assert said["subject_id"] == "Linden 42"
         created = datetime.fromisoformat(said["created"])
@@ -151,6 +154,7 @@ ROW_OF = {
     "/frames/status": "status",
     "/wrist/position": "position_m",
     "/wrist/velocity": "velocity_m_s",
+    "/wrist/w0_turn": "w0_turn_rad",
     "/wrist/rotation": "rotation_w2_w0",
     "/wrist/angular_velocity": "angular_velocity_rad_s",
     "/wrist/angles": "angles_rad",

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from importlib import resources
 
-from core.session.format_page import format_page
-from core.session.schema import ALL_FIELDS, SMOOTHED_FIELDS
+from carpus.core.session.format_page import format_page
+from carpus.core.session.schema import ALL_FIELDS, SMOOTHED_FIELDS
 
 
 def test_the_page_in_the_repository_is_the_schema_s() -> None:
-    stored = resources.files("resources").joinpath("session-format.md").read_text(encoding="utf-8")
+    stored = resources.files("carpus.resources").joinpath("session-format.md").read_text(encoding="utf-8")
     assert stored == format_page(), "write format_page() to resources/session-format.md"
 
 

@@ -13,11 +13,11 @@ import h5py
 import numpy as np
 import pytest
 
-from core.errors import SessionUnreadable
-from core.hand.protocols import HAND21, WRIST6, MarkerProtocol
-from core.session.reader import has_raw, read_detections, read_session
-from core.session.values import Event, Motion, motion_of, new_header
-from core.session.writer import SessionWriter
+from carpus.core.errors import SessionUnreadable
+from carpus.core.hand.protocols import HAND21, WRIST6, MarkerProtocol
+from carpus.core.session.reader import has_raw, read_detections, read_session
+from carpus.core.session.values import Event, Motion, motion_of, new_header
+from carpus.core.session.writer import SessionWriter
 from tests.session.samples import CAMERA, make_calibration, make_frame, make_header, time_of
 
 N = 12
@@ -59,6 +59,8 @@ def test_what_was_written_is_read(tmp_path: Path, protocol: MarkerProtocol) -> N
     assert isinstance(session.smoothed, Motion)
     assert_same(session.smoothed, motion_of([make_frame(row + 100, protocol) for row in range(N)]))
     assert session.status.tolist() == [frame.status for frame in frames]
+    assert session.markers.doubted.tolist() == [frame.doubted.tolist() for frame in frames]
+    assert session.calibration.straight_fingers == (True, True, False, True, True)
     assert session.quality.dropped_before.tolist() == [frame.dropped_before for frame in frames]
     assert session.quality.nis_dof.tolist() == [frame.nis_dof for frame in frames]
     assert session.events == (Event(time_of(2), "note", "ein Wort"),)
@@ -110,7 +112,7 @@ BAD: dict[str, tuple[Callable[[Path], object], str]] = {
     "empty": (lambda path: path.write_bytes(b""), "not a session"),
     "cut off": (cut, ""),
     "other HDF5": (lambda path: (path.unlink(), h5py.File(path, "w").close()), "not a session"),
-    "newer": (edit(lambda file: file.attrs.modify("format_version", 2)), "version 2"),
+    "newer": (edit(lambda file: file.attrs.modify("format_version", 3)), "version 3"),
     "no hand": (edit(lambda file: file.attrs.__delitem__("hand")), "hand"),
     "third hand": (edit(lambda file: file.attrs.__setitem__("hand", "middle")), "middle"),
     "other protocol": (edit(lambda file: file.attrs.__setitem__("protocol", "foot")), "foot"),
@@ -143,8 +145,8 @@ def test_a_session_still_being_written_says_so(tmp_path: Path) -> None:
     program = """if True:
         import sys
         from pathlib import Path
-        from core.errors import SessionUnreadable
-        from core.session.reader import read_session
+        from carpus.core.errors import SessionUnreadable
+        from carpus.core.session.reader import read_session
         try:
             read_session(Path(sys.argv[1]))
         except SessionUnreadable as fault:

@@ -14,12 +14,12 @@ import h5py
 import numpy as np
 import pytest
 
-from core.errors import RecordingMissing, SessionUnreadable
-from core.session.disk import part_path, target_of_part
-from core.session.reader import read_detections, read_raw, read_session
-from core.session.recovery import Recovery, interrupted_sessions, recover_folder
-from core.session.values import RawPictures, motion_of
-from core.session.writer import SessionWriter
+from carpus.core.errors import RecordingMissing, SessionUnreadable
+from carpus.core.session.disk import part_path, target_of_part
+from carpus.core.session.reader import read_detections, read_raw, read_session
+from carpus.core.session.recovery import Recovery, interrupted_sessions, recover_folder
+from carpus.core.session.values import RawPictures, motion_of
+from carpus.core.session.writer import SessionWriter
 from tests.session.samples import CAMERA, make_calibration, make_frame, make_header, time_of
 
 ROOT = Path(__file__).parents[2]
@@ -140,7 +140,7 @@ def test_a_running_session_is_left_alone(tmp_path: Path) -> None:
     program = """if True:
         import sys
         from pathlib import Path
-        from core.session.recovery import recover_folder
+        from carpus.core.session.recovery import recover_folder
         print(*recover_folder(Path(sys.argv[1])).busy)
     """
     command = [sys.executable, "-c", program, str(tmp_path)]

@@ -13,19 +13,19 @@ from pathlib import Path
 
 import pytest
 
-from core.errors import OutputNotWritable, PseudonymTaken, RegisterUnreadable, SessionUnreadable
-from core.hand.protocols import WRIST6
-from core.session import register as register_module
-from core.session.pseudonyms import WORDS, suggest_pseudonym
-from core.session.register import (
+from carpus.core.errors import OutputNotWritable, PseudonymTaken, RegisterUnreadable, SessionUnreadable
+from carpus.core.hand.protocols import WRIST6
+from carpus.core.session import register as register_module
+from carpus.core.session.pseudonyms import WORDS, suggest_pseudonym
+from carpus.core.session.register import (
     MIGRATIONS,
     REGISTER_FILE,
     PatientEntry,
     PatientRegister,
     default_data_folder,
 )
-from core.session.values import SessionHeader, new_header
-from core.session.writer import SessionWriter
+from carpus.core.session.values import SessionHeader, new_header
+from carpus.core.session.writer import SessionWriter
 from tests.session.samples import CAMERA, make_calibration, make_frame
 
 T0 = datetime(2026, 11, 10, 9, 0, tzinfo=UTC)

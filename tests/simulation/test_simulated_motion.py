@@ -7,15 +7,15 @@ import dataclasses
 import numpy as np
 import pytest
 
-from core.errors import SettingsInvalid
-from core.hand.clinical_angles import angles_from_rotation
-from core.hand.protocols import HAND21, PALM_MARKERS
-from core.simulation.hand_motion import STILL_S
-from core.simulation.motions import MOTIONS, motion_of
-from core.simulation.scene import Scene
-from core.simulation.spec import RecordingSpec
-from core.simulation.strokes import StrokePath
-from core.simulation.truth import truth_of
+from carpus.core.errors import SettingsInvalid
+from carpus.core.hand.clinical_angles import angles_from_rotation
+from carpus.core.hand.protocols import HAND21, PALM_MARKERS
+from carpus.core.simulation.hand_motion import STILL_S
+from carpus.core.simulation.motions import MOTIONS, motion_of
+from carpus.core.simulation.scene import Scene
+from carpus.core.simulation.spec import RecordingSpec
+from carpus.core.simulation.strokes import StrokePath
+from carpus.core.simulation.truth import truth_of
 
 
 def test_spec_survives_json_and_names_an_unknown_option() -> None:

@@ -6,14 +6,14 @@ import cv2
 import numpy as np
 import pytest
 
-from core.hand.protocols import HAND21
-from core.simulation.lighting import corner_light
-from core.simulation.recording import SimulatedPictures
-from core.simulation.scene import Scene
-from core.simulation.skin import skin_distance
-from core.simulation.spec import RecordingSpec
-from core.simulation.trace import Box, Surface
-from core.types import ByteImage, FloatArray
+from carpus.core.hand.protocols import HAND21
+from carpus.core.simulation.lighting import corner_light
+from carpus.core.simulation.recording import SimulatedPictures
+from carpus.core.simulation.scene import Scene
+from carpus.core.simulation.skin import skin_distance
+from carpus.core.simulation.spec import RecordingSpec
+from carpus.core.simulation.trace import Box, Surface
+from carpus.core.types import ByteImage, FloatArray
 
 ALL_PALM = [HAND21.markers.index(name) for name in ("WRIST", "CMC1", "MCP2", "MCP3", "MCP4", "MCP5")]
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
+import errno
 import hashlib
 import json
 from pathlib import Path
@@ -11,14 +12,14 @@ import h5py
 import numpy as np
 import pytest
 
-from core.capture.tum import TumFolder
-from core.errors import OutputExists
-from core.simulation.measurements import measurement_sequence
-from core.simulation.recording import TRUTH_FILE, cached_recording, clicks_of, simulate, truth_in
-from core.simulation.scene import Scene
-from core.simulation.spec import RecordingSpec
-from core.simulation.trouble import covered_discs, false_blobs, frame_times
-from core.simulation.truth import truth_of
+from carpus.core.capture.tum import TumFolder
+from carpus.core.errors import OutputExists
+from carpus.core.simulation.measurements import measurement_sequence
+from carpus.core.simulation.recording import TRUTH_FILE, cached_recording, clicks_of, simulate, truth_in
+from carpus.core.simulation.scene import Scene
+from carpus.core.simulation.spec import RecordingSpec
+from carpus.core.simulation.trouble import covered_discs, false_blobs, frame_times
+from carpus.core.simulation.truth import truth_of
 
 SPEC = RecordingSpec(
     seed=21, hand="left", motion="mixed", seconds=1.2, false_blobs=2, hidden_share=0.2, dropped_share=0.15, fps=15.0
@@ -48,6 +49,17 @@ def test_same_spec_gives_the_same_bytes_and_another_seed_others(recording: Path,
     simulate(dataclasses.replace(short, seed=22), tmp_path / "b")
     a, b = digests(tmp_path / "a"), digests(tmp_path / "b")
     assert set(a.values()).isdisjoint(set(b.values()))
+
+
+def test_where_processes_can_share_nothing_one_renders_all(
+    recording: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def refuse(*_: object, **__: object) -> None:
+        raise OSError(errno.EROFS, "Read-only file system")
+
+    monkeypatch.setattr("multiprocessing.synchronize.SemLock.__init__", refuse)
+    simulate(SPEC, tmp_path / "again", workers=2)
+    assert digests(tmp_path / "again") == digests(recording)
 
 
 def test_recording_reads_back_with_its_true_times(recording: Path) -> None:

@@ -5,9 +5,9 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from core.simulation.recording import SimulatedPictures
-from core.simulation.sensor import DepthSensor
-from core.simulation.spec import RecordingSpec
+from carpus.core.simulation.recording import SimulatedPictures
+from carpus.core.simulation.sensor import DepthSensor
+from carpus.core.simulation.spec import RecordingSpec
 
 SHAPE = (480, 640)
 UNIT_M = 1.0 / 5000.0

@@ -8,12 +8,13 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from core.calibration.result import Calibration, Clicks, Verdict
-from core.camera import Camera
-from core.hand.protocols import WRIST6
-from core.tracking.settings import TrackerSettings
-from core.tracking.tracker import Tracker
-from core.types import Detections, FloatArray, Side, TrackedFrame
+from carpus.core.calibration.result import Calibration, Clicks, Verdict
+from carpus.core.camera import Camera
+from carpus.core.hand.protocols import WRIST6
+from carpus.core.tracking.settings import TrackerSettings
+from carpus.core.tracking.soft_tissue import SoftTissue
+from carpus.core.tracking.tracker import Tracker
+from carpus.core.types import Detections, FloatArray, Side, TrackedFrame
 
 CAMERA = Camera(525.0, 525.0, 319.5, 239.5)
 RIGHT_PALM_M = np.array(
@@ -33,6 +34,20 @@ MIDDLE_M = np.array([0.01, 0.04, 0.7])
 """Where the WRIST disc lies before the camera at the neutral pose."""
 DISC_AREA_PX = np.pi * (525.0 * 0.006 / 0.7) ** 2
 DT_S = 1.0 / 30.0
+
+
+_NONE_M = 1e-7
+RIGID = replace(
+    TrackerSettings(),
+    tissue=SoftTissue(
+        **dict.fromkeys(
+            ("knuckle_along_m", "knuckle_across_m", "knuckle_up_m", "wrist_along_m", "wrist_across_m", "wrist_up_m",
+             "thumb_m", "relief_up_m"), _NONE_M
+        ),
+        **dict.fromkeys(("cupping_m", "loose_along_m", "loose_across_m", "relief_turn_rad"), (_NONE_M, _NONE_M)),
+    ),
+)  # fmt: skip
+"""The discs of this file's hand move as one body; told so, the filter is to be as sure as that allows."""
 
 
 def palm(side: Side) -> FloatArray:

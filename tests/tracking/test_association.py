@@ -11,9 +11,9 @@ from hypothesis import strategies as st
 from numpy.typing import NDArray
 from scipy.stats import chi2, multivariate_normal
 
-from core.tracking.association import IMPOSSIBLE, AssociationSettings, log_odds, posterior, resolve
-from core.tracking.joint_association import associate_jointly, holds_together
-from core.types import FloatArray
+from carpus.core.tracking.association import IMPOSSIBLE, AssociationSettings, log_odds, posterior, resolve
+from carpus.core.tracking.joint_association import associate_jointly, holds_together
+from carpus.core.types import FloatArray
 
 RES_PX2 = 640.0 * 480.0
 OUTLIER = 1e-3

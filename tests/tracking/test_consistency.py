@@ -13,11 +13,11 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from core.depth_noise import pattern_sd_m, reading_sd_m
-from core.tracking.settings import TrackerSettings
-from core.tracking.tracker import Tracker
-from core.types import FloatArray
-from tests.tracking.hands import CAMERA, DT_S, Motion, Pose, blobs, calibration, rotation_of, swing
+from carpus.core.depth_noise import pattern_sd_m, reading_sd_m
+from carpus.core.tracking.settings import TrackerSettings
+from carpus.core.tracking.tracker import Tracker
+from carpus.core.types import FloatArray
+from tests.tracking.hands import CAMERA, DT_S, RIGID, Motion, Pose, blobs, calibration, rotation_of, swing
 
 PIXEL_SD_PX = 0.15
 DEPTH_SD_M = float(np.hypot(reading_sd_m(np.array(0.7)), pattern_sd_m(np.array(0.7))))
@@ -68,7 +68,7 @@ def normalised(error: FloatArray, covariance: FloatArray) -> float:
 
 def told(**noise: float) -> TrackerSettings:
     """Settings that know the palm's depths to be right, with other choices about noise."""
-    settings = TrackerSettings()
+    settings = RIGID
     return replace(settings, noise=replace(settings.noise, depth_stays_m=0.0, **noise))
 
 

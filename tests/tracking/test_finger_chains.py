@@ -5,12 +5,12 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from core.camera import Camera
-from core.hand.anatomy import HandAnatomy, anatomy_from_size
-from core.hand.anatomy_prior import constants_of
-from core.hand.kinematics import disc_centres, joint_centres, segment_frames
-from core.hand.protocols import HAND21, joint_angle_names
-from core.tracking.hand_geometry import (
+from carpus.core.camera import Camera
+from carpus.core.hand.anatomy import HandAnatomy, anatomy_from_size
+from carpus.core.hand.anatomy_prior import constants_of
+from carpus.core.hand.kinematics import disc_centres, joint_centres, segment_frames
+from carpus.core.hand.protocols import HAND21, joint_angle_names
+from carpus.core.tracking.hand_geometry import (
     CONSTANTS,
     RAY_MARKERS,
     RAYS,
@@ -23,9 +23,9 @@ from core.tracking.hand_geometry import (
     slope_by_constants,
     slots_of,
 )
-from core.tracking.ray_filter import RayLayout, RayView, forecast, spread_points
-from core.tracking.unscented import Spread
-from core.types import FloatArray
+from carpus.core.tracking.ray_filter import RATES, RAY_SIZE, SEEN, RayView, forecast, spread_points
+from carpus.core.tracking.unscented import Spread
+from carpus.core.types import FloatArray
 
 
 def hand(seed: int) -> HandAnatomy:
@@ -87,16 +87,16 @@ def test_slope_by_the_constants_is_that_of_small_differences(seed: int) -> None:
 def test_forecast_of_a_sure_state_is_the_projection_and_its_slope() -> None:
     """As the covariance goes to nothing, the statistical line becomes the tangent."""
     anatomy, joints = hand(1), angles(1, dip_free=True)
-    layout, roots = RayLayout(has_rates=True), anatomy.palm_disc_m[1:]
-    mean = np.zeros((RAYS, layout.size))
-    mean[:, layout.seen] = state_of(anatomy, joints)
-    covariance = np.broadcast_to(1e-8 * np.eye(layout.size), (RAYS, layout.size, layout.size))
+    roots = anatomy.palm_disc_m[1:]
+    mean = np.zeros((RAYS, RAY_SIZE))
+    mean[:, SEEN] = state_of(anatomy, joints)
+    covariance = np.broadcast_to(1e-8 * np.eye(RAY_SIZE), (RAYS, RAY_SIZE, RAY_SIZE))
     down = np.array([[0.0, -1.0, 0.0], [-1.0, 0.0, 0.0], [0.0, 0.0, -1.0]])
     view = RayView(down, np.array([0.01, 0.02, 0.7]), Camera(525.0, 530.0, 319.5, 239.5))
-    line = forecast(spread_points(mean, covariance, roots, layout, Spread()), view, layout, Spread())
+    line = forecast(spread_points(mean, covariance, roots, Spread()), view, Spread())
 
     def images(about: FloatArray) -> FloatArray:
-        point = ray_discs_m(roots, about[:, None, layout.seen])[:, 0] @ down.T + view.translation_m
+        point = ray_discs_m(roots, about[:, None, SEEN])[:, 0] @ down.T + view.translation_m
         z = point[..., 2]
         return np.stack(
             (525.0 * point[..., 0] / z + 319.5, 530.0 * point[..., 1] / z + 239.5, z), axis=-1
@@ -109,7 +109,7 @@ def test_forecast_of_a_sure_state_is_the_projection_and_its_slope() -> None:
         back[:, slot] -= 1e-5
         by_difference = (images(ahead) - images(back)) / 2e-5
         assert np.allclose(line.slope[:, :, slot], by_difference, rtol=1e-3, atol=0.05), slot
-    assert np.allclose(line.slope[:, :, layout.rates], 0.0)
+    assert np.allclose(line.slope[:, :, RATES], 0.0)
     assert np.allclose(line.spread, line.slope @ covariance @ np.swapaxes(line.slope, 1, 2), rtol=1e-2, atol=1e-4)
 
 

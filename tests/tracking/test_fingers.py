@@ -7,16 +7,14 @@ from dataclasses import replace
 
 import numpy as np
 
-from core.calibration.settings import CalibrationSettings
-from core.hand.protocols import HAND21
-from core.simulation.measurements import MeasurementSequence, measurement_sequence
-from core.simulation.spec import RecordingSpec
-from core.tracking.finger_settings import FingerSettings
-from core.tracking.hand_geometry import CONSTANTS, RAYS, SLOTS
-from core.tracking.ray_filter import RayBeliefs, RayForecast, RayLayout, corrected, learning_shares
-from core.tracking.settings import TrackerSettings
-from core.tracking.tracker import Tracker
-from core.types import Detections, FloatArray, TrackedFrame, TrackStatus
+from carpus.core.calibration.settings import CalibrationSettings
+from carpus.core.hand.protocols import HAND21
+from carpus.core.simulation.measurements import MeasurementSequence, measurement_sequence
+from carpus.core.simulation.spec import RecordingSpec
+from carpus.core.tracking.finger_settings import FingerSettings
+from carpus.core.tracking.settings import TrackerSettings
+from carpus.core.tracking.tracker import Tracker
+from carpus.core.types import Detections, TrackedFrame, TrackStatus
 from tests.accuracy.carpus import measured_hand
 from tests.accuracy.hand21 import HandRun, HandScenario, run_on_blobs
 from tests.accuracy.hand21_table import JOINT_GROUPS, figures
@@ -132,54 +130,6 @@ def test_a_lost_hand_has_no_joints_and_is_found_again() -> None:
     error_deg = np.degrees(np.abs(frames[-1].joint_angles_rad - seen.truth.joint_angles_rad[99]))
     assert frames[-1].status is TrackStatus.TRACKED
     assert np.median(error_deg) < 3.0
-
-
-LAYOUT = RayLayout(has_rates=True)
-
-
-def corrected_once(learning: float) -> tuple[RayBeliefs, RayBeliefs, FloatArray, FloatArray, RayForecast, FloatArray]:
-    """One correction of random beliefs by a random line; before, after, measured, variance, line, palm's part."""
-    rng = np.random.default_rng(8)
-    size = LAYOUT.size
-    root = rng.normal(size=(RAYS, 1, size, size)) * 0.1
-    before = RayBeliefs(rng.normal(size=(RAYS, 1, size)), root @ np.swapaxes(root, -1, -2), np.ones((RAYS, 1)))
-    slope = rng.normal(size=(RAYS, 9, size))
-    none = np.zeros((RAYS, 9, 9))
-    about = rng.normal(size=(RAYS, size))
-    line = RayForecast(
-        rng.normal(size=(RAYS, 9)), slope, none, about, none, np.zeros((RAYS, 3, 3)), np.zeros((RAYS, 3, 3, 3))
-    )
-    measured, variance = rng.normal(size=(RAYS, 9)), rng.uniform(0.1, 1.0, (RAYS, 9))
-    measured[2, 3:6] = np.nan
-    update = corrected(before, line, measured, variance, none, learning_shares(LAYOUT, learning))
-    return before, update.beliefs, measured, variance, line, about
-
-
-def test_correction_is_the_textbooks() -> None:
-    before, after, measured, variance, line, about = corrected_once(1.0)
-    for ray in range(RAYS):
-        used = np.isfinite(measured[ray])
-        h = line.slope[ray][used]
-        p = before.covariance[ray, 0]
-        expected = line.value[ray][used] + h @ (before.mean[ray, 0] - about[ray])
-        gain = p @ h.T @ np.linalg.inv(h @ p @ h.T + np.diag(variance[ray][used]))
-        assert np.allclose(after.mean[ray, 0], before.mean[ray, 0] + gain @ (measured[ray][used] - expected))
-        assert np.allclose(after.covariance[ray, 0], p - gain @ h @ p)
-
-
-def test_the_anatomy_learns_a_share_and_its_covariance_stays_one() -> None:
-    before, whole, *_ = corrected_once(1.0)
-    _, part, *_ = corrected_once(0.3)
-    constants, moving = LAYOUT.constants, slice(0, LAYOUT.constants.start)
-    step, slow = whole.mean - before.mean, part.mean - before.mean
-    assert np.allclose(slow[..., constants], 0.3 * step[..., constants])
-    assert np.allclose(slow[..., moving], step[..., moving])
-    assert np.allclose(part.covariance[..., moving, moving], whole.covariance[..., moving, moving])
-    assert np.linalg.eigvalsh(part.covariance).min() > -1e-12
-    told, told_slowly = (np.diagonal(b.covariance, axis1=-2, axis2=-1)[..., constants] for b in (whole, part))
-    assert (told_slowly > told - 1e-12).all()
-    assert told_slowly.shape[-1] == CONSTANTS
-    assert moving.stop // 2 == SLOTS
 
 
 def test_looking_back_is_no_worse_than_live() -> None:

@@ -6,14 +6,14 @@ from functools import lru_cache
 
 import numpy as np
 
-from core.calibration.settings import CalibrationSettings
-from core.hand.protocols import joint_angle_names
-from core.pipeline.track import from_neutral, learnt_from
-from core.simulation.measurements import MeasurementSequence, measurement_sequence
-from core.simulation.spec import RecordingSpec
-from core.tracking.settings import TrackerSettings
-from core.tracking.tracker import Tracker
-from core.types import FloatArray
+from carpus.core.calibration.settings import CalibrationSettings
+from carpus.core.hand.protocols import joint_angle_names
+from carpus.core.pipeline.track import from_neutral, learnt_from
+from carpus.core.simulation.measurements import MeasurementSequence, measurement_sequence
+from carpus.core.simulation.spec import RecordingSpec
+from carpus.core.tracking.settings import TrackerSettings
+from carpus.core.tracking.tracker import Tracker
+from carpus.core.types import FloatArray
 from tests.accuracy.carpus import measured_hand
 
 RECORDED_S, PIECE_S, LAG_S = 2.0, 2.0, 1.5

@@ -7,23 +7,23 @@ import math
 import numpy as np
 import pytest
 
-from core.hand.anatomy import HARD_LIMITS_RAD
-from core.tracking.hand_geometry import CONSTANTS, RAYS, SLOTS
-from core.tracking.joint_limits import SOFT_RAD, constrained, outside_limits, slot_limits_rad
-from core.tracking.ray_filter import RayBeliefs
+from carpus.core.hand.anatomy import HARD_LIMITS_RAD
+from carpus.core.tracking.hand_geometry import CONSTANTS, RAYS, SLOTS
+from carpus.core.tracking.joint_limits import SOFT_RAD, constrained, outside_limits, slot_limits_rad
+from carpus.core.tracking.kernel import Bank
 
 SIZE = SLOTS + CONSTANTS
 INDEX, PIP = 1, 2
 
 
-def belief(pip_deg: float, sd_deg: float) -> RayBeliefs:
+def belief(pip_deg: float, sd_deg: float) -> Bank:
     """All joints surely at 20 degrees but one: PIP of the index finger."""
     mean = np.zeros((RAYS, 1, SIZE))
     mean[..., 1:3] = math.radians(20.0)
     covariance = np.broadcast_to(1e-8 * np.eye(SIZE), (RAYS, 1, SIZE, SIZE)).copy()
     mean[INDEX, 0, PIP] = math.radians(pip_deg)
     covariance[INDEX, 0, PIP, PIP] = math.radians(sd_deg) ** 2
-    return RayBeliefs(mean, covariance, np.ones((RAYS, 1)))
+    return Bank(mean, covariance, np.ones((RAYS, 1)))
 
 
 def pulled(pip_deg: float, sd_deg: float) -> tuple[float, float]:

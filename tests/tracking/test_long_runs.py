@@ -5,17 +5,15 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from core.tracking.settings import TrackerSettings
-from core.tracking.tracker import Tracker
-from core.types import Detections, FloatArray, TrackStatus
+from carpus.core.tracking.settings import TrackerSettings
+from carpus.core.tracking.tracker import Tracker
+from carpus.core.types import Detections, FloatArray, TrackStatus
 from tests.tracking.hands import CAMERA, DT_S, Pose, blobs, calibration
 
 SETTINGS = {
     "default": TrackerSettings(),
-    "augmented": TrackerSettings(form="augmented"),
-    "paper, augmented": TrackerSettings(form="augmented", motion="paper"),
     "without depth": TrackerSettings(use_depth=False),
-    "brisk, rigid": TrackerSettings(profile="brisk", refine_shape=False),
+    "brisk": TrackerSettings(profile="brisk"),
 }
 
 
@@ -75,7 +73,7 @@ def test_covariance_stays_one_whatever_comes_in(name: str) -> None:
         used = [tuple(pixel) for pixel in frame.marker_measured_px[measured]]
         assert len(set(used)) == len(used)
         assert set(used) <= {tuple(pixel) for pixel in found.pixel}
-    assert set(statuses) == set(TrackStatus), "the run was hard enough to show all three"
+    assert set(statuses) >= {TrackStatus.TRACKED, TrackStatus.PREDICTED, TrackStatus.LOST}, "the run was hard enough"
     smoothed = tracker.smoothed()
     assert [np.isnan(m.angles_rad).all() for m in smoothed] == [s is TrackStatus.LOST for s in statuses]
 

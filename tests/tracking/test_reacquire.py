@@ -7,17 +7,18 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from core import so3
-from core.tracking.measurement import RigidPalm, View
-from core.tracking.reacquire import find_palm
-from core.types import Detections, Side
+from carpus.core import so3
+from carpus.core.tracking.palm_view import View
+from carpus.core.tracking.reacquire import FindingSettings, find_palm
+from carpus.core.types import Detections, Side
 from tests.tracking.hands import CAMERA, FROM_ABOVE, MIDDLE_M, Pose, blobs, palm, rotation_of
 
+FINDING = FindingSettings()
 SIDES: tuple[Side, Side] = ("right", "left")
 
 
 def view(side: Side) -> View:
-    return View(CAMERA, FROM_ABOVE, MIDDLE_M, RigidPalm(palm(side)))
+    return View(CAMERA, FROM_ABOVE, MIDDLE_M, palm(side), np.zeros((6, 18)))
 
 
 def some_pose(rng: np.random.Generator) -> Pose:
@@ -33,7 +34,7 @@ def clutter(rng: np.random.Generator, count: int) -> list[tuple[float, float]]:
 def test_palm_is_found_among_shuffled_blobs_and_clutter(side: Side, seed: int) -> None:
     rng = np.random.default_rng(seed)
     pose = some_pose(rng)
-    found = find_palm(blobs(pose, rng, side=side, false_px=clutter(rng, 8)), view(side))
+    found = find_palm(blobs(pose, rng, side=side, false_px=clutter(rng, 8)), view(side), FINDING)
     assert found is not None
     position, rotation = found.position_m, found.rotation_w2_w0
     true = rotation_of(*pose.angles_deg, side=side)
@@ -49,7 +50,7 @@ def test_four_or_five_discs_are_enough(side: Side, hidden: tuple[int, ...]) -> N
     found_right = 0
     for _ in range(10):
         pose = some_pose(rng)
-        found = find_palm(blobs(pose, rng, side=side, hidden=hidden), view(side))
+        found = find_palm(blobs(pose, rng, side=side, hidden=hidden), view(side), FINDING)
         if found is None:
             continue  # two poses explain the four discs: then none is taken
         assert found.count >= 6 - len(hidden)
@@ -68,14 +69,14 @@ def test_three_discs_are_not_enough(side: Side) -> None:
     rng = np.random.default_rng(30)
     for _ in range(20):
         hidden = rng.choice(6, 3, replace=False)
-        assert find_palm(blobs(some_pose(rng), rng, side=side, hidden=hidden), view(side)) is None
+        assert find_palm(blobs(some_pose(rng), rng, side=side, hidden=hidden), view(side), FINDING) is None
 
 
 def test_three_discs_and_far_clutter_are_not_enough() -> None:
     rng = np.random.default_rng(31)
     for _ in range(20):
         seen = blobs(Pose(), rng, hidden=[0, 2, 4], false_px=[(50, 50), (600, 60), (40, 430), (600, 440)])
-        assert find_palm(seen, view("right")) is None
+        assert find_palm(seen, view("right"), FINDING) is None
 
 
 @pytest.mark.parametrize("side", SIDES)
@@ -86,7 +87,7 @@ def test_the_other_hand_is_never_taken_for_all_of_this_one(side: Side) -> None:
     refused = 0
     for _ in range(20):
         pose = Pose(rng.uniform(-1.0, 1.0, 3) * [30.0, 20.0, 20.0])
-        found = find_palm(blobs(pose, rng, side=other), view(side))
+        found = find_palm(blobs(pose, rng, side=other), view(side), FINDING)
         refused += found is None
     assert refused == 20
 
@@ -96,12 +97,12 @@ def test_a_palm_that_shows_its_inside_is_not_taken() -> None:
     rng = np.random.default_rng(41)
     for _ in range(10):
         pose = Pose(np.array([rng.uniform(-40, 40), 0.0, 180.0]))
-        assert find_palm(blobs(pose, rng), view("right")) is None
+        assert find_palm(blobs(pose, rng), view("right"), FINDING) is None
 
 
 def test_without_depth_nothing_is_found() -> None:
-    assert find_palm(blobs(Pose(), np.random.default_rng(1), with_depth=False), view("right")) is None
-    assert find_palm(Detections.none(), view("right")) is None
+    assert find_palm(blobs(Pose(), np.random.default_rng(1), with_depth=False), view("right"), FINDING) is None
+    assert find_palm(Detections.none(), view("right"), FINDING) is None
 
 
 def test_two_palms_are_one_too_many() -> None:
@@ -111,8 +112,8 @@ def test_two_palms_are_one_too_many() -> None:
         *(np.concatenate((getattr(one, f), getattr(other, f))) for f in ("pixel", "depth_m", "depth_sd_m", "area_px")),
         np.concatenate((one.similarity, other.similarity)),
     )
-    assert find_palm(both, view("right")) is None
-    assert find_palm(one, view("right")) is not None
+    assert find_palm(both, view("right"), FINDING) is None
+    assert find_palm(one, view("right"), FINDING) is not None
 
 
 def test_with_many_blobs_the_likest_are_searched() -> None:
@@ -121,7 +122,7 @@ def test_with_many_blobs_the_likest_are_searched() -> None:
     likeness = np.where(
         np.linalg.norm(seen.pixel[:, None] - blobs(Pose()).pixel[None], axis=-1).min(axis=1) < 1.0, 0.95, 0.6
     )
-    found = find_palm(replace(seen, similarity=likeness), view("right"))
+    found = find_palm(replace(seen, similarity=likeness), view("right"), FINDING)
     assert found is not None
     assert found.count == 6
 
@@ -134,12 +135,12 @@ def test_a_found_pose_says_how_sure_it_is(hidden: tuple[int, ...]) -> None:
     squared = []
     for _ in range(60):
         pose = Pose(rng.uniform(-1.0, 1.0, 3) * 15.0)
-        found = find_palm(blobs(pose, rng, hidden=hidden), view("right"))
+        found = find_palm(blobs(pose, rng, hidden=hidden), view("right"), FINDING)
         if found is None:
             continue
         true = rotation_of(*pose.angles_deg)
         error = np.concatenate((pose.position_m - found.position_m, so3.log(found.rotation_w2_w0.T @ true)))
-        covariance = found.pose_covariance(palm("right"))
+        covariance = found.pose_covariance(palm("right"), FINDING)
         assert np.linalg.eigvalsh(covariance)[0] > 0.0
         squared.append(float(error @ np.linalg.solve(covariance, error)))
         assert np.array_equal(np.flatnonzero(found.matched), shown)
@@ -148,9 +149,9 @@ def test_a_found_pose_says_how_sure_it_is(hidden: tuple[int, ...]) -> None:
 
 
 def test_the_knuckles_alone_leave_the_turn_about_their_line_open() -> None:
-    knuckles = find_palm(blobs(Pose(), hidden=(0, 1)), view("right"))
-    whole = find_palm(blobs(Pose()), view("right"))
+    knuckles = find_palm(blobs(Pose(), hidden=(0, 1)), view("right"), FINDING)
+    whole = find_palm(blobs(Pose()), view("right"), FINDING)
     assert knuckles is not None
     assert whole is not None
-    about_y = [np.sqrt(f.pose_covariance(palm("right"))[4, 4]) for f in (knuckles, whole)]
+    about_y = [np.sqrt(f.pose_covariance(palm("right"), FINDING)[4, 4]) for f in (knuckles, whole)]
     assert about_y[0] > 2.0 * about_y[1]

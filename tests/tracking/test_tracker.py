@@ -7,13 +7,15 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from core.tracking.settings import TrackerSettings
-from core.tracking.tracker import Tracker
-from core.types import Detections, FloatArray, Side, TrackedFrame, TrackStatus
+from carpus.core.tracking.palm_state import SHAPE
+from carpus.core.tracking.settings import TrackerSettings
+from carpus.core.tracking.tracker import Tracker
+from carpus.core.types import Detections, FloatArray, Side, TrackedFrame, TrackStatus
 from tests.tracking.hands import (
     CAMERA,
     DT_S,
     MCP3,
+    RIGID,
     WRIST,
     Motion,
     Pose,
@@ -91,7 +93,7 @@ def test_hand_made_poses_are_read_with_the_clinical_sign(side: Side) -> None:
             pixel = CAMERA.project(discs)
             found = Detections(pixel, discs[:, 2], np.full(count, 7e-4), np.full(count, 64.0), np.full(count, 0.9))
             frames.append((k * DT_S, found))
-        return angles_deg(track(frames, TrackerSettings(refine_shape=False), side=side))[-1]
+        return angles_deg(track(frames, TrackerSettings(), side=side))[-1]
 
     wrist = at_rest[WRIST]
     radial = at_rest.copy()
@@ -188,6 +190,7 @@ def test_a_hand_hidden_for_long_is_lost_and_everything_is_unknown_until_it_is_fo
         for value in (
             frame.position_m,
             frame.velocity_m_s,
+            frame.w0_turn_rad,
             frame.rotation_w2_w0,
             frame.angular_velocity_rad_s,
             frame.angles_rad,
@@ -205,7 +208,7 @@ def test_a_hand_hidden_for_long_is_lost_and_everything_is_unknown_until_it_is_fo
 
 def test_what_lies_turned_about_is_not_the_hand_that_was_just_covered() -> None:
     """Blobs in the shape of a palm that points backwards: no wrist turns so far while it is covered for a blink."""
-    tracker = Tracker(calibration(), CAMERA, TrackerSettings())
+    tracker = Tracker(calibration(), CAMERA, RIGID)
     backwards = Pose(np.array([175.0, 0.0, 0.0]), np.array([0.08, 0.0, 0.0]))
     rng = np.random.default_rng(5)
     for i in range(60):
@@ -298,7 +301,7 @@ def test_without_depth_by_choice_depths_change_nothing() -> None:
 
 def test_depth_makes_flexion_surer() -> None:
     frames = [(t, blobs(Pose(), np.random.default_rng(k))) for k, t in enumerate(times(30))]
-    rigid = {use: track(frames, TrackerSettings(use_depth=use, refine_shape=False)) for use in (True, False)}
+    rigid = {use: track(frames, TrackerSettings(use_depth=use)) for use in (True, False)}
     sd = {use: np.degrees(run[-1].angles_sd_rad) for use, run in rigid.items()}
     assert sd[True][1] < 0.7 * sd[False][1]
     assert sd[True][0] == pytest.approx(sd[False][0], rel=0.5)
@@ -403,10 +406,10 @@ def test_beginning_again_forgets_the_old_stretch() -> None:
     def knows_of_shape(tracker: Tracker, step: int) -> float:
         belief = tracker.history[step].belief
         assert belief is not None
-        return float(np.trace(belief.covariance[tracker.layout.shape, tracker.layout.shape]))
+        return float(np.trace(belief.covariance[SHAPE, SHAPE]))
 
     first, second = seen(still, 15, seed=1), [(15 * DT_S + t, found) for t, found in seen(still, 30, seed=2)]
-    again, fresh, on = (Tracker(calibration(), CAMERA, TrackerSettings()) for _ in range(3))
+    again, fresh, on = (Tracker(calibration(), CAMERA, RIGID) for _ in range(3))
     track(first, tracker=again)
     again.begin_at_neutral()
     track(second, tracker=again)
@@ -427,7 +430,7 @@ def test_smoothed_is_nearer_to_the_truth_than_filtered() -> None:
     filtered_error, smoothed_error = [], []
     for seed, (which, amplitude_deg, hz) in enumerate([(0, 22.0, 0.4), (1, 45.0, 0.4), (2, 40.0, 0.5), (0, 20.0, 1.7)]):
         motion = swing(which, amplitude_deg, hz)
-        tracker = Tracker(calibration(), CAMERA, TrackerSettings())
+        tracker = Tracker(calibration(), CAMERA, RIGID)
         frames = track(seen(motion, 120, seed), tracker=tracker)
         truth = truth_deg(motion, times(120))
         smoothed = np.degrees([moment.angles_rad for moment in tracker.smoothed()])
@@ -465,7 +468,7 @@ def test_a_gap_between_pictures_does_not_make_the_tracker_forget() -> None:
         rng = np.random.default_rng(seed)
         motion = swing(1, 20.0, 0.3)
         at = [k / 15.0 for k in range(75) if k not in (40, 41)]
-        frames = track([(t, blobs(motion(t), rng, hidden=(WRIST, 1) if 2.6 < t < 3.4 else ())) for t in at])
+        frames = track([(t, blobs(motion(t), rng, hidden=(WRIST, 1) if 2.6 < t < 3.4 else ())) for t in at], RIGID)
         blind = [k for k, t in enumerate(at) if 2.7 < t < 3.4]
         errors.append(np.abs(angles_deg(frames) - truth_deg(motion, at))[blind].max())
     assert np.median(errors) < 8.0
@@ -499,3 +502,28 @@ def test_after_a_long_pause_without_pictures_the_hand_is_found_anew() -> None:
         assert frame.status is TrackStatus.TRACKED
         assert np.abs(np.degrees(frame.angles_rad) - elsewhere.angles_deg).max() < 4.0
         assert np.linalg.norm(frame.velocity_m_s) < 0.3
+
+
+def lost_and_found(shown_after: int) -> list[TrackStatus]:
+    """A hand hidden until it is lost, then there for ``shown_after`` pictures, then all but one disc hidden again."""
+    gone, back = 20, 90
+    frames = []
+    rng = np.random.default_rng(11)
+    for k, t in enumerate(times(back + shown_after + 3)):
+        if k < gone or back <= k < back + shown_after:
+            hidden: tuple[int, ...] = ()
+        else:
+            hidden = tuple(ALL) if k < back else (0, 1, 2, 4, 5)
+        frames.append((t, blobs(Pose(), rng, hidden=hidden)))
+    return statuses(track(frames))[back:]
+
+
+def test_a_hand_found_again_is_on_probation() -> None:
+    """Found out of nothing and gone in the next pictures, it was no hand; borne out for a while, it is one hidden."""
+    brief = lost_and_found(2)
+    assert brief[:2] == [TrackStatus.TRACKED] * 2
+    assert brief[2:] == [TrackStatus.LOST] * 3
+    just_short = lost_and_found(5)
+    assert just_short[5:] == [TrackStatus.LOST] * 3
+    long = lost_and_found(8)
+    assert long[8:] == [TrackStatus.PREDICTED] * 3

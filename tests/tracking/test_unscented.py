@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from core.tracking.unscented import make_roots
-from core.types import FloatArray
+from carpus.core.tracking.unscented import make_roots
+from carpus.core.types import FloatArray
 
 
 def covariances(count: int, size: int) -> FloatArray:

@@ -10,9 +10,9 @@ import pytest
 from PySide6.QtCore import QLocale
 from PySide6.QtWidgets import QApplication
 
-from ui.fonts import load_fonts
-from ui.style import apply_style
-from ui.theme import Theme
+from carpus.ui.fonts import load_fonts
+from carpus.ui.style import apply_style
+from carpus.ui.theme import Theme
 
 
 @pytest.fixture(autouse=True)

@@ -5,22 +5,28 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
-from datetime import datetime, timedelta, timezone
+from datetime import date, datetime, timedelta, timezone
 from functools import lru_cache
 from pathlib import Path
 
 import numpy as np
 
-from core.calibration.result import Calibration, Clicks, Finding, Verdict
-from core.camera import Camera
-from core.output.exercises import exercise_named
-from core.output.report_content import RepetitionChoices, SessionFigures, session_figures
-from core.pipeline.live_values import LiveCounters, LiveEvent, TrackedView
-from core.session.values import Event, MarkerSeries, QualitySeries, Session, SessionHeader, motion_of
-from core.simulation.recording import SimulatedPictures
-from core.simulation.spec import RecordingSpec
-from core.types import ByteImage, Detections, Frame, TrackedFrame, TrackStatus
-from ui.ports import (
+from carpus.core.agreement.compare import Alignment, Compared, Pairs, Shift
+from carpus.core.agreement.retest import Retest, StudyFigures
+from carpus.core.agreement.retest_plan import Mounting, Person, RetestPlan
+from carpus.core.agreement.statistics import agreement
+from carpus.core.calibration.result import Calibration, Clicks, Finding, Verdict
+from carpus.core.camera import Camera
+from carpus.core.hand.protocols import WRIST_ANGLES, joint_angle_names
+from carpus.core.library.set_up import PRACTICE_PATIENT, SetUp
+from carpus.core.output.exercises import exercise_named
+from carpus.core.output.report_content import RepetitionChoices, SessionFigures, session_figures
+from carpus.core.pipeline.live_values import LiveCounters, LiveEvent, TrackedView
+from carpus.core.session.values import Event, MarkerSeries, QualitySeries, Session, SessionHeader, motion_of
+from carpus.core.simulation.recording import SimulatedPictures
+from carpus.core.simulation.spec import RecordingSpec
+from carpus.core.types import ByteImage, Detections, Frame, TrackedFrame, TrackStatus
+from carpus.ui.ports import (
     FoundMarker,
     Judged,
     PatientCard,
@@ -28,8 +34,10 @@ from ui.ports import (
     PatientRow,
     ProposedMarker,
     ResultLine,
+    SessionLine,
     SessionRow,
-    SetUp,
+    StoredMoment,
+    StoredResult,
     VerdictLimits,
     Words,
 )
@@ -117,6 +125,7 @@ def tracked_frames(
                 status=status,
                 position_m=truth.position_m[k] * unknown,
                 velocity_m_s=truth.velocity_m_s[k] * unknown,
+                w0_turn_rad=np.zeros(3) * unknown,
                 rotation_w2_w0=truth.rotation_w2_w0[k] * unknown,
                 angular_velocity_rad_s=truth.angular_velocity_rad_s[k] * unknown,
                 angles_rad=angles[k] * unknown,
@@ -171,7 +180,7 @@ def calibration(pictures: SimulatedPictures) -> Calibration:
         "start_angles_rad": np.zeros(3),
         "verdict": verdict,
     }
-    return Calibration(**{name: known[name] for name in fields})
+    return Calibration(**{name: known[name] for name in fields if name in known})
 
 
 def set_up(exercise: str = "WRIST_FE", target_deg: float = 60.0) -> SetUp:
@@ -313,6 +322,7 @@ def session(
         exercise=exercise,
         software_version="1.0.0",
         parameters="{}",
+        recording_id=f"{session_id} {when}",
     )
     cal = calibration(pictures)
     return Session(
@@ -327,6 +337,7 @@ def session(
             np.array([frame.marker_position_cam_m for frame in frames]),
             np.array([frame.marker_measured_px for frame in frames]),
             np.array([frame.marker_measured_depth_m for frame in frames]),
+            np.array([frame.doubted for frame in frames]),
         ),
         quality=QualitySeries(
             np.zeros(len(frames), int), np.ones((len(frames), 3)), np.full(len(frames), 6.0), np.full(len(frames), 12)
@@ -364,6 +375,8 @@ class FakeStore:
         return list(self.rows)
 
     def card(self, patient_id: str) -> PatientCard:
+        if patient_id == PRACTICE_PATIENT:
+            return PatientCard(PatientRow(PRACTICE_PATIENT, "", "right"))
         row = next(row for row in self.rows if row.patient_id == patient_id)
         if row.last_session is None:
             return PatientCard(row)
@@ -417,6 +430,11 @@ class FakeCalibrator:
         return Frame(0, 0.0, picture(spec.motion, protocol=spec.protocol), None, 0.001)
 
     hold = newest_frame
+
+    last_straight_fingers = (True, True, True, True, True)
+
+    def discs_seen(self) -> int:
+        return 6
 
     def hand_area(self) -> np.ndarray:
         return np.array([self.disc_px.min(axis=0), self.disc_px.max(axis=0)])
@@ -495,8 +513,8 @@ class FakeSessions:
         verdict = replace(far.calibration.verdict, distance_m=0.84)
         self.sessions["session-4"] = replace(far, calibration=replace(far.calibration, verdict=verdict))
         self.kept: dict[str, RepetitionChoices] = {}
+        self.results: list[StoredResult] = []
         self.pictures = pictures
-        self.exported: list[tuple[str, str]] = []
 
     def session(self, session_id: str) -> Session:
         return self.sessions[session_id]
@@ -507,6 +525,9 @@ class FakeSessions:
         pictures = simulated(seconds=62.0, speed_hz=0.165)
         return pictures.sensed(row, pictures.clean(row))[0]
 
+    def results_of(self, session_id: str) -> list[StoredResult]:
+        return list(self.results)
+
     def choices(self, session_id: str) -> RepetitionChoices:
         return self.kept.get(session_id, RepetitionChoices())
 
@@ -516,6 +537,120 @@ class FakeSessions:
     def history(self, patient_id: str) -> list[SessionFigures]:
         return [session_figures(stored, self.choices(key)) for key, stored in self.sessions.items()]
 
-    def export(self, session_id: str, folder: str) -> list[str]:
-        self.exported.append((session_id, folder))
-        return ["one.csv", "two.c3d"]
+
+class FakeShelf:
+    """A list of sessions that remembers what was done with it."""
+
+    def __init__(self, count: int = 6) -> None:
+        start = datetime(2026, 11, 20, 11, 30)
+        self.all = [
+            SessionLine(f"s{number}", start - timedelta(days=3 * number), "WRIST_FE", "right", 84.0, number != 3)
+            for number in range(count)
+        ]
+        self.done: list[tuple[str, ...]] = []
+
+    def lines(self, patient_id: str) -> list[SessionLine]:
+        return list(self.all)
+
+    def with_figures(self, line: SessionLine) -> SessionLine:
+        number = int(line.session_id[1:])
+        if number == 4:
+            return replace(line, damaged=True)
+        words = "mean of 9 repetitions; number 7 left out: pain"
+        return replace(line, figure=f"Flexion {57 - 3 * number}° ± 2°", counted="9 / 10", counted_words=words)
+
+    def other_patients(self, patient_id: str) -> list[tuple[str, str]]:
+        return [("heron", "Heron 17"), ("alder", "Alder 51")]
+
+    def files_of(self, session_id: str) -> list[tuple[str, int]]:
+        return [("a.h5", 2_000_000), ("a.choices.json", 300)]
+
+    def _change(self, session_id: str, **values: object) -> None:
+        self.all = [replace(one, **values) if one.session_id == session_id else one for one in self.all]  # type: ignore[arg-type]
+
+    def set_aside(self, session_id: str, reason: str) -> None:
+        self.done.append(("aside", session_id, reason))
+        self._change(session_id, set_aside=reason)
+
+    def move(self, session_id: str, patient_id: str) -> None:
+        self.done.append(("move", session_id, patient_id))
+        self.all = [one for one in self.all if one.session_id != session_id]
+
+    def rename_exercise(self, session_id: str, exercise: str) -> None:
+        self.done.append(("rename", session_id, exercise))
+        self._change(session_id, exercise=exercise)
+
+
+class FakeCorrections:
+    """The stored pictures of :class:`FakeSessions`, and the spots of each: all discs that were seen, and one more."""
+
+    def __init__(self, sessions: FakeSessions, *, pictures: bool = True) -> None:
+        self._sessions, self._pictures = sessions, pictures
+
+    def moment(self, session_id: str, row: int) -> StoredMoment:
+        places = self._sessions.session(session_id).markers.measured_px[row]
+        spots = np.concatenate((places[np.isfinite(places[:, 0])], [[420.0, 120.0]]))
+        return StoredMoment(self._sessions.picture(session_id, row) if self._pictures else None, spots)
+
+
+def compared(*, readings: bool = False, hand: bool = False) -> Compared:
+    """Two measurements of a movement whose difference is known: 0.6° more flexion, and turning that does not agree."""
+    draw = np.random.default_rng(4)
+    names = [*WRIST_ANGLES, *(joint_angle_names(True) if hand else ())]
+    count = 14 if readings else 1860
+    time_s = np.linspace(0.0, 62.0, count)
+    pairs = []
+    for name in names:
+        size, bias, sd = {
+            "flexion": (50.0, 0.6, 1.9), "deviation": (18.0, -0.3, 1.0), "pronosupination": (30.0, 1.8, 3.2),
+        }.get(name, (40.0, -0.5, 1.6))  # fmt: skip
+        if readings and name == "pronosupination":
+            continue
+        reference = size * np.sin(time_s * (0.9 if not readings else 2.3))
+        measured = reference + bias + sd * draw.standard_normal(count)
+        pairs.append(
+            Pairs(name, time_s, np.radians(measured), np.radians(reference),
+                  agreement(measured, reference, waveform=not readings))
+        )  # fmt: skip
+    if readings:
+        why = ("flexion at 12 s: the hand was not still, or not seen", "pronosupination: not in the session")
+        return Compared("goniometer list", tuple(pairs), None, None, 16, 2, np.nan, np.nan, why)
+    alignment = Alignment(np.radians(3.1), 0.0011, ("WRIST", "MCP2", "MCP5"), "its neutral pose")
+    return Compared(
+        "points by C3D", tuple(pairs), Shift(-0.034, 0.99), alignment, 1860, 214, 62.0, 100.0,
+        ("markers ELBOW, C7: none of the discs by their names",),
+    )  # fmt: skip
+
+
+def retest_plan(people: int = 9) -> RetestPlan:
+    """Volunteers measured twice, the last two of them once and not at all; a sure figure and an unsure one."""
+    first = datetime(2026, 11, 2, 9, 0)
+    rows = [
+        Person(
+            f"p{k}", f"P{k:02d}", "right",
+            (
+                Mounting(f"a{k}", first + timedelta(days=k // 2), "MK"),
+                Mounting(f"b{k}", first + timedelta(days=7 + k // 2), "JS" if k % 3 else "MK"),
+            ),
+            "complete",
+        )
+        for k in range(1, people + 1)
+    ]  # fmt: skip
+    once = Mounting("c", first + timedelta(days=11), "JS")
+    late = Mounting("d", first + timedelta(days=30), "JS", "too_late")
+    rows.append(Person("late", "P40", "right", (Mounting("e", first, "MK"), late), "too_late"))
+    rows.append(Person("due", "P41", "left", (once,), "due", date(2026, 11, 27)))
+    rows.append(Person("none", "P42", None, (), "missing"))
+    ends = {
+        ("flexion", "flexion"): (2.4, 6.6), ("flexion", "extension"): (2.7, 7.5), ("flexion", "arc"): (3.1, 8.6),
+    }  # fmt: skip
+    found = {
+        key: Retest(
+            people, 2 * people, 0.9, (0.7, 0.97), sem, (0.7 * sem, 1.6 * sem), people - 1.0, mdc,
+            (0.7 * mdc, 1.6 * mdc), math.nan, 0.2,
+        )
+        for key, (sem, mdc) in ends.items()
+    }  # fmt: skip
+    found["PIP3_flexion", "arc"] = replace(found["flexion", "arc"], people=2, mdc95_interval=(7.2, 86.0))
+    study = StudyFigures("wrist6", "WRIST_FE", "zyx", people, 2 * people, 2, False, found, ())
+    return RetestPlan("WRIST_FE", tuple(rows), study if people else None)

@@ -7,54 +7,80 @@ import sys
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import replace
-from datetime import date
+from datetime import date, datetime, timedelta
 from pathlib import Path
+from typing import TypeVar
 
 os.environ.setdefault("QT_QPA_PLATFORM", "offscreen")
 
 import numpy as np
 from PySide6.QtCore import QLocale
-from PySide6.QtWidgets import QApplication, QWidget
+from PySide6.QtWidgets import QApplication, QScrollArea, QWidget
 
-from app.desktop.phrases import WordTable
-from core.calibration.result import Finding
-from core.errors import DiskFull
-from core.output.report_content import RepetitionChoices
-from core.words import finding_words
+from carpus.app.desktop.phrases import WordTable
+from carpus.core.agreement.reference import Outline
+from carpus.core.calibration.result import Finding
+from carpus.core.errors import DiskFull
+from carpus.core.hand.protocols import WRIST_ANGLES
+from carpus.core.measures.error_limits import DEFAULT_LIMITS
+from carpus.core.output.joint_content import joint_curves
+from carpus.core.output.report_content import RepetitionChoices, session_curves, session_figures
+from carpus.core.session.values import Session
+from carpus.core.words import finding_words
+from carpus.ui.agreement.reference_sheet import ColumnsSheet, ReferenceSheet
+from carpus.ui.agreement.screen import AgreementScreen
+from carpus.ui.background import Background
+from carpus.ui.controls.sheet import Sheet
+from carpus.ui.correct.results_sheet import BothResults, ResultsSheet
+from carpus.ui.correct.screen import CorrectScreen
+from carpus.ui.fonts import load_fonts
+from carpus.ui.help.screen import HelpScreen
+from carpus.ui.keys import Keys
+from carpus.ui.live.screen import LiveScreen
+from carpus.ui.markers.screen import MarkersScreen
+from carpus.ui.messages.stop_card import Answer, StopCard
+from carpus.ui.messages.strip import NoticeStrip
+from carpus.ui.patients.screen import PatientsScreen
+from carpus.ui.ports import Preferences, ReferenceChoice, Words
+from carpus.ui.progress.screen import ProgressScreen
+from carpus.ui.records.cards import BackupCard, BackupFacts, LockCard, RecordsCard
+from carpus.ui.records.erase_sheet import EraseSheet
+from carpus.ui.records.list_sheets import LogSheet, RecordsSheet
+from carpus.ui.records.lock_sheet import LockSheet
+from carpus.ui.records.pin_sheet import PinSheet
+from carpus.ui.records.ports import ErasureFacts, ListedRecord, LoggedDeed
+from carpus.ui.report.pdf import progress_report, session_report
+from carpus.ui.report.screen import ReportScreen
+from carpus.ui.retest.people_sheet import PeopleSheet
+from carpus.ui.retest.screen import RetestScreen
+from carpus.ui.review.screen import ReviewScreen
+from carpus.ui.sessions.screen import SessionsScreen
+from carpus.ui.settings.screen import SettingsScreen
+from carpus.ui.setup.camera import CameraScreen
+from carpus.ui.setup.exercise import ExerciseScreen
+from carpus.ui.shell import Shell
+from carpus.ui.theme import Theme, ThemeName
+from carpus.ui.welcome.panel import Check, WelcomePanel
 from tests.ui.fakes import (
+    NOW,
     FakeCalibrator,
+    FakeCorrections,
     FakeFeed,
     FakeMeasuring,
     FakePhrasebook,
     FakeSessions,
+    FakeShelf,
     FakeStore,
+    compared,
     picture,
+    retest_plan,
     set_up,
 )
-from tests.ui.hand_fakes import FakeHandSessions
-from ui.background import Background
-from ui.fonts import load_fonts
-from ui.help.screen import HelpScreen
-from ui.keys import Keys
-from ui.live.screen import LiveScreen
-from ui.markers.screen import MarkersScreen
-from ui.messages.stop_card import Answer, StopCard
-from ui.messages.strip import NoticeStrip
-from ui.patients.screen import PatientsScreen
-from ui.ports import Preferences, Words
-from ui.progress.screen import ProgressScreen
-from ui.report.pdf import progress_report, session_report
-from ui.report.screen import ReportScreen
-from ui.review.screen import ReviewScreen
-from ui.settings.screen import SettingsScreen
-from ui.setup.camera import CameraScreen
-from ui.setup.exercise import ExerciseScreen
-from ui.shell import Shell
-from ui.theme import Theme, ThemeName
+from tests.ui.hand_fakes import FakeHandSessions, hand_session
 
 SIZES = ((1280, 800), (1920, 1080))
 STEPS = ("Exercise", "Camera", "Markers", "Measure")
-TABS = ("Session", "Review", "Progress", "Report")
+TABS = ("Sessions", "Review", "Progress", "Report")
 TODAY = date(2026, 11, 20)
 LOST = Words(
     "The camera sends no more pictures.",
@@ -66,6 +92,30 @@ RECOVERED = Words(
     "All data up to 04:12 are safe; at most the last second is missing. The file is marked “recovered”.",
     "Review it now, or leave it for later: it stays in the patient’s list.",
 )
+
+
+ERASED_SESSION = ErasureFacts(
+    "Linden 42", datetime(2026, 10, 9, 9, 51), "WRIST_FE", "right", 1, 4, 38.2, 2, 1, 0, 0, 8,
+    datetime(2026, 11, 15, 18, 4), date(2036, 10, 9), 10, TODAY,
+)  # fmt: skip
+OLD_BACKUP = BackupFacts(
+    "warn", "The last back-up is 5 days old. 7 sessions are not in it.",
+    "15 Nov 2026, 18:04 · 49 sessions, 2.04 GB · read back and compared: all equal", "Reminder after 3 days.",
+    "/media/clinic-disk/carpus-backup", "good", "412 GB free", True,
+)  # fmt: skip
+CHECKS = (
+    Check("Camera", "warning", "none plugged in", "Plug the camera in, at best straight into the computer. It needs a "
+          "USB 2 port; some USB 3 ports refuse cameras with old firmware."),
+    Check("Camera driver", "bad", "libOpenNI2.so.0: cannot open shared object file: No such file or directory",
+          "Needed for live cameras and .oni files. Run: sudo apt-get install libopenni2-0"),
+    Check("Camera rights", "good", "/lib/udev/rules.d/60-libopenni2-0.rules"),
+    Check("Data folder", "good", "/home/clinic/.local/share/carpus, made at the first recording"),
+    Check("Disk", "good", "212.4 GB free, about 354 minutes with pictures"),
+    Check("Fonts", "good", "6 faces"),
+    Check("Screen", "good", "1920 × 1053 for windows"),
+)  # fmt: skip
+SheetT = TypeVar("SheetT", bound=Sheet)
+ScreenT = TypeVar("ScreenT", bound=QWidget)
 
 
 class Phrases(FakePhrasebook):
@@ -87,6 +137,7 @@ class Gallery:
         self.keys = Keys()
         self.sessions = FakeSessions()
         self.sessions.kept["session-7"] = RepetitionChoices({6: "pain"})
+        self.over: list[Sheet] = []
         self.shell.resize(*size)
         self.shell.show()
         self.shell.activateWindow()
@@ -114,7 +165,16 @@ class Gallery:
         bar.show_recording(False)
 
     def show(self, screen: QWidget, first: QWidget | None = None) -> None:
+        while self.over:
+            sheet = self.over.pop()
+            sheet.close_sheet()
+            sheet.deleteLater()
         self.shell.show_screen(screen, first)
+        stage = self.shell.stage
+        for old in [stage.widget(number) for number in range(stage.count())]:
+            if old is not screen:  # every change of style would go through all that were ever shown
+                stage.removeWidget(old)
+                old.deleteLater()
         self.settle()
 
     def patients(self) -> PatientsScreen:
@@ -130,6 +190,65 @@ class Gallery:
         screen = PatientsScreen(self.theme, FakeStore([]), TODAY)
         screen.refresh()
         self.show(screen, screen.search)
+
+    def patients_welcome(self) -> None:
+        self._welcome(CHECKS)
+
+    def patients_welcome_good(self) -> None:
+        self._welcome([replace(check, state="good", remedy="") for check in CHECKS], counts_later=True)
+
+    def _welcome(self, checks: Sequence[Check], *, counts_later: bool = False) -> None:
+        self.place(where="", camera="")
+        screen = PatientsScreen(self.theme, FakeStore([]), TODAY)
+        panel = WelcomePanel(self.theme)
+        panel.show_folder("/home/clinic/.local/share/carpus", counts_later=counts_later)
+        panel.show_checks(checks)
+        screen.show_welcome(panel)
+        self.show(screen, screen.search)
+
+    def patients_guided(self) -> None:
+        self.patients().card.bubble.show_bubble("patient")
+        self.settle()
+
+    def camera_guided(self) -> None:
+        self.camera()
+        self._guided(CameraScreen).bubble.show_bubble("camera")
+        self.settle()
+
+    def markers_guided(self) -> None:
+        self.markers_clicking()
+        self._guided(MarkersScreen).bubble.show_bubble("click")
+        self.settle()
+
+    def markers_ready_guided(self) -> None:
+        self.markers_ready()
+        self._guided(MarkersScreen).bubble.show_bubble("check")
+        self.settle()
+
+    def live_guided(self) -> None:
+        self.live()
+        self._guided(LiveScreen).bubble.show_bubble("stop")
+        self.settle()
+
+    def live_hand_guided(self) -> None:
+        self.live_hand()
+        self._guided(LiveScreen).bubble.show_bubble("stop")
+        self.settle()
+
+    def review_guided(self) -> None:
+        self.review()
+        self._guided(ReviewScreen).bubble.show_bubble("results")
+        self.settle()
+
+    def report_guided(self) -> None:
+        self.report()
+        self._guided(ReportScreen).bubble.show_bubble("end")
+        self.settle()
+
+    def _guided(self, kind: type[ScreenT]) -> ScreenT:
+        screen = self.shell.stage.currentWidget()
+        assert isinstance(screen, kind)
+        return screen
 
     def patients_not_found(self) -> None:
         screen = self.patients()
@@ -358,6 +477,113 @@ class Gallery:
     def review_hand_finger(self) -> None:
         self.review_hand(4)
 
+    def _review_view(self, view: str) -> None:
+        self.place(tab=1, camera="Saved 11:37")
+        screen = ReviewScreen(self.theme, self.keys, self.background, self.sessions)
+        self.show(screen)
+        screen.begin("linden", "session-7", may_repeat=True)
+        self.settle()
+        screen.player.view.setCurrentIndex(screen.player.view.findData(view))
+        screen.seek(20.6)
+        self.settle()
+        screen.end()
+
+    def review_path(self) -> None:
+        self._review_view("path")
+
+    def review_speeds(self) -> None:
+        self._review_view("place")
+
+    def review_zyz(self) -> None:
+        self._review_view("zyz")
+
+    def _review_exercise(self, exercise: str, motion: str, view: str, finger: int) -> None:
+        self.place(tab=1, camera="Saved 11:37")
+        store = FakeHandSessions()
+        store.sessions = {
+            f"hand-{number}": hand_session(
+                NOW - timedelta(days=days), share, exercise, f"hand-{number}", motion,
+                hidden=[(8.0, 9.0, name) for name in ("IP1", "TIP1")],
+            )
+            for number, days, share in ((6, 7, 0.9), (7, 0, 1.0))
+        }  # fmt: skip
+        screen = ReviewScreen(self.theme, self.keys, self.background, store)
+        self.show(screen)
+        screen.begin("linden", "hand-7", may_repeat=True)
+        self.settle()
+        screen.finger.buttons()[finger].click()
+        screen.player.view.setCurrentIndex(screen.player.view.findData(view))
+        screen.seek(9.5)
+        self.settle()
+        screen.end()
+
+    def review_reach(self) -> None:
+        self._review_exercise("REACH_GRASP", "reach_grasp", "path", 6)
+
+    def review_opposition(self) -> None:
+        self._review_exercise("THUMB_OPP", "opposition", "path", 0)
+
+    def review_finger_ways(self) -> None:
+        self._review_exercise("THUMB_OPP", "opposition", "path", 1)
+
+    def _correct(self, *, pictures: bool = True) -> CorrectScreen:
+        self.place(tab=1, camera="Saved 11:37")
+        store = FakeCorrections(self.sessions, pictures=pictures)
+        screen = CorrectScreen(self.theme, self.keys, self.background, store)
+        self.show(screen)
+        screen.begin("session-7", self.sessions.session("session-7"), 620)
+        self.settle()
+        return screen
+
+    def correct(self) -> None:
+        screen = self._correct()
+        screen.put("MCP3", np.array([300.0, 300.0]))
+        screen.picture._dragged, screen.picture._at = "MCP4", np.array([310.0, 260.0])
+        self.settle()
+
+    def correct_spots(self) -> None:
+        self._correct(pictures=False)
+
+    def correct_exchanged(self) -> None:
+        screen = self._correct()
+        assert screen.places is not None
+        screen.put("MCP3", screen.places.before(620)[4])
+        self.settle()
+
+    def _results(self, sessions: tuple[Session, Session]) -> ResultsSheet:
+        self.place(tab=1, camera="Saved 11:37")
+        self.shell.bar.again.show_words("New result: choose", "Choose")
+        sheet = self._over(ResultsSheet(self.shell.stage, self.theme))
+        old, new = sessions
+        both = BothResults(
+            session_figures(new), session_curves(old), session_curves(new), joint_curves(old), joint_curves(new)
+        )
+        words = "212 of 1240 pictures differ by more than 2°, most at 00:39.2: 17°."
+        sheet.show_both("Linden 42 · 20 Nov 2026, 11:37 · Wrist flexion–extension, right hand", words, both)
+        sheet.begin()
+        sheet.curves.set_time(12.0)
+        self.settle()
+        return sheet
+
+    def correct_results(self) -> None:
+        self.review()
+        new = self.sessions.session("session-7")
+        shift = np.where(new.timestamp_s - new.timestamp_s[0] > 20.0, 0.3, 0.0)[:, None]
+        motion = replace(new.motion, angles_rad=new.motion.angles_rad - shift)
+        self._results((replace(new, motion=motion), new))
+
+    def correct_results_hand(self) -> None:
+        self.review_hand()
+        self._results((hand_session(share=0.8), hand_session()))
+
+    def correct_running(self) -> None:
+        self.correct()
+        self.shell.bar.again.show_words("Tracking again 63 %", "63 %")
+        sheet = self._over(ResultsSheet(self.shell.stage, self.theme))
+        sheet.show_running("Linden 42 · 20 Nov 2026, 11:37 · Wrist flexion–extension, right hand", 63)
+        sheet.begin()
+        self.settle()
+
     def progress(self) -> None:
         self.place(tab=2, camera="")
         screen = ProgressScreen(self.theme, self.keys, self.background, self.sessions)
@@ -396,12 +622,164 @@ class Gallery:
         screen.begin(progress_report(self.sessions.history("linden")), "")
         self.settle()
 
+    def sessions_list(self) -> SessionsScreen:
+        self.place(tab=0)
+        screen = SessionsScreen(self.theme, self.background, FakeShelf())
+        screen._shelf._change("s2", set_aside="discs lost")  # type: ignore[attr-defined]
+        self.show(screen)
+        screen.begin("linden", "Linden 42", "s1")
+        self.settle()
+        return screen
+
+    def _over(self, sheet: SheetT) -> SheetT:
+        """A sheet over the whole stage, taken away with the next screen."""
+        self.over.append(sheet)
+        return sheet
+
+    def sessions_erase(self) -> None:
+        self.sessions_list()
+        self._over(EraseSheet(self.shell.stage, self.theme)).begin(ERASED_SESSION)
+        self.settle()
+
+    def patient_erase(self) -> None:
+        self.patients()
+        patient = replace(
+            ERASED_SESSION, when=None, sessions=9, files=31, size_mb=412.0, exports=4, reports=0, changed=2,
+            not_found=1, others=0, last_backup=None, kept_until=date(2026, 10, 9),
+        )  # fmt: skip
+        self._over(EraseSheet(self.shell.stage, self.theme)).begin(patient)
+        self.settle()
+
+    def markers_straight(self) -> None:
+        screen = self._proposed()
+        screen.take_all()
+        self.settle()
+        screen.straight.buttons[3].click()
+        self.settle()
+
+    def markers_other_spot(self) -> None:
+        spot = tuple(map(float, FakeCalibrator().disc_px[3] + [14.0, 24.0]))
+        self._markers(6, Finding("other_spot", ("MCP3",), spot_px=spot))
+
+    def agreement(self, *, readings: bool = False, hand: bool = False, limit_deg: float = 5.0) -> AgreementScreen:
+        self.place(tab=1, camera="")
+        screen = AgreementScreen(self.theme, self.keys)
+        self.show(screen)
+        name = "goniometer.csv" if readings else "Linden42_20Nov.c3d"
+        screen.show_compared(compared(readings=readings, hand=hand), name, limit_deg, may_map=not readings)
+        self.settle()
+        return screen
+
+    def agreement_curves(self) -> None:
+        self.agreement(limit_deg=0.0).next_view()
+        self.settle()
+
+    def agreement_goniometer(self) -> None:
+        self.agreement(readings=True)
+
+    def agreement_hand(self) -> None:
+        self.agreement(hand=True)
+
+    def agreement_running(self) -> None:
+        self.place(tab=1, camera="")
+        screen = AgreementScreen(self.theme, self.keys)
+        self.show(screen)
+        screen.running("Linden42_20Nov.c3d")
+        screen.bar.show_progress(40, 100)
+        self.settle()
+
+    def agreement_reference(self) -> None:
+        self.place(tab=1, camera="")
+        screen = AgreementScreen(self.theme, self.keys)
+        self.show(screen)
+        sheet = self._over(ReferenceSheet(self.shell.stage, self.theme))
+        sheet.begin([("s2", "20 Nov 2026, 11:36 · Wrist flexion–extension · same recording")])
+        self.settle()
+
+    def agreement_columns(self) -> None:
+        self.place(tab=1, camera="")
+        self.show(AgreementScreen(self.theme, self.keys))
+        outline = Outline(Path("optical.csv"), "angles", ("Zeit", "FlexExt", "RadUln"), {})
+        sheet = self._over(ColumnsSheet(self.shell.stage, self.theme))
+        sheet.begin(outline, ("time", *WRIST_ANGLES), ReferenceChoice("optical.csv", "optical.csv"))
+        self.settle()
+
+    def retest(self) -> RetestScreen:
+        self.place(where="")
+        screen = RetestScreen(self.theme, self.keys)
+        self.show(screen)
+        screen.show_exercises(["WRIST_FE", "WRIST_RU"], "WRIST_FE")
+        screen.show_plan(retest_plan(), DEFAULT_LIMITS)
+        self.settle()
+        return screen
+
+    def retest_empty(self) -> None:
+        self.place(where="")
+        self.show(RetestScreen(self.theme, self.keys))
+
+    def retest_people(self) -> None:
+        self.retest()
+        sheet = self._over(PeopleSheet(self.shell.stage, self.theme))
+        sheet.begin([(f"p{k}", f"P{k:02d}", k % 4) for k in range(1, 15)], ["p1", "p3"])
+        self.settle()
+
     def settings(self) -> None:
         self.place(where="")
         chosen = Preferences(
             theme=self.theme.name, text_scale=self.theme.text_scale, data_folder="~/.local/share/carpus"
         )
         self.show(SettingsScreen(self.theme, chosen, "1.0.0"))
+
+    def settings_safe(self) -> None:
+        self.settings()
+        screen = self.shell.stage.currentWidget()
+        assert isinstance(screen, SettingsScreen)
+        backup, lock = BackupCard(self.theme, 18), LockCard(self.theme, 10, "Ctrl+L")
+        backup.show_facts(OLD_BACKUP)
+        lock.show_pin(is_set=True)
+        screen.add_cards(backup, lock, RecordsCard(self.theme, 10, (0, 3, 5, 10, 15, 20, 30)))
+        self.settle()
+        scroll = screen.findChild(QScrollArea)
+        assert scroll is not None
+        scroll.verticalScrollBar().setValue(backup.y() - 8)
+        self.settle()
+
+    def locked(self) -> None:
+        self.patients()
+        sheet = self._over(LockSheet(self.shell, self.theme))
+        sheet.begin(sheet.reason(datetime(2026, 11, 20, 11, 52), 10), stored=True)
+        sheet.line.setText("4821")
+        sheet.refuse(4, 0)
+        self.settle()
+
+    def pin_change(self) -> None:
+        self.patients()
+        self._over(PinSheet(self.shell.stage, self.theme)).begin(is_set=True)
+        self.settle()
+
+    def records_due(self) -> None:
+        self.patients()
+        words = "Their last session is more than 10 years ago. Nothing goes by itself."
+        due = [
+            ListedRecord(
+                name, name, "9 sessions, the last on 3 Nov 2015; had to be kept until 3 Nov 2025", name[0] < "G"
+            )
+            for name in ("Linden 42", "Heron 17", "Fir 12")
+        ]
+        self._over(RecordsSheet(self.shell.stage, self.theme)).begin("What is due", words, due)
+        self.settle()
+
+    def records_log(self) -> None:
+        self.patients()
+        deeds = [
+            LoggedDeed(number, datetime(2026, 11, 20, 9, number), "AB", what, "Linden 42, 2026-11-20 09:01", detail)
+            for number, (what, detail) in enumerate(
+                (("recorded", ""), ("opened", ""), ("exported", "files 7 · by command"), ("erased", "files 4, made 3")),
+                1,
+            )
+        ]
+        self._over(LogSheet(self.shell.stage, self.theme)).begin(deeds, ())
+        self.settle()
 
     def help(self) -> None:
         self.place(where="")
@@ -414,11 +792,22 @@ class Gallery:
             "exercise_hand",
             "camera", "markers_clicking", "markers_ready", "markers_swapped", "markers_doubtful",
             "markers_start_angle", "markers_proposed", "markers_proposed_doubtful", "markers_proposed_incomplete",
+            "markers_straight", "markers_other_spot", "sessions_list", "sessions_erase",
+            "patient_erase",
             "live", "live_speeds", "live_marker_hidden", "live_hand_lost", "live_hand",
             "live_hand_thumb_hidden", "live_hand_fist", "live_hand_not_found", "live_arm_moved",
             "live_disk_full", "live_note",
-            "live_pain", "live_camera_lost", "review", "review_hand", "review_hand_finger",
-            "progress", "progress_hand", "report", "report_hand", "report_progress", "settings", "help",
+            "live_pain", "live_camera_lost", "review", "review_hand",
+            "review_path", "review_speeds", "review_zyz", "review_hand_finger",
+            "review_reach", "review_opposition", "review_finger_ways",
+            "correct", "correct_spots", "agreement", "agreement_curves", "agreement_goniometer", "agreement_hand",
+            "agreement_running", "agreement_reference", "agreement_columns", "retest", "retest_empty", "retest_people",
+            "correct_exchanged", "correct_results", "correct_results_hand", "correct_running",
+            "progress", "progress_hand", "report", "report_hand", "report_progress",
+            "settings", "settings_safe", "locked", "pin_change", "records_due", "records_log", "help",
+            "patients_welcome", "patients_welcome_good", "patients_guided", "camera_guided",
+            "markers_guided", "markers_ready_guided", "live_guided", "live_hand_guided", "review_guided",
+            "report_guided",
         )  # fmt: skip
         return {name: getattr(self, name) for name in names}
 

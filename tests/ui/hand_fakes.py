@@ -11,12 +11,13 @@ from pathlib import Path
 
 import numpy as np
 
-from core.hand.protocols import HAND21, joint_angle_names
-from core.output.report_content import RepetitionChoices, SessionFigures, session_figures
-from core.session.values import Event, MarkerSeries, Motion, QualitySeries, Session, SessionHeader
-from core.simulation.recording import SimulatedPictures
-from core.simulation.spec import RecordingSpec
-from core.types import ByteImage
+from carpus.core.hand.protocols import HAND21, joint_angle_names
+from carpus.core.output.report_content import RepetitionChoices, SessionFigures, session_figures
+from carpus.core.session.values import Event, MarkerSeries, Motion, QualitySeries, Session, SessionHeader
+from carpus.core.simulation.recording import SimulatedPictures
+from carpus.core.simulation.spec import RecordingSpec
+from carpus.core.types import ByteImage
+from carpus.ui.ports import StoredResult
 from tests.ui.fakes import FPS, NOW, calibration
 
 SECONDS = 40.0
@@ -85,6 +86,7 @@ def hand_session(
     motion_values = Motion(
         position_m=truth.position_m * known[:, None],
         velocity_m_s=truth.velocity_m_s * known[:, None],
+        w0_turn_rad=np.zeros((count, 3)) * known[:, None],
         rotation_w2_w0=truth.rotation_w2_w0 * known[:, None, None],
         angular_velocity_rad_s=truth.angular_velocity_rad_s * known[:, None],
         angles_rad=truth.angles_rad * known[:, None],
@@ -100,6 +102,7 @@ def hand_session(
         header=SessionHeader(
             session_id=session_id, subject_id="Linden 42", created=when.isoformat(timespec="seconds"), hand=side,  # type: ignore[arg-type]
             protocol=HAND21, exercise=exercise, software_version="1.0.0", parameters="{}", joint_names=names,
+            recording_id=f"{session_id} {when}",
         ),
         camera=truth.camera,
         calibration=cal,
@@ -110,6 +113,7 @@ def hand_session(
             truth.disc_position_cam_m * known[:, None, None],
             measured,
             np.where(np.isfinite(measured[..., 0]), truth.disc_position_cam_m[..., 2], math.nan),
+            np.zeros(measured.shape[:2], dtype=bool),
         ),
         quality=QualitySeries(
             np.zeros(count, int), np.ones((count, len(names))), np.full(count, 30.0), np.full(count, 60)
@@ -134,6 +138,7 @@ class FakeHandSessions:
                 lost=[(31.0, 32.0)] if day == 0 else [],
             )  # fmt: skip
         self.kept: dict[str, RepetitionChoices] = {}
+        self.results: list[StoredResult] = []
         self.pictures = pictures
 
     def session(self, session_id: str) -> Session:
@@ -144,6 +149,9 @@ class FakeHandSessions:
             return None
         pictures = simulated_hand()
         return pictures.sensed(row, pictures.clean(row))[0]
+
+    def results_of(self, session_id: str) -> list[StoredResult]:
+        return list(self.results)
 
     def choices(self, session_id: str) -> RepetitionChoices:
         return self.kept.get(session_id, RepetitionChoices())

@@ -2,17 +2,16 @@
 
 from __future__ import annotations
 
+import re
 import subprocess
 import sys
 from pathlib import Path
 
 ROOT = Path(__file__).parents[2]
-FORBIDDEN = (
-    "h5py", "sqlite3", "numba", "pyqtgraph", "core.capture", "core.detection", "core.tracking", "core.simulation",
-    "core.pipeline.live", "core.pipeline.recorder", "core.session.reader", "core.session.writer",
-    "core.session.register", "core.calibration.calibrate",
-)  # fmt: skip
-PRINTING = ("ui.report.pdf", "core.output.report_content")
+CORE = ("capture", "detection", "tracking", "simulation", "pipeline.live", "pipeline.recorder", "session.reader",
+        "session.writer", "session.register", "calibration.calibrate")  # fmt: skip
+FORBIDDEN = ("h5py", "sqlite3", "numba", *(f"carpus.core.{name}" for name in CORE))
+PRINTING = ("carpus.ui.report.pdf", "carpus.core.output.report_content")
 """What ``carpus report`` needs must not bring widgets with it."""
 
 
@@ -24,10 +23,29 @@ def loaded_by(modules: list[str]) -> set[str]:
 
 
 def test_windows_load_no_device_filter_or_file_code() -> None:
-    names = [".".join(path.relative_to(ROOT).with_suffix("").parts) for path in sorted((ROOT / "ui").rglob("*.py"))]
+    names = [
+        ".".join(("carpus", *path.relative_to(ROOT).with_suffix("").parts))
+        for path in sorted((ROOT / "ui").rglob("*.py"))
+    ]
     loaded = loaded_by(names)
-    assert "ui.live.screen" in loaded
+    assert "carpus.ui.live.screen" in loaded
     assert not {name for name in loaded if any(name == part or name.startswith(part + ".") for part in FORBIDDEN)}
+
+
+PLOTTING = re.compile(r"^\s*(?:import|from)\s+pyqtgraph\b", re.MULTILINE)
+
+
+def test_only_the_plotting_room_knows_pyqtgraph() -> None:
+    sources = [path for part in ("app", "core", "ui") for path in sorted((ROOT / part).rglob("*.py"))]
+    users = {path.relative_to(ROOT).parent for path in sources if PLOTTING.search(path.read_text(encoding="utf-8"))}
+    assert users == {Path("ui/plot")}
+
+
+def test_pyqtgraph_is_loaded_when_a_plot_is_shown_not_when_the_window_opens() -> None:
+    """It takes a quarter of a second."""
+    loaded = loaded_by(["carpus.app.compose"])
+    assert "carpus.ui.plot.card" in loaded
+    assert "pyqtgraph" not in loaded
 
 
 def test_printing_loads_no_widgets() -> None:

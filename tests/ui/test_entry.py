@@ -6,9 +6,9 @@ import pytest
 from PySide6.QtWidgets import QWidget
 from pytestqt.qtbot import QtBot
 
-from ui.patients.entry import MOST_LETTERS, PatientForm
-from ui.ports import PatientEntry
-from ui.theme import Theme
+from carpus.ui.patients.entry import MOST_LETTERS, PatientForm
+from carpus.ui.ports import PatientEntry
+from carpus.ui.theme import Theme
 
 
 @pytest.mark.parametrize("letters", [5, MOST_LETTERS, 3 * MOST_LETTERS])

@@ -9,10 +9,10 @@ import pytest
 from PySide6.QtCore import Qt
 from pytestqt.qtbot import QtBot
 
+from carpus.ui.ports import PatientRow
+from carpus.ui.setup.exercise import ExerciseScreen
+from carpus.ui.theme import Theme
 from tests.ui.fakes import set_up
-from ui.ports import PatientRow
-from ui.setup.exercise import ExerciseScreen
-from ui.theme import Theme
 
 LINDEN = PatientRow("linden", "Linden 42", "right")
 

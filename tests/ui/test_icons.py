@@ -10,7 +10,7 @@ import pytest
 from PySide6.QtCore import QRectF
 from PySide6.QtGui import QColor, QImage, QPainter
 
-from ui.icons import paint_icon, paint_mark, paint_state
+from carpus.ui.icons import paint_icon, paint_mark, paint_state
 
 ROOT = Path(__file__).parents[2]
 ICONS = sorted(path.stem for path in (ROOT / "resources" / "icons").glob("*.svg"))

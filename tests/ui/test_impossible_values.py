@@ -10,18 +10,18 @@ from PySide6.QtCore import QRectF
 from PySide6.QtGui import QImage, QPainter
 from PySide6.QtWidgets import QApplication
 
-from core.hand.protocols import joint_angle_names
-from core.output.joint_content import joint_curves
-from core.output.report_content import RepetitionChoices, session_figures
+from carpus.core.hand.protocols import joint_angle_names
+from carpus.core.output.joint_content import joint_curves
+from carpus.core.output.report_content import RepetitionChoices, session_figures
+from carpus.ui.figures import FIGURES, Figure
+from carpus.ui.joint_figures import figures_of
+from carpus.ui.plot.axes import Panel, Scale
+from carpus.ui.plot.series import Series, paint_series
+from carpus.ui.plot.style import screen_style
+from carpus.ui.plot.thin import thinned
+from carpus.ui.theme import Theme
 from tests.ui.fakes import FakeFeed
 from tests.ui.hand_fakes import hand_session
-from ui.figures import FIGURES, Figure
-from ui.live.joint_history import figures_of
-from ui.plot.axes import Panel, Scale
-from ui.plot.series import Series, paint_series
-from ui.plot.style import screen_style
-from ui.plot.thin import thinned
-from ui.theme import Theme
 
 NAMES = joint_angle_names()
 COLUMN = NAMES.index("PIP4_flexion")

@@ -11,19 +11,20 @@ from PySide6.QtCore import QPointF, QRectF, Qt
 from PySide6.QtWidgets import QWidget
 from pytestqt.qtbot import QtBot
 
-from core.errors import DiskFull
-from core.types import TrackStatus
+from carpus.core.errors import DiskFull
+from carpus.core.types import Detections, TrackStatus
+from carpus.ui.background import Background
+from carpus.ui.keys import Keys
+from carpus.ui.live import screen as live_screen
+from carpus.ui.live.doubt import Doubt, SteadyDoubt, doubt_lamp, doubt_of
+from carpus.ui.live.light import Lamp, SteadyLight, lamp_for
+from carpus.ui.live.number_card import NumberCard, Reading
+from carpus.ui.live.screen import LiveScreen
+from carpus.ui.picture.overlay import axis_pixels, ellipse, within
+from carpus.ui.plot.history import KEPT_S, History
+from carpus.ui.plot.live_curves import LiveCurves
+from carpus.ui.theme import Theme
 from tests.ui.fakes import FakeFeed, FakeMeasuring, set_up
-from ui.background import Background
-from ui.keys import Keys
-from ui.live import screen as live_screen
-from ui.live.curves import LiveCurves
-from ui.live.history import KEPT_S, History
-from ui.live.light import Lamp, SteadyLight, lamp_for
-from ui.live.number_card import NumberCard, Reading
-from ui.live.screen import LiveScreen
-from ui.picture.overlay import axis_pixels, ellipse, within
-from ui.theme import Theme
 
 MARKERS = ("WRIST", "CMC1", "MCP2", "MCP3", "MCP4", "MCP5")
 
@@ -64,6 +65,7 @@ def key(qtbot: QtBot, screen: QWidget, name: str) -> None:
 def record(qtbot: QtBot, screen: LiveScreen, measuring: FakeMeasuring) -> None:
     key(qtbot, screen, "Space")
     qtbot.waitUntil(lambda: screen._count is not None)
+    screen._started_at_s -= live_screen.HASTY_S  # a moment ago
     assert measuring.feed.recording
 
 
@@ -360,20 +362,63 @@ def test_a_letter_outside_the_picture_moves_to_the_nearest_place_inside() -> Non
     assert within(QPointF(0, 500), box) == QPointF(16, 66)
 
 
-def test_the_key_that_begins_a_stored_recording_does_not_end_it(
-    qtbot: QtBot, theme: Theme, monkeypatch: pytest.MonkeyPatch
+@pytest.mark.parametrize("stored", [False, True])
+def test_one_key_starts_and_stops_on_every_source_and_a_hasty_end_asks(
+    qtbot: QtBot, theme: Theme, monkeypatch: pytest.MonkeyPatch, stored: bool
 ) -> None:
     feed = FakeFeed()
     screen, measuring = live(qtbot, theme, feed)
-    measuring.starts_with_recording = True
+    measuring.starts_with_recording = stored
+    asked: list[bool] = []
+    screen.hasty.connect(lambda: asked.append(True))
     clock_s = [100.0]
     monkeypatch.setattr(live_screen.time, "monotonic", lambda: clock_s[0])
-    screen.toggle_recording()
-    qtbot.waitUntil(lambda: feed.recording and not screen._stopping)
-    clock_s[0] += 1.9
     key(qtbot, screen, "Space")
+    qtbot.waitUntil(lambda: feed.recording and not screen._stopping)
+    clock_s[0] += 2.9
+    key(qtbot, screen, "Space")
+    assert asked == [True]
     assert feed.recording
     assert not screen._stopping
     clock_s[0] += 0.2
     key(qtbot, screen, "Space")
     qtbot.waitUntil(lambda: not feed.recording)
+    assert asked == [True]
+
+
+def test_a_spot_in_plain_sight_is_asked_about_before_its_marker_is_called_hidden(qtbot: QtBot, theme: Theme) -> None:
+    feed = FakeFeed()
+    screen, measuring = live(qtbot, theme, feed)
+    run(screen, feed, 1.0)
+    view = feed.newest()
+    assert view is not None
+    frame = view.tracked
+    measured = frame.marker_measured_px.copy()
+    measured[3] = np.nan
+    hidden = replace(frame, marker_measured_px=measured)
+    beside = hidden.marker_predicted_px[3] + [0.0, 15.0]
+    pixel = np.vstack((measured[np.isfinite(measured[:, 0])], beside))
+    spots = Detections(pixel, *(np.ones((4, len(pixel)))))
+    doubt = doubt_of(replace(hidden, detections=spots), MARKERS, measuring.camera)
+    assert doubt is not None
+    assert (doubt.marker, doubt.hidden, doubt.has_spot) == ("MCP3", True, True)
+    np.testing.assert_allclose(doubt.spot_px, beside)
+    assert doubt_lamp(doubt).state == "Another blue spot is here"
+    assert "middle knuckle" in doubt_lamp(doubt).remedy
+    far = replace(spots, pixel=np.vstack((spots.pixel[:-1], beside + 80.0)))
+    assert doubt_of(replace(hidden, detections=far), MARKERS, measuring.camera) is None
+    questioned = replace(frame, doubted=np.arange(6) == 3, status=TrackStatus.DOUBTFUL)
+    doubt = doubt_of(replace(questioned, detections=Detections.none()), MARKERS, measuring.camera)
+    assert doubt is not None
+    assert (doubt.marker, doubt.hidden, doubt.has_spot) == ("MCP3", False, False)
+
+
+def test_a_question_stands_only_after_it_has_lasted() -> None:
+    steady, unknown = SteadyDoubt(), np.full(2, np.nan)
+    doubt = Doubt("MCP3", unknown, np.array([1.0, 2.0]))
+    shown = [steady.show(doubt if 0.1 <= t < 0.3 or t >= 1.0 else None, t) is not None for t in np.arange(0, 2, 0.05)]
+    assert not any(shown[:25])
+    assert all(shown[27:])
+    gone = [steady.show(None, t) is not None for t in np.arange(2, 2.6, 0.05)]
+    assert gone[:5] == [True] * 5
+    assert not gone[-1]

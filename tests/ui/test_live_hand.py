@@ -11,25 +11,26 @@ import pytest
 from PySide6.QtCore import Qt
 from pytestqt.qtbot import QtBot
 
-from core.hand.protocols import HAND21, joint_angle_names
-from core.output.exercises import exercise_named
-from core.output.report_content import RepetitionChoices, session_figures
-from core.session.values import Session
-from core.types import TrackedFrame, TrackStatus
+from carpus.core.hand.protocols import HAND21, joint_angle_names
+from carpus.core.output.exercises import exercise_named
+from carpus.core.output.report_content import RepetitionChoices, session_figures
+from carpus.core.session.values import Session
+from carpus.core.types import TrackedFrame, TrackStatus
+from carpus.ui.background import Background
+from carpus.ui.figures import FIGURES, Figure, figure_of
+from carpus.ui.help import guide
+from carpus.ui.joint_figures import figures_of
+from carpus.ui.keys import Keys
+from carpus.ui.live.counting import RunningCount
+from carpus.ui.live.hand_words import hand_lamp, map_words
+from carpus.ui.live.number_card import NumberCard, Reading
+from carpus.ui.live.screen import LiveScreen
+from carpus.ui.picture.skeleton import side_points_m
+from carpus.ui.plot.finger_curves import cell_word
+from carpus.ui.plot.history import History
+from carpus.ui.theme import Theme
 from tests.ui.fakes import FakeFeed, FakeMeasuring, set_up
 from tests.ui.hand_fakes import hand_session
-from ui.background import Background
-from ui.figures import FIGURES, Figure, figure_of
-from ui.help.guide import chapters
-from ui.keys import Keys
-from ui.live.counting import RunningCount
-from ui.live.finger_curves import cell_word
-from ui.live.hand_words import hand_lamp, map_words
-from ui.live.joint_history import JointHistory, figures_of
-from ui.live.number_card import NumberCard, Reading
-from ui.live.screen import LiveScreen
-from ui.picture.skeleton import side_points_m
-from ui.theme import Theme
 
 MARKERS = HAND21.markers
 CLOSED_S, OPEN_S = 3.0, 0.2
@@ -104,31 +105,31 @@ def test_with_free_end_joints_nothing_is_inferred() -> None:
         joint_angles_sd_rad=np.full(21, 0.1),
         joint_velocity_rad_s=np.zeros(21),
     )
-    history = JointHistory()
+    history = History()
     history.append([frame])
     end = FIGURES.index(Figure(4, "end"))
-    assert history.value(end)[0] == pytest.approx(free.index("DIP4_flexion"))
+    assert history.figure_value(end)[0] == pytest.approx(free.index("DIP4_flexion"))
     assert not history.inferred(end)
 
 
 def test_a_joint_counts_as_measured_only_while_a_disc_beyond_it_is_seen() -> None:
     hidden = [(0.0, 9.0, name) for name in ("DIP4", "TIP4", "MCP1")]
-    history = JointHistory()
+    history = History()
     history.append(feed_of(hidden).frames[:90])
-    measured = {figure: history.value(k)[2] for k, figure in enumerate(FIGURES)}
+    measured = {figure: history.figure_value(k)[2] for k, figure in enumerate(FIGURES)}
     wrong = {Figure(4, "middle"), Figure(4, "end"), Figure(4, "tam")}
     wrong |= {Figure(1, row) for row in ("middle", "spread", "knuckle", "tam")}
     assert {figure for figure, on in measured.items() if not on} == wrong
-    assert history.series(FIGURES.index(Figure(4, "middle"))).predicted.all()
+    assert history.block().series(FIGURES.index(Figure(4, "middle"))).predicted.all()
     assert history.inferred(FIGURES.index(Figure(2, "end")))  # coupled: it follows the middle joint
     seen = history.seen()
     assert {name for name, state in seen.items() if state == "hidden"} == {"DIP4", "TIP4", "MCP1"}
 
 
 def test_the_band_of_a_hidden_joint_grows() -> None:
-    history = JointHistory()
+    history = History()
     history.append(feed_of([(1.0, 9.0, "DIP2"), (1.0, 9.0, "TIP2")]).frames[:90])
-    sd = history.series(FIGURES.index(Figure(2, "middle"))).sd
+    sd = history.block().series(FIGURES.index(Figure(2, "middle"))).sd
     assert sd is not None
     assert sd[-1] > 3.0 * sd[0]
     assert np.all(np.diff(sd[len(sd) // 2 :]) >= 0.0)
@@ -158,7 +159,7 @@ def test_the_large_number_is_chosen_by_click_and_by_key(qtbot: QtBot, theme: The
     assert screen.number.movement() == "Middle finger, knuckle"
     assert screen.number.reading.target_positive_deg == 90.0
     spot = screen.fingers.cell(Figure(4, "knuckle")).center().toPoint()
-    qtbot.mouseClick(screen.fingers, Qt.MouseButton.LeftButton, pos=spot)
+    qtbot.mouseClick(screen.fingers.face, Qt.MouseButton.LeftButton, pos=spot)
     assert screen.number.movement() == "Ring finger, knuckle"
     assert math.isnan(screen.number.reading.target_positive_deg)  # the target is the trained joint's
     angle = feed.frames[feed.place].joint_angles_rad[joint_angle_names().index("MCP4_flexion")]
@@ -286,12 +287,14 @@ def test_light_map_cells_and_large_number_say_the_same_at_every_moment(qtbot: Qt
         assert (lamp.rank == "good") == (set(seen.values()) == {"seen"})
         for k, figure in enumerate(FIGURES):
             if figure.row == "knuckle" and figure.finger > 1:
-                assert screen.joints.value(k)[2] != bool(hidden & {f"MCP{figure.finger}", f"PIP{figure.finger}"})
+                assert screen.history.figure_value(k)[2] != bool(
+                    hidden & {f"MCP{figure.finger}", f"PIP{figure.finger}"}
+                )
         assert math.isfinite(screen.number.reading.value_deg) != bool(hidden & {"MCP3", "PIP3"})
     assert ranks == {"good", "warn"}
 
 
 def test_the_help_covers_what_the_whole_hand_shows() -> None:
-    text = " ".join(paragraph for _, paragraphs in chapters() for paragraph in paragraphs)
+    text = " ".join(guide.source(page) for page in guide.PAGES)
     for word in ("21", "≥", "TAM", "hide", "inferred", "straight finger", "F2", "F3", "Shift+F8", "nail", "zoom"):
         assert word in text, word

@@ -9,15 +9,15 @@ import pytest
 from PySide6.QtCore import QPoint, Qt
 from pytestqt.qtbot import QtBot
 
-from core.calibration.result import Finding
-from core.hand.protocols import HAND21, WRIST6
+from carpus.core.calibration.result import Finding
+from carpus.core.hand.protocols import HAND21, WRIST6
+from carpus.ui.background import Background
+from carpus.ui.keys import Keys
+from carpus.ui.markers.clicking import Clicking
+from carpus.ui.markers.screen import MarkersScreen
+from carpus.ui.ports import ProposedMarker
+from carpus.ui.theme import Theme
 from tests.ui.fakes import FakeCalibrator, FakePhrasebook
-from ui.background import Background
-from ui.keys import Keys
-from ui.markers.clicking import Clicking
-from ui.markers.screen import MarkersScreen
-from ui.ports import ProposedMarker
-from ui.theme import Theme
 
 
 @pytest.fixture
@@ -413,3 +413,59 @@ def test_the_loupe_keeps_off_the_discs(qtbot: QtBot, screen: MarkersScreen) -> N
         screen.picture.set_cursor(pixel)
         at = screen.picture.to_screen(*map(float, pixel))
         assert not screen.picture.loupe_box().adjusted(-30, -20, 30, 20).contains(at)
+
+
+def test_another_spot_that_may_be_the_disc_is_shown_and_enter_takes_it(qtbot: QtBot, screen: MarkersScreen) -> None:
+    calibrator = FakeCalibrator()
+    spot = tuple(map(float, calibrator.disc_px[3] + 25.0))
+    calibrator.findings = (Finding("other_spot", ("MCP3",), spot_px=spot),)
+    screen.begin(calibrator)
+    click_all(qtbot, screen, calibrator)
+    wait_for_verdict(qtbot, screen)
+    assert screen.step.text().startswith("Doubtful")
+    assert screen.picture.spots == [(spot, "MCP3")]
+    assert "Take that spot" in screen.primary.text()
+    calibrator.findings = ()
+    qtbot.keyClick(screen.primary, Qt.Key.Key_Return)
+    wait_for_verdict(qtbot, screen)
+    assert tuple(calibrator.judged[-1].pixel[3]) == spot
+    assert screen.picture.spots == []
+
+
+def test_a_picture_without_discs_says_so(screen: MarkersScreen, monkeypatch: pytest.MonkeyPatch) -> None:
+    calibrator = FakeCalibrator()
+    monkeypatch.setattr(calibrator, "discs_seen", lambda: 0)
+    screen.begin(calibrator)
+    assert "No blue disc" in screen.title.text()
+    monkeypatch.setattr(calibrator, "discs_seen", lambda: 6)
+    screen.hold()
+    assert "No blue disc" not in screen.title.text()
+
+
+def test_fingers_lie_straight_until_one_is_said_not_to(qtbot: QtBot, screen: MarkersScreen) -> None:
+    calibrator = FakeCalibrator("fist", protocol="hand21")
+    screen.begin(calibrator)
+    qtbot.waitUntil(lambda: screen.clicking is not None and bool(screen.clicking.proposed))
+    assert not screen.straight.isVisible()
+    screen.take_all()
+    wait_for_verdict(qtbot, screen)
+    assert screen.straight.isVisible()
+    assert calibrator.judged[-1].straight_fingers == (True,) * 5
+    qtbot.mouseClick(screen.straight.buttons[3], Qt.MouseButton.LeftButton)
+    wait_for_verdict(qtbot, screen)
+    assert calibrator.judged[-1].straight_fingers == (True, True, True, False, True)
+    screen.activateWindow()
+    qtbot.keyClick(screen.focusWidget(), Qt.Key.Key_5)
+    qtbot.keyClick(screen.focusWidget(), Qt.Key.Key_4)
+    qtbot.waitUntil(lambda: calibrator.judged[-1].straight_fingers == (True, True, True, True, False))
+    wait_for_verdict(qtbot, screen)
+    with qtbot.waitSignal(screen.started):
+        qtbot.keyClick(screen.focusWidget(), Qt.Key.Key_Return)
+
+
+def test_a_wrist_is_not_asked_for_its_fingers(qtbot: QtBot, screen: MarkersScreen) -> None:
+    calibrator = FakeCalibrator()
+    screen.begin(calibrator)
+    click_all(qtbot, screen, calibrator)
+    wait_for_verdict(qtbot, screen)
+    assert not screen.straight.isVisible()

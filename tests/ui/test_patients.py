@@ -10,14 +10,14 @@ from PySide6.QtCore import QRectF, QSize, Qt
 from PySide6.QtWidgets import QPushButton
 from pytestqt.qtbot import QtBot
 
+from carpus.core.library.set_up import PRACTICE_PATIENT
+from carpus.ui.numbers import clock, clock_tenths, days_ago, degrees, ordinal, room_left, spread, with_spread
+from carpus.ui.patients.listing import cells
+from carpus.ui.patients.screen import PatientsScreen
+from carpus.ui.picture.photo import fitted
+from carpus.ui.terms import LEGAL_SENTENCE
+from carpus.ui.theme import Theme
 from tests.ui.fakes import FakeStore
-from ui.numbers import clock, clock_tenths, days_ago, degrees, ordinal, room_left, spread, with_spread
-from ui.patients.listing import cells
-from ui.patients.screen import PatientsScreen
-from ui.picture.photo import fitted
-from ui.ports import PRACTICE_PATIENT
-from ui.terms import LEGAL_SENTENCE
-from ui.theme import Theme
 
 TODAY = date(2026, 11, 20)
 
@@ -147,7 +147,7 @@ def test_buttons_of_the_card_lead_on(qtbot: QtBot, screen: PatientsScreen) -> No
 
 
 def test_the_legal_sentence_stands_on_the_first_screen_word_for_word(screen: PatientsScreen) -> None:
-    from ui.controls.text import Text
+    from carpus.ui.controls.text import Text
 
     assert LEGAL_SENTENCE in [label.text() for label in screen.findChildren(Text)]
 

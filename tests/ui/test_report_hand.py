@@ -10,19 +10,19 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from app.desktop.printing import write_table
-from core.output.joint_content import finger_keys
-from core.output.report_content import compare_rows, progress, session_figures
+from carpus.app.desktop.printing import write_table
+from carpus.core.output.joint_content import finger_keys
+from carpus.core.output.report_content import compare_rows, progress, session_figures
+from carpus.ui import numbers
+from carpus.ui.figures import Figure, with_side
+from carpus.ui.plot.course import axis_top_deg, panels_of
+from carpus.ui.progress.words import headline
+from carpus.ui.report.hand_rows import cell_of, finger_rows, followed_keys, followed_kinds, hand_summary, limits_words
+from carpus.ui.report.pdf import progress_report, write_progress_report, write_session_report
+from carpus.ui.report.words import quality_lines
+from carpus.ui.terms import LEGAL_SENTENCE
 from tests.ui.hand_fakes import FakeHandSessions, hand_session, without_hidden
 from tests.ui.test_report_pdf import tool, words_of
-from ui import numbers
-from ui.figures import Figure, with_side
-from ui.progress.chart_painter import axis_top_deg, panels_of
-from ui.progress.words import headline
-from ui.report.hand_rows import cell_of, finger_rows, followed_keys, followed_kinds, hand_summary, limits_words
-from ui.report.pdf import progress_report, write_progress_report, write_session_report
-from ui.report.words import quality_lines
-from ui.terms import LEGAL_SENTENCE
 
 
 @pytest.fixture(scope="module")
@@ -38,7 +38,7 @@ def test_one_page_with_every_finger_its_total_and_the_limits_of_view_in_words(
     store: FakeHandSessions, tmp_path: Path
 ) -> None:
     path = write_session_report(store.session("hand-7"), tmp_path / "h.pdf", history=store.history("x"))
-    assert re.search(r"Pages:\s+1\n", tool("pdfinfo", str(path)))
+    assert re.search(r"Pages:\s+2\n", tool("pdfinfo", str(path)))
     words = plain(words_of(path))
     figures = session_figures(store.session("hand-7"))
     for row in finger_rows(figures, None):
@@ -57,7 +57,7 @@ def test_one_page_with_every_finger_its_total_and_the_limits_of_view_in_words(
 def test_every_exercise_of_the_hand_fits_one_page(tmp_path: Path, exercise: str, motion: str) -> None:
     made = hand_session(exercise=exercise, motion=motion, hidden=[(0.0, 99.0, "TIP1")])
     path = write_session_report(made, tmp_path / "h.pdf", history=[session_figures(made)])
-    assert re.search(r"Pages:\s+1\n", tool("pdfinfo", str(path)))
+    assert re.search(r"Pages:\s+2\n", tool("pdfinfo", str(path)))
     words = plain(words_of(path))
     assert LEGAL_SENTENCE in words
     assert "Not seen: Thumb, end joint" in words
@@ -165,10 +165,10 @@ def test_a_lower_bound_has_no_spread_and_the_headline_says_what_was_not_seen() -
     assert "did not see" not in hand_summary(session_figures(hand_session(hides_beyond_deg=999.0)), None, None)
 
 
-def test_total_active_motion_is_explained_once_or_its_absence_is() -> None:
+def test_total_active_motion_is_explained_once_and_only_after_a_fist() -> None:
     assert limits_words(session_figures(hand_session())).count("Total active motion (TAM)") == 1
     hook = session_figures(hand_session(exercise="FIST_HOOK", motion="hook"))
-    assert "asks for no fist" in limits_words(hook)
+    assert "TAM" not in limits_words(hook)
     unseen = session_figures(hand_session(hidden=[(0.0, 99.0, f"PIP{k}") for k in (2, 3, 4, 5)]))
     assert "never all seen at once" in limits_words(unseen)
 
@@ -204,8 +204,9 @@ def test_the_thumbs_exercise_is_told_of_the_thumb(tmp_path: Path) -> None:
     figures = session_figures(made)
     assert len(figures.repetitions) >= 3
     said = hand_summary(figures, None, None)
-    assert said.startswith("Thumb: lift ")
+    assert said.startswith("The thumb touched ")
+    assert ". Thumb: lift " in said
     assert "index" not in said
     path = write_session_report(made, tmp_path / "h.pdf", history=[figures])
-    assert re.search(r"Pages:\s+1\n", tool("pdfinfo", str(path)))
+    assert re.search(r"Pages:\s+2\n", tool("pdfinfo", str(path)))
     assert "Middle joint, of the thumb lift" in words_of(path)

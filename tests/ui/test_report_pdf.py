@@ -1,4 +1,4 @@
-"""The PDF, read back by poppler's tools: text, fonts, one page; and its faults."""
+"""The PDF, read back by poppler's tools: text, fonts, pages; and its faults."""
 
 from __future__ import annotations
 
@@ -13,13 +13,16 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from core.calibration.result import Finding
-from core.errors import OutputExists, OutputNotWritable
-from core.output.report_content import RepetitionChoices, session_figures
+import carpus
+from carpus.core.calibration.result import Finding
+from carpus.core.errors import OutputExists, OutputNotWritable
+from carpus.core.output.report_content import RepetitionChoices, session_figures
+from carpus.core.provenance import revision
+from carpus.ui.report.pdf import progress_report, write_progress_report, write_session_report
+from carpus.ui.report.progress_page import made_of
+from carpus.ui.report.words import other_lines
+from carpus.ui.terms import LEGAL_SENTENCE
 from tests.ui.fakes import FakeSessions, session
-from ui.report.pdf import write_progress_report, write_session_report
-from ui.report.words import other_lines
-from ui.terms import LEGAL_SENTENCE
 
 ROOT = Path(__file__).parents[2]
 
@@ -44,9 +47,9 @@ def report(tmp_path_factory: pytest.TempPathFactory) -> Path:
     )
 
 
-def test_the_report_is_one_page_of_a4(report: Path) -> None:
+def test_the_report_is_two_pages_of_a4(report: Path) -> None:
     info = tool("pdfinfo", str(report))
-    assert re.search(r"Pages:\s+1\n", info)
+    assert re.search(r"Pages:\s+2\n", info)
     assert "A4" in info
 
 
@@ -70,6 +73,20 @@ def test_the_figures_on_the_page_are_those_of_the_session(report: Path) -> None:
     assert "20 Nov 2026, 11:36" in words
     assert re.search(r"2 ?/ ?3", words)
     assert "Repetition 7 stopped for pain." in words
+
+
+def test_the_foot_says_by_which_revision_and_of_which_recording(tmp_path: Path) -> None:
+    made = session()
+    said = {"provenance": {"revision": "0123456789" * 4}, "source": {"sha256": "ab12" + "0" * 56 + "cd34"}}
+    header = replace(made.header, parameters=json.dumps(said), software_version="10.11.12")
+    path = write_session_report(replace(made, header=header), tmp_path / "foot.pdf")
+    foot = words_of(path)
+    assert "Carpus 10.11.12 (0123456)" in foot
+    assert "recording ab12…cd34" in foot
+    assert "as measured live" in foot, "the end of the line is on the page"
+    boxes = tool("pdftotext", "-bbox", "-f", "1", "-l", "1", str(path), "-")
+    (end,) = re.findall(r'xMax="([\d.]+)"[^>]*>live</word>', boxes)[-1:]
+    assert float(end) <= 595.0 - 42.0, "nothing leaves the margin on the right"
 
 
 def test_the_legal_sentence_is_there_word_for_word(report: Path) -> None:
@@ -121,8 +138,9 @@ def test_curves_are_vectors_not_pictures(report: Path) -> None:
     assert tool("pdfimages", "-list", str(report)).splitlines()[2:] == []
 
 
-def test_nothing_is_painted_outside_the_margins(report: Path, tmp_path: Path) -> None:
-    tool("pdftoppm", "-r", "50", "-gray", "-singlefile", str(report), str(tmp_path / "page"))
+@pytest.mark.parametrize("number", ["1", "2"])
+def test_nothing_is_painted_outside_the_margins(report: Path, tmp_path: Path, number: str) -> None:
+    tool("pdftoppm", "-r", "50", "-gray", "-f", number, "-singlefile", str(report), str(tmp_path / "page"))
     head, size, _, data = (tmp_path / "page.pgm").read_bytes().split(b"\n", 3)
     assert head == b"P5"
     width, height = (int(part) for part in size.split())
@@ -146,7 +164,7 @@ def test_a_long_name_and_exercise_stay_within_the_margins(tmp_path: Path) -> Non
 def test_every_exercise_fits_the_page(tmp_path: Path, exercise: str) -> None:
     motion = {"WRIST_RU": "deviation", "FOREARM_PS": "pronosupination", "FREE": "mixed"}.get(exercise, "flexion")
     path = write_session_report(session(exercise=exercise, motion=motion, lost=[(20.0, 22.0)]), tmp_path / "x.pdf")
-    assert re.search(r"Pages:\s+1\n", tool("pdfinfo", str(path)))
+    assert re.search(r"Pages:\s+2\n", tool("pdfinfo", str(path)))
     assert LEGAL_SENTENCE in words_of(path)
 
 
@@ -185,7 +203,7 @@ def test_a_report_is_written_without_any_window_or_display(tmp_path: Path) -> No
     program = (
         "import sys; from pathlib import Path\n"
         "from tests.ui.fakes import session\n"
-        "from ui.report.pdf import write_session_report\n"
+        "from carpus.ui.report.pdf import write_session_report\n"
         "write_session_report(session(seconds=12.0), Path(sys.argv[1]))\n"
         "print('PySide6.QtWidgets' in sys.modules)"
     )
@@ -203,7 +221,7 @@ def test_many_warnings_make_the_page_smaller_and_nothing_is_lost(tmp_path: Path,
     findings += (Finding("tilt", (), 22.0, 15.0, "deg"), Finding("distance", (), 1.22, 1.1, "m"))
     doubtful = replace(stored.calibration, verdict=replace(stored.calibration.verdict, findings=findings))
     path = write_session_report(replace(stored, calibration=doubtful), tmp_path / "x.pdf")
-    assert re.search(r"Pages:\s+1\n", tool("pdfinfo", str(path)))
+    assert re.search(r"Pages:\s+2\n", tool("pdfinfo", str(path)))
     words = words_of(path)
     assert words.count("off its place") == len(stored.header.protocol.markers)
     assert LEGAL_SENTENCE in words
@@ -218,7 +236,7 @@ def test_a_page_that_cannot_be_painted_leaves_the_program_running(
     def refuse(*_: object) -> None:
         raise RuntimeError("no page")
 
-    monkeypatch.setattr("ui.report.pdf.paint_session_page", refuse)
+    monkeypatch.setattr("carpus.ui.report.pages.paint_session_page", refuse)
     with pytest.raises(RuntimeError, match="no page"):
         write_session_report(session(), tmp_path / "x.pdf")
     assert list(tmp_path.iterdir()) == []
@@ -238,3 +256,14 @@ def test_many_doubts_in_the_course_leave_less_room_for_its_chart(tmp_path: Path)
     legal_top = places[first][1]
     assert all(low <= legal_top + 0.5 for _, top, low in places if top < legal_top - 1.0)
     assert any("clinic" in word for word, top, _ in places if top < legal_top), "what stands over it is all there"
+
+
+def test_the_foot_of_a_course_says_what_made_it_and_of_what() -> None:
+    sessions = FakeSessions().history("linden")
+    said = made_of(progress_report(sessions, software_version=carpus.__version__))
+    right = [one for one in sessions if one.side == "right"]
+    assert said.startswith(f"Made by Carpus {carpus.__version__}")
+    assert f"{len(right)} sessions: " in said
+    assert all(one.session_id[:8] in said for one in right)
+    assert f"measured by Carpus {right[0].software_version}" in said
+    assert (revision()[:7] or "by") in said

@@ -8,21 +8,24 @@ from datetime import datetime
 
 import numpy as np
 import pytest
-from PySide6.QtCore import QPoint, Qt
+from PySide6.QtCore import QEvent, QPoint, QPointF, Qt
+from PySide6.QtGui import QMouseEvent
+from PySide6.QtWidgets import QApplication, QWidget
 from pytestqt.qtbot import QtBot
 
-from core.output.report_content import Progress
+from carpus.core.output.report_content import Progress
+from carpus.ui.background import Background
+from carpus.ui.keys import Keys
+from carpus.ui.numbers import day_beside, day_month
+from carpus.ui.plot.course import panels_of
+from carpus.ui.plot.export import picture
+from carpus.ui.plot.series import Series
+from carpus.ui.plot.thin import thinned
+from carpus.ui.progress.screen import ProgressScreen
+from carpus.ui.progress.words import headline
+from carpus.ui.review.screen import ReviewScreen
+from carpus.ui.theme import Theme
 from tests.ui.fakes import FakeSessions
-from ui.background import Background
-from ui.keys import Keys
-from ui.numbers import day_beside, day_month
-from ui.plot.series import Series
-from ui.plot.thin import thinned
-from ui.progress.chart_painter import panels_of
-from ui.progress.screen import ProgressScreen
-from ui.progress.words import headline
-from ui.review.screen import ReviewScreen
-from ui.theme import Theme
 
 
 @pytest.fixture
@@ -138,23 +141,25 @@ def test_comma_and_full_stop_move_the_nearer_edge(qtbot: QtBot, screen: ReviewSc
     qtbot.waitUntil(lambda: "session-7" in store.kept)
 
 
+def drag(qtbot: QtBot, face: QWidget, start: QPoint, end: QPoint) -> None:
+    """Press, move while pressed, let go."""
+    qtbot.mousePress(face, Qt.MouseButton.LeftButton, pos=start)
+    for at in (0.5 * (QPointF(start) + QPointF(end)), QPointF(end)):
+        move = QMouseEvent(
+            QEvent.Type.MouseMove, at, face.mapToGlobal(at), Qt.MouseButton.NoButton,
+            Qt.MouseButton.LeftButton, Qt.KeyboardModifier.NoModifier,
+        )  # fmt: skip
+        QApplication.sendEvent(face, move)
+    qtbot.mouseRelease(face, Qt.MouseButton.LeftButton, pos=end)
+
+
 def test_an_edge_is_dragged_by_the_mouse(qtbot: QtBot, screen: ReviewScreen) -> None:
     assert screen.figures is not None
     screen.go_to_repetition(2)
     before = screen.figures.repetitions[2]
     panel = screen.curves.panels()[0][0]
     start = QPoint(round(float(panel.x(before.end_s))), round(panel.box.center().y()))
-    qtbot.mousePress(screen.curves, Qt.MouseButton.LeftButton, pos=start)
-    from PySide6.QtCore import QEvent, QPointF
-    from PySide6.QtGui import QMouseEvent
-
-    target = QPointF(start.x() - 12, start.y())
-    move = QMouseEvent(
-        QEvent.Type.MouseMove, target, screen.curves.mapToGlobal(target), Qt.MouseButton.NoButton,
-        Qt.MouseButton.LeftButton, Qt.KeyboardModifier.NoModifier,
-    )  # fmt: skip
-    screen.curves.mouseMoveEvent(move)
-    qtbot.mouseRelease(screen.curves, Qt.MouseButton.LeftButton, pos=target.toPoint())
+    drag(qtbot, screen.curves.face, start, QPoint(start.x() - 12, start.y()))
     assert screen.figures.repetitions[2].end_s < before.end_s - 0.5
     assert screen.figures.repetitions[2].start_s == before.start_s
 
@@ -162,7 +167,7 @@ def test_an_edge_is_dragged_by_the_mouse(qtbot: QtBot, screen: ReviewScreen) -> 
 def test_a_click_in_the_curves_moves_the_cursor_there(qtbot: QtBot, screen: ReviewScreen) -> None:
     panel = screen.curves.panels()[1][0]
     spot = QPoint(round(float(panel.x(40.0))), round(panel.box.center().y()))
-    qtbot.mouseClick(screen.curves, Qt.MouseButton.LeftButton, pos=spot)
+    qtbot.mouseClick(screen.curves.face, Qt.MouseButton.LeftButton, pos=spot)
     assert screen.time_s == pytest.approx(40.0, abs=0.2)
 
 
@@ -224,7 +229,7 @@ def test_progress_answers_with_the_arc_and_rings_what_is_unfair(
     with qtbot.waitSignal(screen.report) as asked:
         screen.report_button.click()
     assert len(asked.args[0]) == 7
-    assert not screen.chart.picture().isNull()
+    assert not picture(screen.chart).isNull()
     screen.exercise.setCurrentIndex(1 - screen.exercise.currentIndex())
     assert screen.answer.text() == "One session does not make a course."
 

@@ -13,20 +13,21 @@ from PySide6.QtGui import QImage, QPainter, QWheelEvent
 from PySide6.QtWidgets import QApplication, QWidget
 from pytestqt.qtbot import QtBot
 
-from core.hand.protocols import HAND21, HAND21_CHAINS, joint_angle_names
-from core.output.joint_content import joint_curves
-from core.output.report_content import session_curves, session_figures
-from core.session.values import Session
+from carpus.core.hand.protocols import HAND21, HAND21_CHAINS, joint_angle_names
+from carpus.core.output.joint_content import joint_curves
+from carpus.core.output.report_content import session_curves, session_figures
+from carpus.core.session.values import Session
+from carpus.ui.background import Background
+from carpus.ui.figures import Figure
+from carpus.ui.keys import Keys
+from carpus.ui.plot.readings import paint_readings
+from carpus.ui.plot.session import HandPlot, joint_at
+from carpus.ui.plot.style import screen_style
+from carpus.ui.report.hand_rows import COLUMNS, limits_words
+from carpus.ui.review.screen import ReviewScreen
+from carpus.ui.review.skeleton import modelled_px
+from carpus.ui.theme import Theme
 from tests.ui.hand_fakes import FakeHandSessions, hand_session
-from ui.background import Background
-from ui.figures import Figure
-from ui.keys import Keys
-from ui.plot.style import screen_style
-from ui.report.hand_rows import COLUMNS, limits_words
-from ui.review.hand_curves import HandPlot, joint_at, paint_hand_cursor, place_hand_panels
-from ui.review.screen import ReviewScreen
-from ui.review.skeleton import modelled_px
-from ui.theme import Theme
 
 
 @pytest.fixture(scope="module")
@@ -60,7 +61,7 @@ def test_every_finger_has_a_panel_and_a_chosen_one_has_bending_and_spreading(scr
     panels = screen.curves.panels()
     assert len(panels) == 2
     assert {figure.joint for figure in plot_of(screen).figures(1)} == {"MCP4_abduction"}
-    assert panels[0][0].box.height() == pytest.approx(2 * panels[1][0].box.height())
+    assert panels[0][0].box.height() == pytest.approx(2 * panels[1][0].box.height(), abs=1.0)
 
 
 def test_the_wrist_of_a_whole_hand_has_its_three_angles(screen: ReviewScreen) -> None:
@@ -126,7 +127,9 @@ def test_a_time_in_no_repetition_has_no_number(screen: ReviewScreen) -> None:
     assert screen.figures is not None
     first, *_, last = screen.figures.repetitions
     screen.seek(first.start_s + 0.5)
-    assert screen._clock_words().startswith("Repetition 1 of 8 · ")
+    count = len(screen.figures.repetitions)
+    assert count >= 7, "of the eight that were made, one may end with the recording"
+    assert screen._clock_words().startswith(f"Repetition 1 of {count} · ")
     screen.seek(last.end_s + 0.3)
     assert "Repetition" not in screen._clock_words()
 
@@ -162,6 +165,13 @@ def test_the_places_are_final_before_the_session_is_read(qtbot: QtBot, theme: Th
     screen.end()
 
 
+def double_click(qtbot: QtBot, on: QWidget, at: QPointF) -> None:
+    """All four events of it, as a mouse sends them."""
+    qtbot.mouseClick(on, Qt.MouseButton.LeftButton, pos=at.toPoint())
+    qtbot.mouseDClick(on, Qt.MouseButton.LeftButton, pos=at.toPoint())
+    qtbot.mouseRelease(on, Qt.MouseButton.LeftButton, pos=at.toPoint())
+
+
 def test_the_wheel_shows_less_time_about_the_mouse_and_a_double_click_the_repetitions(
     qtbot: QtBot, screen: ReviewScreen
 ) -> None:
@@ -169,31 +179,31 @@ def test_the_wheel_shows_less_time_about_the_mouse_and_a_double_click_the_repeti
     whole = plot_of(screen).shown_s
     assert whole == (0.0, plot_of(screen).end_s)
     box = curves.panels()[0][0].box
-    at = QPointF(box.left() + 0.25 * box.width(), box.center().y())
-    time_s = curves._time_at(at.x())
+    at = QPointF(round(box.left() + 0.25 * box.width()), round(box.center().y()))
+    time_s = curves.time_at(at.x())
     for _ in range(4):
-        wheel(curves, at, 120)
+        wheel(curves.face, at, 120)
     start_s, end_s = plot_of(screen).shown_s
     assert end_s - start_s == pytest.approx((whole[1] - whole[0]) / 1.25**4)
-    assert curves._time_at(at.x()) == pytest.approx(time_s)
+    assert curves.time_at(at.x()) == pytest.approx(time_s)
     screen.seek(whole[1] - 0.5)  # what is shown follows the cursor
     assert plot_of(screen).shown_s[1] == pytest.approx(whole[1])
     for _ in range(30):
-        wheel(curves, at, -120)
+        wheel(curves.face, at, -120)
     assert plot_of(screen).window_s is None
-    qtbot.mouseDClick(curves, Qt.MouseButton.LeftButton, pos=at.toPoint())
+    double_click(qtbot, curves.face, at)
     repetitions = plot_of(screen).repetitions
     start_s, end_s = plot_of(screen).shown_s
     assert 0.0 <= start_s <= repetitions[0].start_s
     assert repetitions[-1].end_s <= end_s <= whole[1]
-    assert plot_of(screen).window_s == plot_of(screen).repetitions_s
-    qtbot.mouseDClick(curves, Qt.MouseButton.LeftButton, pos=at.toPoint())
+    assert plot_of(screen).shown_s == plot_of(screen).repetitions_s
+    double_click(qtbot, curves.face, at)
     assert plot_of(screen).shown_s == whole
 
 
 def wheel(widget: QWidget, at: QPointF, turn: int) -> None:
     event = QWheelEvent(
-        at, at, QPoint(), QPoint(0, turn), Qt.MouseButton.NoButton, Qt.KeyboardModifier.NoModifier,
+        at, widget.mapToGlobal(at), QPoint(), QPoint(0, turn), Qt.MouseButton.NoButton, Qt.KeyboardModifier.NoModifier,
         Qt.ScrollPhase.NoScrollPhase, False,
     )  # fmt: skip
     QApplication.sendEvent(widget, event)
@@ -204,10 +214,10 @@ def test_numbers_beside_the_curves_never_overlap_also_with_end_joints_of_their_o
     figures = session_figures(session)
     for height in (190.0, 620.0):
         plot = HandPlot(session_curves(session), figures.exercise, figures.repetitions, joints=joint_curves(session))
-        panels = place_hand_panels(plot, QRectF(100.0, 30.0, 500.0, height), 8.0)
+        panels = plot.panels(QRectF(100.0, 30.0, 500.0, height), 8.0)
         picture = QImage(800, 700, QImage.Format.Format_RGB32)
         painter = RecordingPainter(picture)
-        paint_hand_cursor(painter, screen_style(theme), plot, panels, 3.0)
+        paint_readings(painter, screen_style(theme), plot, panels, 3.0)
         painter.end()
         assert len(painter.boxes) == 15  # three joints of five fingers
         for i, one in enumerate(painter.boxes):

@@ -11,19 +11,19 @@ from PySide6.QtGui import QKeySequence
 from PySide6.QtWidgets import QApplication, QPushButton, QWidget
 from pytestqt.qtbot import QtBot
 
+from carpus.ui.background import Background
+from carpus.ui.controls.text import Text
+from carpus.ui.fonts import DISPLAY_FAMILY, TEXT_FAMILY, font, load_fonts
+from carpus.ui.icons import octagon
+from carpus.ui.keys import DEFAULT_KEYS, Keys, action_words
+from carpus.ui.messages.stop_card import Answer, StopCard
+from carpus.ui.ports import Preferences, Words
+from carpus.ui.report.pdf import session_report
+from carpus.ui.report.screen import ReportScreen
+from carpus.ui.settings.screen import SettingsScreen
+from carpus.ui.shell import Shell
+from carpus.ui.theme import Theme
 from tests.ui.fakes import FakeSessions
-from ui.background import Background
-from ui.controls.text import Text
-from ui.fonts import DISPLAY_FAMILY, TEXT_FAMILY, font, load_fonts
-from ui.icons import octagon
-from ui.keys import DEFAULT_KEYS, Keys, action_words
-from ui.messages.stop_card import Answer, StopCard
-from ui.ports import Preferences, Words
-from ui.report.pdf import session_report
-from ui.report.screen import ReportScreen
-from ui.settings.screen import SettingsScreen
-from ui.shell import Shell
-from ui.theme import Theme
 
 WORDS = Words("The camera was unplugged.", "Your data are safe.", "Plug the camera in again.")
 
@@ -117,6 +117,7 @@ def test_a_message_gives_three_answers_and_its_buttons_act_by_key(qtbot: QtBot, 
     )
     for part in (WORDS.safe, WORDS.todo):
         assert part in card.accessibleName()
+    assert card.card.edge == "bad"
     assert card.answers[-1].hasFocus()
     qtbot.keyClick(card, Qt.Key.Key_Escape)
     assert card.isVisible()
@@ -126,6 +127,9 @@ def test_a_message_gives_three_answers_and_its_buttons_act_by_key(qtbot: QtBot, 
     card.show_words(WORDS, [Answer("Stop", lambda: done.append("stop"), "Space")])
     qtbot.keyClick(card.answers[-1], Qt.Key.Key_Space)
     assert done == ["check", "stop"]
+    card.show_words(WORDS, [Answer("Go on", lambda: None)], alarm=False)
+    assert card.card.edge == "line"  # good news and questions look like no alarm
+    card.close_sheet()
 
 
 def test_settings_act_at_once_and_tell_what_was_chosen(qtbot: QtBot, theme: Theme) -> None:

@@ -13,10 +13,10 @@ from pathlib import Path
 import pytest
 from PySide6.QtCore import QCoreApplication, QTranslator
 
-from ui import terms
-from ui.live.light_view import LightView
-from ui.patients.listing import ListHeader, PatientList
-from ui.theme import Theme
+from carpus.ui import terms
+from carpus.ui.live.light_view import LightView
+from carpus.ui.patients.listing import ListHeader, PatientList
+from carpus.ui.theme import Theme
 
 ROOT = Path(__file__).parents[2]
 SOURCES = sorted((ROOT / "ui").rglob("*.py"))

@@ -8,9 +8,9 @@ from PySide6.QtCore import QPointF, QRectF, QSize, Qt
 from PySide6.QtGui import QColor, QFont, QFontMetricsF, QKeyEvent, QPainter, QPaintEvent, QPen
 from PySide6.QtWidgets import QPushButton, QSizePolicy
 
-from ui.fonts import MEDIUM, SEMIBOLD, font
-from ui.icons import paint_icon
-from ui.theme import CONTROL_RADIUS_PX, Theme
+from carpus.ui.fonts import MEDIUM, SEMIBOLD, font
+from carpus.ui.icons import paint_icon
+from carpus.ui.theme import CONTROL_RADIUS_PX, Theme
 
 Kind = Literal["primary", "plain", "quiet", "well"]
 HEIGHT_PX = {"primary": 52, "plain": 44, "quiet": 44, "well": 40}
@@ -85,6 +85,8 @@ class Button(QPushButton):
             clear = QColor(0, 0, 0, 0)
             lit = self.isDown() or self.underMouse() or self.isChecked()
             return (color("sunken") if lit else clear), color(text), None, color("text2")
+        if self._kind == "well" and self.isChecked():
+            return color("soft"), color(text), color("accent"), color("text2")
         if self._kind == "well":
             return color("sunken"), color(text), color("border"), color("text2")
         return color(body), color(text), color("border" if self.isEnabled() else "line"), color("text2")

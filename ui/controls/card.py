@@ -8,8 +8,8 @@ from PySide6.QtCore import QRectF, QSize, Qt
 from PySide6.QtGui import QFontMetricsF, QPainter, QPaintEvent, QPen
 from PySide6.QtWidgets import QSizePolicy, QVBoxLayout, QWidget
 
-from ui.fonts import MEDIUM, font
-from ui.theme import CARD_PADDING_PX, CARD_RADIUS_PX, Theme
+from carpus.ui.fonts import MEDIUM, font
+from carpus.ui.theme import CARD_PADDING_PX, CARD_RADIUS_PX, Theme
 
 
 def paint_card(
@@ -36,6 +36,11 @@ class Card(QWidget):
         self.body.setContentsMargins(padding_px, padding_px, padding_px, padding_px)
         self.body.setSpacing(8)
         theme.changed.connect(self.update)
+
+    @property
+    def edge(self) -> str:
+        """Token of its outline."""
+        return self._edge
 
     def set_colors(self, fill: str, edge: str, edge_px: float = 1.0) -> None:
         """Change the surface, as a message of another rank does."""

@@ -12,7 +12,10 @@ class ScrolledColumn(QWidget):
     """As high as its texts need at the width they have; Qt's own guess is for narrower texts and scrolls too soon."""
 
     def minimumSizeHint(self) -> QSize:
-        return QSize(super().minimumSizeHint().width(), 0)
+        whole, layout = super().minimumSizeHint(), self.layout()
+        # Where nothing wraps just now Qt asks for no height at a width, and would press everything together instead.
+        wraps = layout is None or layout.hasHeightForWidth()
+        return QSize(whole.width(), 0) if wraps else whole
 
 
 def scroll_area(host: QWidget, focus: Qt.FocusPolicy = Qt.FocusPolicy.NoFocus) -> QScrollArea:

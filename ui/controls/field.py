@@ -6,14 +6,14 @@ import math
 from collections.abc import Sequence
 
 from PySide6.QtCore import QRectF, Qt, Signal
-from PySide6.QtGui import QPainter, QPaintEvent
+from PySide6.QtGui import QKeyEvent, QPainter, QPaintEvent
 from PySide6.QtWidgets import QButtonGroup, QHBoxLayout, QLineEdit, QSpinBox, QVBoxLayout, QWidget
 
-from ui.controls.button import Button
-from ui.controls.text import MEDIUM, Text
-from ui.fonts import font
-from ui.icons import paint_icon
-from ui.theme import Theme
+from carpus.ui.controls.button import Button
+from carpus.ui.controls.text import MEDIUM, Text
+from carpus.ui.fonts import font
+from carpus.ui.icons import paint_icon
+from carpus.ui.theme import Theme
 
 
 class SearchField(QLineEdit):
@@ -129,6 +129,8 @@ class Choices(QWidget):
     """Exclusive choices side by side; arrow keys move, the chosen one is filled and says so by its check state."""
 
     chosen = Signal(object)
+    accepted = Signal()
+    """Enter on one of them: goes on, as everywhere; the space bar chooses."""
 
     def __init__(self, theme: Theme, options: Sequence[tuple[object, str]], current: object = None) -> None:
         super().__init__()
@@ -139,6 +141,7 @@ class Choices(QWidget):
         self._values: list[object] = []
         for number, (value, text) in enumerate(options):
             button = ChoiceButton(theme, text)
+            button.accepted.connect(self.accepted)
             self._group.addButton(button, number)
             self._values.append(value)
             row.addWidget(button)
@@ -168,7 +171,15 @@ class Choices(QWidget):
 
 
 class ChoiceButton(Button):
-    """One of several; chosen = accent outline, soft fill and a check."""
+    """One of several; chosen = accent outline, soft fill and a check. Enter is not its own: ``accepted``."""
+
+    accepted = Signal()
+
+    def keyPressEvent(self, event: QKeyEvent) -> None:
+        if event.key() in (Qt.Key.Key_Return, Qt.Key.Key_Enter):
+            self.accepted.emit()
+        else:
+            super().keyPressEvent(event)
 
     def __init__(self, theme: Theme, text: str) -> None:
         super().__init__(theme, text, "plain", height_px=40)

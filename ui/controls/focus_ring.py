@@ -4,10 +4,11 @@ from __future__ import annotations
 
 from PySide6.QtCore import QEvent, QObject, QPoint, QRect, QRectF, Qt
 from PySide6.QtGui import QPainter, QPaintEvent, QPen
-from PySide6.QtWidgets import QAbstractSpinBox, QApplication, QLineEdit, QPlainTextEdit, QWidget
+from PySide6.QtWidgets import QAbstractScrollArea, QAbstractSpinBox, QApplication, QLineEdit, QPlainTextEdit, QWidget
 from shiboken6 import isValid
 
-from ui.theme import CONTROL_RADIUS_PX, Theme
+from carpus.ui.controls.host import host_of
+from carpus.ui.theme import CONTROL_RADIUS_PX, Theme
 
 OUTSIDE_PX = 3
 MARKS_ITSELF = (QLineEdit, QPlainTextEdit, QAbstractSpinBox)
@@ -21,6 +22,7 @@ class FocusRing(QWidget):
         super().__init__(window)
         self._theme = theme
         self._target: QWidget | None = None
+        self._watched: list[QWidget] = []
         self.setAttribute(Qt.WidgetAttribute.WA_TransparentForMouseEvents)
         self.setFocusPolicy(Qt.FocusPolicy.NoFocus)
         self.hide()
@@ -29,19 +31,29 @@ class FocusRing(QWidget):
         application.focusChanged.connect(self._follow)
 
     def _follow(self, old: QWidget | None, new: QWidget | None) -> None:
-        if self._target is not None and isValid(self._target):
-            self._target.removeEventFilter(self)
+        for widget in self._watched:
+            if isValid(widget):
+                widget.removeEventFilter(self)
         wanted = (
             new is not None
             and not isinstance(new, MARKS_ITSELF)
             and new.focusPolicy() != Qt.FocusPolicy.NoFocus
             and not new.property("shows_own_focus")
-            and self.parentWidget().isAncestorOf(new)
+            and host_of(self).isAncestorOf(new)
         )
         self._target = new if wanted else None
-        if self._target is not None:
-            self._target.installEventFilter(self)
+        self._watched = self._with_what_holds_it()
+        for widget in self._watched:
+            widget.installEventFilter(self)
         self._place()
+
+    def _with_what_holds_it(self) -> list[QWidget]:
+        """The target and all it lies in up to the window: any of them may move it, as scrolling does."""
+        found, widget = [], self._target
+        while widget is not None and widget is not self.parentWidget():
+            found.append(widget)
+            widget = widget.parentWidget()
+        return found
 
     def eventFilter(self, watched: QObject, event: QEvent) -> bool:
         if event.type() in (QEvent.Type.Move, QEvent.Type.Resize, QEvent.Type.Show, QEvent.Type.Hide):
@@ -53,9 +65,23 @@ class FocusRing(QWidget):
         if target is None or not isValid(target) or not target.isVisible():
             self.hide()
             return
-        corner = target.mapTo(self.parentWidget(), QPoint(0, 0))
+        corner = target.mapTo(host_of(self), QPoint(0, 0))
         grow = OUTSIDE_PX + 2
-        self.setGeometry(QRect(corner, target.size()).adjusted(-grow, -grow, grow, grow))
+        place = QRect(corner, target.size()).adjusted(-grow, -grow, grow, grow)
+        seen = place
+        for holder in self._watched[1:]:
+            area = holder.parentWidget()
+            if isinstance(area, QAbstractScrollArea) and area.viewport() is holder:
+                port = QRect(holder.mapTo(host_of(self), QPoint(0, 0)), holder.size())
+                seen = seen.intersected(port.adjusted(-grow, -grow, grow, grow))
+        if min(seen.width(), seen.height()) <= 2 * grow:  # scrolled away
+            self.hide()
+            return
+        self.setGeometry(place)
+        if seen == place:
+            self.clearMask()
+        else:
+            self.setMask(seen.translated(-place.topLeft()))
         self.show()
         self.raise_()
 

@@ -4,19 +4,21 @@ from __future__ import annotations
 
 from typing import Literal
 
-from PySide6.QtCore import QPointF, QRectF, QSize, Qt
+from PySide6.QtCore import QPointF, QRectF, QSize, Qt, Signal
 from PySide6.QtGui import QFontMetricsF, QPainter, QPaintEvent, QPen
 from PySide6.QtWidgets import QSizePolicy, QWidget
 
-from ui import numbers
-from ui.fonts import SEMIBOLD, font
-from ui.theme import Theme
+from carpus.ui import numbers
+from carpus.ui.fonts import SEMIBOLD, font
+from carpus.ui.theme import Theme
 
 PillState = Literal["off", "recording", "paused"]
 
 
 class RecordingPill(QWidget):
-    """Hidden while nothing is recorded; its width does not change with the time."""
+    """Hidden while nothing is recorded; as wide whatever the time. ``resized`` when it needs other room."""
+
+    resized = Signal()
 
     def __init__(self, theme: Theme) -> None:
         super().__init__()
@@ -37,6 +39,7 @@ class RecordingPill(QWidget):
             self.setVisible(state != "off")
             if resize:
                 self.updateGeometry()
+                self.resized.emit()
             self.update()
 
     @property

@@ -2,19 +2,37 @@
 
 from __future__ import annotations
 
-from PySide6.QtCore import QEvent, QObject, Qt, Signal
-from PySide6.QtGui import QColor, QKeyEvent, QPainter, QPaintEvent
-from PySide6.QtWidgets import QHBoxLayout, QVBoxLayout, QWidget
+from PySide6.QtCore import QCoreApplication, QEvent, QObject, Qt, Signal
+from PySide6.QtGui import QColor, QKeyEvent, QKeySequence, QPainter, QPaintEvent, QResizeEvent
+from PySide6.QtWidgets import QAbstractButton, QApplication, QHBoxLayout, QVBoxLayout, QWidget
 from shiboken6 import isValid
 
-from ui.controls.card import Card
-from ui.theme import Theme
+from carpus.ui.controls.card import Card
+from carpus.ui.controls.host import host_of
+from carpus.ui.theme import Theme
 
 DIM_ALPHA = {"light": 110, "dark": 170}
 
 
+_open: list[Sheet] = []
+"""The sheets that are open, the topmost last."""
+
+
+def _keep_order(sheet: Sheet) -> None:
+    _open[:] = [other for other in _open if isValid(other) and other is not sheet] + [sheet]
+
+
+def is_covered(window: QWidget) -> bool:
+    """Whether a sheet is open in a window."""
+    return any(isValid(sheet) and sheet.isVisible() and sheet.window() is window for sheet in _open)
+
+
+_MOUSE = (QEvent.Type.MouseButtonPress, QEvent.Type.MouseButtonRelease, QEvent.Type.MouseButtonDblClick)
+
+
 class Sheet(QWidget):
-    """Covers ``host`` while open; keeps Tab inside; Esc closes when ``may_close``."""
+    """Covers ``host`` while open. Every key of the window is the topmost sheet's, whatever lies below or beside it; Tab
+    stays inside; Esc closes when ``may_close``. Where it must be answered the mouse is held to it too."""
 
     closed = Signal()
 
@@ -26,6 +44,7 @@ class Sheet(QWidget):
         self._theme, self._may_close, self._dims = theme, may_close, not low
         self._width_px = width_px
         self._focus_before: QWidget | None = None
+        self._first: QWidget | None = None
         self.card = Card(theme, 24)
         across = QHBoxLayout()
         across.addStretch(1)
@@ -41,21 +60,46 @@ class Sheet(QWidget):
         self.hide()
 
     def _take_theme(self) -> None:
-        self.card.setFixedWidth(self._theme.px(self._width_px))
+        self._take_room()
         self.update()
+
+    def _take_room(self) -> None:
+        """The card as wide as the design has it, and never wider than its host has room for."""
+        self.card.setFixedWidth(min(self._theme.px(self._width_px), max(host_of(self).width() - 48, 200)))
+
+    def resizeEvent(self, event: QResizeEvent) -> None:
+        self._take_room()
+        super().resizeEvent(event)
 
     def open(self, first: QWidget | None = None) -> None:
         """Show over the host and give the keyboard to ``first``."""
-        self._focus_before = self.window().focusWidget()
-        self.setGeometry(self.parentWidget().rect())
+        now: QWidget | None = self.window().focusWidget()
+        if now is None or not self.isAncestorOf(now):
+            self._focus_before = now
+        self._first = first
+        self.setGeometry(host_of(self).rect())
+        self._take_room()
         self.show()
         self.raise_()
-        (first or self).setFocus(Qt.FocusReason.OtherFocusReason)
+        _keep_order(self)
+        application = QCoreApplication.instance()
+        assert application is not None
+        application.installEventFilter(self)
+        self._take_keyboard()
+
+    def _take_keyboard(self) -> None:
+        first = self._first
+        (first if first is not None and isValid(first) else self).setFocus(Qt.FocusReason.OtherFocusReason)
 
     def close_sheet(self) -> None:
         """Hide and give the keyboard back."""
-        if self.isVisibleTo(self.parentWidget()):
+        if self.isVisibleTo(host_of(self)):
             self.hide()
+            application = QCoreApplication.instance()
+            if application is not None:
+                application.removeEventFilter(self)
+            if self in _open:
+                _open.remove(self)
             before = self._focus_before
             if before is not None and isValid(before) and before.isVisible():  # a card's own old button is gone
                 before.setFocus(Qt.FocusReason.OtherFocusReason)
@@ -69,8 +113,16 @@ class Sheet(QWidget):
     def keyPressEvent(self, event: QKeyEvent) -> None:
         if event.key() == Qt.Key.Key_Escape:
             self.leave()
-        else:
-            event.accept()
+        elif event.modifiers() == Qt.KeyboardModifier.AltModifier:
+            self._press_mnemonic(event)
+        event.accept()  # nothing goes through to what lies below
+
+    def _press_mnemonic(self, event: QKeyEvent) -> None:
+        pressed = QKeySequence(event.keyCombination())
+        for button in self.findChildren(QAbstractButton):
+            if button.isVisible() and button.isEnabled() and QKeySequence.mnemonic(button.text()) == pressed:
+                button.click()
+                return
 
     def focusNextPrevChild(self, forward: bool) -> bool:
         stops = [
@@ -90,8 +142,28 @@ class Sheet(QWidget):
 
     def eventFilter(self, watched: QObject, event: QEvent) -> bool:
         if event.type() == QEvent.Type.Resize and watched is self.parentWidget():
-            self.setGeometry(self.parentWidget().rect())
+            self.setGeometry(host_of(self).rect())
+        kind = event.type()
+        if kind == QEvent.Type.ShortcutOverride:
+            if self._rules(watched.window() if isinstance(watched, QWidget) else QApplication.activeWindow()):
+                event.accept()  # no shortcut of the window fires; the key itself goes to who has the keyboard
+        elif isinstance(watched, QWidget) and watched is not self and self._rules(watched.window()):
+            outside = not self.isAncestorOf(watched) and watched is not self.window()
+            if kind == QEvent.Type.KeyPress and outside:
+                self._take_keyboard()
+                self.keyPressEvent(event)  # type: ignore[arg-type]
+                return True
+            if kind in _MOUSE and outside and not self._may_close:
+                return True
+            if kind == QEvent.Type.FocusIn and outside:
+                self._take_keyboard()
+                return True
         return False
+
+    def _rules(self, window: QWidget | None) -> bool:
+        """Whether this is the topmost sheet to be seen in a window."""
+        shown = [sheet for sheet in _open if isValid(sheet) and sheet.isVisible() and sheet.window() is window]
+        return bool(shown) and shown[-1] is self
 
     def paintEvent(self, event: QPaintEvent) -> None:
         if self._dims:

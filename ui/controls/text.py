@@ -2,15 +2,15 @@
 
 from __future__ import annotations
 
-from PySide6.QtCore import QRectF, Qt
-from PySide6.QtGui import QFontMetricsF, QPainter, QPaintEvent, QPalette, QShowEvent
+from PySide6.QtCore import QRect, QRectF, QSize, Qt, Signal
+from PySide6.QtGui import QFont, QFontMetricsF, QPainter, QPaintEvent, QPalette, QShowEvent
 from PySide6.QtWidgets import QLabel, QSizePolicy, QWidget
 
-from ui.fonts import MEDIUM, REGULAR, SEMIBOLD, font
-from ui.icons import State, paint_icon, paint_state
-from ui.theme import Theme
+from carpus.ui.fonts import MEDIUM, REGULAR, SEMIBOLD, font
+from carpus.ui.icons import State, paint_icon, paint_state
+from carpus.ui.theme import Theme
 
-__all__ = ["MEDIUM", "REGULAR", "SEMIBOLD", "StateText", "Text", "caption", "heading", "paint_status"]
+__all__ = ["MEDIUM", "REGULAR", "SEMIBOLD", "StateSign", "StateText", "Text", "caption", "heading", "paint_status"]
 
 
 class Text(QLabel):
@@ -45,6 +45,20 @@ class Text(QLabel):
         # A label that was not on a screen yet when the colours changed is given its old ones back by the style sheet.
         self._take_theme()
         super().showEvent(event)
+
+    # Qt gives an empty label another height than one with a word, and what lies below would move when the word comes.
+    def sizeHint(self) -> QSize:
+        return super().sizeHint() if self.text() else QSize(super().sizeHint().width(), self._line_px())
+
+    def minimumSizeHint(self) -> QSize:
+        return super().minimumSizeHint() if self.text() else QSize(super().minimumSizeHint().width(), self._line_px())
+
+    def heightForWidth(self, width: int) -> int:
+        return super().heightForWidth(width) if self.text() or not self.wordWrap() else self._line_px()
+
+    def _line_px(self) -> int:
+        """Height of a line with something in it."""
+        return self.fontMetrics().boundingRect(QRect(0, 0, 1000, 1000), 0, "x").height()
 
     def _take_theme(self) -> None:
         self.setFont(font(self._size_px * self._theme.text_scale, self._weight))
@@ -95,7 +109,9 @@ def paint_status(painter: QPainter, theme: Theme, state: State, box: QRectF) -> 
 
 
 class StateText(QWidget):
-    """A state icon (or a line icon) with its word: colour never speaks alone."""
+    """A state icon (or a line icon) with its word: colour never speaks alone. ``resized`` when it needs other room."""
+
+    resized = Signal()
 
     def __init__(self, theme: Theme, size_px: int = 14, weight: int = MEDIUM, icon_px: int = 18) -> None:
         super().__init__()
@@ -130,11 +146,12 @@ class StateText(QWidget):
         self.setFixedSize(max(width, 1), int(max(icon, metrics.height(), 20)) + 4)
         self.setVisible(bool(self._text) or self._has_icon())
         self.update()
+        self.resized.emit()
 
     def _has_icon(self) -> bool:
         return self._state != "none" or bool(self._icon)
 
-    def _font(self):  # type: ignore[no-untyped-def]
+    def _font(self) -> QFont:
         return font(self._size_px * self._theme.text_scale, self._weight)
 
     def paintEvent(self, event: QPaintEvent) -> None:
@@ -151,3 +168,22 @@ class StateText(QWidget):
         painter.setFont(self._font())
         painter.setPen(self._theme.color(self._token))
         painter.drawText(QRectF(left, 0, self.width() - left, self.height()), Qt.AlignmentFlag.AlignVCenter, self._text)
+
+
+class StateSign(QWidget):
+    """The sign alone; its words stand beside it."""
+
+    def __init__(self, theme: Theme, state: State) -> None:
+        super().__init__()
+        self._theme, self._state = theme, state
+        theme.changed.connect(self._take_theme)
+        self._take_theme()
+
+    def _take_theme(self) -> None:
+        self.setFixedSize(self._theme.px(20), self._theme.px(20))
+        self.update()
+
+    def paintEvent(self, event: QPaintEvent) -> None:
+        painter = QPainter(self)
+        side = self._theme.px(18)
+        paint_status(painter, self._theme, self._state, QRectF(0, (self.height() - side) / 2, side, side))

@@ -1,83 +1,110 @@
-# ruff: noqa: E501  (prose: one paragraph is one text to translate)
-"""The text of the help, in the order in which a session goes."""
+"""The guide: pages in resources/guide, which page belongs to which place, and a page as HTML in the theme's colours."""
 
 from __future__ import annotations
 
-from ui.translate import tr
+import html
+import re
+from functools import lru_cache
+from importlib.resources import files
+
+from carpus.ui.fonts import TEXT_FAMILY
+from carpus.ui.theme import Theme
+
+LANGUAGE = "en"
+PAGES = (
+    "session", "discs", "camera", "calibration", "exercises", "measuring", "figures", "limits", "correct", "sessions",
+    "checking", "trouble", "data",
+)  # fmt: skip
+"""In the order of the guide."""
+KEYS_PAGE = "keys"
+PAGE_OF_PLACE = {
+    "patients": "session", "exercise": "exercises", "camera": "camera", "markers": "calibration", "live": "measuring",
+    "sessions": "sessions", "review": "figures", "progress": "figures", "report": "figures", "correct": "correct",
+    "agreement": "checking", "retest": "checking", "settings": "data",
+}  # fmt: skip
+"""What F1 opens on each screen."""
+_MARK = re.compile(r"\*\*(.+?)\*\*")
+_LINK = re.compile(r"\[(.+?)\]\((\w+)\.md\)")
+_PICTURE = re.compile(r"!\[(.*)\]\((.+)\)")
+_NUMBERED = re.compile(r"\d+\. ")
 
 
-def chapters() -> list[tuple[str, tuple[str, ...]]]:
-    """Title and paragraphs of each chapter."""
-    return [
-        (
-            tr("A session in one minute"),
-            (
-                tr("Choose the patient and press Enter. With the same set-up as last time Carpus goes straight to the markers."),
-                tr("Lay the hand flat and still, take the picture, and click the six discs in the order that the drawing shows. Of 21 discs the names are proposed."),
-                tr("Press Enter to measure, Space to record, Space again to stop. The review opens by itself."),
-                tr("Leave out what should not count, then make the report."),
-            ),
-        ),
-        (
-            tr("Markers"),
-            (
-                tr("Blue matt paper, 12 mm, on clean dry skin: wrist, thumb base, and behind each of the four knuckles."),
-                tr("Put them where they were last time; the small picture shows it. Most of the difference between two sessions comes from moved markers."),
-                tr("Never on wounds, dressings or fragile skin."),
-            ),
-        ),
-        (
-            tr("The whole hand: 21 markers"),
-            (
-                tr("Wrist and thumb base as before. Each finger: behind the knuckle, on the creases of the middle joint, on the creases of the end joint, in the middle of the nail. Thumb: knuckle, end joint, nail. For small fingers use 8 mm discs."),
-                tr("Carpus proposes all 21 names. Each finger’s line must run from the wrist to its tip and cross no other; drag a name to another disc to change it, names that meet change places. Doubtful ones come into the loupe one by one."),
-                tr("Zero of a finger joint is the straight finger, not the picture: bent or stiff fingers may lie as they are, nothing needs to be given for them. Zero of the wrist is the picture."),
-                tr("A joint is measured while the marker over it and the next one outwards are seen. Hidden joints do not count; their curve is dashed."),
-                tr("≥ before a figure means “at least”: the joint went out of sight before the end of its way. Such a figure has no ±, and is compared only where the gain is sure."),
-                tr("A fist hides the middle and end joints at its end. Turn the thumb side up, or raise the wrist, to show more. The trained angle of the full fist is the knuckle, which stays in view longest."),
-                tr("End joints are usually inferred: they follow the middle joints by two thirds. Where they do not (hook fist, injury of the deep flexor, mallet finger), choose “End joints: Measured” with the exercise."),
-                tr("TAM, total active motion: the largest sum of a finger’s bending in one moment, less what is missing to straight at its most open; all joints of the finger must be seen at once. 260° is usual, 140° for the thumb."),
-                tr("While measuring, F2 takes the next joint as the large number, F3 the next finger, and Shift+F8 shows the finger from the side. A click on a figure does the same."),
-                tr("In the review the wheel zooms the curves about the mouse, Shift and the wheel go along, a double click shows the repetitions alone."),
-            ),
-        ),
-        (
-            tr("Camera and arm"),
-            (
-                tr("The camera hangs 70 to 80 cm above the table, at least 60 cm, and looks straight down. Tie it with a safety cord."),
-                tr("The forearm rests and does not move: Carpus measures the hand in the room, and that is the wrist only while the forearm is still. A warning comes when the wrist leaves a ball of 15 mm."),
-                tr("No sunlight on the hand, no blue sleeve."),
-            ),
-        ),
-        (
-            tr("What the numbers mean"),
-            (
-                tr("Zero of the wrist is the neutral hand of the picture, palm down. If the wrist cannot lie straight, give its angle with “Wrist cannot lie straight”. Zero of a finger joint is the straight finger."),
-                tr("± beside the live angle is how sure that one angle is. ± in the tables is the spread between repetitions."),
-                tr("Dashed and hatched means predicted: no marker was seen, it does not count. A dash means not known."),
-                tr("A change is called one only when it is larger than the measurement error; else the report says that it is not."),
-            ),
-        ),
-        (
-            tr("When to stop"),
-            (
-                tr("Stop at pain of 5 or more, at 2 more than before, at numbness, swelling or dizziness."),
-                tr("Not with a fresh fracture, tendon or nerve repair, an external fixation, infection, an open wound or acute CRPS, unless the surgeon or therapist has said so. Active movement only."),
-            ),
-        ),
-        (
-            tr("When something goes wrong"),
-            (
-                tr("Every message says what happened, whether the data are safe, and what to do."),
-                tr("A recording that was cut short is finished at the next start; at most the last second is missing."),
-                tr("If the camera does not answer, “carpus doctor” in a terminal checks driver, rights and cable."),
-            ),
-        ),
-        (
-            tr("Data"),
-            (
-                tr("Everything stays on this computer. Session files carry the made-up name only; a real name is kept in the list of patients and nowhere else."),
-                tr("Recordings are never changed. Corrections are stored beside them."),
-            ),
-        ),
-    ]  # fmt: skip
+@lru_cache(maxsize=len(PAGES))
+def source(page: str) -> str:
+    """A page as it was written, in a small part of Markdown: headings, paragraphs, lists, bold, links, pictures."""
+    return files("carpus.resources").joinpath("guide", LANGUAGE, f"{page}.md").read_text("utf-8")
+
+
+def picture_path(name: str) -> str:
+    """Where a picture of the guide lies."""
+    return str(files("carpus.resources").joinpath("guide", "pictures", name))
+
+
+def title(page: str) -> str:
+    """The first line of a page."""
+    return source(page).splitlines()[0].removeprefix("# ")
+
+
+def pictures(page: str) -> list[str]:
+    """Names of the pictures of a page."""
+    return [name for _, name in _PICTURE.findall(source(page))]
+
+
+def links(page: str) -> list[str]:
+    """The pages that a page leads to."""
+    return [name for _, name in _LINK.findall(source(page))]
+
+
+def page_html(page: str, theme: Theme, width_px: int) -> str:
+    """A page in the colours and sizes of a theme; pictures are at most ``width_px`` wide."""
+    return _styled(_body(source(page), width_px), theme)
+
+
+def keys_html(heading: str, rows: list[tuple[str, str]], theme: Theme) -> str:
+    """A table of keys and what they do."""
+    lines = "".join(
+        f'<tr><td class="key">{html.escape(key)}</td><td>{html.escape(words)}</td></tr>' for key, words in rows
+    )
+    return _styled(f"<h1>{html.escape(heading)}</h1><table cellpadding='6'>{lines}</table>", theme)
+
+
+def _body(text: str, width_px: int) -> str:
+    out: list[str] = []
+    listed = ""
+    for line in text.splitlines():
+        kind = "ol" if _NUMBERED.match(line) else "ul" if line.startswith("- ") else ""
+        if kind != listed:
+            out += [f"</{listed}>"] if listed else []
+            out += [f"<{kind}>"] if kind else []
+            listed = kind
+        if kind:
+            out.append(f"<li>{_inline(line.split(' ', 1)[1])}</li>")
+        elif line.startswith("## "):
+            out.append(f"<h2>{_inline(line[3:])}</h2>")
+        elif line.startswith("# "):
+            out.append(f"<h1>{_inline(line[2:])}</h1>")
+        elif found := _PICTURE.fullmatch(line):
+            out.append(f'<p><img src="{html.escape(found[2])}" width="{width_px}"></p>')
+            out.append(f'<p class="caption">{_inline(found[1])}</p>')
+        elif line.strip():
+            out.append(f"<p>{_inline(line)}</p>")
+    out += [f"</{listed}>"] if listed else []
+    return "".join(out)
+
+
+def _inline(text: str) -> str:
+    words = html.escape(text, quote=False)
+    return _LINK.sub(r'<a href="\2">\1</a>', _MARK.sub(r"<b>\1</b>", words))
+
+
+def _styled(body: str, theme: Theme) -> str:
+    tokens, px = theme.tokens, theme.px
+    style = (
+        f"body {{ font-family: '{TEXT_FAMILY}'; font-size: {px(16)}px; color: {tokens.text}; }}"
+        f"h1 {{ font-size: {px(28)}px; font-weight: 600; margin-bottom: {px(12)}px; }}"
+        f"h2 {{ font-size: {px(20)}px; font-weight: 600; margin-top: {px(20)}px; margin-bottom: {px(6)}px; }}"
+        f"p, li {{ margin-top: {px(4)}px; margin-bottom: {px(8)}px; }}"
+        f".caption, .key {{ color: {tokens.text2}; font-size: {px(14)}px; }}"
+        f"a {{ color: {tokens.accent}; font-weight: 600; text-decoration: none; }}"
+    )
+    return f"<html><head><style>{style}</style></head><body>{body}</body></html>"

@@ -1,18 +1,24 @@
-"""The help, with the keys in use."""
+"""The guide in the program: its pages, the page of the screen one comes from, the keys in use, cards to print."""
 
 from __future__ import annotations
 
-from PySide6.QtCore import Qt, Signal
-from PySide6.QtWidgets import QGridLayout, QHBoxLayout, QScrollArea, QVBoxLayout, QWidget
+from pathlib import Path
 
-from ui import terms
-from ui.controls.button import Button
-from ui.controls.card import Card, KeyCaps
-from ui.controls.column import scroll_area
-from ui.controls.text import SEMIBOLD, Text, heading
-from ui.help.guide import chapters
-from ui.keys import DEFAULT_KEYS, Keys, action_words
-from ui.theme import GAP_PX, MARGIN_PX, Theme
+from PySide6.QtCore import Qt, QUrl, Signal
+from PySide6.QtGui import QKeyEvent, QResizeEvent
+from PySide6.QtWidgets import QButtonGroup, QFileDialog, QFrame, QHBoxLayout, QTextBrowser, QVBoxLayout, QWidget
+
+from carpus.core.errors import CarpusFault
+from carpus.ui import terms
+from carpus.ui.controls.button import Button
+from carpus.ui.controls.card import Card
+from carpus.ui.controls.column import scrolled
+from carpus.ui.controls.text import Text, heading
+from carpus.ui.help import cards, guide
+from carpus.ui.keys import DEFAULT_KEYS, Keys, action_words
+from carpus.ui.theme import GAP_PX, MARGIN_PX, Theme
+
+PICTURE_PX = 720
 
 
 def actions_by_key(keys: Keys) -> dict[str, list[str]]:
@@ -24,54 +30,129 @@ def actions_by_key(keys: Keys) -> dict[str, list[str]]:
 
 
 class HelpScreen(QWidget):
-    """``done`` leads back to where the person was."""
+    """``done`` leads back to where the person was; ``told`` carries a fault of saving the cards; ``tour`` asks to be
+    led through a session."""
 
     done = Signal()
+    tour = Signal()
+    told = Signal(object)
 
     def __init__(self, theme: Theme, keys: Keys) -> None:
         super().__init__()
+        self._theme, self._keys = theme, keys
+        self.page = guide.PAGES[0]
+        self.start_folder = ""
+        """Where saving begins."""
         self.back = Button(theme, self.tr("Back"), "primary", hint=self.tr("Esc"))
         self.back.clicked.connect(self.done)
-        left = QVBoxLayout()
-        left.setContentsMargins(0, 4, 8, 4)
-        left.setSpacing(GAP_PX)
-        for title, paragraphs in chapters():
-            card = Card(theme, 24)
-            card.body.addWidget(Text(theme, title, 20, SEMIBOLD))
-            for paragraph in paragraphs:
-                card.body.addWidget(Text(theme, paragraph, 14, wrap=True))
-            left.addWidget(card)
-        left.addWidget(Text(theme, terms.LEGAL_SENTENCE, 12, token="text2", wrap=True))
-        left.addStretch(1)
-        texts = self._scrolled(left)
-        table = Card(theme, 24)
-        table.body.addWidget(Text(theme, self.tr("Keys"), 20, SEMIBOLD))
-        grid = QGridLayout()
-        grid.setVerticalSpacing(6)
-        for row, (key, words) in enumerate(actions_by_key(keys).items()):
-            grid.addWidget(KeyCaps(theme, [(key, "")]), row, 0)
-            grid.addWidget(Text(theme, "\n".join(words), 14, wrap=True), row, 1)
-        grid.setColumnStretch(1, 1)
-        table.body.addLayout(grid)
-        table.body.addStretch(1)
-        right = QVBoxLayout()
-        right.setContentsMargins(4, 4, 8, 4)
-        right.addWidget(table)
+        self.cards_button = Button(theme, self.tr("Cards to print…"), icon="download")
+        self.cards_button.clicked.connect(self._ask_cards)
+        self.tour_button = Button(theme, self.tr("Show me around"), icon="arrow-right")
+        self.tour_button.clicked.connect(self.tour)
+        self.text = _Page(theme)
+        self.text.wanted.connect(self.show_page)
+        self.pages: dict[str, Button] = {}
+        self._group = QButtonGroup(self)
+        column = QVBoxLayout()
+        column.setSpacing(2)
+        for name in (*guide.PAGES, guide.KEYS_PAGE):
+            words = self.tr("Keys") if name == guide.KEYS_PAGE else guide.title(name)
+            button = Button(theme, words, "well", height_px=36)
+            button.setCheckable(True)
+            button.clicked.connect(lambda _=False, name=name: self.show_page(name))
+            self._group.addButton(button)
+            self.pages[name] = button
+            column.addWidget(button)
+        column.addStretch(1)
         head = QHBoxLayout()
-        head.setContentsMargins(0, 0, 8, 0)
-        head.addWidget(heading(theme, self.tr("Help")), 1)
+        head.addWidget(heading(theme, self.tr("Guide")), 1)
+        head.addWidget(self.tour_button)
+        head.addWidget(self.cards_button)
         head.addWidget(self.back)
+        card = Card(theme, 8)
+        card.body.addWidget(self.text, 1)
+        self._index = scrolled(column)
         columns = QHBoxLayout()
         columns.setSpacing(GAP_PX)
-        columns.addWidget(texts, 3)
-        columns.addWidget(self._scrolled(right), 2)
+        columns.addWidget(self._index)
+        columns.addWidget(card, 1)
         whole = QVBoxLayout(self)
-        whole.setContentsMargins(MARGIN_PX, GAP_PX, MARGIN_PX - 8, GAP_PX)
+        whole.setContentsMargins(MARGIN_PX, GAP_PX, MARGIN_PX, GAP_PX)
         whole.setSpacing(12)
         whole.addLayout(head)
         whole.addLayout(columns, 1)
+        whole.addWidget(Text(theme, terms.LEGAL_SENTENCE, 12, token="text2", wrap=True))
+        theme.changed.connect(self._fit)
+        self._fit()
 
-    def _scrolled(self, column: QVBoxLayout) -> QScrollArea:
-        host = QWidget()
-        host.setLayout(column)
-        return scroll_area(host, Qt.FocusPolicy.StrongFocus)
+    def _fit(self) -> None:
+        self._index.setFixedWidth(self._theme.px(272))
+        self.show_page(self.page)
+
+    def show_page_of(self, place: str) -> None:
+        """The page of the screen that a person comes from."""
+        self.show_page(guide.PAGE_OF_PLACE.get(place, guide.PAGES[0]))
+
+    def show_page(self, name: str) -> None:
+        """Show a page from its beginning."""
+        self.page = name
+        self.pages[name].setChecked(True)
+        if name == guide.KEYS_PAGE:
+            rows = [(key, "\n".join(words)) for key, words in actions_by_key(self._keys).items()]
+            self.text.show_html(guide.keys_html(self.tr("Keys"), rows, self._theme))
+        else:
+            self.text.show_html(guide.page_html(name, self._theme, self._picture_px()))
+
+    def _picture_px(self) -> int:
+        return max(200, min(self._theme.px(PICTURE_PX), self.width() - self._theme.px(272) - 120))
+
+    def resizeEvent(self, event: QResizeEvent) -> None:
+        if event.oldSize().width() != self.width():
+            self.show_page(self.page)
+
+    def _ask_cards(self) -> None:
+        start = str(Path(self.start_folder) / cards.FILE_NAME)
+        path, _ = QFileDialog.getSaveFileName(self, self.tr("Save the cards"), start, "PDF (*.pdf)")
+        if path:
+            self.save_cards(path)
+
+    def save_cards(self, path: str) -> None:
+        """Write both cards, a page each."""
+        try:
+            cards.write_cards(Path(path))
+        except CarpusFault as fault:
+            self.told.emit(fault)
+
+
+class _Page(QTextBrowser):
+    """Shows one page; ``wanted`` carries the page of a link."""
+
+    wanted = Signal(str)
+
+    def __init__(self, theme: Theme) -> None:
+        super().__init__()
+        self._theme = theme
+        self.setOpenLinks(False)
+        self.setFrameShape(QFrame.Shape.NoFrame)
+        self.document().setDocumentMargin(16)
+        self.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
+        self.anchorClicked.connect(lambda url: self.wanted.emit(url.toString()))
+
+    def show_html(self, text: str) -> None:
+        """Show from the beginning, on the colour of a card."""
+        palette = self.palette()
+        palette.setColor(palette.ColorRole.Base, self._theme.color("surface"))
+        palette.setColor(palette.ColorRole.Text, self._theme.color("text"))
+        self.setPalette(palette)
+        self.setHtml(text)
+        self.verticalScrollBar().setValue(0)
+
+    def loadResource(self, kind: int, name: QUrl | str) -> object:
+        """Pictures come from the guide, and from nowhere else."""
+        return super().loadResource(kind, QUrl.fromLocalFile(guide.picture_path(Path(QUrl(name).toString()).name)))
+
+    def keyPressEvent(self, event: QKeyEvent) -> None:
+        if event.key() == Qt.Key.Key_Escape:
+            event.ignore()
+        else:
+            super().keyPressEvent(event)

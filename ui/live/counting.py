@@ -8,14 +8,14 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from core.measures.fingers import FURTHER_RAD
-from core.measures.repetitions import find_repetitions
-from core.measures.signals import even_signal
-from core.measures.validity import LARGEST_SD_RAD
-from core.output.exercises import FLEXION, Exercise
-from core.types import TrackedFrame, TrackStatus
-from ui.figures import FIGURES, figure_of
-from ui.live.joint_history import figures_of
+from carpus.core.measures.fingers import FURTHER_RAD
+from carpus.core.measures.repetitions import find_repetitions
+from carpus.core.measures.signals import LONGEST_GAP_S, even_signal
+from carpus.core.measures.validity import LARGEST_SD_RAD, SETTLING_S
+from carpus.core.output.exercises import FLEXION, Exercise
+from carpus.core.types import TrackedFrame, TrackStatus
+from carpus.ui.figures import FIGURES, figure_of
+from carpus.ui.joint_figures import figures_of
 
 
 class RunningCount:
@@ -32,6 +32,7 @@ class RunningCount:
         self.best_positive_deg = math.nan
         self.best_negative_deg = math.nan
         self._furthest_hidden_rad = -math.inf
+        self._seen_s, self._back_s = math.inf, -math.inf
 
     @property
     def best_at_least(self) -> bool:
@@ -51,10 +52,17 @@ class RunningCount:
             self._times.append(frame.timestamp_s)
             self._values.append(value)
             self._valid.append(valid)
-            if valid:
+            if valid and not self._settling(frame.timestamp_s):
                 self._take_best(math.degrees(value))
-            elif self._figure >= 0 and math.isfinite(value + sd):
+            elif not valid and self._figure >= 0 and math.isfinite(value + sd):
                 self._furthest_hidden_rad = max(self._furthest_hidden_rad, value + sd)
+
+    def _settling(self, time_s: float) -> bool:
+        """Whether the hand was just out of sight for long: as in the review, such frames give no best."""
+        if time_s - self._seen_s > LONGEST_GAP_S:
+            self._back_s = time_s
+        self._seen_s = time_s
+        return time_s - self._back_s <= SETTLING_S
 
     def count(self) -> int:
         """Full repetitions so far: of a joint on the tracked angle, also through hidden stretches, as the review cuts
@@ -62,7 +70,8 @@ class RunningCount:
         if self._counts and len(self._times) > 2:
             valid = None if self._figure >= 0 else np.array(self._valid, dtype=bool)
             signal = even_signal(np.array(self._times), np.array(self._values), valid)
-            self.repetitions = len(find_repetitions(signal).repetitions) if len(signal.time_s) else 0
+            found = len(find_repetitions(signal).repetitions) if len(signal.time_s) else 0
+            self.repetitions = max(self.repetitions, found)  # what was done stays done
         return self.repetitions
 
     def _read(self, frames: Sequence[TrackedFrame]) -> list[tuple[float, float, bool]]:

@@ -6,15 +6,15 @@ from PySide6.QtCore import QPointF, QRectF, QSize, Qt
 from PySide6.QtGui import QFontMetricsF, QPainter, QPaintEvent, QPen
 from PySide6.QtWidgets import QSizePolicy, QWidget
 
-from core.hand.protocols import HAND21
-from core.types import Side
-from ui.controls.card import paint_card
-from ui.fonts import MEDIUM, REGULAR, SEMIBOLD, font
-from ui.hand_drawing import PLACES, outline, placement
-from ui.icons import paint_state
-from ui.live.hand_words import map_words
-from ui.live.joint_history import Seen
-from ui.theme import Theme
+from carpus.core.hand.protocols import HAND21
+from carpus.core.types import Side
+from carpus.ui.controls.card import paint_card
+from carpus.ui.fonts import MEDIUM, REGULAR, SEMIBOLD, font
+from carpus.ui.hand_drawing import PLACES, outline, placement
+from carpus.ui.icons import paint_state
+from carpus.ui.live.hand_words import map_words
+from carpus.ui.plot.history import Seen
+from carpus.ui.theme import Theme
 
 WORDS_PX = 172
 MOST_LINES = 4.2

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 
-from core.hand.protocols import PALM_MARKERS
-from core.types import TrackedFrame, TrackStatus
-from ui.live.joint_history import Seen
-from ui.live.light import Lamp
-from ui.marker_words import finger_name, hidden_remedy, marker_name
-from ui.translate import tr
+from carpus.core.hand.protocols import PALM_MARKERS
+from carpus.core.types import TrackedFrame, TrackStatus
+from carpus.ui.live.light import Lamp
+from carpus.ui.marker_words import finger_name, hidden_remedy, marker_name
+from carpus.ui.plot.history import Seen
+from carpus.ui.translate import tr
 
 LEAST_PALM = 3
 _ENDS = ("PIP", "DIP", "TIP", "IP")
@@ -26,6 +26,8 @@ def hand_lamp(frame: TrackedFrame | None, seen: Mapping[str, Seen]) -> Lamp:
     palm = sum(name in PALM_MARKERS for name in hidden)
     if len(PALM_MARKERS) - palm < LEAST_PALM or frame.status == TrackStatus.PREDICTED:
         return Lamp("warn", tr("Too few markers seen"), tr("Turn the back of the hand to the camera"))
+    if frame.status == TrackStatus.DOUBTFUL:
+        return Lamp("warn", tr("Doubtful"), tr("What is seen does not fit: hold the hand flat for a moment"))
     if not hidden and partly:
         return Lamp("warn", _partly_words(partly), remedy(partly))
     if not hidden:

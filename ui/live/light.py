@@ -7,9 +7,9 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Literal
 
-from core.types import TrackedFrame, TrackStatus
-from ui.marker_words import hidden_remedy, marker_name
-from ui.translate import tr
+from carpus.core.types import TrackedFrame, TrackStatus
+from carpus.ui.marker_words import hidden_remedy, marker_name
+from carpus.ui.translate import tr
 
 Rank = Literal["good", "warn", "bad", "idle"]
 AMBER_AFTER_S = 0.3
@@ -41,6 +41,8 @@ def lamp_for(frame: TrackedFrame | None, markers: Sequence[str], forearm_moved: 
     if hidden:
         words = tr("{count} markers hidden").format(count=len(hidden))
         return Lamp("warn", words, tr("Turn the back of the hand to the camera"))
+    if frame.status == TrackStatus.DOUBTFUL:
+        return Lamp("warn", tr("Doubtful"), tr("What is seen does not fit: hold the hand flat for a moment"))
     if forearm_moved:
         return Lamp("warn", tr("Arm moved"), tr("Lay the forearm back where it was"))
     return Lamp("good", tr("Tracking well"), tr("All {count} markers seen").format(count=len(markers)))

@@ -6,10 +6,10 @@ from PySide6.QtCore import QPointF, QRectF, QSize, Qt
 from PySide6.QtGui import QFont, QFontMetricsF, QPainter, QPaintEvent
 from PySide6.QtWidgets import QSizePolicy, QWidget
 
-from ui.fonts import MEDIUM, SEMIBOLD, font
-from ui.icons import paint_state
-from ui.live.light import Lamp
-from ui.theme import Theme
+from carpus.ui.fonts import MEDIUM, SEMIBOLD, font
+from carpus.ui.icons import paint_state
+from carpus.ui.live.light import Lamp
+from carpus.ui.theme import Theme
 
 HEIGHT_PX = 72
 BANDS = {

@@ -6,10 +6,10 @@ from PySide6.QtCore import Qt, QTimer, Signal
 from PySide6.QtGui import QKeyEvent
 from PySide6.QtWidgets import QHBoxLayout, QLineEdit, QWidget
 
-from ui.controls.button import Button
-from ui.controls.sheet import Sheet
-from ui.controls.text import SEMIBOLD, Text
-from ui.theme import Theme
+from carpus.ui.controls.button import Button
+from carpus.ui.controls.sheet import Sheet
+from carpus.ui.controls.text import SEMIBOLD, Text
+from carpus.ui.theme import Theme
 
 MOST_PAIN = 10
 SECOND_DIGIT_MS = 700
@@ -111,7 +111,7 @@ class PainSheet(Sheet):
             self._keep(int(digit))
         elif step:
             now = self.window().focusWidget()
-            place = self.buttons.index(now) if now in self.buttons else 0  # type: ignore[arg-type]
+            place = self.buttons.index(now) if now in self.buttons else 0
             self.buttons[(place + step) % len(self.buttons)].setFocus(Qt.FocusReason.TabFocusReason)
         else:
             super().keyPressEvent(event)

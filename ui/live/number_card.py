@@ -9,18 +9,23 @@ from PySide6.QtCore import QPointF, QRectF, QSize, Qt
 from PySide6.QtGui import QFontMetricsF, QPainter, QPainterPath, QPaintEvent, QPen
 from PySide6.QtWidgets import QSizePolicy, QWidget
 
-from core.output.exercises import AXIS_TICK_DEG, SIDES
-from ui import numbers, terms
-from ui.controls.card import paint_card
-from ui.figures import Figure, side_word
-from ui.fonts import MEDIUM, REGULAR, SEMIBOLD, font
-from ui.plot.axes import hatch
-from ui.plot.style import CURVE_TOKENS, screen_style
-from ui.theme import Theme
+from carpus.core.output.exercises import AXIS_TICK_DEG, SIDES
+from carpus.ui import numbers, terms
+from carpus.ui.controls.card import paint_card
+from carpus.ui.figures import Figure, side_word
+from carpus.ui.fonts import MEDIUM, REGULAR, SEMIBOLD, font
+from carpus.ui.plot.axes import hatch
+from carpus.ui.plot.style import CURVE_TOKENS, screen_style
+from carpus.ui.theme import Theme
 
 NUMBER_PX, NUMBER_WIDE_PX = 128, 160
 WIDE_FROM_PX = 900
 MOST_DOTS = 12
+SPREAD_PX = 44
+LEAST_NUMBER_PX = 72.0
+RIGHT_PX, NARROW_RIGHT_PX, NARROW_BELOW_PX = 230, 182, 640
+PRESSED_PX = 26
+"""With large text the card may be lower by so much: the dots of the repetitions give way."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -53,7 +58,7 @@ class NumberCard(QWidget):
         self._theme = theme
         self.reading = Reading()
         self._word = SIDES[1][0]
-        self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
+        self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Maximum)
         theme.changed.connect(self.updateGeometry)
 
     def show_reading(self, reading: Reading) -> None:
@@ -72,7 +77,7 @@ class NumberCard(QWidget):
         figure = self.reading.figure
         if figure is not None and figure.row == "tam":
             return self.tr("{finger}, total active motion (TAM)").format(finger=figure.long_name.split(",")[0])
-        if figure is not None and figure.row == "spread" and (side := side_word(self.reading.value_deg)):
+        if figure is not None and figure.row == "spread" and (side := side_word(self.reading.value_deg, figure.finger)):
             return self.tr("{joint}, {side}").format(joint=figure.long_name, side=side)
         if figure is not None:
             return figure.long_name
@@ -91,13 +96,30 @@ class NumberCard(QWidget):
         return -top_deg, top_deg, f"{lower} {top_deg:.0f}°", f"{upper} {top_deg:.0f}°"
 
     def _number_px(self) -> float:
-        return (NUMBER_WIDE_PX if self.width() >= WIDE_FROM_PX * self._theme.text_scale else NUMBER_PX) * 1.0
+        """As large as the widest figure of the gauge has room, and never larger than designed."""
+        if self.width() >= WIDE_FROM_PX * self._theme.text_scale:
+            return float(NUMBER_WIDE_PX)
+        widest = numbers.degrees(round(max(abs(end) for end in self._ends()[:2]), -1))
+        needed = QFontMetricsF(font(NUMBER_PX, SEMIBOLD)).horizontalAdvance(widest)
+        spread = QFontMetricsF(font(SPREAD_PX, MEDIUM)).horizontalAdvance(numbers.spread(10.0))
+        room = self.width() - 24 - self._right_px() - spread - 20
+        return max(LEAST_NUMBER_PX, min(NUMBER_PX, NUMBER_PX * room / needed))
+
+    def _right_px(self) -> float:
+        """Width of the column at the right: repetition, speed, best."""
+        narrow = self.width() < NARROW_BELOW_PX * self._theme.text_scale
+        return (NARROW_RIGHT_PX if narrow else RIGHT_PX) * self._theme.text_scale
 
     def sizeHint(self) -> QSize:
-        return QSize(696, round(236 + (self._number_px() - NUMBER_PX) + 130 * (self._theme.text_scale - 1)))
+        return QSize(696, round(236 + max(self._number_px() - NUMBER_PX, 0.0) + 130 * (self._theme.text_scale - 1)))
 
     def minimumSizeHint(self) -> QSize:
-        return QSize(520, self.sizeHint().height())
+        whole = self.sizeHint().height()
+        return QSize(520, whole - (PRESSED_PX if self._theme.text_scale > 1.0 else 0))
+
+    def _pressed_px(self) -> float:
+        """How much of its height large text on a low screen has taken."""
+        return min(max(self.sizeHint().height() - self.height(), 0.0), PRESSED_PX)
 
     def resizeEvent(self, event) -> None:  # type: ignore[no-untyped-def]
         self.updateGeometry()
@@ -111,7 +133,7 @@ class NumberCard(QWidget):
         painter.setPen(Qt.PenStyle.NoPen)
         painter.setBrush(theme.color(token))
         painter.drawRoundedRect(QRectF(24, 24, 6, 20 * scale), 3, 3)
-        room = self.width() - 230 * scale - 52
+        room = self.width() - self._right_px() - 52
         size = 28 * scale
         while size > 20 and QFontMetricsF(font(size, SEMIBOLD)).horizontalAdvance(self.movement()) > room:
             size -= 1
@@ -127,7 +149,7 @@ class NumberCard(QWidget):
         size = self._number_px()
         painter.setFont(font(size, SEMIBOLD))
         metrics = QFontMetricsF(painter.font())
-        baseline = top + metrics.capHeight() + 16
+        baseline = top + QFontMetricsF(font(max(size, NUMBER_PX), SEMIBOLD)).capHeight() + 16
         text = numbers.degrees(reading.value_deg)
         known = math.isfinite(reading.value_deg)
         painter.setPen(theme.color("text2" if reading.predicted or not known else "text"))
@@ -146,13 +168,13 @@ class NumberCard(QWidget):
             words = self.tr("predicted") if reading.figure is None else self.tr("follows the middle joint")
             painter.drawText(QPointF(swatch.right() + 10, baseline), words)
         else:
-            painter.setFont(font(44, MEDIUM))
+            painter.setFont(font(SPREAD_PX, MEDIUM))
             painter.setPen(theme.color("text2"))
             painter.drawText(QPointF(beside + 4, baseline), numbers.spread(reading.sd_deg))
 
     def _paint_right(self, painter: QPainter) -> None:
         theme, scale, reading = self._theme, self._theme.text_scale, self.reading
-        left = self.width() - 230 * scale
+        left = self.width() - self._right_px()
         y = 16.0
         if reading.repetitions_asked:
             self._text(painter, self.tr("Repetition"), left, y, 14, REGULAR, "text2")
@@ -166,13 +188,14 @@ class NumberCard(QWidget):
             painter.setFont(font(28 * min(scale, 1.25), MEDIUM))
             painter.setPen(theme.color("text2"))
             painter.drawText(QPointF(across, baseline), self.tr("of {asked}").format(asked=reading.repetitions_asked))
-            self._paint_dots(painter, left, baseline + 19)
-        y = 118 * (0.65 + 0.35 * scale) + (self._number_px() - NUMBER_PX) / 3
+            if self._pressed_px() < 8.0:  # the number says as much
+                self._paint_dots(painter, left, baseline + 19)
+        y = 114 * (0.65 + 0.35 * scale) + max(self._number_px() - NUMBER_PX, 0.0) / 3 - self._pressed_px()
         self._text(painter, self.tr("Speed"), left, y, 14, REGULAR, "text2")
         self._text(painter, numbers.speed(reading.speed_deg_s), left, y + 21 * scale, 20, SEMIBOLD, "text")
         positive = reading.figure is not None or self._word == SIDES[reading.angle][0]
         best = reading.best_positive_deg if positive else reading.best_negative_deg
-        across = left + 112 * scale
+        across = left + 0.487 * self._right_px()
         self._text(painter, self.tr("Best today"), across, y, 14, REGULAR, "text2")
         bound = reading.best_at_least and math.isfinite(best)
         shown = f"≥{numbers.NARROW_GAP}{numbers.degrees(best)}" if bound else numbers.degrees(best)
@@ -237,8 +260,6 @@ class NumberCard(QWidget):
                 painter.setFont(font(16 * scale, SEMIBOLD))
                 width = QFontMetricsF(painter.font()).horizontalAdvance(words)
                 left = max(box.left(), min(box.right() - width, x(target) - width + 8 if target > 0 else x(target) - 8))
-                if scale > 1.0:  # large text leaves no room under the speed
-                    left = min(left, self.width() - 230 * scale - 12 - width)
                 painter.setPen(theme.color("accent"))
                 painter.drawText(QPointF(left, middle - 17), words)
         painter.setFont(font(12 * scale, MEDIUM))

@@ -11,36 +11,39 @@ from PySide6.QtCore import QRectF, Qt, QTimer, Signal
 from PySide6.QtGui import QPainter, QResizeEvent
 from PySide6.QtWidgets import QHBoxLayout, QVBoxLayout, QWidget
 
-from core.pipeline.live_values import LiveCounters, LiveEvent, TrackedView
-from core.types import TrackedFrame, TrackStatus
-from ui.background import Background
-from ui.controls.button import Button
-from ui.controls.card import Line, Surface
-from ui.figures import FIGURES, FINGERS, Figure, figure_of
-from ui.keys import Keys, bind
-from ui.live.counting import RunningCount
-from ui.live.curves import LiveCurves
-from ui.live.finger_curves import FingerCurves
-from ui.live.hand_map import HandMap
-from ui.live.hand_words import hand_lamp
-from ui.live.history import History
-from ui.live.joint_history import JointHistory
-from ui.live.light import Lamp, SteadyLight, lamp_for
-from ui.live.light_view import LightView
-from ui.live.notes import NoteSheet, PainSheet
-from ui.live.number_card import NumberCard, Reading
-from ui.live.path_view import PathView
-from ui.picture import overlay, skeleton
-from ui.picture.view import HAND_ROOM, PALM_ROOM, PictureView
-from ui.ports import Measuring, SetUp
-from ui.theme import GAP_PX, MARGIN_PX, Theme, is_tight
+from carpus.core.library.set_up import SetUp
+from carpus.core.pipeline.live_values import LiveCounters, TrackedView
+from carpus.core.types import TrackedFrame, TrackStatus
+from carpus.ui.background import Background
+from carpus.ui.controls.button import Button
+from carpus.ui.controls.card import Line, Surface
+from carpus.ui.figures import FIGURES, FINGERS, Figure, figure_of
+from carpus.ui.keys import Keys, bind
+from carpus.ui.live.counting import RunningCount
+from carpus.ui.live.doubt import Doubt, SteadyDoubt, doubt_lamp, doubt_of
+from carpus.ui.live.hand_map import HandMap
+from carpus.ui.live.hand_words import hand_lamp
+from carpus.ui.live.light import Lamp, SteadyLight, lamp_for
+from carpus.ui.live.light_view import LightView
+from carpus.ui.live.notes import NoteSheet, PainSheet
+from carpus.ui.live.number_card import NumberCard, Reading
+from carpus.ui.picture import overlay, skeleton
+from carpus.ui.picture.view import HAND_ROOM, PALM_ROOM, PictureView
+from carpus.ui.plot.card import PlotCard
+from carpus.ui.plot.finger_curves import FingerCurves
+from carpus.ui.plot.history import History
+from carpus.ui.plot.live_curves import LiveCurves
+from carpus.ui.plot.path_view import PathView
+from carpus.ui.ports import Measuring
+from carpus.ui.theme import GAP_PX, MARGIN_PX, Theme, is_tight
+from carpus.ui.tour.bubble import LEAST_SCREEN_PX, BubbleView
 
-DRAW_EVERY_MS = 50
-"""Twenty drawings a second; what arrives in between is in the curves, not drawn on its own."""
-VALUES_EVERY = 2
-SLOW_EVERY = 20
-HASTY_S = 2.0
-"""So soon after a stored recording began to play by itself nobody means to stop it by a key."""
+DRAW_EVERY_MS = 40
+"""25 drawings a second; what arrives in between is in the curves, not drawn on its own."""
+VALUES_EVERY = 3
+SLOW_EVERY = 25
+HASTY_S = 3.0
+"""So soon after a recording began nobody is taken to mean its end without being asked."""
 WRIST_COLUMNS, HAND_COLUMNS = (520, 696), (440, 776)
 
 RecordingState = Literal["off", "recording", "paused"]
@@ -54,6 +57,8 @@ class LiveScreen(QWidget):
     told = Signal(object)
     stopped = Signal(str)
     stop_failed = Signal(object)
+    hasty = Signal()
+    """A person ends a recording that has only just begun: is it meant?"""
 
     def __init__(self, theme: Theme, keys: Keys, background: Background) -> None:
         super().__init__()
@@ -62,6 +67,8 @@ class LiveScreen(QWidget):
         self._set_up: SetUp | None = None
         self.history = History()
         self._light = SteadyLight()
+        self._steady_doubt = SteadyDoubt()
+        self.doubt: Doubt | None = None
         self._count: RunningCount | None = None
         self._view: TrackedView | None = None
         self._overlay_on = True
@@ -76,8 +83,7 @@ class LiveScreen(QWidget):
         self.path = PathView(theme, self.history)
         self.number = NumberCard(theme)
         self.curves = LiveCurves(theme, self.history)
-        self.joints = JointHistory()
-        self.fingers = FingerCurves(theme, self.joints)
+        self.fingers = FingerCurves(theme, self.history)
         self.hand_map = HandMap(theme)
         self._whole_hand = False
         self._side_on = False
@@ -87,6 +93,7 @@ class LiveScreen(QWidget):
         self.pause = Button(theme, self.tr("Pause"), icon="pause", hint="F7", height_px=52)
         self.main = Button(theme, "", "primary", height_px=56)
         self.speeds = Button(theme, self.tr("Speeds"), "quiet", hint="F4", height_px=32)
+        self.bubble = BubbleView(theme, wide=True, keys=False)
         self.note_sheet = NoteSheet(self.stage, theme)
         self.pain_sheet = PainSheet(self.stage, theme)
         self._lay_out()
@@ -112,6 +119,7 @@ class LiveScreen(QWidget):
         columns.setSpacing(GAP_PX)
         columns.addLayout(left, 520)
         columns.addLayout(right, 696)
+        self.speeds.setProperty("floats", True)  # over the corner of the curves that nothing is written in
         on_curves = QHBoxLayout(self.curves)
         on_curves.setContentsMargins(0, 4, 6, 0)
         on_curves.addStretch(1)
@@ -132,6 +140,10 @@ class LiveScreen(QWidget):
         whole.setContentsMargins(0, 0, 0, 0)
         whole.setSpacing(0)
         whole.addWidget(self.stage, 1)
+        above = QHBoxLayout()
+        above.setContentsMargins(MARGIN_PX, 0, MARGIN_PX, 4)
+        above.addWidget(self.bubble)
+        whole.addLayout(above)
         whole.addWidget(Line(self._theme))
         bar = Surface(self._theme)
         bar.setLayout(bottom)
@@ -141,7 +153,7 @@ class LiveScreen(QWidget):
         self.note.clicked.connect(self.note_sheet.begin)
         self.pain.clicked.connect(self.pain_sheet.begin)
         self.note_sheet.kept.connect(lambda words: self._add_event("note", words))
-        self.pain_sheet.kept.connect(lambda score: self._add_event("pain", str(score)))
+        self.pain_sheet.kept.connect(self._keep_pain)
         self.pause.clicked.connect(self.toggle_pause)
         self.main.clicked.connect(self.toggle_recording)
         self.speeds.clicked.connect(self.toggle_speeds)
@@ -151,7 +163,7 @@ class LiveScreen(QWidget):
         self.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
         self.setProperty("shows_own_focus", True)
         actions = {
-            "record": self._take_record_key, "note": self.note.click, "pain": self.pain.click,
+            "record": self.toggle_recording, "note": self.note.click, "pain": self.pain.click,
             "pause": self.toggle_pause, "overlay": self.toggle_overlay, "whole_picture": self.toggle_whole,
             "speeds": self.toggle_speeds, "next_angle": self.next_angle, "next_finger": self.next_finger,
             "side_view": self.toggle_side,
@@ -172,6 +184,8 @@ class LiveScreen(QWidget):
         self.fingers.setVisible(self._whole_hand)
         for place, share in enumerate(HAND_COLUMNS if self._whole_hand else WRIST_COLUMNS):
             self._columns.setStretch(place, share)
+        least_px = LEAST_SCREEN_PX * self._theme.text_scale
+        self.bubble.give_room(self.height() >= least_px and not (tight and self._whole_hand))
         self.curves.show_single(tight)
         for button, hint in ((self.note, "F5"), (self.pain, "F6"), (self.pause, "F7")):
             button.set_face(button.text(), hint="" if tight else hint)
@@ -182,9 +196,11 @@ class LiveScreen(QWidget):
         """Show a source whose tracking has begun."""
         self._measuring, self._set_up = measuring, set_up
         self.history.clear()
-        self.joints.clear()
+        self.history.clear()
         self._whole_hand = set_up.protocol.has_fingers
         self._light = SteadyLight()
+        self._steady_doubt = SteadyDoubt()
+        self.doubt = None
         self._count = None
         self._view = None
         self._camera_lost = self._stopping = False
@@ -193,6 +209,7 @@ class LiveScreen(QWidget):
         angle = 1 if set_up.exercise.angle is None else set_up.exercise.angle
         figure = figure_of(set_up.exercise.joint) if self._whole_hand else None
         self.number.show_reading(self._targets(Reading(angle=angle, figure=figure)))
+        self.pain.set_face(self.tr("Pain"), icon="")
         if figure is not None:
             self.choose_figure(figure)
         self.hand_map.set_side(set_up.side)
@@ -221,6 +238,11 @@ class LiveScreen(QWidget):
         return "paused" if feed.paused or self._camera_lost else "recording"
 
     @property
+    def storing(self) -> bool:
+        """Whether a recording is being stored: nobody needs to stop it once more."""
+        return self._stopping and self._count is not None
+
+    @property
     def recorded_s(self) -> float:
         """Seconds stored so far."""
         return self._count.recorded_s if self._count else 0.0
@@ -232,21 +254,17 @@ class LiveScreen(QWidget):
 
     # --- commands -----------------------------------------------------------------------------------------
     def toggle_recording(self) -> None:
-        """Start a recording, or stop at once and go to the review."""
+        """Start a recording, or stop and go to the review: the same on every source. A hasty end asks."""
         if self._measuring is None or self._set_up is None or self._stopping:
             return
         if self._measuring.feed.recording:
-            self.stop()
+            if time.monotonic() - self._started_at_s < HASTY_S:
+                self.hasty.emit()
+            else:
+                self.stop()
             return
         self._stopping = True
         self._background.run(self._measuring.start_recording, lambda _: self._started(), self._not_started, self)
-
-    def _take_record_key(self) -> None:
-        """A stored recording begins by itself: who presses the key to begin it must not end it."""
-        begun_s = time.monotonic() - self._started_at_s
-        if self._measuring is not None and self._measuring.starts_with_recording and begun_s < HASTY_S:
-            return
-        self.toggle_recording()
 
     def _started(self) -> None:
         assert self._set_up is not None
@@ -301,6 +319,7 @@ class LiveScreen(QWidget):
     def toggle_speeds(self) -> None:
         """Curves of the angles or of the speeds."""
         self.curves.show_speeds(not self.curves.shows_speeds)
+        self.fingers.show_speeds(self.curves.shows_speeds)
         self.speeds.set_face(self.tr("Angles") if self.curves.shows_speeds else self.tr("Speeds"))
 
     def next_angle(self) -> None:
@@ -323,7 +342,7 @@ class LiveScreen(QWidget):
         reading = self._targets(Reading(figure=figure))
         self.fingers.set_figure(figure, reading.target_positive_deg)
         self.number.show_reading(reading)
-        if self._measuring is not None and len(self.joints):
+        if self._measuring is not None and len(self.history):
             self.number.show_reading(self._reading())
 
     def toggle_side(self) -> None:
@@ -340,9 +359,13 @@ class LiveScreen(QWidget):
             self.picture.clear(self.tr("No picture"))
             self._view = None
 
-    def _add_event(self, kind: str, text: str) -> None:
-        if self._measuring is not None:
-            self._measuring.feed.add_event(kind, text)
+    def _keep_pain(self, score: int) -> None:
+        """Store it, and let the button say so until the next one."""
+        if self._add_event("pain", str(score)):
+            self.pain.set_face(self.tr("Pain {score} noted").format(score=score), icon="check")
+
+    def _add_event(self, kind: str, text: str) -> bool:
+        return self._measuring is not None and self._measuring.feed.add_event(kind, text)
 
     # --- drawing ------------------------------------------------------------------------------------------
     def tick(self) -> None:
@@ -352,68 +375,62 @@ class LiveScreen(QWidget):
         feed = self._measuring.feed
         fresh = feed.tracked_since(self.history.last_index)
         self.history.append(fresh)
-        if self._whole_hand:
-            self.joints.append(fresh)
         begin = feed.recorded_from
         if self._count is not None and begin is not None and not feed.paused:
             self._count.append([tracked for tracked in fresh if tracked.index >= begin])
         view = feed.newest()
-        if view is not None and fresh and (self._view is None or view.tracked.index != self._view.tracked.index):
-            self._view = view
-            if self._camera_lost:
-                self.set_camera_lost(False)
+        is_new = view is not None and (self._view is None or view.tracked.index != self._view.tracked.index)
+        if view is not None and is_new and fresh and not self._camera_lost:
             self._view = view
             self.picture.show_frame(view.frame.color_rgb)
-            self.plots().update()
+            self.plots().draw()
         if self._camera_lost:
             self.history.wait(0.001 * DRAW_EVERY_MS)
-            self.plots().update()
+            self.plots().draw()
         if self._tick % VALUES_EVERY == 0:
             self._show_values()
         if self._tick % SLOW_EVERY == 0:
             self._show_slow()
         self._tick += 1
         for event in feed.drain_events():
-            self._take_event(event)
+            self.told.emit(event)
 
-    def plots(self) -> QWidget:
+    def plots(self) -> PlotCard:
         """The curves that are shown: of the wrist or of the fingers."""
         return self.fingers if self._whole_hand else self.curves
-
-    def _take_event(self, event: LiveEvent) -> None:
-        if event.kind in ("camera_lost", "camera_back"):
-            self.set_camera_lost(event.kind == "camera_lost")
-        self.told.emit(event)
-        if event.kind == "source_ended":
-            self.stop()
 
     def _show_values(self) -> None:
         if self._whole_hand:
             self.fingers.refresh_values()
-            self.hand_map.show_seen(self.joints.seen(), infers_ends=self.joints.infers)
+            self.hand_map.show_seen(self.history.seen(), infers_ends=self.history.infers)
         else:
             self.curves.refresh_values()
-            self.path.update()
+            self.path.draw()
         calibration = self._measuring.calibration if self._measuring else None
         markers = calibration.clicks.protocol.markers if calibration else ()
         frame = None if self._view is None or self._camera_lost else self._view.tracked
         pure = self._set_up is not None and self._set_up.exercise.pure_wrist
         if self._camera_lost:
             lamp = Lamp("bad", self.tr("No picture"), self.tr("Plug the camera in again"))
-        elif self._whole_hand:
-            lamp = hand_lamp(frame, self.hand_map.seen)
         else:
             now = self.history.now_s
-            lamp = lamp_for(frame, markers, pure and self.history.forearm_moved())
-            lamp = self._light.show(lamp, now if math.isfinite(now) else 0.0)
+            now_s = now if math.isfinite(now) else 0.0
+            if self._whole_hand:
+                lamp = hand_lamp(frame, self.hand_map.seen)
+            else:
+                lamp = self._light.show(lamp_for(frame, markers, pure and self.history.forearm_moved()), now_s)
+            doubt = doubt_of(frame, markers, self._measuring.camera) if self._measuring else None
+            self.doubt = self._steady_doubt.show(doubt, now_s)
+            if self.doubt is not None and lamp.rank in ("good", "warn"):
+                lamp = doubt_lamp(self.doubt)
         self.light.show_lamp(lamp)
         self.number.show_reading(self._reading())
         self.recording_changed.emit(self.recording_state, self.recorded_s)
 
     def _hand_reading(self, figure: Figure) -> Reading:
         column = FIGURES.index(figure)
-        value, sd, measured = self.joints.value(column)
-        inferred = self.joints.inferred(column)
+        value, sd, measured = self.history.figure_value(column)
+        inferred = self.history.inferred(column)
         known = (measured or inferred) and not self._camera_lost
         count, asked = self._count, self._set_up.repetitions if self._set_up else 0
         own = count is not None and count.joint == figure.joint
@@ -427,7 +444,7 @@ class LiveScreen(QWidget):
                 repetitions_done=done,
                 repetitions_asked=asked,
                 repetition_running=self.recording_state == "recording" and done < asked,
-                speed_deg_s=self.joints.speed(column) if known else math.nan,
+                speed_deg_s=self.history.figure_speed_deg_s(column) if known else math.nan,
                 best_positive_deg=count.best_positive_deg if count and own else math.nan,
                 best_at_least=bool(count and own and count.best_at_least),
             )

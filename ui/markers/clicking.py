@@ -7,10 +7,10 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from core.calibration.result import Clicks
-from core.hand.protocols import MarkerProtocol
-from core.types import FloatArray, Side
-from ui.ports import ProposedMarker
+from carpus.core.calibration.result import ALL_STRAIGHT, Clicks
+from carpus.core.hand.protocols import MarkerProtocol
+from carpus.core.types import FloatArray, Side
+from carpus.ui.ports import ProposedMarker
 
 SAME_DISC_PX = 3.0
 """Nearer than this two places are the same disc."""
@@ -29,6 +29,7 @@ class Clicking:
     widths_px: dict[str, float] = field(default_factory=dict)
     current: str = ""
     proposed: dict[str, ProposedMarker] = field(default_factory=dict)
+    straight_fingers: tuple[bool, ...] = ALL_STRAIGHT
 
     def __post_init__(self) -> None:
         self.current = self.protocol.markers[0]
@@ -89,11 +90,13 @@ class Clicking:
             return ""
         return next((name for name, other in self.pixel.items() if _same(other, pixel)), "")
 
-    def place(self, pixel: FloatArray, width_px: float) -> None:
-        """Set the current marker and go on to the next one that is missing.
+    def place(self, pixel: FloatArray, width_px: float) -> bool:
+        """Set the current marker and go on to the next one that is missing; whether two names changed places.
 
         A name that was on this disc moves to where the current one was, or is taken off.
         """
+        had_place = self.current in self.proposed or self.current in self.pixel
+        swapped = had_place and bool(self._on(pixel) - {self.current})
         mine = self.proposed.pop(self.current, None)
         before = self.pixel.pop(self.current, None)
         before_width_px = self.widths_px.get(self.current, width_px)
@@ -111,6 +114,12 @@ class Clicking:
         self.pixel[self.current] = np.asarray(pixel, dtype=np.float64)
         self.widths_px[self.current] = width_px
         self._go_on()
+        return swapped
+
+    def _on(self, pixel: FloatArray) -> set[str]:
+        """Names, given or proposed, that are on this disc."""
+        places = {name: one.pixel for name, one in self.proposed.items()} | self.pixel
+        return {name for name, place in places.items() if _same(place, pixel)}
 
     def undo(self) -> str:
         """Take back the marker set last; its name, empty when there is none."""
@@ -149,7 +158,9 @@ class Clicking:
 
     def clicks(self) -> Clicks:
         """All clicks in the order of the protocol."""
-        return Clicks(self.side, self.protocol, np.array([self.pixel[name] for name in self.order]))
+        return Clicks(
+            self.side, self.protocol, np.array([self.pixel[name] for name in self.order]), self.straight_fingers
+        )
 
     def _go_on(self) -> None:
         missing = self.unnamed or self.missing

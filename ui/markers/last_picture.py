@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 from PySide6.QtCore import QEvent, QObject, QRectF, Qt
-from PySide6.QtGui import QColor, QImage, QMouseEvent, QPainter, QPainterPath, QPaintEvent
+from PySide6.QtGui import QColor, QFontMetricsF, QImage, QMouseEvent, QPainter, QPainterPath, QPaintEvent
 from PySide6.QtWidgets import QWidget
 
-from core.types import ByteImage
-from ui.picture.convert import image_of
-from ui.picture.photo import fitted, paint_label
-from ui.theme import CARD_RADIUS_PX, ON_PICTURE_LABEL, Theme
+from carpus.core.types import ByteImage
+from carpus.ui.controls.host import host_of
+from carpus.ui.fonts import SEMIBOLD, font
+from carpus.ui.picture.convert import image_of
+from carpus.ui.picture.photo import fitted, paint_label
+from carpus.ui.theme import CARD_RADIUS_PX, ON_PICTURE_LABEL, Theme
 
 SMALL_PX, LARGE_PX = (158, 138), (420, 335)
 
@@ -43,9 +45,11 @@ class LastPicture(QWidget):
         self._place()
 
     def _place(self) -> None:
-        scale = 1.0 if self._large else min(self._theme.text_scale, self.parentWidget().width() / 832)
+        scale = 1.0 if self._large else min(self._theme.text_scale, host_of(self).width() / 832)
         width, height = (round(scale * size) for size in (LARGE_PX if self._large else SMALL_PX))
-        self.setGeometry(13, self.parentWidget().height() - height - 13, width, height)
+        said = QFontMetricsF(font(12 * self._theme.text_scale, SEMIBOLD)).horizontalAdvance(self._label)
+        width = max(width, round(said) + 36)
+        self.setGeometry(13, host_of(self).height() - height - 13, width, height)
 
     def eventFilter(self, watched: QObject, event: QEvent) -> bool:
         if event.type() == QEvent.Type.Resize:

@@ -3,21 +3,23 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Sequence
+from functools import partial
 from itertools import pairwise
 
 import numpy as np
-from PySide6.QtCore import QPointF, QRectF, Qt, Signal
+from PySide6.QtCore import QPointF, QRectF, QSizeF, Qt, Signal
 from PySide6.QtGui import QColor, QFontMetricsF, QKeyEvent, QMouseEvent, QPainter, QPaintEvent, QPen, QWheelEvent
 
-from core.types import FloatArray
-from ui.fonts import SEMIBOLD, font
-from ui.marker_words import finger_name, marker_name
-from ui.markers.clicking import Clicking
-from ui.picture.overlay import haloed
-from ui.picture.photo import paint_label, paint_wrong_label
-from ui.picture.view import PictureView
-from ui.ports import FoundMarker
-from ui.theme import (
+from carpus.core.types import FloatArray
+from carpus.ui.fonts import SEMIBOLD, font
+from carpus.ui.marker_words import finger_name, marker_name
+from carpus.ui.markers.clicking import Clicking
+from carpus.ui.picture.name_places import place_for
+from carpus.ui.picture.overlay import haloed
+from carpus.ui.picture.photo import paint_label, paint_wrong_label
+from carpus.ui.picture.view import PictureView
+from carpus.ui.ports import FoundMarker
+from carpus.ui.theme import (
     CARD_RADIUS_PX,
     DARK,
     ON_PICTURE_LABEL,
@@ -65,6 +67,7 @@ class MarkerPicture(PictureView):
         self.cursor_px: FloatArray | None = None
         self.found: FoundMarker | None = None
         self.wrong: frozenset[str] = frozenset()
+        self.spots: list[tuple[tuple[float, ...], str]] = []
         self.no_marker_words = ""
         self._dragging = False
         self._zoom = LEAST_ZOOM
@@ -78,6 +81,11 @@ class MarkerPicture(PictureView):
     def show_wrong(self, names: Collection[str]) -> None:
         """Mark clicks that are at fault."""
         self.wrong = frozenset(names)
+        self.update()
+
+    def show_spots(self, spots: Sequence[tuple[Sequence[float], str]]) -> None:
+        """Mark spots (u, v) without a name, each with the marker that it may be, or nothing."""
+        self.spots = [(tuple(pixel), name) for pixel, name in spots]
         self.update()
 
     def forget_cursor(self) -> None:
@@ -163,12 +171,12 @@ class MarkerPicture(PictureView):
             wrong = name in self.wrong
             color = ON_PICTURE_WRONG if wrong else ON_PICTURE_LINE
             chosen = name == clicking.current and not clicking.missing
-            haloed(
-                painter, color, 3.0 if wrong or chosen else 2.0, lambda at=at, r=radius: painter.drawEllipse(at, r, r)
-            )  # type: ignore[misc]
-            haloed(painter, color, 1.5, lambda at=at: self._cross(painter, at, 5.0))  # type: ignore[misc]
+            width = 3.0 if wrong or chosen else 2.0
+            haloed(painter, color, width, partial(painter.drawEllipse, at, radius, radius))
+            haloed(painter, color, 1.5, partial(self._cross, painter, at, 5.0))
             rings.append((name, at, radius))
         self._paint_proposals(painter, clicking, rings)
+        self._paint_spots(painter)
         if self.cursor_px is None:
             self._paint_names(painter, rings, "")
             return
@@ -207,6 +215,26 @@ class MarkerPicture(PictureView):
             haloed(painter, color, width, lambda n=name, r=radius: painter.drawEllipse(at[n], r, r), dash=True)  # type: ignore[misc]
             rings.append((name, at[name], radius))
 
+    def _paint_spots(self, painter: QPainter) -> None:
+        """Spots in question: a dashed ring in amber and a question mark, never colour alone."""
+        for pixel, name in self.spots:
+            at, radius = self.to_screen(*map(float, pixel)), RING_LEAST_PX + 3.0
+            haloed(painter, ON_PICTURE_DOUBTFUL, 3.0, lambda at=at, r=radius: painter.drawEllipse(at, r, r), dash=True)  # type: ignore[misc]
+            words, plate = self._spot_words(name), self._spot_plate(pixel, name)
+            painter.setFont(font(12 * self._theme.text_scale, SEMIBOLD))
+            paint_label(painter, self._theme, words, plate.left(), plate.top())
+
+    def _spot_words(self, name: str) -> str:
+        return self.tr("{marker}?").format(marker=marker_name(name)) if name else self.tr("What is this?")
+
+    def _spot_plate(self, pixel: Sequence[float], name: str) -> QRectF:
+        """Where the words of a spot in question stand."""
+        at, away = self.to_screen(*map(float, pixel)), RING_LEAST_PX + 8.0
+        metrics = QFontMetricsF(font(12 * self._theme.text_scale, SEMIBOLD))
+        width = metrics.horizontalAdvance(self._spot_words(name)) + 12
+        left = at.x() + away if at.x() + away + width < self.width() else at.x() - away - width
+        return QRectF(left, at.y() - 10, width, metrics.height() + 5)
+
     def _words_for(self, name: str, clicking: Clicking) -> str:
         """The name on the picture; of many discs only the tips speak for their fingers, and what needs a look."""
         one = clicking.proposed.get(name)
@@ -228,6 +256,7 @@ class MarkerPicture(PictureView):
         metrics = QFontMetricsF(painter.font())
         discs = [QRectF(at.x() - r, at.y() - r, 2 * r, 2 * r) for _, at, r in rings]
         taken = [*discs, QRectF(self.loupe_box()), QRectF(0, self.height() - 160, 176, 160)]
+        taken += [self._spot_plate(pixel, name) for pixel, name in self.spots]
         assert self.clicking is not None
         for name, at, radius in rings:
             words = marker_name(name) if name == proposed else self._words_for(name, self.clicking)
@@ -237,29 +266,19 @@ class MarkerPicture(PictureView):
                 words = self.tr("{marker}?").format(marker=words)
             wrong = name in self.wrong
             width = metrics.horizontalAdvance(words) + (30 if wrong else 12)
-            plate = self._free_place(QRectF(0, 0, width, metrics.height() + 5), at, radius, taken)
+            others = [other for one, other, _ in rings if one != name]
+            size = QSizeF(width, metrics.height() + 5)
+            found = place_for(size, at, radius, taken, others, QRectF(self.rect()).adjusted(4, 4, -4, -4))
+            if found is None:
+                continue  # a name over another, or at another's disc, says something wrong
+            plate, line = found
             taken.append(plate)
+            if line is not None:
+                haloed(painter, ON_PICTURE_LINE, 1.5, lambda line=line: painter.drawLine(line))  # type: ignore[misc]
             if wrong:
                 paint_wrong_label(painter, self._theme, words, plate)
             else:
                 paint_label(painter, self._theme, words, plate.left(), plate.top())
-
-    def _free_place(self, plate: QRectF, at: QPointF, radius: float, taken: list[QRectF]) -> QRectF:
-        width, height, away = plate.width(), plate.height(), radius + 5
-        middle = QPointF(at.x() - width / 2, at.y() - height / 2)
-        slant = radius + 1  # just clear of the square around the ring
-        candidates = [
-            QPointF(at.x() - away - width, middle.y()), QPointF(at.x() + away, middle.y()),
-            QPointF(middle.x(), at.y() - away - height), QPointF(middle.x(), at.y() + away),
-            QPointF(at.x() + slant, at.y() - slant - height), QPointF(at.x() - slant - width, at.y() - slant - height),
-            QPointF(at.x() + slant, at.y() + slant), QPointF(at.x() - slant - width, at.y() + slant),
-        ]  # fmt: skip
-        inside = QRectF(self.rect()).adjusted(4, 4, -4, -4)
-        for corner in candidates:
-            box = QRectF(corner, plate.size())
-            if inside.contains(box) and not any(box.intersects(other) for other in taken):
-                return box
-        return QRectF(candidates[1], plate.size())
 
     def loupe_box(self) -> QRectF:
         """Where the loupe is: in the upper corner that covers fewer discs, never over the place one looks at."""

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from ui.icons import State
-from ui.marker_words import click_instruction, marker_name
-from ui.markers.clicking import Clicking
-from ui.translate import tr
+from carpus.ui.icons import State
+from carpus.ui.marker_words import click_instruction, marker_name
+from carpus.ui.markers.clicking import Clicking
+from carpus.ui.translate import tr
 
 MOST_NAMED = 4
 """So many doubtful or missing markers are named one by one."""

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from typing import Literal
 
-from core.calibration.result import Verdict
-from ui.translate import tr
+from carpus.core.calibration.result import Verdict
+from carpus.ui.translate import tr
 
-Remedy = Literal["swap", "click_these", "correct", "new_picture"]
+Remedy = Literal["swap", "click_these", "correct", "take_spot", "new_picture"]
 
 _PICTURE = ("tilt", "distance", "moved", "few_frames", "depth_off")
 """Causes that lie with hand, camera or light, never with the names."""
@@ -22,6 +22,10 @@ def remedy_of(verdict: Verdict, *, is_live: bool) -> Remedy:
         return "click_these"
     if kinds & {"wrong_side", "misnamed"}:
         return "correct"
+    if "other_spot" in kinds:
+        return "take_spot"
+    if "no_palm" in kinds:
+        return "click_these"
     if is_live and kinds & set(_PICTURE):
         return "new_picture"
     if kinds & {"residual", "no_depth"}:
@@ -35,5 +39,6 @@ def face(remedy: Remedy) -> tuple[str, str]:
         "swap": (tr("Swap the two"), tr("Enter")),
         "click_these": (tr("Click again"), "C"),
         "correct": (tr("Correct names"), ""),
+        "take_spot": (tr("Take that spot"), ""),
         "new_picture": (tr("New picture"), "N"),
     }[remedy]

@@ -3,41 +3,55 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
+from functools import partial
 
 import numpy as np
 from PySide6.QtCore import QEvent, QObject, Qt, QTimer, Signal
-from PySide6.QtGui import QKeyEvent
-from PySide6.QtWidgets import QHBoxLayout, QVBoxLayout, QWidget
+from PySide6.QtGui import QKeyEvent, QResizeEvent
+from PySide6.QtWidgets import QBoxLayout, QHBoxLayout, QVBoxLayout, QWidget
 
-from core.calibration.result import Finding
-from core.types import ByteImage, FloatArray
-from ui import terms
-from ui.background import Background
-from ui.controls.button import Button
-from ui.controls.card import KeyCaps
-from ui.controls.text import MEDIUM, REGULAR, StateText, Text, heading
-from ui.hand_drawing import HandDrawing, MarkerState
-from ui.keys import Keys, bind
-from ui.marker_words import click_instruction, marker_name, marker_place
-from ui.markers import proposals
-from ui.markers.clicking import Clicking
-from ui.markers.last_picture import LastPicture
-from ui.markers.picture import MarkerPicture
-from ui.markers.remedy import Remedy, face, remedy_of
-from ui.markers.start_angle import StartAngleSheet
-from ui.markers.verdict import NAMES_WRONG, VerdictPanel, headline, rows_before, rows_of
-from ui.picture.view import HAND_ROOM, PALM_ROOM
-from ui.ports import Calibrator, Judged, Phrasebook, ProposedMarker
-from ui.theme import MARGIN_PX, Theme
+from carpus.core.calibration.result import Finding
+from carpus.core.types import ByteImage, FloatArray
+from carpus.ui import terms
+from carpus.ui.background import Background
+from carpus.ui.controls.button import Button
+from carpus.ui.controls.card import KeyCaps
+from carpus.ui.controls.text import MEDIUM, REGULAR, StateText, Text, heading
+from carpus.ui.hand_drawing import HandDrawing, MarkerState
+from carpus.ui.keys import Keys, bind
+from carpus.ui.marker_words import click_instruction, marker_name, marker_place
+from carpus.ui.markers import proposals
+from carpus.ui.markers.clicking import Clicking
+from carpus.ui.markers.last_picture import LastPicture
+from carpus.ui.markers.picture import MarkerPicture
+from carpus.ui.markers.remedy import Remedy, face, remedy_of
+from carpus.ui.markers.start_angle import StartAngleSheet
+from carpus.ui.markers.straight import StraightFingers
+from carpus.ui.markers.verdict import DISC_DOUBTED, NAMES_WRONG, VerdictPanel, headline, rows_before, rows_of
+from carpus.ui.picture.view import HAND_ROOM, PALM_ROOM
+from carpus.ui.ports import Calibrator, Judged, Phrasebook, ProposedMarker
+from carpus.ui.theme import MARGIN_PX, Theme
+from carpus.ui.tour.bubble import LEAST_SCREEN_PX, BubbleView
+from carpus.ui.tour.order import Work
 
 PREVIEW_EVERY_MS = 60
+FEWEST_DISCS = 3
+"""Fewer spots than these are chance: the hand is not in the picture, or has no discs on."""
+
+ALL_FITS_PX = 700
+CROWDED_BELOW_PX = 460
+GUIDED_MORE_PX = 60
+BESIDE_PX = 780
+"""From this width on the words under the picture stand beside the buttons, else over them."""
+TWO_LINES_PX, BUTTONS_PX = 40, 36
 
 
 class MarkersScreen(QWidget):
-    """``started`` when tracking has begun; ``told`` carries a fault that belongs to a message card."""
+    """``started`` when tracking has begun; ``judged`` carries each verdict; ``told`` a fault for a message card."""
 
     started = Signal()
     told = Signal(object)
+    judged = Signal(object)
 
     def __init__(self, theme: Theme, keys: Keys, background: Background, phrasebook: Phrasebook) -> None:
         super().__init__()
@@ -58,6 +72,9 @@ class MarkersScreen(QWidget):
         self.place = Text(theme, "", 14, REGULAR, "text2", wrap=True)
         self.hand = HandDrawing(theme)
         self.panel = VerdictPanel(theme)
+        self.straight = StraightFingers(theme)
+        self.straight.hide()
+        self.bubble = BubbleView(theme)
         self.primary = Button(theme, "", "primary")
         self.second = Button(theme, "", "plain", height_px=52)
         self.start_angle = Button(theme, self.tr("Wrist cannot lie straight…"), "quiet", height_px=32)
@@ -87,16 +104,19 @@ class MarkersScreen(QWidget):
         caps.addWidget(KeyCaps(self._theme, keys))
         caps.addStretch(1)
         left.addLayout(caps)
-        below = QHBoxLayout()
+        self._below = QWidget()
+        below = self._below_row = QBoxLayout(QBoxLayout.Direction.LeftToRight, self._below)
+        below.setContentsMargins(0, 0, 0, 0)
+        below.setSpacing(4)
         below.addWidget(self.hint, 1)
-        below.addWidget(self.new_picture)
-        below.addWidget(self.start_angle)
-        below.addWidget(self.take_rest)
-        below.addWidget(self.click_all)
+        buttons = QHBoxLayout()
+        buttons.addStretch(1)
+        for button in (self.new_picture, self.start_angle, self.take_rest, self.click_all, self.although):
+            buttons.addWidget(button)
         self.click_all.hide()
-        below.addWidget(self.although)
         self.although.hide()
-        left.addLayout(below)
+        below.addLayout(buttons)
+        left.addWidget(self._below)
         right = QVBoxLayout()
         right.setSpacing(8)
         right.addSpacing(8)
@@ -104,8 +124,11 @@ class MarkersScreen(QWidget):
         right.addWidget(self.title)
         right.addWidget(self.place)
         right.addWidget(self.hand, 1)
+        right.addStretch(0)  # where the drawing has given way its room stays in one piece
+        right.addWidget(self.straight)
         right.addWidget(self.panel)
         right.addSpacing(8)
+        right.addWidget(self.bubble)
         row = QHBoxLayout()
         row.setSpacing(12)
         row.addWidget(self.primary, 1)
@@ -125,8 +148,31 @@ class MarkersScreen(QWidget):
     def _fit(self) -> None:
         """The column keeps its width whatever the words, so that the picture never moves under the cursor."""
         self._column.setFixedWidth(self._theme.px(376))
+        # Room for two lines and the buttons whether they are there or not: the picture keeps its height too.
+        narrow = self.width() - self._theme.px(376) - 3 * MARGIN_PX < BESIDE_PX * self._theme.text_scale
+        direction = QBoxLayout.Direction.TopToBottom if narrow else QBoxLayout.Direction.LeftToRight
+        self._below_row.setDirection(direction)
+        self._below.setFixedHeight(self._theme.px(TWO_LINES_PX + (BUTTONS_PX if narrow else 0)))
+        # The question of the straight fingers and the checks are read; the drawing has done its work by then.
+        asks = not self.straight.isHidden()
+        self.bubble.give_room(self.height() >= LEAST_SCREEN_PX * self._theme.text_scale)
+        # The bubble takes its height, and the air of a gap more than what gives way for it.
+        guided_px = 0 if self.bubble.isHidden() else self.bubble.sizeHint().height() + self._theme.px(GUIDED_MORE_PX)
+        room_px = self.height() - guided_px
+        self.hand.setVisible(not (asks and room_px < ALL_FITS_PX * self._theme.text_scale))
+        # With less room still, first the drawing that says where to click, then the question, else the checks.
+        crowded = self.height() > 0 and room_px < CROWDED_BELOW_PX * self._theme.text_scale
+        clicks = self.clicking is not None and not self.clicking.complete
+        self.panel.setVisible(not (crowded and (clicks or asks)))
+        self.panel.show_close(crowded)
+        if crowded:
+            self.hand.setVisible(clicks)
+
+    def resizeEvent(self, event: QResizeEvent) -> None:
+        self._fit()
 
     def _connect(self, keys: Keys) -> None:
+        self.bubble.changed.connect(self._fit)
         self.picture.moved.connect(self._look)
         self.picture.clicked.connect(self._click)
         self.picture.grabbed.connect(self._grab)
@@ -138,6 +184,9 @@ class MarkersScreen(QWidget):
         self.new_picture.clicked.connect(self.preview)
         self.click_all.clicked.connect(self._click_again)
         self.take_rest.clicked.connect(self.take_all)
+        self.straight.changed.connect(self._take_straight)
+        for number in range(1, 6):
+            bind(self, keys, f"finger_{number}", partial(self._toggle_straight, number))
         self.picture.installEventFilter(self)
         actions = {
             "undo": self.undo, "zoom_in": lambda: self.picture.zoom(1), "zoom_out": lambda: self.picture.zoom(-1),
@@ -192,8 +241,12 @@ class MarkersScreen(QWidget):
         self._held = True
         self._judged = None
         self.picture.forget_cursor()
-        self.clicking = self.picture.clicking = Clicking(self._calibrator.protocol, self._calibrator.side)
+        self.clicking = self.picture.clicking = Clicking(
+            self._calibrator.protocol, self._calibrator.side, straight_fingers=self._calibrator.last_straight_fingers
+        )
+        self.straight.show_answer(self.clicking.straight_fingers)
         self.picture.show_wrong(())
+        self.picture.show_spots(())
         self.picture.show_frame(frame.color_rgb)
         room = HAND_ROOM if self._calibrator.protocol.has_fingers else PALM_ROOM
         self.picture.set_hand_area(self._calibrator.hand_area(), room)
@@ -206,6 +259,15 @@ class MarkersScreen(QWidget):
         frame = self._calibrator.newest_frame() if self._calibrator else None
         if frame is not None:
             self.picture.show_frame(frame.color_rgb)
+
+    @property
+    def work(self) -> Work:
+        """How far the markers are."""
+        if not self._held:
+            return "aiming"
+        if self._judged is None:
+            return "clicking"
+        return "checked" if self._judged.verdict.is_good else "doubtful"
 
     # --- clicking -----------------------------------------------------------------------------------------
     def _look(self, pixel: FloatArray) -> None:
@@ -228,9 +290,9 @@ class MarkersScreen(QWidget):
             self.picture.update()
             return
         agreed = self.clicking.confirms(found.pixel)
-        self.clicking.place(found.pixel, found.width_px)
-        if not agreed:
-            self._ask_for_names()
+        swapped = self.clicking.place(found.pixel, found.width_px)
+        if not agreed and not swapped:
+            self._ask_for_names()  # of two that changed places the person has said all there is to say
         self._changed()
 
     def _grab(self, name: str) -> None:
@@ -300,6 +362,15 @@ class MarkersScreen(QWidget):
         elif self.picture.cursor_px is not None:
             self._click(self.picture.cursor_px)
 
+    def _take_straight(self, answer: tuple[bool, ...]) -> None:
+        if self.clicking is not None and self.clicking.straight_fingers != answer:
+            self.clicking.straight_fingers = answer
+            self._changed()
+
+    def _toggle_straight(self, number: int) -> None:
+        if self.straight.isVisible():
+            self.straight.toggle(number)
+
     def undo(self) -> None:
         """Take back the marker set last."""
         if self.clicking is not None and self.clicking.undo():
@@ -310,6 +381,7 @@ class MarkersScreen(QWidget):
         """Clicks are different: the old verdict no longer counts, a new one is asked for when all are there."""
         self._judged = None
         self.picture.show_wrong(())
+        self.picture.show_spots(())
         self._judging += 1
         self.picture.setFocus(Qt.FocusReason.OtherFocusReason)
         if self.clicking is not None and self.clicking.complete and self._calibrator is not None:
@@ -331,6 +403,7 @@ class MarkersScreen(QWidget):
         if number == self._judging:
             self._judged = judged
             self._refresh()
+            self.judged.emit(judged.verdict)
 
     def _take_fault(self, number: int, fault: Exception) -> None:
         if number == self._judging:
@@ -357,7 +430,7 @@ class MarkersScreen(QWidget):
         else:
             actions: dict[Remedy, Callable[[], None]] = {
                 "swap": self._swap, "click_these": self._click_again, "correct": self.correct_names,
-                "new_picture": self.preview,
+                "take_spot": self._take_spot, "new_picture": self.preview,
             }  # fmt: skip
             actions[self._remedy()]()
 
@@ -417,6 +490,18 @@ class MarkersScreen(QWidget):
             self.clicking.clear_all()
         self._changed()
 
+    def _take_spot(self) -> None:
+        """The spot in question is the disc: the name moves to it."""
+        findings = self._judged.verdict.findings if self._judged else ()
+        for finding in findings:
+            if finding.spot_px and finding.markers and self.clicking is not None:
+                (name,) = finding.markers
+                self.clicking.pixel[name] = np.array(finding.spot_px)
+        self._changed()
+
+    def _spots(self, findings: Sequence[Finding]) -> list[tuple[tuple[float, ...], str]]:
+        return [(one.spot_px, one.markers[0] if one.markers else "") for one in findings if one.spot_px]
+
     def _wrong_markers(self) -> tuple[str, ...]:
         findings: Sequence[Finding] = self._judged.verdict.findings if self._judged else ()
         return tuple(dict.fromkeys(name for finding in findings for name in finding.markers))
@@ -427,6 +512,9 @@ class MarkersScreen(QWidget):
             return
         self.new_picture.setEnabled(self._held)
         self.take_rest.hide()
+        named = self._held and self.clicking is not None and self.clicking.complete
+        self.straight.setVisible(bool(named) and self._calibrator.protocol.has_fingers)
+        self._fit()
         pair = self._judged is not None and self._judged.verdict.can_start and bool(self._pairs())
         doubtful = self._judged is not None and not self._judged.verdict.is_good
         self.although.setVisible(pair)
@@ -474,10 +562,21 @@ class MarkersScreen(QWidget):
         self.primary.set_face(words, icon="", hint="")
         self.second.hide()
         self.hint.setText(self.tr("The hand lies flat and still, palm down. Fingers that stay bent are fine."))
+        if not done and self._calibrator.discs_seen() < FEWEST_DISCS:
+            self._show_no_disc()
         if self._waits_for_names:
             self.step.show_state("none", self.tr("Looking for the markers…"))
         elif clicking.proposed:
             self._show_proposals(clicking)
+
+    def _show_no_disc(self) -> None:
+        """Nothing in the picture looks like blue paper: said at once, before anybody looks for what is not there."""
+        assert self._calibrator is not None
+        self.step.show_state("warn", self.tr("No blue disc in the picture"), token="warn")
+        self.title.setText(self.tr("No blue disc is to be seen"))
+        self.place.setText(
+            self.tr("Are the discs on, and the hand under the camera? More light helps; dark blue cloth is no disc.")
+        )
 
     def _show_proposals(self, clicking: Clicking) -> None:
         words = proposals.words_for(clicking)
@@ -500,6 +599,7 @@ class MarkersScreen(QWidget):
         words, state = headline(verdict)
         wrong = self._wrong_markers()
         self.picture.show_wrong(wrong)
+        self.picture.show_spots(self._spots(verdict.findings))
         self.hand.show_markers(clicking.side, self._hand_states(clicking, wrong))
         self.panel.show_rows(
             words if verdict.is_good else self.tr("Checks"), state, rows_of(verdict, self._calibrator.limits)
@@ -513,7 +613,10 @@ class MarkersScreen(QWidget):
             self.second.hide()
             self.primary.setFocus(Qt.FocusReason.OtherFocusReason)
             return
-        first = max(verdict.findings, key=lambda finding: (finding.blocks, finding.kind in NAMES_WRONG))
+        first = max(
+            verdict.findings,
+            key=lambda finding: (finding.blocks, finding.kind in NAMES_WRONG, finding.kind in DISC_DOUBTED),
+        )
         said = self._phrasebook.finding(first)
         self.step.show_state(state, words, token="bad" if state == "bad" else "warn")
         self.title.setText(said.what.rstrip("."))

@@ -8,14 +8,14 @@ import numpy as np
 from PySide6.QtCore import Qt, Signal
 from PySide6.QtWidgets import QHBoxLayout, QSpinBox, QWidget
 
-from core.output.exercises import SIDES
-from core.types import FloatArray
-from ui import terms
-from ui.controls.button import Button
-from ui.controls.field import Choices, number_field
-from ui.controls.sheet import Sheet
-from ui.controls.text import SEMIBOLD, Text
-from ui.theme import Theme
+from carpus.core.output.exercises import SIDES
+from carpus.core.types import FloatArray
+from carpus.ui import terms
+from carpus.ui.controls.button import Button
+from carpus.ui.controls.field import Choices, number_field
+from carpus.ui.controls.sheet import Sheet
+from carpus.ui.controls.text import SEMIBOLD, Text
+from carpus.ui.theme import Theme
 
 LARGEST_DEG = 80
 ORDER = (1, 0, 2)

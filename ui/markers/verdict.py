@@ -9,14 +9,14 @@ from dataclasses import dataclass
 import numpy as np
 from PySide6.QtWidgets import QGridLayout, QHBoxLayout
 
-from core.calibration.result import Finding, Verdict
-from ui.controls.card import Card, Line
-from ui.controls.text import MEDIUM, REGULAR, SEMIBOLD, StateText, Text
-from ui.icons import State
-from ui.numbers import NARROW_GAP, UNKNOWN
-from ui.ports import VerdictLimits
-from ui.theme import Theme
-from ui.translate import tr
+from carpus.core.calibration.result import Finding, Verdict
+from carpus.ui.controls.card import Card, Line
+from carpus.ui.controls.text import MEDIUM, REGULAR, SEMIBOLD, StateText, Text
+from carpus.ui.icons import State
+from carpus.ui.numbers import NARROW_GAP, UNKNOWN
+from carpus.ui.ports import VerdictLimits
+from carpus.ui.theme import Theme
+from carpus.ui.translate import tr
 
 MARKER_FINDINGS = (
     "click_on_no_marker",
@@ -28,8 +28,12 @@ MARKER_FINDINGS = (
     "no_depth",
     "residual",
     "depth_off",
+    "other_spot",
+    "spare_spot",
+    "no_palm",
 )
 NAMES_WRONG = ("shifted", "swapped", "misnamed", "wrong_side")
+DISC_DOUBTED = ("other_spot", "no_palm", "spare_spot")
 STILL_FINDINGS = ("moved", "few_frames")
 
 
@@ -66,6 +70,8 @@ def rows_of(verdict: Verdict, limits: VerdictLimits) -> list[Row]:
     markers = tr("{count} of {count}").format(count=count)
     if kinds.keys() & set(NAMES_WRONG):
         markers = tr("names wrong")
+    elif kinds.keys() & set(DISC_DOUBTED):
+        markers = tr("one doubted")
     elif any(fault.blocks for fault in marker_faults):
         markers = tr("{count} not found").format(count=len({name for fault in marker_faults for name in fault.markers}))
     elif math.isfinite(worst):
@@ -75,7 +81,10 @@ def rows_of(verdict: Verdict, limits: VerdictLimits) -> list[Row]:
     pictures = tr("for {count} pictures").format(count=verdict.frames_used) if verdict.frames_used else ""
     distance = _state(kinds.get("distance"), verdict.distance_m)
     tilt = _state(kinds.get("tilt"), verdict.tilt_deg)
-    length = _state(kinds.get("other_length") or kinds.get("hand_length"), verdict.hand_length_mm)
+    length = _state(
+        kinds.get("other_length") or kinds.get("hand_length") or kinds.get("other_spot") or kinds.get("no_palm"),
+        verdict.hand_length_mm,
+    )
     return [
         Row(_worst(marker_faults), tr("Markers"), markers, _within(limits)),
         Row(distance, tr("Distance"), _cm(verdict.distance_m), _distance(limits)),
@@ -105,6 +114,7 @@ class VerdictPanel(Card):
         self._grid.setColumnStretch(2, 1)
         self.body.addLayout(self._grid)
         self._lines: list[tuple[StateText, Text, Text, Text]] = []
+        self._close = False
 
     def show_rows(self, headline: str, state: State, rows: Sequence[Row], aside: str = "") -> None:
         """Show the verdict; ``aside`` is a small remark at the right of the headline."""
@@ -134,8 +144,15 @@ class VerdictPanel(Card):
         )  # fmt: skip
         for column, cell in enumerate(cells):
             self._grid.addWidget(cell, place + 1, column)
-        self._grid.setRowMinimumHeight(place + 1, self._theme.px(29))
         self._lines.append(cells)
+        self.show_close(self._close)
+
+    def show_close(self, close: bool) -> None:
+        """Rows as near to each other as their texts allow, where large text leaves little room."""
+        self._close = close
+        for number in range(len(self._lines)):
+            self._grid.setRowMinimumHeight(2 * number + 1, 0 if close else self._theme.px(29))
+        self._grid.setContentsMargins(0, 2 if close else 8, 0, 0)
 
     def states(self) -> list[State]:
         """State of each row."""

@@ -7,8 +7,8 @@ from collections.abc import Sequence
 from PySide6.QtGui import QPainter, QPaintEvent
 from PySide6.QtWidgets import QHBoxLayout, QWidget
 
-from ui.controls.text import MEDIUM, StateText, Text
-from ui.theme import MARGIN_PX, Theme
+from carpus.ui.controls.text import MEDIUM, StateText, Text
+from carpus.ui.theme import MARGIN_PX, Theme
 
 
 class Sign(QWidget):

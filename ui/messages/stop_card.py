@@ -9,13 +9,13 @@ from PySide6.QtCore import QRectF, QSize, Qt
 from PySide6.QtGui import QKeyEvent, QKeySequence, QPainter, QPaintEvent
 from PySide6.QtWidgets import QHBoxLayout, QVBoxLayout, QWidget
 
-from ui.controls.button import Button
-from ui.controls.card import Line
-from ui.controls.sheet import Sheet
-from ui.controls.text import REGULAR, SEMIBOLD, Text, paint_status
-from ui.icons import paint_icon
-from ui.ports import Words
-from ui.theme import Theme
+from carpus.ui.controls.button import Button
+from carpus.ui.controls.card import Line
+from carpus.ui.controls.sheet import Sheet
+from carpus.ui.controls.text import REGULAR, SEMIBOLD, Text, paint_status
+from carpus.ui.icons import paint_icon
+from carpus.ui.ports import Words
+from carpus.ui.theme import Theme
 
 WIDTH_PX = 720
 
@@ -73,16 +73,17 @@ class StopCard(Sheet):
 
     def show_words(
         self, words: Words, answers: Sequence[Answer], *, icon: str = "", detail: str = "", safe_detail: str = "",
-        data_safe: bool = True,
+        data_safe: bool = True, alarm: bool = True,
     ) -> None:  # fmt: skip
-        """Open with the three answers; details are what only the moment knows (times, counts)."""
+        """Open with the three answers; details are what only the moment knows (times, counts). Without ``alarm``
+        nothing went wrong: a question, or good news, and no red."""
         self._set_row(self.what, self.detail, words.what.rstrip("."), detail)
         self._set_row(self.safe, self.safe_detail, words.safe, safe_detail)
         self._set_row(self.todo, self.todo_detail, words.todo, "")
-        self._icon.set_icon(icon or "bad")
+        self._icon.set_icon(icon or ("bad" if alarm else "circle-help"), "bad" if alarm else "accent")
         self._icon_safe.set_icon("good" if data_safe else "warn")
         self.waiting.setText("")
-        self.card.set_colors("surface", "bad", 2.0)
+        self.card.set_colors("surface", *(("bad", 2.0) if alarm else ("line", 1.0)))
         self.setAccessibleName(" ".join((words.what, detail, words.safe, safe_detail, words.todo)))
         while (item := self._buttons.takeAt(0)) is not None:
             if (widget := item.widget()) is not None:
@@ -117,6 +118,9 @@ class StopCard(Sheet):
 
     def keyPressEvent(self, event: QKeyEvent) -> None:
         pressed = QKeySequence(event.key())
+        if event.key() in (Qt.Key.Key_Return, Qt.Key.Key_Enter) and self._answers:
+            self._answers[-1][0].click()
+            return
         for button, answer in self._answers:
             if answer.key and pressed.matches(QKeySequence(answer.key)) == QKeySequence.SequenceMatch.ExactMatch:
                 button.click()
@@ -128,10 +132,11 @@ class _RowIcon(QWidget):
     def __init__(self, theme: Theme, icon: str) -> None:
         super().__init__()
         self._theme, self._name = theme, icon
+        self._token = "accent" if icon == "chevron-right" else "bad"
         theme.changed.connect(self.update)
 
-    def set_icon(self, icon: str) -> None:
-        self._name = icon
+    def set_icon(self, icon: str, token: str = "bad") -> None:
+        self._name, self._token = icon, token
         self.update()
 
     def sizeHint(self) -> QSize:
@@ -147,6 +152,4 @@ class _RowIcon(QWidget):
         if self._name in ("good", "warn", "bad"):
             paint_status(painter, self._theme, self._name, box)  # type: ignore[arg-type]
         else:
-            paint_icon(
-                painter, self._name, box, self._theme.color("accent" if self._name == "chevron-right" else "bad")
-            )
+            paint_icon(painter, self._name, box, self._theme.color(self._token))

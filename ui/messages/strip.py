@@ -6,12 +6,12 @@ from PySide6.QtCore import QRectF, QSize, Qt, Signal
 from PySide6.QtGui import QPainter, QPaintEvent
 from PySide6.QtWidgets import QHBoxLayout, QVBoxLayout, QWidget
 
-from ui.controls.button import Button
-from ui.controls.card import Card
-from ui.controls.text import REGULAR, SEMIBOLD, Text
-from ui.icons import paint_icon
-from ui.ports import Words
-from ui.theme import Theme
+from carpus.ui.controls.button import Button
+from carpus.ui.controls.card import Card
+from carpus.ui.controls.text import REGULAR, SEMIBOLD, Text
+from carpus.ui.icons import paint_icon
+from carpus.ui.ports import Words
+from carpus.ui.theme import Theme
 
 
 class NoticeStrip(Card):

@@ -6,16 +6,19 @@ from PySide6.QtCore import Qt, Signal
 from PySide6.QtGui import QResizeEvent
 from PySide6.QtWidgets import QHBoxLayout, QVBoxLayout, QWidget
 
-from ui import numbers, terms
-from ui.controls.button import Button
-from ui.controls.card import Card, Line
-from ui.controls.column import scroll_area
-from ui.controls.text import MEDIUM, REGULAR, SEMIBOLD, ElidedText, Text, caption
-from ui.figures import figure_of, followed_name
-from ui.picture.photo import Photo
-from ui.ports import PRACTICE_PATIENT, PatientCard, ResultLine
-from ui.theme import Theme
-from ui.verdicts import change_since_first, verdict_token
+from carpus.core.library.set_up import PRACTICE_PATIENT
+from carpus.ui import numbers, terms
+from carpus.ui.controls.button import Button
+from carpus.ui.controls.card import Card, Line
+from carpus.ui.controls.column import scroll_area
+from carpus.ui.controls.text import MEDIUM, REGULAR, SEMIBOLD, ElidedText, Text, caption
+from carpus.ui.controls.tooltip import plain_tooltip
+from carpus.ui.figures import figure_of, followed_name
+from carpus.ui.picture.photo import Photo
+from carpus.ui.ports import PatientCard, ResultLine
+from carpus.ui.theme import Theme
+from carpus.ui.tour.bubble import BubbleView
+from carpus.ui.verdicts import change_since_first, counted_once_words, verdict_token
 
 PHOTO_FROM_PX = 600
 
@@ -27,16 +30,18 @@ class PatientCardView(Card):
     change = Signal()
     review = Signal()
     progress = Signal()
+    sessions = Signal()
     edit = Signal()
 
     def __init__(self, theme: Theme) -> None:
         super().__init__(theme, 24)
         self._theme = theme
         self._name = ElidedText(theme, "", 28, SEMIBOLD)
-        self._hand = Text(theme, "", 14, REGULAR, "text2")
+        self._hand = Text(theme, "", 14, REGULAR, "text2", wrap=True)
         self._photo = Photo(theme)
-        self._exercise = Text(theme, "", 16, SEMIBOLD)
+        self._exercise = Text(theme, "", 16, SEMIBOLD, wrap=True)
         self._last = Text(theme, "", 14, REGULAR, "text2", wrap=True)
+        self._about = Text(theme, "", 14, MEDIUM, wrap=True)
         self._warning = Text(theme, "", 14, MEDIUM, "warn", wrap=True)
         self._results = QVBoxLayout()
         self._results.setSpacing(0)
@@ -45,10 +50,12 @@ class PatientCardView(Card):
         self.start_button = Button(
             theme, self.tr("Start session, same set-up"), "primary", icon="play", hint=self.tr("Enter")
         )
+        self.bubble = BubbleView(theme)
         self.edit_button = Button(theme, self.tr("&Edit…"), "quiet", height_px=32)
         self.change_button = Button(theme, self.tr("&Change…"))
         self.review_button = Button(theme, self.tr("&Review"))
         self.progress_button = Button(theme, self.tr("&Progress"))
+        self.sessions_button = Button(theme, self.tr("All &sessions"))
         self.body.setSpacing(0)
         head = QHBoxLayout()
         head.addWidget(self._name, 1)
@@ -63,6 +70,7 @@ class PatientCardView(Card):
             (self._photo, 14),
             (self._exercise, 2),
             (self._last, 12),
+            (self._about, 4),
             (self._warning, 4),
         ):
             recall.addWidget(widget)
@@ -77,16 +85,20 @@ class PatientCardView(Card):
         # Large text: what must be recalled scrolls, the buttons stay.
         self.body.addWidget(scroll_area(host), 1)
         self.body.addSpacing(16)
+        self.body.addWidget(self.bubble)
         self.body.addWidget(self.start_button)
         self.body.addSpacing(12)
-        row = QHBoxLayout()
-        row.setSpacing(12)
-        for button in (self.change_button, self.review_button, self.progress_button):
-            row.addWidget(button)
-        self.body.addLayout(row)
+        for pair in ((self.change_button, self.progress_button), (self.review_button, self.sessions_button)):
+            row = QHBoxLayout()
+            row.setSpacing(12)
+            for button in pair:
+                row.addWidget(button, 1)
+            self.body.addLayout(row)
+            self.body.addSpacing(8 if pair[0] is self.change_button else 0)
         for button, signal in (
             (self.start_button, self.start), (self.change_button, self.change),
-            (self.review_button, self.review), (self.progress_button, self.progress), (self.edit_button, self.edit),
+            (self.review_button, self.review), (self.progress_button, self.progress),
+            (self.sessions_button, self.sessions), (self.edit_button, self.edit),
         ):  # fmt: skip
             button.clicked.connect(signal)
 
@@ -102,17 +114,17 @@ class PatientCardView(Card):
         row = card.row
         practice = row.patient_id == PRACTICE_PATIENT
         self._name.setText(row.pseudonym)
-        self._name.setToolTip(" · ".join(part for part in (row.pseudonym, row.name) if part))
+        self._name.setToolTip(plain_tooltip(" · ".join(part for part in (row.pseudonym, row.name) if part)))
         self.edit_button.setVisible(not practice)
         self._hand.setText(
-            self.tr("Simulated camera: nothing here counts")
-            if practice
-            else terms.affected_phrase(row.side, row.dominance)
+            self.tr("Simulated: nothing counts") if practice else terms.affected_phrase(row.side, row.dominance)
         )
         day = numbers.day_month(row.last_session) if row.last_session else ""
         self._photo.show_picture(card.marker_picture_rgb, self.tr("Markers as on {day}").format(day=day) if day else "")
         self._exercise.setText(terms.exercise_name(row.exercise) if row.exercise else self.tr("No session yet"))
         self._last.setText(self._last_words(card, practice))
+        self._about.setText(card.about)
+        self._about.setVisible(bool(card.about))
         self._warning.setText(" ".join(card.warnings))
         self._warning.setVisible(bool(card.warnings))
         self._show_results(card)
@@ -126,6 +138,7 @@ class PatientCardView(Card):
         self.start_button.set_face(self._start_words(practice, same, camera_ready))
         self.review_button.setEnabled(row.session_count > 0)
         self.progress_button.setEnabled(row.session_count > 0)
+        self.sessions_button.setEnabled(row.session_count > 0 or card.has_sessions)
 
     def _start_words(self, practice: bool, same: bool, camera_ready: bool) -> str:
         if practice:
@@ -144,7 +157,9 @@ class PatientCardView(Card):
             return self.tr("Put the markers on, then start.")
         number = self.tr("{ordinal} session").format(ordinal=numbers.ordinal(row.session_count))
         parts = (number + ", " + numbers.short_date(row.last_session), card.last_set)
-        return " · ".join(part for part in parts if part)
+        words = " · ".join(part for part in parts if part)
+        once = counted_once_words(max(row.result_count - row.session_count, 0))
+        return f"{words}\n{once}" if once else words
 
     def _show_results(self, card: PatientCard) -> None:
         while (item := self._results.takeAt(0)) is not None:
@@ -168,14 +183,23 @@ class _ResultRow(QWidget):
         gap = 5 if line.joint else 10  # five fingers
         row.setContentsMargins(0, gap, 0, gap)
         words = figure_of(line.joint).short_name if line.joint else terms.movement_name(line.movement)
+        lacks = not line.joint and line.mean_deg < 0.0
         name = Text(theme, words, 14, REGULAR, "text2")
-        name.setFixedWidth(theme.px(88))
+        self._name = name
+        theme.changed.connect(self._fit)
+        self._theme = theme
+        self._fit()
         row.addWidget(name)
         value = f"≥{numbers.NARROW_GAP}{numbers.degrees(line.mean_deg)}"
         if not line.at_least:
             value = numbers.with_spread(line.mean_deg, line.sd_deg)
+        if lacks:
+            value = terms.lacking(value)
         row.addWidget(Text(theme, value, 16, SEMIBOLD))
         words = change_since_first(line.verdict, line.change_deg)
         change = Text(theme, words, 12, MEDIUM, verdict_token(line.verdict), wrap=True)
         change.setAlignment(Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter)
         row.addWidget(change, 1)
+
+    def _fit(self) -> None:
+        self._name.setFixedWidth(self._theme.px(88))

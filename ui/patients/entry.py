@@ -7,30 +7,36 @@ from collections.abc import Callable
 from PySide6.QtCore import Qt, Signal
 from PySide6.QtWidgets import QHBoxLayout, QLineEdit, QPlainTextEdit, QVBoxLayout, QWidget
 
-from ui import terms
-from ui.controls.button import Button
-from ui.controls.column import scroll_area
-from ui.controls.field import Choices, Labelled
-from ui.controls.sheet import Sheet
-from ui.controls.text import SEMIBOLD, Text
-from ui.ports import PatientEntry
-from ui.theme import Theme
+from carpus.ui import terms
+from carpus.ui.controls.button import Button
+from carpus.ui.controls.column import scroll_area
+from carpus.ui.controls.field import Choices, Labelled
+from carpus.ui.controls.host import host_of
+from carpus.ui.controls.sheet import Sheet
+from carpus.ui.controls.text import SEMIBOLD, Text
+from carpus.ui.ports import PatientEntry
+from carpus.ui.theme import Theme
 
 NOTE_HEIGHT_PX = 84
 MOST_LETTERS = 40
 
 
 class PatientForm(Sheet):
-    """Emits ``accepted`` with the entry; Enter in any line accepts, Esc closes."""
+    """Emits ``accepted`` with the entry; Enter in any line accepts, Esc closes. ``removal_wanted`` of a patient who is
+    in the list."""
 
     accepted = Signal(PatientEntry)
+    removal_wanted = Signal()
 
     def __init__(self, host: QWidget, theme: Theme, suggest: Callable[[], str]) -> None:
         super().__init__(host, theme, 560)
         self._suggest = suggest
+        self._fault = Text(theme, "", 14, SEMIBOLD, "bad", wrap=True)
         self._title = Text(theme, "", 20, SEMIBOLD)
         self.name = QLineEdit()
         self.name.setMaxLength(MOST_LETTERS)
+        self.name.inputRejected.connect(self._say_too_long)
+        self.name.textEdited.connect(lambda _: self._fault.hide())
         another = Button(theme, self.tr("&Another"), "plain", height_px=40)
         another.clicked.connect(lambda: self.name.setText(suggest()))
         name_row = QWidget()
@@ -48,7 +54,6 @@ class PatientForm(Sheet):
         self.note = QPlainTextEdit()
         self.note.setTabChangesFocus(True)
         self.note.setFixedHeight(theme.px(NOTE_HEIGHT_PX))
-        self._fault = Text(theme, "", 14, SEMIBOLD, "bad", wrap=True)
         self.save = Button(theme, "", "primary", hint=self.tr("Enter"))
         cancel = Button(theme, self.tr("Close without saving"), "plain", hint=self.tr("Esc"), height_px=52)
         self.body = self.card.body
@@ -69,6 +74,10 @@ class PatientForm(Sheet):
         self._scroll = scroll_area(self._fields)  # large text on a small screen: the fields scroll, the buttons stay
         self.body.addWidget(self._scroll)
         self.body.addWidget(self._fault)
+        self.remove = Button(theme, self.tr("Archi&ve or delete…"), "quiet", icon="trash-2", height_px=40)
+        self.remove.clicked.connect(self.close_sheet)
+        self.remove.clicked.connect(self.removal_wanted)
+        self._fields.layout().addWidget(self.remove)  # type: ignore[union-attr]
         buttons = QHBoxLayout()
         buttons.addStretch(1)
         buttons.addWidget(cancel)
@@ -77,6 +86,8 @@ class PatientForm(Sheet):
         self.name.returnPressed.connect(self._accept)
         self.real_name.returnPressed.connect(self._accept)
         self.save.clicked.connect(self._accept)
+        for chips in (self.side, self.dominance):
+            chips.accepted.connect(self._accept)
         cancel.clicked.connect(self.close_sheet)
         self._taken: frozenset[str] = frozenset()
 
@@ -85,6 +96,7 @@ class PatientForm(Sheet):
         self._taken = taken
         self._title.setText(self.tr("New patient") if entry is None else self.tr("Change patient"))
         self.save.set_face(self.tr("Add patient") if entry is None else self.tr("Keep changes"))
+        self.remove.setVisible(entry is not None)
         entry = entry or PatientEntry(name or self._suggest(), "right", "right")
         self.name.setMaxLength(max(MOST_LETTERS, len(entry.pseudonym)))  # a longer one of old is not cut
         self.name.setText(entry.pseudonym)
@@ -93,10 +105,16 @@ class PatientForm(Sheet):
         self.real_name.setText(entry.name)
         self.note.setPlainText(entry.note)
         self._fault.hide()
-        room = self.parentWidget().height() - self._theme.px(250)
+        room = host_of(self).height() - self._theme.px(250)
         self._scroll.setFixedHeight(min(self._fields.sizeHint().height() + 2, max(room, 160)))
         self.open(self.name)
         self.name.selectAll()
+
+    def _say_too_long(self) -> None:
+        """A letter, or the end of what was pasted, had no more room: never cut without a word."""
+        words = self.tr("A name has up to {count} letters: what goes beyond is not taken.")
+        self._fault.setText(words.format(count=self.name.maxLength()))
+        self._fault.show()
 
     def _accept(self) -> None:
         name = " ".join(self.name.text().split())

@@ -9,11 +9,12 @@ from PySide6.QtCore import QAbstractListModel, QModelIndex, QPersistentModelInde
 from PySide6.QtGui import QFont, QFontMetricsF, QPainter, QPainterPath, QPaintEvent, QPen, QResizeEvent
 from PySide6.QtWidgets import QFrame, QListView, QStyle, QStyledItemDelegate, QStyleOptionViewItem, QWidget
 
-from ui import numbers, terms
-from ui.fonts import MEDIUM, font
-from ui.ports import PRACTICE_PATIENT, PatientRow
-from ui.theme import CARD_RADIUS_PX, Theme
-from ui.translate import tr
+from carpus.core.library.set_up import PRACTICE_PATIENT
+from carpus.ui import numbers, terms
+from carpus.ui.fonts import MEDIUM, font
+from carpus.ui.ports import PatientRow
+from carpus.ui.theme import CARD_RADIUS_PX, Theme
+from carpus.ui.translate import tr
 
 ROW_PX = 56
 COLUMNS = (0.024, 0.238, 0.349, 0.633)
@@ -83,8 +84,8 @@ class RowPainter(QStyledItemDelegate):
         self, painter: QPainter, option: QStyleOptionViewItem, index: QModelIndex | QPersistentModelIndex
     ) -> None:
         theme = self._theme
-        box = QRectF(option.rect)  # type: ignore[attr-defined]
-        state = option.state  # type: ignore[attr-defined]
+        box = QRectF(option.rect)
+        state = option.state
         row = self._model.row(index.row())
         painter.save()
         corners = QPainterPath()

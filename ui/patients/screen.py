@@ -2,34 +2,40 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from datetime import date
 
 from PySide6.QtCore import QEvent, QModelIndex, QObject, Qt, Signal
 from PySide6.QtGui import QKeyEvent
 from PySide6.QtWidgets import QHBoxLayout, QVBoxLayout, QWidget
 
-from ui import numbers, terms
-from ui.controls.button import Button
-from ui.controls.card import KeyCaps, Line
-from ui.controls.field import SearchField
-from ui.controls.text import MEDIUM, REGULAR, Text, heading
-from ui.patients.card import PatientCardView
-from ui.patients.entry import PatientForm
-from ui.patients.listing import ListHeader, PatientList
-from ui.ports import PRACTICE_PATIENT, PatientCard, PatientEntry, PatientRow, PatientStore
-from ui.theme import GAP_PX, MARGIN_PX, Theme
+from carpus.core.library.set_up import PRACTICE_PATIENT
+from carpus.ui import numbers, terms
+from carpus.ui.controls.button import Button
+from carpus.ui.controls.card import KeyCaps, Line
+from carpus.ui.controls.field import SearchField
+from carpus.ui.controls.text import MEDIUM, REGULAR, Text, heading
+from carpus.ui.patients.card import PatientCardView
+from carpus.ui.patients.entry import PatientForm
+from carpus.ui.patients.listing import ListHeader, PatientList
+from carpus.ui.ports import PatientEntry, PatientRow, PatientStore
+from carpus.ui.theme import GAP_PX, MARGIN_PX, Theme
+from carpus.ui.welcome.panel import WelcomePanel
 
 LIST_WIDTH_PX = 824
 LIST_KEYS = (Qt.Key.Key_Up, Qt.Key.Key_Down, Qt.Key.Key_PageUp, Qt.Key.Key_PageDown)
 
 
 class PatientsScreen(QWidget):
-    """Signals carry the patient's identity; ``start`` keeps the last set-up, ``set_up`` asks for another."""
+    """Signals carry the patient's identity; ``start`` keeps the last set-up, ``set_up`` asks for another;
+    ``erase_wanted`` a patient to be archived or erased."""
 
     start = Signal(str)
     set_up = Signal(str)
     review = Signal(str)
     progress = Signal(str)
+    sessions = Signal(str)
+    erase_wanted = Signal(str)
 
     def __init__(self, theme: Theme, store: PatientStore, today: date) -> None:
         super().__init__()
@@ -42,6 +48,7 @@ class PatientsScreen(QWidget):
         self.header = ListHeader(theme, self.list)
         self.card = PatientCardView(theme)
         self.notice_place = QVBoxLayout()
+        self.welcome: WelcomePanel | None = None
         self._nobody = _Nobody(theme)
         self.form = PatientForm(self, theme, store.suggest_pseudonym)
         self._changing = ""
@@ -69,7 +76,12 @@ class PatientsScreen(QWidget):
         left.addWidget(self.header)
         left.addWidget(self.list, 1)
         left.addWidget(self._nobody)
+        self._above_welcome = QWidget()
+        self._above_welcome.setFixedHeight(GAP_PX)
+        self._above_welcome.hide()
+        left.addWidget(self._above_welcome)
         left.addStretch(0)
+        self._left = left
         columns = QHBoxLayout()
         columns.setSpacing(MARGIN_PX)
         columns.addLayout(left, 824)
@@ -101,15 +113,17 @@ class PatientsScreen(QWidget):
         self.list.installEventFilter(self)
         self.search.textChanged.connect(lambda: self._filter(self._chosen_id()))
         self.new_button.clicked.connect(self.new_patient)
-        self._nobody.create.connect(lambda: self.new_patient(self.search.text()))
+        self._nobody.create_wanted.connect(lambda: self.new_patient(self.search.text()))
         self.list.selectionModel().currentChanged.connect(self._show_chosen)
         self.list.doubleClicked.connect(lambda: self._start())
         self.card.start.connect(self._start)
         self.card.change.connect(lambda: self.set_up.emit(self._chosen_id()))
         self.card.review.connect(lambda: self.review.emit(self._chosen_id()))
         self.card.progress.connect(lambda: self.progress.emit(self._chosen_id()))
+        self.card.sessions.connect(lambda: self.sessions.emit(self._chosen_id()))
         self.card.edit.connect(lambda: self.change_patient(self._chosen_id()))
         self.form.accepted.connect(self._store_entry)
+        self.form.removal_wanted.connect(lambda: self.erase_wanted.emit(self._changing))
 
     def refresh(self, choose: str = "") -> None:
         """Read the register again and keep, or set, the choice."""
@@ -123,8 +137,20 @@ class PatientsScreen(QWidget):
             self._camera_ready = ready
             self._show_chosen()
 
-    def new_patient(self, name: str = "") -> None:
-        """Open the form."""
+    def show_welcome(self, panel: WelcomePanel | None) -> None:
+        """What the first start says, below the list; None takes it away."""
+        old, self.welcome = self.welcome, panel
+        if old is not None:
+            self._left.removeWidget(old)
+            old.hide()
+            old.deleteLater()
+        if panel is not None:
+            self._left.insertWidget(self._left.count() - 1, panel, 1)
+        self._above_welcome.setVisible(panel is not None)
+        self.refresh()
+
+    def new_patient(self, name: str | bool = "") -> None:
+        """Open the form. What a button sends with its click is no name."""
         self._changing = ""
         taken = frozenset(row.pseudonym.casefold() for row in self._rows)
         self.form.begin(None, taken, name if isinstance(name, str) else "")
@@ -152,7 +178,7 @@ class PatientsScreen(QWidget):
         self.list.rows.show_rows(shown)
         self.list.setVisible(bool(shown))
         self.header.setVisible(bool(shown))
-        only_practice = len(self._rows) == 1
+        only_practice = len(self._rows) == 1 and self.welcome is None
         self._nobody.show_for("" if shown and not only_practice else self.search.text(), only_practice, bool(shown))
         row = max(0, self.list.rows.find(choose))
         if shown:
@@ -168,7 +194,9 @@ class PatientsScreen(QWidget):
         if not chosen:
             self.card.show_card(None, self._camera_ready)
         elif chosen == PRACTICE_PATIENT:
-            self.card.show_card(PatientCard(self._rows[-1]), self._camera_ready)
+            card = self._store.card(chosen)  # its results count nowhere, and can be looked at all the same
+            name = self._rows[-1].pseudonym
+            self.card.show_card(replace(card, row=replace(card.row, pseudonym=name)), self._camera_ready)
         else:
             self.card.show_card(self._store.card(chosen), self._camera_ready)
 
@@ -194,7 +222,7 @@ class PatientsScreen(QWidget):
 class _Nobody(QWidget):
     """What stands in place of an empty list."""
 
-    create = Signal()
+    create_wanted = Signal()
 
     def __init__(self, theme: Theme) -> None:
         super().__init__()
@@ -204,7 +232,7 @@ class _Nobody(QWidget):
         self.button = Button(theme, "", icon="plus")
         row.addWidget(self._words, 1)
         row.addWidget(self.button)
-        self.button.clicked.connect(self.create)
+        self.button.clicked.connect(self.create_wanted)
 
     def show_for(self, search: str, register_empty: bool, rows_shown: bool) -> None:
         """Choose the sentence, or hide."""

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from PySide6.QtGui import QImage
 
-from core.types import ByteImage
+from carpus.core.types import ByteImage
 
 
 def image_of(color_rgb: ByteImage) -> QImage:

@@ -6,11 +6,11 @@ from PySide6.QtCore import QRectF, QSize, Qt
 from PySide6.QtGui import QColor, QFontMetricsF, QImage, QPainter, QPainterPath, QPaintEvent
 from PySide6.QtWidgets import QSizePolicy, QWidget
 
-from core.types import ByteImage
-from ui.fonts import SEMIBOLD, font
-from ui.icons import paint_state
-from ui.picture.convert import image_of
-from ui.theme import CARD_RADIUS_PX, LIGHT, ON_PICTURE_LABEL, Theme
+from carpus.core.types import ByteImage
+from carpus.ui.fonts import SEMIBOLD, font
+from carpus.ui.icons import paint_state
+from carpus.ui.picture.convert import image_of
+from carpus.ui.theme import CARD_RADIUS_PX, LIGHT, ON_PICTURE_LABEL, Theme
 
 LABEL_ALPHA = 180
 

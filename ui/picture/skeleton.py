@@ -8,12 +8,12 @@ import numpy as np
 from PySide6.QtCore import QPointF, QRectF, Qt
 from PySide6.QtGui import QColor, QFontMetricsF, QPainter, QPen
 
-from core.camera import Camera
-from core.hand.protocols import HAND21_CHAINS
-from core.types import FloatArray, Side, TrackedFrame, TrackStatus
-from ui.fonts import SEMIBOLD, font
-from ui.picture.overlay import HALO, LEAST_RING_PX, ToScreen, ellipse, haloed
-from ui.theme import ON_PICTURE_LABEL, ON_PICTURE_LINE, ON_PICTURE_PARTLY, Theme
+from carpus.core.camera import Camera
+from carpus.core.hand.protocols import HAND21_CHAINS
+from carpus.core.types import FloatArray, Side, TrackedFrame, TrackStatus
+from carpus.ui.fonts import SEMIBOLD, font
+from carpus.ui.picture.overlay import HALO, LEAST_RING_PX, ToScreen, ellipse, haloed
+from carpus.ui.theme import ON_PICTURE_LABEL, ON_PICTURE_LINE, ON_PICTURE_PARTLY, Theme
 
 LARGEST_RING_PX = 26.0
 """Half of the longest ring drawn around the place of a hidden disc, on the screen."""
@@ -30,9 +30,9 @@ def paint_skeleton(painter: QPainter, frame: TrackedFrame, camera: Camera, to_sc
     pixel = camera.distort(camera.project(places))
     seen = np.isfinite(frame.marker_measured_px[:, 0])
     at = [to_screen(float(u), float(v)) for u, v in pixel]
-    for row in np.flatnonzero(seen):
-        u, v = frame.marker_measured_px[row]
-        at[row] = to_screen(float(u), float(v))
+    for k in np.flatnonzero(seen):
+        u, v = frame.marker_measured_px[k]
+        at[k] = to_screen(float(u), float(v))
     solid = [(at[a], at[b]) for chain in HAND21_CHAINS for a, b in pairwise(chain) if seen[a] and seen[b]]
     dashed = [(at[a], at[b]) for chain in HAND21_CHAINS for a, b in pairwise(chain) if not (seen[a] and seen[b])]
     haloed(painter, ON_PICTURE_LINE, 2.0, lambda: [painter.drawLine(a, b) for a, b in solid])

@@ -9,10 +9,10 @@ from PySide6.QtCore import QPointF, QRectF, QSize, Qt
 from PySide6.QtGui import QColor, QImage, QPainter, QPainterPath, QPaintEvent
 from PySide6.QtWidgets import QSizePolicy, QWidget
 
-from core.types import ByteImage, FloatArray
-from ui.picture.convert import image_of
-from ui.picture.photo import paint_label
-from ui.theme import CARD_RADIUS_PX, Theme
+from carpus.core.types import ByteImage, FloatArray
+from carpus.ui.picture.convert import image_of
+from carpus.ui.picture.photo import paint_label
+from carpus.ui.theme import CARD_RADIUS_PX, Theme
 
 Overlay = Callable[[QPainter, "PictureView"], None]
 PALM_ROOM, HAND_ROOM = 2.0, 1.3

@@ -1,1 +1,1 @@
-"""Curves painted by one set of functions on the screen and on the printed page: fixed axes, bands, gaps."""
+"""Everything with an axis: one set of marks, drawn by pyqtgraph's scene in the window and by a painter on paper."""

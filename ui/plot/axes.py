@@ -1,16 +1,17 @@
-"""One panel with a fixed scale: ticks are positive, the ends carry the words."""
+"""One panel with a fixed scale: ticks are positive, the ends carry the words. And the hatching of what is not known."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+import math
 from dataclasses import dataclass
 
 import numpy as np
 from PySide6.QtCore import QPointF, QRectF, Qt
-from PySide6.QtGui import QBrush, QFontMetricsF, QPainter, QPen
+from PySide6.QtGui import QBrush, QPainter, QPen
 
-from core.types import FloatArray
-from ui.plot.style import PlotStyle
+from carpus.core.types import FloatArray
+from carpus.ui import numbers
+from carpus.ui.plot.style import PlotStyle
 
 
 @dataclass(frozen=True, slots=True)
@@ -61,65 +62,17 @@ class Panel:
         return self.box.top() + share * self.box.height()
 
 
-def paint_scale(painter: QPainter, style: PlotStyle, panel: Panel) -> None:
-    """Grid lines, zero line, and the labels left of the panel."""
-    end_values = {max(panel.scale.ticks), min(panel.scale.ticks)}
-    for value in panel.scale.ticks:
-        y = float(panel.y(value))
-        y = round(y) + 0.5 if style.unit == 1.0 else y
-        painter.setPen(QPen(style.color("border" if value == 0.0 else "line"), style.grid_width))
-        painter.drawLine(QPointF(panel.box.left(), y), QPointF(panel.box.right(), y))
-    height = QFontMetricsF(style.label).height()
-    for value, text in panel.scale.labels:
-        strong = panel.scale.strong_ends and value in end_values and value != 0.0
-        painter.setFont(style.end_label if strong else style.label)
-        painter.setPen(style.color("text" if strong else "text2"))
-        right = panel.box.left() - 12 * style.unit
-        box = QRectF(right - 300 * style.unit, float(panel.y(value)) - height / 2, 300 * style.unit, height)
-        painter.drawText(box, int(Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter), text)
+def time_labels(start_s: float, end_s: float) -> list[tuple[float, str]]:
+    """Round times along the axis, about six of them."""
+    span_s = end_s - start_s
+    step = next((step for step in (0.5, 1, 2, 5, 10, 20, 30, 60, 120, 300, 600) if span_s / step <= 7), 1200)
+    ticks = step * np.arange(math.ceil(start_s / step - 1e-6), math.floor(end_s / step + 1e-6) + 1)
+    return [(float(t), f"{t:g} s" if end_s <= 180 else numbers.clock(float(t))) for t in ticks]
 
 
-def paint_times(
-    painter: QPainter, style: PlotStyle, panel: Panel, top: float, labels: Sequence[tuple[float, str]]
-) -> None:
-    """Time labels under the panels, the last ones first; a label that would touch another is left out."""
-    painter.setFont(style.label)
-    painter.setPen(style.color("text2"))
-    metrics = QFontMetricsF(style.label)
-    taken: list[tuple[float, float]] = []
-    for time_s, text in reversed(labels):
-        width = metrics.horizontalAdvance(text)
-        left = float(panel.x(time_s)) - width / 2
-        if all(left > right + 6 * style.unit or left + width < other - 6 * style.unit for other, right in taken):
-            taken.append((left, left + width))
-            painter.drawText(QPointF(left, top + metrics.ascent()), text)
-
-
-def paint_stay_within(painter: QPainter, style: PlotStyle, panel: Panel, limit: float, text: str) -> None:
-    """The band a trick movement should stay in, with its words above it."""
-    top, bottom = float(panel.y(limit)), float(panel.y(-limit))
-    painter.fillRect(QRectF(panel.box.left(), top, panel.box.width(), bottom - top), style.color("norm"))
-    _note(painter, style, panel, top, text, "text2")
-
-
-def paint_target(painter: QPainter, style: PlotStyle, panel: Panel, value: float, text: str) -> None:
-    """The target as a dashed, labelled line in the accent."""
-    y = float(panel.y(value))
-    pen = QPen(style.color("accent"), 1.5 * style.grid_width)
-    pen.setDashPattern([6, 4])
-    pen.setCapStyle(Qt.PenCapStyle.FlatCap)
-    painter.setPen(pen)
-    painter.drawLine(QPointF(panel.box.left(), y), QPointF(panel.box.right(), y))
-    if text:
-        height = QFontMetricsF(style.end_label).height()
-        _note(painter, style, panel, y if value >= 0 else y + height + 4 * style.unit, text, "accent")
-
-
-def _note(painter: QPainter, style: PlotStyle, panel: Panel, bottom: float, text: str, token: str) -> None:
-    painter.setFont(style.end_label)
-    painter.setPen(style.color(token))
-    descent = QFontMetricsF(style.end_label).descent()
-    painter.drawText(QPointF(panel.box.left() + 6 * style.unit, bottom - descent - 1 * style.unit), text)
+def crisp(box: QRectF) -> QRectF:
+    """The nearest rectangle with edges between pixels."""
+    return QRectF(box.toRect())
 
 
 def hatch(painter: QPainter, style: PlotStyle, box: QRectF, token: str = "border", alpha: int = 130) -> None:

@@ -2,13 +2,17 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 import shiboken6
 from PySide6.QtGui import QPolygonF
 
-from core.types import FloatArray
+from carpus.core.types import FloatArray
 
 BYTES_PER_POINT = 16
+_memory: Any = shiboken6.VoidPtr
+"""Takes an address, a size and whether it may be written; its stub knows the address only."""
 
 
 def polygon(x_px: FloatArray, y_px: FloatArray) -> QPolygonF:
@@ -17,7 +21,7 @@ def polygon(x_px: FloatArray, y_px: FloatArray) -> QPolygonF:
     count = len(x_px)
     if count:
         out.resize(count)
-        memory = shiboken6.VoidPtr(out.data(), count * BYTES_PER_POINT, True)
+        memory = _memory(out.data(), count * BYTES_PER_POINT, True)
         points = np.frombuffer(memory, np.float64).reshape(count, 2)
         points[:, 0] = x_px
         points[:, 1] = y_px

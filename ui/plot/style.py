@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import lru_cache
 
 from PySide6.QtGui import QColor, QFont
 
-from ui.fonts import MEDIUM, REGULAR, font
-from ui.theme import LIGHT, Theme, Tokens
+from carpus.ui.fonts import MEDIUM, REGULAR, font
+from carpus.ui.theme import LIGHT, Theme, Tokens
 
 
 @dataclass(frozen=True, slots=True)
@@ -35,8 +36,13 @@ CURVE_TOKENS = ("curve_b", "curve_a", "curve_c")
 
 def screen_style(theme: Theme) -> PlotStyle:
     """The theme's style."""
-    size = 12 * theme.text_scale
-    return PlotStyle(theme.tokens, font(size, REGULAR), font(size, MEDIUM), 1.75, 1.0, 1.0)
+    return _screen_style(theme.tokens, theme.text_scale)
+
+
+@lru_cache(maxsize=8)
+def _screen_style(tokens: Tokens, text_scale: float) -> PlotStyle:
+    size = 12 * text_scale
+    return PlotStyle(tokens, font(size, REGULAR), font(size, MEDIUM), 1.75, 1.0, 1.0)
 
 
 def paper_style(point_px: float) -> PlotStyle:

@@ -2,11 +2,9 @@
 
 from __future__ import annotations
 
-from itertools import pairwise
-
 import numpy as np
 
-from ui.plot.series import Series
+from carpus.ui.plot.series import Series
 
 POINTS_PER_COLUMN = 2
 
@@ -26,24 +24,32 @@ def thinned(series: Series, columns: int) -> Series:
         return series
     stretch_s = float(np.median(np.diff(series.time_s))) * count / columns
     series = _with_gaps(series)
-    edges = np.linspace(0, len(series.time_s), columns + 1).astype(int)
-    kept: list[int] = []
-    sd = None if series.sd is None else series.sd.copy()
-    for start, stop in pairwise(edges.tolist()):
-        part = series.value[start:stop]
-        if not np.isfinite(part).any():
-            kept += [start, stop - 1]
-            continue
-        unknown = np.flatnonzero(~np.isfinite(part))
-        places = {start + int(np.nanargmin(part)), start + int(np.nanargmax(part))}
-        if len(unknown):
-            places.add(start + int(unknown[0]))
-        if sd is not None and np.isfinite(sd[start:stop]).any():
-            sd[list(places)] = np.nanmax(sd[start:stop])
-        kept += sorted(places)
-    index = np.unique(kept)
+    count = len(series.time_s)
+    size = -(-count // columns)
+    rows = -(-count // size)
+    first = size * np.arange(rows)
+    flat = np.full(rows * size, np.nan)
+    flat[:count] = series.value
+    value = flat.reshape(rows, size)
+    known = np.isfinite(value)
+    inside = np.arange(rows * size).reshape(rows, size) < count
+    some, gap = known.any(axis=1), (~known & inside).any(axis=1)
+    lowest = first + np.where(known, value, np.inf).argmin(axis=1)
+    highest = first + np.where(known, value, -np.inf).argmax(axis=1)
+    unknown = first + (~known & inside).argmax(axis=1)
+    index = np.unique(
+        np.concatenate(
+            (lowest[some], highest[some], unknown[gap & some], first[~some], np.minimum(first + size, count)[~some] - 1)
+        )
+    )
+    sd = None
+    if series.sd is not None:
+        spread = np.full(rows * size, -np.inf)
+        spread[:count] = np.where(np.isfinite(series.sd), series.sd, -np.inf)
+        widest = spread.reshape(rows, size).max(axis=1)[index // size]
+        sd = np.where(np.isfinite(widest), widest, np.nan)
     return Series(
-        series.time_s[index], series.value[index], None if sd is None else sd[index], series.predicted[index],
+        series.time_s[index], series.value[index], sd, series.predicted[index],
         max(series.longest_step_s, LONGEST_STRETCHES * stretch_s),
     )  # fmt: skip
 

@@ -3,26 +3,28 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from pathlib import Path
 
 from PySide6.QtCore import Qt, Signal
 from PySide6.QtGui import QResizeEvent
-from PySide6.QtWidgets import QComboBox, QFileDialog, QHBoxLayout, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QComboBox, QHBoxLayout, QVBoxLayout, QWidget
 
-from core.output.report_content import Comparison, Progress, SessionFigures, other_hand_of, progress
-from ui import numbers, terms
-from ui.background import Background
-from ui.controls.button import Button
-from ui.controls.card import Card, Line
-from ui.controls.column import ScrolledColumn, scroll_area
-from ui.controls.text import MEDIUM, REGULAR, SEMIBOLD, StateText, Text, caption, heading
-from ui.keys import Keys, bind
-from ui.ports import SessionStore
-from ui.progress.chart import ProgressChart
-from ui.progress.words import before_after, change_line, comparison_name, doubt_words, headline, unfair_words
-from ui.report.hand_rows import followed_keys, followed_kinds
-from ui.theme import GAP_PX, MARGIN_PX, Theme, is_tight
-from ui.verdicts import verdict_token, verdict_word
+from carpus.core.output.report_content import Comparison, Progress, SessionFigures, other_hand_of, progress
+from carpus.ui import numbers, terms
+from carpus.ui.background import Background
+from carpus.ui.controls.button import Button
+from carpus.ui.controls.card import Card, Line
+from carpus.ui.controls.column import ScrolledColumn, scroll_area
+from carpus.ui.controls.text import MEDIUM, REGULAR, SEMIBOLD, StateText, Text, caption, heading
+from carpus.ui.keys import Keys, bind
+from carpus.ui.plot.course_view import ProgressChart
+from carpus.ui.ports import SessionStore
+from carpus.ui.progress.words import before_after, change_line, comparison_name, doubt_words, headline, unfair_words
+from carpus.ui.report.hand_rows import followed_keys, followed_kinds
+from carpus.ui.theme import GAP_PX, MARGIN_PX, Theme, is_tight
+from carpus.ui.verdicts import counted_once_words, limit_words, verdict_token, verdict_word
+
+FILTERS_PX = 1180
+"""What the row above the sentence needs with everything in it."""
 
 
 class ProgressScreen(QWidget):
@@ -31,13 +33,12 @@ class ProgressScreen(QWidget):
     report = Signal(object)
     told = Signal(object)
     table_wanted = Signal(object)
+    session = Signal(str)
 
     def __init__(self, theme: Theme, keys: Keys, background: Background, store: SessionStore) -> None:
         super().__init__()
         self._theme, self._background, self._store = theme, background, store
         self._all: tuple[SessionFigures, ...] = ()
-        self.start_folder = ""
-        """Where saving a picture begins."""
         self._kinds: list[tuple[str, str]] = []
         self.progress = Progress((), (), None)
         self.exercise = QComboBox()
@@ -57,11 +58,19 @@ class ProgressScreen(QWidget):
         self.exercise.currentIndexChanged.connect(lambda _: self._choose_exercise())
         self.followed.currentIndexChanged.connect(lambda _: self._choose())
         self.report_button.clicked.connect(lambda: self.report.emit([point.figures for point in self.progress.points]))
-        self.picture_button.clicked.connect(self._save_picture)
+        self.picture_button.clicked.connect(self.chart.save_picture)
+        self.chart.told.connect(self.told)
+        self.chart.opened.connect(self.session)
         self.table_button.clicked.connect(lambda: self.table_wanted.emit(self.progress))
         self.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
         self.setProperty("shows_own_focus", True)
-        bind(self, keys, "report", self.report_button.click)
+        actions = {
+            "plot_in": self.chart.zoom_in, "plot_out": self.chart.zoom_out, "plot_all": self.chart.show_all,
+            "point_back": lambda: self.chart.step(-1), "point_on": lambda: self.chart.step(1),
+            "point_open": self.chart.open_pointed, "report": self.report_button.click,
+        }  # fmt: skip
+        for name, action in actions.items():
+            bind(self, keys, name, action)
         bind(self, keys, "export", self.table_button.click)
 
     def _lay_out(self) -> None:
@@ -109,10 +118,11 @@ class ProgressScreen(QWidget):
 
     def _fit(self) -> None:
         tight = is_tight(self, self._theme)
+        narrow = tight or self.width() < FILTERS_PX * self._theme.text_scale
         self._side.setFixedWidth(self._theme.px(300 if tight else 352))
-        self.span.setVisible(not tight)
-        self.report_button.set_face(self.report_button.text(), hint="" if tight else "Ctrl+P")
-        self.table_button.set_face(self.table_button.text(), hint="" if tight else "Ctrl+E")
+        self.span.setVisible(not narrow)
+        self.report_button.set_face(self.report_button.text(), hint="" if narrow else "Ctrl+P")
+        self.table_button.set_face(self.table_button.text(), hint="" if narrow else "Ctrl+E")
 
     # --- life ---------------------------------------------------------------------------------------------
     def begin(self, patient_id: str, session_id: str = "") -> None:
@@ -188,7 +198,7 @@ class ProgressScreen(QWidget):
         body.addWidget(caption(theme, f"{days} · {counts}", wrap=True))
         for item in self.progress.comparisons:
             body.addWidget(Line(theme))
-            body.addWidget(_ComparisonRow(theme, item))
+            body.addWidget(_ComparisonRow(theme, item, self.progress.comparisons))
         body.addWidget(Line(theme))
         if not self.progress.keys:
             body.addWidget(self._speed_row(first, last))
@@ -217,14 +227,9 @@ class ProgressScreen(QWidget):
         if any(point.figures.simulated for point in self.progress.points):
             words = self.tr("Simulated sessions are among them.")
             body.addWidget(Text(theme, words, 14, MEDIUM, "warn", wrap=True))
-        words = self.tr("The error limits are published values, until the clinic has measured its own.")
-        body.addWidget(Text(theme, words, 14, REGULAR, "text2", wrap=True))
-
-    def _save_picture(self) -> None:
-        start = str(Path(self.start_folder) / self.tr("progress.png"))
-        path, _ = QFileDialog.getSaveFileName(self, self.tr("Save picture"), start, "PNG (*.png)")
-        if path:
-            self.chart.picture().save(path)
+        if once := counted_once_words(self.progress.earlier_results):
+            body.addWidget(Text(theme, once, 14, wrap=True))
+        body.addWidget(Text(theme, limit_words(self.progress.study), 14, REGULAR, "text2", wrap=True))
 
 
 class _Row(QWidget):
@@ -248,8 +253,8 @@ class _Row(QWidget):
 
 
 class _ComparisonRow(_Row):
-    def __init__(self, theme: Theme, item: Comparison) -> None:
-        super().__init__(theme, comparison_name(item), before_after(item), item.verdict, change_line(item))
+    def __init__(self, theme: Theme, item: Comparison, among: Sequence[Comparison]) -> None:
+        super().__init__(theme, comparison_name(item, among), before_after(item), item.verdict, change_line(item))
 
 
 def _clear(card: Card) -> None:

@@ -3,15 +3,16 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 
-from core.measures.motion_range import FEWEST_FOR_SPREAD
-from core.output.range_rows import is_total
-from core.output.report_content import Comparison, Progress, ProgressPoint
-from core.words import finding_words
-from ui import numbers, terms
-from ui.figures import figure_of
-from ui.translate import tr
-from ui.verdicts import difference, reason_words
+from carpus.core.measures.motion_range import FEWEST_FOR_SPREAD
+from carpus.core.output.range_rows import is_total
+from carpus.core.output.report_content import Comparison, Progress, ProgressPoint
+from carpus.core.words import finding_words
+from carpus.ui import numbers, terms
+from carpus.ui.figures import figure_of
+from carpus.ui.translate import tr
+from carpus.ui.verdicts import difference, reason_words
 
 
 def headline(progress: Progress) -> tuple[str, str]:
@@ -19,6 +20,12 @@ def headline(progress: Progress) -> tuple[str, str]:
     if not progress.points:
         return tr("No sessions of this exercise yet."), ""
     first, last, main = progress.first, progress.last, progress.headline
+    compared = [point for point in progress.points if not point.reasons]
+    if len(compared) < 2 and len(progress.points) > 1:
+        out = len(progress.points) - len(compared)
+        kept = tr("1 session is left out.") if out == 1 else tr("{count} sessions are left out.").format(count=out)
+        why = tr("Sessions that are left out, or measured otherwise, are not compared: their rings say why.")
+        return tr("Nothing to compare: {left_out}").format(left_out=kept), why
     if first is None or last is None or main is None or first is last:
         return tr("One session does not make a course."), tr("Compare after the next session of the same kind.")
     day = numbers.day_beside(first.when, last.when)
@@ -48,8 +55,10 @@ def headline(progress: Progress) -> tuple[str, str]:
     return answer, " ".join([_basis(main), *(_rest(item) for item in others)])
 
 
-def comparison_name(item: Comparison) -> str:
-    """``Whole arc``, ``Flexion``, or ``Ring finger, TAM``."""
+def comparison_name(item: Comparison, among: Sequence[Comparison] = ()) -> str:
+    """``Whole arc``, ``Flexion``, or ``Ring finger, TAM``; ``among`` others that are whole arcs too it says of what."""
+    if item.movement == "arc" and not item.joint and sum(one.movement == "arc" for one in among) > 1:
+        return terms.arc_name(item.angle)
     return figure_of(item.joint).long_name if item.joint else terms.movement_name(item.movement)
 
 
@@ -61,7 +70,8 @@ def _subject(item: Comparison) -> str:
 
 
 def _basis(item: Comparison) -> str:
-    before, after, limit = (numbers.degrees(v) for v in (item.before_deg, item.after_deg, item.limit_deg))
+    before, after = _ends(item)
+    limit = numbers.degrees(item.limit_deg)
     if item.verdict in ("improved", "worse"):
         pattern = tr("From {before} to {after}: more than the measurement error of {limit}.")
     else:
@@ -82,7 +92,14 @@ def _rest(item: Comparison) -> str:
 def before_after(item: Comparison) -> str:
     """``34° → 57°``; ``≥`` before a figure that a hidden joint may have exceeded."""
     signs = [f"≥{numbers.NARROW_GAP}" if limited else "" for limited in item.limited]
-    return f"{signs[0]}{numbers.degrees(item.before_deg)} → {signs[1]}{numbers.degrees(item.after_deg)}"
+    before, after = _ends(item)
+    return f"{signs[0]}{before} → {signs[1]}{after}"
+
+
+def _ends(item: Comparison) -> tuple[str, str]:
+    """Both means; of the wrist a side that was not reached lacks something."""
+    words = numbers.degrees if item.joint else terms.end_words
+    return words(item.before_deg), words(item.after_deg)
 
 
 def change_line(item: Comparison) -> str:

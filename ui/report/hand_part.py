@@ -5,32 +5,35 @@ from __future__ import annotations
 from PySide6.QtCore import QPointF
 from PySide6.QtGui import QColor, QPen
 
-from core.output.joint_content import JointCurves
-from core.output.report_content import Curves, SessionFigures
-from ui.figures import TOKENS, row_name
-from ui.fonts import MEDIUM, REGULAR, SEMIBOLD
-from ui.report.hand_rows import FingerRow, column_heads, finger_rows, limits_words
-from ui.report.page import Page
-from ui.report.tables import mean_words, repetition_words
-from ui.review.hand_curves import BENDING, HandPlot, paint_hand_session, place_hand_panels
-from ui.terms import arc_name
-from ui.theme import LIGHT
-from ui.translate import tr
+from carpus.core.output.joint_content import JointCurves
+from carpus.core.output.report_content import Curves, SessionFigures
+from carpus.ui.figures import TOKENS, row_name
+from carpus.ui.fonts import MEDIUM, REGULAR, SEMIBOLD
+from carpus.ui.plot.session import BENDING, HandPlot, paint_session
+from carpus.ui.report.hand_rows import FingerRow, column_heads, finger_rows, limits_words
+from carpus.ui.report.page import Page
+from carpus.ui.report.tables import mean_words, repetition_words
+from carpus.ui.terms import arc_name
+from carpus.ui.theme import LIGHT
+from carpus.ui.translate import tr
 
-EDGES = (0.0, 0.070, 0.185, 0.297, 0.392, 0.515, 0.660, 0.706, 0.798)
-"""Left edge of the finger, the five figures, usual, last time, change, as shares of the width."""
+EDGES = (0.0, 0.068, 0.176, 0.282, 0.372, 0.484, 0.626, 0.700, 0.790)
+"""Left edge of the finger, the five figures, the share, last time, change, as shares of the width."""
 ROW_PT, CURVES_PT, LEAST_CURVES_PT, BETWEEN_PT = 21.5, 176.0, 110.0, 6.0
 LEAST_SIZE_PT = 6.0
+TITLE_PT, KEY_PT, KEY_GAP_PT = 11.5, 8.5, 22.0
 
 
-def paint_finger_table(page: Page, figures: SessionFigures, previous: SessionFigures | None, top: float) -> float:
+def paint_finger_table(
+    page: Page, figures: SessionFigures, previous: SessionFigures | None, other: SessionFigures | None, top: float
+) -> float:
     """One row for each finger, then in words what the camera's view limits."""
     page.title(tr("Range of motion of the fingers"), top + 11, repetition_words(figures))
     baseline = top + 25
-    for column, head in enumerate(column_heads(figures, previous), 1):
+    for column, head in enumerate(column_heads(figures, previous, other), 1):
         _fitted(page, head, column, baseline, 8.0, MEDIUM, "text2")
     y = baseline + 4.5
-    for row in finger_rows(figures, previous):
+    for row in finger_rows(figures, previous, other):
         page.rule(y)
         _paint_row(page, row, y)
         y += ROW_PT
@@ -48,7 +51,9 @@ def _paint_row(page: Page, row: FingerRow, top: float) -> None:
             _fitted(page, cell.small, column, top + 18.5, 7.5, REGULAR, "text2")
         else:
             _fitted(page, cell.shown, column, middle, 8.5, REGULAR, "text2")
-    _fitted(page, row.usual, 6, middle, 8.5, REGULAR, "text2")
+    if row.share.small:
+        _fitted(page, row.share.main, 6, top + 9.5, 9.0, SEMIBOLD)
+        _fitted(page, row.share.small, 6, top + 18.5, 7.5, REGULAR, "text2")
     _fitted(page, row.last, 7, middle, 8.5)
     _fitted(page, row.change, 8, middle, 8.0, MEDIUM)
 
@@ -89,21 +94,29 @@ def paint_finger_curves(
 ) -> float:
     """Bending of every finger over time, in the height that is left; dashed where it was hidden."""
     height = min(CURVES_PT, max(room - 28 - 16, LEAST_CURVES_PT))
-    aside = tr("dashed: hidden, not counted; hatched: lost")
-    page.title(tr("Bending over time"), top + 11, aside)
-    _paint_key(page, page.right - page.width_of(aside, 8.5) - 12, top + 11)
+    aside = tr("dashed: hidden; hatched: lost")
+    words = tr("Bending over time")
+    page.title(words, top + 11, aside)
+    left = page.left + page.width_of(words, TITLE_PT, SEMIBOLD) + 10
+    _paint_key(page, left, page.right - page.width_of(aside, 8.5) - 12, top + 11)
     plot = HandPlot(curves, figures.exercise, figures.repetitions, -1, joints=joints)
     box = page.box(page.left + 80, top + 28, page.right - page.left - 88, height)
-    paint_hand_session(page.painter, page.style, plot, place_hand_panels(plot, box, BETWEEN_PT * page.point))
+    paint_session(page.painter, page.style, plot, plot.panels(box, BETWEEN_PT * page.point))
     return top + 28 + height + 16
 
 
-def _paint_key(page: Page, right: float, baseline: float) -> None:
-    """Which colour is which joint, ending at ``right``."""
+def _paint_key(page: Page, least_left: float, right: float, baseline: float) -> None:
+    """Which colour is which joint, ending at ``right``; smaller where it would reach the title."""
+    names = {row: tr("Middle joint, of the thumb lift") if row == "middle" else row_name(row) for row in BENDING}
+    size = KEY_PT
+    while size > LEAST_SIZE_PT:
+        if right - sum(page.width_of(name, size) + KEY_GAP_PT for name in names.values()) >= least_left:
+            break
+        size -= 0.25
     for row in reversed(BENDING):
-        name = tr("Middle joint, of the thumb lift") if row == "middle" else row_name(row)
-        left = right - page.width_of(name, 8.5)
-        page.text(name, left, baseline, 8.5, REGULAR, "text2")
+        name = names[row]
+        left = right - page.width_of(name, size)
+        page.text(name, left, baseline, size, REGULAR, "text2")
         page.painter.setPen(QPen(QColor(getattr(LIGHT, TOKENS[row])), 1.6 * page.point))
         y = (baseline - 3.0) * page.point
         page.painter.drawLine(QPointF((left - 14) * page.point, y), QPointF((left - 4) * page.point, y))

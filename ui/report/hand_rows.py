@@ -3,16 +3,20 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 
-from core.output.joint_content import USUAL_TOTAL_DEG, WITHOUT_TOTAL, finger_keys, spread_keys, thumb_keys
-from core.output.range_rows import RangeRow, RowKey
-from core.output.report_content import SessionFigures, compare_rows
-from ui import numbers
-from ui.figures import FINGERS, Figure, Row, figure_of, with_side
-from ui.marker_words import finger_name
-from ui.translate import tr
-from ui.verdicts import change_short, reason_words
+from carpus.core.measures.grade import Grade
+from carpus.core.output.further_measures import GradedTotal, graded_totals
+from carpus.core.output.joint_content import WITHOUT_TOTAL, finger_keys, spread_keys, thumb_keys
+from carpus.core.output.range_rows import RangeRow, RowKey
+from carpus.core.output.report_content import SessionFigures, compare_rows
+from carpus.ui import numbers
+from carpus.ui.figures import FINGERS, Figure, Row, figure_of, with_side
+from carpus.ui.marker_words import finger_name
+from carpus.ui.report.further_rows import main_words
+from carpus.ui.translate import tr
+from carpus.ui.verdicts import change_short, reason_words
 
 COLUMNS: tuple[Row, ...] = ("knuckle", "middle", "end", "spread", "tam")
 AT_LEAST = "≥"
@@ -42,35 +46,78 @@ class FingerRow:
     finger: int
     name: str
     cells: tuple[FingerCell, ...]
-    usual: str
+    share: FingerCell
+    """Of the TAM of the other hand, or of the usual one, with its grade; empty where there is none."""
     last: str
     change: str
     verdict: str
 
 
-def finger_rows(figures: SessionFigures, previous: SessionFigures | None) -> list[FingerRow]:
+def finger_rows(
+    figures: SessionFigures, previous: SessionFigures | None, other: SessionFigures | None = None
+) -> list[FingerRow]:
     """Thumb to little finger; last time and change are those of the total, of spreading or of the middle joint,
-    whichever the exercise is about."""
-    return [_finger_row(finger, figures, previous) for finger in FINGERS]
+    whichever the exercise is about. ``other`` the other hand, of which a total is a share."""
+    graded = {grade.finger: grade for grade in graded_totals(figures.joint_rows, _rows_of(other))}
+    return [_finger_row(finger, figures, previous, graded.get(finger)) for finger in FINGERS]
 
 
-def column_heads(figures: SessionFigures, previous: SessionFigures | None) -> list[str]:
-    """Heads after the finger's name: the columns, the usual value, last time, the change."""
+def _rows_of(other: SessionFigures | None) -> Sequence[RangeRow]:
+    return () if other is None else other.joint_rows
+
+
+def grade_words(grade: Grade | None) -> str:
+    """``good``; a total that was not seen whole has no grade."""
+    if grade is None:
+        return tr("not graded")
+    return {"excellent": tr("excellent"), "good": tr("good"), "fair": tr("fair"), "poor": tr("poor")}[grade]
+
+
+def _share_cell(graded: GradedTotal | None, row: RangeRow | None) -> FingerCell:
+    if graded is None or row is None:
+        return FingerCell("")
+    share = f"{100.0 * graded.share:.0f}{numbers.NARROW_GAP}%"
+    return FingerCell(f"{AT_LEAST}{numbers.NARROW_GAP}{share}" if row.limited else share, grade_words(graded.grade))
+
+
+def of_other_hand(figures: SessionFigures, other: SessionFigures | None) -> bool:
+    """Whether totals are shares of the other hand's, not of the usual ones."""
+    graded = graded_totals(figures.joint_rows, _rows_of(other))
+    return bool(graded) and all(grade.of_other_hand for grade in graded)
+
+
+def column_heads(
+    figures: SessionFigures, previous: SessionFigures | None, other: SessionFigures | None = None
+) -> list[str]:
+    """Heads after the finger's name: the columns, the share of the total, last time, the change."""
     day = numbers.day_beside(previous.when, figures.when) if previous else ""
-    compared = {"tam": tr("TAM"), "spread": tr("spread"), "middle": tr("middle joint")}[compared_row(figures)]
+    compared = {"tam": tr("TAM"), "spread": tr("spread"), "middle": tr("PIP")}[compared_row(figures)]
     if trains_thumb(figures):
         compared = tr("lift")
+    if not trains_joints(figures):
+        day = ""
     return [
-        tr("Knuckle (MCP)"), tr("Middle (PIP)"), tr("End (DIP)"), tr("Spread"), tr("Total (TAM)"),
-        tr("Usual") if compared_row(figures) == "tam" else "",
+        tr("Knuckle (MCP)"), tr("Middle (PIP)"), tr("End (DIP)"), tr("Spread"),
+        tr("Total (TAM)") if has_totals(figures) else "",
+        (tr("Of other hand") if of_other_hand(figures, other) else tr("Of usual")) if has_totals(figures) else "",
         tr("{what}, {day}").format(what=compared, day=day) if day else "",
         tr("Change since {day}").format(day=day) if day else "",
     ]  # fmt: skip
 
 
+def trains_joints(figures: SessionFigures) -> bool:
+    """Whether a joint is what the exercise is about: then it is compared with last time."""
+    return figures.exercise.id != "REACH_GRASP"
+
+
+def has_totals(figures: SessionFigures) -> bool:
+    """Whether the exercise asks for a fist, of which there is a total."""
+    return figures.exercise.id not in WITHOUT_TOTAL
+
+
 def compared_row(figures: SessionFigures) -> Row:
     """What of a finger the exercise is about."""
-    if figures.exercise.id not in WITHOUT_TOTAL:
+    if has_totals(figures):
         return "tam"
     return figure_of(figures.exercise.joint).row
 
@@ -125,7 +172,7 @@ def total_words(figures: SessionFigures) -> list[str]:
     """What TAM is, or why there is none."""
     totals = [row for row in figures.joint_rows if row.joint.startswith("TAM")]
     if not totals:
-        return [tr("No total active motion (TAM): this exercise asks for no fist.")] if figures.joint_rows else []
+        return []
     words = [tr("Total active motion (TAM): the largest sum of a finger’s bending in one moment, all its joints seen.")]
     if not any(row.count for row in totals):
         words = [tr("No total active motion (TAM): no finger’s joints were all seen at once.")]
@@ -133,11 +180,21 @@ def total_words(figures: SessionFigures) -> list[str]:
         words.append(tr("It is missing where a finger’s joints were never all seen at once."))
     if any(row.inferred for row in totals):
         words.append(tr("DIP not measured: TAM takes it as two thirds of PIP."))
+    if any(row.count for row in totals):
+        words.append(
+            tr(
+                "Share of the other hand’s TAM, else of the usual 260° (thumb 140°): excellent from 100 %, good above "
+                "75 %, fair above 50 %, else poor (ASSH)."
+            )
+        )
     return words
 
 
 def hand_summary(figures: SessionFigures, previous: SessionFigures | None, first: SessionFigures | None) -> str:
-    """Today's figure of every finger, then what may be said of change."""
+    """Today's figure of every finger, then what may be said of change; of reaches what they were like."""
+    main = main_words(figures)
+    if main and not trains_joints(figures):
+        return f"{main}."
     compared = compared_row(figures)
     what = {"tam": tr("TAM"), "spread": tr("Spreading"), "middle": tr("Middle joints")}[compared]
     shown = compared_figures(figures)
@@ -152,7 +209,8 @@ def hand_summary(figures: SessionFigures, previous: SessionFigures | None, first
         name = figure.row_name if trains_thumb(figures) else finger_name(str(figure.finger))
         today.append(f"{name.lower()} {words}")
         bounds += bool(known and row is not None and row.limited)
-    parts = [tr("{what}: {fingers}.").format(what=what, fingers=", ".join(today))]
+    parts = [f"{main}."] if main else []
+    parts.append(tr("{what}: {fingers}.").format(what=what, fingers=", ".join(today)))
     if bounds:
         parts.append(tr("{sign}: the camera did not see the end of that movement.").format(sign=AT_LEAST))
     if previous is not None:
@@ -192,6 +250,8 @@ def cell_of(figures: SessionFigures, figure: Figure) -> FingerCell:
     row = figures.row("arc", -1, figure.joint)
     thumb: dict[Row, str] = {"knuckle": tr("MCP"), "middle": tr("Lift"), "end": tr("IP")}
     joint = thumb.get(figure.row, "") if figure.finger == 1 else ""
+    if row is None and figure.row == "tam":
+        return FingerCell("")
     if row is None:
         return FingerCell(tr("not measured") if figure.row == "end" else numbers.UNKNOWN, joint=joint)
     if not row.count:
@@ -199,11 +259,14 @@ def cell_of(figures: SessionFigures, figure: Figure) -> FingerCell:
     return FingerCell(_range_words(row), _ends(figures, figure), row.limited, joint)
 
 
-def _finger_row(finger: int, figures: SessionFigures, previous: SessionFigures | None) -> FingerRow:
+def _finger_row(
+    finger: int, figures: SessionFigures, previous: SessionFigures | None, graded: GradedTotal | None
+) -> FingerRow:
     compared = Figure(finger, compared_row(figures))
-    if compared not in compared_figures(figures):
+    share = _share_cell(graded, figures.row("arc", -1, f"TAM{finger}"))
+    if compared not in compared_figures(figures) or not trains_joints(figures):
         cells = tuple(cell_of(figures, Figure(finger, row)) for row in COLUMNS)
-        return FingerRow(finger, finger_name(str(finger)), cells, "", "", "", "")
+        return FingerRow(finger, finger_name(str(finger)), cells, share, "", "", "")
     today = figures.row("arc", -1, compared.joint)
     before = previous.row("arc", -1, compared.joint) if previous else None
     change, verdict = "", ""
@@ -214,12 +277,11 @@ def _finger_row(finger: int, figures: SessionFigures, previous: SessionFigures |
             change = tr("at least {change}").format(change=change)
         if verdict == "not_judged":
             change = tr("not judged: {why}").format(why=reason_words(found[0].reasons))
-    usual = USUAL_TOTAL_DEG[finger]
     return FingerRow(
         finger,
         finger_name(str(finger)),
         tuple(cell_of(figures, Figure(finger, row)) for row in COLUMNS),
-        f"{usual:.0f}°" if compared.row == "tam" else "",
+        share,
         _range_words(before, spread=False) if before is not None and before.count else "",
         change,
         verdict,
@@ -243,8 +305,11 @@ def _ends(figures: SessionFigures, figure: Figure) -> str:
             full=numbers.degrees(high.mean_deg), missing=numbers.degrees(low.mean_deg)
         )
     ends = sorted((figure.sign * low.mean_deg, figure.sign * high.mean_deg))
-    write = with_side if figure.row == "spread" else numbers.signed_degrees
-    return tr("{low} to {high}").format(low=write(ends[0]), high=write(ends[1]))
+    if figure.row == "spread":
+        low_words, high_words = (with_side(end, figure.finger) for end in ends)
+    else:
+        low_words, high_words = (numbers.signed_degrees(end) for end in ends)
+    return tr("{low} to {high}").format(low=low_words, high=high_words)
 
 
 def followed_kinds(figures: SessionFigures) -> list[tuple[str, str]]:

@@ -8,9 +8,9 @@ from dataclasses import dataclass
 from PySide6.QtCore import QPointF, QRectF, Qt
 from PySide6.QtGui import QColor, QFont, QFontMetricsF, QPainter, QPen
 
-from ui.fonts import MEDIUM, REGULAR, SEMIBOLD, font
-from ui.plot.style import PlotStyle, paper_style
-from ui.theme import LIGHT
+from carpus.ui.fonts import MEDIUM, REGULAR, SEMIBOLD, font
+from carpus.ui.plot.style import PlotStyle, paper_style
+from carpus.ui.theme import LIGHT
 
 A4_PT = (595.28, 841.89)
 DISPLAY_FROM_PT = 20.0

@@ -5,30 +5,39 @@ from __future__ import annotations
 import errno
 import hashlib
 from collections.abc import Callable, Sequence
+from dataclasses import replace
 from pathlib import Path
 
-from PySide6.QtCore import QBuffer, QByteArray, QIODevice, QMarginsF
+from PySide6.QtCore import QBuffer, QByteArray, QIODevice, QMarginsF, QSizeF
 from PySide6.QtGui import QGuiApplication, QPageLayout, QPageSize, QPainter, QPdfWriter
 
-from core.errors import DiskFull, OutputExists, OutputNotWritable
-from core.output.joint_content import joint_curves
-from core.output.report_content import (
+from carpus.core.camera_calibration.sheet import Sheet
+from carpus.core.errors import DiskFull, OutputExists, OutputNotWritable
+from carpus.core.output.joint_content import joint_curves
+from carpus.core.output.motion_curves import motion_curves
+from carpus.core.output.report_content import (
     RepetitionChoices,
     SessionFigures,
     data_digest,
+    limits_of,
     other_hand_of,
     previous_of,
     progress,
     session_curves,
     session_figures,
 )
-from core.session.values import Session
-from ui.fonts import load_fonts
-from ui.report.hand_rows import followed_keys, followed_kinds
-from ui.report.page import Page
-from ui.report.progress_page import ProgressReport, paint_progress_page
-from ui.report.session_page import SessionReport, paint_session_page
+from carpus.core.provenance import said_in, with_revision
+from carpus.core.session.values import Session
+from carpus.ui.fonts import load_fonts
+from carpus.ui.report.hand_rows import followed_keys, followed_kinds
+from carpus.ui.report.page import Page
+from carpus.ui.report.pages import Report, pages_of
+from carpus.ui.report.progress_page import ProgressReport
+from carpus.ui.report.session_page import SessionReport
+from carpus.ui.report.sheet_page import paint_sheet
 
+TITLE = "Carpus report"
+"""What a viewer writes above its window and a mail program into its list: nobody's name."""
 RESOLUTION_DPI = 1200
 POINTS_PER_INCH = 72.0
 
@@ -54,14 +63,18 @@ def session_report(
     therapist: str = "",
 ) -> SessionReport:
     """What the page of a session says; ``history`` figures of the patient's other sessions, in any order."""
-    figures = session_figures(session, choices)
+    figures = session_figures(session, choices, limits_of(history))
+    known = next((other for other in history if other.session_id == figures.session_id), figures)
+    figures = replace(figures, earlier_results=known.earlier_results)
     earlier = [other for other in history if other.when < figures.when]
     alike = [other for other in earlier if (other.exercise.id, other.side) == (figures.exercise.id, figures.side)]
     fair = [point.figures for point in progress(alike).points if point.fair]
+    made_by, source = said_in(session.header.parameters, "provenance"), said_in(session.header.parameters, "source")
     return SessionReport(
         figures=figures,
         curves=session_curves(session),
         joints=joint_curves(session),
+        motion=motion_curves(session),
         markers=len(session.header.protocol.markers),
         pseudonym=pseudonym or session.header.subject_id or "–",
         session_number=len(earlier) + 1 if history else 0,
@@ -72,16 +85,18 @@ def session_report(
         other_hand=other_hand_of(history, figures),
         digest=data_digest(session),
         settings_digest=hashlib.sha256(session.header.parameters.encode()).hexdigest(),
+        revision=str(made_by.get("revision") or ""),
+        recording_digest=str(source.get("sha256") or ""),
     )
 
 
 def write_session_report(report: Session | SessionReport, output_path: Path, **context: object) -> Path:
-    """Write the one-page report of a session; ``context`` as of :func:`session_report` when a session is given.
+    """Write the report of a session, two pages; ``context`` as of :func:`session_report` when a session is given.
 
     Raises :class:`OutputExists`, :class:`OutputNotWritable` or :class:`DiskFull`; nothing half-written stays.
     """
     page = session_report(report, **context) if isinstance(report, Session) else report  # type: ignore[arg-type]
-    return _write(output_path, lambda paper: paint_session_page(paper, page), page.pseudonym)
+    return _write(output_path, page, TITLE)
 
 
 def write_progress_report(
@@ -89,44 +104,83 @@ def write_progress_report(
 ) -> Path:
     """Write the one-page report over sessions; faults as :func:`write_session_report`."""
     page = report if isinstance(report, ProgressReport) else progress_report(report, **context)  # type: ignore[arg-type]
-    return _write(output_path, lambda paper: paint_progress_page(paper, page), page.pseudonym)
+    return _write(output_path, page, TITLE)
 
 
 def progress_report(
-    sessions: Sequence[SessionFigures], *, pseudonym: str = "", therapist: str = "", what: str | None = None
+    sessions: Sequence[SessionFigures],
+    *,
+    pseudonym: str = "",
+    therapist: str = "",
+    what: str | None = None,
+    software_version: str = "",
 ) -> ProgressReport:
     """The course of the newest session's exercise and hand; the other hand's last session beside it.
 
     ``what`` of the whole hand is followed, as of :func:`followed_kinds`; the first of them by itself.
+    ``software_version`` is of the program that makes it, the newest session's where it is not given.
     """
     newest = max(sessions, key=lambda figures: figures.when)
     alike = [f for f in sessions if (f.exercise.id, f.side) == (newest.exercise.id, newest.side)]
     kinds = followed_kinds(newest)
     followed = followed_keys(what if what is not None else kinds[0][0]) if kinds else ()
     course = progress(alike, other_hand_of(sessions, newest), followed)
-    return ProgressReport(course, pseudonym or newest.subject_id or "–", therapist)
+    made_by = with_revision(software_version) if software_version else newest.software_version
+    return ProgressReport(course, pseudonym or newest.subject_id or "–", therapist, made_by)
 
 
-def _write(output_path: Path, paint: Callable[[Page], None], title: str) -> Path:
+def write_page(output_path: Path, paint: Callable[[Page], None], title: str) -> Path:
+    """Write one A4 page; faults as :func:`write_session_report`."""
+    return _write_pages(output_path, [(None, paint)], title)
+
+
+def write_sheets(output_path: Path, sheets: Sequence[Sheet], title: str) -> Path:
+    """Write sheets to print, each in its own size, in millimetres as drawn; faults as above."""
+    pages = [(QSizeF(sheet.width_mm, sheet.height_mm), _painting(sheet)) for sheet in sheets]
+    return _write_pages(output_path, pages, title)
+
+
+def _painting(sheet: Sheet) -> Callable[[Page], None]:
+    return lambda page: paint_sheet(page, sheet)
+
+
+def _write(output_path: Path, report: Report, title: str) -> Path:
+    return _write_pages(output_path, [(None, paint) for paint in pages_of(report)], title)
+
+
+def _write_pages(output_path: Path, pages: Sequence[tuple[QSizeF | None, Callable[[Page], None]]], title: str) -> Path:
     application = ensure_application()
     store = QByteArray()
     buffer = QBuffer(store)
     buffer.open(QIODevice.OpenModeFlag.WriteOnly)
     writer = QPdfWriter(buffer)
     writer.setResolution(RESOLUTION_DPI)
-    layout = QPageLayout(QPageSize(QPageSize.PageSizeId.A4), QPageLayout.Orientation.Portrait, QMarginsF(0, 0, 0, 0))
-    writer.setPageLayout(layout)
+    writer.setPageLayout(_layout(pages[0][0]))
     writer.setTitle(title)
     writer.setCreator("Carpus")
     painter = QPainter(writer)
     try:
-        paint(Page(painter, RESOLUTION_DPI / POINTS_PER_INCH))
+        for number, (size, paint) in enumerate(pages):
+            if number:
+                writer.setPageLayout(_layout(size))
+                writer.newPage()
+            paint(Page(painter, RESOLUTION_DPI / POINTS_PER_INCH))
     finally:
         painter.end()  # a writer that goes while it is painted on ends the program
     buffer.close()
     del application
     _store(output_path, bytes(store.data()))
     return output_path
+
+
+def _layout(size_mm: QSizeF | None) -> QPageLayout:
+    """A page without margins; A4 where no size is named."""
+    size = (
+        QPageSize(QPageSize.PageSizeId.A4)
+        if size_mm is None
+        else QPageSize(size_mm, QPageSize.Unit.Millimeter, "", QPageSize.SizeMatchPolicy.ExactMatch)
+    )
+    return QPageLayout(size, QPageLayout.Orientation.Portrait, QMarginsF(0, 0, 0, 0))
 
 
 def _store(path: Path, content: bytes) -> None:

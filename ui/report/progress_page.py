@@ -4,18 +4,19 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from core.output.report_content import Progress
-from ui import numbers, terms
-from ui.fonts import MEDIUM, REGULAR, SEMIBOLD
-from ui.progress.chart_painter import paint_chart
-from ui.progress.words import before_after, change_line, comparison_name, doubt_words, headline, unfair_words
-from ui.report.page import A4_PT, MARGIN_PT, Page
-from ui.report.session_page import paint_head, paint_watermark, painted_on_nothing
-from ui.translate import tr
-from ui.verdicts import verdict_token, verdict_word
+from carpus.core.output.report_content import Progress
+from carpus.ui import numbers, terms
+from carpus.ui.fonts import MEDIUM, REGULAR, SEMIBOLD
+from carpus.ui.plot.course import paint_chart
+from carpus.ui.progress.words import before_after, change_line, comparison_name, doubt_words, headline, unfair_words
+from carpus.ui.report.page import A4_PT, MARGIN_PT, Page
+from carpus.ui.report.session_page import paint_head, paint_watermark, painted_on_nothing
+from carpus.ui.translate import tr
+from carpus.ui.verdicts import counted_once_words, limit_words, verdict_token, verdict_word
 
 CHART_HEIGHT_PT, LEAST_CHART_PT = 390.0, 180.0
 MOST_UNFAIR = 4
+MOST_IDS = 8
 
 
 @dataclass(frozen=True, slots=True)
@@ -25,6 +26,8 @@ class ProgressReport:
     progress: Progress
     pseudonym: str
     therapist: str = ""
+    made_by: str = ""
+    """Version and revision of the program that makes the report."""
 
 
 def paint_progress_page(page: Page, report: ProgressReport) -> None:
@@ -54,9 +57,26 @@ def paint_progress_page(page: Page, report: ProgressReport) -> None:
     paint_chart(page.painter, page.style, page.box(page.left, y + 8, width, height), progress)
     _paint_below(page, progress, y + height + 22)
     page.paragraph(terms.LEGAL_SENTENCE, page.left, foot - 34, width, 8.0, SEMIBOLD)
-    ids = " · ".join(point.figures.session_id[:8] for point in progress.points[-8:])
-    words = tr("Sessions {ids} · Carpus {version}").format(ids=ids, version=newest.software_version)
-    page.text(words, page.left, foot + 8, 8.0, REGULAR, "text2")
+    words = made_of(report)
+    size_pt = min(8.0, 7.9 * width / page.width_of(words, 8.0))
+    page.text(words, page.left, foot + 8, size_pt, REGULAR, "text2")
+
+
+def made_of(report: ProgressReport) -> str:
+    """``Made by Carpus 0.1.0 (1a2b3c4) of 7 sessions: 0b1c2d3e … · they were measured by Carpus 0.1.0``."""
+    points = report.progress.points
+    ids = ", ".join(point.figures.session_id[:8] for point in points[-MOST_IDS:])
+    if len(points) > MOST_IDS:
+        ids = f"…, {ids}"
+    versions = ", ".join(sorted({point.figures.software_version for point in points}))
+    of = tr("1 session: {ids}") if len(points) == 1 else tr("{count} sessions: {ids}")
+    return " · ".join(
+        (
+            tr("Made by Carpus {version}").format(version=report.made_by),
+            of.format(count=len(points), ids=ids),
+            tr("measured by Carpus {versions}").format(versions=versions),
+        )
+    )
 
 
 def _paint_below(page: Page, progress: Progress, top: float) -> float:
@@ -77,7 +97,7 @@ def _paint_table(page: Page, progress: Progress, top: float) -> float:
     for item in progress.comparisons:
         page.rule(baseline)
         baseline += 15.5
-        page.text(comparison_name(item), page.left, baseline - 4, 9.0, MEDIUM)
+        page.text(comparison_name(item, progress.comparisons), page.left, baseline - 4, 9.0, MEDIUM)
         page.text(before_after(item), page.left + 130, baseline - 4, 9.0, SEMIBOLD)
         page.text(change_line(item), page.left + 240, baseline - 4, 9.0)
         page.text_right(
@@ -97,8 +117,7 @@ def _paint_fairness(page: Page, progress: Progress, top: float) -> float:
         y = page.paragraph(words, page.left, y, width, 9.0, REGULAR, "warn")
     if not unfair:
         y = page.paragraph(tr("All sessions were set up alike."), page.left, y, width, 9.0)
-    words = tr(
-        "± is the spread between repetitions. “Error” is the smallest difference that can be called a change: "
-        "published values for the same protocol, side and set-up, until the clinic has measured its own."
-    )
+    if once := counted_once_words(progress.earlier_results):
+        y = page.paragraph(once, page.left, y, width, 9.0)
+    words = f"{tr('± is the spread between repetitions.')} {limit_words(progress.study)}"
     return page.paragraph(words, page.left, y + 2, width, 8.0, REGULAR, "text2")

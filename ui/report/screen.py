@@ -9,19 +9,19 @@ from PySide6.QtCore import QSize, Qt, QUrl, Signal
 from PySide6.QtGui import QColor, QDesktopServices, QPainter, QPaintEvent, QPixmap
 from PySide6.QtWidgets import QFileDialog, QHBoxLayout, QScrollArea, QSizePolicy, QVBoxLayout, QWidget
 
-from ui.background import Background
-from ui.controls.button import Button
-from ui.controls.card import Card
-from ui.controls.text import REGULAR, SEMIBOLD, StateText, Text
-from ui.keys import Keys, bind
-from ui.report.page import A4_PT, Page
-from ui.report.pdf import write_progress_report, write_session_report
-from ui.report.progress_page import ProgressReport, paint_progress_page
-from ui.report.session_page import SessionReport, paint_session_page
-from ui.theme import GAP_PX, MARGIN_PX, Theme
+from carpus.ui.background import Background
+from carpus.ui.controls.button import Button
+from carpus.ui.controls.card import Card
+from carpus.ui.controls.text import REGULAR, SEMIBOLD, StateText, Text
+from carpus.ui.keys import Keys, bind
+from carpus.ui.report.page import A4_PT, Page
+from carpus.ui.report.pages import Report, pages_of
+from carpus.ui.report.pdf import write_progress_report, write_session_report
+from carpus.ui.report.session_page import SessionReport
+from carpus.ui.theme import GAP_PX, MARGIN_PX, Theme
+from carpus.ui.tour.bubble import BubbleView
 
 WIDEST_PX = 980
-Report = SessionReport | ProgressReport
 
 
 class ReportScreen(QWidget):
@@ -39,6 +39,7 @@ class ReportScreen(QWidget):
         self._saved_path = ""
         self.page = PagePreview(theme)
         self.save_button = Button(theme, self.tr("Save PDF…"), "primary", icon="download", hint="Ctrl+P")
+        self.bubble = BubbleView(theme)
         self.open_button = Button(theme, self.tr("Open the PDF"), "plain")
         self.state = StateText(theme, 16, SEMIBOLD, 20)
         self.where = Text(theme, "", 14, REGULAR, "text2", wrap=True)
@@ -59,11 +60,12 @@ class ReportScreen(QWidget):
         card.body.setSpacing(12)
         card.body.addWidget(self.state)
         card.body.addWidget(self.where)
+        card.body.addWidget(self.bubble)
         card.body.addWidget(self.save_button)
         card.body.addWidget(self.open_button)
         card.body.addSpacing(8)
-        words = self.tr("One page of A4, readable in grey. It carries the made-up name, never a real one.")
-        card.body.addWidget(Text(self._theme, words, 14, REGULAR, "text2", wrap=True))
+        self.pages = Text(self._theme, "", 14, REGULAR, "text2", wrap=True)
+        card.body.addWidget(self.pages)
         right = QVBoxLayout()
         right.addWidget(card)
         right.addStretch(1)
@@ -85,6 +87,10 @@ class ReportScreen(QWidget):
         self._name = suggested_name(report)
         self._saved_path = ""
         self.page.show_report(report)
+        count = len(pages_of(report))
+        pages = self.tr("One page of A4") if count == 1 else self.tr("{count} pages of A4").format(count=count)
+        words = self.tr("{pages}, readable in grey. It carries the made-up name, never a real one.")
+        self.pages.setText(words.format(pages=pages))
         self._show_state("none", self.tr("Not saved yet"), "")
         self.save_button.setFocus(Qt.FocusReason.OtherFocusReason)
 
@@ -149,13 +155,13 @@ def _written(report: Report, target: Path, replace_asked: bool) -> Path:
 
 
 class PagePreview(QWidget):
-    """One page as wide as the room, on the canvas."""
+    """The pages as wide as the room, one under the other on the canvas."""
 
     def __init__(self, theme: Theme) -> None:
         super().__init__()
         self._theme = theme
         self._report: Report | None = None
-        self._still: QPixmap | None = None
+        self._still: list[QPixmap] = []
         policy = QSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
         policy.setHeightForWidth(True)
         self.setSizePolicy(policy)
@@ -167,7 +173,7 @@ class PagePreview(QWidget):
         self._forget()
 
     def _forget(self) -> None:
-        self._still = None
+        self._still = []
         self.updateGeometry()
         self.update()
 
@@ -178,7 +184,8 @@ class PagePreview(QWidget):
         return True
 
     def heightForWidth(self, width: int) -> int:
-        return round(self._page_width(width) * A4_PT[1] / A4_PT[0]) + GAP_PX
+        count = 1 if self._report is None else len(pages_of(self._report))
+        return count * (round(self._page_width(width) * A4_PT[1] / A4_PT[0]) + GAP_PX)
 
     def sizeHint(self) -> QSize:
         return QSize(800, self.heightForWidth(max(self.width(), 400)))
@@ -192,16 +199,19 @@ class PagePreview(QWidget):
     def paintEvent(self, event: QPaintEvent) -> None:
         if self._report is None:
             return
-        if self._still is None:
-            self._still = self._paint_still(self._report)
+        if not self._still:
+            self._still = [self._paint_still(paint) for paint in pages_of(self._report)]
         painter = QPainter(self)
-        left = (self.width() - self._still.width() / self._still.devicePixelRatio()) / 2
-        painter.drawPixmap(round(left), 0, self._still)
-        painter.setPen(self._theme.color("line"))
-        page = self._still.deviceIndependentSize()
-        painter.drawRect(round(left), 0, round(page.width()) - 1, round(page.height()) - 1)
+        top = 0
+        for still in self._still:
+            page = still.deviceIndependentSize()
+            left = round((self.width() - page.width()) / 2)
+            painter.drawPixmap(left, top, still)
+            painter.setPen(self._theme.color("line"))
+            painter.drawRect(left, top, round(page.width()) - 1, round(page.height()) - 1)
+            top += round(page.height()) + GAP_PX
 
-    def _paint_still(self, report: Report) -> QPixmap:
+    def _paint_still(self, paint: Callable[[Page], None]) -> QPixmap:
         ratio = self.devicePixelRatioF()
         width = self._page_width(self.width())
         height = width * A4_PT[1] / A4_PT[0]
@@ -209,10 +219,6 @@ class PagePreview(QWidget):
         picture.setDevicePixelRatio(ratio)
         picture.fill(QColor("#FFFFFF"))
         painter = QPainter(picture)
-        page = Page(painter, width / A4_PT[0])
-        if isinstance(report, SessionReport):
-            paint_session_page(page, report)
-        else:
-            paint_progress_page(page, report)
+        paint(Page(painter, width / A4_PT[0]))
         painter.end()
         return picture

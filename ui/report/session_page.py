@@ -1,4 +1,4 @@
-"""The session report: one page of A4, always light, readable in grey."""
+"""The first page of the session report: A4, always light, readable in grey."""
 
 from __future__ import annotations
 
@@ -9,23 +9,24 @@ from dataclasses import dataclass
 from PySide6.QtCore import QPointF, Qt
 from PySide6.QtGui import QColor, QPainter, QPen, QPicture
 
-from core.output.exercises import AXIS_TICK_DEG, SIDES
-from core.output.joint_content import JointCurves
-from core.output.report_content import Curves, SessionFigures, compare_rows, usual_deg
-from ui import numbers, terms
-from ui.fonts import MEDIUM, REGULAR, SEMIBOLD
-from ui.icons import paint_mark, paint_state
-from ui.plot.style import CURVE_TOKENS
-from ui.report.hand_part import paint_finger_curves, paint_finger_table, paint_wrist_line
-from ui.report.hand_rows import compared_figures, hand_summary
-from ui.report.page import A4_PT, MARGIN_PT, Page
-from ui.report.tables import TableRow, column_names, repetition_words, table_rows
-from ui.report.words import method, other_lines, quality_lines, summary, warnings
-from ui.review.curves import SessionPlot, paint_session, place_panels
-from ui.theme import LIGHT
-from ui.translate import tr
+from carpus.core.output.exercises import AXIS_TICK_DEG, SIDES
+from carpus.core.output.joint_content import JointCurves
+from carpus.core.output.motion_curves import MotionCurves
+from carpus.core.output.report_content import Curves, SessionFigures, compare_rows, usual_deg
+from carpus.ui import numbers, terms
+from carpus.ui.fonts import MEDIUM, REGULAR, SEMIBOLD
+from carpus.ui.icons import paint_mark, paint_state
+from carpus.ui.plot.session import SessionPlot, paint_session
+from carpus.ui.plot.style import CURVE_TOKENS
+from carpus.ui.report.hand_part import paint_finger_curves, paint_finger_table, paint_wrist_line
+from carpus.ui.report.hand_rows import compared_figures, hand_summary
+from carpus.ui.report.page import A4_PT, MARGIN_PT, Page
+from carpus.ui.report.tables import TableRow, column_names, repetition_words, table_rows
+from carpus.ui.report.words import corrected_words, method, other_lines, quality_lines, summary, warnings
+from carpus.ui.theme import LIGHT
+from carpus.ui.translate import tr
 
-LOWEST_PT = A4_PT[1] - MARGIN_PT + 20
+LOWEST_PT = A4_PT[1] - MARGIN_PT + 11
 """Lower edge of what a page may carry."""
 
 
@@ -44,8 +45,11 @@ class SessionReport:
     first: SessionFigures | None = None
     other_hand: SessionFigures | None = None
     joints: JointCurves | None = None
+    motion: MotionCurves | None = None
     digest: str = ""
     settings_digest: str = ""
+    revision: str = ""
+    recording_digest: str = ""
 
 
 def paint_session_page(page: Page, report: SessionReport) -> None:
@@ -60,7 +64,7 @@ def paint_session_page(page: Page, report: SessionReport) -> None:
 
 def _paint_all(page: Page, report: SessionReport) -> float:
     """Everything but what lies behind; returns the lower edge."""
-    y = paint_head(page, tr("Session report"), report.pseudonym, _what(report))
+    y = paint_head(page, tr("Session report"), report.pseudonym, what_words(report))
     y = _paint_facts(page, report, y)
     said = (summary if report.joints is None else hand_summary)(report.figures, report.previous, report.first)
     y = page.paragraph(said, page.left, y + 5, page.right - page.left, 10.0, SEMIBOLD)
@@ -69,7 +73,7 @@ def _paint_all(page: Page, report: SessionReport) -> float:
         y = _paint_curves(page, report, y + 8)
         y = _paint_bars(page, report, y + 8)
     else:
-        y = paint_finger_table(page, report.figures, report.previous, y + 7)
+        y = paint_finger_table(page, report.figures, report.previous, report.other_hand, y + 7)
         y = paint_wrist_line(page, report.figures, y + 7)
         below = painted_on_nothing(
             page, lambda trial: _paint_foot(trial, report, _paint_boxes(trial, report, 9.0) + 10)
@@ -118,7 +122,8 @@ def paint_head(page: Page, kind: str, pseudonym: str, what: str) -> float:
     return top + 57
 
 
-def _what(report: SessionReport) -> str:
+def what_words(report: SessionReport) -> str:
+    """Exercise and hand."""
     figures = report.figures
     return f"{terms.exercise_name(figures.exercise.id)}, {terms.hand_name(figures.side).lower()}"
 
@@ -140,6 +145,9 @@ def _paint_facts(page: Page, report: SessionReport, top: float) -> float:
     width = page.right - page.left
     for words in warnings(figures):
         top = page.paragraph(words, page.left, top + 35, width, 8.5, SEMIBOLD, "warn") - 33
+    if said := corrected_words(figures):
+        kept = tr("Markers were put right by hand; the result as measured is kept.")
+        top = page.paragraph(f"{said} {kept}", page.left, top + 35, width, 8.5, MEDIUM, "text") - 33
     page.rule(top + 36)
     return top + 36
 
@@ -191,7 +199,7 @@ def _paint_curves(page: Page, report: SessionReport, top: float) -> float:
     )  # fmt: skip
     box = page.box(page.left + 70, top + 30, page.right - page.left - 78, 158)
     style = page.style
-    paint_session(page.painter, style, plot, place_panels(plot, box, 9 * page.point))
+    paint_session(page.painter, style, plot, plot.panels(box, 9 * page.point))
     return top + 30 + 158 + 16
 
 
@@ -321,13 +329,19 @@ def _paint_foot(page: Page, report: SessionReport, top: float) -> float:
     y = page.paragraph(said, page.left, top + 4, width, 8.0, REGULAR, "text2")
     y = page.paragraph(terms.LEGAL_SENTENCE, page.left, y + 3, width, 8.0, SEMIBOLD)
     residual = figures.quality.residual_mm
-    parts = [tr("Session {id}").format(id=figures.session_id[:8]), f"Carpus {figures.software_version}"]
+    made_by = f" ({report.revision[:7]})" if report.revision else ""
+    parts = [tr("Session {id}").format(id=figures.session_id[:8]), f"Carpus {figures.software_version}{made_by}"]
     if report.settings_digest:
         parts.append(tr("settings {digest}").format(digest=report.settings_digest[:4]))
     if report.digest:
-        parts.append(tr("data SHA-256 {digest}").format(digest=f"{report.digest[:4]}…{report.digest[-4:]}"))
+        parts.append(tr("data {digest}").format(digest=f"{report.digest[:4]}…{report.digest[-4:]}"))
+    if report.recording_digest:
+        digest = f"{report.recording_digest[:4]}…{report.recording_digest[-4:]}"
+        parts.append(tr("recording {digest}").format(digest=digest))
     if math.isfinite(residual):
         parts.append(tr("calibrated to {size} mm").format(size=f"{residual:.1f}"))
     parts.append(tr("smoothed") if figures.smoothed else tr("as measured live"))
-    page.text(" · ".join(parts), page.left, max(y + 12, A4_PT[1] - MARGIN_PT + 8), 8.0, REGULAR, "text2")
+    words = " · ".join(parts)
+    size_pt = min(8.0, 7.9 * width / page.width_of(words, 8.0))
+    page.text(words, page.left, max(y + 12, A4_PT[1] - MARGIN_PT + 8), size_pt, REGULAR, "text2")
     return y + 12

@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
-from core.output.range_rows import RangeRow
-from core.output.report_content import Comparison, SessionFigures, compare, usual_deg
-from ui import numbers, terms
-from ui.plot.style import CURVE_TOKENS
-from ui.translate import tr
-from ui.verdicts import change_short, change_with_limit, reason_words
+from carpus.core.output.range_rows import RangeRow
+from carpus.core.output.report_content import Comparison, SessionFigures, compare, usual_deg
+from carpus.ui import numbers, terms
+from carpus.ui.plot.style import CURVE_TOKENS
+from carpus.ui.translate import tr
+from carpus.ui.verdicts import change_short, change_with_limit, reason_words
 
 
 @dataclass(frozen=True, slots=True)
@@ -52,15 +52,23 @@ def table_rows(
     for angle in (0, 1, 2):
         if math.isfinite(figures.trick_deg[angle]):
             out.append(_trick_row(angle, figures, previous))
-    if figures.peak_speed.count:
+    if figures.peak_speed.count or too_slow(figures):
         out.append(_speed_row(figures, previous, other))
     return out
+
+
+def too_slow(figures: SessionFigures) -> bool:
+    """Whether there are strokes, and of all of them the speed is lost in the tracker's noise."""
+    return figures.speed is not None and figures.speed.too_slow > 0 and not figures.peak_speed.count
 
 
 def repetition_words(figures: SessionFigures) -> str:
     """``mean of 9 repetitions; number 7 left out: pain``: always n and what is left out."""
     if not figures.repetitions:
-        return tr("one range over the whole recording; no repetitions")
+        ways = [len(item.values) for item in figures.further if item.name == "movement time"]
+        if ways:
+            return tr("{count} ways out and back; ranges over the whole recording").format(count=sum(ways))
+        return _with_unseen([_why_none(figures)], figures)
     counted = figures.counted
     words = tr("1 repetition") if counted == 1 else tr("mean of {count} repetitions").format(count=counted)
     parts = [words]
@@ -69,14 +77,51 @@ def repetition_words(figures: SessionFigures) -> str:
             parts.append(tr("number {number} left out: {reason}").format(number=number, reason=repetition.reason))
         elif repetition.too_hidden:
             parts.append(tr("number {number} left out: not seen well enough").format(number=number))
+    return _with_unseen(parts, figures)
+
+
+def _why_none(figures: SessionFigures) -> str:
+    whole = tr("one range over the whole recording; no repetitions")
+    why = {
+        "too_short": tr("it is too short"),
+        "nothing_seen": tr("what is trained was not seen"),
+        "small_range": tr("less than 10° of movement"),
+        "no_return": tr("it never went there and back"),
+        "too_quick": tr("each was quicker than 0.4 s"),
+        None: "",
+    }[figures.uncounted]
+    return f"{whole}: {why}" if why else whole
+
+
+def _with_unseen(parts: list[str], figures: SessionFigures) -> str:
+    """Nothing is counted where nothing was seen for long: that much of the recording is not in the number."""
+    if figures.exercise.counts and figures.unseen_s >= 1.0:
+        seconds = f"{figures.unseen_s:.0f}"
+        parts = [*parts, tr("{seconds} s not seen and not counted").format(seconds=seconds)]
     return "; ".join(parts)
 
 
 def mean_words(row: RangeRow) -> str:
-    """``57° ± 2°``; single values listed where there are fewer than three."""
+    """``57° ± 2°``: the spread between repetitions, of a single one the tracker's own; two are listed."""
     if 1 < row.count < 3:
         return ", ".join(numbers.degrees(value) for value in row.values_deg)
-    return numbers.with_spread(row.mean_deg, row.sd_deg)
+    return numbers.with_spread(row.mean_deg, row.sd_deg if prints_spread(row) else row.measurement_sd_deg)
+
+
+def prints_spread(row: RangeRow) -> bool:
+    """Whether what stands after its ± is the spread between repetitions, not the tracker's sd."""
+    return math.isfinite(row.sd_deg)
+
+
+def is_deficit(row: RangeRow) -> bool:
+    """Whether an end of the wrist's movement was never reached: the other one does not come back to neutral."""
+    return not row.joint and row.movement != "arc" and row.mean_deg < 0.0
+
+
+def turned(row: RangeRow) -> RangeRow:
+    """A deficit counted upwards."""
+    values = tuple(-value for value in row.values_deg)
+    return replace(row, mean_deg=-row.mean_deg, best_deg=-row.best_deg, values_deg=values)
 
 
 def _range_row(
@@ -84,6 +129,8 @@ def _range_row(
     change: Comparison | None,
 ) -> TableRow:  # fmt: skip
     name = terms.movement_name(row.movement)
+    if is_deficit(row):
+        name, row = terms.deficit_name(row.movement), turned(row)
     if figures.exercise.angle is None and row.movement == "arc":
         name = terms.arc_name(row.angle)
     before, beside = (item.row(row.movement, row.angle) if item else None for item in (previous, other))
@@ -100,9 +147,9 @@ def _range_row(
         movement=name,
         today=mean_words(row),
         best=numbers.degrees(row.best_deg),
-        other_hand=numbers.degrees(beside.mean_deg) if beside else "",
+        other_hand=terms.end_words(beside.mean_deg) if beside else "",
         usual=numbers.UNKNOWN if usual is None else _range(*usual),
-        last=numbers.degrees(before.mean_deg) if before else "",
+        last=terms.end_words(before.mean_deg) if before else "",
         change=words,
         short_change=short or words,
         token="" if row.movement == "arc" else CURVE_TOKENS[row.angle],
@@ -134,8 +181,8 @@ def _speed_row(figures: SessionFigures, previous: SessionFigures | None, other: 
     spread = f"{numbers.NARROW_GAP}±{numbers.NARROW_GAP}{speed.sd:.0f}" if math.isfinite(speed.sd) else ""
     return TableRow(
         movement=tr("Peak speed"),
-        today=f"{speed.mean:.0f}{spread}°/s",
-        best=numbers.speed(speed.best),
+        today=tr("too slow to judge") if too_slow(figures) else f"{speed.mean:.0f}{spread}°/s",
+        best="" if too_slow(figures) else numbers.speed(speed.best),
         other_hand=numbers.speed(other.peak_speed.mean) if other else "",
         usual=numbers.UNKNOWN,
         last=numbers.speed(previous.peak_speed.mean) if previous else "",

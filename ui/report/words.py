@@ -4,19 +4,25 @@ from __future__ import annotations
 
 import math
 
-from core.output.exercises import SIDES, STILL_RADIUS_MM
-from core.output.report_content import Comparison, SessionFigures, compare
-from core.words import finding_words
-from ui import numbers, terms
-from ui.translate import tr
-from ui.verdicts import reason_words
+from carpus.core.output.exercises import SIDES, STILL_RADIUS_MM
+from carpus.core.output.report_content import Comparison, SessionFigures, compare
+from carpus.core.words import finding_words
+from carpus.ui import numbers, terms
+from carpus.ui.report.tables import is_deficit, prints_spread, too_slow
+from carpus.ui.translate import tr
+from carpus.ui.verdicts import counted_once_words, limit_words, reason_words
 
 
 def summary(figures: SessionFigures, previous: SessionFigures | None, first: SessionFigures | None) -> str:
     """Today's figures, then what may be said of change."""
     free = figures.exercise.angle is None
     rows = [row for row in figures.rows if row.movement == "arc" or not free][:3]
-    today = ", ".join(f"{_name(row.movement, row.angle, figures)} {numbers.degrees(row.mean_deg)}" for row in rows)
+    today = ", ".join(
+        f"{terms.deficit_name(row.movement).lower()} {numbers.degrees(-row.mean_deg)}"
+        if is_deficit(row)
+        else f"{_name(row.movement, row.angle, figures)} {numbers.degrees(row.mean_deg)}"
+        for row in rows
+    )
     if not today:
         return tr("No range could be measured.")
     parts = [f"{today[0].upper()}{today[1:]}."]
@@ -70,7 +76,11 @@ def method(figures: SessionFigures, markers: int, *, compared: bool) -> str:
     given = terms.start_angle_words(figures.start_angles_deg * math.pi / 180.0)
     zero = tr("zero is the neutral hand, palm down")
     order = tr("Angles in the order deviation, flexion, pro/supination; {zero}.")
+    if figures.angle_order == "isb":
+        order = tr("Angles in the order of the ISB: flexion, deviation, pro/supination; {zero}.")
     if figures.joint_rows:
+        order = tr("Fingers: zero is straight, below it bent back. Wrist: {zero}.")
+    if any(row.joint.startswith("TAM") for row in figures.joint_rows):
         order = tr(
             "Fingers: zero is straight, below it bent back; TAM is bending less what is missing to straight. "
             "Wrist: {zero}."
@@ -82,15 +92,28 @@ def method(figures: SessionFigures, markers: int, *, compared: bool) -> str:
             markers=markers, distance=distance
         ),
         order.format(zero=zero),
-        tr("± is the spread between repetitions; each angle itself is known to about {sd} where seen.").format(
-            sd=numbers.spread(quality.angle_sd_deg)
-        ),
-        tr("“Error” is the smallest difference that can be called a change (published; same protocol and set-up).")
-        if compared
+        tr("The wrist’s angles are in the order of the ISB.")
+        if figures.joint_rows and figures.angle_order == "isb"
         else "",
+        _sd_words(figures).format(sd=numbers.spread(quality.angle_sd_deg)),
+        limit_words(figures.study) if compared else "",
+        counted_once_words(figures.earlier_results),
         tr("Carpus measures the hand in the room: it is the wrist only while the forearm rests."),
     ]
     return " ".join(filter(None, sentences))
+
+
+def _sd_words(figures: SessionFigures) -> str:
+    """Whose standard deviation stands behind the ±: of the repetitions, or of the tracker where there are too few."""
+    spreads = {prints_spread(row) for row in (*figures.rows, *figures.joint_rows) if row.count and not row.limited}
+    if spreads == {True}:
+        return tr("± is the spread between repetitions; each angle itself is known to about {sd} where seen.")
+    if spreads == {True, False}:
+        return tr(
+            "± is the spread between repetitions, of fewer than 3 the tracker’s own sd of one value; each angle itself "
+            "is known to about {sd} where seen."
+        )
+    return tr("± is the tracker’s own sd of one value: there was no spread to give; each angle is known to about {sd}.")
 
 
 def warnings(figures: SessionFigures) -> list[str]:
@@ -106,6 +129,18 @@ def warnings(figures: SessionFigures) -> list[str]:
     if not figures.complete or figures.recovered:
         lines.append(tr("This recording was cut short and recovered."))
     return lines
+
+
+def corrected_words(figures: SessionFigures) -> str:
+    """``Corrected on 22 Nov 2026, from 00:31.4, by MK.``: markers were put right after the recording; empty as
+    measured."""
+    said = figures.corrected
+    if said is None:
+        return ""
+    day, at = numbers.day_of_year(said.when), numbers.clock_tenths(said.from_s)
+    if said.by:
+        return tr("Corrected on {day}, from {time}, by {who}.").format(day=day, time=at, who=said.by)
+    return tr("Corrected on {day}, from {time}.").format(day=day, time=at)
 
 
 def target_words(figures: SessionFigures) -> str:
@@ -146,6 +181,12 @@ def quality_lines(figures: SessionFigures) -> list[tuple[str, str, bool]]:
             distance=numbers.millimetres(quality.forearm_mm), limit=numbers.millimetres(STILL_RADIUS_MM)
         )
         lines.append((tr("Forearm moved"), words, not quality.forearm_moved))
+        if math.isfinite(quality.centre_residual_mm):
+            words = tr("{depth} under its disc (fit {residual})").format(
+                depth=numbers.millimetres(-quality.centre_mm[2]),
+                residual=f"{quality.centre_residual_mm:.1f}{numbers.NARROW_GAP}mm",
+            )
+            lines.append((tr("Wrist turns about"), words, True))
     names = {0: tr("Side movement"), 1: tr("Up and down"), 2: tr("Turning")}
     for angle in (0, 1, 2):
         value = float(figures.trick_deg[angle])
@@ -167,6 +208,10 @@ def other_lines(figures: SessionFigures) -> list[tuple[str, str]]:
     if speed.count:
         spread = f"{numbers.NARROW_GAP}±{numbers.NARROW_GAP}{speed.sd:.0f}" if math.isfinite(speed.sd) else ""
         lines.append((tr("Peak speed, mean ± sd"), f"{speed.mean:.0f}{spread}°/s"))
+    elif too_slow(figures):
+        lines.append((tr("Peak speed, mean ± sd"), tr("too slow to judge")))
+    if figures.speed is not None and figures.speed.too_slow_to_be_smooth and not smooth.count:
+        lines.append((tr("Smoothness (SPARC; 0 is smoothest)"), tr("too slow to judge")))
     if smooth.count:
         spread = f"{numbers.NARROW_GAP}±{numbers.NARROW_GAP}{smooth.sd:.1f}" if math.isfinite(smooth.sd) else ""
         value = f"{smooth.mean:.1f}".replace("-", "\N{MINUS SIGN}")

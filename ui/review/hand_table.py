@@ -8,21 +8,32 @@ from PySide6.QtCore import QPointF, QRectF, QSize, Qt
 from PySide6.QtGui import QFont, QFontMetricsF, QPainter, QPaintEvent, QPen
 from PySide6.QtWidgets import QSizePolicy, QWidget
 
-from ui.figures import FINGERS, TOKENS
-from ui.fonts import MEDIUM, REGULAR, SEMIBOLD, font
-from ui.report.hand_rows import COLUMNS, FingerRow
-from ui.theme import Theme
+from carpus.ui.figures import FINGERS, TOKENS
+from carpus.ui.fonts import MEDIUM, REGULAR, SEMIBOLD, font
+from carpus.ui.report.hand_rows import COLUMNS, FingerRow
+from carpus.ui.theme import Theme
 
 ROW_PX, HEAD_PX = 37, 26
-EDGES = (0.0, 0.062, 0.186, 0.310, 0.434, 0.566, 0.712, 0.757, 0.838)
-"""Left edge of the finger's name, the five figures, the usual value, last time and the change, as shares."""
-TIGHT_EDGES = (0.0, 0.078, 0.200, 0.330, 0.464, 0.590, 0.740, 0.740, 0.835)
-"""The same for large text in a narrow window: without the usual value."""
+EDGES = (0.0, 0.062, 0.178, 0.294, 0.406, 0.530, 0.672, 0.750, 0.832)
+"""Left edge of the finger's name, the five figures, the share of the total, last time and the change, as shares."""
+TIGHT_EDGES = (0.0, 0.078, 0.186, 0.296, 0.396, 0.508, 0.650, 0.750, 0.835)
+"""The same for large text in a narrow window."""
 TIGHT_BELOW_PX = 1000
+SMALLEST_PX = 10
+
+
+def fitting(face: QFont, text: str, room: float) -> QFont:
+    """A smaller face where a text is too long for its place: a figure is rather small than cut."""
+    size = face.pixelSize()
+    while size > SMALLEST_PX and QFontMetricsF(face).horizontalAdvance(text) > room:
+        size -= 1
+        face = QFont(face)
+        face.setPixelSize(size)
+    return face
 
 
 class HandTable(QWidget):
-    """Paints the rows; what is too long for its column is cut with dots."""
+    """Paints the rows; what is too long for its column is smaller, and cut only where it would be unreadable."""
 
     def __init__(self, theme: Theme) -> None:
         super().__init__()
@@ -89,7 +100,9 @@ class HandTable(QWidget):
                 self._text(painter, cell.small, column, lower - scale, 0.45 * height, small, "text2")
             else:
                 self._text(painter, cell.shown, column, top, height, face, token)
-        self._text(painter, row.usual, 6, top, height, body, "text2")
+        if row.share.small:
+            self._text(painter, row.share.main, 6, upper, 0.5 * height, strong, "text")
+            self._text(painter, row.share.small, 6, lower - scale, 0.45 * height, small, "text2")
         self._text(painter, row.last, 7, top, height, body, "text")
         token = {"improved": "good", "worse": "bad"}.get(row.verdict, "text2")
         self._text(painter, row.change, 8, top, height, small, token)
@@ -110,6 +123,7 @@ class HandTable(QWidget):
         if end == left - indent:
             return
         room = max(end - left - 6, 20.0)
+        face = fitting(face, text, room)
         painter.setFont(face)
         painter.setPen(self._theme.color(token))
         shown = QFontMetricsF(face).elidedText(text, Qt.TextElideMode.ElideRight, room)

@@ -6,14 +6,14 @@ from collections.abc import Sequence
 
 from PySide6.QtCore import QPointF, QRectF, QSize, Qt, Signal
 from PySide6.QtGui import QMouseEvent, QPainter, QPaintEvent, QPen
-from PySide6.QtWidgets import QHBoxLayout, QSizePolicy, QWidget
+from PySide6.QtWidgets import QComboBox, QHBoxLayout, QSizePolicy, QWidget
 
-from core.output.report_content import ShownRepetition
-from ui import numbers
-from ui.controls.button import Button, icon_button
-from ui.controls.card import Card, KeyCaps
-from ui.controls.text import MEDIUM, Text
-from ui.theme import Theme
+from carpus.core.output.report_content import ShownRepetition
+from carpus.ui import numbers
+from carpus.ui.controls.button import Button, icon_button
+from carpus.ui.controls.card import Card, KeyCaps
+from carpus.ui.controls.text import MEDIUM, Text
+from carpus.ui.theme import Theme
 
 SPEEDS = ((0.25, "¼"), (0.5, "½"), (1.0, "1"), (2.0, "2"))
 
@@ -24,8 +24,10 @@ class Player(Card):
     stepped = Signal(int)
     play_toggled = Signal()
     sought = Signal(float)
+    view_chosen = Signal(str)
 
-    def __init__(self, theme: Theme) -> None:
+    def __init__(self, theme: Theme, *, plays: bool = True) -> None:
+        """``plays``: whether it can be played, not only stepped through."""
         super().__init__(theme, 0)
         self._end_s = 1.0
         self._speed = 2
@@ -33,6 +35,20 @@ class Player(Card):
         self.play = icon_button(theme, "play", self.tr("Play (Space)"), "well")
         self.on = icon_button(theme, "step-forward", self.tr("Next picture (→)"))
         self.speed = Button(theme, "", "quiet", height_px=40)
+        self.view = QComboBox()
+        self.view.setAccessibleName(self.tr("What is drawn"))
+        self.view.setToolTip(self.tr("What is drawn of the movement (V)"))
+        self.view.setSizeAdjustPolicy(QComboBox.SizeAdjustPolicy.AdjustToContents)
+        self.view.setFocusPolicy(Qt.FocusPolicy.TabFocus)  # a click leaves Space and the arrows to the player
+        for value, words in (
+            ("angles", self.tr("Angles")), ("path", self.tr("Path")), ("place", self.tr("Place, speed")),
+            ("zyz", self.tr("ZYZ")),
+        ):  # fmt: skip
+            self.view.addItem(words, value)
+        self.view_key = KeyCaps(theme, [("V", "")])
+        self.hints = KeyCaps(theme, [(self.tr("Space"), self.tr("play")), ("[ ]", self.tr("repetition"))])
+        self.few_hints = KeyCaps(theme, [(self.tr("Space"), self.tr("play"))])
+        self.few_hints.hide()
         self.time = Text(theme, "", 14, MEDIUM)
         self.scrubber = Scrubber(theme)
         row = QHBoxLayout()
@@ -43,18 +59,27 @@ class Player(Card):
         row.addSpacing(8)
         row.addWidget(self.speed)
         row.addSpacing(8)
-        row.addWidget(KeyCaps(theme, [(self.tr("Space"), self.tr("play")), ("[ ]", self.tr("repetition"))]))
+        row.addWidget(self.view)
+        row.addSpacing(4)
+        row.addWidget(self.view_key)
+        row.addSpacing(12)
+        row.addWidget(self.hints)
+        row.addWidget(self.few_hints)
         row.addStretch(1)
         row.addWidget(self.time)
         row.addSpacing(8)
         row.addWidget(self.scrubber, 6)
         row.addSpacing(8)
-        row.addWidget(KeyCaps(theme, [("← →", self.tr("picture"))]))
+        if plays:
+            row.addWidget(KeyCaps(theme, [("← →", self.tr("picture"))]))
+        for shown in (self.play, self.speed, self.view, self.view_key, self.hints):
+            shown.setVisible(plays)
         self.body.addLayout(row)
         self.back.clicked.connect(lambda: self.stepped.emit(-1))
         self.on.clicked.connect(lambda: self.stepped.emit(1))
         self.play.clicked.connect(self.play_toggled)
         self.speed.clicked.connect(self._next_speed)
+        self.view.currentIndexChanged.connect(lambda _: self.view_chosen.emit(self.view.currentData()))
         self.scrubber.sought.connect(self.sought)
         self._show_speed()
 
@@ -62,6 +87,15 @@ class Player(Card):
     def factor(self) -> float:
         """How fast time passes while playing."""
         return SPEEDS[self._speed][0]
+
+    def next_view(self) -> None:
+        """Something else is drawn of the movement."""
+        self.view.setCurrentIndex((self.view.currentIndex() + 1) % self.view.count())
+
+    def show_tight(self, tight: bool) -> None:
+        """Large text: fewer hints."""
+        self.hints.setVisible(not tight)
+        self.few_hints.setVisible(tight)
 
     def show_session(self, end_s: float, repetitions: Sequence[ShownRepetition], current: int) -> None:
         """Length and repetitions."""

@@ -5,10 +5,10 @@ from __future__ import annotations
 from PySide6.QtCore import Signal
 from PySide6.QtWidgets import QHBoxLayout, QLineEdit, QWidget
 
-from ui.controls.button import Button
-from ui.controls.sheet import Sheet
-from ui.controls.text import SEMIBOLD, Text
-from ui.theme import Theme
+from carpus.ui.controls.button import Button
+from carpus.ui.controls.sheet import Sheet
+from carpus.ui.controls.text import SEMIBOLD, Text
+from carpus.ui.theme import Theme
 
 
 class ReasonSheet(Sheet):

@@ -8,48 +8,58 @@ from dataclasses import dataclass, replace
 from datetime import datetime, timedelta
 
 import numpy as np
-from PySide6.QtCore import Qt, QTimer, Signal
+from PySide6.QtCore import QEvent, QObject, Qt, QTimer, Signal
 from PySide6.QtGui import QColor, QPainter, QResizeEvent
 from PySide6.QtWidgets import QHBoxLayout, QScrollArea, QVBoxLayout, QWidget
 
-from core.output.exercises import FLEXION, SIDES
-from core.output.joint_content import JointCurves, joint_curves
-from core.output.report_content import (
+from carpus.core.output.exercises import FLEXION, SIDES
+from carpus.core.output.joint_content import JointCurves, joint_curves
+from carpus.core.output.motion_curves import MotionCurves, motion_curves
+from carpus.core.output.report_content import (
     Curves,
     RepetitionChoices,
     SessionFigures,
+    limits_of,
     other_hand_of,
     previous_of,
     session_curves,
     session_figures,
 )
-from core.session.values import Session
-from core.types import ByteImage, FloatArray
-from ui import numbers, terms
-from ui.background import Background
-from ui.controls.button import Button
-from ui.controls.card import Card
-from ui.controls.column import ScrolledColumn
-from ui.controls.field import Choices
-from ui.controls.text import REGULAR, SEMIBOLD, Text
-from ui.figures import FINGERS, figure_of
-from ui.keys import Keys, bind
-from ui.marker_words import finger_name
-from ui.picture.overlay import haloed
-from ui.picture.photo import paint_label
-from ui.picture.view import PictureView
-from ui.ports import SessionStore
-from ui.report.hand_rows import column_heads, finger_rows, limits_words
-from ui.report.tables import column_names, repetition_words, table_rows
-from ui.review.curve_view import EDGES_S, CurveView
-from ui.review.curves import SessionPlot, row_at, value_at
-from ui.review.hand_curves import HandPlot
-from ui.review.hand_table import HandTable
-from ui.review.player import Player
-from ui.review.reason import ReasonSheet
-from ui.review.skeleton import modelled_px, paint_skeleton, paint_trails
-from ui.review.table import RangeTable
-from ui.theme import GAP_PX, MARGIN_PX, ON_PICTURE_LINE, Theme, is_tight
+from carpus.core.session.values import Session
+from carpus.core.types import ByteImage, FloatArray
+from carpus.ui import numbers, terms
+from carpus.ui.background import Background
+from carpus.ui.controls.button import Button
+from carpus.ui.controls.card import Card
+from carpus.ui.controls.column import ScrolledColumn
+from carpus.ui.controls.field import Choices
+from carpus.ui.controls.text import REGULAR, SEMIBOLD, ElidedText, Text
+from carpus.ui.controls.tooltip import plain_tooltip
+from carpus.ui.figures import FINGERS, figure_of
+from carpus.ui.keys import Keys, bind
+from carpus.ui.marker_words import finger_name
+from carpus.ui.picture.overlay import haloed
+from carpus.ui.picture.photo import paint_label
+from carpus.ui.picture.view import PictureView
+from carpus.ui.plot.motion import MotionKind, MotionPlot
+from carpus.ui.plot.session import HandPlot, SessionPlot, row_at, value_at
+from carpus.ui.plot.session_view import EDGES_S, CurveView
+from carpus.ui.plot.ways import finger_ways, wrist_way
+from carpus.ui.plot.ways_view import WaysView
+from carpus.ui.ports import SessionStore, StoredResult
+from carpus.ui.report.further_rows import FIRST, further_rows, further_title
+from carpus.ui.report.hand_rows import column_heads, finger_rows, limits_words
+from carpus.ui.report.tables import column_names, repetition_words, table_rows
+from carpus.ui.report.words import corrected_words
+from carpus.ui.review.further_table import FurtherTable
+from carpus.ui.review.hand_table import HandTable
+from carpus.ui.review.player import Player
+from carpus.ui.review.reason import ReasonSheet
+from carpus.ui.review.results import ResultChoice
+from carpus.ui.review.skeleton import modelled_px, paint_skeleton, paint_trails
+from carpus.ui.review.table import RangeTable
+from carpus.ui.theme import GAP_PX, MARGIN_PX, ON_PICTURE_LINE, Theme, is_tight
+from carpus.ui.tour.bubble import LEAST_SCREEN_PX, BubbleView
 
 PLAY_EVERY_MS = 40
 WRIST = -1
@@ -57,6 +67,8 @@ WRIST = -1
 TRAIL_S = 1.0
 """How far back the way of the fingertips is drawn."""
 EDGE_STEP_S = 0.1
+LEAST_TABLE_PX = 84
+"""The head of the table and two rows."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -66,15 +78,19 @@ class Reviewed:
     session: Session
     choices: RepetitionChoices
     history: Sequence[SessionFigures]
+    results: Sequence[StoredResult] = ()
 
 
 class ReviewScreen(QWidget):
     """``report`` and ``export`` carry the session's identity; ``told`` a fault; ``again`` asks for another set;
-    ``arrived`` when a session is on the screen."""
+    ``arrived`` when a session is on the screen; ``correct`` carries the session and the row whose markers are to be put
+    right, ``result`` another result of the same recording."""
 
     report = Signal(str)
     export = Signal(str)
     again = Signal()
+    correct = Signal(str, object, int)
+    result = Signal(str)
     told = Signal(object)
     arrived = Signal()
 
@@ -87,6 +103,7 @@ class ReviewScreen(QWidget):
         self._history: Sequence[SessionFigures] = ()
         self._curves: Curves | None = None
         self._joints: JointCurves | None = None
+        self._motion: MotionCurves | None = None
         self._modelled_px: FloatArray | None = None
         self.figures: SessionFigures | None = None
         self._time_s = 0.0
@@ -96,16 +113,19 @@ class ReviewScreen(QWidget):
         self.picture = PictureView(theme, (480, 360))
         self.picture.overlay = self._paint_overlay
         self.curves = CurveView(theme)
+        self.ways = WaysView(theme)
+        self.ways.hide()
         self.player = Player(theme)
         self.table = RangeTable(theme)
         self.hand_table = HandTable(theme)
+        self.further = FurtherTable(theme)
         self.limits = Text(theme, "", 12, REGULAR, "text2", wrap=True)
         fingers: list[tuple[object, str]] = [(0, self.tr("All fingers"))]
         fingers += [(finger, finger_name(str(finger))) for finger in FINGERS]
         self.finger = Choices(theme, [*fingers, (WRIST, self.tr("Wrist"))])
         self.notes = Text(theme, "", 14, REGULAR, wrap=True)
         self.title = Text(theme, self.tr("Range of motion"), 20, SEMIBOLD)
-        self.count = Text(theme, "", 14, REGULAR, "text2", wrap=True)
+        self.count = ElidedText(theme, "", 14, REGULAR, "text2")  # one line: what it says comes when all has its place
         self.again_button = Button(theme, self.tr("Another set"), "quiet", icon="plus")
         self.count_button = Button(theme, self.tr("Do not count"), "quiet")
         self.count_button.setFocusPolicy(Qt.FocusPolicy.TabFocus)  # Space stays with the player after a click
@@ -114,11 +134,23 @@ class ReviewScreen(QWidget):
         self.report_button = Button(
             theme, self.tr("Make report"), "primary", icon="file-text", hint="Ctrl+P", height_px=44
         )
+        self.correct_button = Button(theme, self.tr("Put markers right…"), "plain", height_px=36)
+        self.correct_button.setParent(self.picture)
+        self.correct_button.setProperty("floats", True)
+        self.correct_button.setFocusPolicy(Qt.FocusPolicy.TabFocus)
+        self.correct_button.setToolTip(self.tr("A marker is wrong or missing here (Shift+F10)"))
+        self.correct_button.hide()
+        self.picture.installEventFilter(self)
+        self.results = ResultChoice(theme)
+        self.bubble = BubbleView(theme, wide=True)
         self._is_hand = False
         self.reason = ReasonSheet(self, theme)
         self._lay_out()
         self._connect(keys)
+        # At once, and again when every part has taken its new size.
         theme.changed.connect(self._fit)
+        theme.changed.connect(lambda: QTimer.singleShot(0, self, self._fit))
+        theme.changed.connect(lambda: QTimer.singleShot(0, self, self._place_button))
         self._timer = QTimer(self)
         self._timer.setInterval(PLAY_EVERY_MS)
         self._timer.timeout.connect(self._play_on)
@@ -130,9 +162,10 @@ class ReviewScreen(QWidget):
         right = QVBoxLayout()
         right.setSpacing(8)
         right.addWidget(self.finger)
-        for hidden in (self.finger, self.hand_table, self.limits):
+        for hidden in (self.finger, self.hand_table, self.limits, self.further):
             hidden.hide()  # until a session of the whole hand is shown
         right.addWidget(self.curves, 1)
+        right.addWidget(self.ways, 1)
         top.addLayout(right, 736)
         card = Card(self._theme, 20)
         head = QHBoxLayout()
@@ -154,7 +187,7 @@ class ReviewScreen(QWidget):
         below = self._below = QVBoxLayout(tables)
         below.setContentsMargins(0, 0, 0, 0)
         below.setSpacing(4)
-        for widget in (self.table, self.hand_table, self.limits, self.notes):
+        for widget in (self.table, self.hand_table, self.further, self.limits, self.notes, self.results):
             below.addWidget(widget)
         below.addStretch(1)
         self._scroll.setWidget(tables)
@@ -166,6 +199,7 @@ class ReviewScreen(QWidget):
         whole.setSpacing(12)
         whole.addLayout(top, 1)
         whole.addWidget(self.player)
+        whole.addWidget(self.bubble)
         whole.addWidget(card)
 
     def resizeEvent(self, event: QResizeEvent) -> None:
@@ -173,45 +207,64 @@ class ReviewScreen(QWidget):
 
     def _fit(self) -> None:
         """The table takes the rows it has; with large text it scrolls and the curves keep a panel."""
+        self.bubble.give_room(self.height() >= LEAST_SCREEN_PX * self._theme.text_scale)
         tight = is_tight(self, self._theme)
         self.curves.show_single(tight)
+        self.player.show_tight(tight)
         self.finger.buttons()[0].setVisible(not tight)
         if tight and self._joints is not None and self.figures is not None and self._finger == 0:
             self.finger.choose(figure_of(self.figures.exercise.joint).finger)  # five panels have no room
             self._refresh()
             return
-        most = self.height() * (0.36 if tight else 0.48)
+        most = self.height() * (0.36 if tight else 0.42 if self._is_hand else 0.48)
         needed = self.table.sizeHint().height()
-        if self._is_hand:
-            words = self.limits.heightForWidth(max(self._scroll.width() - 24, 300))
-            needed = self.hand_table.sizeHint().height() + self._below.spacing() + words
+        # All else keeps its least height; the card must not be pushed together instead.
+        whole, width = self.layout(), self.width()
+        assert whole is not None
+        whole.invalidate()  # the text may just have become larger
+        least = whole.minimumHeightForWidth(width) if whole.hasHeightForWidth() else whole.minimumSize().height()
+        room = self.height() - (least - self._scroll.minimumHeight())
+        fewest = LEAST_TABLE_PX * self._theme.text_scale
+        if self._is_hand:  # always more than there is room for: its place is known before it is read
+            self._scroll.setFixedHeight(round(max(min(most, room), fewest)))
+            return
+        if self.further.rows:
+            needed += self.further.sizeHint().height() + self._below.spacing()
+        if self.results.buttons:
+            needed += self.results.sizeHint().height() + self._below.spacing()
         # A line for notes, also while nobody knows yet whether there are any: nothing jumps when they are read.
         needed += self.notes.fontMetrics().height() + 2 * self._below.spacing()
-        self._scroll.setFixedHeight(round(min(needed + 2, most)))
+        self._scroll.setFixedHeight(round(max(min(needed + 2, most, room), fewest)))
 
     def _connect(self, keys: Keys) -> None:
         self.curves.cursor_moved.connect(self.seek)
         self.curves.edges_moved.connect(self._take_edges)
+        self.curves.told.connect(self.told)
         self.finger.chosen.connect(lambda _: self._refresh())
         for button in self.finger.buttons():
             button.setFocusPolicy(Qt.FocusPolicy.TabFocus)  # a click must leave Space and the arrows to the player
         self.player.sought.connect(self.seek)
         self.player.stepped.connect(self.step)
         self.player.play_toggled.connect(self.toggle_play)
+        self.player.view_chosen.connect(lambda _: self._refresh())
         self.reason.kept.connect(self._leave_out)
         self.report_button.clicked.connect(lambda: self.report.emit(self._session_id))
         self.export_button.clicked.connect(lambda: self.export.emit(self._session_id))
         self.again_button.clicked.connect(self.again)
         self.count_button.clicked.connect(self.toggle_counted)
+        self.correct_button.clicked.connect(self.correct_here)
+        self.results.chosen.connect(self.result)
         self.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
         self.setProperty("shows_own_focus", True)
         actions = {
             "play": self.toggle_play, "frame_back": lambda: self.step(-1), "frame_on": lambda: self.step(1),
             "repetition_back": lambda: self.go_to_repetition(self._current - 1),
             "repetition_on": lambda: self.go_to_repetition(self._current + 1),
-            "leave_out": self.toggle_left_out, "edge_back": lambda: self.nudge_edge(-EDGE_STEP_S),
+            "leave_out": self.toggle_left_out, "next_view": self.player.next_view,
+            "edge_back": lambda: self.nudge_edge(-EDGE_STEP_S),
             "edge_on": lambda: self.nudge_edge(EDGE_STEP_S), "report": self.report_button.click,
-            "export": self.export_button.click,
+            "export": self.export_button.click, "plot_in": self.curves.zoom_in, "plot_out": self.curves.zoom_out,
+            "plot_all": self.curves.show_all, "correct": self.correct_here,
         }  # fmt: skip
         for name, action in actions.items():
             bind(self, keys, name, action)
@@ -232,7 +285,8 @@ class ReviewScreen(QWidget):
         store = self._store
 
         def read() -> Reviewed:
-            return Reviewed(store.session(session_id), store.choices(session_id), store.history(patient_id))
+            session, choices = store.session(session_id), store.choices(session_id)
+            return Reviewed(session, choices, store.history(patient_id), tuple(store.results_of(session_id)))
 
         self._background.run(read, self._show, self.told.emit, self)
         self.setFocus(Qt.FocusReason.OtherFocusReason)
@@ -260,12 +314,16 @@ class ReviewScreen(QWidget):
         self._session, self._choices, self._history = session, reviewed.choices, reviewed.history
         self._curves = session_curves(session)
         self._joints = joint_curves(session)
+        self._motion = motion_curves(session)
         is_hand = self._joints is not None
         self._modelled_px = modelled_px(session.camera, session.markers.position_cam_m) if is_hand else None
         self._show_parts(is_hand)
         self._row = self._asked_row = -1
         self.picture.clear("")
         self.picture.set_hand_area(session.calibration.clicks.pixel)
+        self.results.show_results(reviewed.results, self._session_id)
+        self.correct_button.show()
+        self._place_button()
         self._compute()
         counted = (
             [n for n, repetition in enumerate(self.figures.repetitions) if repetition.counts] if self.figures else []
@@ -277,7 +335,7 @@ class ReviewScreen(QWidget):
 
     def _lay_out_for(self, whole_hand: bool) -> None:
         """The places of a session that is still being read, with nothing of the one before."""
-        self._joints = self.figures = None
+        self._joints = self.figures = self._motion = None
         self._show_parts(whole_hand)
         self.count.setText("\N{NO-BREAK SPACE}")
         self.limits.setText("\n")
@@ -289,36 +347,79 @@ class ReviewScreen(QWidget):
         for widget in (self.finger, self.hand_table, self.limits):
             widget.setVisible(whole_hand)
         self.table.setVisible(not whole_hand)
+        policy = Qt.ScrollBarPolicy
+        self._scroll.setVerticalScrollBarPolicy(policy.ScrollBarAlwaysOn if whole_hand else policy.ScrollBarAsNeeded)
 
     def _compute(self) -> None:
         if self._session is not None:
-            self.figures = session_figures(self._session, self._choices)
+            self.figures = session_figures(self._session, self._choices, limits_of(self._history))
 
     def _refresh(self) -> None:
         figures, curves = self.figures, self._curves
         if figures is None or curves is None:
             return
-        plot = SessionPlot(curves, figures.exercise, figures.repetitions, self._current, *figures.targets_deg)
-        if self._joints is not None and self._finger != WRIST:
-            plot = HandPlot(
-                curves, figures.exercise, figures.repetitions, self._current, joints=self._joints, finger=self._finger
-            )
+        plot = self._plot(curves, figures)
         self.curves.show_plot(plot)
+        self._show_ways()
         self.player.show_session(plot.end_s, figures.repetitions, self._current)
         previous, other = previous_of(self._history, figures), other_hand_of(self._history, figures)
         if self._joints is None:
             self.table.show_rows(column_names(figures, previous, other), table_rows(figures, previous, other))
         else:
-            self.hand_table.show_rows(column_heads(figures, previous), finger_rows(figures, previous))
+            self.hand_table.show_rows(column_heads(figures, previous, other), finger_rows(figures, previous, other))
             self.limits.setText(limits_words(figures))
             self.picture.update()
-        self.count.setText(repetition_words(figures))
+        rows = further_rows(figures, previous)
+        day = numbers.day_beside(previous.when, figures.when) if previous is not None else ""
+        self.further.show_rows(further_title(figures), day, rows)
+        if rows and self._is_hand:  # what the exercise is about comes first
+            self._below.removeWidget(self.further)
+            last = self._below.count() - 1  # before the stretch, after what explains the table
+            self._below.insertWidget(0 if figures.exercise.id in FIRST else last, self.further)
+        said = " · ".join(filter(None, (repetition_words(figures), corrected_words(figures).rstrip("."))))
+        self.count.setText(said)
+        self.count.setToolTip(plain_tooltip(said))
         said = "  ".join(f"{numbers.clock(time_s)} “{text}”" for time_s, text in figures.notes)
-        self.notes.setText(self.tr("Notes: {notes}").format(notes=said))
-        self.notes.setVisible(bool(said))
+        words = [self.tr("Notes: {notes}").format(notes=said)] if said else []
+        if figures.pain:
+            pains = ", ".join(str(pain) for pain in figures.pain)
+            words.append(self.tr("Pain (0–10): {pains}").format(pains=pains))
+        self.notes.setText("  ".join(words))
+        self.notes.setVisible(bool(words))
         counts = self.tr("Let it count again") if figures.not_counted else self.tr("Do not count")
         self.count_button.set_face(counts)
         self._fit()
+
+    def _plot(self, curves: Curves, figures: SessionFigures) -> SessionPlot:
+        """The curves that are chosen."""
+        shown = (curves, figures.exercise, figures.repetitions, self._current)
+        if self._view in ("place", "zyz") and self._motion is not None:
+            kind: MotionKind = "zyz" if self._view == "zyz" else "place"
+            return MotionPlot(*shown, motion=self._motion, kind=kind)
+        if self._joints is not None and self._finger != WRIST:
+            return HandPlot(*shown, joints=self._joints, finger=self._finger)
+        return SessionPlot(*shown, *figures.targets_deg)
+
+    def _show_ways(self) -> None:
+        """The ways instead of the curves, where those are chosen; of the wrist, or of a finger's joints."""
+        on = self._view == "path" and self._motion is not None
+        self.curves.setVisible(not on)
+        self.ways.setVisible(on)
+        self.finger.setVisible(self._is_hand and self._view in ("angles", "path"))
+        if self._motion is None or not on:
+            return
+        if self._joints is None or self._finger == WRIST:
+            self.ways.show_plot(wrist_way(self._motion), self.tr("Path of the wrist, with the hand’s axes"))
+            return
+        words = self.tr("Ways of the finger tips")
+        if self._finger:
+            words = self.tr("Ways of the joints: {finger}").format(finger=finger_name(str(self._finger)).lower())
+        self.ways.show_plot(finger_ways(self._motion, self._finger), words)
+
+    @property
+    def _view(self) -> str:
+        """``angles``, ``path``, ``place`` or ``zyz``."""
+        return str(self.player.view.currentData())
 
     @property
     def _finger(self) -> int:
@@ -346,6 +447,7 @@ class ReviewScreen(QWidget):
             self._current = under[0]
             self._refresh()
         self.curves.set_time(self._time_s)
+        self.ways.set_time(self._time_s)
         self.player.show_time(self._time_s)
         row = row_at(self._curves, self._time_s)
         if row != self._row:
@@ -385,6 +487,26 @@ class ReviewScreen(QWidget):
             self._current = number
             self._refresh()
             self.seek(self.figures.repetitions[number].start_s)
+
+    def correct_here(self) -> None:
+        """A marker is wrong or missing in the picture shown."""
+        if self._session is not None and self._row >= 0:
+            self._stop()
+            self.correct.emit(self._session_id, self._session, self._row)
+
+    def _place_button(self) -> None:
+        button = self.correct_button
+        button.adjustSize()
+        button.move(12, self.picture.height() - button.height() - 12)
+
+    def eventFilter(self, watched: QObject, event: QEvent) -> bool:
+        if watched is self.picture:
+            if event.type() == QEvent.Type.Resize:
+                self._place_button()
+            elif event.type() == QEvent.Type.ContextMenu:
+                self.correct_here()
+                return True
+        return False
 
     # --- corrections --------------------------------------------------------------------------------------
     def toggle_left_out(self) -> None:

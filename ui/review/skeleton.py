@@ -8,14 +8,14 @@ import numpy as np
 from PySide6.QtCore import Qt
 from PySide6.QtGui import QColor, QPainter, QPolygonF
 
-from core.camera import Camera
-from core.hand.protocols import HAND21, HAND21_CHAINS
-from core.types import FloatArray
-from ui.figures import FINGERS
-from ui.picture.overlay import haloed
-from ui.picture.view import PictureView
-from ui.plot.polygon import runs
-from ui.theme import ON_PICTURE_LINE
+from carpus.core.camera import Camera
+from carpus.core.hand.protocols import HAND21, HAND21_CHAINS
+from carpus.core.types import FloatArray
+from carpus.ui.figures import FINGERS
+from carpus.ui.picture.overlay import haloed
+from carpus.ui.picture.view import PictureView
+from carpus.ui.plot.polygon import runs
+from carpus.ui.theme import ON_PICTURE_LINE
 
 
 def modelled_px(camera: Camera, position_cam_m: FloatArray) -> FloatArray:

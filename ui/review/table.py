@@ -8,9 +8,10 @@ from PySide6.QtCore import QPointF, QRectF, QSize, Qt
 from PySide6.QtGui import QFont, QFontMetricsF, QPainter, QPaintEvent, QPen
 from PySide6.QtWidgets import QSizePolicy, QWidget
 
-from ui.fonts import MEDIUM, REGULAR, SEMIBOLD, font
-from ui.report.tables import TableRow
-from ui.theme import Theme
+from carpus.ui.fonts import MEDIUM, REGULAR, SEMIBOLD, font
+from carpus.ui.report.tables import TableRow
+from carpus.ui.review.hand_table import fitting
+from carpus.ui.theme import Theme
 
 ROW_PX, HEAD_PX = 35, 30
 COLUMNS = (0.0, 0.170, 0.322, 0.424, 0.525, 0.628, 0.678)
@@ -87,8 +88,11 @@ class RangeTable(QWidget):
             box = QRectF(edge, top, room, height) if left_sided else QRectF(edge - room, top, room, height)
             if column == 6 and row.short_change and QFontMetricsF(faces[6]).horizontalAdvance(text) > room:
                 text = row.short_change  # with its limit, rather than without its end
-            painter.setFont(faces[column])
+            if row is self._head and QFontMetricsF(faces[column]).horizontalAdvance(text) > room:
+                text = text.rpartition(", ")[2]
+            face = fitting(faces[column], text, max(room, 20.0))
+            painter.setFont(face)
             painter.setPen(self._theme.color(tokens[column]))
-            shown = QFontMetricsF(faces[column]).elidedText(text, Qt.TextElideMode.ElideRight, max(room, 20.0))
+            shown = QFontMetricsF(face).elidedText(text, Qt.TextElideMode.ElideRight, max(room, 20.0))
             side = Qt.AlignmentFlag.AlignLeft if left_sided else Qt.AlignmentFlag.AlignRight
             painter.drawText(box, int(Qt.AlignmentFlag.AlignVCenter | side), shown)

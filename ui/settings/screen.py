@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import replace
 
 from PySide6.QtCore import Qt, Signal
@@ -16,26 +17,34 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from ui import terms
-from ui.controls.button import Button
-from ui.controls.card import Card
-from ui.controls.column import scroll_area
-from ui.controls.field import Choices
-from ui.controls.text import REGULAR, SEMIBOLD, Text, heading
-from ui.keys import DEFAULT_KEYS, action_words
-from ui.ports import Preferences
-from ui.theme import GAP_PX, MARGIN_PX, TEXT_SCALES, Theme
+from carpus.core.measures.error_limits import DEFAULT_LIMITS, ErrorLimits
+from carpus.ui import terms
+from carpus.ui.controls.button import Button
+from carpus.ui.controls.card import Card
+from carpus.ui.controls.column import ScrolledColumn, scroll_area
+from carpus.ui.controls.field import Choices, DegreesField
+from carpus.ui.controls.text import REGULAR, SEMIBOLD, Text, heading
+from carpus.ui.keys import DEFAULT_KEYS, action_words
+from carpus.ui.ports import Preferences
+from carpus.ui.settings.limits import limits_card
+from carpus.ui.theme import GAP_PX, MARGIN_PX, TEXT_SCALES, Theme
+
+MOST_AGREEMENT_DEG = 45
 
 
 class SettingsScreen(QWidget):
-    """``changed`` carries the whole :class:`Preferences`; ``done`` leads back."""
+    """``changed`` carries the whole :class:`Preferences`; ``done`` leads back; ``retest_wanted`` to the clinic's own
+    limits."""
 
     changed = Signal(Preferences)
     done = Signal()
+    retest_wanted = Signal()
 
-    def __init__(self, theme: Theme, preferences: Preferences, version: str = "") -> None:
+    def __init__(
+        self, theme: Theme, preferences: Preferences, version: str = "", measured: ErrorLimits = DEFAULT_LIMITS
+    ) -> None:
         super().__init__()
-        self._theme, self._preferences, self._version = theme, preferences, version
+        self._theme, self._preferences, self._version, self._measured = theme, preferences, version, measured
         self.looks = Choices(
             theme, [("light", self.tr("Light")), ("dark", self.tr("Dark")), ("system", self.tr("As the computer"))],
             preferences.theme,
@@ -48,6 +57,17 @@ class SettingsScreen(QWidget):
         self.therapist = QLineEdit(preferences.therapist)
         self.therapist.setMaxLength(12)
         self.therapist.setAccessibleName(self.tr("Initials on reports"))
+        self.angle_order = Choices(
+            theme,
+            [("zyx", self.tr("As in the papers: deviation first")), ("isb", self.tr("ISB: flexion first"))],
+            preferences.angle_order,
+        )
+        self.stream = Choices(
+            theme, [(False, self.tr("Off")), (True, self.tr("Stream live values"))], preferences.stream
+        )
+        self.agreement = DegreesField(theme, MOST_AGREEMENT_DEG, self.tr("none"))
+        self.agreement.set_value(preferences.agreement_limit_deg or math.nan)
+        self.agreement.setAccessibleName(self.tr("Agree within"))
         self.keys: dict[str, QKeySequenceEdit] = {}
         self.fault = Text(theme, "", 14, SEMIBOLD, "bad", wrap=True)
         self.back = Button(theme, self.tr("Done"), "primary", hint=self.tr("Esc"))
@@ -76,6 +96,27 @@ class SettingsScreen(QWidget):
         data.body.addWidget(Text(theme, self.tr("Initials on reports"), 14, REGULAR, "text2"))
         self.therapist.setMaximumWidth(theme.px(220))
         data.body.addWidget(self.therapist)
+        data.body.addSpacing(8)
+        words = self.tr(
+            "Order of the wrist’s angles in review, progress and reports. Session files keep the papers’ order; "
+            "sessions in different orders are never compared."
+        )
+        data.body.addWidget(Text(theme, words, 14, REGULAR, "text2", wrap=True))
+        data.body.addWidget(self.angle_order)
+        stream = self._card(self.tr("Other programs"))
+        words = self.tr(
+            "While a hand is measured, its angles, places and events can go out over Lab Streaming Layer. Any computer "
+            "in the same network can read them; no name and no picture is in them. From the next set-up on."
+        )
+        stream.body.addWidget(Text(theme, words, 14, REGULAR, "text2", wrap=True))
+        stream.body.addWidget(self.stream)
+        agreement = self._card(self.tr("Agreement"))
+        words = self.tr(
+            "The most that Carpus and another measurement may differ by and still stand for each other: what would not "
+            "change your treatment. Set it before you compare; with none, nothing is judged."
+        )
+        agreement.body.addWidget(Text(theme, words, 14, REGULAR, "text2", wrap=True))
+        agreement.body.addWidget(self.agreement, 0, Qt.AlignmentFlag.AlignLeft)
         keys = self._card(self.tr("Keys"))
         words = self.tr(
             "Click a key and press another one. While measuring only the space bar and function keys are safe."
@@ -89,12 +130,13 @@ class SettingsScreen(QWidget):
             field = QKeySequenceEdit(QKeySequence(self._preferences.keys.get(name, DEFAULT_KEYS[name])))
             field.setMaximumSequenceLength(1)
             field.setAccessibleName(action_words(name))
-            field.setFixedWidth(theme.px(120))
             field.editingFinished.connect(lambda name=name: self._take_key(name))
             column = 2 * (place // half)
             grid.addWidget(Text(theme, action_words(name), 14), place % half, column)
             grid.addWidget(field, place % half, column + 1)
             self.keys[name] = field
+        theme.changed.connect(self._fit_keys)
+        self._fit_keys()
         grid.setColumnStretch(0, 1)
         grid.setColumnStretch(2, 1)
         keys.body.addLayout(grid)
@@ -105,10 +147,23 @@ class SettingsScreen(QWidget):
         about = self._card(self.tr("About Carpus"))
         about.body.addWidget(Text(theme, self.tr("Version {version}, MIT licence.").format(version=self._version), 14))
         about.body.addWidget(Text(theme, terms.LEGAL_SENTENCE, 14, SEMIBOLD, wrap=True))
-        for card in (looks, data, keys, about):
+        words = self.tr(
+            "Carpus asks nobody whether there is a newer version, and sends nothing. To look yourself, compare this "
+            "version with the newest one where you got Carpus from; its list of changes says what is new. Install it "
+            "over this one: patients, sessions and settings stay. Make a back-up before."
+        )
+        about.body.addWidget(Text(theme, words, 14, REGULAR, "text2", wrap=True))
+        self.licences = Button(theme, self.tr("Parts and their licences"), height_px=40)
+        about.body.addWidget(self.licences, 0, Qt.AlignmentFlag.AlignLeft)
+        self.retest = Button(theme, self.tr("Measure the clinic’s own limits…"), height_px=40)
+        self._limits = Card(theme, 0)  # what is in it changes when new limits are put into force
+        self._limits.set_colors("canvas", "canvas")
+        self.show_limits(self._measured)
+        for card in (looks, data, self._limits, agreement, stream, keys, about):
             page.addWidget(card)
         page.addStretch(1)
-        host = QWidget()
+        self._page = page
+        host = ScrolledColumn()
         host.setLayout(page)
         scroll = scroll_area(host)
         head = QHBoxLayout()
@@ -121,6 +176,28 @@ class SettingsScreen(QWidget):
         whole.addLayout(head)
         whole.addWidget(scroll, 1)
 
+    def show_limits(self, measured: ErrorLimits) -> None:
+        """The limits that hold from now on."""
+        self._measured = measured
+        while (item := self._limits.body.takeAt(0)) is not None:
+            if (old := item.widget()) is not None:
+                self.retest.setParent(None)
+                old.hide()
+                old.deleteLater()
+        card = limits_card(self._theme, measured)
+        card.body.addSpacing(8)
+        card.body.addWidget(self.retest, 0, Qt.AlignmentFlag.AlignLeft)
+        self._limits.body.addWidget(card)
+
+    def _fit_keys(self) -> None:
+        for field in self.keys.values():
+            field.setFixedWidth(self._theme.px(104))
+
+    def add_cards(self, *cards: Card) -> None:
+        """Cards of others, after looks and data."""
+        for number, card in enumerate(cards):
+            self._page.insertWidget(2 + number, card)
+
     def _card(self, title: str) -> Card:
         card = Card(self._theme, 24)
         card.body.addWidget(Text(self._theme, title, 20, SEMIBOLD))
@@ -129,9 +206,13 @@ class SettingsScreen(QWidget):
     def _connect(self) -> None:
         self.looks.chosen.connect(lambda value: self._change(replace(self._preferences, theme=value)))
         self.text_scale.chosen.connect(lambda value: self._change(replace(self._preferences, text_scale=value)))
+        self.angle_order.chosen.connect(lambda value: self._change(replace(self._preferences, angle_order=value)))
+        self.stream.chosen.connect(lambda value: self._change(replace(self._preferences, stream=value)))
         self.therapist.editingFinished.connect(self._take_therapist)
-        self.folder_button.clicked.connect(self._choose_folder)
+        self.agreement.editingFinished.connect(self._take_agreement)
+        self.folder_button.clicked.connect(self.ask_folder)
         self.reset.clicked.connect(self._reset_keys)
+        self.retest.clicked.connect(self.retest_wanted)
         self.back.clicked.connect(self.done)
 
     @property
@@ -147,7 +228,13 @@ class SettingsScreen(QWidget):
     def _take_therapist(self) -> None:
         self._change(replace(self._preferences, therapist=self.therapist.text().strip()))
 
-    def _choose_folder(self) -> None:
+    def _take_agreement(self) -> None:
+        if not self.agreement.problem:
+            value = self.agreement.value()
+            self._change(replace(self._preferences, agreement_limit_deg=value if math.isfinite(value) else 0.0))
+
+    def ask_folder(self) -> None:
+        """Ask for another data folder."""
         path = QFileDialog.getExistingDirectory(self, self.tr("Data folder"), self._preferences.data_folder)
         if path:
             self.folder.setText(path)

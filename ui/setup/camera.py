@@ -7,15 +7,16 @@ from pathlib import Path
 from PySide6.QtCore import Qt, Signal
 from PySide6.QtWidgets import QFileDialog, QHBoxLayout, QProgressBar, QVBoxLayout, QWidget
 
-from core.output.exercises import Exercise
-from ui import terms
-from ui.controls.button import Button
-from ui.controls.card import Card
-from ui.controls.text import REGULAR, SEMIBOLD, Text, heading
-from ui.ports import SetUp
-from ui.setup.choice import SourceChoice, SourceKind
-from ui.setup.option import Options
-from ui.theme import MARGIN_PX, Theme
+from carpus.core.library.set_up import SetUp
+from carpus.core.output.exercises import Exercise
+from carpus.ui import terms
+from carpus.ui.controls.button import Button
+from carpus.ui.controls.card import Card
+from carpus.ui.controls.text import REGULAR, SEMIBOLD, Text, heading
+from carpus.ui.setup.choice import SourceChoice, SourceKind
+from carpus.ui.setup.option import Options
+from carpus.ui.theme import MARGIN_PX, Theme
+from carpus.ui.tour.bubble import BubbleView
 
 
 class CameraScreen(QWidget):
@@ -52,6 +53,7 @@ class CameraScreen(QWidget):
         self.progress = QProgressBar()
         self.progress.setTextVisible(False)
         self.progress.setAccessibleName(self.tr("Progress"))
+        self.bubble = BubbleView(theme)
         self.primary = Button(theme, "", "primary", hint=self.tr("Enter"))
         self._lay_out()
         self.sources.chosen.connect(self._show)
@@ -87,6 +89,7 @@ class CameraScreen(QWidget):
         body.addStretch(1)
         body.addWidget(self.progress_words)
         body.addWidget(self.progress)
+        body.addWidget(self.bubble)
         body.addWidget(self.primary)
         columns = QHBoxLayout(self)
         columns.setContentsMargins(MARGIN_PX, MARGIN_PX - 4, MARGIN_PX, MARGIN_PX - 4)
@@ -114,6 +117,11 @@ class CameraScreen(QWidget):
     def first(self) -> QWidget:
         """What takes the keyboard."""
         return self.sources.current()
+
+    @property
+    def is_opening(self) -> bool:
+        """Whether a source is being opened."""
+        return self._opening
 
     def set_camera_ready(self, there: bool) -> None:
         """Whether a camera is plugged in; looked at now and then."""

@@ -7,19 +7,20 @@ import math
 from PySide6.QtCore import Signal
 from PySide6.QtWidgets import QHBoxLayout, QVBoxLayout, QWidget
 
-from core.hand.protocols import HAND21, WRIST6
-from core.output.exercises import EXERCISES, SIDES, Exercise, exercise_named
-from core.types import Side
-from ui import terms
-from ui.controls.button import Button
-from ui.controls.card import Card
-from ui.controls.column import scrolled
-from ui.controls.field import Choices, DegreesField, Labelled, number_field
-from ui.controls.text import SEMIBOLD, Text, heading
-from ui.figures import figure_of
-from ui.ports import PatientRow, SetUp
-from ui.setup.option import Options
-from ui.theme import MARGIN_PX, Theme
+from carpus.core.hand.protocols import HAND21, WRIST6
+from carpus.core.library.set_up import SetUp
+from carpus.core.output.exercises import EXERCISES, SIDES, Exercise, exercise_named
+from carpus.core.types import Side
+from carpus.ui import numbers, terms
+from carpus.ui.controls.button import Button
+from carpus.ui.controls.card import Card
+from carpus.ui.controls.column import scrolled
+from carpus.ui.controls.field import Choices, DegreesField, Labelled, number_field
+from carpus.ui.controls.text import SEMIBOLD, Text, caption, heading
+from carpus.ui.figures import figure_of
+from carpus.ui.ports import PatientRow
+from carpus.ui.setup.option import Options
+from carpus.ui.theme import MARGIN_PX, Theme
 
 MOST_REPETITIONS, MOST_TARGET_DEG = 50, 90
 
@@ -61,6 +62,8 @@ class ExerciseScreen(QWidget):
             options.chosen.connect(self._show_exercise)
             options.accepted.connect(self._go_on)
         self.protocol.chosen.connect(self._show_protocol)
+        for chips in (self.protocol, self.side, self.ends, self.pictures):
+            chips.accepted.connect(self._go_on)
         self.primary.clicked.connect(self._go_on)
         self.side.chosen.connect(lambda _: self._show_problem())
         for field in self.targets:
@@ -95,6 +98,8 @@ class ExerciseScreen(QWidget):
         body.addWidget(self.problem)
         body.addWidget(self._ends_field)
         body.addWidget(Labelled(theme, self.tr("Keep the pictures too"), self.pictures))
+        self.pictures_cost = caption(theme, wrap=True)
+        body.addWidget(self.pictures_cost)
         body.addWidget(self.view)
         body.addStretch(1)
         self._card.body.addWidget(scrolled(body), 1)
@@ -108,8 +113,18 @@ class ExerciseScreen(QWidget):
     def _fit(self) -> None:
         self._card.setFixedWidth(self._theme.px(376))
 
-    def begin(self, row: PatientRow, last: SetUp | None, side: Side | None, keep_pictures: bool) -> None:
-        """Show for a patient, with the last set-up or the usual one; ``side`` None must be chosen by the person."""
+    def begin(
+        self, row: PatientRow, last: SetUp | None, side: Side | None, keep_pictures: bool,
+        mb_per_minute: float = math.nan, room_minutes: float = math.nan,
+    ) -> None:  # fmt: skip
+        """Show for a patient, with the last set-up or the usual one; ``side`` None must be chosen by the person.
+
+        ``mb_per_minute`` is what pictures cost, ``room_minutes`` for how long there is room for them."""
+        if math.isfinite(mb_per_minute):
+            pattern = self.tr("Needed to see and correct markers later: {size} MB a minute, room for {time}.")
+            self.pictures_cost.setText(
+                pattern.format(size=f"{mb_per_minute:.0f}", time=numbers.room_left(room_minutes))
+            )
         self._row = row
         exercise = last.exercise if last is not None else EXERCISES[0]
         self.choose(exercise)

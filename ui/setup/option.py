@@ -5,12 +5,12 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from PySide6.QtCore import QRectF, QSize, Qt, Signal
-from PySide6.QtGui import QFontMetricsF, QKeyEvent, QPainter, QPaintEvent, QPen
+from PySide6.QtGui import QFont, QFontMetricsF, QKeyEvent, QPainter, QPaintEvent, QPen
 from PySide6.QtWidgets import QAbstractButton, QButtonGroup, QSizePolicy, QVBoxLayout, QWidget
 
-from ui.fonts import REGULAR, SEMIBOLD, font
-from ui.icons import State, paint_state
-from ui.theme import CARD_RADIUS_PX, Theme
+from carpus.ui.fonts import REGULAR, SEMIBOLD, font
+from carpus.ui.icons import State, paint_state
+from carpus.ui.theme import CARD_RADIUS_PX, Theme
 
 LEFT_PX, RIGHT_PX = 60, 24
 
@@ -45,10 +45,10 @@ class Option(QAbstractButton):
         """The word beside the state icon."""
         return self._state_words
 
-    def _name_font(self):  # type: ignore[no-untyped-def]
+    def _name_font(self) -> QFont:
         return font(16 * self._theme.text_scale, SEMIBOLD)
 
-    def _sentence_font(self):  # type: ignore[no-untyped-def]
+    def _sentence_font(self) -> QFont:
         return font(14 * self._theme.text_scale, REGULAR)
 
     def heightForWidth(self, width: int) -> int:

@@ -1,0 +1,150 @@
+"""One recording of many: tracked, or left as it is where that was done before, and measured.
+
+Runs in a process of its own, here or on another machine: what goes in and comes out are plain values.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Literal
+
+from threadpoolctl import threadpool_limits
+
+from carpus import __version__
+from carpus.app.batch.places import Place
+from carpus.app.settings import load_settings
+from carpus.app.sources import open_recording
+from carpus.core.calibration.clicks import read_clicks
+from carpus.core.calibration.result import Verdict
+from carpus.core.capture.identity import Recorded
+from carpus.core.errors import CarpusFault, IntrinsicsAssumed, OutputBusy, OutputNotWritable
+from carpus.core.output.measures_table import MeasureRow, measure_rows
+from carpus.core.output.report_content import session_figures
+from carpus.core.pipeline.told_settings import differences, settings_told
+from carpus.core.pipeline.track import TrackSettings, retrack_session, track_recording
+from carpus.core.session.disk import is_being_written, target_of_part
+from carpus.core.session.reader import read_session
+from carpus.core.types import TrackStatus
+from carpus.core.words import finding_sentence, one_sentence
+
+Result = Literal["tracked", "kept", "fault"]
+_INTRINSICS = {"default": "the usual values of the Xtion", "driver": "the driver's field of view"}
+
+
+@dataclass(frozen=True, slots=True)
+class Task:
+    """What is to be done with one recording."""
+
+    place: Place
+    settings: TrackSettings
+    subject_id: str = ""
+    exercise: str = ""
+    leave_out_damaged: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class Outcome:
+    """What came of it: shares 0 to 1 of ``frames``, NaN after a fault; ``said`` the fault, or what is doubtful;
+    ``measures`` of the session."""
+
+    place: Place
+    result: Result
+    said: tuple[str, ...] = ()
+    frames: int = 0
+    tracked: float = float("nan")
+    lost: float = float("nan")
+    measures: tuple[MeasureRow, ...] = ()
+
+
+def work(task: Task) -> Outcome:
+    """Do one task; whatever goes wrong is part of the outcome."""
+    try:
+        with threadpool_limits(1):  # the same numbers wherever it runs
+            return _worked(task)
+    except CarpusFault as fault:
+        return fault_of(task.place, one_sentence(fault))
+    except OSError as cause:
+        return fault_of(task.place, f"the system refuses {cause.filename or ''} ({cause.strerror or cause})")
+    except Exception as cause:
+        return fault_of(task.place, f"something unforeseen happened ({type(cause).__name__}: {cause})")
+
+
+def fault_of(place: Place, sentence: str) -> Outcome:
+    """The outcome of a recording that could not be tracked."""
+    return Outcome(place, "fault", (sentence,))
+
+
+def _worked(task: Task) -> Outcome:
+    place, said = task.place, list[str]()
+    result: Result = "kept"
+    if not place.session.exists():
+        result = "tracked"
+        _make_room(place.session)
+        _tracked(task, said)
+    session = read_session(place.session)
+    told = settings_told(session.header.parameters)
+    if result == "kept" and (told is None or differences(told.settings, task.settings)):
+        said.append("tracked before with other settings, left as it is")
+    shares = [float((session.status == status).mean()) if len(session) else float("nan") for status in TrackStatus]
+    return Outcome(
+        place,
+        result,
+        tuple(said),
+        len(session),
+        shares[TrackStatus.TRACKED],
+        shares[TrackStatus.LOST],
+        measure_rows(session_figures(session), place.name),
+    )
+
+
+def _make_room(session: Path) -> None:
+    """The folder, without what a process that died left of the same session: its recording is still there."""
+    try:
+        session.parent.mkdir(parents=True, exist_ok=True)
+    except OSError as cause:
+        raise OutputNotWritable(session.parent, cause.strerror or "") from cause
+    for part in session.parent.glob("*.part"):
+        if target_of_part(part) == session:
+            if is_being_written(part):
+                raise OutputBusy(session)
+            part.unlink()
+
+
+def _tracked(task: Task, said: list[str]) -> None:
+    place = task.place
+
+    def doubt(verdict: Verdict) -> None:
+        said.extend(finding_sentence(finding) for finding in verdict.findings if not finding.blocks)
+
+    def doubtful_date(recorded: Recorded | None) -> None:
+        if recorded is None or recorded.said_by == "file":
+            said.append("the recording does not say when the hand moved")
+
+    if place.clicks is None:
+        retrack_session(place.recording, place.session, task.settings, software_version=__version__, on_verdict=doubt)
+        return
+    source = open_recording(
+        place.recording,
+        leave_out_damaged=task.leave_out_damaged,
+        data_folder=load_settings().data_folder,
+        notice=lambda fault: said.append(one_sentence(fault)),
+    )
+    try:
+        camera = source.info.camera
+        if camera.origin in _INTRINSICS:
+            said.append(one_sentence(IntrinsicsAssumed(place.recording, _INTRINSICS[camera.origin])))
+        track_recording(
+            source,
+            read_clicks(place.clicks, camera.width_px, camera.height_px),
+            place.session,
+            task.settings,
+            software_version=__version__,
+            subject_id=task.subject_id,
+            exercise=task.exercise,
+            on_verdict=doubt,
+            path=place.recording,
+            on_date=doubtful_date,
+        )
+    finally:
+        source.close()

@@ -1,0 +1,55 @@
+"""``carpus backup``: everything of a data folder onto another disk, read back and compared."""
+
+from __future__ import annotations
+
+import argparse
+import os
+from datetime import datetime
+from pathlib import Path
+
+from carpus import __version__
+from carpus.app.commands.kept import initials
+from carpus.app.commands.progress import bar, tell
+from carpus.app.settings import load_sound_settings, settings_folder
+from carpus.core.errors import BackupMissing, CarpusFault
+from carpus.core.safekeeping.audit import AuditLog
+from carpus.core.safekeeping.backup import back_up, backups, compare, thin_out
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument("place", type=Path, metavar="FOLDER", help="for back-ups, on another disk; made if need be")
+    parser.add_argument("--data-folder", type=Path, metavar="FOLDER", help="patients and sessions (default: your own)")
+    parser.add_argument("--list", action="store_true", help="only say which back-ups there are")
+    parser.add_argument("--compare", action="store_true", help="only read the newest back-up and compare")
+
+
+def run(arguments: argparse.Namespace) -> int:
+    place: Path = arguments.place
+    settings, _ = load_sound_settings()
+    there = backups(place)
+    if (arguments.list or arguments.compare) and not there:
+        raise BackupMissing(place)
+    if arguments.list:
+        for one in there:
+            print(f"{one.name}  {one.sessions} sessions, {one.size_bytes / 1e6:.1f} MB, Carpus {one.software_version}")
+        return 0
+    if arguments.compare:
+        with bar("reading", "file") as progress:
+            compare(place, there[0], progress)
+        print(f"{there[0].name}: {len(there[0].files)} files read and compared: all equal.")
+        return 0
+    folder: Path = arguments.data_folder or settings.data_folder
+    os.nice(5) if hasattr(os, "nice") else None
+    with bar("backing up", "byte") as progress:
+        made = back_up(
+            folder, place, software_version=__version__, settings_folder=settings_folder(), progress=progress
+        )
+    thin_out(place, settings.backup.keep, settings.backup.months, datetime.now().astimezone())
+    try:
+        AuditLog(folder, "command", initials).note("backed_up", "everything", sessions=made.sessions)
+    except CarpusFault as fault:
+        tell(fault)
+    print(f"{made.name}: {made.sessions} sessions, {made.size_bytes / 1e6:.1f} MB, read back and compared: all equal.")
+    if made.running:
+        print(f"Not in it: {made.running} recordings that are running.")
+    return 0

@@ -1,0 +1,158 @@
+"""``carpus calibrate-camera``: prints the board, and measures from it how a camera sees."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from contextlib import suppress
+from dataclasses import replace
+from datetime import datetime
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from carpus.app.commands.progress import bar, tell
+
+if TYPE_CHECKING:
+    from carpus.core.camera_calibration.board import Board
+    from carpus.core.camera_calibration.gather import Gathering
+    from carpus.core.capture.source import FrameSource
+
+PATTERNS = ("chessboard", "charuco")
+SQUARES_MM = (5.0, 200.0)
+
+
+def a_square_mm(text: str) -> float:
+    """The measured side of a square; anything no board has is wrong usage."""
+    value = float(text)
+    if not SQUARES_MM[0] <= value <= SQUARES_MM[1]:
+        raise argparse.ArgumentTypeError(f"{text} is not between {SQUARES_MM[0]:g} and {SQUARES_MM[1]:g} mm")
+    return value
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument(
+        "recording",
+        type=Path,
+        nargs="?",
+        metavar="RECORDING",
+        help="of the board held in many places (TUM folder, raw, .oni); without it, the live camera",
+    )
+    parser.add_argument("--board", type=Path, metavar="PDF", help="write the board to print, and do nothing else")
+    parser.add_argument("--paper", choices=("a4", "letter"), default="a4", help="of the board to print")
+    parser.add_argument(
+        "--pattern", choices=PATTERNS, help="chessboard (reaches farther) or charuco (may be partly hidden)"
+    )
+    parser.add_argument(
+        "--square-mm",
+        type=a_square_mm,
+        metavar="MM",
+        help="measured side of a square, where a print is not at 100 %%",
+    )
+    parser.add_argument("--output", type=Path, metavar="camera_info.yaml", help="write the camera file here too")
+    parser.add_argument("--serial", metavar="NUMBER", help="which camera it was, where the recording does not say")
+
+
+def run(arguments: argparse.Namespace) -> int:
+    if arguments.board is not None:
+        if arguments.recording is not None or arguments.output is not None:
+            print("carpus calibrate-camera: --board only prints; leave out the recording and --output.",
+                  file=sys.stderr)  # fmt: skip
+            return 2
+        return _print_board(arguments)
+    return _calibrate(arguments)
+
+
+def _print_board(arguments: argparse.Namespace) -> int:
+    from carpus.core.camera_calibration.board import BOARDS, board_sheet
+    from carpus.core.errors import OutputExists
+
+    if arguments.board.exists():
+        raise OutputExists(arguments.board)
+    board = BOARDS[arguments.pattern or "chessboard"]
+    from carpus.ui.report.pdf import write_sheets
+
+    write_sheets(arguments.board, [board_sheet(board, arguments.paper)], "Carpus camera board")
+    print(f"Board: {arguments.board} ({board.name()})")
+    print("Print it at 100 %, check its ruler (100 mm), and glue it flat onto something stiff.")
+    return 0
+
+
+def _calibrate(arguments: argparse.Namespace) -> int:
+    from carpus.core.camera_calibration.calibrate import calibrate_camera, calibration_lines
+    from carpus.core.camera_calibration.gather import Gathering
+    from carpus.core.camera_calibration.keep import keep_calibration, stored_of, write_calibration
+    from carpus.core.capture.calibrated import SERIAL
+    from carpus.core.dates import is_moment
+    from carpus.core.errors import OutputExists
+
+    if arguments.output is not None and arguments.output.exists():
+        raise OutputExists(arguments.output)
+    source = _source(arguments.recording)
+    gathering = Gathering(source.info.camera, _boards(arguments))
+    try:
+        _gather(source, gathering, is_live=arguments.recording is None)
+    finally:
+        source.close()
+    info = source.info
+    subject = str(arguments.recording or info.name)
+    made = calibrate_camera(gathering.views, info.camera, subject)
+    for line in calibration_lines(made):
+        print(line)
+    if made.depth is not None and not made.depth.is_registered:
+        print("carpus: warning: depth does not lie on colour; switch registration on, or depths are read beside the "
+              "markers.", file=sys.stderr)  # fmt: skip
+    when = datetime.fromisoformat(info.recorded) if is_moment(info.recorded) else datetime.now().astimezone()
+    serial = arguments.serial or info.settings.get(SERIAL, "")
+    stored = stored_of(made, serial, when, info.settings)
+    if arguments.output is not None:
+        print(f"Written: {write_calibration(arguments.output, made, stored)}")
+    if serial:
+        from carpus.app.settings import load_settings
+
+        path = keep_calibration(load_settings().data_folder, made, stored)
+        print(f"Kept for camera {serial}: {path}")
+    elif arguments.output is None:
+        print("carpus: nobody says which camera this was, so it is not kept; name it with --serial, or use --output.",
+              file=sys.stderr)  # fmt: skip
+        return 1
+    return 0
+
+
+def _source(recording: Path | None) -> FrameSource:
+    if recording is not None:
+        from carpus.app.sources import open_recording
+
+        return open_recording(recording, need_depth=False, leave_out_damaged=True, notice=tell)
+    from carpus.app.settings import load_settings
+    from carpus.core.capture.xtion import XtionSource
+
+    return XtionSource(uri=load_settings().camera.uri or None, notice=tell)
+
+
+def _boards(arguments: argparse.Namespace) -> list[Board]:
+    from carpus.core.camera_calibration.board import BOARDS
+
+    boards = [board for name, board in BOARDS.items() if arguments.pattern in (None, name)]
+    if arguments.square_mm is None:
+        return boards
+    side_m = 1e-3 * arguments.square_mm
+    return [replace(board, square_m=side_m, code_m=board.code_m * side_m / board.square_m) for board in boards]
+
+
+def _gather(source: FrameSource, gathering: Gathering, *, is_live: bool) -> None:
+    """Look at the frames: all of a recording; of a camera until it is enough, or until Ctrl+C."""
+    said = ""
+    if is_live:
+        print("Hold the board in the picture, still for a moment in each place. Ctrl+C ends.", file=sys.stderr)
+    with bar("looking for the board") as show, suppress(KeyboardInterrupt):
+        for count, frame in enumerate(source.frames(), start=1):
+            kept = gathering.add(frame)
+            show(count, source.info.frame_count)
+            if not is_live or not kept:
+                continue
+            judgement = gathering.judgement
+            if judgement.next_step != said:
+                said = judgement.next_step
+                print(f"{judgement.views} pictures, {judgement.fields} of 24 fields. {said}", file=sys.stderr)
+            if not judgement.missing:
+                break

@@ -1,0 +1,134 @@
+"""``carpus check-card``: 30 seconds of a printed card say how far off a camera measures, and whether that is usual."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from datetime import datetime
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from carpus.app.commands.progress import bar, tell
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from carpus.core.capture.source import FrameSource
+    from carpus.core.types import Frame
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument(
+        "recording",
+        type=Path,
+        nargs="?",
+        metavar="RECORDING",
+        help="of the card lying still (TUM folder, raw, .oni); without it, the live camera",
+    )
+    parser.add_argument("--card", type=Path, metavar="PDF", help="write the card to print, and do nothing else")
+    parser.add_argument("--paper", choices=("a4", "letter"), default="a4", help="of the card to print")
+    parser.add_argument("--output", type=Path, metavar="RESULT.pdf", help="the result as one page; never overwritten")
+    parser.add_argument("--serial", metavar="NUMBER", help="which camera it was, where the recording does not say")
+
+
+def run(arguments: argparse.Namespace) -> int:
+    from carpus.core.errors import OutputExists
+
+    if arguments.card is not None:
+        if arguments.recording is not None or arguments.output is not None:
+            print("carpus check-card: --card only prints; leave out the recording and --output.", file=sys.stderr)
+            return 2
+        if arguments.card.exists():
+            raise OutputExists(arguments.card)
+        from carpus.core.check_card.card import card_sheets
+        from carpus.ui.report.pdf import write_sheets
+
+        write_sheets(arguments.card, card_sheets(arguments.paper), "Carpus check card")
+        print(f"Card: {arguments.card} (two pages: print at 100 % and check the rulers)")
+        return 0
+    if arguments.output is not None and arguments.output.exists():
+        raise OutputExists(arguments.output)
+    return _check(arguments)
+
+
+def _check(arguments: argparse.Namespace) -> int:
+    from carpus.app.settings import load_settings
+    from carpus.core.capture.calibrated import SERIAL
+    from carpus.core.check_card.card import FIGURES
+    from carpus.core.check_card.chart import (
+        add_check,
+        before,
+        chart_path,
+        check_of,
+        read_checks,
+        sentence_of,
+        verdict_of,
+    )
+    from carpus.core.check_card.measure import measure_card
+    from carpus.core.dates import is_moment, iso
+
+    data_folder = load_settings().data_folder
+    source = _source(arguments.recording, data_folder)
+    info = source.info
+    try:
+        reading = measure_card(_shown(source), info.camera, str(arguments.recording or info.name))
+    finally:
+        source.close()
+    when = info.recorded if is_moment(info.recorded) else iso(datetime.now().astimezone())
+    serial = arguments.serial or info.settings.get(SERIAL, "")
+    check = check_of(reading, serial, when, info.settings.get("calibrated", ""))
+    path = chart_path(data_folder, serial)
+    kept = read_checks(path) if serial else []
+    earlier = before(kept, check)
+    for figure, measured, sd, off in zip(FIGURES, reading.measured, reading.sd, reading.errors, strict=True):
+        unit = "°" if figure.kind == "angle" else " mm"
+        print(f"{figure.name:<20} {measured:7.2f} ± {sd:.2f}{unit}, off by {off:+.2f}{unit}")
+    share = 100.0 * (reading.scale - 1.0)
+    print(f"{'All distances':<20} {share:+.2f} %; {reading.pictures} pictures, {reading.distance_m * 100:.0f} cm away")
+    verdict = verdict_of(earlier, check)
+    print(sentence_of(check, verdict))
+    if verdict == "out":
+        print("carpus: warning: check once more (card flat, 60 cm, its ruler 100 mm), then calibrate the camera; still "
+              "out: do not measure with it.", file=sys.stderr)  # fmt: skip
+    if any(one.when == check.when for one in kept):
+        print(f"Kept for camera {serial} already: {path}")
+    elif serial:
+        add_check(path, check)
+        print(f"Kept for camera {serial}: {path}")
+    else:
+        print("carpus: nobody says which camera this was, so the check is not kept; --serial names it.",
+              file=sys.stderr)  # fmt: skip
+    if arguments.output is not None:
+        from carpus.ui.report.check_page import CheckResult, write_check_report
+        from carpus.ui.report.pdf import ensure_application
+
+        application = ensure_application()
+        asides = [
+            ("Calibrated", check.calibrated[:10] or "not with a board"),
+            ("Distance", f"{reading.distance_m * 100:.0f} cm"),
+            ("Pictures", str(reading.pictures)),
+        ]
+        camera = f"{info.name} {serial}".strip()
+        print(f"Result: {write_check_report(arguments.output, CheckResult(camera, check, earlier, asides))}")
+        del application
+    return 0
+
+
+def _source(recording: Path | None, data_folder: Path) -> FrameSource:
+    if recording is not None:
+        from carpus.app.sources import open_recording
+
+        return open_recording(recording, leave_out_damaged=True, data_folder=data_folder, notice=tell)
+    from carpus.app.settings import load_settings
+    from carpus.core.capture.calibrated import with_stored_calibration
+    from carpus.core.capture.xtion import XtionSource
+
+    return with_stored_calibration(XtionSource(uri=load_settings().camera.uri or None, notice=tell), data_folder)
+
+
+def _shown(source: FrameSource) -> Iterator[Frame]:
+    """The frames, counted for the person who waits."""
+    with bar("looking at the card") as show:
+        for count, frame in enumerate(source.frames(), start=1):
+            show(count, source.info.frame_count)
+            yield frame

@@ -1,0 +1,94 @@
+"""``carpus progress``: a patient's figures over all sessions, as a table or as the progress report."""
+
+from __future__ import annotations
+
+import argparse
+import csv
+import sys
+from pathlib import Path
+
+from carpus import __version__
+from carpus.core.errors import CarpusFault, FolderMissing, OutputExists, SessionUnreadable
+from carpus.core.measures.error_limits import ErrorLimits
+from carpus.core.words import one_sentence
+
+EVERYBODY = "all"
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument("subject", metavar="SUBJECT", help="the patient's pseudonym; all: of everybody, as a table")
+    parser.add_argument(
+        "--sessions", type=Path, nargs="+", metavar="PATH", help="sessions, or folders of them; else the data folder's"
+    )
+    parser.add_argument(
+        "--output",
+        type=Path,
+        action="append",
+        default=[],
+        metavar="FILE",
+        help=".csv or .parquet: the table; .pdf: the progress report; may be given more than once; else CSV on stdout",
+    )
+
+
+def run(arguments: argparse.Namespace) -> int:
+    from carpus.app.settings import load_settings
+    from carpus.core.agreement.limits_file import read_limits
+    from carpus.core.formats.measures_files import HEAD, csv_rows, write_measures
+    from carpus.core.output.measures_table import measure_rows
+    from carpus.core.output.report_content import newest_results
+
+    for path in arguments.output:
+        if path.exists():
+            raise OutputExists(path)
+        if path.suffix.lower() == ".pdf" and arguments.subject == EVERYBODY:
+            print("carpus progress: a report is of one patient; name the pseudonym.", file=sys.stderr)
+            return 2
+    settings = load_settings()
+    places = arguments.sessions or [settings.data_folder]
+    found = _of(arguments.subject, places, read_limits(settings.data_folder))
+    figures = newest_results([one for _, one in found])
+    names = {id(one): path.stem for path, one in found}
+    rows = [row for one in figures for row in measure_rows(one, names[id(one)])]
+    for path in arguments.output:
+        if path.suffix.lower() == ".pdf":
+            from carpus.ui.report.pdf import ensure_application, write_progress_report
+
+            application = ensure_application()
+            write_progress_report(
+                figures, path, pseudonym=arguments.subject, therapist=settings.report.therapist,
+                software_version=__version__,
+            )  # fmt: skip
+            del application
+        else:
+            write_measures(rows, path)
+        print(f"Written: {path}")
+    if not arguments.output:
+        table = csv.writer(sys.stdout, lineterminator="\n")
+        table.writerow(HEAD)
+        table.writerows(csv_rows(rows))
+    return 0
+
+
+def _of(subject: str, places: list[Path], limits: ErrorLimits) -> list:  # type: ignore[type-arg]
+    """Sessions of a patient that can be read, with their figures. Raises :class:`SessionUnreadable` for none."""
+    from carpus.core.library.library import read_choices
+    from carpus.core.output.report_content import session_figures
+    from carpus.core.session.reader import read_outline, read_session
+
+    out = []
+    known: list[str] = []
+    for place in places:
+        if not place.exists():
+            raise FolderMissing(place)
+        for path in sorted(place.rglob("*.h5")) if place.is_dir() else [place]:
+            try:
+                said = read_outline(path).header.subject_id
+                known.append(said)
+                if subject == EVERYBODY or said.casefold() == subject.strip().casefold():
+                    out.append((path, session_figures(read_session(path), read_choices(path), limits)))
+            except CarpusFault as fault:
+                print(f"carpus: {one_sentence(fault)}", file=sys.stderr)
+    if not out:
+        others = f"{len(known)} sessions of {len(set(known))} others" if known else "no session at all"
+        raise SessionUnreadable(places[0], f"no session of {subject}; {others}")
+    return out

@@ -1,0 +1,119 @@
+"""``carpus retest``: SEM and smallest real change from people who were measured more than once; with ``--store`` they
+are the clinic's own error limits."""
+
+from __future__ import annotations
+
+import argparse
+import csv
+import sys
+from collections import Counter
+from datetime import date
+from pathlib import Path
+
+from carpus.core.errors import CarpusFault, FolderMissing, ReferenceUnreadable, StudyUnsuited
+from carpus.core.words import one_sentence
+
+_WHY = {
+    "once": "person measured once",
+    "too_late": "more than 14 days after the first time",
+    "few_repetitions_after": "fewer than 3 repetitions",
+    "distance": "camera at another distance",
+    "start_angle": "another start angle",
+    "forearm_moved": "the forearm moved",
+    "incomplete": "cut short",
+    "doubtful": "doubtful markers",
+    "not_counted": "marked as not counting",
+    "simulated": "simulated among measured ones",
+}
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument(
+        "sessions", type=Path, nargs="+", metavar="PATH",
+        help="sessions, or folders of them: each person (pseudonym) twice or more, discs put on anew in between",
+    )  # fmt: skip
+    parser.add_argument(
+        "--raters", type=Path, metavar="LIST.csv", help="who put the discs on: columns session (file name) and rater"
+    )
+    parser.add_argument("--output", type=Path, metavar="TABLE.csv", help="all figures as a table, never overwritten")
+    parser.add_argument(
+        "--store",
+        action="store_true",
+        help="put the limits into force in progress and reports of the data folder, with today's date",
+    )
+
+
+def run(arguments: argparse.Namespace) -> int:
+    from carpus.app.settings import load_settings
+    from carpus.core.agreement.limits_file import store_limits
+    from carpus.core.agreement.retest import studies
+    from carpus.core.agreement.retest_table import write_study
+    from carpus.core.measures.error_limits import FEWEST_PEOPLE
+
+    figures, raters = _read(arguments.sessions, _raters(arguments.raters))
+    found = studies(figures, raters)
+    for one in found:
+        who = f", {one.raters} raters" if one.raters else ""
+        print(f"{one.exercise or 'free movement'}, {one.protocol}: {one.people} people, {one.sessions} sessions{who}")
+        if one.left_out:
+            reasons = Counter(_WHY.get(left.reason, left.reason) for left in one.left_out)
+            print(f"  left out: {', '.join(f'{count} ({reason})' for reason, count in reasons.items())}")
+        if one.found:
+            print(
+                "  degrees                      n    SEM   MDC95 (95 % interval)    ICC(2,1) (interval)   last - first"
+            )
+        for (of, movement), f in one.found.items():
+            mdc = f"{f.mdc95:5.1f} ({f.mdc95_interval[0]:.1f} to {f.mdc95_interval[1]:.1f})"
+            icc = f"{f.icc:.2f} ({f.icc_interval[0]:.2f} to {f.icc_interval[1]:.2f})"
+            print(f"  {f'{of} {movement}':26} {f.people:3d}  {f.sem:5.2f}   {mdc:22}   {icc:20}  {f.step:6.2f}")
+    if arguments.output is not None:
+        print(f"Written: {write_study(found, arguments.output)}")
+    usable = [one for one in found if one.people >= FEWEST_PEOPLE and not one.simulated]
+    if not any(one.people > 1 for one in found):
+        raise StudyUnsuited(arguments.sessions[0], "nobody was measured twice, or fewer than two people were")
+    if not arguments.store:
+        return 0
+    if not usable:
+        most = max(one.people for one in found)
+        why = "of a simulated hand" if any(one.simulated for one in found) else f"{most} people"
+        raise StudyUnsuited(arguments.sessions[0], why)
+    path = store_limits(load_settings().data_folder, [one.study(date.today().isoformat()) for one in usable])
+    print(f"In force: {', '.join(one.exercise or 'free movement' for one in usable)} ({path})")
+    return 0
+
+
+def _read(places: list[Path], named: dict[str, str]) -> tuple[list, dict[str, str]]:  # type: ignore[type-arg]
+    """Figures of all sessions that can be read, and their raters by session id."""
+    from carpus.core.library.library import read_choices
+    from carpus.core.output.report_content import session_figures
+    from carpus.core.session.reader import read_session
+
+    figures, raters, met = [], {}, set()
+    for place in places:
+        if not place.exists():
+            raise FolderMissing(place)
+        for path in sorted(place.rglob("*.h5")) if place.is_dir() else [place]:
+            try:
+                figures.append(session_figures(read_session(path), read_choices(path)))
+            except CarpusFault as fault:
+                print(f"carpus: {one_sentence(fault)}", file=sys.stderr)
+                continue
+            for name in (path.name, path.stem):
+                if name in named:
+                    raters[figures[-1].session_id] = named[name]
+                    met.add(name)
+    if not figures:
+        raise StudyUnsuited(places[0], "no session can be read")
+    for name in sorted(set(named) - met):
+        print(f"carpus: no session is called {name}, which the list of raters names.", file=sys.stderr)
+    return figures, raters
+
+
+def _raters(path: Path | None) -> dict[str, str]:
+    if path is None:
+        return {}
+    try:
+        with path.open(newline="", encoding="utf-8-sig") as file:
+            return {row["session"].strip(): row["rater"].strip() for row in csv.DictReader(file)}
+    except (OSError, ValueError, KeyError, AttributeError, csv.Error) as cause:
+        raise ReferenceUnreadable(path, "a list of raters has the columns session and rater") from cause

@@ -1,0 +1,21 @@
+"""``carpus review FILE``, or only ``carpus FILE.h5``: the desktop with one session open, wherever its file lies."""
+
+from __future__ import annotations
+
+import argparse
+from pathlib import Path
+
+from carpus.app.commands import desktop
+from carpus.core.errors import SessionUnreadable
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument("session", type=Path, metavar="SESSION.h5", help="a session of Carpus")
+    parser.add_argument("--data-folder", type=Path, metavar="FOLDER", help="instead of the user's own")
+
+
+def run(arguments: argparse.Namespace) -> int:
+    path = arguments.session.absolute()
+    if not path.is_file():  # whatever else is wrong with it, the window tells
+        raise SessionUnreadable(str(arguments.session), "there is no such file")
+    return desktop.open_window(arguments.data_folder, is_demo=False, session=path)

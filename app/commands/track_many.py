@@ -1,0 +1,105 @@
+"""``carpus track RECORDING... --output FOLDER``: many recordings, side by side, begun again where it was left."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+import time
+from collections import Counter
+from collections.abc import Callable, Iterator, Sequence
+from pathlib import Path
+
+from carpus.app.batch.places import SESSION_SUFFIX, Place, places
+from carpus.app.batch.processes import cores, outcomes
+from carpus.app.batch.tables import check_tables, fault_lines, write_tables
+from carpus.app.batch.work import Outcome, Task, fault_of
+from carpus.app.commands.progress import bar
+from carpus.core.errors import CarpusFault, OutputNotWritable, RecordingMissing
+from carpus.core.formats.measures_files import check_place, write_measures
+from carpus.core.pipeline.told_settings import settings_told
+from carpus.core.pipeline.track import TrackSettings
+from carpus.core.session.reader import read_outline
+from carpus.core.words import one_sentence
+
+_OF_ONE = ("calibration", "start_angles", "recorded")
+"""Options that only one recording can have."""
+
+Chosen = Callable[[TrackSettings], TrackSettings]
+"""The options of the command line over settings."""
+
+
+def run_many(
+    named: Sequence[Path], output: Path, arguments: argparse.Namespace, usual: TrackSettings, chosen: Chosen
+) -> int:
+    """Track all that is named into the folder ``output``, with ``chosen`` over the ``usual`` settings of recordings, or
+    over a session's own; the exit code."""
+    given = [f"--{name.replace('_', '-')}" for name in _OF_ONE if getattr(arguments, name)]
+    if given:
+        print(
+            f"carpus track: of many recordings each brings its own (calibration.json in its folder, or "
+            f"NAME.calibration.json beside a file); leave out {' and '.join(given)}.",
+            file=sys.stderr,
+        )
+        return 2
+    if output.suffix == SESSION_SUFFIX or output.is_file():
+        print("carpus track: many recordings need a folder as --output.", file=sys.stderr)
+        return 2
+    for path in named:
+        if not path.exists():
+            raise RecordingMissing(path)
+    found = places(named, output.absolute())
+    if not found:
+        raise RecordingMissing(named[0], "no recording in this folder or in those in it")
+    check_tables(output)
+    if arguments.table is not None:
+        check_place(arguments.table)
+    done: list[Outcome] = []
+    tasks: list[Task] = []
+    for place in found:
+        try:
+            tasks.append(_task(place, arguments, usual, chosen))
+        except CarpusFault as fault:
+            done.append(fault_of(place, one_sentence(fault)))
+    try:
+        output.mkdir(parents=True, exist_ok=True)
+    except OSError as cause:
+        raise OutputNotWritable(output, cause.strerror or "") from cause
+    begin_s = time.monotonic()
+    with bar("tracking", "recording") as progress:
+        for outcome in _coming(tasks, arguments):
+            done.append(outcome)
+            progress(len(done), len(found))
+    order = {place.session: number for number, place in enumerate(found)}
+    done.sort(key=lambda each: order[each.place.session])
+    written = [*write_tables(done, output)]
+    if arguments.table is not None:
+        written.append(write_measures([row for each in done for row in each.measures], arguments.table))
+    return _told(done, written, time.monotonic() - begin_s)
+
+
+def _coming(tasks: Sequence[Task], arguments: argparse.Namespace) -> Iterator[Outcome]:
+    if arguments.scheduler is None:
+        return outcomes(tasks, arguments.jobs or cores())
+    from carpus.app.batch.cluster import outcomes_on
+
+    return outcomes_on(arguments.scheduler, tasks)
+
+
+def _task(place: Place, arguments: argparse.Namespace, usual: TrackSettings, chosen: Chosen) -> Task:
+    settings = usual
+    if place.clicks is None:
+        told = settings_told(read_outline(place.recording).header.parameters)
+        settings = usual if told is None else told.settings
+    return Task(place, chosen(settings), arguments.subject or "", arguments.exercise or "", arguments.leave_out_damaged)
+
+
+def _told(done: Sequence[Outcome], tables: Sequence[Path], seconds: float) -> int:
+    count = Counter(each.result for each in done)
+    for line in fault_lines(done):
+        print(line)
+    results = f"tracked {count['tracked']}, done before {count['kept']}, faults {count['fault']}"
+    a_minute = f", {60.0 * count['tracked'] / seconds:.1f} a minute" if count["tracked"] else ""
+    print(f"Recordings: {len(done)}, {results}{a_minute}")
+    for path in tables:
+        print(f"Table: {path}")
+    return 1 if count["fault"] else 0

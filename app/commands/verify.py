@@ -1,0 +1,57 @@
+"""``carpus verify``: whether a session or recording is whole and unchanged."""
+
+from __future__ import annotations
+
+import argparse
+from pathlib import Path
+
+from carpus.app.commands.kept import data_folder_of, note
+from carpus.app.commands.progress import bar, tell
+from carpus.core.errors import CarpusFault, PicturesLost, RecordingMissing
+from carpus.core.session.reader import read_outline, verify
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument("file", type=Path, help="session (.h5), TUM folder, .oni file or raw recording; only read")
+
+
+def run(arguments: argparse.Namespace) -> int:
+    path: Path = arguments.file
+    if not path.exists():
+        raise RecordingMissing(path)
+    if path.suffix in {".h5", ".part"}:
+        found = verify(path)
+        if data_folder_of(path) is not None:
+            note("opened", path, read_outline(path).header.session_id)
+        if found.sealed:
+            print(f"Whole and unchanged since it was finished: {path} ({found.frames} frames).")
+        else:
+            print(f"Whole: {path} ({found.frames} frames). It has no seal, so whether it was changed is not known.")
+        return 0
+    return _recording(path)
+
+
+def _recording(path: Path) -> int:
+    """Decode every picture; a recording has check sums of its own at most, and no seal."""
+    from carpus.app.sources import open_recording
+
+    told: list[CarpusFault] = []
+    source = open_recording(path, need_depth=False, notice=told.append)
+    frames = 0
+    try:
+        with bar("reading") as progress:
+            for frame in source.frames():
+                frames = frame.index + 1
+                progress(frames, source.info.frame_count)
+    finally:
+        source.close()
+    lost = [fault for fault in told if isinstance(fault, PicturesLost)]
+    for fault in lost:
+        tell(fault)
+    if lost:
+        return 1
+    if source.info.settings.get("complete", "").startswith("no"):
+        print(f"Cut short, and whole up to there: {path} ({frames} frames).")
+    else:
+        print(f"Whole: {path} ({frames} frames).")
+    return 0

@@ -1,0 +1,273 @@
+"""Back-ups by themselves and when told, the reminder, and the way back from one."""
+
+from __future__ import annotations
+
+import shutil
+from collections.abc import Callable
+from dataclasses import dataclass
+from datetime import datetime
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from PySide6.QtCore import QObject, QTimer, Signal
+from PySide6.QtWidgets import QFileDialog
+
+from carpus import __version__
+from carpus.app.settings import BackupSettings
+from carpus.core.errors import BackupMissing
+from carpus.core.library.library import Library
+from carpus.core.safekeeping.backup import (
+    Backup,
+    LastBackup,
+    RestorePlan,
+    back_up,
+    backups,
+    is_due,
+    last_backup,
+    plan_restore,
+    restore,
+    thin_out,
+)
+from carpus.ui import numbers
+from carpus.ui.background import Background
+from carpus.ui.messages.stop_card import Answer
+from carpus.ui.ports import Words
+from carpus.ui.records.cards import BackupCard, BackupFacts
+from carpus.ui.theme import Theme
+
+if TYPE_CHECKING:
+    from carpus.app.desktop.journey import Journey
+
+LOOK_MS = 60_000
+
+
+@dataclass(frozen=True, slots=True)
+class Restored:
+    """A back-up that lies beside the data folder and takes its place when the window has closed."""
+
+    staged: Path
+    data_folder: Path
+
+
+class BackingUp(QObject):
+    """``stepped`` carries the percent done, from another thread."""
+
+    stepped = Signal(int)
+
+    def __init__(
+        self,
+        journey: Journey,
+        theme: Theme,
+        library: Library,
+        settings: BackupSettings,
+        settings_folder: Path,
+        *,
+        keep: Callable[[BackupSettings], None],
+        close_window: Callable[[], None],
+        is_recording: Callable[[], bool],
+        now: Callable[[], datetime] = lambda: datetime.now().astimezone(),
+    ) -> None:
+        super().__init__(journey)
+        self._journey, self._library, self._settings = journey, library, settings
+        self._settings_folder, self._keep, self._close_window = settings_folder, keep, close_window
+        self._is_recording, self._now = is_recording, now
+        self._background = Background()  # its own: a back-up of gigabytes holds up nothing else
+        self._running = False
+        self.last: LastBackup | None = None
+        self.restored: Restored | None = None
+        self.card = BackupCard(theme, settings.hour)
+        self.card.back_up.connect(self.back_up)
+        self.card.restore.connect(self.ask_restore)
+        self.card.place_wanted.connect(self._choose_place)
+        self.card.hour_chosen.connect(lambda hour: self._change(BackupSettings(self._settings.folder, hour)))
+        self.stepped.connect(self.card.show_progress)
+        self._clock = QTimer(self)
+        self._clock.setInterval(LOOK_MS)
+        self._clock.timeout.connect(self.look)
+        self._clock.start()
+        self.look_again()
+
+    def end(self) -> None:
+        """The window closes; a back-up that runs is waited for."""
+        self._clock.stop()
+        self._background.wait(600_000)
+
+    def look_again(self) -> None:
+        """Work out how it stands, and show it."""
+        folder = self._library.folder
+        self._background.run(lambda: last_backup(folder), self._take_last, self._journey.teller.fault, self)
+
+    def _take_last(self, last: LastBackup | None) -> None:
+        self.last = last
+        self.card.show_facts(self._facts())
+
+    def is_old(self) -> bool:
+        """Whether a person should be reminded: back-ups are wanted, there is something to lose, and the last one is old
+        or not there yet."""
+        if self.last is None and not self._settings.folder:
+            return False  # nobody has asked for back-ups; the settings say that there is none
+        sessions = sum(record.session_count for record in self._library.clinic.patients())
+        return sessions > 0 and is_due(self.last, self._settings.remind_days, self._now())
+
+    def remind(self) -> None:
+        """A strip above the patients, once at the start, where the last back-up is old."""
+        self.last = last_backup(self._library.folder)
+        if not self.is_old():
+            return
+        facts = self._facts()
+        words = Words(facts.headline, facts.detail, self.tr("Plug the disk for back-ups in, and back up."))
+        place = self._journey.patients.notice_place
+        self._journey.teller.strip(place, words, self.tr("To the settings"), self._journey.settings_wanted.emit)
+
+    def look(self) -> None:
+        """Once a minute: is it time?"""
+        settings, now = self._settings, self._now()
+        if settings.hour < 0 or not settings.folder or now.hour < settings.hour or self._is_recording():
+            return
+        if self.last is not None and self.last.made.astimezone(now.tzinfo).date() >= now.date():
+            return
+        if Path(settings.folder).is_dir():
+            self.back_up()
+
+    def back_up(self) -> None:
+        """Now, beside whatever the window does."""
+        if not self._settings.folder:
+            self._choose_place()
+            return
+        if self._running:
+            return
+        self._running = True
+        place, settings = Path(self._settings.folder), self._settings
+        self.card.show_progress(0)
+        self._background.run(
+            lambda: self._work(place, settings), self._done, self._failed, self
+        )  # not niced: a thread shares the program's priority
+
+    def _work(self, place: Path, settings: BackupSettings) -> Backup:
+        made = back_up(
+            self._library.folder,
+            place,
+            software_version=__version__,
+            settings_folder=self._settings_folder,
+            progress=self._step,
+        )
+        thin_out(place, settings.keep, settings.months, self._now())
+        self._library.note("backed_up", sessions=made.sessions)
+        return made
+
+    def _step(self, done: int, total: int) -> None:
+        self.stepped.emit(100 * done // total)
+
+    def _done(self, _: Backup) -> None:
+        self._running = False
+        self.card.show_progress(None)
+        self.look_again()
+
+    def _failed(self, fault: Exception) -> None:
+        self._running = False
+        self.card.show_progress(None)
+        self._journey.teller.fault(fault)
+
+    def _choose_place(self) -> None:
+        title = self.tr("Folder for back-ups, on another disk")
+        folder = QFileDialog.getExistingDirectory(self.card.window(), title, self._settings.folder)
+        if folder:
+            self._change(BackupSettings(folder, self._settings.hour))
+
+    def _change(self, settings: BackupSettings) -> None:
+        self._settings = settings
+        self._keep(settings)
+        self.card.show_facts(self._facts())
+
+    # --- how it stands ------------------------------------------------------------------------------------
+    def _facts(self) -> BackupFacts:
+        last, place, now = self.last, self._settings.folder, self._now()
+        there = bool(place) and Path(place).is_dir()
+        place_words, place_state = self.tr("not chosen yet"), "none"
+        if place:
+            place_state = "good" if there else "warn"
+            place_words = self.tr("not there now")
+            if there:
+                free = shutil.disk_usage(place).free / 1e9
+                place_words = self.tr("{free} GB free").format(free=f"{free:.0f}")
+        if last is None:
+            headline, detail, more = self.tr("There is no back-up yet."), "", ""
+            old = True
+        else:
+            days = (now.date() - last.made.astimezone(now.tzinfo).date()).days
+            age = numbers.days_ago(last.made.astimezone(now.tzinfo), now.date())
+            missing = {0: self.tr("Every session is in it."), 1: self.tr("1 session is not in it.")}
+            rest = missing.get(last.missing, self.tr("{n} sessions are not in it.").format(n=last.missing))
+            old = is_due(last, self._settings.remind_days, now)
+            first = self.tr("The last back-up is {days} days old.").format(days=days)
+            headline = f"{first if days > 1 else self.tr('The last back-up is of {day}.').format(day=age)} {rest}"
+            facts = self.tr("{when} · {n} sessions, {size} GB · read back and compared: all equal")
+            size = f"{last.size_bytes / 1e9:.2f}" if last.size_bytes < 1e10 else f"{last.size_bytes / 1e9:.0f}"
+            detail = facts.format(when=numbers.report_date(last.made.astimezone()), n=last.sessions, size=size)
+            more = self.tr("Reminder after {days} days.").format(days=self._settings.remind_days)
+        return BackupFacts(
+            "warn" if old else "good",
+            headline,
+            detail,
+            more,
+            place or self.tr("none"),
+            place_state,  # type: ignore[arg-type]
+            place_words,
+            not self._running,
+        )
+
+    # --- the way back -------------------------------------------------------------------------------------
+    def ask_restore(self) -> None:
+        """Choose a folder with back-ups; what the newest would change is shown first."""
+        title = self.tr("Folder that holds the back-ups")
+        folder = QFileDialog.getExistingDirectory(self.card.window(), title, self._settings.folder)
+        if folder:
+            self._background.run(
+                lambda: self._plan(Path(folder)),
+                lambda found: self._ask(Path(folder), *found),
+                self._journey.teller.fault,
+                self,
+            )
+
+    def _plan(self, place: Path) -> tuple[Backup, RestorePlan]:
+        there = backups(place)
+        if not there:
+            raise BackupMissing(place)
+        return there[0], plan_restore(there[0], self._library.folder)
+
+    def _ask(self, place: Path, backup: Backup, plan: RestorePlan) -> None:
+        what = self.tr("Restore the back-up of {when}? {come} sessions come, {change} change, {go} go.")
+        when = numbers.report_date(backup.made.astimezone())
+        self._journey.teller.ask(
+            Words(
+                what.format(when=when, come=len(plan.added), change=len(plan.replaced), go=len(plan.lost)),
+                self.tr("What is here now is backed up first, and its folder is kept beside the new one."),
+                self.tr("Carpus closes when it is done. Start it again then."),
+            ),
+            (
+                Answer(self.tr("Restore it"), lambda: self._restore(place, backup), "R"),
+                Answer(self.tr("Leave it as it is"), lambda: None, self.tr("Enter")),
+            ),
+            icon="rotate-ccw",
+        )
+
+    def _restore(self, place: Path, backup: Backup) -> None:
+        if self._running:
+            return
+        self._running = True
+        self.card.show_progress(0)
+        folder = self._library.folder
+        staged = folder.with_name(f"{folder.name}.restored-{self._now():%Y%m%d-%H%M%S}")
+
+        def work() -> Path:
+            back_up(folder, place, software_version=__version__, settings_folder=self._settings_folder)
+            restore(place, backup, staged, progress=self._step)
+            self._library.note("restored", sessions=backup.sessions)
+            return staged
+
+        def done(staged: Path) -> None:
+            self._running = False
+            self.restored = Restored(staged, folder)
+            self._close_window()
+
+        self._background.run(work, done, self._failed, self)

@@ -1,0 +1,155 @@
+"""What the top bar and the sign under it say."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from datetime import datetime
+from pathlib import Path
+from typing import Protocol
+
+from PySide6.QtCore import QObject
+
+from carpus.app.desktop.now_open import NowOpen
+from carpus.app.desktop.phrases import shortened
+from carpus.app.desktop.places import STEPS, TABS, Place
+from carpus.core.calibration.result import Finding
+from carpus.core.output.report_content import SessionFigures
+from carpus.core.pipeline.live_values import LiveCounters
+from carpus.ui import numbers, terms
+from carpus.ui.ports import Phrasebook
+from carpus.ui.shell import Shell
+
+MOST_NAME = 24
+"""Letters of a recording's name in the top bar."""
+
+
+class OnReview(Protocol):
+    """The session on the review screen."""
+
+    @property
+    def shown(self) -> bool: ...
+
+    @property
+    def saved_at(self) -> datetime | None: ...
+
+    figures: SessionFigures | None
+
+
+class Bar(QObject):
+    """Tells who is open, where one is, how camera, disk and recording are."""
+
+    def __init__(
+        self,
+        shell: Shell,
+        now: NowOpen,
+        place: Callable[[], Place],
+        camera_there: Callable[[], bool],
+        review: OnReview,
+        phrasebook: Phrasebook,
+        *,
+        is_demo: bool,
+    ) -> None:
+        super().__init__(shell)
+        self._shell, self._now, self._place = shell, now, place
+        self._again = (-1, 0)
+        self._camera_there, self._review, self._phrasebook, self._is_demo = camera_there, review, phrasebook, is_demo
+
+    def show(self) -> None:
+        """All of it, for the place."""
+        bar, row, set_up, place = self._shell.bar, self._now.patient, self._now.set_up, self._place()
+        side = set_up.side if set_up is not None else row.side if row is not None else ""
+        words = [terms.hand_name(side)] if side else []
+        if place == "live" and set_up is not None:
+            words.append(terms.exercise_name(set_up.exercise.id))
+        name = self.tr("Test and retest") if place == "retest" else row.pseudonym if row is not None else ""
+        bar.show_place(name, " · ".join(words))
+        if place in STEPS and place != "live":
+            names = [self.tr("Exercise"), self.tr("Camera"), self.tr("Markers"), self.tr("Measure")]
+            bar.show_steps(names, STEPS.index(place))
+        elif place in TABS or place == "agreement":
+            names = [self.tr("Sessions"), self.tr("Review"), self.tr("Progress"), self.tr("Report")]
+            bar.show_tabs(names, TABS.index("review" if place == "agreement" else place))
+        else:
+            bar.show_nothing()
+        if place != "live":
+            self._shell.bar.disk.show_state("none", "")
+        self.show_again(*self._again)
+        self.show_camera()
+        self._shell.sign.show_lines(self.sign_lines())
+
+    def sign_lines(self) -> list[str]:
+        """What must not be forgotten of what is on the screen: that it is simulated, or was doubtful."""
+        now, place, figures = self._now, self._place(), self._review.figures
+        simulated = False
+        findings: tuple[Finding, ...] = ()
+        measuring = now.source.measuring if now.source is not None else None
+        if place in ("markers", "live") and measuring is not None:
+            simulated = measuring.is_simulated
+            if place == "live" and measuring.calibration is not None:
+                findings = measuring.calibration.verdict.findings
+        elif place == "review" and self._review.shown and figures is not None:
+            simulated, findings = figures.simulated, figures.findings
+        lines = []
+        if simulated and now.patient is not None and not now.is_practice:
+            words = self.tr("Simulated hand: this is not {name}, and does not count.")
+            lines.append(words.format(name=now.patient.pseudonym))
+        if place == "review" and figures is not None and figures.not_counted:
+            lines.append(self.tr("This session does not count."))
+        if findings:
+            said = " ".join(self._phrasebook.finding(finding).what for finding in findings)
+            lines.append(self.tr("Measured although doubtful: {findings}").format(findings=said))
+        return lines
+
+    def show_camera(self) -> None:
+        """The camera in words; on the live screen the counters speak."""
+        camera, now, place = self._shell.bar.camera, self._now, self._place()
+        if place == "live":
+            return
+        if place == "review" and self._review.saved_at is not None:
+            camera.show_state("good", self.tr("Saved {time}").format(time=f"{self._review.saved_at:%H:%M}"))
+        elif now.kind == "practice" and (self._is_demo or now.source is not None):
+            camera.show_state("good", self.tr("Simulated camera"))
+        elif now.kind == "file" and now.source is not None:
+            name = Path(now.choice.path).name
+            camera.show_state("good", self.tr("Recording {name}").format(name=shortened(name, MOST_NAME)))
+        elif self._camera_there():
+            camera.show_state("good", self.tr("Camera ready"))
+        else:
+            camera.show_state("bad", self.tr("No camera"))
+
+    def show_again(self, percent: int, waiting: int) -> None:
+        """How far a session is that is tracked again, -1 when none is, and how many new results wait for a decision;
+        not while measuring."""
+        self._again = (percent, waiting)
+        button = self._shell.bar.again
+        if self._place() == "live":
+            button.show_words("", "")
+        elif percent >= 0:
+            short = self.tr("{percent} %").format(percent=percent)
+            button.show_words(
+                self.tr("Tracking again {percent}").format(percent=short), short, self.tr("How far it is, and Stop")
+            )
+        elif waiting:
+            one = self.tr("New result: choose") if waiting == 1 else self.tr("{count} new results: choose")
+            button.show_words(one.format(count=waiting), self.tr("Choose"), self.tr("Old and new over each other"))
+        else:
+            button.show_words("", "")
+
+    def show_recording(self, state: str, seconds: float) -> None:
+        """The pill, the red line, and no way aside meanwhile."""
+        self._shell.bar.pill.show_state(state, seconds)  # type: ignore[arg-type]
+        self._shell.bar.show_recording(state == "recording")
+        self._shell.bar.lock_aside(state != "off")
+
+    def show_counters(self, counters: LiveCounters) -> None:
+        """Pictures a second, what was lost, and for how long the disk has room."""
+        words = self.tr("{count} pictures/s").format(count=round(counters.fps))
+        lost = counters.dropped + counters.missing
+        if lost:
+            words = self.tr("{words}, {lost} lost").format(words=words, lost=lost)
+        self._shell.bar.camera.show_state("good" if counters.fps >= 25.0 else "warn", words)
+        minutes = counters.disk_minutes_left
+        if minutes == minutes:
+            state = "bad" if minutes < 10.0 else "warn" if minutes < 30.0 else "none"
+            words = self.tr("{time} of disk left").format(time=numbers.room_left(minutes))
+            self._shell.bar.disk.show_state(state, words, icon="hard-drive")  # type: ignore[arg-type]

@@ -1,0 +1,239 @@
+"""The flow of comparing a session with another measurement: choosing it, the work beside the window, what is saved."""
+
+from __future__ import annotations
+
+import threading
+from collections.abc import Callable, Sequence
+from pathlib import Path
+from typing import Protocol
+
+from PySide6.QtCore import QObject, Qt, Signal
+from PySide6.QtWidgets import QFileDialog, QWidget
+
+from carpus import __version__
+from carpus.app.desktop.last_places import LastPlaces
+from carpus.app.desktop.now_open import NowOpen
+from carpus.app.desktop.printing import open_folder, shown
+from carpus.app.desktop.ways import Tell, Way
+from carpus.core.agreement.compared_files import Result, compare_files, write_files
+from carpus.core.agreement.reference import (
+    ANGLE_FILES,
+    POINT_FILES,
+    SESSION_FILES,
+    TABLE_FILES,
+    Outline,
+    outline_of,
+)
+from carpus.core.agreement.watch import Stopped, Watch
+from carpus.core.hand.protocols import PALM_MARKERS, WRIST_ANGLES, joint_angle_names
+from carpus.core.output.exercises import exercise_named
+from carpus.core.output.report_content import RepetitionChoices
+from carpus.core.session.register import SessionEntry
+from carpus.ui import numbers, terms
+from carpus.ui.agreement.reference_sheet import ColumnsSheet, ReferenceSheet, missing
+from carpus.ui.agreement.screen import AgreementScreen
+from carpus.ui.background import Background
+from carpus.ui.messages.stop_card import Answer
+from carpus.ui.ports import ReferenceChoice, Words
+from carpus.ui.report.agreement_plot import write_plots
+from carpus.ui.theme import Theme
+
+
+class Comparable(Protocol):
+    """The stored sessions, as far as a comparison reads them."""
+
+    def entry(self, session_id: str) -> SessionEntry: ...
+
+    def results(self, patient_id: str) -> Sequence[SessionEntry]: ...
+
+    def choices(self, session_id: str) -> RepetitionChoices: ...
+
+
+class Comparing(QObject):
+    """``saved`` carries the paths written and the sessions that went into them."""
+
+    saved = Signal(object, object)
+    _stepped = Signal(int, int)
+
+    def __init__(
+        self,
+        window: QWidget,
+        screen: AgreementScreen,
+        way: Way,
+        tell: Tell,
+        now: NowOpen,
+        stored: Comparable,
+        places: LastPlaces,
+        *,
+        theme: Theme,
+        limit_deg: Callable[[], float],
+    ) -> None:
+        super().__init__(window)
+        self._window, self._screen, self._way, self._tell, self._now = window, screen, way, tell, now
+        self._stored, self._places, self._limit_deg = stored, places, limit_deg
+        self._background = Background()  # its own: a long comparison holds up nothing else
+        self._stop = threading.Event()
+        self._session_id = ""
+        self._number = 0
+        self._choice = ReferenceChoice("")
+        self._outline: Outline | None = None
+        self._result: Result | None = None
+        self.reference = ReferenceSheet(window, theme)
+        self.columns = ColumnsSheet(window, theme)
+        self.reference.file_wanted.connect(self._ask_file)
+        self.reference.session_wanted.connect(self._take_session)
+        self.columns.wanted.connect(self._start)
+        screen.other.connect(self._ask)
+        screen.columns.connect(self._ask_columns)
+        screen.stop.connect(self._stop.set)
+        screen.save.connect(self._save)
+        screen.told.connect(tell.fault)
+        self._stepped.connect(screen.bar.show_progress, Qt.ConnectionType.QueuedConnection)
+
+    def show(self, session_id: str) -> None:
+        """Compare a session; what it was compared with before is shown again."""
+        if session_id != self._session_id or self._result is None:
+            self._session_id, self._result = session_id, None
+            self._screen.begin()
+        self._screen.chart.start_folder = self._places.folder("exports")
+        self._way.go("agreement")
+        if self._result is None:
+            self._ask()
+
+    def leave(self) -> None:
+        """The screen is left: what runs is given up."""
+        self._stop.set()
+
+    def close(self) -> None:
+        """The window closes."""
+        self._stop.set()
+        self._background.wait()
+
+    # --- choosing -----------------------------------------------------------------------------------------
+    def _ask(self) -> None:
+        self.reference.begin(self._others())
+
+    def _others(self) -> list[tuple[str, str]]:
+        """The patient's other results, those of the same recording first."""
+        patient = self._now.patient
+        if patient is None or not patient.patient_id:
+            return []
+        own = self._stored.entry(self._session_id)
+        others = [one for one in self._stored.results(patient.patient_id) if one.session_id != self._session_id]
+        others = [one for one in others if one.hand == own.hand]
+        others.sort(key=lambda one: one.recording_id != own.recording_id)
+        return [(one.session_id, self._words_of(one, own)) for one in others]
+
+    def _words_of(self, entry: SessionEntry, own: SessionEntry) -> str:
+        words = f"{numbers.report_date(entry.recorded)} · {terms.exercise_name(entry.exercise)}"
+        return f"{words} · {self.tr('same recording')}" if entry.recording_id == own.recording_id else words
+
+    def _take_session(self, session_id: str) -> None:
+        entry = self._stored.entry(session_id)
+        name = self.tr("the session of {when}").format(when=numbers.report_date(entry.recorded))
+        self._outline = None
+        self._start(ReferenceChoice(name, str(entry.path), session_id))
+
+    def _ask_file(self) -> None:
+        endings = " ".join(f"*{end}" for end in (*POINT_FILES, *ANGLE_FILES, *TABLE_FILES, *SESSION_FILES[:1]))
+        words = self.tr("Other measurements ({endings})").format(endings=endings)
+        start = self._places.folder("exports")
+        path, _ = QFileDialog.getOpenFileName(self._window, self.tr("Another measurement"), start, words)
+        if path:
+            self._take_file(Path(path))
+
+    def _take_file(self, path: Path) -> None:
+        choice = ReferenceChoice(path.name, str(path))
+
+        def known(outline: Outline) -> None:
+            self._outline, self._choice = outline, choice
+            if missing(outline, dict(outline.found)):
+                self._ask_columns()
+            else:
+                self._start(choice)
+
+        self._background.run(lambda: outline_of(path), known, self._tell.fault, self)
+
+    def _ask_columns(self) -> None:
+        if self._outline is not None:
+            self.columns.begin(self._outline, self._ours(self._outline), self._choice)
+
+    def _ours(self, outline: Outline) -> Sequence[str]:
+        if outline.kind == "points":
+            return PALM_MARKERS
+        has_fingers = exercise_named(self._stored.entry(self._session_id).exercise).protocol.has_fingers
+        return ("time", *WRIST_ANGLES, *(joint_angle_names(True) if has_fingers else ()))
+
+    # --- the work -----------------------------------------------------------------------------------------
+    def _start(self, choice: ReferenceChoice) -> None:
+        """Beside the window; the limit is that of now, before anything is compared."""
+        self._stop.set()  # of what may still run
+        self._choice, self._result = choice, None
+        self._number += 1
+        number, limit_deg, stop = self._number, self._limit_deg(), threading.Event()
+        self._stop = stop
+        session_id = self._session_id
+        self._screen.running(choice.name)
+        self._screen.first().setFocus(Qt.FocusReason.OtherFocusReason)
+
+        def work() -> Result:
+            return compare_files(
+                self._stored.entry(session_id).path, Path(choice.path), columns=choice.columns,
+                markers=choice.markers, radians=choice.radians, choices=self._stored.choices(session_id),
+                watch=Watch(self._stepped.emit, stop.is_set),
+            )  # fmt: skip
+
+        def done(result: Result) -> None:
+            if number == self._number:
+                self._result = result
+                self._screen.show_compared(result.compared, choice.name, limit_deg, may_map=self._may_map())
+                if self._way.place == "agreement":
+                    self._screen.first().setFocus(Qt.FocusReason.OtherFocusReason)
+
+        def failed(fault: Exception) -> None:
+            if number != self._number:
+                return
+            self._screen.begin(may_map=self._may_map())
+            self._screen.first().setFocus(Qt.FocusReason.OtherFocusReason)
+            if not isinstance(fault, Stopped):
+                self._tell.fault(fault)
+
+        self._background.run(work, done, failed, self)
+
+    def _may_map(self) -> bool:
+        return self._outline is not None and self._outline.kind in ("points", "angles")
+
+    # --- saving -------------------------------------------------------------------------------------------
+    def _save(self) -> None:
+        """Ask for a folder and write what ``carpus compare --output`` writes."""
+        result = self._result
+        if result is None:
+            return
+        start = self._places.folder("exports")
+        folder = QFileDialog.getExistingDirectory(self._window, self.tr("Save tables and plots into a folder"), start)
+        if not folder:
+            return
+        self._places.keep("exports", folder)
+        sessions = [one for one in (self._session_id, self._choice.session_id) if one]
+        limit_deg = self._screen.limit_deg
+
+        def write() -> list[Path]:
+            files = write_files(result, Path(folder), __version__)
+            return [*files, *write_plots(result.compared, Path(folder), result.stem, limit_deg)]
+
+        self._background.run(write, lambda paths: self._written(folder, paths, sessions), self._tell.fault, self)
+
+    def _written(self, folder: str, paths: Sequence[Path], sessions: Sequence[str]) -> None:
+        self.saved.emit(paths, sessions)
+        self._tell.ask(
+            Words(
+                self.tr("{count} files were written.").format(count=len(paths)),
+                self.tr("Folder: {folder}").format(folder=folder),
+                self.tr("Files: {names}").format(names=shown([path.name for path in paths])),
+            ),
+            (
+                Answer(self.tr("Open the folder"), lambda: open_folder(folder), "O"),
+                Answer(self.tr("Go on"), lambda: None, self.tr("Enter")),
+            ),
+            icon="download",
+        )

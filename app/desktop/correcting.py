@@ -1,0 +1,263 @@
+"""The flow of putting markers right: the screen, tracking again beside everything else, and the choice at the end."""
+
+from __future__ import annotations
+
+import math
+import threading
+from collections.abc import Callable, Sequence
+from datetime import datetime
+from pathlib import Path
+
+from PySide6.QtCore import QObject, Signal
+
+from carpus import __version__
+from carpus.app.desktop.ways import Tell, Way
+from carpus.core.library.corrections import Corrections, Difference, Waiting, difference
+from carpus.core.output.joint_content import joint_curves
+from carpus.core.output.report_content import session_curves, session_figures
+from carpus.core.pipeline.correcting import correct_beside
+from carpus.core.pipeline.correction import not_held, task_of
+from carpus.core.session.corrected import corrections_in
+from carpus.core.session.marker_places import Correction
+from carpus.core.session.values import Session, SessionHeader
+from carpus.ui import numbers, terms
+from carpus.ui.background import Background
+from carpus.ui.correct.results_sheet import BothResults, ResultsSheet
+from carpus.ui.correct.screen import CorrectScreen
+from carpus.ui.marker_words import marker_name
+from carpus.ui.ports import StoredMoment
+from carpus.ui.translate import tr
+
+
+class Moments:
+    """:class:`ui.ports.CorrectionStore` over the stored corrections."""
+
+    def __init__(self, stored: Corrections) -> None:
+        self._stored = stored
+
+    def moment(self, session_id: str, row: int) -> StoredMoment:
+        """One stored picture and its spots."""
+        return StoredMoment(*self._stored.moment(session_id, row))
+
+
+class Correcting(QObject):
+    """``changed`` carries percent, -1 when nothing runs, and how many new results wait for a decision; ``used`` the
+    identities of a session and of its new result that was taken.
+
+    One session is tracked again at a time, in a process of its own; window, other patients and a new measurement go on.
+    What comes of it waits in the top bar until a person opens it: nothing comes up over what somebody does.
+    """
+
+    changed = Signal(int, int)
+    used = Signal(str, str)
+    _at = Signal(int)
+
+    def __init__(
+        self,
+        parent: QObject,
+        screen: CorrectScreen,
+        sheet: ResultsSheet,
+        way: Way,
+        tell: Tell,
+        stored: Corrections,
+        *,
+        initials: Callable[[], str],
+    ) -> None:
+        super().__init__(parent)
+        self._screen, self._sheet, self._way, self._tell, self._stored = screen, sheet, way, tell, stored
+        self._initials = initials
+        self._tracking, self._background = Background(), Background()
+        self._stopping = threading.Event()
+        self._running, self._whose, self._percent = "", "", -1
+        self._waiting: list[Waiting] = []
+        self._shown: Waiting | None = None
+        self._at.connect(self._take_progress)
+        screen.wanted.connect(self.start)
+        screen.told.connect(tell.fault)
+        sheet.stop_wanted.connect(self.stop)
+        sheet.keep_wanted.connect(self._keep)
+        sheet.use_wanted.connect(self._use)
+
+    @property
+    def running(self) -> str:
+        """Identity of the session that is being tracked again; empty for none."""
+        return self._running
+
+    @property
+    def waiting(self) -> Sequence[Waiting]:
+        """The new results that nobody has decided about."""
+        return self._waiting
+
+    def look_for_waiting(self) -> None:
+        """When the program starts, and after something was erased: what waits for a decision."""
+        self._background.run(self._stored.waiting, self._take_waiting, self._tell.fault, self)
+
+    def _take_waiting(self, found: Sequence[Waiting]) -> None:
+        self._waiting = list(found)
+        self._say()
+
+    def show(self, session_id: str, session: Session, row: int) -> None:
+        """Put the markers of a picture right."""
+        if self._running:
+            self.open_sheet()
+            return
+        self._whose = whose(session.header)
+        self._screen.begin(session_id, session, row)
+        self._way.go("correct")
+
+    def start(self, session_id: str, corrections: Sequence[Correction]) -> None:
+        """Track again in the background."""
+        if self._running:
+            self.open_sheet()
+            return
+        self._running, self._percent = session_id, 0
+        self._stopping.clear()
+        trial: list[Path] = []
+
+        def work() -> bool:
+            trial.append(self._stored.trial_path(session_id))
+            origin = self._stored.origin_of(session_id)
+            task = task_of(origin, trial[0], corrections, __version__, self._initials())
+            return correct_beside(task, self._tell_progress, self._stopping)
+
+        def done(finished: bool) -> None:
+            if finished:
+                self._waiting.append(Waiting(session_id, trial[0]))
+            self._end()
+            if finished and self._sheet.isVisible():  # somebody waits for it there
+                self._show_waiting(self._waiting[-1])
+
+        def failed(fault: Exception) -> None:
+            self._end()
+            self._tell.fault(fault)
+
+        self._say()
+        self._tracking.run(work, done, failed, self)
+        self._way.back()
+
+    def stop(self) -> None:
+        """Keep the old result; what runs is given up."""
+        self._stopping.set()
+        self._sheet.close_sheet()
+
+    def open_sheet(self, session_id: str = "") -> None:
+        """What runs, or what waits for a decision: of this session first."""
+        if self._running:
+            self._sheet.show_running(self._whose, max(self._percent, 0))
+            self._sheet.begin()
+        elif self._waiting:
+            own = [one for one in self._waiting if one.session_id == session_id]
+            self._show_waiting((own or self._waiting)[-1 if own else 0])
+            self._sheet.begin()
+
+    def close(self) -> None:
+        """The program ends; what waits for a decision waits on."""
+        self._stopping.set()
+        self._tracking.wait()
+        self._background.wait()
+
+    def _tell_progress(self, done: int, total: int) -> None:
+        """Called in the background."""
+        self._at.emit(100 * done // max(total, 1))
+
+    def _take_progress(self, percent: int) -> None:
+        if not self._running:
+            return
+        self._percent = percent
+        if self._sheet.isVisible():
+            self._sheet.show_running(self._whose, percent)
+        self._say()
+
+    def _end(self) -> None:
+        self._running, self._percent = "", -1
+        if self._stopping.is_set() or not self._waiting:
+            self._sheet.close_sheet()
+        self._say()
+
+    def _say(self) -> None:
+        self.changed.emit(self._percent, len(self._waiting))
+
+    # --- old or new ---------------------------------------------------------------------------------------
+    def _show_waiting(self, one: Waiting) -> None:
+        self._shown = one
+        self._sheet.show_reading(self._whose)
+
+        def read() -> tuple[str, str, BothResults]:
+            old, new = self._stored.both(one.session_id, one.trial)
+            said = [correction for correction, _ in corrections_in(new)]
+            words = difference_words(difference(old, new), not_held(new, said))
+            both = BothResults(
+                session_figures(new), session_curves(old), session_curves(new), joint_curves(old), joint_curves(new)
+            )
+            return whose(old.header), words, both
+
+        def show(found: tuple[str, str, BothResults]) -> None:
+            if self._shown == one and self._sheet.isVisible():
+                self._sheet.show_both(*found)
+
+        def failed(fault: Exception) -> None:
+            self._sheet.close_sheet()
+            self._tell.fault(fault)
+
+        self._background.run(read, show, failed, self)
+
+    def _decided(self) -> Waiting | None:
+        """The new result that was decided about; it waits no more."""
+        one, self._shown = self._shown, None
+        self._sheet.close_sheet()
+        if one in self._waiting:
+            self._waiting.remove(one)
+            self._say()
+        return one
+
+    def _keep(self) -> None:
+        one = self._decided()
+        if one is not None:
+            self._stored.drop(one.trial)
+
+    def _use(self) -> None:
+        one = self._decided()
+        if one is None:
+            return
+
+        def failed(fault: Exception) -> None:
+            self._waiting.append(one)
+            self._say()
+            self._tell.fault(fault)
+
+        self._background.run(
+            lambda: self._stored.use(one.session_id, one.trial),
+            lambda new: self.used.emit(one.session_id, str(new)),
+            failed,
+            self,
+        )
+
+
+def whose(header: SessionHeader) -> str:
+    """Whose session, from when and of what."""
+    when = numbers.report_date(datetime.fromisoformat(header.recorded or header.created))
+    what = f"{terms.exercise_name(header.exercise)}, {terms.hand_name(header.hand).lower()}"
+    return " · ".join((header.subject_id, when, what))
+
+
+def difference_words(found: Difference, missed: Sequence[str]) -> str:
+    """What a person needs to choose: how much differs, most of all where, and which names did not hold."""
+    said = []
+    if missed:
+        names = ", ".join(marker_name(name) for name in missed)
+        said.append(tr("Not held: {names}. Correct a picture soon after too.").format(names=names))
+    if found.changed:
+        pattern = tr("{count} of {common} pictures differ by more than 2°, most at {time}: {size}.")
+        said.append(
+            pattern.format(
+                count=found.changed,
+                common=found.common,
+                time=numbers.clock_tenths(found.at_s),
+                size=numbers.degrees(math.degrees(found.most_rad)),
+            )
+        )
+    else:
+        said.append(tr("No picture differs by more than 2°."))
+    if found.found:
+        said.append(tr("{count} pictures have an angle that had none.").format(count=found.found))
+    return " ".join(said)

@@ -1,0 +1,175 @@
+"""When the window locks, and what opens it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from datetime import datetime
+from typing import TYPE_CHECKING
+
+from PySide6.QtCore import QObject
+from PySide6.QtGui import QKeySequence, QShortcut
+from PySide6.QtWidgets import QApplication
+
+from carpus.core.encryption import keys
+from carpus.core.errors import CarpusFault, PinUncheckable
+from carpus.core.library.library import Library
+from carpus.core.safekeeping.pin import Pin
+from carpus.ui.ports import Phrasebook
+from carpus.ui.records.cards import LockCard
+from carpus.ui.records.idle import Idle
+from carpus.ui.records.lock_sheet import LockSheet
+from carpus.ui.records.pin_sheet import PinSheet
+from carpus.ui.shell import Shell
+from carpus.ui.theme import Theme
+
+if TYPE_CHECKING:
+    from carpus.app.desktop.journey import Journey
+
+WAIT_MS = 60_000
+"""How long a lock waits again that came while a recording ran."""
+
+
+class Locking(QObject):
+    """Locks by key, after idle minutes and at the start; never while a recording runs."""
+
+    def __init__(
+        self,
+        journey: Journey,
+        shell: Shell,
+        theme: Theme,
+        library: Library,
+        phrasebook: Phrasebook,
+        *,
+        key: str,
+        minutes: int,
+        keep_minutes: Callable[[int], None],
+        is_busy: Callable[[], bool],
+    ) -> None:
+        super().__init__(journey)
+        self._journey, self._shell, self._library, self._phrasebook = journey, shell, library, phrasebook
+        self._minutes, self._keep_minutes, self._is_busy = minutes, keep_minutes, is_busy
+        self.pin = Pin(library.folder)
+        self.sheet = LockSheet(shell, theme)
+        self.sheet.tried.connect(self._try)
+        self.pin_sheet = PinSheet(shell.stage, theme)
+        self.pin_sheet.chosen.connect(self._change_pin)
+        self.card = LockCard(theme, minutes, key)
+        self.card.pin_wanted.connect(lambda: self.pin_sheet.begin(is_set=self.pin.is_set))
+        self.card.minutes_chosen.connect(self._take_minutes)
+        self.card.show_pin(is_set=self.pin.is_set)
+        self._hidden = (shell.bar, shell.sign, shell.stage)
+        shortcut = QShortcut(QKeySequence(key), shell)
+        shortcut.activated.connect(self.lock_by_key)
+        self.idle = Idle(shell)
+        self.idle.passed.connect(self._lock_by_itself)
+
+    @property
+    def locked(self) -> bool:
+        """Whether the PIN is asked for."""
+        return self.sheet.isVisibleTo(self._shell)
+
+    def end(self) -> None:
+        """The window closes."""
+        self.idle.wait(0)
+
+    def lock_at_start(self) -> None:
+        """Where there is a PIN nothing is shown without it; called when the window is there. Where it was typed a
+        moment ago to open what is encrypted it is not asked for again."""
+        self.look_again()
+        if self.pin.is_set and not keys.has_key(self._library.folder):
+            self._lock(0)
+
+    def lock_by_key(self) -> None:
+        """The key that locks; without a PIN it leads to where one is set."""
+        if self._is_busy():
+            return  # a recording goes on, and its keys must reach it
+        if self.pin.is_set:
+            self._lock(0)
+        else:
+            self._journey.settings_wanted.emit()
+
+    def _lock_by_itself(self) -> None:
+        if not self.pin.is_set or self.locked or self._minutes == 0:
+            return
+        if self._is_busy():
+            self.idle.wait(WAIT_MS)
+            return
+        self._lock(self._minutes)
+
+    def _lock(self, minutes: int) -> None:
+        if self.locked:
+            return
+        for widget in QApplication.topLevelWidgets():
+            if widget is not self._shell and widget.isVisible():
+                widget.close()  # menus and dialogs name patients too
+        stored = self._journey.session_id != ""
+        self.sheet.begin(self.sheet.reason(datetime.now(), minutes), stored=stored)
+        for widget in self._hidden:
+            widget.setProperty("shown_before_lock", not widget.isHidden())
+            widget.hide()
+        self._library.note("locked", idle=int(minutes > 0))
+
+    def _try(self, typed: str) -> None:
+        try:
+            tried = self.pin.try_it(typed)
+        except CarpusFault as fault:
+            words = self._phrasebook.fault(fault)
+            self.sheet.say(f"{words.what} {words.todo}")
+            if not isinstance(fault, PinUncheckable):
+                self.sheet.pause(WAIT_MS // 1000)  # what cannot be counted is not tried without end
+            return
+        if not tried.opened and not self._opens_files(typed):
+            self._library.note("pin_refused", left=tried.left)
+            self.sheet.refuse(tried.left, round(tried.pause_s))
+            return
+        self._library.note("unlocked")
+        for widget in self._hidden:
+            widget.setVisible(bool(widget.property("shown_before_lock")))
+        self.sheet.close_sheet()
+        self._restart()
+
+    def _change_pin(self, old: str, new: str) -> None:
+        try:
+            if self.pin.is_set:
+                tried = self.pin.try_it(old)
+                if not tried.opened and not self._opens_files(old):
+                    self._library.note("pin_refused", left=tried.left)
+                    words = self.tr("The PIN until now is another one.")
+                    wait = self.tr("Too many tries. The next one in {seconds} s.").format(seconds=round(tried.pause_s))
+                    self.pin_sheet.say(wait if tried.pause_s else words)
+                    return
+            if keys.has_key(self._library.folder):
+                if len(new) < keys.LEAST_SIGNS:
+                    self.pin_sheet.say(self.tr("It opens what is encrypted: ten signs or more, or decrypt it first."))
+                    return
+                keys.change_pin(self._library.folder, new)
+            if new:
+                self.pin.set(new)
+            else:
+                self.pin.take_away()
+        except CarpusFault as fault:
+            self.pin_sheet.close_sheet()
+            self._journey.teller.fault(fault)
+            return
+        self._library.note("pin_changed", set=int(bool(new)))
+        self.pin_sheet.close_sheet()
+        self.card.show_pin(is_set=self.pin.is_set)
+        self._restart()
+
+    def look_again(self) -> None:
+        """There may be another PIN, or one that opens the files too."""
+        self.sheet.is_encrypted = keys.has_key(self._library.folder)
+        self.card.show_pin(is_set=self.pin.is_set)
+        self._restart()
+
+    def _opens_files(self, typed: str) -> bool:
+        """The recovery code, where what is stored is encrypted."""
+        return keys.has_key(self._library.folder) and keys.opens(self._library.folder, typed)
+
+    def _take_minutes(self, minutes: int) -> None:
+        self._minutes = minutes
+        self._keep_minutes(minutes)
+        self._restart()
+
+    def _restart(self) -> None:
+        self.idle.wait(self._minutes * 60_000 if self.pin.is_set else 0)

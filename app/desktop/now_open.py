@@ -1,0 +1,31 @@
+"""Who and what is open: the one thing that all flows of the window share."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+from carpus.app.desktop.sources import OpenSource
+from carpus.core.library.set_up import PRACTICE_PATIENT, SetUp
+from carpus.ui.ports import PatientRow
+from carpus.ui.setup.choice import SourceChoice, SourceKind
+
+
+@dataclass(slots=True, eq=False)
+class NowOpen:
+    """``choice`` is the source last asked for, ``source`` the one that runs, ``session_id`` the session looked at."""
+
+    patient: PatientRow | None = None
+    set_up: SetUp | None = None
+    source: OpenSource | None = None
+    session_id: str = ""
+    choice: SourceChoice = field(default_factory=lambda: SourceChoice("camera"))
+
+    @property
+    def kind(self) -> SourceKind:
+        """Kind of the source last asked for."""
+        return self.choice.kind
+
+    @property
+    def is_practice(self) -> bool:
+        """Whether the practice patient is open."""
+        return self.patient is not None and self.patient.patient_id == PRACTICE_PATIENT

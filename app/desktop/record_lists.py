@@ -1,0 +1,149 @@
+"""What is due, the archive and the log, from the settings."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from datetime import date
+from typing import TYPE_CHECKING, TypeVar
+
+from PySide6.QtCore import QObject
+from PySide6.QtWidgets import QWidget
+
+from carpus.app.desktop.erasing import Erasing
+from carpus.core.library.records import Archived, Records
+from carpus.core.safekeeping.audit import AuditEntry, AuditReading
+from carpus.core.safekeeping.retention import RETENTION_YEARS, Due
+from carpus.ui import numbers
+from carpus.ui.records.cards import RecordsCard
+from carpus.ui.records.list_sheets import LogSheet, RecordsSheet
+from carpus.ui.records.ports import ListedRecord, LoggedDeed
+from carpus.ui.theme import Theme
+
+if TYPE_CHECKING:
+    from carpus.app.desktop.journey import Journey
+
+
+T = TypeVar("T")
+
+
+class RecordLists(QObject):
+    """Each list is read when it is asked for."""
+
+    def __init__(
+        self,
+        journey: Journey,
+        stage: QWidget,
+        theme: Theme,
+        records: Records,
+        erasing: Erasing,
+        *,
+        years: int,
+        today: date,
+        keep_years: Callable[[int], None],
+    ) -> None:
+        super().__init__(journey)
+        self._journey, self._records, self._erasing = journey, records, erasing
+        self.years, self._today, self._keep_years = years, today, keep_years
+        self._sessions: dict[str, str] = {}
+        self.card = RecordsCard(theme, years, RETENTION_YEARS)
+        self.sheet = RecordsSheet(stage, theme)
+        self.log_sheet = LogSheet(stage, theme)
+        self.card.years_chosen.connect(self._take_years)
+        self.card.due_wanted.connect(self.show_due)
+        self.card.archive_wanted.connect(self.show_archive)
+        self.card.log_wanted.connect(self.show_log)
+        self.sheet.back_wanted.connect(self._bring_back)
+        self.sheet.archive_wanted.connect(self._archive)
+        self.sheet.erase_wanted.connect(self._erase)
+
+    def _take_years(self, years: int) -> None:
+        self.years = years
+        self._keep_years(years)
+
+    def _run(self, work: Callable[[], T], done: Callable[[T], None]) -> None:
+        self._journey.background.run(work, done, self._journey.teller.fault, self)
+
+    def show_due(self) -> None:
+        """Patients of whom nothing need be kept any more."""
+        self._run(lambda: self._records.due(self.years, self._today), self._show_due)
+
+    def _show_due(self, found: list[Due]) -> None:
+        words = self.tr("Nothing is due: no patient’s last session is so old.")
+        if not self.years:
+            words = self.tr("Say first how many years records must be kept.")
+        elif found:
+            words = self.tr("Their last session is more than {n} years ago. Nothing goes by itself.")
+        listed = [
+            ListedRecord(
+                one.patient_id,
+                one.pseudonym,
+                self.tr("{n} sessions, the last on {last}; had to be kept until {until}").format(
+                    n=one.sessions, last=numbers.day_of_year(one.last), until=numbers.day_of_year(one.until)
+                ),
+                one.archived,
+            )
+            for one in found
+        ]
+        self.sheet.begin(self.tr("What is due"), words.format(n=self.years), listed)
+
+    def show_archive(self) -> None:
+        """What can be brought back."""
+        self._run(self._records.archived, self._show_archive)
+
+    def _show_archive(self, found: list[Archived]) -> None:
+        listed = []
+        for one in found:
+            what = self.tr("{n} sessions").format(n=one.sessions)
+            if one.recorded is not None:
+                what = self.tr("session of {day}").format(day=numbers.report_date(one.recorded))
+            since = self.tr("archived on {day}").format(day=numbers.day_of_year(one.since))
+            listed.append(ListedRecord(one.identity, one.pseudonym, f"{what}, {since}", True))
+        self._sessions = {one.identity: one.session_id for one in found if one.session_id}
+        words = self.tr("In no list and no count. Everything can be brought back.")
+        self.sheet.begin(self.tr("Archive"), words if found else self.tr("The archive is empty."), listed)
+
+    def _bring_back(self, identity: str) -> None:
+        self._run(lambda: self._records.bring_back(identity), lambda _: self.show_archive())
+
+    def _archive(self, patient_id: str) -> None:
+        self._run(lambda: self._records.archive_patient(patient_id), lambda _: self.show_due())
+
+    def _erase(self, identity: str) -> None:
+        self.sheet.close_sheet()
+        session_id = self._sessions.get(identity, "")
+        if session_id:
+            self._erasing.ask_session(session_id)
+        else:
+            self._erasing.ask_patient(identity)
+
+    def show_log(self) -> None:
+        """Who did what and when."""
+        self._run(lambda: (self._records.audit(), self._records.names(), self._records.audit_was_cut()), self._show_log)
+
+    def _show_log(self, found: tuple[AuditReading, dict[str, str], bool]) -> None:
+        reading, names, was_cut = found
+        deeds = [self._deed(entry, names) for entry in reading.entries]
+        self.log_sheet.begin(deeds, reading.breaks or ((len(deeds) + 1,) if was_cut else ()))
+
+    def _deed(self, entry: AuditEntry, names: dict[str, str]) -> LoggedDeed:
+        of_whom = names.get(entry.identity, entry.identity[:8])
+        by = self.tr("by command") if entry.by == "command" else ""
+        facts = ", ".join(f"{name} {value}" for name, value in entry.facts.items() if len(str(value)) < 20)
+        detail = " · ".join(part for part in (facts, by) if part)
+        return LoggedDeed(entry.number, entry.when.astimezone(), entry.who, self._words(entry.did), of_whom, detail)
+
+    def _words(self, did: str) -> str:
+        words = {
+            "opened": self.tr("opened"), "recorded": self.tr("recorded"), "added": self.tr("added"),
+            "changed": self.tr("changed"), "exported": self.tr("exported"), "reported": self.tr("report saved"),
+            "set_aside": self.tr("set aside"), "taken_back": self.tr("taken back"), "moved": self.tr("moved"),
+            "renamed": self.tr("exercise changed"), "tracked_again": self.tr("tracked again"),
+            "recovered": self.tr("recovered"), "archived": self.tr("archived"),
+            "brought_back": self.tr("brought back"), "erase_begun": self.tr("erasing begun"),
+            "erased": self.tr("erased"), "backed_up": self.tr("backed up"),
+            "backup_compared": self.tr("back-up compared"), "restored": self.tr("restored"),
+            "locked": self.tr("locked"), "unlocked": self.tr("unlocked"), "pin_refused": self.tr("PIN refused"),
+            "pin_changed": self.tr("PIN changed"), "read_log": self.tr("log read"),
+            "encrypted": self.tr("encryption switched on"), "decrypted": self.tr("encryption switched off"),
+        }  # fmt: skip
+        return words.get(did, did)

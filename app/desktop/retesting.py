@@ -1,0 +1,138 @@
+"""The flow of the clinic's test and retest: who takes part, who is next, and the limits put into force."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from datetime import date
+from pathlib import Path
+
+from PySide6.QtCore import QObject, Qt, Signal
+from PySide6.QtWidgets import QFileDialog, QWidget
+
+from carpus.app.desktop.last_places import LastPlaces
+from carpus.app.desktop.ways import Tell, Way
+from carpus.core.agreement.retest import StudyFigures
+from carpus.core.agreement.retest_plan import RetestPlan
+from carpus.core.agreement.retest_table import write_study
+from carpus.core.library.library import Library
+from carpus.core.library.retest_people import RetestPeople
+from carpus.ui import terms
+from carpus.ui.background import Background
+from carpus.ui.messages.stop_card import Answer
+from carpus.ui.ports import Words
+from carpus.ui.retest.people_sheet import PeopleSheet
+from carpus.ui.retest.screen import RetestScreen
+from carpus.ui.theme import Theme
+
+
+class Retesting(QObject):
+    """``measure`` carries a person to be measured now; ``in_force`` that the clinic's limits are others now."""
+
+    measure = Signal(str)
+    in_force = Signal()
+
+    def __init__(
+        self,
+        window: QWidget,
+        screen: RetestScreen,
+        way: Way,
+        tell: Tell,
+        library: Library,
+        places: LastPlaces,
+        background: Background,
+        *,
+        theme: Theme,
+        today: Callable[[], date] = date.today,
+    ) -> None:
+        super().__init__(window)
+        self._window, self._screen, self._way, self._tell, self._library = window, screen, way, tell, library
+        self._places, self._background, self._today = places, background, today
+        self._people = RetestPeople(library)
+        self._exercise = ""
+        self.sheet = PeopleSheet(window, theme)
+        self.sheet.chosen.connect(self._choose)
+        screen.people.connect(self._ask_people)
+        screen.exercise_chosen.connect(self._take_exercise)
+        screen.measure.connect(self.measure)
+        screen.use.connect(self._ask_use)
+        screen.save.connect(self._save)
+
+    def show(self) -> None:
+        """The study as it stands now."""
+        self._way.go("retest")
+        self._read()
+
+    def _read(self) -> None:
+        wanted, people, today = self._exercise, self._people, self._today()
+        self._screen.reading()
+
+        def read() -> tuple[Sequence[str], RetestPlan]:
+            exercises = people.exercises()
+            exercise = wanted if wanted in exercises else next(iter(exercises), "WRIST_FE")
+            return exercises, people.plan(exercise, today)
+
+        self._background.run(read, self._shown, self._tell.fault, self)
+
+    def _shown(self, found: tuple[Sequence[str], RetestPlan]) -> None:
+        exercises, plan = found
+        self._exercise = plan.exercise
+        self._screen.show_exercises(exercises, plan.exercise)
+        self._screen.show_plan(plan, self._library.error_limits)
+        if self._way.place == "retest":
+            self._screen.first().setFocus(Qt.FocusReason.OtherFocusReason)
+
+    def _take_exercise(self, exercise: str) -> None:
+        self._exercise = exercise
+        self._read()
+
+    def _ask_people(self) -> None:
+        self.sheet.begin(self._people.candidates(), self._people.chosen())
+
+    def _choose(self, patient_ids: Sequence[str]) -> None:
+        self._background.run(lambda: self._people.choose(patient_ids), lambda _: self._read(), self._tell.fault, self)
+
+    def _ask_use(self) -> None:
+        study = self._screen.plan.study
+        if study is None or self._screen.plan.blocked:
+            return
+        what = self.tr("Use these limits for {exercise}, from {count} people?").format(
+            exercise=terms.exercise_name(study.exercise), count=study.people
+        )
+        self._tell.ask(
+            Words(
+                what,
+                self.tr("Sessions stay as they are; reports already made keep their limits."),
+                self.tr("From now on progress and reports judge by them, and name date and number of people."),
+            ),
+            (
+                Answer(self.tr("Use these limits"), self._use, "U"),
+                Answer(self.tr("Leave it as it is"), lambda: None, self.tr("Enter")),
+            ),
+            icon="check",
+        )
+
+    def _use(self) -> None:
+        study, today = self._screen.plan.study, self._today()
+        if study is not None:
+            self._background.run(
+                lambda: self._people.store(study, today), lambda _: self._stored(), self._tell.fault, self
+            )
+
+    def _stored(self) -> None:
+        self.in_force.emit()
+        self._read()
+
+    def _save(self) -> None:
+        study = self._screen.plan.study
+        if study is None:
+            return
+        start = str(Path(self._places.folder("exports")) / "retest.csv")
+        path, _ = QFileDialog.getSaveFileName(self._window, self.tr("Save table"), start, "CSV (*.csv)")
+        if path:
+            self._places.keep("exports", str(Path(path).parent))
+            self._background.run(lambda: _write(study, Path(path)), lambda _: None, self._tell.fault, self)
+
+
+def _write(study: StudyFigures, path: Path) -> None:
+    path.unlink(missing_ok=True)  # the system's own dialog has asked whether it may go
+    write_study([study], path)

@@ -1,0 +1,97 @@
+"""The list of a patient's sessions: read, set aside, moved, renamed, deleted."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+from carpus.core.errors import SessionUnreadable
+from carpus.core.library.library import Library
+from carpus.core.library.set_up import PRACTICE_PATIENT
+from carpus.core.output.report_content import SessionFigures
+from carpus.core.session.register import SessionEntry
+from carpus.ui import terms
+from carpus.ui.figures import figure_of
+from carpus.ui.ports import SessionLine
+from carpus.ui.report.further_rows import short_words
+from carpus.ui.report.hand_rows import compared_figures
+from carpus.ui.report.tables import mean_words, repetition_words
+from carpus.ui.report.words import corrected_words, warnings
+
+
+class StoredSessions:
+    """:class:`ui.ports.SessionShelf` over the library."""
+
+    def __init__(self, library: Library) -> None:
+        self._library = library
+
+    def lines(self, patient_id: str) -> Sequence[SessionLine]:
+        """Newest first, without what only the files know."""
+        return [self._line(entry, patient_id == PRACTICE_PATIENT) for entry in self._library.sessions(patient_id)]
+
+    def _line(self, entry: SessionEntry, of_practice: bool) -> SessionLine:
+        return SessionLine(
+            entry.session_id, entry.recorded, entry.exercise, entry.hand, entry.duration_s, entry.complete,
+            entry.simulated, of_practice, self._aside(entry.session_id),
+        )  # fmt: skip
+
+    def _aside(self, session_id: str) -> str:
+        try:
+            choices = self._library.choices(session_id)
+        except SessionUnreadable:
+            return ""
+        return (choices.not_counted_reason or "by hand") if choices.not_counted else ""
+
+    def with_figures(self, line: SessionLine) -> SessionLine:
+        """The same with what its file says."""
+        try:
+            figures = self._library.figures(self._library.entry(line.session_id))
+        except SessionUnreadable:
+            return replace(line, damaged=True)
+        counted = f"{figures.counted} / {len(figures.repetitions)}" if figures.repetitions else ""
+        said = [] if line.of_practice else warnings(figures)
+        return replace(
+            line,
+            figure=main_figure(figures),
+            counted=counted,
+            counted_words=repetition_words(figures),
+            warning=" ".join(said),
+            corrected=corrected_words(figures),
+        )
+
+    def other_patients(self, patient_id: str) -> Sequence[tuple[str, str]]:
+        """Everybody else."""
+        rows = self._library.clinic.patients()
+        return [(row.patient_id, row.entry.pseudonym) for row in rows if row.patient_id != patient_id]
+
+    def set_aside(self, session_id: str, reason: str) -> None:
+        """Let it count nowhere, or again."""
+        choices = self._library.choices(session_id)
+        self._library.keep_choices(session_id, replace(choices, not_counted=bool(reason), not_counted_reason=reason))
+
+    def move(self, session_id: str, patient_id: str) -> None:
+        """Give it to another patient."""
+        self._library.clinic.move_session(session_id, patient_id)
+        self._library.note_session("moved", session_id, to=patient_id)
+        self._library.forget_figures(session_id)
+
+    def rename_exercise(self, session_id: str, exercise: str) -> None:
+        """Say that it was another exercise."""
+        self._library.register_of(session_id).rename_exercise(session_id, exercise)
+        self._library.note_session("renamed", session_id, exercise=exercise.lower())
+        self._library.forget_figures(session_id)
+
+
+def main_figure(figures: SessionFigures) -> str:
+    """The figure that a therapist looks for first: the best of the trained movement, or the first joint."""
+    about = short_words(figures)
+    if about:
+        return about
+    if figures.joint_rows:
+        for figure in compared_figures(figures):
+            row = figures.row("arc", -1, figure.joint)
+            if row is not None and row.count:
+                return f"{figure_of(figure.joint).short_name} {mean_words(row)}"
+        return ""
+    rows = [row for row in figures.rows if row.movement != "arc" and row.count] or [*figures.rows]
+    return f"{terms.movement_name(rows[0].movement)} {mean_words(rows[0])}" if rows else ""

@@ -1,0 +1,58 @@
+"""What is looked at and what leaves the window, taken down: in the log, and for the day it is erased."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from PySide6.QtCore import QObject, Signal
+
+from carpus.core.library.library import Library
+from carpus.core.session.made_files import MadeKind
+
+if TYPE_CHECKING:
+    from carpus.app.desktop.journey import Journey
+
+
+class Witness(QObject):
+    """Watches the journey; changes nothing of it."""
+
+    log_lost = Signal(object)
+    """Something could not be written into the log, from whatever thread."""
+
+    def __init__(self, journey: Journey, library: Library) -> None:
+        super().__init__(journey)
+        self._now, self._library = journey.now, library
+        self._seen = ("", "")
+        self.log_lost.connect(journey.teller.fault)
+        library.log_fault = self.log_lost.emit
+        journey.way.arrived.connect(self._arrived)
+        journey.printing.reported.connect(lambda path, sessions: self._made(path, "report", sessions))
+        journey.printing.tabled.connect(lambda path, sessions: self._made(path, "export", sessions))
+        journey.comparing.saved.connect(lambda paths, sessions: library.made(paths, "export", sessions))
+        journey.agreement.chart.saved.connect(lambda path: self._made(path, "export", [self._now.session_id]))
+        journey.review.curves.saved.connect(lambda path: self._made(path, "export", [self._now.session_id]))
+        journey.progress.chart.saved.connect(lambda path: self._made(path, "export", self._of_patient()))
+
+    def _arrived(self, place: str) -> None:
+        patient = self._now.patient
+        if place == "review" and self._is_new(place, self._now.session_id):
+            self._library.note_session("opened", self._now.session_id)
+        elif place == "progress" and patient is not None and self._is_new(place, patient.patient_id):
+            self._library.note_patient("opened", patient.patient_id)
+        elif place == "patients":
+            self._seen = ("", "")
+
+    def _is_new(self, place: str, identity: str) -> bool:
+        """Not only back from the help."""
+        before, self._seen = self._seen, (place, identity)
+        return before != self._seen
+
+    def _made(self, path: str, kind: MadeKind, sessions: Sequence[str]) -> None:
+        self._library.made([Path(path)], kind, sessions)
+
+    def _of_patient(self) -> Sequence[str]:
+        patient = self._now.patient
+        entries = self._library.sessions(patient.patient_id) if patient is not None else ()
+        return [entry.session_id for entry in entries]

@@ -1,0 +1,283 @@
+"""What ``import carpus`` offers to researchers: tracking, sessions and simulated recordings as values. No screen.
+
+import carpus
+for frame in carpus.track("recording", "clicks.json"):
+    print(frame.time_s, frame.wrist.flexion_deg, frame.wrist.flexion_sd_deg)
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import asdict, dataclass, fields, replace
+from itertools import chain
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from carpus import __version__
+from carpus.app.commands.kept import note, note_exported
+from carpus.app.sources import open_recording
+from carpus.core.agreement.compare import MOST_SHIFT_S, Compared
+from carpus.core.agreement.compared_files import compare_files
+from carpus.core.calibration.calibrate import calibrate
+from carpus.core.calibration.candidates import marker_candidates
+from carpus.core.calibration.clicks import read_clicks, write_clicks
+from carpus.core.calibration.naming import propose_names
+from carpus.core.calibration.result import Clicks
+from carpus.core.camera import DEFAULT_CAMERA, Camera
+from carpus.core.detection.settings import DetectionSettings
+from carpus.core.encryption import keys
+from carpus.core.errors import CalibrationImpossible, RecordingEmpty, SettingsInvalid
+from carpus.core.formats.csv_tables import tables
+from carpus.core.formats.export import Exported, Wanted, export_sessions
+from carpus.core.formats.provenance import provenance
+from carpus.core.hand.protocols import joint_angle_names, protocol_named
+from carpus.core.library.library import read_choices
+from carpus.core.output.measures_table import measure_rows
+from carpus.core.output.report_content import session_figures
+from carpus.core.pipeline.track import TrackSettings, build_walk, from_neutral, learnt_from
+from carpus.core.session import reader
+from carpus.core.session.values import Session
+from carpus.core.simulation import recording
+from carpus.core.simulation.spec import RecordingSpec
+from carpus.core.simulation.truth import Truth
+from carpus.core.tracking.settings import TrackerSettings
+from carpus.core.types import BoolArray, FloatArray, Frame, Side, TrackStatus
+
+
+@dataclass(frozen=True, slots=True)
+class Wrist:
+    """The wrist of one picture, degrees: + radial, + flexion, + supination on both hands; ``*_sd_deg`` their standard
+    deviations. ``position_m`` (3,) and ``rotation_w2_w0`` (3, 3) of W2 in W0. NaN where the hand is lost."""
+
+    deviation_deg: float
+    flexion_deg: float
+    pronosupination_deg: float
+    deviation_sd_deg: float
+    flexion_sd_deg: float
+    pronosupination_sd_deg: float
+    position_m: FloatArray
+    rotation_w2_w0: FloatArray
+
+
+@dataclass(frozen=True, slots=True)
+class HandFrame:
+    """One picture as tracked, without looking back.
+
+    ``time_s`` as in the recording; ``status`` tracked, predicted, lost or doubtful; ``joint_names`` (J,) with
+    ``joint_angles_deg`` and ``joint_angles_sd_deg`` (J,), empty for six discs; ``marker_names`` (M,) with
+    ``marker_position_cam_m`` (M, 3) in camera axes and ``marker_measured`` (M,) whether each disc was seen.
+    """
+
+    time_s: float
+    status: str
+    wrist: Wrist
+    joint_names: tuple[str, ...]
+    joint_angles_deg: FloatArray
+    joint_angles_sd_deg: FloatArray
+    marker_names: tuple[str, ...]
+    marker_position_cam_m: FloatArray
+    marker_measured: BoolArray
+
+
+@dataclass(frozen=True, slots=True)
+class ProposedClicks:
+    """Where the discs of a flat hand are: pixels [u, v] by marker, and of each whether no other name is nearly as good.
+    A person looks at it before anything is measured with it."""
+
+    hand: Side
+    protocol: str
+    markers: dict[str, list[float]]
+    sure: dict[str, bool]
+
+    @property
+    def complete(self) -> bool:
+        """Whether every marker of the protocol has a disc."""
+        return len(self.markers) == len(protocol_named(self.protocol).markers)
+
+    def clicks(self) -> Clicks:
+        """As the tracker takes them. Raises :class:`CalibrationImpossible` where a marker has no disc."""
+        protocol = protocol_named(self.protocol)
+        lacking = [name for name in protocol.markers if name not in self.markers]
+        if lacking:
+            raise CalibrationImpossible(f"no disc found for {', '.join(lacking)}")
+        return Clicks(self.hand, protocol, np.array([self.markers[name] for name in protocol.markers]))
+
+    def write(self, path: str | Path) -> None:
+        """Write the file of clicks; one that is there already is kept and is :class:`OutputExists`."""
+        write_clicks(Path(path), self.clicks())
+
+
+@dataclass(frozen=True, slots=True)
+class OpenedSession(Session):
+    """A session with its tables, measures and provenance beside its arrays."""
+
+    def tables(self) -> Mapping[str, Any]:
+        """``wrist``, ``joints``, ``markers``, ``events``, ``measures``: tidy, units in the names, NaN for unknown; as
+        pandas' data frames where that is installed, else as columns by name."""
+        found: dict[str, Any] = dict(tables(self))
+        rows = [asdict(row) for row in self.measures()]
+        found["measures"] = {name: [row[name] for row in rows] for name in rows[0]} if rows else {}
+        try:
+            import pandas
+        except ModuleNotFoundError:
+            return found
+        return {name: pandas.DataFrame(columns) for name, columns in found.items()}
+
+    def measures(self) -> Sequence[Any]:
+        """Every figure with its unit, as :class:`core.output.measures_table.MeasureRow`, of the repetitions that count:
+        what a person left out or moved in the review is kept beside the file."""
+        return measure_rows(session_figures(self, read_choices(self.path)), self.path.stem)
+
+    def provenance(self) -> Mapping[str, Any]:
+        """Of what, by what and with what it was made."""
+        return provenance(self, __version__)
+
+
+def track(path: str | Path, clicks: str | Path | ProposedClicks, **settings: Any) -> Iterator[HandFrame]:
+    """Track a stored recording picture by picture, as they come.
+
+    ``clicks`` is the file of first-frame clicks, or what :func:`propose_clicks` gave; ``settings`` are those of
+    :class:`core.tracking.settings.TrackerSettings`, for example ``dip="free"`` or ``profile="slow"``. Raises a
+    :class:`core.errors.CarpusFault` that says what is wrong with a file, ``SettingsInvalid`` for an unknown setting.
+    """
+    unknown = sorted(set(settings) - set(TrackerSettings.__dataclass_fields__))
+    if unknown:
+        raise SettingsInvalid("carpus.track", ", ".join(unknown))
+    chosen = replace(TrackSettings(), tracker=replace(TrackerSettings(), **settings), smooth=False)
+    told = clicks.clicks() if isinstance(clicks, ProposedClicks) else read_clicks(Path(clicks))
+    source = open_recording(Path(path), need_depth=chosen.tracker.use_depth)
+    try:
+        frames = source.frames()
+        opening: list[Frame] = []
+        for frame in frames:
+            opening.append(frame)
+            if frame.timestamp_s - opening[0].timestamp_s > chosen.calibration.still_s:
+                break
+        outcome = calibrate(told, opening, source.info.camera, chosen.calibration, chosen.detection)
+        ends_s = opening[outcome.capture_frames - 1].timestamp_s
+        learnt = learnt_from(outcome.noise, ends_s, chosen.tracker)
+        walk = build_walk(outcome, source.info.camera, chosen, learnt, keep_history=False)
+        names = joint_angle_names(chosen.tracker.dip == "free") if told.protocol.has_fingers else ()
+        for frame in from_neutral(chain(opening, frames), walk.tracker, ends_s, lambda each: each.timestamp_s):
+            found = walk(frame)
+            deviation, flexion, pronosupination = np.degrees(found.angles_rad).tolist()
+            sd = np.degrees(found.angles_sd_rad).tolist()
+            yield HandFrame(
+                found.timestamp_s,
+                TrackStatus(found.status).name.lower(),
+                Wrist(deviation, flexion, pronosupination, sd[0], sd[1], sd[2], found.position_m, found.rotation_w2_w0),
+                tuple(names),
+                np.degrees(found.joint_angles_rad),
+                np.degrees(found.joint_angles_sd_rad),
+                told.protocol.markers,
+                found.marker_position_cam_m,
+                np.isfinite(found.marker_measured_px[:, 0]),
+            )
+    finally:
+        source.close()
+
+
+def open_session(path: str | Path) -> OpenedSession:
+    """A session file as values: header, calibration, times, status, motion, smoothed motion, markers, events; tables,
+    measures and provenance when asked for. The file is never changed; that one of a data
+    folder was opened stands in the log there. Read by a process of its own."""
+    session = reader.read_session(Path(path))
+    note("opened", Path(path), session.header.session_id)
+    return OpenedSession(**{field.name: getattr(session, field.name) for field in fields(Session)})
+
+
+def unlock(folder: str | Path, pin: str) -> None:
+    """Give the PIN (or recovery code) of an encrypted data folder, whose sessions can then be opened until this process
+    ends. Raises :class:`core.errors.KeyRefused`."""
+    keys.unlock(Path(folder), pin)
+
+
+def propose_clicks(
+    frame: str | Path | Frame | Any,
+    hand: Side = "right",
+    protocol: str = "wrist6",
+    camera: Camera | None = None,
+    depth: Any = None,
+    depth_unit_m: float = 1e-3,
+) -> ProposedClicks:
+    """Where the discs of a flat hand lie, for a person to confirm.
+
+    ``frame`` is a recording (its first picture counts), a :class:`Frame`, or a picture (H, W, 3) uint8 RGB with its
+    ``depth`` (H, W) uint16 in ``depth_unit_m`` if there is one. Markers without a likely disc are left out.
+    """
+    markers = protocol_named(protocol)
+    if isinstance(frame, (str, Path)):
+        source = open_recording(Path(frame), need_depth=False)
+        try:
+            first, camera = next(source.frames(), None), camera or source.info.camera
+        finally:
+            source.close()
+        if first is None:
+            raise RecordingEmpty(frame)
+    elif isinstance(frame, Frame):
+        first = frame
+    else:
+        first = Frame(0, 0.0, np.asarray(frame, dtype=np.uint8), depth, depth_unit_m)
+    camera = camera or DEFAULT_CAMERA
+    blobs = marker_candidates(first, camera, DetectionSettings())
+    found = propose_names(blobs, camera, hand, markers)
+    named = {
+        name: (blobs.pixel[blob].tolist(), bool(sure))
+        for name, blob, sure in zip(markers.markers, found.blob.tolist(), found.is_sure, strict=True)
+        if blob >= 0
+    }
+    pixels = {name: pixel for name, (pixel, _) in named.items()}
+    return ProposedClicks(hand, protocol, pixels, {name: sure for name, (_, sure) in named.items()})
+
+
+def export(
+    sessions: str | Path | Sequence[str | Path],
+    folder: str | Path,
+    formats: Sequence[str] = ("csv",),
+    *,
+    deidentified: bool = False,
+) -> Exported:
+    """Write sessions as csv, json, c3d, trc, mot, bids or h5 into a folder, in which nothing is overwritten.
+
+    What could not be written stands in ``refused`` of the answer. Of sessions of a data folder it
+    stands in the log there. Raises ``ValueError`` for an unknown format.
+    """
+    paths = [sessions] if isinstance(sessions, (str, Path)) else list(sessions)
+    wanted = [Wanted.stored(Path(path), read_choices) for path in paths]
+    chosen = [formats] if isinstance(formats, str) else list(formats)
+    done = export_sessions(wanted, Path(folder), chosen, software_version=__version__, deidentified=deidentified)
+    note_exported(done, deidentified=deidentified)
+    return done
+
+
+def compare(
+    session: str | Path,
+    reference: str | Path,
+    *,
+    columns: Mapping[str, str] | None = None,
+    markers: Mapping[str, str] | None = None,
+    radians: bool | None = None,
+    smoothed: bool = False,
+    most_shift_s: float = MOST_SHIFT_S,
+) -> Compared:
+    """How far a session agrees with C3D, TRC, MOT, a CSV table or list of readings, or another session.
+
+    ``columns`` angle (or ``time``) to column, a minus before it turns its sign; ``markers`` disc to marker. Of each of
+    ``pairs``: ``figures_deg`` with bias, limits, rmse, correlation, icc, cmc.
+    """
+    result = compare_files(
+        Path(session), Path(reference), columns=columns, markers=markers, radians=radians, smoothed=smoothed,
+        most_shift_s=most_shift_s,
+    )  # fmt: skip
+    return result.compared
+
+
+def simulate(folder: str | Path, **options: Any) -> Truth:
+    """A synthetic recording as a TUM folder, with clicks and truth beside it; ``options`` are those of
+    :class:`core.simulation.spec.RecordingSpec`. Its true values."""
+    unknown = sorted(set(options) - set(RecordingSpec.__dataclass_fields__))
+    if unknown:
+        raise SettingsInvalid("carpus.simulate", ", ".join(unknown))
+    return recording.simulate(RecordingSpec(**options), Path(folder))

@@ -1,0 +1,1 @@
+"""How far a session agrees with another measurement of the same movement, and a measurement with itself."""

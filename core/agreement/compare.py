@@ -1,0 +1,433 @@
+"""Brings a session and a reference together: in time, in space, in sampling; then says how far they agree."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+
+from carpus.core import so3
+from carpus.core.agreement.reference import Reference
+from carpus.core.agreement.statistics import FEWEST, Agreement, agreement
+from carpus.core.agreement.watch import UNWATCHED, Watch
+from carpus.core.errors import ReferenceUnsuited
+from carpus.core.hand.clinical_angles import angles_from_rotation, rotation_from_angles
+from carpus.core.hand.protocols import PALM_MARKERS, WRIST_ANGLES
+from carpus.core.measures.signals import Signal, low_pass
+from carpus.core.output.range_rows import best_motion
+from carpus.core.output.report_content import SessionFigures
+from carpus.core.session.values import Session
+from carpus.core.types import FloatArray, TrackStatus
+
+STEP_S = 1.0 / 100.0
+"""Of the times on which a shift is looked for."""
+LEAST_OVERLAP_S, LEAST_SHARE = 1.0, 0.6
+"""What both must have in common, in seconds and of the shorter of the two: a short piece fits anywhere."""
+SAFE_OVERLAP_S = 5.0
+SAME_CLOCK_S, SAME_CLOCK_ALIKE = 0.5, 0.01
+"""Two results of one recording are not further apart, and not apart for a match that is hardly better."""
+MOST_SHIFT_S = 10.0
+TOLD_EVERY = 50
+"""Shifts between two words on how far it is."""
+LEAST_MATCH = 0.5
+"""Below this correlation no shift is believed: it is not the same movement."""
+ALIKE = 0.003
+"""Of shifts that match as well, as repetitions do, the smallest."""
+LONGEST_STEP_S = 0.12
+"""Between two readings of a reference that are interpolated."""
+SLOW_HZ = 5.0
+NEUTRAL_S = 0.5
+NEUTRAL_POSE, FIRST_IN_COMMON = "its neutral pose", "the session at the first moment in common"
+STILL_S = 0.5
+SINCE_1970_S = 1e8
+"""Times as large count from 1970: two that are near each other are of one clock."""
+STILL_RAD = math.radians(3.0)
+"""A reading is compared with the half second about it, in which the angle stays within this."""
+
+
+@dataclass(frozen=True, slots=True)
+class Shift:
+    """``reference_later_s``: what happens at t in the session happens at t + this on the reference's clock, both
+    counted from their first picture; ``match`` the correlation there."""
+
+    reference_later_s: float
+    match: float
+
+
+@dataclass(frozen=True, slots=True)
+class Alignment:
+    """Rigid turn and shift of the reference's points onto the session's: ``turn_rad``, ``residual_m`` root mean square
+    over ``markers``; ``zero`` where the reference's angles have theirs."""
+
+    turn_rad: float
+    residual_m: float
+    markers: tuple[str, ...]
+    zero: str
+
+
+@dataclass(frozen=True, slots=True)
+class Pairs:
+    """One angle: ``time_s`` (N,) after the session's first picture, ``measured_rad`` and ``reference_rad`` (N,)."""
+
+    name: str
+    time_s: FloatArray
+    measured_rad: FloatArray
+    reference_rad: FloatArray
+    figures_deg: Agreement
+
+
+@dataclass(frozen=True, slots=True)
+class Compared:
+    """``left_out`` pictures of ``pictures`` predicted, doubtful or lost; ``not_used`` each with its reason."""
+
+    kind: str
+    pairs: tuple[Pairs, ...]
+    shift: Shift | None
+    alignment: Alignment | None
+    pictures: int
+    left_out: int
+    overlap_s: float
+    rate_hz: float
+    not_used: tuple[str, ...]
+
+
+def compare(
+    session: Session,
+    reference: Reference,
+    *,
+    smoothed: bool = False,
+    most_shift_s: float = MOST_SHIFT_S,
+    figures: SessionFigures | None = None,
+    watch: Watch = UNWATCHED,
+) -> Compared:
+    """Agreement of a session with a reference: of the filter's result, or the smoother's.
+
+    ``figures`` of the session serve readings that name no time. Raises :class:`ReferenceUnsuited`, and
+    :class:`Stopped` where ``watch`` says so.
+    """
+    if not len(session):
+        raise ReferenceUnsuited(reference.path, "the session holds no picture")
+    motion = best_motion(session) if smoothed else session.motion
+    time_s = session.timestamp_s - session.timestamp_s[0]
+    use = np.asarray(session.status) == TrackStatus.TRACKED
+    names = (*WRIST_ANGLES, *session.header.joint_names)
+    values = np.column_stack((motion.angles_rad, motion.joint_angles_rad))
+    own = {name: np.where(use, values[:, k], np.nan) for k, name in enumerate(names)}
+    if reference.readings:
+        return _with_readings(session, reference, time_s, own, figures)
+    if reference.same_clock and _one_clock(reference, session):
+        most_shift_s = min(most_shift_s, SAME_CLOCK_S)
+    alignment = None
+    not_used = list(reference.unused)
+    if reference.points_m:
+        shift = _shift_of_points(session, reference, time_s, most_shift_s, watch)
+        theirs, alignment = _angles_of_points(session, reference, time_s, shift)
+        not_used += [f"{name}: fingers are not worked out from markers" for name in session.header.joint_names[:1]]
+    elif reference.angles_rad:
+        theirs = {name: angle for name, angle in reference.angles_rad.items() if name in own}
+        not_used += [f"{name}: not in the session" for name in reference.angles_rad if name not in own]
+        not_used += [f"{name}: not in the reference" for name in own if name not in reference.angles_rad]
+        if not theirs:
+            raise ReferenceUnsuited(reference.path, "no angle of the session is in it")
+        shift = _shift_of_angles(own, theirs, time_s, reference, session, most_shift_s, watch)
+    else:
+        raise ReferenceUnsuited(reference.path, "no disc of the palm and no angle of the wrist or fingers is in it")
+    if math.isnan(shift.match):
+        raise ReferenceUnsuited(reference.path, f"less than {LEAST_OVERLAP_S:g} s in common, or nothing moves")
+    if not shift.match >= LEAST_MATCH:
+        raise ReferenceUnsuited(
+            reference.path, f"the curves match by {shift.match:.2f} at best: is it the same movement?"
+        )
+    reference_s = _since_start(reference, session)
+    at = time_s + shift.reference_later_s
+    pairs = []
+    for name, theirs_rad in theirs.items():
+        found = _at(at, reference_s, theirs_rad)
+        both = np.isfinite(found) & np.isfinite(own[name])
+        if both.sum() < FEWEST:
+            not_used.append(f"{name}: fewer than {FEWEST} pictures in common")
+            continue
+        mine, other = np.unwrap(own[name][both]), found[both]
+        other = other + 2.0 * math.pi * np.rint((mine - other) / (2.0 * math.pi))
+        pairs.append(Pairs(name, time_s[both], mine, other, agreement(np.degrees(mine), np.degrees(other))))
+    if not pairs:
+        raise ReferenceUnsuited(reference.path, "the two have no time in common")
+    order = {name: k for k, name in enumerate(names)}
+    pairs.sort(key=lambda one: order[one.name])
+    overlap_s = max(float(one.time_s[-1] - one.time_s[0]) for one in pairs)
+    if overlap_s < SAFE_OVERLAP_S:
+        not_used.append(f"only {overlap_s:.1f} s are in common: a shift of the clocks is not sure")
+    rate_hz = 1.0 / float(np.median(np.diff(reference_s))) if len(reference_s) > 1 else math.nan
+    left = int((~use).sum())
+    return Compared(
+        reference.kind, tuple(pairs), shift, alignment, len(session), left, overlap_s, rate_hz, tuple(not_used)
+    )
+
+
+# --- time ------------------------------------------------------------------------------------------------------
+def _since_start(reference: Reference, session: Session) -> FloatArray:
+    """The reference's times from its first reading; of a recording's other result from the session's first picture."""
+    if not len(reference.time_s):
+        return reference.time_s
+    start_s = float(reference.time_s[0])
+    if _one_clock(reference, session):
+        start_s = float(session.timestamp_s[0])
+    return np.asarray(reference.time_s - start_s)
+
+
+def _one_clock(reference: Reference, session: Session) -> bool:
+    first_s, last_s = float(session.timestamp_s[0]), float(session.timestamp_s[-1])
+    near = bool(abs(float(reference.time_s[0]) - first_s) <= last_s - first_s)
+    return near and (reference.same_clock or first_s > SINCE_1970_S)
+
+
+def _at(wanted_s: FloatArray, time_s: FloatArray, values: FloatArray) -> FloatArray:
+    """``values`` (K, ...) at other times (N, ...), on the line between two known neighbours; NaN elsewhere."""
+    known = np.isfinite(values) if values.ndim == 1 else np.isfinite(values).all(axis=tuple(range(1, values.ndim)))
+    t, v = time_s[known], values[known]
+    if len(t) < 2:
+        return np.full((len(wanted_s), *values.shape[1:]), np.nan)
+    after = np.clip(np.searchsorted(t, wanted_s), 1, len(t) - 1)
+    before = after - 1
+    share = (wanted_s - t[before]) / (t[after] - t[before])
+    column = share.reshape(-1, *(1,) * (values.ndim - 1))
+    out = v[before] + column * (v[after] - v[before])
+    longest = max(LONGEST_STEP_S, 2.5 * float(np.median(np.diff(time_s))))
+    near = 0.25  # of a step: clocks waver
+    inside = (share >= -near) & (share <= 1.0 + near) & (t[after] - t[before] <= longest)
+    out[~inside] = np.nan
+    return np.asarray(out)
+
+
+def _shift_of_angles(
+    own: Mapping[str, FloatArray],
+    theirs: Mapping[str, FloatArray],
+    time_s: FloatArray,
+    reference: Reference,
+    session: Session,
+    most_s: float,
+    watch: Watch,
+) -> Shift:
+    names = [name for name in theirs if np.nanstd(own[name]) > 0.0] if theirs else []
+    mine = np.column_stack([own[name] for name in names]) if names else np.empty((len(time_s), 0))
+    other = np.column_stack([theirs[name] for name in names]) if names else np.empty((len(reference.time_s), 0))
+    alike = SAME_CLOCK_ALIKE if _one_clock(reference, session) else 0.0
+    return best_shift(time_s, mine, _since_start(reference, session), other, most_s, alike, watch)
+
+
+def _shift_of_points(session: Session, reference: Reference, time_s: FloatArray, most_s: float, watch: Watch) -> Shift:
+    """By how fast each disc moves, which no turn and no shift of the axes changes."""
+    names = _common(session, reference)
+    markers = session.header.protocol.markers
+    reference_s = _since_start(reference, session)
+    mine = np.column_stack([_speed(time_s, session.markers.position_cam_m[:, markers.index(name)]) for name in names])
+    other = np.column_stack([_speed(reference_s, reference.points_m[name]) for name in names])
+    return best_shift(time_s, mine, reference_s, other, most_s, watch=watch)
+
+
+def _speed(time_s: FloatArray, place_m: FloatArray) -> FloatArray:
+    """Smoothed speed (N,) of a point (N, 3); NaN where it is not known."""
+    known = np.isfinite(place_m).all(axis=-1)
+    if known.sum() < 8:
+        return np.full(len(time_s), np.nan)
+    even_s = np.arange(time_s[0], time_s[-1], STEP_S)
+    even = np.column_stack([np.interp(even_s, time_s[known], place_m[known, axis]) for axis in range(3)])
+    slow = low_pass(Signal(even_s, even, 1.0 / STEP_S, 1.0, np.empty((0, 2))), SLOW_HZ).value
+    speed = np.linalg.norm(np.gradient(slow, STEP_S, axis=0), axis=1)
+    out = np.interp(time_s, even_s, speed)
+    out[~known] = np.nan
+    return np.asarray(out)
+
+
+def best_shift(
+    time_s: FloatArray,
+    mine: FloatArray,
+    other_s: FloatArray,
+    other: FloatArray,
+    most_s: float,
+    alike: float = 0.0,
+    watch: Watch = UNWATCHED,
+) -> Shift:
+    """The shift at which signals (N, S) and (K, S) go together best, by cross-correlation over what they share; none
+    where without it the correlation is less by no more than ``alike``."""
+    if not mine.shape[1] or len(time_s) < 8 or len(other_s) < 8:
+        return Shift(0.0, math.nan)
+    even = np.arange(0.0, time_s[-1], STEP_S)
+    theirs_s = np.arange(other_s[0], other_s[-1], STEP_S)
+    a = np.column_stack([_at(even, time_s, mine[:, k]) for k in range(mine.shape[1])])
+    b = np.column_stack([_at(theirs_s, other_s, other[:, k]) for k in range(mine.shape[1])])
+    first = round(theirs_s[0] / STEP_S)
+    shorter_s = float(min(even[-1], theirs_s[-1] - theirs_s[0])) if len(even) and len(theirs_s) else 0.0
+    least = round(max(LEAST_OVERLAP_S, LEAST_SHARE * shorter_s) / STEP_S)
+    if shorter_s < LEAST_OVERLAP_S - 2.0 * STEP_S:
+        return Shift(0.0, math.nan)
+    least = min(least, len(a), len(b))
+    furthest = round(most_s / STEP_S)
+    spread = np.nanstd(a, axis=0) * np.nanstd(b, axis=0)
+    weight = np.where(np.isfinite(spread), spread, 0.0)
+    if not weight.sum() > 0.0:
+        return Shift(0.0, math.nan)
+    shifts = np.arange(-furthest, furthest + 1)
+    match = np.full(len(shifts), np.nan)
+    for k, shift in enumerate(shifts):
+        if not k % TOLD_EVERY:
+            watch.at(k / len(shifts))
+        begin_a, begin_b = max(0, first - shift), max(0, shift - first)
+        count = min(len(a) - begin_a, len(b) - begin_b)
+        if count >= least:
+            match[k] = _match(a[begin_a : begin_a + count], b[begin_b : begin_b + count], weight, least)
+    if not np.isfinite(match).any():
+        return Shift(0.0, math.nan)
+    best = float(np.nanmax(match))
+    if match[furthest] >= best - alike:
+        return Shift(0.0, float(match[furthest]))
+    near = np.flatnonzero(match >= best - ALIKE)
+    # Of one hill the top; of hills that are as high the nearest to nothing.
+    at = int(near[np.argmin(np.abs(shifts[near]))])
+    while 0 < at < len(match) - 1:
+        step = int(np.nanargmax(match[at - 1 : at + 2])) - 1 if np.isfinite(match[at - 1 : at + 2]).all() else 0
+        if not step:
+            break
+        at += step
+    fine = 0.0
+    if 0 < at < len(match) - 1 and np.isfinite(match[at - 1 : at + 2]).all():
+        left, top, right = match[at - 1 : at + 2]
+        bend = left - 2.0 * top + right
+        fine = float(0.5 * (left - right) / bend) if bend < 0.0 else 0.0
+    return Shift(float((shifts[at] + fine) * STEP_S), float(match[at]))
+
+
+def _match(a: FloatArray, b: FloatArray, weight: FloatArray, least: int) -> float:
+    total = used = 0.0
+    for k in range(a.shape[1]):
+        both = np.isfinite(a[:, k]) & np.isfinite(b[:, k])
+        if both.sum() < least:
+            continue
+        x, y = a[both, k] - a[both, k].mean(), b[both, k] - b[both, k].mean()
+        power = math.sqrt(float(x @ x) * float(y @ y))
+        if power > 0.0:
+            total += float(weight[k]) * float(x @ y) / power
+            used += float(weight[k])
+    return total / used if used else math.nan
+
+
+# --- space -----------------------------------------------------------------------------------------------------
+def _common(session: Session, reference: Reference) -> list[str]:
+    names = [name for name in PALM_MARKERS if name in reference.points_m]
+    if len(names) < 3:
+        there = ", ".join(names) or "none"
+        raise ReferenceUnsuited(
+            reference.path, f"three discs of the palm are needed, it has {there}; say which markers they are"
+        )
+    return names
+
+
+def _angles_of_points(
+    session: Session, reference: Reference, time_s: FloatArray, shift: Shift
+) -> tuple[dict[str, FloatArray], Alignment]:
+    """The wrist's angles of the reference's points, on the session's definition of the hand's axes at its neutral pose.
+
+    The discs of the palm are one rigid body in both: their whole ways give the turn between the two systems of axes,
+    and the reference's own neutral pose its zero.
+    """
+    names = _common(session, reference)
+    markers = session.header.protocol.markers
+    reference_s = _since_start(reference, session)
+    theirs = np.stack([reference.points_m[name] for name in names], axis=1)
+    mine = np.stack([session.markers.position_cam_m[:, markers.index(name)] for name in names], axis=1)
+    there = _at(time_s + shift.reference_later_s, reference_s, theirs)
+    both = np.isfinite(there).all(axis=(1, 2)) & np.isfinite(mine).all(axis=(1, 2))
+    both &= np.asarray(session.status) == TrackStatus.TRACKED
+    if both.sum() < FEWEST:
+        raise ReferenceUnsuited(reference.path, "the two have no time in common")
+    turn, move = rigid(there[both].reshape(-1, 3), mine[both].reshape(-1, 3))
+    off = there[both] @ turn.T + move - mine[both]
+    known = np.isfinite(theirs).all(axis=(1, 2))
+    side = session.header.hand
+    start = rotation_from_angles(np.nan_to_num(session.calibration.start_angles_rad), side)
+    begin_s, zero = 0.0, NEUTRAL_POSE
+    if not (known & _within(reference_s - shift.reference_later_s, begin_s)).any():
+        # It began later: the zero is the session's own at the first moment that both have.
+        begin_s, zero = float(time_s[both][0]), FIRST_IN_COMMON
+        own = session.motion.rotation_w2_w0[both & _within(time_s, begin_s)]
+        start = so3.mean_rotation(own, np.full(len(own), 1.0 / len(own)))
+    neutral = theirs[known & _within(reference_s - shift.reference_later_s, begin_s)].mean(axis=0)
+    w0_in_reference = turn.T @ session.calibration.rotation_w0_cam
+    rotation = np.full((len(theirs), 3, 3), np.nan)
+    for k in np.flatnonzero(known):
+        body, _ = rigid(neutral, theirs[k])
+        rotation[k] = w0_in_reference.T @ body @ w0_in_reference
+    angles = angles_from_rotation(rotation @ start, side)
+    residual = float(np.sqrt(np.mean(np.sum(off**2, axis=-1))))
+    turned = float(np.linalg.norm(so3.log(turn)))
+    return (
+        {name: angles[:, k] for k, name in enumerate(WRIST_ANGLES)},
+        Alignment(turned, residual, tuple(names), zero),
+    )
+
+
+def _within(time_s: FloatArray, begin_s: float) -> np.ndarray:
+    return (time_s >= begin_s - 1e-6) & (time_s <= begin_s + NEUTRAL_S)
+
+
+def rigid(source: FloatArray, target: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Rotation (3, 3) and shift (3,) that bring points (P, 3) nearest to others (Kabsch, without a mirror)."""
+    a, b = source.mean(axis=0), target.mean(axis=0)
+    turn = so3.nearest_rotation((target - b).T @ (source - a))
+    return turn, b - turn @ a
+
+
+# --- readings --------------------------------------------------------------------------------------------------
+def _with_readings(
+    session: Session,
+    reference: Reference,
+    time_s: FloatArray,
+    own: Mapping[str, FloatArray],
+    figures: SessionFigures | None,
+) -> Compared:
+    """Readings with a time against the held angle about it; those without against the session's range that way."""
+    not_used = list(reference.unused)
+    found: dict[str, list[tuple[float, float, float]]] = {}
+    left = 0
+    for reading in reference.readings:
+        if reading.angle not in own:
+            not_used.append(f"{reading.angle}: not in the session")
+            continue
+        if math.isfinite(reading.time_s):
+            about = np.abs(time_s - reading.time_s) <= STILL_S
+            values = own[reading.angle][about & np.isfinite(own[reading.angle])]
+            if len(values) < FEWEST or float(np.ptp(values)) > 2.0 * STILL_RAD:
+                left += 1
+                not_used.append(f"{reading.angle} at {reading.time_s:g} s: the hand was not still, or not seen")
+                continue
+            mine = float(values.mean())
+        else:
+            mine = _range_end(figures, reading.angle, reading.movement)
+            if not math.isfinite(mine):
+                left += 1
+                not_used.append(f"{reading.movement}: the session has no range that way, and the list names no time")
+                continue
+        found.setdefault(reading.angle, []).append((reading.time_s, mine, reading.value_rad))
+    pairs = []
+    for name in own:
+        if name in found:
+            t, mine_rad, theirs_rad = (np.array(column) for column in zip(*found[name], strict=True))
+            figures_deg = agreement(np.degrees(mine_rad), np.degrees(theirs_rad), waveform=False)
+            pairs.append(Pairs(name, t, mine_rad, theirs_rad, figures_deg))
+    if not pairs:
+        raise ReferenceUnsuited(reference.path, not_used[-1] if not_used else "no reading can be used")
+    count = len(reference.readings)
+    return Compared(reference.kind, tuple(pairs), None, None, count, left, math.nan, math.nan, tuple(not_used))
+
+
+def _range_end(figures: SessionFigures | None, angle: str, movement: str) -> float:
+    """Mean of the ranges that way, radians with its sign."""
+    if figures is None:
+        return math.nan
+    for row in (*figures.rows, *figures.joint_rows):
+        if row.movement == movement and (row.joint or WRIST_ANGLES[row.angle]) == angle:
+            away = movement in ("extension", "ulnar", "pronation") and not row.joint
+            return math.radians(-row.mean_deg if away else row.mean_deg)
+    return math.nan

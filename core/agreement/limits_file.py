@@ -1,0 +1,85 @@
+"""The clinic's own error limits as a file of the data folder."""
+
+from __future__ import annotations
+
+import json
+import math
+from collections.abc import Sequence
+from dataclasses import asdict
+from datetime import date
+from pathlib import Path
+from typing import Any
+
+from carpus.core.errors import OutputNotWritable, SettingsInvalid
+from carpus.core.formats.new_output import new_json
+from carpus.core.measures.error_limits import ErrorLimits, MeasuredLimit, RetestStudy
+
+LIMITS_FILE, FORMAT, FORMAT_VERSION = "error_limits.json", "carpus-error-limits", 1
+
+
+def read_limits(data_folder: Path) -> ErrorLimits:
+    """The clinic's own limits, none where it has no such file. Raises :class:`SettingsInvalid` for a damaged one."""
+    path = data_folder / LIMITS_FILE
+    try:
+        content = json.loads(path.read_text(encoding="utf-8"))
+    except FileNotFoundError:
+        return ErrorLimits()
+    except (OSError, ValueError, RecursionError) as cause:
+        raise SettingsInvalid(path, "it cannot be read as JSON; the usual limits hold") from cause
+    try:
+        if content["format"] != FORMAT or content["format_version"] != FORMAT_VERSION:
+            raise ValueError("another format")
+        return ErrorLimits(tuple(_study(one) for one in content["studies"]))
+    except (KeyError, TypeError, ValueError, AttributeError) as cause:
+        raise SettingsInvalid(path, "it does not hold limits; the usual ones hold") from cause
+
+
+def _study(said: dict[str, Any]) -> RetestStudy:
+    date.fromisoformat(said["made"])
+    limits = tuple(
+        MeasuredLimit(
+            str(one["of"]), str(one["movement"]), int(one["people"]), _number(one["sem_deg"]),
+            _two(one["sem_interval_deg"]), _number(one["mdc95_deg"]), _two(one["mdc95_interval_deg"]),
+        )
+        for one in said["limits"]
+    )  # fmt: skip
+    return RetestStudy(
+        str(said["protocol"]), str(said["exercise"]), str(said["angle_order"]), str(said["made"]), int(said["people"]),
+        int(said["sessions"]), int(said["raters"]), limits,
+    )  # fmt: skip
+
+
+def _number(value: Any) -> float:
+    number = float(value)
+    if not 0.0 <= number < 360.0:
+        raise ValueError(f"{number} is no error in degrees")
+    return number
+
+
+def _two(value: Any) -> tuple[float, float]:
+    low, high = value
+    return tuple(math.nan if one is None else float(one) for one in (low, high))  # type: ignore[return-value]
+
+
+def store_limits(data_folder: Path, new: Sequence[RetestStudy]) -> Path:
+    """Put studies into force, each in place of an earlier one of its kind; the file, whole or as it was.
+
+    Raises :class:`SettingsInvalid` where the one that is there is damaged, and the faults of writing.
+    """
+    path, next_path = data_folder / LIMITS_FILE, data_folder / (LIMITS_FILE + ".new")
+    kinds = {(one.protocol, one.exercise, one.angle_order) for one in new}
+    kept = (
+        one for one in read_limits(data_folder).studies if (one.protocol, one.exercise, one.angle_order) not in kinds
+    )
+    content = {
+        "format": FORMAT,
+        "format_version": FORMAT_VERSION,
+        "studies": [asdict(one) for one in (*kept, *new)],
+    }
+    try:
+        next_path.unlink(missing_ok=True)
+        new_json(next_path, content)
+        next_path.replace(path)
+    except OSError as cause:
+        raise OutputNotWritable(path, cause.strerror or "") from cause
+    return path

@@ -1,0 +1,190 @@
+"""Test and retest: the error of measurement from people who were measured more than once, discs put on anew.
+
+Analysis of variance (McGraw and Wong 1996; Weir 2005). The standard error of measurement is of absolute agreement: what
+differs between mountings, days and raters is all in it.
+"""
+
+from __future__ import annotations
+
+import math
+from collections import Counter, defaultdict
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.special import chdtri
+
+from carpus.core.agreement.statistics import Interval, icc_2_1
+from carpus.core.hand.protocols import WRIST_ANGLES
+from carpus.core.measures.change import MDC95_FACTOR
+from carpus.core.measures.error_limits import MeasuredLimit, RetestStudy
+from carpus.core.output.report_content import SessionFigures, newest_results, unfair_reasons
+from carpus.core.types import FloatArray
+
+MOST_DAYS = 14.0
+"""Two mountings further apart measure the person's change too."""
+_UNKNOWN: Interval = (math.nan, math.nan)
+
+
+@dataclass(frozen=True, slots=True)
+class Retest:
+    """``readings`` of ``people``, unit of the readings. ``icc`` ICC(2,1); ``sem`` with ``df`` degrees of freedom;
+    ``sem_same_rater`` of mountings by one rater alone, NaN where nobody measured twice; ``step`` mean of the last
+    mountings less that of the first. Intervals of 95 %."""
+
+    people: int
+    readings: int
+    icc: float
+    icc_interval: Interval
+    sem: float
+    sem_interval: Interval
+    df: float
+    mdc95: float
+    mdc95_interval: Interval
+    sem_same_rater: float
+    step: float
+
+
+def retest(readings: Sequence[Sequence[float]], raters: Sequence[Sequence[str]] = ()) -> Retest:
+    """Of ``readings`` for each person in the order they were taken, and who took them; people with one are left out.
+
+    >>> found = retest([[60.0, 62.0], [71.0, 70.0], [55.0, 58.0], [64.0, 64.0]])
+    >>> round(found.sem, 3), round(found.mdc95, 3), round(found.icc, 3)
+    (1.323, 3.667, 0.951)
+    """
+    names = raters or [[""] * len(one) for one in readings]
+    kept = [
+        [(value, who) for value, who in zip(one, of, strict=True) if math.isfinite(value)]
+        for one, of in zip(readings, names, strict=True)
+    ]
+    kept = [one for one in kept if len(one) > 1]
+    values = [np.array([value for value, _ in one]) for one in kept]
+    n, total = len(values), sum(map(len, values))
+    if n < 2:
+        nan = math.nan
+        return Retest(n, total, nan, _UNKNOWN, nan, _UNKNOWN, 0.0, nan, _UNKNOWN, nan, nan)
+    within = sum(float(((one - one.mean()) ** 2).sum()) for one in values)
+    df = float(total - n)
+    variance = within / df
+    each = min(map(len, values))
+    if all(len(one) == each for one in values):
+        df = _freedom(np.array(values), df)
+    sem = math.sqrt(variance)
+    interval = (math.sqrt(df * variance / _chi2(df, 0.975)), math.sqrt(df * variance / _chi2(df, 0.025)))
+    icc, icc_interval = icc_2_1(np.array([one[:each] for one in values]))
+    mdc = (MDC95_FACTOR * interval[0], MDC95_FACTOR * interval[1])
+    step = float(np.mean([one[-1] - one[0] for one in values]))
+    return Retest(
+        n, total, icc, icc_interval, sem, interval, df, MDC95_FACTOR * sem, mdc, _same_rater(kept), step,
+    )  # fmt: skip
+
+
+def _freedom(table: FloatArray, most: float) -> float:
+    """Degrees of freedom of the error of (people, mountings): fewer where the mountings differ as such, since then a
+    few means make it (Satterthwaite 1946)."""
+    n, k = table.shape
+    rest = table - table.mean(axis=1, keepdims=True) - table.mean(axis=0, keepdims=True) + table.mean()
+    ms_columns = n * float(((table.mean(axis=0) - table.mean()) ** 2).sum()) / (k - 1)
+    ms_rest = float((rest**2).sum()) / ((n - 1) * (k - 1))
+    a, b = ms_columns / n, ms_rest * (n - 1) / n
+    below = a**2 / (k - 1) + b**2 / ((n - 1) * (k - 1))
+    return min((a + b) ** 2 / below, most) if below > 0.0 else most
+
+
+def _chi2(df: float, share: float) -> float:
+    """The value that a chi-square of ``df`` stays below with a probability."""
+    return float(chdtri(df, 1.0 - share))
+
+
+def _same_rater(kept: Sequence[Sequence[tuple[float, str]]]) -> float:
+    squares, df = 0.0, 0
+    for one in kept:
+        of = defaultdict(list)
+        for value, who in one:
+            of[who].append(value)
+        for same in of.values():
+            squares += float(((np.array(same) - np.mean(same)) ** 2).sum())
+            df += len(same) - 1
+    return math.sqrt(squares / df) if df else math.nan
+
+
+@dataclass(frozen=True, slots=True)
+class LeftOut:
+    """A session that takes no part, and why."""
+
+    session_id: str
+    reason: str
+
+
+@dataclass(frozen=True, slots=True)
+class StudyFigures:
+    """A study of one exercise: ``found`` by angle or joint and movement, what the window and the file say of it."""
+
+    protocol: str
+    exercise: str
+    angle_order: str
+    people: int
+    sessions: int
+    raters: int
+    simulated: bool
+    found: Mapping[tuple[str, str], Retest]
+    left_out: tuple[LeftOut, ...]
+
+    def study(self, made: str) -> RetestStudy:
+        """As it is stored, with its date."""
+        limits = (
+            MeasuredLimit(of, movement, one.people, one.sem, one.sem_interval, one.mdc95, one.mdc95_interval)
+            for (of, movement), one in self.found.items()
+            if math.isfinite(one.mdc95)
+        )
+        return RetestStudy(
+            self.protocol, self.exercise, self.angle_order, made, self.people, self.sessions, self.raters, tuple(limits)
+        )
+
+
+def studies(sessions: Sequence[SessionFigures], raters: Mapping[str, str] | None = None) -> list[StudyFigures]:
+    """One study for each exercise and set of discs. A person is a pseudonym and a hand; ``raters`` by session id."""
+    groups: dict[tuple[str, str, str], list[SessionFigures]] = defaultdict(list)
+    for figures in newest_results(sessions):
+        groups[(figures.protocol, figures.exercise.id, figures.angle_order)].append(figures)
+    return [_study(group, raters or {}) for _, group in sorted(groups.items())]
+
+
+def _study(group: Sequence[SessionFigures], raters: Mapping[str, str]) -> StudyFigures:
+    people: dict[tuple[str, str], list[SessionFigures]] = defaultdict(list)
+    out: list[LeftOut] = []
+    for figures in group:  # in order of time
+        mine = people[(figures.subject_id.casefold(), figures.side)]
+        reasons = unfair_reasons(mine[0] if mine else figures, figures)
+        if not figures.counted:
+            reasons = (*reasons, "few_repetitions_after")
+        if reasons:
+            out.append(LeftOut(figures.session_id, reasons[0]))
+        elif mine and (figures.when - mine[0].when).total_seconds() > MOST_DAYS * 86400.0:
+            out.append(LeftOut(figures.session_id, "too_late"))
+        else:
+            mine.append(figures)
+    out += [LeftOut(one[0].session_id, "once") for one in people.values() if len(one) == 1]
+    measured = [one for one in people.values() if len(one) > 1]
+    keys = Counter(key for one in measured for figures in one for key in _readings(figures))
+    found = {}
+    for key in keys:
+        values = [[_readings(figures).get(key, math.nan) for figures in one] for one in measured]
+        named = [[raters.get(figures.session_id, "") for figures in one] for one in measured]
+        found[key] = retest(values, named)
+    first = group[0]
+    kept = [figures for one in measured for figures in one]
+    return StudyFigures(
+        first.protocol, first.exercise.id, first.angle_order, len(measured), len(kept),
+        len({raters[one.session_id] for one in kept if one.session_id in raters}),
+        any(one.simulated for one in kept), found, tuple(out),
+    )  # fmt: skip
+
+
+def _readings(figures: SessionFigures) -> dict[tuple[str, str], float]:
+    """Mean of every movement that was seen whole, degrees, by angle or joint and movement."""
+    return {
+        (row.joint or WRIST_ANGLES[row.angle], row.movement): row.mean_deg
+        for row in (*figures.rows, *figures.joint_rows)
+        if row.count and not (row.joint and row.limited)
+    }

@@ -1,0 +1,87 @@
+"""A spot that is no disc, clicked as one: the palm it makes is no palm's, and often the true disc lies unnamed beside.
+
+The five other discs say where the sixth belongs. A hand is as long as its breadth lets expect, within the variety of
+hands and of the places where a therapist sticks the discs.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from carpus.core.calibration.palm_names import average_palm
+from carpus.core.types import FloatArray, Side
+
+_QUESTIONED = 0.08
+"""Misfit, as a share of the palm's size, from which a spot without a name may stand in for a disc."""
+_NO_PALM = 0.17
+"""Misfit that no palm has: hands differ by up to 0.05, discs stuck 4 mm off by up to 0.12."""
+_CLEARLY = 0.6
+"""What stands in must leave less than this share of the misfit."""
+_BESIDE = 0.18
+"""A spot this near to the palm's discs, as a share of its length, lies on the palm: there is one disc too many."""
+_MOST_SPARE = 2
+"""More spots than these beside the palm are the discs of a whole hand, or a pattern; nobody is asked of each."""
+
+
+@dataclass(frozen=True, slots=True)
+class OddDisc:
+    """``marker`` the row of the palm's disc in question, -1 for none; ``spot`` the row of the spot that may be it, or
+    that is one too many, -1 for none; ``fits`` whether the spot makes a better palm than the disc."""
+
+    marker: int
+    spot: int
+    fits: bool
+
+
+def odd_disc(side: Side, palm_plan: FloatArray, spots_plan: FloatArray) -> OddDisc | None:
+    """What is odd about a palm (6, 2), seen from the camera with y up, among the spots (S, 2) that have no name."""
+    average = average_palm(side)
+    misfit = _misfit(average, palm_plan)
+    best = (misfit, -1, -1)
+    if misfit >= _QUESTIONED:
+        for marker in range(len(palm_plan)):
+            for spot in range(len(spots_plan)):
+                other = palm_plan.copy()
+                other[marker] = spots_plan[spot]
+                best = min(best, (_misfit(average, other), marker, spot))
+    if best[0] < _CLEARLY * misfit:
+        return OddDisc(best[1], best[2], fits=True)
+    if misfit >= _NO_PALM:
+        return OddDisc(_worst(average, palm_plan), -1, fits=False)
+    spare = _beside(palm_plan, spots_plan)
+    if 0 < len(spare) <= _MOST_SPARE:
+        return OddDisc(-1, int(spare[0]), fits=False)
+    return None
+
+
+def _beside(palm_plan: FloatArray, spots_plan: FloatArray) -> NDArray[np.int64]:
+    if not len(spots_plan):
+        return np.empty(0, dtype=np.int64)
+    length = float(np.linalg.norm(palm_plan[3] - palm_plan[0]))
+    distance = np.linalg.norm(spots_plan[:, None] - palm_plan[None], axis=-1).min(axis=1)
+    inside = np.array([_is_inside(spot, palm_plan) for spot in spots_plan])
+    return np.flatnonzero(inside | (distance < _BESIDE * length))
+
+
+def _is_inside(spot: FloatArray, corners: FloatArray) -> bool:
+    """Whether a point lies inside the ring of points: seen from it they go all the way round."""
+    angles = np.sort(np.arctan2(corners[:, 1] - spot[1], corners[:, 0] - spot[0]))
+    gaps = np.diff(np.append(angles, angles[0] + 2.0 * np.pi))
+    return bool(gaps.max() < np.pi)
+
+
+def _worst(average: FloatArray, palm_plan: FloatArray) -> int:
+    """The disc without which the five others make the best palm."""
+    left = [_misfit(np.delete(average, k, axis=0), np.delete(palm_plan, k, axis=0)) for k in range(len(palm_plan))]
+    return int(np.argmin(left))
+
+
+def _misfit(average: FloatArray, plan: FloatArray) -> float:
+    """Residual share of the best similarity (turn, scale, shift; no mirror) of plans (M, 2)."""
+    axes = np.array([1.0, 1j])
+    mine, theirs = (average - average.mean(axis=0)) @ axes, (plan - plan.mean(axis=0)) @ axes
+    factor = np.vdot(mine, theirs) / np.vdot(mine, mine)
+    return float(np.linalg.norm(theirs - factor * mine) / max(float(np.linalg.norm(theirs)), 1e-12))

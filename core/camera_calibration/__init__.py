@@ -1,0 +1,1 @@
+"""How a camera sees and how far off its depth is, measured on a printed board."""

@@ -1,0 +1,76 @@
+"""A sheet of paper to print, as values in millimetres from its upper left corner; what paints it lies outside core."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Literal
+
+Paper = Literal["a4", "letter"]
+PAPER_MM: dict[Paper, tuple[float, float]] = {"a4": (210.0, 297.0), "letter": (215.9, 279.4)}
+"""Width and height, upright."""
+RULER_MM = 100.0
+"""Length of the ruler on every sheet: a print at another size than 100 % shows there."""
+
+
+@dataclass(frozen=True, slots=True)
+class Box:
+    """A filled rectangle without an outline; ``color`` as #RRGGBB."""
+
+    left_mm: float
+    top_mm: float
+    width_mm: float
+    height_mm: float
+    color: str = "#000000"
+
+
+@dataclass(frozen=True, slots=True)
+class Disc:
+    """A filled circle."""
+
+    x_mm: float
+    y_mm: float
+    radius_mm: float
+    color: str
+
+
+@dataclass(frozen=True, slots=True)
+class Line:
+    """A fine line; dashed where paper is folded, not cut."""
+
+    from_mm: tuple[float, float]
+    to_mm: tuple[float, float]
+    dashed: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class Text:
+    """One line of text, from its left end on the base line; ``size_pt`` in points."""
+
+    text: str
+    x_mm: float
+    y_mm: float
+    size_pt: float = 9.0
+    bold: bool = False
+
+
+Mark = Box | Disc | Line | Text
+
+
+@dataclass(frozen=True, slots=True)
+class Sheet:
+    """One page."""
+
+    width_mm: float
+    height_mm: float
+    marks: tuple[Mark, ...]
+
+
+def ruler(left_mm: float, top_mm: float) -> tuple[Mark, ...]:
+    """A ruler of 100 mm with a mark each centimetre, and what it is for."""
+    marks: list[Mark] = [Line((left_mm, top_mm), (left_mm + RULER_MM, top_mm))]
+    for k in range(11):
+        x = left_mm + 10.0 * k
+        marks.append(Line((x, top_mm), (x, top_mm + (4.0 if k % 5 == 0 else 2.5))))
+    words = ("This line is 100 mm long. If it is not,", "print again at 100 % (“actual size”).")
+    said = [Text(line, left_mm + RULER_MM + 4.0, top_mm + 1.4 + 3.6 * k, 8.0) for k, line in enumerate(words)]
+    return (*marks, *said)

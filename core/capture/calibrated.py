@@ -1,0 +1,125 @@
+"""A source seen through a stored calibration: its intrinsics, and depth put right."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import replace
+from datetime import UTC, datetime
+from itertools import chain
+from pathlib import Path
+
+import numpy as np
+
+from carpus.core.cameras_folder import CAMERAS, file_stem
+from carpus.core.capture.camera_info import CameraInfo, StoredCalibration, read_camera_info
+from carpus.core.capture.source import FrameSource, SourceInfo
+from carpus.core.dates import is_moment
+from carpus.core.errors import CarpusFault
+from carpus.core.types import DepthImage, Frame
+
+SUFFIX = ".camera_info.yaml"
+SERIAL = "serial"
+"""The setting of a source that says which camera it is."""
+ORIGIN = "calibration"
+_FINE_M = 1e-4
+"""Corrected depth is kept in steps of this: 16 bits reach 6.5 m."""
+_MOST_COUNTS = 65535
+_GUESSES = ("default", "driver")
+
+
+class CalibratedSource:
+    """``source`` with the intrinsics of ``info``, its depth corrected, and both said in its settings."""
+
+    def __init__(self, source: FrameSource, info: CameraInfo, now: datetime | None = None) -> None:
+        assert info.calibration is not None
+        self._source, self._calibration = source, info.calibration
+        self.info: SourceInfo = replace(
+            source.info,
+            camera=replace(info.camera, origin=ORIGIN),
+            settings={**source.info.settings, **_said(info.calibration, source.info, now or datetime.now(UTC))},
+        )
+        self._table: tuple[float, DepthImage] | None = None
+
+    def frames(self) -> Iterator[Frame]:
+        """As the source's, depth corrected."""
+        for frame in self._source.frames():
+            yield self._corrected(frame)
+
+    def close(self) -> None:
+        """Close the source."""
+        self._source.close()
+
+    def _corrected(self, frame: Frame) -> Frame:
+        made = self._calibration
+        if frame.depth_raw is None or (made.depth_scale == 1.0 and made.depth_offset_m == 0.0):
+            return frame
+        if self._table is None or self._table[0] != frame.depth_unit_m:
+            self._table = (frame.depth_unit_m, correction_table(made, frame.depth_unit_m))
+        depth = self._table[1][frame.depth_raw]
+        depth.flags.writeable = False
+        return replace(frame, depth_raw=depth, depth_unit_m=_FINE_M)
+
+
+def correction_table(made: StoredCalibration, unit_m: float) -> DepthImage:
+    """True depth in steps of 0.1 mm for each count (65536,) that a camera may give; 0, no reading, stays 0."""
+    measured_m = np.arange(_MOST_COUNTS + 1) * unit_m
+    true_m = (measured_m - made.depth_offset_m) / made.depth_scale
+    counts = np.round(true_m / _FINE_M)
+    return np.where((counts < 1) | (counts > _MOST_COUNTS) | (measured_m == 0.0), 0, counts).astype(np.uint16)
+
+
+def with_stored_calibration(source: FrameSource, data_folder: Path, now: datetime | None = None) -> FrameSource:
+    """``source`` as the newest stored calibration of its camera has it; itself where there is none, where nobody
+    knows which camera it was, or where it brings intrinsics of its own."""
+    serial = source.info.settings.get(SERIAL, "")
+    if not serial or source.info.camera.origin not in _GUESSES:
+        return source
+    info = stored_calibration(data_folder, serial)
+    size = (source.info.camera.width_px, source.info.camera.height_px)
+    if info is None or (info.camera.width_px, info.camera.height_px) != size:
+        return source
+    return CalibratedSource(source, info, now)
+
+
+def stored_calibration(data_folder: Path, serial: str) -> CameraInfo | None:
+    """The newest calibration of a camera that can be read; None where there is none."""
+    for path in reversed(calibration_files(data_folder, serial)):
+        try:
+            info = read_camera_info(path)
+        except CarpusFault:
+            continue  # a damaged file must not keep anybody from measuring; the doctor names it
+        if info.calibration is not None and info.calibration.serial == serial:
+            return info
+    return None
+
+
+def calibration_files(data_folder: Path, serial: str) -> list[Path]:
+    """All stored calibrations of a camera, the oldest first."""
+    return sorted((data_folder / CAMERAS).glob(f"{file_stem(serial)}_*{SUFFIX}"))
+
+
+def new_calibration_path(data_folder: Path, serial: str, when: datetime) -> Path:
+    """Where a calibration made at a time is stored: a free name; the names sort by time."""
+    first = data_folder / CAMERAS / f"{file_stem(serial)}_{when.astimezone(UTC):%Y-%m-%d_%H%M%S}"
+    further = (first.with_name(f"{first.name}_{count:03d}") for count in range(2, 1000))  # in the same second
+    names = (stem.with_name(stem.name + SUFFIX) for stem in chain((first,), further))
+    return next((path for path in names if not path.exists()), first.with_name(first.name + SUFFIX))
+
+
+def age_days(moment: str, now: datetime) -> float:
+    """Days from a stored moment to now; NaN where it is none."""
+    if not is_moment(moment):
+        return float("nan")
+    return (now - datetime.fromisoformat(moment)).total_seconds() / 86400.0
+
+
+def _said(made: StoredCalibration, info: SourceInfo, now: datetime) -> dict[str, str]:
+    """What a session says of the calibration that it used; its age counts to when the hand moved."""
+    measured = datetime.fromisoformat(info.recorded) if is_moment(info.recorded) else now
+    return {
+        "calibrated": made.calibrated,
+        "calibration_age_days": f"{age_days(made.calibrated, measured):.1f}",
+        "calibration_error_px": f"{made.error_px:.2f}",
+        "depth_scale_corrected": f"{made.depth_scale:.5f}",
+        "depth_offset_corrected_mm": f"{made.depth_offset_m * 1e3:.2f}",
+    }

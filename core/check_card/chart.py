@@ -1,0 +1,184 @@
+"""The checks of one camera over time, and whether the newest is as usual: a control chart in a file that only grows."""
+
+from __future__ import annotations
+
+import json
+import math
+import os
+from collections.abc import Sequence
+from dataclasses import dataclass
+from datetime import datetime
+from pathlib import Path
+from typing import Literal
+
+import numpy as np
+
+from carpus.core.cameras_folder import CAMERAS, file_stem
+from carpus.core.check_card.reading import MOST_ANGLE_DEG, MOST_LENGTH_MM, MOST_SCALE, CardReading
+from carpus.core.dates import is_moment
+from carpus.core.errors import OutputNotWritable
+from carpus.core.private import private
+
+SUFFIX = ".checks.jsonl"
+USUAL_OF = 7
+"""The first checks after a calibration say what is usual."""
+FEWEST_USUAL = 4
+"""With fewer nobody knows what is usual."""
+_BAND_SD, _LEAST_SD = 3.0, (0.1, 0.1, 0.0005)
+"""Width of the usual band, and the least standard deviation believed (degrees, millimetres, share)."""
+IN_A_ROW = 8
+"""As many on one side of the usual mean are a drift."""
+OLD_DAYS = 7.0
+
+Verdict = Literal["right", "unusual", "out"]
+
+
+@dataclass(frozen=True, slots=True)
+class Check:
+    """One line of the file. ``calibrated`` names the calibration that was used, empty without one."""
+
+    when: str
+    serial: str
+    angle_error_deg: float
+    length_error_mm: float
+    scale: float
+    measured: tuple[float, ...]
+    sd: tuple[float, ...]
+    calibrated: str = ""
+
+    @property
+    def values(self) -> tuple[float, float, float]:
+        """What is followed: largest errors of angles and lengths, and the scale."""
+        return (self.angle_error_deg, self.length_error_mm, self.scale)
+
+    @property
+    def angles_hold(self) -> bool:
+        """Whether angles are within the fixed limit."""
+        return self.angle_error_deg <= MOST_ANGLE_DEG
+
+    @property
+    def lengths_hold(self) -> bool:
+        """Whether lengths are."""
+        return self.length_error_mm <= MOST_LENGTH_MM and abs(self.scale - 1.0) <= MOST_SCALE
+
+
+@dataclass(frozen=True, slots=True)
+class Usual:
+    """Lowest and highest usual value of each followed figure (3, 2), and their means (3,)."""
+
+    band: np.ndarray
+    mean: np.ndarray
+
+
+def check_of(reading: CardReading, serial: str, when: str, calibrated: str) -> Check:
+    """A reading as it is kept."""
+    return Check(
+        when,
+        serial,
+        reading.angle_error_deg,
+        reading.length_error_mm,
+        reading.scale,
+        tuple(map(float, reading.measured)),
+        tuple(map(float, reading.sd)),
+        calibrated,
+    )
+
+
+def chart_path(data_folder: Path, serial: str) -> Path:
+    """Where the checks of a camera are."""
+    return data_folder / CAMERAS / f"{file_stem(serial)}{SUFFIX}"
+
+
+def read_checks(path: Path) -> list[Check]:
+    """All checks in order of time; a torn or strange line is passed over, as the others are still true."""
+    try:
+        lines = path.read_text(encoding="utf-8", errors="replace").splitlines()
+    except OSError:
+        return []
+    found = [check for line in lines if (check := _check(line)) is not None]
+    return sorted(found, key=lambda check: datetime.fromisoformat(check.when))
+
+
+def before(checks: Sequence[Check], check: Check) -> list[Check]:
+    """Those made before another one."""
+    moment = datetime.fromisoformat(check.when)
+    return [one for one in checks if datetime.fromisoformat(one.when) < moment]
+
+
+def add_check(path: Path, check: Check) -> None:
+    """Append one check and bring it to the disk. Raises :class:`OutputNotWritable`."""
+    content = {name: getattr(check, name) for name in Check.__dataclass_fields__}
+    try:
+        path.parent.mkdir(mode=0o700, parents=True, exist_ok=True)
+        with open(path, "ab", opener=private) as file:
+            torn = file.tell() > 0 and not _ends_a_line(path)
+            file.write(("\n" if torn else "").encode() + json.dumps(content).encode() + b"\n")
+            file.flush()
+            os.fsync(file.fileno())
+    except OSError as cause:
+        raise OutputNotWritable(path, cause.strerror or "") from cause
+
+
+def usual_of(earlier: Sequence[Check], calibrated: str) -> Usual | None:
+    """What is usual with this calibration, of its first checks within the limits; None while too few are known."""
+    good = [one.values for one in earlier if one.calibrated == calibrated and one.angles_hold and one.lengths_hold]
+    if len(good) < FEWEST_USUAL:
+        return None
+    first = np.array(good[:USUAL_OF])
+    mean = first.mean(axis=0)
+    reach = _BAND_SD * np.maximum(first.std(axis=0, ddof=1), _LEAST_SD)
+    return Usual(np.column_stack((mean - reach, mean + reach)), mean)
+
+
+def verdict_of(earlier: Sequence[Check], check: Check) -> Verdict:
+    """Out of the fixed limits, outside what is usual or drifting, or right. An error smaller than usual is no fault."""
+    if not (check.angles_hold and check.lengths_hold):
+        return "out"
+    usual = usual_of(earlier, check.calibrated)
+    if usual is None:
+        return "right"
+    values = np.array(check.values)
+    if (values > usual.band[:, 1]).any() or values[2] < usual.band[2, 0]:
+        return "unusual"
+    alike = [one for one in earlier if one.calibrated == check.calibrated][USUAL_OF:]
+    row = np.array([one.values for one in [*alike, check]][-IN_A_ROW:])
+    above, below = row > usual.mean, row < usual.mean
+    drifts = len(row) == IN_A_ROW and bool(above.all(axis=0).any() or below[:, 2].all())
+    return "unusual" if drifts else "right"
+
+
+def sentence_of(check: Check, verdict: Verdict) -> str:
+    """What a check says, for people."""
+    off = f"{check.angle_error_deg:.1f}° and {check.length_error_mm:.1f} mm off at most"
+    limits = f"the limits are {MOST_ANGLE_DEG:.1f}° and {MOST_LENGTH_MM:.1f} mm"
+    if verdict == "right":
+        return f"The camera measures right: {off}; {limits}."
+    if verdict == "unusual":
+        return f"The camera measures otherwise than usual: {off}; {limits}. Check once more."
+    said = []
+    if not check.lengths_hold:
+        share = 100.0 * (check.scale - 1.0)
+        said.append(f"all lengths are {abs(share):.1f} % too {'long' if share > 0 else 'short'}, the worst by "
+                    f"{check.length_error_mm:.1f} mm")  # fmt: skip
+    if not check.angles_hold:
+        said.append(f"angles are {check.angle_error_deg:.1f}° off")
+    return f"The camera is out: {'; '.join(said)} ({limits}, all lengths {100.0 * MOST_SCALE:.1f} %)."
+
+
+def _check(line: str) -> Check | None:
+    try:
+        content = json.loads(line)
+        angle, length, scale = (float(content[name]) for name in ("angle_error_deg", "length_error_mm", "scale"))
+        measured, sd = (tuple(map(float, content[name])) for name in ("measured", "sd"))
+        when, serial, calibrated = (str(content[name]) for name in ("when", "serial", "calibrated"))
+    except (ValueError, KeyError, TypeError):
+        return None
+    if not is_moment(when) or not all(map(math.isfinite, (angle, length, scale))):
+        return None
+    return Check(when, serial, angle, length, scale, measured, sd, calibrated)
+
+
+def _ends_a_line(path: Path) -> bool:
+    with path.open("rb") as file:
+        file.seek(-1, os.SEEK_END)
+        return file.read(1) == b"\n"

@@ -1,0 +1,52 @@
+"""What one check of a camera measured, and the fixed limits of its errors."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from carpus.core.check_card.card import FIGURES
+from carpus.core.types import FloatArray
+
+MOST_ANGLE_DEG, MOST_LENGTH_MM, MOST_SCALE = 2.0, 2.5, 0.012
+"""Fixed limits of the largest error of an angle and a length, and of all lengths together."""
+
+
+@dataclass(frozen=True, slots=True)
+class CardReading:
+    """What one check measured: ``measured`` and ``sd`` (6,) of :data:`FIGURES` in degrees and millimetres, the standard
+    deviation that of one picture; ``scale`` of all distances between the discs, measured over true; ``distance_m`` to
+    the card; ``pictures`` that count of those ``looked`` at."""
+
+    measured: FloatArray
+    sd: FloatArray
+    scale: float
+    distance_m: float
+    pictures: int
+    looked: int
+
+    @property
+    def errors(self) -> FloatArray:
+        """Measured less true (6,)."""
+        return np.asarray(self.measured - np.array([figure.true for figure in FIGURES]))
+
+    @property
+    def angle_error_deg(self) -> float:
+        """The largest of the three."""
+        return float(np.abs(self.errors[:3]).max())
+
+    @property
+    def length_error_mm(self) -> float:
+        """The largest of the three."""
+        return float(np.abs(self.errors[3:]).max())
+
+    @property
+    def angles_hold(self) -> bool:
+        """Whether angles are within their limit."""
+        return self.angle_error_deg <= MOST_ANGLE_DEG
+
+    @property
+    def lengths_hold(self) -> bool:
+        """Whether lengths are, each and all together."""
+        return self.length_error_mm <= MOST_LENGTH_MM and abs(self.scale - 1.0) <= MOST_SCALE

@@ -1,0 +1,89 @@
+"""Depth readings on the back of the hand, thinned out: thousands lie there, and neighbours share their errors."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from carpus.core.types import FINGER_READINGS, FINGER_STEP_PX, SURFACE_READINGS, FloatArray, Frame, SurfaceSamples
+
+
+@dataclass(frozen=True, slots=True)
+class SamplingSettings:
+    """``step_px`` between two readings; ``wider`` than the outline of the discs that span it is the region, and by
+    ``margin_px``; never more than ``most`` readings are taken. About fingers: ``finger_margin_px``, ``most_finger``."""
+
+    step_px: int = 3
+    wider: float = 1.2
+    margin_px: float = 4.0
+    most: int = SURFACE_READINGS // 2
+    finger_margin_px: float = 12.0
+    most_finger: int = FINGER_READINGS
+
+
+def surface_samples(frame: Frame, corner_px: FloatArray, settings: SamplingSettings) -> SurfaceSamples | None:
+    """The readings within discs expected at ``corner_px`` (C, 2); None where there is no depth picture.
+
+    Depths are rounded to single precision, as they are stored: tracked again from there they are the same.
+    """
+    if frame.depth_raw is None or not np.isfinite(corner_px).all():
+        return None
+    height, width = frame.depth_raw.shape
+    middle = corner_px.mean(axis=0)
+    outline = middle + settings.wider * (corner_px - middle)
+    outline = outline[np.argsort(np.arctan2(outline[:, 1] - middle[1], outline[:, 0] - middle[0]))]
+    left, top = np.maximum(outline.min(axis=0) - settings.margin_px, 0.0).tolist()
+    right, bottom = (outline.max(axis=0) + settings.margin_px).tolist()
+    # The lattice stays where it is from picture to picture: the same errors then come again, and are not news.
+    step = settings.step_px
+    first_u, first_v = step * math.ceil(left / step), step * math.ceil(top / step)
+    last_u, last_v = min(math.floor(right), width - 1), min(math.floor(bottom), height - 1)
+    if last_u < first_u or last_v < first_v:
+        return None
+    raw = frame.depth_raw[first_v : last_v + 1 : step, first_u : last_u + 1 : step]
+    # Twice the area of the triangle of an edge and a pixel, in parts that go with its row and its column.
+    along = outline[np.arange(1, len(outline) + 1) % len(outline)] - outline
+    least = settings.margin_px * (np.hypot(along[:, 0], along[:, 1]) + 1e-9)
+    u, v = np.arange(first_u, last_u + 1.0, step), np.arange(first_v, last_v + 1.0, step)
+    by_row = along[:, :1] * (v - outline[:, 1:]) + least[:, None]
+    by_column = along[:, 1:] * (u - outline[:, :1])
+    inside = raw > 0
+    for of_row, of_column in zip(by_row, by_column, strict=True):
+        inside &= of_row[:, None] >= of_column
+    row, column = inside.nonzero()
+    if row.size > settings.most:
+        thinned = (np.arange(settings.most) * ((row.size - 1) / (settings.most - 1))).astype(np.int64)
+        thinned[-1] = row.size - 1
+        row, column = row[thinned], column[thinned]
+    depth = (raw[row, column] * frame.depth_unit_m).astype(np.float32).astype(np.float64)
+    pixel = np.empty((row.size, 2))
+    pixel[:, 0], pixel[:, 1] = u[column], v[row]
+    return SurfaceSamples(pixel, depth)
+
+
+def finger_samples(frame: Frame, disc_px: FloatArray, settings: SamplingSettings) -> SurfaceSamples | None:
+    """Readings on a wider lattice about the fingers' discs expected at ``disc_px`` (C, 2); None where there is no
+    depth picture."""
+    if frame.depth_raw is None or not np.isfinite(disc_px).all() or not len(disc_px):
+        return None
+    height, width = frame.depth_raw.shape
+    step = FINGER_STEP_PX
+    low = np.maximum(np.floor((disc_px.min(axis=0) - settings.finger_margin_px) / step), 0).astype(int)
+    high = np.minimum(np.ceil((disc_px.max(axis=0) + settings.finger_margin_px) / step) * step, (width - 1, height - 1))
+    u, v = np.arange(step * low[0], int(high[0]) + 1, step), np.arange(step * low[1], int(high[1]) + 1, step)
+    if not u.size or not v.size:
+        return None
+    raw = frame.depth_raw[v[:, None], u]
+    row, column = np.nonzero(raw)
+    near = np.ones(row.size, dtype=bool)
+    if row.size > settings.most_finger:
+        # Too many: those nearest to a disc tell most.
+        apart = np.abs(u[column][:, None] - disc_px[:, 0]) + np.abs(v[row][:, None] - disc_px[:, 1])
+        near = apart.min(axis=1) <= np.partition(apart.min(axis=1), settings.most_finger - 1)[settings.most_finger - 1]
+    row, column = row[near][: settings.most_finger], column[near][: settings.most_finger]
+    if not row.size:
+        return None
+    depth = (raw[row, column] * frame.depth_unit_m).astype(np.float32).astype(np.float64)
+    return SurfaceSamples(np.column_stack((u[column], v[row])).astype(np.float64), depth)

@@ -1,0 +1,242 @@
+"""C3D: millimetres in camera axes; residual above 0 for a disc that was seen, 0 for a predicted one, -1 for none.
+
+A writer of its own: of the libraries, ezc3d 1.7 stops at 65,535 frames and has the bytes of residual and camera mask
+the other way round from all other readers. Here both bytes are above nothing exactly where a disc was seen.
+
+Layout after the user guide of c3d.org: header, parameters and data in blocks of 512 bytes, Intel order, float.
+"""
+
+from __future__ import annotations
+
+import math
+import struct
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from carpus.core.formats.even import EvenTimes
+from carpus.core.formats.new_output import new_bytes
+from carpus.core.formats.take import CAMERA_AXES, Take, joint_centres_cam_m, measured
+from carpus.core.session.values import Event, Session
+from carpus.core.types import FloatArray
+
+BLOCK = 512
+INTEL = 84
+RESIDUAL_STEP_MM = 0.05
+"""Of one count of a residual; with the minus sign that means float it is POINT:SCALE."""
+MOST_COUNTS = 127
+SEEN_BY_THE_CAMERA = 1
+"""The mask: Carpus has one camera."""
+LONGEST_COUNT = 65535
+MOST_IN_A_ROW = 255
+"""No dimension of a parameter is longer."""
+LONGEST_TEXT = 96
+JOINT_PREFIX = "J_"
+
+
+@dataclass(frozen=True, slots=True)
+class Points:
+    """``labels`` and ``descriptions`` of P points; ``place_mm`` (K, P, 3), NaN for none; ``residual_mm`` (K, P), above
+    0 for what was seen, else 0."""
+
+    labels: tuple[str, ...]
+    descriptions: tuple[str, ...]
+    place_mm: FloatArray
+    residual_mm: FloatArray
+
+
+def write(take: Take, folder: Path) -> list[Path]:
+    """Write ``NAME.c3d``; the file."""
+    path = folder / f"{take.name}.c3d"
+    even = take.even
+    points = points_of(take.session, even)
+    with new_bytes(path) as file:
+        head = _head(take, even, points)
+        file.write(head)
+        for some in _data(points):
+            file.write(some)
+        file.write(b"\0" * (-file.tell() % BLOCK))
+    return [path]
+
+
+def points_of(session: Session, even: EvenTimes) -> Points:
+    """The discs, then the joint centres of the whole hand, which are computed and never seen."""
+    names = session.header.protocol.markers
+    discs = even.of(session.markers.position_cam_m)
+    nearest = even.nearest
+    seen = measured(session)[nearest] & (nearest >= 0)[:, None] if len(nearest) else np.zeros((0, len(names)), bool)
+    residual = even_residual_mm(session)[nearest] if len(nearest) else np.zeros((0, len(names)))
+    # What was seen has a residual, however well it fits.
+    residual = np.where(seen, np.maximum(np.nan_to_num(residual, nan=RESIDUAL_STEP_MM), RESIDUAL_STEP_MM), 0.0)
+    labels, words = names, tuple(f"paper disc {name} on the skin" for name in names)
+    if session.header.joint_names:
+        joints = even.of(joint_centres_cam_m(session))
+        discs = np.concatenate((discs, joints), axis=1)
+        residual = np.concatenate((residual, np.zeros(joints.shape[:2])), axis=1)
+        labels += tuple(f"{JOINT_PREFIX}{name}" for name in names)
+        words += tuple(f"{'finger tip' if 'TIP' in name else 'joint centre'} {name}, computed" for name in names)
+    return Points(labels, words, 1e3 * discs, residual)
+
+
+def even_residual_mm(session: Session) -> FloatArray:
+    """How far the model's disc lies beside the blob, across the line of sight, (N, M)."""
+    place, camera = session.markers.position_cam_m, session.camera
+    ideal = camera.project(np.where(place[..., 2:] > 0.0, place, np.nan))
+    pixel = camera.distort(np.nan_to_num(ideal).reshape(-1, 2)).reshape(ideal.shape)
+    off_px = np.linalg.norm(pixel - session.markers.measured_px, axis=-1)
+    return np.asarray(1e3 * off_px * place[..., 2] / math.sqrt(camera.fx_px * camera.fy_px))
+
+
+def _data(points: Points, at_once: int = 4096) -> Iterator[bytes]:
+    for begin in range(0, len(points.place_mm), at_once):
+        place = points.place_mm[begin : begin + at_once]
+        known = np.asarray(np.isfinite(place).all(axis=-1))
+        counts = np.ceil(points.residual_mm[begin : begin + at_once] / RESIDUAL_STEP_MM - 1e-9)
+        counts = np.clip(counts, 0, MOST_COUNTS)
+        word = np.where(counts > 0, SEEN_BY_THE_CAMERA * 256 + counts, 0.0)
+        out = np.zeros((*known.shape, 4), dtype="<f4")
+        out[..., :3] = np.where(known[..., None], place, 0.0)
+        out[..., 3] = np.where(known, word, -1.0)
+        yield out.tobytes()
+
+
+def _head(take: Take, even: EvenTimes, points: Points) -> bytes:
+    """Header and parameters; the parameters say where the data begin, and are laid out twice to know it."""
+    first = b"".join(_groups(take, even, points, 0))
+    blocks = -(-(len(first) + 4 + 1) // BLOCK)
+    data_block = 2 + blocks
+    parameters = b"".join(_groups(take, even, points, data_block))
+    section = struct.pack("<BBBB", 1, 0x50, blocks, INTEL) + parameters
+    return _header(len(points.labels), len(even), even.rate_hz, data_block) + section.ljust(blocks * BLOCK, b"\0")
+
+
+def _header(points: int, frames: int, rate_hz: float, data_block: int) -> bytes:
+    head = struct.pack(
+        "<BBHHHHHfHHf",
+        2, 0x50, points, 0, 1, min(max(frames, 1), LONGEST_COUNT), 0, -RESIDUAL_STEP_MM, data_block, 0, rate_hz,
+    )  # fmt: skip
+    out = bytearray(head.ljust(BLOCK, b"\0"))
+    struct.pack_into("<H", out, 2 * 149, 12345)  # labels of events have four letters
+    return bytes(out)
+
+
+def _groups(take: Take, even: EvenTimes, points: Points, data_block: int) -> Iterator[bytes]:
+    session, header = take.session, take.session.header
+    frames = len(even)
+    yield _group(1, "POINT", "three-dimensional points")
+    yield _integers(1, "USED", [len(points.labels)])
+    yield _floats(1, "SCALE", [-RESIDUAL_STEP_MM])
+    yield _floats(1, "RATE", [even.rate_hz])
+    yield _integers(1, "DATA_START", [data_block])
+    yield _integers(1, "FRAMES", [min(frames, LONGEST_COUNT)])
+    yield _floats(1, "LONG_FRAMES", [float(frames)])
+    yield _texts(1, "LABELS", points.labels)
+    yield _texts(1, "DESCRIPTIONS", points.descriptions)
+    yield _text(1, "UNITS", "mm", as_list=True)
+    yield _text(1, "X_SCREEN", "+X")
+    yield _text(1, "Y_SCREEN", "-Y")
+    yield _group(2, "ANALOG", "none")
+    yield _integers(2, "USED", [0])
+    yield _floats(2, "RATE", [0.0])
+    yield _floats(2, "GEN_SCALE", [1.0])
+    yield _floats(2, "SCALE", [])
+    yield _integers(2, "OFFSET", [])
+    yield _group(3, "FORCE_PLATFORM", "none")
+    yield _integers(3, "USED", [0])
+    yield _group(4, "TRIAL", "length of long recordings")
+    yield _integers(4, "ACTUAL_START_FIELD", [1, 0])
+    yield _integers(4, "ACTUAL_END_FIELD", [frames & 0xFFFF, frames >> 16])
+    yield _floats(4, "CAMERA_RATE", [even.rate_hz])
+    yield _group(5, "SUBJECTS", "pseudonym")
+    yield _integers(5, "USED", [1])
+    yield _integers(5, "IS_STATIC", [0])
+    yield _texts(5, "NAMES", [header.subject_id or "unknown"])
+    yield _group(6, "MANUFACTURER", "program")
+    made_by = take.provenance["made_by"]
+    yield _text(6, "COMPANY", "Carpus")
+    yield _text(6, "SOFTWARE", "Carpus")
+    yield _text(6, "VERSION_LABEL", made_by["version"])
+    yield from _events(session, header.hand, even.start_s)
+    yield _group(8, "CARPUS", "of what, by what")
+    said = {
+        "FRAME": CAMERA_AXES,
+        "RESIDUALS": "above 0 seen, 0 predicted or computed, -1 not known",
+        "SAMPLING": "even, on the line between two pictures",
+        "HAND": header.hand,
+        "PROTOCOL": header.protocol.name,
+        "EXERCISE": header.exercise,
+        "REVISION": made_by["revision"],
+        "SESSION_ID": header.session_id,
+        "RECORDING_ID": header.recording_id,
+        "RECORDED": take.provenance.get("recorded", ""),
+        "MADE": take.provenance.get("made", ""),
+        "SESSION_SHA256": take.provenance["of"].get("session_sha256", ""),
+        "REC_SHA256": take.provenance["of"].get("recording_sha256", ""),
+        "SETTINGS_SHA256": take.provenance["tracked_by"]["settings_sha256"],
+        "INTRINSICS": f"{session.camera.origin}: fx {session.camera.fx_px:.3f} fy {session.camera.fy_px:.3f} "
+        f"cx {session.camera.cx_px:.3f} cy {session.camera.cy_px:.3f}",
+    }
+    for name, text in said.items():
+        if text:
+            yield _text(8, name, text)
+    yield _end()
+
+
+def _events(session: Session, hand: str, start_s: float) -> Iterator[bytes]:
+    events = sorted(session.events, key=lambda event: event.time_s)
+    yield _group(7, "EVENT", "what happened")
+    yield _integers(7, "USED", [min(len(events), 32767)])
+    for place in range(0, len(events), MOST_IN_A_ROW):
+        some: Sequence[Event] = events[place : place + MOST_IN_A_ROW]
+        suffix = "" if not place else str(place // MOST_IN_A_ROW + 1)
+        side = "Right" if hand == "right" else "Left"
+        yield _texts(7, f"CONTEXTS{suffix}", [side] * len(some))
+        yield _texts(7, f"LABELS{suffix}", [event.kind for event in some])
+        yield _texts(7, f"DESCRIPTIONS{suffix}", [event.text for event in some])
+        times = [value for event in some for value in divmod(max(event.time_s - start_s, 0.0), 60.0)]
+        yield _parameter(7, f"TIMES{suffix}", 4, (2, len(some)), np.array(times, dtype="<f4").tobytes())
+
+
+def _group(number: int, name: str, words: str) -> bytes:
+    text, said = name.encode(), words.encode()
+    return struct.pack("<bb", len(text), -number) + text + struct.pack("<HB", 3 + len(said), len(said)) + said
+
+
+def _parameter(number: int, name: str, kind: int, shape: tuple[int, ...], data: bytes) -> bytes:
+    text = name.encode()
+    body = struct.pack("<bB", kind, len(shape)) + bytes(shape) + data + b"\0"
+    return struct.pack("<bb", len(text), number) + text + struct.pack("<H", 2 + len(body)) + body
+
+
+def _end() -> bytes:
+    return b"\0\0"
+
+
+def _integers(number: int, name: str, values: Sequence[int]) -> bytes:
+    shape = () if len(values) == 1 else (len(values),)
+    return _parameter(number, name, 2, shape, struct.pack(f"<{len(values)}H", *values))
+
+
+def _floats(number: int, name: str, values: Sequence[float]) -> bytes:
+    shape = () if len(values) == 1 else (len(values),)
+    return _parameter(number, name, 4, shape, struct.pack(f"<{len(values)}f", *values))
+
+
+def _text(number: int, name: str, text: str, as_list: bool = False) -> bytes:
+    data = _bytes(text, MOST_IN_A_ROW)
+    return _parameter(number, name, -1, (len(data), 1) if as_list else (len(data),), data)
+
+
+def _texts(number: int, name: str, texts: Sequence[str]) -> bytes:
+    each = [_bytes(text, LONGEST_TEXT) for text in texts]
+    length = max(map(len, each), default=0)
+    data = b"".join(one.ljust(length) for one in each)
+    return _parameter(number, name, -1, (length, len(each)), data)
+
+
+def _bytes(text: str, longest: int) -> bytes:
+    """A text as bytes that is cut between letters, and on one line."""
+    data = " ".join(text.split()).encode()[:longest]
+    return data.decode("utf-8", "ignore").encode()

@@ -1,0 +1,149 @@
+"""Sessions written in open formats: one or hundreds, into one folder, in which nothing is overwritten."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from pathlib import Path
+from typing import NamedTuple
+
+from carpus.core.errors import CarpusFault, OutputNotWritable
+from carpus.core.formats.deidentify import Deidentification
+from carpus.core.formats.formats import FORMATS, Writer
+from carpus.core.formats.new_output import new_text
+from carpus.core.formats.provenance import LEGAL, provenance
+from carpus.core.formats.take import Take, about
+from carpus.core.output.report_content import RepetitionChoices, session_figures
+from carpus.core.session.reader import read_outline, read_session
+from carpus.core.session.values import Session
+
+README = "README.txt"
+
+
+@dataclass(frozen=True, slots=True)
+class Wanted:
+    """One session to export: ``path`` of its file; ``read`` gives it as it shall be written, with a person's choices
+    of its repetitions."""
+
+    path: Path
+    read: Callable[[], tuple[Session, RepetitionChoices | None]]
+
+    @classmethod
+    def stored(cls, path: Path, choices: Callable[[Path], RepetitionChoices] | None = None) -> Wanted:
+        """A session file as it is, with what a person chose of its repetitions as ``choices`` reads that."""
+        return cls(path, lambda: (read_session(path), None if choices is None else choices(path)))
+
+
+class Refused(NamedTuple):
+    """A session that could not be exported, and why."""
+
+    path: Path
+    fault: CarpusFault
+
+
+@dataclass(frozen=True, slots=True)
+class Exported:
+    """``files`` written, ``refused`` sessions; ``cancelled`` when somebody stopped it on the way. ``parts`` the files
+    of each session by its path; the others are of all of them."""
+
+    folder: Path
+    files: tuple[Path, ...]
+    refused: tuple[Refused, ...]
+    cancelled: bool = False
+    parts: Mapping[Path, tuple[Path, ...]] = field(default_factory=dict)
+
+
+def export_sessions(
+    wanted: Iterable[Wanted],
+    folder: Path,
+    formats: Sequence[str],
+    *,
+    software_version: str,
+    deidentified: bool = False,
+    progress: Callable[[int, int], None] | None = None,
+    cancelled: Callable[[], bool] = lambda: False,
+) -> Exported:
+    """Write sessions in formats into a folder. A session that cannot be read or written is told, the others go on.
+
+    ``progress`` hears (done, total) steps, one for each session and format; ``cancelled`` is asked before each. Raises
+    :class:`OutputExists` or :class:`OutputNotWritable` for what is known before the first session.
+    """
+    sessions = list(wanted)
+    unknown = [name for name in formats if name not in FORMATS]
+    if unknown:
+        raise ValueError(f"no format {', '.join(unknown)}: there are {', '.join(FORMATS)}")
+    writers = [Writer(name, folder, alone=len(formats) == 1) for name in formats]
+    for writer in writers:
+        writer.check()
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+    except OSError as cause:
+        raise OutputNotWritable(folder, cause.strerror or "") from cause
+    refused: list[Refused] = []
+    nobody = Deidentification() if deidentified else None
+    if nobody is not None:
+        for one in sessions:
+            try:
+                nobody.know(read_outline(one.path))
+            except CarpusFault:
+                continue  # told when it is read
+    files: list[Path] = []
+    parts: dict[Path, tuple[Path, ...]] = {}
+    done, total, stopped = 0, len(sessions) * len(writers), False
+    names: set[str] = set()
+    for one in sessions:
+        try:
+            take = _take(one, nobody, names, software_version)
+            for writer in writers:
+                stopped = stopped or cancelled()
+                if stopped:
+                    break
+                written = writer.write(take, about(take))
+                files += written
+                parts[one.path] = (*parts.get(one.path, ()), *written)
+                done += 1
+                if progress is not None:
+                    progress(done, total)
+        except CarpusFault as fault:
+            refused.append(Refused(one.path, fault))
+        if stopped:
+            break
+    for writer in writers:
+        files += writer.complete()
+    if len(writers) > 1 and files and not (folder / README).exists():
+        files.append(new_text(folder / README, _readme(formats, deidentified)))
+    return Exported(folder, tuple(files), tuple(refused), stopped, parts)
+
+
+def _take(one: Wanted, nobody: Deidentification | None, names: set[str], version: str) -> Take:
+    session, choices = one.read()
+    name = one.path.stem
+    if nobody is not None:
+        session = nobody.session(session)
+        if choices is not None:  # a reason is a person's own words
+            choices = replace(choices, left_out=dict.fromkeys(choices.left_out, "left out"), not_counted_reason="")
+        name = nobody.name(session.header)
+    base, number = name, 1
+    while name in names:  # sessions of several folders may share a name
+        number += 1
+        name = f"{base}-{number}"
+    names.add(name)
+    said = provenance(session, version, deidentified=nobody is not None)
+    return Take(session, session_figures(session, choices), name, said)
+
+
+def _readme(formats: Sequence[str], deidentified: bool) -> str:
+    of_whom = "Nobody can be found by it: names are new and random, days count from each patient's first session."
+    lines = [
+        "Sessions of Carpus in open formats.",
+        of_whom if deidentified else "Patients are pseudonyms; who they are stays with the clinic.",
+        "",
+        *(f"{name:6} {FORMATS[name].words}" for name in formats),
+        "",
+        "Lengths and angles carry their units in names, headers or the .json beside each file; what is not known is",
+        "NaN, an empty cell, n/a or a residual of -1, never 0. Wrist: + radial, + flexion, + supination on both hands.",
+        "A .h5 is imported by copying it into the data folder of Carpus.",
+        "",
+        LEGAL,
+    ]
+    return "\n".join(lines) + "\n"

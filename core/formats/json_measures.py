@@ -1,0 +1,59 @@
+"""JSON of the measures: every figure of a session with its unit, repetitions, quality and provenance."""
+
+from __future__ import annotations
+
+from dataclasses import asdict
+from pathlib import Path
+from typing import Any
+
+from carpus.core.formats.new_output import new_json
+from carpus.core.formats.take import ANGLES_MEAN, Take
+from carpus.core.output.measures_table import measure_rows
+
+_OF_THE_SESSION = (
+    "session", "session_id", "recording_id", "subject_id", "recorded", "simulated", "hand", "protocol", "exercise",
+    "duration_s", "frames", "tracked_share", "repetitions",
+)  # fmt: skip
+
+
+def write(take: Take, folder: Path) -> list[Path]:
+    """Write ``NAME.measures.json``; the file."""
+    return [new_json(folder / f"{take.name}.measures.json", content(take))]
+
+
+def content(take: Take) -> dict[str, Any]:
+    """All of it as plain values; numbers that are not known are null in the file."""
+    figures, header = take.figures, take.session.header
+    rows = [asdict(row) for row in measure_rows(figures, take.name)]
+    quality = figures.quality
+    return {
+        "session": {
+            "name": take.name,
+            "session_id": header.session_id,
+            "recording_id": header.recording_id,
+            "subject_id": header.subject_id,
+            "recorded": take.provenance.get("recorded", ""),
+            "simulated": header.simulated,
+            "hand": header.hand,
+            "protocol": header.protocol.name,
+            "exercise": header.exercise,
+            "duration_s": figures.duration_s,
+            "frames": quality.frames,
+            "tracked_share": quality.measured_share,
+            "hidden_share": quality.hidden_share,
+            "dropped_frames": quality.dropped,
+            "smoothed": figures.smoothed,
+            "counted": not figures.not_counted,
+        },
+        "angles": ANGLES_MEAN,
+        "measures": [{name: row[name] for name in row if name not in _OF_THE_SESSION} for row in rows],
+        "repetitions": [
+            {"start_s": one.start_s, "end_s": one.end_s, "counts": one.counts, "reason": one.reason}
+            for one in figures.repetitions
+        ],
+        "pain": [
+            {"since_start_s": at, "score": score} for at, score in zip(figures.pain_s, figures.pain, strict=False)
+        ],
+        "doubtful_at_calibration": [finding.kind for finding in figures.findings],
+        "provenance": take.provenance,
+    }

@@ -1,0 +1,70 @@
+"""MOT for OpenSim: wrist and joint angles in degrees, evenly sampled; what is not known is NaN.
+
+``NAME.mot`` is the filter's result as it came, ``NAME.smoothed.mot`` the smoother's where it ran. The columns carry
+the side as OpenSim's do: ``wrist_flexion_r``, ``mcp2_flexion_l``.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from pathlib import Path
+
+import numpy as np
+
+from carpus.core.formats.new_output import new_bytes, new_json
+from carpus.core.formats.take import ANGLES_MEAN, Take
+from carpus.core.hand.protocols import WRIST_ANGLES
+from carpus.core.session.values import Motion, Session
+
+
+def write(take: Take, folder: Path) -> list[Path]:
+    """Write ``NAME.mot``, ``NAME.smoothed.mot`` where there is one, and ``NAME.mot.json``; the files."""
+    session, even = take.session, take.even
+    out = []
+    for motion, name in ((session.motion, take.name), (session.smoothed, f"{take.name}.smoothed")):
+        if motion is not None:
+            path = folder / f"{name}.mot"
+            with new_bytes(path) as file:
+                for line in _lines(take, motion, name):
+                    file.write(line.encode() + b"\n")
+            out.append(path)
+    about = {
+        "columns": columns(session),
+        "angles": ANGLES_MEAN,
+        "sampling": f"even, {even.rate_hz:.6g} a second, on the line between two pictures; NaN across a gap",
+        "time_zero_timestamp_s": even.start_s,
+        "missing": "NaN",
+        "provenance": take.provenance,
+    }
+    return [*out, new_json(folder / f"{take.name}.mot.json", about)]
+
+
+def columns(session: Session) -> list[str]:
+    """Names of the angles as OpenSim writes them, in file order."""
+    side = session.header.hand[0]
+    wrist = [f"wrist_{name}_{side}" for name in WRIST_ANGLES]
+    return wrist + [f"{name.lower()}_{side}" for name in session.header.joint_names]
+
+
+def _lines(take: Take, motion: Motion, name: str) -> Iterator[str]:
+    session, even = take.session, take.even
+    labels = columns(session)
+    yield name
+    yield "version=1"
+    yield f"nRows={len(even)}"
+    yield f"nColumns={1 + len(labels)}"
+    yield "inDegrees=yes"
+    yield ""
+    yield f"Carpus {take.provenance['made_by']['version']}, session {session.header.session_id}."
+    yield f"Angles: {ANGLES_MEAN}."
+    yield "The line with 'inDegrees' says that rotational values are in degrees."
+    yield ""
+    yield "endheader"
+    yield "\t".join(("time", *labels))
+    angles = np.degrees(np.column_stack([even.of(values, angular=True) for values in _angles(motion)]))
+    for time_s, row in zip(even.since_start_s.tolist(), angles.tolist(), strict=True):
+        yield f"{time_s:.6f}\t" + "\t".join("NaN" if value != value else f"{value:.6f}" for value in row)
+
+
+def _angles(motion: Motion) -> tuple[np.ndarray, np.ndarray]:
+    return motion.angles_rad, motion.joint_angles_rad

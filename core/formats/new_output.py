@@ -1,0 +1,102 @@
+"""A new file that is whole or not there, and never takes the place of another."""
+
+from __future__ import annotations
+
+import csv
+import errno
+import json
+import math
+import os
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
+from pathlib import Path
+from typing import IO, Any
+
+from carpus.core.errors import DiskFull, OutputExists, OutputNotWritable
+from carpus.core.private import private
+
+HALF = ".half"
+
+
+@contextmanager
+def new_bytes(path: Path) -> Iterator[IO[bytes]]:
+    """A file to write, which gets its name only when all of it is written.
+
+    Raises :class:`OutputExists`, :class:`OutputNotWritable` or :class:`DiskFull`; nothing half-done stays.
+    """
+    if path.exists():
+        raise OutputExists(path)
+    half = path.with_name(path.name + HALF)
+    try:
+        try:
+            path.parent.mkdir(parents=True, exist_ok=True)
+            half.unlink(missing_ok=True)  # of a run that was killed
+            with open(half, "xb", opener=private) as file:
+                yield file
+            _named(half, path)
+        except FileExistsError as cause:
+            raise OutputExists(path) from cause
+        except OSError as cause:
+            kind = DiskFull if cause.errno in (errno.ENOSPC, errno.EDQUOT) else OutputNotWritable
+            raise kind(path, cause.strerror or "") from cause
+    finally:
+        half.unlink(missing_ok=True)
+
+
+def new_text(path: Path, text: str) -> Path:
+    """Write a text as a new file, lines ended by a line feed alone."""
+    with new_bytes(path) as file:
+        file.write(text.encode("utf-8"))
+    return path
+
+
+def new_json(path: Path, content: Any) -> Path:
+    """Write JSON that every reader takes: what is not known is null, never NaN."""
+    return new_text(path, json.dumps(without_nan(content), indent=2, ensure_ascii=False) + "\n")
+
+
+def new_table(path: Path, head: Sequence[str], rows: Iterable[Iterable[str]], separator: str = ",") -> Path:
+    """Write a table row by row; ``head`` may be empty."""
+    with new_bytes(path) as file:
+        table = csv.writer(_Encoded(file), delimiter=separator, lineterminator="\n")
+        if head:
+            table.writerow(head)
+        table.writerows(rows)
+    return path
+
+
+def without_nan(value: Any) -> Any:
+    """The same with None for every number that is not finite, and plain numbers for NumPy's.
+
+    >>> without_nan({"a": [1.0, float("nan")]})
+    {'a': [1.0, None]}
+    """
+    if isinstance(value, Mapping):
+        return {str(name): without_nan(one) for name, one in value.items()}
+    if isinstance(value, (list, tuple)):
+        return [without_nan(one) for one in value]
+    if hasattr(value, "tolist"):
+        return without_nan(value.tolist())
+    return None if isinstance(value, float) and not math.isfinite(value) else value
+
+
+class _Encoded:
+    """What :mod:`csv` writes to, over a file of bytes."""
+
+    def __init__(self, file: IO[bytes]) -> None:
+        self._file = file
+
+    def write(self, text: str) -> int:
+        return self._file.write(text.encode("utf-8"))
+
+
+def _named(half: Path, path: Path) -> None:
+    """The name in one step that does not replace; on file systems without links by a look before."""
+    try:
+        os.link(half, path)
+    except FileExistsError:
+        raise
+    except OSError:
+        if path.exists():
+            raise FileExistsError(path) from None
+        half.rename(path)

@@ -1,0 +1,89 @@
+"""Reads OpenSim's texts: TRC (points) and MOT or STO (columns over time)."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from carpus.core.errors import ReferenceUnreadable
+from carpus.core.formats.c3d_read import PointTrack
+from carpus.core.types import FloatArray
+
+MOST_BYTES = 1 << 30
+_METRES = {"mm": 1e-3, "m": 1.0, "cm": 1e-2}
+
+
+@dataclass(frozen=True, slots=True)
+class Columns:
+    """A table over time: ``time_s`` (K,), ``values`` of each named column (K,), NaN for none; ``in_degrees`` whether
+    its angles are, None where it does not say."""
+
+    time_s: FloatArray
+    values: dict[str, FloatArray]
+    in_degrees: bool | None
+
+
+def read_trc(path: Path) -> PointTrack:
+    """The points of a TRC file. Raises :class:`ReferenceUnreadable`."""
+    lines = text_of(path).splitlines()
+    if len(lines) < 6 or not lines[0].startswith("PathFileType"):
+        raise ReferenceUnreadable(path, "no TRC")
+    tab = "\t" if "\t" in lines[0] else ","
+    head = dict(zip(lines[1].split(tab), lines[2].split(tab), strict=False))
+    unit = head.get("Units", "mm").strip().lower()
+    if unit not in _METRES:
+        raise ReferenceUnreadable(path, f"its unit is {unit}")
+    names = [name.strip() for name in lines[3].split(tab)[2:] if name.strip()]
+    rows = [line.split(tab) for line in lines[5:] if line.strip(f"{tab} ")]
+    width = 2 + 3 * len(names)
+    if not names or not rows:
+        raise ReferenceUnreadable(path, "it holds no points")
+    try:
+        table = np.array([[_number(cell) for cell in (row + [""] * width)[:width]] for row in rows])
+    except ValueError as cause:
+        raise ReferenceUnreadable(path, str(cause)) from cause
+    place_m = table[:, 2:].reshape(len(rows), len(names), 3) * _METRES[unit]
+    return PointTrack(_times(table[:, 1], path), tuple(names), place_m, unit)
+
+
+def read_mot(path: Path) -> Columns:
+    """The columns of a MOT or STO file. Raises :class:`ReferenceUnreadable`."""
+    lines = text_of(path).splitlines()
+    ends = [k for k, line in enumerate(lines) if line.strip(", ").lower() == "endheader"]
+    if not ends or ends[0] + 1 >= len(lines):
+        raise ReferenceUnreadable(path, "no MOT: it has no end of its header")
+    said = dict(line.lower().replace(" ", "").rstrip(",").split("=", 1) for line in lines[: ends[0]] if "=" in line)
+    tab = "," if "," in lines[ends[0] + 1] else None  # None: any white space
+    names = lines[ends[0] + 1].split(tab)
+    rows = [line.split(tab) for line in lines[ends[0] + 2 :] if line.strip(", ")]
+    try:
+        table = np.array([[_number(cell) for cell in row] for row in rows])
+    except ValueError as cause:
+        raise ReferenceUnreadable(path, "rows of different length, or no numbers") from cause
+    if table.ndim != 2 or table.shape[1] != len(names) or names[0].lower() != "time":
+        raise ReferenceUnreadable(path, "its columns are not what its names say")
+    columns = {name: table[:, k] for k, name in enumerate(names) if k}
+    told = said.get("indegrees")
+    return Columns(_times(table[:, 0], path), columns, None if told is None else told.startswith("y"))
+
+
+def text_of(path: Path) -> str:
+    """A text file as people's programs write it. Raises :class:`ReferenceUnreadable`."""
+    try:
+        if path.stat().st_size > MOST_BYTES:
+            raise ReferenceUnreadable(path, "larger than 1 GB")
+        return path.read_text(encoding="utf-8-sig", errors="replace")
+    except OSError as cause:
+        raise ReferenceUnreadable(path, cause.strerror or "") from cause
+
+
+def _number(cell: str) -> float:
+    return float(cell) if cell.strip() else np.nan
+
+
+def _times(time_s: FloatArray, path: Path) -> FloatArray:
+    if not np.isfinite(time_s).all() or (np.diff(time_s) <= 0.0).any():
+        raise ReferenceUnreadable(path, "its times do not rise")
+    return time_s

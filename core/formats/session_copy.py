@@ -1,0 +1,70 @@
+"""The session itself as a session file: all but the pictures, to be imported again to the same charts."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from pathlib import Path
+
+import numpy as np
+
+from carpus.core.formats.take import Take
+from carpus.core.session.reader import read_detections
+from carpus.core.session.values import Session
+from carpus.core.session.writer import SessionWriter
+from carpus.core.types import TrackedFrame, TrackStatus
+
+
+def write(take: Take, folder: Path) -> list[Path]:
+    """Write ``NAME.h5`` with a seal of its own; the file. Raises :class:`OutputExists`."""
+    path = folder / f"{take.name}.h5"
+    session = take.session
+    folder.mkdir(parents=True, exist_ok=True)
+    writer = SessionWriter.create(path, session.header, session.camera, session.calibration)
+    try:
+        for frame in _frames(session):
+            writer.append(frame)
+        for event in session.events:
+            writer.add_event(event.time_s, event.kind, event.text)
+        if session.smoothed is not None and len(session):
+            writer.write_smoothed(session.smoothed)
+        writer.close()
+    except BaseException:
+        writer.discard()
+        raise
+    return [path]
+
+
+def _frames(session: Session) -> Iterator[TrackedFrame]:
+    motion, markers, quality = session.motion, session.markers, session.quality
+    table = read_detections(session.path)
+    count = len(session.header.protocol.markers)
+    no_pixel, no_cov = np.full((count, 2), np.nan), np.full((count, 2, 2), np.nan)
+    for row in range(len(session)):
+        yield TrackedFrame(
+            index=row,
+            timestamp_s=float(session.timestamp_s[row]),
+            status=TrackStatus(int(session.status[row])),
+            position_m=motion.position_m[row],
+            velocity_m_s=motion.velocity_m_s[row],
+            w0_turn_rad=motion.w0_turn_rad[row],
+            rotation_w2_w0=motion.rotation_w2_w0[row],
+            angular_velocity_rad_s=motion.angular_velocity_rad_s[row],
+            angles_rad=motion.angles_rad[row],
+            angles_sd_rad=motion.angles_sd_rad[row],
+            angles_zyz_rad=motion.angles_zyz_rad[row],
+            joint_angles_rad=motion.joint_angles_rad[row],
+            joint_angles_sd_rad=motion.joint_angles_sd_rad[row],
+            joint_velocity_rad_s=motion.joint_velocity_rad_s[row],
+            joint_position_m=motion.joint_position_m[row],
+            marker_position_cam_m=markers.position_cam_m[row],
+            marker_predicted_px=no_pixel,
+            marker_predicted_cov_px2=no_cov,
+            marker_measured_px=markers.measured_px[row],
+            marker_measured_depth_m=markers.measured_depth_m[row],
+            detections=table.of_frame(row),
+            dropped_before=int(quality.dropped_before[row]),
+            measured_share=quality.measured_share[row],
+            nis=float(quality.nis[row]),
+            nis_dof=int(quality.nis_dof[row]),
+            doubted=markers.doubted[row],
+        )

@@ -1,0 +1,58 @@
+"""TRC for OpenSim: the paper discs in millimetres, evenly sampled, Y up; what is not known is an empty cell.
+
+``NAME.trc.json`` says the rotation and where it all comes from; the format has no place for it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from pathlib import Path
+
+import numpy as np
+
+from carpus.core.formats.new_output import new_bytes, new_json
+from carpus.core.formats.take import CAMERA_AXES, Take, number
+
+ROTATION_UP_CAM = np.array([[1.0, 0.0, 0.0], [0.0, 0.0, -1.0], [0.0, 1.0, 0.0]])
+"""Camera axes to OpenSim's: the camera looks down, so that away from it is down; X stays, Z is down the picture."""
+SAYS = (
+    "X_trc = x, Y_trc = -z, Z_trc = y of the colour camera's axes: Y up for a camera that looks straight down; "
+    "right-handed, origin at the camera"
+)
+
+
+def write(take: Take, folder: Path) -> list[Path]:
+    """Write ``NAME.trc`` and ``NAME.trc.json``; the files."""
+    path = folder / f"{take.name}.trc"
+    with new_bytes(path) as file:
+        for line in _lines(take, path.name):
+            file.write(line.encode() + b"\n")
+    even = take.even
+    about = {
+        "units": "mm",
+        "rotation_trc_from_camera": ROTATION_UP_CAM,
+        "rotation_means": SAYS,
+        "camera_axes": CAMERA_AXES,
+        "sampling": f"even, {even.rate_hz:.6g} a second, on the line between two pictures; empty across a gap",
+        "time_zero_timestamp_s": even.start_s,
+        "missing": "empty cell",
+        "provenance": take.provenance,
+    }
+    return [path, new_json(folder / f"{take.name}.trc.json", about)]
+
+
+def _lines(take: Take, name: str) -> Iterator[str]:
+    session, even = take.session, take.even
+    markers = session.header.protocol.markers
+    rate, count = f"{even.rate_hz:.6f}", len(even)
+    yield f"PathFileType\t4\t(X/Y/Z)\t{name}"
+    yield "DataRate\tCameraRate\tNumFrames\tNumMarkers\tUnits\tOrigDataRate\tOrigDataStartFrame\tOrigNumFrames"
+    yield f"{rate}\t{rate}\t{count}\t{len(markers)}\tmm\t{rate}\t1\t{count}"
+    yield "Frame#\tTime\t" + "\t\t\t".join(markers) + "\t\t"
+    yield "\t\t" + "\t".join(f"{axis}{m + 1}" for m in range(len(markers)) for axis in "XYZ")
+    yield ""
+    place_mm = 1e3 * even.of(session.markers.position_cam_m) @ ROTATION_UP_CAM.T
+    for k, (time_s, row) in enumerate(
+        zip(even.since_start_s.tolist(), place_mm.reshape(count, 3 * len(markers)), strict=True)
+    ):
+        yield f"{k + 1}\t{time_s:.6f}\t" + "\t".join(number(value, 4) for value in row.tolist())

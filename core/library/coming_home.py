@@ -1,0 +1,60 @@
+"""Recordings whose data folder went away while they ran: where they went on, and how they come home."""
+
+from __future__ import annotations
+
+import hashlib
+import re
+import shutil
+from pathlib import Path
+
+import platformdirs
+
+from carpus.core.capture.raw import SUFFIX as RAW_SUFFIX
+from carpus.core.durable import sync_folder
+from carpus.core.errors import CarpusFault, OutputNotWritable, RecordingReturned
+from carpus.core.library.beside import MARKERS_SUFFIX
+from carpus.core.session.database import make_private
+from carpus.core.session.disk import free_name
+from carpus.core.session.reader import read_outline
+from carpus.core.session.recovery import recover_folder
+from carpus.core.session.register import SESSIONS_FOLDER
+
+
+def fallback_place(data_folder: Path) -> Path:
+    """On the disk of this computer, one folder for each data folder; nothing is made."""
+    name = hashlib.sha256(str(data_folder.absolute()).encode()).hexdigest()[:12]
+    return Path(platformdirs.user_state_dir("carpus", appauthor=False)) / "recorded-elsewhere" / name
+
+
+def bring_home(data_folder: Path) -> list[CarpusFault]:
+    """Finish what was recorded elsewhere and move it among the sessions; tells of each, and of what could not be."""
+    place = fallback_place(data_folder)
+    if not place.is_dir():
+        return []
+    told = list(recover_folder(place).faults)
+    for path in sorted(place.glob("*.h5")):
+        try:
+            told.append(RecordingReturned(_home(path, data_folder / SESSIONS_FOLDER)))
+        except CarpusFault as fault:
+            told.append(fault)
+        except OSError as cause:
+            told.append(OutputNotWritable(data_folder, cause.strerror or ""))
+    return told
+
+
+def _home(path: Path, sessions: Path) -> Path:
+    subject = read_outline(path).header.subject_id
+    folder = sessions / (re.sub(r"\W+", "-", subject).strip("-") or "unknown")
+    make_private(folder)
+    target = free_name(folder / path.name)
+    for suffix in (RAW_SUFFIX, MARKERS_SUFFIX, ".h5"):  # the session last: what goes with it is there when it comes
+        source = path.with_suffix(suffix)
+        if source.is_file():
+            part = target.with_suffix(suffix + ".arriving")
+            shutil.copyfile(source, part)
+            part.chmod(0o600)
+            part.rename(target.with_suffix(suffix))
+    sync_folder(folder)
+    for suffix in (".h5", RAW_SUFFIX, MARKERS_SUFFIX):
+        path.with_suffix(suffix).unlink(missing_ok=True)
+    return target

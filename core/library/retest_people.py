@@ -1,0 +1,87 @@
+"""Who takes part in the clinic's test and retest, and the study of them from what is stored."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Sequence
+from contextlib import suppress
+from datetime import date
+from pathlib import Path
+
+from carpus.core.agreement.limits_file import store_limits
+from carpus.core.agreement.retest import StudyFigures
+from carpus.core.agreement.retest_plan import RetestPlan, plan_of
+from carpus.core.errors import CarpusFault, OutputNotWritable
+from carpus.core.library.library import Library
+from carpus.core.safekeeping.audit import read_audit
+
+PEOPLE_FILE = "retest_people.json"
+
+
+class RetestPeople:
+    """Called in the background: reads sessions."""
+
+    def __init__(self, library: Library) -> None:
+        self._library = library
+        self._path: Path = library.folder / PEOPLE_FILE
+
+    def candidates(self) -> Sequence[tuple[str, str, int]]:
+        """Everybody in the list of patients: identity, pseudonym, number of sessions."""
+        return [
+            (one.patient_id, one.entry.pseudonym, one.session_count)
+            for one in sorted(self._library.clinic.patients(), key=lambda one: one.entry.pseudonym.casefold())
+        ]
+
+    def chosen(self) -> Sequence[str]:
+        """Identities of those who take part; somebody who is gone takes no part any more."""
+        known = {one.patient_id for one in self._library.clinic.patients()}
+        try:
+            stored = json.loads(self._path.read_text(encoding="utf-8"))["people"]
+            return [one for one in stored if one in known]
+        except (OSError, ValueError, KeyError, TypeError, RecursionError):
+            return []  # only a convenience: they are chosen again
+
+    def choose(self, patient_ids: Sequence[str]) -> None:
+        """Let these take part from now on. Raises :class:`OutputNotWritable`."""
+        part = self._path.with_suffix(".new")
+        try:
+            part.unlink(missing_ok=True)
+            part.touch(mode=0o600)
+            part.write_text(json.dumps({"people": list(patient_ids)}), encoding="utf-8")
+            part.replace(self._path)
+        except OSError as cause:
+            raise OutputNotWritable(self._path, cause.strerror or "") from cause
+
+    def exercises(self) -> Sequence[str]:
+        """Those that were measured of anybody who takes part, most sessions first."""
+        found = [entry.exercise for one in self.chosen() for entry in self._library.sessions(one)]
+        return sorted(dict.fromkeys(found), key=lambda one: (-found.count(one), one))
+
+    def plan(self, exercise: str, today: date) -> RetestPlan:
+        """The study of one exercise as it stands."""
+        library, people = self._library, []
+        chosen = set(self.chosen())
+        for patient_id, pseudonym, _ in self.candidates():
+            if patient_id in chosen:
+                figures = []
+                for entry in library.sessions(patient_id):
+                    if entry.exercise == exercise:
+                        with suppress(CarpusFault):  # a damaged file takes no part; opening it alone tells
+                            figures.append(library.figures(entry))
+                people.append((patient_id, pseudonym, figures))
+        return plan_of(people, exercise, self._raters(), today)
+
+    def _raters(self) -> dict[str, str]:
+        """Initials of who recorded each session, as the log has them."""
+        with suppress(CarpusFault):
+            return {
+                entry.identity: entry.who
+                for entry in read_audit(self._library.folder).entries
+                if entry.did == "recorded" and entry.who
+            }
+        return {}
+
+    def store(self, study: StudyFigures, today: date) -> None:
+        """Put the limits of a study into force, as ``carpus retest --store`` does. Raises the faults of writing."""
+        store_limits(self._library.folder, [study.study(today.isoformat())])
+        self._library.limits_changed()

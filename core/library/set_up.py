@@ -1,0 +1,36 @@
+"""What was chosen before measuring, and for whom."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from carpus.core.hand.protocols import MarkerProtocol
+from carpus.core.output.exercises import Exercise
+from carpus.core.types import Side
+
+PRACTICE_PATIENT = "practice"
+"""Identity of the practice patient: always the last row, simulated camera, nothing counts."""
+
+
+@dataclass(frozen=True, slots=True)
+class SetUp:
+    """What was chosen before measuring.
+
+    Targets in degrees of the trained angle with its sign (the negative direction below zero), NaN for none.
+    """
+
+    patient_id: str
+    pseudonym: str
+    side: Side
+    exercise: Exercise
+    repetitions: int
+    target_positive_deg: float
+    target_negative_deg: float
+    keep_pictures: bool = False
+    ends_free: bool = False
+    """Whether the end joints of the fingers are measured by themselves, not taken to follow the middle joints."""
+
+    @property
+    def protocol(self) -> MarkerProtocol:
+        """The discs on the hand, which the exercise decides."""
+        return self.exercise.protocol

@@ -1,0 +1,145 @@
+"""What the tracker's noise does to a measure, and how much smoothing it asks for.
+
+The error of a tracked angle that moves (not the calibration's, which stays) is taken for a first-order process: a
+share of the stated standard deviation, with a correlation time of the filter or of the smoother. Both figures were
+fitted to simulated sessions with truth. Where the data are quieter than that, the data are believed.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from carpus.core.measures.signals import Signal, low_pass
+from carpus.core.types import FloatArray
+
+MOVING_SHARE_OF_SD = 0.5
+"""Share of a stated standard deviation that moves from frame to frame; the rest is the calibration's."""
+STAYING_SHARE_OF_SD = math.sqrt(1.0 - MOVING_SHARE_OF_SD**2)
+FILTER_CORRELATION_S, SMOOTHER_CORRELATION_S = 0.06, 0.20
+SPEED_ERROR_SHARE = 0.01
+"""Noise that a speed may have, as a share of the stroke's peak; more smoothing is chosen until it has no more."""
+MOST_SPEED_ERROR_SHARE = 0.10
+"""A stroke that needs more than this is too slow to judge."""
+SPECTRUM_NOISE = 0.012
+"""Noise that the normalised spectrum of a speed may have where SPARC follows it down to 0.05."""
+HIGHEST_CUTOFF_HZ = 10.0
+CYCLES_PER_STROKE = 3.0
+"""A low-pass below this many cycles in the time of a stroke takes more than 1 % off a minimum-jerk peak."""
+LOWEST_OF_JERKS_HZ = 2.0
+"""Sub-movements last half a second or less: with less of the spectrum a jerky movement would pass for a smooth one."""
+LOWEST_FOR_JERK_HZ = 4.0
+JERK_NOISE = 0.01
+_DRAWS = 64
+DIP_IN_SDS = 4.0
+"""Noise makes dips in a speed up to so many of its standard deviations."""
+
+
+@dataclass(frozen=True, slots=True)
+class Noise:
+    """A first-order process: ``sd`` in the unit of the signal, ``correlation_s`` after which it has fallen to 1/e."""
+
+    sd: float
+    correlation_s: float
+
+    def speed_sd(self, cutoff_hz: float) -> float:
+        """Standard deviation of its rate of change below a cut-off; unit per second."""
+        turn = 2.0 * math.pi * cutoff_hz * self.correlation_s
+        return self.sd / self.correlation_s * math.sqrt(2.0 / math.pi * max(turn - math.atan(turn), 0.0))
+
+    def spectrum_share(self, frequency_hz: float, duration_s: float, arc: float) -> float:
+        """Its part in the normalised amplitude spectrum of the speed of a stroke of this duration over this arc."""
+        turn2 = (2.0 * math.pi * frequency_hz * self.correlation_s) ** 2
+        density = 4.0 * self.sd**2 / self.correlation_s * turn2 / (1.0 + turn2)
+        return math.sqrt(0.5 * density * duration_s) / arc
+
+    def above(self, cutoff_hz: float) -> float:
+        """Share of its variance above a frequency."""
+        return 1.0 - 2.0 / math.pi * math.atan(2.0 * math.pi * cutoff_hz * self.correlation_s)
+
+    def drawn(self, count: int, rate_hz: float) -> FloatArray:
+        """Always the same samples of it, (draws, count)."""
+        chance = np.random.default_rng(0)
+        kept = math.exp(-1.0 / (rate_hz * self.correlation_s))
+        white = chance.standard_normal((_DRAWS, count))
+        white[:, 1:] *= math.sqrt(1.0 - kept**2)
+        for k in range(1, count):
+            white[:, k] += kept * white[:, k - 1]
+        return self.sd * white
+
+
+def moving_noise(part: Signal, sd: Signal, stroke_s: float, *, smoothed: bool) -> Noise:
+    """The noise of a part of an angle with its stated sd; ``stroke_s`` is how long one movement in it takes."""
+    correlation_s = SMOOTHER_CORRELATION_S if smoothed else FILTER_CORRELATION_S
+    known = sd.value[np.isfinite(sd.value)]
+    stated = Noise(MOVING_SHARE_OF_SD * float(np.median(known)) if len(known) else 0.0, correlation_s)
+    return no_more_than_seen(stated, part, stroke_s)
+
+
+def no_more_than_seen(most: Noise, part: Signal, stroke_s: float) -> Noise:
+    """The noise of a part, (n,) or (n, k) of which the worst column counts: ``most``, or less where the part is quieter
+    above all that a movement of ``stroke_s`` has."""
+    split_hz = clean_cutoff_hz(stroke_s)
+    if split_hz >= 0.4 * part.rate_hz:
+        return most
+    left = part.value - low_pass(part, split_hz).value
+    left = left[np.isfinite(left).all(axis=tuple(range(1, left.ndim)))]
+    if not len(left):
+        return most
+    seen = float(np.sqrt(np.mean(left**2, axis=0)).max()) / math.sqrt(most.above(split_hz))
+    return Noise(min(most.sd, seen), most.correlation_s)
+
+
+def clean_cutoff_hz(stroke_s: float) -> float:
+    """Below this lies all of a movement that takes ``stroke_s``, holds and hesitations included."""
+    return max(2.0 * CYCLES_PER_STROKE / max(stroke_s, 1e-3), 1.0)
+
+
+def cutoff_for_speed(noise: Noise, peak_speed: float, stroke_s: float) -> float:
+    """Cut-off (Hz) of the low-pass for a speed; NaN where the stroke is too slow to judge."""
+    lowest = CYCLES_PER_STROKE / stroke_s
+    if noise.speed_sd(lowest) > MOST_SPEED_ERROR_SHARE * peak_speed:
+        return math.nan
+    if lowest >= HIGHEST_CUTOFF_HZ:
+        return lowest
+    tried = np.geomspace(HIGHEST_CUTOFF_HZ, lowest, 40)
+    return float(next((hz for hz in tried if noise.speed_sd(hz) <= SPEED_ERROR_SHARE * peak_speed), lowest))
+
+
+def cutoff_for_smoothness(noise: Noise, arc: float, stroke_s: float) -> float:
+    """Cut-off (Hz) of the low-pass for SPARC; NaN where noise would be taken for jerk."""
+    lowest = max(CYCLES_PER_STROKE / stroke_s, LOWEST_OF_JERKS_HZ)
+    if lowest >= HIGHEST_CUTOFF_HZ:
+        return lowest
+    tried = np.geomspace(HIGHEST_CUTOFF_HZ, lowest, 40)
+    return float(next((hz for hz in tried if noise.spectrum_share(hz, stroke_s, arc) <= SPECTRUM_NOISE), math.nan))
+
+
+def cutoff_for_jerk(noise: Noise, arc: float, stroke_s: float) -> float:
+    """Cut-off (Hz) below which noise has at most a small share of the least jerk (720 arc^2 / T^6) that such a stroke
+    can have; NaN where that leaves nothing to compare with published figures."""
+    lowest = max(CYCLES_PER_STROKE / stroke_s, LOWEST_FOR_JERK_HZ)
+    if not noise.sd > 0.0:
+        return max(HIGHEST_CUTOFF_HZ, lowest)
+    least = JERK_NOISE * 720.0 * arc**2 / stroke_s**6
+    plateau = 4.0 * noise.sd**2 / noise.correlation_s * (2.0 * math.pi) ** 4 / 5.0
+    found = min(float((least / plateau) ** 0.2), max(HIGHEST_CUTOFF_HZ, lowest))
+    return found if found >= lowest else math.nan
+
+
+def extreme(part: FloatArray, clean: FloatArray, noise: Noise, rate_hz: float, *, largest: bool) -> tuple[float, float]:
+    """Largest or smallest value (n,) of a part without what noise adds to it, and its standard deviation.
+
+    The largest of noisy values lies too far out: by how much, drawn noise on the ``clean`` curve tells. Gaps are NaN.
+    """
+    sign = 1.0 if largest else -1.0
+    known = np.isfinite(part) & np.isfinite(clean)
+    if not known.any():
+        known = np.isfinite(part)
+        clean = part
+    found = float(np.nanmax(sign * part))
+    drawn = np.where(known, sign * clean + noise.drawn(len(part), rate_hz), -np.inf).max(axis=1)
+    too_far = float(drawn.mean()) - float((sign * clean[known]).max())
+    return sign * (found - too_far), float(drawn.std())

@@ -1,0 +1,98 @@
+"""How fingers move together, and how they tremble (clinical reference 5)."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from carpus.core.measures.signals import BoolArray, Signal, low_pass, rate_of_change, stretches
+from carpus.core.types import FloatArray
+
+LEAST_SD_RAD = math.radians(2.0)
+"""A channel that moves less says nothing of moving together."""
+LONGEST_LAG_S = 0.5
+TREMOR_BAND_HZ = (3.0, 12.0)
+TREMOR_WINDOW_S, TREMOR_LEAST_S = 2.0, 6.0
+TREMOR_TIMES_NOISE = 3.0
+DRIFT_HZ = 1.0
+HELD_RAD_S = math.radians(6.0)
+"""An angle that moves on faster is not held; a tremor goes to and fro about where it is."""
+
+
+@dataclass(frozen=True, slots=True)
+class CoFlexion:
+    """``correlation`` (Pearson) of two joints; ``lag_s`` by which the second follows the first."""
+
+    correlation: float
+    lag_s: float
+
+
+def co_flexion(first: FloatArray, second: FloatArray, rate_hz: float) -> CoFlexion:
+    """Of two evenly sampled angles (n,), rad; NaN where one of them hardly moves or too little is known."""
+    good = np.isfinite(first) & np.isfinite(second)
+    if int(good.sum()) < 8 or min(first[good].std(), second[good].std()) < LEAST_SD_RAD:
+        return CoFlexion(math.nan, math.nan)
+    correlation = float(np.corrcoef(first[good], second[good])[0, 1])
+    most = min(round(LONGEST_LAG_S * rate_hz), len(first) - 1)
+    best, lag = -math.inf, 0
+    for shift in range(-most, most + 1):
+        a = first[max(0, -shift) : len(first) - max(0, shift)]
+        b = second[max(0, shift) : len(second) - max(0, -shift)]
+        both = np.isfinite(a) & np.isfinite(b)
+        if int(both.sum()) < 8 or min(a[both].std(), b[both].std()) == 0.0:
+            continue
+        found = float(np.corrcoef(a[both], b[both])[0, 1])
+        if found > best + 1e-12:
+            best, lag = found, shift
+    return CoFlexion(correlation, lag / rate_hz)
+
+
+def synergy_share(angles: FloatArray) -> float:
+    """Share of the variance of several angles (n, k) in their first principal component; NaN where nothing moves."""
+    known = angles[np.isfinite(angles).all(axis=1)]
+    if len(known) < 8:
+        return math.nan
+    variance = np.linalg.eigvalsh(np.cov(known.T))
+    return float(variance[-1] / variance.sum()) if variance.sum() > LEAST_SD_RAD**2 else math.nan
+
+
+def enslaving_share(instructed: FloatArray, other: FloatArray) -> float:
+    """Mean movement of a finger not asked for over that of the one asked for; NaN where that hardly moves."""
+    asked, follows = (np.abs(values - np.nanmedian(values)) for values in (instructed, other))
+    return float(np.nanmean(follows) / np.nanmean(asked)) if np.nanstd(instructed) >= LEAST_SD_RAD else math.nan
+
+
+@dataclass(frozen=True, slots=True)
+class Tremor:
+    """``rms_rad`` between 3 and 12 Hz in the steadiest stretch, ``peak_hz`` where it is strongest. ``is_tremor``: three
+    times what the tracker's own noise would show, or more."""
+
+    rms_rad: float
+    peak_hz: float
+    is_tremor: bool
+
+
+def _held(angle: Signal) -> BoolArray:
+    """Samples (n,) at which the angle goes nowhere: of a brisk exercise the quick part is no tremor."""
+    slow = rate_of_change(low_pass(angle, DRIFT_HZ)).value
+    with np.errstate(invalid="ignore"):
+        return np.asarray(angle.finite & (np.abs(slow) <= HELD_RAD_S), dtype=np.bool_)
+
+
+def tremor(angle: Signal, noise_rms_rad: float) -> Tremor:
+    """Of an angle (rad, not low-passed) held for 6 s or longer; ``noise_rms_rad`` of the same band without a hand's
+    tremor. NaN where nothing was held for so long. Above half the frame rate nothing is seen."""
+    from scipy import signal as sps  # half a second to load
+
+    longest = max(stretches(_held(angle)), key=lambda part: part.stop - part.start, default=slice(0, 0))
+    value = angle.value[longest]
+    if not len(value) >= TREMOR_LEAST_S * angle.rate_hz:  # nor where the rate is unknown
+        return Tremor(math.nan, math.nan, False)
+    part = Signal(angle.time_s[longest], value, angle.rate_hz, 1.0, np.empty((0, 2)))
+    shaken = value - low_pass(part, DRIFT_HZ).value
+    frequency, power = sps.welch(shaken, angle.rate_hz, nperseg=round(TREMOR_WINDOW_S * angle.rate_hz))
+    band = (frequency >= TREMOR_BAND_HZ[0]) & (frequency <= TREMOR_BAND_HZ[1])
+    rms = math.sqrt(float(power[band].sum() * (frequency[1] - frequency[0])))
+    return Tremor(rms, float(frequency[band][np.argmax(power[band])]), rms > TREMOR_TIMES_NOISE * noise_rms_rad)

@@ -1,0 +1,315 @@
+"""Measures of a session beside ranges and speeds: reaches, finger tips, moving together, tremor; of the whole hand."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+
+from carpus.core.hand.clinical_angles import side_sign
+from carpus.core.hand.protocols import HAND21
+from carpus.core.measures.coherence import digit_coherence
+from carpus.core.measures.fingers import DIP_PER_PIP, JointTrack
+from carpus.core.measures.forearm import rotation_in_place
+from carpus.core.measures.grade import Grade, total_grade, total_share
+from carpus.core.measures.path import TIP_NOISE, WRIST_NOISE
+from carpus.core.measures.reach import Reach, distance_m, find_reaches
+from carpus.core.measures.signals import BoolArray, even_signal, stretches
+from carpus.core.measures.together import co_flexion, enslaving_share, synergy_share, tremor
+from carpus.core.output.exercises import Exercise
+from carpus.core.output.range_rows import RangeRow, best_motion, is_total
+from carpus.core.session.values import Motion, Session
+from carpus.core.types import FloatArray
+
+TOUCHED_M = 0.015
+"""Thumb and finger tip this near touch (clinical reference 8.2; both points lie under the skin)."""
+APART_M = 0.025
+"""Beyond this they are apart again: what flickers about the limit is one touch."""
+SURELY = 2.0
+"""So many standard deviations nearer a hidden tip may be than it is tracked."""
+LARGEST_APERTURE_SD_M = 0.015
+"""An aperture of hidden tips known worse than this is not told (looked back at, it is then 10 mm off at times)."""
+TIPS = tuple(HAND21.markers.index(f"TIP{k}") for k in range(1, 6))
+_WITH_REACHES = ("REACH_GRASP", "FREE", "FREE_HAND")
+_WITH_HIDDEN_THUMB = ("REACH_GRASP", "THUMB_OPP")
+_THUMB = ("CMC1", "MCP1", "IP1")
+
+
+@dataclass(frozen=True, slots=True)
+class FurtherMeasure:
+    """One figure: ``name`` of the measure, what it is ``of``, its ``unit``, and its ``values``, one each time."""
+
+    name: str
+    of: str
+    unit: str
+    values: tuple[float, ...]
+    unknown: Literal["", "too_slow", "hidden"] = ""
+    """Why nothing is known: every movement was so slow that the tracker's noise hides it, or the camera did not see
+    what decides it."""
+
+    @property
+    def count(self) -> int:
+        """How many of the values are known."""
+        return sum(math.isfinite(value) for value in self.values)
+
+    @property
+    def mean(self) -> float:
+        """NaN where nothing is known."""
+        known = [value for value in self.values if math.isfinite(value)]
+        return float(np.mean(known)) if known else math.nan
+
+    @property
+    def sd(self) -> float:
+        """Between the times; NaN below three."""
+        known = [value for value in self.values if math.isfinite(value)]
+        return float(np.std(known, ddof=1)) if len(known) >= 3 else math.nan
+
+
+@dataclass(frozen=True, slots=True)
+class GradedTotal:
+    """Share of the usual TAM of one finger, or of the other hand's, and its grade."""
+
+    finger: int
+    share: float
+    grade: Grade | None
+    of_other_hand: bool = False
+
+
+def further_measures(
+    session: Session, exercise: Exercise, tracks: Mapping[str, JointTrack], view: BoolArray
+) -> tuple[FurtherMeasure, ...]:
+    """What an exercise has beside its ranges; nothing that its discs do not show."""
+    out: list[FurtherMeasure] = []
+    reaches = session_reaches(session, view) if exercise.id in _WITH_REACHES else ()
+    out += reach_measures(reaches)
+    if not tracks:
+        return tuple(out)
+    motion = best_motion(session)
+    tips = np.where((session.status != 2)[:, None, None], motion.joint_position_m[:, list(TIPS)], np.nan)
+    aperture = distance_m(tips[:, 0], tips[:, 1])
+    out += _aperture_measures(session, aperture, reaches)
+    if exercise.id == "FINGER_ABAD":
+        out.append(_span(session, "hand span", 0, 4, tips))
+        out += [_span(session, "tip span", k - 1, k, tips) for k in range(1, 5)]
+    if exercise.id == "THUMB_OPP":
+        out += opposition_measures(session, tips)
+    if exercise.id in _WITH_HIDDEN_THUMB:
+        out += thumb_coherence(session)
+    if exercise.id in ("FIST_COMPOSITE", "FIST_HOOK"):
+        out += _together(tracks)
+    return tuple(out)
+
+
+def session_reaches(session: Session, view: BoolArray) -> tuple[Reach, ...]:
+    """Ways out and back of the wrist."""
+    if int(np.sum(view)) < 2:
+        return ()
+    time_s = session.timestamp_s - session.timestamp_s[0]
+    place = even_signal(time_s, best_motion(session).position_m, np.asarray(view, dtype=bool))
+    return find_reaches(place, noise=WRIST_NOISE[session.smoothed is not None])
+
+
+def reach_measures(reaches: Sequence[Reach], ways: tuple[str, str] = ("reach", "return")) -> list[FurtherMeasure]:
+    """Time, speed, straightness and smoothness of the ways out, and of those back."""
+    out = []
+    for outward, way in zip((True, False), ways, strict=True):
+        some = [reach for reach in reaches if reach.outward is outward]
+        if not some:
+            continue
+        for name, unit, values in (
+            ("movement time", "s", [reach.movement_time_s for reach in some]),
+            ("peak speed", "mm/s", [1e3 * reach.path.peak_speed_m_s for reach in some]),
+            ("time to peak", "share", [reach.path.time_to_peak_share for reach in some]),
+            ("path length", "mm", [1e3 * reach.path.length_m for reach in some]),
+            ("straightness", "length/chord", [reach.path.straightness for reach in some]),
+            ("movement units", "1", [reach.path.peaks for reach in some]),
+            ("smoothness", "SPARC", [reach.path.sparc for reach in some]),
+        ):
+            why = "" if any(map(math.isfinite, values)) else _why_unknown(name, some)
+            out.append(FurtherMeasure(name, way, unit, tuple(values), why))
+    return out
+
+
+def _why_unknown(name: str, reaches: Sequence[Reach]) -> Literal["", "too_slow", "hidden"]:
+    seen = [reach for reach in reaches if not reach.hidden]
+    if not seen:
+        return "hidden"
+    slow = all(reach.too_slow for reach in seen) or name in ("movement units", "smoothness")
+    return "too_slow" if slow else ""
+
+
+def opposition_measures(session: Session, tips_m: FloatArray) -> list[FurtherMeasure]:
+    """How near the thumb's tip (N, 5, 3) comes to each finger's and how often they touch, and its ways across the palm
+    and back, seen from the hand: what the hand itself moves is no movement of the thumb.
+
+    Tips that touch are mostly hidden from a camera above the hand: a distance counts where both were seen, and nothing
+    is said where they may have been nearer while they were not.
+    """
+    out = []
+    for k in range(1, 5):
+        distance = distance_m(tips_m[:, 0], tips_m[:, k])
+        seen = _tip_seen(session, 0) & _tip_seen(session, k) & np.isfinite(distance)
+        with np.errstate(invalid="ignore"):
+            nearest = distance - SURELY * _distance_sd_m(session, k)
+            near = [part for part in stretches(distance < APART_M) if (distance[part][seen[part]] < TOUCHED_M).any()]
+            in_touch = np.zeros(len(distance), dtype=bool)
+            for part in near:
+                in_touch[part] = True
+            maybe = bool((~seen & ~in_touch & (nearest < TOUCHED_M)).any())
+            least = float(distance[seen].min()) if seen.any() else math.nan
+            nearer = not seen.any() or bool((~seen & (nearest < least)).any())
+        if np.isfinite(distance).any():
+            of = f"TIP1-TIP{k + 1}"
+            away = FurtherMeasure("least distance", of, "mm", (math.nan,), "hidden")
+            out.append(away if nearer else FurtherMeasure("least distance", of, "mm", (1e3 * least,)))
+            unsure = FurtherMeasure("touches", of, "1", (math.nan,), "hidden")
+            out.append(unsure if maybe else FurtherMeasure("touches", of, "1", (float(len(near)),)))
+    place = _in_the_hand(best_motion(session), TIPS[0])
+    known = np.isfinite(place).all(axis=1) & (np.asarray(session.status) != 2)
+    if int(known.sum()) >= 2:
+        time_s = session.timestamp_s - session.timestamp_s[0]
+        ulnar = np.array([0.0, -side_sign(session.header.hand), 0.0])
+        hidden_s = even_signal(time_s, place, known & _tip_seen(session, 0)).gaps_s
+        noise = TIP_NOISE[session.smoothed is not None]
+        reaches = find_reaches(even_signal(time_s, place, known), ulnar, noise, hidden_s)
+        out += reach_measures(reaches, ("thumb across", "thumb back"))
+    return out
+
+
+def _tip_seen(session: Session, tip: int) -> BoolArray:
+    """Frames (N,) with a blob at a finger's tip, 0 the thumb's."""
+    return np.asarray(np.isfinite(session.markers.measured_px[:, TIPS[tip], 0]), dtype=np.bool_)
+
+
+def _distance_sd_m(session: Session, tip: int) -> FloatArray:
+    """Standard deviation (N,) of the distance of the thumb's tip to another: that of each joint of both, times how far
+    the tip lies from it. What joints are off together is taken for their own, which is more than it is."""
+    motion, names = best_motion(session), session.header.joint_names
+    variance = np.zeros(len(session))
+    for digit in (0, tip):
+        at = motion.joint_position_m[:, TIPS[digit]]
+        for column, name in enumerate(names):
+            joint = name.split("_")[0]
+            if joint.endswith(str(digit + 1)):
+                arm = distance_m(at, motion.joint_position_m[:, HAND21.markers.index(joint)])
+                if joint.startswith("PIP") and f"DIP{digit + 1}_flexion" not in names:
+                    end = motion.joint_position_m[:, HAND21.markers.index(f"DIP{digit + 1}")]
+                    arm = arm + DIP_PER_PIP * distance_m(at, end)
+                variance += (motion.joint_angles_sd_rad[:, column] * arm) ** 2
+    return np.asarray(np.sqrt(variance))
+
+
+def thumb_coherence(session: Session) -> list[FurtherMeasure]:
+    """How much of the time the thumb was hidden, and whether what was said of it meanwhile holds together.
+
+    ``thumb hidden``: share of the frames without a blob at one of its outer discs; ``coherent`` and ``known though
+    hidden``: shares of those, as :func:`core.measures.coherence.digit_coherence` has them; ``jump when seen again`` of
+    its tip.
+    """
+    motion, names = session.motion, session.header.joint_names
+    columns = [k for k, name in enumerate(names) if name.split("_")[0] in _THUMB]
+    outer = [HAND21.markers.index(name) for name in ("MCP1", "IP1", "TIP1")]
+    hidden: BoolArray = np.any(~np.isfinite(session.markers.measured_px[:, outer, 0]), axis=1)
+    found = digit_coherence(
+        session.timestamp_s,
+        [names[k] for k in columns],
+        motion.joint_angles_rad[:, columns],
+        motion.joint_angles_sd_rad[:, columns],
+        _in_the_hand(motion, TIPS[0]),
+        hidden,
+        np.asarray(session.status) != 2,
+    )
+    if not math.isfinite(found.hidden_share):
+        return []
+    out = [FurtherMeasure("thumb hidden", "thumb", "share", (found.hidden_share,))]
+    if math.isfinite(found.coherent_share):
+        out.append(FurtherMeasure("coherent though hidden", "thumb", "share", (found.coherent_share,)))
+        out.append(FurtherMeasure("known though hidden", "thumb", "share", (found.known_share,)))
+    if found.jumps_m:
+        out.append(FurtherMeasure("jump when seen again", "TIP1", "mm", tuple(1e3 * jump for jump in found.jumps_m)))
+    return out
+
+
+def _in_the_hand(motion: Motion, joint: int) -> FloatArray:
+    """A joint centre (N, 3) in the axes of W2."""
+    turned = rotation_in_place(motion.rotation_w2_w0, motion.w0_turn_rad)
+    return np.asarray(np.einsum("nji,nj->ni", turned, motion.joint_position_m[:, joint] - motion.position_m))
+
+
+def graded_totals(rows: Sequence[RangeRow], other_hand: Sequence[RangeRow] = ()) -> tuple[GradedTotal, ...]:
+    """Share and grade of every finger's TAM, of the other hand's where that was seen whole, else of the usual one. A
+    lower bound is not graded."""
+    out = []
+    beside = {row.joint: row.mean_deg for row in other_hand if row.movement == "arc" and row.count and not row.limited}
+    for row in rows:
+        if is_total(row.joint) and row.movement == "arc" and row.count:
+            finger, own = int(row.joint[3:]), beside.get(row.joint, math.nan)
+            share = total_share(row.mean_deg, finger, own)
+            grade = None if row.limited else total_grade(share)
+            out.append(GradedTotal(finger, share, grade, of_other_hand=own > 0.0))
+    return tuple(out)
+
+
+def held_tremor(session: Session, angle: int, noise_rms_rad: float) -> FurtherMeasure | None:
+    """Tremor of a wrist angle that was held; None where nothing was held for six seconds."""
+    time_s = session.timestamp_s - session.timestamp_s[:1]
+    if len(time_s) < 2:
+        return None
+    found = tremor(
+        even_signal(time_s, best_motion(session).angles_rad[:, angle], np.asarray(session.status) == 0), noise_rms_rad
+    )
+    return FurtherMeasure("tremor 3-12 Hz", "rms", "deg", (math.degrees(found.rms_rad),)) if found.is_tremor else None
+
+
+def _aperture_measures(session: Session, aperture_m: FloatArray, reaches: Sequence[Reach]) -> list[FurtherMeasure]:
+    """NaN of a reach of which a part was not seen, and of an aperture that is a guess."""
+    time_s = session.timestamp_s - session.timestamp_s[:1]
+    sure = (_tip_seen(session, 0) & _tip_seen(session, 1)) | (_distance_sd_m(session, 1) <= LARGEST_APERTURE_SD_M)
+    largest, bent = [], []
+    for reach in (reach for reach in reaches if reach.outward):
+        inside = (time_s >= reach.start_s) & (time_s <= reach.end_s) & np.isfinite(aperture_m)
+        if inside.any():
+            widest = int(np.argmax(np.where(inside, aperture_m, -math.inf)))
+            known = not reach.hidden and bool(sure[widest])
+            largest.append(1e3 * float(aperture_m[widest]) if known else math.nan)
+            at = int(np.searchsorted(time_s, reach.end_s))
+            angle = float(best_motion(session).angles_rad[min(at, len(time_s) - 1), 1])
+            bent.append(math.nan if reach.hidden else -math.degrees(angle))
+    if not largest:
+        return []
+    hidden: Literal["", "hidden"] = "" if any(map(math.isfinite, largest)) else "hidden"
+    return [
+        FurtherMeasure("largest aperture", "TIP1-TIP2", "mm", tuple(largest), hidden),
+        FurtherMeasure("wrist extension at grasp", "wrist", "deg", tuple(bent)),
+    ]
+
+
+def _span(session: Session, name: str, one: int, other: int, tips_m: FloatArray) -> FurtherMeasure:
+    """The largest distance of two tips in the frames that show both."""
+    values_m = distance_m(tips_m[:, one], tips_m[:, other])
+    known = values_m[np.isfinite(values_m) & _tip_seen(session, one) & _tip_seen(session, other)]
+    of = f"TIP{one + 1}-TIP{other + 1}"
+    if not len(known):
+        return FurtherMeasure(name, of, "mm", (math.nan,), "hidden")
+    return FurtherMeasure(name, of, "mm", (1e3 * float(np.percentile(known, 99.0)),))
+
+
+def _together(tracks: Mapping[str, JointTrack]) -> list[FurtherMeasure]:
+    """Co-flexion of neighbouring middle joints, of index and middle finger's knuckles, and their synergy."""
+    out = []
+    pairs = [(f"PIP{k}_flexion", f"PIP{k + 1}_flexion") for k in range(2, 5)]
+    for one, other in pairs:
+        a, b = tracks[one].tracked, tracks[other].tracked
+        if len(a.value) != len(b.value) or not len(a.value):
+            continue
+        found = co_flexion(a.value, b.value, a.rate_hz)
+        out.append(FurtherMeasure("co-flexion", f"{one}, {other}", "r", (found.correlation,)))
+        out.append(FurtherMeasure("lag", f"{one}, {other}", "s", (found.lag_s,)))
+        out.append(FurtherMeasure("enslaving", f"{one}, {other}", "share", (enslaving_share(a.value, b.value),)))
+    bending = [track.tracked.value for name, track in tracks.items() if name.endswith("_flexion") and name[3] in "2345"]
+    if bending and len({len(values) for values in bending}) == 1 and len(bending[0]):
+        out.append(FurtherMeasure("synergy", "fingers", "share", (synergy_share(np.column_stack(bending)),)))
+    return out

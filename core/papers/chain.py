@@ -1,0 +1,101 @@
+"""The hand as the papers model it: a palm of rigid links in one plane, fingers as chains through the discs' middles.
+
+The lengths are measured on the clicked hand "by means of the depth information" (hand paper, section 2). The palm's
+arch "is not considered" (wrist paper, II-B); the hand starts with fingers extended, thumb adducted and wrist neutral
+(section 4), so that all angles are zero there.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+
+from carpus.core.calibration.result import Calibration
+from carpus.core.camera import Camera
+from carpus.core.hand.anatomy import HandAnatomy, anatomy_from_size
+from carpus.core.hand.clinical_angles import side_sign
+from carpus.core.hand.kinematics import joint_centres
+from carpus.core.hand.protocols import HAND21_CHAINS, joint_angle_names
+from carpus.core.types import FloatArray
+
+PalmModel = Literal["flat", "measured"]
+_MCP3 = 3
+_HAND_OVER_PALM = 1.0 / 0.446
+"""Hand length over the distance from WRIST to MCP3 (reference 3.3)."""
+
+
+@dataclass(frozen=True, slots=True)
+class PaperHand:
+    """T_mi,w of (2): ``palm_m`` (6, 3) in W of the hand's own side; ``anatomy`` None where only the palm has discs."""
+
+    palm_m: FloatArray
+    anatomy: HandAnatomy | None
+
+    @property
+    def joint_count(self) -> int:
+        return 0 if self.anatomy is None else len(joint_angle_names())
+
+    def discs_m(self, joints_rad: FloatArray) -> FloatArray:
+        """Markers (..., M, 3) in W2 for joint angles (..., J)."""
+        if self.anatomy is None:
+            return np.broadcast_to(self.palm_m, (*joints_rad.shape[:-1], *self.palm_m.shape))
+        return joint_centres(self.anatomy, joints_rad)
+
+
+def discs_cam_m(calibration: Calibration) -> FloatArray:
+    """The measured discs (M, 3) in camera axes, NaN where the depth is unknown."""
+    return np.asarray(
+        calibration.marker_position_w0_m @ calibration.rotation_w0_cam.T + calibration.translation_w0_cam_m
+    )
+
+
+def hand_measured(calibration: Calibration, camera: Camera, palm: PalmModel) -> PaperHand:
+    """The hand whose discs were measured at the neutral pose.
+
+    The fingers keep the lengths between their discs, and point in the palm's plane where they point from root to tip.
+    A disc of a finger whose depth is unknown is taken to be as far away as the one before it: "the camera focal axis
+    is perpendicular to the plane where the hand lies".
+    """
+    protocol = calibration.clicks.protocol
+    disc_cam_m, clicked_px = discs_cam_m(calibration), camera.undistort(calibration.clicks.pixel)
+    for marker in np.flatnonzero(~np.isfinite(disc_cam_m[:, 2])):
+        disc_cam_m[marker] = camera.back_project(clicked_px[marker], disc_cam_m[marker - 1, 2])
+    disc_m = (disc_cam_m - disc_cam_m[0]) @ calibration.rotation_w0_cam
+    palm_m = palm_modelled(disc_m[list(protocol.palm)], palm)
+    if not protocol.has_fingers:
+        return PaperHand(palm_m, None)
+    side = calibration.clicks.side
+    mirror = np.array([1.0, side_sign(side), 1.0])
+    chain_m = disc_m[np.array(HAND21_CHAINS)[:, 1:]] * mirror  # (5, 4, 3), axes of a right hand
+    length_m = np.linalg.norm(np.diff(chain_m, axis=1), axis=-1)
+    along = chain_m[:, -1] - chain_m[:, 0]
+    along[0] = chain_m[0, 1] - chain_m[0, 0]  # the thumb's first bone: the rest turns out of that plane
+    usual = anatomy_from_size(_HAND_OVER_PALM * float(palm_m[_MCP3, 0]), side=side, skin_offsets=False)
+    anatomy = HandAnatomy(
+        hand_length_m=usual.hand_length_m,
+        hand_breadth_m=usual.hand_breadth_m,
+        palm_disc_m=palm_m * mirror,
+        palm_joint_m=palm_m * mirror,
+        fan_rad=np.arctan2(along[:, 1], along[:, 0]),
+        thumb_roll_rad=usual.thumb_roll_rad,
+        thumb_length_m=length_m[0],
+        finger_length_m=length_m[1:],
+        thumb_offset_m=np.zeros(3),
+        finger_offset_m=np.zeros((4, 3)),
+        side=side,
+    )
+    return PaperHand(palm_m, anatomy)
+
+
+def palm_modelled(palm_m: FloatArray, palm: PalmModel) -> FloatArray:
+    """Palm discs (6, 3), WRIST at the origin, as they are, or laid into the plane Z = 0 with the lengths L_i and the
+    angles theta_i of figure 1b of the wrist paper."""
+    if palm == "measured":
+        return palm_m
+    length_m = np.linalg.norm(palm_m, axis=1)
+    axis = palm_m[_MCP3] / length_m[_MCP3]
+    theta = np.arccos(np.clip(palm_m @ axis / np.maximum(length_m, 1e-9), -1.0, 1.0)) * np.sign(palm_m[:, 1])
+    theta[_MCP3] = 0.0
+    return np.stack((length_m * np.cos(theta), length_m * np.sin(theta), np.zeros(len(palm_m))), axis=1)

@@ -1,0 +1,248 @@
+"""The papers' filter over the frames of one hand, in the form of the tracker that it stands in for.
+
+What the papers leave open is done in the plainest way. They say when a hand is found, neutral and all in sight, not
+when it is lost nor how it is found again: here it is lost when too little of the palm was seen for too long, or when
+the covariance is none any more, and it is found again as at the start, at the neutral pose.
+"""
+
+from __future__ import annotations
+
+from collections import deque
+from dataclasses import replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from carpus.core import so3
+from carpus.core.calibration.result import Calibration
+from carpus.core.camera import Camera
+from carpus.core.hand import clinical_angles
+from carpus.core.hand.protocols import HAND21, joint_angle_names
+from carpus.core.papers.association import blobs_of_markers, log_posteriors
+from carpus.core.papers.augmented_filter import Corrected, Predicted, Seen, correct, predict, seen_from
+from carpus.core.papers.chain import hand_measured
+from carpus.core.papers.euler import body_turn_by_euler, rotation_of
+from carpus.core.papers.motion import EULER, JOINTS, POSITION, VELOCITY, PaperMotion
+from carpus.core.papers.settings import PaperSettings
+from carpus.core.types import Detections, FloatArray, TrackedFrame, TrackStatus
+
+LEAST_PALM_MARKERS = 3
+_SHARE_WINDOW_S = 1.0
+_NEAREST_M = 0.05
+"""A sigma point may lie behind the camera; it is projected from here."""
+_LARGEST_ANGLE_RAD = 4.0 * np.pi
+"""Angles that wound up further than two whole turns are of no hand."""
+
+
+class PaperTracker:
+    """Follows one calibrated hand by colour alone, as both papers do."""
+
+    def __init__(self, calibration: Calibration, camera: Camera, settings: PaperSettings) -> None:
+        self.settings = settings
+        self._camera = camera
+        self._side = calibration.clicks.side
+        self._start = clinical_angles.rotation_from_angles(calibration.start_angles_rad, self._side)
+        self._rotation, self._translation = calibration.rotation_w0_cam, calibration.translation_w0_cam_m
+        self._palm = np.array(calibration.clicks.protocol.palm)
+        self._hand = hand_measured(calibration, camera, settings.palm)
+        self._motion = PaperMotion(settings, self._hand.joint_count)
+        self._markers = len(calibration.clicks.protocol.markers)
+        self._recent: deque[tuple[float, NDArray[np.int64]]] = deque()
+        self.begin_at_neutral()
+
+    def begin_at_neutral(self, at_s: float | None = None) -> None:
+        """Start (again) from the calibrated pose, the hand at rest."""
+        self._state = self._motion.at_neutral()
+        self._time_s: float | None = None
+        self._seen_s = -np.inf
+        self._waiting = False
+
+    @property
+    def is_lost(self) -> bool:
+        return self._waiting
+
+    def expect(self, timestamp_s: float) -> None:
+        """Nothing: the papers look for blobs in every picture as if it were the first."""
+
+    def would_miss(self, blobs: Detections) -> bool:
+        """Never: no search is narrowed."""
+        return False
+
+    def step(self, index: int, timestamp_s: float, detections: Detections, dropped_before: int = 0) -> TrackedFrame:
+        """Predict, name the blobs, correct; the frame's result."""
+        row = self._weighed(index, timestamp_s, detections, dropped_before)
+        if row is not None:
+            return row
+        self.begin_at_neutral()
+        self._waiting = True
+        self._remember(timestamp_s, np.full(self._markers, -1))
+        return self._lost(index, timestamp_s, detections, dropped_before)
+
+    def _weighed(
+        self, index: int, timestamp_s: float, detections: Detections, dropped_before: int
+    ) -> TrackedFrame | None:
+        """The row of a frame; None where the hand is lost."""
+        dt_s = 0.0 if self._time_s is None or self._waiting else timestamp_s - self._time_s
+        if dt_s > self.settings.lost_after_s:
+            return None
+        pixel = self._camera.undistort(detections.pixel)
+        try:
+            ahead = predict(self._state, self._motion.noise_covariance, self._motion.over(dt_s), self.settings.spread)
+            seen = seen_from(ahead, self._outputs(ahead.points))
+            taken, shown = self._named(pixel, seen), self._innovations(seen)
+            corrected = self._corrected(ahead, seen, pixel, taken)
+        except np.linalg.LinAlgError:
+            return None
+        if not _is_sane(corrected):
+            return None
+        palm_seen = int(np.count_nonzero(taken[self._palm] >= 0))
+        if self._waiting and palm_seen < self._palm.size:
+            return None
+        if palm_seen >= LEAST_PALM_MARKERS or self._time_s is None:
+            self._seen_s = timestamp_s
+        if timestamp_s - self._seen_s > self.settings.lost_after_s:
+            return None
+        self._waiting, self._time_s, self._state = False, timestamp_s, corrected.state
+        self._remember(timestamp_s, taken)
+        status = TrackStatus.TRACKED if palm_seen >= LEAST_PALM_MARKERS else TrackStatus.PREDICTED
+        return self._shown(index, timestamp_s, status, corrected, *shown, taken, detections, dropped_before)
+
+    def _outputs(self, points: FloatArray) -> FloatArray:
+        """(2): pixels (P, 2 M) of all markers for states (P, n)."""
+        return self._camera.project(self._discs_cam_m(points)).reshape(len(points), -1)
+
+    def _discs_cam_m(self, points: FloatArray) -> FloatArray:
+        """Markers (P, M, 3) in camera axes for states (P, n): g_w0c g(t) T_mi,w(Theta)."""
+        discs_w0 = self._hand.discs_m(points[:, JOINTS]) @ np.swapaxes(rotation_of(points[:, EULER]), -1, -2)
+        out = (discs_w0 + points[:, None, POSITION]) @ self._rotation.T + self._translation
+        out[..., 2] = np.maximum(out[..., 2], _NEAREST_M)
+        return out
+
+    def _innovations(self, seen: Seen) -> tuple[FloatArray, FloatArray]:
+        """(10) and (11) of every marker: (M, 2) and (M, 2, 2)."""
+        marker = np.arange(self._markers)
+        own = seen.covariance.reshape(self._markers, 2, self._markers, 2)[marker, :, marker, :]
+        return seen.mean.reshape(-1, 2), own + self.settings.pixel_sd_px**2 * np.eye(2)
+
+    def _named(self, pixel: FloatArray, seen: Seen) -> NDArray[np.int64]:
+        resolution_px2 = float(self._camera.width_px * self._camera.height_px)
+        return blobs_of_markers(
+            log_posteriors(pixel, *self._innovations(seen), self.settings.clutter_prior, resolution_px2)
+        )
+
+    def _corrected(self, ahead: Predicted, seen: Seen, pixel: FloatArray, taken: NDArray[np.int64]) -> Corrected:
+        """The correction by the visible markers V(t) and the blobs associated with them."""
+        used = np.flatnonzero(taken >= 0)
+        rows = (2 * used[:, None] + np.arange(2)).ravel()
+        part = Seen(seen.mean[rows], seen.covariance[np.ix_(rows, rows)], seen.with_state[:, rows])
+        return correct(ahead, part, pixel[taken[used]].ravel(), np.full(rows.size, self.settings.pixel_sd_px**2))
+
+    def _shown(
+        self,
+        index: int,
+        timestamp_s: float,
+        status: TrackStatus,
+        corrected: Corrected,
+        predicted_px: FloatArray,
+        predicted_cov_px2: FloatArray,
+        taken: NDArray[np.int64],
+        detections: Detections,
+        dropped_before: int,
+    ) -> TrackedFrame:
+        mean, covariance = corrected.state.mean, corrected.state.covariance
+        rotation = rotation_of(mean[EULER])
+        shown = self._start @ rotation
+        angles, by_turn, zyz = clinical_angles.read_one(shown, self._side)
+        by_euler = by_turn @ body_turn_by_euler(mean[EULER])
+        variance = np.vecdot(by_euler @ covariance[EULER, EULER], by_euler)
+        joints_rad = mean[JOINTS]
+        unknown = np.full(joints_rad.size, np.nan)
+        places = self._hand.discs_m(mean[None, JOINTS])[0] @ rotation.T + mean[POSITION]
+        used = np.flatnonzero(taken >= 0)
+        measured_px, measured_depth_m = np.full((self._markers, 2), np.nan), np.full(self._markers, np.nan)
+        measured_px[used], measured_depth_m[used] = detections.pixel[taken[used]], detections.depth_m[taken[used]]
+        return TrackedFrame(
+            index=index,
+            timestamp_s=timestamp_s,
+            status=status,
+            position_m=mean[POSITION],
+            velocity_m_s=mean[VELOCITY],
+            w0_turn_rad=so3.log(self._start.T),
+            rotation_w2_w0=shown,
+            angular_velocity_rad_s=np.full(3, np.nan),  # white in (1): there is none to report
+            angles_rad=angles,
+            angles_sd_rad=np.sqrt(variance),
+            angles_zyz_rad=zyz,
+            joint_angles_rad=joints_rad,
+            joint_angles_sd_rad=np.sqrt(covariance.diagonal()[JOINTS]),
+            joint_velocity_rad_s=unknown,
+            joint_position_m=places if joints_rad.size else np.empty((0, 3)),
+            marker_position_cam_m=self._discs_cam_m(mean[None])[0],
+            marker_predicted_px=self._camera.distort(predicted_px),
+            marker_predicted_cov_px2=predicted_cov_px2,
+            marker_measured_px=measured_px,
+            marker_measured_depth_m=measured_depth_m,
+            detections=detections,
+            dropped_before=dropped_before,
+            measured_share=self._share(),
+            nis=corrected.nis,
+            nis_dof=2 * used.size,
+        )
+
+    def _lost(self, index: int, timestamp_s: float, detections: Detections, dropped_before: int) -> TrackedFrame:
+        """A row of which nothing is known but the blobs."""
+        none = replace(
+            self._shown(
+                index,
+                timestamp_s,
+                TrackStatus.LOST,
+                Corrected(self._state, float("nan")),
+                np.zeros((self._markers, 2)),
+                np.zeros((self._markers, 2, 2)),
+                np.full(self._markers, -1),
+                detections,
+                dropped_before,
+            ),
+        )
+        return replace(none, **{name: np.full_like(getattr(none, name), np.nan) for name in _OF_THE_HAND})
+
+    def _remember(self, timestamp_s: float, taken: NDArray[np.int64]) -> None:
+        self._recent.append((timestamp_s, taken))
+        while self._recent[0][0] < timestamp_s - _SHARE_WINDOW_S:
+            self._recent.popleft()
+
+    def _share(self) -> FloatArray:
+        """Share (3,) of the palm's markers, or (J,) of the frames with both discs at a joint, over the last second."""
+        seen = np.array([taken for _, taken in self._recent]) >= 0
+        if self._hand.anatomy is None:
+            return np.full(3, seen[:, self._palm].mean())
+        return np.asarray((seen[:, _AT_JOINT] & seen[:, _AT_JOINT + 1]).mean(axis=0))
+
+
+_AT_JOINT = np.array([HAND21.markers.index(name.split("_")[0]) for name in joint_angle_names()])
+_OF_THE_HAND = (
+    "position_m",
+    "velocity_m_s",
+    "w0_turn_rad",
+    "rotation_w2_w0",
+    "angles_rad",
+    "angles_sd_rad",
+    "angles_zyz_rad",
+    "joint_angles_rad",
+    "joint_angles_sd_rad",
+    "joint_position_m",
+    "marker_position_cam_m",
+    "marker_predicted_px",
+    "marker_predicted_cov_px2",
+)
+
+
+def _is_sane(corrected: Corrected) -> bool:
+    state = corrected.state
+    variance = state.covariance.diagonal()
+    return bool(
+        np.isfinite(state.mean).all()
+        and np.isfinite(variance).all()
+        and (variance > 0.0).all()
+        and np.abs(state.mean[EULER.start :]).max() < _LARGEST_ANGLE_RAD
+    )

@@ -1,0 +1,125 @@
+"""Pictures stored compactly: the hand and its surroundings as they are, the room about it black and without depth."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import Protocol
+
+import numpy as np
+
+from carpus.core.camera import Camera
+from carpus.core.hand.protocols import MarkerProtocol
+from carpus.core.types import Frame, TrackedFrame, TrackStatus
+
+REACH = {False: 1.5, True: 0.6}
+"""How far the area reaches beyond the box of the discs, in its larger side: of the palm's alone to the finger tips and
+past them, of the whole hand's a hand's breadth."""
+LEAST_REACH_PX = 48.0
+BYTES_PER_PICTURE = 60_000
+"""Colour and depth of the area together, by experience with the simulated camera; a whole picture takes 170 000."""
+MB_PER_MINUTE = round(60 * 30 * BYTES_PER_PICTURE / 1e6, -1)
+
+
+@dataclass(frozen=True, slots=True)
+class Area:
+    """Rectangle of the picture, pixels; ``right`` and ``bottom`` are just outside."""
+
+    left: int
+    top: int
+    right: int
+    bottom: int
+
+
+class PictureSink(Protocol):
+    """A raw recording in the making."""
+
+    @property
+    def path(self) -> Path: ...
+
+    def append_frame(self, frame: Frame) -> None: ...
+
+    def go_on_elsewhere(self, frame: Frame | None) -> PictureSink: ...
+
+    def close(self) -> None: ...
+
+    def abandon(self) -> None: ...
+
+    def discard(self) -> None: ...
+
+
+class HandArea:
+    """Where the hand was last seen; told in the tracking thread, asked in the storing one."""
+
+    def __init__(self, camera: Camera, protocol: MarkerProtocol) -> None:
+        self._camera, self._protocol = camera, protocol
+        self.area: Area | None = None
+        """None while the hand is lost: then whole pictures are kept."""
+
+    def take(self, tracked: TrackedFrame) -> None:
+        """The hand of a frame."""
+        self.area = area_of(tracked, self._camera, self._protocol)
+
+
+def area_of(tracked: TrackedFrame, camera: Camera, protocol: MarkerProtocol) -> Area | None:
+    """The hand and its surroundings in the picture of a frame; None where the hand is not known."""
+    places = tracked.marker_position_cam_m
+    known = places[np.isfinite(places).all(axis=1)]
+    if tracked.status is TrackStatus.LOST or len(known) < len(protocol.palm) or (known[:, 2] < 0.1).any():
+        return None
+    pixel = camera.distort(camera.project(known))
+    seen = tracked.marker_measured_px[np.isfinite(tracked.marker_measured_px).all(axis=1)]
+    pixel = np.concatenate((pixel, seen))
+    low, high = pixel.min(axis=0), pixel.max(axis=0)
+    reach = max(REACH[protocol.has_fingers] * float((high - low).max()), LEAST_REACH_PX)
+    left, top = np.clip(low - reach, 0.0, [camera.width_px, camera.height_px]).astype(int).tolist()
+    right, bottom = np.clip(np.ceil(high + reach), 0.0, [camera.width_px, camera.height_px]).astype(int).tolist()
+    return Area(left, top, right, bottom) if right - left > 1 and bottom - top > 1 else None
+
+
+def only(frame: Frame, area: Area | None) -> Frame:
+    """The frame with nothing outside the area; colours black and depth 0 there."""
+    if area is None:
+        return frame
+    part = np.s_[area.top : area.bottom, area.left : area.right]
+    color = np.zeros_like(frame.color_rgb)
+    color[part] = frame.color_rgb[part]
+    depth = None
+    if frame.depth_raw is not None:
+        depth = np.zeros_like(frame.depth_raw)
+        depth[part] = frame.depth_raw[part]
+    return replace(frame, color_rgb=color, depth_raw=depth)
+
+
+class AroundHand:
+    """Hands pictures on to a raw recording, each with the hand's surroundings alone."""
+
+    def __init__(self, sink: PictureSink, area: Callable[[], Area | None]) -> None:
+        self._sink, self._area = sink, area
+
+    @property
+    def path(self) -> Path:
+        """Where the finished file will be."""
+        return self._sink.path
+
+    def append_frame(self, frame: Frame) -> None:
+        """One picture."""
+        self._sink.append_frame(only(frame, self._area()))
+
+    def go_on_elsewhere(self, frame: Frame | None) -> AroundHand:
+        """As :meth:`RawWriter.go_on_elsewhere`."""
+        area = self._area()
+        return AroundHand(self._sink.go_on_elsewhere(None if frame is None else only(frame, area)), self._area)
+
+    def close(self) -> None:
+        """The recording is whole."""
+        self._sink.close()
+
+    def abandon(self) -> None:
+        """Stop after a fault."""
+        self._sink.abandon()
+
+    def discard(self) -> None:
+        """Nobody wants it."""
+        self._sink.discard()

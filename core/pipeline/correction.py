@@ -1,0 +1,253 @@
+"""A session tracked again after a person has put markers right, from the blobs that it stored.
+
+What a person says of one picture holds from that picture on: a spot that is no disc is followed and left out, a disc
+that was not found is added, and where a disc of the palm had the wrong place the hand is looked for anew among the
+named ones. What comes before the first correction is tracked as it was. The old file is never changed.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+import numpy as np
+
+from carpus.core.calibration.calibrate import StillNoise
+from carpus.core.errors import NotCorrectable, OutputExists
+from carpus.core.pipeline.told_settings import settings_told
+from carpus.core.pipeline.track import Progress, TrackSettings, from_neutral, learnt_from, learnt_in, parameters_json
+from carpus.core.session.corrected import CORRECTED, said_of
+from carpus.core.session.marker_places import SAME_SPOT_PX, Correction
+from carpus.core.session.reader import read_detections, read_session
+from carpus.core.session.values import DetectionTable, Session, motion_of, new_header
+from carpus.core.session.writer import SessionWriter
+from carpus.core.tracking.tracker import Tracker
+from carpus.core.types import SIMULATED, BoolArray, Detections, FloatArray, Moment, TrackedFrame
+
+STEP_PX, GONE_AFTER_S = 7.0, 0.5
+"""A spot that is no disc is followed from picture to picture no further than this, until it is gone for so long."""
+HELD_WITHIN_S = 0.5
+
+
+@dataclass(frozen=True, slots=True)
+class Task:
+    """A session with its blobs, where the new one goes, and what was put right; ``by`` the initials of who did."""
+
+    session: Session
+    table: DetectionTable
+    output: Path
+    corrections: tuple[Correction, ...]
+    software_version: str
+    by: str = ""
+
+
+def task_of(origin: Path, output: Path, corrections: Sequence[Correction], software_version: str, by: str = "") -> Task:
+    """Read what is needed. Raises :class:`NotCorrectable` for a session without stored blobs, or tracked by the papers'
+    own filter."""
+    session, table = read_session(origin), read_detections(origin)
+    if not len(table.frame):
+        raise NotCorrectable(origin, "it stored no blue spots")
+    if _settings(session).paper is not None:
+        raise NotCorrectable(origin, "it was tracked by the papers' own filter")
+    return Task(session, table, output, tuple(corrections), software_version, by)
+
+
+def correct(task: Task, progress: Progress | None = None) -> None:
+    """Track again and store. When it cannot be done nothing half-done is left behind."""
+    if task.output.exists():
+        raise OutputExists(task.output)
+    session, settings = task.session, _settings(task.session)
+    ordered = sorted(task.corrections, key=lambda one: one.row)
+    retracking = _Retracking(session, task.table, settings, ordered)
+    writer = _writer(session, task.output, settings, task.software_version)
+    try:
+        for done, frame in enumerate(retracking.frames(), 1):
+            writer.append(frame)
+            if progress is not None:
+                progress(done, len(session))
+        for event in session.events:
+            writer.add_event(event.time_s, event.kind, event.text)
+        for correction in ordered:
+            writer.add_event(float(session.timestamp_s[correction.row]), CORRECTED, said_of(correction, task.by))
+        if settings.smooth:
+            writer.write_smoothed(motion_of(retracking.looked_back()))
+        writer.close()
+    except BaseException:
+        writer.discard()  # the session it was made from is still there
+        raise
+
+
+def _settings(session: Session) -> TrackSettings:
+    told = settings_told(session.header.parameters)
+    return told.settings if told is not None else TrackSettings()
+
+
+def not_held(session: Session, corrections: Sequence[Correction]) -> tuple[str, ...]:
+    """Markers that the new result does not have where the person put them, nor soon after."""
+    markers = list(session.header.protocol.markers)
+    out = []
+    for correction in corrections:
+        begin = correction.row
+        end = int(np.searchsorted(session.timestamp_s, session.timestamp_s[begin] + HELD_WITHIN_S)) + 1
+        for name, place in correction.places.items():
+            at = session.markers.measured_px[begin:end, markers.index(name)]
+            if place is None:
+                held = not np.isfinite(at[0]).all()
+            else:
+                known = np.isfinite(at).all(axis=1)
+                reach = SAME_SPOT_PX + STEP_PX * np.arange(len(at))
+                held = bool((np.linalg.norm(at - np.array(place), axis=1)[known] <= reach[known]).any())
+            if not held:
+                out.append(name)
+    return tuple(dict.fromkeys(out))
+
+
+def _writer(session: Session, output: Path, settings: TrackSettings, version: str) -> SessionWriter:
+    old = session.header
+    learnt = learnt_in(old.parameters) or learnt_from(StillNoise(), -np.inf, settings.tracker)
+    source = {"session": old.session_id, "from": "detections", "corrected": "yes"}
+    source |= {SIMULATED: "yes"} if old.simulated else {}
+    header = new_header(
+        hand=old.hand,
+        protocol=old.protocol,
+        software_version=version,
+        subject_id=old.subject_id,
+        exercise=old.exercise,
+        parameters=parameters_json(settings, source, learnt, old.set_up),
+        origin=old.session_id,
+        dip_free=settings.tracker.dip == "free",
+        recorded=old.recorded,
+        recording_id=old.recording_id,
+    )
+    return SessionWriter.create(output, header, session.camera, session.calibration)
+
+
+class _Retracking:
+    """The walk through the stored blobs, with the corrections on its way."""
+
+    def __init__(
+        self, session: Session, table: DetectionTable, settings: TrackSettings, corrections: Sequence[Correction]
+    ) -> None:
+        self._session, self._table, self._settings = session, table, settings
+        self._learnt = learnt_in(session.header.parameters) or learnt_from(StillNoise(), -np.inf, settings.tracker)
+        self._by_row = {correction.row: correction for correction in corrections}
+        self._moments: list[Moment] = []
+        self._tracker = self._new_tracker()
+        self._false: list[_FalseSpot] = []
+
+    def _new_tracker(self) -> Tracker:
+        session, settings = self._session, self._settings
+        own = self._learnt.applied(settings.tracker)
+        return Tracker(session.calibration, session.camera, own, keep_history=settings.smooth)
+
+    def frames(self) -> Iterator[TrackedFrame]:
+        """Every frame anew."""
+        session = self._session
+        times_s = session.timestamp_s
+        rows = from_neutral(range(len(session)), self._tracker, self._learnt.neutral_ends_s, lambda row: times_s[row])
+        for row in rows:
+            time_s = float(times_s[row])
+            blobs = self._table.of_frame(row)
+            correction = self._by_row.get(row)
+            if correction is not None:
+                blobs = self._put_right(correction, blobs, time_s)
+            for false in self._false:
+                blobs = false.left_out_of(blobs, time_s)
+            self._false = [false for false in self._false if not false.is_gone]
+            dropped = max(int(session.quality.dropped_before[row]), 0)
+            yield self._tracker.step(row, time_s, blobs, dropped)
+
+    def looked_back(self) -> list[Moment]:
+        """All moments, looked back at."""
+        self._take_moments()
+        return self._moments
+
+    def _take_moments(self) -> None:
+        if self._settings.smooth:
+            self._moments += self._tracker.smoothed()
+
+    def _put_right(self, correction: Correction, blobs: Detections, time_s: float) -> Detections:
+        """The blobs of the corrected picture: the named ones, and what else may be a disc."""
+        session = self._session
+        markers = session.header.protocol.markers
+        before = session.markers.measured_px[correction.row]
+        now = {
+            name: tuple(before[number]) for number, name in enumerate(markers) if np.isfinite(before[number]).all()
+        } | dict(correction.places)
+        named = np.array([place for place in now.values() if place is not None]).reshape(-1, 2)
+        for name in correction.places:
+            old = before[markers.index(name)]
+            if np.isfinite(old).all() and not _near(named, old):
+                self._false.append(_FalseSpot(old, time_s))
+        blobs = with_places(blobs, named)
+        palm = [markers[number] for number in session.header.protocol.palm]
+        if any(name in palm for name in correction.places):
+            self._look_anew(time_s)
+            fingers = session.header.protocol.has_fingers
+            if not fingers:
+                blobs = blobs.only(_nearest(blobs, named))
+        return blobs
+
+    def _look_anew(self, time_s: float) -> None:
+        """From here on the hand is looked for: what was believed of it came of a wrong name."""
+        self._take_moments()
+        self._tracker = tracker = self._new_tracker()
+        unseen_s = self._settings.tracker.lost_after_s + 1.0
+        for back_s in (2.0 * unseen_s, 0.5 * unseen_s):
+            tracker.step(-1, time_s - back_s, Detections.none())
+        tracker.forget()  # two empty pictures that nobody took
+
+
+class _FalseSpot:
+    """A spot that is no disc, followed from where a person said so."""
+
+    def __init__(self, pixel: FloatArray, time_s: float) -> None:
+        self._pixel, self._seen_s = np.asarray(pixel, dtype=float), time_s
+        self.is_gone = False
+
+    def left_out_of(self, blobs: Detections, time_s: float) -> Detections:
+        """The blobs without it."""
+        self.is_gone = time_s - self._seen_s > GONE_AFTER_S
+        if not len(blobs) or self.is_gone:
+            return blobs
+        distance = np.linalg.norm(blobs.pixel - self._pixel, axis=1)
+        nearest = int(distance.argmin())
+        if distance[nearest] > STEP_PX:
+            return blobs
+        self._pixel, self._seen_s = blobs.pixel[nearest], time_s
+        kept: BoolArray = np.ones(len(blobs), dtype=np.bool_)
+        kept[nearest] = False
+        return blobs.only(kept)
+
+
+def with_places(blobs: Detections, places: FloatArray) -> Detections:
+    """The blobs, and one more for each place (P, 2) that none of them is at: its depth is unknown."""
+    missing = np.array([place for place in places if not _near(blobs.pixel, place)]).reshape(-1, 2)
+    if not len(missing):
+        return blobs
+    count = len(missing)
+    unknown = np.full(count, math.nan)
+    area = float(np.median(blobs.area_px)) if len(blobs) else math.nan
+    return replace(
+        blobs,
+        pixel=np.concatenate((blobs.pixel, missing)),
+        depth_m=np.concatenate((blobs.depth_m, unknown)),
+        depth_sd_m=np.concatenate((blobs.depth_sd_m, unknown)),
+        area_px=np.concatenate((blobs.area_px, np.full(count, area))),
+        similarity=np.concatenate((blobs.similarity, np.ones(count))),
+    )
+
+
+def _near(pixels: FloatArray, place: FloatArray) -> bool:
+    return bool(len(pixels)) and float(np.linalg.norm(pixels - place, axis=1).min()) <= SAME_SPOT_PX
+
+
+def _nearest(blobs: Detections, places: FloatArray) -> BoolArray:
+    """Which blobs (D,) are at one of the places (P, 2)."""
+    if not len(blobs) or not len(places):
+        return np.zeros(len(blobs), dtype=np.bool_)
+    between = np.linalg.norm(blobs.pixel[:, None] - places[None], axis=-1)
+    kept: BoolArray = between.min(axis=1) <= SAME_SPOT_PX
+    return kept

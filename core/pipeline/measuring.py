@@ -1,0 +1,354 @@
+"""An open source with a patient before it: tracking begun from a calibration, recorded, smoothed and stored."""
+
+from __future__ import annotations
+
+import logging
+import shutil
+import uuid
+from collections.abc import Callable, Sequence
+from contextlib import suppress
+from dataclasses import replace
+from datetime import datetime
+from pathlib import Path
+from typing import Protocol
+
+import cv2
+import numpy as np
+
+from carpus.core.calibration.calibrate import CalibrationOutcome
+from carpus.core.calibration.result import Calibration
+from carpus.core.camera import Camera
+from carpus.core.capture.identity import recorded_at, recording_id
+from carpus.core.capture.raw import SUFFIX as RAW_SUFFIX
+from carpus.core.capture.raw import RawWriter
+from carpus.core.capture.source import SourceInfo, is_simulated
+from carpus.core.dates import iso
+from carpus.core.errors import DiskFull, EndStalled, ExtraMissing, NotLookedBack, RecordingEmpty
+from carpus.core.library.beside import MARKERS_SUFFIX
+from carpus.core.library.set_up import SetUp
+from carpus.core.pipeline.around_hand import AroundHand, HandArea
+from carpus.core.pipeline.frame_walk import FrameWalk
+from carpus.core.pipeline.live import Listener, LiveSession
+from carpus.core.pipeline.looking_back import LookingBack
+from carpus.core.pipeline.pieces import TrackedHand
+from carpus.core.pipeline.track import Learnt, TrackSettings, build_walk, learnt_from, parameters_json, source_facts
+from carpus.core.session.values import new_header
+from carpus.core.session.writer import Fallback, SessionWriter
+from carpus.core.tracking.tracker import KeptSteps, Tracker
+from carpus.core.types import ByteImage, FloatArray, Frame, TrackedFrame
+from carpus.core.words import one_sentence
+
+log = logging.getLogger(__name__)
+
+_AROUND_HAND = 0.6
+"""The picture of the markers reaches this share of their box beyond it."""
+LEAST_FREE_BYTES = 100_000_000
+"""A recording does not begin with less: ten minutes of rows, or ten seconds of pictures."""
+NOT_LOOKED_BACK = "not_looked_back"
+"""The event of a session that is stored as tracked, though looking back was asked for."""
+
+
+class SessionPlaces(Protocol):
+    """Where sessions go, and who hears of a finished one."""
+
+    def new_path(self, set_up: SetUp) -> Path: ...
+
+    def entered(self, set_up: SetUp, path: Path) -> str:
+        """Take a finished file into the register; the session's identity."""
+        ...
+
+    def last_hand_length_mm(self, set_up: SetUp, *, simulated: bool) -> float:
+        """Length of this hand of the patient as the last session of the kind (``simulated`` or real) measured it; NaN
+        before the first."""
+        ...
+
+    def fallback_folder(self) -> Path:
+        """Where a recording goes on when the data folder goes away."""
+        ...
+
+    def last_straight_fingers(self, set_up: SetUp) -> tuple[bool, ...]:
+        """What the last session with these discs said of the hand's fingers."""
+        ...
+
+    def cut_short(self) -> None:
+        """Finish what a fault left behind, as far as possible."""
+        ...
+
+
+class LiveWalk:
+    """One frame's walk in the live session, begun at the neutral pose. Hands on what looking back needs, if wanted."""
+
+    def __init__(self, walk: FrameWalk[Tracker], neutral_ends_s: float) -> None:
+        self._walk = walk
+        self._neutral_ends_s = neutral_ends_s
+        self._begun = False
+        self.keep: Callable[[KeptSteps], None] | None = None
+        """Called in the tracking thread with the step of every frame; must not wait."""
+        self.seen: Callable[[TrackedFrame], None] | None = None
+        """Called in the tracking thread with every frame; must not wait."""
+
+    def __call__(self, frame: Frame) -> TrackedFrame:
+        """Track one frame; in the tracking thread."""
+        tracker = self._walk.tracker
+        if not self._begun and frame.timestamp_s > self._neutral_ends_s:
+            # The still frames made the calibration; counted twice they would make it too sure of itself.
+            tracker.begin_at_neutral()
+            self._begun = True
+        tracked = self._walk(frame)
+        if self.seen is not None:
+            self.seen(tracked)
+        kept, keep = tracker.hand_over(), self.keep
+        if keep is not None:
+            keep(kept)
+        return tracked
+
+
+class SmoothedSession:
+    """A session file, looked back at while it grows; without that, or where that fails, stored as tracked."""
+
+    def __init__(self, writer: SessionWriter, looking_back: LookingBack | None) -> None:
+        self._writer, self._looking_back = writer, looking_back
+        self._times_s: list[float] = []
+        self._early: list[tuple[str, str]] = []
+
+    @property
+    def path(self) -> Path:
+        """Where the finished file will be."""
+        return self._writer.path
+
+    def append(self, tracked: TrackedFrame) -> None:
+        """One row."""
+        self._times_s.append(tracked.timestamp_s)
+        self._writer.append(tracked)
+        for kind, text in self._early:
+            self._writer.add_event(tracked.timestamp_s, kind, text)
+        self._early.clear()
+
+    def add_event(self, time_s: float, kind: str, text: str) -> None:
+        """One event; before the first picture there is no time to put it at, so it waits for the first row."""
+        if np.isfinite(time_s):
+            self._writer.add_event(time_s, kind, text)
+        else:
+            self._early.append((kind, text))
+
+    def close(self) -> None:
+        """Wait a little for the looking back and finish; a session without a single frame is none."""
+        if not self._times_s:
+            self.discard()
+            raise RecordingEmpty(self.path.name)
+        self._writer.flush()
+        if self._looking_back is not None:
+            try:
+                self._writer.write_smoothed(self._looking_back.finish(self._times_s[-len(self._writer) :]))
+            except NotLookedBack as fault:
+                log.warning("%s", one_sentence(NotLookedBack(self.path, fault.detail)))
+                self._writer.add_event(self._times_s[-1], NOT_LOOKED_BACK, fault.detail)
+        self._writer.close()
+
+    def go_on_elsewhere(self) -> SmoothedSession:
+        """As :meth:`SessionWriter.go_on_elsewhere`; looked back at by the same process, all of the recording."""
+        new = SmoothedSession(self._writer.go_on_elsewhere(), self._looking_back)
+        new._times_s, new._early, self._looking_back = list(self._times_s), list(self._early), None
+        return new
+
+    def abandon(self) -> None:
+        """Stop after a fault; what is on the disk stays."""
+        self._end_looking_back()
+        self._writer.abandon()
+
+    def discard(self) -> None:
+        """Remove the file again."""
+        self._end_looking_back()
+        self._writer.discard()
+
+    def _end_looking_back(self) -> None:
+        if self._looking_back is not None:
+            self._looking_back.cancel()
+
+
+class SourceMeasuring:
+    """A running source: from the chosen calibration to stored sessions, as many as wanted.
+
+    ``recording`` is the stored one that is played, None of a camera: it plays from its first picture when recording
+    starts, so that none is missed; a camera has been running since it was opened. ``on_begin`` is called when
+    tracking begins,
+    ``on_recording`` when a recording has begun. ``listener`` is asked who else hears what is tracked.
+    """
+
+    def __init__(
+        self,
+        session: LiveSession,
+        info: SourceInfo,
+        set_up: SetUp,
+        settings: TrackSettings,
+        places: SessionPlaces,
+        *,
+        software_version: str,
+        recording: Path | None = None,
+        on_begin: Callable[[], None] = lambda: None,
+        on_recording: Callable[[], None] = lambda: None,
+        listener: Callable[[Calibration], Listener | None] = lambda _: None,
+    ) -> None:
+        self._listener = listener
+        self._session, self._info, self._set_up, self._settings = session, info, set_up, settings
+        self._software_version = software_version
+        self._places, self._recording, self._starts_with_recording = places, recording, recording is not None
+        self._on_begin, self._on_recording = on_begin, on_recording
+        self._played = False
+        self._identity: tuple[str, str] | None = None
+        self._walk: LiveWalk | None = None
+        self._learnt: Learnt | None = None
+        self._calibration: Calibration | None = None
+        self._markers_rgb: ByteImage | None = None
+
+    @property
+    def feed(self) -> LiveSession:
+        """What the screen pulls."""
+        return self._session
+
+    @property
+    def camera(self) -> Camera:
+        """Intrinsics of the pictures."""
+        return self._info.camera
+
+    @property
+    def calibration(self) -> Calibration | None:
+        """The calibration tracked from, None before."""
+        return self._calibration
+
+    @property
+    def starts_with_recording(self) -> bool:
+        """Whether the source is a stored recording, which is recorded from its first picture to its last."""
+        return self._starts_with_recording
+
+    @property
+    def is_simulated(self) -> bool:
+        """Whether the pictures are of a simulated hand."""
+        return is_simulated(self._info)
+
+    def begin(self, outcome: CalibrationOutcome, held: Sequence[Frame]) -> None:
+        """Track from a calibration; ``held`` are the pictures it was made from, the clicked one first."""
+        if self._recording is not None:
+            recorded = recorded_at(self._info, held[0].timestamp_s, self._recording)
+            self._identity = recorded.when if recorded else "", recording_id(self._info, held[0])
+        used = held[: max(outcome.capture_frames, 1)]
+        neutral_ends_s = max(frame.timestamp_s for frame in used)
+        self._learnt = learnt_from(outcome.noise, neutral_ends_s, self._settings.tracker)
+        walk = build_walk(outcome, self.camera, self._settings, self._learnt, keep_history=self._settings.smooth)
+        self._walk = LiveWalk(walk, neutral_ends_s)
+        self._calibration = outcome.calibration
+        self._markers_rgb = _around_hand(held[0].color_rgb, outcome.pixel)
+        try:
+            self._session.listen(self._listener(self._calibration) if self._calibration is not None else None)
+        except ExtraMissing as fault:
+            self._session.notice(fault)
+        self._session.begin_tracking(self._walk)
+        self._on_begin()
+
+    def start_recording(self) -> None:
+        """Open the session file, and a raw recording beside it if wanted; waits for the disk."""
+        calibration, walk, learnt = self._calibration, self._walk, self._learnt
+        assert calibration is not None
+        assert walk is not None
+        assert learnt is not None
+        path = self._places.new_path(self._set_up)
+        free = shutil.disk_usage(path.parent).free
+        if free < LEAST_FREE_BYTES:
+            raise DiskFull(path.parent, f"{free / 1e6:.0f} MB free, {LEAST_FREE_BYTES / 1e6:.0f} MB are needed")
+        now = datetime.now().astimezone()
+        recorded, identity = self._identity or (iso(now), str(uuid.uuid4()))
+        header = new_header(
+            hand=calibration.clicks.side,
+            protocol=calibration.clicks.protocol,
+            software_version=self._software_version,
+            subject_id=self._set_up.pseudonym,
+            exercise=self._set_up.exercise.id,
+            parameters=self._parameters(learnt),
+            dip_free=self._settings.tracker.dip == "free",
+            now=now,
+            recorded=recorded,
+            recording_id=identity,
+        )
+        said = replace(self._info, recorded=recorded, recording_id=identity)
+        looking_back = None
+        if self._settings.smooth:
+            looking_back = LookingBack(
+                TrackedHand(calibration, self.camera, learnt.applied(self._settings.tracker)),
+            )
+            walk.keep = looking_back.take
+        fallback = Fallback(self._places.fallback_folder, self._session.notice)
+        try:
+            self._session.start_recording(
+                lambda: SmoothedSession(
+                    SessionWriter.create(path, header, self.camera, calibration, fallback=fallback), looking_back
+                ),
+                self._open_pictures(path.with_suffix(RAW_SUFFIX), said) if self._set_up.keep_pictures else None,
+            )
+        except BaseException:
+            walk.keep = None
+            if looking_back is not None:
+                looking_back.cancel()
+            raise
+        if self._starts_with_recording and not self._played:
+            self._played = True
+            self._session.start()
+        self._on_recording()
+
+    def _open_pictures(self, path: Path, said: SourceInfo) -> Callable[[], AroundHand]:
+        """A raw recording of the hand and its surroundings, beside the session."""
+        assert self._walk is not None
+        hand = HandArea(self.camera, self._set_up.protocol)
+        self._walk.seen = hand.take
+        fallback = self._places.fallback_folder
+        return lambda: AroundHand(RawWriter(path, said, fallback=fallback), lambda: hand.area)
+
+    def _parameters(self, learnt: Learnt) -> str:
+        """All settings as JSON, with what the exercise aimed at."""
+        aims = (self._set_up.target_positive_deg, self._set_up.target_negative_deg)
+        set_up = {
+            "repetitions": self._set_up.repetitions,
+            "targets_deg": [aim if np.isfinite(aim) else None for aim in aims],
+        }
+        return parameters_json(self._settings, source_facts(self._info), learnt, set_up)
+
+    def stop_recording(self) -> str:
+        """Store everything; the session's identity. A fault is raised once what reached the disk is finished."""
+        try:
+            path = self._session.stop_recording()
+        except (RecordingEmpty, EndStalled):  # of the one there is nothing, the other cannot be reached now
+            raise
+        except Exception:
+            self._places.cut_short()
+            raise
+        finally:
+            if self._walk is not None:
+                self._walk.keep = self._walk.seen = None
+        if self._markers_rgb is not None:
+            _keep_picture(path.with_suffix(MARKERS_SUFFIX), self._markers_rgb)
+        return self._places.entered(self._set_up, path)
+
+    def close(self) -> None:
+        """End the source; a running recording is finished."""
+        self._session.stop()
+        self._session.listen(None)
+
+
+def _around_hand(color_rgb: ByteImage, pixel: FloatArray) -> ByteImage | None:
+    """The picture about the markers, for the patient's card: the hand and nothing of the room."""
+    known = pixel[np.isfinite(pixel).all(axis=1)]
+    if not len(known):
+        return None
+    low, high = known.min(axis=0), known.max(axis=0)
+    margin = _AROUND_HAND * float((high - low).max())
+    left, top = (int(max(0.0, value - margin)) for value in low)
+    right, bottom = (int(value + margin) + 1 for value in high)
+    return np.ascontiguousarray(color_rgb[top:bottom, left:right])
+
+
+def _keep_picture(path: Path, color_rgb: ByteImage) -> None:
+    """A small picture beside the session; without it nothing is lost, so nothing is told."""
+    done, data = cv2.imencode(".jpg", cv2.cvtColor(color_rgb, cv2.COLOR_RGB2BGR))
+    if done:
+        with suppress(OSError):
+            path.touch(mode=0o600)
+            path.write_bytes(data.tobytes())

@@ -1,0 +1,98 @@
+"""Of what, by what and with what something was made: version, revision, and full hashes."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+from collections.abc import Iterator
+from contextlib import suppress
+from importlib import resources
+from pathlib import Path
+from typing import Any
+
+_BLOCK_BYTES = 1 << 20
+_REVISION_LENGTH = 40
+REVISION_FILE = "revision.txt"
+"""Beside the other resources of an installed program; a checkout knows its revision itself."""
+LISTS = ("rgb.txt", "depth.txt", "camera_info.yaml")
+
+
+def revision() -> str:
+    """The source revision of this program, 40 digits; empty where nobody knows."""
+    root = Path(__file__).resolve().parent.parent
+    with suppress(OSError, ValueError):
+        git = root / ".git"
+        if git.is_file():  # a second checkout of the same repository
+            git = root / git.read_text(encoding="utf-8").split(":", 1)[1].strip()
+        if git.is_dir():
+            return _head(git)
+    with suppress(OSError, ModuleNotFoundError):
+        return resources.files("carpus.resources").joinpath(REVISION_FILE).read_text(encoding="utf-8").strip()
+    return ""
+
+
+def with_revision(software_version: str) -> str:
+    """``0.1.0 (1a2b3c4)``; the version alone where nobody knows the revision."""
+    known = revision()
+    return f"{software_version} ({known[:7]})" if known else software_version
+
+
+def said_in(parameters: str, part: str) -> dict[str, Any]:
+    """A part of a session's parameters, ``provenance`` or ``source``; empty where it says nothing."""
+    try:
+        said = json.loads(parameters)[part]
+    except (KeyError, TypeError, ValueError):
+        return {}
+    return said if isinstance(said, dict) else {}
+
+
+def sha256_of_file(path: Path) -> str:
+    """Of all its bytes. Raises OSError."""
+    digest = hashlib.sha256()
+    with path.open("rb") as file:
+        while block := file.read(_BLOCK_BYTES):
+            digest.update(block)
+    return digest.hexdigest()
+
+
+def sha256_of_settings(settings: Any) -> str:
+    """Of settings as JSON with sorted names and no spaces."""
+    return hashlib.sha256(json.dumps(settings, sort_keys=True, separators=(",", ":")).encode()).hexdigest()
+
+
+def sha256_of_recording(path: Path) -> str:
+    """Of a recording: of its file; of a folder over the names and SHA-256 of its lists and of the pictures in them.
+
+    The line of each file is ``SHA256 NAME`` with a line feed, in the order of the names, as ``sha256sum`` writes it but
+    with one space. What else lies in the folder (clicks, truth) does not count. Raises OSError.
+    """
+    if path.is_file():
+        return sha256_of_file(path)
+    lines = (f"{sha256_of_file(path / name)} {name}\n" for name in sorted(set(_names(path))))
+    return hashlib.sha256("".join(lines).encode()).hexdigest()
+
+
+def _names(folder: Path) -> Iterator[str]:
+    for name in LISTS:
+        if (folder / name).is_file():
+            yield name
+            if name.endswith(".txt"):
+                for line in (folder / name).read_text(encoding="utf-8", errors="replace").splitlines():
+                    words = line.split()
+                    if len(words) > 1 and not line.startswith("#") and (folder / words[1]).is_file():
+                        yield words[1]
+
+
+def _head(git: Path) -> str:
+    head = (git / "HEAD").read_text(encoding="utf-8").strip()
+    if not head.startswith("ref:"):
+        return head if len(head) == _REVISION_LENGTH else ""
+    name = head.split(":", 1)[1].strip()
+    common = git / (git / "commondir").read_text(encoding="utf-8").strip() if (git / "commondir").exists() else git
+    for place in (git, common):
+        if (place / name).is_file():
+            return (place / name).read_text(encoding="utf-8").strip()
+    for line in (common / "packed-refs").read_text(encoding="utf-8").splitlines():
+        if line.endswith(f" {name}"):
+            return line.split()[0]
+    return ""

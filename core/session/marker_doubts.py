@@ -1,0 +1,182 @@
+"""Names that a person put on a stored picture and that are plainly wrong: two exchanged, or one where it cannot be.
+
+The palm is as calibrated and does not bend: its names are judged by laying it on them. A finger's discs lie no further
+from each other than on the straight finger, and fingers seen from above cross less with the right names than with two
+exchanged. What is merely unusual is not spoken of.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Collection
+from dataclasses import dataclass
+from itertools import combinations, pairwise
+
+import numpy as np
+
+from carpus.core.hand.protocols import HAND21_CHAINS
+from carpus.core.session.marker_places import (
+    FEWEST_FOR_PALM,
+    SAME_SPOT_PX,
+    expected_px,
+    laid_on_misfit_m,
+)
+from carpus.core.session.values import Session
+from carpus.core.types import FloatArray
+
+WRONG_MISFIT_M = 0.005
+"""Root mean square beyond which the palm's names are asked about; discs on moving skin stay below it."""
+FAR_M = 0.012
+"""Further than this from where the other discs of the palm expect it no disc of the palm lies."""
+LONGER, MORE_M = 1.4, 0.010
+"""A finger that bends stretches the way from disc to disc over its back by no more than this."""
+
+CROSSING, CLEARLY = 0.15, 0.12
+"""What a crossing counts as against length, and what an exchange of two names must gain to be spoken of."""
+
+STRETCHED = 0.8
+"""Share of its length from which on a finger counts as seen at length."""
+
+
+@dataclass(frozen=True, slots=True)
+class NameDoubt:
+    """``exchanged`` names that stand in for each other, or ``alone`` one that is ``off_m`` from where it can be."""
+
+    exchanged: tuple[str, str] | None = None
+    alone: str = ""
+    off_m: float = math.nan
+
+
+def name_doubt(session: Session, row: int, places: FloatArray, changed: Collection[str]) -> NameDoubt | None:
+    """What is plainly wrong with the names at ``places`` (M, 2) of picture ``row``, of which a person ``changed`` some;
+    None when nothing is. Only what has to do with a changed one is told."""
+    markers = list(session.header.protocol.markers)
+    numbers = {markers.index(name) for name in changed}
+    if not numbers:
+        return None
+    depth_m = _depths_m(session, row, places)
+    pair, alone = _palm_doubt(session, row, places, depth_m, numbers)
+    if pair is None and session.header.protocol.has_fingers:
+        pair = _tangled(session, places, numbers, palm_too=alone is not None)
+        if pair is None and alone is None:
+            alone = _too_far(session, places, depth_m, numbers)
+    if pair is not None:
+        return NameDoubt((markers[pair[0]], markers[pair[1]]))
+    return None if alone is None else NameDoubt(None, markers[alone[0]], alone[1])
+
+
+def _depths_m(session: Session, row: int, places: FloatArray) -> FloatArray:
+    """Depth (M,) at the places: what was measured of the disc that was there, else what is known of the marker."""
+    before = session.markers.measured_px[row]
+    measured = session.markers.measured_depth_m[row]
+    model = session.markers.position_cam_m[row, :, 2]
+    own = np.where(np.isfinite(measured), measured, model)
+    known = own[np.isfinite(own)]
+    out = np.where(np.isfinite(own), own, float(np.median(known)) if len(known) else math.nan)
+    for number, place in enumerate(places):
+        away = np.linalg.norm(before - place, axis=1)
+        if np.isfinite(away).any() and np.nanmin(away) <= SAME_SPOT_PX:
+            there = int(np.nanargmin(away))
+            out[number] = measured[there] if np.isfinite(measured[there]) else out[number]
+    return np.asarray(out)
+
+
+def _palm_doubt(
+    session: Session, row: int, places: FloatArray, depth_m: FloatArray, changed: set[int]
+) -> tuple[tuple[int, int] | None, tuple[int, float] | None]:
+    """Two of the palm's names that were exchanged, or one that is somewhere else and how far, metres."""
+    palm = [k for k in session.header.protocol.palm if np.isfinite(places[k]).all() and np.isfinite(depth_m[k])]
+    if len(palm) <= FEWEST_FOR_PALM or not changed & set(palm):
+        return None, None
+    camera, shape_m = session.camera, session.calibration.marker_position_w0_m
+    seen_m = camera.back_project(camera.undistort(places[palm]), depth_m[palm])
+    now_m = laid_on_misfit_m(shape_m[palm], seen_m)
+    if now_m <= WRONG_MISFIT_M:
+        return None, None
+    best_m, pair = now_m, (0, 0)
+    for one, other in combinations(range(len(palm)), 2):
+        order = np.arange(len(palm))
+        order[[one, other]] = order[[other, one]]
+        trial_m = laid_on_misfit_m(shape_m[palm], seen_m[order])
+        if trial_m < best_m:
+            best_m, pair = trial_m, (palm[one], palm[other])
+    if best_m < 0.5 * now_m and best_m <= WRONG_MISFIT_M and changed & set(pair):
+        return pair, None
+    off = []
+    for number in sorted(changed & set(palm)):
+        away_px = float(np.linalg.norm(places[number] - expected_px(session, row, places, number)))
+        off.append((away_px * float(depth_m[number]) / camera.fx_px, number))
+    far_m, worst = max(off)
+    return None, ((worst, far_m) if far_m > FAR_M else None)
+
+
+def _tangled(session: Session, places: FloatArray, changed: set[int], *, palm_too: bool) -> tuple[int, int] | None:
+    """Two discs of different fingers that were exchanged: without that the lines of the fingers are clearly shorter."""
+    size_px = float(np.linalg.norm(places[HAND21_CHAINS[2][1]] - places[0]))
+    finger = {number: n for n, chain in enumerate(HAND21_CHAINS) for number in chain[1:]}
+    palm = set() if palm_too else set(session.header.protocol.palm)
+    seen = [k for k in finger if np.isfinite(places[k]).all() and k not in palm]
+    trials = []
+    for number in sorted(changed & set(seen)) if size_px > 0.0 else ():
+        for other in seen:
+            trial = places.copy()
+            trial[[number, other]] = places[[other, number]]
+            if finger[other] == finger[number] and not _stretched(session, trial, size_px, finger[number]):
+                continue  # along a bent finger discs lie in any order
+            # A thumb may lie across the palm.
+            gain = _tangle(places, size_px) - _tangle(trial, size_px)
+            gain *= 0.5 if 0 in (finger[number], finger[other]) else 1.0
+            trials.append((gain, (min(number, other), max(number, other))))
+    best, pair = max(trials, default=(0.0, (0, 0)))
+    return pair if best > CLEARLY else None
+
+
+def _stretched(session: Session, places: FloatArray, size_px: float, finger: int) -> bool:
+    """Whether a finger is seen at nearly its whole length."""
+    chain, shape_m = list(HAND21_CHAINS[finger][1:]), session.calibration.marker_position_w0_m
+    if not np.isfinite(places[chain]).all():
+        return False
+    palm_m = float(np.linalg.norm(shape_m[HAND21_CHAINS[2][1]] - shape_m[0]))
+    seen = float(np.linalg.norm(np.diff(places[chain], axis=0), axis=1).sum()) / size_px
+    whole = float(np.linalg.norm(np.diff(shape_m[chain], axis=0), axis=1).sum()) / palm_m
+    return seen >= STRETCHED * whole
+
+
+def _too_far(session: Session, places: FloatArray, depth_m: FloatArray, changed: set[int]) -> tuple[int, float] | None:
+    """A finger's disc that is further from its neighbour than the finger is long, and by how much, metres."""
+    shape_m, camera = session.calibration.marker_position_w0_m, session.camera
+    flat_m = camera.back_project(camera.undistort(places), depth_m)[:, :2]
+    for chain in HAND21_CHAINS:
+        for one, other in pairwise(chain[1:]):
+            apart_m = float(np.linalg.norm(flat_m[one] - flat_m[other]))
+            more_m = apart_m - LONGER * float(np.linalg.norm(shape_m[one] - shape_m[other])) - MORE_M
+            if more_m > 0.0 and {one, other} & changed:
+                return (other if other in changed else one), more_m
+    return None
+
+
+def _tangle(places: FloatArray, size_px: float) -> float:
+    """How long the fingers' lines are, in lengths from the wrist to the middle knuckle, and how often they cross."""
+    start, end = places[_PIECES[:, 0]], places[_PIECES[:, 1]]
+    length_px = float(np.nansum(np.linalg.norm(start - end, axis=1)))
+    a, b = start[_PAIRS[:, 0]], end[_PAIRS[:, 0]]
+    c, d = start[_PAIRS[:, 1]], end[_PAIRS[:, 1]]
+    cut = (_side(a, b, c) * _side(a, b, d) < 0.0) & (_side(c, d, a) * _side(c, d, b) < 0.0)
+    return length_px / size_px + CROSSING * float(np.count_nonzero(cut))
+
+
+def _side(a: FloatArray, b: FloatArray, c: FloatArray) -> FloatArray:
+    """On which side (K,) of the lines from ``a`` to ``b`` the points ``c`` lie."""
+    return np.asarray((b[:, 0] - a[:, 0]) * (c[:, 1] - a[:, 1]) - (b[:, 1] - a[:, 1]) * (c[:, 0] - a[:, 0]))
+
+
+_ENDS = [(a, b, n) for n, chain in enumerate(HAND21_CHAINS) for a, b in pairwise(chain)]
+_PIECES = np.array([(a, b) for a, b, _ in _ENDS])
+_PAIRS = np.array(
+    [
+        (i, j)
+        for i, j in combinations(range(len(_ENDS)), 2)
+        if _ENDS[i][2] != _ENDS[j][2] and not set(_ENDS[i][:2]) & set(_ENDS[j][:2])
+    ]
+)
+"""Pieces of different fingers that share no disc."""

@@ -1,0 +1,359 @@
+"""Reads session files, whole or cut short, by the schema; in the reading process (:mod:`core.session.reader`)."""
+
+from __future__ import annotations
+
+import contextlib
+import json
+from collections.abc import Iterator, Sequence
+from pathlib import Path
+from typing import Any
+
+import h5py
+import numpy as np
+from numpy.typing import NDArray
+
+from carpus.core.calibration.result import Calibration, Clicks, Finding, Verdict
+from carpus.core.camera import Camera
+from carpus.core.dates import iso, time_of_day
+from carpus.core.encryption.cipher import is_encrypted
+from carpus.core.encryption.content import open_kept
+from carpus.core.errors import (
+    CarpusFault,
+    ContentDamaged,
+    ProtocolUnknown,
+    SessionChanged,
+    SessionUnfinished,
+    SessionUnreadable,
+)
+from carpus.core.hand.back_surface import BackSurface
+from carpus.core.hand.protocols import joint_angle_names, protocol_named
+from carpus.core.session import schema
+from carpus.core.session.plain_file import check_plain
+from carpus.core.session.plausible import LONGEST_S, check_header, check_values
+from carpus.core.session.rows import Rows, rows_of, whole_rows
+from carpus.core.session.schema import Field, Layout
+from carpus.core.session.seal import ATTRIBUTE, seal_of
+from carpus.core.session.values import (
+    DetectionTable,
+    Event,
+    MarkerSeries,
+    Motion,
+    QualitySeries,
+    RawPictures,
+    Session,
+    SessionHeader,
+    SessionOutline,
+    Verified,
+)
+from carpus.core.types import Detections
+
+
+def read_session(path: Path) -> Session:
+    """Read a session; of one that was cut short the whole rows. Raises :class:`SessionUnreadable`.
+
+    Blobs and pictures stay in the file: :func:`read_detections`, :func:`read_raw`.
+    """
+    with open_session(path) as file:
+        return _Source(path, file).session()
+
+
+def read_outline(path: Path) -> SessionOutline:
+    """Header, length and state of a session, without its data: quick enough for a whole folder."""
+    with open_session(path) as file:
+        return _Source(path, file).outline()
+
+
+def read_detections(path: Path) -> DetectionTable:
+    """Every blob of every frame of a session."""
+    with open_session(path) as file:
+        source = _Source(path, file)
+        pixel, depth, depth_sd, area, similarity = (source.array(field) for field in schema.DETECTION_FIELDS)
+        blobs = Detections(pixel, depth, depth_sd, area, similarity)
+        readings = (*schema.SURFACE_FIELDS, *schema.FINGER_FIELDS)
+        kept = [source.array(field) if field.path in file else np.empty((0, 0)) for field in readings]
+        return DetectionTable(source.array(schema.DETECTION_FRAME), blobs, (kept[0], kept[1]), (kept[2], kept[3]))
+
+
+def verify(path: Path) -> Verified:
+    """Read all of a session against its check sums and its seal. Raises :class:`SessionUnreadable` for a damaged one,
+    :class:`SessionChanged` for one that is not as it was finished."""
+    session = read_session(path)
+    if not session.complete:
+        raise SessionUnfinished(path)
+    with open_session(path) as file:
+        seal = str(file.attrs.get(ATTRIBUTE, ""))
+        if seal and seal != seal_of(file):
+            raise SessionChanged(path)
+    if not seal:
+        read_detections(path)
+    return Verified(len(session), bool(seal))
+
+
+def has_raw(path: Path) -> bool:
+    """Whether the session kept its pictures."""
+    with open_session(path) as file:
+        return all(field.path in file for field in (*schema.RAW_STREAMS, *schema.RAW_ENDS))
+
+
+def raw_depth_unit_m(path: Path) -> float:
+    """Metres per count of the depth pictures kept."""
+    with open_session(path) as file:
+        return float(file["/raw"].attrs[schema.RAW_DEPTH_UNIT])
+
+
+def read_raw_some(path: Path, begin: int, most_bytes: int) -> Sequence[RawPictures]:
+    """The pictures kept from row ``begin`` on, as many as ``most_bytes`` hold and at least one; none at the end."""
+    with open_session(path) as file:
+        source = _Source(path, file)
+        ends = [source.raw_ends(number) for number in range(len(schema.RAW_ENDS))]
+        color, depth = (file[field.path] for field in schema.RAW_STREAMS)
+        some: list[RawPictures] = []
+        taken = 0
+        for row in range(begin, len(ends[0])):
+            color_at, depth_at = (int(each[row - 1]) if row else 0 for each in ends)
+            color_to, depth_to = (int(each[row]) for each in ends)
+            taken += color_to - color_at + depth_to - depth_at
+            if some and taken > most_bytes:
+                break
+            some.append(RawPictures(color[color_at:color_to].tobytes(), depth[depth_at:depth_to].tobytes()))
+        return some
+
+
+def read_raw_color(path: Path, row: int) -> bytes:
+    """The colour picture kept of one row; no bytes where there is none."""
+    with open_session(path) as file:
+        color_end, color = _Source(path, file).raw_ends(0), file[schema.RAW_STREAMS[0].path]
+        if not 0 <= row < len(color_end):
+            return b""
+        start = int(color_end[row - 1]) if row else 0
+        return bytes(color[start : int(color_end[row])].tobytes())
+
+
+@contextlib.contextmanager
+def open_session(path: Path) -> Iterator[h5py.File]:
+    """The open file of a session that this version reads; whatever goes wrong inside is :class:`SessionUnreadable`."""
+    if not path.is_file():
+        raise SessionUnreadable(path, "a folder" if path.is_dir() else "there is no such file")
+    try:
+        with contextlib.ExitStack() as held:
+            source = held.enter_context(open_kept(path)) if is_encrypted(path) else path
+            file = held.enter_context(h5py.File(source, "r"))
+            check_plain(path, file)
+            _check_format(path, file)
+            yield file
+    except BlockingIOError as cause:
+        raise SessionUnreadable(path, "still being recorded") from cause
+    except ContentDamaged as cause:
+        raise SessionUnreadable(path, f"damaged: {cause.detail}") from cause
+    except CarpusFault:
+        raise
+    except KeyError as cause:
+        raise SessionUnreadable(path, f"damaged: {cause.args[0] if cause.args else ''}") from cause
+    except MemoryError as cause:
+        raise SessionUnreadable(path, "damaged: it asks for more memory than a session needs") from cause
+    except Exception as cause:  # a damaged file may make the library and the code above it raise anything
+        known = h5py.is_hdf5(path) or is_encrypted(path)
+        raise SessionUnreadable(path, f"damaged: {cause}" if known else "not a session file") from cause
+
+
+def _check_format(path: Path, file: h5py.File) -> None:
+    if file.attrs.get("format") != schema.FORMAT:
+        raise SessionUnreadable(path, "an HDF5 file, but not a session")
+    version = _version(file)
+    if not 1 <= version <= schema.FORMAT_VERSION:
+        raise SessionUnreadable(path, f"format version {version}, this Carpus reads up to {schema.FORMAT_VERSION}")
+
+
+def _version(file: h5py.File) -> int:
+    return int(file.attrs.get("format_version", 0))
+
+
+class _Source:
+    """One open session: its header, and its datasets checked against the schema."""
+
+    def __init__(self, path: Path, file: h5py.File) -> None:
+        self._path = path
+        self._file = file
+        self._header = self._read_header()
+        self._layout = Layout(self._header.protocol, self._header.joint_names)
+        self._complete = bool(self._attribute("complete"))
+        self._rows = self._read_rows()
+
+    def session(self) -> Session:
+        frames = {field.attribute: self.array(field) for field in schema.FRAME_FIELDS if self._layout.has(field)}
+        session = Session(
+            path=self._path,
+            header=self._header,
+            camera=self._camera(),
+            calibration=self._calibration(),
+            timestamp_s=frames["timestamp_s"],
+            status=frames["status"],
+            motion=self._motion(schema.MOTION_FIELDS),
+            markers=MarkerSeries(
+                frames["marker_position_cam_m"],
+                frames["marker_measured_px"],
+                frames["marker_measured_depth_m"],
+                frames["doubted"].astype(bool),
+            ),
+            quality=QualitySeries(frames["dropped_before"], frames["measured_share"], frames["nis"], frames["nis_dof"]),
+            events=tuple(map(Event, *(self._list(field) for field in schema.EVENT_FIELDS))),
+            smoothed=self._motion(schema.SMOOTHED_FIELDS) if "/smoothed" in self._file else None,
+            complete=self._complete,
+            recovered=str(self._file.attrs.get(schema.RECOVERED, "")),
+        )
+        check_values(self._path, session)
+        return session
+
+    def outline(self) -> SessionOutline:
+        frames = self._rows.frames
+        times = self._file["/frames/timestamp"]
+        duration_s = float(times[frames - 1] - times[0]) if frames else 0.0
+        if not 0.0 <= duration_s <= LONGEST_S:
+            raise SessionUnreadable(self._path, "damaged: the times of its frames are no session's")
+        return SessionOutline(
+            header=self._header,
+            frames=frames,
+            duration_s=duration_s,
+            complete=self._complete,
+            recovered=str(self._file.attrs.get(schema.RECOVERED, "")),
+        )
+
+    def array(self, field: Field) -> NDArray[Any]:
+        """A dataset with the type and shape of the schema, read-only; an optional one that is not there is unknown."""
+        expected = tuple(
+            self._rows.along(str(axis)) if axis in schema.GROWING_AXES else size
+            for axis, size in zip(field.shape, self._sizes(field), strict=True)
+        )
+        if field.path not in self._file:
+            if not field.optional:
+                raise SessionUnreadable(self._path, f"no dataset {field.path}")
+            return np.full(expected, field.fill, dtype=field.h5_dtype)
+        dataset = self._file[field.path]
+        if not self._complete and field.shape[0] in schema.GROWING_AXES and dataset.ndim == len(expected):
+            data = rows_of(dataset, expected[0])
+        else:
+            data = dataset[()]
+        kinds = {"f": "f", "u": "iu", "i": "iu", "t": "O"}[field.dtype[0]]
+        if data.shape != expected or data.dtype.kind not in kinds:
+            raise SessionUnreadable(
+                self._path, f"{field.path} is {data.dtype} {data.shape}, {field.dtype} {expected} expected"
+            )
+        array: NDArray[Any] = data.astype(field.h5_dtype, copy=False)
+        array.setflags(write=False)
+        return array
+
+    def raw_ends(self, number: int) -> NDArray[Any]:
+        """Where the pictures of each frame end in a stream; checked, since slices are made of it."""
+        ends = self.array(schema.RAW_ENDS[number])
+        stream = schema.RAW_STREAMS[number]
+        if len(ends) and (ends[0] < 0 or (np.diff(ends) < 0).any() or ends[-1] > self._file[stream.path].shape[0]):
+            raise SessionUnreadable(self._path, f"damaged: {schema.RAW_ENDS[number].path} does not fit {stream.path}")
+        return ends
+
+    def _sizes(self, field: Field) -> tuple[int, ...]:
+        row = self._layout.row_shape(field)
+        return (0, *row) if field.shape[0] in schema.GROWING_AXES else row
+
+    def _list(self, field: Field) -> list[Any]:
+        values = self.array(field).tolist()
+        return [value.decode("utf-8") if isinstance(value, bytes) else value for value in values]
+
+    def _attribute(self, name: str) -> Any:
+        try:
+            return self._file.attrs[name]
+        except KeyError as cause:
+            raise SessionUnreadable(self._path, f"no attribute {name}") from cause
+
+    def _read_header(self) -> SessionHeader:
+        try:
+            protocol = protocol_named(str(self._attribute("protocol")))
+        except ProtocolUnknown as cause:
+            raise SessionUnreadable(self._path, f"marker protocol {cause.subject}") from cause
+        hand = str(self._attribute("hand"))
+        if hand not in ("right", "left"):
+            raise SessionUnreadable(self._path, f"hand {hand!r}")
+        joints = tuple(map(str, self._file["/joints"].attrs["names"])) if protocol.has_fingers else ()
+        if protocol.has_fingers and joints not in (joint_angle_names(False), joint_angle_names(True)):
+            raise SessionUnreadable(self._path, f"{len(joints)} joint angles with other names than {protocol.name} has")
+        header = SessionHeader(
+            session_id=str(self._attribute("session_id")),
+            subject_id=str(self._attribute("subject_id")),
+            created=str(self._attribute("created")),
+            hand="right" if hand == "right" else "left",
+            protocol=protocol,
+            exercise=str(self._attribute("exercise")),
+            software_version=str(self._attribute("software_version")),
+            parameters=str(self._attribute("parameters")),
+            origin=str(self._file.attrs.get("origin", "")),
+            joint_names=joints,
+            recorded=self._recorded(),
+            recording_id=self._recording_id(),
+        )
+        check_header(self._path, header, json.loads(header.parameters))
+        return header
+
+    def _recorded(self) -> str:
+        """Version 1 did not say: the times of the pictures do where they count from 1970, else the file's own date."""
+        if _version(self._file) > 1:
+            return str(self._attribute("recorded"))
+        created = str(self._attribute("created"))
+        first = self._file["/frames/timestamp"][:1]
+        moment = time_of_day(float(first[0])) if len(first) else None
+        return created if moment is None else iso(moment)
+
+    def _recording_id(self) -> str:
+        """Version 1 did not say: a session tracked again named the one it came from, which was made before."""
+        if _version(self._file) > 1:
+            return str(self._attribute("recording_id"))
+        return str(self._file.attrs.get("origin", "") or self._attribute("session_id"))
+
+    def _read_rows(self) -> Rows:
+        if not self._complete:
+            return whole_rows(self._file)
+        lengths = (self._file[path].shape[0] for path in ("/frames/timestamp", "/detections/frame", "/events/time"))
+        streams = (self._file[f.path].shape[0] if f.path in self._file else 0 for f in schema.RAW_STREAMS)
+        return Rows(*lengths, *streams)
+
+    def _motion(self, fields: tuple[Field, ...]) -> Motion:
+        rows = self._rows.frames
+        nothing = {2: (rows, 0), 3: (rows, 0, 3)}
+        values = {
+            field.attribute: self.array(field) if self._layout.has(field) else np.empty(nothing[len(field.shape)])
+            for field in fields
+        }
+        return Motion(**values)
+
+    def _camera(self) -> Camera:
+        said = self._file["/camera"].attrs
+        k1, k2, p1, p2, k3 = (float(value) for value in said["distortion"])
+        return Camera(
+            fx_px=float(said["fx"]),
+            fy_px=float(said["fy"]),
+            cx_px=float(said["cx"]),
+            cy_px=float(said["cy"]),
+            width_px=int(said["width"]),
+            height_px=int(said["height"]),
+            distortion=(k1, k2, p1, p2, k3),
+            origin=str(said.get("origin", "file")),
+        )
+
+    def _calibration(self) -> Calibration:
+        arrays = {field.attribute: self.array(field) for field in schema.CALIBRATION_FIELDS}
+        clicks_px, residual_m = arrays.pop("clicks_px"), arrays.pop("residual_m")
+        surface = BackSurface.from_table(arrays.pop("surface"))
+        said = self._file["/calibration"].attrs
+        findings = []
+        for fact in json.loads(said.get("findings", "[]")):
+            findings.append(Finding(**(fact | {"markers": tuple(fact.get("markers", ()))})))
+        unknown = float("nan")
+        verdict = Verdict(
+            residual_mm=residual_m * 1e3,
+            hand_length_mm=float(said.get("hand_length_m", unknown)) * 1e3,
+            tilt_deg=float(np.degrees(said.get("tilt_rad", unknown))),
+            distance_m=float(said.get("distance_m", unknown)),
+            frames_used=int(said.get("frames_used", 0)),
+            findings=tuple(findings),
+        )
+        straight = tuple(map(bool, said.get("straight_fingers", ())))
+        clicks = Clicks(self._header.hand, self._header.protocol, clicks_px, straight)
+        return Calibration(clicks=clicks, verdict=verdict, surface=surface, **arrays)

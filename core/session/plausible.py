@@ -1,0 +1,111 @@
+"""Values of a session that no hand and no clock can have: found when it is read, before anything computes with them."""
+
+from __future__ import annotations
+
+import math
+from pathlib import Path
+
+import numpy as np
+
+from carpus.core.errors import SessionUnreadable
+from carpus.core.session.values import Session, SessionHeader
+from carpus.core.types import FloatArray
+
+LONGEST_S = 86_400.0
+LATEST_S = 1e11
+"""Times of a recording count from anywhere, but no clock counts for 3000 years."""
+LARGEST_ANGLE_RAD = 2.0 * math.pi
+LARGEST_PLACE_M = 100.0
+LARGEST_SD_RAD = 1e3
+LONGEST_TEXT, LONGEST_PARAMETERS = 200, 1 << 20
+DEEPEST_PARAMETERS = 40
+STATUSES = 4
+
+
+def check_header(path: Path, header: SessionHeader, parameters: object) -> None:
+    """Raise :class:`SessionUnreadable` for texts that cannot be a pseudonym, an exercise or settings."""
+    for name in (
+        "session_id",
+        "recording_id",
+        "subject_id",
+        "recorded",
+        "created",
+        "exercise",
+        "software_version",
+        "origin",
+    ):
+        text: str = getattr(header, name)
+        if len(text) > LONGEST_TEXT or not (text.isprintable() or name == "origin"):
+            raise SessionUnreadable(path, f"damaged: its {name} is no such thing")
+    if not header.session_id:
+        raise SessionUnreadable(path, "damaged: no session_id")
+    if _depth(parameters) > DEEPEST_PARAMETERS or len(header.parameters) > LONGEST_PARAMETERS:
+        raise SessionUnreadable(path, "damaged: its parameters are no settings")
+
+
+def check_times(path: Path, timestamp_s: FloatArray) -> None:
+    """Times that are known, rise, and end within a day."""
+    if not len(timestamp_s):
+        return
+    if not np.isfinite(timestamp_s).all() or np.abs(timestamp_s).max() > LATEST_S:
+        raise SessionUnreadable(path, "damaged: a frame has no possible time")
+    wrong = np.flatnonzero(np.diff(timestamp_s) <= 0.0)
+    if len(wrong):
+        raise SessionUnreadable(path, f"damaged: the time of frame {int(wrong[0]) + 1} is not after the one before")
+    if timestamp_s[-1] - timestamp_s[0] > LONGEST_S:
+        raise SessionUnreadable(path, "damaged: it claims to last longer than a day")
+
+
+def check_values(path: Path, session: Session) -> None:
+    """Raise :class:`SessionUnreadable` for a number that no measurement gives; NaN stands for unknown everywhere."""
+    check_times(path, session.timestamp_s)
+    if len(session.status) and int(session.status.max()) >= STATUSES:
+        raise SessionUnreadable(path, "damaged: a frame has a status that there is not")
+    limits: list[tuple[str, FloatArray, float]] = [
+        ("a marker's position", session.markers.position_cam_m, LARGEST_PLACE_M),
+        ("a calibrated position", session.calibration.marker_position_w0_m, LARGEST_PLACE_M),
+        ("the camera's place", session.calibration.translation_w0_cam_m, LARGEST_PLACE_M),
+    ]
+    for motion in (session.motion, session.smoothed):
+        if motion is not None:
+            limits += [
+                ("a wrist angle", motion.angles_rad, LARGEST_ANGLE_RAD),
+                ("a joint angle", motion.joint_angles_rad, LARGEST_ANGLE_RAD),
+                ("a standard deviation", motion.angles_sd_rad, LARGEST_SD_RAD),
+                ("a standard deviation", motion.joint_angles_sd_rad, LARGEST_SD_RAD),
+                ("a position", motion.position_m, LARGEST_PLACE_M),
+                ("a joint's position", motion.joint_position_m, LARGEST_PLACE_M),
+            ]
+    for what, values, limit in limits:
+        # NaN compares as neither, so unknown values pass.
+        if len(values) and bool((np.abs(values) > limit).any()):
+            raise SessionUnreadable(path, f"damaged: {what} is beyond all measure")
+    for motion in (session.motion, session.smoothed):
+        if motion is not None and any(
+            bool((values < 0.0).any()) for values in (motion.angles_sd_rad, motion.joint_angles_sd_rad)
+        ):
+            raise SessionUnreadable(path, "damaged: a standard deviation is below zero")
+    camera = session.camera
+    if not all(map(math.isfinite, (camera.fx_px, camera.fy_px, camera.cx_px, camera.cy_px, *camera.distortion))):
+        raise SessionUnreadable(path, "damaged: the camera's figures are not known")
+    if min(camera.fx_px, camera.fy_px) <= 0.0 or not 1 <= min(camera.width_px, camera.height_px) <= 1 << 16:
+        raise SessionUnreadable(path, "damaged: the camera's figures are not a camera's")
+    if not all(math.isfinite(event.time_s) for event in session.events):
+        raise SessionUnreadable(path, "damaged: an event has no time")
+
+
+def _depth(value: object) -> int:
+    """How many tables and lists lie within each other; counted without recursion."""
+    deepest, level = 0, [value]
+    while level:
+        deepest += 1
+        inside: list[object] = []
+        for one in level:
+            if isinstance(one, dict):
+                inside += one.values()
+            elif isinstance(one, list):
+                inside += one
+        level = inside
+        if deepest > 2 * DEEPEST_PARAMETERS:
+            break
+    return deepest

@@ -1,0 +1,108 @@
+"""What the palm's filter knows: pose and velocities of the fixed unit, the discs' places, how skin and relief moved.
+
+The fixed unit of the hand is capitate, second and third metacarpal (clinical reference 10): the wrist's angles mean
+it. Each disc has a calibrated place on it that goes on being measured (``shape``) and may leave that place as the
+skin glides, the arch closes or a metacarpal flexes (``skin``), for a while. ``relief``: by how much the back of the
+hand as a surface has come to differ from the calibrated one, as a turn about X and Y and a height.
+
+Symbols of the papers: T position, v velocity, R rotation, omega angular velocity, P covariance. Orientation stays a
+matrix; its error is a turn d in the moving frame, R_true = R Exp(d).
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Self
+
+import numpy as np
+
+from carpus.core import so3
+from carpus.core.types import FloatArray
+
+PALM_DISCS = 6
+POSITION, VELOCITY, TURN, RATE = slice(0, 3), slice(3, 6), slice(6, 9), slice(9, 12)
+SHAPE = slice(12, 12 + 3 * PALM_DISCS)
+SKIN = slice(SHAPE.stop, SHAPE.stop + 3 * PALM_DISCS)
+RELIEF = slice(SKIN.stop, SKIN.stop + 3)
+SOFT = slice(SKIN.start, RELIEF.stop)
+MOVING = slice(0, 12)
+SIZE = RELIEF.stop
+POSE = np.r_[POSITION, TURN]
+
+
+@dataclass(frozen=True, slots=True)
+class PalmBelief:
+    """Gaussian over the palm's state: ``rotation_w2_w0`` (3, 3), all other numbers as ``value`` (n,), zero where the
+    turn would stand, and the ``covariance`` (n, n) of the error vector."""
+
+    rotation_w2_w0: FloatArray
+    value: FloatArray
+    covariance: FloatArray
+
+    @property
+    def position_m(self) -> FloatArray:
+        """Place (3,) in W0 of the point of the fixed unit that lay under WRIST at the neutral pose."""
+        return self.value[POSITION]
+
+    @property
+    def velocity_m_s(self) -> FloatArray:
+        """Its velocity (3,) in W0."""
+        return self.value[VELOCITY]
+
+    @property
+    def rate_rad_s(self) -> FloatArray:
+        """Angular velocity (3,) in W2."""
+        return self.value[RATE]
+
+    @property
+    def shape_m(self) -> FloatArray:
+        """Corrections (6, 3) to the discs' calibrated places on the fixed unit."""
+        return self.value[SHAPE].reshape(PALM_DISCS, 3)
+
+    @property
+    def skin_m(self) -> FloatArray:
+        """How far (6, 3) the discs have left those places for now."""
+        return self.value[SKIN].reshape(PALM_DISCS, 3)
+
+    def moved(self, error: FloatArray, covariance: FloatArray) -> Self:
+        """The belief with its mean moved by an error vector (n,) and another covariance."""
+        value = self.value + error
+        value[TURN] = 0.0
+        return type(self)(self.rotation_w2_w0 @ so3.exp(error[TURN]), value, covariance)
+
+    def error_to(self, other: PalmBelief) -> FloatArray:
+        """Error vector (n,) that moves this mean to the other's; inverse of :meth:`moved`."""
+        error = other.value - self.value
+        error[TURN] = so3.log(self.rotation_w2_w0.T @ other.rotation_w2_w0)
+        return error
+
+
+_HARDLY_M = 1e-5
+"""Keeps the covariance positive definite where nothing has moved yet."""
+
+
+@dataclass(frozen=True, slots=True)
+class InitialSd:
+    """Standard deviations at the start; the joints' are the fingers'."""
+
+    position_m: float = 0.001
+    velocity_m_s: float = 0.02
+    turn_rad: float = 0.01
+    rate_rad_s: float = 0.2
+    joint_rates_rad_s: float = 0.3
+
+
+def resting_belief(sd: InitialSd, shape_covariance: FloatArray) -> PalmBelief:
+    """A hand at rest at the neutral pose, its discs where they were calibrated: by definition none has moved yet."""
+    covariance = np.zeros((SIZE, SIZE))
+    for part, own in (
+        (POSITION, sd.position_m),
+        (VELOCITY, sd.velocity_m_s),
+        (TURN, sd.turn_rad),
+        (RATE, sd.rate_rad_s),
+    ):
+        covariance[part, part] = own**2 * np.eye(3)
+    covariance[SHAPE, SHAPE] = shape_covariance
+    covariance[SKIN, SKIN] = _HARDLY_M**2 * np.eye(SKIN.stop - SKIN.start)
+    covariance[RELIEF, RELIEF] = _HARDLY_M**2 * np.eye(3)
+    return PalmBelief(np.eye(3), np.zeros(SIZE), covariance)

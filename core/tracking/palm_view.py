@@ -1,0 +1,165 @@
+"""What the camera should see of the palm's discs, as a line through sigma points.
+
+Measured for a marker are its pixel u, v (eq. (2), (3) of the wrist paper) and the depth z of its disc along the
+camera's axis, as in the initialisation (13). The pose bends the pictures, so the line is drawn through sigma points of
+the pose (10), (11); in the discs' places it is all but straight, and its slope is the derivative.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+import numpy as np
+from scipy.linalg.lapack import dtrtrs
+
+from carpus.core import so3
+from carpus.core.camera import Camera
+from carpus.core.tracking.kernel import Bank, Line
+from carpus.core.tracking.palm_state import (
+    PALM_DISCS,
+    POSE,
+    SHAPE,
+    SIZE,
+    SKIN,
+    TURN,
+    PalmBelief,
+)
+from carpus.core.tracking.unscented import Spread, make_roots, weights_for
+from carpus.core.types import FloatArray
+
+_DISC = np.arange(PALM_DISCS)
+_FLOOR = 1e-14
+_COMPONENTS = 3 * PALM_DISCS
+_AXIS = np.arange(3)
+_OF_DISC = 3 * _DISC[:, None, None] + _AXIS[:, None]  # (6, 3, 1): each disc's own u, v, z
+_BY_SHAPE, _BY_SKIN = (part.start + 3 * _DISC[:, None, None] + _AXIS for part in (SHAPE, SKIN))  # (6, 1, 3)
+
+
+@dataclass(frozen=True, slots=True)
+class View:
+    """A palm of known geometry before a camera of known pose (g_w0c of the wrist paper).
+
+    ``palm_m`` (6, 3) calibrated places of the discs on the fixed unit. ``hidden`` (6, 18): by how much each number of
+    the shape moves the depths less than the discs' places say, because those of the calibration were as wrong.
+    """
+
+    camera: Camera
+    rotation_w0_cam: FloatArray
+    translation_w0_cam_m: FloatArray
+    palm_m: FloatArray
+    hidden: FloatArray
+
+    _w0_image: tuple[FloatArray, FloatArray] = field(init=False, repr=False, compare=False)
+    """Worked out once: from w0, in metres, to u z, v z, z; applied to rows."""
+
+    def __post_init__(self) -> None:
+        camera = self.camera.matrix
+        image = (camera @ self.rotation_w0_cam).T.copy(), camera @ self.translation_w0_cam_m
+        object.__setattr__(self, "_w0_image", image)
+
+    def discs_cam_m(self, belief: PalmBelief) -> FloatArray:
+        """Disc centres (6, 3) in camera axes, where the skin has carried them."""
+        place = self.palm_m + belief.shape_m + belief.skin_m
+        in_w0 = place @ belief.rotation_w2_w0.T + belief.position_m
+        return np.asarray(in_w0 @ self.rotation_w0_cam.T + self.translation_w0_cam_m)
+
+    def observe(self, position_m: FloatArray, rotation_w2_w0: FloatArray, place_m: FloatArray) -> FloatArray:
+        """Pixel u, v and depth z (..., 6, 3) of discs at ``place_m`` (6, 3) on the fixed unit at poses (...)."""
+        about_wrist = place_m @ rotation_w2_w0.swapaxes(-1, -2)
+        turned, shifted = self._w0_image
+        out: FloatArray = (about_wrist.reshape(-1, 3) @ turned).reshape(about_wrist.shape)
+        out += (position_m @ turned + shifted)[..., None, :]
+        out[..., :2] /= out[..., 2:]
+        return out
+
+
+def sight(belief: PalmBelief, view: View, spread: Spread) -> Line:
+    """The line of a belief about the palm: ``value`` (1, 18), ``slope`` (1, 18, n) about the belief's own mean."""
+    weights = weights_for(POSE.size, spread)
+    root = belief.covariance[POSE[:, None], POSE]
+    root.reshape(-1)[:: POSE.size + 1] += _FLOOR
+    make_roots(root[None])
+    count = POSE.size
+    offset = np.zeros((2 * count + 1, count))
+    offset[1 : count + 1], offset[count + 1 :] = weights.scale * root.T, -weights.scale * root.T
+    place = view.palm_m + belief.shape_m + belief.skin_m
+    turned = np.empty((2 * count + 1, 3, 3))
+    turned[0] = np.eye(3)
+    turned[1 : count + 1] = so3.exp(offset[1 : count + 1, 3:])
+    turned[count + 1 :] = turned[1 : count + 1].swapaxes(1, 2)
+    image = view.observe(belief.position_m + offset[:, :3], belief.rotation_w2_w0 @ turned, place)
+    centre = image[0]
+    flat = image.reshape(len(image), _COMPONENTS)
+    value = weights.mean @ flat
+    half = (flat[1 : count + 1] - flat[count + 1 :]) * (0.5 / weights.scale)
+    # The even part of the spread is what no line can follow.
+    bend = 0.5 * (flat[1 : count + 1] + flat[count + 1 :]) - value
+    error = (2.0 * weights.covariance[1]) * (bend.T @ bend)
+    middle = flat[0] - value
+    error += (weights.covariance[0] * middle)[:, None] * middle
+    slope = np.zeros((_COMPONENTS, SIZE))
+    slope[:, POSE] = dtrtrs(root.T, half)[0].T
+    slope[_OF_DISC, _BY_SHAPE] = slope[_OF_DISC, _BY_SKIN] = _by_camera_place(view.camera, centre) @ (
+        view.rotation_w0_cam @ belief.rotation_w2_w0
+    )
+    slope[2::3, SHAPE] -= view.hidden
+    value[2::3] -= view.hidden @ belief.value[SHAPE]
+    return Line(value[None], slope[None], error[None], np.zeros((1, SIZE)))
+
+
+def _by_camera_place(camera: Camera, image: FloatArray) -> FloatArray:
+    """Derivative (6, 3, 3) of u, v, z by the place in camera axes, at u, v, z (6, 3)."""
+    z = image[:, 2]
+    out = np.zeros((len(image), 3, 3))
+    out[:, 0, 0], out[:, 1, 1] = camera.fx_px / z, camera.fy_px / z
+    out[:, 0, 2] = (camera.cx_px - image[:, 0]) / z
+    out[:, 1, 2] = (camera.cy_px - image[:, 1]) / z
+    out[:, 2, 2] = 1.0
+    return out
+
+
+@dataclass(frozen=True, slots=True)
+class Forecast:
+    """The palm as predicted, all modes as errors from ``nominal``, and what the camera should see of it.
+
+    ``bank`` (1, K, n), ``line`` of the measurement. ``own_mean`` (6, 3) and ``own_covariance`` (6, 3, 3) of each
+    marker's own measurement over all modes. ``shares`` of a correction that the numbers take.
+    """
+
+    nominal: PalmBelief
+    bank: Bank
+    line: Line
+    own_mean: FloatArray
+    own_covariance: FloatArray
+    shares: tuple[FloatArray, FloatArray] | None = None
+
+    def by_mode(self) -> tuple[FloatArray, FloatArray]:
+        """Of all markers together, without the measurement noise, in every mode: mean (K, 18) as in (10) and covariance
+        (K, 18, 18) as in (11)."""
+        slope = self.line.slope[0]
+        return self.line.value + self.bank.mean[0] @ slope.T, slope @ self.bank.covariance[
+            0
+        ] @ slope.T + self.line.error
+
+
+def forecast(
+    nominal: PalmBelief, bank: Bank, view: View, spread: Spread, shares: tuple[FloatArray, FloatArray] | None = None
+) -> Forecast:
+    """What to expect of a bank of errors about ``nominal``, whose covariance is that of the whole bank."""
+    line = sight(nominal, view, spread)
+    slope = line.slope[0]
+    mean = line.value[0] + slope @ (bank.probability[0] @ bank.mean[0])
+    # A line: what it makes of the whole bank's covariance is that of what it makes of the modes.
+    whole = slope @ nominal.covariance @ slope.T
+    whole += line.error[0]
+    own = whole.reshape(PALM_DISCS, 3, PALM_DISCS, 3)[_DISC, :, _DISC, :]
+    return Forecast(nominal, bank, line, mean.reshape(PALM_DISCS, 3), own, shares)
+
+
+def recentred(nominal: PalmBelief, bank: Bank) -> tuple[PalmBelief, Bank]:
+    """The nominal belief moved to the bank's mean and given its covariance; the bank as errors from there."""
+    mean, covariance = bank.merged()
+    apart = bank.mean - mean[:, None]
+    # The turns are measured from another rotation now: log(Exp(-m) Exp(e)) to second order.
+    apart[..., TURN] += 0.5 * (bank.mean[..., TURN] @ so3.skew(mean[0, TURN]))
+    return nominal.moved(mean[0], covariance[0]), Bank(apart, bank.covariance, bank.probability)

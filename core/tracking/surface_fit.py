@@ -1,0 +1,144 @@
+"""The pose of the fixed unit from the surface of the back of the hand: point to plane, a few Gauss-Newton steps.
+
+Thousands of depth readings lie on the back of the hand, and six discs. The surface over capitate, second and third
+metacarpal turns with the bones while skin glides over them; so it tells how the hand is tilted where the discs, which
+ride on the skin, mislead. It tells the turns about X and Y and the height; the rest the discs know better.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from carpus.core import so3
+from carpus.core.hand.back_surface import BackSurface
+from carpus.core.tracking.kernel import Line
+from carpus.core.tracking.palm_state import POSITION, RELIEF, SIZE, TURN, PalmBelief
+from carpus.core.tracking.palm_view import View
+from carpus.core.types import FloatArray, SurfaceSamples
+
+_KEPT = np.array([0, 1, 5])
+"""Turn about X and Y and shift along Z among turn and shift."""
+
+
+@dataclass(frozen=True, slots=True)
+class SurfaceSettings:
+    """``steps`` of Gauss-Newton; residuals beyond ``huber_m`` count less, beyond ``most_m`` not at all; with less than
+    ``least`` readings the surface is not asked. Readings nearer to each other than the camera's matching ``window_px``
+    share the part ``shared`` of their variance, which is not of rounding to steps of disparity (clinical reference 7.2:
+    a step is two standard deviations); ``reading_per_m`` is a reading's at least, over the depth squared.
+    ``turn_sd_rad`` and ``up_sd_m`` that no number of readings takes away from one picture. Beyond ``most_nis`` it is
+    not this surface."""
+
+    steps: int = 3
+    huber_m: float = 0.003
+    most_m: float = 0.010
+    least: int = 24
+    window_px: float = 9.0
+    shared: float = 2.0 / 3.0
+    reading_per_m: float = 1.5e-3
+    turn_sd_rad: float = 0.004
+    up_sd_m: float = 0.0002
+    most_nis: float = 40.0
+
+
+@dataclass(frozen=True, slots=True)
+class SurfaceMeasurement:
+    """What the surface says of a belief's error: ``value`` (3,) turn about X and Y and height at the surface's middle,
+    its ``covariance`` (3, 3), as a ``slope`` (3, n) of the palm's error vector; ``count`` readings used."""
+
+    value: FloatArray
+    covariance: FloatArray
+    slope: FloatArray
+    count: int
+
+    def line(self) -> Line:
+        """As a line through the belief's mean."""
+        return Line(np.zeros((1, 3)), self.slope[None], self.covariance[None], np.zeros((1, SIZE)))
+
+
+def surface_measurement(
+    belief: PalmBelief, samples: SurfaceSamples, surface: BackSurface, view: View, settings: SurfaceSettings
+) -> SurfaceMeasurement | None:
+    """Fit the surface to the readings, from the belief's pose on; None where too few lie on it."""
+    in_camera = view.camera.back_project(samples.pixel, samples.depth_m)
+    in_w0 = np.ones((len(in_camera), 4))
+    in_w0[:, :3] = (in_camera - view.translation_w0_cam_m) @ view.rotation_w0_cam
+    rotation, position = belief.rotation_w2_w0, belief.position_m
+    middle = surface.middle_m
+    middle_x, middle_y, middle_z = middle.tolist()
+    to_body = np.eye(4)
+    shifted, turned = np.zeros(3), np.zeros(3)
+    own, weighed, inverse, weight, over = (np.empty(0),) * 5
+    near, count = np.empty(0, dtype=bool), 0
+    for _ in range(settings.steps):
+        to_body[:3, :3], to_body[3, :3] = rotation, -position @ rotation - middle
+        place, plane = surface.under(in_w0, to_body)
+        over = np.vecdot(place, plane)
+        size = np.abs(over)
+        near = size < settings.most_m
+        count = int(np.count_nonzero(near))
+        if count < settings.least:
+            return None
+        own = _turns_and_shifts(place, plane)
+        weight = settings.huber_m / np.maximum(size, settings.huber_m)
+        weight *= near
+        # Turns about the middle of the surface, and the shift along Z.
+        about = own[_KEPT]
+        weighed = about * weight
+        inverse = np.linalg.inv(weighed @ about.T)
+        about_x, about_y, up = (inverse @ (weighed @ over)).tolist()
+        # The turn is about the middle of the surface; the belief's error is a turn about its origin.
+        turn = np.array((about_x, about_y, 0.0))
+        shift = np.array((-about_y * middle_z, about_x * middle_z, up - about_x * middle_y + about_y * middle_x))
+        shifted += shift
+        turned += turn
+        position = position + rotation @ shift
+        rotation = rotation @ so3.exp(turn)
+    spread2 = float(weight @ over**2 / weight.sum())
+    reading_m = settings.reading_per_m * _median(samples.depth_m) ** 2
+    scatter2 = max(spread2, reading_m**2)
+    covariance = scatter2 * (inverse @ _as_errors_go(weighed[:, near], samples.pixel[near], settings) @ inverse)
+    covariance[0, 0] += settings.turn_sd_rad**2
+    covariance[1, 1] += settings.turn_sd_rad**2
+    covariance[2, 2] += settings.up_sd_m**2
+    # Of the whole pose: a shift along the surface and a turn about its normal also move what is read.
+    by_pose = inverse @ (weighed @ own.T)
+    by_shift = by_pose[:, 3:]
+    by_turn = by_pose[:, :3] + by_shift @ so3.skew(middle).T
+    out = np.zeros((3, SIZE))
+    out[:, TURN] = by_turn
+    out[:, POSITION] = by_shift @ belief.rotation_w2_w0.T
+    out[:, RELIEF] = np.eye(3)
+    value = by_shift @ shifted + by_turn @ turned
+    return SurfaceMeasurement(value, np.asarray(covariance, dtype=np.float64), out, count)
+
+
+def _turns_and_shifts(place: FloatArray, plane: FloatArray) -> FloatArray:
+    """By how much turns about the axes and shifts along them (6, s) bring places (s, 3 or more) off their planes."""
+    x, y, z = place[:, 0], place[:, 1], place[:, 2]
+    along = plane.T[:3]
+    out = np.empty((6, len(place)))
+    out[0] = y * along[2] - z * along[1]
+    out[1] = z * along[0] - x * along[2]
+    out[2] = x * along[1] - y * along[0]
+    out[3:] = along
+    return out
+
+
+def _as_errors_go(weighed: FloatArray, pixel: FloatArray, settings: SurfaceSettings) -> FloatArray:
+    """Covariance (3, 3) of sums ``weighed`` (3, s) over readings of unit variance at ``pixel`` (s, 2), of which two
+    share as much of their errors as their matching windows overlap."""
+    overlap = np.abs(pixel[:, None] - pixel)
+    overlap *= -1.0 / settings.window_px
+    overlap += 1.0
+    np.maximum(overlap, 0.0, out=overlap)
+    together = weighed @ (overlap[..., 0] * overlap[..., 1]) @ weighed.T
+    return np.asarray(settings.shared * together + (1.0 - settings.shared) * (weighed @ weighed.T))
+
+
+def _median(value: FloatArray) -> float:
+    """As ``numpy.median`` of finite numbers, which takes ten times as long."""
+    ordered = np.sort(value)
+    return float(0.5 * (ordered[(ordered.size - 1) // 2] + ordered[ordered.size // 2]))

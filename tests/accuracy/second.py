@@ -1,0 +1,188 @@
+"""Rows of the second patient, who is for judging only: nothing is ever chosen on them, and nothing was promised.
+
+Every row is rendered pictures tracked by the whole of Carpus, from folder to session file.
+"""
+
+from __future__ import annotations
+
+import multiprocessing
+import sys
+import tempfile
+import time
+from collections.abc import Iterator, Sequence
+from concurrent.futures import ProcessPoolExecutor
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+from threadpoolctl import threadpool_limits
+from tqdm import tqdm
+
+from carpus.core.calibration.clicks import read_clicks
+from carpus.core.capture.tum import TumFolder
+from carpus.core.errors import CarpusFault
+from carpus.core.pipeline.track import TrackSettings, learnt_in, track_recording
+from carpus.core.session.reader import read_detections, read_session
+from carpus.core.types import FloatArray, TrackStatus
+from tests.accuracy import readings_table
+from tests.accuracy.hand21 import ANGLES, BENT_RAD, JOINT_GROUPS, seen_joints, with_end_joints
+from tests.accuracy.readings import AT_NEUTRAL_RAD, Reading, reading_in
+from tests.accuracy.readings_table import WRIST_COLUMNS, ReadRow
+from tests.accuracy.runs import degrees_between
+from tests.accuracy.sequences import LEAST_DISCS, markers_of, true_names
+from tests.second_patient.motions import ROWS, Row, motion_of
+from tests.second_patient.recording import CLICKS_FILE, clear_px, kept_recording, take_of
+from tests.second_patient.truth import Truth
+
+SECOND_SEEDS = 9_000_000
+"""Seeds of these rows start here, sides in turn."""
+LEAST_CLEAR_PX = 3.0
+"""Between the edges of two discs of the first picture."""
+_MOST_TRIES = 12
+
+
+@dataclass(frozen=True, slots=True)
+class SecondRun:
+    """One recording tracked: what a therapist reads live, wrist and joints (None with six discs); ``status`` (N,) and
+    errors ``disc_mm`` of the visible discs; measurements ``taken`` and ``wrong``; ``ms`` of CPU time a frame."""
+
+    row: str
+    wrist: Reading
+    joints: Reading | None
+    status: NDArray[np.int64]
+    disc_mm: FloatArray
+    taken: int
+    wrong: int
+    ms: float
+
+
+def tracked_run(row: Row, seed: int, settings: TrackSettings | None = None) -> SecondRun | str:
+    """Track one recording of a row and compare it with its truth; what is in the way where that cannot be done."""
+    try:
+        return _tracked_run(row, seed, settings)
+    except CarpusFault as fault:
+        return f"second: {row.name}, seed {seed}: not tracked, {type(fault).__name__}: {fault}"
+
+
+def _tracked_run(row: Row, seed: int, settings: TrackSettings | None) -> SecondRun:
+    folder, truth = kept_recording(row, seed)
+    with tempfile.TemporaryDirectory() as place, threadpool_limits(1):
+        output = Path(place) / "session.h5"
+        begin = time.process_time()
+        clicks = read_clicks(folder / CLICKS_FILE)
+        track_recording(TumFolder(folder), clicks, output, settings or TrackSettings(), software_version="accuracy")
+        ms = 1e3 * (time.process_time() - begin) / len(truth.timestamp_s)
+        session = read_session(output)
+        table = read_detections(output)
+    learnt = learnt_in(session.header.parameters)
+    assert learnt is not None
+    pixel = np.array([truth.camera.distort(some) for some in truth.disc_pixel])
+    blobs = [table.of_frame(i) for i in range(len(pixel))]
+    names = [markers_of(some, pixel[i], truth.visible_share[i]) for i, some in enumerate(blobs)]
+    kept = (truth.timestamp_s > learnt.neutral_ends_s) & _enough_inside(truth, pixel)
+    present = np.array([true_names(some, pixel.shape[1]) >= 0 for some in names])
+    measured = session.markers.measured_px
+    taken = np.isfinite(measured[..., 0])
+    wrong = np.zeros(taken.shape, dtype=bool)
+    for i, marker in np.argwhere(taken):
+        blob = int(np.abs(blobs[i].pixel - measured[i, marker]).sum(axis=1).argmin())
+        wrong[i, marker] = names[i][blob] != marker
+    unused, shown = int((present & ~taken)[kept].sum()), int(present[kept].sum())
+    off = np.linalg.norm(session.markers.position_cam_m - truth.disc_position_cam_m, axis=-1)[kept][present[kept]]
+
+    time_s = (truth.timestamp_s - truth.timestamp_s[0])[kept]
+    posture = motion_of(row.motion, seed).at(time_s)
+    moves = np.hstack((posture.wrist, posture.fingers))
+
+    def reading(true: FloatArray, found: FloatArray, sd: FloatArray, where: NDArray[np.bool_] | None = None) -> Reading:
+        error = degrees_between(found, true)[kept]
+        near = (np.abs(true - true[0]) < AT_NEUTRAL_RAD)[kept]
+        error = error if where is None else np.where(where[kept], error, np.nan)
+        return reading_in(time_s, moves, true[kept], near, error, np.degrees(sd)[kept], unused=unused, shown=shown)
+
+    motion = session.motion
+    joints = None
+    if truth.protocol.has_fingers:
+        found, sd = with_end_joints(motion.joint_angles_rad), with_end_joints(motion.joint_angles_sd_rad)
+        joints = reading(truth.joint_angles_rad, found, sd, seen_joints(present) & _readable(truth.joint_angles_rad))
+    return SecondRun(
+        row.name,
+        reading(truth.angles_rad, motion.angles_rad, motion.angles_sd_rad),
+        joints,
+        session.status[kept].astype(np.int64),
+        1e3 * off[np.isfinite(off)],
+        int(taken[kept].sum()),
+        int(wrong[kept].sum()),
+        ms,
+    )
+
+
+def _enough_inside(truth: Truth, pixel: FloatArray) -> NDArray[np.bool_]:
+    """Frames (N,) with three discs of the palm inside the picture: without, nothing can be known."""
+    palm = pixel[:, list(truth.protocol.palm)]
+    inside = ((palm >= 0.0) & (palm <= [truth.camera.width_px - 1, truth.camera.height_px - 1])).all(axis=-1)
+    return np.asarray(inside.sum(axis=1) >= LEAST_DISCS)
+
+
+def _readable(joint_true: FloatArray) -> NDArray[np.bool_]:
+    """Abduction of a bent finger turns it about itself: no camera and no examiner can read it."""
+    out = np.ones(joint_true.shape, dtype=bool)
+    for k in (2, 3, 4, 5):
+        out[:, ANGLES.index(f"MCP{k}_abduction")] = joint_true[:, ANGLES.index(f"MCP{k}_flexion")] < BENT_RAD
+    return out
+
+
+def rows_named(only: str) -> list[Row]:
+    """The rows whose name holds ``only``."""
+    return [row for row in ROWS if only.lower() in f"second: {row.name}".lower()]
+
+
+def report(rows: Sequence[Row], recordings: int, processes: int, *, as_markdown: bool) -> str:
+    """Run ``recordings`` of each of these rows and tell."""
+    jobs = [
+        (row, _clickable_seed(row, SECOND_SEEDS + 50 * ROWS.index(row) + i)) for row in rows for i in range(recordings)
+    ]
+    context = multiprocessing.get_context("spawn")
+    with ProcessPoolExecutor(processes, mp_context=context) as pool:
+        done = list(tqdm(pool.map(tracked_run, *zip(*jobs, strict=True)), total=len(jobs), file=sys.stderr))
+    runs, faults = [run for run in done if isinstance(run, SecondRun)], [run for run in done if isinstance(run, str)]
+    read = list(_read_rows(runs, rows))
+    if as_markdown:
+        return "\n".join([readings_table.markdown(read), *faults])
+    head = "The second patient, for judging only (rendered pictures):"
+    return "\n".join([head, readings_table.terminal(read), *_others(runs, rows), *faults])
+
+
+def _clickable_seed(row: Row, seed: int) -> int:
+    """The seed, or the next of the same side whose discs stand apart in the first picture: others could not be told
+    apart by a click, and a therapist would move the camera nearer."""
+    tries = range(seed, seed + 1000 * _MOST_TRIES, 1000)
+    return next((one for one in tries if clear_px(take_of(row, one, seconds=0.1)) >= LEAST_CLEAR_PX), seed)
+
+
+def _read_rows(runs: Sequence[SecondRun], rows: Sequence[Row]) -> Iterator[ReadRow]:
+    groups = {name: tuple(ANGLES.index(one) for one in members) for name, members in JOINT_GROUPS.items()}
+    for row in rows:
+        mine = [run for run in runs if run.row == row.name]
+        if not mine:
+            continue
+        yield ReadRow(f"second: {row.name}", WRIST_COLUMNS, tuple(run.wrist for run in mine))
+        joints = tuple(run.joints for run in mine if run.joints is not None)
+        if joints:
+            yield ReadRow(f"second: {row.name}, joints", groups, joints)
+
+
+def _others(runs: Sequence[SecondRun], rows: Sequence[Row]) -> Iterator[str]:
+    for row in rows:
+        mine = [run for run in runs if run.row == row.name]
+        if not mine:
+            continue
+        status = np.concatenate([run.status for run in mine])
+        disc = np.concatenate([run.disc_mm for run in mine])
+        wrong, taken = sum(run.wrong for run in mine), sum(run.taken for run in mine)
+        yield (
+            f"second: {row.name}: {100 * np.mean(status == TrackStatus.TRACKED):.1f} % tracked; "
+            f"wrong {100 * wrong / max(1, taken):.2f} %; discs {np.percentile(disc, 50):.1f} mm, 95th percentile "
+            f"{np.percentile(disc, 95):.1f}; {np.mean([run.ms for run in mine]):.1f} ms"
+        )

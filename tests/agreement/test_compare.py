@@ -1,0 +1,213 @@
+"""A session against references whose difference is known: shift, turn, offset, readings, and what cannot be used."""
+
+from __future__ import annotations
+
+import csv
+import json
+import math
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from carpus.app.__main__ import main
+from carpus.core import so3
+from carpus.core.agreement.compare import compare
+from carpus.core.agreement.reference import Reading, Reference, read_reference
+from carpus.core.errors import ReferenceUnreadable, ReferenceUnsuited
+from carpus.core.formats import c3d_write, mot, trc
+from carpus.core.formats.c3d_read import read_c3d
+from carpus.core.hand.protocols import WRIST_ANGLES
+from carpus.core.output.report_content import session_figures
+from carpus.core.session.values import Session
+from tests.formats.takes import take_of
+from tests.ui.fakes import session as flexing
+
+PLACES = [place / "shared" / "data" for place in Path(__file__).resolve().parents]
+DATA = next((place for place in PLACES if place.is_dir()), PLACES[0])
+needs_data = pytest.mark.skipif(not DATA.is_dir(), reason="real data of others are not beside the checkout")
+
+
+@pytest.fixture(scope="module")
+def session() -> Session:
+    """Flexion to and fro, 30 frames a second, all of it tracked."""
+    made = flexing()
+    return replace(made, status=np.zeros(len(made), dtype=np.int64))
+
+
+def other(session: Session, shift_s: float, offset_deg: float = 0.0, rate_hz: float = 100.0) -> Reference:
+    """The session's own curve at another rate, later by ``shift_s``."""
+    time_s = session.timestamp_s - session.timestamp_s[0]
+    there_s = np.arange(max(0.0, shift_s), time_s[-1] + min(0.0, shift_s), 1.0 / rate_hz)
+    own = session.motion.angles_rad
+    angles = {
+        name: np.interp(there_s - shift_s, time_s, own[:, k]) + math.radians(offset_deg)
+        for k, name in enumerate(WRIST_ANGLES)
+    }
+    return Reference(Path("other.mot"), "angles", there_s - there_s[0] + 100.0, angles)
+
+
+@pytest.mark.parametrize("shift_s", [0.0, 0.337, -1.21])
+def test_a_shift_and_an_offset_are_found(session: Session, shift_s: float) -> None:
+    reference = other(session, 0.0, offset_deg=-3.0)
+    moved = replace(reference, angles_rad=dict(reference.angles_rad))
+    if shift_s > 0:  # the reference began to record earlier by as much: what was before does not matter
+        still = round(shift_s * 100)
+        moved = replace(
+            reference,
+            time_s=np.arange(len(reference.time_s) + still) / 100.0,
+            angles_rad={name: np.concatenate((np.full(still, v[0]), v)) for name, v in reference.angles_rad.items()},
+        )
+        shift_s = still / 100
+    elif shift_s < 0:
+        cut = round(-shift_s * 100)
+        moved = replace(
+            reference,
+            time_s=reference.time_s[cut:],
+            angles_rad={name: v[cut:] for name, v in reference.angles_rad.items()},
+        )
+        shift_s = -cut / 100
+    found = compare(session, moved)
+    assert found.shift is not None
+    assert found.shift.reference_later_s == pytest.approx(shift_s, abs=0.004)
+    flexion = next(one for one in found.pairs if one.name == "flexion").figures_deg
+    assert flexion.bias == pytest.approx(3.0, abs=0.05)
+    assert flexion.sd < 0.5
+    assert flexion.correlation > 0.999
+
+
+def test_the_session_agrees_with_its_own_exports(session: Session, tmp_path: Path) -> None:
+    take = take_of(replace(session, path=tmp_path / "s.h5"), "s")
+    mot.write(take, tmp_path)
+    found = compare(session, read_reference(tmp_path / "s.mot"))
+    assert [one.name for one in found.pairs] == list(WRIST_ANGLES)
+    assert max(one.figures_deg.rmse for one in found.pairs) < 0.05
+    assert min(len(one.time_s) for one in found.pairs) >= len(session) - 2
+
+
+@pytest.mark.parametrize("kind", ["c3d", "trc"])
+def test_points_are_turned_onto_the_session_as_one_body(session: Session, kind: str, tmp_path: Path) -> None:
+    turn = so3.exp(np.array([0.4, -1.1, 0.3]))
+    # A palm that is one rigid body, as optical discs on a splint are, moved as the session's angles say.
+    calibration = session.calibration
+    body = calibration.marker_position_w0_m[:6]
+    rotation = session.motion.rotation_w2_w0
+    place_w0 = np.einsum("nij,mj->nmi", rotation, body)
+    cam = place_w0 @ calibration.rotation_w0_cam.T + calibration.translation_w0_cam_m
+    rigid = replace(session, markers=replace(session.markers, position_cam_m=cam))
+    elsewhere = cam @ turn.T + (0.5, -2.0, 1.0)
+    theirs = replace(
+        rigid, markers=replace(session.markers, position_cam_m=elsewhere), motion=session.motion, path=tmp_path / "s.h5"
+    )
+    writer = c3d_write if kind == "c3d" else trc
+    writer.write(take_of(theirs, "s"), tmp_path)
+    found = compare(rigid, read_reference(tmp_path / f"s.{kind}"))
+    assert found.alignment is not None
+    assert found.alignment.residual_m < 5e-4
+    flexion = next(one for one in found.pairs if one.name == "flexion").figures_deg
+    assert abs(flexion.bias) < 2.5, "the neutral pose is where the first half second is"
+    assert flexion.sd < 0.7
+    assert flexion.correlation > 0.999
+
+
+def test_a_table_with_a_column_map(session: Session, tmp_path: Path) -> None:
+    path = tmp_path / "optical.csv"
+    time_s = session.timestamp_s - session.timestamp_s[0]
+    with path.open("w", newline="", encoding="utf-8") as file:
+        table = csv.writer(file, delimiter=";")
+        table.writerow(["Zeit", "FlexExt", "other"])
+        for t, angle in zip(time_s, np.degrees(session.motion.angles_rad[:, 1]), strict=True):
+            table.writerow([f"{t:.4f}".replace(".", ","), f"{-angle:.4f}".replace(".", ","), "1"])
+    found = compare(session, read_reference(path, {"time": "Zeit", "flexion": "-FlexExt"}))
+    (flexion,) = found.pairs
+    assert flexion.figures_deg.rmse < 0.02
+    assert any("other" in reason for reason in found.not_used)
+    assert any("deviation" in reason for reason in found.not_used)
+    with pytest.raises(ReferenceUnreadable, match="NoSuch"):
+        read_reference(path, {"time": "Zeit", "flexion": "NoSuch"})
+
+
+def test_readings_of_a_goniometer(session: Session, tmp_path: Path) -> None:
+    held = np.zeros_like(session.motion.angles_rad)
+    time_s = session.timestamp_s - session.timestamp_s[0]
+    held[:, 1] = np.radians(10.0 * np.floor(time_s / 2.0))
+    still = replace(session, motion=replace(session.motion, angles_rad=held))
+    path = tmp_path / "goniometer.csv"
+    rows = [f"{'flexion' if k else 'extension'},{10 * k - 2},{2 * k + 1}" for k in range(6)]
+    path.write_text("angle,reading_deg,time_s\n" + "\n".join([*rows, "flexion,20,6.0", "toe,3,1"]), encoding="utf-8")
+    found = compare(still, read_reference(path), figures=session_figures(still))
+    (flexion,) = found.pairs
+    assert flexion.figures_deg.count == 6
+    assert flexion.measured_rad[1:] == pytest.approx(np.radians([10.0, 20, 30, 40, 50]), abs=1e-3)
+    # Five readings 2 degrees low, and an extension of -2 read as flexion of 2: all by their sign.
+    assert np.degrees(flexion.measured_rad - flexion.reference_rad).round(2).tolist() == [-2.0, 2.0, 2.0, 2.0, 2.0, 2.0]
+    assert found.left_out == 1
+    assert any("not still" in reason for reason in found.not_used)
+    assert any("toe" in reason for reason in found.not_used)
+    assert found.shift is None
+
+
+def test_a_range_is_compared_with_the_sessions_own(session: Session) -> None:
+    figures = session_figures(session)
+    row = figures.row("flexion", 1)
+    assert row is not None
+    readings = tuple(Reading("flexion", "flexion", math.radians(row.mean_deg + d), math.nan) for d in (1.0, 2.0, 3.0))
+    found = compare(session, Reference(Path("list.csv"), "list", readings=readings), figures=figures)
+    assert found.pairs[0].figures_deg.bias == pytest.approx(-2.0)
+
+
+def test_another_movement_is_not_compared(session: Session) -> None:
+    rng = np.random.default_rng(2)
+    noise = {"flexion": np.cumsum(rng.normal(size=3000)) * 0.01}
+    with pytest.raises(ReferenceUnsuited):
+        compare(session, Reference(Path("x.mot"), "angles", np.arange(3000) / 100.0, noise), most_shift_s=0.2)
+    with pytest.raises(ReferenceUnsuited, match="discs"):
+        compare(session, Reference(Path("x.c3d"), "points", np.arange(9.0), points_m={"WRIST": np.zeros((9, 3))}))
+
+
+def test_the_command_writes_tables_and_plots(
+    session: Session, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    from tests.formats.takes import stored
+
+    path = stored(tmp_path, frames=90, moving=True)
+    assert main(["compare", str(path), str(path), "--output", str(tmp_path / "out")]) == 0
+    said = capsys.readouterr().out
+    assert "flexion" in said
+    names = {file.name for file in (tmp_path / "out").iterdir()}
+    assert names >= {"one-against-one.agreement.csv", "one-against-one.agreement.json", "one-against-one.pdf"}
+    assert "one-against-one.flexion.png" in names
+    content = json.loads((tmp_path / "out" / "one-against-one.agreement.json").read_text(encoding="utf-8"))
+    assert {row["angle"] for row in content["angles"]} == set(WRIST_ANGLES)
+    assert len(content["provenance"]["reference"]["sha256"]) == 64
+    assert main(["compare", str(path), str(tmp_path / "none.c3d")]) == 1
+    assert "none.c3d" in capsys.readouterr().err
+
+
+@needs_data
+def test_six_encodings_of_one_trial_read_alike() -> None:
+    tracks = [read_c3d(path) for path in sorted((DATA / "c3d").glob("c3dorg_sample01_*.c3d"))]
+    assert len(tracks) == 6
+    for track in tracks:
+        assert track.place_m.shape == (450, 26, 3)
+        assert track.names[0] == "RFT1"
+        assert np.allclose(track.place_m, tracks[0].place_m, atol=1e-7, equal_nan=True)
+
+
+@needs_data
+def test_files_of_other_programs_are_read() -> None:
+    for path in sorted((DATA / "trc").glob("*.trc")):
+        reference = read_reference(path, markers={})
+        assert reference.unused, "markers of a whole body are none of the discs"
+        assert (np.diff(reference.time_s) > 0).all()
+    found = read_reference(DATA / "trc" / "pyomeca_inverse_kin.mot", {"flexion": "hand_r_Flex"})
+    assert np.abs(found.angles_rad["flexion"]).max() < math.pi
+
+
+@pytest.mark.parametrize("name", ["x.c3d", "x.trc", "x.mot", "x.csv", "x.xyz"])
+@pytest.mark.parametrize("content", [b"", b"nonsense\n1,2\n", bytes(range(256)) * 8])
+def test_what_is_no_reference_is_said_in_a_sentence(name: str, content: bytes, tmp_path: Path) -> None:
+    (tmp_path / name).write_bytes(content)
+    with pytest.raises(ReferenceUnreadable):
+        read_reference(tmp_path / name)

@@ -1,0 +1,328 @@
+"""Test and retest: the error that was put in is found, stored, and changes what is called a change."""
+
+from __future__ import annotations
+
+import csv
+import json
+import math
+import shutil
+import subprocess
+import uuid
+from dataclasses import replace
+from datetime import UTC, date, datetime, timedelta
+from pathlib import Path
+
+import numpy as np
+import pytest
+from PySide6.QtWidgets import QApplication
+from pytestqt.qtbot import QtBot
+
+from carpus.app import compose
+from carpus.app.__main__ import main
+from carpus.app.settings import RecordingSettings, ScreenSettings, Settings
+from carpus.core import so3
+from carpus.core.agreement.limits_file import LIMITS_FILE, read_limits, store_limits
+from carpus.core.agreement.retest import retest, studies
+from carpus.core.agreement.retest_plan import plan_of
+from carpus.core.errors import SettingsInvalid
+from carpus.core.library.library import Library
+from carpus.core.measures.error_limits import ErrorLimits, MeasuredLimit, RetestStudy
+from carpus.core.output.report_content import SessionFigures, compare, session_figures
+from carpus.core.session.reader import read_session
+from carpus.core.session.register import PatientEntry
+from carpus.core.session.values import new_header
+from carpus.core.session.writer import SessionWriter
+from carpus.core.types import TrackStatus
+from carpus.ui.controls.button import Button
+from carpus.ui.controls.text import Text
+from carpus.ui.settings.screen import SettingsScreen
+from tests.session.samples import CAMERA, make_calibration, make_frame
+
+FIRST = datetime(2026, 11, 2, 9, 0, tzinfo=UTC)
+
+
+def readings(rng: np.random.Generator, people: int, times: int, error: float, rater: float = 0.0) -> np.ndarray:
+    truth = rng.normal(60.0, 8.0, (people, 1))
+    return truth + rng.normal(0.0, error, (people, times)) + rng.normal(0.0, rater, (1, times))
+
+
+def test_the_error_that_was_put_in_is_found() -> None:
+    found = retest(readings(np.random.default_rng(1), 4000, 3, 2.5).tolist())
+    assert found.sem == pytest.approx(2.5, abs=0.05)
+    assert found.mdc95 == pytest.approx(1.96 * math.sqrt(2.0) * found.sem)
+    assert found.icc == pytest.approx(64.0 / (64.0 + 2.5**2), abs=0.01)
+    assert abs(found.step) < 0.2
+
+
+def test_two_times_are_the_differences_of_the_reference() -> None:
+    pairs = readings(np.random.default_rng(2), 11, 2, 3.0)
+    difference = pairs[:, 1] - pairs[:, 0]
+    assert retest(pairs.tolist()).sem == pytest.approx(math.sqrt(float((difference**2).mean()) / 2.0))
+
+
+@pytest.mark.parametrize(("times", "rater"), [(2, 0.0), (3, 0.0), (4, 2.0)])
+def test_the_interval_holds_the_truth_as_often_as_it_says(times: int, rater: float) -> None:
+    rng = np.random.default_rng(times)
+    true = math.hypot(2.0, rater)
+    found = [retest(readings(rng, 12, times, 2.0, rater).tolist()) for _ in range(600)]
+    held = float(np.mean([one.sem_interval[0] <= true <= one.sem_interval[1] for one in found]))
+    # With four raters who differ the few means decide, and Satterthwaite's interval is an approximation.
+    assert (0.93 if rater == 0.0 else 0.85) <= held <= 0.975
+
+
+def test_raters_who_differ_are_in_the_error_and_apart_from_it() -> None:
+    rng = np.random.default_rng(3)
+    values, names = [], []
+    for truth in rng.normal(60.0, 8.0, 500):
+        offset = {"MK": 0.0, "JS": 4.0}
+        who = ["MK", "MK", "JS", "JS"]
+        values.append([truth + offset[one] + rng.normal(0.0, 1.5) for one in who])
+        names.append(who)
+    found = retest(values, names)
+    assert found.sem_same_rater == pytest.approx(1.5, abs=0.1)
+    assert found.sem > 2.4
+
+
+def test_people_measured_once_and_unknown_values_take_no_part() -> None:
+    found = retest([[60.0, 62.0], [71.0], [55.0, math.nan], [64.0, 66.0, 65.0], [70.0, 71.0]])
+    assert (found.people, found.readings) == (3, 7)
+    assert math.isnan(retest([[60.0, 61.0]]).sem)
+
+
+def written(folder: Path, person: int, time: int, when: datetime, reach_deg: float) -> Path:
+    """Flexion to and fro by ``reach_deg`` to both sides, four times."""
+    header = new_header(
+        hand="right", protocol=make_calibration().clicks.protocol, software_version="0", subject_id=f"P{person:02d}",
+        exercise="WRIST_FE", now=when, session_id=uuid.uuid4(),
+    )  # fmt: skip
+    path = folder / f"P{person:02d}-{time}.h5"
+    set_up = make_calibration()
+    seen_from_above = np.diag([1.0, -1.0, -1.0])
+    set_up = replace(set_up, verdict=replace(set_up.verdict, findings=()), rotation_w0_cam=seen_from_above)
+    with SessionWriter.create(path, header, CAMERA, set_up) as writer:
+        for row in range(360):
+            angle = math.radians(reach_deg) * math.sin(2.0 * math.pi * row / 90.0)
+            turn = so3.exp(np.array([0.0, angle, 0.0]))
+            writer.append(
+                replace(
+                    make_frame(row),
+                    timestamp_s=row / 30.0,
+                    status=TrackStatus.TRACKED,
+                    dropped_before=0,
+                    rotation_w2_w0=turn,
+                    position_m=np.zeros(3),
+                    w0_turn_rad=np.zeros(3),
+                    marker_measured_px=np.full((6, 2), 300.0),
+                    angles_rad=np.array([0.0, angle, 0.0]),
+                    angles_sd_rad=np.radians([0.5, 1.0, 1.0]),
+                )
+            )
+    return path
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Ten people twice, a week apart, and two who take no part: measured once, and too late."""
+    folder, rng = tmp_path_factory.mktemp("retest"), np.random.default_rng(4)
+    for person in range(1, 12):
+        reach = rng.normal(45.0, 6.0)
+        for time in (1, 2):
+            if (person, time) != (11, 2):
+                when = FIRST + timedelta(days=7 * (time - 1), hours=person)
+                written(folder, person, time, when, reach + rng.normal(0.0, 1.0))
+    written(folder, 1, 3, FIRST + timedelta(days=40), 70.0)
+    return folder
+
+
+def figures_of(folder: Path) -> list[SessionFigures]:
+    return [session_figures(read_session(path)) for path in sorted(folder.glob("*.h5"))]
+
+
+def test_sessions_make_a_study(folder: Path) -> None:
+    measured = figures_of(folder)
+    (one,) = studies(measured)
+    assert (one.people, one.sessions) == (10, 20)
+    assert sorted(left.reason for left in one.left_out) == ["once", "too_late"]
+    by_hand: dict[str, list[float]] = {}
+    for figures in measured:
+        row = figures.row("flexion", 1)
+        assert row is not None
+        by_hand.setdefault(figures.subject_id, []).append(row.mean_deg)
+    pairs = np.array([values[:2] for values in by_hand.values() if len(values) > 1])
+    expected = math.sqrt(float(((pairs[:, 1] - pairs[:, 0]) ** 2).mean()) / 2.0)
+    assert one.found[("flexion", "flexion")].sem == pytest.approx(expected)
+
+
+@pytest.mark.usefixtures("qapp")
+def test_the_command_stores_limits_that_reports_name(
+    folder: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.setenv("CARPUS_DATA", str(tmp_path))
+    raters = tmp_path / "raters.csv"
+    raters.write_text("session,rater\nP01-1,MK\nP01-2,JS\nnobody,MK\n", encoding="utf-8")
+    table = tmp_path / "table.csv"
+    assert main(["retest", str(folder), "--output", str(table), "--raters", str(raters), "--store"]) == 0
+    said = capsys.readouterr()
+    assert "10 people, 20 sessions, 2 raters" in said.out
+    assert "no session is called nobody" in said.err
+    with table.open(encoding="utf-8", newline="") as file:
+        rows = {(row["of"], row["movement"]): row for row in csv.DictReader(file)}
+    (study,) = read_limits(tmp_path).studies
+    assert (study.people, study.made) == (10, date.today().isoformat())
+    own = study.limit_deg("flexion", "arc")
+    assert own == math.ceil(float(rows[("flexion", "arc")]["mdc95_deg"]))
+    output = tmp_path / "progress.pdf"
+    assert main(["report", str(folder / "P01-1.h5"), str(folder / "P01-2.h5"), "--output", str(output)]) == 0
+    tool = shutil.which("pdftotext")
+    assert tool is not None, "pdftotext (poppler-utils) is needed to read the report back"
+    words = " ".join(
+        subprocess.run([tool, str(output), "-"], capture_output=True, text=True, check=True).stdout.split()
+    )
+    assert "measured by this clinic on" in words
+    assert "with 10 people" in words
+    assert f"error {own:.0f}°" in words
+
+
+def test_few_people_put_nothing_in_force(
+    folder: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.setenv("CARPUS_DATA", str(tmp_path))
+    paths = [str(path) for path in sorted(folder.glob("P0[1-4]-[12].h5"))]
+    assert main(["retest", *paths]) == 0
+    assert "4 people, 8 sessions" in capsys.readouterr().out
+    assert main(["retest", *paths, "--store"]) == 1
+    assert "4 people" in capsys.readouterr().err
+    assert not (tmp_path / LIMITS_FILE).exists()
+    assert main(["retest", paths[0]]) == 1
+
+
+def limits(mdc_deg: float, people: int = 12) -> ErrorLimits:
+    one = MeasuredLimit("flexion", "arc", people, mdc_deg / 2.77, (1.0, 4.0), mdc_deg, (2.0, 9.0))
+    return ErrorLimits((RetestStudy("wrist6", "WRIST_FE", "zyx", "2026-11-27", people, 2 * people, 2, (one,)),))
+
+
+def test_a_change_is_judged_by_the_clinics_limit(folder: Path) -> None:
+    before = session_figures(read_session(folder / "P01-1.h5"))
+    rows = tuple(replace(row, mean_deg=row.mean_deg + 9.0) for row in before.rows)
+    after = replace(before, when=before.when + timedelta(days=1), rows=rows, recording_id="other")
+
+    def arc(measured: ErrorLimits) -> tuple[str, float]:
+        found = {item.movement: item for item in compare(before, replace(after, error_limits=measured))}
+        assert found["flexion"].limit_deg == pytest.approx(10.0), "what the study has not keeps the default"
+        return found["arc"].verdict, round(found["arc"].limit_deg, 1)
+
+    assert arc(ErrorLimits()) == ("no_change", 14.1)
+    assert arc(limits(6.6)) == ("improved", 7.0)
+    assert arc(limits(9.0)) == ("no_change", 9.0)
+    assert arc(limits(6.6, people=9)) == ("no_change", 14.1)
+    other_order = replace(limits(6.6).studies[0], angle_order="isb")
+    assert arc(ErrorLimits((other_order,))) == ("no_change", 14.1)
+
+
+def test_limits_are_read_as_stored_and_a_new_study_takes_the_place_of_its_like(tmp_path: Path) -> None:
+    assert read_limits(tmp_path) == ErrorLimits()
+    old, new = limits(6.6).studies[0], limits(5.0).studies[0]
+    other = replace(old, exercise="WRIST_RU")
+    store_limits(tmp_path, [old, other])
+    assert read_limits(tmp_path).studies == (old, other)
+    store_limits(tmp_path, [new])
+    assert read_limits(tmp_path).studies == (other, new)
+    assert [path.name for path in tmp_path.iterdir()] == [LIMITS_FILE]
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "",
+        "[]",
+        '{"format": "else"}',
+        '{"format": "carpus-error-limits", "format_version": 1, "studies": [{}]}',
+        "NUMBER",
+    ],
+)
+def test_a_damaged_file_is_told(tmp_path: Path, text: str) -> None:
+    if text == "NUMBER":
+        store_limits(tmp_path, limits(6.6).studies)
+        said = json.loads((tmp_path / LIMITS_FILE).read_text())
+        said["studies"][0]["limits"][0]["mdc95_deg"] = -3
+        text = json.dumps(said)
+    (tmp_path / LIMITS_FILE).write_text(text)
+    with pytest.raises(SettingsInvalid):
+        read_limits(tmp_path)
+
+
+def test_the_study_in_the_window_from_people_to_limits_in_force(
+    qapp: QApplication, qtbot: QtBot, folder: Path, tmp_path: Path
+) -> None:
+    library = Library(tmp_path / "data")
+    for person in range(1, 13):
+        patient = library.clinic.add(PatientEntry(f"P{person:02d}", "right"))
+        for stored in sorted(folder.glob(f"P{person:02d}-*.h5")):
+            path = library.clinic.new_session_path(patient, "WRIST_FE", "right", FIRST)
+            shutil.copyfile(stored, path)
+            entry = library.clinic.enter_session(path, patient)
+            library.who = lambda stored=stored: "JS" if stored.stem.endswith("2") else "MK"  # type: ignore[misc]
+            library.note_session("recorded", entry.session_id)
+    library.close()
+    settings = Settings(screen=ScreenSettings("light"), recording=RecordingSettings(folder=str(tmp_path / "data")))
+    today = (FIRST + timedelta(days=12)).date()
+    desktop = compose.compose(qapp, settings, settings_folder=tmp_path / "settings", today=today)
+    journey, screen = desktop.journey, desktop.journey.retest
+    try:
+        desktop.show()
+        journey.settings_wanted.emit()
+        settings_screen = desktop.shell.stage.currentWidget()
+        assert isinstance(settings_screen, SettingsScreen)
+        settings_screen.retest.click()
+        assert journey.place == "retest"
+        qtbot.waitUntil(lambda: not journey.background.busy)
+        assert "Nobody" in screen.answer.text()
+        screen.people_button.click()
+        for tick in journey.retesting.sheet.ticks.values():
+            tick.click()
+        journey.retesting.sheet.take.click()
+        qtbot.waitUntil(lambda: len(screen.plan.people) == 12)
+        states = [one.state for one in screen.plan.people]
+        assert states.count("complete") == 10
+        due = screen.plan.next_due
+        assert due is not None
+        assert (due.pseudonym, due.state, due.due_by) == ("P11", "due", (FIRST + timedelta(days=14)).date())
+        assert "P11" in screen.measure_button.text()
+        assert screen.plan.people[-1].state == "missing"
+        assert screen.plan.study is not None
+        assert (screen.plan.study.people, screen.plan.study.raters) == (10, 2)
+        same = studies(figures_of(folder))[0].found
+        assert screen.plan.study.found[("flexion", "flexion")].mdc95 == pytest.approx(
+            same[("flexion", "flexion")].mdc95
+        )
+        assert read_limits(tmp_path / "data").studies == ()
+        screen.use_button.click()
+        qtbot.waitUntil(lambda: journey.teller.busy)
+        (use,) = [one for one in desktop.shell.findChildren(Button) if one.text() == "Use these limits"]
+        use.click()
+        qtbot.waitUntil(lambda: bool(desktop.library.error_limits.studies) and not journey.background.busy)
+        (stored_study,) = read_limits(tmp_path / "data").studies
+        assert (stored_study.people, stored_study.made) == (10, today.isoformat())
+        said = " ".join(text.text() for text in settings_screen.findChildren(Text))
+        assert "On 14 Nov 2026 with 10 people in 20 sessions" in said
+        screen.measure_button.click()
+        assert journey.patient is not None
+        assert journey.patient.pseudonym == "P11"
+    finally:
+        desktop.close()
+        qtbot.waitUntil(lambda: not journey.background.busy)
+
+
+def test_too_late_and_simulated_put_nothing_into_force(folder: Path) -> None:
+    figures = figures_of(folder)
+    alone = [one for one in figures if one.subject_id == "P11"]
+    late = plan_of([("p11", "P11", alone)], "WRIST_FE", {}, (FIRST + timedelta(days=15)).date())
+    assert [(one.state, one.due_by) for one in late.people] == [("too_late", None)]
+    assert late.blocked == "nothing"
+    people = [(f"p{k}", f"P{k}", [one for one in figures if one.subject_id == f"P{k:02d}"]) for k in range(1, 11)]
+    today = (FIRST + timedelta(days=20)).date()
+    assert plan_of(people, "WRIST_FE", {}, today).blocked == ""
+    assert plan_of(people[:-1], "WRIST_FE", {}, today).blocked == "few"
+    assert plan_of(people, "WRIST_RU", {}, today).blocked == "nothing"
+    pretended = [(key, name, [replace(one, simulated=True) for one in found]) for key, name, found in people]
+    assert plan_of(pretended, "WRIST_FE", {}, today).blocked == "simulated"

@@ -1,0 +1,237 @@
+"""Whatever lies in the data folder, the program starts; a file that is no session is set apart and named once."""
+
+from __future__ import annotations
+
+import os
+import shutil
+import sqlite3
+import uuid
+from collections.abc import Callable
+from pathlib import Path
+
+import h5py
+import pytest
+
+from carpus.core.errors import CarpusFault, FilesSetApart, RegisterSetAside, SessionUnreadable
+from carpus.core.library import library as library_module
+from carpus.core.library.library import Library
+from carpus.core.session import register as register_module
+from carpus.core.session.register import REGISTER_FILE, PatientEntry, PatientRegister
+from carpus.core.session.writer import SessionWriter
+from tests.session.samples import CAMERA, make_calibration, make_frame, make_header
+
+
+def stored(path: Path, subject: str = "Linden 42", *, finished: bool = True) -> Path:
+    path.parent.mkdir(parents=True, exist_ok=True)
+    header = make_header(session_id=uuid.uuid4(), subject=subject)
+    writer = SessionWriter.create(path, header, CAMERA, make_calibration())
+    for row in range(12):
+        writer.append(make_frame(row))
+    writer.flush()
+    if finished:
+        writer.close()
+        return path
+    writer.abandon()
+    return writer.part_path
+
+
+def group(file: h5py.File) -> None:
+    del file["/frames/timestamp"]
+    file.create_group("/frames/timestamp")
+
+
+def scalar(file: h5py.File) -> None:
+    del file["/detections/frame"]
+    file["/detections/frame"] = 3
+
+
+def huge(file: h5py.File) -> None:
+    file["/frames/timestamp"].resize(1 << 60, axis=0)
+
+
+def sign(file: h5py.File) -> None:
+    file["/detections/count"][5] = -1 << 31
+
+
+def blank(file: h5py.File) -> None:
+    file.attrs["subject_id"] = " "
+
+
+def text_time(file: h5py.File) -> None:
+    file.attrs["created"] = "0001-01-01T00:00:00+23:59"
+
+
+def started(folder: Path) -> tuple[list[str], list[CarpusFault]]:
+    """The program's start on a folder: patients, and what it tells."""
+    library = Library(folder)
+    try:
+        faults = list(library.recover()[1])
+        return [record.entry.pseudonym for record in library.clinic.patients()], faults
+    finally:
+        library.close()
+
+
+@pytest.mark.parametrize("change", [group, scalar, huge, sign, blank, text_time])
+@pytest.mark.parametrize("finished", [True, False])
+def test_one_bad_file_does_not_keep_the_program_from_starting(
+    tmp_path: Path, change: Callable[[h5py.File], None], finished: bool
+) -> None:
+    sessions = tmp_path / "sessions"
+    stored(sessions / "Heron-17" / "good.h5", "Heron 17")
+    bad = stored(sessions / "Linden-42" / "bad.h5", finished=finished)
+    with h5py.File(bad, "r+") as file:
+        change(file)
+    patients, faults = started(tmp_path)
+    assert "Heron 17" in patients
+    assert bad.exists() or (sessions / "Linden-42" / "bad.h5").exists()
+    assert all(isinstance(fault, SessionUnreadable) and Path(fault.subject).name == bad.name for fault in faults)
+    if change in (group, scalar):
+        assert len(faults) == 1
+    again, told_again = started(tmp_path)
+    assert (again, told_again) == (patients, [])  # named once, and not opened again
+
+
+def test_a_file_set_apart_is_read_again_when_it_has_changed(tmp_path: Path) -> None:
+    path = tmp_path / "sessions" / "s.h5"
+    good = stored(path).read_bytes()
+    path.write_bytes(good[:3000])
+    assert len(started(tmp_path)[1]) == 1
+    path.write_bytes(good)
+    assert started(tmp_path) == (["Linden 42"], [])
+    with PatientRegister(tmp_path) as register:
+        assert register.set_apart() == []
+
+
+def test_unchanged_files_are_not_opened_again(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    for number in range(5):
+        stored(tmp_path / "sessions" / f"{number}.h5")
+    started(tmp_path)
+    opened: list[Path] = []
+    real = register_module.read_outline
+    monkeypatch.setattr(register_module, "read_outline", lambda path: (opened.append(path), real(path))[1])
+    stored(tmp_path / "sessions" / "new.h5")
+    started(tmp_path)
+    assert [path.name for path in opened] == ["new.h5"]
+
+
+def test_a_copied_session_counts_once(tmp_path: Path) -> None:
+    first = stored(tmp_path / "sessions" / "b.h5")
+    with PatientRegister(tmp_path) as register:
+        (patient,) = register.patients()
+        shutil.copy(first, tmp_path / "sessions" / "a.h5")
+        assert register.is_behind()
+        register.rebuild_from_sessions()
+        assert [entry.path.name for entry in register.sessions(patient.patient_id)] == ["b.h5"]
+        assert register.patient(patient.patient_id).session_count == 1
+        assert [path.name for path, _ in register.set_apart()] == ["a.h5"]
+        assert not register.is_behind()
+        first.unlink()
+        register.rebuild_from_sessions()
+        assert [entry.path.name for entry in register.sessions(patient.patient_id)] == ["a.h5"]
+    with PatientRegister(tmp_path) as register:
+        assert register.patient(patient.patient_id).session_count == 1
+
+
+def test_names_that_are_no_text_and_links(tmp_path: Path) -> None:
+    sessions = tmp_path / "sessions"
+    outside = stored(tmp_path / "outside.h5", "Elsewhere 1")
+    stored(sessions / "s.h5")
+    shutil.copy(outside, os.fsencode(sessions) + b"/\xff\xfe.h5")
+    (sessions / "link.h5").symlink_to(outside)
+    (sessions / "dangling.h5").symlink_to(tmp_path / "nowhere")
+    os.mkfifo(sessions / "pipe.h5")
+    (sessions / "folder.h5").mkdir()
+    patients, faults = started(tmp_path)
+    assert patients == ["Linden 42"]
+    assert len(faults) == 1
+    assert isinstance(faults[0], FilesSetApart)
+    assert faults[0].detail == "5 files"
+
+
+def test_a_part_without_a_header_is_told_once(tmp_path: Path) -> None:
+    part = stored(tmp_path / "sessions" / "s.h5", finished=False)
+    part.write_bytes(b"\x89HDF" + bytes(3000))
+    patients, faults = started(tmp_path)
+    assert (patients, len(faults)) == ([], 1)
+    assert started(tmp_path)[1] == []
+    reserved = part.with_name("t.h5.01234567.part")
+    reserved.write_bytes(bytes(600_000))  # ended before its first byte
+    assert started(tmp_path)[1] == []
+    assert part.exists()
+    assert reserved.exists()
+
+
+def rows(statement: str) -> Callable[[Path], None]:
+    def change(path: Path) -> None:
+        with sqlite3.connect(path) as database:
+            database.execute("PRAGMA ignore_check_constraints = ON")
+            database.execute(statement)
+        database.close()
+
+    return change
+
+
+def overwrite(path: Path) -> None:
+    path.write_bytes(b"no register" * 500)
+
+
+def truncate(path: Path) -> None:
+    path.write_bytes(path.read_bytes()[:5000])
+
+
+def misname(path: Path) -> None:
+    """A table's name that is no text: SQLite's complaint about it cannot be read either."""
+    data = path.read_bytes()
+    assert data.count(b"CREATE TABLE session") == 1
+    path.write_bytes(data.replace(b"CREATE TABLE session", b"CREATE TABLX s\xd5ssion"))
+
+
+@pytest.mark.parametrize(
+    "damage",
+    [
+        overwrite,
+        truncate,
+        misname,
+        rows("DROP TABLE session"),
+        rows("ALTER TABLE patient RENAME COLUMN note TO remark"),
+        rows("UPDATE session SET created = 'yesterday'"),
+        rows("UPDATE session SET frames = x'00'"),
+        rows("UPDATE patient SET pseudonym = ' '"),
+        rows("UPDATE patient SET age_band = 'old', side = 7, note = x'ff'"),
+    ],
+)
+def test_a_damaged_register_does_not_keep_the_program_from_starting(
+    tmp_path: Path, damage: Callable[[Path], None]
+) -> None:
+    stored(tmp_path / "sessions" / "s.h5")
+    started(tmp_path)
+    damage(tmp_path / REGISTER_FILE)
+    patients, faults = started(tmp_path)
+    assert len(patients) == 1
+    for fault in faults:
+        assert isinstance(fault, RegisterSetAside)
+        assert Path(fault.subject).exists()
+    with PatientRegister(tmp_path) as register:
+        (patient,) = register.patients()
+        assert patient.session_count == 1
+        assert len(register.sessions(patient.patient_id)) == 1
+    assert started(tmp_path) == (patients, [])
+
+
+def test_a_name_that_is_removed_is_nowhere(tmp_path: Path) -> None:
+    with PatientRegister(tmp_path) as register:
+        key = register.add(PatientEntry("Linden 42", "right", name="Wilhelmina Featherstone", note="a note"))
+        for number in range(50):
+            register.change(key, PatientEntry("Linden 42", "right", name=f"Wilhelmina Featherstone {number}"))
+        register.change(key, PatientEntry("Linden 42", "right"))
+        found = [path.name for path in tmp_path.iterdir() if path.is_file() and b"Featherstone" in path.read_bytes()]
+        assert found == []
+
+
+def test_nothing_told_is_lost_between_two_calls(tmp_path: Path) -> None:
+    assert library_module.MOST_TOLD >= 1
+    for number in range(6):
+        stored(tmp_path / "sessions" / f"{number}.h5").write_bytes(b"x" * 100)
+    (fault,) = started(tmp_path)[1]
+    assert fault.detail == "6 files"
+    assert "0.h5" in fault.subject

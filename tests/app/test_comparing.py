@@ -1,0 +1,225 @@
+"""In the real window: a session is compared with a table of another program, told which column is which, and saved."""
+
+from __future__ import annotations
+
+import csv
+import json
+import shutil
+from collections.abc import Iterator
+from datetime import UTC, date, datetime, timedelta
+from pathlib import Path
+
+import numpy as np
+import pytest
+from PySide6.QtCore import QLocale
+from PySide6.QtWidgets import QApplication, QFileDialog
+from pytestqt.qtbot import QtBot
+
+from carpus.app import compose
+from carpus.app.settings import RecordingSettings, ReportSettings, ScreenSettings, Settings
+from carpus.core.agreement.compared_files import compare_files
+from carpus.core.agreement.reference import outline_of
+from carpus.core.agreement.watch import Stopped, Watch
+from carpus.core.library.library import Library
+from carpus.core.safekeeping.audit import read_audit
+from carpus.core.session.reader import read_session
+from carpus.core.session.register import PatientEntry
+from tests.agreement.test_retest import written
+
+NOW = datetime(2026, 11, 20, 9, 0, tzinfo=UTC)
+
+
+@pytest.fixture(scope="module")
+def recorded(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Twelve seconds of flexion to and fro by 45 degrees."""
+    return written(tmp_path_factory.mktemp("session"), 1, 1, NOW, 45.0)
+
+
+@pytest.fixture(scope="module")
+def optical(recorded: Path) -> Path:
+    """The same movement as another program writes it: other names, other sign, 2 degrees more, 100 a second."""
+    session = read_session(recorded)
+    time_s = session.timestamp_s - session.timestamp_s[0]
+    even_s = np.arange(0.0, time_s[-1], 0.01)
+    flexion = np.degrees(np.interp(even_s, time_s, session.motion.angles_rad[:, 1]))
+    path = recorded.with_name("optical.csv")
+    with path.open("w", newline="", encoding="utf-8") as file:
+        table = csv.writer(file)
+        table.writerow(["Frame", "Zeit", "FlexExt"])
+        table.writerows(
+            (k, f"{t:.3f}", f"{2.0 - angle:.3f}") for k, (t, angle) in enumerate(zip(even_s, flexion, strict=True))
+        )
+    return path
+
+
+@pytest.fixture(scope="module")
+def earlier(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """The same by 42 degrees, a day before."""
+    return written(tmp_path_factory.mktemp("earlier"), 1, 2, NOW - timedelta(days=1), 42.0)
+
+
+@pytest.fixture
+def desktop(
+    qapp: QApplication, qtbot: QtBot, recorded: Path, earlier: Path, tmp_path: Path
+) -> Iterator[compose.Desktop]:
+    QLocale.setDefault(QLocale(QLocale.Language.English, QLocale.Country.UnitedKingdom))
+    library = Library(tmp_path / "data")
+    patient = library.clinic.add(PatientEntry("Linden 42", "right"))
+    for stored, when in ((recorded, NOW), (earlier, NOW - timedelta(days=1))):
+        path = library.clinic.new_session_path(patient, "WRIST_FE", "right", when)
+        shutil.copyfile(stored, path)
+        library.clinic.enter_session(path, patient)
+    library.close()
+    settings = Settings(
+        screen=ScreenSettings("light"), recording=RecordingSettings(folder=str(tmp_path / "data")),
+        report=ReportSettings(agreement_limit_deg=5.0),
+    )  # fmt: skip
+    opened = compose.compose(qapp, settings, settings_folder=tmp_path / "settings", today=date(2026, 11, 20))
+    opened.show()
+    opened.journey.viewing.review_newest(patient)
+    qtbot.waitUntil(lambda: opened.journey.review.shown)
+    yield opened
+    opened.close()
+    qtbot.waitUntil(lambda: not opened.journey.background.busy)
+
+
+def choosing(monkeypatch: pytest.MonkeyPatch, file: Path, folder: Path) -> None:
+    """The person's answers to the system's own dialogs."""
+    monkeypatch.setattr(QFileDialog, "getOpenFileName", staticmethod(lambda *_: (str(file), "")))
+    monkeypatch.setattr(QFileDialog, "getExistingDirectory", staticmethod(lambda *_: str(folder)))
+
+
+def test_from_the_review_to_saved_tables(
+    qtbot: QtBot, desktop: compose.Desktop, optical: Path, monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    journey = desktop.journey
+    screen, comparing = journey.agreement, journey.comparing
+    choosing(monkeypatch, optical, tmp_path)
+    journey.review.export_button.click()
+    journey.printing.formats.compare_button.click()
+    assert journey.place == "agreement"
+    assert comparing.reference.isVisible()
+    comparing.reference.file_button.click()
+    qtbot.waitUntil(comparing.columns.isVisible)  # no column is called as ours are
+    assert not comparing.columns.take.isEnabled()
+    times = comparing.columns.boxes["time"]
+    assert [times.itemText(row) for row in range(times.count())] == ["–", "Frame", "Zeit", "FlexExt"]
+    for name, column in (("time", "Zeit"), ("flexion", "FlexExt")):
+        box = comparing.columns.boxes[name]
+        box.setCurrentIndex(box.findData(column))
+    assert comparing.columns.take.isEnabled()
+    comparing.columns.signs["flexion"].click()
+    comparing.columns.take.click()
+    qtbot.waitUntil(lambda: screen.compared is not None)
+    assert screen.compared is not None
+    (pairs,) = screen.compared.pairs
+    assert pairs.figures_deg.bias == pytest.approx(2.0, abs=0.05)
+    assert screen.answer.text() == "Flexion–extension agrees within 5°."
+    assert screen.chart.plot is not None
+    head, rows = screen.chart.table()
+    assert len(list(rows)) == pairs.figures_deg.count
+    assert head[0] == "angle"
+    # What was said of the columns is proposed again.
+    screen.columns_button.click()
+    assert comparing.columns.chosen() == {"time": "Zeit", "flexion": "-FlexExt"}
+    comparing.columns.leave()
+    screen.save_button.click()
+    qtbot.waitUntil(lambda: journey.teller.busy)
+    names = sorted(path.name.rpartition("against-")[2] for path in tmp_path.glob("*against-optical*"))
+    assert names == [
+        "optical.agreement.csv", "optical.agreement.json", "optical.flexion.png", "optical.pairs.csv", "optical.pdf",
+    ]  # fmt: skip
+    said = json.loads(next(tmp_path.glob("*.agreement.json")).read_text(encoding="utf-8"))
+    assert said["angles"][0]["bias_deg"] == pytest.approx(pairs.figures_deg.bias)
+    exported = [entry for entry in read_audit(desktop.library.folder).entries if entry.did == "exported"]
+    assert [entry.facts["files"] for entry in exported] == [5]
+
+
+def test_from_the_list_of_sessions_with_another_one(qtbot: QtBot, desktop: compose.Desktop) -> None:
+    journey = desktop.journey
+    assert journey.patient is not None
+    journey.viewing.open_sessions(journey.patient.patient_id)
+    journey.sessions.reference_button.click()
+    assert journey.place == "agreement"
+    sheet = journey.comparing.reference
+    assert [sheet.box.itemText(row) for row in range(sheet.box.count())] == [
+        "19 Nov 2026, 09:00 · Wrist flexion–extension"
+    ]
+    sheet.session_button.click()
+    qtbot.waitUntil(lambda: journey.agreement.compared is not None)
+    assert journey.agreement.compared is not None
+    flexion = journey.agreement.compared.pairs[0].figures_deg
+    assert flexion.largest == pytest.approx(3.0, abs=0.1)
+    assert not journey.agreement.columns_button.isVisible(), "a session has no columns to be told"
+    journey.way.back()
+    assert journey.place == "review"
+
+
+def test_a_file_that_is_no_measurement_is_said_in_words(
+    qtbot: QtBot, desktop: compose.Desktop, monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    wrong = tmp_path / "notes.csv"
+    wrong.write_text("one line only\n", encoding="utf-8")
+    choosing(monkeypatch, wrong, tmp_path)
+    journey = desktop.journey
+    journey.comparing.show(journey.session_id)
+    journey.comparing.reference.file_button.click()
+    qtbot.waitUntil(lambda: journey.teller.busy)
+    assert journey.agreement.compared is None
+    assert journey.agreement.other_button.isEnabled()
+
+
+def test_a_comparison_is_given_up_when_the_screen_is_left(
+    qtbot: QtBot, desktop: compose.Desktop, monkeypatch: pytest.MonkeyPatch, tmp_path: Path, optical: Path
+) -> None:
+    journey = desktop.journey
+    comparing = journey.comparing
+    held = tmp_path / "movement.csv"
+    held.write_text(optical.read_text(encoding="utf-8").replace("Zeit,FlexExt", "time,flexion"), encoding="utf-8")
+    choosing(monkeypatch, held, tmp_path)
+    comparing.show(journey.session_id)
+    asked: list[bool] = []
+    real = Watch.at
+
+    def at(watch: Watch, share: float) -> None:
+        if share == 0.0 and not asked:
+            asked.append(True)
+            comparing.leave()  # as the way back does
+        real(watch, share)
+
+    monkeypatch.setattr(Watch, "at", at)
+    comparing.reference.file_button.click()
+    qtbot.waitUntil(lambda: bool(asked))
+    qtbot.waitUntil(journey.agreement.other_button.isEnabled)
+    assert journey.agreement.compared is None
+    assert not journey.teller.busy, "who stops it needs no message"
+
+
+def test_progress_rises_and_a_stop_writes_nothing(recorded: Path, optical: Path) -> None:
+    heard: list[int] = []
+    columns = {"time": "Zeit", "flexion": "-FlexExt"}
+    watched = Watch(lambda done, _: heard.append(done))
+    compare_files(recorded, optical, columns=columns, watch=watched)
+    assert heard == sorted(heard)
+    assert heard[0] == 0
+    assert heard[-1] == 100
+    assert len(heard) > 10
+    with pytest.raises(Stopped):
+        compare_files(recorded, optical, columns=columns, watch=Watch(cancelled=lambda: len(heard) > 10))
+
+
+@pytest.mark.parametrize(
+    ("name", "text", "kind", "found"),
+    [
+        ("a.csv", "time_s,flexion_deg,other\n0,1,2\n1,2,3\n", "angles", {"time": "time_s", "flexion": "flexion_deg"}),
+        ("b.csv", "movement;reading_deg\nflexion;40\n", "readings", {}),
+        ("c.tsv", "Zeit\tFE\n0\t1\n1\t2\n", "angles", {}),
+    ],
+)
+def test_the_outline_says_what_is_known_by_its_name(
+    tmp_path: Path, name: str, text: str, kind: str, found: dict[str, str]
+) -> None:
+    path = tmp_path / name
+    path.write_text(text, encoding="utf-8")
+    outline = outline_of(path)
+    assert (outline.kind, dict(outline.found)) == (kind, found)

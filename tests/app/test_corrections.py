@@ -1,0 +1,182 @@
+"""A corrected session in the data folder: tried apart, taken into the list when wanted, the old one kept."""
+
+from __future__ import annotations
+
+import math
+import shutil
+import threading
+import time
+from collections.abc import Callable, Iterator
+from datetime import datetime
+from pathlib import Path
+
+import pytest
+from PySide6.QtCore import Qt
+from PySide6.QtWidgets import QWidget
+from pytestqt.qtbot import QtBot
+
+from carpus.app.desktop import correcting
+from carpus.app.desktop.shelf import StoredSessions
+from carpus.core.library.beside import MARKERS_SUFFIX
+from carpus.core.library.corrections import Corrections, Waiting, difference
+from carpus.core.library.library import Library
+from carpus.core.library.records import Records
+from carpus.core.output.report_content import RepetitionChoices
+from carpus.core.pipeline.correction import Task, correct, task_of
+from carpus.core.session.register import PatientEntry
+from carpus.ui.background import Background
+from carpus.ui.correct.results_sheet import ResultsSheet
+from carpus.ui.correct.screen import CorrectScreen
+from carpus.ui.keys import Keys
+from carpus.ui.theme import Theme
+from tests.pipeline.test_correction import WRONG_FROM, Stored, put_right, stored  # noqa: F401  (a fixture)
+
+
+@pytest.fixture
+def library(tmp_path: Path) -> Iterator[Library]:
+    opened = Library(tmp_path / "data")
+    yield opened
+    opened.close()
+
+
+def entered(library: Library, stored: Stored) -> tuple[str, str]:  # noqa: F811
+    patient = library.clinic.add(PatientEntry("Linden 42", "right"))
+    when = datetime(2026, 11, 20, 11, 36).astimezone()
+    path = library.clinic.new_session_path(patient, "WRIST_FE", "right", when)
+    shutil.copyfile(stored.path, path)
+    return patient, library.clinic.enter_session(path, patient).session_id
+
+
+def made(corrections: Corrections, session_id: str, stored: Stored) -> Path:  # noqa: F811
+    trial = corrections.trial_path(session_id)
+    correct(task_of(corrections.origin_of(session_id), trial, (put_right(stored),), "2.0"))
+    return trial
+
+
+def test_a_trial_is_in_no_list_and_waits_until_it_is_wanted(library: Library, stored: Stored) -> None:  # noqa: F811
+    patient, session_id = entered(library, stored)
+    corrections = Corrections(library)
+    trial = made(corrections, session_id, stored)
+    library.recover()
+    assert [entry.session_id for entry in library.results(patient)] == [session_id]
+    found = difference(*corrections.both(session_id, trial))
+    assert found.common > 100
+    assert math.degrees(found.most_rad) < 10.0
+    trial.with_suffix(".12345678.part").write_bytes(b"x")  # the program was killed in the midst of another one
+    later = Corrections(library)
+    later.clear_unfinished()
+    assert later.waiting() == [Waiting(session_id, trial)]
+    assert list(trial.parent.iterdir()) == [trial]
+    corrections.drop(trial)
+    assert later.waiting() == []
+
+
+def test_what_waits_is_erased_with_its_session(library: Library, stored: Stored) -> None:  # noqa: F811
+    _, session_id = entered(library, stored)
+    trial = made(Corrections(library), session_id, stored)
+    records = Records(library)
+    records.erase(records.plan_session(session_id))
+    assert not trial.exists()
+
+
+class _Ways:
+    """Stands in for the window's way and messages."""
+
+    place, busy = "correct", False
+
+    def __init__(self) -> None:
+        self.faults: list[Exception] = []
+
+    def go(self, place: str) -> None: ...
+
+    def back(self) -> None: ...
+
+    def fault(self, fault: Exception, *_: object, **__: object) -> None:
+        self.faults.append(fault)
+
+
+def test_nothing_comes_up_and_enter_space_and_escape_decide_nothing(
+    qtbot: QtBot, library: Library, stored: Stored, monkeypatch: pytest.MonkeyPatch,  # noqa: F811
+) -> None:  # fmt: skip
+    patient, session_id = entered(library, stored)
+
+    def beside(task: Task, progress: Callable[[int, int], None], stopping: threading.Event) -> bool:
+        progress(30, 120)
+        if again and stopping.wait(30.0):
+            return False
+        again.append("next time it is stopped")
+        correct(task)
+        return True
+
+    again: list[str] = []
+    monkeypatch.setattr(correcting, "correct_beside", beside)
+    theme, stage, ways = Theme("light"), QWidget(), _Ways()
+    qtbot.addWidget(stage)
+    stage.resize(1280, 744)
+    stage.show()
+    corrections = Corrections(library)
+    screen = CorrectScreen(theme, Keys(), Background(), correcting.Moments(corrections))
+    qtbot.addWidget(screen)
+    sheet = ResultsSheet(stage, theme)
+    flow = correcting.Correcting(stage, screen, sheet, ways, ways, corrections, initials=lambda: "MK")  # type: ignore[arg-type]
+    said: list[tuple[int, int]] = []
+    used: list[str] = []
+    flow.changed.connect(lambda percent, count: said.append((percent, count)))
+    flow.used.connect(lambda _, new: used.append(new))
+    time.sleep(1.1)  # files say the second in which they were made, and nobody corrects within one
+    flow.start(session_id, (put_right(stored),))
+    qtbot.waitUntil(lambda: said[-1:] == [(-1, 1)], timeout=30_000)
+    assert (25, 0) in said
+    assert not sheet.isVisible()
+    for key in (Qt.Key.Key_Return, Qt.Key.Key_Space, Qt.Key.Key_Escape):
+        flow.open_sheet()
+        qtbot.waitUntil(lambda: sheet.both is not None, timeout=30_000)
+        assert sheet.use.isVisible()
+        qtbot.keyClick(stage.focusWidget(), key)
+        assert not sheet.isVisible()
+    assert [one.session_id for one in flow.waiting] == [session_id]
+    assert [entry.session_id for entry in library.sessions(patient)] == [session_id]
+    flow.open_sheet()
+    qtbot.waitUntil(lambda: sheet.both is not None, timeout=30_000)
+    assert "Not held" not in sheet.words.text()
+    sheet.use.click()
+    qtbot.waitUntil(lambda: bool(used), timeout=30_000)
+    assert [entry.session_id for entry in library.sessions(patient)] == used
+    assert said[-1] == (-1, 0)
+    line = StoredSessions(library).with_figures(StoredSessions(library).lines(patient)[0])
+    assert line.corrected.startswith("Corrected on ")
+    assert line.corrected.endswith(", from 00:02.0, by MK.")
+    assert not ways.faults
+    flow.start(used[0], (put_right(stored),))
+    flow.open_sheet()
+    assert sheet.stop.isVisible()
+    sheet.stop.click()
+    qtbot.waitUntil(lambda: flow.running == "", timeout=30_000)
+    assert not sheet.isVisible()
+    assert flow.waiting == []
+    flow.close()
+
+
+def test_a_wanted_result_counts_and_the_old_one_stays(library: Library, stored: Stored) -> None:  # noqa: F811
+    patient, session_id = entered(library, stored)
+    corrections = Corrections(library)
+    old = library.entry(session_id).path
+    old.with_suffix(MARKERS_SUFFIX).write_bytes(b"picture")
+    library.keep_choices(session_id, RepetitionChoices({0: "pain"}, not_counted=True, not_counted_reason="discs lost"))
+    library.clinic.rename_exercise(session_id, "WRIST_RUD")
+    time.sleep(1.1)  # files say the second in which they were made, and nobody corrects within one
+    new = corrections.use(session_id, made(corrections, session_id, stored))
+    assert [entry.session_id for entry in library.sessions(patient)] == [new]
+    assert [entry.session_id for entry in corrections.results(new)] == [session_id, new]
+    assert [entry.session_id for entry in corrections.results(session_id)] == [session_id, new]
+    assert old.exists()
+    assert library.entry(new).exercise == "WRIST_RUD"
+    assert library.entry(new).path.with_suffix(MARKERS_SUFFIX).read_bytes() == b"picture"
+    assert library.choices(new) == RepetitionChoices(not_counted=True, not_counted_reason="discs lost")
+
+
+def test_a_moment_is_the_spots_where_no_picture_was_kept(library: Library, stored: Stored) -> None:  # noqa: F811
+    _, session_id = entered(library, stored)
+    picture, spots = Corrections(library).moment(session_id, WRONG_FROM)
+    assert picture is None
+    assert len(spots) == 7

@@ -1,0 +1,91 @@
+"""The data folder goes away while a session is recorded: it goes on elsewhere, says so, and comes home."""
+
+from __future__ import annotations
+
+import shutil
+import time
+from pathlib import Path
+
+import numpy as np
+
+from carpus.core.camera import DEFAULT_CAMERA
+from carpus.core.capture.raw import LOOK_EVERY_S, RawRecording, RawWriter
+from carpus.core.capture.source import SourceInfo
+from carpus.core.errors import RecordingMoved, RecordingReturned
+from carpus.core.library.coming_home import bring_home, fallback_place
+from carpus.core.library.library import Library
+from carpus.core.pipeline.live import LiveSession
+from carpus.core.session.register import PatientEntry
+from carpus.core.session.writer import Fallback, SessionWriter
+from carpus.core.types import Frame
+from tests.pipeline.live_fakes import HeldSource
+from tests.session.samples import CAMERA, CREATED, make_calibration, make_frame, make_header
+
+INFO = SourceInfo("x", DEFAULT_CAMERA, False, None, 30.0, {})
+
+
+def picture(row: int) -> Frame:
+    return Frame(row, row / 30.0, np.full((48, 64, 3), row, np.uint8), None, 1e-3)
+
+
+def test_raw_pictures_go_on_too(tmp_path: Path) -> None:
+    home, other = tmp_path / "home", tmp_path / "other"
+    home.mkdir()
+    other.mkdir()
+    now_s = 0.0
+    writer = RawWriter(home / "s.carpusraw", INFO, lossless=True, fallback=lambda: other, clock=lambda: now_s)
+    for row in range(5):
+        writer.append_frame(picture(row))
+    shutil.rmtree(home)
+    for row in range(5, 12):
+        now_s += 2 * LOOK_EVERY_S
+        writer.append_frame(picture(row))
+    writer.close()
+    assert writer.path == other / "s.carpusraw"
+    recording = RawRecording(writer.path)
+    assert [int(frame.color_rgb[0, 0, 0]) for frame in recording.frames()] == list(range(12))
+    assert recording.complete
+
+
+def test_it_is_told_within_a_second_and_the_session_comes_home(tmp_path: Path) -> None:
+    """From the live session's own events to the next start of the program."""
+    data = tmp_path / "data"
+    library = Library(data)
+    key = library.clinic.add(PatientEntry("Linden 42", "left"))
+    path = library.clinic.new_session_path(key, "wrist flexion", "left", CREATED)
+    source = HeldSource()
+    source.let(10_000)
+    with LiveSession(source) as live:
+        fallback = Fallback(library.fallback_folder, live.notice)
+        writer = SessionWriter.create(path, make_header(), CAMERA, make_calibration(), fallback=fallback)
+        for row in range(20):
+            writer.append(make_frame(row))
+        gone_s = time.monotonic()
+        data.rename(tmp_path / "unplugged")
+        row, told = 20, []
+        while not told:
+            assert time.monotonic() - gone_s < 20.0
+            writer.append(make_frame(row))
+            row += 1
+            time.sleep(0.01)
+            told = [event.cause for event in live.drain_events() if isinstance(event.cause, RecordingMoved)]
+        writer.close()
+    assert writer.path.parent == fallback_place(data)
+    assert writer.path.parent.stat().st_mode & 0o777 == 0o700
+    session_id = library._enter_elsewhere(writer.path)
+    assert len(library.session(session_id)) == row  # it can be reviewed although the register is gone
+    library.close()
+
+    (tmp_path / "unplugged").rename(data)  # the disk is back, with what was flushed before
+    library = Library(data)
+    _, faults = library.recover()
+    assert [type(fault) for fault in faults] == [RecordingReturned]
+    (entry,) = library.sessions(key)
+    assert entry.frames == row
+    assert library.session(entry.session_id).header.session_id == session_id
+    assert list(fallback_place(data).iterdir()) == []
+    library.close()
+
+
+def test_nothing_to_bring_home(tmp_path: Path) -> None:
+    assert bring_home(tmp_path) == []

@@ -1,0 +1,175 @@
+"""What commands and windows do with sessions of a data folder stands in its log, and what they made goes with them."""
+
+from __future__ import annotations
+
+import shutil
+import subprocess
+import sys
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+from tqdm import tqdm
+
+import carpus
+from carpus.app.__main__ import main
+from carpus.app.desktop.patients import PatientShelf
+from carpus.app.desktop.shelf import StoredSessions
+from carpus.core.library.library import Library
+from carpus.core.library.records import Records
+from carpus.core.library.set_up import PRACTICE_PATIENT
+from carpus.core.output.report_content import RepetitionChoices
+from carpus.core.safekeeping.audit import AUDIT_FILE, read_audit
+from carpus.ui.ports import PatientEntry
+from tests.app.test_library import set_up, store
+from tests.safekeeping.samples import traces
+
+ROOT = Path(__file__).parents[2]
+
+
+@pytest.fixture
+def library(tmp_path: Path) -> Iterator[Library]:
+    opened = Library(tmp_path / "data")
+    opened.who = lambda: "AB"
+    yield opened
+    opened.close()
+
+
+def deeds(folder: Path) -> list[tuple[str, str, str]]:
+    reading = read_audit(folder)
+    assert reading.is_whole
+    return [(entry.did, entry.by, entry.who) for entry in reading.entries]
+
+
+def test_what_the_window_does_is_logged_without_names(library: Library, tmp_path: Path) -> None:
+    shelf, stored = PatientShelf(library), StoredSessions(library)
+    linden = shelf.add(PatientEntry("Linden 42", "right", "right", "a note", "Erika Mustermann"))
+    shelf.change(linden, PatientEntry("Linden 43", "right", "right"))
+    session = store(library, set_up(linden, "Linden 43"))
+    store(library, set_up(PRACTICE_PATIENT, "Practice patient"))
+    stored.set_aside(session, "pain")
+    stored.set_aside(session, "")
+    library.keep_choices(session, RepetitionChoices({1: "pain"}))
+    stored.rename_exercise(session, "FOREARM_PS")
+    out = tmp_path / "out"
+    out.mkdir()
+    library.export(session, str(out))
+    records = Records(library)
+    records.archive_session(session)
+    assert [one.pseudonym for one in records.archived()] == ["Linden 43"]
+    records.bring_back(records.archived()[0].identity)
+    records.archive_patient(linden)
+    assert [(one.pseudonym, one.recorded) for one in records.archived()] == [("Linden 43", None)]
+    records.bring_back(linden)
+    assert records.archived() == []
+    assert [did for did, _, _ in deeds(library.folder)] == [
+        "added", "changed", "recorded", "set_aside", "taken_back", "changed", "renamed", "exported", "archived",
+        "brought_back", "archived", "brought_back",
+    ]  # fmt: skip
+    assert {(by, who) for _, by, who in deeds(library.folder)} == {("window", "AB")}
+    content = (library.folder / AUDIT_FILE).read_text()
+    assert not any(word in content for word in ("Linden", "Erika", "pain", "note"))
+    plan = records.plan_patient(linden)
+    assert {one.path.parent for one in plan.made_going} == {out}
+    assert library.last_set_up(linden) is not None
+    records.erase(plan)
+    assert list(out.iterdir()) == []
+    assert traces(library.folder, "Linden", "Erika", linden) == [AUDIT_FILE]
+    assert b"Linden" not in (library.folder / AUDIT_FILE).read_bytes()
+
+
+def test_commands_are_logged_where_the_session_is_kept(
+    library: Library, tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(tqdm, "monitor_interval", 0)  # its thread outlives the bar
+    linden = PatientShelf(library).add(PatientEntry("Linden 42", "right", "right"))
+    session = store(library, set_up(linden, "Linden 42"))
+    practice = store(library, set_up(PRACTICE_PATIENT, "Practice patient"))
+    path, out = str(library.entry(session).path), tmp_path / "out"
+    assert main(["info", path]) == 0
+    assert main(["verify", path]) == 0
+    assert main(["export", path, "--output", str(out)]) == 0
+    report = [sys.executable, "-m", "carpus", "report", path, "--output", str(out / "r.pdf")]
+    subprocess.run(report, cwd=ROOT, check=True, capture_output=True)  # it makes an application of its own kind
+    assert main(["info", str(library.entry(practice).path)]) == 0
+    elsewhere = tmp_path / "own.h5"
+    elsewhere.write_bytes(library.entry(session).path.read_bytes())
+    assert main(["info", str(elsewhere)]) == 0
+    commands = [(did, by) for did, by, _ in deeds(library.folder) if by == "command"]
+    assert commands == [("opened", "command"), ("opened", "command"), ("exported", "command"), ("reported", "command")]
+    capsys.readouterr()
+    assert main(["audit", "--data-folder", str(library.folder)]) == 0
+    said = capsys.readouterr().out
+    assert "6 lines, whole." in said
+    assert main(["erase", path]) == 0
+    said = capsys.readouterr().out
+    assert f"report {out / 'r.pdf'}: goes too" in said
+    assert Path(path).exists()
+    assert main(["erase", path, "--for-good", "Heron 17"]) == 1
+    assert Path(path).exists()
+    assert main(["erase", path, "--for-good", "linden 42"]) == 0
+    assert not Path(path).exists()
+    assert list(out.iterdir()) == []
+    assert library.sessions(linden) == []
+    assert main(["erase", str(elsewhere)]) == 1
+    log = library.folder / AUDIT_FILE
+    log.write_bytes(log.read_bytes().replace(b'"did": "exported"', b'"did": "opened"'))
+    assert main(["audit", "--data-folder", str(library.folder)]) == 1
+    assert "was changed at or before line" in capsys.readouterr().err
+
+
+def test_programs_are_logged_as_commands_are(library: Library, tmp_path: Path) -> None:
+    linden = PatientShelf(library).add(PatientEntry("Linden 42", "right", "right"))
+    session = store(library, set_up(linden, "Linden 42"))
+    path = library.entry(session).path
+    elsewhere = tmp_path / "mine.h5"
+    shutil.copy(path, elsewhere)
+    before = len(deeds(library.folder))
+    carpus.open_session(elsewhere)
+    carpus.export(elsewhere, tmp_path / "mine", "json")
+    assert len(deeds(library.folder)) == before
+    carpus.open_session(path)
+    carpus.export(path, tmp_path / "out", "json")
+    carpus.export(path, tmp_path / "nobody", "json", deidentified=True)
+    assert [(did, by) for did, by, _ in deeds(library.folder)[before:]] == [
+        ("opened", "command"),
+        ("exported", "command"),
+        ("exported", "command"),
+    ]
+    assert traces(library.folder / AUDIT_FILE, "Linden") == []
+    plan = Records(library).plan_session(session)
+    assert {one.path.parent for one in plan.made} == {tmp_path / "out"}, "what was made goes with the session"
+
+
+def test_a_log_that_cannot_be_written_is_told_and_stops_nothing_else(library: Library) -> None:
+    told: list[Exception] = []
+    library.log_fault = told.append
+    (library.folder / AUDIT_FILE).mkdir()
+    linden = PatientShelf(library).add(PatientEntry("Linden 42", "right", "right"))
+    assert library.clinic.patient(linden).entry.pseudonym == "Linden 42"
+    assert [type(one).__name__ for one in told] == ["OutputNotWritable"]
+
+
+def test_a_back_up_by_command_comes_back_elsewhere(
+    library: Library, tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(tqdm, "monitor_interval", 0)
+    monkeypatch.setattr("os.nice", lambda _: 0)
+    linden = PatientShelf(library).add(PatientEntry("Linden 42", "right", "right"))
+    store(library, set_up(linden, "Linden 42"))
+    place, data = str(tmp_path / "disk"), str(library.folder)
+    assert main(["backup", place, "--list"]) == 1
+    assert main(["backup", place, "--data-folder", data]) == 0
+    assert "1 sessions" in capsys.readouterr().out
+    assert main(["backup", place, "--compare"]) == 0
+    store(library, set_up(linden, "Linden 42"))
+    assert main(["restore", place, "--against", data]) == 0
+    assert "0 sessions come, 0 change, 1 go." in capsys.readouterr().out
+    assert main(["restore", place, "--into", str(tmp_path / "new")]) == 0
+    assert main(["restore", place, "--into", str(tmp_path / "new")]) == 1
+    restored = Library(tmp_path / "new")
+    try:
+        assert [len(restored.sessions(one.patient_id)) for one in restored.clinic.patients()] == [1]
+    finally:
+        restored.close()
+    assert [did for did, _, _ in deeds(tmp_path / "new")] == ["added", "recorded", "restored"]

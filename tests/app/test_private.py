@@ -1,0 +1,189 @@
+"""What is written is for its owner only, and says nobody's name where it need not."""
+
+from __future__ import annotations
+
+import logging
+import subprocess
+import sys
+import uuid
+from pathlib import Path
+
+import pytest
+
+from carpus.app import compose
+from carpus.app.desktop.printing import plain_cell
+from carpus.app.settings import load_sound_settings
+from carpus.core.camera import Camera
+from carpus.core.capture.raw import RawWriter
+from carpus.core.capture.source import SourceInfo
+from carpus.core.errors import RecordingUnreadable, SettingsInvalid
+from carpus.core.library.library import Library
+from carpus.core.session.register import PatientEntry
+from carpus.core.session.values import new_header
+from carpus.core.session.writer import SessionWriter
+from carpus.ui.controls.tooltip import plain_tooltip
+from tests.session.samples import CAMERA, make_calibration, make_frame, make_header
+
+ROOT = Path(__file__).parents[2]
+
+
+def mode(path: Path) -> int:
+    return path.stat().st_mode & 0o777
+
+
+def test_sessions_and_raw_pictures_are_for_their_owner(tmp_path: Path) -> None:
+    path = tmp_path / "s.h5"
+    with SessionWriter.create(path, make_header(session_id=uuid.uuid4()), CAMERA, make_calibration()) as writer:
+        assert mode(writer.part_path) == 0o600
+        writer.append(make_frame(0))
+    assert mode(path) == 0o600
+    with RawWriter(tmp_path / "s.carpusraw", SourceInfo("x", Camera(500, 500, 320, 240), True, None, 30.0, {})):
+        assert mode(tmp_path / "s.carpusraw") == 0o600
+
+
+def test_what_a_command_writes_is_for_its_owner(tmp_path: Path) -> None:
+    path = tmp_path / "s.h5"
+    with SessionWriter.create(path, make_header(session_id=uuid.uuid4()), CAMERA, make_calibration()) as writer:
+        for row in range(10):
+            writer.append(make_frame(row))
+    command = [
+        sys.executable,
+        "-m",
+        "carpus",
+        "export",
+        str(path),
+        "--format",
+        "csv",
+        "--output",
+        str(tmp_path / "out"),
+    ]
+    subprocess.run(command, cwd=ROOT, check=True, capture_output=True)
+    assert mode(tmp_path / "out") == 0o700
+    assert {mode(file) for file in (tmp_path / "out").iterdir()} == {0o600}
+
+
+def test_the_log_names_nobody(tmp_path: Path, own_folders: Path) -> None:
+    library = Library(tmp_path)
+    library.clinic.add(PatientEntry("Linden Birke", "right", name="Ada Miller"))
+    lines = compose.NobodysLines()
+    lines.names = library.pseudonyms
+    try:
+        path = tmp_path / "sessions" / "Linden-Birke" / "Linden-Birke_2026-11-13_153000_wrist-flexion_left.h5"
+        try:
+            raise SettingsInvalid(path, "of ADA MILLER, linden birke, Linden-Birke_2026-11-13_153000_x_left.h5")
+        except SettingsInvalid as fault:
+            info = (type(fault), fault, fault.__traceback__)
+        record = logging.LogRecord("carpus", logging.WARNING, "x.py", 1, "told %s", (str(path),), info)
+        said = lines.format(record)
+    finally:
+        library.close()
+    assert "SettingsInvalid" in said
+    for part in ("linden", "miller", "birke"):
+        assert part not in said.casefold()
+
+
+def test_a_tooltip_shows_tags_and_does_not_follow_them() -> None:
+    evil = "<img src='/etc/passwd'><b>Linden</b>"
+    shown = plain_tooltip(evil)
+    assert "<img" not in shown
+    assert "&lt;img" in shown
+    assert plain_tooltip("Linden 42 · Ada & Bo") == "Linden 42 · Ada & Bo"
+
+
+@pytest.mark.parametrize("start", list("=+-@\t\r"))
+def test_a_text_of_a_table_is_not_calculated(start: str) -> None:
+    assert plain_cell(f"{start}cmd|' /C calc'!A0").startswith("'")
+
+
+@pytest.mark.parametrize("name", ["/etc/hostname", "../../secret.png", "rgb/../../x.png", "rgb/a\0b.png"])
+def test_a_list_of_pictures_stays_in_its_folder(tmp_path: Path, name: str) -> None:
+    from carpus.core.capture.tum import TumFolder
+
+    (tmp_path / "rgb.txt").write_text(f"1.0 {name}\n")
+    with pytest.raises(RecordingUnreadable, match="leads out of the folder"):
+        TumFolder(tmp_path, need_depth=False)
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "a = " + "[" * 3000 + "]" * 3000,
+        "[screen]\ntext_scale = nan",
+        "[screen]\ntext_scale = -1.0",
+        "[live]\nrows_waiting = -1",
+        "[live]\nhistory_s = inf",
+        "[tracker]\n" + "x = " + "9" * 5000,
+        '[recording]\nfolder = "a\\u0000b"',
+        "\udcff",
+    ],
+)
+def test_settings_that_make_no_sense_are_told_and_left_out(tmp_path: Path, text: str) -> None:
+    (tmp_path / "settings.toml").write_bytes(text.encode("utf-8", "surrogateescape"))
+    (tmp_path / "preferences.toml").write_text('[report]\ntherapist = "AB"\n')
+    settings, faults = load_sound_settings(tmp_path)
+    assert settings.report.therapist == "AB"
+    assert [type(fault) for fault in faults] == [SettingsInvalid]
+
+
+def test_a_home_that_nobody_has(tmp_path: Path) -> None:
+    (tmp_path / "settings.toml").write_text('[recording]\nfolder = "~nobody-at-all/x"\n')
+    settings, faults = load_sound_settings(tmp_path)
+    assert faults == []
+    assert settings.data_folder == Path("~nobody-at-all/x")
+
+
+@pytest.mark.parametrize(
+    "content",
+    [
+        '{"left_out": {}, "edges_s": {"0": [1, Infinity]}}',
+        '{"left_out": ' + "[" * 5000,
+        '{"left_out": 3, "edges_s": {}}',
+        '{"left_out": {}, "edges_s": {"0": [5, 1]}}',
+        "[]",
+    ],
+)
+def test_choices_that_make_no_sense(tmp_path: Path, content: str) -> None:
+    from carpus.core.errors import SessionUnreadable
+    from carpus.core.library.library import read_choices
+
+    (tmp_path / "s.choices.json").write_text(content)
+    with pytest.raises(SessionUnreadable):
+        read_choices(tmp_path / "s.h5")
+
+
+@pytest.mark.parametrize(
+    ("name", "value"), [("repetitions", -1), ("repetitions", 1e999), ("target_positive_deg", float("inf"))]
+)
+def test_a_set_up_that_makes_no_sense_is_asked_for(tmp_path: Path, name: str, value: float) -> None:
+    import json
+
+    library = Library(tmp_path)
+    try:
+        key = library.clinic.add(PatientEntry("Linden 42", "right"))
+        good = {
+            "side": "right", "exercise": "wrist_flexion", "repetitions": 5, "target_positive_deg": 30.0,
+            "target_negative_deg": None, "keep_pictures": False,
+        }  # fmt: skip
+        (tmp_path / "set_ups.json").write_text(json.dumps({key: good}))
+        assert library.last_set_up(key) is not None
+        (tmp_path / "set_ups.json").write_text(json.dumps({key: good | {name: value}}))
+        assert library.last_set_up(key) is None
+    finally:
+        library.close()
+
+
+def test_targets_of_a_file_have_limits() -> None:
+    header = new_header(
+        hand="right",
+        protocol=make_header().protocol,
+        software_version="0",
+        parameters='{"set_up": {"targets_deg": [Infinity, -1e9]}}',
+    )
+    assert all(target != target for target in header.targets_deg)
+
+
+def test_a_blank_pseudonym_is_refused(tmp_path: Path) -> None:
+    command = [sys.executable, "-m", "carpus", "track", "x", "--output", str(tmp_path / "s.h5"), "--subject", " "]
+    done = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=False)
+    assert done.returncode == 2
+    assert "pseudonym" in done.stderr

@@ -1,0 +1,159 @@
+"""``carpus track RECORDING... --output FOLDER``: the same sessions as one by one, faults told, begun again."""
+
+from __future__ import annotations
+
+import csv
+import shutil
+from pathlib import Path
+
+import numpy as np
+import pytest
+from pyarrow import parquet
+from tqdm import tqdm
+
+from carpus.app.__main__ import main
+from carpus.app.batch.tables import MEASURES_FILE, OUTCOMES_FILE
+from carpus.core.output.report_content import session_figures
+from carpus.core.session.reader import read_session
+from carpus.core.simulation.recording import CLICKS_FILE, simulate
+from carpus.core.simulation.spec import RecordingSpec
+
+
+@pytest.fixture(autouse=True)
+def _quiet_bars(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(tqdm, "monitor_interval", 0)  # the bars' own thread would outlive the test
+
+
+@pytest.fixture(scope="module")
+def made(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Two recordings, and one whose clicks are no clicks."""
+    root = tmp_path_factory.mktemp("many")
+    simulate(RecordingSpec(seed=1, seconds=1.0, motion="deviation", speed_hz=1.2), root / "anna" / "first")
+    simulate(RecordingSpec(seed=2, seconds=0.8), root / "second")
+    shutil.copytree(root / "second", root / "third")
+    (root / "third" / CLICKS_FILE).write_text("{}")
+    return root
+
+
+@pytest.fixture
+def recordings(made: Path, tmp_path: Path) -> Path:
+    return Path(shutil.copytree(made, tmp_path / "in"))
+
+
+def rows(path: Path) -> list[dict[str, str]]:
+    with path.open(newline="", encoding="utf-8") as file:
+        return list(csv.DictReader(file))
+
+
+def test_faults_are_gathered_and_what_is_done_is_left(
+    recordings: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    out = tmp_path / "out"
+    words = ["track", str(recordings), "--output", str(out), "--exercise", "WRIST_RU", "--jobs", "2", "--no-smooth"]
+    assert main(words) == 1
+    said = capsys.readouterr().out
+    assert "hand is null" in said
+    assert "tracked 2, done before 0, faults 1" in said
+    told = {row["session"]: row for row in rows(out / OUTCOMES_FILE)}
+    assert {name: row["outcome"] for name, row in told.items()} == {
+        "anna/first.h5": "tracked", "second.h5": "tracked", "third.h5": "fault",
+    }  # fmt: skip
+    assert told["third.h5"]["tracked_share"] == ""
+    assert not (out / "third.h5").exists()
+
+    alone = tmp_path / "alone.h5"
+    first = recordings / "anna" / "first"
+    clicks = ("--calibration", str(first / CLICKS_FILE))
+    assert main(["track", str(first), *clicks, "--output", str(alone), "--exercise", "WRIST_RU", "--no-smooth"]) == 0
+    session, by_itself = read_session(out / "anna" / "first.h5"), read_session(alone)
+    assert np.array_equal(session.motion.angles_rad, by_itself.motion.angles_rad, equal_nan=True)
+    assert session.header.exercise == "WRIST_RU"
+
+    measures = rows(out / MEASURES_FILE)
+    assert {row["session"] for row in measures} == {"anna/first.h5", "second.h5"}
+    arc = next(row for row in measures if row["session"] == "anna/first.h5" and row["measure"] == "arc")
+    wanted = session_figures(session).rows[0]
+    assert (arc["of"], arc["unit"]) == ("deviation", "deg")
+    assert float(arc["mean"]) == pytest.approx(wanted.mean_deg, rel=1e-5)
+    assert arc["session_id"] == session.header.session_id
+    assert arc["at_least"] in ("yes", "no")
+
+    # Mended, and begun again with something that a killed process left: only what is missing is tracked.
+    shutil.copy(recordings / "second" / CLICKS_FILE, recordings / "third" / CLICKS_FILE)
+    left = out / "third.h5.0123abcd.part"
+    left.write_bytes(b"half")
+    before = {path: path.stat().st_mtime_ns for path in out.rglob("*.h5")}
+    assert main(words) == 0
+    assert {path: path.stat().st_mtime_ns for path in before} == before
+    told = {row["session"]: row["outcome"] for row in rows(out / OUTCOMES_FILE)}
+    assert told == {"anna/first.h5": "kept", "second.h5": "kept", "third.h5": "tracked"}
+    assert {row["session"] for row in rows(out / MEASURES_FILE)} == set(told)
+    assert not left.exists()
+    assert sorted(path.name for path in out.iterdir()) == [
+        "anna", MEASURES_FILE, OUTCOMES_FILE, "second.h5", "third.h5",
+    ]  # fmt: skip
+
+    # Sessions among them are tracked again, and say where they are from.
+    capsys.readouterr()
+    again = tmp_path / "again"
+    assert main(["track", str(out / "second.h5"), str(out / "third.h5"), "--output", str(again), "--no-smooth"]) == 0
+    assert read_session(again / "second.h5").header.origin == read_session(out / "second.h5").header.session_id
+    assert main([*words, "--profile", "brisk"]) == 0
+    assert capsys.readouterr().out.count("tracked before with other settings") == 3
+
+
+@pytest.mark.parametrize(
+    ("option", "word"), [(("--calibration", "c.json"), "--calibration"), (("--recorded", "2023-04-05"), "--recorded")]
+)
+def test_what_only_one_recording_has_is_refused(
+    option: tuple[str, str], word: str, made: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert main(["track", str(made), "--output", str(tmp_path / "out"), *option]) == 2
+    assert word in capsys.readouterr().err
+    assert not (tmp_path / "out").exists()
+
+
+def test_many_into_one_file_is_refused(made: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    both = [str(made / "second"), str(made / "third")]
+    assert main(["track", *both, "--output", str(tmp_path / "s.h5")]) == 2
+    assert "folder" in capsys.readouterr().err
+    one = ["track", both[0], "--calibration", str(made / "second" / CLICKS_FILE), "--output", str(tmp_path / "s.h5")]
+    assert main([*one, "--jobs", "2"]) == 2
+
+
+def test_nothing_to_track_is_told(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    (tmp_path / "empty").mkdir()
+    assert main(["track", str(tmp_path / "empty"), "--output", str(tmp_path / "out")]) == 1
+    assert "empty" in capsys.readouterr().err
+    assert main(["track", str(tmp_path / "gone"), str(tmp_path / "empty"), "--output", str(tmp_path / "out")]) == 1
+    assert "gone" in capsys.readouterr().err
+    assert not (tmp_path / "out").exists()
+
+
+def test_somebody_elses_table_is_left_alone(made: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    out = tmp_path / "out"
+    out.mkdir()
+    (out / MEASURES_FILE).write_text("mine\n1\n")
+    assert main(["track", str(made), "--output", str(out)]) == 1
+    assert MEASURES_FILE in capsys.readouterr().err
+    assert (out / MEASURES_FILE).read_text() == "mine\n1\n"
+    assert [path.name for path in out.iterdir()] == [MEASURES_FILE]
+
+
+def test_the_measures_of_all_sessions_are_one_table(
+    recordings: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    out, table = tmp_path / "out", tmp_path / "all.parquet"
+    shutil.rmtree(recordings / "third")
+    words = ["track", str(recordings), "--output", str(out), "--jobs", "1", "--no-smooth", "--table"]
+    assert main([*words, str(table)]) == 0
+    read = parquet.read_table(table).to_pylist()
+    assert [(row["session"], row["measure"], row["of"]) for row in read] == [
+        (row["session"], row["measure"], row["of"]) for row in rows(out / MEASURES_FILE)
+    ]
+    assert {row["session"] for row in read} == {"anna/first.h5", "second.h5"}
+    capsys.readouterr()
+    assert main([*words, str(table)]) == 1, "nothing is overwritten"
+    assert "all.parquet" in capsys.readouterr().err
+    assert main([*words, str(tmp_path / "all.csv")]) == 0, "what was tracked before is in it too"
+    assert len(rows(tmp_path / "all.csv")) == len(read)

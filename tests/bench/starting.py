@@ -1,0 +1,55 @@
+"""Time to the first usable window: a start of the program until its first screen has the keyboard, in a new process."""
+
+from __future__ import annotations
+
+import os
+import statistics
+import subprocess
+import sys
+import tempfile
+from collections.abc import Iterator
+from pathlib import Path
+
+WANTED_S = 2.0
+STARTS = 5
+CHILD = """
+import resource, sys, time
+begun = time.perf_counter()
+sys.argv[0] = "carpus"
+from carpus.app.__main__ import main  # what the command loads first
+from pathlib import Path
+from carpus.app import compose
+from carpus.app.desktop.alone import Alone
+from carpus.app.settings import load_sound_settings
+loaded, told = load_sound_settings()
+settings = compose.with_data_folder(loaded, Path(sys.argv[1]))
+qt = compose.application(["carpus"])
+alone = Alone(settings.data_folder)
+alone.take()
+desktop = compose.compose(qt, settings, told=told)
+desktop.show()
+while not desktop.shell.isVisible() or desktop.shell.focusWidget() is None:
+    qt.processEvents()
+qt.processEvents()
+print(time.perf_counter() - begun, time.process_time(), flush=True)
+desktop.close()
+alone.let_go()
+"""
+
+
+def report() -> Iterator[str]:
+    """The table; the first start, which may be cold, is not counted."""
+    yield "Start to the first usable window (a new process each, after one that warms the disk's cache):"
+    walls, processors = [], []
+    with tempfile.TemporaryDirectory() as folder:
+        environment = {**os.environ, "CARPUS_DATA": folder}
+        command = [sys.executable, "-c", CHILD, folder]
+        for number in range(STARTS + 1):
+            root = Path(__file__).parents[2]
+            done = subprocess.run(command, env=environment, cwd=root, check=True, capture_output=True, text=True)
+            wall_s, cpu_s = map(float, done.stdout.split()[-2:])
+            if number:
+                walls.append(wall_s)
+                processors.append(cpu_s)
+    yield f"wall {statistics.median(walls):.2f} s (least {min(walls):.2f}), CPU {statistics.median(processors):.2f} s"
+    yield f"{WANTED_S} s were wanted, without the {sys.implementation.name} interpreter's own start"

@@ -1,0 +1,96 @@
+"""A spot that is no disc, clicked as one: what the palm's shape and an unnamed spot beside it say."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from carpus.core.calibration.calibrate import CalibrationOutcome, calibrate
+from carpus.core.calibration.odd_disc import odd_disc
+from carpus.core.calibration.palm_names import average_palm
+from carpus.core.calibration.settings import CalibrationSettings
+from carpus.core.detection.settings import DetectionSettings
+from carpus.core.hand.protocols import PALM_MARKERS
+from carpus.core.types import FloatArray, Side
+from tests.calibration.still_hands import Scene, clicks_on, frames_of
+from tests.detection.pictures import CAMERA, PAPERS, Extra
+
+SIDES: tuple[Side, Side] = ("right", "left")
+NO_SPOT = np.empty((0, 2))
+MCP3 = PALM_MARKERS.index("MCP3")
+
+
+def judged(scene: Scene, clicked_px: FloatArray, *spots: FloatArray) -> CalibrationOutcome:
+    radius_px = CAMERA.fx_px * 0.006 / scene.distance_m
+    extras = tuple(Extra((float(u), float(v)), radius_px, PAPERS["blue"]) for u, v in spots)
+    clicks = replace(clicks_on(scene), pixel=clicked_px)
+    frames = frames_of(scene, extras=extras)
+    return calibrate(clicks, frames, CAMERA, CalibrationSettings(), DetectionSettings())
+
+
+def odd_kinds(outcome: CalibrationOutcome) -> list[str]:
+    kinds = [finding.kind for finding in outcome.verdict.findings]
+    return [kind for kind in kinds if kind in ("other_spot", "spare_spot", "no_palm")]
+
+
+@pytest.mark.parametrize("side", SIDES)
+def test_a_blue_spot_clicked_as_the_middle_knuckle_is_doubted_and_the_true_disc_shown(side: Side) -> None:
+    scene = Scene(side=side)
+    true = scene.discs_px
+    false = true[0] + 0.62 * (true[MCP3] - true[0])  # the hand would be 115 mm long
+    clicked = true.copy()
+    clicked[MCP3] = false
+    outcome = judged(scene, clicked, false)
+    assert odd_kinds(outcome) == ["other_spot"]
+    (finding,) = (one for one in outcome.verdict.findings if one.kind == "other_spot")
+    assert finding.markers == ("MCP3",)
+    assert np.linalg.norm(np.array(finding.spot_px) - true[MCP3]) < 1.5
+    assert outcome.calibration is not None
+    assert not outcome.calibration.verdict.is_good
+    clicked[MCP3] = finding.spot_px  # the name is moved; what lies on the palm is still one spot too many
+    assert odd_kinds(judged(scene, clicked, false)) == ["spare_spot"]
+
+
+@pytest.mark.parametrize("side", SIDES)
+def test_a_right_palm_with_nothing_beside_it_is_not_questioned(side: Side) -> None:
+    for size in (0.7, 1.0, 1.15):
+        scene = Scene(side=side, size=size)
+        assert odd_kinds(judged(scene, scene.discs_px)) == []
+
+
+def test_a_blue_thing_away_from_the_palm_is_nobody_s_affair() -> None:
+    scene = Scene()
+    away = scene.discs_px.min(axis=0) + [-38.0, 60.0]
+    assert odd_kinds(judged(scene, scene.discs_px, away)) == []
+
+
+@pytest.mark.parametrize("side", SIDES)
+def test_no_palm_has_this_shape_and_the_disc_at_fault_is_named(side: Side) -> None:
+    rng = np.random.default_rng(4)
+    for marker in range(6):
+        plan = average_palm(side).copy()
+        outward = plan[marker] - plan.mean(axis=0)
+        plan[marker] -= 0.9 * outward  # pulled into the middle
+        plan += rng.normal(0.0, 0.001, plan.shape)
+        odd = odd_disc(side, plan, NO_SPOT)
+        assert odd is not None
+        assert (odd.marker, odd.fits) == (marker, False)
+
+
+def test_hands_and_sticking_differ_without_a_question() -> None:
+    rng = np.random.default_rng(0)
+    asked = 0
+    for _ in range(300):
+        plan = average_palm("right") * rng.uniform(0.92, 1.08, 2)  # slender and broad hands
+        plan = plan + rng.normal(0.0, 0.003, plan.shape)
+        asked += odd_disc("right", plan, NO_SPOT) is not None
+    assert asked <= 3
+
+
+def test_the_discs_of_the_fingers_are_no_spare_spots_of_the_palm() -> None:
+    palm = average_palm("right")
+    along = (palm[2:6] - palm[0]) / np.linalg.norm(palm[2:6] - palm[0], axis=1)[:, None]
+    fingers = np.concatenate([palm[2:6] + reach * along for reach in (0.045, 0.07, 0.09)])
+    assert odd_disc("right", palm, fingers) is None

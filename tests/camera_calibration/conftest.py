@@ -1,0 +1,38 @@
+"""A board shown to the simulator's camera, rendered once for all tests here."""
+
+from __future__ import annotations
+
+import pytest
+from tqdm import tqdm
+
+from carpus.core.camera import DEFAULT_CAMERA
+from carpus.core.camera_calibration.board import CHESSBOARD, board_sheet
+from carpus.core.camera_calibration.gather import Gathering
+from carpus.core.types import Frame
+from tests.camera_calibration.printed import ShownSheets, Studio, poses, texture_of
+
+
+@pytest.fixture(autouse=True)
+def no_bar_thread(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(tqdm, "monitor_interval", 0)  # the bars' own thread would outlive the test
+
+
+@pytest.fixture(scope="package")
+def studio() -> Studio:
+    return Studio(seed=11, depth_scale_error=0.02)
+
+
+@pytest.fixture(scope="package")
+def shown(studio: Studio) -> list[Frame]:
+    """All that a person showed of the chessboard, a picture a second."""
+    texture = texture_of(board_sheet(CHESSBOARD, "a4"))
+    return list(ShownSheets(studio, [[placed] for placed in poses(texture)]).frames())
+
+
+@pytest.fixture(scope="package")
+def gathered(shown: list[Frame]) -> Gathering:
+    """What is kept of it."""
+    out = Gathering(DEFAULT_CAMERA)
+    for frame in shown:
+        out.add(frame)
+    return out

@@ -1,0 +1,168 @@
+"""The calibration finds the simulated camera: its lens, its depth, and says when the pictures are not enough."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from carpus.core.camera import DEFAULT_CAMERA
+from carpus.core.camera_calibration.board import BOARDS, CHARUCO, CHESSBOARD, Board, board_sheet
+from carpus.core.camera_calibration.calibrate import CameraCalibration, calibrate_camera, calibration_lines
+from carpus.core.camera_calibration.find_board import find_board
+from carpus.core.camera_calibration.gather import Gathering
+from carpus.core.camera_calibration.sheet import PAPER_MM, Box, Paper
+from carpus.core.camera_calibration.views import FEWEST_VIEWS, View, judge
+from carpus.core.errors import BoardMissing, BoardUnfit, BoardViewsAlike
+from carpus.core.simulation.sensor import depth_scale
+from tests.camera_calibration.printed import LENS, ShownSheets, Studio, held, poses, texture_of
+
+
+@pytest.fixture(scope="package")
+def made(gathered: Gathering) -> CameraCalibration:
+    return calibrate_camera(gathered.views, DEFAULT_CAMERA, "studio")
+
+
+def check_lens(made: CameraCalibration, middle_px: float) -> None:
+    camera = made.intrinsics.camera
+    assert camera.fx_px == pytest.approx(LENS.fx_px, rel=0.003)
+    assert camera.fy_px == pytest.approx(LENS.fy_px, rel=0.003)
+    assert camera.cx_px == pytest.approx(LENS.cx_px, abs=middle_px)
+    assert camera.cy_px == pytest.approx(LENS.cy_px, abs=middle_px)
+    # Everywhere in the picture, the bend of the lens included.
+    u, v = np.meshgrid(np.linspace(20, 620, 9), np.linspace(20, 460, 7))
+    pixel = np.stack((u.ravel(), v.ravel()), axis=-1)
+    rays = [lens.back_project(lens.undistort(pixel), np.ones(len(pixel))) for lens in (camera, LENS)]
+    turned = np.linalg.lstsq(rays[0], rays[1], rcond=None)[0]  # the whole camera turned is no fault of the lens
+    assert np.abs(rays[0] @ turned - rays[1]).max() * LENS.fx_px < 1.0
+
+
+def test_the_lens_is_found_within_three_in_a_thousand(made: CameraCalibration) -> None:
+    check_lens(made, middle_px=0.003 * 640)
+    assert made.intrinsics.error_px < 0.3
+    assert abs(made.intrinsics.camera.fx_px - LENS.fx_px) < 4.0 * made.intrinsics.focal_sd_px
+
+
+def test_the_scale_of_depth_is_found_within_two_in_a_thousand(made: CameraCalibration, studio: Studio) -> None:
+    true = depth_scale(studio.spec)
+    assert abs(true - 1.0) > 0.004, "the simulated unit must be off, or nothing is found"
+    depth = made.depth
+    assert depth is not None
+    assert depth.scale == pytest.approx(true, abs=0.002)
+    assert abs(depth.scale - true) < 4.0 * depth.scale_sd
+    assert depth.is_registered
+    assert np.linalg.norm(depth.apart_px) < 0.5
+
+
+def test_depth_beside_the_colours_and_a_shift_are_told(gathered: Gathering) -> None:
+    def moved(view: View) -> View:
+        assert view.depth_raw is not None
+        depth = np.roll(view.depth_raw, 3, axis=1)
+        far = np.where(depth > 0, depth + round(0.006 / view.depth_unit_m), 0).astype(np.uint16)
+        return replace(view, depth_raw=far)
+
+    before = calibrate_camera(gathered.views, DEFAULT_CAMERA, "studio").depth
+    after = calibrate_camera([moved(view) for view in gathered.views], DEFAULT_CAMERA, "studio").depth
+    assert before is not None
+    assert after is not None
+    np.testing.assert_allclose(after.apart_px - before.apart_px, [-3.0, 0.0], atol=0.5)
+    assert not after.is_registered
+    assert after.offset_m == pytest.approx(0.006, abs=0.0025)
+
+
+def test_a_charuco_board_does_too() -> None:
+    texture = texture_of(board_sheet(CHARUCO, "letter"))
+    source = ShownSheets(Studio(seed=4), [[one] for one in poses(texture, distances_m=(0.44, 0.5, 0.6))])
+    gathering = Gathering(source.info.camera)
+    for frame in source.frames():
+        gathering.add(frame)
+    found = calibrate_camera(gathering.views, DEFAULT_CAMERA, "studio")
+    assert "ChArUco" in found.board
+    check_lens(found, middle_px=0.005 * 640)
+
+
+def test_it_is_said_in_words(made: CameraCalibration) -> None:
+    said = "\n".join(calibration_lines(made))
+    assert "px (good: below 0.3 px)" in said
+    assert "too long" in said or "too short" in said
+    assert "chessboard 10 x 7" in said
+
+
+def test_no_board_is_said(made: CameraCalibration) -> None:
+    with pytest.raises(BoardMissing):
+        calibrate_camera([], DEFAULT_CAMERA, "studio")
+
+
+def test_too_few_views_are_refused(gathered: Gathering) -> None:
+    with pytest.raises(BoardViewsAlike, match=f"{FEWEST_VIEWS} needed"):
+        calibrate_camera(gathered.views[: FEWEST_VIEWS - 1], DEFAULT_CAMERA, "studio")
+
+
+def test_views_that_are_not_tilted_are_refused(gathered: Gathering) -> None:
+    straight = [replace(view, nearer=None) for view in gathered.views]
+    with pytest.raises(BoardViewsAlike, match="tilted"):
+        calibrate_camera(straight, DEFAULT_CAMERA, "studio")
+
+
+def test_views_of_one_part_of_the_picture_are_refused(gathered: Gathering) -> None:
+    corner = [replace(view, found=replace(view.found, pixel=view.found.pixel * 0.4)) for view in gathered.views]
+    with pytest.raises(BoardViewsAlike, match="fields"):
+        calibrate_camera(corner, DEFAULT_CAMERA, "studio")
+
+
+def test_a_bent_board_is_refused(gathered: Gathering) -> None:
+    def bent(view: View) -> View:
+        off = 8.0 * np.sin(view.found.corner * 2.1)[:, None] * [1.0, -1.0]
+        return replace(view, found=replace(view.found, pixel=view.found.pixel + off))
+
+    with pytest.raises(BoardUnfit):
+        calibrate_camera([bent(view) for view in gathered.views], DEFAULT_CAMERA, "studio")
+
+
+def test_the_next_step_names_what_is_missing(gathered: Gathering) -> None:
+    assert judge([], 640, 480).next_step
+    without = [view for view in gathered.views if view.nearer != "left" and view.nearer != "right"]
+    few = judge(without, 640, 480)
+    assert few.sides <= {"top", "bottom"}
+    assert "Tilt the board: left edge nearer" in few.next_step
+    assert gathered.judgement.next_step == ""
+
+
+def test_the_nearer_side_is_the_nearer_side(studio: Studio) -> None:
+    texture = texture_of(board_sheet(CHESSBOARD, "a4"))
+    placed = held(texture, (0.0, 0.0, 0.55), 30.0, 90.0, 0.0)
+    gathering = Gathering(DEFAULT_CAMERA)
+    assert gathering.add(studio.frame([placed], 0, 0.0))
+    left, right = (placed.rotation[2] @ [x, 0.1, 0.0] + placed.shift_m[2] for x in (0.0, 0.29))
+    assert gathering.views[0].nearer == ("left" if left < right else "right")
+    assert gathering.views[0].tilt_deg == pytest.approx(30.0, abs=2.0)
+
+
+def test_a_moving_board_is_not_kept(studio: Studio) -> None:
+    texture = texture_of(board_sheet(CHESSBOARD, "a4"))
+    gathering = Gathering(DEFAULT_CAMERA)
+    for k, x in enumerate((-0.05, 0.0, 0.0)):
+        kept = gathering.add(studio.frame([held(texture, (x, 0.0, 0.55), 5.0, 0.0, 0.0)], k, 0.2 * k))
+        assert kept == (k != 1), "the first, of which nobody knows, and the still one"
+
+
+@pytest.mark.parametrize("board", BOARDS.values(), ids=list(BOARDS))
+@pytest.mark.parametrize("paper", PAPER_MM)
+def test_the_board_fits_the_paper_with_a_white_border(board: Board, paper: Paper) -> None:
+    sheet = board_sheet(board, paper)
+    boxes = [mark for mark in sheet.marks if isinstance(mark, Box)]
+    border = 0.3 * board.square_m * 1e3
+    assert min(box.left_mm for box in boxes) > border
+    assert min(box.top_mm for box in boxes) > border
+    assert max(box.left_mm + box.width_mm for box in boxes) < sheet.width_mm - border
+    assert max(box.top_mm + box.height_mm for box in boxes) < sheet.height_mm - border - 4.0
+
+
+@pytest.mark.parametrize("board", BOARDS.values(), ids=list(BOARDS))
+def test_what_is_printed_is_what_is_looked_for(board: Board) -> None:
+    picture = (texture_of(board_sheet(board, "a4"))[::8, ::8] * 255).clip(0, 255).astype(np.uint8)
+    large = picture.repeat(3, axis=0).repeat(3, axis=1)
+    found = find_board(large, [board])
+    assert found is not None
+    assert len(found.corner) == board.corner_count

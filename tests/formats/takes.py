@@ -1,0 +1,60 @@
+"""Stored sessions for the tests of formats: every value different, and what has to be found again in a file."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+
+from carpus.core.formats.provenance import provenance
+from carpus.core.formats.take import Take
+from carpus.core.hand.protocols import HAND21, WRIST6, MarkerProtocol
+from carpus.core.output.report_content import session_figures
+from carpus.core.session.reader import read_session
+from carpus.core.session.values import Session
+from carpus.core.session.writer import SessionWriter
+from carpus.core.types import TrackStatus
+from tests.session.samples import CAMERA, make_calibration, make_frame, make_header, time_of
+
+FRAMES = 23
+
+
+def stored(
+    folder: Path, protocol: MarkerProtocol = WRIST6, frames: int = FRAMES, name: str = "one", moving: bool = False
+) -> Path:
+    """A session of the left hand at 30 frames a second; every fifth frame is lost; it has a repetition and a note.
+
+    ``moving``: all of it tracked, the wrist to and fro.
+    """
+    path = folder / f"{name}.h5"
+    header = replace(make_header(protocol), exercise="WRIST_FE" if protocol == WRIST6 else "FIST_COMPOSITE")
+    header = replace(
+        header, parameters='{"source": {"name": "clinic-cam-7", "serial": "A00365"}, "settings": {"a": 1}}'
+    )
+    calibration = make_calibration(protocol)
+    facing = calibration.rotation_w0_cam.T @ np.diag([1.0, -1.0, -1.0])
+    with SessionWriter.create(path, header, CAMERA, calibration) as writer:
+        for row in range(frames):
+            frame = make_frame(row, protocol)
+            place = np.abs(frame.marker_position_cam_m) * 0.1 + (0.0, 0.0, 0.6)
+            if moving:
+                angles = np.array([0.05, 0.6, 0.1]) * np.sin(row / 9.0)
+                # Facing the camera all the time: a hand that leaves its view has no range of motion.
+                frame = replace(frame, status=TrackStatus.TRACKED, angles_rad=angles, rotation_w2_w0=facing)
+            writer.append(replace(frame, marker_position_cam_m=place, dropped_before=0))
+        writer.add_event(time_of(3), "repetition", "1")
+        writer.add_event(time_of(7), "note", "Mrs Miller, pain")
+    return path
+
+
+def take_of(session: Session, name: str = "one") -> Take:
+    return Take(session, session_figures(session), name, provenance(session, "0.1.0"))
+
+
+def wrist_take(folder: Path) -> Take:
+    return take_of(read_session(stored(folder)))
+
+
+def hand_take(folder: Path) -> Take:
+    return take_of(read_session(stored(folder, HAND21)))

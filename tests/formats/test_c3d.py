@@ -1,0 +1,130 @@
+"""C3D, read back by two libraries that did not write it."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+
+import c3d
+import ezc3d
+import numpy as np
+import pytest
+
+from carpus.core.formats import c3d_write
+from carpus.core.formats.take import Take, joint_centres_cam_m
+from carpus.core.session.reader import read_session
+from carpus.core.types import TrackStatus
+from tests.formats.takes import hand_take, stored, take_of, wrist_take
+
+pytestmark = pytest.mark.filterwarnings("ignore:No analog data found in file")
+
+
+def by_c3d(path: Path) -> tuple[list[str], np.ndarray, float]:
+    """Labels, points (K, P, 5) and rate."""
+    with path.open("rb") as file:
+        reader = c3d.Reader(file)
+        points = np.array([points for _, points, _ in reader.read_frames()])
+        return [label.strip() for label in reader.point_labels], points, reader.point_rate
+
+
+@pytest.mark.parametrize("make", [wrist_take, hand_take])
+def test_places_and_residuals_come_back_as_they_are(make: object, tmp_path: Path) -> None:
+    take: Take = make(tmp_path)  # type: ignore[operator]
+    session = take.session
+    (path,) = c3d_write.write(take, tmp_path / "out")
+    labels, points, rate = by_c3d(path)
+    names = list(session.header.protocol.markers)
+    count = len(names)
+    assert labels[:count] == names
+    assert rate == 30.0
+    assert len(points) == len(session)
+    lost = np.asarray(session.status) == TrackStatus.LOST
+    seen = np.isfinite(session.markers.measured_px).all(axis=-1)
+    assert np.allclose(points[~lost, :count, :3], 1e3 * session.markers.position_cam_m[~lost], atol=1e-3)
+    residual = points[:, :count, 3]
+    assert (residual[lost] == -1).all()
+    assert ((residual > 0) == (seen & ~lost[:, None])).all()
+    assert (residual[~lost] >= 0).all()
+    if session.header.joint_names:
+        assert labels[count:] == [f"J_{name}" for name in names]
+        assert np.allclose(points[~lost, count:, :3], 1e3 * joint_centres_cam_m(session)[~lost], atol=1e-2)
+        assert (points[~lost, count:, 3] == 0).all(), "a joint centre is never seen"
+
+
+def test_a_second_reader_finds_the_same(tmp_path: Path) -> None:
+    take = wrist_take(tmp_path)
+    (path,) = c3d_write.write(take, tmp_path / "out")
+    read = ezc3d.c3d(str(path))
+    parameters, points = read["parameters"], read["data"]["points"]
+    _, other, _ = by_c3d(path)
+    known = other[..., 3] >= 0
+    assert np.allclose(points[:3].transpose(2, 1, 0)[known], other[..., :3][known])
+    assert np.isnan(points[:3].transpose(2, 1, 0)[~known]).all()
+    assert ((read["data"]["meta_points"]["residuals"][0].T > 0) == (other[..., 3] > 0)).all()
+    assert parameters["POINT"]["UNITS"]["value"] == ["mm"]
+    assert parameters["SUBJECTS"]["NAMES"]["value"] == ["Linden 42"]
+    assert "right" in parameters["CARPUS"]["FRAME"]["value"][0]
+    assert parameters["CARPUS"]["HAND"]["value"] == ["left"]
+    assert len(parameters["CARPUS"]["SESSION_SHA256"]["value"][0]) == 64
+    event = parameters["EVENT"]
+    assert event["LABELS"]["value"] == ["repetition", "note"]
+    assert event["CONTEXTS"]["value"] == ["Left", "Left"]
+    assert event["TIMES"]["value"][1] == pytest.approx([3 / 30, 7 / 30], abs=1e-5)
+
+
+def test_an_hour_keeps_its_last_frame(tmp_path: Path) -> None:
+    session = read_session(stored(tmp_path, frames=10))
+    count, times = 70_001, 12
+    rows = np.arange(count) % 10
+    long = replace(
+        session,
+        timestamp_s=np.arange(count) / 30.0,
+        status=session.status[rows],
+        markers=replace(
+            session.markers,
+            position_cam_m=session.markers.position_cam_m[rows] + 1e-6 * np.arange(count)[:, None, None],
+            measured_px=session.markers.measured_px[rows],
+        ),
+        quality=replace(session.quality, dropped_before=np.zeros(count, dtype=np.int64)),
+        events=session.events[:1] * (300 - times),
+    )
+    take = Take(long, take_of(session).figures, "long", take_of(session).provenance)
+    (path,) = c3d_write.write(take, tmp_path / "out")
+    with path.open("rb") as file:
+        reader = c3d.Reader(file)
+        assert reader.frame_count == count
+        last = None
+        for _, points, _ in reader.read_frames(copy=False):
+            last = points[:, :3]
+        assert np.allclose(last, 1e3 * long.markers.position_cam_m[-1], atol=1e-3)
+        assert len(reader.get("EVENT").get("LABELS2").string_array) == 300 - times - 255
+
+
+def test_a_recording_without_a_frame_is_written(tmp_path: Path) -> None:
+    take = take_of(read_session(stored(tmp_path, frames=0)))
+    (path,) = c3d_write.write(take, tmp_path / "out")
+    assert path.stat().st_size % 512 == 0
+
+
+def test_a_dropped_frame_keeps_the_time_of_the_rest(tmp_path: Path) -> None:
+    take = wrist_take(tmp_path)
+    session = take.session
+    kept = np.delete(np.arange(len(session)), [10, 11])
+    dropped = np.zeros(len(kept), dtype=np.int64)
+    dropped[10] = 2
+    short = replace(
+        session,
+        timestamp_s=session.timestamp_s[kept],
+        status=session.status[kept],
+        markers=replace(
+            session.markers,
+            position_cam_m=session.markers.position_cam_m[kept],
+            measured_px=session.markers.measured_px[kept],
+        ),
+        quality=replace(session.quality, dropped_before=dropped),
+    )
+    (path,) = c3d_write.write(replace(take, session=short), tmp_path / "out")
+    _, points, rate = by_c3d(path)
+    assert (len(points), rate) == (len(session), 30.0)
+    assert (points[10:12, :, 3] == -1).all()
+    assert np.allclose(points[12, :, :3], 1e3 * session.markers.position_cam_m[12], atol=1e-3)

@@ -1,0 +1,107 @@
+"""Many sessions into one folder: nothing overwritten, nobody found in a de-identified one, and it comes back."""
+
+from __future__ import annotations
+
+import uuid
+from dataclasses import replace
+from functools import partial
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from carpus.core.errors import OutputExists, SessionUnreadable
+from carpus.core.formats import export
+from carpus.core.formats.export import Wanted
+from carpus.core.formats.formats import FORMATS
+from carpus.core.hand.protocols import HAND21
+from carpus.core.output.report_content import session_figures
+from carpus.core.session.reader import read_detections, read_session
+from carpus.core.session.writer import SessionWriter
+from tests.formats.takes import stored
+from tests.session.samples import CAMERA, make_calibration, make_frame, make_header
+
+export_sessions = partial(export.export_sessions, software_version="0.1.0")
+
+
+@pytest.mark.parametrize("deidentified", [False, True])
+def test_everything_in_one_folder_comes_back_to_the_same_charts(deidentified: bool, tmp_path: Path) -> None:
+    path = stored(tmp_path, HAND21)
+    done = export_sessions([Wanted.stored(path)], tmp_path / "out", list(FORMATS), deidentified=deidentified)
+    assert not done.refused
+    (copy,) = (tmp_path / "out").glob("*.h5")
+    old, new = read_session(path), read_session(copy)
+    start_s = old.timestamp_s[0] if deidentified else 0.0
+    assert np.allclose(new.timestamp_s, old.timestamp_s - start_s, atol=1e-6)
+    for name in ("angles_rad", "joint_angles_rad", "joint_angles_sd_rad", "rotation_w2_w0", "joint_position_m"):
+        assert np.array_equal(getattr(new.motion, name), getattr(old.motion, name), equal_nan=True)
+    assert np.array_equal(read_detections(copy).blobs.pixel, read_detections(path).blobs.pixel)
+    mine, theirs = session_figures(old), session_figures(new)
+    for one, other in zip((*mine.rows, *mine.joint_rows), (*theirs.rows, *theirs.joint_rows), strict=True):
+        assert (one.key, one.count) == (other.key, other.count)
+        assert np.allclose(one.mean_deg, other.mean_deg, atol=1e-4, equal_nan=True)
+
+
+def test_nobody_is_found_in_what_was_deidentified(tmp_path: Path) -> None:
+    path = stored(tmp_path)
+    export_sessions([Wanted.stored(path)], tmp_path / "out", list(FORMATS), deidentified=True)
+    header = read_session(path).header
+    secret = ["Linden", "Miller", "clinic-cam", "A00365", "2026-11-13", "20261113", header.session_id, "13050311"]
+    files = [file for file in (tmp_path / "out").rglob("*") if file.is_file()]
+    assert len(files) > 15
+    for file in files:
+        content = file.read_bytes()
+        for text in secret:
+            assert text.encode() not in content, (file.name, text)
+            assert text not in str(file.relative_to(tmp_path / "out"))
+
+
+def test_one_patient_stays_one_and_days_count_from_the_first(tmp_path: Path) -> None:
+    paths = []
+    for day in (20, 13):
+        header = make_header(session_id=uuid.uuid4())
+        header = replace(header, recorded=f"2026-11-{day}T09:00:00+01:00", recording_id=str(uuid.uuid4()))
+        paths.append(tmp_path / f"day{day}.h5")
+        with SessionWriter.create(paths[-1], header, CAMERA, make_calibration()) as writer:
+            writer.append(make_frame(0))
+    export_sessions([Wanted.stored(path) for path in paths], tmp_path / "out", ["h5"], deidentified=True)
+    found = [read_session(path).header for path in sorted((tmp_path / "out").glob("*.h5"))]
+    assert len({header.subject_id for header in found}) == 1
+    assert [header.recorded[:10] for header in found] == ["1900-01-01", "1900-01-08"]
+    assert len({header.session_id for header in found}) == 2
+
+
+def test_nothing_is_overwritten_and_the_others_go_on(tmp_path: Path) -> None:
+    good, missing = stored(tmp_path), tmp_path / "missing.h5"
+    heard: list[tuple[int, int]] = []
+    done = export_sessions(
+        [Wanted.stored(missing), Wanted.stored(good)],
+        tmp_path / "out",
+        ["mot", "json"],
+        progress=lambda *at: heard.append(at),
+    )
+    assert [refused.path for refused in done.refused] == [missing]
+    assert isinstance(done.refused[0].fault, SessionUnreadable)
+    assert heard[-1] == (2, 4)
+    before = {path: path.read_bytes() for path in done.files}
+    again = export_sessions([Wanted.stored(good)], tmp_path / "out", ["mot"])
+    assert isinstance(again.refused[0].fault, OutputExists)
+    assert {path: path.read_bytes() for path in done.files} == before
+    assert not list((tmp_path / "out").rglob("*.half"))
+
+
+def test_two_sessions_of_one_name_lie_beside_each_other(tmp_path: Path) -> None:
+    for folder in ("a", "b"):
+        (tmp_path / folder).mkdir()
+    paths = [stored(tmp_path / "a"), stored(tmp_path / "b")]
+    export_sessions([Wanted.stored(path) for path in paths], tmp_path / "out", ["c3d"])
+    assert {path.name for path in (tmp_path / "out").iterdir()} == {"one.c3d", "one-2.c3d"}
+
+
+def test_it_stops_when_asked(tmp_path: Path) -> None:
+    asked = iter((False, True))
+    done = export_sessions(
+        [Wanted.stored(stored(tmp_path))], tmp_path / "out", ["mot", "trc"], cancelled=lambda: next(asked)
+    )
+    assert done.cancelled
+    assert {path.suffix for path in done.files} == {".mot", ".json", ".txt"}

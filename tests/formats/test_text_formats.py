@@ -1,0 +1,164 @@
+"""CSV, TRC, MOT, JSON and BIDS: numbers as in the session, missing as missing, and the rules of each format."""
+
+from __future__ import annotations
+
+import csv
+import json
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from carpus.core.errors import OutputExists
+from carpus.core.formats import bids_motion, csv_tables, json_measures, mot, trc
+from carpus.core.formats.export import Wanted, export_sessions
+from carpus.core.hand.protocols import HAND21, WRIST_ANGLES
+from carpus.core.types import TrackStatus
+from tests.formats.takes import hand_take, stored, take_of, wrist_take
+from tests.ui.fakes import session as flexing
+
+
+def rows_of(path: Path) -> list[dict[str, str]]:
+    with path.open(newline="", encoding="utf-8") as file:
+        return list(csv.DictReader(file))
+
+
+def numbers(rows: list[dict[str, str]], column: str) -> np.ndarray:
+    return np.array([float(row[column]) if row[column] else np.nan for row in rows])
+
+
+def test_the_wrist_is_one_row_a_picture(tmp_path: Path) -> None:
+    take = wrist_take(tmp_path)
+    written = csv_tables.write(take, tmp_path / "out")
+    assert {path.name for path in written} == {
+        "one.wrist.csv", "one.markers.csv", "one.events.csv", "one.measures.csv", "one.csv.json",
+    }  # fmt: skip
+    rows, motion = rows_of(tmp_path / "out" / "one.wrist.csv"), take.session.motion
+    assert len(rows) == len(take.session)
+    for k, name in enumerate(WRIST_ANGLES):
+        assert np.allclose(numbers(rows, f"{name}_deg"), np.degrees(motion.angles_rad[:, k]), atol=6e-4, equal_nan=True)
+        sd = np.degrees(motion.angles_sd_rad[:, k])
+        assert np.allclose(numbers(rows, f"{name}_sd_deg"), sd, atol=6e-4, equal_nan=True)
+    assert [row["status"] for row in rows] == [TrackStatus(s).name.lower() for s in take.session.status]
+    lost = [row for row in rows if row["status"] == "lost"]
+    assert {lost[0][name] for name in lost[0] if name not in ("timestamp_s", "status")} == {""}
+    events = rows_of(tmp_path / "out" / "one.events.csv")
+    assert [(event["kind"], event["text"]) for event in events] == [("repetition", "1"), ("note", "Mrs Miller, pain")]
+    assert float(events[0]["since_start_s"]) == pytest.approx(0.1, abs=1e-5)
+
+
+def test_joints_and_markers_are_one_row_each(tmp_path: Path) -> None:
+    take = hand_take(tmp_path)
+    csv_tables.write(take, tmp_path / "out")
+    session = take.session
+    joints = rows_of(tmp_path / "out" / "one.joints.csv")
+    names = session.header.joint_names
+    assert len(joints) == len(session) * len(names)
+    assert [row["joint"] for row in joints[: len(names)]] == list(names)
+    angle = numbers(joints, "angle_deg").reshape(len(session), len(names))
+    assert np.allclose(angle, np.degrees(session.motion.joint_angles_rad), atol=6e-4, equal_nan=True)
+    rate = numbers(joints, "velocity_deg_s").reshape(angle.shape)
+    assert np.allclose(rate, np.degrees(session.motion.joint_velocity_rad_s), atol=6e-4, equal_nan=True)
+    markers = rows_of(tmp_path / "out" / "one.markers.csv")
+    assert len(markers) == len(session) * 21
+    place = np.column_stack([numbers(markers, f"{axis}_mm") for axis in "xyz"]).reshape(len(session), 21, 3)
+    assert np.allclose(place, 1e3 * session.markers.position_cam_m, atol=6e-4, equal_nan=True)
+    about = json.loads((tmp_path / "out" / "one.csv.json").read_text(encoding="utf-8"))
+    assert set(about["tables"]["one.markers.csv"]) == set(markers[0])
+    assert set(about["tables"]["one.joints.csv"]) == set(joints[0])
+
+
+def test_trc_is_as_opensim_writes_it(tmp_path: Path) -> None:
+    take = wrist_take(tmp_path)
+    trc.write(take, tmp_path / "out")
+    lines = (tmp_path / "out" / "one.trc").read_text(encoding="utf-8").split("\n")
+    head = dict(zip(lines[1].split("\t"), lines[2].split("\t"), strict=True))
+    assert (head["Units"], float(head["DataRate"]), head["NumMarkers"]) == ("mm", 30.0, "6")
+    assert int(head["NumFrames"]) == len(take.session) == len(lines) - 7
+    markers = take.session.header.protocol.markers
+    assert lines[3].split("\t")[2::3] == list(markers)
+    assert lines[4].split("\t")[2:] == [f"{axis}{m}" for m in range(1, 7) for axis in "XYZ"]
+    assert lines[5] == ""
+    cells = [line.split("\t") for line in lines[6:-1]]
+    assert {len(row) for row in cells} == {2 + 3 * 6}
+    assert [row[0] for row in cells] == [str(k + 1) for k in range(len(cells))]
+    assert np.allclose([float(row[1]) for row in cells], np.arange(len(cells)) / 30.0, atol=1e-6)
+    place = np.array([[float(cell) if cell else np.nan for cell in row[2:]] for row in cells]).reshape(-1, 6, 3)
+    cam_mm = 1e3 * take.session.markers.position_cam_m
+    up = np.stack((cam_mm[..., 0], -cam_mm[..., 2], cam_mm[..., 1]), axis=-1)
+    assert np.allclose(place, up, atol=1e-3, equal_nan=True)
+    about = json.loads((tmp_path / "out" / "one.trc.json").read_text(encoding="utf-8"))
+    rotation = np.array(about["rotation_trc_from_camera"])
+    assert np.allclose(cam_mm @ rotation.T, up, equal_nan=True)
+    assert np.linalg.det(rotation) == pytest.approx(1.0)
+
+
+def test_mot_holds_the_angles_in_degrees(tmp_path: Path) -> None:
+    take = hand_take(tmp_path)
+    mot.write(take, tmp_path / "out")
+    lines = (tmp_path / "out" / "one.mot").read_text(encoding="utf-8").split("\n")
+    end = lines.index("endheader")
+    labels = lines[end + 1].split("\t")
+    assert labels[:5] == ["time", "wrist_deviation_l", "wrist_flexion_l", "wrist_pronosupination_l", "cmc1_extension_l"]
+    assert f"nColumns={len(labels)}" in lines[:end]
+    assert f"nRows={len(take.session)}" in lines[:end]
+    assert "inDegrees=yes" in lines[:end]
+    table = np.array([[float(cell) for cell in line.split("\t")] for line in lines[end + 2 : -1]])
+    motion = take.session.motion
+    angles = np.degrees(np.column_stack((motion.angles_rad, motion.joint_angles_rad)))
+    assert np.allclose(table[:, 1:], angles, atol=1e-4, equal_nan=True)
+    assert np.isnan(table[4, 1:]).all(), "a lost frame stays lost"
+
+
+def test_the_measures_are_json_that_every_reader_takes(tmp_path: Path) -> None:
+    take = take_of(flexing())
+    (path,) = json_measures.write(take, tmp_path / "out")
+
+    def refuse(text: str) -> None:
+        raise AssertionError(text)
+
+    content = json.loads(path.read_text(encoding="utf-8"), parse_constant=refuse)
+    assert content["session"]["subject_id"] == take.session.header.subject_id
+    (arc,) = [row for row in content["measures"] if (row["measure"], row["of"]) == ("arc", "flexion")]
+    assert arc["unit"] == "deg"
+    assert arc["mean"] == take.figures.row("arc", 1).mean_deg  # type: ignore[union-attr]
+    assert len(content["provenance"]["tracked_by"]["settings_sha256"]) in (0, 64)
+    assert content["provenance"]["camera"]["fx_px"] == take.session.camera.fx_px
+
+
+def test_bids_passes_the_rules_as_its_own_validator_reads_them(tmp_path: Path) -> None:
+    one, two = stored(tmp_path), stored(tmp_path, HAND21, name="two")
+    export_sessions([Wanted.stored(one), Wanted.stored(two)], tmp_path / "set", ["bids"], software_version="0")
+    command = [sys.executable, "-c", "import sys, bids_validator_deno as b; sys.exit(b.cli())"]
+    done = subprocess.run(
+        [*command, str(tmp_path / "set"), "--format", "json"], capture_output=True, text=True, check=False, timeout=120
+    )
+    issues = json.loads(done.stdout)["issues"]["issues"]
+    assert [issue for issue in issues if issue["severity"] == "error"] == []
+    with pytest.raises(OutputExists):
+        export_sessions([Wanted.stored(one)], tmp_path / "set", ["bids"], software_version="0")
+
+
+def test_bids_columns_are_what_channels_say(tmp_path: Path) -> None:
+    take = hand_take(tmp_path)
+    written = bids_motion.write(take, tmp_path / "set")
+    (motion,) = [path for path in written if path.name.endswith("_motion.tsv")]
+    with motion.with_name(motion.name.replace("_motion.", "_channels.")).open(encoding="utf-8") as file:
+        channels = list(csv.DictReader(file, delimiter="\t"))
+    table = [line.split("\t") for line in motion.read_text(encoding="utf-8").splitlines()]
+    assert {len(row) for row in table} == {len(channels)}
+    assert len({channel["name"] for channel in channels}) == len(channels)
+    about = json.loads(motion.with_suffix(".json").read_text(encoding="utf-8"))
+    assert about["MotionChannelCount"] == len(channels)
+    for kind in ("POS", "ORNT", "VEL", "JNTANG", "LATENCY"):
+        assert about[f"{kind}ChannelCount"] == sum(channel["type"] == kind for channel in channels)
+    assert about["SamplingFrequency"] == 30.0
+    names = [channel["name"] for channel in channels]
+    column = [row[names.index("MCP2_flexion")] for row in table]
+    joint = take.session.header.joint_names.index("MCP2_flexion")
+    wanted = np.degrees(take.session.motion.joint_angles_rad[:, joint])
+    found = np.array([np.nan if cell == "n/a" else float(cell) for cell in column])
+    assert np.allclose(found, wanted, atol=1e-5, equal_nan=True)
+    assert [float(row[0]) for row in table] == pytest.approx(np.arange(len(table)) / 30.0, abs=2e-6)

@@ -1,0 +1,109 @@
+"""What ``make release`` refuses, each in one sentence."""
+
+from __future__ import annotations
+
+import hashlib
+import importlib.util
+import re
+import subprocess
+import sys
+from pathlib import Path
+from types import ModuleType
+
+import pytest
+
+from carpus import __version__
+
+ROOT = Path(__file__).parents[2]
+GOOD = "# Changelog\n\n## [Unreleased]\n\n## [1.2.0] - 2026-11-22\n\n### Added\n- Something.\n\n"
+GOOD += "## [1.1.0] - 2026-10-01\n- Old.\n"
+
+
+@pytest.fixture(scope="module")
+def release() -> ModuleType:
+    spec = importlib.util.spec_from_file_location("release", ROOT / "installer" / "release.py")
+    assert spec is not None
+    assert spec.loader is not None
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    return module
+
+
+def test_the_version_is_that_of_the_program(release: ModuleType) -> None:
+    assert release.version_of((ROOT / "carpus.py").read_text(encoding="utf-8")) == __version__
+
+
+def test_a_changelog_of_this_version_is_taken(release: ModuleType) -> None:
+    assert release.changes_of(GOOD, "1.2.0") == "### Added\n- Something."
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        GOOD.replace("[1.2.0]", "[1.3.0]"),
+        GOOD.replace("[1.2.0] - 2026-11-22", "[1.2.0]"),
+        GOOD.replace("- Something.", ""),
+        GOOD.replace("- Something.", "- "),
+        GOOD.replace("## [Unreleased]\n", "## [Unreleased]\n\n### Fixed\n- Something else.\n"),
+        "",
+    ],
+    ids=["another version", "no date", "nothing said", "an empty line", "something left", "no file"],
+)
+def test_an_empty_changelog_is_refused(release: ModuleType, text: str) -> None:
+    with pytest.raises(release.NotReleasableError, match=r"CHANGELOG\.md"):
+        release.changes_of(text, "1.2.0")
+
+
+def test_the_real_changelog_can_become_this_release_by_its_heading_alone(release: ModuleType) -> None:
+    text = (ROOT / "CHANGELOG.md").read_text(encoding="utf-8")
+    heads = re.findall(r"^## .*$", text, re.MULTILINE)
+    assert heads[0] == "## [Unreleased]"
+    assert all(re.fullmatch(r"## \[\d+\.\d+\.\d+\] - \d{4}-\d\d-\d\d", head) for head in heads[1:])
+    if f"## [{__version__}] - " not in text:  # between releases
+        dated = text.replace("## [Unreleased]", f"## [Unreleased]\n\n## [{__version__}] - 2026-11-22", 1)
+        assert release.changes_of(dated, __version__).startswith("### ")
+
+
+@pytest.mark.parametrize(("status", "tags"), [(" M core/so3.py\n", ""), ("?? new.py\n", ""), ("", "v1.1.0\nv1.2.0\n")])
+def test_a_dirty_tree_or_an_old_version_is_refused(release: ModuleType, status: str, tags: str) -> None:
+    with pytest.raises(release.NotReleasableError):
+        release.check_tree(status, tags, "1.2.0")
+    release.check_tree("", "v1.1.0\nv1.2.0rc1\n", "1.2.0")
+
+
+def test_checksums_are_those_of_sha256sum(release: ModuleType, tmp_path: Path) -> None:
+    for name in ("b.whl", "a.deb"):
+        (tmp_path / name).write_bytes(name.encode() * 1000)
+    text = release.checksums([tmp_path / "b.whl", tmp_path / "a.deb"])
+    assert text.splitlines()[0] == f"{hashlib.sha256(b'a.deb' * 1000).hexdigest()}  a.deb"
+    told = subprocess.run(
+        ["sha256sum", "--check", "--strict"], input=text, text=True, cwd=tmp_path, check=True, capture_output=True
+    )
+    assert told.stdout.count(": OK") == 2
+
+
+def test_failing_tests_are_refused(release: ModuleType, monkeypatch: pytest.MonkeyPatch) -> None:
+    ran: list[tuple[object, ...]] = []
+
+    def fails(*command: object) -> None:
+        ran.append(command)
+        raise release.NotReleasableError("“make test” failed")
+
+    def no_folder(*_: object, **__: object) -> None:
+        raise AssertionError("it went on")
+
+    monkeypatch.setattr(release, "changes_of", lambda *_: "")
+    monkeypatch.setattr(release, "asked", lambda *_: "")
+    monkeypatch.setattr(release, "run", fails)
+    monkeypatch.setattr(release.shutil, "rmtree", no_folder)
+    monkeypatch.setattr(sys, "argv", ["release.py"])
+    assert release.main() == 1
+    assert ran == [("make", "test")]
+
+
+def test_the_hosted_checks_call_targets_that_there_are() -> None:
+    targets = set(re.findall(r"^([a-z-]+):", (ROOT / "Makefile").read_text(encoding="utf-8"), re.MULTILINE))
+    for path in (ROOT / ".github" / "workflows").glob("*.yml"):
+        called = re.findall(r"- run: make ([a-z -]+)$", path.read_text(encoding="utf-8"), re.MULTILINE)
+        assert called
+        assert {name for line in called for name in line.split()} <= targets

@@ -1,0 +1,92 @@
+"""A session file handed over by the system: opened in the review, whoever's it is and wherever it lies."""
+
+from __future__ import annotations
+
+import lzma
+import shutil
+from pathlib import Path
+
+import pytest
+from pytestqt.qtbot import QtBot
+
+from carpus.app import __main__ as command_line
+from carpus.app.commands import review
+from tests.journeys.conftest import Open
+
+GOLDEN = Path(__file__).parents[1] / "session" / "golden" / "v2-wrist6.h5.xz"
+
+
+@pytest.fixture
+def session(tmp_path: Path) -> Path:
+    path = tmp_path / "Stick der Klinik" / "сессия 1.h5"
+    path.parent.mkdir()
+    path.write_bytes(lzma.decompress(GOLDEN.read_bytes()))
+    return path
+
+
+def test_a_session_of_nobody_here_is_shown_and_stays_where_it_is(
+    qtbot: QtBot, open_desktop: Open, session: Path, data: Path
+) -> None:
+    before = session.read_bytes()
+    journey = (desktop := open_desktop()).journey
+    desktop.called(session)
+    qtbot.waitUntil(lambda: journey.review.shown, timeout=30_000)
+    assert journey.place == "review"
+    assert journey.patient is not None
+    assert journey.patient.pseudonym == "Linden 42"
+    assert journey.review.again_button.isHidden(), "there is nobody to measure"
+    for tab in range(4):  # every tab of the bar leads somewhere
+        journey.viewing.take_tab(tab)
+        assert journey.place == ("sessions", "review", "progress", "report")[tab] or tab == 3
+    journey.show_patients()
+    assert not list((data / "sessions").rglob("*.h5"))
+    assert session.read_bytes() == before
+    assert [path.name for path in session.parent.iterdir()] == [session.name]
+
+
+def test_a_session_of_a_patient_is_opened_as_theirs_also_by_a_copy(
+    qtbot: QtBot, open_desktop: Open, session: Path, data: Path
+) -> None:
+    (data / "sessions").mkdir(parents=True)
+    shutil.copyfile(session, data / "sessions" / "copied.h5")
+    journey = (desktop := open_desktop()).journey
+    desktop.called(session)
+    qtbot.waitUntil(lambda: journey.review.shown, timeout=30_000)
+    assert journey.patient is not None
+    assert journey.patient.patient_id
+    assert journey.patient.session_count == 1
+
+
+def test_behind_the_lock_nothing_is_opened_until_somebody_has_the_pin(
+    qtbot: QtBot, open_desktop: Open, session: Path
+) -> None:
+    desktop = open_desktop()
+    locking = desktop.safe.locking
+    locking.pin.set("4711")
+    locking.lock_by_key()
+    assert locking.locked
+    desktop.called(session)
+    assert desktop.journey.place == "patients"
+    assert desktop.journey.patient is None
+    locking.sheet.tried.emit("4711")
+    qtbot.waitUntil(lambda: desktop.journey.review.shown, timeout=30_000)
+
+
+def test_what_is_no_session_is_told(open_desktop: Open, tmp_path: Path) -> None:
+    path = tmp_path / "other.h5"
+    path.write_bytes(b"\x89HDF\r\n\x1a\nnothing")
+    journey = (desktop := open_desktop()).journey
+    desktop.called(path)
+    assert journey.place == "patients"
+    assert journey.teller.busy
+
+
+def test_a_file_alone_is_as_good_as_the_command(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert command_line.main(["not there.h5"]) == 1
+    assert "not there.h5" in capsys.readouterr().err
+    opened: list[Path] = []
+    monkeypatch.setattr(review, "run", lambda arguments: opened.append(arguments.session) or 0)
+    assert command_line.main(["a.h5"]) == command_line.main(["review", "a.h5"]) == 0
+    assert opened == [Path("a.h5")] * 2

@@ -1,0 +1,177 @@
+"""The very first start in the real window: looked at, offered, led through a session, and remembered."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+from PySide6.QtTest import QTest
+from pytestqt.qtbot import QtBot
+
+from carpus.app.compose import Desktop
+from carpus.app.desktop import welcoming
+from carpus.app.settings import load_settings
+from carpus.core.capture import doctor
+from carpus.core.capture.doctor import examine_at_start
+from carpus.core.errors import OutputNotWritable
+from carpus.core.session.register import PatientEntry
+from tests.journeys.conftest import Open
+from tests.journeys.test_journey import at, click, click_discs, still_hand
+
+
+def shown(desktop: Desktop, bubble: str) -> bool:
+    return desktop.tour.bubble == bubble
+
+
+def test_the_first_session_is_led_from_control_to_control(
+    qtbot: QtBot, open_desktop: Open, take: Path, tmp_path: Path
+) -> None:
+    desktop = open_desktop()
+    journey, tour, panel = desktop.journey, desktop.tour, desktop.welcome.panel
+    assert panel is not None
+    qtbot.waitUntil(panel.isVisible)
+    assert desktop.shell.focusWidget() in (journey.patients.search, None), "the search keeps the keyboard"
+    qtbot.waitUntil(lambda: len(panel.checks) >= 5)
+    assert {"Camera driver", "Data folder", "Disk", "Fonts", "Screen"} <= {row.check.name for row in panel.checks}
+    click(qtbot, panel.tour_button)
+    assert desktop.welcome.panel is None
+    order = []
+
+    def go_on(bubble: str) -> None:
+        qtbot.waitUntil(lambda: shown(desktop, bubble))
+        order.append(journey.place)
+        view = next(view for view in tour._views.values() if view.bubble is not None)
+        assert view.isVisible()
+        click(qtbot, view.next_button)
+
+    go_on("patient")
+    at(qtbot, desktop, "markers")
+    still_hand(qtbot, desktop)
+    go_on("aim")
+    qtbot.waitUntil(lambda: shown(desktop, "click"))
+    click_discs(qtbot, desktop, take)
+    go_on("check")
+    qtbot.waitUntil(lambda: shown(desktop, "record"))
+    assert journey.live.bubble.isVisible()
+    journey.way.go("report")
+    qtbot.waitUntil(lambda: shown(desktop, "save"))
+    journey.report.saved.emit(str(tmp_path / "report.pdf"))
+    assert not load_settings(tmp_path / "settings").first_start.answered, "it is not finished yet"
+    go_on("end")
+    assert order == ["patients", "markers", "markers", "report"]
+    assert not tour.is_on
+    assert load_settings(tmp_path / "settings").first_start.answered
+
+
+def test_typing_goes_to_the_search_and_escape_says_not_now(qtbot: QtBot, open_desktop: Open, tmp_path: Path) -> None:
+    desktop = open_desktop()
+    journey = desktop.journey
+    assert desktop.welcome.panel is not None
+    QTest.keyClicks(journey.patients.search, "prac")
+    assert journey.patients.search.text() == "prac"
+    desktop.shell.key.emit("back")
+    assert desktop.welcome.panel is None
+    assert journey.patients.welcome is None
+    assert load_settings(tmp_path / "settings").first_start.answered
+
+
+def test_escape_leaves_the_guide_and_not_the_screen(qtbot: QtBot, open_desktop: Open) -> None:
+    desktop = open_desktop()
+    journey, tour = desktop.journey, desktop.tour
+    desktop.shell.key.emit("help")
+    at(qtbot, desktop, "help")
+    click(qtbot, journey.help.tour_button)
+    at(qtbot, desktop, "patients")
+    qtbot.waitUntil(lambda: shown(desktop, "patient"))
+    desktop.shell.key.emit("settings")
+    qtbot.waitUntil(lambda: tour.bubble is None)
+    desktop.shell.key.emit("back")
+    at(qtbot, desktop, "patients")
+    qtbot.waitUntil(lambda: shown(desktop, "patient"))
+    journey.patients.new_patient()
+    qtbot.waitUntil(lambda: tour.bubble is None)
+    journey.patients.form.leave()
+    qtbot.waitUntil(lambda: shown(desktop, "patient"))
+    desktop.shell.key.emit("back")
+    assert not tour.is_on
+    assert journey.place == "patients"
+
+
+def test_it_is_for_the_practice_patient_unless_it_was_asked_for(qtbot: QtBot, open_desktop: Open) -> None:
+    desktop = open_desktop()
+    desktop.library.clinic.add(_somebody())
+    (somebody,) = desktop.library.clinic.patients()
+    desktop.tour.begin(asked_for=False)
+    desktop.journey.now.patient = desktop.journey.patients._store.card(somebody.patient_id).row
+    desktop.journey.way.go("camera")
+    desktop.tour.look()
+    assert desktop.tour.bubble is None
+    desktop.tour.begin(asked_for=True)
+    assert shown(desktop, "camera")
+
+
+def test_with_a_patient_in_the_list_it_is_no_first_start(open_desktop: Open) -> None:
+    first = open_desktop()
+    first.library.clinic.add(_somebody())
+    first.close()
+    again = open_desktop()
+    assert again.welcome.panel is None
+
+
+def test_another_folder_is_looked_at_and_counts_from_the_next_start(
+    qtbot: QtBot, open_desktop: Open, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    desktop = open_desktop()
+    panel = desktop.welcome.panel
+    assert panel is not None
+    qtbot.waitUntil(lambda: bool(panel.checks))
+    other = tmp_path / "elsewhere" / "Carpus"
+    monkeypatch.setattr("carpus.ui.settings.screen.QFileDialog.getExistingDirectory", lambda *_: str(other))
+    panel.show_checks([])
+    click(qtbot, panel.folder_button)
+    assert panel.where.text() == str(other)
+    assert panel.close_button.isVisible()
+    qtbot.waitUntil(lambda: any(str(other) in row.check.found for row in panel.checks))
+    assert load_settings(tmp_path / "settings").data_folder == other
+    assert desktop.library.folder != other
+
+
+def test_what_cannot_be_looked_at_is_told_and_stops_nothing(
+    qtbot: QtBot, open_desktop: Open, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def fails(folder: Path) -> list[object]:
+        raise OutputNotWritable(folder, "gone")
+
+    monkeypatch.setattr(welcoming, "examine_at_start", fails)
+    desktop = open_desktop()
+    qtbot.waitUntil(lambda: desktop.journey.teller.busy)
+    panel = desktop.welcome.panel
+    assert panel is not None
+    assert panel.again_button.isEnabled()
+
+
+def test_the_look_opens_nothing_and_makes_no_folder(tmp_path: Path) -> None:
+    folder = tmp_path / "not" / "there"
+    findings = list(examine_at_start(folder))
+    assert not folder.exists()
+    assert all(finding.remedy for finding in findings if finding.state != "good")
+    assert "Pictures" not in {finding.name for finding in findings}
+    assert next(finding for finding in findings if finding.name == "Data folder").state == "good"
+
+
+def _somebody() -> PatientEntry:
+    return PatientEntry("Heron 17", "right", "right")
+
+
+def test_the_drivers_own_code_is_never_called_in_the_windows_process(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """OpenNI2 ends the process of a second thread that calls it."""
+
+    class Library:
+        def __getattr__(self, name: str) -> object:
+            raise AssertionError(f"{name} was called")
+
+    monkeypatch.setattr(doctor, "load_library", Library)
+    (driver,) = (finding for finding in examine_at_start(tmp_path) if finding.name == "Driver")
+    assert driver.state == "good"

@@ -1,0 +1,72 @@
+"""A hidden thumb whose pose holds together, and one whose does not."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+
+from carpus.core.measures.coherence import Coherence, digit_coherence
+from carpus.core.types import FloatArray
+
+NAMES = ("CMC1_extension", "CMC1_abduction", "MCP1_flexion", "MCP1_abduction", "IP1_flexion")
+COUNT = 90
+TIME_S = np.arange(COUNT) / 30.0
+HIDDEN = (TIME_S >= 1.0) & (TIME_S < 2.0)
+
+
+def moving() -> FloatArray:
+    """Angles (N, 5) of a thumb that goes across the palm and back in three seconds."""
+    swing = 0.5 - 0.5 * np.cos(2.0 * math.pi * TIME_S / 3.0)
+    return np.radians(np.outer(swing, [-20.0, 35.0, 30.0, 2.0, 25.0]) + 5.0)
+
+
+def tip(angles_rad: FloatArray) -> FloatArray:
+    return np.column_stack((0.1 * angles_rad[:, 0], 0.1 * angles_rad[:, 1], 0.0 * angles_rad[:, 0]))
+
+
+def of(angles_rad: FloatArray, sd_deg: float = 4.0) -> Coherence:
+    sds = np.radians(np.full(angles_rad.shape, sd_deg))
+    known = np.ones(COUNT, dtype=bool)
+    return digit_coherence(TIME_S, NAMES, angles_rad, sds, tip(angles_rad), HIDDEN, known)
+
+
+def test_a_thumb_that_moves_on_while_hidden_is_coherent() -> None:
+    angles = moving()
+    sds = np.radians(np.full(angles.shape, 4.0))
+    found = digit_coherence(TIME_S, NAMES, angles, sds, tip(angles), HIDDEN, np.ones(COUNT, dtype=bool))
+    assert found.hidden_share == pytest.approx(1.0 / 3.0, abs=0.02)
+    assert (found.coherent_share, found.known_share) == (1.0, 1.0)
+    assert len(found.jumps_m) == 1
+    assert found.jumps_m[0] < 0.005
+
+
+def test_a_guess_a_pose_that_no_hand_takes_and_a_jump_are_not() -> None:
+    guess = of(moving(), sd_deg=16.0)
+    assert (guess.coherent_share, guess.known_share) == (1.0, 0.0)
+    bent_back = moving()
+    bent_back[45:, 4] = np.radians(-60.0)
+    assert of(bent_back).coherent_share == pytest.approx(0.5, abs=0.06)
+    flickering = moving()
+    flickering[30:60:2, 2] += np.radians(40.0)
+    assert of(flickering).coherent_share < 0.1
+
+
+def test_where_it_was_lost_is_told_by_the_jump_when_it_is_seen_again() -> None:
+    angles = moving()
+    places = tip(angles)
+    places[HIDDEN] += [0.03, 0.0, 0.0]
+    sds = np.radians(np.full(angles.shape, 4.0))
+    found = digit_coherence(TIME_S, NAMES, angles, sds, places, HIDDEN, np.ones(COUNT, dtype=bool))
+    assert found.jumps_m[0] == pytest.approx(0.03, abs=0.005)
+
+
+def test_what_is_never_hidden_or_never_known_says_nothing() -> None:
+    angles, never = moving(), np.zeros(COUNT, dtype=bool)
+    sds = np.radians(np.full(angles.shape, 4.0))
+    seen = digit_coherence(TIME_S, NAMES, angles, sds, tip(angles), never, ~never)
+    assert seen.hidden_share == 0.0
+    assert math.isnan(seen.coherent_share)
+    lost = digit_coherence(TIME_S, NAMES, angles, sds, tip(angles), HIDDEN, never)
+    assert math.isnan(lost.hidden_share)

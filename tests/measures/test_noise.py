@@ -1,0 +1,225 @@
+"""Speeds, smoothness and extremes of tracked strokes against those of the true movement."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+
+from carpus.core.measures.motion_range import motion_range
+from carpus.core.measures.noise import FILTER_CORRELATION_S, Noise, cutoff_for_speed, extreme
+from carpus.core.measures.repetitions import Stroke, find_repetitions
+from carpus.core.measures.signals import Signal, even_signal, low_pass
+from carpus.core.measures.speed import StrokeMeasures, measure_stroke
+from carpus.core.types import FloatArray
+from tests.measures.tracked import Tracked, tracked
+
+RATE = 30.0
+
+
+def strokes_of(take: Tracked, column: int, *, smoothed: bool | None) -> list[StrokeMeasures]:
+    """Measures of the true strokes, taken of the true angle (None) or of a tracked one."""
+    true = even_signal(take.truth.timestamp_s, take.truth.angles_rad[:, column])
+    found = find_repetitions(true).strokes
+    if smoothed is None:
+        return [measure_stroke(true, stroke) for stroke in found]
+    angle = angle_of(take, column, smoothed=smoothed)
+    return [measure_stroke(angle.column(0), stroke, angle.column(1), smoothed=smoothed) for stroke in found]
+
+
+def angle_of(take: Tracked, column: int, *, smoothed: bool) -> Signal:
+    motion = take.smoothed if smoothed else take.causal
+    both = np.column_stack((motion.angles_rad[:, column], motion.angles_sd_rad[:, column]))
+    return even_signal(take.truth.timestamp_s, both, take.status == 0)
+
+
+def mean(measures: list[StrokeMeasures], name: str) -> float:
+    return float(np.mean([getattr(one, name) for one in measures]))
+
+
+@pytest.mark.parametrize("smoothed", [True, False], ids=["looked back", "live"])
+@pytest.mark.parametrize(
+    ("motion", "column", "seconds", "speed_hz"),
+    [
+        ("flexion", 1, 20.0, 0.1),
+        ("flexion", 1, 10.0, 0.4),
+        ("deviation", 0, 14.0, 0.15),
+        ("fast_deviation", 0, 6.0, 1.3),
+    ],
+)
+def test_speed_and_smoothness_are_those_of_the_movement(
+    motion: str, column: int, seconds: float, speed_hz: float, smoothed: bool
+) -> None:
+    take = tracked(motion, seconds, speed_hz)
+    true, found = strokes_of(take, column, smoothed=None), strokes_of(take, column, smoothed=smoothed)
+    assert len(found) >= 3
+    assert not any(stroke.too_slow for stroke in found)
+    # Live flexion at 0.4 Hz peaks 4.3 % too high: the filter keeps what may be gliding skin uncertain,
+    # and its error then lasts 0.13 s instead of 0.06 s, which no low-pass of a stroke takes away.
+    most = 0.05 if (motion, speed_hz, smoothed) == ("flexion", 0.4, False) else 0.04
+    assert mean(found, "peak_speed_rad_s") == pytest.approx(mean(true, "peak_speed_rad_s"), rel=most)
+    assert mean(found, "movement_time_s") == pytest.approx(mean(true, "movement_time_s"), rel=0.04)
+    judged = [(one, other) for one, other in zip(true, found, strict=True) if not other.too_slow_to_be_smooth]
+    for one, other in judged:
+        assert other.sparc == pytest.approx(one.sparc, abs=0.25)
+        assert other.peaks == one.peaks or math.isnan(other.peaks)
+        assert math.isnan(other.ldlj) or other.ldlj == pytest.approx(one.ldlj, abs=1.0)
+    if judged:
+        assert np.mean([other.sparc - one.sparc for one, other in judged]) == pytest.approx(0.0, abs=0.1)
+
+
+@pytest.mark.parametrize("smoothed", [True, False], ids=["looked back", "live"])
+def test_what_is_lost_in_noise_is_not_judged_instead_of_called_jerky(smoothed: bool) -> None:
+    take = tracked("flexion", 24.0, 0.1, seed=4, share=0.3)
+    true, found = strokes_of(take, 1, smoothed=None), strokes_of(take, 1, smoothed=smoothed)
+    assert math.degrees(mean(true, "arc_rad")) == pytest.approx(30.0, abs=3.0)
+    assert sum(stroke.too_slow_to_be_smooth for stroke in found) >= len(found) - 1
+    for one, other in zip(true, found, strict=True):
+        assert (
+            other.too_slow
+            or math.isnan(other.peak_speed_rad_s)
+            or other.peak_speed_rad_s == pytest.approx(one.peak_speed_rad_s, rel=0.12)
+        )
+        assert math.isnan(other.sparc) or other.sparc == pytest.approx(one.sparc, abs=0.1)
+        assert math.isnan(other.peaks) or other.peaks == 1.0
+
+
+def stroke_and_back(duration_s: float) -> FloatArray:
+    tau = np.arange(0.0, 1.0 - 1e-9, 1.0 / (duration_s * RATE))
+    up = 60.0 * (10 * tau**3 - 15 * tau**4 + 6 * tau**5)
+    return np.radians(np.concatenate((np.zeros(30), up, np.full(30, 60.0), up[::-1], np.zeros(30))))
+
+
+@pytest.mark.parametrize(("duration_s", "ldlj"), [(1.0, -5.25), (0.6, -5.20)])
+def test_a_minimum_jerk_stroke_has_the_published_smoothness(duration_s: float, ldlj: float) -> None:
+    angle = stroke_and_back(duration_s)
+    signal = even_signal(np.arange(len(angle)) / RATE, angle)
+    found = [measure_stroke(signal, stroke) for stroke in find_repetitions(signal).strokes]
+    assert mean(found, "ldlj") == pytest.approx(ldlj, abs=0.3)
+    assert mean(found, "sparc") == pytest.approx(-1.40, abs=0.05)
+
+
+def test_a_quick_stroke_keeps_its_peak() -> None:
+    angle = stroke_and_back(0.4)
+    signal = even_signal(np.arange(len(angle)) / RATE, angle)
+    found = [measure_stroke(signal, stroke) for stroke in find_repetitions(signal).strokes]
+    assert math.degrees(mean(found, "peak_speed_rad_s")) == pytest.approx(1.875 * 60.0 / 0.4, rel=0.02)
+
+
+def test_the_speed_of_noise_is_what_it_is_said_to_be() -> None:
+    noise = Noise(0.4, FILTER_CORRELATION_S)
+    drawn = noise.drawn(3000, RATE)
+    for cutoff_hz in (2.0, 6.0):
+        speeds = [
+            np.gradient(low_pass(even_signal(np.arange(3000) / RATE, row), cutoff_hz).value, 1.0 / RATE)[60:-60].std()
+            for row in drawn[:8]
+        ]
+        assert noise.speed_sd(cutoff_hz) == pytest.approx(float(np.mean(speeds)), rel=0.25)
+    assert math.isnan(cutoff_for_speed(noise, 1.0, 4.0))
+    assert cutoff_for_speed(Noise(0.0, 0.2), 1.0, 4.0) == pytest.approx(10.0)
+
+
+def test_the_largest_of_noisy_values_is_not_taken_at_its_word() -> None:
+    held = np.concatenate((np.linspace(0.0, 30.0, 30), np.full(45, 30.0), np.linspace(30.0, 0.0, 30)))
+    noise = Noise(0.5, FILTER_CORRELATION_S)
+    rng = np.random.default_rng(8)
+    found, plain = [], []
+    for _ in range(60):
+        white = rng.standard_normal(len(held))
+        kept = math.exp(-1.0 / (RATE * noise.correlation_s))
+        for k in range(1, len(white)):
+            white[k] = kept * white[k - 1] + math.sqrt(1 - kept**2) * white[k]
+        noisy = held + noise.sd * white
+        plain.append(noisy.max())
+        found.append(extreme(noisy, held, noise, RATE, largest=True))
+    values, sds = np.array(found).T
+    assert np.mean(plain) > 30.7
+    assert np.mean(values) == pytest.approx(30.0, abs=0.1)
+    assert np.mean(sds) == pytest.approx(np.std(values), rel=0.35)
+
+
+@pytest.mark.parametrize("smoothed", [True, False], ids=["looked back", "live"])
+def test_extremes_of_repetitions_are_unbiased_and_within_a_degree(smoothed: bool) -> None:
+    off_deg, sd_deg = [], []
+    for motion, column, seconds, speed_hz in (
+        ("flexion", 1, 20.0, 0.1), ("flexion", 1, 10.0, 0.4), ("deviation", 0, 14.0, 0.15),
+        ("fast_deviation", 0, 6.0, 1.3),
+    ):  # fmt: skip
+        for seed in (1, 2):
+            take = tracked(motion, seconds, speed_hz, seed)
+            true = even_signal(take.truth.timestamp_s, take.truth.angles_rad[:, column])
+            repetitions = find_repetitions(true).repetitions
+            angle = angle_of(take, column, smoothed=smoothed)
+            found = motion_range(low_pass(angle.column(0), 10.0), angle.column(1), repetitions, smoothed=smoothed)
+            real = motion_range(true, true, repetitions)
+            for mine, its, outward in ((found.maximum, real.maximum, 1.0), (found.minimum, real.minimum, -1.0)):
+                off_deg += np.degrees(outward * (mine.values - its.values)).tolist()
+                sd_deg.append(math.degrees(mine.measurement_sd))
+    assert np.abs(off_deg).max() < 1.0
+    assert np.mean(off_deg) == pytest.approx(0.0, abs=0.15)
+    assert 0.05 < min(sd_deg) <= max(sd_deg) < 1.0
+
+
+def test_extremes_of_finger_joints_are_within_three_degrees() -> None:
+    take = tracked("fist", 10.0, 0.4, discs="hand21")
+    names = list(take.truth.joint_names)
+    off_deg = []
+    for name in ("MCP2_flexion", "MCP3_flexion", "PIP2_flexion", "PIP3_flexion"):
+        k = names.index(name)
+        true = even_signal(take.truth.timestamp_s, take.truth.joint_angles_rad[:, k])
+        repetitions = find_repetitions(true).repetitions
+        both = np.column_stack((take.smoothed.joint_angles_rad[:, k], take.smoothed.joint_angles_sd_rad[:, k]))
+        angle = even_signal(take.truth.timestamp_s, both, take.status == 0)
+        found = motion_range(low_pass(angle.column(0), 10.0), angle.column(1), repetitions, smoothed=True)
+        real = motion_range(true, true, repetitions)
+        off_deg += np.degrees(found.minimum.values - real.minimum.values).tolist()  # the open hand: all discs are seen
+    assert len(off_deg) >= 8
+    assert np.abs(off_deg).max() < 3.0
+    # Measured -0.51: the index finger's PIP is read 1.6 degrees too straight, at a stated sd of 5 (of two more patients
+    # 2.6 and 2.2 degrees, and all four joints together -0.08 and -0.43).
+    assert np.mean(off_deg) == pytest.approx(0.0, abs=0.6)
+
+
+def test_the_speed_of_a_stroke_that_goes_out_of_sight_is_not_known() -> None:
+    angle = stroke_and_back(1.0)
+    time_s = np.arange(len(angle)) / RATE
+    whole = even_signal(time_s, angle)
+    gone = (time_s > 3.2) & (time_s < 3.9)  # in the middle of the way back, at its fastest
+    cut = even_signal(time_s, angle, ~gone)
+    out, *back = [measure_stroke(cut, stroke) for stroke in find_repetitions(cut).strokes]
+    assert out.peak_speed_rad_s == pytest.approx(
+        measure_stroke(whole, find_repetitions(whole).strokes[0]).peak_speed_rad_s, rel=1e-3
+    )
+    assert back
+    assert all(math.isnan(stroke.peak_speed_rad_s) for stroke in back)
+    # A hand that comes back into the picture in the middle of a movement is as little known.
+    late = even_signal(time_s, angle, time_s > 3.4)
+    strokes = [Stroke(float(late.time_s[0]), 4.0, rising=False)]
+    assert all(math.isnan(measure_stroke(late, stroke).peak_speed_rad_s) for stroke in strokes)
+
+
+@pytest.mark.parametrize("smoothed", [True, False], ids=["looked back", "live"])
+@pytest.mark.parametrize(
+    ("motion", "column", "seconds", "speed_hz", "seed", "share"),
+    [
+        ("flexion", 1, 30.0, 0.1, 31, 0.3),
+        ("flexion", 1, 45.0, 0.05, 31, 0.3),
+        ("pronosupination", 2, 30.0, 0.1, 32, 0.5),
+    ],
+)
+def test_noise_that_is_quicker_than_a_slow_stroke_is_not_its_speed(
+    motion: str, column: int, seconds: float, speed_hz: float, seed: int, share: float, smoothed: bool
+) -> None:
+    take = tracked(motion, seconds, speed_hz, seed, share)
+    true = strokes_of(take, column, smoothed=None)
+    angle = angle_of(take, column, smoothed=smoothed)
+    strokes = find_repetitions(angle.column(0)).strokes
+    found = [measure_stroke(angle.column(0), stroke, angle.column(1), smoothed=smoothed) for stroke in strokes]
+    assert len(found) == len(true)
+    most = 0.25 if motion == "pronosupination" else 0.15  # measured 16 % and 9 %
+    for one, other in zip(true, found, strict=True):
+        assert other.too_slow or other.peak_speed_rad_s == pytest.approx(one.peak_speed_rad_s, rel=most)
+        assert not other.movement_time_s < 0.6 * one.movement_time_s  # unknown is no wrong figure
+        assert math.isnan(other.peaks) or other.peaks == 1.0
+        assert math.isnan(other.sparc) or other.sparc == pytest.approx(one.sparc, abs=0.25)

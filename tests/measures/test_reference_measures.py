@@ -1,0 +1,148 @@
+"""Reaches, moving together, tremor, grades and other orders of angles, against plain arithmetic and the reference."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+from scipy.spatial.transform import Rotation
+
+from carpus.core.hand.clinical_angles import isb_from_rotation, rotation_from_angles, zyz_with_sd
+from carpus.core.measures.grade import total_grade, total_share
+from carpus.core.measures.reach import find_reaches
+from carpus.core.measures.signals import even_signal, low_pass
+from carpus.core.measures.together import co_flexion, enslaving_share, synergy_share, tremor
+from carpus.core.types import FloatArray
+from tests.measures.tracked import tracked
+
+RATE = 30.0
+
+
+def bell(share: FloatArray) -> FloatArray:
+    s = np.clip(share, 0.0, 1.0)
+    return 10 * s**3 - 15 * s**4 + 6 * s**5
+
+
+def test_reaches_are_found_out_and_back_with_their_times_and_paths() -> None:
+    t = np.arange(0.0, 21.0, 1.0 / RATE)
+    way = np.zeros(len(t))
+    for k in range(5):
+        way += bell((t - 1.0 - 4 * k) / 0.9) - bell((t - 3.0 - 4 * k) / 1.4)
+    signal = even_signal(t, np.column_stack((0.25 * way, 0.02 * np.sin(math.pi * way), 0.0 * way)))
+    found = find_reaches(low_pass(signal))
+    assert [reach.outward for reach in found] == [True, False] * 5
+    for reach in found:
+        duration = 0.9 if reach.outward else 1.4
+        assert reach.movement_time_s == pytest.approx(0.836 * duration, abs=0.1)
+        assert reach.path.peak_speed_m_s == pytest.approx(1.875 * 0.25 / duration, rel=0.06)
+        assert reach.path.straightness == pytest.approx(1.015, abs=0.02)
+        assert reach.path.peaks == 1.0
+    assert find_reaches(even_signal(t, 0.02 * np.column_stack((way, way, way)))) == ()
+
+
+def test_reaches_of_a_tracked_hand_are_those_of_the_hand() -> None:
+    take = tracked("reach", 12.0, 0.25)
+    true, mine = (
+        find_reaches(low_pass(even_signal(take.truth.timestamp_s, position)))
+        for position in (take.truth.position_m, take.smoothed.position_m)
+    )
+    assert len(true) == len(mine) >= 4
+    for one, other in zip(true, mine, strict=True):
+        assert other.movement_time_s == pytest.approx(one.movement_time_s, abs=0.1)
+        assert other.path.peak_speed_m_s == pytest.approx(one.path.peak_speed_m_s, rel=0.05)
+        assert other.path.straightness == pytest.approx(one.path.straightness, abs=0.05)
+
+
+def test_co_flexion_and_its_lag() -> None:
+    t = np.arange(0.0, 12.0, 1.0 / RATE)
+    first, second = np.sin(2 * math.pi * 0.4 * t), 0.5 * np.sin(2 * math.pi * 0.4 * (t - 0.2))
+    found = co_flexion(first, second, RATE)
+    assert found.lag_s == pytest.approx(0.2, abs=0.02)
+    assert found.correlation == pytest.approx(math.cos(2 * math.pi * 0.4 * 0.2), abs=0.02)
+    assert math.isnan(co_flexion(first, 0.001 * second, RATE).correlation)
+    short = co_flexion(first[:10], second[:10], RATE)  # less than the longest lag
+    assert abs(short.lag_s) < 10 / RATE
+    assert synergy_share(np.column_stack((first, 2 * first, -first))) == pytest.approx(1.0)
+    assert synergy_share(np.column_stack((first, np.cos(2 * math.pi * 0.4 * t)))) == pytest.approx(0.5, abs=0.05)
+    assert enslaving_share(first, 0.26 * first) == pytest.approx(0.26, abs=0.01)
+
+
+def test_tremor_is_told_only_where_it_exceeds_the_noise() -> None:
+    t = np.arange(0.0, 10.0, 1.0 / RATE)
+    rng = np.random.default_rng(3)
+    noise = math.radians(0.1)
+    held = np.radians(1.5) * np.sin(2 * math.pi * 5.0 * t) + rng.normal(0.0, noise, len(t)) + 0.02 * t
+    found = tremor(even_signal(t, held), noise)
+    assert found.is_tremor
+    assert found.peak_hz == pytest.approx(5.0, abs=0.5)
+    assert math.degrees(found.rms_rad) == pytest.approx(1.5 / math.sqrt(2.0), rel=0.15)
+    assert not tremor(even_signal(t, rng.normal(0.0, noise, len(t))), noise).is_tremor
+    assert math.isnan(tremor(even_signal(t[:100], held[:100]), noise).rms_rad)
+
+
+@pytest.mark.parametrize(
+    ("total", "grade"), [(270.0, "excellent"), (260.0, "excellent"), (200.0, "good"), (195.0, "fair"), (130.0, "poor")]
+)
+def test_grades_of_total_active_motion(total: float, grade: str) -> None:
+    assert total_grade(total_share(total, 3)) == grade
+    assert total_share(total, 3, other_hand_deg=total) == 1.0
+    assert total_grade(math.nan) is None
+
+
+@pytest.mark.parametrize(
+    ("zyx", "isb"),
+    [
+        ((20.0, 60.0, 0.0), (9.8, 61.5, -17.5)),
+        ((-30.0, 40.0, 0.0), (-22.5, 44.1, 20.4)),
+        ((0.0, 35.0, 0.0), (0.0, 35.0, 0.0)),
+    ],
+)
+def test_the_order_of_the_isb_is_that_of_the_reference(zyx: tuple[float, ...], isb: tuple[float, ...]) -> None:
+    for side in ("right", "left"):
+        pose = rotation_from_angles(np.radians(zyx), side)  # type: ignore[arg-type]
+        assert np.degrees(isb_from_rotation(pose, side)) == pytest.approx(isb, abs=0.06)  # type: ignore[arg-type]
+
+
+def test_zyz_is_given_where_it_is_known_with_its_deviation() -> None:
+    sd = np.radians([0.5, 0.5, 0.5])
+    pose = Rotation.from_euler("ZYZ", [40.0, 2.0, -25.0], degrees=True).as_matrix()
+    zyz, spread, total = zyz_with_sd(pose, sd, "right")
+    assert np.degrees(zyz) == pytest.approx([40.0, 2.0, -25.0])
+    assert np.degrees(spread[[0, 2]]) == pytest.approx([15.0, 15.0], abs=1.0), "reference 1.4"
+    assert math.degrees(float(total)) == pytest.approx(15.0, abs=0.1)
+    zyz, spread, total = zyz_with_sd(np.eye(3), sd, "right")
+    assert np.isnan(zyz[[0, 2]]).all()
+    assert np.isnan(spread[[0, 2]]).all()
+    assert zyz[1] == pytest.approx(0.0), "the tilt itself is always known"
+    assert np.degrees(spread[1]) == pytest.approx(0.5, abs=0.01)
+    assert float(total) == pytest.approx(0.0)
+    tilted = Rotation.from_euler("ZYZ", [10.0, 30.0, 5.0], degrees=True).as_matrix()
+    _, spread, _ = zyz_with_sd(np.stack((tilted, np.full((3, 3), np.nan))), np.stack((sd, sd)), "right")
+    assert np.degrees(spread[0, 0]) == pytest.approx(1.0, abs=0.15)
+    assert np.isnan(spread[1]).all()
+
+
+def test_a_flat_hand_s_trial_has_its_zyz_where_the_pose_is_sure_of_it() -> None:
+    take = tracked("deviation", 14.0, 0.15)
+    zyz, spread, total = zyz_with_sd(take.smoothed.rotation_w2_w0, take.smoothed.angles_sd_rad, "right")
+    assert np.isfinite(total).all(), "alpha + gamma is always known"
+    true = Rotation.from_matrix(take.truth.rotation_w2_w0)
+    turned = np.degrees(np.unwrap(total) - np.unwrap(2 * np.arctan2(true.as_quat()[:, 2], true.as_quat()[:, 3])))
+    assert np.abs(turned).max() < 1.0
+    known = np.isfinite(zyz[:, 0])
+    assert np.degrees(spread[known]).max() <= 30.0
+
+
+@pytest.mark.parametrize("hz", [0.5, 1.0, 1.7, 2.5])
+def test_a_brisk_exercise_is_no_tremor(hz: float) -> None:
+    t = np.arange(0.0, 12.0, 1.0 / RATE)
+    # Strokes with holds at both ends: what is quick in them lies above 3 Hz too.
+    strokes = np.radians(30.0) * np.tanh(3.0 * np.sin(2 * math.pi * hz * t))
+    found = tremor(even_signal(t, strokes), math.radians(0.25))
+    assert not found.is_tremor
+    held = np.where(t > 5.0, np.radians(2.0) * np.sin(2 * math.pi * 5.0 * t), strokes)
+    found = tremor(even_signal(t, held), math.radians(0.25))
+    assert found.is_tremor, "held for seven seconds after it"
+    assert math.degrees(found.rms_rad) == pytest.approx(2.0 / math.sqrt(2.0), rel=0.15)
+    assert found.peak_hz == pytest.approx(5.0, abs=0.5)

@@ -1,0 +1,57 @@
+"""Exercises of the simulated patient, tracked and looked back at, with their truth."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import lru_cache
+
+import numpy as np
+
+from carpus.core.calibration.settings import CalibrationSettings
+from carpus.core.pipeline.track import from_neutral, learnt_from
+from carpus.core.session.values import Motion, motion_of
+from carpus.core.simulation.measurements import measurement_sequence
+from carpus.core.simulation.spec import RecordingSpec
+from carpus.core.simulation.truth import Truth
+from carpus.core.tracking.settings import TrackerSettings
+from carpus.core.tracking.tracker import Tracker
+from carpus.core.types import FloatArray
+from tests.accuracy.carpus import measured_hand
+
+
+@dataclass(frozen=True)
+class Tracked:
+    """``causal`` and ``smoothed`` motion of one simulated exercise, and ``status`` (N,)."""
+
+    truth: Truth
+    causal: Motion
+    smoothed: Motion
+    status: FloatArray
+
+
+@lru_cache(maxsize=16)
+def tracked(
+    motion: str, seconds: float, speed_hz: float, seed: int = 1, share: float = 1.0, discs: str = "wrist6"
+) -> Tracked:
+    """Track simulated measurements as a recording is tracked."""
+    spec = RecordingSpec(
+        seed=seed,
+        motion=motion,
+        seconds=seconds,
+        speed_hz=speed_hz,
+        range_share=share,
+        protocol=discs,  # type: ignore[arg-type]
+    )
+    sequence = measurement_sequence(spec)
+    hand, neutral_ends_s = measured_hand(sequence, CalibrationSettings())
+    assert hand.calibration is not None
+    settings = TrackerSettings()
+    learnt = learnt_from(hand.noise, neutral_ends_s, settings)
+    tracker = Tracker(hand.calibration, sequence.truth.camera, learnt.applied(settings))
+    times = sequence.truth.timestamp_s
+    frames = [
+        tracker.step(i, float(times[i]), sequence.detections[i], int(sequence.truth.dropped_before[i]))
+        for i in from_neutral(range(len(times)), tracker, neutral_ends_s, lambda row: float(times[row]))
+    ]
+    status = np.array([int(frame.status) for frame in frames])
+    return Tracked(sequence.truth, motion_of(frames), motion_of(tracker.smoothed()), status)

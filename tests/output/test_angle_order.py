@@ -1,0 +1,60 @@
+"""The ISB's order as an option of report and window: same turns, other angles, never mixed."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from scipy.spatial.transform import Rotation
+
+from carpus.core.hand.clinical_angles import isb_from_rotation, rotation_from_angles
+from carpus.core.output.angle_order import in_order, isb_sd_rad
+from carpus.core.output.motion_table import motion_columns
+from carpus.core.output.report_content import compare, session_figures
+from carpus.ui.report.words import method
+from tests.ui.fakes import NOW, session
+
+
+def test_the_same_turns_are_read_in_the_order_of_the_isb() -> None:
+    made = session(exercise="FREE", motion="mixed")
+    turned = in_order(made, "isb")
+    table = {column.name: column.values for column in motion_columns(made)}
+    for k, name in enumerate(("deviation", "flexion", "pronosupination")):
+        assert np.allclose(np.degrees(turned.motion.angles_rad[:, k]), table[f"isb_{name}_deg"], equal_nan=True)
+    # R = Ry(flexion) Rz(deviation) Rx(turning), by another library.
+    order = turned.motion.angles_rad[:, [1, 0, 2]]
+    again = Rotation.from_euler("YZX", order).as_matrix()
+    assert np.allclose(again, made.motion.rotation_w2_w0, atol=1e-9)
+    assert np.array_equal(turned.motion.rotation_w2_w0, made.motion.rotation_w2_w0)
+    assert in_order(made, "zyx") is made
+    with pytest.raises(ValueError, match="isb"):
+        in_order(turned, "zyx")
+
+
+@pytest.mark.parametrize("pose_deg", [(0.0, 0.0, 0.0), (20.0, 60.0, 0.0), (-15.0, -40.0, 25.0)])
+def test_the_deviations_are_those_of_many_draws(pose_deg: tuple[float, float, float]) -> None:
+    sd = np.radians([0.4, 0.9, 1.2])
+    pose = np.radians(pose_deg)
+    drawn = pose + np.random.default_rng(3).normal(0.0, sd, (20_000, 3))
+    angles = isb_from_rotation(rotation_from_angles(drawn, "left"), "left")
+    found = isb_sd_rad(rotation_from_angles(pose[None], "left"), sd[None], "left")[0]
+    assert found == pytest.approx(angles.std(axis=0), rel=0.03)
+
+
+def test_what_is_not_known_stays_so() -> None:
+    turned = in_order(session(lost=[(20.0, 22.0)]), "isb").motion
+    gone = np.isnan(session(lost=[(20.0, 22.0)]).motion.angles_rad)
+    assert np.array_equal(np.isnan(turned.angles_rad), gone)
+    assert np.array_equal(np.isnan(turned.angles_sd_rad), gone)
+
+
+def test_the_report_says_the_order_and_orders_are_never_compared() -> None:
+    plain = session_figures(session(session_id="before"))
+    other = session_figures(in_order(session(when=NOW), "isb"))
+    assert "ISB" in method(other, 6, compared=False)
+    assert "ISB" not in method(plain, 6, compared=False)
+    assert {item.verdict for item in compare(plain, other)} == {"not_judged"}
+    assert all("angle_order" in item.reasons for item in compare(plain, other))
+    alike = replace(plain, angle_order="isb")
+    assert all("angle_order" not in item.reasons for item in compare(alike, other))

@@ -1,0 +1,177 @@
+"""What exercises have beside their ranges, of sessions of the simulated hand."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from carpus.core.output.further_measures import FurtherMeasure, graded_totals, session_reaches
+from carpus.core.output.measures_table import measure_rows
+from carpus.core.output.report_content import SessionFigures, session_figures
+from carpus.ui.report.further_rows import further_rows, main_words, short_words
+from carpus.ui.report.tables import table_rows
+from carpus.ui.report.words import method
+from tests.ui.fakes import session
+from tests.ui.hand_fakes import hand_session
+
+
+def named(figures: SessionFigures, name: str, of: str) -> FurtherMeasure:
+    return next(item for item in figures.further if (item.name, item.of) == (name, of))
+
+
+def test_reach_and_grasp_has_its_time_speed_path_and_aperture_and_speaks_of_no_fist() -> None:
+    made = hand_session(exercise="REACH_GRASP", motion="reach_grasp")
+    figures = session_figures(made)
+    reaches = named(figures, "movement time", "reach")
+    assert len(reaches.values) >= 3
+    assert all(0.2 < value < 3.0 for value in reaches.values)
+    assert named(figures, "straightness", "reach").mean >= 1.0
+    assert named(figures, "peak speed", "reach").mean > 200.0
+    aperture = np.linalg.norm(np.diff(made.motion.joint_position_m[:, [4, 8]], axis=1)[:, 0], axis=1)
+    assert named(figures, "largest aperture", "TIP1-TIP2").mean <= 1e3 * float(np.nanmax(aperture)) + 1e-6
+    assert not any(row.joint.startswith("TAM") for row in figures.joint_rows)
+    assert "TAM" not in method(figures, 21, compared=False)
+    assert {row.measure for row in measure_rows(figures, "s")} >= {"straightness", "largest aperture", "movement time"}
+
+
+def test_thumb_opposition_counts_touches_and_measures_the_thumb_s_own_way() -> None:
+    made = hand_session(exercise="THUMB_OPP", motion="opposition")
+    figures = session_figures(made)
+    distances = [named(figures, "least distance", f"TIP1-TIP{k}").mean for k in (2, 3, 4, 5)]
+    assert all(0.0 < value < 15.0 for value in distances)
+    touches = [named(figures, "touches", f"TIP1-TIP{k}").mean for k in (2, 3, 4, 5)]
+    assert touches == [2.0, 2.0, 2.0, 2.0]
+    across = named(figures, "path length", "thumb across")
+    assert len(across.values) == 8, "one for each touch, opened to the other side in between"
+    assert all(60.0 < value < 200.0 for value in across.values)
+    assert all(1.0 <= value < 1.6 for value in named(figures, "straightness", "thumb across").values)
+    # The whole hand goes along the table meanwhile: the thumb's way in the hand stays the same.
+    carried = made.motion.position_m + np.linspace(0.0, 0.3, len(made))[:, None] * [1.0, 0.0, 0.0]
+    tips = made.motion.joint_position_m + (carried - made.motion.position_m)[:, None]
+    moved = session_figures(replace(made, motion=replace(made.motion, position_m=carried, joint_position_m=tips)))
+    assert np.allclose(named(moved, "path length", "thumb across").values, across.values, atol=1e-6)
+
+
+def test_a_thumb_that_is_never_touched_to_a_finger_touches_none() -> None:
+    figures = session_figures(hand_session(exercise="THUMB_OPP", motion="abduction"))
+    assert [named(figures, "touches", f"TIP1-TIP{k}").mean for k in (2, 3, 4, 5)] == [0.0] * 4
+
+
+def test_a_hidden_thumb_is_coherent_until_its_pose_falls_apart() -> None:
+    hidden = [(8.0, 9.5, name) for name in ("IP1", "TIP1")]
+    made = hand_session(exercise="REACH_GRASP", motion="reach_grasp", hidden=hidden)
+    figures = session_figures(made)
+    assert named(figures, "thumb hidden", "thumb").mean == pytest.approx(1.5 / 40.0, rel=0.05)
+    # Known to 15 degrees for the first second: its sd grows by 12 degrees times the root of the time.
+    assert named(figures, "coherent though hidden", "thumb").mean == 1.0
+    assert 0.6 < named(figures, "known though hidden", "thumb").mean < 0.8
+    joints = made.motion.joint_angles_rad.copy()
+    joints[:, made.header.joint_names.index("IP1_flexion")] = np.radians(-80.0)
+    broken = session_figures(replace(made, motion=replace(made.motion, joint_angles_rad=joints)))
+    assert named(broken, "coherent though hidden", "thumb").mean == 0.0
+
+
+def test_a_fist_has_graded_totals_and_fingers_that_move_together() -> None:
+    figures = session_figures(hand_session(exercise="FIST_COMPOSITE", motion="fist"))
+    assert {grade.finger for grade in figures.grades} <= {1, 2, 3, 4, 5}
+    for grade in figures.grades:
+        row = figures.row("arc", -1, f"TAM{grade.finger}")
+        assert row is not None
+        assert grade.share == row.mean_deg / (140.0 if grade.finger == 1 else 260.0)
+        assert (grade.grade is None) == row.limited
+    other = session_figures(hand_session(exercise="FIST_COMPOSITE", motion="fist", share=0.6, hides_beyond_deg=999.0))
+    beside = graded_totals(figures.joint_rows, other.joint_rows)
+    assert all(grade.of_other_hand for grade in beside)
+    assert all(grade.share > 1.0 for grade in beside if grade.finger > 1), "of a hand that bends less"
+    assert named(figures, "co-flexion", "PIP2_flexion, PIP3_flexion").mean > 0.5
+
+
+def test_a_wrist_that_does_not_come_back_has_its_deficit_in_a_row_of_its_own() -> None:
+    made = session()
+    motion = made.motion
+    # From 20 to 60 degrees of flexion and back, as long as the exercise takes.
+    angles = motion.angles_rad.copy()
+    flexion = angles[:, 1]
+    low, high = np.nanpercentile(flexion, (2, 98))
+    angles[:, 1] = np.radians(20.0) + (flexion - low) / (high - low) * np.radians(40.0)
+    figures = session_figures(replace(made, motion=replace(motion, angles_rad=angles)))
+    row = figures.row("extension", 1)
+    assert row is not None
+    assert -24.0 < row.mean_deg < -12.0
+    shown = {line.movement: line.today for line in table_rows(figures, None, None)}
+    assert "Extension deficit" in shown
+    assert "-" not in shown["Extension deficit"]
+    assert "\N{MINUS SIGN}" not in shown["Extension deficit"]
+
+
+def test_a_speed_that_noise_hides_is_said_to_be_too_slow_and_counts_no_value() -> None:
+    lost = FurtherMeasure("smoothness", "reach", "SPARC", (math.nan, math.nan), "too_slow")
+    gone = FurtherMeasure("smoothness", "return", "SPARC", (math.nan,))
+    figures = session_figures(hand_session(exercise="REACH_GRASP", motion="reach_grasp"))
+    figures = replace(figures, further=(lost, gone))
+    assert [(row.name, row.today) for row in further_rows(figures)] == [
+        ("Smoothness (SPARC), out", "too slow to judge")
+    ]
+    row = next(row for row in measure_rows(figures, "s") if (row.measure, row.of) == ("smoothness", "reach"))
+    assert row.count == 0
+    assert math.isnan(row.mean)
+
+
+def test_touches_that_the_camera_does_not_see_are_not_counted() -> None:
+    plain = session_figures(hand_session(exercise="THUMB_OPP", motion="opposition"))
+    hidden = [(0.5, 60.0, name) for name in ("IP1", "TIP1")]
+    figures = session_figures(hand_session(exercise="THUMB_OPP", motion="opposition", hidden=hidden))
+    for k in (2, 3, 4, 5):
+        for name in ("touches", "least distance"):
+            unseen = named(figures, name, f"TIP1-TIP{k}")
+            assert unseen.unknown == "hidden"
+            assert math.isnan(unseen.mean)
+            assert named(plain, name, f"TIP1-TIP{k}").unknown == ""
+    assert main_words(figures) == "Whether the thumb touched the finger tips was hidden from the camera"
+    assert short_words(figures) == "Touches hidden"
+    assert not any(math.isfinite(item.mean) for item in figures.further if item.of in ("thumb across", "thumb back"))
+    said = [row.today for row in further_rows(figures) if "across" in row.name]
+    assert said == ["hidden from the camera"], "one line for all that is not known of the ways"
+
+
+def test_a_reach_that_goes_out_of_sight_half_way_has_no_time() -> None:
+    made = hand_session(exercise="REACH_GRASP", motion="reach_grasp")
+    plain = session_figures(made)
+    times = session_reaches(made, np.ones(len(made), dtype=bool))
+    middle = 0.5 * (times[0].start_s + times[0].end_s)
+    gone = hand_session(exercise="REACH_GRASP", motion="reach_grasp", lost=[(middle, middle + 0.5)])
+    figures = session_figures(gone)
+    for name in ("movement time", "path length", "peak speed"):
+        values = named(figures, name, "reach").values
+        assert math.isnan(values[0]), "it ended where it was no longer seen, not where the hand stopped"
+        assert values[1:] == pytest.approx(named(plain, name, "reach").values[1:], rel=1e-6)
+    assert math.isnan(named(figures, "largest aperture", "TIP1-TIP2").values[0])
+
+
+def test_an_aperture_of_hidden_tips_is_told_only_where_it_is_known_well() -> None:
+    made = hand_session(exercise="REACH_GRASP", motion="reach_grasp", hidden=[(5.0, 60.0, "TIP1")])
+    first, *_, last = named(session_figures(made), "largest aperture", "TIP1-TIP2").values
+    assert first > 50.0
+    assert math.isnan(last), "half a minute after the tip was last seen"
+    sure = made.motion.joint_angles_sd_rad * 0.01
+    known = session_figures(replace(made, motion=replace(made.motion, joint_angles_sd_rad=sure)))
+    assert min(named(known, "largest aperture", "TIP1-TIP2").values) > 50.0
+
+
+def test_spans_are_those_of_tips_that_were_seen() -> None:
+    made = hand_session(exercise="FINGER_ABAD", motion="abduction")
+    tips = made.motion.joint_position_m.copy()
+    rows = slice(300, 330)
+    tips[rows, 20] += [0.0, -0.1, 0.0]  # a hidden tip that is guessed 100 mm too far out
+    pixels = made.markers.measured_px.copy()
+    pixels[rows, 20] = np.nan
+    guessed = replace(
+        made, motion=replace(made.motion, joint_position_m=tips), markers=replace(made.markers, measured_px=pixels)
+    )
+    for of in ("TIP1-TIP5", "TIP4-TIP5"):
+        name = "hand span" if of == "TIP1-TIP5" else "tip span"
+        span = named(session_figures(made), name, of).mean
+        assert named(session_figures(guessed), name, of).mean == pytest.approx(span, abs=2.0)

@@ -1,0 +1,94 @@
+"""The augmented filter against the Kalman filter where all is linear, and against filterpy's where it is not."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from filterpy.kalman import MerweScaledSigmaPoints, UnscentedKalmanFilter
+
+from carpus.core.papers.augmented_filter import Gaussian, correct, predict, seen_from
+from carpus.core.tracking.unscented import Spread
+from carpus.core.types import FloatArray
+
+SPREADS = [Spread(1.0, 2.0, 0.0), Spread(0.25, 2.0, 0.0), Spread(0.5, 0.0, 1.0)]
+
+
+def some_covariance(rng: np.random.Generator, n: int) -> FloatArray:
+    root = rng.normal(size=(n, n))
+    return root @ root.T + 0.1 * np.eye(n)
+
+
+@pytest.mark.parametrize("spread", SPREADS)
+def test_on_a_linear_model_it_is_the_kalman_filter(spread: Spread) -> None:
+    rng = np.random.default_rng(3)
+    n, k, m = 5, 3, 4
+    x, p, q = rng.normal(size=n), some_covariance(rng, n), some_covariance(rng, k)
+    f, g, h = rng.normal(size=(n, n)), rng.normal(size=(n, k)), rng.normal(size=(m, n))
+    r, y = rng.uniform(0.5, 2.0, m), rng.normal(size=m)
+
+    ahead = predict(Gaussian(x, p), q, lambda states, noise: states @ f.T + noise @ g.T, spread)
+    there, spread_there = f @ x, f @ p @ f.T + g @ q @ g.T
+    assert np.allclose(ahead.state.mean, there)
+    assert np.allclose(ahead.state.covariance, spread_there)
+
+    seen = seen_from(ahead, ahead.points @ h.T)
+    after = correct(ahead, seen, y, r)
+    s = h @ spread_there @ h.T + np.diag(r)
+    gain = spread_there @ h.T @ np.linalg.inv(s)
+    assert np.allclose(seen.covariance + np.diag(r), s)
+    assert np.allclose(after.state.mean, there + gain @ (y - h @ there))
+    assert np.allclose(after.state.covariance, (np.eye(n) - gain @ h) @ spread_there)
+    assert after.nis == pytest.approx((y - h @ there) @ np.linalg.inv(s) @ (y - h @ there))
+
+
+def test_nothing_measured_changes_nothing() -> None:
+    ahead = predict(Gaussian(np.ones(2), np.eye(2)), np.eye(1), lambda x, w: x + w, SPREADS[0])
+    after = correct(ahead, seen_from(ahead, ahead.points[:, :0]), np.empty(0), np.empty(0))
+    assert after.state is ahead.state
+    assert np.isnan(after.nis)
+
+
+def moved(state: FloatArray, noise: FloatArray) -> FloatArray:
+    """A motion into which the noise does not enter as a sum."""
+    x, y, heading = state[..., 0], state[..., 1], state[..., 2] + noise[..., 0]
+    pace = 1.0 + 0.3 * noise[..., 1] ** 2 + 0.2 * np.sin(x)
+    return np.stack((x + pace * np.cos(heading), y + pace * np.sin(heading), heading), axis=-1)
+
+
+def shown(state: FloatArray) -> FloatArray:
+    x, y = state[..., 0], state[..., 1]
+    return np.stack((np.hypot(x + 4.0, y), np.arctan2(y, x + 4.0)), axis=-1)
+
+
+@pytest.mark.parametrize("spread", SPREADS)
+@pytest.mark.parametrize("seed", range(3))
+def test_predict_and_update_are_filterpys(spread: Spread, seed: int) -> None:
+    rng = np.random.default_rng(seed)
+    x, p, q = rng.normal(size=3), 0.02 * some_covariance(rng, 3), 0.03 * some_covariance(rng, 2)
+    r, y = np.array([0.04, 0.01]), shown(x) + 0.2 * rng.normal(size=2)
+
+    points = MerweScaledSigmaPoints(5, spread.alpha, spread.beta, spread.kappa)
+    oracle = UnscentedKalmanFilter(
+        5, 2, 1.0, lambda s: shown(s[:3]), lambda s, _dt: np.concatenate((moved(s[:3], s[3:]), s[3:])), points
+    )
+    oracle.x, oracle.P = np.concatenate((x, np.zeros(2))), np.zeros((5, 5))
+    oracle.P[:3, :3], oracle.P[3:, 3:] = p, q
+    oracle.Q, oracle.R = np.zeros((5, 5)), np.diag(r)
+    oracle.compute_process_sigmas(1.0)
+    predicted_points = oracle.sigmas_f.copy()
+    oracle.predict()
+    ahead = predict(Gaussian(x, p), q, moved, spread)
+    assert np.allclose(ahead.state.mean, oracle.x[:3], rtol=1e-9, atol=1e-12)
+    assert np.allclose(ahead.state.covariance, oracle.P[:3, :3], rtol=1e-9, atol=1e-12)
+
+    oracle.sigmas_f = predicted_points  # it draws new ones; (9) goes on with those that were moved
+    oracle.update(y)
+    after = correct(ahead, seen_from(ahead, shown(ahead.points)), y, r)
+    assert np.allclose(after.state.mean, oracle.x[:3], rtol=1e-8, atol=1e-10)
+    assert np.allclose(after.state.covariance, oracle.P[:3, :3], rtol=1e-8, atol=1e-10)
+    assert np.linalg.norm(after.state.mean - ahead.state.mean) > 1e-3
+
+
+def test_a_covariance_that_is_none_is_told() -> None:
+    with pytest.raises(np.linalg.LinAlgError):
+        predict(Gaussian(np.zeros(2), np.diag([1.0, -1.0])), np.eye(1), lambda x, _w: x, SPREADS[0])

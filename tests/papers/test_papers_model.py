@@ -1,0 +1,137 @@
+"""The papers' motion (1), their Euler angles and their hand."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from scipy.spatial.transform import Rotation
+
+from carpus.core.hand.anatomy import anatomy_from_size
+from carpus.core.hand.kinematics import joint_centres
+from carpus.core.hand.protocols import HAND21, HAND21_CHAINS
+from carpus.core.papers.chain import hand_measured, palm_modelled
+from carpus.core.papers.euler import body_turn_by_euler, euler_near, rotation_of
+from carpus.core.papers.motion import PaperMotion
+from carpus.core.papers.neutral import as_written, by_the_discs
+from carpus.core.papers.settings import PaperSettings
+from tests.papers.hands import ARCHED_M, CAMERA, FROM_ABOVE, MIDDLE_M, calibration, hand_calibration, straight_hand
+
+DT_S = 1.0 / 30.0
+SETTINGS = PaperSettings(acceleration_m_s2=2.0, turn_rate_rad_s=1.5, joint_rate_rad_s=0.7)
+
+
+def test_the_state_moves_by_equation_1() -> None:
+    rng = np.random.default_rng(2)
+    state, noise = rng.normal(size=(4, 26)), rng.normal(size=(4, 23))
+    out = PaperMotion(SETTINGS, 17).over(DT_S)(state, noise)
+    for before, eta, after in zip(state, noise, out, strict=True):
+        turned = Rotation.from_euler("ZYX", before[6:9]) * Rotation.from_rotvec(1.5 * eta[3:6] * DT_S)
+        assert np.allclose(after[:3], before[:3] + before[3:6] * DT_S)
+        assert np.allclose(after[3:6], before[3:6] + 2.0 * eta[:3] * DT_S)
+        assert np.allclose(Rotation.from_euler("ZYX", after[6:9]).as_matrix(), turned.as_matrix())
+        assert np.allclose(after[9:], before[9:] + 0.7 * eta[6:] * DT_S)
+
+
+def test_missing_pictures_add_as_much_noise_as_there_was_time() -> None:
+    """Four steps of a frame each, or one of four: the joints are as unsure."""
+    noise = np.eye(23)
+    once = PaperMotion(SETTINGS, 17).over(DT_S)(np.zeros((23, 26)), noise)
+    four = PaperMotion(SETTINGS, 17).over(4.0 * DT_S)(np.zeros((23, 26)), noise)
+    assert np.allclose(np.sum(four[:, 9:] ** 2, axis=0), 4.0 * np.sum(once[:, 9:] ** 2, axis=0))
+    still = PaperMotion(SETTINGS, 17).over(0.0)(np.zeros((23, 26)), noise)
+    assert not still.any()
+
+
+def test_euler_angles_there_and_back_without_a_jump() -> None:
+    rng = np.random.default_rng(5)
+    near = rng.uniform(-1.2, 1.2, (50, 3)) + np.array([4.0 * np.pi, 0.0, 0.0])
+    there = near + 0.1 * rng.normal(size=near.shape)
+    assert np.allclose(euler_near(rotation_of(there), near), there)
+    assert np.allclose(rotation_of(there), Rotation.from_euler("ZYX", there).as_matrix())
+
+
+def test_a_small_change_of_euler_angles_is_that_turn() -> None:
+    euler, step = np.array([0.5, -0.7, 0.4]), 1e-6
+    by_euler = body_turn_by_euler(euler)
+    for axis in range(3):
+        moved = Rotation.from_euler("ZYX", euler + step * np.eye(3)[axis])
+        turn = (Rotation.from_euler("ZYX", euler).inv() * moved).as_rotvec() / step
+        assert np.allclose(turn, by_euler[:, axis], atol=1e-5)
+
+
+@pytest.mark.parametrize("mirror", [1.0, -1.0])
+def test_the_flat_palm_keeps_lengths_and_angles(mirror: float) -> None:
+    palm = ARCHED_M * [1.0, mirror, 1.0]
+    flat = palm_modelled(palm, "flat")
+    assert not flat[:, 2].any()
+    assert np.allclose(np.linalg.norm(flat, axis=1), np.linalg.norm(palm, axis=1))
+    for disc, laid in zip(palm[1:], flat[1:], strict=True):
+        angle = [
+            np.arccos(d @ m / np.linalg.norm(d) / np.linalg.norm(m)) for d, m in ((disc, palm[3]), (laid, flat[3]))
+        ]
+        assert angle[0] == pytest.approx(angle[1], abs=1e-7)
+    assert np.array_equal(np.sign(flat[:, 1]), np.sign(palm[:, 1]))
+    assert palm_modelled(palm, "measured") is palm
+
+
+def test_the_straight_hand_is_found_as_it_is() -> None:
+    anatomy, _ = straight_hand()
+    hand = hand_measured(hand_calibration(FROM_ABOVE), CAMERA, "flat")
+    bent = np.linspace(-0.2, 0.6, 17)
+    thumb_apart = np.r_[0:21][
+        ~np.isin(np.arange(21), (3, 4))
+    ]  # its bones are not in one line at zero, ours are told so
+    assert np.allclose(hand.discs_m(bent)[thumb_apart], joint_centres(anatomy, bent)[thumb_apart], atol=1e-9)
+    assert np.allclose(hand.discs_m(bent), joint_centres(anatomy, bent), atol=1e-9)
+
+
+def test_lengths_of_the_chain_are_those_between_the_discs() -> None:
+    skin = joint_centres(anatomy_from_size(0.19), np.full(17, 0.15)) * [1.0, -1.0, 1.0]
+    hand = hand_measured(calibration(skin, HAND21, side="left"), CAMERA, "flat")
+    rng = np.random.default_rng(1)
+    model = hand.discs_m(rng.uniform(-0.5, 1.0, 17))
+    for chain in HAND21_CHAINS:
+        of_skin, of_model = (np.linalg.norm(np.diff(disc[list(chain[1:])], axis=0), axis=1) for disc in (skin, model))
+        assert np.allclose(of_skin, of_model)
+
+
+def test_a_disc_without_depth_is_as_far_as_the_one_before() -> None:
+    whole = hand_calibration(FROM_ABOVE)
+    lost = whole.marker_position_w0_m.copy()
+    tip = HAND21.markers.index("TIP3")
+    lost[tip] = np.nan
+    holed = calibration(whole.marker_position_w0_m, HAND21)
+    object.__setattr__(holed, "marker_position_w0_m", lost)
+    flat, measured = hand_measured(holed, CAMERA, "flat"), hand_measured(whole, CAMERA, "flat")
+    assert np.allclose(flat.discs_m(np.zeros(17)), measured.discs_m(np.zeros(17)), atol=1e-6)
+    assert np.isnan(as_written(holed, CAMERA, "flat").marker_position_w0_m[tip]).all(), "what is unknown stays unknown"
+
+
+def test_the_neutral_pose_is_the_least_squares_one_of_the_palm_as_modelled() -> None:
+    before = calibration(ARCHED_M)
+    after = as_written(before, CAMERA, "flat")
+    flat = palm_modelled(ARCHED_M, "flat")
+    point = ARCHED_M @ FROM_ABOVE.T + MIDDLE_M
+    assert np.allclose(after.marker_position_w0_m @ after.rotation_w0_cam.T + after.translation_w0_cam_m, point)
+
+    def cost(turn: np.ndarray, shift: np.ndarray) -> float:
+        placed = flat @ (after.rotation_w0_cam @ Rotation.from_rotvec(turn).as_matrix()).T
+        placed = placed + after.translation_w0_cam_m + shift
+        pixels = (CAMERA.project(placed) - CAMERA.project(point)) / 0.3
+        return float(np.sum(pixels**2) + np.sum(((placed - point)[:, 2] / 0.002) ** 2))
+
+    least = cost(np.zeros(3), np.zeros(3))
+    for axis in np.eye(3):
+        for sign in (1.0, -1.0):
+            assert cost(sign * 1e-4 * axis, np.zeros(3)) > least
+            assert cost(np.zeros(3), sign * 1e-5 * axis) > least
+    again = by_the_discs(after)
+    assert np.allclose(again.marker_position_w0_m[[0, 3]], [[0.0, 0.0, 0.0], [np.linalg.norm(ARCHED_M[3]), 0.0, 0.0]])
+    assert np.allclose(again.marker_position_w0_m @ again.rotation_w0_cam.T + again.translation_w0_cam_m, point)
+
+
+def test_a_palm_taken_as_measured_lies_where_its_discs_are() -> None:
+    after = as_written(calibration(ARCHED_M), CAMERA, "measured")
+    place = CAMERA.project(after.marker_position_w0_m @ after.rotation_w0_cam.T + after.translation_w0_cam_m)
+    model = palm_modelled(ARCHED_M @ FROM_ABOVE.T @ by_the_discs(calibration(ARCHED_M)).rotation_w0_cam, "measured")
+    assert np.allclose(CAMERA.project(model @ after.rotation_w0_cam.T + after.translation_w0_cam_m), place, atol=1e-6)

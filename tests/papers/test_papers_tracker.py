@@ -1,0 +1,162 @@
+"""The papers' filter over frames: it follows what it can, and says when it cannot."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from carpus.core.papers.tracker import PaperTracker
+from carpus.core.types import Detections, FloatArray, Side, TrackedFrame, TrackStatus
+from tests.papers.hands import (
+    ARCHED_M,
+    CAMERA,
+    MEASURED,
+    blobs,
+    calibration,
+    finger_blobs,
+    followed,
+    hand_calibration,
+    palm_blobs,
+    tilted,
+)
+
+FRAMES = 120
+NOTHING = blobs(np.empty((0, 2)))
+
+
+def swing(which: int, amplitude_deg: float, hz: float = 0.4):  # type: ignore[no-untyped-def]
+    def at(time_s: float) -> FloatArray:
+        return amplitude_deg * np.sin(2.0 * np.pi * hz * time_s) * np.eye(3)[which]
+
+    return at
+
+
+def wrist_tracker(side: Side = "right") -> PaperTracker:
+    palm = ARCHED_M * [1.0, 1.0 if side == "right" else -1.0, 1.0]
+    return PaperTracker(calibration(palm, side=side), CAMERA, MEASURED)
+
+
+def errors_deg(frames: list[TrackedFrame], at) -> FloatArray:  # type: ignore[no-untyped-def]
+    return np.array([np.degrees(frame.angles_rad) - at(frame.timestamp_s) for frame in frames])
+
+
+@pytest.mark.parametrize("side", ["right", "left"])
+@pytest.mark.parametrize(("which", "amplitude_deg"), [(0, 25.0), (1, 35.0), (2, 30.0)])
+def test_a_rigid_palm_without_clutter_is_followed_to_a_few_degrees(
+    which: int, amplitude_deg: float, side: Side
+) -> None:
+    at = swing(which, amplitude_deg)
+    frames = followed(wrist_tracker(side), palm_blobs(at, FRAMES, side=side))
+    error = errors_deg(frames, at)
+    assert (np.sqrt(np.mean(error**2, axis=0)) < 4.0).all()
+    assert all(frame.status is TrackStatus.TRACKED for frame in frames)
+    sd = np.degrees([frame.angles_sd_rad for frame in frames])
+    assert np.mean(np.abs(error) < 2.0 * sd) > 0.8
+    assert np.isnan(frames[-1].angular_velocity_rad_s).all(), "white in the papers' model"
+
+
+def test_depth_is_never_looked_at() -> None:
+    seen = palm_blobs(swing(1, 30.0), 30)
+    wrong = [Detections(b.pixel, np.full(6, 0.2), np.full(6, 1e-6), b.area_px, b.similarity) for b in seen]
+    one, other = followed(wrist_tracker(), seen), followed(wrist_tracker(), wrong)
+    assert np.array_equal([f.angles_rad for f in one], [f.angles_rad for f in other])
+
+
+def test_a_hand_is_followed_where_nothing_hides() -> None:
+    """Seen at a slant, so that the picture tells which way a finger bends."""
+    rotation = tilted(20.0)
+
+    def bent(time_s: float) -> FloatArray:
+        out = np.zeros(17)
+        out[6::3] = out[7::3] = np.radians(15.0) * (1.0 - np.cos(0.5 * np.pi * time_s))
+        out[5], out[14] = np.radians(8.0), np.radians(-8.0)
+        return out * min(1.0, time_s)
+
+    frames = followed(PaperTracker(hand_calibration(rotation), CAMERA, MEASURED), finger_blobs(bent, FRAMES, rotation))
+    assert all(frame.status is TrackStatus.TRACKED for frame in frames)
+    error = np.degrees([frame.joint_angles_rad - bent(frame.timestamp_s) for frame in frames])
+    rmse = np.sqrt(np.mean(error[15:] ** 2, axis=0))
+    assert (rmse[5:] < 6.0).all()
+    assert (rmse[5::3] < 2.0).all(), "abduction is what a picture shows"
+    wrist = np.sqrt(np.mean(np.degrees([frame.angles_rad for frame in frames]) ** 2, axis=0))
+    assert (wrist < 6.0).all()
+    last = frames[-1]
+    assert last.joint_position_m.shape == (21, 3)
+    assert np.isfinite(last.joint_angles_sd_rad).all()
+    assert (last.measured_share == 1.0).all()
+    assert last.nis_dof == 42
+
+
+def test_the_wrist_disc_is_where_position_says() -> None:
+    made = calibration(ARCHED_M)
+    for frame in followed(wrist_tracker(), palm_blobs(swing(1, 30.0), 30)):
+        place = made.rotation_w0_cam @ frame.position_m + made.translation_w0_cam_m
+        assert np.allclose(place, frame.marker_position_cam_m[0], atol=1e-9)
+
+
+def unknown(frame: TrackedFrame) -> bool:
+    values = (
+        frame.position_m, frame.velocity_m_s, frame.rotation_w2_w0, frame.angles_rad, frame.angles_sd_rad,
+        frame.joint_angles_rad, frame.joint_angles_sd_rad, frame.joint_position_m, frame.marker_position_cam_m,
+        frame.marker_measured_px,
+    )  # fmt: skip
+    return all(np.isnan(value).all() for value in values)
+
+
+@pytest.mark.parametrize("whole_hand", [False, True])
+def test_a_hand_out_of_sight_is_predicted_then_lost_and_found_again_at_neutral(whole_hand: bool) -> None:
+    at = swing(0, 0.0)
+    if whole_hand:
+        tracker = PaperTracker(hand_calibration(tilted(0.0)), CAMERA, MEASURED)
+        seen = finger_blobs(lambda _t: np.zeros(17), 20, tilted(0.0))
+    else:
+        tracker, seen = wrist_tracker(), palm_blobs(at, 20)
+    away = followed(tracker, [*seen, *(NOTHING,) * 70])
+    status = [frame.status for frame in away]
+    assert status[:20] == [TrackStatus.TRACKED] * 20
+    last = 20 + status[20:].index(TrackStatus.LOST)
+    assert set(status[20:last]) == {TrackStatus.PREDICTED}
+    assert away[last].timestamp_s - away[19].timestamp_s == pytest.approx(1.5, abs=0.05)
+    assert set(status[last:]) == {TrackStatus.LOST}
+    assert all(unknown(frame) for frame in away[last:])
+    assert all(np.isfinite(frame.angles_rad).all() for frame in away[:last])
+    sd = [frame.angles_sd_rad[1] for frame in away[20:last]]
+    assert (np.diff(sd) > 0.0).all(), "what is not seen grows less sure"
+
+    part = blobs(np.delete(seen[0].pixel, 0, axis=0)) if not whole_hand else blobs(seen[0].pixel[:3])
+    assert tracker.step(90, 3.0, part).status is TrackStatus.LOST, "not all of the palm is there"
+    back = tracker.step(91, 3.1, seen[0])
+    assert back.status is TrackStatus.TRACKED
+    assert np.isfinite(back.angles_rad).all()
+
+
+def test_a_gap_in_the_recording_loses_the_hand() -> None:
+    tracker, seen = wrist_tracker(), palm_blobs(swing(0, 0.0), 5)
+    followed(tracker, seen)
+    assert unknown(tracker.step(5, 9.0, seen[0]))
+    assert tracker.step(6, 9.03, seen[0]).status is TrackStatus.TRACKED
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_nonsense_never_ends_it(seed: int) -> None:
+    rng = np.random.default_rng(seed)
+    for tracker in (wrist_tracker(), PaperTracker(hand_calibration(tilted(0.0)), CAMERA, MEASURED)):
+        for i in range(150):
+            found = blobs(rng.uniform((0.0, 0.0), (640.0, 480.0), (int(rng.integers(0, 40)), 2)))
+            frame = tracker.step(i, i / 30.0 + (i > 75) * 4.0, found)
+            if frame.status is TrackStatus.LOST:
+                assert unknown(frame)
+            else:
+                assert np.isfinite(frame.angles_rad).all()
+                assert (frame.angles_sd_rad >= 0.0).all()
+                assert np.isfinite(frame.joint_angles_sd_rad).all()
+        assert len(frame.measured_share) in (3, 17)
+
+
+def test_angles_and_sds_are_those_of_the_state() -> None:
+    """The papers' state holds the angles themselves: their covariance is read, not worked out anew."""
+    tracker = wrist_tracker()
+    frame = followed(tracker, palm_blobs(lambda t: np.array([12.0, 25.0, -14.0]) * min(1.0, t), 40))[-1]
+    state = tracker._state
+    assert np.allclose(frame.angles_rad, state.mean[6:9])
+    assert np.allclose(frame.angles_sd_rad, np.sqrt(np.diag(state.covariance)[6:9]))

@@ -1,0 +1,82 @@
+"""Compact pictures: the hand and its surroundings are kept whole, the room about it is not, and it costs little."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+
+from carpus.core.capture.raw import RawRecording, RawWriter
+from carpus.core.capture.raw_pictures import encode_color, encode_depth
+from carpus.core.capture.source import SourceInfo
+from carpus.core.hand.protocols import WRIST6
+from carpus.core.pipeline.around_hand import BYTES_PER_PICTURE, AroundHand, HandArea, area_of, only
+from carpus.core.tracking.tracker import Tracker
+from carpus.core.types import Frame, TrackedFrame, TrackStatus
+from tests.tracking.hands import CAMERA, RIGID, blobs, calibration, swing
+
+
+def tracked() -> TrackedFrame:
+    return Tracker(calibration(), CAMERA, RIGID).step(0, 0.0, blobs(swing(1, 0.0, 1.0)(0.0)))
+
+
+def noisy(rng: np.random.Generator) -> Frame:
+    """A picture whose every pixel differs from its neighbours, as a sensor's does."""
+    color = np.clip(120 + 6 * rng.normal(size=(480, 640, 3)), 0, 255).astype(np.uint8)
+    depth = np.clip(700 + 3 * rng.normal(size=(480, 640)), 1, 4000).astype(np.uint16)
+    return Frame(0, 0.0, color, depth, 0.001, 0)
+
+
+def test_the_area_holds_every_disc_and_the_fingers_beyond_them() -> None:
+    frame = tracked()
+    area = area_of(frame, CAMERA, WRIST6)
+    assert area is not None
+    discs = frame.marker_measured_px
+    span = float(np.ptp(discs, axis=0).max())
+    for disc in discs:
+        assert area.left < disc[0] < area.right
+        assert area.top < disc[1] < area.bottom
+    assert discs[:, 1].min() - area.top >= min(1.4 * span, discs[:, 1].min()) - 1.0
+    assert area.left >= 0
+    assert area.bottom <= CAMERA.height_px
+
+
+def test_inside_everything_stays_and_outside_nothing_does() -> None:
+    frame, area = noisy(np.random.default_rng(1)), area_of(tracked(), CAMERA, WRIST6)
+    assert area is not None
+    kept = only(frame, area)
+    part = np.s_[area.top : area.bottom, area.left : area.right]
+    np.testing.assert_array_equal(kept.color_rgb[part], frame.color_rgb[part])
+    assert kept.depth_raw is not None
+    assert frame.depth_raw is not None
+    np.testing.assert_array_equal(kept.depth_raw[part], frame.depth_raw[part])
+    outside = np.ones((480, 640), dtype=bool)
+    outside[part] = False
+    assert not kept.color_rgb[outside].any()
+    assert not kept.depth_raw[outside].any()
+
+
+def test_a_lost_hand_keeps_the_whole_picture() -> None:
+    hand = HandArea(CAMERA, WRIST6)
+    assert hand.area is None
+    hand.take(tracked())
+    assert hand.area is not None
+    hand.take(replace(tracked(), status=TrackStatus.LOST))
+    assert hand.area is None
+    frame = noisy(np.random.default_rng(1))
+    assert only(frame, None) is frame
+
+
+def test_depth_comes_back_as_it_was_and_it_costs_a_part(tmp_path: Path) -> None:
+    frame, area = noisy(np.random.default_rng(2)), area_of(tracked(), CAMERA, WRIST6)
+    writer = AroundHand(
+        RawWriter(tmp_path / "s.carpusraw", SourceInfo("x", CAMERA, True, None, 30.0, {})), lambda: area
+    )
+    writer.append_frame(frame)
+    writer.close()
+    (back,) = RawRecording(tmp_path / "s.carpusraw").frames()
+    np.testing.assert_array_equal(back.depth_raw, only(frame, area).depth_raw)
+    whole = len(encode_color(frame.color_rgb)) + len(encode_depth(frame.depth_raw))  # type: ignore[arg-type]
+    assert writer.path.stat().st_size < 0.6 * whole
+    assert 0.6 * whole > BYTES_PER_PICTURE

@@ -1,0 +1,217 @@
+"""Markers put right by a person: what was false is left out, what was missing is added, the old result stays."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import threading
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from carpus.core.errors import CarpusFault, NotCorrectable, OutputExists
+from carpus.core.pipeline import correcting
+from carpus.core.pipeline.correcting import correct_beside
+from carpus.core.pipeline.correction import (
+    Task,
+    correct,
+    not_held,
+    task_of,
+    with_places,
+)
+from carpus.core.pipeline.track import Learnt, TrackSettings, parameters_json
+from carpus.core.session.corrected import CORRECTED, corrected_from, corrections_in
+from carpus.core.session.marker_doubts import name_doubt
+from carpus.core.session.marker_places import Correction, expected_px
+from carpus.core.session.reader import read_session
+from carpus.core.session.values import new_header
+from carpus.core.session.writer import SessionWriter
+from carpus.core.tracking.tracker import Tracker
+from carpus.core.types import FloatArray
+from tests.tracking.hands import CAMERA, blobs, calibration, discs_cam_m, swing
+
+FPS, SECONDS, WRONG_FROM = 30.0, 4.0, 60
+MCP3 = 3
+FALSE_PX = (60.0, 40.0)
+"""Where the blue spot lies that is no disc, from the knuckle as it is at the start."""
+
+
+@dataclass(frozen=True)
+class Stored:
+    """A session in which a spot beside the hand was taken for the middle knuckle from one picture on."""
+
+    path: Path
+    truth_deg: FloatArray
+    false_px: FloatArray
+    disc_px: FloatArray
+
+
+@pytest.fixture(scope="module")
+def stored(tmp_path_factory: pytest.TempPathFactory) -> Stored:
+    rng, motion = np.random.default_rng(4), swing(1, 30.0, 0.5)
+    calibrated, settings = calibration(), TrackSettings()
+    path = tmp_path_factory.mktemp("correction") / "session.h5"
+    learnt = Learnt(0.15, 1.0, -np.inf)
+    header = new_header(
+        hand="right", protocol=calibrated.clicks.protocol, software_version="0.1", subject_id="Linden 42",
+        exercise="WRIST_FE", parameters=parameters_json(settings, {}, learnt), dip_free=False,
+    )  # fmt: skip
+    tracker = Tracker(calibrated, CAMERA, learnt.applied(settings.tracker))
+    writer = SessionWriter.create(path, header, CAMERA, calibrated)
+    false_px = calibrated.clicks.pixel[MCP3] + FALSE_PX
+    for row in range(round(SECONDS * FPS)):
+        time_s = row / FPS
+        seen = [false_px] if row >= WRONG_FROM else []
+        frame = tracker.step(row, time_s, blobs(motion(time_s), rng, false_px=seen))
+        if row >= WRONG_FROM:
+            measured = frame.marker_measured_px.copy()
+            measured[MCP3] = frame.detections.pixel[np.linalg.norm(frame.detections.pixel - false_px, axis=1).argmin()]
+            frame = replace(frame, marker_measured_px=measured)
+        writer.append(frame)
+    writer.add_event(1.0, "note", "hurts a little")
+    writer.close()
+    truth = np.array([motion(row / FPS).angles_deg for row in range(round(SECONDS * FPS))])
+    disc_px = CAMERA.project(discs_cam_m(motion(WRONG_FROM / FPS)))[MCP3]
+    return Stored(path, truth, false_px, disc_px)
+
+
+def task(stored: Stored, output: Path, *corrections: Correction) -> Task:
+    return task_of(stored.path, output, corrections, "2.0", by="MK")
+
+
+def put_right(stored: Stored) -> Correction:
+    return Correction(WRONG_FROM, {"MCP3": (float(stored.disc_px[0]), float(stored.disc_px[1]))})
+
+
+def test_without_a_correction_nothing_changes(stored: Stored, tmp_path: Path) -> None:
+    correct(task(stored, tmp_path / "new.h5"))
+    before, after = read_session(stored.path), read_session(tmp_path / "new.h5")
+    np.testing.assert_allclose(after.motion.angles_rad, before.motion.angles_rad, atol=1e-9)
+
+
+def test_the_false_spot_is_left_out_and_the_disc_is_taken_from_there_on(stored: Stored, tmp_path: Path) -> None:
+    before_bytes = hashlib.sha256(stored.path.read_bytes()).hexdigest()
+    correct(task(stored, tmp_path / "new.h5", put_right(stored)))
+    assert hashlib.sha256(stored.path.read_bytes()).hexdigest() == before_bytes
+    session = read_session(tmp_path / "new.h5")
+    taken = session.markers.measured_px[WRONG_FROM:]
+    distance = np.linalg.norm(taken - stored.false_px, axis=-1)
+    assert np.nanmin(distance) > 20.0
+    assert np.isfinite(taken[:, MCP3]).all(axis=1).mean() > 0.95
+    assert not_held(session, [put_right(stored)]) == ()
+    for motion in (session.motion, session.smoothed):
+        assert motion is not None
+        error_deg = np.degrees(motion.angles_rad[WRONG_FROM + 10 :]) - stored.truth_deg[WRONG_FROM + 10 :]
+        assert np.abs(error_deg).max() < 6.0
+    old = read_session(stored.path)
+    np.testing.assert_allclose(session.motion.angles_rad[:WRONG_FROM], old.motion.angles_rad[:WRONG_FROM], atol=1e-9)
+
+
+def test_the_new_result_names_its_origin_what_was_done_and_keeps_the_notes(stored: Stored, tmp_path: Path) -> None:
+    correct(task(stored, tmp_path / "new.h5", put_right(stored)))
+    old, new = read_session(stored.path), read_session(tmp_path / "new.h5")
+    assert new.header.origin == old.header.session_id
+    assert new.header.recording_id == old.header.recording_id
+    assert new.header.session_id != old.header.session_id
+    assert ("note", "hurts a little") in [(event.kind, event.text) for event in new.events]
+    (said,) = [event for event in new.events if event.kind == CORRECTED]
+    assert said.time_s == pytest.approx(WRONG_FROM / FPS)
+    told = json.loads(said.text)
+    assert told["by"] == "MK"
+    assert told["markers"]["MCP3"] == pytest.approx(stored.disc_px, abs=0.1)
+    assert corrected_from(old) is None
+    since = corrected_from(new)
+    assert since is not None
+    assert since.from_s == pytest.approx(WRONG_FROM / FPS, abs=0.01)
+    assert (since.markers, since.by, since.when.isoformat()) == (("MCP3",), "MK", new.header.created)
+    ((read, by),) = corrections_in(new)
+    assert (read.row, by) == (WRONG_FROM, "MK")
+    assert read.places["MCP3"] == pytest.approx(stored.disc_px, abs=0.1)
+
+
+def test_names_that_are_plainly_wrong_are_told_and_right_ones_are_not(stored: Stored) -> None:
+    session = read_session(stored.path)
+    markers = list(session.header.protocol.markers)
+    right = session.markers.measured_px[WRONG_FROM].copy()
+    right[MCP3] = stored.disc_px
+    assert name_doubt(session, WRONG_FROM, right, ["MCP3"]) is None
+    for one in range(len(markers)):
+        assert name_doubt(session, WRONG_FROM, right, [markers[one]]) is None
+        for other in range(one):
+            wrong = right.copy()
+            wrong[[one, other]] = right[[other, one]]
+            told = name_doubt(session, WRONG_FROM, wrong, [markers[one], markers[other]])
+            assert told is not None
+            assert told.exchanged is not None
+            assert set(told.exchanged) == {markers[one], markers[other]}
+    far = right.copy()
+    far[MCP3] = stored.false_px
+    told = name_doubt(session, WRONG_FROM, far, ["MCP3"])
+    assert told is not None
+    assert told.alone == "MCP3"
+    assert 0.02 < told.off_m < 0.2
+    assert name_doubt(session, WRONG_FROM, far, ["MCP5"]) is None  # somebody else's fault is not this change's
+
+
+def test_a_name_that_did_not_hold_is_told(stored: Stored, tmp_path: Path) -> None:
+    """A person may put a knuckle where no knuckle can be: the tracker does not follow, and it is said."""
+    nowhere = Correction(WRONG_FROM, {"MCP3": (40.0, 440.0)})
+    correct(task(stored, tmp_path / "new.h5", nowhere))
+    assert not_held(read_session(tmp_path / "new.h5"), [nowhere]) == ("MCP3",)
+
+
+def test_not_to_be_seen_means_no_spot_is_taken_there(stored: Stored, tmp_path: Path) -> None:
+    hidden = Correction(WRONG_FROM, {"MCP3": None})
+    correct(task(stored, tmp_path / "new.h5", hidden))
+    session = read_session(tmp_path / "new.h5")
+    assert not np.isfinite(session.markers.measured_px[WRONG_FROM, MCP3]).any()
+    assert not_held(session, [hidden]) == ()
+    assert np.nanmin(np.linalg.norm(session.markers.measured_px[WRONG_FROM:] - stored.false_px, axis=-1)) > 20.0
+
+
+def test_a_disc_that_was_not_found_is_added_without_a_depth() -> None:
+    found = blobs(swing(1, 0.0, 1.0)(0.0), hidden=[MCP3])
+    place = CAMERA.project(discs_cam_m(swing(1, 0.0, 1.0)(0.0)))[MCP3]
+    more = with_places(found, np.array([place, found.pixel[0] + 1.0]))
+    assert len(more) == len(found) + 1
+    assert more.pixel[-1] == pytest.approx(place)
+    assert np.isnan(more.depth_m[-1])
+
+
+def test_where_the_others_expect_a_disc_is_said_without_it(stored: Stored) -> None:
+    session = read_session(stored.path)
+    places = session.markers.measured_px[WRONG_FROM]
+    expected = expected_px(session, WRONG_FROM, places, MCP3)
+    assert expected == pytest.approx(stored.disc_px, abs=4.0)
+    assert np.linalg.norm(places[MCP3] - expected) > 40.0
+
+
+def test_it_is_done_in_a_process_of_its_own_and_says_how_far_it_is(stored: Stored, tmp_path: Path) -> None:
+    seen: list[tuple[int, int]] = []
+    done = correct_beside(
+        task(stored, tmp_path / "new.h5", put_right(stored)), lambda at, of: seen.append((at, of)), threading.Event()
+    )
+    assert done
+    assert seen[-1][1] == round(SECONDS * FPS)
+    assert read_session(tmp_path / "new.h5").complete
+
+
+def test_stopping_leaves_nothing_behind_and_faults_come_across(stored: Stored, tmp_path: Path) -> None:
+    stopping = threading.Event()
+    stopping.set()
+    assert not correct_beside(task(stored, tmp_path / "new.h5"), lambda *_: None, stopping)
+    assert list(tmp_path.iterdir()) == []
+    (tmp_path / "there.h5").write_bytes(b"x")
+    with pytest.raises(OutputExists):
+        correct_beside(task(stored, tmp_path / "there.h5"), lambda *_: None, threading.Event())
+    assert isinstance(correcting._fault("ValueError", "", "odd"), CarpusFault)
+
+
+def test_a_session_without_spots_cannot_be_corrected(stored: Stored, tmp_path: Path) -> None:
+    session = read_session(stored.path)
+    writer = SessionWriter.create(tmp_path / "empty.h5", session.header, CAMERA, session.calibration)
+    writer.close()
+    with pytest.raises(NotCorrectable):
+        task_of(tmp_path / "empty.h5", tmp_path / "new.h5", (), "2.0")

@@ -1,0 +1,77 @@
+"""The W0 that a session stores is the one its places and turns are in: read back by plain h5py."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import h5py
+import numpy as np
+import pytest
+from scipy.spatial.transform import Rotation
+
+from carpus.core.calibration.clicks import read_clicks
+from carpus.core.capture.tum import TumFolder
+from carpus.core.pipeline.track import TrackSettings, track_recording
+from carpus.core.simulation.recording import CLICKS_FILE, simulate
+from carpus.core.simulation.spec import RecordingSpec
+from carpus.core.tracking.settings import TrackerSettings
+from carpus.core.tracking.soft_tissue import SoftTissue
+
+# Discs that glide over the bones leave the axis of W2 by what they glided: only on stiff skin does the axis run through
+# them, which is what shows that it was stored in the axes that the file says.
+STIFF = TrackSettings(
+    tracker=TrackerSettings(
+        tissue=SoftTissue(
+            knuckle_along_m=1e-7,
+            knuckle_across_m=1e-7,
+            knuckle_up_m=1e-7,
+            wrist_along_m=1e-7,
+            wrist_across_m=1e-7,
+            wrist_up_m=1e-7,
+        )
+    )
+)
+
+
+@pytest.mark.parametrize(
+    ("protocol", "hand", "motion", "start_deg", "settings"),
+    [
+        ("wrist6", "left", "mixed", (0.0, 0.0, 0.0), STIFF),
+        ("wrist6", "right", "flexion", (4.0, -20.0, 8.0), STIFF),
+        ("hand21", "right", "flexion", (0.0, 0.0, 0.0), STIFF),
+        ("wrist6", "right", "flexion", (0.0, 0.0, 0.0), TrackSettings()),
+    ],
+)
+def test_stored_pose_of_w0_takes_the_wrist_to_where_its_disc_is(
+    protocol: str, hand: str, motion: str, start_deg: tuple[float, ...], settings: TrackSettings, tmp_path: Path
+) -> None:
+    spec = RecordingSpec(seed=11, protocol=protocol, hand=hand, motion=motion, seconds=2.2, speed_hz=0.7)  # type: ignore[arg-type]
+    simulate(spec, tmp_path / "r")
+    clicks = read_clicks(tmp_path / "r" / CLICKS_FILE, 640, 480)
+    source = TumFolder(tmp_path / "r")
+    start = np.radians(start_deg)
+    track_recording(source, clicks, tmp_path / "s.h5", settings, software_version="1", start_angles_rad=start)
+    source.close()
+    with h5py.File(tmp_path / "s.h5") as file:
+        to_cam, origin = file["calibration/rotation"][()], file["calibration/translation"][()]
+        position, turn = file["wrist/position"][()], file["wrist/w0_turn"][()]
+        rotation = file["wrist/rotation"][()]
+        discs = file["markers/position_camera"][()]
+        at = list(file["markers"].attrs["names"]).index
+        joints = file["joints/position"][()] if protocol == "hand21" else None
+    missed_m = np.linalg.norm(position @ to_cam.T + origin - discs[:, at("WRIST")], axis=1)
+    assert missed_m.max() < 1e-6
+    if settings is not STIFF:
+        return
+    x_axis = (to_cam @ Rotation.from_rotvec(turn).as_matrix() @ rotation)[:, :, 0]
+    towards = discs[:, at("MCP3")] - discs[:, at("WRIST")]
+    towards /= np.linalg.norm(towards, axis=1)[:, None]
+    assert np.degrees(np.linalg.norm(np.cross(x_axis, towards), axis=1)).max() < 0.01
+    if not any(start_deg):
+        assert np.degrees(np.abs(turn)).max() > 0.01, "the palm was refined, or nothing is shown here"
+    if joints is not None:
+        # The joints of the palm lie under their discs, wherever the hand has turned.
+        under = discs[:, at("MCP3")] - (joints[:, at("MCP3")] @ to_cam.T + origin)
+        in_hand = np.einsum("nji,nj->ni", to_cam @ Rotation.from_rotvec(turn).as_matrix() @ rotation, under)
+        assert np.ptp(in_hand, axis=0).max() < 1e-3
+        assert in_hand[:, 2].min() > 0.005, "under the skin"

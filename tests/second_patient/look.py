@@ -1,0 +1,268 @@
+"""How the second patient looks: skin, paper, nails, creases, table, cushion, lamp; and the picture without noise."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import cv2
+import numpy as np
+from numpy.typing import NDArray
+
+from carpus.core.types import FloatArray
+from tests.second_patient.camera import Hung
+from tests.second_patient.discs import NAMES
+from tests.second_patient.patient import Body, Patient
+from tests.second_patient.raster import fragments
+from tests.second_patient.skeleton import Bone, placed_bones, rest_posture
+
+FloatImage = NDArray[np.float32]
+SAMPLES = 2
+"""Samples each way in a pixel of the colour picture."""
+_CUSHION_M = ((-0.30, -0.030), (-0.075, 0.075))
+_CUSHION_DEEP_M = 0.034
+_PAPER_OVER_REST = 2.4
+_SLEEVE_FROM_M = -0.13
+
+
+@dataclass(frozen=True, slots=True, repr=False)
+class Look:
+    """Colours are linear light, red green blue. ``lamp`` (3,) unit way to the lamp in the room; ``paint`` (V, 3) of the
+    skin's corners; ``table`` (H, W, 3) and its ``table_depth_m`` (H, W) with the cushion, as seen without a hand."""
+
+    paper: FloatArray
+    lamp: FloatArray
+    lamp_light: FloatArray
+    sky_light: FloatArray
+    gloss: float
+    paint: FloatArray
+    table: FloatImage
+    table_depth_m: FloatImage
+
+
+@dataclass(frozen=True, slots=True, repr=False)
+class CleanColor:
+    """``light`` (H, W, 3); ``visible_share`` (21,) of each disc's paper that is seen, by area on the picture."""
+
+    light: FloatImage
+    visible_share: FloatArray
+
+
+def look_of(patient: Patient, hung: Hung, seed: int) -> Look:
+    """Looks of a seed."""
+    rng = np.random.default_rng([seed, 1607])
+    swing, high = rng.uniform(0.0, 2.0 * np.pi), np.radians(rng.uniform(48.0, 75.0))
+    lamp = np.array([np.cos(swing) * np.cos(high), np.sin(swing) * np.cos(high), np.sin(high)])
+    warm = float(rng.uniform(-0.1, 0.1))
+    lamp_light = float(rng.uniform(0.55, 0.85)) * np.array([1.0 + warm, 1.0, 1.0 - warm])
+    sky_light = float(rng.uniform(0.30, 0.45)) * np.array([1.0, 1.0, 1.0 + 0.4 * warm])
+    paper = np.array([rng.uniform(0.012, 0.035), rng.uniform(0.07, 0.15), rng.uniform(0.36, 0.58)])
+    table, depth = _background(hung, patient, lamp, lamp_light, sky_light, rng)
+    return Look(paper, lamp, lamp_light, sky_light, float(rng.uniform(0.02, 0.09)), _paint(patient, rng), table, depth)
+
+
+def _paint(patient: Patient, rng: np.random.Generator) -> FloatArray:
+    """Colour of the skin's corners: a tone between fair and dark, mottled, redder knuckles, paler nails, a sleeve."""
+    skin, person = patient.skin, patient.person
+    tone = float(rng.uniform(0.0, 1.0))
+    fair, dark = np.array([0.60, 0.36, 0.25]), np.array([0.13, 0.065, 0.038])
+    base = fair ** (1.0 - tone) * dark**tone
+    corner = skin.corner_m
+    waves = rng.normal(size=(12, 3)) * 140.0
+    mottle = np.sin(corner @ waves.T + rng.uniform(0.0, 6.3, 12)).mean(axis=1)
+    out = base * (1.0 + 0.12 * mottle[:, None] * np.array([0.7, 1.0, 1.1]))
+    rest = placed_bones(person, rest_posture(), np.eye(3))
+    mm = 1e-3 * person.size
+    for ray in (1, 2, 3, 4):
+        first = Bone.PP2 + 3 * (ray - 1)
+        for bone, wide, red in ((first, 8.0, 0.10), (first + 1, 5.0, 0.14), (first + 2, 3.5, 0.10)):
+            near = np.exp(-0.5 * (np.linalg.norm(corner - rest.joint_m[0, bone], axis=1) / (1.6 * wide * mm)) ** 2)
+            out *= 1.0 - near[:, None] * red * np.array([0.3, 1.3, 1.2])
+    tips = [(Bone.PP2 + 3 * i + 2, person.finger_m[i, 2]) for i in range(4)] + [(Bone.DP1, person.thumb_m[2])]
+    for bone, length in tips:
+        turn = rest.turn[0, bone]
+        local = (corner - rest.joint_m[0, bone]) @ turn
+        nail = np.clip((skin.normal @ turn[:, 2] - 0.55) / 0.2, 0.0, 1.0) * np.clip(
+            (local[:, 0] / length - 0.5) / 0.1, 0.0, 1.0
+        )
+        nail = nail * (np.linalg.norm(local - [0.75 * length, 0.0, 0.0], axis=1) < 14.0 * mm)
+        out += (0.35 * nail)[:, None] * (np.array([0.62, 0.40, 0.36]) * (0.5 + 0.5 * (1.0 - tone)) - out)
+    sleeve = np.clip((_SLEEVE_FROM_M - corner[:, 0]) / 0.004, 0.0, 1.0)[:, None]
+    cloth = np.array([[0.30, 0.29, 0.28], [0.05, 0.05, 0.055], [0.35, 0.10, 0.09], [0.10, 0.22, 0.12]])[rng.integers(4)]
+    ribs = 1.0 + 0.18 * np.sin(corner[:, :1] * 900.0)
+    return np.asarray(out * (1.0 - sleeve) + sleeve * cloth * ribs)
+
+
+def _background(
+    hung: Hung,
+    patient: Patient,
+    lamp: FloatArray,
+    lamp_light: FloatArray,
+    sky_light: FloatArray,
+    rng: np.random.Generator,
+) -> tuple[FloatImage, FloatImage]:
+    """Table and cushion."""
+    camera = hung.camera
+    v, u = np.mgrid[0 : camera.height_px, 0 : camera.width_px].astype(np.float64)
+    ideal = camera.undistort(np.stack((u.ravel(), v.ravel()), axis=-1)).reshape(*u.shape, 2)
+    ray = camera.back_project(ideal, np.ones(u.shape))
+    up = hung.turn @ np.array([0.0, 0.0, 1.0])
+    foot = hung.to_camera(np.array([0.0, 0.0, -hung.table_m]))
+    depth = (foot @ up) / (ray @ up)
+    place = (ray * depth[..., None] - hung.shift_m) @ hung.turn
+    woods = np.array(
+        [[0.42, 0.30, 0.19], [0.62, 0.58, 0.52], [0.22, 0.16, 0.12], [0.50, 0.50, 0.48], [0.30, 0.36, 0.30]]
+    )
+    wood = woods[rng.integers(len(woods))]
+    grain = np.zeros(u.shape)
+    for _ in range(7):
+        along, across = rng.uniform(4.0, 18.0), rng.uniform(60.0, 420.0)
+        bent = place[..., 1] + 0.006 * np.sin(along * place[..., 0] + rng.uniform(0.0, 6.3))
+        grain += np.sin(across * bent + rng.uniform(0.0, 6.3)) / 7.0
+    table = wood * (1.0 + float(rng.uniform(0.04, 0.22)) * grain[..., None]) * (lamp_light * lamp[2] + sky_light)
+    box, quads = _cushion(hung)
+    cam = hung.to_camera(patient.mirror * box)
+    faces = quads[:, ::-1] if patient.side == "left" else quads
+    triangle = np.concatenate((faces[:, [0, 1, 2]], faces[:, [0, 2, 3]]))
+    seen = fragments(hung.pixel(cam), cam[:, 2], triangle, u.shape)
+    room = patient.mirror * box
+    normal = np.cross(room[triangle[:, 1]] - room[triangle[:, 0]], room[triangle[:, 2]] - room[triangle[:, 0]])
+    normal /= np.linalg.norm(normal, axis=1, keepdims=True)
+    cloth = np.array([[0.16, 0.17, 0.18], [0.40, 0.36, 0.30], [0.12, 0.24, 0.20]])[rng.integers(3)]
+    lit = np.clip(normal @ lamp, 0.0, 1.0)[:, None] * lamp_light + sky_light * (0.6 + 0.4 * normal[:, 2:])
+    weave = 1.0 + 0.06 * rng.normal(size=(len(seen.row), 1))
+    table[seen.row, seen.column] = cloth * lit[seen.triangle] * weave
+    depth[seen.row, seen.column] = seen.depth_m
+    return table.astype(np.float32), depth.astype(np.float32)
+
+
+def _cushion(hung: Hung) -> tuple[FloatArray, NDArray[np.int64]]:
+    """The cushion under the forearm: corners (8, 3) in the room of a right hand and faces (5, 4) seen from outside."""
+    (x0, x1), (y0, y1) = _CUSHION_M
+    low, high = -hung.table_m, -min(_CUSHION_DEEP_M, hung.table_m - 0.02)
+    slope = 0.018
+    box = np.array(
+        [[x0, y0, low], [x1 + slope, y0 - slope, low], [x1 + slope, y1 + slope, low], [x0, y1, low],
+         [x0, y0, high], [x1, y0, high], [x1, y1, high], [x0, y1, high]]
+    )  # fmt: skip
+    quads = np.array([[4, 5, 6, 7], [0, 1, 5, 4], [1, 2, 6, 5], [2, 3, 7, 6], [3, 0, 4, 7]])
+    return box, quads
+
+
+def front_faces(patient: Patient) -> NDArray[np.int64]:
+    """The skin's triangles in mathematical order from outside, on this side of the body."""
+    return patient.skin.triangle[:, ::-1] if patient.side == "left" else patient.skin.triangle
+
+
+def depth_of(patient: Patient, hung: Hung, look: Look, body: Body) -> FloatImage:
+    """Depth (H, W) of everything, along the camera's z."""
+    cam = hung.to_camera(body.point_m)
+    depth = look.table_depth_m.copy()
+    seen = fragments(hung.pixel(cam), cam[:, 2], front_faces(patient), depth.shape)
+    depth[seen.row, seen.column] = np.minimum(depth[seen.row, seen.column], seen.depth_m)
+    return depth
+
+
+def color_of(patient: Patient, hung: Hung, look: Look, body: Body, stuck: NDArray[np.bool_]) -> CleanColor:
+    """The picture in linear light; ``stuck`` (21,) which discs are on the hand."""
+    shape = look.table_depth_m.shape
+    cam = hung.to_camera(body.point_m)
+    pixel = hung.pixel(cam)
+    low = np.clip(np.floor(pixel.min(axis=0)).astype(int) - 1, 0, [shape[1] - 1, shape[0] - 1])
+    high = np.clip(np.ceil(pixel.max(axis=0)).astype(int) + 2, 1, [shape[1], shape[0]])
+    box = (int(high[1] - low[1]), int(high[0] - low[0]))
+    faces = front_faces(patient)
+    seen = fragments(pixel - low, cam[:, 2], faces, box, SAMPLES)
+    every = np.hstack((body.point_m, body.normal, look.paint, patient.skin.corner_m)).astype(np.float32)
+    mixed = np.einsum("fi,fij->fj", seen.share.astype(np.float32), every[faces[seen.triangle]])
+    place, normal, paint, rest = mixed[:, :3], mixed[:, 3:6], mixed[:, 6:9], mixed[:, 9:]
+    normal /= np.sqrt(np.einsum("fj,fj->f", normal, normal))[:, None]
+    shine = np.full(len(place), look.gloss, dtype=np.float32)
+    rows = np.full((box[0] * SAMPLES, box[1] * SAMPLES), -1, dtype=np.int64)
+    rows[seen.row, seen.column] = np.arange(len(place))
+    share = _stick(hung, look, body, patient, stuck, (low, rows, place, rest), (paint, shine))
+    light = _shaded(hung, look, place, normal, paint, shine)
+    fine = np.zeros((*rows.shape, 3), dtype=np.float32)
+    cover = (rows >= 0).astype(np.float32)
+    fine[rows >= 0] = light
+    table = _shadowed(hung, look, body, faces)
+    flat = look.table_depth_m[low[1] : high[1], low[0] : high[0]]
+    hidden = np.repeat(np.repeat(flat, SAMPLES, 0), SAMPLES, 1)[seen.row, seen.column] < seen.depth_m
+    cover[seen.row[hidden], seen.column[hidden]] = 0.0
+    fine[seen.row[hidden], seen.column[hidden]] = 0.0
+    size = (box[1], box[0])
+    whole = cv2.resize(fine, size, interpolation=cv2.INTER_AREA)
+    part = cv2.resize(cover, size, interpolation=cv2.INTER_AREA)[..., None]
+    cut = (slice(low[1], high[1]), slice(low[0], high[0]))
+    table[cut] = whole + (1.0 - part) * table[cut]
+    return CleanColor(table, share)
+
+
+def _stick(
+    hung: Hung,
+    look: Look,
+    body: Body,
+    patient: Patient,
+    stuck: NDArray[np.bool_],
+    seen: tuple[NDArray[np.int64], NDArray[np.int64], FloatArray, FloatArray],
+    onto: tuple[FloatArray, FloatArray],
+) -> FloatArray:
+    """Paint the paper onto the samples; gives the share of each disc that is seen."""
+    low, rows, place, rest = seen
+    paint, shine = onto
+    share = np.zeros(len(NAMES))
+    cam = hung.to_camera(body.disc_m)
+    middle = (hung.pixel(cam) - low + 0.5) * SAMPLES - 0.5
+    focal = 0.5 * (hung.camera.fx_px + hung.camera.fy_px) * SAMPLES
+    facing = np.abs(np.sum((body.disc_normal @ hung.turn.T) * cam, axis=1)) / np.linalg.norm(cam, axis=1)
+    across = np.cross(body.disc_normal, body.disc_along)
+    for i in np.flatnonzero(stuck):
+        radius = patient.stuck.size_m[i]
+        reach = 1.15 * radius * focal / cam[i, 2] + 2.0
+        u0, v0 = np.maximum(np.floor(middle[i] - reach).astype(int), 0)
+        u1, v1 = np.maximum(np.ceil(middle[i] + reach).astype(int) + 1, 0)
+        some = rows[v0:v1, u0:u1]
+        some = some[some >= 0]
+        away = place[some] - body.disc_m[i]
+        mine = np.linalg.norm(rest[some] - body.disc_rest_m[i], axis=1) < _PAPER_OVER_REST * radius
+        some, away = some[mine], away[mine]
+        angle = np.arctan2(away @ across[i], away @ body.disc_along[i])
+        wave2, wave3, phase2, phase3 = patient.stuck.cut[i]
+        edge = radius * (1.0 + wave2 * np.cos(2.0 * angle + phase2) + wave3 * np.cos(3.0 * angle + phase3))
+        sample_m = cam[i, 2] / focal
+        paper = np.clip((edge - np.linalg.norm(away, axis=1)) / sample_m + 0.5, 0.0, 1.0)
+        paint[some] += paper[:, None] * (look.paper - paint[some])
+        shine[some] *= 1.0 - paper
+        share[i] = paper.sum() * sample_m**2 / (np.pi * radius**2 * max(facing[i], 0.05))
+    return np.clip(share, 0.0, 1.0)
+
+
+def _shaded(
+    hung: Hung, look: Look, place: FloatArray, normal: FloatArray, paint: FloatArray, shine: FloatArray
+) -> FloatImage:
+    """Light (F, 3) that comes from the samples: a lamp that reaches a little round the edge, a sky, some gloss."""
+    lamp, lamp_light, sky_light = (part.astype(np.float32) for part in (look.lamp, look.lamp_light, look.sky_light))
+    toward = np.clip((normal @ lamp + np.float32(0.18)) / np.float32(1.18), 0.0, 1.0)[:, None]
+    sky = (np.float32(0.62) + np.float32(0.38) * normal[:, 2:]) * sky_light
+    half = (-hung.turn.T @ hung.shift_m).astype(np.float32) - place
+    half /= np.sqrt(np.einsum("fj,fj->f", half, half))[:, None]
+    half += lamp
+    half /= np.sqrt(np.einsum("fj,fj->f", half, half))[:, None]
+    gloss = shine * np.clip(np.einsum("fj,fj->f", normal, half), 0.0, 1.0) ** np.float32(22.0)
+    return np.asarray(paint * (toward * lamp_light + sky) + gloss[:, None] * lamp_light, dtype=np.float32)
+
+
+def _shadowed(hung: Hung, look: Look, body: Body, faces: NDArray[np.int64]) -> FloatImage:
+    """The table with the soft shadow of the hand: the skin thrown along the lamp's light onto the table top."""
+    drop = (body.point_m[:, 2] + hung.table_m) / look.lamp[2]
+    fallen = hung.to_camera(body.point_m - drop[:, None] * look.lamp)
+    small = hung.pixel(fallen) / 4.0
+    shape = (look.table.shape[0] // 4, look.table.shape[1] // 4)
+    a, b, c = (small[faces[:, i]] for i in range(3))
+    # Only what faces the lamp: every place of the shadow is then filled once.
+    lit = (b[:, 0] - a[:, 0]) * (c[:, 1] - a[:, 1]) < (b[:, 1] - a[:, 1]) * (c[:, 0] - a[:, 0])
+    mask = np.zeros(shape, dtype=np.uint8)
+    cv2.fillPoly(mask, list(np.round(small[faces[lit]] * 8.0).astype(np.int32)), 255, lineType=cv2.LINE_8, shift=3)
+    shade = cv2.GaussianBlur(mask.astype(np.float32) / 255.0, (0, 0), 2.2)
+    shade = cv2.resize(shade, (look.table.shape[1], look.table.shape[0]), interpolation=cv2.INTER_LINEAR)
+    dark = look.sky_light / (look.sky_light + look.lamp_light * look.lamp[2])
+    return look.table * (np.float32(1.0) - shade[..., None] * ((1.0 - dark) * 0.85).astype(np.float32))

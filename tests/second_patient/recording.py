@@ -1,0 +1,153 @@
+"""A recording of the second patient: a TUM folder with camera file, clicks and true values."""
+
+from __future__ import annotations
+
+import dataclasses
+import hashlib
+import json
+import shutil
+import tempfile
+from pathlib import Path
+
+import cv2
+import numpy as np
+import platformdirs
+
+from carpus.core.capture.camera_info import CAMERA_FILE, write_camera_info
+from carpus.core.capture.tum import COLOR_LIST, DEPTH_LIST, SIMULATED_REMARK
+from carpus.core.types import FloatArray, Side
+from tests.second_patient.camera import Hung, hung_camera
+from tests.second_patient.discs import NAMES
+from tests.second_patient.look import color_of, depth_of, look_of
+from tests.second_patient.motions import SECONDS, Motion, Row, motion_of
+from tests.second_patient.patient import Patient, made_patient
+from tests.second_patient.sensor import exposed, read_depth, sensor_of
+from tests.second_patient.truth import Truth, read_visible_share, truth_of, write_truth
+
+CLICKS_FILE, TRUTH_FILE = "calibration.json", "truth.h5"
+EPOCH_S = 1_720_000_000.0
+FPS = 30.0
+_CLICK_SD, _CLICK_MOST = 0.25, 0.45
+_PNG = [cv2.IMWRITE_PNG_COMPRESSION, 1, cv2.IMWRITE_PNG_STRATEGY, cv2.IMWRITE_PNG_STRATEGY_HUFFMAN_ONLY]
+
+
+@dataclasses.dataclass(frozen=True, slots=True, repr=False)
+class Take:
+    """One recording before it is rendered: ``time_s``, ``depth_time_s`` (N,) of its pictures after the first."""
+
+    row: Row
+    seed: int
+    patient: Patient
+    motion: Motion
+    hung: Hung
+    time_s: FloatArray
+    depth_time_s: FloatArray
+    truth: Truth
+
+
+def side_of(seed: int) -> Side:
+    """Sides by parity, as in the table's other rows."""
+    return "left" if seed % 2 else "right"
+
+
+def take_of(row: Row, seed: int, side: Side | None = None, seconds: float = SECONDS) -> Take:
+    """Everything about the recording of a row and a seed."""
+    rng = np.random.default_rng([seed, 2003])
+    motion = motion_of(row.motion, seed)
+    patient = made_patient(seed, side or side_of(seed), motion.at(np.zeros(1)), rigid=row.rigid)
+    hung = hung_camera(seed, patient.mirror)
+    count = int(seconds * FPS)
+    time_s = np.arange(count) / FPS + np.concatenate(([0.0], rng.uniform(-8e-4, 8e-4, count - 1)))
+    depth_time_s = time_s + float(rng.uniform(0.001, 0.007))
+    stamp_s = np.round(EPOCH_S + time_s, 6)
+    truth = truth_of(row, patient, motion, hung, time_s, stamp_s)
+    return Take(row, seed, patient, motion, hung, time_s, depth_time_s, truth)
+
+
+def radius_px(take: Take) -> FloatArray:
+    """Radius (M,) of each disc in the first picture, as if it faced the camera."""
+    radius_m = take.patient.stuck.size_m[[NAMES.index(name) for name in take.truth.protocol.markers]]
+    return np.asarray(take.truth.camera.fx_px * radius_m / take.truth.disc_position_cam_m[0, :, 2])
+
+
+def clear_px(take: Take) -> float:
+    """The least room between the edges of two discs in the first picture."""
+    middle, radius = take.truth.disc_pixel[0], radius_px(take)
+    apart = np.linalg.norm(middle[:, None] - middle[None], axis=-1) - radius[:, None] - radius[None]
+    return float(apart[~np.eye(len(middle), dtype=bool)].min())
+
+
+def clicks_px(take: Take) -> FloatArray:
+    """A person's clicks (M, 2) on the first picture: on the paper, off its middle by some of its radius."""
+    rng = np.random.default_rng([take.seed, 2111])
+    middle = take.truth.camera.distort(take.truth.disc_pixel[0])
+    off = np.clip(rng.normal(0.0, _CLICK_SD, middle.shape), -_CLICK_MOST, _CLICK_MOST)
+    return np.round(middle + off * radius_px(take)[:, None], 1)
+
+
+def recorded(take: Take, folder: Path) -> Truth:
+    """Render a take into ``folder``, which must not hold one."""
+    (folder / "rgb").mkdir(parents=True)
+    (folder / "depth").mkdir()
+    truth = take.truth
+    look = look_of(take.patient, take.hung, take.seed)
+    sensor = sensor_of(take.seed, (truth.camera.height_px, truth.camera.width_px))
+    stuck = np.isin(NAMES, truth.protocol.markers)
+    rows = [NAMES.index(name) for name in truth.protocol.markers]
+    share = np.empty_like(truth.visible_share)
+    lists: dict[str, list[str]] = {"rgb": [], "depth": []}
+    posture, later = take.motion.at(take.time_s), take.motion.at(take.depth_time_s)
+    for i in range(len(take.time_s)):
+        now, then = (_moment(every, i) for every in (posture, later))
+        clean = color_of(take.patient, take.hung, look, take.patient.body(now), stuck)
+        depth = depth_of(take.patient, take.hung, look, take.patient.body(then))
+        share[i] = clean.visible_share[rows]
+        color = exposed(sensor, clean.light, i)
+        for kind, stamp_s, picture in (
+            ("rgb", truth.timestamp_s[i], cv2.cvtColor(color, cv2.COLOR_RGB2BGR)),
+            ("depth", EPOCH_S + take.depth_time_s[i], read_depth(sensor, depth, i)),
+        ):
+            name = f"{kind}/{stamp_s:.6f}.png"
+            lists[kind].append(f"{stamp_s:.6f} {name}")
+            if not cv2.imwrite(str(folder / name), picture, _PNG):
+                raise OSError(f"{folder / name} could not be written")
+    truth = dataclasses.replace(truth, visible_share=share)
+    clicks = clicks_px(take)
+    markers = {name: [float(u), float(v)] for name, (u, v) in zip(truth.protocol.markers, clicks, strict=True)}
+    told = {"hand": truth.side, "protocol": truth.protocol.name, "markers": markers}
+    (folder / CLICKS_FILE).write_text(json.dumps(told, indent=2) + "\n", encoding="utf-8")
+    write_camera_info(folder / CAMERA_FILE, truth.camera, registered=True, mirrored=False, simulated=True)
+    for kind, title, name in (("rgb", "color images", COLOR_LIST), ("depth", "depth maps", DEPTH_LIST)):
+        text = "\n".join([f"# {title}", SIMULATED_REMARK, "# timestamp filename", *lists[kind], ""])
+        (folder / name).write_text(text, encoding="utf-8")
+    row = take.row
+    write_truth(
+        folder / TRUTH_FILE,
+        truth,
+        clicks,
+        {"row": row.name, "motion": row.motion, "seed": take.seed, "rigid": row.rigid, "side": truth.side},
+    )
+    return truth
+
+
+def _moment(posture: object, i: int) -> object:
+    return type(posture)(*(getattr(posture, name)[i : i + 1] for name in posture.__slots__))  # type: ignore[attr-defined]
+
+
+def kept_recording(row: Row, seed: int, seconds: float = SECONDS) -> tuple[Path, Truth]:
+    """Folder and truth of a recording, rendered only when the user's cache does not hold it as it would be now."""
+    source = b"".join(path.read_bytes() for path in sorted(Path(__file__).parent.glob("[!_t]*.py")))
+    key = hashlib.sha256(source + repr((row, seed, seconds)).encode()).hexdigest()[:20]
+    root = Path(platformdirs.user_cache_dir("carpus", appauthor=False)) / "second_patient"
+    folder = root / key
+    take = take_of(row, seed, seconds=seconds)
+    if (folder / TRUTH_FILE).exists():
+        return folder, dataclasses.replace(take.truth, visible_share=read_visible_share(folder / TRUTH_FILE))
+    root.mkdir(parents=True, exist_ok=True)
+    part = Path(tempfile.mkdtemp(prefix=f"{key}.", dir=root))
+    try:
+        truth = recorded(take, part / "take")
+        (part / "take").rename(folder)
+    finally:
+        shutil.rmtree(part, ignore_errors=True)
+    return folder, truth

@@ -1,0 +1,135 @@
+"""Files as every version wrote them, kept: what an old Carpus stored, this one reads, value by value.
+
+A new format version adds its own files here, written by the program of that version; those that are here never change.
+"""
+
+from __future__ import annotations
+
+import lzma
+import sqlite3
+from contextlib import closing
+from pathlib import Path
+
+import h5py
+import numpy as np
+import pytest
+
+from carpus.core.errors import RegisterUnreadable, SessionUnreadable
+from carpus.core.hand.protocols import HAND21, WRIST6, MarkerProtocol
+from carpus.core.session import schema
+from carpus.core.session.reader import read_detections, read_raw, read_session, verify
+from carpus.core.session.register import MIGRATIONS, REGISTER_FILE, PatientRegister
+from carpus.core.session.values import RawPictures
+from tests.session.samples import CAMERA, time_of
+
+GOLDEN = Path(__file__).parent / "golden"
+ROWS = 12
+
+
+def unpacked(name: str, folder: Path) -> Path:
+    path = folder / name
+    path.write_bytes(lzma.decompress((GOLDEN / f"{name}.xz").read_bytes()))
+    return path
+
+
+def test_every_version_has_its_files() -> None:
+    have = {path.name for path in GOLDEN.iterdir()}
+    for version in range(1, schema.FORMAT_VERSION + 1):
+        assert {f"v{version}-wrist6.h5.xz", f"v{version}-hand21.h5.xz"} <= have
+
+
+@pytest.mark.parametrize("version", range(1, schema.FORMAT_VERSION + 1))
+@pytest.mark.parametrize("protocol", [WRIST6, HAND21], ids=lambda protocol: protocol.name)
+def test_an_old_session_is_read_value_by_value(tmp_path: Path, version: int, protocol: MarkerProtocol) -> None:
+    path = unpacked(f"v{version}-{protocol.name}.h5", tmp_path)
+    before = path.read_bytes()
+    session = read_session(path)
+    assert (session.complete, len(session), session.header.protocol) == (True, ROWS, protocol)
+    assert session.timestamp_s.tolist() == [time_of(row) for row in range(ROWS)]
+    assert (session.header.subject_id, session.header.hand) == ("Linden 42", "left")
+    assert session.header.recording_id
+    assert session.header.created.startswith("2026-11-13T15:30")
+    assert session.camera == CAMERA
+    assert [event.text for event in session.events] == ["Grüße"]
+    assert session.smoothed is not None
+    table, pictures = read_detections(path), list(read_raw(path))
+    with h5py.File(path, "r") as file:  # read by the library alone, by the paths of that version
+        stored = {
+            "/frames/status": session.status,
+            "/wrist/position": session.motion.position_m,
+            "/wrist/rotation": session.motion.rotation_w2_w0,
+            "/wrist/angular_velocity": session.motion.angular_velocity_rad_s,
+            "/wrist/angles": session.motion.angles_rad,
+            "/wrist/angles_sd": session.motion.angles_sd_rad,
+            "/smoothed/wrist/angles": session.smoothed.angles_rad,
+            "/markers/position_camera": session.markers.position_cam_m,
+            "/markers/measured": session.markers.measured_px,
+            "/quality/dropped_frames": session.quality.dropped_before,
+            "/quality/nis": session.quality.nis,
+            "/calibration/clicks": session.calibration.clicks.pixel,
+            "/calibration/marker_position": session.calibration.marker_position_w0_m,
+            "/calibration/rotation": session.calibration.rotation_w0_cam,
+            "/calibration/translation": session.calibration.translation_w0_cam_m,
+            "/detections/frame": table.frame,
+            "/detections/pixel": table.blobs.pixel,
+            "/detections/depth_sd": table.blobs.depth_sd_m,
+        }
+        if protocol is HAND21:
+            stored["/joints/angles"] = session.motion.joint_angles_rad
+            stored["/joints/angles_sd"] = session.motion.joint_angles_sd_rad
+            stored["/joints/position"] = session.motion.joint_position_m
+        for place, values in stored.items():
+            assert file[place].shape[0] > 0
+            np.testing.assert_array_equal(values, file[place][()], err_msg=place)
+        assert np.isfinite(file["/wrist/angles"][0]).all()
+    assert pictures == [RawPictures(bytes([row]) * 20, b"d" * row) for row in range(ROWS)]
+    assert verify(path).sealed == (version > 1)
+    assert path.read_bytes() == before
+
+
+def test_a_newer_session_is_refused_with_a_sentence(tmp_path: Path) -> None:
+    path = unpacked(f"v{schema.FORMAT_VERSION}-wrist6.h5", tmp_path)
+    with h5py.File(path, "r+") as file:
+        file.attrs["format_version"] = schema.FORMAT_VERSION + 1
+    with pytest.raises(SessionUnreadable, match=f"format version {schema.FORMAT_VERSION + 1}, this Carpus reads up to"):
+        read_session(path)
+
+
+def test_the_first_register_is_migrated_and_a_copy_kept(tmp_path: Path) -> None:
+    unpacked("v1-patients.sqlite3", tmp_path).rename(tmp_path / REGISTER_FILE)
+    (tmp_path / "sessions" / "Linden-42").mkdir(parents=True)
+    unpacked("v1-wrist6.h5", tmp_path).rename(tmp_path / "sessions" / "Linden-42" / "s.h5")
+    with PatientRegister(tmp_path) as register:
+        first, second = register.patients()
+        assert (first.entry.pseudonym, first.entry.name, first.entry.note) == ("Linden 42", "A Name", "a note")
+        assert (first.entry.dominance, first.entry.age_band, first.session_count) == ("right", "40-49", 1)
+        assert second.entry.pseudonym == "Heron 17"
+    copy = tmp_path / "patients.version1.sqlite3"
+    assert copy.stat().st_mode & 0o777 == 0o600
+    with closing(sqlite3.connect(copy)) as database:
+        assert database.execute("PRAGMA user_version").fetchone() == (1,)
+        assert database.execute("SELECT COUNT(*) FROM patient").fetchone() == (2,)
+    with closing(sqlite3.connect(tmp_path / REGISTER_FILE)) as database:
+        assert database.execute("PRAGMA user_version").fetchone() == (len(MIGRATIONS),)
+        database.execute(f"PRAGMA user_version = {len(MIGRATIONS) + 1}")
+        database.commit()
+    with pytest.raises(RegisterUnreadable, match=f"version {len(MIGRATIONS) + 1}, this Carpus reads up to"):
+        PatientRegister(tmp_path)
+
+
+def test_readings_on_the_back_of_the_hand_are_read_value_by_value(tmp_path: Path) -> None:
+    """A session of version 2 with ``/surface``, which the first of that version did not have."""
+    table = read_detections(unpacked("v2-surface.h5", tmp_path))
+    for row in range(ROWS):
+        count = row % 4 * 3
+        blobs, steps = table.of_frame(row), np.arange(count)
+        for kept, u, v, depth_m in (
+            (blobs.surface, 100.0 + row + steps, 200.0 + 2 * steps, 0.6),
+            (blobs.fingers, 300.0 + row + steps, 50.0 + steps, 0.7),
+        ):
+            if not count:
+                assert kept is None or not len(kept.depth_m)
+                continue
+            assert kept is not None
+            np.testing.assert_array_equal(kept.pixel, np.column_stack([u, v]))
+            np.testing.assert_allclose(kept.depth_m, depth_m + 0.001 * row + 0.0001 * steps, atol=1e-7)

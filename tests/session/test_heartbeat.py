@@ -1,0 +1,257 @@
+"""A session that is being recorded is left alone where file locks do not work; one whose folder goes away goes on."""
+
+from __future__ import annotations
+
+import json
+import os
+import shutil
+import signal
+import subprocess
+import sys
+import time
+import uuid
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from carpus.core.errors import CarpusFault, DiskFull, FolderGone, OutputNotWritable, RecordingMoved
+from carpus.core.session import heartbeat, recovery, writer
+from carpus.core.session.heartbeat import BEAT_S, alive_path, still_beating
+from carpus.core.session.reader import read_raw, read_session, verify
+from carpus.core.session.recovery import recover_folder
+from carpus.core.session.values import RawPictures
+from carpus.core.session.writer import Fallback, SessionWriter
+from tests.session.samples import CAMERA, make_calibration, make_frame, make_header, time_of
+
+ROOT = Path(__file__).parents[2]
+
+
+def begun(path: Path, fallback: Fallback | None = None, *, raw: bool = False) -> SessionWriter:
+    unit = 1e-3 if raw else None
+    header = make_header(session_id=uuid.uuid4())
+    return SessionWriter.create(
+        path, header, CAMERA, make_calibration(), raw_depth_unit_m=unit, clock=lambda: 0.0, fallback=fallback
+    )
+
+
+def pictures(row: int) -> RawPictures:
+    return RawPictures(bytes([row % 256]) * 40, b"depth" * row)
+
+
+# --- the lock ------------------------------------------------------------------------------------------------
+@pytest.fixture
+def without_locks(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A disk on which file locks say nothing, as on many network shares."""
+    monkeypatch.setattr(recovery, "is_being_written", lambda _: False)
+
+
+@pytest.mark.usefixtures("without_locks")
+def test_a_running_session_is_not_finished_by_another(tmp_path: Path) -> None:
+    session = begun(tmp_path / "s.h5")
+    session.append(make_frame(0))
+    session.flush()
+    assert alive_path(session.part_path).stat().st_mode & 0o777 == 0o600
+    found = recover_folder(tmp_path)
+    assert (found.recovered, found.busy) == ((), (session.part_path,))
+    session.append(make_frame(1))
+    session.close()
+    assert [path.name for path in tmp_path.iterdir()] == ["s.h5"]
+    assert len(read_session(tmp_path / "s.h5")) == 2
+
+
+@pytest.mark.usefixtures("without_locks")
+def test_a_killed_recorder_is_no_running_one(tmp_path: Path) -> None:
+    code = (
+        "import sys, time\nfrom pathlib import Path\n"
+        "from tests.session.test_heartbeat import begun, make_frame\n"
+        "session = begun(Path(sys.argv[1]))\nsession.append(make_frame(0))\nsession.flush()\n"
+        "print('begun', flush=True)\ntime.sleep(60)\n"
+    )
+    command = [sys.executable, "-c", code, str(tmp_path / "s.h5")]
+    with subprocess.Popen(command, cwd=ROOT, stdout=subprocess.PIPE, text=True) as recorder:
+        assert recorder.stdout is not None
+        assert recorder.stdout.readline() == "begun\n"
+        assert recover_folder(tmp_path).recovered == ()  # another process, alive
+        recorder.send_signal(signal.SIGKILL)
+    assert recover_folder(tmp_path).recovered == (tmp_path / "s.h5",)
+    assert [path.name for path in tmp_path.iterdir()] == ["s.h5"]
+
+
+def elsewhere(part: Path, beat: int) -> None:
+    """What a recorder on another computer leaves, whose clock is nobody's business."""
+    part.touch()
+    said = {"host": "another computer", "process": 7, "began": "1", "beat": beat}
+    alive_path(part).write_text(json.dumps(said))
+    os.utime(alive_path(part), (0, 0))
+
+
+def test_another_computer_is_watched(tmp_path: Path) -> None:
+    running, ended = tmp_path / "a.h5.00000000.part", tmp_path / "b.h5.00000000.part"
+    elsewhere(running, 1)
+    elsewhere(ended, 1)
+    waits: list[float] = []
+
+    def wait(time_s: float) -> None:
+        waits.append(time_s)
+        if len(waits) == 3:
+            elsewhere(running, 2)
+
+    assert still_beating([running, ended], wait) == {running}
+    assert 4.0 <= sum(waits) <= 5.0
+
+
+@pytest.mark.parametrize("content", ["", "[" * 5000, "{}", "\0" * 50, '{"host": 1, "process": "x", "began": []}'])
+def test_a_heartbeat_that_makes_no_sense_is_watched_too(tmp_path: Path, content: str) -> None:
+    part = tmp_path / "a.h5.00000000.part"
+    part.touch()
+    alive_path(part).write_text(content)
+    assert still_beating([part], lambda _: None) == set()
+
+
+def test_it_beats_by_itself(tmp_path: Path) -> None:
+    session = begun(tmp_path / "s.h5")
+    first = alive_path(session.part_path).read_bytes()
+    end_s = time.monotonic() + 20 * BEAT_S
+    while alive_path(session.part_path).read_bytes() == first:  # nothing is recorded: the recording is paused
+        assert time.monotonic() < end_s
+        time.sleep(0.02)
+    session.discard()
+    assert list(tmp_path.iterdir()) == []
+
+
+# --- the folder goes away ------------------------------------------------------------------------------------
+def removed(folder: Path) -> None:
+    shutil.rmtree(folder)
+
+
+def renamed(folder: Path) -> None:
+    folder.rename(folder.with_name("elsewhere"))
+
+
+def replaced(folder: Path) -> None:
+    renamed(folder)
+    folder.mkdir()
+
+
+@pytest.mark.parametrize("gone", [removed, renamed, replaced])
+@pytest.mark.parametrize("raw", [False, True])
+def test_a_recording_goes_on_when_its_folder_goes_away(tmp_path: Path, gone: Callable[[Path], None], raw: bool) -> None:
+    home, other = tmp_path / "home", tmp_path / "other"
+    home.mkdir()
+    other.mkdir()
+    told: list[CarpusFault] = []
+    session = begun(home / "s.h5", Fallback(lambda: other, told.append), raw=raw)
+    for row in range(20):
+        session.append(make_frame(row), pictures(row) if raw else None)
+    session.flush()
+    for row in range(20, 25):  # not yet on any disk
+        session.append(make_frame(row), pictures(row) if raw else None)
+    gone(home)
+    start_s = time.monotonic()
+    row = 25
+    while not told:
+        assert time.monotonic() - start_s < 10 * BEAT_S
+        session.append(make_frame(row), pictures(row) if raw else None)
+        row += 1
+        time.sleep(0.005)
+    (fault,) = told
+    assert isinstance(fault, RecordingMoved)
+    assert fault.subject == str(other / "s.h5")
+    for more in range(row, row + 10):
+        session.append(make_frame(more), pictures(more) if raw else None)
+    session.add_event(time_of(3), "note", "after the move")
+    session.close()
+    assert session.path == other / "s.h5"
+    result = read_session(session.path)
+    assert result.timestamp_s.tolist() == [time_of(number) for number in range(row + 10)]
+    for number in (0, 19, 20, 24, 25, row + 9):
+        np.testing.assert_array_equal(result.motion.angles_rad[number], make_frame(number).angles_rad)
+    assert verify(session.path).sealed
+    if raw:
+        assert list(read_raw(session.path)) == [pictures(number) for number in range(row + 10)]
+    assert [path.name for path in other.iterdir()] == ["s.h5"]
+
+
+def test_what_cannot_be_read_any_more_stays_behind_and_is_named(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    home, other = tmp_path / "home", tmp_path / "other"
+    home.mkdir()
+    other.mkdir()
+    told: list[CarpusFault] = []
+    session = begun(home / "s.h5", Fallback(lambda: other, told.append))
+    for row in range(20):
+        session.append(make_frame(row))
+    session.flush()
+    session.append(make_frame(20))
+
+    def unplugged(*_: object) -> None:
+        raise OSError(5, "Input/output error")
+
+    monkeypatch.setattr(writer, "copy_open_file", unplugged)
+    home.rename(tmp_path / "unplugged")
+    session._heart.trouble = FolderGone(home)
+    session.append(make_frame(21))
+    session.close()
+    (fault,) = told
+    assert "20 rows" in fault.detail
+    result = read_session(other / "s.h5")
+    assert result.timestamp_s.tolist() == [time_of(20), time_of(21)]
+    assert [event.kind for event in result.events] == ["moved"]
+    assert verify(other / "s.h5").sealed
+    heartbeat.remove(next((tmp_path / "unplugged").glob("*.part")))
+    (target,) = recover_folder(tmp_path / "unplugged").recovered  # the disk comes back
+    assert len(read_session(target)) == 20
+    assert read_session(target).header.session_id != result.header.session_id
+
+
+def test_a_disk_that_cannot_be_written_any_more(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    home, other = tmp_path / "home", tmp_path / "other"
+    home.mkdir()
+    other.mkdir()
+    told: list[CarpusFault] = []
+    session = begun(home / "s.h5", Fallback(lambda: other, told.append))
+    for row in range(20):
+        session.append(make_frame(row))
+    session.flush()
+    real = writer.reserve
+
+    def read_only(descriptor: int, path: Path, begin: int, length: int) -> None:
+        if path.parent == home:
+            raise OutputNotWritable(path, "Read-only file system")
+        real(descriptor, path, begin, length)
+
+    monkeypatch.setattr(writer, "reserve", read_only)
+    session.append(make_frame(20))
+    session.close()
+    assert len(told) == 1
+    assert len(read_session(other / "s.h5")) == 21
+    assert verify(other / "s.h5").sealed
+
+
+def test_without_another_place_it_is_told(tmp_path: Path) -> None:
+    home = tmp_path / "home"
+    home.mkdir()
+    session = begun(home / "s.h5")
+    session.append(make_frame(0))
+    shutil.rmtree(home)
+    with pytest.raises(FolderGone):
+        session.close()
+    session.abandon()
+
+
+def test_a_full_disk_is_no_reason_to_move(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    told: list[CarpusFault] = []
+    session = begun(tmp_path / "s.h5", Fallback(lambda: tmp_path, told.append))
+    session.append(make_frame(0))
+
+    def full(_: int, path: Path, *__: object) -> None:
+        raise DiskFull(path)
+
+    monkeypatch.setattr(writer, "reserve", full)
+    with pytest.raises(DiskFull):
+        session.flush()
+    session.abandon()
+    assert told == []

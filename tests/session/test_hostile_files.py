@@ -1,0 +1,327 @@
+"""Files that lie: what a session file claims or points at never reaches this program's memory, time or other files."""
+
+from __future__ import annotations
+
+import os
+import resource
+import subprocess
+import sys
+import time
+import uuid
+from collections.abc import Callable
+from pathlib import Path
+
+import h5py
+import numpy as np
+import pytest
+
+from carpus.core.errors import SessionUnreadable
+from carpus.core.hand.protocols import HAND21, WRIST6
+from carpus.core.session import reader, reading_process
+from carpus.core.session.reader import ReadingProcess, read_detections, read_outline, read_raw, read_session
+from carpus.core.session.values import RawPictures, Session
+from carpus.core.session.writer import SessionWriter
+from tests.session.samples import CAMERA, make_calibration, make_frame, make_header
+
+ROWS = 40
+
+
+def stored(path: Path, *, raw: bool = False, protocol: object = WRIST6) -> Path:
+    """A sound session."""
+    assert protocol in (WRIST6, HAND21)
+    chosen = HAND21 if protocol == HAND21 else WRIST6
+    unit = 1e-3 if raw else None
+    header = make_header(chosen, session_id=uuid.uuid4())
+    with SessionWriter.create(path, header, CAMERA, make_calibration(chosen), raw_depth_unit_m=unit) as writer:
+        for row in range(ROWS):
+            writer.append(make_frame(row, chosen), RawPictures(b"c" * 50, b"d" * 30) if raw else None)
+        writer.add_event(make_frame(1).timestamp_s, "note", "x")
+    return path
+
+
+def replaced(path: Path, place: str, make: Callable[[h5py.File], None]) -> Path:
+    with h5py.File(path, "r+") as file:
+        attributes = dict(file[place].attrs) if place in file else {}
+        del file[place]
+        make(file)
+        if place in file and isinstance(file.get(place, getlink=True), h5py.HardLink):
+            for name, value in attributes.items():
+                file[place].attrs[name] = value
+    return path
+
+
+def test_a_link_into_another_file_is_not_followed(tmp_path: Path) -> None:
+    other = stored(tmp_path / "other.h5")
+    path = stored(tmp_path / "s.h5")
+
+    def link(file: h5py.File) -> None:
+        file["/wrist/angles"] = h5py.ExternalLink(str(other), "/wrist/angles")
+
+    with pytest.raises(SessionUnreadable, match="points out of its place"):
+        read_session(replaced(path, "/wrist/angles", link))
+    with pytest.raises(SessionUnreadable):
+        read_outline(path)
+
+
+def test_a_soft_link_is_not_followed(tmp_path: Path) -> None:
+    path = stored(tmp_path / "s.h5")
+
+    def link(file: h5py.File) -> None:
+        file["/wrist/angles"] = h5py.SoftLink("/wrist/position")
+
+    with pytest.raises(SessionUnreadable, match="points out of its place"):
+        read_session(replaced(path, "/wrist/angles", link))
+
+
+def test_the_bytes_of_another_file_are_no_angles(tmp_path: Path) -> None:
+    secret = tmp_path / "secret"
+    secret.write_bytes(b"private!" * 3 * ROWS)
+    path = stored(tmp_path / "s.h5")
+
+    def outside(file: h5py.File) -> None:
+        file.create_dataset("/wrist/angles", (ROWS, 3), "f8", external=[(str(secret), 0, 24 * ROWS)])
+
+    with pytest.raises(SessionUnreadable, match="in another file"):
+        read_session(replaced(path, "/wrist/angles", outside))
+
+
+def test_a_pipe_behind_external_storage_is_never_waited_for(tmp_path: Path) -> None:
+    pipe = tmp_path / "pipe"
+    os.mkfifo(pipe)
+    path = stored(tmp_path / "s.h5")
+
+    def outside(file: h5py.File) -> None:
+        file.create_dataset("/wrist/angles", (ROWS, 3), "f8", external=[(str(pipe), 0, 24 * ROWS)])
+
+    start_s = time.monotonic()
+    with pytest.raises(SessionUnreadable, match="in another file"):
+        read_session(replaced(path, "/wrist/angles", outside))
+    with pytest.raises(SessionUnreadable, match="no such file"):
+        read_session(pipe)
+    assert time.monotonic() - start_s < 10.0
+
+
+def test_a_virtual_dataset_is_refused(tmp_path: Path) -> None:
+    other = stored(tmp_path / "other.h5")
+    path = stored(tmp_path / "s.h5")
+
+    def virtual(file: h5py.File) -> None:
+        layout = h5py.VirtualLayout((ROWS, 3), "f8")
+        layout[:] = h5py.VirtualSource(str(other), "/wrist/angles", (ROWS, 3))
+        file.create_virtual_dataset("/wrist/angles", layout)
+
+    with pytest.raises(SessionUnreadable, match="in another file"):
+        read_session(replaced(path, "/wrist/angles", virtual))
+
+
+def test_one_dataset_under_two_names_is_refused(tmp_path: Path) -> None:
+    path = stored(tmp_path / "s.h5")
+
+    def twice(file: h5py.File) -> None:
+        file["/wrist/angles"] = file["/wrist/position"]
+
+    with pytest.raises(SessionUnreadable, match="two names"):
+        read_session(replaced(path, "/wrist/angles", twice))
+
+
+def test_a_huge_shape_costs_no_memory(tmp_path: Path) -> None:
+    path = stored(tmp_path / "s.h5")
+
+    def huge(file: h5py.File) -> None:
+        file.create_dataset("/wrist/angles", (50_000_000, 3), "f8", maxshape=(None, 3), chunks=(1024, 3))
+
+    replaced(path, "/wrist/angles", huge)
+    before = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
+    with pytest.raises(SessionUnreadable, match="claims 1200000000 bytes"):
+        read_session(path)
+    assert resource.getrusage(resource.RUSAGE_SELF).ru_maxrss - before < 100_000  # kB
+
+
+def test_a_packed_file_cannot_unpack_itself_into_memory(tmp_path: Path) -> None:
+    path = stored(tmp_path / "s.h5")
+
+    def packed(file: h5py.File) -> None:
+        file.create_dataset("/wrist/angles", data=np.zeros((ROWS, 3)), compression="gzip")
+
+    with pytest.raises(SessionUnreadable, match="is packed"):
+        read_session(replaced(path, "/wrist/angles", packed))
+
+
+def group(file: h5py.File) -> None:
+    file.create_group("/wrist/angles")
+
+
+def scalar(file: h5py.File) -> None:
+    file["/wrist/angles"] = 1.0
+
+
+def texts(file: h5py.File) -> None:
+    file["/wrist/angles"] = ["x"] * ROWS
+
+
+def empty(file: h5py.File) -> None:
+    file["/wrist/angles"] = h5py.Empty("f8")
+
+
+def compound(file: h5py.File) -> None:
+    file["/wrist/angles"] = np.zeros((ROWS, 3), [("a", "f4"), ("b", "f4")])
+
+
+@pytest.mark.parametrize("other", [group, scalar, texts, empty, compound])
+def test_something_else_in_the_place_of_values(tmp_path: Path, other: Callable[[h5py.File], None]) -> None:
+    path = replaced(stored(tmp_path / "s.h5"), "/wrist/angles", other)
+    with pytest.raises(SessionUnreadable, match="/wrist/angles"):
+        read_outline(path)
+    with pytest.raises(SessionUnreadable, match="/wrist/angles"):
+        read_session(path)
+
+
+def changed(path: Path, place: str, rows: object, value: object) -> Path:
+    with h5py.File(path, "r+") as file:
+        file[place][rows] = value
+    return path
+
+
+@pytest.mark.parametrize(
+    ("place", "rows", "value"),
+    [
+        ("/frames/timestamp", 7, 0.0),
+        ("/frames/timestamp", slice(None), 1.0),
+        ("/frames/timestamp", 7, np.nan),
+        ("/frames/timestamp", ROWS - 1, 1e300),
+        ("/frames/status", 3, 200),
+        ("/wrist/angles", 3, 1e12),
+        ("/wrist/angles", 3, np.inf),
+        ("/wrist/angles_sd", 3, -0.1),
+        ("/markers/position_camera", 3, 1e9),
+        ("/calibration/translation", 0, np.inf),
+        ("/events/time", 0, np.nan),
+    ],
+)
+def test_values_that_nothing_measures(tmp_path: Path, place: str, rows: object, value: object) -> None:
+    path = changed(stored(tmp_path / "s.h5"), place, rows, value)
+    with pytest.raises(SessionUnreadable, match="damaged"):
+        read_session(path)
+
+
+@pytest.mark.parametrize(
+    ("name", "value"),
+    [
+        ("subject_id", "a\nb"),
+        ("subject_id", "x" * 10_000),
+        ("created", "yesterday"),
+        ("created", "2026-11-13T15:30:00"),
+        ("parameters", "[" * 900 + "]" * 900),
+        ("parameters", "[" * 100_000),
+        ("parameters", "{"),
+        ("hand", "both"),
+        ("complete", "perhaps\ud800".encode("utf-8", "surrogatepass")),
+        ("format_version", 99),
+        ("session_id", ""),
+    ],
+)
+def test_a_header_that_makes_no_sense(tmp_path: Path, name: str, value: object) -> None:
+    path = stored(tmp_path / "s.h5")
+    with h5py.File(path, "r+") as file:
+        file.attrs[name] = value
+    if name == "complete":
+        read_session(path)  # any text is true; nothing breaks
+        return
+    with pytest.raises(SessionUnreadable):
+        read_outline(path)
+
+
+def test_a_flipped_bit_is_found_when_it_is_read(tmp_path: Path) -> None:
+    path = stored(tmp_path / "s.h5")
+    with h5py.File(path, "r") as file:
+        angles = file["/wrist/angles"]
+        at = angles.id.get_chunk_info(0).byte_offset
+        assert angles.fletcher32
+    data = bytearray(path.read_bytes())
+    data[at + 10] ^= 0x04
+    path.write_bytes(data)
+    with pytest.raises(SessionUnreadable, match="damaged"):
+        read_session(path)
+
+
+def test_where_pictures_end_is_checked(tmp_path: Path) -> None:
+    path = stored(tmp_path / "s.h5", raw=True)
+    assert len(list(read_raw(path))) == ROWS
+    changed(path, "/raw/color_end", 5, 1 << 60)
+    with pytest.raises(SessionUnreadable, match="does not fit"):
+        list(read_raw(path))
+
+
+def sleepless(path: Path) -> None:
+    while True:
+        pass
+
+
+def greedy(path: Path) -> int:
+    return len(bytearray(3_000_000_000))
+
+
+def dying(path: Path) -> None:
+    os.kill(os.getpid(), 11)
+
+
+@pytest.fixture
+def another(monkeypatch: pytest.MonkeyPatch) -> ReadingProcess:
+    """A reading process of this test's own that has more questions; ended with the test."""
+    own = ReadingProcess()
+    monkeypatch.setattr(
+        reading_process,
+        "_questions",
+        lambda real=reading_process._questions: real() | {"loop": sleepless, "greed": greedy, "die": dying},
+    )
+    monkeypatch.setattr(reader, "_may_fork", lambda: True)  # a new process would not know these questions
+    return own
+
+
+@pytest.mark.parametrize(("name", "said"), [("loop", "to its end"), ("die", "to its end"), ("greed", "more memory")])
+def test_what_a_file_does_to_its_reader_ends_there(
+    tmp_path: Path, another: ReadingProcess, name: str, said: str
+) -> None:
+    """A reader that loops for ever, dies, or asks for 3 GB: told as a damaged file, and the next file is read."""
+    path = stored(tmp_path / "s.h5")
+    start_s = time.monotonic()
+    with pytest.raises(SessionUnreadable, match=said):
+        another.ask(name, path)
+    assert time.monotonic() - start_s < 20.0  # 1.2 s of a processor's time, on a computer with other work
+    read = another.ask("session", path)
+    assert isinstance(read, Session)
+    assert len(read) == ROWS
+    another.end()
+
+
+def test_one_process_serves_many_files(tmp_path: Path) -> None:
+    own = ReadingProcess()
+    paths = [stored(tmp_path / f"{number}.h5") for number in range(5)]
+    seen = set()
+    for path in paths:
+        own.ask("outline", path)
+        seen.add(own._process.pid)
+    own.end()
+    assert len(seen) == 1
+
+
+def test_what_is_read_cannot_be_changed(tmp_path: Path) -> None:
+    session = read_session(stored(tmp_path / "s.h5"))
+    for values in (session.timestamp_s, session.motion.angles_rad, session.calibration.marker_position_w0_m):
+        with pytest.raises(ValueError, match="read-only"):
+            values[0] = 0.0
+    assert not read_detections(session.path).blobs.pixel.flags.writeable
+
+
+def test_a_script_without_a_main_guard_can_read(tmp_path: Path) -> None:
+    """As researchers write them; a thread makes a copy of the process impossible, so a new one is started."""
+    script = tmp_path / "script.py"
+    script.write_text(
+        "import sys, threading\nfrom pathlib import Path\nfrom carpus.core.session.reader import read_session\n"
+        "print('run')\nhold = threading.Event()\nthreading.Thread(target=hold.wait, daemon=True).start()\n"
+        "print(len(read_session(Path(sys.argv[1]))))\nhold.set()\n"
+    )
+    path = stored(tmp_path / "s.h5")
+    command = [sys.executable, str(script), str(path)]
+    done = subprocess.run(command, capture_output=True, text=True, check=False, timeout=120)
+    assert (done.returncode, done.stdout.split(), done.stderr) == (0, ["run", str(ROWS)], "")

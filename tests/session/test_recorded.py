@@ -1,0 +1,123 @@
+"""When the hand moved, and which recording it was: told by the file, whoever tracks it, however often."""
+
+from __future__ import annotations
+
+import contextlib
+import sqlite3
+import uuid
+from datetime import UTC, datetime, timedelta
+from pathlib import Path
+
+import h5py
+import pytest
+
+from carpus.core.dates import iso, time_of_day
+from carpus.core.hand.protocols import WRIST6
+from carpus.core.session.reader import read_outline, read_session
+from carpus.core.session.register import REGISTER_FILE, PatientEntry, PatientRegister, newest_results
+from carpus.core.session.values import new_header
+from carpus.core.session.writer import SessionWriter
+from tests.session.samples import CAMERA, make_calibration, make_frame, time_of
+
+MOVED = datetime(2023, 4, 5, 14, 30, tzinfo=UTC)
+TRACKED = datetime(2026, 11, 22, 9, 0, tzinfo=UTC)
+
+
+def write(path: Path, tracked: datetime = TRACKED, recorded: datetime = MOVED, recording: str = "") -> Path:
+    header = new_header(
+        hand="right",
+        protocol=WRIST6,
+        software_version="0.1.0",
+        subject_id="Linden 42",
+        exercise="WRIST_FE",
+        now=tracked,
+        recorded=recorded.isoformat(),
+        recording_id=recording,
+    )
+    path.parent.mkdir(parents=True, exist_ok=True)
+    with SessionWriter.create(path, header, CAMERA, make_calibration()) as session:
+        for row in range(4):
+            session.append(make_frame(row))
+    return path
+
+
+def test_the_day_is_that_of_the_movement(tmp_path: Path) -> None:
+    recording = str(uuid.uuid4())
+    header = read_session(write(tmp_path / "s.h5", recording=recording)).header
+    assert header.when == MOVED
+    assert datetime.fromisoformat(header.created) == TRACKED
+    assert header.recording_id == recording
+    with h5py.File(tmp_path / "s.h5") as file:
+        assert file.attrs["format_version"] == 2
+        assert datetime.fromisoformat(file.attrs["recorded"]) == MOVED
+        assert file.attrs["recording_id"] == recording
+
+
+def test_a_session_of_its_own_begins_a_recording(tmp_path: Path) -> None:
+    header = read_session(write(tmp_path / "s.h5")).header
+    assert uuid.UUID(header.recording_id) == uuid.UUID(header.session_id)
+
+
+def to_version_1(path: Path, origin: str = "", camera_clock: bool = False) -> Path:
+    with h5py.File(path, "r+") as file:
+        file.attrs.modify("format_version", 1)
+        del file.attrs["recorded"], file.attrs["recording_id"]
+        file.attrs.modify("origin", origin)
+        del file["/wrist/w0_turn"]
+        if camera_clock:
+            file["/frames/timestamp"][:] -= time_of(0) - 5.0
+    return path
+
+
+def test_an_old_file_is_read_and_says_what_it_can(tmp_path: Path) -> None:
+    first = read_outline(to_version_1(write(tmp_path / "a.h5"))).header
+    assert first.when.timestamp() == pytest.approx(time_of(0), abs=1.0), "its pictures' times count from 1970"
+    assert first.recording_id == first.session_id
+    again = read_outline(to_version_1(write(tmp_path / "b.h5"), origin=first.session_id)).header
+    assert again.recording_id == first.session_id
+    by_camera = read_outline(to_version_1(write(tmp_path / "c.h5"), camera_clock=True)).header
+    assert by_camera.when == TRACKED
+
+
+def test_a_camera_s_own_clock_is_no_date() -> None:
+    assert time_of_day(12.25) is None
+    assert time_of_day(float("nan")) is None
+    assert time_of_day(datetime.now(UTC).timestamp() + 7 * 86400.0) is None
+    assert time_of_day(MOVED.timestamp()) == MOVED
+    assert datetime.fromisoformat(iso(MOVED)) == MOVED
+
+
+def test_a_recording_counts_once_by_its_newest_result(tmp_path: Path) -> None:
+    with PatientRegister(tmp_path) as register:
+        patient = register.add(PatientEntry("Linden 42", "right"))
+        recording = str(uuid.uuid4())
+        folder = register.sessions_folder / "Linden-42"
+        for number, tracked in enumerate((TRACKED, TRACKED + timedelta(days=9), TRACKED + timedelta(days=2))):
+            register.enter_session(write(folder / f"{number}.h5", tracked, recording=recording), patient)
+        other = write(folder / "other.h5", TRACKED - timedelta(days=400), MOVED + timedelta(days=7))
+        register.enter_session(other, patient)
+        record = register.patient(patient)
+        assert (record.session_count, record.result_count) == (2, 4)
+        assert record.last_session == MOVED + timedelta(days=7), "the last movement, not the last tracking"
+        kept = newest_results(register.sessions(patient))
+        assert [entry.path.name for entry in kept] == ["other.h5", "1.h5"]
+        assert [entry.recorded for entry in kept] == [MOVED + timedelta(days=7), MOVED]
+        register.rebuild_from_sessions()
+        assert register.patient(patient).session_count == 2
+
+
+def test_a_register_of_before_learns_of_recordings(tmp_path: Path) -> None:
+    with PatientRegister(tmp_path) as register:
+        patient = register.add(PatientEntry("Linden 42", "right"))
+        register.enter_session(write(register.sessions_folder / "s.h5"), patient)
+    with contextlib.closing(sqlite3.connect(tmp_path / REGISTER_FILE)) as database:
+        for column in ("recording_id", "recorded", "recorded_s", "simulated"):
+            database.execute(f"ALTER TABLE session DROP COLUMN {column}")
+        for table in ("made", "archived", "erasing"):
+            database.execute(f"DROP TABLE {table}")
+        database.execute("PRAGMA user_version = 2")
+        database.commit()
+    with PatientRegister(tmp_path) as register:
+        (record,) = register.patients()
+        assert record.last_session == MOVED
+        assert record.session_count == 1

@@ -1,0 +1,141 @@
+"""The seal: any change of a finished session shows, whatever was changed, and nothing else makes it show."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+from pathlib import Path
+
+import h5py
+import numpy as np
+import pytest
+
+from carpus.core.errors import SessionChanged, SessionUnfinished, SessionUnreadable
+from carpus.core.session.opened import verify as verify_here
+from carpus.core.session.reader import verify
+from carpus.core.session.recovery import recover_folder
+from carpus.core.session.values import RawPictures, Verified, motion_of
+from carpus.core.session.writer import SessionWriter
+from tests.session.samples import CAMERA, make_calibration, make_frame, make_header, time_of
+
+ROWS = 30
+ROOT = Path(__file__).parents[2]
+
+
+def stored(path: Path, *, finished: bool = True) -> Path:
+    writer = SessionWriter.create(path, make_header(), CAMERA, make_calibration(), raw_depth_unit_m=1e-3)
+    for row in range(ROWS):
+        writer.append(make_frame(row), RawPictures(bytes([row]) * 70, b"d" * 30))
+        if row % 7 == 0:
+            writer.add_event(time_of(row), "note", f"Grüße {row}")
+            writer.flush()
+    writer.write_smoothed(motion_of([make_frame(row) for row in range(ROWS)]))
+    if finished:
+        writer.close()
+    else:
+        writer.abandon()
+    return path if finished else writer.part_path
+
+
+def test_a_finished_session_is_sealed(tmp_path: Path) -> None:
+    assert verify(stored(tmp_path / "s.h5")) == Verified(ROWS, sealed=True)
+
+
+def test_a_recovered_session_is_sealed(tmp_path: Path) -> None:
+    part = stored(tmp_path / "s.h5", finished=False)
+    with pytest.raises(SessionUnfinished):
+        verify(part)
+    (target,) = recover_folder(tmp_path).recovered
+    assert verify(target) == Verified(ROWS, sealed=True)
+
+
+def test_a_session_from_before_there_were_seals(tmp_path: Path) -> None:
+    path = stored(tmp_path / "s.h5")
+    with h5py.File(path, "r+") as file:
+        del file.attrs["seal"]
+    assert verify(path) == Verified(ROWS, sealed=False)
+
+
+def nudge(file: h5py.File) -> None:
+    file["/wrist/angles"][3, 1] += 1e-9
+
+
+def rename(file: h5py.File) -> None:
+    file.attrs["subject_id"] = "Linden 43"
+
+
+def reword(file: h5py.File) -> None:
+    file["/events/text"][1] = "Gruesse"
+
+
+def unit(file: h5py.File) -> None:
+    file["/wrist/angles"].attrs["unit"] = "deg"
+
+
+def picture(file: h5py.File) -> None:
+    file["/raw/color"][100] ^= 1
+
+
+def smoothed_away(file: h5py.File) -> None:
+    del file["/smoothed"]
+
+
+def more(file: h5py.File) -> None:
+    file["/remarks"] = np.arange(3)
+
+
+def focal(file: h5py.File) -> None:
+    file["/camera"].attrs["fx"] = 571.0
+
+
+@pytest.mark.parametrize("change", [nudge, rename, reword, unit, picture, smoothed_away, more, focal])
+def test_any_change_shows(tmp_path: Path, change: object) -> None:
+    assert callable(change)
+    path = stored(tmp_path / "s.h5")
+    with h5py.File(path, "r+") as file:
+        change(file)
+    with pytest.raises(SessionChanged):
+        verify(path)
+
+
+def test_opening_for_writing_without_a_change_does_not_show(tmp_path: Path) -> None:
+    path = stored(tmp_path / "s.h5")
+    with h5py.File(path, "r+") as file:
+        file["/wrist/angles"][...] = file["/wrist/angles"][...]
+    assert verify(path).sealed
+
+
+def test_a_hundred_flipped_bits(tmp_path: Path) -> None:
+    """No single flipped bit in what the values occupy passes: read as damaged, or found by the seal."""
+    path = stored(tmp_path / "s.h5")
+    data = path.read_bytes()
+    rng = np.random.default_rng(3)
+    used = []
+    with h5py.File(path, "r") as file:
+        for name in ("/wrist/angles", "/frames/timestamp", "/joints/angles", "/smoothed/wrist/angles", "/raw/color"):
+            if name in file:
+                chunk = file[name].id.get_chunk_info(0)
+                rows = file[name].shape[0] * int(np.prod(file[name].shape[1:])) * file[name].dtype.itemsize
+                used += rng.integers(chunk.byte_offset, chunk.byte_offset + rows, 25).tolist()
+    other = tmp_path / "other.h5"
+    for at in used:
+        flipped = bytearray(data)
+        flipped[at] ^= 1 << int(rng.integers(8))
+        other.write_bytes(flipped)
+        with pytest.raises((SessionUnreadable, SessionChanged)):
+            verify_here(other)  # known to end: one process for all is quicker
+    assert len(used) == 100
+
+
+def test_the_command(tmp_path: Path) -> None:
+    path = stored(tmp_path / "s.h5")
+    said = [sys.executable, "-m", "carpus", "verify", str(path)]
+    good = subprocess.run(said, cwd=ROOT, capture_output=True, text=True, check=False)
+    assert (good.returncode, good.stderr) == (0, "")
+    assert "Whole and unchanged" in good.stdout
+    with h5py.File(path, "r+") as file:
+        nudge(file)
+    bad = subprocess.run(said, cwd=ROOT, capture_output=True, text=True, check=False)
+    assert (bad.returncode, bad.stdout) == (1, "")
+    assert bad.stderr.startswith("carpus: This session was changed after it was finished")
+    assert bad.stderr.count("\n") == 1

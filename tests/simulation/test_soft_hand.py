@@ -1,0 +1,205 @@
+"""A hand that is not rigid: skin glides, the palm cups, the fixed unit stays, and the pictures show just that."""
+
+from __future__ import annotations
+
+import dataclasses
+from typing import Any
+
+import cv2
+import numpy as np
+import pytest
+
+from carpus.core.errors import SettingsInvalid
+from carpus.core.hand.protocols import HAND21
+from carpus.core.simulation.recording import SimulatedPictures
+from carpus.core.simulation.scene import Scene
+from carpus.core.simulation.skin import skin_distance
+from carpus.core.simulation.soft_tissue import FULL_CUP_RAD, TissueState, lagged, tissue_of, with_play
+from carpus.core.simulation.spec import HABITS, RecordingSpec
+from carpus.core.simulation.truth import truth_of
+
+SOFT: dict[str, Any] = {"skin_glide_mm": 7.0, "cupping": 1.0}
+KNUCKLES = [HAND21.markers.index(f"MCP{k}") for k in (2, 3, 4, 5)]
+CASES = [
+    {"motion": "power_grip", "protocol": "hand21"},
+    {"motion": "bend45", "protocol": "hand21", "hand": "left"},
+    {"motion": "grasp_mug", "protocol": "hand21"},
+    {"motion": "flexion", "habit": "tenodesis"},
+    {"motion": "deviation", "habit": "grip+rolling_forearm", "hand": "left"},
+]
+
+
+def scenes(**options: Any) -> tuple[Scene, Scene]:
+    """The same patient and motion, rigid and soft."""
+    return Scene(RecordingSpec(seed=5, **options)), Scene(RecordingSpec(seed=5, **options, **SOFT))
+
+
+def tightest(scene: Scene) -> float:
+    """Time of the firmest grip."""
+    time_s = np.arange(0.0, scene.spec.seconds, 1.0 / 30.0)
+    return float(time_s[scene.pose(time_s).tissue.cup_rad[:, 1].argmax()])
+
+
+@pytest.mark.parametrize("options", CASES)
+def test_discs_lie_on_the_rendered_surface_of_a_soft_hand(options: dict[str, Any]) -> None:
+    spec = RecordingSpec(seed=5, depth_delay_s=0.0, sensor_noise=False, exposure_s=0.0, **options, **SOFT)
+    pictures = SimulatedPictures(spec)
+    truth, checked, moved_mm = pictures.truth, 0, 0.0
+    still = truth.disc_position_cam_m[0]
+    for frame in (0, round(30 * tightest(pictures.scene)), 95):
+        clean = pictures.clean(frame)
+        normals = pictures.scene.disc_normals_w0(pictures.scene.pose(truth.time_s[frame : frame + 1]))[0]
+        rows = [HAND21.markers.index(name) for name in spec.marker_protocol.markers]
+        discs = truth.disc_position_cam_m[frame]
+        facing = -np.sum(normals[rows] @ truth.rotation_w0_cam.T * discs, axis=1) / np.linalg.norm(discs, axis=1)
+        for m in np.flatnonzero((clean.visible_share > 0.8) & (facing > 0.5)):
+            place = tuple(truth.disc_pixel[frame, m].tolist())
+            seen_m = float(cv2.getRectSubPix(clean.depth_m, (1, 1), place)[0, 0])
+            assert seen_m == pytest.approx(discs[m, 2], abs=5e-4), (frame, m)
+            checked += 1
+        moved_mm = max(moved_mm, 1e3 * float(np.linalg.norm(discs - still, axis=1).max()))
+    assert checked > 2 * len(rows) // 3
+    assert moved_mm > 10.0
+
+
+@pytest.mark.parametrize("options", CASES)
+def test_the_softness_leaves_the_true_angles_as_they_were(options: dict[str, Any]) -> None:
+    rigid, soft = (truth_of(scene) for scene in scenes(**options))
+    for name in ("angles_rad", "rotation_w2_w0", "joint_angles_rad", "angular_velocity_rad_s", "position_m"):
+        np.testing.assert_array_equal(getattr(rigid, name), getattr(soft, name))
+    assert np.linalg.norm(rigid.disc_position_cam_m - soft.disc_position_cam_m, axis=-1).max() > 2e-3
+    np.testing.assert_allclose(rigid.marker_position_w0_m, soft.marker_position_w0_m, atol=1e-4)
+
+
+def test_no_glide_and_no_cupping_is_the_rigid_hand() -> None:
+    options = {"motion": "fist", "protocol": "hand21", "habit": "restless_clicks"}
+    soft = Scene(RecordingSpec(seed=5, **options, skin_glide_mm=1e-9, cupping=0.0))
+    rigid = Scene(RecordingSpec(seed=5, **options))
+    assert rigid.tissue.is_rigid
+    assert not soft.tissue.is_rigid
+    time_s = np.linspace(0.0, 8.0, 50)
+    pose = rigid.pose(time_s)
+    palm = list(HAND21.palm)
+    local = (rigid.discs_w0_m(pose) - pose.position_m[:, None]) @ pose.rotation_w2_w0
+    np.testing.assert_allclose(np.ptp(local[:, palm], axis=0), 0.0, atol=1e-12)
+    away = np.linalg.norm(soft.discs_w0_m(soft.pose(time_s)) - rigid.discs_w0_m(pose), axis=-1)
+    still = np.linalg.norm(soft.discs_w0_m(soft.pose(np.zeros(1))) - rigid.discs_w0_m(rigid.pose(np.zeros(1))), axis=-1)
+    assert still.max() < 1e-4
+    assert away[:, palm].max() < 2e-3  # what is left is the knuckles' rising
+    assert np.delete(away, palm, axis=1).max() < 2e-4
+
+
+@pytest.mark.parametrize("hand", ["right", "left"])
+def test_the_fixed_unit_does_not_move_while_the_hand_grips(hand: str) -> None:
+    _, soft = scenes(motion="power_grip", protocol="hand21", hand=hand)
+    pose = soft.pose(np.array([0.0, tightest(soft)]))
+    discs = soft.patient.anatomy.palm_disc_m * [1.0, -1.0 if hand == "left" else 1.0, 1.0]
+    wrist, mcp2, mcp3 = discs[0], discs[2], discs[3]
+    open_hand, grip = (soft.skin.cones_w(pose.joint_angles_rad[i], pose.tissue.only(i)) for i in (0, 1))
+    for share in np.linspace(0.0, 0.75, 6):
+        for end in (mcp2, mcp3):
+            place = np.array([*(wrist + share * (end - wrist))[:2], 0.05])
+            heights = [height_m(place, cones) for cones in (open_hand, grip)]
+            assert abs(heights[1] - heights[0]) < 3e-4, (share, heights)
+    # The ring and little side falls, so that the test above is about something.
+    side = np.array([*(0.8 * discs[5])[:2], 0.05])
+    assert height_m(side, open_hand) - height_m(side, grip) > 5e-3
+
+
+def height_m(place_m: np.ndarray, cones: Any) -> float:
+    """Height of the back of the hand over a place, from above."""
+    place = place_m.copy()
+    for _ in range(200):
+        place[2] -= float(skin_distance(place, cones))
+    return float(place[2])
+
+
+def test_knuckles_glide_distally_by_the_gain_and_rise() -> None:
+    _, soft = scenes(motion="bend45", protocol="hand21", seconds=12.0, speed_hz=0.1)
+    pose = soft.pose(np.arange(0.0, 12.0, 0.1))
+    local = (soft.discs_w0_m(pose) - pose.position_m[:, None]) @ pose.rotation_w2_w0
+    flexion = pose.joint_angles_rad[:, soft.motion.joint_names.index("MCP2_flexion")]
+    gone_mm = 1e3 * (local[:, KNUCKLES[0], 0] - local[0, KNUCKLES[0], 0])
+    bent = flexion > np.radians(40.0)
+    share = np.degrees(flexion[bent] - flexion[0]) / 90.0
+    assert bent.sum() > 10
+    assert 0.75 * 7.0 * share.mean() < gone_mm[bent].mean() < 1.25 * 7.0 * share.mean()
+
+
+def test_knuckles_stand_out_when_the_fingers_bend() -> None:
+    _, soft = scenes(motion="bend45", protocol="hand21")
+    joints = soft.motion.joint_angles_rad(np.zeros(1))[0]
+    still = TissueState.rigid(1).only(0)
+    risen = dataclasses.replace(still, rise=np.ones(4))
+    disc = soft.patient.anatomy.palm_disc_m[3]
+    place = np.array([disc[0] + 0.003, disc[1], 0.05])
+    low, high = (height_m(place, soft.skin.cones_w(joints, state)) for state in (still, risen))
+    assert 0.3e-3 < high - low < 1.5e-3
+
+
+def test_metacarpals_flex_together_with_the_grip() -> None:
+    _, soft = scenes(motion="power_grip", protocol="hand21", seconds=6.0)
+    time_s = np.arange(0.0, 6.0, 0.02)
+    cup = soft.pose(time_s).tissue.cup_rad
+    np.testing.assert_allclose(cup[:, 0] * FULL_CUP_RAD[1], cup[:, 1] * FULL_CUP_RAD[0], atol=1e-12)
+    assert 0.8 * FULL_CUP_RAD[1] < cup[:, 1].max() <= FULL_CUP_RAD[1]
+    ring = np.degrees(soft.motion.joint_angles_rad(time_s)[:, soft.motion.joint_names.index("MCP4_flexion")])
+    assert np.corrcoef(ring, cup[:, 1])[0, 1] > 0.9
+    assert np.abs(cup[time_s < 0.7]).max() < 1e-12
+
+
+def test_play_closes_its_loop_and_the_lag_comes_to_rest() -> None:
+    time_s = np.arange(0.0, 8.0, 0.01)
+    driver = np.sin(2.0 * np.pi * 0.5 * time_s)[:, None]
+    followed = with_play(driver, 0.2)
+    later, sooner = followed[400:600, 0], followed[600:800, 0]
+    np.testing.assert_allclose(later, sooner, atol=1e-9)  # round after round the same
+    assert followed[500, 0] == pytest.approx(0.1)  # but another way back: the driver falls through 0 here
+    assert followed[600, 0] == pytest.approx(-0.1)  # and rises through 0 here
+    assert np.abs(followed - driver).max() <= 0.1 + 1e-12
+    step = lagged(np.vstack((np.zeros((1, 1)), np.ones((400, 1)))), 10.0)[:, 0]
+    assert step[10] == pytest.approx(1.0 - np.exp(-1.0), abs=0.05)
+    assert step[-1] == pytest.approx(1.0, abs=1e-6)
+
+
+def test_tissue_is_drawn_per_person_within_its_range() -> None:
+    drawn = [tissue_of(RecordingSpec(seed=seed, skin_glide_mm=None, cupping=None)) for seed in range(60)]
+    knuckle_mm = np.array([t.glide_m_rad[KNUCKLES].mean() for t in drawn]) * 1e3 * np.pi / 2.0
+    assert knuckle_mm.min() < 1.5
+    assert 6.0 < knuckle_mm.max() < 9.0
+    assert all(t.glide_m_rad[KNUCKLES].min() >= t.glide_m_rad[[0, 1, 6, 7]].max() * 0.9 for t in drawn)
+    cup = np.array([t.cup_rad[1] for t in drawn]) / FULL_CUP_RAD[1]
+    assert cup.min() < 0.5
+    assert cup.max() > 0.8
+
+
+def test_habits_do_what_they_are_called() -> None:
+    time_s = np.arange(0.0, 8.0, 0.02)
+
+    def motion(habit: str, exercise: str = "flexion") -> Scene:
+        return Scene(RecordingSpec(seed=5, motion=exercise, habit=habit))
+
+    names = motion("none").motion.joint_names
+    middle = names.index("MCP3_flexion")
+    plain = motion("none").motion
+    assert np.ptp(plain.joint_angles_rad(time_s)[:, middle]) < np.radians(4.0)
+    tenodesis = motion("tenodesis").motion
+    np.testing.assert_array_equal(tenodesis.wrist_angles_rad(time_s), plain.wrist_angles_rad(time_s))
+    closing = (tenodesis.joint_angles_rad(time_s) - plain.joint_angles_rad(time_s))[:, middle]
+    extension = -plain.wrist_angles_rad(time_s)[:, 1]
+    slope = np.polyfit(extension[extension > 0.3], closing[extension > 0.3], 1)[0]
+    assert 0.7 < slope < 1.0
+    assert closing[extension < -0.3].max() < 0.0
+    grip = motion("grip", "deviation").motion.joint_angles_rad(time_s)[:, middle]
+    assert np.median(grip) > np.radians(45.0)
+    busy = motion("open_close", "rest").motion.joint_angles_rad(time_s)[:, middle]
+    assert np.sum(np.abs(np.diff((busy > np.radians(25.0)).astype(int)))) >= 4
+    rolling = motion("rolling_forearm").motion.wrist_angles_rad(time_s) - plain.wrist_angles_rad(time_s)
+    assert np.radians(1.0) < np.abs(rolling[:, 2]).max() < np.radians(8.0)
+    clicks = motion("restless_clicks").motion
+    first = clicks.wrist_angles_rad(np.linspace(0.0, 0.7, 20))
+    assert np.radians(0.1) < np.abs(first).max() < np.radians(4.0)
+    np.testing.assert_allclose(first[0], 0.0, atol=1e-12)
+    assert set(RecordingSpec(habit="grip+tenodesis").habits) < set(HABITS)
+    with pytest.raises(SettingsInvalid):
+        RecordingSpec(habit="grip+humming")

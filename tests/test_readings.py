@@ -1,0 +1,81 @@
+"""The columns that a therapist reads say what their names say, on errors made for the purpose."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from carpus.core.simulation.motions import motion_of
+from carpus.core.simulation.scene import Scene
+from carpus.core.simulation.spec import RecordingSpec
+from carpus.core.simulation.truth import Truth, truth_of
+from carpus.core.types import FloatArray
+from tests.accuracy.readings import Reading, read_figures, reading_of, strokes_of
+
+
+@pytest.fixture(scope="module")
+def truth() -> Truth:
+    return truth_of(Scene(RecordingSpec(seed=4, motion="flexion", speed_hz=0.4, seconds=12.0)))
+
+
+def read(truth: Truth, error_deg: FloatArray, sd_deg: float = 1.0) -> Reading:
+    every = np.ones(len(truth.time_s), dtype=bool)
+    sd = np.full(error_deg.shape, sd_deg)
+    return reading_of(truth, every, truth.angles_rad, error_deg, sd, unused=3, shown=60)
+
+
+def test_a_range_read_a_tenth_too_large_is_told_by_repetition_and_at_the_ends(truth: Truth) -> None:
+    error = 0.1 * np.degrees(truth.angles_rad)
+    error[:, [0, 2]] = 0.0
+    reading = read(truth, error)
+    windows, ends = strokes_of(truth, truth.time_s)
+    assert len(windows) >= 3
+    assert len(ends) == 2 * len(windows)
+    found = read_figures([reading], (1,))
+    assert 8.0 < found.range_mean < found.range_worst < 10.5  # a tenth of two times 50, less what a person falls short
+    assert 4.0 < found.end_rms <= found.end_worst < 5.2
+    assert abs(found.zero_rms) < 0.3
+    assert read_figures([reading], (0,)).range_worst == 0.0
+
+
+def test_a_wrong_zero_is_no_wrong_range(truth: Truth) -> None:
+    found = read_figures([read(truth, np.full(truth.angles_rad.shape, 2.0))], (0, 1, 2))
+    assert found.zero_rms == pytest.approx(2.0)
+    assert found.end_worst == pytest.approx(2.0)
+    assert found.range_worst == pytest.approx(0.0, abs=1e-9)
+    assert found.rmse == found.p95 == pytest.approx(2.0)
+    assert found.inside == 1.0
+
+
+def test_the_longest_time_outside_three_sd_is_that_of_one_angle(truth: Truth) -> None:
+    error = np.zeros(truth.angles_rad.shape)
+    error[30:91, 2] = 3.1
+    error[200:221, 2] = error[100:110, 0] = -9.0
+    error[120:300, 1] = 2.9
+    reading = read(truth, error)
+    np.testing.assert_allclose(reading.outside_s, [0.3, 0.0, 2.0], atol=0.02)
+    assert read_figures([reading], (0, 1)).outside_s == pytest.approx(0.3, abs=0.02)
+
+
+def test_what_is_unknown_is_left_out_and_told_where_too_much_is(truth: Truth) -> None:
+    error = np.zeros(truth.angles_rad.shape)
+    error[:, 0] = np.nan
+    error[::4, 1] = np.nan
+    reading = read(truth, error)
+    assert np.isnan(reading.range_deg[:, 0]).all()
+    np.testing.assert_allclose(reading.range_deg[:, 1], 0.0, atol=1e-9)
+    assert np.isnan(read_figures([reading], (0,)).rmse)
+
+
+def test_repetitions_of_a_resting_wrist_are_those_of_its_fingers() -> None:
+    spec = RecordingSpec(seed=4, motion="rest", habit="open_close", seconds=9.0)
+    truth = truth_of(Scene(spec))
+    windows, _ = strokes_of(truth, truth.time_s)
+    bend = motion_of(spec).joint_angles_rad(truth.time_s)
+    assert len(windows) >= 3
+    widest = int(np.ptp(bend, axis=0).argmax())
+    assert all(np.ptp(bend[window, widest]) > np.radians(20.0) for window in windows)
+    still = truth_of(Scene(RecordingSpec(seed=4, motion="rest", seconds=9.0)))
+    quiet, ends = strokes_of(still, still.time_s)
+    assert len(quiet) == 3
+    assert len(ends) == 0

@@ -1,0 +1,1 @@
+"""``make torture``: kills, damaged files, wrong clocks. What must hold is a test; what is measured is printed."""

@@ -1,0 +1,107 @@
+"""Kills at random moments: of the program, of the capture process, of the process that looks back."""
+
+from __future__ import annotations
+
+import json
+import os
+import random
+import shutil
+import signal
+import struct
+import subprocess
+import sys
+import time
+from dataclasses import dataclass
+from pathlib import Path
+
+from carpus.core.capture.oni_source import OniSource
+from carpus.core.capture.raw import RawRecording
+from carpus.core.errors import CarpusFault
+from carpus.core.session.reader import read_session, verify
+from carpus.core.session.recovery import recover_folder
+from tests.capture.oni_samples import write_sample
+
+ROOT = Path(__file__).parents[2]
+KINDS = ("program", "program with pictures", "looking back", "capture", "clock set back and forth", "two programs")
+MOST_LOST_S = 1.0
+
+
+@dataclass(frozen=True)
+class Killed:
+    """``lost_s`` of rows, and of raw pictures where they were kept: these wait for a busy processor to pack them."""
+
+    kind: str
+    lost_s: float
+    raw_lost_s: float = 0.0
+
+
+def driver_there(folder: Path) -> bool:
+    """Whether the OpenNI2 library plays a file here; without it there is no capture process to kill."""
+    try:
+        source = OniSource(write_sample(folder / "probe.oni", 3))
+        source.close()
+    except CarpusFault:
+        return False
+    return True
+
+
+def kill_once(kind: str, number: int, folder: Path) -> Killed:
+    """One recording, one kill; raises AssertionError where what must hold does not."""
+    folder.mkdir(parents=True)
+    chance = random.Random(number)
+    told = [sys.executable, "-m", "tests.torture.recorder", str(folder)]
+    if (kind in ("program with pictures", "looking back") and number % 2 == 0) or kind == "program with pictures":
+        told.append("--raw")
+    if kind == "capture":
+        told += ["--oni", str(write_sample(folder / "r.oni", 400))]
+    if kind == "clock set back and forth":
+        told.append("--jumping-clock")
+    after_s = chance.uniform(0.3, 3.0)
+    whole = kind in ("capture", "looking back")
+    if kind == "looking back":
+        told += ["--seconds", "4"]
+    with subprocess.Popen(told, cwd=ROOT, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as program:
+        assert program.stdout is not None
+        assert program.stderr is not None
+        assert program.stdout.readline() == "begun\n", program.stderr.read()
+        time.sleep(after_s)
+        if kind == "two programs":
+            assert recover_folder(folder).recovered == (), "a second program finished what the first is recording"
+        if whole:
+            for child in json.loads((folder / "children").read_text()):
+                os.kill(child, signal.SIGKILL)
+            _said, complaint = program.communicate(timeout=120)
+            assert program.returncode == 0, complaint
+            assert "Traceback" not in complaint
+        else:
+            program.send_signal(signal.SIGKILL)
+    taken = (folder / "taken").read_bytes()
+    if not taken:  # killed before the first frame: there is nothing to lose
+        assert not whole
+        shutil.rmtree(folder)
+        return Killed(kind, 0.0)
+    (last_s, _) = struct.unpack("<dq", taken)
+    if not whole:
+        assert not (folder / "s.h5").exists(), "wrongly complete"
+        for name in list(folder.iterdir()):
+            assert name.suffix != ".h5"
+        recovery = recover_folder(folder)
+        assert recovery.faults == (), recovery.faults
+        assert recovery.busy == ()
+        if recovery.empty:
+            stored_s = last_s - 10.0
+            assert stored_s <= MOST_LOST_S, f"nothing stored of {stored_s:.2f} s"
+            return Killed(kind, stored_s)
+    session = read_session(folder / "s.h5")
+    assert session.complete
+    assert bool(session.recovered) != whole
+    assert verify(folder / "s.h5").sealed
+    if kind == "looking back":
+        assert session.smoothed is None or len(session.smoothed.angles_rad) == len(session)
+    lost_s = last_s - float(session.timestamp_s[-1])
+    raw_lost_s = 0.0
+    if "--raw" in told:
+        raw_lost_s = last_s - [frame.timestamp_s for frame in RawRecording(folder / "s.carpusraw").frames()][-1]
+    shutil.rmtree(folder)
+    assert lost_s <= MOST_LOST_S, f"{kind} {number}: {lost_s:.2f} s"
+    return Killed(kind, max(lost_s, 0.0), max(raw_lost_s, 0.0))

@@ -1,0 +1,32 @@
+"""The short form of ``make torture``; the long one prints its figures."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from tests.torture import kills, mutations
+from tests.torture.__main__ import MOST_BYTES, mutation_line, read_mutations, start_line
+
+FILES = {"session": 24, "part": 24, "register": 16}
+
+
+@pytest.mark.parametrize("kind", kills.KINDS)
+def test_a_kill_loses_a_second_at_most(tmp_path: Path, kind: str) -> None:
+    if kind == "capture" and not kills.driver_there(tmp_path):
+        kind = "program"  # without the library there is no capture process; the program can always be killed
+    done = kills.kill_once(kind, 1, tmp_path / "killed")
+    assert done.lost_s <= kills.MOST_LOST_S
+
+
+@pytest.mark.parametrize("kind", mutations.KINDS)
+def test_damaged_files_are_told(tmp_path: Path, kind: str) -> None:
+    """No traceback, no reader that dies or stays, no gigabyte; times are measured where nothing else runs."""
+    outcomes = read_mutations(kind, FILES.get(kind, 40), tmp_path)
+    assert [one for one in outcomes if not one.good or one.memory_bytes > MOST_BYTES] == []
+    assert any(one.said != "read" for one in outcomes), mutation_line(kind, outcomes)
+
+
+def test_the_program_starts_with_all_of_them_in_its_folder(tmp_path: Path) -> None:
+    assert "set apart" in start_line(16, tmp_path)

@@ -1,0 +1,73 @@
+"""Where a finger's discs are hidden, depth says how far it is bent: by where it is, and by where it is not."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+
+from carpus.core.tracking.finger_depth import FLEXION, FingerDepthSettings, knuckle_bends, with_bends
+from carpus.core.tracking.hand_geometry import RAYS, SLOTS
+from carpus.core.tracking.kernel import Bank
+from carpus.core.tracking.ray_filter import RAY_SIZE, RayView
+from carpus.core.types import FINGER_STEP_PX, FloatArray, SurfaceSamples
+from tests.tracking.hands import CAMERA, FROM_ABOVE, MIDDLE_M, RIGHT_PALM_M
+
+INDEX = 1
+LENGTH_M, HEIGHT_M, DEPTH_M = 0.044, 0.0075, 0.011
+TABLE_M = 0.06
+VIEW = RayView(FROM_ABOVE, MIDDLE_M, CAMERA)
+
+
+def states() -> FloatArray:
+    mean = np.zeros((RAYS, RAY_SIZE))
+    anatomy = 2 * SLOTS
+    mean[:, anatomy], mean[:, anatomy + 7], mean[:, anatomy + 8] = LENGTH_M, DEPTH_M, HEIGHT_M
+    return mean
+
+
+def readings(flexion_deg: float, breadth_m: float = 0.008) -> SurfaceSamples:
+    """A hand as flat as its knuckles before a table, and one finger as a plate bent at its knuckle."""
+    u, v = np.meshgrid(np.arange(240, 420, FINGER_STEP_PX), np.arange(160, 300, FINGER_STEP_PX))
+    pixel = np.column_stack((u.ravel(), v.ravel())).astype(float)
+    in_w = (CAMERA.back_project(pixel, np.full(len(pixel), MIDDLE_M[2])) - MIDDLE_M) @ FROM_ABOVE
+    height = np.where(in_w[:, 0] < RIGHT_PALM_M[2, 0], 0.0, -TABLE_M)
+    angle = math.radians(flexion_deg)
+    knuckle = RIGHT_PALM_M[2] + np.array([0.0, 0.0, -DEPTH_M])
+    for share in np.linspace(0.0, 1.3, 400):
+        reach = share * LENGTH_M
+        x = knuckle[0] + reach * math.cos(angle) + HEIGHT_M * math.sin(angle)
+        z = knuckle[2] - reach * math.sin(angle) + HEIGHT_M * math.cos(angle)
+        on = (np.abs(in_w[:, 0] - x) < 0.0028) & (np.abs(in_w[:, 1] - knuckle[1]) < breadth_m)
+        height[on] = np.maximum(height[on], z)
+    return SurfaceSamples(pixel, MIDDLE_M[2] - height)
+
+
+@pytest.mark.parametrize("flexion_deg", [10.0, 30.0, 50.0, 70.0])
+def test_the_bend_of_a_finger_that_lies_bare_is_found(flexion_deg: float) -> None:
+    found = knuckle_bends([INDEX], states(), RIGHT_PALM_M[1:], VIEW, readings(flexion_deg), FingerDepthSettings())
+    assert math.degrees(found.value_rad[INDEX]) == pytest.approx(flexion_deg, abs=8.0)
+    assert not np.isfinite(np.delete(found.value_rad, INDEX)).any(), "only who was asked for"
+
+
+def test_where_nothing_is_read_nothing_is_said() -> None:
+    far = SurfaceSamples(np.array([[10.0, 10.0]]), np.array([0.7]))
+    found = knuckle_bends([INDEX], states(), RIGHT_PALM_M[1:], VIEW, far, FingerDepthSettings())
+    assert not found.is_any
+
+
+def test_one_picture_is_taken_for_little_and_the_other_rays_stay() -> None:
+    covariance = np.broadcast_to(0.3**2 * np.eye(RAY_SIZE), (RAYS, RAY_SIZE, RAY_SIZE))
+    bank = Bank.alike(states(), covariance, 2)
+    found = knuckle_bends([INDEX], states(), RIGHT_PALM_M[1:], VIEW, readings(60.0), FingerDepthSettings())
+    once = with_bends(bank, found)
+    many = once
+    for _ in range(30):
+        many = with_bends(many, found)
+    first, last = (math.degrees(one.merged()[0][INDEX, FLEXION]) for one in (once, many))
+    assert 5.0 < first < 45.0
+    assert last == pytest.approx(math.degrees(found.value_rad[INDEX]), abs=4.0)
+    others = np.delete(np.arange(RAYS), INDEX)
+    assert np.allclose(once.mean[others], bank.mean[others])
+    assert np.allclose(once.covariance[others], bank.covariance[others])

@@ -1,0 +1,210 @@
+"""On a linear model the kernel that tracks palm and fingers is the textbook's filter, mode by mode, chain by chain."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from carpus.core.tracking.kernel import (
+    Bank,
+    Carrying,
+    Line,
+    carried,
+    corrected,
+    learning_shares,
+    looked_back,
+    mixed,
+    predicted,
+    switching,
+)
+from carpus.core.types import FloatArray
+
+CHAINS, MODES, STATES, SEEN = 3, 2, 5, 4
+
+
+def positive(rng: np.random.Generator, *lead: int, size: int) -> FloatArray:
+    root = rng.normal(size=(*lead, size, size))
+    return root @ np.swapaxes(root, -1, -2) + 0.1 * np.eye(size)
+
+
+def any_bank(seed: int) -> Bank:
+    rng = np.random.default_rng(seed)
+    probability = rng.uniform(0.2, 1.0, (CHAINS, MODES))
+    return Bank(
+        rng.normal(size=(CHAINS, MODES, STATES)),
+        positive(rng, CHAINS, MODES, size=STATES),
+        probability / probability.sum(axis=1, keepdims=True),
+    )
+
+
+def any_line(seed: int) -> Line:
+    rng = np.random.default_rng(100 + seed)
+    return Line(
+        rng.normal(size=(CHAINS, SEEN)),
+        rng.normal(size=(CHAINS, SEEN, STATES)),
+        0.1 * positive(rng, CHAINS, size=SEEN),
+        rng.normal(size=(CHAINS, STATES)),
+    )
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_prediction_is_f_p_f_plus_q(seed: int) -> None:
+    rng, bank = np.random.default_rng(seed), any_bank(seed)
+    forward, noise = rng.normal(size=(CHAINS, STATES, STATES)), positive(rng, CHAINS, MODES, size=STATES)
+    found = predicted(bank, forward, noise)
+    for c in range(CHAINS):
+        for k in range(MODES):
+            assert np.allclose(found.mean[c, k], forward[c] @ bank.mean[c, k], atol=1e-12)
+            assert np.allclose(
+                found.covariance[c, k], forward[c] @ bank.covariance[c, k] @ forward[c].T + noise[c, k], atol=1e-12
+            )
+    assert np.array_equal(found.probability, bank.probability)
+
+
+def test_a_step_by_what_mixes_of_it_is_the_whole_step() -> None:
+    rng = np.random.default_rng(3)
+    mixing, settling = 3, 2
+    kept = np.r_[np.ones(mixing), rng.uniform(0.5, 1.0, STATES - mixing)]
+    step = Carrying(
+        rng.normal(size=(mixing, mixing)), positive(rng, MODES, size=mixing), kept, positive(rng, size=settling)
+    )
+    bank = Bank(
+        rng.normal(size=(1, MODES, STATES)), positive(rng, 1, MODES, size=STATES), np.full((1, MODES), 1.0 / MODES)
+    )
+    found, whole = carried(bank, step), predicted(bank, step.forward[None], step.noise[None])
+    assert np.allclose(found.mean, whole.mean, atol=1e-12)
+    assert np.allclose(found.covariance, whole.covariance, atol=1e-12)
+    assert np.array_equal(step.noise[0, :mixing, mixing:], np.zeros((mixing, STATES - mixing)))
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_correction_is_kalmans_with_what_was_not_measured_left_out(seed: int) -> None:
+    rng, bank, line = np.random.default_rng(seed), any_bank(seed), any_line(seed)
+    measured, variance = rng.normal(size=(CHAINS, SEEN)), rng.uniform(0.01, 2.0, (CHAINS, SEEN))
+    shared = 0.05 * positive(rng, CHAINS, size=SEEN)
+    measured[0, 1] = measured[2, 0] = measured[2, 3] = np.nan
+    found = corrected(bank, line, measured, variance, shared)
+    for c in range(CHAINS):
+        used = np.flatnonzero(np.isfinite(measured[c]))
+        h = line.slope[c][used]
+        r = (line.error[c] + shared[c])[np.ix_(used, used)] + np.diag(variance[c][used])
+        likelihood, nis = np.empty(MODES), np.empty(MODES)
+        for k in range(MODES):
+            p = bank.covariance[c, k]
+            s = h @ p @ h.T + r
+            gain = p @ h.T @ np.linalg.inv(s)
+            off = measured[c][used] - line.value[c][used] - h @ (bank.mean[c, k] - line.about[c])
+            assert np.allclose(found.bank.mean[c, k], bank.mean[c, k] + gain @ off, atol=1e-10)
+            assert np.allclose(found.bank.covariance[c, k], p - gain @ s @ gain.T, atol=1e-10)
+            nis[k] = off @ np.linalg.inv(s) @ off
+            likelihood[k] = np.exp(-0.5 * nis[k]) / np.sqrt(np.linalg.det(s))
+        weight = bank.probability[c] * likelihood
+        assert np.allclose(found.bank.probability[c], weight / weight.sum(), atol=1e-6)
+        assert found.nis[c] == pytest.approx(found.bank.probability[c] @ nis, rel=1e-6)
+        assert found.dof[c] == used.size
+        assert not found.residual[c][~np.isfinite(measured[c])].any()
+
+
+def test_residuals_are_standard_normal_where_the_model_is_right() -> None:
+    rng = np.random.default_rng(5)
+    bank, line = any_bank(1), any_line(1)
+    bank = Bank(bank.mean[:, :1], bank.covariance[:, :1], np.ones((CHAINS, 1)))
+    variance = np.full((CHAINS, SEEN), 0.3)
+    found = []
+    for _ in range(4000):
+        state = bank.mean[:, 0] + np.einsum(
+            "cij,cj->ci", np.linalg.cholesky(bank.covariance[:, 0]), rng.normal(size=(CHAINS, STATES))
+        )
+        noise = np.einsum("cij,cj->ci", np.linalg.cholesky(line.error), rng.normal(size=(CHAINS, SEEN)))
+        value = line.value + np.einsum("cij,cj->ci", line.slope, state - line.about) + noise
+        measured = value + np.sqrt(variance) * rng.normal(size=value.shape)
+        found.append(corrected(bank, line, measured, variance).residual)
+    assert np.std(found, axis=0) == pytest.approx(1.0, abs=0.05)
+    assert np.mean(found, axis=0) == pytest.approx(0.0, abs=0.06)
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_mixing_keeps_mean_and_covariance_of_the_whole(seed: int) -> None:
+    """Interacting multiple model: what the modes are together does not change by mixing them."""
+    bank = any_bank(seed)
+    blend = mixed(bank, switching(MODES, 0.5, 1.0 / 30.0))
+    for before, after in zip(bank.merged(), blend.merged(), strict=True):
+        assert np.allclose(before, after, atol=1e-12)
+    assert np.allclose(blend.probability.sum(axis=1), 1.0)
+    stay = mixed(bank, np.eye(MODES))
+    assert np.allclose(stay.mean, bank.mean)
+    assert np.allclose(stay.covariance, bank.covariance)
+
+
+def test_switching_stays_for_its_dwell_time_whatever_the_step() -> None:
+    one, three = switching(3, 0.5, 0.1), switching(3, 0.5, 0.3)
+    assert np.allclose(one.sum(axis=1), 1.0)
+    assert one[0, 0] ** 3 == pytest.approx(three[0, 0])
+    assert np.array_equal(switching(1, 0.5, 0.1), np.ones((1, 1)))
+
+
+def test_merged_is_the_mixtures_mean_and_covariance() -> None:
+    bank, rng = any_bank(7), np.random.default_rng(8)
+    mean, covariance = bank.merged()
+    mode = rng.choice(MODES, 200_000, p=bank.probability[1])
+    drawn = bank.mean[1][mode] + np.einsum(
+        "nij,nj->ni", np.linalg.cholesky(bank.covariance[1])[mode], rng.normal(size=(mode.size, STATES))
+    )
+    assert drawn.mean(axis=0) == pytest.approx(mean[1], abs=0.05)
+    assert np.allclose(np.cov(drawn.T), covariance[1], atol=0.03 * np.trace(covariance[1]))
+
+
+@pytest.mark.parametrize("learning", [0.0, 0.3, 1.0])
+def test_slow_numbers_take_their_share_and_all_else_the_whole(learning: float) -> None:
+    bank, line, rng = any_bank(3), any_line(3), np.random.default_rng(4)
+    measured, variance = rng.normal(size=(CHAINS, SEEN)), np.full((CHAINS, SEEN), 0.2)
+    slow, fast = slice(3, STATES), slice(0, 3)
+    whole = corrected(bank, line, measured, variance).bank
+    part = corrected(bank, line, measured, variance, shares=learning_shares(STATES, slow, learning)).bank
+    assert np.allclose(part.mean[..., fast], whole.mean[..., fast])
+    assert np.allclose(part.mean[..., slow] - bank.mean[..., slow], learning * (whole.mean - bank.mean)[..., slow])
+    assert np.allclose(part.covariance[..., fast, fast], whole.covariance[..., fast, fast])
+    assert np.linalg.eigvalsh(part.covariance).min() > 0.0
+    lost = (bank.covariance - part.covariance)[..., slow, slow]
+    assert np.allclose(lost, (1.0 - (1.0 - learning) ** 2) * (bank.covariance - whole.covariance)[..., slow, slow])
+
+
+def test_looking_back_is_the_least_squares_of_all_measurements() -> None:
+    """A line of Gaussian steps and measurements, solved at once and by the recursion."""
+    rng, steps, n, m = np.random.default_rng(2), 6, 3, 2
+    forward, noise = rng.normal(size=(n, n)), positive(rng, size=n)
+    h, r = rng.normal(size=(m, n)), np.full(m, 0.4)
+    start, spread = rng.normal(size=n), positive(rng, size=n)
+    seen = rng.normal(size=(steps, m))
+    line = Line(np.zeros((1, m)), h[None], np.zeros((1, m, m)), np.zeros((1, n)))
+    filtered = []
+    bank = Bank(start[None, None], spread[None, None], np.ones((1, 1)))
+    for k in range(steps):
+        if k:
+            bank = predicted(bank, forward[None], noise[None, None])
+        bank = corrected(bank, line, seen[None, k], r[None]).bank
+        filtered.append(bank)
+    mean, covariance = filtered[-1].mean[0, 0], filtered[-1].covariance[0, 0]
+    smoothed = [mean]
+    for bank in filtered[-2::-1]:
+        own = bank.mean[0, 0]
+        correction, both = looked_back(
+            bank.covariance[:, 0], forward[None], noise[None], (mean - forward @ own)[None], covariance[None]
+        )
+        mean, covariance = own + correction[0], both[0]
+        smoothed.insert(0, mean)
+    information = np.zeros((steps * n, steps * n))
+    vector = np.zeros(steps * n)
+    information[:n, :n] += np.linalg.inv(spread)
+    vector[:n] += np.linalg.inv(spread) @ start
+    for k in range(steps):
+        own = slice(k * n, (k + 1) * n)
+        information[own, own] += h.T @ np.diag(1.0 / r) @ h
+        vector[own] += h.T @ (seen[k] / r)
+        if k:
+            both_steps = np.r_[(k - 1) * n : (k + 1) * n]
+            move = np.hstack((-forward, np.eye(n)))
+            information[np.ix_(both_steps, both_steps)] += move.T @ np.linalg.inv(noise) @ move
+    batch = np.linalg.solve(information, vector).reshape(steps, n)
+    assert np.allclose(smoothed, batch, atol=1e-8)
+    assert np.allclose(covariance, np.linalg.inv(information)[:n, :n], atol=1e-8)

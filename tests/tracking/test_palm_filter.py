@@ -1,0 +1,244 @@
+"""The palm's model: its motion, its line of sight, its soft tissue, against finite differences and other filters."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from filterpy.kalman import MerweScaledSigmaPoints, UnscentedKalmanFilter
+
+from carpus.core import so3
+from carpus.core.tracking.kernel import Bank
+from carpus.core.tracking.motion import MotionNoise, PalmMotion, palm_step, slowing, slowing_unseen, unseen_turns
+from carpus.core.tracking.palm_state import (
+    MOVING,
+    POSE,
+    POSITION,
+    RATE,
+    RELIEF,
+    SHAPE,
+    SIZE,
+    SKIN,
+    TURN,
+    VELOCITY,
+    InitialSd,
+    PalmBelief,
+    resting_belief,
+)
+from carpus.core.tracking.palm_view import View, recentred, sight
+from carpus.core.tracking.smoother import FilterStep, smooth
+from carpus.core.tracking.soft_tissue import SoftTissue, keeping, settled_covariance
+from carpus.core.tracking.unscented import Spread
+from carpus.core.types import FloatArray
+from tests.tracking.hands import CAMERA, FROM_ABOVE, MIDDLE_M, RIGHT_PALM_M
+
+MOTION = PalmMotion(MotionNoise(), SoftTissue(), np.array([0.5, 4.0]))
+NO_HIDDEN = np.zeros((6, 18))
+VIEW = View(CAMERA, FROM_ABOVE, MIDDLE_M, RIGHT_PALM_M, NO_HIDDEN)
+
+
+def moving(seed: int = 0) -> PalmBelief:
+    rng = np.random.default_rng(seed)
+    value = np.zeros(SIZE)
+    value[POSITION], value[VELOCITY], value[RATE] = 0.02 * rng.normal(size=(3, 3))
+    value[RATE] *= 100.0
+    value[SHAPE], value[SKIN] = 0.001 * rng.normal(size=(2, 18))
+    root = rng.normal(size=(SIZE, SIZE))
+    scale = np.full(SIZE, 1e-3)
+    scale[TURN] = scale[RATE] = scale[VELOCITY] = 0.02
+    covariance = (root @ root.T / SIZE + 0.1 * np.eye(SIZE)) * np.outer(scale, scale)
+    return PalmBelief(so3.exp(0.3 * rng.normal(size=3)), value, covariance)
+
+
+def coasting(belief: PalmBelief, dt_s: float) -> PalmBelief:
+    """The motion written out: constant velocities, skin and relief relaxing."""
+    value = belief.value * keeping(SoftTissue(), dt_s)
+    value[TURN] = 0.0
+    value[POSITION] = belief.position_m + dt_s * belief.velocity_m_s
+    return PalmBelief(belief.rotation_w2_w0 @ so3.exp(dt_s * belief.rate_rad_s), value, belief.covariance)
+
+
+def test_moved_and_error_to_are_inverse() -> None:
+    belief = moving()
+    error = 0.1 * np.random.default_rng(1).normal(size=SIZE)
+    assert np.allclose(belief.error_to(belief.moved(error, belief.covariance)), error, atol=1e-12)
+
+
+@pytest.mark.parametrize("dt_s", [0.005, 1.0 / 30.0, 0.5])
+def test_a_steps_transition_is_the_derivative_of_the_motion(dt_s: float) -> None:
+    belief, step = moving(), 1e-5
+    found = palm_step(belief.rate_rad_s, MOTION, dt_s)
+    after = found.carries(belief, dt_s)
+    assert np.allclose(after.error_to(coasting(belief, dt_s)), 0.0, atol=1e-12)
+    for i in range(SIZE):
+        error = np.zeros(SIZE)
+        error[i] = step
+        ahead, back = (
+            after.error_to(coasting(belief.moved(sign * error, belief.covariance), dt_s)) for sign in (1.0, -1.0)
+        )
+        assert np.allclose(found.forward[:, i], (ahead - back) / (2.0 * step), atol=1e-6), i
+
+
+def test_a_second_brings_the_same_uncertainty_at_any_frame_rate() -> None:
+    """White acceleration has a density: it matters not into how many steps the time is cut."""
+    start = resting_belief(InitialSd(), 1e-6 * np.eye(18)).covariance
+    ends = []
+    for steps in (1, 10, 200):
+        found = palm_step(np.zeros(3), MOTION, 1.0 / steps)
+        now = start
+        for _ in range(steps):
+            now = found.forward @ now @ found.forward.T + found.noise[0]
+        ends.append(now)
+    assert np.allclose(ends[0], ends[2], rtol=1e-6, atol=1e-12)
+    assert np.allclose(ends[1], ends[2], rtol=1e-6, atol=1e-12)
+
+
+def test_modes_scale_the_motion_and_leave_the_tissue() -> None:
+    calm, lively = palm_step(np.zeros(3), MOTION, 1.0 / 30.0).noise
+    assert np.allclose(lively[MOVING, MOVING], 64.0 * calm[MOVING, MOVING])
+    assert np.array_equal(lively[SKIN, SKIN], calm[SKIN, SKIN])
+
+
+def test_soft_tissue_settles_at_its_scatter_and_forgets() -> None:
+    settled = settled_covariance(SoftTissue())
+    tissue = np.r_[SKIN, RELIEF]
+    assert np.linalg.eigvalsh(settled[np.ix_(tissue, tissue)]).min() > 0.0
+    found = palm_step(np.zeros(3), MOTION, 0.1)
+    now = np.zeros((SIZE, SIZE))
+    for _ in range(600):
+        now = found.forward @ now @ found.forward.T + found.noise[0]
+    assert np.allclose(now[np.ix_(tissue, tissue)], settled[np.ix_(tissue, tissue)], rtol=1e-3, atol=1e-12)
+    sd_mm = 1e3 * np.sqrt(np.diag(settled[SKIN, SKIN])).reshape(6, 3)
+    assert sd_mm[5, 2] > sd_mm[4, 2] > 2.0 * sd_mm[3, 2], "the little knuckle sinks most, the middle one hardly"
+    assert (sd_mm[2:, 0] > sd_mm[2:, 1]).all(), "skin glides along the ray more than across"
+
+
+def test_the_line_of_sight_is_the_picture_and_its_slope() -> None:
+    belief = replace(moving(3), covariance=1e-12 * np.eye(SIZE))
+    line = sight(belief, VIEW, Spread())
+    discs = VIEW.discs_cam_m(belief)
+    expected = np.column_stack((CAMERA.project(discs), discs[:, 2])).ravel()
+    assert np.allclose(line.value[0], expected, atol=1e-6)
+    step = 1e-6
+    for i in np.r_[POSE, SHAPE, SKIN, RELIEF, RATE]:
+        error = np.zeros(SIZE)
+        error[i] = step
+        there = VIEW.discs_cam_m(belief.moved(error, belief.covariance))
+        moved = np.column_stack((CAMERA.project(there), there[:, 2])).ravel()
+        assert np.allclose(line.slope[0][:, i], (moved - expected) / step, rtol=2e-4, atol=2e-2), i
+
+
+def test_the_line_of_sight_is_the_unscented_transform_of_an_independent_filter() -> None:
+    """Mean, covariance and cross-covariance of what is seen, as filterpy's own sigma points of the pose give them."""
+    belief = moving(5)
+    wide = belief.covariance.copy()
+    wide[SHAPE] = wide[SKIN] = wide[:, SHAPE] = wide[:, SKIN] = 0.0
+    belief = replace(belief, covariance=wide)
+    pose = wide[np.ix_(POSE, POSE)]
+    spread = Spread()
+    points = MerweScaledSigmaPoints(POSE.size, alpha=spread.alpha, beta=spread.beta, kappa=spread.kappa)
+
+    def seen(offset: FloatArray) -> FloatArray:
+        error = np.zeros(SIZE)
+        error[POSE] = offset
+        discs = VIEW.discs_cam_m(belief.moved(error, wide))
+        return np.column_stack((CAMERA.project(discs), discs[:, 2])).ravel()
+
+    other = UnscentedKalmanFilter(POSE.size, 18, 1.0, seen, lambda x, dt: x, points)
+    other.P = pose + 1e-14 * np.eye(POSE.size)
+    other.Q, other.R = np.zeros((POSE.size, POSE.size)), 1e-9 * np.eye(18)
+    other.predict()
+    other.sigmas_f = points.sigma_points(np.zeros(POSE.size), other.P)
+    other.update(seen(np.zeros(POSE.size)))
+    line = sight(belief, VIEW, spread)
+    slope = line.slope[0][:, POSE]
+    assert np.allclose(slope @ pose @ slope.T + line.error[0], other.S - other.R, rtol=1e-6, atol=1e-6)
+    image = np.array([seen(point) for point in other.sigmas_f])
+    assert np.allclose(line.value[0], other.Wm @ image, atol=1e-9)
+
+
+def test_recentring_moves_the_nominal_and_keeps_the_modes_where_they_are() -> None:
+    rng, belief = np.random.default_rng(9), moving(9)
+    bank = Bank(0.01 * rng.normal(size=(1, 2, SIZE)), np.stack((belief.covariance, 2 * belief.covariance))[None],
+                np.array([[0.3, 0.7]]))  # fmt: skip
+    after, apart = recentred(belief, bank)
+    assert np.allclose(apart.merged()[0], 0.0, atol=1e-4)
+    for k in range(2):
+        there = belief.moved(bank.mean[0, k], belief.covariance)
+        again = after.moved(apart.mean[0, k], belief.covariance)
+        assert np.allclose(there.error_to(again), 0.0, atol=2e-6)
+
+
+def test_slowing_fades_the_velocities_alone() -> None:
+    kept = slowing(0.5)
+    assert (kept[np.r_[VELOCITY, RATE]] == 0.5).all()
+    assert (np.delete(kept, np.r_[VELOCITY, RATE]) == 1.0).all()
+
+
+def test_looking_back_draws_a_straight_line_through_a_gap() -> None:
+    """Known well at both ends and not at all between, a steadily turning hand was halfway in the middle."""
+    wide, sharp = np.eye(SIZE) * 1e-2, np.eye(SIZE) * 1e-8
+    steps = []
+    for k in range(11):
+        value = np.zeros(SIZE)
+        value[RATE] = [0.0, 1.0, 0.0]
+        angle = 0.1 * k if k in (0, 10) else 0.1 * k + 0.05
+        rotation = so3.exp(np.array([0.0, angle, 0.0]))
+        steps.append(FilterStep(0.1 * k, PalmBelief(rotation, value, sharp if k in (0, 10) else wide), 1.0, k > 0))
+    found = smooth(steps, MOTION)
+    middle = found[5]
+    assert middle is not None
+    assert so3.log(middle.rotation_w2_w0)[1] == pytest.approx(0.5, abs=0.02)
+    for belief in found:
+        assert belief is not None
+        assert np.linalg.eigvalsh(belief.covariance).min() > 0.0
+
+
+def test_looking_back_does_not_reach_over_a_new_beginning() -> None:
+    steps = [FilterStep(0.1 * k, moving(k), 1.0, k not in (0, 2)) for k in range(4)]
+    steps[1] = replace(steps[1], belief=None)
+    found = smooth(steps, MOTION)
+    assert found[0] is steps[0].belief
+    assert found[1] is None
+    assert found[2] is not steps[2].belief
+    assert found[3] is steps[3].belief
+
+
+# --- turns that nothing shows -----------------------------------------------------------------------------
+PALM_M = np.array(
+    [[0.0, 0.0, 0.0], [-0.012, 0.016, 0.001], [-0.03, 0.08, 0.003], [-0.008, 0.083, 0.006], [0.012, 0.079, 0.004],
+     [0.03, 0.07, 0.0]]
+)  # fmt: skip
+
+
+def test_knuckles_alone_do_not_show_the_turn_about_their_line_and_a_wrist_beside_them_does() -> None:
+    assert unseen_turns(PALM_M, 0.008) is None
+    assert unseen_turns(PALM_M[[0, 2, 3]], 0.008) is None
+    unseen = unseen_turns(PALM_M[2:], 0.008)
+    assert unseen is not None
+    np.testing.assert_allclose(unseen @ unseen, unseen, atol=1e-12)
+    line = PALM_M[5, :2] - PALM_M[2, :2]
+    assert abs(unseen[:2, :2] @ (line / np.linalg.norm(line)) @ (line / np.linalg.norm(line))) > 0.98
+    assert np.trace(unseen) == pytest.approx(1.0)
+
+
+def test_an_unseen_turn_is_pushed_as_a_hand_may_move_in_every_mode_and_no_other_is() -> None:
+    unseen = np.diag([1.0, 0.0, 0.0])
+    usual = palm_step(np.zeros(3), MOTION, 1.0 / 30.0).noise
+    found = palm_step(np.zeros(3), MOTION, 1.0 / 30.0, unseen).noise
+    loud = (MOTION.unseen_scale / MOTION.scales) ** 2
+    for mode in range(len(MOTION.scales)):
+        grown = np.diag(found[mode]) / np.where(np.diag(usual[mode]) > 0.0, np.diag(usual[mode]), 1.0)
+        assert grown[TURN.start] == pytest.approx(max(loud[mode], 1.0))
+        assert grown[RATE.start] == pytest.approx(max(loud[mode], 1.0))
+        assert np.allclose(np.delete(grown[:12], [TURN.start, RATE.start]), 1.0)
+        assert np.linalg.eigvalsh(found[mode]).min() > -1e-12
+
+
+def test_only_the_unseen_turning_fades() -> None:
+    kept = slowing_unseen(0.8, np.diag([1.0, 0.0, 0.0]))
+    value = np.arange(float(SIZE))
+    faded = kept @ value
+    assert faded[RATE.start] == pytest.approx(0.8 * value[RATE.start])
+    np.testing.assert_array_equal(np.delete(faded, RATE.start), np.delete(value, RATE.start))

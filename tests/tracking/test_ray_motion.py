@@ -1,0 +1,57 @@
+"""How thumb and fingers may move between two pictures, and which of their joints stay near where they belong."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from carpus.core.tracking.hand_geometry import CONSTANTS, RAYS, SLOTS
+from carpus.core.tracking.kernel import Bank
+from carpus.core.tracking.ray_filter import RAY_SIZE, RayMotion
+
+STRAYS_RAD, SETTLES_S = 0.1, 1.0
+END_JOINT = 3
+SCALES = np.array([0.5, 4.0])
+
+
+def motion() -> RayMotion:
+    density = np.full((RAYS, SLOTS), 2.0)
+    density[1:, END_JOINT] = 0.0
+    settled2 = np.zeros((RAYS, SLOTS))
+    settled2[1:, END_JOINT] = STRAYS_RAD**2
+    return RayMotion(density, SCALES, np.zeros((RAYS, CONSTANTS)), settled2, SETTLES_S)
+
+
+def after(seconds: float, dt_s: float) -> Bank:
+    """What is believed of an end joint 0.3 rad from where it belongs, surely, after that time without a picture."""
+    mean = np.zeros((RAYS, RAY_SIZE))
+    mean[:, END_JOINT] = 0.3
+    bank = Bank.alike(mean, np.broadcast_to(1e-12 * np.eye(RAY_SIZE), (RAYS, RAY_SIZE, RAY_SIZE)), SCALES.size)
+    moves = motion()
+    for _ in range(round(seconds / dt_s)):
+        bank = moves.predicted(bank, dt_s, None)
+    return bank
+
+
+@pytest.mark.parametrize("dt_s", [1.0 / 30.0, 0.1])
+def test_an_end_joint_returns_to_where_the_middle_one_has_it_and_strays_about_there(dt_s: float) -> None:
+    soon, late = after(SETTLES_S, dt_s), after(10.0 * SETTLES_S, dt_s)
+    assert soon.mean[1:, :, END_JOINT] == pytest.approx(0.3 / np.e, rel=1e-2)
+    assert late.mean[1:, :, END_JOINT] == pytest.approx(0.0, abs=1e-3)
+    variance = late.covariance[1:, :, END_JOINT, END_JOINT]
+    assert np.sqrt(variance) == pytest.approx(STRAYS_RAD, rel=1e-3), "in every mode alike, however often it is asked"
+
+
+def test_other_joints_go_where_they_like() -> None:
+    late = after(10.0 * SETTLES_S, 0.1)
+    assert late.mean[0, :, END_JOINT] == pytest.approx(0.3)
+    assert (late.covariance[0, :, END_JOINT, END_JOINT] > 1.0).all()
+
+
+def test_a_step_for_looking_back_is_the_step_that_was_taken() -> None:
+    forward, noise = motion().step(0.1, np.ones(RAYS), None)
+    bank = after(0.1, 0.1)
+    start = np.zeros((RAYS, RAY_SIZE))
+    start[:, END_JOINT] = 0.3
+    assert (forward @ start[..., None])[..., 0] == pytest.approx(bank.mean[:, 0])
+    assert noise[1:, END_JOINT, END_JOINT] == pytest.approx(bank.covariance[1:, 0, END_JOINT, END_JOINT], rel=1e-6)

@@ -1,0 +1,121 @@
+"""The back of the hand as a measurement: what the surface says of the hand's tilt, and when it is not asked."""
+
+from __future__ import annotations
+
+import cv2
+import numpy as np
+import pytest
+
+from carpus.core import so3
+from carpus.core.hand.back_surface import BackSurface, back_surface_from
+from carpus.core.tracking.palm_state import POSITION, SIZE, PalmBelief
+from carpus.core.tracking.palm_view import View
+from carpus.core.tracking.surface_fit import SurfaceSettings, surface_measurement
+from carpus.core.types import FloatArray, SurfaceSamples
+from tests.tracking.hands import CAMERA, FROM_ABOVE, MIDDLE_M, RIGHT_PALM_M
+
+VIEW = View(CAMERA, FROM_ABOVE, MIDDLE_M, RIGHT_PALM_M, np.zeros((6, 18)))
+
+
+def height_m(x: FloatArray, y: FloatArray) -> FloatArray:
+    """A back of a hand: arched across, falling towards the wrist."""
+    x, y = np.clip(x, -0.05, 0.15), np.clip(y, -0.05, 0.05)
+    return 0.02 * x - 6.0 * y**2 - 0.5 * (x - 0.04) ** 2
+
+
+def place_on(rotation: FloatArray, position: FloatArray) -> SurfaceSamples:
+    """Readings of that surface at a pose, on a lattice of pixels: each ray meets it once."""
+    u, v = np.meshgrid(np.arange(250.0, 400.0, 2.0), np.arange(150.0, 330.0, 2.0))
+    pixel = np.stack((u.ravel(), v.ravel()), axis=1)
+    ray = CAMERA.back_project(pixel, np.ones(len(pixel)))
+    depth = np.full(len(pixel), MIDDLE_M[2])
+    for _ in range(30):
+        in_w0 = (ray * depth[:, None] - MIDDLE_M) @ FROM_ABOVE
+        local = (in_w0 - position) @ rotation
+        over = local[:, 2] - height_m(local[:, 0], local[:, 1])
+        depth += 0.9 * over  # W's Z looks at the camera: what floats above is too near
+    return SurfaceSamples(pixel, depth)
+
+
+@pytest.fixture(scope="module")
+def surface() -> BackSurface:
+    x, y = np.meshgrid(np.arange(-0.02, 0.11, 0.0013), np.arange(-0.03, 0.04, 0.0013))
+    points = np.stack((x.ravel(), y.ravel(), height_m(x, y).ravel()), axis=1)
+    corner = RIGHT_PALM_M[:4].copy()
+    corner[:, 2] = height_m(corner[:, 0], corner[:, 1])
+    found = back_surface_from(points, corner)
+    assert found is not None
+    return found
+
+
+def belief_at(rotation: FloatArray, position: FloatArray) -> PalmBelief:
+    value = np.zeros(SIZE)
+    value[POSITION] = position
+    return PalmBelief(rotation, value, np.eye(SIZE))
+
+
+@pytest.mark.parametrize("seed", range(5))
+def test_a_wrong_pose_is_measured_as_wrong_as_it_is(surface: BackSurface, seed: int) -> None:
+    rng = np.random.default_rng(seed)
+    rotation, position = so3.exp(rng.normal(0.0, 0.15, 3)), rng.normal(0.0, 0.01, 3)
+    turn, shift = rng.normal(0.0, 0.03, 3) * [1.0, 1.0, 0.3], rng.normal(0.0, 0.001, 3)
+    believed = belief_at(rotation @ so3.exp(turn), position + shift)
+    found = surface_measurement(believed, place_on(rotation, position), surface, VIEW, SurfaceSettings())
+    assert found is not None
+    error = believed.error_to(belief_at(rotation, position))
+    assert found.value == pytest.approx(found.slope @ error, abs=6e-4)
+    assert abs(found.value[0]) > 1e-3 or abs(turn[0]) < 2e-3
+
+
+def thinned(samples: SurfaceSamples, most: int = 800) -> SurfaceSamples:
+    """As many readings as a picture gives, from all over the surface."""
+    kept = np.random.default_rng(0).permutation(len(samples.depth_m))[:most]
+    return SurfaceSamples(samples.pixel[kept], samples.depth_m[kept])
+
+
+@pytest.mark.parametrize("shared", [0.0, 1.0])
+def test_depth_noise_scatters_as_stated(surface: BackSurface, shared: float) -> None:
+    """With errors that are each pixel's own, or shared by those of one matching window, the stated covariance is that
+    of the scatter."""
+    settings = SurfaceSettings(shared=shared, turn_sd_rad=0.0, up_sd_m=0.0, reading_per_m=0.0014)
+    rng, here = np.random.default_rng(0), belief_at(np.eye(3), np.zeros(3))
+    clean = thinned(place_on(np.eye(3), np.zeros(3)))
+    sd_m = 0.0014 * float(np.median(clean.depth_m)) ** 2
+    found, stated = [], []
+    for _ in range(120):
+        noise = rng.standard_normal((480, 640))
+        if shared:
+            noise = cv2.blur(noise, (9, 9)) * 9.0
+        column, row = np.round(clean.pixel).astype(int).T
+        noisy = SurfaceSamples(clean.pixel, clean.depth_m + sd_m * noise[row, column])
+        one = surface_measurement(here, noisy, surface, VIEW, settings)
+        assert one is not None
+        found.append(one.value)
+        stated.append(np.sqrt(np.diag(one.covariance)))
+    assert np.std(found, axis=0) == pytest.approx(np.mean(stated, axis=0), rel=0.25)
+
+
+def test_a_finger_over_the_hand_does_not_tilt_it(surface: BackSurface) -> None:
+    clean = place_on(np.eye(3), np.zeros(3))
+    depth = clean.depth_m.copy()
+    depth[(clean.pixel[:, 0] > 300) & (clean.pixel[:, 0] < 315)] -= 0.03
+    found = surface_measurement(
+        belief_at(np.eye(3), np.zeros(3)), SurfaceSamples(clean.pixel, depth), surface, VIEW, SurfaceSettings()
+    )
+    assert found is not None
+    assert np.abs(np.degrees(found.value[:2])).max() < 0.3
+
+
+def test_a_covered_hand_is_not_asked(surface: BackSurface) -> None:
+    clean = place_on(np.eye(3), np.zeros(3))
+    here = belief_at(np.eye(3), np.zeros(3))
+    covered = SurfaceSamples(clean.pixel, clean.depth_m - 0.05)
+    assert surface_measurement(here, covered, surface, VIEW, SurfaceSettings()) is None
+    nothing = SurfaceSamples(np.empty((0, 2)), np.empty(0))
+    assert surface_measurement(here, nothing, surface, VIEW, SurfaceSettings()) is None
+
+
+def test_too_little_of_the_back_is_no_surface() -> None:
+    assert back_surface_from(np.empty((0, 3)), RIGHT_PALM_M[:4]) is None
+    lonely = np.column_stack((np.linspace(0.0, 0.08, 40), np.zeros(40), np.zeros(40)))
+    assert back_surface_from(lonely, RIGHT_PALM_M[:4]) is None

@@ -1,0 +1,206 @@
+"""Markers put right by mouse and by keys: what the screen hands on is what the person did."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from PySide6.QtCore import QPoint, Qt
+from pytestqt.qtbot import QtBot
+
+from carpus.core.session.marker_doubts import name_doubt
+from carpus.core.session.marker_places import Correction
+from carpus.ui.background import Background
+from carpus.ui.correct.picture import RING_PX
+from carpus.ui.correct.places import Places
+from carpus.ui.correct.screen import CorrectScreen
+from carpus.ui.keys import Keys
+from carpus.ui.theme import Theme
+from tests.ui.fakes import FakeCorrections, FakeSessions
+from tests.ui.hand_fakes import hand_session
+
+ROW = 620
+
+
+@pytest.fixture(scope="module")
+def sessions() -> FakeSessions:
+    return FakeSessions()
+
+
+@pytest.fixture
+def screen(qtbot: QtBot, theme: Theme, sessions: FakeSessions, request: pytest.FixtureRequest) -> CorrectScreen:
+    background = Background()
+    shown = CorrectScreen(theme, Keys(), background, FakeCorrections(sessions, pictures=False))
+    qtbot.addWidget(shown)
+    shown.resize(1280, 744)
+    shown.show()
+    shown.begin("session-7", sessions.session("session-7"), ROW)
+    qtbot.waitUntil(lambda: not background.busy and shown.picture.image is not None)
+    return shown
+
+
+def on_screen(screen: CorrectScreen, pixel: np.ndarray) -> QPoint:
+    return screen.picture.to_screen(float(pixel[0]), float(pixel[1])).toPoint()
+
+
+def drag(qtbot: QtBot, screen: CorrectScreen, start: np.ndarray, end: np.ndarray) -> None:
+    left, picture = Qt.MouseButton.LeftButton, screen.picture
+    qtbot.mousePress(picture, left, pos=on_screen(screen, start))
+    qtbot.mouseMove(picture, on_screen(screen, end))
+    qtbot.mouseRelease(picture, left, pos=on_screen(screen, end))
+
+
+def corrections(screen: CorrectScreen) -> tuple[Correction, ...]:
+    assert screen.places is not None
+    return screen.places.corrections()
+
+
+def test_dragging_a_name_to_a_spot_puts_it_on_the_middle_of_the_spot(qtbot: QtBot, screen: CorrectScreen) -> None:
+    assert screen.places is not None
+    start = screen.places.before(ROW)[3]
+    assert not screen.primary.isEnabled()
+    drag(qtbot, screen, start, np.array([423.0, 118.0]))
+    (one,) = corrections(screen)
+    assert one.row == ROW
+    assert one.places["MCP3"] == (420.0, 120.0)
+    screen.undo()
+    asked: list[object] = []
+    screen.wanted.connect(lambda _, said: asked.append(said))
+    screen.choose("MCP3")
+    screen.hide_current()
+    qtbot.keyClick(screen, Qt.Key.Key_Return)
+    assert asked == [corrections(screen)]
+
+
+def test_dragging_a_name_onto_another_disc_swaps_the_two(qtbot: QtBot, screen: CorrectScreen) -> None:
+    assert screen.places is not None
+    before = screen.places.before(ROW).copy()
+    drag(qtbot, screen, before[2], before[4])
+    now = screen.places.now(ROW)
+    np.testing.assert_allclose(now[2], before[4])
+    np.testing.assert_allclose(now[4], before[2])
+
+
+def test_exchanged_names_are_told_before_and_enter_mends_them(qtbot: QtBot, screen: CorrectScreen) -> None:
+    assert screen.places is not None
+    before = screen.places.before(ROW).copy()
+    asked: list[object] = []
+    screen.wanted.connect(lambda _, said: asked.append(said))
+    drag(qtbot, screen, before[2], before[4])
+    assert screen.title.text() == "“Index knuckle” and “Ring knuckle” look exchanged"
+    assert screen.although.isVisible()
+    qtbot.keyClick(screen, Qt.Key.Key_Return)
+    assert asked == []
+    np.testing.assert_allclose(screen.places.now(ROW), before)
+    assert not screen.although.isVisible()
+    screen.undo()
+    screen.although.click()  # who means it may
+    assert asked == [corrections(screen)]
+
+
+def test_a_name_far_from_its_place_is_told_before(qtbot: QtBot, screen: CorrectScreen) -> None:
+    assert screen.places is not None
+    asked: list[object] = []
+    screen.wanted.connect(lambda _, said: asked.append(said))
+    drag(qtbot, screen, screen.places.before(ROW)[5], np.array([600.0, 60.0]))
+    assert screen.title.text() == "“Little knuckle” cannot be there"
+    qtbot.keyClick(screen, Qt.Key.Key_Return)
+    assert corrections(screen) == ()
+    assert asked == []
+
+
+def test_names_on_crossed_fingers_are_told() -> None:
+    session = hand_session()
+    markers = list(session.header.protocol.markers)
+    row = 40
+    places = session.markers.measured_px[row]
+    for one, other in (("PIP2", "PIP3"), ("TIP4", "TIP5"), ("DIP2", "TIP4")):
+        assert name_doubt(session, row, places, [one, other]) is None
+        wrong, pair = places.copy(), [markers.index(one), markers.index(other)]
+        wrong[pair] = places[pair[::-1]]
+        told = name_doubt(session, row, wrong, [one, other])
+        assert told is not None
+        assert told.exchanged == (one, other)
+
+
+def test_a_name_stands_nearest_its_own_disc_or_has_a_line_to_it(screen: CorrectScreen) -> None:
+    """Discs so near to each other that there is no room beside each: at the worst a name goes further off."""
+    assert screen.places is not None
+    screen.grab()
+    now = screen.places.now(ROW)
+    rings = {name: on_screen(screen, now[number]) for number, name in enumerate(screen.places.markers)}
+    assert set(screen.picture.plates) == set(rings)
+    beside = 2 * RING_PX + 5
+    for name, plate in screen.picture.plates.items():
+        off = {
+            other: np.hypot(
+                max(plate.left() - at.x(), 0.0, at.x() - plate.right()),
+                max(plate.top() - at.y(), 0.0, at.y() - plate.bottom()),
+            )
+            for other, at in rings.items()
+        }
+        assert min(off, key=lambda one: off[one]) == name or off[name] > beside, name
+
+
+def test_a_name_is_dragged_by_its_words_too(qtbot: QtBot, screen: CorrectScreen) -> None:
+    assert screen.places is not None
+    screen.grab()
+    before = screen.places.before(ROW).copy()
+    left, picture = Qt.MouseButton.LeftButton, screen.picture
+    words = picture.plates["MCP4"].center().toPoint()
+    qtbot.mouseClick(picture, left, pos=words)
+    assert picture.current == "MCP4"
+    assert not corrections(screen)  # a click moves nothing
+    screen.grab()
+    qtbot.mousePress(picture, left, pos=picture.plates["MCP4"].center().toPoint())
+    qtbot.mouseMove(picture, on_screen(screen, before[5]))
+    qtbot.mouseRelease(picture, left, pos=on_screen(screen, before[5]))
+    number = screen.places.markers.index("MCP4")
+    np.testing.assert_allclose(screen.places.now(ROW)[number], before[5])
+
+
+def test_keys_do_the_same(qtbot: QtBot, screen: CorrectScreen) -> None:
+    assert screen.places is not None
+    before = screen.places.before(ROW).copy()
+    screen.rows["MCP4"].click()
+    qtbot.keyClick(screen.rows["MCP4"], Qt.Key.Key_Right)
+    qtbot.keyClick(screen.rows["MCP4"], Qt.Key.Key_Up, Qt.KeyboardModifier.ShiftModifier)
+    np.testing.assert_allclose(screen.places.now(ROW)[4], before[4] + [1.0, -10.0], atol=1e-9)
+    qtbot.keyClick(screen, "h")
+    assert corrections(screen)[0].places["MCP4"] is None
+    for _ in range(3):
+        qtbot.keyClick(screen, "z")
+    assert corrections(screen) == ()
+
+
+def test_a_click_without_a_drag_only_chooses(qtbot: QtBot, screen: CorrectScreen) -> None:
+    assert screen.places is not None
+    qtbot.mouseClick(screen.picture, Qt.MouseButton.LeftButton, pos=on_screen(screen, screen.places.before(ROW)[5]))
+    assert screen.current == "MCP5"
+    assert corrections(screen) == ()
+    qtbot.mouseClick(screen.picture, Qt.MouseButton.LeftButton, pos=on_screen(screen, np.array([420.0, 120.0])))
+    assert corrections(screen)[0].places["MCP5"] == (420.0, 120.0)
+
+
+def test_the_distance_says_which_marker_is_wrong_also_beside_a_wrong_one(sessions: FakeSessions) -> None:
+    places = Places(sessions.session("session-7"))
+    assert all(places.off_mm(ROW, name) < 3.0 for name in places.markers)
+    places.put(ROW, "MCP3", places.now(ROW)[3] + [40.0, 10.0], np.empty((0, 2)))
+    assert places.off_mm(ROW, "MCP3") > 30.0
+    assert all(places.off_mm(ROW, name) < 6.0 for name in places.markers if name != "MCP3")
+    assert places.undo() == ROW
+    assert places.undo() == -1
+
+
+def test_without_stored_pictures_the_spots_are_shown_and_said(screen: CorrectScreen) -> None:
+    assert "No pictures stored" in screen.hint.text()
+    assert len(screen.picture.spots) == 7
+
+
+def test_each_picture_is_corrected_by_itself(qtbot: QtBot, screen: CorrectScreen) -> None:
+    assert screen.places is not None
+    screen.put("MCP3", screen.places.before(ROW)[3])
+    screen.go_on(5)
+    qtbot.waitUntil(lambda: screen.picture.row == ROW + 5)
+    screen.put("MCP2", screen.places.before(ROW + 5)[2])
+    assert [one.row for one in corrections(screen)] == [ROW, ROW + 5]
+    assert "00:20.6" in screen.primary.text()

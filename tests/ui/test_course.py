@@ -1,0 +1,111 @@
+"""The chart of the sessions by mouse and keys: a point says what it is and opens its session."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from datetime import timedelta
+
+import pytest
+from PySide6.QtCore import QPointF, Qt
+from pytestqt.qtbot import QtBot
+
+from carpus.core.output.report_content import progress
+from carpus.ui.plot import course
+from carpus.ui.plot.course_view import ProgressChart
+from carpus.ui.theme import Theme
+from tests.ui.fakes import FakeSessions
+from tests.ui.test_plots import drag, move
+
+
+@pytest.fixture(scope="module")
+def store() -> FakeSessions:
+    return FakeSessions()
+
+
+@pytest.fixture
+def chart(qtbot: QtBot, theme: Theme, store: FakeSessions) -> Iterator[ProgressChart]:
+    alike = [figures for figures in store.history("linden") if figures.side == "right"]
+    chart = ProgressChart(theme)
+    qtbot.addWidget(chart)
+    chart.resize(864, 560)
+    chart.show()
+    chart.show_progress(progress(sorted(alike, key=lambda figures: figures.when)))
+    return chart
+
+
+def place(chart: ProgressChart, number: int) -> QPointF:
+    panel, key = chart.panels()[0]
+    return dict(course.Points(chart._progress, key).places(panel))[number]
+
+
+def test_a_click_on_a_point_opens_its_session_and_one_beside_it_nothing(qtbot: QtBot, chart: ProgressChart) -> None:
+    opened: list[str] = []
+    chart.opened.connect(opened.append)
+    at = place(chart, 2).toPoint()
+    qtbot.mouseClick(chart.face, Qt.MouseButton.LeftButton, pos=at)
+    assert opened == ["session-3"]
+    at.setY(at.y() + 60)
+    qtbot.mouseClick(chart.face, Qt.MouseButton.LeftButton, pos=at)
+    assert opened == ["session-3"]
+
+
+def test_a_point_under_the_mouse_says_date_value_set_up_and_remarks(chart: ProgressChart) -> None:
+    for number in range(7):
+        move(chart.face, QPointF(place(chart, number).toPoint()))
+        assert chart.pointed == number
+        assert chart.face.cursor().shape() == Qt.CursorShape.PointingHandCursor
+    key = chart.panels()[0][1]
+    newest = " · ".join(chart.said_of(6, key))
+    for word in ("20 Nov 2026", "Whole arc", "±", "repetitions", "Camera 66 cm away", "stopped for pain"):
+        assert word in newest, word
+    far = " · ".join(chart.said_of(3, key))
+    assert "Camera 84 cm away" in far
+    assert "further away" in far
+    move(chart.face, QPointF(5.0, 300.0))
+    assert chart.pointed == -1
+
+
+def test_arrows_point_at_one_session_after_the_other_and_enter_opens_it(qtbot: QtBot, chart: ProgressChart) -> None:
+    chart.step(1)
+    assert chart.pointed == 0
+    for _ in range(9):
+        chart.step(1)
+    assert chart.pointed == 6
+    chart.step(-1)
+    with qtbot.waitSignal(chart.opened) as opened:
+        chart.open_pointed()
+    assert opened.args == ["session-6"]
+
+
+def test_time_is_to_scale_and_can_be_looked_into(qtbot: QtBot, chart: ProgressChart) -> None:
+    times = [point.figures.when for point in chart._progress.points]
+    places = [place(chart, number).x() for number in range(7)]
+    share = (places[1] - places[0]) / (places[6] - places[0])
+    assert share == pytest.approx((times[1] - times[0]) / (times[6] - times[0]), abs=1e-6)
+    chart.step(1)
+    for _ in range(3):
+        chart.zoom_in()
+    start, end = chart.shown()
+    whole = chart.extent()
+    assert whole is not None
+    assert end - start == pytest.approx((whole[1] - whole[0]) / 1.25**3)
+    assert place(chart, 6).x() > chart.panels()[0][0].box.right()
+    drag(qtbot, chart.face, QPointF(chart.panels()[0][0].box.center().toPoint()), -2000)
+    assert chart.shown()[1] == pytest.approx(whole[1])
+    chart.show_all()
+    assert chart.shown() == whole
+    for _ in range(60):
+        chart.zoom_in()
+    assert timedelta(seconds=chart.shown()[1] - chart.shown()[0]) >= timedelta(hours=23)
+
+
+def test_the_table_has_a_row_for_each_point_that_is_shown(chart: ProgressChart) -> None:
+    head, rows = chart.table()
+    rows = list(rows)
+    assert head[:3] == ["session", "when", "what"]
+    assert len(rows) == 7 * len(chart.panels())
+    assert [row[-1] for row in rows[:7]].count("no") == 1
+    chart.step(1)
+    for _ in range(6):
+        chart.zoom_in()
+    assert 0 < len(list(chart.table()[1])) < len(rows)

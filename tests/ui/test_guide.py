@@ -1,0 +1,94 @@
+"""The guide: every page and picture is there, F1 finds the page of the screen, links lead on, the cards print."""
+
+from __future__ import annotations
+
+import re
+import shutil
+import subprocess
+from pathlib import Path
+from typing import get_args
+
+import pytest
+from PySide6.QtCore import QUrl
+from PySide6.QtGui import QImage
+from pytestqt.qtbot import QtBot
+
+from carpus.app.desktop.places import ASIDE, Place
+from carpus.core.errors import OutputNotWritable
+from carpus.core.hand.protocols import HAND21
+from carpus.ui.hand_drawing import PLACES
+from carpus.ui.help import guide
+from carpus.ui.help.cards import write_cards
+from carpus.ui.help.screen import HelpScreen
+from carpus.ui.keys import Keys
+from carpus.ui.theme import Theme
+
+GUIDE = Path(__file__).parents[2] / "resources" / "guide"
+ASKED = ("discs", "camera", "calibration", "exercises", "figures", "limits", "trouble")
+"""What a guide must have: discs, mounting and light, calibration, exercises, figures, what they do not say, trouble."""
+
+
+def test_every_page_is_there_and_none_is_left_over() -> None:
+    assert {path.stem for path in (GUIDE / guide.LANGUAGE).glob("*.md")} == set(guide.PAGES)
+    assert set(ASKED) <= set(guide.PAGES)
+    for page in guide.PAGES:
+        assert guide.title(page)
+        assert set(guide.links(page)) <= set(guide.PAGES)
+
+
+def test_every_picture_is_there_and_none_is_left_over() -> None:
+    shown = {name for page in guide.PAGES for name in guide.pictures(page)}
+    assert {path.name for path in (GUIDE / "pictures").iterdir()} == shown
+    for name in shown:
+        assert QImage(guide.picture_path(name)).width() >= 1000
+
+
+def test_every_screen_has_its_page() -> None:
+    places = set(get_args(Place)) - {"help"}
+    assert set(guide.PAGE_OF_PLACE) == places
+    assert set(ASIDE) - places == {"help"}
+    assert set(guide.PAGE_OF_PLACE.values()) <= set(guide.PAGES)
+
+
+def test_f1_opens_the_page_links_lead_on_and_pictures_are_shown(qtbot: QtBot, theme: Theme) -> None:
+    screen = HelpScreen(theme, Keys())
+    qtbot.addWidget(screen)
+    screen.resize(1280, 744)
+    screen.show()
+    screen.show_page_of("camera")
+    assert screen.pages["camera"].isChecked()
+    assert "70 to 80 cm" in screen.text.toPlainText()
+    screen.text.anchorClicked.emit(QUrl("correct"))
+    assert screen.page == "correct"
+    picture = screen.text.loadResource(2, QUrl("discs-6.png"))
+    assert picture is not None
+    screen.show_page(guide.KEYS_PAGE)
+    assert "Shift+F10" in screen.text.toPlainText()
+
+
+def test_a_page_is_html_of_its_words_and_nothing_typed_is_markup(theme: Theme) -> None:
+    for page in guide.PAGES:
+        body = guide.page_html(page, theme, 500).split("<body>")[1]
+        assert "**" not in body
+        assert "](" not in body
+        assert body.count("<ul>") == body.count("</ul>")
+        assert body.count("<ol>") == body.count("</ol>")
+        plain = re.sub(r"<[^>]*>", "", body)
+        assert "<" not in plain
+
+
+def test_the_drawing_has_a_place_for_every_disc() -> None:
+    assert set(PLACES) >= set(HAND21.markers)
+
+
+def test_the_cards_are_two_pages_with_their_words(qtbot: QtBot, tmp_path: Path) -> None:
+    write_cards(tmp_path / "cards.pdf")
+    tool = shutil.which("pdftotext")
+    assert tool is not None, "pdftotext (poppler-utils) is needed to read the cards back"
+    text = subprocess.run([tool, str(tmp_path / "cards.pdf"), "-"], capture_output=True, text=True, check=True).stdout
+    pages = text.split("\f")
+    assert len([page for page in pages if page.strip()]) == 2
+    assert "Thumb base" in pages[0]
+    assert "70 to 80 cm" in pages[1]
+    with pytest.raises(OutputNotWritable):
+        write_cards(tmp_path / "no folder" / "cards.pdf")

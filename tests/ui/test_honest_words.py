@@ -1,0 +1,230 @@
+"""What the screens and pages say of their own figures: counted once, whose limits, whose sd, what lacks."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from dataclasses import replace
+from datetime import timedelta
+
+import numpy as np
+import pytest
+from PySide6.QtCore import QRectF
+from PySide6.QtWidgets import QWidget
+from pytestqt.qtbot import QtBot
+
+from carpus.core import so3
+from carpus.core.measures.repetitions import Uncounted
+from carpus.core.output.joint_content import joint_curves
+from carpus.core.output.report_content import SessionFigures, Spread, progress, session_curves, session_figures
+from carpus.core.types import TrackedFrame
+from carpus.ui.background import Background
+from carpus.ui.controls.text import StateText, Text
+from carpus.ui.figures import spread_labels
+from carpus.ui.keys import Keys
+from carpus.ui.patients.card import PatientCardView
+from carpus.ui.plot.course import place_panels
+from carpus.ui.plot.history import History
+from carpus.ui.plot.session import HandPlot
+from carpus.ui.plot.style import screen_style
+from carpus.ui.ports import PatientCard, Preferences, ResultLine
+from carpus.ui.progress.screen import ProgressScreen
+from carpus.ui.progress.words import before_after
+from carpus.ui.report.hand_rows import column_heads, limits_words
+from carpus.ui.report.pdf import session_report
+from carpus.ui.report.tables import repetition_words, table_rows
+from carpus.ui.report.words import method, other_lines
+from carpus.ui.settings.limits import limit_lines
+from carpus.ui.settings.screen import SettingsScreen
+from carpus.ui.theme import Theme
+from carpus.ui.verdicts import limit_words
+from tests.ui.fakes import NOW, FakeFeed, FakeSessions, FakeStore, session
+from tests.ui.hand_fakes import hand_session
+
+BOX = QRectF(0.0, 0.0, 800.0, 500.0)
+ONCE = "counts once, by its newest result"
+
+
+@pytest.fixture
+def background(qtbot: QtBot) -> Iterator[Background]:
+    background = Background()
+    yield background
+    qtbot.waitUntil(lambda: not background.busy, timeout=120_000)
+
+
+def said(widget: QWidget) -> str:
+    """All words of a widget."""
+    return " ".join(text.text() for kind in (Text, StateText) for text in widget.findChildren(kind))
+
+
+def not_reaching(figures_deg: tuple[float, float] = (20.0, 60.0), **header: object) -> SessionFigures:
+    """A wrist that bends between two angles of flexion and never comes back to neutral."""
+    made = session(**header)  # type: ignore[arg-type]
+    angles = made.motion.angles_rad.copy()
+    low, high = np.nanpercentile(angles[:, 1], (2, 98))
+    span = figures_deg[1] - figures_deg[0]
+    angles[:, 1] = np.radians(figures_deg[0] + (angles[:, 1] - low) / (high - low) * span)
+    return session_figures(replace(made, motion=replace(made.motion, angles_rad=angles)))
+
+
+# --- a recording counts once ------------------------------------------------------------------------------
+@pytest.mark.parametrize("earlier", [0, 1, 3])
+def test_the_card_says_that_a_recording_counts_once_where_one_was_tracked_again(theme: Theme, earlier: int) -> None:
+    row = replace(FakeStore().rows[5], session_count=6, result_count=6 + earlier)
+    card = PatientCardView(theme)
+    card.show_card(PatientCard(row, has_sessions=True), camera_ready=True)
+    assert (ONCE in said(card)) is (earlier > 0)
+    if earlier:
+        assert str(earlier) in said(card).split(ONCE)[1]
+
+
+class TrackedAgain(FakeSessions):
+    """Sessions of which one recording has two earlier results."""
+
+    def history(self, patient_id: str) -> list[SessionFigures]:
+        return [replace(f, earlier_results=2) if n == 1 else f for n, f in enumerate(super().history(patient_id))]
+
+
+@pytest.mark.parametrize("kind", [FakeSessions, TrackedAgain])
+def test_progress_and_report_say_it_too(
+    theme: Theme, background: Background, qtbot: QtBot, kind: type[FakeSessions]
+) -> None:
+    store = kind()
+    screen = ProgressScreen(theme, Keys(), background, store)
+    screen.begin("linden")
+    qtbot.waitUntil(lambda: not background.busy, timeout=120_000)
+    again = kind is TrackedAgain
+    assert (ONCE in said(screen)) is again
+    history = store.history("linden")
+    key = history[1].session_id
+    report = session_report(store.session(key), history=history)
+    assert (ONCE in method(report.figures, 6, compared=False)) is again
+
+
+def test_earlier_results_that_were_read_are_counted_as_replaced() -> None:
+    newest = session_figures(session())
+    older = replace(newest, session_id="older", created=(newest.created or NOW) - timedelta(days=1))
+    assert progress([newest, older]).earlier_results == 1
+
+
+# --- the forearm ------------------------------------------------------------------------------------------
+def turning(frames: list[TrackedFrame], moved_mm: float) -> list[TrackedFrame]:
+    """The disc goes round a centre 15 mm beneath it, 70 degrees to both sides; the forearm moves at the end."""
+    centre_m = np.array([0.0, 0.0, -0.015])
+    out = []
+    for k, frame in enumerate(frames):
+        rotation = so3.exp(np.array([0.0, math.radians(70.0) * math.sin(2.0 * math.pi * max(k - 30, 0) / 120.0), 0.0]))
+        forearm_m = np.array([0.0, 1e-3 * moved_mm if k > 420 else 0.0, 0.0])
+        place = centre_m - rotation @ centre_m + forearm_m
+        out.append(replace(frame, position_m=place, rotation_w2_w0=rotation, w0_turn_rad=np.zeros(3)))
+    return out
+
+
+@pytest.mark.parametrize("moved_mm", [0.0, 22.0])
+def test_the_lamp_judges_the_forearm_by_the_point_that_the_wrist_turns_about(moved_mm: float) -> None:
+    history, seen = History(), []
+    for frame in turning(FakeFeed(seconds=20.0).frames[:500], moved_mm):
+        history.append([frame])
+        seen.append(history.forearm_moved())
+    away = np.linalg.norm(history.path_mm(), axis=1)
+    assert np.nanmax(away) > 15.0, "the disc itself leaves the ball"
+    assert not any(seen[:420])
+    assert all(seen[440:]) is (moved_mm > 0.0)
+
+
+# --- what lacks -------------------------------------------------------------------------------------------
+def test_a_side_that_was_not_reached_lacks_something_wherever_it_is_shown(theme: Theme) -> None:
+    before = not_reaching((30.0, 60.0), when=NOW - timedelta(days=20), session_id="before")
+    course = progress([before, not_reaching((10.0, 60.0), session_id="after")])
+    item = next(item for item in course.comparisons if item.movement == "extension")
+    assert item.verdict == "improved"
+    assert before_after(item).count("lacks") == 2
+    panel = next(panel for panel, key in place_panels(course, screen_style(theme), BOX, None) if key[1] == "extension")
+    assert panel.scale.low < item.before_deg + 5.0
+    card = PatientCardView(theme)
+    line = ResultLine("extension", -20.0, 1.0, math.nan, "not_judged")
+    card.show_card(PatientCard(FakeStore().rows[5], (line,), has_sessions=True), camera_ready=True)
+    assert "lacks 20°" in said(card)
+
+
+# --- whose figures ----------------------------------------------------------------------------------------
+def test_the_footnote_names_the_sd_that_is_printed() -> None:
+    many = session_figures(session())
+    assert "spread between repetitions" in method(many, 6, compared=False)
+    assert "tracker’s own" not in method(many, 6, compared=False)
+    single = replace(
+        many, rows=tuple(replace(row, sd_deg=math.nan, values_deg=row.values_deg[:1]) for row in many.rows)
+    )
+    assert "tracker’s own" in method(single, 6, compared=False)
+    assert "spread between repetitions" not in method(single, 6, compared=False)
+    mixed = replace(many, rows=(many.rows[0], *single.rows[1:]))
+    assert "of fewer than 3 the tracker’s own" in method(mixed, 6, compared=False)
+
+
+def test_error_limits_are_nobody_s_published_figures_and_those_of_arcs_are_larger(
+    theme: Theme, background: Background, qtbot: QtBot
+) -> None:
+    words = limit_words()
+    assert "experts’ choice" in words
+    assert "not published" in words
+    assert "√2" in words
+    assert words in method(session_figures(session()), 6, compared=True)
+    screen = ProgressScreen(theme, Keys(), background, FakeSessions())
+    screen.begin("linden")
+    qtbot.waitUntil(lambda: not background.busy, timeout=120_000)
+    assert words in said(screen)
+    assert words in said(SettingsScreen(theme, Preferences()))
+    limits = dict(limit_lines())
+    assert limits["Flexion, extension"] == "10°"
+    assert limits["Flexion and extension, whole arc"] == "14°"
+    assert limits["Total active motion (TAM)"] == "22°"
+
+
+def test_the_middle_finger_spreads_radially_and_ulnarly() -> None:
+    assert [words for _, words in spread_labels(20.0, 3)] == ["Radial 20°", "0°", "Ulnar 20°"]
+    assert spread_labels(20.0, 2)[0][1] == "Out 20°"
+    made = hand_session()
+    figures = session_figures(made)
+    plot = HandPlot(session_curves(made), figures.exercise, (), joints=joint_curves(made), finger=3)
+    assert "Radial 20°" in [text for _, text in plot.panels(BOX, 8.0)[1][0].scale.labels]
+
+
+@pytest.mark.parametrize("exercise", ["REACH_GRASP", "FINGER_ABAD", "THUMB_OPP", "FIST_HOOK"])
+def test_no_page_speaks_of_tam_where_no_fist_is_asked_for(exercise: str) -> None:
+    figures = session_figures(hand_session(exercise=exercise))
+    assert "TAM" not in " ".join(column_heads(figures, None)) + limits_words(figures) + method(
+        figures, 21, compared=True
+    )
+
+
+@pytest.mark.parametrize(
+    ("uncounted", "words"),
+    [
+        ("nothing_seen", "what is trained was not seen"), ("too_short", "it is too short"),
+        ("small_range", "less than 10° of movement"), ("no_return", "it never went there and back"),
+        ("too_quick", "each was quicker than 0.4 s"),
+    ],
+)  # fmt: skip
+def test_why_no_repetition_was_counted_is_said(uncounted: Uncounted, words: str) -> None:
+    made = replace(session_figures(session()), repetitions=(), uncounted=uncounted)
+    assert repetition_words(made) == f"one range over the whole recording; no repetitions: {words}"
+    free = replace(session_figures(session(exercise="FREE")), uncounted=None)
+    assert repetition_words(free) == "one range over the whole recording; no repetitions"
+
+
+def test_what_was_not_seen_is_said_beside_the_count() -> None:
+    made = replace(session_figures(session()), unseen_s=6.2)
+    assert repetition_words(made).endswith("6 s not seen and not counted")
+    assert "not seen" not in repetition_words(replace(made, unseen_s=0.0))
+
+
+def test_a_speed_lost_in_noise_is_too_slow_to_judge() -> None:
+    made = session_figures(session())
+    assert made.speed is not None
+    unknown = Spread(math.nan, math.nan, math.nan, 0)
+    slow = replace(made, peak_speed=unknown, speed=replace(made.speed, too_slow=made.speed.count))
+    assert next(row for row in table_rows(slow, None, None) if row.movement == "Peak speed").today == (
+        "too slow to judge"
+    )
+    assert dict(other_lines(slow))["Peak speed, mean ± sd"] == "too slow to judge"
+    assert "too slow" not in dict(other_lines(made))["Peak speed, mean ± sd"]

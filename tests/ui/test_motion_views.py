@@ -1,0 +1,262 @@
+"""The papers' figures in the review and on the report: path, axes, velocities, ZYZ, finger joints, further figures."""
+
+from __future__ import annotations
+
+import math
+import subprocess
+from collections.abc import Iterator
+from datetime import timedelta
+from pathlib import Path
+
+import numpy as np
+import pytest
+from PySide6.QtCore import QRectF
+from PySide6.QtGui import QColor, QFontMetricsF, QImage, QPainter
+from pytestqt.qtbot import QtBot
+
+from carpus.app.desktop.shelf import main_figure
+from carpus.core.output.motion_curves import motion_curves
+from carpus.core.output.report_content import session_curves, session_figures
+from carpus.ui.background import Background
+from carpus.ui.controls.text import Text
+from carpus.ui.keys import Keys
+from carpus.ui.patients.card import PatientCardView
+from carpus.ui.plot.motion import MotionPlot
+from carpus.ui.plot.style import screen_style
+from carpus.ui.plot.ways import LEAST_SPAN_MM, finger_ways, is_titled, plane_marks, side_by_side, wrist_way
+from carpus.ui.ports import PatientCard
+from carpus.ui.report.further_rows import further_rows, main_words
+from carpus.ui.report.hand_rows import column_heads, finger_rows
+from carpus.ui.report.pdf import write_session_report
+from carpus.ui.review.screen import WRIST, ReviewScreen
+from carpus.ui.theme import Theme
+from tests.ui.fakes import NOW, FakeSessions, FakeStore, session
+from tests.ui.hand_fakes import FakeHandSessions, hand_session
+
+BOX = QRectF(0.0, 0.0, 720.0, 300.0)
+
+
+@pytest.fixture
+def background(qtbot: QtBot) -> Iterator[Background]:
+    background = Background()
+    yield background
+    qtbot.waitUntil(lambda: not background.busy, timeout=120_000)
+
+
+# --- ways -------------------------------------------------------------------------------------------------
+def test_every_way_is_inside_its_panel_on_one_scale_in_all_planes(theme: Theme) -> None:
+    curves = motion_curves(hand_session(exercise="REACH_GRASP", motion="reach_grasp"))
+    panels = side_by_side(screen_style(theme), BOX, 12.0)
+    for plot in (wrist_way(curves), finger_ways(curves, 0), finger_ways(curves, 1), finger_ways(curves, 3)):
+        (marks,) = zip(*plane_marks(plot), strict=True)
+        scales = set()
+        for panel, mark in zip(panels, marks, strict=True):
+            for way in plot.ways:
+                x, y = mark._places(panel, way.place_mm)
+                assert panel.box.adjusted(-1, -1, 1, 1).contains(float(np.nanmin(x)), float(np.nanmin(y)))
+                assert panel.box.adjusted(-1, -1, 1, 1).contains(float(np.nanmax(x)), float(np.nanmax(y)))
+            scales.add(round(plot.per_mm(panel.box), 9))
+        assert len(scales) == 1
+        bar_mm = plot.bar_mm(panels[0].box)
+        assert bar_mm * scales.pop() <= 0.31 * panels[0].box.width()
+
+
+def test_a_square_has_words_under_it_only_where_there_is_room(theme: Theme) -> None:
+    style = screen_style(theme)
+    line = QFontMetricsF(style.label).height() + 4 * style.unit
+    seen = set()
+    for height in range(60, 320):
+        box = QRectF(0.0, 0.3, 700.0, float(height))
+        panel = side_by_side(style, box, 14.0)[0]
+        seen.add(is_titled(style, panel))
+        assert panel.box.bottom() + (line if is_titled(style, panel) else 0.0) <= box.bottom() + 1.0, height
+    assert seen == {True, False}
+
+
+def test_a_still_hand_is_not_blown_up(theme: Theme) -> None:
+    curves = motion_curves(hand_session(exercise="THUMB_OPP", motion="opposition"))
+    plot = wrist_way(curves)
+    assert float((plot.high_mm - plot.low_mm).max()) < LEAST_SPAN_MM
+    panel = side_by_side(screen_style(theme), BOX, 12.0)[0]
+    assert plot.per_mm(panel.box) * LEAST_SPAN_MM <= panel.box.width() + 1e-9
+
+
+def test_the_thumb_side_is_on_its_side_of_the_panel_for_both_hands(theme: Theme) -> None:
+    panel = side_by_side(screen_style(theme), BOX, 12.0)[0]
+    for side, thumb_left in (("right", True), ("left", False)):
+        curves = motion_curves(hand_session(exercise="FINGER_ABAD", motion="abduction", side=side))
+        plot = finger_ways(curves, 0)
+        x = [float(np.nanmean(plane_marks(plot)[0][0]._places(panel, way.place_mm)[0])) for way in plot.ways]  # type: ignore[attr-defined]
+        assert (x[0] < x[4]) is thumb_left
+
+
+def test_a_way_and_the_hand_s_axes_are_really_drawn(theme: Theme) -> None:
+    plot = wrist_way(motion_curves(session()))
+    panel = side_by_side(screen_style(theme), BOX, 12.0)[0]
+    picture = QImage(720, 300, QImage.Format.Format_RGB32)
+    picture.fill(QColor("#FFFFFF"))
+    painter = QPainter(picture)
+    plane_marks(plot, 20.0)[0][0].paint(painter, screen_style(theme), panel)
+    painter.end()
+    seen = {picture.pixelColor(x, y).name() for x in range(0, 240) for y in range(0, 300)}
+    tokens = theme.tokens
+    assert {QColor(token).name() for token in (tokens.accent, tokens.curve_a)} <= seen
+
+
+# --- curves -----------------------------------------------------------------------------------------------
+def test_speeds_and_zyz_are_read_at_the_cursor() -> None:
+    made = session()
+    figures, curves, motion = session_figures(made), session_curves(made), motion_curves(made)
+    row = 600
+    time_s = float(motion.time_s[row])
+    plot = MotionPlot(curves, figures.exercise, figures.repetitions, motion=motion, kind="place")
+    values = [value.value_deg for key in (0, 1, 2) for value in plot.values(key, time_s)]
+    there = np.concatenate((motion.position_mm[row], motion.velocity_mm_s[row], motion.turning_deg_s[row]))
+    assert np.allclose(values, there)
+    assert [plot.unit(key) for key in (0, 1, 2)] == ["mm", "mm_s", "deg_s"]
+    zyz = MotionPlot(curves, figures.exercise, figures.repetitions, motion=motion, kind="zyz")
+    beta = zyz.values(1, time_s)[0]
+    assert (beta.value_deg, beta.sd_deg) == (motion.zyz_deg[row, 1], motion.zyz_sd_deg[row, 1])
+    assert math.isclose(zyz.values(2, time_s)[1].value_deg, float(motion.zyz_sum_deg[row]))
+    for key in (0, 1, 2):  # nothing leaves its axis
+        scale = plot.panels(BOX, 8.0)[key][0].scale
+        assert np.nanmax(np.abs(plot.quantity(key))) <= scale.high
+
+
+# --- review -----------------------------------------------------------------------------------------------
+def shown(qtbot: QtBot, theme: Theme, background: Background, store: object, session_id: str) -> ReviewScreen:
+    screen = ReviewScreen(theme, Keys(), background, store)  # type: ignore[arg-type]
+    qtbot.addWidget(screen)
+    screen.resize(1280, 744)
+    screen.show()
+    screen.begin("linden", session_id)
+    qtbot.waitUntil(lambda: screen.shown and screen.picture.image is not None, timeout=120_000)
+    return screen
+
+
+def test_the_review_shows_path_speeds_and_zyz_in_turn(qtbot: QtBot, theme: Theme, background: Background) -> None:
+    screen = shown(qtbot, theme, background, FakeSessions(), "session-7")
+    assert screen.curves.isVisible()
+    screen.player.next_view()
+    assert screen.ways.isVisible()
+    assert not screen.curves.isVisible()
+    screen.player.next_view()
+    assert isinstance(screen.curves._plot, MotionPlot)
+    head, rows = screen.curves.table()
+    assert {"position_x_mm", "velocity_y_mm_s", "angular_velocity_z_deg_s"} <= set(head)
+    assert len(list(rows)) > 1000
+    screen.player.next_view()
+    assert {"zyz_beta_deg", "zyz_beta_sd_deg"} <= set(screen.curves.table()[0])
+    screen.player.next_view()
+    assert not isinstance(screen.curves._plot, MotionPlot)
+    screen.end()
+
+
+def test_the_review_of_a_reach_has_its_figures_and_the_ways_of_joints(
+    qtbot: QtBot, theme: Theme, background: Background
+) -> None:
+    store = FakeHandSessions(pictures=False)
+    made = hand_session(exercise="REACH_GRASP", motion="reach_grasp")
+    store.sessions = {"hand-7": made}
+    screen = shown(qtbot, theme, background, store, "hand-7")
+    names = {row.name for row in screen.further.rows}
+    assert {
+        "Movement time, out",
+        "Peak speed, back",
+        "Way / straight line, out",
+        "Widest opening, thumb–index",
+    } <= names
+    assert screen.further.isVisibleTo(screen)
+    screen.player.view.setCurrentIndex(screen.player.view.findData("path"))
+    for finger, joints in ((0, 5), (1, 4), (3, 4), (WRIST, 1)):
+        screen.finger.choose(finger)
+        screen._refresh()
+        assert screen.ways._plot is not None
+        assert len(screen.ways._plot.ways) == joints
+    screen.end()
+
+
+# --- words ------------------------------------------------------------------------------------------------
+def test_ways_out_stand_beside_those_back_with_last_time() -> None:
+    before = session_figures(hand_session(NOW - timedelta(days=7), 0.9, "REACH_GRASP", "hand-6", "reach_grasp"))
+    figures = session_figures(hand_session(exercise="REACH_GRASP", motion="reach_grasp"))
+    rows = further_rows(figures, before)
+    assert [row.name for row in rows[:4]] == [
+        "Movement time, out", "Movement time, back", "Peak speed, out", "Peak speed, back",
+    ]  # fmt: skip
+    assert all(row.last for row in rows[:4])
+    assert rows[0].today.endswith("s")
+    assert main_words(figures).startswith("Out in 1.")
+    touched = session_figures(hand_session(exercise="THUMB_OPP", motion="opposition"))
+    assert main_words(touched) == "The thumb touched 4 of 4 finger tips"
+    assert main_words(session_figures(hand_session())) == ""
+
+
+def test_the_list_of_sessions_says_of_a_reach_what_it_is_about() -> None:
+    reach = session_figures(hand_session(exercise="REACH_GRASP", motion="reach_grasp"))
+    assert main_figure(reach).startswith("Out in 1.")
+    touched = session_figures(hand_session(exercise="THUMB_OPP", motion="opposition"))
+    assert main_figure(touched) == "Touched 4 of 4"
+    assert "°" in main_figure(session_figures(hand_session()))
+
+
+def test_the_card_says_of_a_reach_what_it_is_about(theme: Theme) -> None:
+    card = PatientCardView(theme)
+    row = FakeStore().rows[0]
+    said = main_words(session_figures(hand_session(exercise="REACH_GRASP", motion="reach_grasp")))
+    card.show_card(PatientCard(row, about=said), camera_ready=True)
+    assert said in [text.text() for text in card.findChildren(Text) if text.isVisibleTo(card)]
+
+
+def test_totals_are_graded_beside_their_share() -> None:
+    whole = session_figures(hand_session(hides_beyond_deg=999.0))
+    assert column_heads(whole, None)[5] == "Of usual"
+    rows = finger_rows(whole, None)
+    assert all(row.share.main.endswith("%") for row in rows)
+    index = whole.row("arc", -1, "TAM2")
+    assert index is not None
+    assert rows[1].share.main.split("\N{NO-BREAK SPACE}")[0] == f"{100.0 * index.mean_deg / 260.0:.0f}"
+    assert rows[1].share.small in ("good", "fair")
+    hidden = finger_rows(session_figures(hand_session()), None)
+    assert hidden[1].share.main.startswith("≥")
+    assert hidden[1].share.small == "not graded"
+    other = session_figures(hand_session(side="left", hides_beyond_deg=999.0))
+    assert column_heads(whole, None, other)[5] == "Of other hand"
+    assert finger_rows(whole, None, other)[1].share.small in ("excellent", "good")
+
+
+# --- paper ------------------------------------------------------------------------------------------------
+def test_the_second_page_has_the_papers_figures(tmp_path: Path) -> None:
+    made = hand_session(exercise="REACH_GRASP", motion="reach_grasp")
+    path = write_session_report(made, tmp_path / "reach.pdf")
+    first, second = words_on(path, 1), words_on(path, 2)
+    for words in (
+        "page 2", "Path of the wrist", "Ways of the finger tips", "Place, speed, turning", "ZYZ angles", "XY", "ZX",
+        "ZY", "Movement time, out", "mm/s", "Peaks of speed, back", "Not a medical device",
+    ):  # fmt: skip
+        assert words in second, words
+    assert "Out in 1." in first
+    assert "TAM" not in first
+
+
+def words_on(path: Path, page: int) -> str:
+    command = ["pdftotext", "-f", str(page), "-l", str(page), str(path), "-"]
+    return subprocess.run(command, capture_output=True, text=True, check=True).stdout
+
+
+def test_what_explains_the_table_of_the_fingers_stands_right_under_it(
+    qtbot: QtBot, theme: Theme, background: Background
+) -> None:
+    screen = shown(qtbot, theme, background, FakeHandSessions(pictures=False), "hand-7")
+    tops = [widget.y() for widget in (screen.hand_table, screen.limits, screen.notes, screen.further)]
+    assert tops == sorted(tops)
+    assert screen.further.rows
+    screen.end()
+
+
+def test_a_pain_score_is_in_the_review(qtbot: QtBot, theme: Theme, background: Background) -> None:
+    screen = shown(qtbot, theme, background, FakeSessions(), "session-7")
+    assert screen.figures is not None
+    assert screen.figures.pain
+    assert f"Pain (0–10): {', '.join(map(str, screen.figures.pain))}" in screen.notes.text()
+    screen.end()

@@ -1,0 +1,250 @@
+"""What a person does with a plot: zoom, move along, read off, copy and save; and that paper shows the same."""
+
+from __future__ import annotations
+
+import csv
+import io
+import math
+import xml.etree.ElementTree as ElementTree
+from collections.abc import Iterator
+from pathlib import Path
+
+import numpy as np
+import pytest
+from PySide6.QtCore import QEvent, QPoint, QPointF, Qt
+from PySide6.QtGui import QColor, QGuiApplication, QImage, QMouseEvent, QPainter, QWheelEvent
+from PySide6.QtWidgets import QApplication, QWidget
+from pytestqt.qtbot import QtBot
+
+from carpus.core.errors import OutputNotWritable
+from carpus.core.output.exercises import exercise_named
+from carpus.core.output.report_content import Curves, session_curves, session_figures
+from carpus.core.types import ByteImage
+from carpus.ui.numbers import with_spread
+from carpus.ui.plot.history import History
+from carpus.ui.plot.live_curves import LiveCurves
+from carpus.ui.plot.session import SessionPlot, paint_session
+from carpus.ui.plot.session_view import CurveView
+from carpus.ui.plot.style import screen_style
+from carpus.ui.theme import Theme
+from tests.ui.fakes import FakeFeed, session
+
+MINUTES_20_S = 1200.0
+
+
+@pytest.fixture
+def view(qtbot: QtBot, theme: Theme) -> Iterator[CurveView]:
+    stored = session()
+    figures = session_figures(stored)
+    view = CurveView(theme)
+    qtbot.addWidget(view)
+    view.resize(900, 420)
+    view.show()
+    plot = SessionPlot(session_curves(stored), figures.exercise, figures.repetitions, 2, 40.0)
+    view.show_plot(plot)
+    return view
+
+
+def center(view: CurveView) -> QPointF:
+    return QPointF(view.panels()[0][0].box.center().toPoint())
+
+
+def move(face: QWidget, at: QPointF, button: Qt.MouseButton = Qt.MouseButton.NoButton) -> None:
+    event = QMouseEvent(
+        QEvent.Type.MouseMove, at, face.mapToGlobal(at), Qt.MouseButton.NoButton, button,
+        Qt.KeyboardModifier.NoModifier,
+    )  # fmt: skip
+    QApplication.sendEvent(face, event)
+
+
+def drag(qtbot: QtBot, face: QWidget, start: QPointF, by_px: int) -> None:
+    qtbot.mousePress(face, Qt.MouseButton.LeftButton, pos=start.toPoint())
+    for share in (0.5, 1.0):
+        move(face, start + QPointF(share * by_px, 0.0), Qt.MouseButton.LeftButton)
+    qtbot.mouseRelease(face, Qt.MouseButton.LeftButton, pos=start.toPoint() + QPoint(by_px, 0))
+
+
+def wheel(face: QWidget, at: QPointF, turn: int, modifiers: Qt.KeyboardModifier) -> None:
+    event = QWheelEvent(
+        at, face.mapToGlobal(at), QPoint(), QPoint(0, turn), Qt.MouseButton.NoButton, modifiers,
+        Qt.ScrollPhase.NoScrollPhase, False,
+    )  # fmt: skip
+    QApplication.sendEvent(face, event)
+
+
+def test_zoomed_in_a_drag_moves_along_and_all_panels_go_together(qtbot: QtBot, view: CurveView) -> None:
+    view.show_window((20.0, 30.0))
+    view.set_time(28.0)
+    box = view.panels()[0][0].box
+    drag(qtbot, view.face, center(view), -round(box.width() / 5))
+    assert view.shown_part == pytest.approx((22.0, 32.0), abs=0.1)
+    drag(qtbot, view.face, center(view), 10 * round(box.width()))
+    assert view.shown_part == pytest.approx((0.0, 10.0), abs=1e-6), "no further than the beginning"
+    assert [tuple(own.viewRange()[0]) for own in view.canvas.boxes] == [pytest.approx(view.shown_part)] * 3
+
+
+def test_the_cursor_is_dragged_where_it_stands_and_where_nothing_can_move(qtbot: QtBot, view: CurveView) -> None:
+    panel = view.panels()[0][0]
+    view.set_time(8.0)
+    moved: list[float] = []
+    view.cursor_moved.connect(moved.append)
+    drag(qtbot, view.face, QPointF(round(float(panel.x(8.0))), panel.box.center().toPoint().y()), 60)
+    assert moved[-1] == pytest.approx(view.time_at(float(panel.x(8.0)) + 60), abs=0.2)
+    assert view.shown_part is None
+    view.show_window((5.0, 15.0))
+    moved.clear()
+    panel = view.panels()[0][0]
+    drag(qtbot, view.face, QPointF(round(float(panel.x(8.0))), panel.box.center().toPoint().y()), 60)
+    assert moved
+    assert view.shown_part == (5.0, 15.0)
+
+
+def test_shift_and_wheel_go_along(view: CurveView) -> None:
+    view.show_window((20.0, 30.0))
+    wheel(view.face, center(view), -120, Qt.KeyboardModifier.ShiftModifier)
+    assert view.shown_part == pytest.approx((21.0, 31.0))
+
+
+def test_keys_zoom_about_the_cursor_and_show_all(view: CurveView) -> None:
+    view.set_time(10.0)
+    view.zoom_in()
+    start_s, end_s = view.shown()
+    whole = view.extent()
+    assert whole is not None
+    assert end_s - start_s == pytest.approx(whole[1] / 1.25)
+    assert (10.0 - start_s) / (end_s - start_s) == pytest.approx(10.0 / whole[1])
+    for _ in range(40):
+        view.zoom_in()
+    assert np.ptp(view.shown()) == pytest.approx(2.0)
+    view.show_all()
+    assert view.shown_part is None
+
+
+def test_under_the_mouse_stand_time_value_and_spread(view: CurveView) -> None:
+    panel, column = view.panels()[0]
+    plot = view._plot
+    assert plot is not None
+    at = QPointF(round(float(panel.x(15.0))), round(panel.box.center().y()))
+    time_s, *values = view.said_at(at)
+    shown = plot.values(column, view.time_at(at.x()))[0]
+    assert time_s.startswith("00:1")
+    assert values == [f"{shown.name} {with_spread(shown.value_deg, shown.sd_deg)}"]
+    assert "±" in values[0]
+    move(view.face, at)
+    assert view._mouse is not None
+    QApplication.sendEvent(view.face, QEvent(QEvent.Type.Leave))
+    assert view._mouse is None
+
+
+def test_the_menu_speaks_our_words_and_has_no_other(view: CurveView) -> None:
+    words = [action.text().split("\t")[0] for action in view.menu().actions() if action.text()]
+    assert words == [
+        "Show all", "Zoom in", "Zoom out", "Copy picture", "Save picture (PNG)…", "Save drawing (SVG)…",
+        "Save values (CSV)…",
+    ]  # fmt: skip
+    assert all(box.menu is None for box in view.canvas.boxes)
+
+
+def test_a_picture_is_of_print_size_and_a_drawing_of_lines(view: CurveView, tmp_path: Path) -> None:
+    view.save(tmp_path / "curves.png")
+    image = QImage(str(tmp_path / "curves.png"))
+    assert image.width() == round(170.0 / 25.4 * 300.0)
+    assert image.dotsPerMeterX() == pytest.approx(300.0 / 0.0254, abs=1.0)
+    assert pixels(image).std() > 5.0, "something is drawn"
+    view.save(tmp_path / "curves.svg")
+    root = ElementTree.parse(tmp_path / "curves.svg").getroot()
+    assert float(str(root.get("width")).removesuffix("mm")) == pytest.approx(170.0, abs=0.01)
+    kinds = {element.tag.rpartition("}")[2] for element in root.iter()}
+    assert {"polyline", "text"} <= kinds
+    assert "image" not in kinds
+    view.copy_picture()
+    assert QGuiApplication.clipboard().image().size() == image.size()
+
+
+def test_the_table_has_what_is_shown_with_gaps_empty(view: CurveView, tmp_path: Path) -> None:
+    plot = view._plot
+    assert plot is not None
+    angles = plot.curves.angles_deg.copy()
+    angles[330:333] = math.nan
+    curves = Curves(plot.curves.time_s, angles, plot.curves.sds_deg, plot.curves.status)
+    view.show_plot(SessionPlot(curves, plot.exercise, plot.repetitions))
+    view.show_window((10.0, 14.0))
+    view.save(tmp_path / "curves.csv")
+    head, *rows = csv.reader(io.StringIO((tmp_path / "curves.csv").read_text("utf-8")))
+    assert head[:4] == ["time_s", "flexion_deg", "flexion_sd_deg", "flexion_measured"]
+    assert len(rows) == pytest.approx(120, abs=2)
+    assert 10.0 <= float(rows[0][0]) <= float(rows[-1][0]) <= 14.0
+    empty = [row for row in rows if row[1] == ""]
+    assert len(empty) == 3
+    first = int(np.searchsorted(curves.time_s, float(rows[0][0]) - 1e-3))
+    assert float(rows[0][1]) == pytest.approx(angles[first, 1], abs=0.05)
+
+
+def test_a_folder_that_is_not_there_is_told(qtbot: QtBot, view: CurveView, tmp_path: Path) -> None:
+    with qtbot.waitSignal(view.told) as told:
+        view.save(tmp_path / "none" / "curves.csv")
+    assert isinstance(told.args[0], OutputNotWritable)
+
+
+def pixels(image: QImage) -> ByteImage:
+    plain = image.convertToFormat(QImage.Format.Format_RGB32)
+    raw = np.frombuffer(plain.constBits(), np.uint8).reshape(plain.height(), plain.bytesPerLine())
+    return raw[:, : 4 * plain.width()].reshape(plain.height(), plain.width(), 4)[..., :3].copy()
+
+
+def test_the_window_shows_what_the_printer_draws(view: CurveView, theme: Theme) -> None:
+    """The same marks through pyqtgraph's scene and by a painter alone: the same pixels in every panel."""
+    view.show_window((20.0, 40.0))
+    plot = view._plot
+    assert plot is not None
+    view.show_plot(SessionPlot(plot.curves, plot.exercise, plot.repetitions, -1, 40.0))
+    view.set_time(20.0)
+    view._time_s = -1.0  # the cursor is drawn on the screen only
+    view._over.update()
+    screen = pixels(view.canvas.grab().toImage())
+    image = QImage(view.size(), QImage.Format.Format_RGB32)
+    image.fill(QColor(theme.tokens.surface))
+    painter = QPainter(image)
+    painter.setRenderHint(QPainter.RenderHint.Antialiasing)
+    shown = view._plot
+    assert shown is not None
+    paint_session(painter, screen_style(theme), shown, view.panels())
+    painter.end()
+    paper = pixels(image)
+    for panel, _ in view.panels():
+        box = panel.box.adjusted(2, 2, -2, -2).toRect()
+        part = np.s_[box.top() : box.bottom(), box.left() : box.right()]
+        assert paper[part].std() > 5.0
+        differing = np.abs(screen[part].astype(int) - paper[part]).max(axis=-1) > 8
+        assert differing.mean() < 0.002
+
+
+def test_twenty_minutes_are_drawn_with_few_points_and_every_peak() -> None:
+    time_s = np.arange(0.0, MINUTES_20_S, 1.0 / 30.0)
+    angles = np.stack([40.0 * np.sin(time_s * (k + 1)) for k in range(3)], axis=1)
+    angles[17_000, 1] = 83.0
+    curves = Curves(time_s, angles, np.ones_like(angles), np.zeros(len(time_s), dtype=int))
+    plot = SessionPlot(curves, exercise_named("WRIST_FE"), ())
+    for window in (None, (500.0, 900.0), (560.0, 570.0)):
+        drawn = SessionPlot(curves, plot.exercise, (), window_s=window).moving(1, 600)[0].series
+        assert len(drawn.time_s) <= 3 * 600
+        assert drawn.value.max() == 83.0
+        assert not drawn.gaps_s()
+
+
+def test_nothing_moves_by_mouse_while_measuring(qtbot: QtBot, theme: Theme) -> None:
+    feed, history = FakeFeed(), History()
+    curves = LiveCurves(theme, history)
+    qtbot.addWidget(curves)
+    curves.resize(696, 396)
+    curves.show()
+    history.append(feed.frames[:300])
+    curves.draw()
+    before = [box.viewRange() for box in curves.canvas.boxes]
+    at = QPointF(curves.panels()[0][0].box.center().toPoint())
+    for turn in (120, -120):
+        wheel(curves.face, at, turn, Qt.KeyboardModifier.NoModifier)
+    drag(qtbot, curves.face, at, 80)
+    qtbot.mouseClick(curves.face, Qt.MouseButton.RightButton, pos=at.toPoint())
+    assert [box.viewRange() for box in curves.canvas.boxes] == before
+    assert QApplication.activePopupWidget() is None

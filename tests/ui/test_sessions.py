@@ -1,0 +1,100 @@
+"""The list of sessions by hand: what is shown, opened, set aside, moved, renamed, deleted."""
+
+from __future__ import annotations
+
+import pytest
+from PySide6.QtCore import Qt
+from pytestqt.qtbot import QtBot
+
+from carpus.ui.background import Background
+from carpus.ui.sessions.listing import cells
+from carpus.ui.sessions.screen import SessionsScreen
+from carpus.ui.theme import Theme
+from tests.ui.fakes import FakeShelf
+
+
+@pytest.fixture
+def shelf() -> FakeShelf:
+    return FakeShelf()
+
+
+@pytest.fixture
+def screen(qtbot: QtBot, theme: Theme, shelf: FakeShelf) -> SessionsScreen:
+    screen = SessionsScreen(theme, Background(), shelf)
+    qtbot.addWidget(screen)
+    screen.resize(1280, 744)
+    screen.show()
+    screen.begin("linden", "Linden 42", "s1")
+    qtbot.waitUntil(lambda: all(line.figure or line.damaged for line in screen.list.rows.lines))
+    return screen
+
+
+def chosen(screen: SessionsScreen) -> str:
+    line = screen.chosen()
+    assert line is not None
+    return line.session_id
+
+
+def test_any_session_is_opened_by_enter_or_double_click(qtbot: QtBot, screen: SessionsScreen) -> None:
+    opened: list[str] = []
+    screen.opened.connect(opened.append)
+    assert chosen(screen) == "s1"
+    assert "Flexion 54°" in screen.figure.text()
+    screen.list.setFocus()
+    qtbot.keyClick(screen.list, Qt.Key.Key_Down)
+    qtbot.keyClick(screen.list, Qt.Key.Key_Return)
+    assert opened == ["s2"]
+    screen.list.setCurrentIndex(screen.list.rows.index(4))
+    assert not screen.open_button.isEnabled()
+    qtbot.keyClick(screen.list, Qt.Key.Key_Return)
+    assert opened == ["s2"], "a damaged file is not opened"
+
+
+def test_a_session_is_set_aside_with_a_reason_and_taken_back(
+    qtbot: QtBot, screen: SessionsScreen, shelf: FakeShelf
+) -> None:
+    screen.aside_button.click()
+    screen.aside_sheet.line.setText("splint on")
+    qtbot.keyClick(screen.aside_sheet.line, Qt.Key.Key_Return)
+    qtbot.waitUntil(lambda: shelf.done == [("aside", "s1", "splint on")])
+    qtbot.waitUntil(lambda: "splint on" in screen.remark.text())
+    assert cells(screen.list.rows.lines[1])[4] == "set aside: splint on"
+    assert chosen(screen) == "s1"
+    screen.aside_button.click()
+    qtbot.waitUntil(lambda: shelf.done[-1] == ("aside", "s1", ""))
+
+
+def test_a_session_moves_to_the_patient_that_is_chosen(qtbot: QtBot, screen: SessionsScreen, shelf: FakeShelf) -> None:
+    screen.move_button.click()
+    screen.move_sheet.box.setCurrentIndex(1)
+    screen.move_sheet.take.click()
+    qtbot.waitUntil(lambda: shelf.done == [("move", "s1", "alder")])
+    qtbot.waitUntil(lambda: screen.list.rows.find("s1") < 0)
+
+
+def test_only_exercises_with_the_same_discs_are_offered(qtbot: QtBot, screen: SessionsScreen, shelf: FakeShelf) -> None:
+    screen.rename_button.click()
+    offered = {screen.rename_sheet.box.itemData(row) for row in range(screen.rename_sheet.box.count())}
+    assert "WRIST_RU" in offered
+    assert not offered & {"WRIST_FE", "FIST_COMPOSITE"}
+    screen.rename_sheet.box.setCurrentIndex(screen.rename_sheet.box.findData("WRIST_RU"))
+    screen.rename_sheet.take.click()
+    qtbot.waitUntil(lambda: shelf.done == [("rename", "s1", "WRIST_RU")])
+
+
+def test_deleting_is_asked_for_by_button_and_key(qtbot: QtBot, screen: SessionsScreen) -> None:
+    wanted: list[str] = []
+    screen.erase_wanted.connect(wanted.append)
+    screen.erase_button.click()
+    screen.list.setFocus()
+    qtbot.keyClick(screen.list, Qt.Key.Key_Delete)
+    assert wanted == ["s1", "s1"]
+
+
+def test_a_patient_without_a_session_is_told_so(qtbot: QtBot, theme: Theme) -> None:
+    screen = SessionsScreen(theme, Background(), FakeShelf(0))
+    qtbot.addWidget(screen)
+    screen.show()
+    screen.begin("fir", "Fir 12")
+    assert screen.none.isVisible()
+    assert not screen.open_button.isVisible()

@@ -1,0 +1,125 @@
+"""Which bubble is shown when, without a window; and that it takes room beside what it speaks of, over nothing."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from itertools import pairwise
+from typing import get_args
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from carpus.ui.theme import Theme
+from carpus.ui.tour.bubble import BubbleView
+from carpus.ui.tour.order import ONLY_READ, PARTS, PLACES, Bubble, Moment, Work, bubble_at, part_of, words_of
+
+BUBBLES: tuple[Bubble, ...] = get_args(Bubble)
+PLACES_OF_ALL = (*dict.fromkeys(PLACES.values()), "exercise", "sessions", "progress", "help", "settings", "correct")
+MOMENTS = st.builds(
+    Moment,
+    st.sampled_from(PLACES_OF_ALL),
+    is_meant=st.booleans(),
+    is_covered=st.booleans(),
+    is_busy=st.booleans(),
+    work=st.sampled_from(get_args(Work)),
+    is_recording=st.booleans(),
+    is_saved=st.booleans(),
+)
+READ = st.frozensets(st.sampled_from(BUBBLES))
+SESSION = (
+    Moment("patients"),
+    Moment("camera", is_busy=True),
+    Moment("markers", work="aiming"),
+    Moment("markers", work="clicking"),
+    Moment("markers", work="doubtful"),
+    Moment("markers", work="checked"),
+    Moment("live"),
+    Moment("live", is_recording=True),
+    Moment("live", is_busy=True),
+    Moment("review", is_busy=True),
+    Moment("review"),
+    Moment("report"),
+    Moment("report", is_saved=True),
+)
+"""The moments that a person comes by, from the patient to the report."""
+
+
+def test_a_session_comes_by_the_bubbles_in_their_order() -> None:
+    shown = [bubble_at(moment) for moment in SESSION]
+    assert shown == [
+        "patient", None, "aim", "click", None, "check", "record", "stop", None, None, "results", "save", "end",
+    ]  # fmt: skip
+    assert bubble_at(Moment("review"), frozenset({"results"})) == "report"
+    places = [PARTS.index(PLACES[bubble]) for bubble in shown if bubble is not None]
+    assert places == sorted(places)
+
+
+@given(MOMENTS, READ)
+def test_a_bubble_is_on_its_own_screen_and_not_read_yet(moment: Moment, read: frozenset[Bubble]) -> None:
+    bubble = bubble_at(moment, read)
+    if bubble is not None:
+        assert PLACES[bubble] == moment.place
+        assert bubble not in read
+        assert moment.is_meant
+        assert not moment.is_covered
+        assert not moment.is_busy
+
+
+@given(MOMENTS, READ)
+def test_reading_leads_on_and_never_back(moment: Moment, read: frozenset[Bubble]) -> None:
+    seen = []
+    while (bubble := bubble_at(moment, read)) is not None:
+        assert bubble not in seen
+        seen.append(bubble)
+        read |= {bubble}
+    order = [BUBBLES.index(bubble) for bubble in seen]
+    assert all(first < second for first, second in pairwise(order))
+
+
+@given(MOMENTS, READ)
+def test_while_recording_nothing_speaks_of_beginning_one(moment: Moment, read: frozenset[Bubble]) -> None:
+    recording = bubble_at(replace(moment, place="live", is_recording=True), read)
+    waiting = bubble_at(replace(moment, place="live", is_recording=False), read)
+    assert recording in ("stop", None)
+    assert waiting in ("record", None)
+
+
+@given(MOMENTS)
+def test_what_is_wrong_with_the_markers_is_the_screens_to_say(moment: Moment) -> None:
+    assert bubble_at(replace(moment, place="markers", work="doubtful")) is None
+
+
+@pytest.mark.parametrize("bubble", BUBBLES)
+def test_each_says_one_plain_sentence(bubble: Bubble) -> None:
+    words = words_of(bubble)
+    assert words.endswith(".")
+    assert words.count(".") == 1
+    assert len(words) < 100
+    assert 0 <= part_of(bubble) <= len(PARTS)
+
+
+def test_both_ways_on_are_always_there(theme: Theme) -> None:
+    view = BubbleView(theme)
+    assert view.isHidden()
+    for bubble in BUBBLES:
+        view.show_bubble(bubble)
+        assert not view.isHidden()
+        assert view.next_button.isEnabled()
+        assert not view.next_button.isHidden()
+        assert not view.leave_button.isHidden()
+        assert view.accessibleName() == words_of(bubble)
+    view.show_bubble(None)
+    assert view.isHidden()
+    view.deleteLater()
+
+
+def test_over_a_recording_the_space_bar_stays_with_the_screen(theme: Theme) -> None:
+    view = BubbleView(theme, wide=True, keys=False)
+    assert not view.next_button.focusPolicy().value
+    assert not view.leave_button.focusPolicy().value
+    view.deleteLater()
+
+
+def test_only_what_a_person_must_do_is_merely_read() -> None:
+    assert set(ONLY_READ) == {"click", "results"}

@@ -1,0 +1,40 @@
+"""The window comes up whole on the screen, at first and where it was last time."""
+
+from __future__ import annotations
+
+import pytest
+from PySide6.QtCore import QRect
+from PySide6.QtWidgets import QWidget
+from pytestqt.qtbot import QtBot
+
+from carpus.ui.window_place import TITLE_PX, fitted, place_of, put_in_place
+
+ROOM = QRect(0, 0, 1280, 800)
+
+
+@pytest.mark.parametrize(
+    ("place", "whole"),
+    [
+        (QRect(0, 0, 1280, 800), False), (QRect(-300, 700, 1100, 700), True), (QRect(5000, 5000, 1024, 700), True),
+        (QRect(100, 60, 1024, 700), True), (QRect(0, 0, 3000, 2000), False),
+    ],
+)  # fmt: skip
+def test_no_place_reaches_out_of_the_screen(place: QRect, whole: bool) -> None:
+    fits, kept_size = fitted(place, ROOM)
+    assert ROOM.adjusted(0, TITLE_PX, 0, 0).contains(fits)
+    assert kept_size == whole
+
+
+def test_a_place_that_fits_is_left_alone() -> None:
+    assert fitted(QRect(100, 60, 1024, 700), ROOM) == (QRect(100, 60, 1024, 700), True)
+
+
+def test_the_window_remembers_its_place(qtbot: QtBot) -> None:
+    first, second = QWidget(), QWidget()
+    for window in (first, second):
+        qtbot.addWidget(window)
+    first.setGeometry(40, 60, 500, 400)
+    put_in_place(second, place_of(first))
+    assert second.size() == first.size()
+    put_in_place(second, "not a place")
+    assert second.size() == first.size()

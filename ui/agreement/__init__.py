@@ -1,0 +1,1 @@
+"""How far a session agrees with another measurement: choosing it, the sentence, plots, what was done to compare."""

@@ -1,0 +1,266 @@
+"""How far a session agrees with another measurement: sentence, plot, how the two were brought together, figures."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from PySide6.QtCore import Qt, Signal
+from PySide6.QtGui import QResizeEvent
+from PySide6.QtWidgets import QBoxLayout, QComboBox, QGridLayout, QHBoxLayout, QVBoxLayout, QWidget
+
+from carpus.ui.agreement.table import AgreementTable
+from carpus.ui.agreement.words import angle_name, headline, in_order, joined_rows, left_words, most_moved
+from carpus.ui.controls.button import Button
+from carpus.ui.controls.card import Card, Line
+from carpus.ui.controls.column import ScrolledColumn, scroll_area
+from carpus.ui.controls.field import Choices
+from carpus.ui.controls.progress_bar import ThinBar
+from carpus.ui.controls.text import REGULAR, SEMIBOLD, ElidedText, StateSign, Text, caption, heading
+from carpus.ui.keys import Keys, bind
+from carpus.ui.plot.agreement import AgreementPlot, View
+from carpus.ui.plot.agreement_view import AgreementChart
+from carpus.ui.theme import GAP_PX, MARGIN_PX, Theme, is_tight
+
+if TYPE_CHECKING:  # a window loads nothing that reads files
+    from carpus.core.agreement.compare import Compared
+
+
+class AgreementScreen(QWidget):
+    """``other`` asks for another reference, ``columns`` for what in it is what; ``stop`` ends a comparison on the way;
+    ``save`` asks for tables and plots; ``told`` a fault."""
+
+    other = Signal()
+    columns = Signal()
+    stop = Signal()
+    save = Signal()
+    told = Signal(object)
+
+    def __init__(self, theme: Theme, keys: Keys) -> None:
+        super().__init__()
+        self._theme = theme
+        self._compared: Compared | None = None
+        self._limit_deg = 0.0
+        self.other_button = Button(theme, self.tr("Other &reference…"))
+        self.columns_button = Button(theme, self.tr("&Columns…"))
+        self.facts = ElidedText(theme, "", 14, REGULAR, "text2")
+        self.save_button = Button(
+            theme, self.tr("Save tables and plots…"), "primary", icon="download", hint="Ctrl+E", height_px=44
+        )
+        self.answer = heading(theme, wrap=True)
+        self.basis = Text(theme, "", 16, REGULAR, "text2", wrap=True)
+        self.bar = ThinBar(theme, self.tr("How far the comparison is"))
+        self.stop_button = Button(theme, self.tr("Stop"))
+        self.angle = QComboBox()
+        self.angle.setAccessibleName(self.tr("Angle"))
+        self.angle.setSizeAdjustPolicy(QComboBox.SizeAdjustPolicy.AdjustToContents)
+        self.view = Choices(theme, [("differences", self.tr("Differences")), ("curves", self.tr("Curves"))])
+        self.chart = AgreementChart(theme)
+        self.table = AgreementTable(theme)
+        self._joined = Card(theme, 20)
+        self._lay_out()
+        self.other_button.clicked.connect(self.other)
+        self.columns_button.clicked.connect(self.columns)
+        self.save_button.clicked.connect(self.save)
+        self.stop_button.clicked.connect(self.stop)
+        self.angle.currentIndexChanged.connect(lambda _: self._show_plot())
+        self.view.chosen.connect(lambda _: self._show_plot())
+        self.chart.told.connect(self.told)
+        self.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
+        self.setProperty("shows_own_focus", True)
+        actions = {
+            "export": self.save_button.click, "next_view": self.next_view, "plot_in": self.chart.zoom_in,
+            "plot_out": self.chart.zoom_out, "plot_all": self.chart.show_all,
+        }  # fmt: skip
+        for name, action in actions.items():
+            bind(self, keys, name, action)
+
+    def _lay_out(self) -> None:
+        head = QHBoxLayout()
+        head.setSpacing(12)
+        head.addWidget(self.other_button)
+        head.addWidget(self.columns_button)
+        head.addWidget(self.facts, 1)
+        head.addWidget(self.save_button)
+        over = QHBoxLayout()
+        over.setContentsMargins(20, 10, 56, 0)
+        over.setSpacing(12)
+        for widget in (self.angle, self.view):
+            widget.setProperty("floats", True)  # in the head of the card, in which nothing is painted
+        over.addWidget(self.angle)
+        over.addWidget(self.view)
+        over.addStretch(1)
+        inside = QVBoxLayout(self.chart)
+        inside.setContentsMargins(0, 0, 0, 0)
+        inside.addLayout(over)
+        inside.addStretch(1)
+        self._columns = QBoxLayout(QBoxLayout.Direction.LeftToRight)
+        self._columns.setSpacing(GAP_PX)
+        self._columns.addWidget(self.chart, 1)
+        self._columns.addWidget(self._joined)
+        figures = Card(self._theme, 20)
+        figures.body.setContentsMargins(24, 12, 16, 12)
+        title = QHBoxLayout()
+        title.setSpacing(12)
+        title.addWidget(Text(self._theme, self.tr("Per angle"), 16, SEMIBOLD))
+        words = self.tr("Carpus less the reference; in brackets 95 % intervals, repeated values allowed for")
+        title.addWidget(caption(self._theme, words, wrap=True), 1)
+        figures.body.addLayout(title)
+        figures.body.addWidget(self.table)
+        words = self.tr("The limit is a choice, not a proof: change it in Settings, before comparing.")
+        figures.body.addWidget(caption(self._theme, words, wrap=True))
+        host = ScrolledColumn()
+        body = QVBoxLayout(host)
+        body.setContentsMargins(0, 0, 0, 0)
+        body.setSpacing(GAP_PX)
+        body.addLayout(self._columns, 1)
+        body.addWidget(figures)
+        self._body = scroll_area(host)
+        self._work = Card(self._theme, 24)
+        self._work.body.addWidget(Text(self._theme, self.tr("Bringing the two together…"), 16, SEMIBOLD))
+        self._work.body.addWidget(self.bar)
+        row = QHBoxLayout()
+        row.addStretch(1)
+        row.addWidget(self.stop_button)
+        self._work.body.addLayout(row)
+        whole = QVBoxLayout(self)
+        whole.setContentsMargins(MARGIN_PX, GAP_PX - 4, MARGIN_PX, GAP_PX)
+        whole.setSpacing(0)
+        whole.addLayout(head)
+        whole.addSpacing(12)
+        whole.addWidget(self.answer)
+        whole.addSpacing(2)
+        whole.addWidget(self.basis)
+        whole.addSpacing(12)
+        whole.addWidget(self._work)
+        whole.addWidget(self._body, 1)
+        whole.addStretch(0)
+        self._theme.changed.connect(self._fit)
+        self.begin()
+
+    def resizeEvent(self, event: QResizeEvent) -> None:
+        self._fit()
+
+    def _fit(self) -> None:
+        """With large text what stood at the right goes below."""
+        tight = is_tight(self, self._theme)
+        directions = QBoxLayout.Direction
+        self._columns.setDirection(directions.TopToBottom if tight else directions.LeftToRight)
+        self._joined.setMinimumWidth(0 if tight else self._theme.px(352))
+        self._joined.setMaximumWidth(16_777_215 if tight else self._theme.px(352))
+        self.save_button.set_face(self.save_button.text(), hint="" if tight else "Ctrl+E")
+
+    # --- states -------------------------------------------------------------------------------------------
+    def begin(self, *, may_map: bool = False) -> None:
+        """Nothing is compared yet; ``may_map`` whether columns or markers of what was tried can be told."""
+        self._compared = None
+        self.facts.setText("")
+        self.answer.setText(self.tr("Compare this session with another measurement."))
+        words = self.tr("Of the same movement: markers, angles, goniometer readings, or another session.")
+        self.basis.setText(words)
+        self.other_button.set_face(self.tr("Choose a &reference…"))
+        self._show_parts(working=False)
+        self.columns_button.setVisible(may_map)
+
+    def running(self, name: str) -> None:
+        """A comparison has begun."""
+        self._compared = None
+        self.facts.setText(name)
+        self.answer.setText(self.tr("Comparing with {name}…").format(name=name))
+        self.basis.setText(self.tr("The session itself is never changed."))
+        self.bar.begin()
+        self._show_parts(working=True)
+
+    def show_compared(self, compared: Compared, name: str, limit_deg: float, *, may_map: bool) -> None:
+        """Show a result; ``limit_deg`` as it was set before, ``may_map`` whether columns or markers can be told."""
+        compared = in_order(compared)
+        self._compared, self._limit_deg = compared, limit_deg
+        self.facts.setText(f"{name} · {compared.kind}")
+        self.facts.setToolTip(self.facts.text())
+        sentence, basis = headline(compared, limit_deg)
+        self.answer.setText(sentence)
+        self.basis.setText(basis)
+        self.other_button.set_face(self.tr("Other &reference…"))
+        self.columns_button.setVisible(may_map)
+        before = self.angle.currentData()
+        self.angle.blockSignals(True)
+        self.angle.clear()
+        for pairs in compared.pairs:
+            self.angle.addItem(angle_name(pairs.name), pairs.name)
+        found = self.angle.findData(before)
+        self.angle.setCurrentIndex(found if found >= 0 else self.angle.findData(most_moved(compared).name))
+        self.angle.blockSignals(False)
+        self._fill_joined(compared)
+        self.table.show_compared(compared, limit_deg)
+        self._show_parts(working=False)
+        self._show_plot()
+
+    def first(self) -> QWidget:
+        """What takes the keyboard."""
+        if self._compared is not None:
+            return self.angle
+        return self.stop_button if self._work.isVisibleTo(self) else self.other_button
+
+    @property
+    def compared(self) -> Compared | None:
+        """What is shown."""
+        return self._compared
+
+    @property
+    def limit_deg(self) -> float:
+        """What it is judged against; 0 for none."""
+        return self._limit_deg
+
+    def next_view(self) -> None:
+        """Differences and curves in turn."""
+        values = ["differences", "curves"]
+        self.view.choose(values[1 - values.index(str(self.view.value()))])
+        self._show_plot()
+
+    def _show_parts(self, *, working: bool) -> None:
+        shown = self._compared is not None
+        self._work.setVisible(working)
+        self._body.setVisible(shown)
+        self.save_button.setEnabled(shown)
+        self.other_button.setEnabled(not working)
+        self.columns_button.setEnabled(not working)
+        layout = self.layout()
+        assert isinstance(layout, QVBoxLayout)
+        layout.setStretch(layout.count() - 1, 0 if shown else 1)
+
+    def _show_plot(self) -> None:
+        name = self.angle.currentData()
+        found = self._compared.pairs if self._compared is not None else ()
+        pairs = next((one for one in found if one.name == name), None)
+        if pairs is None or self._compared is None:
+            self.chart.show_plot(None)
+            return
+        view: View = "curves" if self.view.value() == "curves" else "differences"
+        self.chart.show_plot(AgreementPlot(pairs, self._limit_deg, self._compared.shift is not None, view))
+
+    def _fill_joined(self, compared: Compared) -> None:
+        body, theme = self._joined.body, self._theme
+        while (item := body.takeAt(0)) is not None:
+            if (widget := item.widget()) is not None:
+                widget.hide()
+                widget.deleteLater()
+        body.addWidget(Text(theme, self.tr("How they were brought together"), 16, SEMIBOLD, wrap=True))
+        for state, thing, value, small in joined_rows(compared):
+            body.addWidget(Line(theme))
+            row = QWidget()
+            grid = QGridLayout(row)
+            grid.setContentsMargins(0, 0, 0, 0)
+            grid.setHorizontalSpacing(8)
+            grid.setVerticalSpacing(0)
+            grid.addWidget(StateSign(theme, state), 0, 0)
+            grid.addWidget(Text(theme, thing, 14, REGULAR, "text2"), 0, 1)
+            grid.addWidget(Text(theme, value, 14, SEMIBOLD), 0, 2, Qt.AlignmentFlag.AlignRight)
+            grid.addWidget(caption(theme, small, wrap=True), 1, 1, 1, 2)
+            grid.setColumnStretch(1, 1)
+            body.addWidget(row)
+        left = left_words(compared)
+        if left:
+            body.addWidget(Line(theme))
+            body.addWidget(Text(theme, self.tr("Not used"), 14, REGULAR, "text2"))
+            for words in left:
+                body.addWidget(caption(theme, words, wrap=True))
+        body.addStretch(1)

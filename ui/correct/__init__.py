@@ -1,0 +1,1 @@
+"""Markers of a stored session put right by a person."""

@@ -1,0 +1,188 @@
+"""Tracking again: how far it is and how to stop it, then old and new result over each other and the choice of one."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from PySide6.QtCore import QPointF, QSize, Qt, Signal
+from PySide6.QtGui import QPainter, QPaintEvent, QPen
+from PySide6.QtWidgets import QHBoxLayout, QProgressBar, QWidget
+
+from carpus.core.output.joint_content import JointCurves
+from carpus.core.output.report_content import Curves, SessionFigures
+from carpus.ui.controls.button import Button
+from carpus.ui.controls.field import Choices
+from carpus.ui.controls.sheet import Sheet
+from carpus.ui.controls.text import REGULAR, SEMIBOLD, Text
+from carpus.ui.figures import FINGERS
+from carpus.ui.fonts import MEDIUM, font
+from carpus.ui.marker_words import finger_name
+from carpus.ui.plot.compared import OLD_TOKEN, ComparedHandPlot, ComparedPlot, legend_words, most_different_finger
+from carpus.ui.plot.session_view import CurveView
+from carpus.ui.theme import Theme
+
+WRIST = -1
+"""Instead of a finger's number."""
+
+
+@dataclass(frozen=True, slots=True)
+class BothResults:
+    """What is drawn of the old and of the new result of one recording."""
+
+    figures: SessionFigures
+    old: Curves
+    new: Curves
+    old_joints: JointCurves | None = None
+    new_joints: JointCurves | None = None
+
+
+class ResultsSheet(Sheet):
+    """``stop_wanted`` ends the tracking; ``keep_wanted`` and ``use_wanted`` decide about the new result that is shown.
+
+    It is opened by hand only. The keyboard lies on the button that changes nothing, so that Enter, Space and Esc
+    decide nothing.
+    """
+
+    stop_wanted = Signal()
+    keep_wanted = Signal()
+    use_wanted = Signal()
+
+    def __init__(self, host: QWidget, theme: Theme) -> None:
+        super().__init__(host, theme, 980)
+        self._both: BothResults | None = None
+        self.title = Text(theme, "", 20, SEMIBOLD, wrap=True)
+        self.whose = Text(theme, "", 14, REGULAR, "text2", wrap=True)
+        self.words = Text(theme, "", 14, REGULAR, wrap=True)
+        self.bar = QProgressBar()
+        self.bar.setTextVisible(False)
+        self.bar.setAccessibleName(self.tr("How far the tracking is"))
+        self.bar.setFixedHeight(8)
+        self.legend = _Legend(theme)
+        fingers: list[tuple[object, str]] = [(finger, finger_name(str(finger))) for finger in FINGERS]
+        self.finger = Choices(theme, [*fingers, (WRIST, self.tr("Wrist"))])
+        self.finger.chosen.connect(lambda _: self._draw())
+        self.curves = CurveView(theme)
+        self.curves.cursor_moved.connect(self.curves.set_time)
+        self.stop = Button(theme, self.tr("&Stop"), "plain", height_px=44)
+        self.keep = Button(theme, self.tr("&Keep the old one"), "plain", height_px=44)
+        self.use = Button(theme, self.tr("&Use the new result"), "plain", height_px=44)
+        self.later = Button(theme, "", "plain", hint=self.tr("Esc"), height_px=44)
+        self.stop.clicked.connect(self.stop_wanted)
+        self.keep.clicked.connect(self.keep_wanted)
+        self.use.clicked.connect(self.use_wanted)
+        self.later.clicked.connect(self.close_sheet)
+        body = self.card.body
+        body.setSpacing(8)
+        for widget in (self.title, self.whose, self.bar, self.words, self.legend, self.finger):
+            body.addWidget(widget)
+        body.addWidget(self.curves, 1)
+        row = QHBoxLayout()
+        row.setSpacing(10)
+        for button in (self.stop, self.keep, self.use):
+            row.addWidget(button)
+        row.addStretch(1)
+        row.addWidget(self.later)
+        body.addSpacing(4)
+        body.addLayout(row)
+        self._paint_bar()
+        theme.changed.connect(self._paint_bar)
+
+    def _paint_bar(self) -> None:
+        bar = "QProgressBar {{ background: {0}; border: 0; border-radius: 4px; height: 8px; }}"
+        chunk = " QProgressBar::chunk {{ background: {1}; border-radius: 4px; }}"
+        tokens = self._theme.tokens
+        self.bar.setStyleSheet((bar + chunk).format(tokens.sunken, tokens.accent))
+
+    @property
+    def both(self) -> BothResults | None:
+        """The two results that are shown; None while one is made or read."""
+        return self._both
+
+    def show_running(self, whose: str, percent: int) -> None:
+        """How far it is."""
+        self._show(self.tr("Tracking again: {percent} %").format(percent=percent), whose)
+        self.bar.setValue(percent)
+        self.words.setText(
+            self.tr("Go on working meanwhile. Nothing replaces the old result until you choose; Stop keeps it.")
+        )
+        self.later.set_face(self.tr("Go on working"))
+        self._show_parts(running=True, both=None)
+
+    def show_reading(self, whose: str) -> None:
+        """Both results are being read."""
+        self._show(self.tr("Reading both results…"), whose)
+        self.words.setText("")
+        self.later.set_face(self.tr("Decide later"))
+        self._show_parts(running=False, both=None)
+
+    def show_both(self, whose: str, words: str, both: BothResults) -> None:
+        """Old and new over each other, and the choice."""
+        self._show(self.tr("Use the new result?"), whose)
+        self.words.setText(words)
+        self.later.set_face(self.tr("Decide later"))
+        finger = most_different_finger(both.old_joints, both.new_joints)
+        self.finger.choose(finger or WRIST)
+        self._show_parts(running=False, both=both)
+        self._draw()
+
+    def begin(self) -> None:
+        """Open; what is shown was told before."""
+        self.open(self.later)
+
+    def _show(self, title: str, whose: str) -> None:
+        self.title.setText(title)
+        self.whose.setText(whose)
+        self.setAccessibleName(f"{title} {whose}")
+
+    def _show_parts(self, *, running: bool, both: BothResults | None) -> None:
+        self._both = both
+        self.bar.setVisible(running)
+        self.stop.setVisible(running)
+        for widget in (self.legend, self.curves, self.keep, self.use):
+            widget.setVisible(both is not None)
+        self.finger.setVisible(both is not None and both.new_joints is not None)
+        self.words.setVisible(bool(self.words.text()))
+
+    def _draw(self) -> None:
+        both = self._both
+        if both is None:
+            return
+        shown = (both.new, both.figures.exercise, both.figures.repetitions, -1)
+        finger = self.finger.value()
+        if both.new_joints is not None and isinstance(finger, int) and finger > 0:
+            self.curves.show_plot(ComparedHandPlot(*shown, joints=both.new_joints, finger=finger, old=both.old_joints))
+        else:
+            self.curves.show_plot(ComparedPlot(*shown, old=both.old))
+
+
+class _Legend(QWidget):
+    """How the old and the new result are drawn."""
+
+    def __init__(self, theme: Theme) -> None:
+        super().__init__()
+        self._theme = theme
+        self.setAccessibleName(", ".join(legend_words()))
+        theme.changed.connect(self.updateGeometry)
+
+    def sizeHint(self) -> QSize:
+        return QSize(300, self._theme.px(22))
+
+    def minimumSizeHint(self) -> QSize:
+        return QSize(200, self._theme.px(22))
+
+    def paintEvent(self, event: QPaintEvent) -> None:
+        painter, scale = QPainter(self), self._theme.text_scale
+        painter.setRenderHint(QPainter.RenderHint.Antialiasing)
+        painter.setFont(font(14 * scale, MEDIUM))
+        middle, left = self.height() / 2, 0.0
+        for words, token, dashed in zip(legend_words(), (OLD_TOKEN, "curve_a"), (True, False), strict=True):
+            pen = QPen(self._theme.color(token), 2.0)
+            if dashed:
+                pen.setDashPattern([4, 3])
+            pen.setCapStyle(Qt.PenCapStyle.FlatCap)
+            painter.setPen(pen)
+            painter.drawLine(QPointF(left, middle), QPointF(left + 28 * scale, middle))
+            painter.setPen(self._theme.color("text"))
+            left += 36 * scale
+            painter.drawText(QPointF(left, middle + 5 * scale), words)
+            left += painter.fontMetrics().horizontalAdvance(words) + 28 * scale

@@ -1,0 +1,390 @@
+"""A wrong or missing marker put right at any picture, and the session tracked again from there."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from PySide6.QtCore import Qt, Signal
+from PySide6.QtGui import QKeyEvent, QResizeEvent
+from PySide6.QtWidgets import QHBoxLayout, QVBoxLayout, QWidget
+
+from carpus.core.output.report_content import SessionFigures, session_curves, session_figures
+from carpus.core.session.marker_doubts import NameDoubt
+from carpus.core.session.values import Session
+from carpus.core.types import FloatArray, TrackStatus
+from carpus.ui import numbers
+from carpus.ui.background import Background
+from carpus.ui.controls.button import Button
+from carpus.ui.controls.card import Card, KeyCaps
+from carpus.ui.controls.column import scrolled
+from carpus.ui.controls.text import REGULAR, SEMIBOLD, StateText, Text
+from carpus.ui.correct.picture import CorrectionPicture
+from carpus.ui.correct.places import Places
+from carpus.ui.correct.rows import MarkerRow
+from carpus.ui.keys import Keys, bind
+from carpus.ui.marker_words import marker_name
+from carpus.ui.plot.session import SessionPlot
+from carpus.ui.plot.session_view import CurveView
+from carpus.ui.ports import CorrectionStore, StoredMoment
+from carpus.ui.review.player import Player
+from carpus.ui.theme import GAP_PX, MARGIN_PX, Theme, is_tight
+
+ARROWS = {
+    Qt.Key.Key_Left: (-1.0, 0.0), Qt.Key.Key_Right: (1.0, 0.0), Qt.Key.Key_Up: (0.0, -1.0), Qt.Key.Key_Down: (0.0, 1.0),
+}  # fmt: skip
+BIG_STEP_PX = 10.0
+FAR_MM = 8.0
+"""Further than this from where the others expect it a marker is worth a look."""
+
+
+class CorrectScreen(QWidget):
+    """``wanted`` carries the session's identity and the corrections; ``done`` asks to go back; ``told`` a fault."""
+
+    wanted = Signal(str, object)
+    done = Signal()
+    told = Signal(object)
+
+    def __init__(self, theme: Theme, keys: Keys, background: Background, store: CorrectionStore) -> None:
+        super().__init__()
+        self._theme, self._background, self._store = theme, background, store
+        self._session_id = ""
+        self._session: Session | None = None
+        self._figures: SessionFigures | None = None
+        self.places: Places | None = None
+        self._time_s = np.empty(0)
+        self._row, self._asked_row = 0, -1
+        self._spots: FloatArray = np.empty((0, 2))
+        self.current = ""
+        self.picture = CorrectionPicture(theme)
+        self.player = Player(theme, plays=False)
+        self.curves = CurveView(theme)
+        self.curves.show_single(True)
+        self.step = StateText(theme)
+        self.title = Text(theme, "", 28, SEMIBOLD, wrap=True)
+        self.hint = Text(theme, "", 14, REGULAR, "text2", wrap=True)
+        self.although = Button(theme, self.tr("Track again although &doubtful"), "quiet", height_px=32)
+        self.although.hide()
+        self.rows: dict[str, MarkerRow] = {}
+        self._rows = QVBoxLayout()
+        self._rows.setSpacing(0)
+        self.next_doubtful = Button(theme, self.tr("Next doubtful picture"), "quiet", hint="D", height_px=36)
+        self.hide_button = Button(theme, self.tr("Not to be seen here"), "quiet", hint="H", height_px=36)
+        self.primary = Button(theme, self.tr("Track again from here"), "primary", hint=self.tr("Enter"))
+        self.cancel = Button(theme, self.tr("Cancel"), height_px=52)
+        self.cancel.setToolTip(self.tr("Back to the review (Esc)"))
+        self._lay_out()
+        self._connect(keys)
+
+    def _lay_out(self) -> None:
+        keys = [
+            (self.tr("Drag"), self.tr("move a name")), ("H", self.tr("not to be seen here")),
+            (", .", self.tr("picture")), ("Z", self.tr("undo")), ("D", self.tr("next doubtful")),
+        ]  # fmt: skip
+        left = QVBoxLayout()
+        left.setSpacing(8)
+        left.addWidget(self.picture, 452)
+        caps = QHBoxLayout()
+        caps.addWidget(KeyCaps(self._theme, keys))
+        caps.addStretch(1)
+        left.addLayout(caps)
+        left.addWidget(self.player)
+        left.addWidget(self.curves, 200)
+        right = QVBoxLayout()
+        right.setSpacing(8)
+        right.setContentsMargins(0, 0, 0, 0)
+        for widget in (self.step, self.title, self.hint):
+            right.addWidget(widget)
+        card = Card(self._theme, 16)
+        card.body.addWidget(Text(self._theme, self.tr("At this picture: distance to its place"), 14, SEMIBOLD))
+        column = QVBoxLayout()
+        column.addLayout(self._rows)
+        column.addStretch(1)
+        card.body.addWidget(scrolled(column), 1)
+        right.addWidget(card, 1)
+        extra = QHBoxLayout()
+        extra.addWidget(self.hide_button)
+        extra.addStretch(1)
+        right.addLayout(extra)
+        right.addWidget(self.next_doubtful)
+        right.addWidget(self.although)
+        foot = QHBoxLayout()
+        foot.setSpacing(12)
+        foot.addWidget(self.primary, 1)
+        foot.addWidget(self.cancel)
+        right.addLayout(foot)
+        self._column = QWidget()
+        self._column.setLayout(right)
+        whole = QHBoxLayout(self)
+        whole.setContentsMargins(MARGIN_PX, GAP_PX, MARGIN_PX, GAP_PX)
+        whole.setSpacing(MARGIN_PX)
+        whole.addLayout(left, 1)
+        whole.addWidget(self._column)
+        self._theme.changed.connect(self._fit)
+        self._fit()
+
+    def _fit(self) -> None:
+        tight = is_tight(self, self._theme)
+        self._column.setFixedWidth(self._theme.px(376))
+        self.curves.setVisible(not tight and self.height() >= 600 * self._theme.text_scale)
+        self.next_doubtful.setVisible(bool(self._doubtful().size) and not self.although.isVisibleTo(self))
+        self.primary.set_face(self.primary.text(), hint="" if tight else self.tr("Enter"))
+
+    def resizeEvent(self, event: QResizeEvent) -> None:
+        self._fit()
+
+    def _connect(self, keys: Keys) -> None:
+        self.picture.dropped.connect(self.put)
+        self.picture.chosen.connect(self.choose)
+        self.picture.missed.connect(self._clicked_beside)
+        self.player.sought.connect(self._seek)
+        self.player.stepped.connect(self.go_on)
+        self.curves.cursor_moved.connect(self._seek)
+        self.primary.clicked.connect(self._go)
+        self.cancel.clicked.connect(self.leave)
+        self.hide_button.clicked.connect(self.hide_current)
+        self.next_doubtful.clicked.connect(self.go_to_doubtful)
+        self.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
+        self.setProperty("shows_own_focus", True)
+        self.although.clicked.connect(self._track_again)
+        for button in (self.hide_button, self.next_doubtful, self.although):
+            button.setFocusPolicy(Qt.FocusPolicy.TabFocus)
+        actions = {
+            "correct_back": lambda: self.go_on(-1), "correct_on": lambda: self.go_on(1),
+            "correct_hide": self.hide_current, "correct_undo": self.undo, "correct_doubtful": self.go_to_doubtful,
+        }  # fmt: skip
+        for name, action in actions.items():
+            bind(self, keys, name, action)
+
+    # --- life ---------------------------------------------------------------------------------------------
+    def begin(self, session_id: str, session: Session, row: int) -> None:
+        """Show a picture of a session."""
+        self._session_id, self._session = session_id, session
+        self.places = Places(session)
+        self._figures = session_figures(session)
+        curves = session_curves(session)
+        self._time_s = curves.time_s
+        self.current = ""
+        while (item := self._rows.takeAt(0)) is not None:
+            if (widget := item.widget()) is not None:
+                widget.hide()
+                widget.deleteLater()
+        self.rows = {}
+        for name in self.places.markers:
+            line = MarkerRow(self._theme, marker_name(name))
+            line.clicked.connect(lambda _=False, name=name: self.choose(name))
+            line.nudged.connect(self._nudge)
+            self.rows[name] = line
+            self._rows.addWidget(line)
+        self.picture.clear(self.tr("Reading the picture…"))
+        self.picture.set_hand_area(session.calibration.clicks.pixel)
+        self.curves.show_plot(SessionPlot(curves, self._figures.exercise, self._figures.repetitions, -1))
+        self.player.show_session(float(self._time_s[-1]), self._figures.repetitions, -1)
+        self._row, self._asked_row = -1, -1
+        self.show_row(row)
+        self._fit()
+        self.setFocus(Qt.FocusReason.OtherFocusReason)
+
+    def _doubtful(self) -> np.ndarray:
+        if self._session is None:
+            return np.empty(0, dtype=int)
+        doubted = self._session.markers.doubted.any(axis=1) | (self._session.status == TrackStatus.DOUBTFUL)
+        return np.flatnonzero(doubted)
+
+    # --- time ---------------------------------------------------------------------------------------------
+    @property
+    def row(self) -> int:
+        """Number of the picture shown."""
+        return self._row
+
+    def show_row(self, row: int) -> None:
+        """Show a picture."""
+        if self._session is None:
+            return
+        row = int(np.clip(row, 0, len(self._session) - 1))
+        if row != self._row:
+            self._row = row
+            self._spots = np.empty((0, 2))
+            self.curves.set_time(float(self._time_s[row]))
+            self.player.show_time(float(self._time_s[row]))
+            self._ask()
+        self._refresh()
+
+    def go_on(self, pictures: int) -> None:
+        """Some pictures on or back."""
+        self.show_row(self._row + pictures)
+
+    def _seek(self, time_s: float) -> None:
+        if self._session is not None:
+            self.show_row(int(np.clip(np.searchsorted(self._time_s, time_s), 0, len(self._time_s) - 1)))
+
+    def go_to_doubtful(self) -> None:
+        """The next picture that is doubtful and not next to this one."""
+        rows = self._doubtful()
+        if not rows.size:
+            return
+        begins = rows[np.flatnonzero(np.diff(rows, prepend=-9) > 1)]
+        after = begins[begins > self._row]
+        self.show_row(int(after[0] if after.size else begins[0]))
+
+    def _ask(self) -> None:
+        """One picture at a time is read; the newest wish follows when it has come."""
+        if self._asked_row >= 0:
+            return
+        self._asked_row = row = self._row
+        store, session_id = self._store, self._session_id
+
+        def shown(moment: StoredMoment) -> None:
+            self._asked_row = -1
+            if session_id != self._session_id or self._session is None or self.places is None:
+                return
+            if row != self._row:
+                self._ask()
+                return
+            camera = self._session.camera
+            plain = np.full((camera.height_px, camera.width_px, 3), 34, np.uint8)
+            self.picture.show_frame(plain if moment.picture_rgb is None else moment.picture_rgb)
+            self._spots = moment.spots_px
+            self.picture.show_moment(self.places, row, self._spots, has_picture=moment.picture_rgb is not None)
+            self._refresh()
+
+        self._background.run(lambda: store.moment(session_id, row), shown, self.told.emit, self)
+
+    # --- what a person says -------------------------------------------------------------------------------
+    def choose(self, name: str) -> None:
+        """Make a marker the one that keys move."""
+        self.current = name
+        self._refresh()
+
+    def put(self, name: str, pixel: FloatArray) -> None:
+        """A marker is here."""
+        if self.places is not None:
+            self.current = name
+            self.places.put(self._row, name, pixel, self._spots)
+            self._refresh()
+
+    def _clicked_beside(self, pixel: FloatArray) -> None:
+        """With a name chosen in the list, a click is its place."""
+        if self.current:
+            self.put(self.current, pixel)
+
+    def _nudge(self, key: int, big: bool) -> None:
+        """An arrow moves the chosen marker, from where it is or where the model has it."""
+        if self.places is None or not self.current:
+            return
+        number = self.places.markers.index(self.current)
+        start = self.places.now(self._row)[number]
+        if not np.isfinite(start).all():
+            start = self.places.modelled(self._row)[number]
+        if np.isfinite(start).all():
+            step = (BIG_STEP_PX if big else 1.0) * np.array(ARROWS[Qt.Key(key)])
+            self.places.put(self._row, self.current, start + step, np.empty((0, 2)))
+            self._refresh()
+
+    def hide_current(self) -> None:
+        """The chosen marker is not to be seen here."""
+        if self.places is not None and self.current:
+            self.places.hide(self._row, self.current)
+            self._refresh()
+
+    def undo(self) -> None:
+        """Take the last step back."""
+        if self.places is not None:
+            row = self.places.undo()
+            if row >= 0:
+                self.show_row(row)
+                self._refresh()
+
+    def leave(self) -> None:
+        """Esc: let go of what is dragged, else back to the review."""
+        if not self.picture.cancel_drag():
+            self.done.emit()
+
+    def _go(self) -> None:
+        """What the primary says: mend what is plainly wrong with the names, else track again."""
+        if self.places is None or not self.places.corrections():
+            return
+        found = self.places.doubt()
+        if found is None:
+            self._track_again()
+        elif found[1].exchanged is not None:
+            self.places.exchange(found[0], *found[1].exchanged)
+            self.show_row(found[0])
+        elif found[0] != self._row:
+            self.show_row(found[0])
+        else:
+            self.undo()
+
+    def _track_again(self) -> None:
+        if self.places is not None and self.places.corrections():
+            self.wanted.emit(self._session_id, self.places.corrections())
+
+    def keyPressEvent(self, event: QKeyEvent) -> None:
+        if event.key() in (Qt.Key.Key_Return, Qt.Key.Key_Enter) and self.primary.isEnabled():
+            self._go()
+        elif event.key() in ARROWS and self.current:
+            self._nudge(event.key(), bool(event.modifiers() & Qt.KeyboardModifier.ShiftModifier))
+        else:
+            super().keyPressEvent(event)
+
+    # --- showing ------------------------------------------------------------------------------------------
+    def _refresh(self) -> None:
+        places, session = self.places, self._session
+        if places is None or session is None or self._row < 0:
+            return
+        at = numbers.clock_tenths(float(self._time_s[self._row]))
+        doubtful = bool(session.markers.doubted[self._row].any()) or session.status[self._row] == TrackStatus.DOUBTFUL
+        changed = places.changed(self._row)
+        state = self.tr("Doubtful at {time}") if doubtful else self.tr("Picture at {time}")
+        self.step.show_state("warn" if doubtful else "none", state.format(time=at))
+        name = marker_name(self.current) if self.current else ""
+        self.title.setText(
+            self.tr("Put “{marker}” on its disc").format(marker=name) if name else self.tr("Which name is wrong?")
+        )
+        if self.picture.has_picture:
+            self.hint.setText(self.tr("Drag a name in the picture, or choose it below and click its disc."))
+        else:
+            pattern = self.tr("No pictures stored: the {count} blue spots of this moment. Drag a name to its spot.")
+            self.hint.setText(pattern.format(count=len(self._spots)))
+        now = places.now(self._row)
+        for number, (marker, line) in enumerate(self.rows.items()):
+            seen = bool(np.isfinite(now[number]).all())
+            off = places.off_mm(self._row, marker)
+            was = places.off_mm(self._row, marker, as_tracked=True) if marker in changed else math.nan
+            line.show_line(off, was, seen=seen, changed=marker in changed, chosen=marker == self.current, far_mm=FAR_MM)
+        self.hide_button.setEnabled(bool(self.current))
+        self.picture.current = self.current
+        self.picture.heads = [at]
+        if changed:
+            words = [marker_name(marker) for marker in changed]
+            self.picture.heads.append(self.tr("Changed here: {markers}").format(markers=", ".join(words)))
+        self.picture.update()
+        some = bool(places.corrections())
+        self.primary.setEnabled(some)
+        first = places.corrections()[0].row if some else 0
+        again = self.tr("Track again from {time}").format(time=numbers.clock_tenths(float(self._time_s[first])))
+        found = places.doubt()
+        self.although.setVisible(found is not None)
+        self.next_doubtful.setVisible(bool(self._doubtful().size) and found is None)
+        if found is not None:
+            self._show_doubt(*found)
+        else:
+            self.primary.set_face(again if some else self.tr("Nothing changed yet"))
+        self.setAccessibleName(self.title.text())
+
+    def _show_doubt(self, row: int, doubt: NameDoubt) -> None:
+        """In place of what was asked: what is wrong with the names, and what mends it."""
+        at = numbers.clock_tenths(float(self._time_s[row]))
+        self.step.show_state("warn", self.tr("Look at the names at {time}").format(time=at))
+        if doubt.exchanged is not None:
+            one, other = (marker_name(name) for name in doubt.exchanged)
+            self.title.setText(self.tr("“{one}” and “{other}” look exchanged").format(one=one, other=other))
+            self.hint.setText(self.tr("So the angles would be wrong from there on. Let the two change places?"))
+            self.primary.set_face(self.tr("Change the two names"))
+            return
+        words = self.tr("“{marker}” cannot be there").format(marker=marker_name(doubt.alone))
+        self.title.setText(words)
+        far = self.tr("It lies {size} mm from where the other discs let it be. It may be another disc, or no disc.")
+        self.hint.setText(far.format(size=f"{1000.0 * doubt.off_m:.0f}"))
+        here = row == self._row
+        self.primary.set_face(self.tr("Take the last step back") if here else self.tr("Show that picture"))

@@ -1,0 +1,1 @@
+"""Asking for formats, and how far an export is."""

@@ -1,0 +1,134 @@
+"""Which formats a session is exported in, then how far that is, until all of it is written."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from PySide6.QtCore import QT_TRANSLATE_NOOP, QCoreApplication, Signal
+from PySide6.QtWidgets import QHBoxLayout, QWidget
+
+from carpus.core.formats.formats import FORMATS
+from carpus.ui.controls.button import Button
+from carpus.ui.controls.progress_bar import ThinBar
+from carpus.ui.controls.sheet import Sheet
+from carpus.ui.controls.text import SEMIBOLD, Text
+from carpus.ui.controls.tick import Tick
+from carpus.ui.theme import Theme
+
+CONTEXT = "ExportSheet"
+NAMES = {
+    "csv": QT_TRANSLATE_NOOP("ExportSheet", "Tables (CSV): angles, joints, markers, events, measures"),
+    "json": QT_TRANSLATE_NOOP("ExportSheet", "Measures with their origin (JSON)"),
+    "c3d": QT_TRANSLATE_NOOP("ExportSheet", "Markers for motion capture programs (C3D)"),
+    "trc": QT_TRANSLATE_NOOP("ExportSheet", "Markers for OpenSim (TRC)"),
+    "mot": QT_TRANSLATE_NOOP("ExportSheet", "Angles for OpenSim (MOT)"),
+    "bids": QT_TRANSLATE_NOOP("ExportSheet", "Data set for research (BIDS-Motion)"),
+    "h5": QT_TRANSLATE_NOOP("ExportSheet", "The session itself, for another Carpus"),
+}
+"""A format without words here goes by its short name."""
+
+
+class ExportSheet(Sheet):
+    """``wanted`` carries the formats and whether nobody shall be found by it; ``stop`` ends an export on the way;
+    ``compare`` asks for the comparison with another measurement instead."""
+
+    wanted = Signal(object, bool)
+    stop = Signal()
+    compare = Signal()
+
+    def __init__(self, host: QWidget, theme: Theme) -> None:
+        super().__init__(host, theme, 600)
+        body = self.card.body
+        body.setSpacing(2)
+        self.title = Text(theme, self.tr("Export this session"), 20, SEMIBOLD, wrap=True)
+        self.words = Text(theme, self.tr("Files that are there are never overwritten."), 14, token="text2", wrap=True)
+        body.addWidget(self.title)
+        body.addWidget(self.words)
+        body.addSpacing(8)
+        self.boxes: dict[str, Tick] = {}
+        for name in FORMATS:
+            words = QCoreApplication.translate(CONTEXT, str(NAMES[name])) if name in NAMES else name.upper()
+            self.boxes[name] = self._tick(words)
+        body.addSpacing(8)
+        self.nobody = self._tick(self.tr("Nobody can be found by it: new random name, days counted, no notes"))
+        self.bar = ThinBar(theme, self.tr("How far the export is"))
+        body.addSpacing(8)
+        body.addWidget(self.bar)
+        body.addSpacing(8)
+        self.close_button = Button(theme, self.tr("Cancel"), "plain", hint=self.tr("Esc"), height_px=44)
+        self.take = Button(theme, self.tr("Choose the folder…"), "primary", hint=self.tr("Enter"), height_px=44)
+        self.close_button.clicked.connect(self.leave)
+        self.take.clicked.connect(self._take)
+        self.compare_button = Button(theme, self.tr("Compare with a &reference…"), "quiet", height_px=44)
+        self.compare_button.clicked.connect(self._compare)
+        row = QHBoxLayout()
+        row.setSpacing(10)
+        row.addWidget(self.compare_button)
+        row.addStretch(1)
+        row.addWidget(self.close_button)
+        row.addWidget(self.take)
+        body.addLayout(row)
+        self._runs = False
+        for box in self.boxes.values():
+            box.toggled.connect(self._check)
+        self.boxes["csv"].setChecked(True)
+        self._show_state()
+
+    @property
+    def formats(self) -> Sequence[str]:
+        """Those that are ticked."""
+        return [name for name, box in self.boxes.items() if box.isChecked()]
+
+    def begin(self) -> None:
+        """Ask; what was ticked last time is ticked still."""
+        self._runs = False
+        self._show_state()
+        self.open(self.take)
+
+    def running(self) -> None:
+        """From now on show how far it is."""
+        self._runs = True
+        self.bar.begin()
+        self._show_state()
+
+    def progress(self, done: int, total: int) -> None:
+        """So many steps of all."""
+        self.bar.show_progress(done, total)
+
+    def leave(self) -> None:
+        """Close; while files are being written stop that first."""
+        if self._runs:
+            self.close_button.setEnabled(False)
+            self.stop.emit()
+        else:
+            super().leave()
+
+    def _tick(self, words: str) -> Tick:
+        tick = Tick(self._theme, words)
+        tick.accepted.connect(self._take)
+        row = QHBoxLayout()
+        row.addWidget(tick)
+        row.addStretch(1)
+        self.card.body.addLayout(row)
+        return tick
+
+    def _check(self) -> None:
+        self.take.setEnabled(bool(self.formats))
+
+    def _take(self) -> None:
+        if self.formats and not self._runs:
+            self.wanted.emit(self.formats, self.nobody.isChecked())
+
+    def _compare(self) -> None:
+        self.close_sheet()
+        self.compare.emit()
+
+    def _show_state(self) -> None:
+        runs = self._runs
+        self.compare_button.setVisible(not runs)
+        self.bar.setVisible(runs)
+        self.take.setVisible(not runs)
+        self.close_button.setEnabled(True)
+        self.close_button.set_face(self.tr("Stop") if runs else self.tr("Cancel"))
+        for box in (*self.boxes.values(), self.nobody):
+            box.setEnabled(not runs)

@@ -1,0 +1,107 @@
+"""A blue spot in plain sight that is used for nothing while a marker near it is hidden, or doubted: which is which?"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from carpus.core.camera import Camera
+from carpus.core.types import FloatArray, TrackedFrame, TrackStatus
+from carpus.ui.live.light import AMBER_AFTER_S, Lamp
+from carpus.ui.marker_words import marker_name
+from carpus.ui.translate import tr
+
+REACH_M = 0.03
+"""A spot this near to where a marker is taken to be may be that marker."""
+_SAME_SPOT_PX = 1.5
+
+
+@dataclass(frozen=True, slots=True)
+class Doubt:
+    """``marker`` in question; ``disc_px`` (2,) the spot that is taken for it, NaN while it counts as hidden;
+    ``spot_px`` (2,) the spot that may be it, NaN where only the marker itself is doubted."""
+
+    marker: str
+    disc_px: FloatArray
+    spot_px: FloatArray
+
+    @property
+    def has_spot(self) -> bool:
+        """Whether there is another spot to choose."""
+        return bool(np.isfinite(self.spot_px).all())
+
+    @property
+    def hidden(self) -> bool:
+        """Whether no spot is taken for the marker."""
+        return not np.isfinite(self.disc_px).all()
+
+
+def doubt_of(frame: TrackedFrame | None, markers: Sequence[str], camera: Camera) -> Doubt | None:
+    """What one frame leaves in question: a doubted marker first, else a hidden one with an unused spot by it."""
+    if frame is None or frame.status == TrackStatus.LOST or len(frame.marker_measured_px) != len(markers):
+        return None
+    measured, place = frame.marker_measured_px, frame.marker_predicted_px
+    hidden = ~np.isfinite(measured[:, 0])
+    unused = _unused(frame)
+    for rows in (np.flatnonzero(frame.doubted), np.flatnonzero(hidden)):
+        nearest: list[tuple[float, int, FloatArray]] = []
+        for k in rows:
+            at = measured[k] if np.isfinite(measured[k]).all() else place[k]
+            if not np.isfinite(at).all() or not len(unused):
+                continue
+            distance = np.linalg.norm(unused - at, axis=1)
+            reach_px = REACH_M * camera.fx_px / max(float(frame.marker_position_cam_m[k, 2]), 0.2)
+            if distance.min() <= reach_px:
+                nearest.append((float(distance.min()), int(k), unused[int(distance.argmin())]))
+        if nearest:
+            _, row, spot = min(nearest, key=lambda one: one[0])
+            return Doubt(markers[row], measured[row], spot)
+    if frame.doubted.any():
+        first = int(np.flatnonzero(frame.doubted)[0])
+        return Doubt(markers[first], measured[first], np.full(2, np.nan))
+    return None
+
+
+class SteadyDoubt:
+    """A question stands only after it has lasted 0.3 s, and goes when it has been gone as long: it must not flicker."""
+
+    def __init__(self) -> None:
+        self._shown: Doubt | None = None
+        self._wanted = ""
+        self._since_s = math.nan
+
+    def show(self, doubt: Doubt | None, now_s: float) -> Doubt | None:
+        """The question to show at ``now_s`` when the newest frame leaves this one."""
+        wanted = doubt.marker if doubt is not None else ""
+        if wanted == (self._shown.marker if self._shown is not None else ""):
+            self._shown, self._since_s = doubt, math.nan
+        elif wanted != self._wanted or math.isnan(self._since_s):
+            self._since_s = now_s
+        elif now_s - self._since_s >= AMBER_AFTER_S - 1e-9:
+            self._shown = doubt
+        self._wanted = wanted
+        return self._shown
+
+
+def doubt_lamp(doubt: Doubt) -> Lamp:
+    """The tracking light while the question is open: never that the marker is hidden while a spot lies by it."""
+    name = marker_name(doubt.marker)
+    lower = name[0].lower() + name[1:]
+    if not doubt.has_spot:
+        return Lamp("warn", tr("Doubtful"), tr("Does the {marker} lie where it is marked?").format(marker=lower))
+    if doubt.hidden:
+        return Lamp("warn", tr("Another blue spot is here"), tr("Is it the {marker}?").format(marker=lower))
+    return Lamp("warn", tr("Doubtful"), tr("Which blue spot is the {marker}?").format(marker=lower))
+
+
+def _unused(frame: TrackedFrame) -> FloatArray:
+    """Spots (S, 2) that are taken for no marker."""
+    seen = frame.detections.pixel
+    taken = frame.marker_measured_px[np.isfinite(frame.marker_measured_px[:, 0])]
+    if not len(seen) or not len(taken):
+        return seen
+    free = np.linalg.norm(seen[:, None] - taken[None], axis=-1).min(axis=1) > _SAME_SPOT_PX
+    return np.asarray(seen[free])

@@ -1,0 +1,104 @@
+"""The card with the plot of an agreement: zoom, pictures and values as every other plot."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+import numpy as np
+from PySide6.QtCore import QRectF, QSize
+from PySide6.QtGui import QPainter
+
+from carpus.ui.plot import axes
+from carpus.ui.plot.agreement import AgreementPlot
+from carpus.ui.plot.axes import Panel
+from carpus.ui.plot.style import PlotStyle, screen_style
+from carpus.ui.plot.zoom_card import ZoomCard
+from carpus.ui.theme import Theme
+
+if TYPE_CHECKING:
+    from carpus.ui.plot.canvas import Canvas
+
+HEAD_PX = 52
+"""Room at the top for the controls of the screen that lie over the card."""
+
+
+class AgreementChart(ZoomCard):
+    """Shows one angle of a comparison, or nothing."""
+
+    def __init__(self, theme: Theme) -> None:
+        super().__init__(theme, "agreement")
+        self._plot: AgreementPlot | None = None
+        self.setAccessibleName(self.tr("Difference of the two measurements"))
+
+    def show_plot(self, plot: AgreementPlot | None) -> None:
+        """Draw another one, all of it."""
+        self._plot, self._window = plot, None
+        self.forget()
+
+    @property
+    def plot(self) -> AgreementPlot | None:
+        """What is shown."""
+        return self._plot
+
+    def sizeHint(self) -> QSize:
+        return QSize(864, 340)
+
+    def minimumSizeHint(self) -> QSize:
+        return QSize(420, self._theme.px(HEAD_PX) + self._theme.px(180))
+
+    # --- window -------------------------------------------------------------------------------------------
+    def extent(self) -> tuple[float, float] | None:
+        return None if self._plot is None else self._plot.extent()
+
+    def shortest(self) -> float:
+        return 1.0
+
+    def about(self) -> float:
+        return sum(self.shown()) / 2
+
+    def panel(self) -> Panel | None:
+        """Where the values are."""
+        if self._plot is None:
+            return None
+        box = QRectF(self.rect()).adjusted(16.5, self._theme.px(HEAD_PX) + 0.5, -16.5, -8.5)
+        panel = self._plot.panel(screen_style(self._theme), box, self._window)
+        return replace(panel, box=axes.crisp(panel.box))
+
+    # --- what is in it ------------------------------------------------------------------------------------
+    def lay_out(self, canvas: Canvas) -> None:
+        panel = self.panel()
+        self.more.setVisible(panel is not None)
+        canvas.lay_out([panel] if panel is not None else [], self.extent(), self.shortest())
+
+    def show_marks(self, canvas: Canvas) -> None:
+        canvas.show_marks([self._plot.moving()] if self._plot is not None else [])
+
+    def paint_ground(self, painter: QPainter) -> None:
+        panel, style = self.panel(), screen_style(self._theme)
+        if panel is not None and self._plot is not None:
+            for mark in self._plot.ground():
+                mark.paint(painter, style, panel)
+            self._plot.beside(painter, style, panel)
+
+    # --- for other programs -------------------------------------------------------------------------------
+    def paint_on(self, painter: QPainter, style: PlotStyle, box: QRectF) -> None:
+        if self._plot is not None:
+            self._plot.paint(painter, style, box)
+
+    def table(self) -> tuple[Sequence[str], Iterable[Sequence[str]]]:
+        """Every pair of what is shown, not only those that are drawn."""
+        plot = self._plot
+        head = ["angle", "time_s", "carpus_deg", "reference_deg", "difference_deg"]
+        if plot is None:
+            return head, []
+        start, end = self.shown()
+        rows = np.flatnonzero((plot.along >= start) & (plot.along <= end))
+        return head, [
+            [
+                plot.pairs.name, f"{plot.pairs.time_s[k]:.4f}", f"{plot.measured_deg[k]:.3f}",
+                f"{plot.reference_deg[k]:.3f}", f"{plot.measured_deg[k] - plot.reference_deg[k]:.3f}",
+            ]
+            for k in rows
+        ]  # fmt: skip

@@ -1,0 +1,87 @@
+"""A card with plots as a widget: what all of them share. The scene, and pyqtgraph with it, comes when it is shown."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from PySide6.QtCore import QRectF
+from PySide6.QtGui import QPainter, QResizeEvent, QShowEvent
+from PySide6.QtWidgets import QSizePolicy, QWidget
+
+from carpus.ui.controls.card import paint_card
+from carpus.ui.theme import Theme
+
+if TYPE_CHECKING:
+    from carpus.ui.plot.canvas import Canvas
+
+
+class PlotCard(QWidget):
+    """A subclass says what is in it: :meth:`lay_out`, :meth:`paint_ground` and :meth:`show_marks`."""
+
+    def __init__(self, theme: Theme) -> None:
+        super().__init__()
+        self._theme = theme
+        self._canvas: Canvas | None = None
+        self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Expanding)
+        theme.changed.connect(self.forget)
+
+    # --- for a subclass -----------------------------------------------------------------------------------
+    def lay_out(self, canvas: Canvas) -> None:
+        """Put panels and layers in their places for the present size and theme."""
+        raise NotImplementedError
+
+    def paint_ground(self, painter: QPainter) -> None:
+        """Paint what stays: grid, words, limits. The card's surface is there already."""
+        raise NotImplementedError
+
+    def show_marks(self, canvas: Canvas) -> None:
+        """Hand the panels what moves in them."""
+        raise NotImplementedError
+
+    def furnish(self, canvas: Canvas) -> None:
+        """Add layers to the new scene."""
+
+    # --- life ---------------------------------------------------------------------------------------------
+    @property
+    def canvas(self) -> Canvas:
+        """The scene; made on first need."""
+        if self._canvas is None:
+            from carpus.ui.plot.canvas import Canvas
+
+            self._canvas = Canvas(self._theme, self._paint_card, self)
+            self._canvas.setGeometry(self.rect())
+            self._canvas.lower()
+            self._canvas.show()
+            self.furnish(self._canvas)
+        return self._canvas
+
+    @property
+    def face(self) -> QWidget:
+        """What is painted on, and what the mouse meets."""
+        port: QWidget = self.canvas.viewport()
+        return port
+
+    def forget(self) -> None:
+        """What stays has changed: lay out and paint everything anew, once it is seen."""
+        if self._canvas is not None and self.isVisible():
+            self.lay_out(self._canvas)
+            self.show_marks(self._canvas)
+
+    def draw(self) -> None:
+        """What moves has changed."""
+        if self._canvas is not None and self.isVisible():
+            self.show_marks(self._canvas)
+
+    def showEvent(self, event: QShowEvent) -> None:
+        self.lay_out(self.canvas)
+        self.show_marks(self.canvas)
+
+    def resizeEvent(self, event: QResizeEvent) -> None:
+        if self._canvas is not None:
+            self._canvas.setGeometry(self.rect())
+            self.forget()
+
+    def _paint_card(self, painter: QPainter) -> None:
+        painter.setRenderHint(QPainter.RenderHint.Antialiasing)
+        paint_card(painter, self._theme, QRectF(self.rect()))
+        self.paint_ground(painter)

@@ -1,0 +1,326 @@
+"""Range over the sessions: points with error bars, error band about the first, norm band, other hand."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from PySide6.QtCore import QPointF, QRectF, Qt
+from PySide6.QtGui import QFontMetricsF, QPainter, QPen, QPolygonF
+
+from carpus.core.output.exercises import Movement
+from carpus.core.output.joint_content import USUAL_TOTAL_DEG
+from carpus.core.output.range_rows import RangeRow, RowKey, is_total
+from carpus.core.output.report_content import Progress, usual_deg
+from carpus.ui import numbers, terms
+from carpus.ui.figures import figure_of
+from carpus.ui.fonts import SEMIBOLD, font
+from carpus.ui.plot.axes import Panel, Scale
+from carpus.ui.plot.marks import Across, EndLabels, Level, Mark, Scales
+from carpus.ui.plot.polygon import polygon
+from carpus.ui.plot.style import CURVE_TOKENS, PlotStyle
+from carpus.ui.terms import end_words
+from carpus.ui.translate import tr
+
+STEP_DEG = 30.0
+DOT_RADIUS, CAP_REACH = 3.5, 7.0
+"""The caps of an error bar reach beyond the dot, so that a spread of one or two degrees still shows."""
+MOST_PANELS = 3
+ROOMY_EM = 12.0
+"""Width of a panel, in sizes of its letters, from which its first and last point carry their figures."""
+PAD_SHARE = 1 / 15
+"""Of the time from the first to the last session, left free before and after."""
+ALONE_S = 86_400.0
+"""What is shown about a session that is the only one."""
+
+
+def panels_of(progress: Progress) -> list[RowKey]:
+    """What is drawn, arc first; of free movement the three arcs; of the whole hand what was chosen and ever seen."""
+    if not progress.points:
+        return []
+    if progress.keys:
+        seen = {row.key for point in progress.points for row in point.figures.joint_rows if row.count}
+        return [key for key in progress.keys if key in seen]
+    rows = progress.points[-1].figures.rows
+    arcs = [row.key for row in rows if row.movement == "arc"]
+    ends = [row.key for row in rows if row.movement != "arc"]
+    return (arcs + ends if len(arcs) == 1 else arcs)[:MOST_PANELS]
+
+
+def axis_top_deg(movement: Movement, angle: int, joint: str = "") -> float:
+    """Fixed top of the axis: the same for both ends, whatever was measured."""
+    if joint:
+        return 180.0 if joint == "TAM1" else 300.0 if is_total(joint) else 60.0 if _is_spread(joint) else 120.0
+    if movement == "arc":
+        return {0: 90.0, 1: 180.0, 2: 180.0}[angle]
+    return 60.0 if angle == 0 else 90.0
+
+
+def scale_of(progress: Progress, key: RowKey) -> Scale:
+    """The fixed axis of a panel, from zero; below it where an end was never reached, by one step of what lacks."""
+    joint, movement, angle = key
+    top_deg = axis_top_deg(movement, angle, joint)
+    step = STEP_DEG if top_deg <= 90 else 2 * STEP_DEG if top_deg <= 180 else 100.0
+    rows = [row_of(progress, number, key) for number in range(len(progress.points))]
+    lacks = not joint and any(row is not None and row.mean_deg < 0.0 for row in rows)
+    ticks = tuple(np.arange(-step if lacks else 0.0, top_deg + 1e-6, step).tolist())
+    labels = tuple((tick, end_words(tick)) for tick in ticks)
+    return Scale(ticks[0] - (0.3 * step if lacks else 0.0), top_deg, ticks, labels, strong_ends=False)
+
+
+def extent_s(progress: Progress) -> tuple[float, float]:
+    """Ends of the time axis, to scale, with room beside the first and the last session."""
+    times = [point.figures.when.timestamp() for point in progress.points]
+    pad = PAD_SHARE * (times[-1] - times[0]) if len(times) > 1 and times[-1] > times[0] else ALONE_S / 2
+    return times[0] - pad, times[-1] + pad
+
+
+def place_panels(
+    progress: Progress, style: PlotStyle, box: QRectF, shown_s: tuple[float, float] | None = None
+) -> list[tuple[Panel, RowKey]]:
+    """All panels over one time axis, in one column or, if there are many, in two."""
+    keys, unit = panels_of(progress), style.unit
+    if not keys:
+        return []
+    line = QFontMetricsF(style.end_label).height()
+    title = line + 14 * unit
+    foot = line * (1 + len(_key_lines(style, box, progress))) + 26 * unit
+    columns = 1 if len(keys) <= MOST_PANELS else 2
+    lines = math.ceil(len(keys) / columns)
+    height, width = (box.height() - foot) / lines, box.width() / columns
+    # Room for the longest label beside a line; every panel has the same.
+    longest = tr("Usual, adults {span}").format(span="120–150°")
+    words = max(QFontMetricsF(style.end_label).horizontalAdvance(longest), 1.0)
+    out = []
+    for place, key in enumerate(keys):
+        edge = box.left() + (place // lines) * width
+        left, right = edge + 56 * unit, edge + width - words - 16 * unit
+        top = box.top() + (place % lines) * height + title
+        area = QRectF(left, top, right - left, height - title - 10 * unit)
+        out.append((Panel(area, scale_of(progress, key), *(shown_s or extent_s(progress))), key))
+    return out
+
+
+def row_of(progress: Progress, number: int, key: RowKey) -> RangeRow | None:
+    """What a session measured of it; None for nothing."""
+    joint, movement, angle = key
+    row = progress.points[number].figures.row(movement, angle, joint)
+    return row if row is not None and row.count else None
+
+
+def name_of(progress: Progress, key: RowKey) -> str:
+    """Title of a panel."""
+    joint, movement, angle = key
+    if joint:
+        return figure_of(joint).long_name
+    if movement == "arc" and progress.points[-1].figures.exercise.angle is None:
+        return terms.arc_name(angle)
+    return tr("Whole arc") if movement == "arc" else terms.movement_long_name(movement)
+
+
+def still(progress: Progress, key: RowKey) -> list[Mark]:
+    """What lies behind the points of a panel: usual, error band, grid, the other hand, and their words."""
+    joint, movement, angle = key
+    out: list[Mark] = []
+    labels: list[tuple[float, str, str]] = []
+    total = USUAL_TOTAL_DEG[int(joint[-1])] if is_total(joint) else math.nan
+    usual = (total, total) if is_total(joint) else None if joint else usual_deg(movement, angle)
+    if usual is not None:
+        low, high = usual
+        span = f"{low:.0f}°" if low == high else f"{low:.0f}–{high:.0f}°"
+        out.append(Across(low, high, "norm"))
+        labels.append((0.5 * (low + high), tr("Usual, adults {span}").format(span=span), "text2"))
+    first = progress.first.row(movement, angle, joint) if progress.first else None
+    limit = next((c.limit_deg for c in progress.comparisons if (c.joint, c.movement, c.angle) == key), math.nan)
+    if first is not None and first.count and math.isfinite(limit):
+        out.append(Across(first.mean_deg - limit, first.mean_deg + limit, "soft", "accent"))
+        words = tr("Error band ±{gap}{limit}").format(gap=numbers.NARROW_GAP, limit=numbers.degrees(limit))
+        labels.append((first.mean_deg, words, "accent"))
+    out.append(Scales())
+    other = progress.other_hand.row(movement, angle, joint) if progress.other_hand else None
+    if other is not None and other.count and progress.other_hand is not None:
+        out.append(Level(other.mean_deg, "text2"))
+        words = f"{terms.hand_name(progress.other_hand.side)} {numbers.degrees(other.mean_deg)}"
+        labels.append((other.mean_deg, words, "text2"))
+    return [*out, EndLabels(labels)]
+
+
+@dataclass(frozen=True, slots=True)
+class Points:
+    """Mean of each session with its spread; those that compare are joined, the others are rings."""
+
+    progress: Progress
+    key: RowKey
+    chosen: int = -1
+
+    def places(self, panel: Panel) -> list[tuple[int, QPointF]]:
+        """Number of the session and where its point is, of those that measured it."""
+        out = []
+        for number, point in enumerate(self.progress.points):
+            row = row_of(self.progress, number, self.key)
+            if row is not None:
+                x = float(panel.x(point.figures.when.timestamp()))
+                out.append((number, QPointF(x, float(panel.y(row.mean_deg)))))
+        return out
+
+    def paint(self, painter: QPainter, style: PlotStyle, panel: Panel) -> None:
+        joint, movement, angle = self.key
+        unit, token = style.unit, "text" if movement == "arc" else CURVE_TOKENS[angle]
+        if joint and not is_total(joint):
+            token = figure_of(joint).token
+        found = [(number, at, row_of(self.progress, number, self.key)) for number, at in self.places(panel)]
+        rows = [(number, at.x(), row) for number, at, row in found if row is not None]
+        fair = [(x, row) for number, x, row in rows if self.progress.points[number].fair]
+        painter.setPen(QPen(style.color(token), style.line_width))
+        painter.setBrush(Qt.BrushStyle.NoBrush)
+        if len(fair) > 1:
+            line = np.array([x for x, _ in fair]), panel.y(np.array([row.mean_deg for _, row in fair]))
+            painter.save()
+            painter.setClipRect(panel.box, Qt.ClipOperation.IntersectClip)
+            painter.drawPolyline(polygon(*line))
+            painter.restore()
+        for number, x, row in rows:
+            if not panel.box.left() - 1 <= x <= panel.box.right() + 1:
+                continue  # zoomed away
+            is_fair = self.progress.points[number].fair
+            color = style.color(token if is_fair else "text2")
+            middle = float(panel.y(row.mean_deg))
+            sd = row.sd_deg if math.isfinite(row.sd_deg) else row.measurement_sd_deg
+            top = middle
+            if math.isfinite(sd):
+                top, bottom = float(panel.y(row.mean_deg + sd)), float(panel.y(row.mean_deg - sd))
+                painter.setPen(QPen(color, 1.4 * unit))
+                for edge in (top, bottom):
+                    painter.drawLine(QPointF(x - CAP_REACH * unit, edge), QPointF(x + CAP_REACH * unit, edge))
+                painter.drawLine(QPointF(x, top), QPointF(x, bottom))
+            painter.setPen(QPen(color, 2 * unit) if not is_fair else Qt.PenStyle.NoPen)
+            painter.setBrush(style.color("surface") if not is_fair else color)
+            painter.drawEllipse(QPointF(x, middle), DOT_RADIUS * unit, DOT_RADIUS * unit)
+            if joint and row.limited:
+                paint_at_least(painter, x, top - 4 * unit, unit)
+            if number == self.chosen:
+                painter.setPen(QPen(style.color("accent"), 2 * unit))
+                painter.setBrush(Qt.BrushStyle.NoBrush)
+                painter.drawEllipse(QPointF(x, middle), 9 * unit, 9 * unit)
+        roomy = panel.box.width() >= ROOMY_EM * style.end_label.pixelSize()  # else they cover what is beside them
+        for x, row in fair[:1] + fair[-1:] if roomy else []:
+            if panel.box.left() - 1 <= x <= panel.box.right() + 1:
+                self._paint_value(painter, style, panel, x, row)
+
+    def _paint_value(self, painter: QPainter, style: PlotStyle, panel: Panel, x: float, row: RangeRow) -> None:
+        """The figure of the first and of the last session that compare."""
+        joint, movement, angle = self.key
+        unit = style.unit
+        painter.setFont(font(style.end_label.pixelSize() * 1.17, SEMIBOLD, display=False))
+        painter.setPen(style.color("text"))
+        metrics = QFontMetricsF(painter.font())
+        text = numbers.degrees(row.mean_deg) if joint else end_words(row.mean_deg)
+        sd = row.sd_deg if math.isfinite(row.sd_deg) else 0.0
+        baseline = float(panel.y(row.mean_deg + sd)) - 8 * unit
+        if joint and row.limited:
+            baseline -= 10 * unit
+            text = f"≥{numbers.NARROW_GAP}{text}"
+        hand = self.progress.other_hand
+        other = hand.row(movement, angle, joint) if hand else None
+        if other is not None and other.count:
+            line = float(panel.y(other.mean_deg)) + 2 * unit
+            if baseline - metrics.ascent() < line < baseline + 4 * unit:
+                baseline = float(panel.y(row.mean_deg - sd)) + 8 * unit + metrics.ascent()
+        painter.drawText(QPointF(x - metrics.horizontalAdvance(text) / 2, baseline), text)
+
+
+def paint_at_least(painter: QPainter, x: float, y: float, unit: float) -> None:
+    """An arrow upwards: the joint went out of sight, the true value may be larger."""
+    painter.drawPolygon(QPolygonF([QPointF(x, y - 7 * unit), QPointF(x - 4.5 * unit, y), QPointF(x + 4.5 * unit, y)]))
+
+
+def paint_behind(
+    painter: QPainter, style: PlotStyle, box: QRectF, progress: Progress, panels: Sequence[tuple[Panel, RowKey]]
+) -> None:
+    """Everything but the points: titles, bands, grid, dates, and what the signs mean."""
+    unit = style.unit
+    line = QFontMetricsF(style.end_label).height()
+    dates: set[float] = set()
+    for panel, key in panels:
+        painter.setFont(font(style.end_label.pixelSize() * 1.25, SEMIBOLD, display=False))
+        painter.setPen(style.color("text"))
+        painter.drawText(QPointF(panel.box.left(), panel.box.top() - 9 * unit), name_of(progress, key))
+        for mark in still(progress, key):
+            mark.paint(painter, style, panel)
+        if panel.box.left() not in dates:
+            dates.add(panel.box.left())
+            foot = line * (1 + len(_key_lines(style, box, progress)))
+            _paint_dates(painter, style, panel, box.bottom() - foot - 22 * unit, progress)
+    if panels:
+        _paint_key(painter, style, progress, box)
+
+
+def paint_chart(painter: QPainter, style: PlotStyle, box: QRectF, progress: Progress) -> None:
+    """The whole chart at once, as on paper."""
+    panels = place_panels(progress, style, box)
+    paint_behind(painter, style, box, progress, panels)
+    for panel, key in panels:
+        Points(progress, key).paint(painter, style, panel)
+
+
+def _is_spread(joint: str) -> bool:
+    return figure_of(joint).row == "spread"
+
+
+def _paint_dates(painter: QPainter, style: PlotStyle, panel: Panel, top: float, progress: Progress) -> None:
+    painter.setFont(style.end_label)
+    metrics = QFontMetricsF(style.end_label)
+    days = [point.figures.when for point in progress.points]
+    places = [float(panel.x(day.timestamp())) for day in days]
+    taken: list[tuple[float, float]] = []
+    ends = [0, len(days) - 1]
+    for number in [*ends, *range(1, len(days) - 1)]:
+        if not panel.box.left() <= places[number] <= panel.box.right():
+            continue
+        text = numbers.day_month(days[number])
+        width = metrics.horizontalAdvance(text)
+        left = places[number] - width / 2
+        if any(left < right + 6 * style.unit and left + width > other - 6 * style.unit for other, right in taken):
+            continue
+        taken.append((left, left + width))
+        painter.setPen(style.color("text" if number in ends else "text2"))
+        painter.drawText(QPointF(left, top + metrics.ascent()), text)
+
+
+def _key_lines(style: PlotStyle, box: QRectF, progress: Progress) -> list[list[tuple[str, str]]]:
+    """What the signs mean, sign and words, in as many lines as it needs."""
+    entries = [("dot", tr("mean, ± sd between repetitions")), ("ring", tr("other set-up: not compared"))]
+    entries += [("arrow", tr("at least: hidden in part"))] if progress.keys else []
+    metrics, unit = QFontMetricsF(style.end_label), style.unit
+    lines: list[list[tuple[str, str]]] = [[]]
+    across = 36 * unit
+    for sign, words in entries:
+        width = 17 * unit + metrics.horizontalAdvance(words)
+        if lines[-1] and across + width > box.width():
+            lines.append([])
+            across = 36 * unit
+        lines[-1].append((sign, words))
+        across += width + 30 * unit
+    return lines
+
+
+def _paint_key(painter: QPainter, style: PlotStyle, progress: Progress, box: QRectF) -> None:
+    unit, metrics = style.unit, QFontMetricsF(style.end_label)
+    painter.setFont(style.end_label)
+    lines = _key_lines(style, box, progress)
+    for number, entries in enumerate(reversed(lines)):
+        across, baseline = box.left() + 36 * unit, box.bottom() - 6 * unit - number * metrics.height()
+        for sign, words in entries:
+            width = 1.4 if sign == "arrow" else 2.0
+            painter.setPen(QPen(style.color("text" if sign == "dot" else "text2"), width * unit))
+            painter.setBrush(style.color("text" if sign == "dot" else "surface"))
+            if sign == "arrow":
+                paint_at_least(painter, across + 5 * unit, baseline - 1 * unit, unit)
+            else:
+                at = QPointF(across + 5 * unit, baseline - metrics.ascent() * 0.36)
+                painter.drawEllipse(at, 4.5 * unit, 4.5 * unit)
+            painter.setPen(style.color("text2"))
+            painter.drawText(QPointF(across + 17 * unit, baseline), words)
+            across += 17 * unit + metrics.horizontalAdvance(words) + 30 * unit

@@ -1,0 +1,110 @@
+"""A plot for other programs: PNG and SVG at print size on white, its values as a table."""
+
+from __future__ import annotations
+
+import csv
+import io
+from collections.abc import Iterable, Sequence
+from pathlib import Path
+from typing import Protocol
+
+from PySide6.QtCore import QBuffer, QByteArray, QIODevice, QRectF, QSize
+from PySide6.QtGui import QColor, QImage, QPainter
+from PySide6.QtSvg import QSvgGenerator
+
+from carpus.core.errors import OutputNotWritable
+from carpus.ui.plot.style import PlotStyle, paper_style
+from carpus.ui.theme import LIGHT
+
+WIDTH_MM, DPI = 170.0, 300.0
+"""The width of a page's text, at the resolution of print."""
+SVG_UNITS_PER_POINT = 10.0
+MARGIN_PT = 8.0
+POINTS_PER_MM = 72.0 / 25.4
+
+
+class Printable(Protocol):
+    """What can be drawn on paper and told as a table."""
+
+    def width(self) -> int: ...
+
+    def height(self) -> int: ...
+
+    def paint_on(self, painter: QPainter, style: PlotStyle, box: QRectF) -> None: ...
+
+    def table(self) -> tuple[Sequence[str], Iterable[Sequence[str]]]: ...
+
+
+def _size_pt(plot: Printable) -> tuple[float, float]:
+    width_pt = WIDTH_MM * POINTS_PER_MM
+    return width_pt, width_pt * min(max(plot.height() / max(plot.width(), 1), 0.4), 1.4)
+
+
+def _paint(painter: QPainter, plot: Printable, point: float) -> None:
+    painter.setRenderHint(QPainter.RenderHint.Antialiasing)
+    width_pt, height_pt = _size_pt(plot)
+    margin = MARGIN_PT * point
+    box = QRectF(0.0, 0.0, width_pt * point, height_pt * point)
+    plot.paint_on(painter, paper_style(point), box.adjusted(margin, margin, -margin, -margin))
+
+
+def picture(plot: Printable) -> QImage:
+    """170 mm wide at 300 dots to the inch."""
+    point = DPI / 72.0
+    width_pt, height_pt = _size_pt(plot)
+    image = QImage(round(width_pt * point), round(height_pt * point), QImage.Format.Format_RGB32)
+    image.setDotsPerMeterX(round(DPI / 0.0254))
+    image.setDotsPerMeterY(round(DPI / 0.0254))
+    image.fill(QColor(LIGHT.surface))
+    painter = QPainter(image)
+    _paint(painter, plot, point)
+    painter.end()
+    return image
+
+
+def drawing(plot: Printable) -> bytes:
+    """The same as lines and letters."""
+    point = SVG_UNITS_PER_POINT
+    width_pt, height_pt = _size_pt(plot)
+    store = QByteArray()
+    buffer = QBuffer(store)
+    buffer.open(QIODevice.OpenModeFlag.WriteOnly)
+    generator = QSvgGenerator()
+    generator.setOutputDevice(buffer)
+    generator.setResolution(round(72.0 * point))
+    generator.setSize(QSize(round(width_pt * point), round(height_pt * point)))
+    generator.setViewBox(QRectF(0.0, 0.0, width_pt * point, height_pt * point))
+    painter = QPainter(generator)
+    _paint(painter, plot, point)
+    painter.end()
+    buffer.close()
+    return bytes(store.data())
+
+
+def table(plot: Printable) -> str:
+    """What is shown as comma-separated values; unknown is empty."""
+    head, rows = plot.table()
+    text = io.StringIO()
+    writer = csv.writer(text)
+    writer.writerow(head)
+    writer.writerows(rows)
+    return text.getvalue()
+
+
+def save(plot: Printable, path: Path) -> None:
+    """Write the plot as the name ends. Raises :class:`OutputNotWritable`."""
+    kind = path.suffix.lower()
+    if kind == ".svg":
+        content = drawing(plot)
+    elif kind == ".csv":
+        content = table(plot).encode("utf-8")
+    else:
+        store = QByteArray()
+        buffer = QBuffer(store)
+        buffer.open(QIODevice.OpenModeFlag.WriteOnly)
+        picture(plot).save(buffer, "PNG")  # type: ignore[call-overload]
+        content = bytes(store.data())
+    try:
+        path.write_bytes(content)
+    except OSError as cause:
+        raise OutputNotWritable(path, cause.strerror or "") from cause

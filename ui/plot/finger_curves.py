@@ -1,0 +1,282 @@
+"""Small multiples of the whole hand: bending and spreading by finger over ten seconds, and every angle in figures."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+import numpy as np
+from PySide6.QtCore import QPointF, QRectF, QSize, Qt, Signal
+from PySide6.QtGui import QFontMetricsF, QPainter, QPen
+
+from carpus.core.types import FloatArray
+from carpus.ui import numbers
+from carpus.ui.figures import FIGURES, FINGERS, ROWS, Figure, Row, row_name, side_word, spread_labels
+from carpus.ui.fonts import MEDIUM, REGULAR, SEMIBOLD, font
+from carpus.ui.icons import paint_state
+from carpus.ui.marker_words import finger_name
+from carpus.ui.plot import axes
+from carpus.ui.plot.axes import Panel, Scale
+from carpus.ui.plot.card import PlotCard
+from carpus.ui.plot.history import SHOWN_S, History
+from carpus.ui.plot.marks import Curve, Curves, Scales, Target
+from carpus.ui.plot.series import LONGEST_STEP_S, pens_of
+from carpus.ui.plot.strips import CurveStrips, PanelCurves
+from carpus.ui.plot.style import screen_style
+from carpus.ui.theme import Theme
+from carpus.ui.translate import tr
+
+if TYPE_CHECKING:
+    from carpus.ui.plot.canvas import Canvas, Layer
+
+LEFT_PX, RIGHT_PX, TOP_PX, BETWEEN_PX, ROW_PX = 112, 14, 44, 13, 31
+BENDING = Scale(-15.0, 115.0, (90.0, 45.0, 0.0), ((90.0, "90°"), (45.0, "45°"), (0.0, "0°")))
+SPREADING = Scale(-32.0, 32.0, (20.0, 0.0, -20.0), ())
+BENDING_TOP_DEG_S, SPREADING_TOP_DEG_S = 400.0, 200.0
+BENDING_ROWS: tuple[Row, ...] = ("end", "middle", "knuckle")
+SPREADING_ROWS: tuple[Row, ...] = ("spread",)
+ROOMY_FROM_PX, SPREADS_FROM_PX = 290, 160
+WEAK_SD_DEG = 10.0
+"""From this spread on a figure is marked as weak."""
+
+
+class FingerCurves(PlotCard):
+    """Shows the fingers of a :class:`History`; ``chosen`` tells that a figure was clicked."""
+
+    chosen = Signal(Figure)
+
+    def __init__(self, theme: Theme, history: History) -> None:
+        super().__init__(theme)
+        self._history = history
+        self._figure = Figure(3, "middle")
+        self._target_deg = math.nan
+        self._waiting = False
+        self._speeds = False
+        self._pictures = CurveStrips()
+        self._plain: list[PanelCurves] = []
+        self._block, self._now_s = history.block(), math.nan
+        self._values: dict[Figure, tuple[float, float, bool]] = {}
+        self.setAccessibleName(self.tr("Joint angles of the last ten seconds, by finger"))
+
+    def set_figure(self, figure: Figure, target_deg: float) -> None:
+        """The figure that is large, and its target."""
+        self._figure, self._target_deg = figure, target_deg
+        self.forget()
+
+    def set_waiting(self, waiting: bool) -> None:
+        """Whether no pictures come: then no figure is shown as if it were now."""
+        self._waiting = waiting
+        self._refresh()
+
+    def show_speeds(self, on: bool) -> None:
+        """How fast the joints bend and spread instead of how far."""
+        if on != self._speeds:
+            self._speeds = on
+            self.forget()
+
+    def refresh_values(self) -> None:
+        """Take the figures below the curves anew; called at most ten times a second."""
+        self._values = {figure: self._history.figure_value(k) for k, figure in enumerate(FIGURES)}
+        self._refresh()
+
+    def _refresh(self) -> None:
+        if self._canvas is not None:
+            self._cells.update()
+
+    def sizeHint(self) -> QSize:
+        return QSize(776, 396)
+
+    def minimumSizeHint(self) -> QSize:
+        return QSize(560, 165 if self._theme.text_scale > 1.0 else 220)  # the number above it gives way no further
+
+    def _spreads(self) -> bool:
+        """Whether there is room for the spreading; the bending stays."""
+        return self.height() >= SPREADS_FROM_PX * self._theme.text_scale
+
+    # --- places -------------------------------------------------------------------------------------------
+    def column(self, finger: int) -> QRectF:
+        """The whole column of a finger."""
+        scale = self._theme.text_scale
+        left, right = LEFT_PX * scale, self.width() - RIGHT_PX
+        step = (right - left + BETWEEN_PX) / len(FINGERS)
+        return QRectF(left + (finger - 1) * step, 8, step - BETWEEN_PX, self.height() - 16)
+
+    def rows_top(self) -> float:
+        """Where the figures begin; without room for both, the curves stay."""
+        return self.height() - 8 - len(self._rows()) * ROW_PX * self._theme.text_scale
+
+    def _rows(self) -> tuple[Row, ...]:
+        return ROWS if self.height() >= ROOMY_FROM_PX * self._theme.text_scale else ()
+
+    def panels(self, finger: int) -> tuple[Panel, Panel]:
+        """Bending and spreading of a finger; time ends at now."""
+        scale, column = self._theme.text_scale, self.column(finger)
+        top = TOP_PX * scale
+        if not self._spreads():  # the one that is large has all the room
+            whole = QRectF(column.left(), top, column.width(), self.rows_top() - 12 - top)
+            none = QRectF(column.left(), whole.bottom(), column.width(), 0.0)
+            boxes = (none, whole) if self._figure.row == "spread" else (whole, none)
+            return tuple(  # type: ignore[return-value]
+                Panel(axes.crisp(box), own, -SHOWN_S, 0.0) for box, own in zip(boxes, self._scales(), strict=True)
+            )
+        room = self.rows_top() - 12 - top - 22 * scale
+        bending = QRectF(column.left(), top, column.width(), 0.62 * room)
+        spreading = QRectF(column.left(), top + 0.62 * room + 22 * scale, column.width(), 0.38 * room)
+        scales = self._scales()
+        return tuple(  # type: ignore[return-value]
+            Panel(axes.crisp(box), own, -SHOWN_S, 0.0) for box, own in zip((bending, spreading), scales, strict=True)
+        )
+
+    def _scales(self) -> tuple[Scale, Scale]:
+        if not self._speeds:
+            return BENDING, replace(SPREADING, labels=spread_labels(20.0))
+        return (
+            axes.rising_scale(BENDING_TOP_DEG_S, 200.0, "°/s", ""),
+            axes.rising_scale(SPREADING_TOP_DEG_S, 100.0, "°/s", ""),
+        )
+
+    def cell(self, figure: Figure) -> QRectF:
+        """Where a figure's number stands."""
+        column, height = self.column(figure.finger), ROW_PX * self._theme.text_scale
+        return QRectF(column.left(), self.rows_top() + ROWS.index(figure.row) * height, column.width(), height)
+
+    def choose_at(self, at: QPointF) -> None:
+        """A click: on a number that figure, elsewhere on a finger the same angle of it."""
+        for figure in FIGURES:
+            if figure.row in self._rows() and self.cell(figure).contains(at):
+                self.chosen.emit(figure)
+                return
+        for finger in FINGERS:
+            if self.column(finger).contains(at):
+                self.chosen.emit(Figure(finger, self._figure.row))
+
+    # --- what is in it --------------------------------------------------------------------------------------
+    def furnish(self, canvas: Canvas) -> None:
+        self._strips: Layer = canvas.add_layer(self._paint_strips)
+        self._cells: Layer = canvas.add_layer(self._paint_figures, kept=True)
+        canvas.scene().sigMouseClicked.connect(lambda click: self.choose_at(click.scenePos()))
+
+    def lay_out(self, canvas: Canvas) -> None:
+        self._pictures.forget()
+        canvas.lay_out([panel for finger in FINGERS for panel in self.panels(finger)])
+        self._strips.cover(QRectF(0.0, 0.0, self.width(), self.rows_top()))
+        self._cells.cover(QRectF(0.0, self.rows_top(), self.width(), self.height() - self.rows_top() - 1))
+        self._cells.update()
+
+    def show_marks(self, canvas: Canvas) -> None:
+        """Curves that go on at the right are strips; those with gaps or beyond their scale, which are rare, marks."""
+        block, now_s = self._history.block(speeds=self._speeds), self._history.now_s
+        even = bool(len(block.time_s)) and bool(np.all(np.diff(block.time_s) <= LONGEST_STEP_S))
+        style, marks, strips = screen_style(self._theme), [], []
+        for finger in FINGERS:
+            for panel, rows in zip(self.panels(finger), (BENDING_ROWS, SPREADING_ROWS), strict=True):
+                columns = [FIGURES.index(Figure(finger, row)) for row in rows if panel.box.height() > 0.0]
+                plain = [k for k in columns if even and _stays_in(panel.scale, block.value_deg[:, k])]
+                own = [(k, pens_of(style.color(FIGURES[k].token), style.line_width)) for k in plain]
+                if panel.box.height() > 0.0:
+                    strips.append(PanelCurves(panel, own))
+                rest = [k for k in columns if k not in plain] if len(block.time_s) else []
+                marks.append([Curves([Curve(block.series(k).from_time(now_s), FIGURES[k].token) for k in rest])])
+        canvas.show_marks(marks)
+        self._plain, self._block, self._now_s = strips, block, now_s
+        self._strips.update()
+
+    def _paint_strips(self, painter: QPainter) -> None:
+        self._pictures.paint(painter, self._plain, self._block, self._now_s)
+
+    def _paint_figures(self, painter: QPainter) -> None:
+        """The numbers below the curves; they change ten times a second at most."""
+        for figure in FIGURES:
+            if figure.row in self._rows():
+                self._paint_figure(painter, figure)
+
+    def _paint_figure(self, painter: QPainter, figure: Figure) -> None:
+        theme, scale = self._theme, self._theme.text_scale
+        cell, style = self.cell(figure), screen_style(self._theme)
+        value, sd, measured = self._values.get(figure, (math.nan, math.nan, False))
+        if self._waiting:
+            value = math.nan
+        predicted = not measured or self._history.inferred(FIGURES.index(figure))
+        middle = cell.center().y()
+        if predicted and math.isfinite(value):
+            axes.hatch(painter, style, cell.adjusted(14, 3, 0, -3), alpha=70)
+        pen = QPen(theme.color(figure.token), 3)
+        pen.setCapStyle(Qt.PenCapStyle.FlatCap)
+        if predicted:
+            pen.setDashPattern([1.4, 1.0])
+        painter.setPen(pen)
+        if math.isfinite(value):
+            painter.drawLine(QPointF(cell.left(), middle), QPointF(cell.left() + 11, middle))
+        painter.setFont(font(16 * scale, SEMIBOLD))
+        painter.setPen(theme.color("text2" if predicted else "text"))
+        metrics = QFontMetricsF(painter.font())
+        left, baseline = cell.left() + 18, middle + metrics.capHeight() / 2
+        text = numbers.degrees(value)
+        painter.drawText(QPointF(left, baseline), text)
+        left += metrics.horizontalAdvance(text) + 4
+        words = numbers.spread(sd) if math.isfinite(value) else ""
+        painter.setFont(font(12 * scale, MEDIUM))
+        inferred = self._history.inferred(FIGURES.index(figure))
+        if inferred and words:
+            words = self.tr("follows the middle joint")
+            if QFontMetricsF(painter.font()).horizontalAdvance(words) > cell.right() - left:
+                words = self.tr("follows")
+        if math.isfinite(value) and (name := cell_word(figure, value)):
+            both, room = f"{words} {name}", cell.right() - left - 18
+            # What an angle is goes before how sure it is.
+            words = both if QFontMetricsF(painter.font()).horizontalAdvance(both) < room else name
+        painter.setPen(theme.color("text2"))
+        painter.drawText(QPointF(left, baseline), words)
+        left += QFontMetricsF(painter.font()).horizontalAdvance(words) + 5
+        if math.isfinite(value) and not inferred and sd >= WEAK_SD_DEG and left + 13 < cell.right():
+            box = QRectF(left, middle - 6.5, 13, 13)  # a triangle: the half disc is that of a marker seen now and then
+            paint_state(painter, "warn", box, theme.color("warn"), theme.color("surface"))
+
+    def paint_ground(self, painter: QPainter) -> None:
+        theme, scale = self._theme, self._theme.text_scale
+        painter.setPen(Qt.PenStyle.NoPen)
+        painter.setBrush(theme.color("soft"))
+        painter.drawRoundedRect(self.column(self._figure.finger).adjusted(-6, 0, 6, 0), 8, 8)
+        style = screen_style(theme)
+        self._text(painter, self.tr("Last 10 s"), 20, 17 * scale, 12, REGULAR, "text2")
+        for finger in FINGERS:
+            bending, spreading = self.panels(finger)
+            self._text(painter, finger_name(str(finger)), bending.box.left(), 13 * scale, 16, SEMIBOLD, "text")
+            for panel in (bending, spreading):
+                shown = panel if finger == 1 else replace(panel, scale=replace(panel.scale, labels=()))
+                if panel.box.height() > 0.0:
+                    Scales().paint(painter, style, shown)
+            own = spreading if self._figure.row == "spread" else bending
+            if finger == self._figure.finger and self._has_target():
+                Target(self._target_deg).paint(painter, style, own)
+        bending, spreading = self.panels(1)
+        if bending.box.height() > 0.0:
+            self._text(painter, self.tr("Bending"), 20, bending.box.top() - 4 * scale, 14, MEDIUM, "text")
+        if spreading.box.height() > 0.0:
+            above = 17 if self._spreads() else 4
+            self._text(painter, self.tr("Spreading"), 20, spreading.box.top() - above * scale, 14, MEDIUM, "text")
+        for number, row in enumerate(self._rows()):
+            top = self.rows_top() + number * ROW_PX * scale
+            painter.setPen(QPen(theme.color("line"), 1))
+            painter.drawLine(QPointF(20, round(top) + 0.5), QPointF(self.width() - 14, round(top) + 0.5))
+            self._text(painter, row_name(row), 20, top + 7 * scale, 14, REGULAR, "text")
+
+    def _has_target(self) -> bool:
+        return math.isfinite(self._target_deg) and self._figure.row != "tam" and not self._speeds
+
+    def _text(self, painter: QPainter, text: str, left: float, top: float, size: int, weight: int, token: str) -> None:
+        painter.setFont(font(size * self._theme.text_scale, weight))
+        painter.setPen(self._theme.color(token))
+        painter.drawText(QPointF(left, top + QFontMetricsF(painter.font()).ascent()), text)
+
+
+def _stays_in(scale: Scale, value: FloatArray) -> bool:
+    return bool(scale.low < value.min() and value.max() < scale.high)
+
+
+def cell_word(figure: Figure, value_deg: float) -> str:
+    """What the row's name does not say: that the thumb's is its lift, and to which side a finger is spread."""
+    if figure.is_lift:
+        return tr("lift")
+    return side_word(value_deg, figure.finger) if figure.row == "spread" else ""

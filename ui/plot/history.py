@@ -1,0 +1,308 @@
+"""The last seconds of what was tracked, wrist and fingers, as arrays ready to draw; how well each disc was seen."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass, fields
+from typing import Literal
+
+import numpy as np
+
+from carpus.core.hand.protocols import HAND21
+from carpus.core.measures.forearm import USUAL_CENTRE_M, rotation_in_place, wrist_centre
+from carpus.core.output.exercises import STILL_RADIUS_MM
+from carpus.core.types import FloatArray, TrackedFrame, TrackStatus
+from carpus.ui.figures import FIGURES
+from carpus.ui.joint_figures import BoolArray, figures_of, measured_figures, mix
+from carpus.ui.plot.series import Series
+
+SHOWN_S = 10.0
+KEPT_S = 11.0
+"""A little more than is shown, so that lines run out of the picture instead of ending in it."""
+Seen = Literal["seen", "partly", "hidden"]
+SHARE_S = 0.4
+"""How well a disc is seen is judged over this long: hidden after 0.3 s, and seen again as soon."""
+SEEN_SHARE, HIDDEN_SHARE = 0.75, 0.25
+EVERY = 3
+"""Small panels draw every third frame: ten points a second, two pixels each on a large screen."""
+HOME_S = 0.5
+"""The forearm's place is the median over this long."""
+FIT_EVERY_S = 1.0
+FIT_POSES = 600
+"""Where the wrist turns is fitted once a second to this many of its poses, spread over all that was seen."""
+_TIME, _ANGLES, _SDS, _STATUS, _POSITION, _SPEEDS, _AXES = (
+    0,
+    slice(1, 4),
+    slice(4, 7),
+    7,
+    slice(8, 11),
+    slice(11, 13),
+    slice(13, 22),
+)
+_POSE = [*range(8, 11), *range(13, 22)]
+_COLUMNS = 22
+
+
+@dataclass(frozen=True, slots=True)
+class Block:
+    """Samples of all figures: ``time_s`` (n,), ``value_deg``, ``sd_deg`` and ``predicted`` (n, F)."""
+
+    time_s: FloatArray
+    value_deg: FloatArray
+    sd_deg: FloatArray
+    predicted: BoolArray
+
+    def series(self, figure: int) -> Series:
+        """One of them."""
+        return Series(self.time_s, self.value_deg[:, figure], self.sd_deg[:, figure], self.predicted[:, figure])
+
+
+class History:
+    """Frames in, arrays of the last ten seconds out: degrees, millimetres, seconds of the recording.
+
+    Figures of the fingers are numbered as in :data:`ui.figures.FIGURES`; without discs on them all are unknown.
+    """
+
+    def __init__(self) -> None:
+        self.clear()
+
+    def clear(self) -> None:
+        """Forget everything, as before another recording."""
+        self._rows = np.empty((0, _COLUMNS))
+        self._index = np.empty(0, dtype=np.int64)
+        self._hand = _Hand.of(())
+        self._mix = mix(17)
+        self._home_mm = np.full(3, math.nan)
+        self._home_turned = np.full((3, 3), math.nan)
+        self._centre_mm = 1000.0 * USUAL_CENTRE_M
+        self._poses: list[FloatArray] = []
+        self._pose_every, self._poses_met, self._fitted_s = 1, 0, -math.inf
+        self.last_index = -1
+        self._waited_s = 0.0
+
+    def wait(self, seconds: float) -> None:
+        """Time goes on without frames: what is missing grows at the right."""
+        self._waited_s += seconds
+
+    def append(self, frames: Sequence[TrackedFrame]) -> None:
+        """Add frames in order; what is older than needed goes."""
+        fresh = [frame for frame in frames if frame.index > self.last_index]
+        if not fresh:
+            return
+        self.last_index = fresh[-1].index
+        self._waited_s = 0.0
+        known, more = self._hand, _Hand.of(fresh)
+        if more.value_deg.shape[1]:
+            self._mix = mix(len(fresh[-1].joint_angles_rad))
+        more_rows = np.array([_row(frame) for frame in fresh])
+        self._rows = np.concatenate((self._rows, more_rows))
+        self._keep_poses(more_rows)
+        self._index = np.concatenate((self._index, [frame.index for frame in fresh]))
+        self._hand = known.then(more) if len(known.value_deg) else more
+        recent = self._rows[:, _TIME] >= self._rows[-1, _TIME] - KEPT_S
+        if not recent.all():
+            self._rows, self._index, self._hand = self._rows[recent], self._index[recent], self._hand.at(recent)
+        if not np.isfinite(self._home_mm).all() and self._rows[-1, _TIME] - self._rows[0, _TIME] >= HOME_S:
+            self.set_home()
+
+    def set_home(self) -> None:
+        """Take the wrist's present place as the forearm's place at rest."""
+        recent = self._rows[self._rows[:, _TIME] >= self.now_s - HOME_S, _POSITION] if len(self._rows) else self._rows
+        known = recent[np.isfinite(recent).all(axis=1)] if len(recent) else recent
+        if len(known):
+            self._home_mm = np.median(known, axis=0)
+            turned = self._rows[self._rows[:, _TIME] >= self.now_s - HOME_S, _AXES]
+            self._home_turned = np.nanmedian(turned, axis=0).reshape(3, 3)
+
+    def __len__(self) -> int:
+        return len(self._rows)
+
+    @property
+    def has_fingers(self) -> bool:
+        """Whether the frames bring angles of the fingers."""
+        return bool(self._hand.value_deg.shape[1] > 0)
+
+    @property
+    def now_s(self) -> float:
+        """The right end of the curves: time of the newest frame, NaN before the first."""
+        return float(self._rows[-1, _TIME]) + self._waited_s if len(self._rows) else math.nan
+
+    @property
+    def waiting(self) -> bool:
+        """Whether time goes on without frames."""
+        return self._waited_s > 0.0
+
+    @property
+    def angles_deg(self) -> FloatArray:
+        """Newest deviation, flexion, pro/supination (3,)."""
+        return self._rows[-1, _ANGLES] if len(self._rows) else np.full(3, math.nan)
+
+    @property
+    def sds_deg(self) -> FloatArray:
+        """Their standard deviations (3,)."""
+        return self._rows[-1, _SDS] if len(self._rows) else np.full(3, math.nan)
+
+    @property
+    def status(self) -> TrackStatus:
+        """Of the newest frame; lost before the first."""
+        return TrackStatus(int(self._rows[-1, _STATUS])) if len(self._rows) else TrackStatus.LOST
+
+    @property
+    def speeds(self) -> FloatArray:
+        """Newest linear speed in mm/s and angular speed in degrees per second (2,)."""
+        return self._rows[-1, _SPEEDS] if len(self._rows) else np.full(2, math.nan)
+
+    def angle(self, column: int) -> Series:
+        """One angle with its band."""
+        rows = self._rows
+        return Series(
+            rows[:, _TIME], rows[:, 1 + column], rows[:, 4 + column], rows[:, _STATUS] == TrackStatus.PREDICTED
+        )
+
+    def speed(self, column: int) -> Series:
+        """Linear (0) or angular (1) speed; the filter gives no deviation for them."""
+        rows = self._rows
+        return Series(rows[:, _TIME], rows[:, 11 + column], None, rows[:, _STATUS] == TrackStatus.PREDICTED)
+
+    # --- fingers ------------------------------------------------------------------------------------------
+    def block(self, *, speeds: bool = False) -> Block:
+        """The curves of all figures over the shown time, every third frame; speeds in degrees/s without sign."""
+        rows, hand = self._rows, self._hand
+        if not self.has_fingers:
+            none = np.empty((0, len(FIGURES)))
+            return Block(np.empty(0), none, none, none.astype(bool))
+        part = (rows[:, _TIME] >= self.now_s - SHOWN_S) & ((self._index % EVERY == 0) | (len(rows) < EVERY))
+        predicted = ~hand.measured[part] | self._mix.inferred
+        if speeds:
+            value = np.abs(hand.speed_deg_s[part])
+            return Block(rows[part, _TIME], value, np.zeros_like(value), predicted)
+        return Block(rows[part, _TIME], hand.value_deg[part], hand.sd_deg[part], predicted)
+
+    def figure_value(self, figure: int) -> tuple[float, float, bool]:
+        """Newest value, its standard deviation, and whether its discs have been seen of late, as :meth:`seen` says."""
+        hand = self._hand
+        if not len(self._rows) or not self.has_fingers:
+            return math.nan, math.nan, False
+        value, sd = float(hand.value_deg[-1, figure]), float(hand.sd_deg[-1, figure])
+        visible = self._recent_share() >= HIDDEN_SHARE
+        shown = bool(measured_figures(visible[None])[0, figure]) and self.status == TrackStatus.TRACKED
+        return value, sd, shown and math.isfinite(value)
+
+    def figure_speed_deg_s(self, figure: int) -> float:
+        """Newest speed of a figure with its sign."""
+        return float(self._hand.speed_deg_s[-1, figure]) if len(self._rows) and self.has_fingers else math.nan
+
+    def inferred(self, figure: int) -> bool:
+        """Whether the figure only follows another joint."""
+        return bool(self._mix.inferred[figure])
+
+    @property
+    def infers(self) -> bool:
+        """Whether the end joints only follow the middle joints."""
+        return bool(self._mix.inferred.any())
+
+    def seen(self) -> dict[str, Seen]:
+        """How well each disc has been seen of late: light, map, cells and the large number all go by it."""
+        if not len(self._rows) or not self.has_fingers:
+            return dict.fromkeys(HAND21.markers, "hidden")
+        return {
+            name: "seen" if part >= SEEN_SHARE else "hidden" if part < HIDDEN_SHARE else "partly"
+            for name, part in zip(HAND21.markers, self._recent_share().tolist(), strict=True)
+        }
+
+    def _recent_share(self) -> FloatArray:
+        return np.asarray(self._hand.seen[self._rows[:, _TIME] >= self._rows[-1, _TIME] - SHARE_S].mean(axis=0))
+
+    # --- place --------------------------------------------------------------------------------------------
+    def path_mm(self) -> FloatArray:
+        """Places of the wrist from its home over the shown time (n, 3), gaps as NaN."""
+        rows = self._rows[self._rows[:, _TIME] >= self.now_s - SHOWN_S] if len(self._rows) else self._rows
+        return np.asarray(rows[:, _POSITION] - self._home_mm)
+
+    def axes(self) -> FloatArray:
+        """Axes of W2 in W0 as columns over the shown time (n, 3, 3)."""
+        rows = self._rows[self._rows[:, _TIME] >= self.now_s - SHOWN_S] if len(self._rows) else self._rows
+        return rows[:, _AXES].reshape(-1, 3, 3)
+
+    def _keep_poses(self, rows: FloatArray) -> None:
+        """Poses for the fit, thinned out by two whenever they become too many: a long set costs no more than a short
+        one, and its beginning stays in it."""
+        for row in rows:
+            if np.isfinite(row[_POSITION]).all() and int(row[_STATUS]) == TrackStatus.TRACKED:
+                if self._poses_met % self._pose_every == 0:
+                    self._poses.append(row[_POSE])
+                self._poses_met += 1
+        if len(self._poses) > FIT_POSES:
+            self._poses, self._pose_every = self._poses[::2], 2 * self._pose_every
+        if len(self._poses) > 1 and self.now_s - self._fitted_s >= FIT_EVERY_S:
+            self._fitted_s = self.now_s
+            poses = np.array(self._poses)
+            turned = poses[:, 3:].reshape(-1, 3, 3)
+            found = wrist_centre(1e-3 * poses[:, :3], turned, np.ones(len(poses), dtype=bool))
+            self._centre_mm = 1000.0 * found.centre_w2_m
+
+    def centre_home_mm(self) -> FloatArray:
+        """Where the wrist turned about at home, (3,) from the home of its disc."""
+        return np.asarray(self._home_turned @ self._centre_mm)
+
+    def centre_mm(self) -> FloatArray:
+        """Where the wrist turns about now, (3,) from the home of its disc; NaN where that is not known."""
+        if not len(self._rows):
+            return np.full(3, math.nan)
+        row = self._rows[-1]
+        return np.asarray(row[_POSITION] - self._home_mm + row[_AXES].reshape(3, 3) @ self._centre_mm)
+
+    def from_home_mm(self) -> float:
+        """How far the forearm is from its home now: the point that the wrist turns about, not the disc above it, which
+        goes round that point with every bend."""
+        return float(np.linalg.norm(self.centre_mm() - self.centre_home_mm()))
+
+    def forearm_moved(self) -> bool:
+        """Whether the forearm is outside the ball it must stay in."""
+        distance = self.from_home_mm()
+        return math.isfinite(distance) and distance > STILL_RADIUS_MM
+
+
+@dataclass(frozen=True, slots=True)
+class _Hand:
+    """Figures (n, F), discs seen (n, M); F is 0 where there are no fingers."""
+
+    value_deg: FloatArray
+    sd_deg: FloatArray
+    speed_deg_s: FloatArray
+    measured: BoolArray
+    seen: BoolArray
+
+    @staticmethod
+    def of(frames: Sequence[TrackedFrame]) -> _Hand:
+        joints = len(frames[-1].joint_angles_rad) if frames else 0
+        if not joints:
+            none = np.empty((len(frames), 0))
+            return _Hand(none, none, none, none.astype(bool), none.astype(bool))
+        _, value, sd, measured, seen = figures_of(frames)
+        speed = np.degrees(np.array([frame.joint_velocity_rad_s for frame in frames]) @ mix(joints).weight.T)
+        return _Hand(value, sd, np.where(np.isfinite(value), speed, math.nan), measured, seen)
+
+    def then(self, more: _Hand) -> _Hand:
+        """This and more."""
+        return _Hand(*(np.concatenate((getattr(self, f.name), getattr(more, f.name))) for f in fields(self)))
+
+    def at(self, part: BoolArray) -> _Hand:
+        """Some of it."""
+        return _Hand(*(getattr(self, f.name)[part] for f in fields(self)))
+
+
+def _row(frame: TrackedFrame) -> FloatArray:
+    row = np.empty(_COLUMNS)
+    row[_TIME] = frame.timestamp_s
+    row[_ANGLES] = np.degrees(frame.angles_rad)
+    row[_SDS] = np.degrees(frame.angles_sd_rad)
+    row[_STATUS] = frame.status
+    row[_POSITION] = 1000.0 * frame.position_m
+    row[11] = 1000.0 * float(np.linalg.norm(frame.velocity_m_s))
+    row[12] = math.degrees(float(np.linalg.norm(frame.angular_velocity_rad_s)))
+    row[_AXES] = rotation_in_place(frame.rotation_w2_w0, frame.w0_turn_rad).ravel()
+    if frame.status == TrackStatus.LOST:
+        row[_ANGLES] = row[_SDS] = row[_POSITION] = row[_SPEEDS] = row[_AXES] = math.nan
+    return row

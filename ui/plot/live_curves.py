@@ -1,0 +1,226 @@
+"""Ten running seconds of the three angles, or of the two speeds, on fixed scales."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
+
+from PySide6.QtCore import QPointF, QRectF, QSize
+from PySide6.QtGui import QFontMetricsF, QPainter
+
+from carpus.core.output.exercises import AXIS_LIMIT_DEG, AXIS_TICK_DEG, FLEXION, PRONOSUPINATION, SIDES, Exercise
+from carpus.ui import numbers, terms
+from carpus.ui.fonts import MEDIUM, REGULAR, SEMIBOLD, font
+from carpus.ui.plot import axes
+from carpus.ui.plot.axes import Panel, Scale
+from carpus.ui.plot.card import PlotCard
+from carpus.ui.plot.history import SHOWN_S, History
+from carpus.ui.plot.marks import Curve, Curves, Dot, Hatch, Mark, Remark, Scales, StayWithin, Target, Times
+from carpus.ui.plot.style import CURVE_TOKENS, screen_style
+from carpus.ui.theme import Theme
+
+if TYPE_CHECKING:
+    from carpus.ui.plot.canvas import Canvas, Layer
+
+LEFT_PX, RIGHT_PX, TOP_PX, BOTTOM_PX, BETWEEN_PX = 132, 112, 24, 28, 30
+DOT_PX = 7
+"""Room for the newest value, which stands half outside the panel."""
+SPEED_TOP_MM_S, SPEED_TOP_DEG_S = 400.0, 400.0
+ZERO_BAND_DEG = 0.5
+"""Within this of zero the word for the direction stays as it was, so that it does not flutter."""
+
+
+class LiveCurves(PlotCard):
+    """Shows the history it is given, the newest value at 0 s on the right. Nothing here moves by mouse."""
+
+    def __init__(self, theme: Theme, history: History) -> None:
+        super().__init__(theme)
+        self._history = history
+        self._exercise = Exercise("FREE", None, 0, math.nan, False)
+        self._targets_deg = (math.nan, math.nan)
+        self._speeds = False
+        self._single = False
+        self._values: list[tuple[str, str, str]] = []
+        self._words = [SIDES[k][0] for k in range(3)]
+        self.setAccessibleName(self.tr("Curves of the last ten seconds"))
+
+    def set_exercise(self, exercise: Exercise, target_positive_deg: float, target_negative_deg: float) -> None:
+        """Which angle is trained, its targets, and what should stay within limits."""
+        self._exercise = exercise
+        self._targets_deg = (target_positive_deg, target_negative_deg)
+        self.forget()
+
+    def show_speeds(self, on: bool) -> None:
+        """Linear and angular speed instead of the angles."""
+        if on != self._speeds:
+            self._speeds = on
+            self.refresh_values()
+            self.forget()
+
+    def show_single(self, on: bool) -> None:
+        """Only the trained angle, where large text leaves no room for three."""
+        if on != self._single:
+            self._single = on
+            self.forget()
+
+    @property
+    def shows_speeds(self) -> bool:
+        """Whether the speeds are shown."""
+        return self._speeds
+
+    def refresh_values(self) -> None:
+        """Take the figures at the right anew; called at most ten times a second."""
+        if self._speeds:
+            linear, angular = self._history.speeds if not self._history.waiting else (math.nan, math.nan)
+            words = (self.tr("Turning"), numbers.speed(angular), ""), (self.tr("Moving"), _mm_s(linear), "")
+            self._values = list(words)
+            self._refresh()
+            return
+        angles, sds = self._history.angles_deg, self._history.sds_deg
+        self._values = []
+        for k in range(3):
+            if math.isfinite(angles[k]) and abs(angles[k]) > ZERO_BAND_DEG:
+                self._words[k] = SIDES[k][0 if angles[k] > 0 else 1]
+            known = math.isfinite(angles[k]) and not self._history.waiting
+            name = terms.movement_name(self._words[k]) if known else self.tr("no value")
+            if known and abs(angles[k]) < ZERO_BAND_DEG:
+                name = terms.movement_at_zero(k)
+            self._values.append(
+                (name, numbers.degrees(angles[k]) if known else "", numbers.spread(sds[k]) if known else "")
+            )
+        self._refresh()
+
+    def _refresh(self) -> None:
+        if self._canvas is not None:
+            self._numbers.update()
+
+    def sizeHint(self) -> QSize:
+        return QSize(696, 396)
+
+    def minimumSizeHint(self) -> QSize:
+        return QSize(420, 170)  # the number above it never gives way
+
+    # --- places -------------------------------------------------------------------------------------------
+    def panels(self) -> list[tuple[Panel, int]]:
+        """The panels with the column each shows; the trained angle is twice as high and first. Time ends at now."""
+        scale = self._theme.text_scale
+        left, right = LEFT_PX * scale, RIGHT_PX * scale
+        width = self.width() - left - right
+        order: list[tuple[int, Scale, float]]
+        if self._speeds:
+            order = [
+                (1, axes.rising_scale(SPEED_TOP_DEG_S, 100.0, "°/s", self.tr("Turning")), 1.0),
+                (0, axes.rising_scale(SPEED_TOP_MM_S, 100.0, " mm/s", self.tr("Moving")), 1.0),
+            ][: 1 if self._single else 2]
+        else:
+            order = [(k, self._angle_scale(k), 2.0 if k == self._first() else 1.0) for k in self._order()]
+        between = BETWEEN_PX * scale
+        height = self.height() - (TOP_PX + BOTTOM_PX) * scale - between * (len(order) - 1)
+        unit = height / sum(share for _, _, share in order)
+        top = TOP_PX * scale
+        out = []
+        for column, panel_scale, share in order:
+            out.append((Panel(axes.crisp(QRectF(left, top, width, unit * share)), panel_scale, -SHOWN_S, 0.0), column))
+            top += unit * share + between
+        return out
+
+    def _first(self) -> int:
+        return FLEXION if self._exercise.angle is None else self._exercise.angle
+
+    def _order(self) -> list[int]:
+        first = self._first()
+        return [first] if self._single else [first, *[k for k in (FLEXION, 0, PRONOSUPINATION) if k != first]]
+
+    def _angle_scale(self, k: int) -> Scale:
+        upper, lower = (terms.movement_name(name) for name in SIDES[k])
+        return axes.angle_scale(AXIS_TICK_DEG[k], AXIS_LIMIT_DEG[k], upper, lower, tight=k != self._first())
+
+    # --- what is in it ------------------------------------------------------------------------------------
+    def furnish(self, canvas: Canvas) -> None:
+        self._dots: Layer = canvas.add_layer(self._paint_dots)
+        self._numbers: Layer = canvas.add_layer(self._paint_values, kept=True)
+
+    def lay_out(self, canvas: Canvas) -> None:
+        panels = [panel for panel, _ in self.panels()]
+        canvas.lay_out(panels)
+        right, top = panels[0].box.right(), panels[0].box.top()
+        height = panels[-1].box.bottom() - top
+        self._dots.cover(QRectF(right - DOT_PX, top - DOT_PX, 2 * DOT_PX, height + 2 * DOT_PX))
+        self._numbers.cover(QRectF(right + DOT_PX, 0.0, self.width() - right - DOT_PX - 1, self.height()))
+        self._numbers.update()
+
+    def show_marks(self, canvas: Canvas) -> None:
+        canvas.show_marks([self._moving(column) for _, column in self.panels()])
+        self._dots.update()
+
+    def _moving(self, column: int) -> Sequence[Mark]:
+        history = self._history
+        series = (history.speed(column) if self._speeds else history.angle(column)).from_time(history.now_s)
+        curves = Curves([Curve(series, "curve_c" if self._speeds else CURVE_TOKENS[column])])
+        if history.waiting and len(series.value):
+            return [curves, Hatch(float(series.time_s[-1]), 0.0)]
+        return [curves]
+
+    def _paint_dots(self, painter: QPainter) -> None:
+        """The newest value of each panel."""
+        history = self._history
+        if history.waiting:
+            return
+        for panel, column in self.panels():
+            value = history.speeds[column] if self._speeds else history.angles_deg[column]
+            token = "curve_c" if self._speeds else CURVE_TOKENS[column]
+            Dot(0.0, float(value), token).paint(painter, screen_style(self._theme), panel)
+
+    def _still(self, place: int, panel: Panel, column: int) -> list[Mark]:
+        """What does not move, from the back to the front."""
+        out: list[Mark] = [] if self._speeds else self._limits(column)
+        out.append(Scales())
+        if not self._speeds and column == self._first():
+            words = self.tr("Target {angle}")
+            targets = [value for value in self._targets_deg if math.isfinite(value)]
+            out += [Target(value, words.format(angle=numbers.degrees(value))) for value in targets]
+        if place == 0:
+            labels = [(-float(ago), str(ago)) for ago in (8, 6, 4, 2)]
+            labels += [(panel.start_s + 0.55, self.tr("10 s ago")), (0.0, self.tr("now"))]
+            out.append(Times(labels, 9.0 * self._theme.text_scale))
+        return out
+
+    def _limits(self, column: int) -> list[Mark]:
+        limit = self._exercise.trick_limit_deg
+        if column != self._first() and math.isfinite(limit):
+            words = self.tr("should stay within {angle}").format(angle=numbers.degrees(limit))
+            if column == PRONOSUPINATION:
+                words = self.tr("0° = palm down; stay within {angle}").format(angle=numbers.degrees(limit))
+            return [StayWithin(limit, words)]
+        return [Remark(0.0, self.tr("0° = palm down"))] if column == PRONOSUPINATION else []
+
+    def paint_ground(self, painter: QPainter) -> None:
+        style, panels = screen_style(self._theme), self.panels()
+        for place, (panel, column) in enumerate(reversed(panels)):
+            for mark in self._still(place, panel, column):
+                mark.paint(painter, style, panel)
+
+    def _paint_values(self, painter: QPainter) -> None:
+        for (panel, column), place in zip(self.panels(), range(3), strict=False):
+            if self._values:
+                self._paint_value(painter, panel, *self._values[place if self._speeds else column])
+
+    def _paint_value(self, painter: QPainter, panel: Panel, name: str, value: str, spread: str) -> None:
+        theme, scale = self._theme, self._theme.text_scale
+        left = panel.box.right() + 14 * scale
+        middle = panel.box.center().y()
+        painter.setFont(font(14 * scale, REGULAR))
+        painter.setPen(theme.color("text2"))
+        painter.drawText(QPointF(left, middle - 5 * scale), name)
+        painter.setFont(font(20 * scale, SEMIBOLD))
+        painter.setPen(theme.color("text"))
+        painter.drawText(QPointF(left, middle + 18 * scale), value)
+        advance = QFontMetricsF(painter.font()).horizontalAdvance(value)
+        painter.setFont(font(14 * scale, MEDIUM))
+        painter.setPen(theme.color("text2"))
+        painter.drawText(QPointF(left + advance + 5 * scale, middle + 18 * scale), spread)
+
+
+def _mm_s(value: float) -> str:
+    return f"{round(value)}{numbers.NARROW_GAP}mm/s" if math.isfinite(value) else numbers.UNKNOWN

@@ -1,0 +1,353 @@
+"""What a plot is made of: curve, band, target, repetition, cursor, dot. Each knows its values and how it is drawn.
+
+A mark draws by any painter in any unit: in a view box of the window, on the printed page, into a picture or an SVG.
+There is one of each, so that screen and paper cannot differ.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Protocol
+
+from PySide6.QtCore import QPointF, QRectF, Qt
+from PySide6.QtGui import QFontMetricsF, QPainter, QPen
+
+from carpus.core.output.report_content import ShownRepetition
+from carpus.ui.plot import axes
+from carpus.ui.plot.axes import Panel
+from carpus.ui.plot.series import Series, paint_series
+from carpus.ui.plot.style import PlotStyle
+from carpus.ui.translate import tr
+
+
+def left_out(number: int) -> str:
+    """What stands at a repetition that does not count."""
+    return tr("{number} out").format(number=number)
+
+
+class Mark(Protocol):
+    """Anything that can be drawn into a panel."""
+
+    def paint(self, painter: QPainter, style: PlotStyle, panel: Panel) -> None:
+        """Draw it, in the painter's unit."""
+
+
+@dataclass(frozen=True, slots=True)
+class Scales:
+    """Grid lines and the words left of them."""
+
+    def paint(self, painter: QPainter, style: PlotStyle, panel: Panel) -> None:
+        end_values = {max(panel.scale.ticks), min(panel.scale.ticks)}
+        for value in panel.scale.ticks:
+            y = float(panel.y(value))
+            y = round(y) + 0.5 if style.unit == 1.0 else y
+            painter.setPen(QPen(style.color("border" if value == 0.0 else "line"), style.grid_width))
+            painter.drawLine(QPointF(panel.box.left(), y), QPointF(panel.box.right(), y))
+        height = QFontMetricsF(style.label).height()
+        for value, text in panel.scale.labels:
+            strong = panel.scale.strong_ends and value in end_values and value != 0.0
+            painter.setFont(style.end_label if strong else style.label)
+            painter.setPen(style.color("text" if strong else "text2"))
+            right = panel.box.left() - 12 * style.unit
+            box = QRectF(right - 300 * style.unit, float(panel.y(value)) - height / 2, 300 * style.unit, height)
+            painter.drawText(box, int(Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter), text)
+
+
+@dataclass(frozen=True, slots=True)
+class Times:
+    """Words under the panel at times (s, text), ``below`` design pixels under it: the last ones first, and one that
+    would touch another is left out."""
+
+    labels: Sequence[tuple[float, str]]
+    below: float = 6.0
+
+    def paint(self, painter: QPainter, style: PlotStyle, panel: Panel) -> None:
+        painter.setFont(style.label)
+        painter.setPen(style.color("text2"))
+        metrics, gap = QFontMetricsF(style.label), 6 * style.unit
+        baseline = panel.box.bottom() + self.below * style.unit + metrics.ascent()
+        taken: list[tuple[float, float]] = []
+        for time_s, text in reversed(self.labels):
+            width = metrics.horizontalAdvance(text)
+            left = float(panel.x(time_s)) - width / 2
+            if all(left > right + gap or left + width < other - gap for other, right in taken):
+                taken.append((left, left + width))
+                painter.drawText(QPointF(left, baseline), text)
+
+
+@dataclass(frozen=True, slots=True)
+class StayWithin:
+    """The band about zero in which a trick movement should stay."""
+
+    limit: float
+    words: str
+
+    def paint(self, painter: QPainter, style: PlotStyle, panel: Panel) -> None:
+        top, bottom = float(panel.y(self.limit)), float(panel.y(-self.limit))
+        painter.fillRect(QRectF(panel.box.left(), top, panel.box.width(), bottom - top), style.color("norm"))
+        _note(painter, style, panel, top, self.words, "text2")
+
+
+@dataclass(frozen=True, slots=True)
+class Target:
+    """A dashed line in the accent with its words."""
+
+    value: float
+    words: str = ""
+
+    def paint(self, painter: QPainter, style: PlotStyle, panel: Panel) -> None:
+        y = float(panel.y(self.value))
+        pen = QPen(style.color("accent"), 1.5 * style.grid_width)
+        pen.setDashPattern([6, 4])
+        pen.setCapStyle(Qt.PenCapStyle.FlatCap)
+        painter.setPen(pen)
+        painter.drawLine(QPointF(panel.box.left(), y), QPointF(panel.box.right(), y))
+        if self.words:
+            below = QFontMetricsF(style.end_label).height() + 4 * style.unit
+            _note(painter, style, panel, y if self.value >= 0 else y + below, self.words, "accent")
+
+
+@dataclass(frozen=True, slots=True)
+class Remark:
+    """Small words at the left end just above a value."""
+
+    value: float
+    words: str
+
+    def paint(self, painter: QPainter, style: PlotStyle, panel: Panel) -> None:
+        painter.setFont(style.label)
+        painter.setPen(style.color("text2"))
+        painter.drawText(QPointF(panel.box.left() + 6 * style.unit, float(panel.y(self.value)) - 5), self.words)
+
+
+@dataclass(frozen=True, slots=True)
+class Hatch:
+    """A stretch of time in which nothing is known."""
+
+    start_s: float
+    end_s: float
+
+    def paint(self, painter: QPainter, style: PlotStyle, panel: Panel) -> None:
+        left = max(float(panel.x(self.start_s)), panel.box.left())
+        right = min(float(panel.x(self.end_s)), panel.box.right())
+        if right > left:
+            axes.hatch(painter, style, QRectF(left, panel.box.top(), right - left, panel.box.height()))
+
+
+@dataclass(frozen=True, slots=True)
+class Curve:
+    """A quantity over time with its band: solid where measured, dashed where predicted, hatched where lost."""
+
+    series: Series
+    token: str
+
+    def paint(self, painter: QPainter, style: PlotStyle, panel: Panel, numbered: list[QRectF] | None = None) -> None:
+        paint_series(painter, style, panel, self.series, self.token, numbered)
+
+
+@dataclass(frozen=True, slots=True)
+class Curves:
+    """All curves of a panel, whose numbers beyond the scale cover none of each other."""
+
+    curves: Sequence[Curve]
+
+    def paint(self, painter: QPainter, style: PlotStyle, panel: Panel) -> None:
+        numbered: list[QRectF] = []
+        painter.save()
+        painter.setClipRect(panel.box.adjusted(0, -2, 0, 2).toAlignedRect(), Qt.ClipOperation.IntersectClip)
+        for curve in self.curves:
+            curve.paint(painter, style, panel, numbered)
+        painter.restore()
+
+
+@dataclass(frozen=True, slots=True)
+class Dot:
+    """One value, such as the newest or the one under the cursor."""
+
+    time_s: float
+    value: float
+    token: str
+
+    def paint(self, painter: QPainter, style: PlotStyle, panel: Panel) -> None:
+        if math.isfinite(self.value):
+            painter.setPen(QPen(style.color("surface"), 1.5 * style.unit))
+            painter.setBrush(style.color(self.token))
+            at = QPointF(float(panel.x(self.time_s)), float(panel.y(self.value)))
+            painter.drawEllipse(at, 5 * style.unit, 5 * style.unit)
+
+
+@dataclass(frozen=True, slots=True)
+class Name:
+    """What a panel is called, at its left; ``above`` beside its upper end."""
+
+    words: str
+    above: bool = False
+
+    def paint(self, painter: QPainter, style: PlotStyle, panel: Panel) -> None:
+        painter.setFont(style.end_label)
+        painter.setPen(style.color("text"))
+        scale = style.end_label.pixelSize() / 12.0
+        left = panel.box.left() - 102 * scale
+        middle = panel.box.top() + 6 * scale if self.above else panel.box.center().y()
+        box = QRectF(left, middle - 12 * scale, 70 * scale, 24 * scale)
+        painter.drawText(box, int(Qt.AlignmentFlag.AlignVCenter | Qt.AlignmentFlag.AlignLeft), self.words)
+
+
+@dataclass(frozen=True, slots=True)
+class Repetitions:
+    """Shaded stretches with their numbers; the current one in its own colour, one that is left out hatched."""
+
+    shown: Sequence[ShownRepetition]
+    current: int = -1
+
+    def paint(self, painter: QPainter, style: PlotStyle, panel: Panel) -> None:
+        for number, repetition in enumerate(self.shown):
+            left, right = float(panel.x(repetition.start_s)), float(panel.x(repetition.end_s))
+            box = QRectF(left + style.unit, panel.box.top(), right - left - 2 * style.unit, panel.box.height())
+            box = box.intersected(panel.box)
+            if box.isEmpty():
+                continue
+            painter.fillRect(box, style.color("soft" if number == self.current else "sunken"))
+            if not repetition.counts:
+                axes.hatch(painter, style, box)
+
+    def paint_numbers(self, painter: QPainter, style: PlotStyle, panel: Panel) -> None:
+        """The numbers over the first panel; where they would touch, some are left out, never the current one."""
+        metrics = QFontMetricsF(style.end_label)
+        painter.setFont(style.end_label)
+        baseline = panel.box.top() - 7 * style.unit
+        taken = -math.inf
+        for number, repetition in enumerate(self.shown):
+            text = str(number + 1) if repetition.counts else left_out(number + 1)
+            middle = float(panel.x(0.5 * (repetition.start_s + repetition.end_s)))
+            width = metrics.horizontalAdvance(text)
+            if not panel.box.left() <= middle <= panel.box.right():
+                continue
+            if middle - width / 2 < taken and number != self.current:
+                continue
+            taken = middle + width / 2 + 4 * style.unit
+            token = "text" if number == self.current else "warn" if not repetition.counts else "text2"
+            painter.setPen(style.color(token))
+            painter.drawText(QPointF(middle - width / 2, baseline), text)
+
+
+@dataclass(frozen=True, slots=True)
+class Edges:
+    """Lines with grips at the two ends of a stretch that can be dragged."""
+
+    start_s: float
+    end_s: float
+
+    def paint(self, painter: QPainter, style: PlotStyle, panel: Panel) -> None:
+        for time_s in (self.start_s, self.end_s):
+            x = float(panel.x(time_s))
+            if not panel.box.left() - 1 <= x <= panel.box.right() + 1:
+                continue
+            painter.setPen(QPen(style.color("accent"), 1.5 * style.unit))
+            painter.drawLine(QPointF(x, panel.box.top()), QPointF(x, panel.box.bottom()))
+            painter.setBrush(style.color("surface"))
+            painter.drawRoundedRect(QRectF(x - 4, panel.box.center().y() - 12, 8, 24), 4, 4)
+
+
+@dataclass(frozen=True, slots=True)
+class Cursor:
+    """A line at one time, in a panel that shows it."""
+
+    time_s: float
+    token: str = "text"
+    width: float = 1.5
+
+    def paint(self, painter: QPainter, style: PlotStyle, panel: Panel) -> None:
+        x = float(panel.x(self.time_s))
+        if panel.box.left() <= x <= panel.box.right():
+            painter.setPen(QPen(style.color(self.token), self.width * style.unit))
+            painter.drawLine(QPointF(x, panel.box.top() - 2), QPointF(x, panel.box.bottom() + 2))
+
+
+@dataclass(frozen=True, slots=True)
+class Readout:
+    """Lines of words in a small frame beside a point, within an area: what is under the mouse."""
+
+    lines: Sequence[str]
+    at: QPointF
+    within: QRectF
+
+    def paint(self, painter: QPainter, style: PlotStyle, panel: Panel | None = None) -> None:
+        metrics = QFontMetricsF(style.end_label)
+        pad, gap = 8 * style.unit, 12 * style.unit
+        width = max(metrics.horizontalAdvance(line) for line in self.lines) + 2 * pad
+        height = metrics.height() * len(self.lines) + pad
+        left = self.at.x() + gap
+        if left + width > self.within.right():
+            left = self.at.x() - gap - width
+        left = min(max(left, self.within.left()), max(self.within.right() - width, self.within.left()))
+        top = min(max(self.at.y() - gap - height, self.within.top()), self.within.bottom() - height)
+        painter.setPen(QPen(style.color("border"), style.grid_width))
+        painter.setBrush(style.color("surface"))
+        painter.drawRoundedRect(QRectF(left, top, width, height), 6 * style.unit, 6 * style.unit)
+        painter.setFont(style.end_label)
+        painter.setPen(style.color("text"))
+        for number, line in enumerate(self.lines):
+            baseline = top + pad / 2 + metrics.ascent() + number * metrics.height()
+            painter.drawText(QPointF(left + pad, baseline), line)
+
+
+@dataclass(frozen=True, slots=True)
+class Across:
+    """A band of values over the whole time, filled, and hatched in a second token where there is one."""
+
+    low: float
+    high: float
+    token: str
+    hatched: str = ""
+
+    def paint(self, painter: QPainter, style: PlotStyle, panel: Panel) -> None:
+        top = float(panel.y(self.high))
+        bottom = max(float(panel.y(self.low)), top + 2 * style.unit)
+        band = QRectF(panel.box.left(), top, panel.box.width(), bottom - top)
+        painter.fillRect(band, style.color(self.token))
+        if self.hatched:
+            axes.hatch(painter, style, band, self.hatched, 90)
+
+
+@dataclass(frozen=True, slots=True)
+class Level:
+    """A dashed line at one value."""
+
+    value: float
+    token: str
+
+    def paint(self, painter: QPainter, style: PlotStyle, panel: Panel) -> None:
+        pen = QPen(style.color(self.token), 1.5 * style.unit)
+        pen.setDashPattern([8, 6])
+        painter.setPen(pen)
+        y = float(panel.y(self.value))
+        painter.drawLine(QPointF(panel.box.left(), y), QPointF(panel.box.right(), y))
+
+
+@dataclass(frozen=True, slots=True)
+class EndLabels:
+    """Words (value, text, token) at the right ends of their lines, pushed apart where they would touch."""
+
+    labels: Sequence[tuple[float, str, str]]
+
+    def paint(self, painter: QPainter, style: PlotStyle, panel: Panel) -> None:
+        painter.setFont(style.end_label)
+        height = QFontMetricsF(style.end_label).height()
+        taken = -math.inf
+        for middle, text, token in sorted((float(panel.y(value)), text, token) for value, text, token in self.labels):
+            top = max(middle - height / 2, taken)
+            taken = top + height
+            painter.setPen(style.color(token))
+            box = QRectF(panel.box.right() + 12 * style.unit, top, 400 * style.unit, height)
+            painter.drawText(box, int(Qt.AlignmentFlag.AlignVCenter), text)
+
+
+def _note(painter: QPainter, style: PlotStyle, panel: Panel, bottom: float, text: str, token: str) -> None:
+    """Words inside the panel at its left end."""
+    painter.setFont(style.end_label)
+    painter.setPen(style.color(token))
+    descent = QFontMetricsF(style.end_label).descent()
+    painter.drawText(QPointF(panel.box.left() + 6 * style.unit, bottom - descent - 1 * style.unit), text)

@@ -1,0 +1,303 @@
+"""The curves of a whole session with its repetitions, wrist or fingers: what is drawn on the screen and on the page."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from PySide6.QtCore import QRectF
+from PySide6.QtGui import QPainter
+
+from carpus.core.hand.kinematics import DIP_PER_PIP
+from carpus.core.hand.protocols import WRIST_ANGLES
+from carpus.core.output.exercises import AXIS_LIMIT_DEG, AXIS_TICK_DEG, FLEXION, PRONOSUPINATION, SIDES, Exercise
+from carpus.core.output.joint_content import JointCurves
+from carpus.core.output.report_content import Curves, ShownRepetition
+from carpus.core.types import TrackStatus
+from carpus.ui import numbers, terms
+from carpus.ui.figures import FINGERS, Figure, Row, spread_labels
+from carpus.ui.marker_words import finger_name
+from carpus.ui.plot import axes
+from carpus.ui.plot.axes import Panel, Scale
+from carpus.ui.plot.marks import Curve, Mark, Name, Repetitions, Scales, StayWithin, Target, Times
+from carpus.ui.plot.marks import Curves as CurvesMark
+from carpus.ui.plot.series import LONGEST_STEP_S, Series
+from carpus.ui.plot.style import CURVE_TOKENS, PlotStyle
+from carpus.ui.plot.thin import thinned, within
+from carpus.ui.translate import tr
+
+BESIDE_S = 1.0
+"""Shown before the first and after the last repetition where the rest is left away."""
+FEWEST_POINTS = 200
+BENDING: tuple[Row, ...] = ("knuckle", "middle", "end")
+_BEND_LOW_DEG, _BEND_HIGH_DEG, _SPREAD_DEG = -15.0, 115.0, 32.0
+
+
+def target_words() -> str:
+    """What stands at a target."""
+    return tr("Target {angle}")
+
+
+def no_value_words() -> str:
+    """What stands where nothing is known."""
+    return tr("no value")
+
+
+def group_words() -> tuple[str, str]:
+    """The two kinds of angles of one finger."""
+    return tr("Bending"), tr("Spreading")
+
+
+def stay_words(limit_deg: float, key: int) -> str:
+    """What is said of an angle that should hardly move; of pro/supination where its zero is."""
+    if key == PRONOSUPINATION:
+        return tr("0° = palm down")
+    return tr("should stay within {angle}").format(angle=numbers.degrees(limit_deg))
+
+
+@dataclass(frozen=True, slots=True)
+class Value:
+    """What is known of one curve at a time: degrees, and whether it was hidden; NaN in a gap."""
+
+    name: str
+    token: str
+    value_deg: float
+    sd_deg: float
+    hidden: bool = False
+    said: str = ""
+    """What is written of it where that is no angle with its sd."""
+
+    @property
+    def words(self) -> str:
+        """``42° ± 2°``."""
+        return self.said or numbers.with_spread(self.value_deg, self.sd_deg)
+
+
+@dataclass(frozen=True, slots=True)
+class SessionPlot:
+    """The wrist's three angles, with exercise, repetitions, and the current one (-1 for none)."""
+
+    curves: Curves
+    exercise: Exercise
+    repetitions: Sequence[ShownRepetition]
+    current: int = -1
+    target_positive_deg: float = math.nan
+    target_negative_deg: float = math.nan
+    window_s: tuple[float, float] | None = None
+    """The part of the time axis that is shown; None for all of it."""
+
+    @property
+    def has_readings(self) -> bool:
+        """Whether several numbers stand beside a panel, one under the other, instead of a name and its value."""
+        return False
+
+    def unit(self, key: int) -> str:
+        """Unit of a panel's curves as columns of a file are called."""
+        return "deg"
+
+    @property
+    def shown_s(self) -> tuple[float, float]:
+        """Left and right end of what is shown."""
+        return self.window_s or (0.0, self.end_s)
+
+    @property
+    def repetitions_s(self) -> tuple[float, float]:
+        """From shortly before the first repetition to shortly after the last; the whole where there is none."""
+        if not self.repetitions:
+            return 0.0, self.end_s
+        start_s, end_s = self.repetitions[0].start_s, max(repetition.end_s for repetition in self.repetitions)
+        return max(start_s - BESIDE_S, 0.0), min(end_s + BESIDE_S, self.end_s)
+
+    @property
+    def end_s(self) -> float:
+        """Right end of the time axis."""
+        return max(float(self.curves.time_s[-1]), 1.0) if len(self.curves.time_s) else 1.0
+
+    def order(self) -> list[int]:
+        """Angle columns from top to bottom, the trained one first."""
+        first = FLEXION if self.exercise.angle is None else self.exercise.angle
+        return [first, *[k for k in (FLEXION, 0, PRONOSUPINATION) if k != first]]
+
+    def series(self, column: int) -> Series:
+        """One angle as it is drawn."""
+        curves = self.curves
+        return Series(
+            curves.time_s,
+            curves.angles_deg[:, column],
+            curves.sds_deg[:, column],
+            curves.status == TrackStatus.PREDICTED,
+        )
+
+    # --- what is drawn ------------------------------------------------------------------------------------
+    def panels(self, box: QRectF, between: float, *, single: bool = False) -> list[tuple[Panel, int]]:
+        """Three panels in a box with the column each shows, the trained angle twice as high; or that one alone."""
+        order = self.order()[: 1 if single else 3]
+        unit = (box.height() - between * (len(order) - 1)) / (len(order) + 1)
+        top, out = box.top(), []
+        for place, column in enumerate(order):
+            height = unit * (2 if place == 0 else 1)
+            upper, lower = (terms.movement_name(name) for name in SIDES[column])
+            scale = axes.angle_scale(AXIS_TICK_DEG[column], AXIS_LIMIT_DEG[column], upper, lower, tight=place > 0)
+            out.append((Panel(QRectF(box.left(), top, box.width(), height), scale, *self.shown_s), column))
+            top += height + between
+        return out
+
+    def still(self, place: int, key: int) -> list[Mark]:
+        """What lies behind the curves of the panel at a place from the top."""
+        out: list[Mark] = []
+        limit = self.exercise.trick_limit_deg
+        if place > 0 and math.isfinite(limit):
+            out.append(StayWithin(limit, stay_words(limit, key)))
+        out.append(Scales())
+        if place == 0:
+            targets = [value for value in (self.target_positive_deg, self.target_negative_deg) if math.isfinite(value)]
+            words = target_words()
+            out += [Target(value, words.format(angle=numbers.degrees(value))) for value in targets]
+        return out
+
+    def moving(self, key: int, points: int) -> list[Curve]:
+        """The curves of a panel over what is shown, of about so many points each."""
+        return [self._curve(self.series(key), CURVE_TOKENS[key], points)]
+
+    def _curve(self, series: Series, token: str, points: int) -> Curve:
+        return Curve(thinned(within(series, *self.shown_s), max(FEWEST_POINTS, points)), token)
+
+    def columns(self, key: int) -> list[tuple[str, Series]]:
+        """Name and whole series of every curve of a panel, for reading off and for tables."""
+        return [(WRIST_ANGLES[key], self.series(key))]
+
+    def values(self, key: int, time_s: float) -> list[Value]:
+        """What is known at a time."""
+        value, sd = value_at(self.curves, key, time_s)
+        name = terms.movement_name(SIDES[key][0 if value >= 0 else 1]) if math.isfinite(value) else no_value_words()
+        return [Value(name, CURVE_TOKENS[key], value, sd)]
+
+
+@dataclass(frozen=True, slots=True)
+class HandPlot(SessionPlot):
+    """As a session of the wrist, with the joints; ``finger`` 1 to 5, or 0 for all of them."""
+
+    joints: JointCurves | None = None
+    finger: int = 0
+
+    def figures(self, panel: int) -> list[Figure]:
+        """What is drawn in a panel."""
+        if self.finger and panel == 1:
+            return [Figure(self.finger, "spread")]
+        return [Figure(self.finger or FINGERS[panel], row) for row in BENDING]
+
+    def joint_series(self, figure: Figure) -> Series | None:
+        """A joint as it is drawn, dashed where it was not seen; None for one that is neither measured nor bound."""
+        joints = self.joints
+        assert joints is not None
+        name, share, bound = figure.joint, figure.sign, False
+        if name not in joints.names and figure.row == "end":
+            name, share, bound = f"PIP{figure.finger}_flexion", DIP_PER_PIP, True
+        if name not in joints.names:
+            return None
+        column = joints.names.index(name)
+        value, sd = share * joints.angles_deg[:, column], abs(share) * joints.sds_deg[:, column]
+        hidden = np.isfinite(value) & (bound | ~joints.seen[:, column])
+        return Series(joints.time_s, value, sd, hidden)
+
+    def is_bound(self, figure: Figure) -> bool:
+        """Whether a joint has no angle of its own."""
+        return self.joints is not None and figure.joint not in self.joints.names
+
+    def panels(self, box: QRectF, between: float, *, single: bool = False) -> list[tuple[Panel, int]]:
+        """One panel for each finger, or bending over spreading; ``single`` leaves the spreading out."""
+        weights = (2.0, 1.0)[: 1 if single else 2] if self.finger else (1.0,) * len(FINGERS)
+        unit = (box.height() - between * (len(weights) - 1)) / sum(weights)
+        top, out = box.top(), []
+        for place, weight in enumerate(weights):
+            spread = bool(self.finger) and place == 1
+            area = QRectF(box.left(), top, box.width(), unit * weight)
+            scale = _spread_scale(self.finger) if spread else _bend_scale(self.finger > 0)
+            out.append((Panel(area, scale, *self.shown_s), place))
+            top += unit * weight + between
+        return out
+
+    def still(self, place: int, key: int) -> list[Mark]:
+        """Scale and name of a panel."""
+        words = group_words()[key] if self.finger else finger_name(str(FINGERS[key]))
+        return [Scales(), Name(words, above=bool(self.finger) and key == 0)]
+
+    def moving(self, key: int, points: int) -> list[Curve]:
+        """The joints of a panel; one bound to another, or never seen, only where there is room for it."""
+        out = []
+        for figure in self.figures(key):
+            series = self.joint_series(figure)
+            series = None if series is None else within(series, *self.shown_s)
+            if series is None or (not self.finger and bool(series.predicted[np.isfinite(series.value)].all())):
+                continue
+            out.append(Curve(thinned(series, max(FEWEST_POINTS, points)), figure.token))
+        return out
+
+    def columns(self, key: int) -> list[tuple[str, Series]]:
+        """Every joint of a panel that is measured or bound."""
+        many = [(figure.joint, self.joint_series(figure)) for figure in self.figures(key)]
+        return [(name, series) for name, series in many if series is not None]
+
+    def values(self, key: int, time_s: float) -> list[Value]:
+        """The joints of a panel that have a number beside it."""
+        figures = [figure for figure in self.figures(key) if self.joint_series(figure) is not None]
+        shown = figures if self.finger else [figure for figure in figures if not self.is_bound(figure)]
+        return [Value(figure.row_name, figure.token, *joint_at(self, figure, time_s)) for figure in shown]
+
+
+def _bend_scale(roomy: bool) -> Scale:
+    inner = (45.0,) if roomy else ()
+    ticks = (90.0, *inner, 0.0)
+    labels = tuple((value, f"{value:.0f}°") for value in ticks)
+    return Scale(_BEND_LOW_DEG, _BEND_HIGH_DEG, ticks, labels, strong_ends=False)
+
+
+def _spread_scale(finger: int) -> Scale:
+    return Scale(-_SPREAD_DEG, _SPREAD_DEG, (20.0, 0.0, -20.0), spread_labels(20.0, finger), strong_ends=False)
+
+
+def paint_behind(painter: QPainter, style: PlotStyle, plot: SessionPlot, panels: Sequence[tuple[Panel, int]]) -> None:
+    """Everything but the curves: repetitions, grid, limits, target, time axis."""
+    repetitions = Repetitions(plot.repetitions, plot.current)
+    for panel, _ in panels:
+        repetitions.paint(painter, style, panel)
+    repetitions.paint_numbers(painter, style, panels[0][0])
+    for place, (panel, key) in enumerate(panels):
+        for mark in plot.still(place, key):
+            mark.paint(painter, style, panel)
+    Times(axes.time_labels(*plot.shown_s)).paint(painter, style, panels[-1][0])
+
+
+def paint_session(painter: QPainter, style: PlotStyle, plot: SessionPlot, panels: Sequence[tuple[Panel, int]]) -> None:
+    """The whole plot at once, as on paper."""
+    paint_behind(painter, style, plot, panels)
+    for panel, key in panels:
+        CurvesMark(plot.moving(key, int(panel.box.width() / style.unit))).paint(painter, style, panel)
+
+
+def value_at(curves: Curves, column: int, time_s: float) -> tuple[float, float]:
+    """Angle and its deviation in degrees at the frame nearest to a time; NaN in a gap."""
+    if not len(curves.time_s):
+        return math.nan, math.nan
+    row = row_at(curves, time_s)
+    if abs(float(curves.time_s[row]) - time_s) > LONGEST_STEP_S:
+        return math.nan, math.nan
+    return float(curves.angles_deg[row, column]), float(curves.sds_deg[row, column])
+
+
+def joint_at(plot: HandPlot, figure: Figure, time_s: float) -> tuple[float, float, bool]:
+    """Angle, deviation and whether it was hidden at the frame nearest to a time; NaN in a gap."""
+    series = plot.joint_series(figure)
+    if series is None or not len(series.time_s):
+        return math.nan, math.nan, True
+    row = row_at(plot.curves, time_s)
+    if abs(float(series.time_s[row]) - time_s) > LONGEST_STEP_S or series.sd is None:
+        return math.nan, math.nan, True
+    return float(series.value[row]), float(series.sd[row]), bool(series.predicted[row])
+
+
+def row_at(curves: Curves, time_s: float) -> int:
+    """Row of the frame nearest to a time."""
+    return int(np.abs(curves.time_s - time_s).argmin())

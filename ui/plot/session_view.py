@@ -1,0 +1,292 @@
+"""The card with the session's curves: cursor by mouse and keys, edges of a repetition by drag, zoom along the time."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Sequence
+from dataclasses import replace
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from PySide6.QtCore import QPointF, QRectF, QSize, Qt, Signal
+from PySide6.QtGui import QPainter
+
+from carpus.ui import numbers
+from carpus.ui.plot import axes
+from carpus.ui.plot.axes import Panel
+from carpus.ui.plot.marks import Cursor, Curves, Edges, Readout
+from carpus.ui.plot.readings import paint_readings
+from carpus.ui.plot.session import HandPlot, SessionPlot, paint_behind, paint_session
+from carpus.ui.plot.style import PlotStyle, screen_style
+from carpus.ui.plot.zoom_card import ZoomCard
+from carpus.ui.theme import Theme
+
+if TYPE_CHECKING:
+    from carpus.ui.plot.canvas import Canvas, Layer
+
+LEFT_PX, RIGHT_PX, TOP_PX, BOTTOM_PX, BETWEEN_PX = 122, 108, 38, 30, 18
+HAND_BETWEEN_PX = 8
+GRIP_PX = 16
+"""Half the width of the target around an edge or the cursor: the grip is 8 px wide, the target 32."""
+SHORTEST_S = 2.0
+"""Shortest stretch of time that is shown."""
+EDGES_S = 0.2
+"""Least length a repetition can be cut to."""
+
+
+class CurveView(ZoomCard):
+    """Emits ``cursor_moved`` (seconds) and ``edges_moved`` (repetition, start, end)."""
+
+    cursor_moved = Signal(float)
+    edges_moved = Signal(int, float, float)
+
+    def __init__(self, theme: Theme) -> None:
+        super().__init__(theme, "curves")
+        self._plot: SessionPlot | None = None
+        self._time_s = 0.0
+        self._held = ""
+        """What a drag has taken: an edge (``start``, ``end``), the ``cursor``, or nothing."""
+        self._single = False
+        self._mouse: QPointF | None = None
+        self.setAccessibleName(self.tr("Curves of the session"))
+
+    def show_plot(self, plot: SessionPlot) -> None:
+        """Draw another session, or the same with other repetitions, where it was looked at."""
+        self._plot = replace(plot, window_s=self._window)
+        self.forget()
+
+    def clear(self) -> None:
+        """Nothing, as before another session is there."""
+        self._plot = self._window = None
+        self.forget()
+
+    def show_single(self, on: bool) -> None:
+        """Only the trained angle, where large text leaves no room for three."""
+        if on != self._single:
+            self._single = on
+            self.forget()
+
+    def set_time(self, time_s: float) -> None:
+        """Put the cursor; what is shown goes on with it."""
+        self._time_s = time_s
+        if self._window is not None and self._plot is not None and not self._held:
+            start_s, end_s = self._window
+            if not start_s <= time_s <= end_s:
+                begin_s = time_s - 0.1 * (end_s - start_s)
+                self.show_window((begin_s, begin_s + end_s - start_s))
+        if self._canvas is not None:
+            self._over.update()
+
+    # --- window -------------------------------------------------------------------------------------------
+    def extent(self) -> tuple[float, float] | None:
+        return None if self._plot is None else (0.0, self._plot.end_s)
+
+    def shortest(self) -> float:
+        return SHORTEST_S
+
+    def about(self) -> float:
+        return self._time_s
+
+    def show_window(self, window: tuple[float, float] | None) -> None:
+        shown = self._canvas
+        self._canvas = None  # laid out once, below
+        super().show_window(window)
+        self._canvas = shown
+        if self._plot is not None:
+            self.show_plot(self._plot)
+
+    # --- places -------------------------------------------------------------------------------------------
+    def sizeHint(self) -> QSize:
+        return QSize(736, 360)
+
+    def minimumSizeHint(self) -> QSize:
+        return QSize(420, 240)
+
+    def panels(self) -> list[tuple[Panel, int]]:
+        """Where the panels are, and what each shows."""
+        assert self._plot is not None
+        scale = self._theme.text_scale
+        box = QRectF(self.rect()).adjusted(LEFT_PX * scale, TOP_PX * scale, -RIGHT_PX * scale, -BOTTOM_PX * scale)
+        between = HAND_BETWEEN_PX if isinstance(self._plot, HandPlot) else BETWEEN_PX
+        placed = self._plot.panels(box, between * scale, single=self._single)
+        return [(replace(panel, box=axes.crisp(panel.box)), key) for panel, key in placed]
+
+    # --- what is in it ------------------------------------------------------------------------------------
+    def furnish(self, canvas: Canvas) -> None:
+        super().furnish(canvas)
+        self._over: Layer = canvas.add_layer(self._paint_over)
+        self._said: Layer = canvas.add_layer(self._paint_said)
+
+    def lay_out(self, canvas: Canvas) -> None:
+        self.more.setVisible(self._plot is not None)
+        placed = [] if self._plot is None else [panel for panel, _ in self.panels()]
+        canvas.lay_out(placed, self.extent(), self.shortest())
+        for layer in (self._over, self._said):
+            layer.cover(QRectF(self.rect()))
+            layer.update()
+
+    def show_marks(self, canvas: Canvas) -> None:
+        plot = self._plot
+        if plot is not None:
+            canvas.show_marks([[Curves(plot.moving(key, int(panel.box.width())))] for panel, key in self.panels()])
+
+    def paint_ground(self, painter: QPainter) -> None:
+        plot, style, scale = self._plot, screen_style(self._theme), self._theme.text_scale
+        if plot is None:
+            return
+        painter.setFont(style.label)
+        painter.setPen(style.color("text2"))
+        if plot.repetitions:
+            painter.drawText(QPointF(20, (TOP_PX - 7) * scale), self.tr("Repetitions"))
+        painter.drawText(QPointF(20, self.height() - 10 * scale), self.tr("Wheel: zoom"))
+        paint_behind(painter, style, plot, self.panels())
+
+    def _paint_over(self, painter: QPainter) -> None:
+        """Cursor, its numbers, and the grips of the current repetition."""
+        plot = self._plot
+        if plot is None:
+            return
+        style, panels = screen_style(self._theme), self.panels()
+        if 0 <= plot.current < len(plot.repetitions):
+            repetition = plot.repetitions[plot.current]
+            Edges(repetition.start_s, repetition.end_s).paint(painter, style, panels[0][0])
+        start_s, end_s = plot.shown_s
+        if start_s <= self._time_s <= end_s:
+            for panel, _ in panels:
+                Cursor(self._time_s).paint(painter, style, panel)
+            paint_readings(painter, style, plot, panels, self._time_s)
+
+    # --- read-out -----------------------------------------------------------------------------------------
+    def hover(self, at: QPointF | None) -> None:
+        """What is under the mouse: a line through all panels, and the values of the panel it is in."""
+        if self._plot is None:
+            return
+        inside = at is not None and any(panel.box.contains(at) for panel, _ in self.panels())
+        self._mouse = at if inside and not self._held else None
+        self._said.update()
+        over_edge = at is not None and self._edge_at(at) != ""
+        pans = inside and self._window is not None
+        shape = Qt.CursorShape.SizeHorCursor if over_edge else Qt.CursorShape.OpenHandCursor
+        self.face.setCursor(shape if over_edge or pans else Qt.CursorShape.ArrowCursor)
+
+    def said_at(self, at: QPointF) -> list[str]:
+        """Time, values and standard deviations under a point."""
+        plot = self._plot
+        assert plot is not None
+        time_s = self.time_at(at.x())
+        lines = [numbers.clock_tenths(time_s)]
+        for panel, key in self.panels():
+            if panel.box.contains(at):
+                for value in plot.values(key, time_s):
+                    hidden = self.tr("hidden") if value.hidden and math.isfinite(value.value_deg) else ""
+                    named = value.name if not math.isfinite(value.value_deg) else f"{value.name} {value.words} {hidden}"
+                    named = value.said or named
+                    lines.append(named.strip())
+        return lines
+
+    def _paint_said(self, painter: QPainter) -> None:
+        if self._mouse is None or self._plot is None:
+            return
+        style, time_s = screen_style(self._theme), self.time_at(self._mouse.x())
+        for panel, _ in self.panels():
+            Cursor(time_s, "text2", 1.0).paint(painter, style, panel)
+        Readout(self.said_at(self._mouse), self._mouse, QRectF(self.rect()).adjusted(4, 4, -4, -4)).paint(
+            painter, style
+        )
+
+    # --- mouse --------------------------------------------------------------------------------------------
+    def _edge_at(self, point: QPointF) -> str:
+        """``start`` or ``end`` of the current repetition under the mouse, empty for none."""
+        plot = self._plot
+        if plot is None or not 0 <= plot.current < len(plot.repetitions):
+            return ""
+        panel = self.panels()[0][0]
+        if not panel.box.top() <= point.y() <= panel.box.bottom():
+            return ""
+        repetition = plot.repetitions[plot.current]
+        away = {
+            "start": abs(point.x() - float(panel.x(repetition.start_s))),
+            "end": abs(point.x() - float(panel.x(repetition.end_s))),
+        }
+        nearest = min(away, key=lambda edge: away[edge])
+        return nearest if away[nearest] <= GRIP_PX else ""
+
+    def time_at(self, x: float) -> float:
+        """Seconds at a place across, within what is shown."""
+        panel = self.panels()[0][0]
+        share = (x - panel.box.left()) / max(panel.box.width(), 1.0)
+        return panel.start_s + min(max(share, 0.0), 1.0) * (panel.end_s - panel.start_s)
+
+    def click(self, event: Any) -> None:
+        """Once the cursor, twice the repetitions alone and the whole again."""
+        if self._plot is None:
+            return
+        if event.double():
+            self.show_window(self._plot.repetitions_s if self._plot.window_s is None else None)
+        elif not self._edge_at(event.scenePos()):
+            self.cursor_moved.emit(self.time_at(event.scenePos().x()))
+
+    def drag(self, event: Any) -> bool:
+        """An edge, the cursor, or with nothing to move along the cursor too; anything else moves along the time."""
+        if self._plot is None or event.button() != Qt.MouseButton.LeftButton:
+            return False
+        if event.isStart():
+            at = event.buttonDownScenePos()
+            panel = self.panels()[0][0]
+            at_cursor = abs(float(panel.x(self._time_s)) - at.x()) <= GRIP_PX
+            self._held = self._edge_at(at) or ("cursor" if at_cursor or self._window is None else "")
+            self._mouse = None
+        held, time_s = self._held, self.time_at(event.scenePos().x())
+        if held == "cursor":
+            self.cursor_moved.emit(time_s)
+        elif held:
+            self._move_edge(held, time_s, over=event.isFinish())
+        if event.isFinish():
+            self._held = ""
+        return bool(held)
+
+    def _move_edge(self, edge: str, time_s: float, *, over: bool) -> None:
+        plot = self._plot
+        assert plot is not None
+        repetition = plot.repetitions[plot.current]
+        if edge == "start":
+            moved = replace(repetition, start_s=min(time_s, repetition.end_s - EDGES_S))
+        else:
+            moved = replace(repetition, end_s=max(time_s, repetition.start_s + EDGES_S))
+        shown = list(plot.repetitions)
+        shown[plot.current] = moved
+        self.show_plot(replace(plot, repetitions=shown))
+        if over:
+            self.edges_moved.emit(plot.current, moved.start_s, moved.end_s)
+
+    # --- for other programs -------------------------------------------------------------------------------
+    def paint_on(self, painter: QPainter, style: PlotStyle, box: QRectF) -> None:
+        assert self._plot is not None
+        unit = style.unit
+        between = HAND_BETWEEN_PX if isinstance(self._plot, HandPlot) else BETWEEN_PX
+        inner = box.adjusted(106 * unit, 26 * unit, -8 * unit, -22 * unit)
+        paint_session(painter, style, self._plot, self._plot.panels(inner, between * unit, single=self._single))
+
+    def table(self) -> tuple[Sequence[str], Iterable[Sequence[str]]]:
+        """One row for each picture that is shown: seconds, and of every curve degrees, their sd, whether measured."""
+        plot = self._plot
+        assert plot is not None
+        placed = [(plot.unit(key), found) for _, key in self.panels() for found in plot.columns(key)]
+        many = [found for _, found in placed]
+        head = ["time_s"]
+        for unit, (name, _) in placed:
+            head += [f"{name}_{unit}", f"{name}_sd_{unit}", f"{name}_measured"]
+        times, (start_s, end_s) = plot.curves.time_s, plot.shown_s
+        rows = np.flatnonzero((times >= start_s) & (times <= end_s))
+
+        def cells(row: int) -> list[str]:
+            out = [f"{times[row]:.3f}"]
+            for _, series in many:
+                value = float(series.value[row])
+                sd = math.nan if series.sd is None else float(series.sd[row])
+                known = math.isfinite(value)
+                out += [f"{v:.1f}" if math.isfinite(v) else "" for v in (value, sd)]
+                out.append("" if not known else "no" if series.predicted[row] else "yes")
+            return out
+
+        return head, (cells(row) for row in rows.tolist())

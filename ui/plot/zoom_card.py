@@ -1,0 +1,185 @@
+"""A card whose plots can be looked into: zoom and pan along the one axis they share, read-out, pictures and tables."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from PySide6.QtCore import QPoint, QPointF, QRectF, Qt, Signal
+from PySide6.QtGui import QGuiApplication, QPainter
+from PySide6.QtWidgets import QFileDialog, QMenu
+
+from carpus.core.errors import CarpusFault
+from carpus.ui.controls.button import icon_button
+from carpus.ui.plot import export
+from carpus.ui.plot.card import PlotCard
+from carpus.ui.plot.style import PlotStyle
+from carpus.ui.theme import Theme
+
+if TYPE_CHECKING:
+    from carpus.ui.plot.canvas import Canvas
+
+ZOOM_STEP = 1.25
+"""How much a notch of the wheel or a key changes what is shown."""
+
+
+class ZoomCard(PlotCard):
+    """``told`` carries a fault of saving. The window is the part of the shared axis that is shown, None for all."""
+
+    told = Signal(object)
+    saved = Signal(str)
+
+    def __init__(self, theme: Theme, file_name: str) -> None:
+        super().__init__(theme)
+        self._window: tuple[float, float] | None = None
+        self._file_name = file_name
+        self.start_folder = ""
+        """Where saving begins."""
+        self.more = icon_button(theme, "ellipsis", self.tr("Zoom, copy and save"))
+        self.more.setParent(self)
+        self.more.setProperty("floats", True)  # over a corner in which nothing is written
+        self.more.setFocusPolicy(Qt.FocusPolicy.TabFocus)
+        self.more.clicked.connect(lambda: self.open_menu(self.more.mapToGlobal(QPoint(0, self.more.height()))))
+
+    # --- for a subclass -----------------------------------------------------------------------------------
+    def extent(self) -> tuple[float, float] | None:
+        """Ends of the shared axis; None while there is nothing."""
+        raise NotImplementedError
+
+    def shortest(self) -> float:
+        """Least length of it that is shown."""
+        raise NotImplementedError
+
+    def about(self) -> float:
+        """What zooming by key goes about."""
+        raise NotImplementedError
+
+    def drag(self, event: Any) -> bool:
+        """A drag that is more than moving along; whether it was taken."""
+        return False
+
+    def click(self, event: Any) -> None:
+        """A click of the left button."""
+
+    def hover(self, at: QPointF | None) -> None:
+        """The mouse is somewhere, or gone."""
+
+    def paint_on(self, painter: QPainter, style: PlotStyle, box: QRectF) -> None:
+        """The whole plot on paper, in any unit."""
+        raise NotImplementedError
+
+    def table(self) -> tuple[Sequence[str], Iterable[Sequence[str]]]:
+        """Head and rows of what is shown."""
+        raise NotImplementedError
+
+    # --- window -------------------------------------------------------------------------------------------
+    @property
+    def shown_part(self) -> tuple[float, float] | None:
+        """The part that is shown; None for all."""
+        return self._window
+
+    def shown(self) -> tuple[float, float]:
+        """Left and right end of what is shown."""
+        return self._window or self.extent() or (0.0, 1.0)
+
+    def show_window(self, window: tuple[float, float] | None) -> None:
+        """Show a part of the axis, or all of it."""
+        extent = self.extent()
+        if window is not None and extent is not None:
+            low, high = extent
+            span = min(max(window[1] - window[0], min(self.shortest(), high - low)), high - low)
+            start = min(max(window[0], low), high - span)
+            window = None if span >= (high - low) * (1.0 - 1e-9) else (start, start + span)
+        self._window = window
+        self.forget()
+
+    def zoom(self, factor: float, about: float) -> None:
+        """Show that many times as much, with ``about`` staying where it is."""
+        start, end = self.shown()
+        span = (end - start) * factor
+        begin = about - (about - start) / (end - start) * span
+        self.show_window((begin, begin + span))
+
+    def zoom_in(self) -> None:
+        """Less of the axis, larger."""
+        self.zoom(1.0 / ZOOM_STEP, self._about_shown())
+
+    def zoom_out(self) -> None:
+        """More of the axis."""
+        self.zoom(ZOOM_STEP, self._about_shown())
+
+    def show_all(self) -> None:
+        """The whole axis."""
+        self.show_window(None)
+
+    def _about_shown(self) -> float:
+        start, end = self.shown()
+        return min(max(self.about(), start), end)
+
+    def furnish(self, canvas: Canvas) -> None:
+        canvas.unlock(self)
+
+    def take_range(self, start: float, end: float) -> None:
+        """The mouse has moved or zoomed the panels."""
+        now, extent = self.shown(), self.extent()
+        if extent is None:
+            return
+        tolerance = 1e-6 * (extent[1] - extent[0])
+        if abs(start - now[0]) > tolerance or abs(end - now[1]) > tolerance:
+            self.show_window((start, end))
+
+    def resizeEvent(self, event: Any) -> None:
+        self.more.adjustSize()  # where a layout is in the card Qt leaves this to us
+        self.more.move(self.width() - self.more.width() - 6, 2)
+        super().resizeEvent(event)
+
+    # --- menu ---------------------------------------------------------------------------------------------
+    def menu(self) -> QMenu:
+        """What can be done with a plot, in words."""
+        menu = QMenu(self)
+        for words, action in (
+            (self.tr("Show all") + "\t0", self.show_all),
+            (self.tr("Zoom in") + "\t+", self.zoom_in),
+            (self.tr("Zoom out") + "\t-", self.zoom_out),
+            ("", None),
+            (self.tr("Copy picture"), self.copy_picture),
+            (self.tr("Save picture (PNG)…"), self.save_picture),
+            (self.tr("Save drawing (SVG)…"), lambda: self._save("svg", "SVG (*.svg)")),
+            (self.tr("Save values (CSV)…"), lambda: self._save("csv", "CSV (*.csv)")),
+        ):
+            if action is None:
+                menu.addSeparator()
+            else:
+                menu.addAction(words).triggered.connect(lambda _=False, action=action: action())
+        return menu
+
+    def open_menu(self, at: QPoint) -> None:
+        """Show it at a place of the screen."""
+        if self.extent() is not None:
+            menu = self.menu()
+            menu.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
+            menu.popup(at)
+
+    def copy_picture(self) -> None:
+        """The plot at print size, for other programs."""
+        QGuiApplication.clipboard().setImage(export.picture(self))
+
+    def save_picture(self) -> None:
+        """Ask for a name and write the picture."""
+        self._save("png", "PNG (*.png)")
+
+    def _save(self, kind: str, filter_words: str) -> None:
+        start = str(Path(self.start_folder) / f"{self._file_name}.{kind}")
+        path, _ = QFileDialog.getSaveFileName(self, self.tr("Save"), start, filter_words)
+        if path:
+            self.save(Path(path))
+
+    def save(self, path: Path) -> None:
+        """Write a picture, drawing or table, as the name ends; a fault is told."""
+        try:
+            export.save(self, path)
+        except CarpusFault as fault:
+            self.told.emit(fault)
+        else:
+            self.saved.emit(str(path))

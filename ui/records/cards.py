@@ -1,0 +1,209 @@
+"""The cards about back-up, lock and records among the settings."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from PySide6.QtCore import Qt, Signal
+from PySide6.QtWidgets import QHBoxLayout, QVBoxLayout, QWidget
+
+from carpus.ui.controls.button import Button
+from carpus.ui.controls.card import Card, KeyCaps, Line
+from carpus.ui.controls.field import Choices
+from carpus.ui.controls.text import MEDIUM, REGULAR, SEMIBOLD, StateText, Text, caption
+from carpus.ui.icons import State
+from carpus.ui.theme import Theme
+
+
+@dataclass(frozen=True, slots=True)
+class BackupFacts:
+    """How it stands: ``state`` good or warn, what is said of it in up to three lines, and where back-ups go."""
+
+    state: State
+    headline: str
+    detail: str
+    more: str
+    place: str
+    place_state: State
+    place_words: str
+    can_back_up: bool
+
+
+class BackupCard(Card):
+    """State first, then where and when."""
+
+    back_up = Signal()
+    restore = Signal()
+    place_wanted = Signal()
+    hour_chosen = Signal(int)
+
+    def __init__(self, theme: Theme, hour: int) -> None:
+        super().__init__(theme, 24)
+        self.body.addWidget(Text(theme, self.tr("Back-up"), 20, SEMIBOLD))
+        words = self.tr("Everything of the data folder: patients, sessions, pictures, log. Works while you measure.")
+        self.body.addWidget(Text(theme, words, 14, REGULAR, "text2", wrap=True))
+        self.sign = StateText(theme, 16, SEMIBOLD)
+        self.headline = Text(theme, "", 16, SEMIBOLD, wrap=True)
+        self.detail = Text(theme, "", 14, REGULAR, "text2", wrap=True)
+        self.more = Text(theme, "", 12, MEDIUM, "text2", wrap=True)
+        self.state_card = Card(theme, 14, "soft", "soft")
+        texts = QVBoxLayout()
+        texts.setSpacing(2)
+        for text in (self.headline, self.detail, self.more):
+            texts.addWidget(text)
+        row = QHBoxLayout()
+        row.setSpacing(10)
+        row.addWidget(self.sign, 0, Qt.AlignmentFlag.AlignTop)
+        row.addLayout(texts, 1)
+        self.state_card.body.addLayout(row)
+        self.now_button = Button(theme, self.tr("&Back up now"), icon="archive")
+        self.restore_button = Button(theme, self.tr("&Restore…"), icon="rotate-ccw")
+        self.progress = caption(theme, self.tr("then read back and compared"))
+        acts = QVBoxLayout()
+        acts.setSpacing(4)
+        acts.addWidget(self.now_button)
+        acts.addWidget(self.progress)
+        acts.addStretch(1)
+        again = QVBoxLayout()
+        again.setSpacing(4)
+        again.addWidget(self.restore_button)
+        again.addWidget(caption(theme, self.tr("shows first what changes")))
+        again.addStretch(1)
+        top = QHBoxLayout()
+        top.setSpacing(16)
+        top.addWidget(self.state_card, 1)
+        top.addLayout(acts)
+        top.addLayout(again)
+        self.body.addLayout(top)
+        self.place = Text(theme, "", 14, MEDIUM, wrap=True)
+        self.place_state = StateText(theme, 12, MEDIUM, 16)
+        self.place_button = Button(theme, self.tr("Change…"), height_px=36)
+        self.hours = Choices(
+            theme,
+            [(12, self.tr("Each day at 12:00")), (18, self.tr("At 18:00")), (-1, self.tr("Only when told"))],
+            hour,
+        )
+        self.body.addWidget(Line(theme))
+        self.body.addLayout(
+            _row(theme, self.tr("Folder for back-ups"), self.place, self.place_state, self.place_button)
+        )
+        self.body.addWidget(Line(theme))
+        self.body.addLayout(_row(theme, self.tr("By itself"), self.hours))
+        self.body.addWidget(Line(theme))
+        keep = Text(theme, self.tr("the last 14, and one of each month for 2 years"), 14)
+        self.body.addLayout(_row(theme, self.tr("Keep"), keep))
+        self.now_button.clicked.connect(self.back_up)
+        self.restore_button.clicked.connect(self.restore)
+        self.place_button.clicked.connect(self.place_wanted)
+        self.hours.chosen.connect(lambda hour: self.hour_chosen.emit(hour))
+
+    def show_facts(self, facts: BackupFacts) -> None:
+        """How it stands now."""
+        fill = "warn_soft" if facts.state == "warn" else "good_soft" if facts.state == "good" else "soft"
+        self.state_card.set_colors(fill, fill)
+        self.sign.show_state(facts.state, "")
+        self.sign.setVisible(facts.state != "none")
+        for text, words in ((self.headline, facts.headline), (self.detail, facts.detail), (self.more, facts.more)):
+            text.setText(words)
+            text.setVisible(bool(words))
+        self.place.setText(facts.place)
+        self.place_state.show_state(facts.place_state, facts.place_words)
+        self.now_button.setEnabled(facts.can_back_up)
+
+    def show_progress(self, percent: int | None) -> None:
+        """While it runs; None when it does not."""
+        running = percent is not None
+        self.now_button.setEnabled(not running)
+        self.restore_button.setEnabled(not running)
+        words = self.tr("{percent} %").format(percent=percent) if running else self.tr("then read back and compared")
+        self.progress.setText(words)
+
+
+class LockCard(Card):
+    """When it locks by itself, and the PIN."""
+
+    pin_wanted = Signal()
+    minutes_chosen = Signal(int)
+
+    def __init__(self, theme: Theme, minutes: int, key: str) -> None:
+        super().__init__(theme, 24)
+        self.body.addWidget(Text(theme, self.tr("Lock"), 20, SEMIBOLD))
+        words = self.tr(
+            "A PIN hides names and pictures from those who pass by. Alone it protects no file: for that there is "
+            "encryption, below, and that of the computer’s own disk."
+        )
+        self.body.addWidget(Text(theme, words, 14, REGULAR, "text2", wrap=True))
+        self.minutes = Choices(
+            theme,
+            [
+                (5, self.tr("After 5 min")),
+                (10, self.tr("After 10 min")),
+                (30, self.tr("30 min")),
+                (0, self.tr("Never")),
+            ],
+            minutes,
+        )
+        self.pin_button = Button(theme, "", height_px=40)
+        self.body.addWidget(Text(theme, self.tr("Lock by itself"), 14, REGULAR, "text2"))
+        self.body.addWidget(self.minutes)
+        self.body.addWidget(Text(theme, self.tr("PIN"), 14, REGULAR, "text2"))
+        row = QHBoxLayout()
+        row.setSpacing(20)
+        row.addWidget(self.pin_button)
+        row.addWidget(KeyCaps(theme, [(key, self.tr("locks now"))]), 0, Qt.AlignmentFlag.AlignVCenter)
+        row.addStretch(1)
+        self.body.addLayout(row)
+        self.pin_button.clicked.connect(self.pin_wanted)
+        self.minutes.chosen.connect(lambda minutes: self.minutes_chosen.emit(minutes))
+
+    def show_pin(self, *, is_set: bool) -> None:
+        """Whether there is one."""
+        self.pin_button.set_face(self.tr("Change PIN…") if is_set else self.tr("Set a PIN…"))
+        for button in self.minutes.buttons():
+            button.setEnabled(is_set)
+
+
+class RecordsCard(Card):
+    """How long records are kept, what is due, what is archived, and the log."""
+
+    years_chosen = Signal(int)
+    due_wanted = Signal()
+    archive_wanted = Signal()
+    log_wanted = Signal()
+
+    def __init__(self, theme: Theme, years: int, choices: Sequence[int]) -> None:
+        super().__init__(theme, 24)
+        self.body.addWidget(Text(theme, self.tr("Records"), 20, SEMIBOLD))
+        words = self.tr("How long records must be kept after the last session: your law says it, Carpus does not know.")
+        self.body.addWidget(Text(theme, words, 14, REGULAR, "text2", wrap=True))
+        names = {0: self.tr("Not set")}
+        shown = sorted({*choices, years})
+        self.years = Choices(theme, [(one, names.get(one, self.tr("{n} years").format(n=one))) for one in shown], years)
+        self.due_button = Button(theme, self.tr("What is d&ue…"), height_px=40)
+        self.archive_button = Button(theme, self.tr("&Archive…"), icon="archive", height_px=40)
+        self.log_button = Button(theme, self.tr("&Log…"), icon="file-text", height_px=40)
+        self.body.addWidget(self.years)
+        self.body.addSpacing(4)
+        row = QHBoxLayout()
+        row.setSpacing(12)
+        for button in (self.due_button, self.archive_button, self.log_button):
+            row.addWidget(button)
+        row.addStretch(1)
+        self.body.addLayout(row)
+        self.years.chosen.connect(lambda years: self.years_chosen.emit(years))
+        self.due_button.clicked.connect(self.due_wanted)
+        self.archive_button.clicked.connect(self.archive_wanted)
+        self.log_button.clicked.connect(self.log_wanted)
+
+
+def _row(theme: Theme, name: str, *widgets: QWidget) -> QHBoxLayout:
+    row = QHBoxLayout()
+    row.setSpacing(16)
+    label = Text(theme, name, 14, REGULAR, "text2")
+    label.setFixedWidth(theme.px(180))
+    theme.changed.connect(lambda: label.setFixedWidth(theme.px(180)))
+    row.addWidget(label)
+    for number, widget in enumerate(widgets):
+        row.addWidget(widget, 1 if number == 0 else 0)
+    return row

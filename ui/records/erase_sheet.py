@@ -1,0 +1,240 @@
+"""What goes, what stays, what cannot be undone; the archive is what is offered."""
+
+from __future__ import annotations
+
+from PySide6.QtCore import QRectF, QSize, Qt, Signal
+from PySide6.QtGui import QKeyEvent, QPainter, QPaintEvent, QResizeEvent
+from PySide6.QtWidgets import QHBoxLayout, QLineEdit, QVBoxLayout, QWidget
+
+from carpus.ui import numbers, terms
+from carpus.ui.controls.button import Button
+from carpus.ui.controls.card import Card, Line
+from carpus.ui.controls.column import ScrolledColumn, scroll_area
+from carpus.ui.controls.sheet import Sheet
+from carpus.ui.controls.text import REGULAR, SEMIBOLD, Text, paint_status
+from carpus.ui.icons import State, paint_icon
+from carpus.ui.records.ports import ErasureFacts
+from carpus.ui.theme import Theme
+
+ICON_PX, COLUMN_PX = 26, 72
+
+
+class EraseSheet(Sheet):
+    """``erase`` only after the pseudonym was typed, and never by Enter; ``archive`` is the primary."""
+
+    erase = Signal()
+    archive = Signal()
+
+    def __init__(self, host: QWidget, theme: Theme) -> None:
+        super().__init__(host, theme, 760)
+        self.card.set_colors("surface", "bad", 2.0)
+        self._pseudonym = ""
+        self.title = Text(theme, "", 28, SEMIBOLD, wrap=True)
+        self.about = Text(theme, "", 14, REGULAR, "text2", wrap=True)
+        self.goes, self.stays, self.ends = (Text(theme, "", 14, REGULAR, "text2", wrap=True) for _ in range(3))
+        self.label = Text(theme, "", 14, wrap=True)
+        self.line = QLineEdit()
+        self.line.setMinimumWidth(theme.px(200))
+        self.line.textChanged.connect(self._check)
+        self.for_good = _NeverByEnter(theme, self.tr("Erase for good"), "plain", height_px=52)
+        self.cancel = Button(theme, self.tr("Cancel"), "plain", hint=self.tr("Esc"), height_px=52)
+        self.instead = Button(theme, self.tr("Archive instead"), "primary", hint=self.tr("Enter"))
+        self.for_good.clicked.connect(self._erase)
+        self.cancel.clicked.connect(self.close_sheet)
+        self.instead.clicked.connect(self._archive)
+        self._lay_out(theme)
+
+    def _lay_out(self, theme: Theme) -> None:
+        body = self.card.body
+        body.setSpacing(10)
+        self._parts = ScrolledColumn()
+        column = QVBoxLayout(self._parts)
+        column.setContentsMargins(0, 0, 0, 0)
+        column.setSpacing(10)
+        column.addLayout(_section(theme, _Sign(theme, icon="trash-2"), self.title, self.about))
+        for sign, title, words in (
+            (_Sign(theme, "bad"), self.tr("This goes"), self.goes),
+            (_Sign(theme, "good"), self.tr("This stays"), self.stays),
+            (_Sign(theme, "warn"), self.tr("This cannot be undone"), self.ends),
+        ):
+            column.addWidget(Line(theme))
+            column.addLayout(_section(theme, sign, Text(theme, title, 20, SEMIBOLD), words))
+        column.addWidget(Line(theme))
+        milder = Card(theme, 0, "soft", "soft")
+        offered = Text(
+            theme, self.tr("Leaves all lists and counts nowhere; everything can be brought back."), wrap=True
+        )
+        milder.body.setContentsMargins(0, 12, 12, 12)
+        milder.body.addLayout(
+            _section(
+                theme,
+                _Sign(theme, icon="archive", token="accent"),
+                Text(theme, self.tr("Archive instead"), 16, SEMIBOLD),
+                offered,
+            )
+        )
+        column.addWidget(milder)
+        self._scroll = scroll_area(self._parts)  # large text on a small screen: the answer stays to be seen
+        body.addWidget(self._scroll)
+        typing = QHBoxLayout()
+        typing.setSpacing(16)
+        typing.addWidget(self.label, 1)
+        typing.addWidget(self.line, 1)
+        body.addLayout(typing)
+        body.addSpacing(8)
+        buttons = QHBoxLayout()
+        buttons.addWidget(self.for_good)
+        buttons.addStretch(1)
+        buttons.addWidget(self.cancel)
+        buttons.addWidget(self.instead)
+        body.addLayout(buttons)
+
+    def begin(self, facts: ErasureFacts) -> None:
+        """Say what goes and what stays, and wait."""
+        self._pseudonym = facts.pseudonym
+        single = facts.when is not None
+        self.title.setText(
+            self.tr("Erase this session for good?") if single else self.tr("Erase this patient for good?")
+        )
+        self.about.setText(self._about(facts))
+        self.goes.setText(self._goes(facts))
+        self.stays.setText(self._stays(facts))
+        self.ends.setText(self._ends(facts))
+        self.label.setText(self.tr("To erase, type “{name}” here").format(name=facts.pseudonym))
+        self.line.clear()
+        self.line.setAccessibleName(self.label.text())
+        self._check()
+        self.open(self.instead)
+        self._fit()
+
+    def _fit(self) -> None:
+        """As high as the texts need, as far as there is room."""
+        column = self._parts.layout()
+        assert column is not None
+        column.activate()
+        wanted = column.totalHeightForWidth(self.card.width() - 48 - 12)
+        room = self.height() - self._theme.px(52 + 40 + 18) - 120
+        self._scroll.setFixedHeight(max(min(wanted, room), self._theme.px(160)))
+
+    def resizeEvent(self, event: QResizeEvent) -> None:
+        super().resizeEvent(event)
+        if self.isVisible():
+            self._fit()
+
+    def _about(self, facts: ErasureFacts) -> str:
+        if facts.when is None:
+            return facts.pseudonym
+        what = f"{terms.exercise_name(facts.exercise)}, {terms.hand_name(facts.side).lower()}"
+        return " · ".join((facts.pseudonym, numbers.report_date(facts.when), what))
+
+    def _goes(self, facts: ErasureFacts) -> str:
+        files = self.tr("1 file") if facts.files == 1 else self.tr("{count} files").format(count=facts.files)
+        size = f"{facts.size_mb:.0f}" if facts.size_mb >= 10 else f"{facts.size_mb:.1f}"
+        if facts.when is None:
+            what = self.tr(
+                "The patient’s entry, real name and notes, and {count} sessions with all angles, pictures and"
+            )
+            words = (what + self.tr(" notes ({files}, {size} MB).")).format(
+                count=facts.sessions, files=files, size=size
+            )
+        else:
+            what = self.tr("Angles, pictures, notes and pain scores of this session ({files}, {size} MB).")
+            words = what.format(files=files, size=size)
+        made = []
+        if facts.exports:
+            made.append(self.tr("1 export") if facts.exports == 1 else self.tr("{n} exports").format(n=facts.exports))
+        if facts.reports:
+            made.append(self.tr("1 report") if facts.reports == 1 else self.tr("{n} reports").format(n=facts.reports))
+        if made:
+            words += " " + self.tr("The {made} that Carpus made from it go too.").format(
+                made=self.tr(" and ").join(made)
+            )
+        return words
+
+    def _stays(self, facts: ErasureFacts) -> str:
+        parts = []
+        if facts.others:
+            other = self.tr("The other session.") if facts.others == 1 else self.tr("The other {count} sessions.")
+            parts.append(other.format(count=facts.others))
+        if facts.last_backup is not None:
+            day = numbers.day_of_year(facts.last_backup)
+            parts.append(
+                self.tr("Back-ups up to {day} and files copied elsewhere: Carpus cannot reach them.").format(day=day)
+            )
+        else:
+            parts.append(self.tr("Files copied elsewhere: Carpus cannot reach them."))
+        if facts.changed:
+            parts.append(self.tr("Exports and reports that were changed since: {n}.").format(n=facts.changed))
+        if facts.not_found:
+            words = self.tr("Exports and reports that are not where Carpus put them: {n}, look for them yourself.")
+            parts.append(words.format(n=facts.not_found))
+        parts.append(self.tr("The log keeps that it was erased, no name."))
+        return " ".join(parts)
+
+    def _ends(self, facts: ErasureFacts) -> str:
+        words = self.tr("Nobody can bring it back.")
+        if facts.kept_until is not None:
+            until = facts.kept_until
+            day = numbers.day_of_year(until)
+            years = self.tr("({years} years, as set in Settings)").format(years=facts.retention_years)
+            if facts.today <= until:
+                early = self.tr("Your records must be kept until {day} {years}: erasing comes before that day.")
+                return f"{words} {early.format(day=day, years=years)}"
+            return f"{words} {self.tr('They had to be kept until {day} {years}.').format(day=day, years=years)}"
+        return words
+
+    def _check(self) -> None:
+        typed = " ".join(self.line.text().split())
+        self.for_good.setEnabled(bool(typed) and typed.casefold() == self._pseudonym.casefold())
+
+    def _erase(self) -> None:
+        self.close_sheet()
+        self.erase.emit()
+
+    def _archive(self) -> None:
+        self.close_sheet()
+        self.archive.emit()
+
+
+class _NeverByEnter(Button):
+    """What cannot be undone takes the mouse or the space bar."""
+
+    def keyPressEvent(self, event: QKeyEvent) -> None:
+        if event.key() not in (Qt.Key.Key_Return, Qt.Key.Key_Enter):
+            super().keyPressEvent(event)
+
+
+class _Sign(QWidget):
+    """A state, or a line icon, in a column of its own."""
+
+    def __init__(self, theme: Theme, state: State = "none", *, icon: str = "", token: str = "bad") -> None:
+        super().__init__()
+        self._theme, self._state, self._icon, self._token = theme, state, icon, token
+        theme.changed.connect(self._take_theme)
+        self._take_theme()
+
+    def _take_theme(self) -> None:
+        self.setFixedSize(QSize(self._theme.px(COLUMN_PX), self._theme.px(ICON_PX + 10)))
+        self.update()
+
+    def paintEvent(self, event: QPaintEvent) -> None:
+        painter = QPainter(self)
+        painter.setRenderHint(QPainter.RenderHint.Antialiasing)
+        size = self._theme.px(ICON_PX)
+        box = QRectF((self.width() - size) / 3, 2, size, size)
+        if self._icon:
+            paint_icon(painter, self._icon, box, self._theme.color(self._token))
+        else:
+            paint_status(painter, self._theme, self._state, box)
+
+
+def _section(theme: Theme, sign: QWidget, title: QWidget, words: QWidget) -> QHBoxLayout:
+    texts = QVBoxLayout()
+    texts.setSpacing(4)
+    texts.addWidget(title)
+    texts.addWidget(words)
+    row = QHBoxLayout()
+    row.setSpacing(0)
+    row.addWidget(sign, 0, Qt.AlignmentFlag.AlignTop)
+    row.addLayout(texts, 1)
+    return row

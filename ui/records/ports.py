@@ -1,0 +1,55 @@
+"""What the screens about records show; ``app`` works it out."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from datetime import date, datetime
+
+
+@dataclass(frozen=True, slots=True)
+class ErasureFacts:
+    """What is said before a session, or with ``when`` None a patient, is erased.
+
+    ``exports`` and ``reports`` that Carpus made elsewhere go too; ``changed`` ones stay, ``not_found`` ones are not
+    reached. ``others`` counts the patient's sessions that stay. ``kept_until`` None where no years are set,
+    ``last_backup`` None before the first.
+    """
+
+    pseudonym: str
+    when: datetime | None
+    exercise: str
+    side: str
+    sessions: int
+    files: int
+    size_mb: float
+    exports: int
+    reports: int
+    changed: int
+    not_found: int
+    others: int
+    last_backup: datetime | None
+    kept_until: date | None
+    retention_years: int
+    today: date
+
+
+@dataclass(frozen=True, slots=True)
+class ListedRecord:
+    """A line of what is due or archived: ``identity`` of what the buttons act on."""
+
+    identity: str
+    title: str
+    detail: str
+    archived: bool
+
+
+@dataclass(frozen=True, slots=True)
+class LoggedDeed:
+    """A line of the log, in words."""
+
+    number: int
+    when: datetime
+    who: str
+    what: str
+    of_whom: str
+    detail: str

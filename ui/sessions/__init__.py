@@ -1,0 +1,1 @@
+"""All sessions of a patient: open, set aside, move, rename, delete."""

@@ -1,0 +1,139 @@
+"""The rows of the list of sessions: date, exercise and hand, main figure, how much counted, remark."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from PySide6.QtCore import QAbstractListModel, QModelIndex, QPersistentModelIndex, QRectF, QSize, Qt
+from PySide6.QtGui import QBrush, QFontMetricsF, QPainter, QPen
+from PySide6.QtWidgets import QFrame, QListView, QStyle, QStyledItemDelegate, QStyleOptionViewItem
+
+from carpus.ui import numbers, terms
+from carpus.ui.fonts import MEDIUM, font
+from carpus.ui.ports import SessionLine
+from carpus.ui.theme import CARD_RADIUS_PX, Theme
+from carpus.ui.translate import tr
+
+ROW_PX = 58
+COLUMNS = (0.03, 0.21, 0.48, 0.685, 0.775, 0.985)
+"""Left edges as shares of the width: date, exercise and hand, main figure, counted, remark; the last is the end."""
+
+
+def remark(line: SessionLine) -> str:
+    """What must be known of a session before its figures."""
+    if line.simulated and not line.of_practice:
+        return tr("simulated, does not count")
+    if line.set_aside:
+        return tr("set aside: {reason}").format(reason=line.set_aside)
+    if line.damaged:
+        return tr("cannot be read")
+    return "" if line.complete else tr("cut short")
+
+
+def cells(line: SessionLine) -> tuple[str, str, str, str, str]:
+    """The texts of a row; what is not known yet is empty."""
+    day = f"{numbers.short_date(line.when)} {line.when:%H:%M}"
+    what = f"{terms.exercise_name(line.exercise)}, {terms.side_name(line.side).lower()}"
+    return day, what, line.figure, line.counted, remark(line) or line.corrected.rstrip(".")
+
+
+class SessionModel(QAbstractListModel):
+    """The sessions of one patient, newest first."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.lines: tuple[SessionLine, ...] = ()
+
+    def show_lines(self, lines: Sequence[SessionLine]) -> None:
+        """Replace all rows."""
+        self.beginResetModel()
+        self.lines = tuple(lines)
+        self.endResetModel()
+
+    def show_line(self, line: SessionLine) -> None:
+        """Replace the row of one session, when its figures are known."""
+        for number, old in enumerate(self.lines):
+            if old.session_id == line.session_id:
+                self.lines = (*self.lines[:number], line, *self.lines[number + 1 :])
+                self.dataChanged.emit(self.index(number), self.index(number))
+
+    def find(self, session_id: str) -> int:
+        """Row of a session, -1 when not shown."""
+        return next((number for number, line in enumerate(self.lines) if line.session_id == session_id), -1)
+
+    def rowCount(self, parent: QModelIndex | QPersistentModelIndex = QModelIndex()) -> int:  # noqa: B008
+        return 0 if parent.isValid() else len(self.lines)
+
+    def data(self, index: QModelIndex | QPersistentModelIndex, role: int = Qt.ItemDataRole.DisplayRole) -> object:
+        if not index.isValid():
+            return None
+        line = self.lines[index.row()]
+        if role in (Qt.ItemDataRole.DisplayRole, Qt.ItemDataRole.AccessibleTextRole):
+            return ", ".join(part for part in cells(line) if part)
+        return line if role == Qt.ItemDataRole.UserRole else None
+
+
+class RowPainter(QStyledItemDelegate):
+    """Paints one row from the tokens; a session that does not count is grey and hatched, and says why."""
+
+    def __init__(self, theme: Theme, model: SessionModel) -> None:
+        super().__init__()
+        self._theme, self._model = theme, model
+
+    def sizeHint(self, option: QStyleOptionViewItem, index: QModelIndex | QPersistentModelIndex) -> QSize:
+        return QSize(200, self._theme.px(ROW_PX))
+
+    def paint(
+        self, painter: QPainter, option: QStyleOptionViewItem, index: QModelIndex | QPersistentModelIndex
+    ) -> None:
+        theme, line = self._theme, self._model.lines[index.row()]
+        box = QRectF(option.rect)
+        state = option.state
+        counts = not (line.set_aside or line.damaged or (line.simulated and not line.of_practice))
+        painter.save()
+        if state & QStyle.StateFlag.State_Selected:
+            painter.fillRect(box, theme.color("soft"))
+            painter.fillRect(QRectF(0, box.top() + 12, 4, box.height() - 24), theme.color("accent"))
+        elif state & QStyle.StateFlag.State_MouseOver:
+            painter.fillRect(box, theme.color("canvas"))
+        if not counts:
+            painter.fillRect(box, QBrush(theme.color("line"), Qt.BrushStyle.BDiagPattern))
+        painter.setPen(QPen(theme.color("line"), 1))
+        painter.drawLine(int(box.left()) + 20, int(box.bottom()), int(box.right()) - 20, int(box.bottom()))
+        edges = [box.left() + share * box.width() for share in COLUMNS]
+        for number, text in enumerate(cells(line)):
+            face = font((16 if number == 2 else 14) * theme.text_scale, MEDIUM)
+            painter.setFont(face)
+            painter.setPen(theme.color("text" if counts and number < 3 else "text2"))
+            room = QRectF(edges[number], box.top(), edges[number + 1] - edges[number] - 8, box.height())
+            shown = QFontMetricsF(face).elidedText(text, Qt.TextElideMode.ElideRight, room.width())
+            painter.drawText(room, int(Qt.AlignmentFlag.AlignVCenter), shown)
+        painter.restore()
+
+
+class SessionList(QListView):
+    """The rows on a rounded surface."""
+
+    def __init__(self, theme: Theme) -> None:
+        super().__init__()
+        self.rows = SessionModel()
+        self.setModel(self.rows)
+        self._painter_of_rows = RowPainter(theme, self.rows)
+        self.setItemDelegate(self._painter_of_rows)
+        self.setFrameShape(QFrame.Shape.NoFrame)
+        self.setMouseTracking(True)
+        self.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
+        self.setAccessibleName(self.tr("Sessions"))
+        self.setUniformItemSizes(True)
+        self._theme = theme
+        theme.changed.connect(self._take_theme)
+        self._take_theme()
+
+    def _take_theme(self) -> None:
+        tokens = self._theme.tokens
+        self.setStyleSheet(
+            f"QListView {{ background: {tokens.surface}; border: 1px solid {tokens.line}; "
+            f"border-radius: {CARD_RADIUS_PX}px; }}"
+        )
+        self.scheduleDelayedItemsLayout()
+        self.viewport().update()

@@ -1,0 +1,233 @@
+"""All sessions of a patient, newest first, and what can be done with the chosen one."""
+
+from __future__ import annotations
+
+from PySide6.QtCore import QModelIndex, Qt, Signal
+from PySide6.QtGui import QKeyEvent
+from PySide6.QtWidgets import QHBoxLayout, QVBoxLayout, QWidget
+
+from carpus.core.library.set_up import PRACTICE_PATIENT
+from carpus.core.output.exercises import EXERCISES, exercise_named
+from carpus.ui import numbers, terms
+from carpus.ui.background import Background
+from carpus.ui.controls.button import Button
+from carpus.ui.controls.card import Card
+from carpus.ui.controls.column import scroll_area
+from carpus.ui.controls.text import REGULAR, SEMIBOLD, Text, heading
+from carpus.ui.ports import SessionLine, SessionShelf
+from carpus.ui.sessions.listing import SessionList, remark
+from carpus.ui.sessions.sheets import ChooseSheet, SetAsideSheet
+from carpus.ui.theme import MARGIN_PX, Theme
+
+
+class SessionsScreen(QWidget):
+    """``opened`` carries a session to be reviewed, ``progress`` one to be compared with, ``reference_wanted`` one to be
+    compared with another measurement, ``erase_wanted`` one to be archived or erased; ``told`` a fault; ``changed`` that
+    something of the patient's sessions is different now."""
+
+    opened = Signal(str)
+    progress = Signal(str)
+    reference_wanted = Signal(str)
+    erase_wanted = Signal(str)
+    told = Signal(object)
+    changed = Signal()
+
+    def __init__(self, theme: Theme, background: Background, shelf: SessionShelf) -> None:
+        super().__init__()
+        self._theme, self._background, self._shelf = theme, background, shelf
+        self._patient_id = self._pseudonym = ""
+        self._round = 0
+        self.title = heading(theme)
+        self.none = Text(theme, self.tr("No session yet."), 16, REGULAR, "text2")
+        self.list = SessionList(theme)
+        self.what = Text(theme, "", 20, SEMIBOLD, wrap=True)
+        self.figure = Text(theme, "", 28, SEMIBOLD, wrap=True)
+        self.facts = Text(theme, "", 14, REGULAR, "text2", wrap=True)
+        self.remark = Text(theme, "", 14, SEMIBOLD, "warn", wrap=True)
+        self.open_button = Button(theme, self.tr("Open in review"), "primary", hint=self.tr("Enter"))
+        self.compare_button = Button(theme, self.tr("Compare in &progress"), height_px=40)
+        self.reference_button = Button(theme, self.tr("Compare with a &reference…"), height_px=40)
+        self.aside_button = Button(theme, "", height_px=40)
+        self.move_button = Button(theme, self.tr("&Move to another patient…"), height_px=40)
+        self.rename_button = Button(theme, self.tr("Change the &exercise…"), height_px=40)
+        self.erase_button = Button(theme, self.tr("Archive or &delete…"), "quiet", icon="trash-2", height_px=40)
+        self.aside_sheet = SetAsideSheet(self, theme)
+        self.move_sheet = ChooseSheet(self, theme)
+        self.rename_sheet = ChooseSheet(self, theme)
+        self._lay_out()
+        self._connect()
+
+    def _lay_out(self) -> None:
+        left = QVBoxLayout()
+        left.setSpacing(12)
+        left.addWidget(self.title)
+        left.addWidget(self.none)
+        left.addWidget(self.list, 1)
+        self._card = Card(self._theme, 20)
+        body = self._card.body
+        body.setSpacing(10)
+        for widget in (self.what, self.figure, self.facts, self.remark):
+            body.addWidget(widget)
+        body.addStretch(1)
+        for button in (
+            self.open_button, self.compare_button, self.reference_button, self.aside_button, self.move_button,
+            self.rename_button, self.erase_button,
+        ):  # fmt: skip
+            body.addWidget(button)
+        self._right = scroll_area(self._card)
+        columns = QHBoxLayout(self)
+        columns.setContentsMargins(MARGIN_PX, MARGIN_PX - 4, MARGIN_PX, MARGIN_PX - 4)
+        columns.setSpacing(MARGIN_PX)
+        columns.addLayout(left, 1)
+        columns.addWidget(self._right)
+        self._theme.changed.connect(self._fit)
+        self._fit()
+
+    def _fit(self) -> None:
+        self._right.setFixedWidth(self._theme.px(384))
+
+    def _connect(self) -> None:
+        self.list.selectionModel().currentChanged.connect(lambda *_: self._show_chosen())
+        self.list.doubleClicked.connect(lambda _: self.open_chosen())
+        self.open_button.clicked.connect(self.open_chosen)
+        self.compare_button.clicked.connect(lambda: self._emit_chosen(self.progress))
+        self.reference_button.clicked.connect(lambda: self._emit_chosen(self.reference_wanted))
+        self.aside_button.clicked.connect(self._set_aside_or_back)
+        self.move_button.clicked.connect(self._ask_move)
+        self.rename_button.clicked.connect(self._ask_rename)
+        self.erase_button.clicked.connect(self._ask_erase)
+        self.aside_sheet.kept.connect(self._set_aside)
+        self.move_sheet.chosen.connect(
+            lambda patient_id: self._do(lambda line: self._shelf.move(line.session_id, patient_id))
+        )
+        self.rename_sheet.chosen.connect(
+            lambda exercise: self._do(lambda line: self._shelf.rename_exercise(line.session_id, exercise))
+        )
+
+    # --- showing ------------------------------------------------------------------------------------------
+    def begin(self, patient_id: str, pseudonym: str, choose: str = "") -> None:
+        """Show a patient's sessions, one of them chosen."""
+        self._patient_id, self._pseudonym = patient_id, pseudonym
+        self._round += 1
+        number = self._round
+        lines = self._shelf.lines(patient_id)
+        self.title.setText(self.tr("Sessions of {name}").format(name=pseudonym))
+        self.list.rows.show_lines(lines)
+        self.none.setVisible(not lines)
+        self.list.setVisible(bool(lines))
+        row = max(0, self.list.rows.find(choose))
+        if lines:
+            self.list.setCurrentIndex(self.list.rows.index(row))
+        self._show_chosen()
+        for line in lines:
+            self._background.run(
+                lambda line=line: self._shelf.with_figures(line),  # type: ignore[misc]
+                lambda known: self._take_figures(number, known),
+                lambda _: None,
+                self,
+            )
+
+    def _take_figures(self, number: int, line: SessionLine) -> None:
+        if number == self._round:
+            self.list.rows.show_line(line)
+            self._show_chosen()
+
+    def chosen(self) -> SessionLine | None:
+        """The session that the card is about."""
+        index: QModelIndex = self.list.currentIndex()
+        return self.list.rows.lines[index.row()] if index.isValid() else None
+
+    def first(self) -> QWidget:
+        """What takes the keyboard."""
+        return self.list if self.list.rows.lines else self
+
+    def _show_chosen(self) -> None:
+        line = self.chosen()
+        self._right.setVisible(line is not None)
+        if line is None:
+            return
+        self.what.setText(terms.exercise_name(line.exercise))
+        self.figure.setText(line.figure or ("–" if line.damaged else self.tr("Reading…")))
+        facts = (
+            f"{numbers.short_date(line.when)} {line.when:%H:%M}", terms.hand_name(line.side),
+            numbers.clock(line.duration_s), line.counted_words, line.corrected.rstrip("."),
+        )  # fmt: skip
+        self.facts.setText(" · ".join(fact for fact in facts if fact))
+        self.remark.setText(" ".join(part for part in (remark(line), line.warning) if part))
+        self.remark.setVisible(bool(self.remark.text()))
+        back = self.tr("&Take back: let it count")
+        self.aside_button.set_face(back if line.set_aside else self.tr("&Set aside…"))
+        practice = self._patient_id == PRACTICE_PATIENT
+        self.move_button.setVisible(not practice)
+        for button in (
+            self.open_button, self.compare_button, self.reference_button, self.aside_button, self.rename_button,
+        ):  # fmt: skip
+            button.setEnabled(not line.damaged)
+
+    # --- what is done -------------------------------------------------------------------------------------
+    def open_chosen(self) -> None:
+        """Review the chosen session."""
+        if self.open_button.isEnabled():
+            self._emit_chosen(self.opened)
+
+    def _emit_chosen(self, signal) -> None:  # type: ignore[no-untyped-def]
+        line = self.chosen()
+        if line is not None:
+            signal.emit(line.session_id)
+
+    def _set_aside_or_back(self) -> None:
+        line = self.chosen()
+        if line is not None and line.set_aside:
+            self._set_aside("")
+        elif line is not None:
+            self.aside_sheet.begin()
+
+    def _set_aside(self, reason: str) -> None:
+        self._do(lambda line: self._shelf.set_aside(line.session_id, reason))
+
+    def _ask_move(self) -> None:
+        words = self.tr("It then counts in the other patient’s progress, and no more in that of {name}.")
+        self.move_sheet.begin(
+            self.tr("To whom does this session belong?"),
+            words.format(name=self._pseudonym),
+            self.tr("Move it there"),
+            [one for one in self._shelf.other_patients(self._patient_id) if one[0] != self._patient_id],
+        )
+
+    def _ask_rename(self) -> None:
+        line = self.chosen()
+        if line is None:
+            return
+        protocol = exercise_named(line.exercise).protocol
+        others = [one.id for one in EXERCISES if one.protocol is protocol and one.id != line.exercise]
+        self.rename_sheet.begin(
+            self.tr("Which exercise was it?"),
+            self.tr("Repetitions and figures are worked out anew. The recording itself is not changed."),
+            self.tr("It was this one"),
+            [(one, terms.exercise_name(one)) for one in others],
+        )
+
+    def _ask_erase(self) -> None:
+        line = self.chosen()
+        if line is not None:
+            self.erase_wanted.emit(line.session_id)
+
+    def _do(self, action) -> None:  # type: ignore[no-untyped-def]
+        line = self.chosen()
+        if line is None:
+            return
+
+        def done(_: object) -> None:
+            self.changed.emit()
+            self.begin(self._patient_id, self._pseudonym, line.session_id)
+            self.first().setFocus(Qt.FocusReason.OtherFocusReason)
+
+        self._background.run(lambda: action(line), done, self.told.emit, self)
+
+    def keyPressEvent(self, event: QKeyEvent) -> None:
+        if event.key() in (Qt.Key.Key_Return, Qt.Key.Key_Enter):
+            self.open_chosen()
+        elif event.key() == Qt.Key.Key_Delete:
+            self._ask_erase()
+        else:
+            super().keyPressEvent(event)

@@ -1,0 +1,103 @@
+"""What is asked before a session is set aside, moved, renamed or deleted."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from PySide6.QtCore import Signal
+from PySide6.QtWidgets import QComboBox, QHBoxLayout, QLineEdit, QWidget
+
+from carpus.ui.controls.button import Button
+from carpus.ui.controls.sheet import Sheet
+from carpus.ui.controls.text import SEMIBOLD, Text
+from carpus.ui.theme import Theme
+
+
+class _Asking(Sheet):
+    """A title, a sentence of what follows, then the answer."""
+
+    def __init__(self, host: QWidget, theme: Theme) -> None:
+        super().__init__(host, theme, 600)
+        self.title = Text(theme, "", 20, SEMIBOLD, wrap=True)
+        self.words = Text(theme, "", 14, token="text2", wrap=True)
+        self.card.body.setSpacing(12)
+        self.card.body.addWidget(self.title)
+        self.card.body.addWidget(self.words)
+
+    def _buttons(self, *buttons: Button) -> None:
+        row = QHBoxLayout()
+        row.addStretch(1)
+        for button in buttons:
+            row.addWidget(button)
+        self.card.body.addLayout(row)
+
+
+class SetAsideSheet(_Asking):
+    """Emits ``kept`` with the reason."""
+
+    kept = Signal(str)
+
+    def __init__(self, host: QWidget, theme: Theme) -> None:
+        super().__init__(host, theme)
+        self.title.setText(self.tr("Set this session aside?"))
+        self.words.setText(self.tr("It stays in the list and can be opened, but counts nowhere. It can be taken back."))
+        quick = QHBoxLayout()
+        self.buttons: list[Button] = []
+        for reason in (self.tr("wrong exercise"), self.tr("trial"), self.tr("discs lost"), self.tr("pain")):
+            button = Button(theme, reason, "plain", height_px=40)
+            button.clicked.connect(lambda _=False, reason=reason: self._keep(reason))
+            quick.addWidget(button)
+            self.buttons.append(button)
+        quick.addStretch(1)
+        self.card.body.addLayout(quick)
+        self.line = QLineEdit()
+        self.line.setPlaceholderText(self.tr("Another reason"))
+        self.line.setAccessibleName(self.tr("Another reason"))
+        self.line.returnPressed.connect(lambda: self._keep(self.line.text().strip()))
+        self.card.body.addWidget(self.line)
+        close = Button(theme, self.tr("Let it count"), "plain", hint=self.tr("Esc"))
+        close.clicked.connect(self.close_sheet)
+        self._buttons(close)
+
+    def begin(self) -> None:
+        """Ask for the reason."""
+        self.line.clear()
+        self.open(self.buttons[0])
+
+    def _keep(self, reason: str) -> None:
+        if reason:
+            self.close_sheet()
+            self.kept.emit(reason)
+
+
+class ChooseSheet(_Asking):
+    """A list to choose one from; emits ``chosen`` with its key. Used for the right patient and the exercise."""
+
+    chosen = Signal(str)
+
+    def __init__(self, host: QWidget, theme: Theme) -> None:
+        super().__init__(host, theme)
+        self.box = QComboBox()
+        self.box.setAccessibleName(self.tr("Choice"))
+        self.card.body.addWidget(self.box)
+        self.take = Button(theme, "", "primary", height_px=44)
+        self.take.clicked.connect(self._take)
+        close = Button(theme, self.tr("Leave it as it is"), "plain", hint=self.tr("Esc"))
+        close.clicked.connect(self.close_sheet)
+        self._buttons(close, self.take)
+
+    def begin(self, title: str, words: str, take: str, choices: Sequence[tuple[str, str]]) -> None:
+        """Ask for one of the (key, text); ``take`` is what the button says."""
+        self.title.setText(title)
+        self.words.setText(words)
+        self.take.set_face(take)
+        self.box.clear()
+        for key, text in choices:
+            self.box.addItem(text, key)
+        self.take.setEnabled(bool(choices))
+        self.open(self.box)
+
+    def _take(self) -> None:
+        key = self.box.currentData()
+        self.close_sheet()
+        self.chosen.emit(str(key))

@@ -1,0 +1,116 @@
+"""The error limits as a card of the settings: each angle's, and whose they are."""
+
+from __future__ import annotations
+
+import math
+from datetime import date
+
+from PySide6.QtWidgets import QGridLayout
+
+from carpus.core.hand.protocols import WRIST_ANGLES
+from carpus.core.measures.change import ARC_LIMIT_FACTOR, TOTAL_ACTIVE_MOTION, change_limit_rad
+from carpus.core.measures.error_limits import DEFAULT_LIMITS, FEWEST_PEOPLE, ErrorLimits, RetestStudy
+from carpus.ui import numbers, terms
+from carpus.ui.controls.card import Card
+from carpus.ui.controls.text import MEDIUM, REGULAR, SEMIBOLD, Text
+from carpus.ui.figures import figure_of
+from carpus.ui.theme import Theme
+from carpus.ui.translate import tr
+from carpus.ui.verdicts import limit_words
+
+
+def limits_card(theme: Theme, measured: ErrorLimits = DEFAULT_LIMITS) -> Card:
+    """Limits of single angles and of their arcs, in two columns; below what the clinic ``measured`` itself."""
+    card = Card(theme, 24)
+    card.body.addWidget(Text(theme, tr("What counts as a change"), 20, SEMIBOLD))
+    card.body.addWidget(Text(theme, limit_words(), 14, REGULAR, "text2", wrap=True))
+    grid = QGridLayout()
+    grid.setHorizontalSpacing(24)
+    grid.setVerticalSpacing(6)
+    lines = limit_lines()
+    half = (len(lines) + 1) // 2
+    for place, (name, limit) in enumerate(lines):
+        column = 2 * (place // half)
+        grid.addWidget(Text(theme, name, 14, wrap=True), place % half, column)
+        grid.addWidget(Text(theme, limit, 14, MEDIUM), place % half, column + 1)
+    grid.setColumnStretch(0, 1)
+    grid.setColumnStretch(2, 1)
+    card.body.addLayout(grid)
+    for study in measured.studies:
+        card.body.addSpacing(8)
+        card.body.addWidget(Text(theme, study_title(study), 16, SEMIBOLD))
+        card.body.addWidget(Text(theme, study_words(study), 14, REGULAR, "text2", wrap=True))
+        table = QGridLayout()
+        table.setHorizontalSpacing(24)
+        table.setVerticalSpacing(6)
+        for place, cells in enumerate(study_lines(study)):
+            for column, cell in enumerate(cells):
+                table.addWidget(Text(theme, cell, 14, MEDIUM if column == len(cells) - 1 else REGULAR), place, column)
+        table.setColumnStretch(0, 1)
+        card.body.addLayout(table)
+    return card
+
+
+def study_title(study: RetestStudy) -> str:
+    """``Measured by this clinic: Wrist flexion/extension``."""
+    return tr("Measured by this clinic: {exercise}").format(exercise=terms.exercise_name(study.exercise))
+
+
+def study_words(study: RetestStudy) -> str:
+    """When and with how many, and whether it is in force."""
+    said = tr("On {date} with {count} people in {sessions} sessions; 95 % intervals in brackets.").format(
+        date=numbers.day_of_year(date.fromisoformat(study.made)), count=study.people, sessions=study.sessions
+    )
+    if study.in_force:
+        return said + " " + tr("In force in progress and reports, in place of the limits above.")
+    return said + " " + tr("Not in force: {count} people are the least.").format(count=FEWEST_PEOPLE)
+
+
+def study_lines(study: RetestStudy) -> list[tuple[str, str, str]]:
+    """Name, SEM, and smallest real change with its interval, of each figure."""
+    out = []
+    for limit in study.limits:
+        arc = limit.movement == "arc"
+        name = terms.movement_name(limit.movement) if limit.of in WRIST_ANGLES else ""
+        if limit.of in WRIST_ANGLES and arc:
+            name = terms.arc_name(WRIST_ANGLES.index(limit.of))
+        elif limit.of not in WRIST_ANGLES:
+            name = figure_of(limit.of).long_name + ("" if arc else f", {terms.movement_name(limit.movement).lower()}")
+        low, high = limit.mdc95_interval_deg
+        sem = tr("SEM {size}").format(size=_tenths(limit.sem_deg))
+        change = f"{numbers.degrees(limit.limit_deg)} ({_tenths(low)} – {_tenths(high)})"
+        few = (
+            ""
+            if limit.people >= FEWEST_PEOPLE
+            else " · " + tr("{count} people, not in force").format(count=limit.people)
+        )
+        out.append((name, sem, change + few))
+    return out
+
+
+def _tenths(size_deg: float) -> str:
+    return f"{size_deg:.1f}°" if math.isfinite(size_deg) else numbers.UNKNOWN
+
+
+def limit_lines() -> list[tuple[str, str]]:
+    """Name of each kind of angle and its limit; of the wrist the whole arc beside one end."""
+    named = (
+        (tr("Flexion, extension"), tr("Flexion and extension, whole arc"), "flexion"),
+        (tr("Radial, ulnar deviation"), tr("Deviation, whole arc"), "deviation"),
+        (tr("Supination, pronation"), tr("Supination and pronation, whole arc"), "pronosupination"),
+    )
+    out = []
+    for end, arc, angle in named:
+        limit_deg = math.degrees(change_limit_rad(angle))
+        out += [(end, numbers.degrees(limit_deg)), (arc, numbers.degrees(ARC_LIMIT_FACTOR * limit_deg))]
+    joints = (
+        (tr("Range of a finger’s knuckle, middle or end joint"), "PIP3_flexion"),
+        (tr("Range of a finger’s spreading"), "MCP2_abduction"),
+        (tr("Range of the thumb’s joints"), "CMC1_abduction"),
+    )
+    for name, joint in joints:
+        out.append((name, numbers.degrees(ARC_LIMIT_FACTOR * math.degrees(change_limit_rad(joint)))))
+    return [
+        *out,
+        (tr("Total active motion (TAM)"), numbers.degrees(math.degrees(change_limit_rad(TOTAL_ACTIVE_MOTION)))),
+    ]

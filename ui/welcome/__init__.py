@@ -1,0 +1,1 @@
+"""What the very first start says."""

@@ -1,0 +1,185 @@
+"""The first start: is this computer ready, where will the data lie, and how a first session goes."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Literal
+
+from PySide6.QtCore import QRectF, QSize, Qt, Signal
+from PySide6.QtGui import QPainter, QPaintEvent
+from PySide6.QtWidgets import QHBoxLayout, QVBoxLayout, QWidget
+
+from carpus.ui.controls.button import Button
+from carpus.ui.controls.card import Card, Line
+from carpus.ui.controls.column import scrolled
+from carpus.ui.controls.text import MEDIUM, REGULAR, SEMIBOLD, Text, paint_status
+from carpus.ui.icons import State
+from carpus.ui.theme import Theme
+
+CheckState = Literal["good", "warning", "bad"]
+_ICONS: dict[CheckState, State] = {"good": "good", "warning": "warn", "bad": "bad"}
+
+
+@dataclass(frozen=True, slots=True)
+class Check:
+    """One need of the program: how it stands, and what to do where it does not stand well."""
+
+    name: str
+    state: CheckState
+    found: str
+    remedy: str = ""
+
+
+class WelcomePanel(Card):
+    """``tour`` asks to be led through a first session, ``later`` for none of this any more, ``again`` for another look
+    at the computer, ``folder`` for another place of the data, ``close_wanted`` for the end of the program."""
+
+    tour = Signal()
+    later = Signal()
+    again = Signal()
+    folder = Signal()
+    close_wanted = Signal()
+
+    def __init__(self, theme: Theme) -> None:
+        super().__init__(theme, 0)
+        self._theme = theme
+        self.checks: list[CheckRow] = []
+        self.state = Text(theme, "", 14, MEDIUM, wrap=True)
+        self.where = Text(theme, "", 14, MEDIUM, wrap=True)
+        self.counts = Text(theme, "", 14, MEDIUM, "warn", wrap=True)
+        self.folder_button = Button(theme, self.tr("Another &folder…"), height_px=36)
+        self.close_button = Button(theme, self.tr("Close Carpus"), height_px=36)
+        self.again_button = Button(theme, self.tr("&Look again"), "quiet", icon="rotate-ccw", height_px=36)
+        self.tour_button = Button(theme, self.tr("&Guide me through a first session"), icon="arrow-right")
+        self.later_button = Button(theme, self.tr("Not now"), "quiet", hint=self.tr("Esc"))
+        self._rows = QVBoxLayout()
+        self._rows.setSpacing(6)
+        self._lay_out()
+        for button, signal in (
+            (self.tour_button, self.tour), (self.later_button, self.later), (self.again_button, self.again),
+            (self.folder_button, self.folder), (self.close_button, self.close_wanted),
+        ):  # fmt: skip
+            button.setFocusPolicy(Qt.FocusPolicy.TabFocus)  # a click leaves the keyboard with the search
+            button.clicked.connect(signal)
+        self.show_looking()
+        self.show_folder("", counts_later=False)
+
+    def _lay_out(self) -> None:
+        theme = self._theme
+        text = QVBoxLayout()
+        text.setSpacing(8)
+        text.addWidget(Text(theme, self.tr("Welcome to Carpus"), 20, SEMIBOLD))
+        head = QHBoxLayout()
+        head.addWidget(self.state, 1)
+        head.addWidget(self.again_button)
+        text.addLayout(head)
+        text.addLayout(self._rows)
+        text.addSpacing(4)
+        text.addWidget(Line(theme))
+        text.addSpacing(4)
+        note = self.tr("Patients and sessions will lie here; nothing leaves this computer.")
+        text.addWidget(Text(theme, note, 14, REGULAR, "text2", wrap=True))
+        place = QHBoxLayout()
+        place.setSpacing(12)
+        place.addWidget(self.where, 1)
+        place.addWidget(self.folder_button)
+        text.addLayout(place)
+        later = QHBoxLayout()
+        later.setSpacing(12)
+        later.addWidget(self.counts, 1)
+        later.addWidget(self.close_button)
+        text.addLayout(later)
+        text.addStretch(1)
+        foot = QHBoxLayout()
+        foot.setContentsMargins(20, 10, 20, 12)
+        foot.setSpacing(8)
+        foot.addWidget(self.tour_button)
+        foot.addStretch(1)
+        foot.addWidget(self.later_button)
+        self.body.setSpacing(0)
+        self.body.setContentsMargins(1, 1, 1, 1)
+        area = scrolled(text)
+        text.setContentsMargins(20, 14, 20, 8)
+        self.body.addWidget(area, 1)
+        self.body.addWidget(Line(theme))
+        self.body.addLayout(foot)
+
+    def show_looking(self) -> None:
+        """The computer is being looked at."""
+        self.state.setText(self.tr("This computer is being looked at …"))
+        self.again_button.setEnabled(False)
+
+    def show_checks(self, checks: Sequence[Check]) -> None:
+        """What was found; what needs something stands first."""
+        for old in self.checks:
+            self._rows.removeWidget(old)
+            old.hide()
+            old.deleteLater()
+        order = {"bad": 0, "warning": 1, "good": 2}
+        self.checks = [CheckRow(self._theme, check) for check in sorted(checks, key=lambda check: order[check.state])]
+        for row in self.checks:
+            self._rows.addWidget(row)
+        wanting = sum(check.state != "good" for check in checks)
+        if not wanting:
+            words = self.tr("This computer has everything that Carpus needs.")
+        elif wanting == 1:
+            words = self.tr("One thing is to be done; the practice patient needs none of it.")
+        else:
+            words = self.tr("{count} things are to be done; the practice patient needs none of them.")
+        self.state.setText(words.format(count=wanting))
+        self.again_button.setEnabled(True)
+
+    def show_folder(self, folder: str, *, counts_later: bool) -> None:
+        """Where the data lie, or will from the next start on."""
+        self.where.setText(folder)
+        self.counts.setText(
+            self.tr("From the next start on: close Carpus and open it again before you measure.")
+            if counts_later
+            else ""
+        )
+        self.counts.setVisible(counts_later)
+        self.close_button.setVisible(counts_later)
+
+
+class CheckRow(QWidget):
+    """State, name, what was found, and below what to do."""
+
+    def __init__(self, theme: Theme, check: Check) -> None:
+        super().__init__()
+        self.check = check
+        words = QVBoxLayout()
+        words.setSpacing(0)
+        words.addWidget(Text(theme, f"{check.name}: {check.found}", 14, REGULAR, wrap=True))
+        if check.remedy:
+            words.addWidget(Text(theme, check.remedy, 14, MEDIUM, wrap=True))
+        row = QHBoxLayout(self)
+        row.setContentsMargins(0, 0, 0, 0)
+        row.setSpacing(10)
+        row.addWidget(_StateIcon(theme, _ICONS[check.state]), 0, Qt.AlignmentFlag.AlignTop)
+        row.addLayout(words, 1)
+        states = {"good": self.tr("good"), "warning": self.tr("to be looked at"), "bad": self.tr("missing")}
+        self.setAccessibleName(f"{check.name}, {states[check.state]}: {check.found}. {check.remedy}")
+
+
+class _StateIcon(QWidget):
+    def __init__(self, theme: Theme, state: State) -> None:
+        super().__init__()
+        self._theme, self._state = theme, state
+        theme.changed.connect(self._take_theme)
+
+    def _take_theme(self) -> None:
+        self.updateGeometry()
+        self.update()
+
+    def sizeHint(self) -> QSize:
+        return QSize(self._theme.px(18), self._theme.px(20))
+
+    def minimumSizeHint(self) -> QSize:
+        return self.sizeHint()
+
+    def paintEvent(self, event: QPaintEvent) -> None:
+        size = self._theme.px(16)
+        painter = QPainter(self)
+        painter.setRenderHint(QPainter.RenderHint.Antialiasing)
+        paint_status(painter, self._theme, self._state, QRectF(1, (self.height() - size) / 2, size, size))
