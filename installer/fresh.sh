@@ -20,12 +20,7 @@ roots=$(mktemp -d "${TMPDIR:-/var/tmp}/fresh-roots.XXXXXX")
 trap 'rm -rf "$roots"' EXIT
 mkdir -p "$logs"
 
-# The host's mirror where the host is a Debian; otherwise mmdebstrap knows the usual one.
-mirror=$(apt-get indextargets --format '$(SITE)' 'Created-By: Packages' 'Origin: Debian' 2>/dev/null \
-    | grep -v security | head -n 1 || true)
-apt_config=$roots/apt.conf
-{ apt-config dump Acquire 2>/dev/null || true; } \
-    | grep -E '^Acquire::((http|https)(::[^ ]*)? "[^"]|Check-(Valid-Until|Date) )' >"$apt_config" || true
+. installer/where_from.sh  # mirror, apt_config
 
 # --- how pip reaches its packages -----------------------------------------------------------------
 # Files, folders and variables of this machine's pip become one /etc/pip.conf inside; what it names goes along.

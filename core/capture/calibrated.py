@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import replace
 from datetime import UTC, datetime
-from itertools import chain
+from itertools import chain, count
 from pathlib import Path
 
 import numpy as np
@@ -100,10 +100,10 @@ def calibration_files(data_folder: Path, serial: str) -> list[Path]:
 
 def new_calibration_path(data_folder: Path, serial: str, when: datetime) -> Path:
     """Where a calibration made at a time is stored: a free name; the names sort by time."""
-    first = data_folder / CAMERAS / f"{file_stem(serial)}_{when.astimezone(UTC):%Y-%m-%d_%H%M%S}"
-    further = (first.with_name(f"{first.name}_{count:03d}") for count in range(2, 1000))  # in the same second
-    names = (stem.with_name(stem.name + SUFFIX) for stem in chain((first,), further))
-    return next((path for path in names if not path.exists()), first.with_name(first.name + SUFFIX))
+    first = data_folder / CAMERAS / f"{file_stem(serial)}_{when.astimezone(UTC):%Y-%m-%d_%H%M%S}{SUFFIX}"
+    stem = first.name.removesuffix(SUFFIX)
+    further = (first.with_name(f"{stem}_{number:03d}{SUFFIX}") for number in count(2))  # in the same second
+    return next(path for path in chain((first,), further) if not path.exists())
 
 
 def age_days(moment: str, now: datetime) -> float:

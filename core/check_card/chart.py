@@ -14,7 +14,14 @@ from typing import Literal
 import numpy as np
 
 from carpus.core.cameras_folder import CAMERAS, file_stem
-from carpus.core.check_card.reading import MOST_ANGLE_DEG, MOST_LENGTH_MM, MOST_SCALE, CardReading
+from carpus.core.check_card.reading import (
+    MOST_ANGLE_DEG,
+    MOST_LENGTH_MM,
+    MOST_SCALE,
+    CardReading,
+    within_angles,
+    within_lengths,
+)
 from carpus.core.dates import is_moment
 from carpus.core.errors import OutputNotWritable
 from carpus.core.private import private
@@ -54,12 +61,12 @@ class Check:
     @property
     def angles_hold(self) -> bool:
         """Whether angles are within the fixed limit."""
-        return self.angle_error_deg <= MOST_ANGLE_DEG
+        return within_angles(self.angle_error_deg)
 
     @property
     def lengths_hold(self) -> bool:
         """Whether lengths are."""
-        return self.length_error_mm <= MOST_LENGTH_MM and abs(self.scale - 1.0) <= MOST_SCALE
+        return within_lengths(self.length_error_mm, self.scale)
 
 
 @dataclass(frozen=True, slots=True)

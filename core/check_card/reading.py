@@ -44,9 +44,19 @@ class CardReading:
     @property
     def angles_hold(self) -> bool:
         """Whether angles are within their limit."""
-        return self.angle_error_deg <= MOST_ANGLE_DEG
+        return within_angles(self.angle_error_deg)
 
     @property
     def lengths_hold(self) -> bool:
         """Whether lengths are, each and all together."""
-        return self.length_error_mm <= MOST_LENGTH_MM and abs(self.scale - 1.0) <= MOST_SCALE
+        return within_lengths(self.length_error_mm, self.scale)
+
+
+def within_angles(error_deg: float) -> bool:
+    """Whether the largest error of an angle is within its fixed limit."""
+    return error_deg <= MOST_ANGLE_DEG
+
+
+def within_lengths(error_mm: float, scale: float) -> bool:
+    """Whether the largest error of a length, and that of all lengths together, are within theirs."""
+    return error_mm <= MOST_LENGTH_MM and abs(scale - 1.0) <= MOST_SCALE

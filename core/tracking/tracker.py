@@ -375,8 +375,9 @@ class Tracker:
             ahead, blobs, self.settings.holding.least_discs + 1, self._resolution_px2, self._noise_factor, self.settings
         )
         belief, bank = recentred(ahead.nominal, named.bank)
-        corrected_belief, bank = self._levelled(picture, belief, bank)
-        levelled, belief = corrected_belief is not belief, corrected_belief
+        by_surface = self._levelled(picture, belief, bank)
+        levelled = by_surface is not None
+        belief, bank = by_surface or (belief, bank)
         spare = np.ones(len(blobs), dtype=bool)
         is_named = named.taken >= 0
         spare[named.taken[is_named]] = False
@@ -391,17 +392,17 @@ class Tracker:
         is_finger[fingers.blob[fingers.blob >= 0]] = True
         return _Step(named, belief, bank, palm_seen, fingers, spare & ~is_finger, is_finger, levelled)
 
-    def _levelled(self, picture: _Picture, belief: PalmBelief, bank: Bank) -> tuple[PalmBelief, Bank]:
-        """The palm corrected by the surface of the back of the hand, where that is seen."""
+    def _levelled(self, picture: _Picture, belief: PalmBelief, bank: Bank) -> tuple[PalmBelief, Bank] | None:
+        """The palm corrected by the surface of the back of the hand; None where that says nothing."""
         if self._surface is None or picture.ideal.surface is None:
-            return belief, bank
+            return None
         found = surface_measurement(belief, picture.ideal.surface, self._surface, self.view, self.settings.surface)
         if found is None:
-            return belief, bank
+            return None
         # Its noise has no scale of its own: the covariance is that of the line.
         update = corrected(bank, found.line(), found.value[None], _NO_NOISE, shares=self._shares)
         if float(update.nis[0]) > self.settings.surface.most_nis:
-            return belief, bank
+            return None
         return recentred(belief, update.bank)
 
     def _with_fingers(self, palm: Expectation, ahead: Forecast, timestamp_s: float, fingers: Fingers) -> Expectation:

@@ -21,12 +21,7 @@ roots=$(mktemp -d "${TMPDIR:-/var/tmp}/package-roots.XXXXXX")
 trap 'rm -rf "$roots"' EXIT
 mkdir -p "$out"
 
-# The host's mirror where the host is a Debian; otherwise mmdebstrap knows the usual one.
-mirror=$(apt-get indextargets --format '$(SITE)' 'Created-By: Packages' 'Origin: Debian' 2>/dev/null \
-    | grep -v security | head -n 1 || true)
-apt_config=$roots/apt.conf
-{ apt-config dump Acquire 2>/dev/null || true; } \
-    | grep -E '^Acquire::((http|https)(::[^ ]*)? "[^"]|Check-(Valid-Until|Date) )' >"$apt_config" || true
+. installer/where_from.sh  # mirror, apt_config
 
 ubuntu_keyring=${UBUNTU_KEYRING:-/usr/share/keyrings/ubuntu-archive-keyring.gpg}
 from_where() {  # one word or line a line: options and sources of mmdebstrap for a suite

@@ -20,7 +20,7 @@ from carpus.core.pipeline.recorder import Patience, Recorder
 from carpus.core.session.reader import read_session
 from carpus.core.session.recovery import recover_folder
 from carpus.core.session.writer import Fallback, SessionWriter
-from carpus.core.types import Frame
+from carpus.core.types import Frame, TrackedFrame
 from tests.pipeline.live_fakes import HeldSource, frame, tracked, wait_until
 from tests.session.samples import CAMERA, make_calibration, make_header
 
@@ -65,6 +65,23 @@ def share(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Share]:
 def fallback_folder(tmp_path: Path) -> Path:
     (tmp_path / "here").mkdir(exist_ok=True)
     return tmp_path / "here"
+
+
+def recorder_on(
+    path: Path, told: list[Exception], here: Path, *waits_s: float
+) -> Recorder[SessionWriter, TrackedFrame]:
+    """Writes a session to ``path``, as patient as ``waits_s`` say; ``here`` has the computer's own fallback."""
+    fallback = Fallback(lambda: fallback_folder(here), told.append)
+    recorder = Recorder(
+        "writing",
+        lambda: SessionWriter.create(path, make_header(), CAMERA, make_calibration(), fallback=fallback),
+        lambda sink, row: (sink.append(row), sink.flush()),
+        900,
+        told.append,
+        patience=Patience(told.append, lambda sink, _: sink.go_on_elsewhere(), *waits_s),
+    )
+    recorder.start()
+    return recorder
 
 
 def test_the_recording_goes_on_elsewhere_without_a_gap(tmp_path: Path, share: Share) -> None:
@@ -120,17 +137,8 @@ def test_the_recording_goes_on_elsewhere_without_a_gap(tmp_path: Path, share: Sh
 
 def test_a_disk_that_is_only_slow_keeps_its_recording(tmp_path: Path, share: Share) -> None:
     told: list[Exception] = []
-    fallback = Fallback(lambda: fallback_folder(tmp_path), told.append)
     path = tmp_path / "share" / "s.h5"
-    recorder = Recorder(
-        "writing",
-        lambda: SessionWriter.create(path, make_header(), CAMERA, make_calibration(), fallback=fallback),
-        lambda sink, row: (sink.append(row), sink.flush()),
-        900,
-        told.append,
-        patience=Patience(told.append, lambda sink, _: sink.go_on_elsewhere(), 0.2, 60.0),
-    )
-    recorder.start()
+    recorder = recorder_on(path, told, tmp_path, 0.2, 60.0)
     share.stall()
     recorder.put(tracked(frame(0)))
     wait_until(lambda: share.stuck == 1)
@@ -147,17 +155,8 @@ def test_a_disk_that_is_only_slow_keeps_its_recording(tmp_path: Path, share: Sha
 
 def test_an_end_that_hangs_is_told_and_finished_when_the_disk_answers(tmp_path: Path, share: Share) -> None:
     told: list[Exception] = []
-    fallback = Fallback(lambda: fallback_folder(tmp_path), told.append)
     path = tmp_path / "share" / "s.h5"
-    recorder = Recorder(
-        "writing",
-        lambda: SessionWriter.create(path, make_header(), CAMERA, make_calibration(), fallback=fallback),
-        lambda sink, row: (sink.append(row), sink.flush()),
-        900,
-        told.append,
-        patience=Patience(told.append, lambda sink, _: sink.go_on_elsewhere(), 0.1, 0.3, 0.0),
-    )
-    recorder.start()
+    recorder = recorder_on(path, told, tmp_path, 0.1, 0.3, 0.0)
     for row in range(5):
         recorder.put(tracked(frame(row)))
     wait_until(lambda: recorder.written == 5)

@@ -151,18 +151,10 @@ class RetestScreen(QWidget):
         body.addWidget(Text(theme, self.tr("People"), 16, SEMIBOLD))
         words = self.tr("all discs taken off and put on anew before each time, within 14 days")
         body.addWidget(caption(theme, words, wrap=True))
-        table = QWidget()
-        grid = QGridLayout(table)
-        grid.setContentsMargins(0, 0, 0, 0)
-        grid.setHorizontalSpacing(12)
-        grid.setVerticalSpacing(6)
         heads = (
             self.tr("Person"), self.tr("First time"), self.tr("Second time"), self.tr("Apart"), self.tr("State"),
         )  # fmt: skip
-        for column, head in enumerate(heads):
-            grid.addWidget(caption(theme, head), 0, column, 1, 2 if column == 4 else 1)
-        for column, stretch in enumerate((18, 25, 25, 7, 0, 26)):
-            grid.setColumnStretch(column, stretch)
+        table, grid = self._table(heads, (18, 25, 25, 7, 0, 26))
         for number, person in enumerate(self.plan.people):
             row = 2 * number + 1
             grid.addWidget(Line(theme), row, 0, 1, 6)
@@ -179,6 +171,21 @@ class RetestScreen(QWidget):
         body.addWidget(table)
         table.setVisible(bool(self.plan.people))
 
+    def _table(self, heads: Sequence[str], stretches: Sequence[int]) -> tuple[QWidget, QGridLayout]:
+        """An empty table with its heads; the last spans what further columns there are."""
+        table = QWidget()
+        grid = QGridLayout(table)
+        grid.setContentsMargins(0, 0, 0, 0)
+        grid.setHorizontalSpacing(12)
+        grid.setVerticalSpacing(6)
+        last = len(heads) - 1
+        for column, head in enumerate(heads):
+            span = len(stretches) - last if column == last else 1
+            grid.addWidget(caption(self._theme, head, wrap=True), 0, column, 1, span)
+        for column, stretch in enumerate(stretches):
+            grid.setColumnStretch(column, stretch)
+        return table, grid
+
     def _fill_figures(self) -> None:
         body, theme, study = self._figures_card.body, self._theme, self.plan.study
         _clear(self._figures_card)
@@ -194,19 +201,11 @@ class RetestScreen(QWidget):
             words = self.tr("from {people} people, {sessions} sessions, 1 rater")
         said = words.format(people=study.people, sessions=study.sessions, raters=study.raters)
         body.addWidget(caption(theme, said, wrap=True))
-        table = QWidget()
-        grid = QGridLayout(table)
-        grid.setContentsMargins(0, 0, 0, 0)
-        grid.setHorizontalSpacing(12)
-        grid.setVerticalSpacing(6)
         heads = (
             self.tr("Movement"), self.tr("SEM"), self.tr("Real change (MDC95), 95 % interval"), self.tr("Today"),
             self.tr("New limit"),
         )  # fmt: skip
-        for column, head in enumerate(heads):
-            grid.addWidget(caption(theme, head, wrap=True), 0, column)
-        for column, stretch in enumerate((30, 10, 30, 10, 10)):
-            grid.setColumnStretch(column, stretch)
+        table, grid = self._table(heads, (30, 10, 30, 10, 10))
         for number, ((of, movement), found) in enumerate(study.found.items()):
             row = 2 * number + 1
             grid.addWidget(Line(theme), row, 0, 1, len(heads))
