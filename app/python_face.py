@@ -162,15 +162,24 @@ def track(path: str | Path, clicks: str | Path | ProposedClicks, **settings: Any
         names = joint_angle_names(chosen.tracker.dip == "free") if told.protocol.has_fingers else ()
         for frame in from_neutral(chain(opening, frames), walk.tracker, ends_s, lambda each: each.timestamp_s):
             found = walk(frame)
-            deviation, flexion, pronosupination = np.degrees(found.angles_rad).tolist()
-            sd = np.degrees(found.angles_sd_rad).tolist()
+            deviation, flexion, pronosupination = np.degrees(found.moment.angles_rad).tolist()
+            sd = np.degrees(found.moment.angles_sd_rad).tolist()
             yield HandFrame(
                 found.timestamp_s,
                 TrackStatus(found.status).name.lower(),
-                Wrist(deviation, flexion, pronosupination, sd[0], sd[1], sd[2], found.position_m, found.rotation_w2_w0),
+                Wrist(
+                    deviation,
+                    flexion,
+                    pronosupination,
+                    sd[0],
+                    sd[1],
+                    sd[2],
+                    found.moment.position_m,
+                    found.moment.rotation_w2_w0,
+                ),
                 tuple(names),
-                np.degrees(found.joint_angles_rad),
-                np.degrees(found.joint_angles_sd_rad),
+                np.degrees(found.moment.joint_angles_rad),
+                np.degrees(found.moment.joint_angles_sd_rad),
                 told.protocol.markers,
                 found.marker_position_cam_m,
                 np.isfinite(found.marker_measured_px[:, 0]),

@@ -110,7 +110,14 @@ class Detections:
 
 @dataclass(frozen=True, slots=True)
 class Moment:
-    """Wrist and joints at one moment, of the refined palm; fields as in :class:`TrackedFrame`."""
+    """Wrist and joints at one moment; NaN where not known. A field here is a line of the schema's ``MOTION_FIELDS``.
+
+    ``position_m`` and ``velocity_m_s`` (3,) of W2's origin, the WRIST disc, in W0 as calibrated; ``rotation_w2_w0``
+    (3, 3) in W0 as refined by then, which ``w0_turn_rad`` (3,), a rotation vector, turns into W0 as calibrated;
+    ``angular_velocity_rad_s`` (3,) in W2; ``angles_rad`` and ``angles_sd_rad`` (3,) deviation,
+    flexion, pronosupination with clinical signs; ``angles_zyz_rad`` (3,).
+    ``joint_*`` (J,), J = 0 where the protocol has no fingers; ``joint_position_m`` (M, 3) in W0, else (0, 3).
+    """
 
     position_m: FloatArray
     velocity_m_s: FloatArray
@@ -130,12 +137,7 @@ class Moment:
 class TrackedFrame:
     """What Carpus knows about one frame; the row of every dataset of the session file.
 
-    M markers of the protocol, J joint angles (0 for ``wrist6``). Unknown is NaN.
-    ``position_m`` and ``velocity_m_s`` (3,) of W2's origin, the WRIST disc, in W0 as calibrated; ``rotation_w2_w0``
-    (3, 3) in W0 as refined by then, which ``w0_turn_rad`` (3,), a rotation vector, turns into W0 as calibrated;
-    ``angular_velocity_rad_s`` (3,) in W2; ``angles_rad`` and ``angles_sd_rad`` (3,) deviation,
-    flexion, pronosupination with clinical signs; ``angles_zyz_rad`` (3,).
-    ``joint_*`` (J,); ``joint_position_m`` (M, 3) in W0;
+    M markers of the protocol. Unknown is NaN. ``moment`` wrist and joints;
     ``marker_position_cam_m`` (M, 3); ``marker_predicted_px`` (M, 2) before the update, with its
     covariance ``marker_predicted_cov_px2`` (M, 2, 2); ``marker_measured_px`` (M, 2) and
     ``marker_measured_depth_m`` (M,) the blob taken for the marker.
@@ -147,18 +149,7 @@ class TrackedFrame:
     index: int
     timestamp_s: float
     status: TrackStatus
-    position_m: FloatArray
-    velocity_m_s: FloatArray
-    w0_turn_rad: FloatArray
-    rotation_w2_w0: FloatArray
-    angular_velocity_rad_s: FloatArray
-    angles_rad: FloatArray
-    angles_sd_rad: FloatArray
-    angles_zyz_rad: FloatArray
-    joint_angles_rad: FloatArray
-    joint_angles_sd_rad: FloatArray
-    joint_velocity_rad_s: FloatArray
-    joint_position_m: FloatArray
+    moment: Moment
     marker_position_cam_m: FloatArray
     marker_predicted_px: FloatArray
     marker_predicted_cov_px2: FloatArray

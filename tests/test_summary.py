@@ -18,6 +18,7 @@ from carpus.core.session.writer import SessionWriter
 from carpus.core.summary import duration_text, range_lines, recording_summary, session_summary
 from carpus.core.types import TrackStatus
 from tests.capture.test_tum import write_recording
+from tests.moments import with_moment
 from tests.session.samples import CAMERA, make_calibration, make_frame, make_header, time_of
 from tests.ui import fakes
 
@@ -33,7 +34,9 @@ def write(path: Path, close: bool = True) -> Path:
     session = SessionWriter.create(path, make_header(), CAMERA, make_calibration())
     for row in range(6):
         frame = dataclasses.replace(
-            make_frame(row), angles_rad=np.radians(angles_deg[row]), status=status[row], dropped_before=2 * (row == 3)
+            with_moment(make_frame(row), angles_rad=np.radians(angles_deg[row])),
+            status=status[row],
+            dropped_before=2 * (row == 3),
         )
         session.append(frame)
     session.add_event(time_of(1), "note", "x")
@@ -127,12 +130,11 @@ def test_every_joint_of_a_hand_has_the_range_in_which_it_was_seen(tmp_path: Path
     hidden = HAND21.markers.index("DIP4")
     with SessionWriter.create(path, make_header(HAND21), CAMERA, make_calibration(HAND21)) as session:
         for row in range(8):
-            frame = make_frame(row, HAND21)
             measured = np.full((21, 2), 100.0)
             measured[hidden] = np.nan
             angles = np.full(17, 0.0 if row % 2 else 0.5)
-            known = {"status": TrackStatus.TRACKED, "marker_measured_px": measured, "joint_angles_rad": angles}
-            session.append(dataclasses.replace(frame, **known, joint_angles_sd_rad=np.full(17, 0.01)))
+            frame = with_moment(make_frame(row, HAND21), joint_angles_rad=angles, joint_angles_sd_rad=np.full(17, 0.01))
+            session.append(dataclasses.replace(frame, status=TrackStatus.TRACKED, marker_measured_px=measured))
     lines = {line.split()[0]: line for line in session_summary(read_session(path)) if line.startswith("  ")}
     assert "seen 100 %" in lines["PIP3_flexion"]
     assert "arc" in lines["MCP4_flexion"]

@@ -73,9 +73,9 @@ def measured_figures(seen: BoolArray) -> BoolArray:
 
 def figures_of(frames: Sequence[TrackedFrame]) -> tuple[FloatArray, FloatArray, FloatArray, BoolArray, BoolArray]:
     """Times (n,), values and standard deviations (n, F) in degrees, supported (n, F), discs seen (n, M)."""
-    mixed = mix(len(frames[-1].joint_angles_rad))
-    angles = np.array([frame.joint_angles_rad for frame in frames])
-    sds = np.array([frame.joint_angles_sd_rad for frame in frames])
+    mixed = mix(len(frames[-1].moment.joint_angles_rad))
+    angles = np.array([frame.moment.joint_angles_rad for frame in frames])
+    sds = np.array([frame.moment.joint_angles_sd_rad for frame in frames])
     seen = np.isfinite(np.array([frame.marker_measured_px for frame in frames])[..., 0])
     impossible = ~possible_joints(joint_angle_names(angles.shape[1] > 17), angles)
     value = np.degrees(np.where(impossible, 0.0, angles) @ mixed.weight.T)

@@ -9,7 +9,7 @@ import numpy as np
 
 from carpus.core.formats.take import Take
 from carpus.core.session.reader import read_detections
-from carpus.core.session.values import Session
+from carpus.core.session.values import Session, moments_of
 from carpus.core.session.writer import SessionWriter
 from carpus.core.types import TrackedFrame, TrackStatus
 
@@ -35,27 +35,16 @@ def write(take: Take, folder: Path) -> list[Path]:
 
 
 def _frames(session: Session) -> Iterator[TrackedFrame]:
-    motion, markers, quality = session.motion, session.markers, session.quality
+    markers, quality = session.markers, session.quality
     table = read_detections(session.path)
     count = len(session.header.protocol.markers)
     no_pixel, no_cov = np.full((count, 2), np.nan), np.full((count, 2, 2), np.nan)
-    for row in range(len(session)):
+    for row, moment in enumerate(moments_of(session.motion)):
         yield TrackedFrame(
             index=row,
             timestamp_s=float(session.timestamp_s[row]),
             status=TrackStatus(int(session.status[row])),
-            position_m=motion.position_m[row],
-            velocity_m_s=motion.velocity_m_s[row],
-            w0_turn_rad=motion.w0_turn_rad[row],
-            rotation_w2_w0=motion.rotation_w2_w0[row],
-            angular_velocity_rad_s=motion.angular_velocity_rad_s[row],
-            angles_rad=motion.angles_rad[row],
-            angles_sd_rad=motion.angles_sd_rad[row],
-            angles_zyz_rad=motion.angles_zyz_rad[row],
-            joint_angles_rad=motion.joint_angles_rad[row],
-            joint_angles_sd_rad=motion.joint_angles_sd_rad[row],
-            joint_velocity_rad_s=motion.joint_velocity_rad_s[row],
-            joint_position_m=motion.joint_position_m[row],
+            moment=moment,
             marker_position_cam_m=markers.position_cam_m[row],
             marker_predicted_px=no_pixel,
             marker_predicted_cov_px2=no_cov,

@@ -8,7 +8,7 @@ the covariance is none any more, and it is found again as at the start, at the n
 from __future__ import annotations
 
 from collections import deque
-from dataclasses import replace
+from dataclasses import fields, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -24,7 +24,7 @@ from carpus.core.papers.chain import hand_measured
 from carpus.core.papers.euler import body_turn_by_euler, rotation_of
 from carpus.core.papers.motion import EULER, JOINTS, POSITION, VELOCITY, PaperMotion
 from carpus.core.papers.settings import PaperSettings
-from carpus.core.types import Detections, FloatArray, TrackedFrame, TrackStatus
+from carpus.core.types import Detections, FloatArray, Moment, TrackedFrame, TrackStatus
 
 LEAST_PALM_MARKERS = 3
 _SHARE_WINDOW_S = 1.0
@@ -165,18 +165,20 @@ class PaperTracker:
             index=index,
             timestamp_s=timestamp_s,
             status=status,
-            position_m=mean[POSITION],
-            velocity_m_s=mean[VELOCITY],
-            w0_turn_rad=so3.log(self._start.T),
-            rotation_w2_w0=shown,
-            angular_velocity_rad_s=np.full(3, np.nan),  # white in (1): there is none to report
-            angles_rad=angles,
-            angles_sd_rad=np.sqrt(variance),
-            angles_zyz_rad=zyz,
-            joint_angles_rad=joints_rad,
-            joint_angles_sd_rad=np.sqrt(covariance.diagonal()[JOINTS]),
-            joint_velocity_rad_s=unknown,
-            joint_position_m=places if joints_rad.size else np.empty((0, 3)),
+            moment=Moment(
+                position_m=mean[POSITION],
+                velocity_m_s=mean[VELOCITY],
+                w0_turn_rad=so3.log(self._start.T),
+                rotation_w2_w0=shown,
+                angular_velocity_rad_s=np.full(3, np.nan),  # white in (1): there is none to report
+                angles_rad=angles,
+                angles_sd_rad=np.sqrt(variance),
+                angles_zyz_rad=zyz,
+                joint_angles_rad=joints_rad,
+                joint_angles_sd_rad=np.sqrt(covariance.diagonal()[JOINTS]),
+                joint_velocity_rad_s=unknown,
+                joint_position_m=places if joints_rad.size else np.empty((0, 3)),
+            ),
             marker_position_cam_m=self._discs_cam_m(mean[None])[0],
             marker_predicted_px=self._camera.distort(predicted_px),
             marker_predicted_cov_px2=predicted_cov_px2,
@@ -204,7 +206,9 @@ class PaperTracker:
                 dropped_before,
             ),
         )
-        return replace(none, **{name: np.full_like(getattr(none, name), np.nan) for name in _OF_THE_HAND})
+        unknown = (np.full_like(getattr(none.moment, of.name), np.nan) for of in fields(Moment))
+        places = {name: np.full_like(getattr(none, name), np.nan) for name in _OF_THE_HAND}
+        return replace(none, moment=Moment(*unknown), **places)
 
     def _remember(self, timestamp_s: float, taken: NDArray[np.int64]) -> None:
         self._recent.append((timestamp_s, taken))
@@ -221,16 +225,6 @@ class PaperTracker:
 
 _AT_JOINT = np.array([HAND21.markers.index(name.split("_")[0]) for name in joint_angle_names()])
 _OF_THE_HAND = (
-    "position_m",
-    "velocity_m_s",
-    "w0_turn_rad",
-    "rotation_w2_w0",
-    "angles_rad",
-    "angles_sd_rad",
-    "angles_zyz_rad",
-    "joint_angles_rad",
-    "joint_angles_sd_rad",
-    "joint_position_m",
     "marker_position_cam_m",
     "marker_predicted_px",
     "marker_predicted_cov_px2",

@@ -50,10 +50,10 @@ def sample_of(frame: TrackedFrame) -> list[float]:
     share = frame.measured_share[np.isfinite(frame.measured_share)]
     return [
         float(frame.status),
-        *np.degrees(frame.angles_rad).tolist(),
-        *np.degrees(frame.angles_sd_rad).tolist(),
-        *np.degrees(frame.joint_angles_rad).tolist(),
-        *np.degrees(frame.joint_angles_sd_rad).tolist(),
+        *np.degrees(frame.moment.angles_rad).tolist(),
+        *np.degrees(frame.moment.angles_sd_rad).tolist(),
+        *np.degrees(frame.moment.joint_angles_rad).tolist(),
+        *np.degrees(frame.moment.joint_angles_sd_rad).tolist(),
         *frame.marker_position_cam_m.ravel().tolist(),
         float(share.mean()) if len(share) else float("nan"),
         float(frame.nis),

@@ -180,7 +180,9 @@ class _Source:
         self._rows = self._read_rows()
 
     def session(self) -> Session:
-        frames = {field.attribute: self.array(field) for field in schema.FRAME_FIELDS if self._layout.has(field)}
+        frames = {
+            field.attribute: self.array(field) for field in schema.FRAME_FIELDS if field not in schema.MOTION_FIELDS
+        }
         session = Session(
             path=self._path,
             header=self._header,

@@ -174,7 +174,7 @@ MOTION_FIELDS = (
     Field("/joints/position", "joint_position_m", "f8", ("N", "M", 3), "m",
           "joint centres and fingertips in W0", fingers_only=True),
 )
-"""Written from a frame's and, under ``/smoothed``, from the smoother's values."""
+"""Written from a frame's moment and, under ``/smoothed``, from the smoother's."""
 
 FRAME_FIELDS = (
     Field("/frames/timestamp", "timestamp_s", "f8", ("N",), "s",

@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 import math
 import uuid
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, fields
 from datetime import datetime
 from pathlib import Path
@@ -130,31 +130,22 @@ def new_header(
 
 
 @dataclass(frozen=True, slots=True)
-class Motion:
-    """Wrist and joints over N frames, of the filter or of the smoother; fields as in :class:`TrackedFrame`.
-
-    Each array has N rows of the shape given there; ``wrist6`` has no joints: (N, 0) and (N, 0, 3).
-    """
-
-    position_m: FloatArray
-    velocity_m_s: FloatArray
-    w0_turn_rad: FloatArray
-    rotation_w2_w0: FloatArray
-    angular_velocity_rad_s: FloatArray
-    angles_rad: FloatArray
-    angles_sd_rad: FloatArray
-    angles_zyz_rad: FloatArray
-    joint_angles_rad: FloatArray
-    joint_angles_sd_rad: FloatArray
-    joint_velocity_rad_s: FloatArray
-    joint_position_m: FloatArray
+class Motion(Moment):
+    """Moments of N frames, of the filter or of the smoother: every array of a :class:`Moment` with N rows of it."""
 
 
 def motion_of(frames: Sequence[TrackedFrame | Moment]) -> Motion:
     """The frames' wrist and joints, one row each."""
+    moments = [frame.moment if isinstance(frame, TrackedFrame) else frame for frame in frames]
     return Motion(
-        **{field.name: np.array([getattr(frame, field.name) for frame in frames]) for field in fields(Motion)}
+        **{field.name: np.array([getattr(moment, field.name) for moment in moments]) for field in fields(Motion)}
     )
+
+
+def moments_of(motion: Motion) -> Iterator[Moment]:
+    """One moment for every row."""
+    columns = [getattr(motion, field.name) for field in fields(Moment)]
+    return (Moment(*row) for row in zip(*columns, strict=True))
 
 
 @dataclass(frozen=True, slots=True)

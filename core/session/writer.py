@@ -460,7 +460,8 @@ class SessionWriter:
         blocks += self._raw_blocks()
         for field in schema.FRAME_FIELDS:
             if self._layout.has(field):
-                blocks.append((field, self._rows_of(field, [getattr(row, field.attribute) for row in rows], len(rows))))
+                of = [row.moment for row in rows] if field in schema.MOTION_FIELDS else rows
+                blocks.append((field, self._rows_of(field, [getattr(one, field.attribute) for one in of], len(rows))))
         return blocks
 
     def _raw_blocks(self) -> list[Block]:

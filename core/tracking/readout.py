@@ -18,7 +18,7 @@ from carpus.core.hand.wrist_frame import wrist_axes_sensitivity
 from carpus.core.tracking.hand_geometry import NO_CUP, JointMoment, PalmInBody
 from carpus.core.tracking.palm_state import SHAPE, SIZE, SKIN, TURN, PalmBelief
 from carpus.core.tracking.soft_tissue import LOOSE
-from carpus.core.types import BoolArray, Detections, FloatArray, Moment, TrackedFrame, TrackStatus
+from carpus.core.types import Detections, FloatArray, Moment, TrackedFrame, TrackStatus
 
 _NONE = np.empty(0)
 _NOWHERE = np.empty((0, 3))
@@ -126,55 +126,6 @@ def lost_moment(joint_count: int, marker_count: int) -> Moment:
     return Moment(three, three, three, np.full((3, 3), np.nan), *(three,) * 4, *(joints,) * 3, places)
 
 
-def shown_frame(
-    index: int,
-    timestamp_s: float,
-    status: TrackStatus,
-    moment: Moment,
-    *,
-    marker_position_cam_m: FloatArray,
-    predicted_px: FloatArray,
-    predicted_cov_px2: FloatArray,
-    measured_px: FloatArray,
-    measured_depth_m: FloatArray,
-    detections: Detections,
-    dropped_before: int,
-    measured_share: FloatArray,
-    nis: float,
-    nis_dof: int,
-    doubted: BoolArray,
-) -> TrackedFrame:
-    """The whole row of one frame."""
-    return TrackedFrame(
-        index,
-        timestamp_s,
-        status,
-        moment.position_m,
-        moment.velocity_m_s,
-        moment.w0_turn_rad,
-        moment.rotation_w2_w0,
-        moment.angular_velocity_rad_s,
-        moment.angles_rad,
-        moment.angles_sd_rad,
-        moment.angles_zyz_rad,
-        moment.joint_angles_rad,
-        moment.joint_angles_sd_rad,
-        moment.joint_velocity_rad_s,
-        moment.joint_position_m,
-        marker_position_cam_m,
-        predicted_px,
-        predicted_cov_px2,
-        measured_px,
-        measured_depth_m,
-        detections,
-        dropped_before,
-        measured_share,
-        nis,
-        nis_dof,
-        doubted,
-    )
-
-
 def lost_frame(
     index: int,
     timestamp_s: float,
@@ -186,20 +137,19 @@ def lost_frame(
 ) -> TrackedFrame:
     """The row of a frame in which the hand is lost: nothing is known but the blobs."""
     per_marker = np.full((marker_count, 2), np.nan)
-    return shown_frame(
-        index,
-        timestamp_s,
-        TrackStatus.LOST,
-        moment,
+    return TrackedFrame(
+        index=index,
+        timestamp_s=timestamp_s,
+        status=TrackStatus.LOST,
+        moment=moment,
         marker_position_cam_m=np.full((marker_count, 3), np.nan),
-        predicted_px=per_marker,
-        predicted_cov_px2=np.full((marker_count, 2, 2), np.nan),
-        measured_px=per_marker,
-        measured_depth_m=np.full(marker_count, np.nan),
+        marker_predicted_px=per_marker,
+        marker_predicted_cov_px2=np.full((marker_count, 2, 2), np.nan),
+        marker_measured_px=per_marker,
+        marker_measured_depth_m=np.full(marker_count, np.nan),
         detections=detections,
         dropped_before=dropped_before,
         measured_share=measured_share,
         nis=float("nan"),
         nis_dof=0,
-        doubted=np.zeros(marker_count, dtype=np.bool_),
     )

@@ -32,7 +32,7 @@ from carpus.core.tracking.noise_watch import watched
 from carpus.core.tracking.palm_state import POSE, RELIEF, SHAPE, SIZE, SKIN, TURN, InitialSd, PalmBelief, resting_belief
 from carpus.core.tracking.palm_view import Forecast, View, forecast, recentred
 from carpus.core.tracking.reacquire import FoundPalm, Reach, find_palm
-from carpus.core.tracking.readout import Readout, lost_frame, lost_moment, shown_frame
+from carpus.core.tracking.readout import Readout, lost_frame, lost_moment
 from carpus.core.tracking.settings import TrackerSettings
 from carpus.core.tracking.shape_learning import hidden_by_calibration, shape_covariance, shape_shares
 from carpus.core.tracking.smoother import FilterStep, smooth
@@ -468,16 +468,16 @@ class Tracker:
                 angles_sd_rad=moment.angles_sd_rad * doubt.widens,
                 joint_angles_sd_rad=moment.joint_angles_sd_rad * doubt.widens,
             )
-        return shown_frame(
-            index,
-            picture.timestamp_s,
-            status,
-            moment,
+        return TrackedFrame(
+            index=index,
+            timestamp_s=picture.timestamp_s,
+            status=status,
+            moment=moment,
             marker_position_cam_m=discs,
-            predicted_px=self.view.camera.distort(predicted_px),
-            predicted_cov_px2=predicted_cov_px2 + self.settings.noise.pixel_sd_px**2 * _SAME_AXIS,
-            measured_px=measured_px,
-            measured_depth_m=measured_depth_m,
+            marker_predicted_px=self.view.camera.distort(predicted_px),
+            marker_predicted_cov_px2=predicted_cov_px2 + self.settings.noise.pixel_sd_px**2 * _SAME_AXIS,
+            marker_measured_px=measured_px,
+            marker_measured_depth_m=measured_depth_m,
             detections=detections,
             dropped_before=dropped_before,
             measured_share=self._share(),

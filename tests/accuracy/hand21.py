@@ -18,7 +18,7 @@ from carpus.core.hand.kinematics import DIP_PER_PIP
 from carpus.core.hand.protocols import HAND21, joint_angle_names
 from carpus.core.pipeline.track import TrackSettings, from_neutral, learnt_from, learnt_in, track_recording
 from carpus.core.session.reader import read_session
-from carpus.core.session.values import Motion
+from carpus.core.session.values import Motion, motion_of
 from carpus.core.simulation.measurements import MeasurementSequence, measurement_sequence
 from carpus.core.simulation.recording import CLICKS_FILE, cached_recording, truth_in
 from carpus.core.simulation.sensor import depth_scale
@@ -216,12 +216,7 @@ _Series = tuple[FloatArray, FloatArray, FloatArray, FloatArray]
 
 
 def _of_rows(rows: list[TrackedFrame] | list[Moment]) -> _Series:
-    return (
-        np.array([row.joint_angles_rad for row in rows]),
-        np.array([row.joint_angles_sd_rad for row in rows]),
-        np.array([row.angles_rad for row in rows]),
-        np.array([row.angles_sd_rad for row in rows]),
-    )
+    return _of_motion(motion_of(rows))
 
 
 def _of_motion(motion: Motion) -> _Series:

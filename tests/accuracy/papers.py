@@ -126,15 +126,20 @@ def _run(row: str, sequence: MeasurementSequence, palm: PalmModel) -> PaperRun:
     if truth.spec.marker_protocol.has_fingers:
         joints = read(
             with_end_joints(truth.joint_angles_rad),
-            lambda frame: with_end_joints(frame.joint_angles_rad[None])[0],
-            lambda frame: with_end_joints(frame.joint_angles_sd_rad[None])[0],
+            lambda frame: with_end_joints(frame.moment.joint_angles_rad[None])[0],
+            lambda frame: with_end_joints(frame.moment.joint_angles_sd_rad[None])[0],
             seen_joints(present),
         )
     everywhere = np.ones((rows.size, 1), dtype=bool)
     return PaperRun(
         row,
         palm,
-        read(truth.angles_rad, lambda frame: frame.angles_rad, lambda frame: frame.angles_sd_rad, everywhere),
+        read(
+            truth.angles_rad,
+            lambda frame: frame.moment.angles_rad,
+            lambda frame: frame.moment.angles_sd_rad,
+            everywhere,
+        ),
         joints,
         status[kept],
         int(taken.sum()),

@@ -36,6 +36,7 @@ from carpus.core.types import TrackStatus
 from carpus.ui.controls.button import Button
 from carpus.ui.controls.text import Text
 from carpus.ui.settings.screen import SettingsScreen
+from tests.moments import with_moment
 from tests.session.samples import CAMERA, make_calibration, make_frame
 
 FIRST = datetime(2026, 11, 2, 9, 0, tzinfo=UTC)
@@ -103,18 +104,21 @@ def written(folder: Path, person: int, time: int, when: datetime, reach_deg: flo
         for row in range(360):
             angle = math.radians(reach_deg) * math.sin(2.0 * math.pi * row / 90.0)
             turn = so3.exp(np.array([0.0, angle, 0.0]))
+            moved = with_moment(
+                make_frame(row),
+                rotation_w2_w0=turn,
+                position_m=np.zeros(3),
+                w0_turn_rad=np.zeros(3),
+                angles_rad=np.array([0.0, angle, 0.0]),
+                angles_sd_rad=np.radians([0.5, 1.0, 1.0]),
+            )
             writer.append(
                 replace(
-                    make_frame(row),
+                    moved,
                     timestamp_s=row / 30.0,
                     status=TrackStatus.TRACKED,
                     dropped_before=0,
-                    rotation_w2_w0=turn,
-                    position_m=np.zeros(3),
-                    w0_turn_rad=np.zeros(3),
                     marker_measured_px=np.full((6, 2), 300.0),
-                    angles_rad=np.array([0.0, angle, 0.0]),
-                    angles_sd_rad=np.radians([0.5, 1.0, 1.0]),
                 )
             )
     return path

@@ -19,6 +19,7 @@ from carpus.app import python_face
 from carpus.core.session.values import new_header
 from carpus.core.session.writer import SessionWriter
 from carpus.core.types import TrackedFrame, TrackStatus
+from tests.moments import with_moment
 from tests.session.samples import CAMERA, make_calibration, make_frame
 
 ROOT = Path(__file__).parents[2]
@@ -38,12 +39,9 @@ def carpus(*arguments: str | Path) -> subprocess.CompletedProcess[str]:
 def frame(row: int) -> TrackedFrame:
     """Flexion to and fro, 30 degrees to both sides, every four seconds."""
     time_s = row / 30.0
-    return replace(
-        make_frame(row),
-        timestamp_s=time_s,
-        angles_rad=np.radians([0.0, 30.0 * np.sin(2.0 * np.pi * time_s / 4.0), 0.0]),
-        angles_sd_rad=np.radians([0.5, 1.0, 1.0]),
-    )
+    angles_rad = np.radians([0.0, 30.0 * np.sin(2.0 * np.pi * time_s / 4.0), 0.0])
+    moved = with_moment(make_frame(row), angles_rad=angles_rad, angles_sd_rad=np.radians([0.5, 1.0, 1.0]))
+    return replace(moved, timestamp_s=time_s)
 
 
 @pytest.fixture(scope="module")
@@ -88,10 +86,11 @@ def test_what_was_left_out_in_the_review_is_left_out_everywhere(tmp_path: Path) 
         hand="right", protocol=calibration.clicks.protocol, software_version="0", exercise="WRIST_FE",
         now=datetime(2026, 11, 1, 9, 0, tzinfo=UTC), session_id=uuid.uuid4(),
     )  # fmt: skip
-    still = {"rotation_w2_w0": np.eye(3), "position_m": np.zeros(3), "status": TrackStatus.TRACKED}
+    still = {"rotation_w2_w0": np.eye(3), "position_m": np.zeros(3), "w0_turn_rad": np.zeros(3)}
     with SessionWriter.create(path, header, CAMERA, calibration) as writer:
         for row in range(20 * 30):
-            writer.append(replace(frame(row), w0_turn_rad=np.zeros(3), dropped_before=0, **still))
+            there = with_moment(frame(row), **still)
+            writer.append(replace(there, status=TrackStatus.TRACKED, dropped_before=0))
     whole = {row.measure: row.count for row in python_face.open_session(path).measures()}
     choices = {"left_out": {"0": "pain", "1": "pain"}, "edges_s": {}, "not_counted": False}
     path.with_suffix(".choices.json").write_text(json.dumps(choices), encoding="utf-8")

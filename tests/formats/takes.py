@@ -15,6 +15,7 @@ from carpus.core.session.reader import read_session
 from carpus.core.session.values import Session
 from carpus.core.session.writer import SessionWriter
 from carpus.core.types import TrackStatus
+from tests.moments import with_moment
 from tests.session.samples import CAMERA, make_calibration, make_frame, make_header, time_of
 
 FRAMES = 23
@@ -41,7 +42,9 @@ def stored(
             if moving:
                 angles = np.array([0.05, 0.6, 0.1]) * np.sin(row / 9.0)
                 # Facing the camera all the time: a hand that leaves its view has no range of motion.
-                frame = replace(frame, status=TrackStatus.TRACKED, angles_rad=angles, rotation_w2_w0=facing)
+                frame = replace(
+                    with_moment(frame, angles_rad=angles, rotation_w2_w0=facing), status=TrackStatus.TRACKED
+                )
             writer.append(replace(frame, marker_position_cam_m=place, dropped_before=0))
         writer.add_event(time_of(3), "repetition", "1")
         writer.add_event(time_of(7), "note", "Mrs Miller, pain")

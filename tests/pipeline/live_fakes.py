@@ -11,7 +11,7 @@ import numpy as np
 
 from carpus.core.camera import DEFAULT_CAMERA
 from carpus.core.capture.source import SourceInfo
-from carpus.core.types import Detections, Frame, TrackedFrame, TrackStatus
+from carpus.core.types import Detections, Frame, Moment, TrackedFrame, TrackStatus
 
 PATIENCE_S = 20.0
 """How long a test waits for what must happen; only a failing test ever waits that long."""
@@ -38,18 +38,20 @@ def tracked(of: Frame) -> TrackedFrame:
         index=of.index,
         timestamp_s=of.timestamp_s,
         status=TrackStatus.TRACKED,
-        position_m=three,
-        velocity_m_s=three,
-        w0_turn_rad=three,
-        rotation_w2_w0=np.eye(3),
-        angular_velocity_rad_s=three,
-        angles_rad=three,
-        angles_sd_rad=three,
-        angles_zyz_rad=three,
-        joint_angles_rad=none,
-        joint_angles_sd_rad=none,
-        joint_velocity_rad_s=none,
-        joint_position_m=np.zeros((0, 3)),
+        moment=Moment(
+            position_m=three,
+            velocity_m_s=three,
+            w0_turn_rad=three,
+            rotation_w2_w0=np.eye(3),
+            angular_velocity_rad_s=three,
+            angles_rad=three,
+            angles_sd_rad=three,
+            angles_zyz_rad=three,
+            joint_angles_rad=none,
+            joint_angles_sd_rad=none,
+            joint_velocity_rad_s=none,
+            joint_position_m=np.zeros((0, 3)),
+        ),
         marker_position_cam_m=six,
         marker_predicted_px=six[:, :2],
         marker_predicted_cov_px2=np.zeros((6, 2, 2)),

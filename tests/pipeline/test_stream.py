@@ -68,6 +68,6 @@ def test_a_second_process_reads_what_was_sent(tmp_path: Path, monkeypatch: pytes
         assert np.allclose(values, sample_of(frame), rtol=1e-6, atol=1e-6, equal_nan=True)
         assert time_s == pytest.approx(time_of(row) + offset_s, abs=1e-3), "the time of the picture, not of sending"
     flexion = [channel.label for channel in said].index("wrist_flexion")
-    assert read["samples"][0][0][flexion] == pytest.approx(np.degrees(frames[0].angles_rad[1]), rel=1e-5)
+    assert read["samples"][0][0][flexion] == pytest.approx(np.degrees(frames[0].moment.angles_rad[1]), rel=1e-5)
     assert read["event"][0] == ["repetition"]
     assert read["event"][1] == pytest.approx(time_of(2) + offset_s, abs=1e-3)

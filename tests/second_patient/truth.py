@@ -17,7 +17,7 @@ from carpus.core.camera import Camera
 from carpus.core.hand.protocols import MarkerProtocol, protocol_named
 from carpus.core.session.values import new_header
 from carpus.core.session.writer import SessionWriter
-from carpus.core.types import Detections, FloatArray, Side, TrackedFrame, TrackStatus
+from carpus.core.types import Detections, FloatArray, Moment, Side, TrackedFrame, TrackStatus
 from tests.second_patient.camera import Hung
 from tests.second_patient.discs import NAMES
 from tests.second_patient.motions import Motion, Row
@@ -213,18 +213,20 @@ def _row(truth: Truth, i: int) -> TrackedFrame:
         index=i,
         timestamp_s=float(truth.timestamp_s[i]),
         status=TrackStatus.TRACKED if palm >= _PALM_NEEDED else TrackStatus.PREDICTED,
-        position_m=truth.position_m[i],
-        velocity_m_s=truth.velocity_m_s[i],
-        w0_turn_rad=np.zeros(3),
-        rotation_w2_w0=truth.rotation_w2_w0[i],
-        angular_velocity_rad_s=truth.angular_velocity_rad_s[i],
-        angles_rad=truth.angles_rad[i],
-        angles_sd_rad=np.zeros(3),
-        angles_zyz_rad=_zyz(truth.rotation_w2_w0[i]),
-        joint_angles_rad=truth.joint_angles_rad[i],
-        joint_angles_sd_rad=np.zeros(joints),
-        joint_velocity_rad_s=truth.joint_velocity_rad_s[i],
-        joint_position_m=truth.joint_position_w0_m[i],
+        moment=Moment(
+            position_m=truth.position_m[i],
+            velocity_m_s=truth.velocity_m_s[i],
+            w0_turn_rad=np.zeros(3),
+            rotation_w2_w0=truth.rotation_w2_w0[i],
+            angular_velocity_rad_s=truth.angular_velocity_rad_s[i],
+            angles_rad=truth.angles_rad[i],
+            angles_sd_rad=np.zeros(3),
+            angles_zyz_rad=_zyz(truth.rotation_w2_w0[i]),
+            joint_angles_rad=truth.joint_angles_rad[i],
+            joint_angles_sd_rad=np.zeros(joints),
+            joint_velocity_rad_s=truth.joint_velocity_rad_s[i],
+            joint_position_m=truth.joint_position_w0_m[i],
+        ),
         marker_position_cam_m=truth.disc_position_cam_m[i],
         marker_predicted_px=truth.disc_pixel[i],
         marker_predicted_cov_px2=np.zeros((len(visible), 2, 2)),

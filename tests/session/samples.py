@@ -11,7 +11,7 @@ from carpus.core.calibration.result import Calibration, Clicks, Finding, Verdict
 from carpus.core.camera import Camera
 from carpus.core.hand.protocols import HAND21, WRIST6, MarkerProtocol
 from carpus.core.session.values import SessionHeader, new_header
-from carpus.core.types import Detections, TrackedFrame, TrackStatus
+from carpus.core.types import Detections, Moment, TrackedFrame, TrackStatus
 
 CAMERA = Camera(570.25, 571.5, 314.0, 235.5, 640, 480, (0.04, -0.12, 0.001, -0.0003, 0.07), origin="file")
 SESSION_ID = uuid.UUID("12345678-1234-5678-1234-567812345678")
@@ -75,18 +75,20 @@ def make_frame(row: int, protocol: MarkerProtocol = WRIST6, joints: int | None =
         index=row,
         timestamp_s=time_of(row),
         status=TrackStatus.LOST if lost else TrackStatus((0, 1, 3)[row % 3]),
-        position_m=blank * rng.normal(size=3),
-        velocity_m_s=blank * rng.normal(size=3),
-        w0_turn_rad=blank * rng.normal(size=3),
-        rotation_w2_w0=blank * np.linalg.qr(rng.normal(size=(3, 3)))[0],
-        angular_velocity_rad_s=blank * rng.normal(size=3),
-        angles_rad=blank * rng.uniform(-1, 1, 3),
-        angles_sd_rad=blank * rng.uniform(0.01, 0.02, 3),
-        angles_zyz_rad=np.full(3, np.nan) if row % 3 == 0 else blank * rng.uniform(-1, 1, 3),
-        joint_angles_rad=blank * rng.uniform(-1, 1, j),
-        joint_angles_sd_rad=blank * rng.uniform(0.01, 0.02, j),
-        joint_velocity_rad_s=blank * rng.normal(size=j),
-        joint_position_m=blank * rng.normal(size=(m, 3)) if j else np.empty((0, 3)),
+        moment=Moment(
+            position_m=blank * rng.normal(size=3),
+            velocity_m_s=blank * rng.normal(size=3),
+            w0_turn_rad=blank * rng.normal(size=3),
+            rotation_w2_w0=blank * np.linalg.qr(rng.normal(size=(3, 3)))[0],
+            angular_velocity_rad_s=blank * rng.normal(size=3),
+            angles_rad=blank * rng.uniform(-1, 1, 3),
+            angles_sd_rad=blank * rng.uniform(0.01, 0.02, 3),
+            angles_zyz_rad=np.full(3, np.nan) if row % 3 == 0 else blank * rng.uniform(-1, 1, 3),
+            joint_angles_rad=blank * rng.uniform(-1, 1, j),
+            joint_angles_sd_rad=blank * rng.uniform(0.01, 0.02, j),
+            joint_velocity_rad_s=blank * rng.normal(size=j),
+            joint_position_m=blank * rng.normal(size=(m, 3)) if j else np.empty((0, 3)),
+        ),
         marker_position_cam_m=blank * rng.normal(size=(m, 3)),
         marker_predicted_px=rng.normal(size=(m, 2)),
         marker_predicted_cov_px2=rng.normal(size=(m, 2, 2)),

@@ -55,7 +55,7 @@ def assert_rows_are_whole(session: Session) -> None:
     table = read_detections(session.path)
     for row in {0, len(session) // 2, len(session) - 1}:
         frame = make_frame(row % 50, session.header.protocol)
-        np.testing.assert_array_equal(session.motion.position_m[row], frame.position_m)
+        np.testing.assert_array_equal(session.motion.position_m[row], frame.moment.position_m)
         np.testing.assert_array_equal(session.markers.measured_px[row], frame.marker_measured_px)
         np.testing.assert_array_equal(session.quality.measured_share[row], frame.measured_share)
         np.testing.assert_array_equal(table.of_frame(row).pixel, frame.detections.pixel)
@@ -194,5 +194,5 @@ def test_a_chunk_that_was_half_written_keeps_its_earlier_rows(tmp_path: Path, to
     result = read_session(target)
     assert 60 <= len(result) <= 90
     for row in range(60):
-        np.testing.assert_array_equal(result.motion.position_m[row], make_frame(row).position_m)
-        np.testing.assert_array_equal(result.motion.angles_rad[row], make_frame(row).angles_rad)
+        np.testing.assert_array_equal(result.motion.position_m[row], make_frame(row).moment.position_m)
+        np.testing.assert_array_equal(result.motion.angles_rad[row], make_frame(row).moment.angles_rad)

@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+import dataclasses
 from importlib import resources
 
+from carpus.core.session import schema
 from carpus.core.session.format_page import format_page
 from carpus.core.session.schema import ALL_FIELDS, SMOOTHED_FIELDS
+from carpus.core.types import Moment, TrackedFrame
 
 
 def test_the_page_in_the_repository_is_the_schema_s() -> None:
@@ -18,3 +21,9 @@ def test_every_dataset_is_explained() -> None:
     for field in ALL_FIELDS:
         if field not in SMOOTHED_FIELDS:
             assert f"`{field.path}`" in page
+
+
+def test_a_moment_has_the_columns_of_the_schema_and_no_others() -> None:
+    assert [field.attribute for field in schema.MOTION_FIELDS] == [field.name for field in dataclasses.fields(Moment)]
+    own = {field.attribute for field in schema.FRAME_FIELDS if field not in schema.MOTION_FIELDS}
+    assert own <= {field.name for field in dataclasses.fields(TrackedFrame)}

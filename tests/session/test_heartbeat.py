@@ -167,7 +167,7 @@ def test_a_recording_goes_on_when_its_folder_goes_away(tmp_path: Path, gone: Cal
     result = read_session(session.path)
     assert result.timestamp_s.tolist() == [time_of(number) for number in range(row + 10)]
     for number in (0, 19, 20, 24, 25, row + 9):
-        np.testing.assert_array_equal(result.motion.angles_rad[number], make_frame(number).angles_rad)
+        np.testing.assert_array_equal(result.motion.angles_rad[number], make_frame(number).moment.angles_rad)
     assert verify(session.path).sealed
     if raw:
         assert list(read_raw(session.path)) == [pictures(number) for number in range(row + 10)]

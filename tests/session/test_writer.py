@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import dataclasses
 import errno
 import os
 import subprocess
@@ -20,6 +19,7 @@ from carpus.core.session.reader import has_raw, raw_depth_unit_m, read_detection
 from carpus.core.session.recovery import recover_folder
 from carpus.core.session.values import RawPictures, motion_of
 from carpus.core.session.writer import FLUSH_EVERY_S, SessionWriter
+from tests.moments import with_moment
 from tests.session.samples import CAMERA, make_calibration, make_frame, make_header
 
 ROOT = Path(__file__).parents[2]
@@ -165,7 +165,7 @@ def test_times_that_do_not_rise_are_refused(tmp_path: Path) -> None:
 
 def test_a_wrong_shape_is_not_stretched_to_fit(tmp_path: Path) -> None:
     session = create(tmp_path / "s.h5")
-    session.append(dataclasses.replace(make_frame(0), position_m=np.array(0.0)))
+    session.append(with_moment(make_frame(0), position_m=np.array(0.0)))
     with pytest.raises(ValueError, match="/wrist/position"):
         session.flush()
     session.discard()
@@ -249,7 +249,7 @@ def test_a_full_disk_is_told_and_what_was_stored_stays(tmp_path: Path, limit_mb:
     session = read_session(target)
     assert len(session) == int(flushed)
     np.testing.assert_array_equal(
-        session.motion.joint_position_m[-1], make_frame(len(session) - 1, HAND21).joint_position_m
+        session.motion.joint_position_m[-1], make_frame(len(session) - 1, HAND21).moment.joint_position_m
     )
 
 

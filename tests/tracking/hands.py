@@ -152,7 +152,7 @@ def track(
 
 
 def angles_deg(frames: Iterable[TrackedFrame]) -> FloatArray:
-    return np.degrees(np.array([frame.angles_rad for frame in frames]))
+    return np.degrees(np.array([frame.moment.angles_rad for frame in frames]))
 
 
 def truth_deg(motion: Motion, times_s: Iterable[float]) -> FloatArray:

@@ -98,18 +98,18 @@ def test_a_finger_that_hides_is_unsure_at_once_and_knows_nothing_soon() -> None:
     hidden_from = 30
     frames, _ = frames_of(dict.fromkeys(range(hidden_from, 60), (pip, dip, tip)))
     flexion = 5 + 3 + 2  # PIP3_flexion among the 17
-    sd_deg = np.degrees([frame.joint_angles_sd_rad[flexion] for frame in frames])
+    sd_deg = np.degrees([frame.moment.joint_angles_sd_rad[flexion] for frame in frames])
     before = sd_deg[hidden_from - 1]
     assert sd_deg[hidden_from + 2] > 1.2 * before
     assert sd_deg[hidden_from + 15] > 20.0
     assert all(np.diff(sd_deg[hidden_from - 1 : hidden_from + 10]) > 0.0)
-    index_deg = np.degrees(frames[hidden_from + 10].joint_angles_sd_rad[5 + 2])  # its neighbour, still seen
+    index_deg = np.degrees(frames[hidden_from + 10].moment.joint_angles_sd_rad[5 + 2])  # its neighbour, still seen
     assert index_deg < 0.6 * sd_deg[hidden_from + 10]
 
 
 def test_joint_centres_and_tips_of_a_frame_are_where_they_are() -> None:
     frames, seen = frames_of({})
-    position = np.array([frame.joint_position_m for frame in frames])
+    position = np.array([frame.moment.joint_position_m for frame in frames])
     off_mm = 1e3 * np.linalg.norm(position - seen.truth.joint_position_w0_m[: len(frames)], axis=-1)
     assert position.shape == (len(frames), len(HAND21.markers), 3)
     assert np.median(off_mm) < 3.0
@@ -125,9 +125,9 @@ def test_a_lost_hand_has_no_joints_and_is_found_again() -> None:
     frames, seen = frames_of(dict.fromkeys(range(20, 80), everything), count=100)
     lost = [frame for frame in frames if frame.status is TrackStatus.LOST]
     assert lost
-    assert np.isnan(lost[-1].joint_angles_rad).all()
-    assert np.isnan(lost[-1].joint_position_m).all()
-    error_deg = np.degrees(np.abs(frames[-1].joint_angles_rad - seen.truth.joint_angles_rad[99]))
+    assert np.isnan(lost[-1].moment.joint_angles_rad).all()
+    assert np.isnan(lost[-1].moment.joint_position_m).all()
+    error_deg = np.degrees(np.abs(frames[-1].moment.joint_angles_rad - seen.truth.joint_angles_rad[99]))
     assert frames[-1].status is TrackStatus.TRACKED
     assert np.median(error_deg) < 3.0
 
@@ -154,8 +154,8 @@ def test_a_long_pause_without_pictures_bends_no_finger_further() -> None:
     assert rate[pause] > 1.0
     for i, found in enumerate(still.detections):
         frame = tracker.step(i, float(times[i]) + (12.0 if i > pause else 0.0), found)
-        if np.isfinite(frame.joint_angles_rad).any():
-            assert np.abs(np.degrees(frame.joint_angles_rad)).max() < 150.0
+        if np.isfinite(frame.moment.joint_angles_rad).any():
+            assert np.abs(np.degrees(frame.moment.joint_angles_rad)).max() < 150.0
     assert frame.status is TrackStatus.TRACKED
 
 

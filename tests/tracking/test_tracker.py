@@ -139,7 +139,7 @@ def test_two_discs_are_predicted_not_tracked() -> None:
     frames = track([(t, blobs(Pose(), rng, hidden=(1, 2, 4, 5) if k >= 20 else ())) for k, t in enumerate(times(30))])
     assert set(statuses(frames[:20])) == {TrackStatus.TRACKED}
     assert set(statuses(frames[20:])) == {TrackStatus.PREDICTED}
-    assert np.isfinite(frames[-1].angles_rad).all()
+    assert np.isfinite(frames[-1].moment.angles_rad).all()
 
 
 @pytest.mark.parametrize("hz", [0.4, 1.0])
@@ -162,7 +162,7 @@ def test_a_hand_hidden_up_to_a_second_comes_back_under_its_names(which: int, gon
 def test_uncertainty_grows_while_nothing_is_seen_and_the_true_angle_stays_inside() -> None:
     motion = swing(0, 20.0, 0.4)
     frames = track(seen(motion, 80, hidden_from=40, hidden_to=70))
-    sd = np.degrees(np.array([frame.angles_sd_rad for frame in frames]))
+    sd = np.degrees(np.array([frame.moment.angles_sd_rad for frame in frames]))
     assert (np.diff(sd[40:70, 0]) > 0.0).all()
     assert sd[45, 0] > 3.0 * sd[39, 0]
     error = np.abs(angles_deg(frames) - truth_deg(motion, times(80)))
@@ -188,14 +188,14 @@ def test_a_hand_hidden_for_long_is_lost_and_everything_is_unknown_until_it_is_fo
     assert 1.45 < lost[0].timestamp_s - tracked[19].timestamp_s < 1.6
     for frame in lost:
         for value in (
-            frame.position_m,
-            frame.velocity_m_s,
-            frame.w0_turn_rad,
-            frame.rotation_w2_w0,
-            frame.angular_velocity_rad_s,
-            frame.angles_rad,
-            frame.angles_sd_rad,
-            frame.angles_zyz_rad,
+            frame.moment.position_m,
+            frame.moment.velocity_m_s,
+            frame.moment.w0_turn_rad,
+            frame.moment.rotation_w2_w0,
+            frame.moment.angular_velocity_rad_s,
+            frame.moment.angles_rad,
+            frame.moment.angles_sd_rad,
+            frame.moment.angles_zyz_rad,
             frame.marker_position_cam_m,
             frame.marker_measured_px,
         ):
@@ -214,7 +214,7 @@ def test_what_lies_turned_about_is_not_the_hand_that_was_just_covered() -> None:
     for i in range(60):
         there = Pose() if not 20 <= i < 50 else backwards
         frame = tracker.step(i, i * DT_S, blobs(there, rng))
-        assert np.abs(np.degrees(frame.angles_rad)).max() < 20.0
+        assert np.abs(np.degrees(frame.moment.angles_rad)).max() < 20.0
         assert frame.status is (TrackStatus.PREDICTED if 20 <= i < 50 else TrackStatus.TRACKED)
 
 
@@ -237,7 +237,7 @@ def test_a_lone_blob_is_no_disc_of_a_hand_long_unseen() -> None:
         if covered and i > 30:
             assert np.isnan(frame.marker_measured_px).all()
     assert frame.status is TrackStatus.TRACKED
-    assert np.abs(np.degrees(frame.angles_rad) - moving(59 * DT_S).angles_deg).max() < 2.0
+    assert np.abs(np.degrees(frame.moment.angles_rad) - moving(59 * DT_S).angles_deg).max() < 2.0
 
 
 def test_a_jump_in_plain_sight_is_followed_within_three_frames() -> None:
@@ -302,7 +302,7 @@ def test_without_depth_by_choice_depths_change_nothing() -> None:
 def test_depth_makes_flexion_surer() -> None:
     frames = [(t, blobs(Pose(), np.random.default_rng(k))) for k, t in enumerate(times(30))]
     rigid = {use: track(frames, TrackerSettings(use_depth=use)) for use in (True, False)}
-    sd = {use: np.degrees(run[-1].angles_sd_rad) for use, run in rigid.items()}
+    sd = {use: np.degrees(run[-1].moment.angles_sd_rad) for use, run in rigid.items()}
     assert sd[True][1] < 0.7 * sd[False][1]
     assert sd[True][0] == pytest.approx(sd[False][0], rel=0.5)
 
@@ -319,7 +319,7 @@ def test_start_angles_are_added_as_rotations(side: Side) -> None:
     frames = track(seen(flexing, 75, side=side), tracker=tracker)
     assert angles_deg(frames)[3] == pytest.approx([25.0, 0.0, 0.0], abs=1.0)
     expected = rotation_of(25.0, 0.0, 0.0, side) @ rotation_of(0.0, 30.0, 0.0, side)
-    assert np.allclose(frames[-1].rotation_w2_w0, expected, atol=0.03)
+    assert np.allclose(frames[-1].moment.rotation_w2_w0, expected, atol=0.03)
     assert angles_deg(frames)[-1] == pytest.approx([25.0, 30.0, 0.0], abs=1.5)
 
 
@@ -350,7 +350,7 @@ def test_standard_deviations_are_honest() -> None:
             frames.append((t, Detections(pixel, depth, 7e-4 * count, 64.0 * count, 0.9 * count)))
         tracked = track(frames)
         error = np.radians(angles_deg(tracked) - truth_deg(motion, times(75)))
-        sd = np.array([frame.angles_sd_rad for frame in tracked])
+        sd = np.array([frame.moment.angles_sd_rad for frame in tracked])
         squares.append(np.mean((error / sd)[15:] ** 2, axis=0))
     pooled = np.sqrt(np.mean(squares, axis=0))
     assert np.all(pooled < 1.5)
@@ -500,8 +500,8 @@ def test_after_a_long_pause_without_pictures_the_hand_is_found_anew() -> None:
     for i, (t, found) in enumerate(after):
         frame = tracker.step(len(before) + i, t, found)
         assert frame.status is TrackStatus.TRACKED
-        assert np.abs(np.degrees(frame.angles_rad) - elsewhere.angles_deg).max() < 4.0
-        assert np.linalg.norm(frame.velocity_m_s) < 0.3
+        assert np.abs(np.degrees(frame.moment.angles_rad) - elsewhere.angles_deg).max() < 4.0
+        assert np.linalg.norm(frame.moment.velocity_m_s) < 0.3
 
 
 def lost_and_found(shown_after: int) -> list[TrackStatus]:

@@ -25,7 +25,7 @@ from carpus.core.pipeline.live_values import LiveCounters, LiveEvent, TrackedVie
 from carpus.core.session.values import Event, MarkerSeries, QualitySeries, Session, SessionHeader, motion_of
 from carpus.core.simulation.recording import SimulatedPictures
 from carpus.core.simulation.spec import RecordingSpec
-from carpus.core.types import ByteImage, Detections, Frame, TrackedFrame, TrackStatus
+from carpus.core.types import ByteImage, Detections, Frame, Moment, TrackedFrame, TrackStatus
 from carpus.ui.ports import (
     FoundMarker,
     Judged,
@@ -41,6 +41,7 @@ from carpus.ui.ports import (
     VerdictLimits,
     Words,
 )
+from tests.moments import with_moment
 
 FPS = 30.0
 NOW = datetime(2026, 11, 20, 11, 36, tzinfo=timezone(timedelta(hours=1)))
@@ -123,19 +124,21 @@ def tracked_frames(
                 index=k,
                 timestamp_s=float(truth.timestamp_s[k]),
                 status=status,
-                position_m=truth.position_m[k] * unknown,
-                velocity_m_s=truth.velocity_m_s[k] * unknown,
-                w0_turn_rad=np.zeros(3) * unknown,
-                rotation_w2_w0=truth.rotation_w2_w0[k] * unknown,
-                angular_velocity_rad_s=truth.angular_velocity_rad_s[k] * unknown,
-                angles_rad=angles[k] * unknown,
-                angles_sd_rad=np.radians(SD_DEG) * growth * unknown,
-                angles_zyz_rad=np.full(3, math.nan),
-                joint_angles_rad=truth.joint_angles_rad[k] * unknown,
-                joint_angles_sd_rad=joint_sds_rad(pictures, covered_since) * unknown,
-                joint_velocity_rad_s=truth.joint_velocity_rad_s[k] * unknown,
-                joint_position_m=truth.joint_position_w0_m[k][: len(markers) if len(truth.joint_names) else 0]
-                * unknown,
+                moment=Moment(
+                    position_m=truth.position_m[k] * unknown,
+                    velocity_m_s=truth.velocity_m_s[k] * unknown,
+                    w0_turn_rad=np.zeros(3) * unknown,
+                    rotation_w2_w0=truth.rotation_w2_w0[k] * unknown,
+                    angular_velocity_rad_s=truth.angular_velocity_rad_s[k] * unknown,
+                    angles_rad=angles[k] * unknown,
+                    angles_sd_rad=np.radians(SD_DEG) * growth * unknown,
+                    angles_zyz_rad=np.full(3, math.nan),
+                    joint_angles_rad=truth.joint_angles_rad[k] * unknown,
+                    joint_angles_sd_rad=joint_sds_rad(pictures, covered_since) * unknown,
+                    joint_velocity_rad_s=truth.joint_velocity_rad_s[k] * unknown,
+                    joint_position_m=truth.joint_position_w0_m[k][: len(markers) if len(truth.joint_names) else 0]
+                    * unknown,
+                ),
                 marker_position_cam_m=truth.disc_position_cam_m[k] * unknown,
                 marker_predicted_px=truth.disc_pixel[k] * unknown,
                 marker_predicted_cov_px2=np.eye(2)[None] * (4.0 + 30.0 * covered_since[:, None, None]) * unknown,
@@ -310,7 +313,7 @@ def session(
     """A stored session of the simulated patient, its angles scaled to a share of the full range."""
     pictures = simulated(motion, seconds, speed_hz, side)
     frames = [
-        replace(frame, angles_rad=frame.angles_rad * scale)
+        with_moment(frame, angles_rad=frame.moment.angles_rad * scale)
         for frame in tracked_frames(pictures, tuple(hidden), tuple(lost))
     ]
     header = SessionHeader(

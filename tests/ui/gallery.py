@@ -61,6 +61,7 @@ from carpus.ui.setup.exercise import ExerciseScreen
 from carpus.ui.shell import Shell
 from carpus.ui.theme import Theme, ThemeName
 from carpus.ui.welcome.panel import Check, WelcomePanel
+from tests.moments import with_moment
 from tests.ui.fakes import (
     NOW,
     FakeCalibrator,
@@ -383,7 +384,7 @@ class Gallery:
         feed = FakeFeed(seconds=32.0)
         for number, frame in enumerate(feed.frames):
             if number > 30 * 23.5:
-                feed.frames[number] = replace(frame, position_m=frame.position_m + [0.0, 0.021, 0.004])
+                feed.frames[number] = with_moment(frame, position_m=frame.moment.position_m + [0.0, 0.021, 0.004])
         with self._live(feed):
             pass
 

@@ -15,6 +15,7 @@ from carpus.core.measures.signals import even_signal
 from carpus.core.output.exercises import FLEXION, exercise_named
 from carpus.core.types import TrackedFrame, TrackStatus
 from carpus.ui.live.counting import RunningCount
+from tests.moments import with_moment
 from tests.ui.fakes import FakeFeed
 
 RATE_HZ = 30.0
@@ -46,13 +47,12 @@ def test_counted_piece_by_piece_is_counted_as_a_whole(
     seen = np.ones(count, dtype=bool)
     for start in hidden:
         seen[start : start + 12] = False
-    frame = any_frame()
+    frame, flexion = any_frame(), np.arange(len(WRIST_ANGLES)) == FLEXION
     frames = [
         replace(
-            frame,
+            with_moment(frame, angles_rad=np.where(flexion, np.radians(angle_deg[k]), frame.moment.angles_rad)),
             timestamp_s=float(time_s[k]),
             status=TrackStatus.TRACKED if seen[k] else TrackStatus.PREDICTED,
-            angles_rad=np.where(np.arange(len(WRIST_ANGLES)) == FLEXION, np.radians(angle_deg[k]), frame.angles_rad),
         )
         for k in range(count)
     ]
@@ -75,11 +75,13 @@ def test_frames_just_after_a_hand_came_back_give_no_best() -> None:
     angle_deg[80] = 30.0
     frames = [
         replace(
-            frame,
+            with_moment(
+                frame,
+                angles_rad=np.radians([0.0, angle_deg[k], 0.0]),
+                angles_sd_rad=np.radians([0.5, 0.7, 1.2]),
+            ),
             timestamp_s=3.0 + k / RATE_HZ,
             status=TrackStatus.PREDICTED if 40 <= k < 60 else TrackStatus.TRACKED,
-            angles_rad=np.radians([0.0, angle_deg[k], 0.0]),
-            angles_sd_rad=np.radians([0.5, 0.7, 1.2]),
         )
         for k in range(count)
     ]

@@ -38,6 +38,7 @@ from carpus.ui.settings.limits import limit_lines
 from carpus.ui.settings.screen import SettingsScreen
 from carpus.ui.theme import Theme
 from carpus.ui.verdicts import limit_words
+from tests.moments import with_moment
 from tests.ui.fakes import NOW, FakeFeed, FakeSessions, FakeStore, session
 from tests.ui.hand_fakes import hand_session
 
@@ -116,7 +117,7 @@ def turning(frames: list[TrackedFrame], moved_mm: float) -> list[TrackedFrame]:
         rotation = so3.exp(np.array([0.0, math.radians(70.0) * math.sin(2.0 * math.pi * max(k - 30, 0) / 120.0), 0.0]))
         forearm_m = np.array([0.0, 1e-3 * moved_mm if k > 420 else 0.0, 0.0])
         place = centre_m - rotation @ centre_m + forearm_m
-        out.append(replace(frame, position_m=place, rotation_w2_w0=rotation, w0_turn_rad=np.zeros(3)))
+        out.append(with_moment(frame, position_m=place, rotation_w2_w0=rotation, w0_turn_rad=np.zeros(3)))
     return out
 
 

@@ -20,6 +20,7 @@ from carpus.ui.plot.series import Series, paint_series
 from carpus.ui.plot.style import screen_style
 from carpus.ui.plot.thin import thinned
 from carpus.ui.theme import Theme
+from tests.moments import with_moment
 from tests.ui.fakes import FakeFeed
 from tests.ui.hand_fakes import hand_session
 
@@ -44,9 +45,9 @@ def test_an_angle_that_no_joint_can_have_is_a_gap_in_review_and_figures() -> Non
 
 def test_an_angle_that_no_joint_can_have_takes_only_its_own_figures_live() -> None:
     frame = FakeFeed("fist", 3.0, protocol="hand21").frames[10]
-    angles = frame.joint_angles_rad.copy()
+    angles = frame.moment.joint_angles_rad.copy()
     angles[COLUMN] = np.radians(-3627.0)
-    _, value, _, measured, _ = figures_of([replace(frame, joint_angles_rad=angles)])
+    _, value, _, measured, _ = figures_of([with_moment(frame, joint_angles_rad=angles)])
     gone = {FIGURES[k] for k in np.flatnonzero(np.isnan(value[0]))}
     assert gone == {Figure(4, "middle"), Figure(4, "end"), Figure(4, "tam")}
     assert not measured[0, [FIGURES.index(figure) for figure in gone]].any()

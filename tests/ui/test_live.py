@@ -24,6 +24,7 @@ from carpus.ui.picture.overlay import axis_pixels, ellipse, within
 from carpus.ui.plot.history import KEPT_S, History
 from carpus.ui.plot.live_curves import LiveCurves
 from carpus.ui.theme import Theme
+from tests.moments import with_moment
 from tests.ui.fakes import FakeFeed, FakeMeasuring, set_up
 
 MARKERS = ("WRIST", "CMC1", "MCP2", "MCP3", "MCP4", "MCP5")
@@ -73,7 +74,7 @@ def test_the_number_is_that_of_the_picture_shown(qtbot: QtBot, theme: Theme) -> 
     feed = FakeFeed()
     screen, _ = live(qtbot, theme, feed)
     run(screen, feed, 5.0)
-    shown = math.degrees(float(feed.newest().tracked.angles_rad[1]))  # type: ignore[union-attr]
+    shown = math.degrees(float(feed.newest().tracked.moment.angles_rad[1]))  # type: ignore[union-attr]
     screen._show_values()
     assert screen.number.reading.value_deg == pytest.approx(shown)
     assert screen.number.movement() == ("Flexion" if shown > 0 else "Extension")
@@ -104,7 +105,7 @@ def test_repetitions_and_best_are_counted_from_recorded_frames_only(qtbot: QtBot
     assert screen._count.count() in (3, 4)
     recorded = np.degrees(
         [
-            f.angles_rad[1]
+            f.moment.angles_rad[1]
             for f in feed.frames
             if f.timestamp_s >= screen._count._times[0] - 1e-9 and f.index <= feed.place
         ]
@@ -278,14 +279,13 @@ def test_history_keeps_ten_seconds_whatever_comes() -> None:
 
 def test_the_arm_is_said_to_have_moved_only_outside_the_ball() -> None:
     feed = FakeFeed()
-    frames = [replace(frame, position_m=np.zeros(3)) for frame in feed.frames[:30]]
+    frames = [with_moment(frame, position_m=np.zeros(3)) for frame in feed.frames[:30]]
     history = History()
     history.append(frames)
     for distance_m, moved in ((0.0149, False), (0.0151, True)):
         step = np.array([0.0, 0.0, distance_m])
-        history.append(
-            [replace(frames[0], index=history.last_index + 1, timestamp_s=history.now_s + 0.03, position_m=step)]
-        )
+        there = with_moment(frames[0], position_m=step)
+        history.append([replace(there, index=history.last_index + 1, timestamp_s=history.now_s + 0.03)])
         assert history.forearm_moved() is moved
 
 

@@ -29,6 +29,7 @@ from carpus.ui.picture.skeleton import side_points_m
 from carpus.ui.plot.finger_curves import cell_word
 from carpus.ui.plot.history import History
 from carpus.ui.theme import Theme
+from tests.moments import with_moment
 from tests.ui.fakes import FakeFeed, FakeMeasuring, set_up
 from tests.ui.hand_fakes import hand_session
 
@@ -62,12 +63,14 @@ def frames_of(session: Session) -> list[TrackedFrame]:
     usual = feed_of().frames[0]
     return [
         replace(
-            usual,
+            with_moment(
+                usual,
+                joint_angles_rad=session.motion.joint_angles_rad[row],
+                joint_angles_sd_rad=session.motion.joint_angles_sd_rad[row],
+            ),
             index=row,
             timestamp_s=float(session.timestamp_s[row]),
             status=TrackStatus(int(session.status[row])),
-            joint_angles_rad=session.motion.joint_angles_rad[row],
-            joint_angles_sd_rad=session.motion.joint_angles_sd_rad[row],
             marker_measured_px=session.markers.measured_px[row],
         )
         for row in range(len(session))
@@ -81,7 +84,7 @@ def at(feed: FakeFeed, time_s: float) -> int:
 def test_every_figure_is_the_angle_of_its_name_and_spreading_is_away_from_the_middle_finger() -> None:
     frame = feed_of().frames[at(feed_of(), CLOSED_S)]
     names = joint_angle_names()
-    angle = dict(zip(names, np.degrees(frame.joint_angles_rad), strict=True))
+    angle = dict(zip(names, np.degrees(frame.moment.joint_angles_rad), strict=True))
     _, value, sd, _, _ = figures_of([frame])
     shown = dict(zip((figure.joint for figure in FIGURES), value[0], strict=True))
     for name in ("MCP1_flexion", "IP1_flexion", "CMC1_abduction", "CMC1_extension", "MCP4_flexion", "PIP5_flexion"):
@@ -91,7 +94,7 @@ def test_every_figure_is_the_angle_of_its_name_and_spreading_is_away_from_the_mi
     assert shown["DIP3_flexion"] == pytest.approx(angle["PIP3_flexion"] * 2 / 3)
     assert shown["TAM3"] == pytest.approx(angle["MCP3_flexion"] + 5 / 3 * angle["PIP3_flexion"])
     assert shown["TAM1"] == pytest.approx(angle["MCP1_flexion"] + angle["IP1_flexion"])
-    sds = dict(zip(names, np.degrees(frame.joint_angles_sd_rad), strict=True))
+    sds = dict(zip(names, np.degrees(frame.moment.joint_angles_sd_rad), strict=True))
     column = FIGURES.index(figure_of("TAM3"))
     assert sd[0, column] == pytest.approx(math.hypot(sds["MCP3_flexion"], 5 / 3 * sds["PIP3_flexion"]))
 
@@ -99,7 +102,7 @@ def test_every_figure_is_the_angle_of_its_name_and_spreading_is_away_from_the_mi
 def test_with_free_end_joints_nothing_is_inferred() -> None:
     frame = feed_of().frames[10]
     free = joint_angle_names(dip_free=True)
-    frame = replace(
+    frame = with_moment(
         frame,
         joint_angles_rad=np.radians(np.arange(21.0)),
         joint_angles_sd_rad=np.full(21, 0.1),
@@ -162,7 +165,7 @@ def test_the_large_number_is_chosen_by_click_and_by_key(qtbot: QtBot, theme: The
     qtbot.mouseClick(screen.fingers.face, Qt.MouseButton.LeftButton, pos=spot)
     assert screen.number.movement() == "Ring finger, knuckle"
     assert math.isnan(screen.number.reading.target_positive_deg)  # the target is the trained joint's
-    angle = feed.frames[feed.place].joint_angles_rad[joint_angle_names().index("MCP4_flexion")]
+    angle = feed.frames[feed.place].moment.joint_angles_rad[joint_angle_names().index("MCP4_flexion")]
     assert screen.number.reading.value_deg == pytest.approx(math.degrees(angle))
     screen.next_angle()
     screen.next_finger()

@@ -76,15 +76,15 @@ class RunningCount:
 
     def _read(self, frames: Sequence[TrackedFrame]) -> list[tuple[float, float, bool]]:
         """Trained angle and standard deviation in radians, and whether it was measured, frame by frame."""
-        if self._figure >= 0 and frames and len(frames[0].joint_angles_rad):
+        if self._figure >= 0 and frames and len(frames[0].moment.joint_angles_rad):
             _, value_deg, sd_deg, measured, _ = figures_of(frames)
             column = self._figure
             value, sd = np.radians(value_deg[:, column]).tolist(), np.radians(sd_deg[:, column]).tolist()
             return list(zip(value, sd, measured[:, column].tolist(), strict=True))
         return [
             (
-                float(frame.angles_rad[self.angle]),
-                float(frame.angles_sd_rad[self.angle]),
+                float(frame.moment.angles_rad[self.angle]),
+                float(frame.moment.angles_sd_rad[self.angle]),
                 frame.status == TrackStatus.TRACKED,
             )
             for frame in frames

@@ -86,8 +86,8 @@ def paint_links(painter: QPainter, frame: TrackedFrame, camera: Camera, to_scree
 
 def axis_pixels(frame: TrackedFrame, calibration: Calibration, camera: Camera) -> FloatArray:
     """Pixels (4, 2) of the wrist's origin and of the ends of its X, Y and Z axes."""
-    origin = calibration.rotation_w0_cam @ frame.position_m + calibration.translation_w0_cam_m
-    ends = origin + AXIS_LENGTH_M * (calibration.rotation_w0_cam @ frame.rotation_w2_w0).T
+    origin = calibration.rotation_w0_cam @ frame.moment.position_m + calibration.translation_w0_cam_m
+    ends = origin + AXIS_LENGTH_M * (calibration.rotation_w0_cam @ frame.moment.rotation_w2_w0).T
     return camera.distort(camera.project(np.vstack((origin, ends))))
 
 

@@ -63,8 +63,8 @@ def _paint_hidden(painter: QPainter, covariance_px2: FloatArray, spot: QPointF, 
 
 def side_points_m(frame: TrackedFrame, finger: int) -> FloatArray:
     """Joints (4, 2) of a finger from the side: along the hand and out of its back, from the knuckle, metres."""
-    joints = frame.joint_position_m - frame.position_m
-    chain = (joints @ frame.rotation_w2_w0)[list(HAND21_CHAINS[finger - 1][1:])]
+    joints = frame.moment.joint_position_m - frame.moment.position_m
+    chain = (joints @ frame.moment.rotation_w2_w0)[list(HAND21_CHAINS[finger - 1][1:])]
     along = np.array([1.0, 0.0]) if finger > 1 else chain[1, :2] - chain[0, :2]
     away = chain - chain[0]
     return np.stack((away[:, :2] @ along / max(float(np.linalg.norm(along)), 1e-9), away[:, 2]), axis=1)
@@ -86,7 +86,7 @@ def paint_side(
     painter.setFont(font(12 * scale, SEMIBOLD))
     painter.setPen(QColor(ON_PICTURE_LINE))
     painter.drawText(QPointF(box.left() + 10, box.top() + 6 + QFontMetricsF(painter.font()).ascent()), name)
-    if frame.status == TrackStatus.LOST or not len(frame.joint_position_m):
+    if frame.status == TrackStatus.LOST or not len(frame.moment.joint_position_m):
         return
     points = side_points_m(frame, finger)
     if not np.isfinite(points).all():

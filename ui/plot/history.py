@@ -94,7 +94,7 @@ class History:
         self._waited_s = 0.0
         known, more = self._hand, _Hand.of(fresh)
         if more.value_deg.shape[1]:
-            self._mix = mix(len(fresh[-1].joint_angles_rad))
+            self._mix = mix(len(fresh[-1].moment.joint_angles_rad))
         more_rows = np.array([_row(frame) for frame in fresh])
         self._rows = np.concatenate((self._rows, more_rows))
         self._keep_poses(more_rows)
@@ -276,12 +276,12 @@ class _Hand:
 
     @staticmethod
     def of(frames: Sequence[TrackedFrame]) -> _Hand:
-        joints = len(frames[-1].joint_angles_rad) if frames else 0
+        joints = len(frames[-1].moment.joint_angles_rad) if frames else 0
         if not joints:
             none = np.empty((len(frames), 0))
             return _Hand(none, none, none, none.astype(bool), none.astype(bool))
         _, value, sd, measured, seen = figures_of(frames)
-        speed = np.degrees(np.array([frame.joint_velocity_rad_s for frame in frames]) @ mix(joints).weight.T)
+        speed = np.degrees(np.array([frame.moment.joint_velocity_rad_s for frame in frames]) @ mix(joints).weight.T)
         return _Hand(value, sd, np.where(np.isfinite(value), speed, math.nan), measured, seen)
 
     def then(self, more: _Hand) -> _Hand:
@@ -296,13 +296,13 @@ class _Hand:
 def _row(frame: TrackedFrame) -> FloatArray:
     row = np.empty(_COLUMNS)
     row[_TIME] = frame.timestamp_s
-    row[_ANGLES] = np.degrees(frame.angles_rad)
-    row[_SDS] = np.degrees(frame.angles_sd_rad)
+    row[_ANGLES] = np.degrees(frame.moment.angles_rad)
+    row[_SDS] = np.degrees(frame.moment.angles_sd_rad)
     row[_STATUS] = frame.status
-    row[_POSITION] = 1000.0 * frame.position_m
-    row[11] = 1000.0 * float(np.linalg.norm(frame.velocity_m_s))
-    row[12] = math.degrees(float(np.linalg.norm(frame.angular_velocity_rad_s)))
-    row[_AXES] = rotation_in_place(frame.rotation_w2_w0, frame.w0_turn_rad).ravel()
+    row[_POSITION] = 1000.0 * frame.moment.position_m
+    row[11] = 1000.0 * float(np.linalg.norm(frame.moment.velocity_m_s))
+    row[12] = math.degrees(float(np.linalg.norm(frame.moment.angular_velocity_rad_s)))
+    row[_AXES] = rotation_in_place(frame.moment.rotation_w2_w0, frame.moment.w0_turn_rad).ravel()
     if frame.status == TrackStatus.LOST:
         row[_ANGLES] = row[_SDS] = row[_POSITION] = row[_SPEEDS] = row[_AXES] = math.nan
     return row
