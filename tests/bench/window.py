@@ -2,17 +2,19 @@
 
 from __future__ import annotations
 
+import gc
+import os
 import tempfile
 import threading
 import time
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import suppress
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
 import numpy as np
-from PySide6.QtCore import QEvent, QEventLoop, QObject, QTimer
+from PySide6.QtCore import QEvent, QEventLoop, QObject, Qt, QTimer
 
 from carpus.app import compose
 from carpus.app.desktop.journey import Journey
@@ -20,17 +22,26 @@ from carpus.app.desktop.practice import practice_spec
 from carpus.app.desktop.unattended import Walker
 from carpus.app.settings import RecordingSettings, ScreenSettings, Settings
 from carpus.core.calibration.clicks import read_clicks
-from carpus.core.library.set_up import PRACTICE_PATIENT
+from carpus.core.capture.source import FrameSource
+from carpus.core.capture.tum import TumFolder
+from carpus.core.library.set_up import PRACTICE_PATIENT, SetUp
 from carpus.core.output.exercises import exercise_named
 from carpus.core.session.reader import read_session
+from carpus.core.simulation.hand_motion import STILL_S
 from carpus.core.simulation.recording import CLICKS_FILE, cached_recording
+from carpus.core.simulation.spec import RecordingSpec
 from carpus.ui.live.screen import LiveScreen
 
 SIZE_PX = (1920, 1080)
+FPS = 30.0
+READ_AHEAD = 8
 SETTLED_S = 10.0
 """Memory is compared from here on: by then every buffer has its size."""
 REST_S = 30.0
 """The practice patient is asked to move again so often."""
+BEAT_MS = 10
+MEMORY_EVERY_S = 300.0
+"""Memory is told at the start and so often after."""
 
 
 @dataclass(slots=True)
@@ -40,16 +51,54 @@ class Run:
     latency_ms: list[float] = field(default_factory=list)
     drawn_at_s: list[float] = field(default_factory=list)
     resident_mb: list[tuple[float, float]] = field(default_factory=list)
-    stall_ms: list[float] = field(default_factory=list)
+    late_ms: list[tuple[float, float]] = field(default_factory=list)
+    """How late each beat of the window's thread came, and the CPU time that this thread took since the one before."""
+    collected_ms: list[float] = field(default_factory=list)
+    """CPU time of each run of Python's collector in the window's thread."""
+
+
+class Pulse:
+    """A beat every few milliseconds in the window's thread: how late it comes is how long nobody was answered."""
+
+    def __init__(self, live: LiveScreen, run: Run) -> None:
+        self._run = run
+        self._collecting_s = 0.0
+        self._thread = threading.get_ident()
+        self._beat_s, self._cpu_s = time.monotonic(), time.thread_time()
+        self._timer = QTimer(live)
+        self._timer.setTimerType(Qt.TimerType.PreciseTimer)
+        self._timer.timeout.connect(self._beat)
+        self._timer.start(BEAT_MS)
+        gc.callbacks.append(self._collect)
+
+    def end(self) -> None:
+        """Watch no more."""
+        gc.callbacks.remove(self._collect)
+        self._timer.stop()
+
+    def _beat(self) -> None:
+        now_s, cpu_s = time.monotonic(), time.thread_time()
+        late_ms = max(1e3 * (now_s - self._beat_s) - BEAT_MS, 0.0)
+        self._run.late_ms.append((late_ms, 1e3 * (cpu_s - self._cpu_s)))
+        self._beat_s, self._cpu_s = now_s, cpu_s
+
+    def _collect(self, phase: str, facts: dict[str, int]) -> None:
+        if threading.get_ident() != self._thread:
+            return
+        if phase == "start":
+            self._collecting_s = time.thread_time()
+        else:
+            self._run.collected_ms.append(1e3 * (time.thread_time() - self._collecting_s))
 
 
 class Watcher(QObject):
-    """Notes when the curves have been drawn and how old the newest frame in them is then."""
+    """Notes when the curves have been drawn for the first time with a new frame, and how old that frame is then."""
 
     def __init__(self, live: LiveScreen, run: Run) -> None:
         super().__init__(live)
         self._live, self._run = live, run
         self._awaited = False
+        self._drawn_index = -1
         live.plots().face.installEventFilter(self)
 
     def eventFilter(self, watched: QObject, event: QEvent) -> bool:  # noqa: N802  (Qt's name)
@@ -61,9 +110,21 @@ class Watcher(QObject):
     def _drawn(self) -> None:
         self._awaited = False
         view, now_s = self._live._view, time.monotonic()
-        if view is not None:
+        if view is not None and view.tracked.index != self._drawn_index:
+            self._drawn_index = view.tracked.index
             self._run.latency_ms.append(1e3 * (now_s - view.captured_at_s))
             self._run.drawn_at_s.append(now_s)
+
+
+def spec_of(set_up: SetUp) -> RecordingSpec:
+    """The practice patient at a real camera's rate; the program itself shows it with half the pictures."""
+    return replace(practice_spec(set_up), fps=FPS)
+
+
+def take(set_up: SetUp, progress: Callable[[int, int], None]) -> tuple[FrameSource, float]:
+    """The take, rendered once and kept, and how long it is still at its start."""
+    folder = cached_recording(spec_of(set_up), progress, workers=os.cpu_count() or 1)
+    return TumFolder(folder, read_ahead=READ_AHEAD), STILL_S - 1.0 / FPS
 
 
 def choose_whole_hand(journey: Journey) -> None:
@@ -79,7 +140,7 @@ def measure(seconds: float, folder: Path, *, pictures: bool, whole_hand: bool) -
     """Record so long in the real window, on the practice patient in real time; with the raw ``pictures`` on request."""
     settings = replace(Settings(), screen=ScreenSettings("light"), recording=RecordingSettings(folder=str(folder)))
     qt = compose.application(["bench"])
-    desktop = compose.compose(qt, settings, is_demo=True)
+    desktop = compose.compose(qt, settings, is_demo=True, take=take)
     run = Run()
     try:
         walker, journey = Walker(desktop), desktop.journey
@@ -96,7 +157,7 @@ def measure(seconds: float, folder: Path, *, pictures: bool, whole_hand: bool) -
         assert source is not None
         source.measuring._set_up = replace(source.measuring._set_up, keep_pictures=pictures)
         walker.take_picture()
-        walker.click_markers(read_clicks(cached_recording(practice_spec(set_up)) / CLICKS_FILE).pixel)
+        walker.click_markers(read_clicks(cached_recording(spec_of(set_up)) / CLICKS_FILE).pixel)
         live, feed = journey.live, source.measuring.feed
         live.toggle_recording()
         walker.until(lambda: live.recording_state == "recording")
@@ -106,21 +167,14 @@ def measure(seconds: float, folder: Path, *, pictures: bool, whole_hand: bool) -
         again.start(round(1e3 * REST_S))
         before, start_s = feed.counters(), time.monotonic()
         cpu_s, window_cpu_s = time.process_time(), time.thread_time()
-        beat_s = start_s
-
-        def beat() -> None:
-            nonlocal beat_s
-            now_s = time.monotonic()
-            run.stall_ms.append(1e3 * (now_s - beat_s))
-            beat_s = now_s
-            run.resident_mb.append((now_s - start_s, resident_mb()))
-
-        pulse = QTimer(live)
-        pulse.timeout.connect(beat)
-        pulse.start(100)
+        weigh = QTimer(live)
+        weigh.timeout.connect(lambda: run.resident_mb.append((time.monotonic() - start_s, resident_mb())))
+        weigh.start(1000)
+        pulse = Pulse(live, run)
         stay = QEventLoop()
         QTimer.singleShot(round(1e3 * seconds), stay.quit)
         stay.exec()
+        pulse.end()
         wall_s = time.monotonic() - start_s
         after = feed.counters()
         facts = {
@@ -137,7 +191,7 @@ def measure(seconds: float, folder: Path, *, pictures: bool, whole_hand: bool) -
             "threads": threading.active_count(),
         }
         live.plots().face.removeEventFilter(watcher)
-        pulse.stop()
+        weigh.stop()
         again.stop()
         stop_s = time.monotonic()
         live.stop()
@@ -165,6 +219,16 @@ def growth_mb_per_min(samples: list[tuple[float, float]]) -> float:
     return float(60.0 * np.polyfit(settled[:, 0], settled[:, 1], 1)[0]) if len(settled) > 20 else float("nan")
 
 
+def memory_words(samples: list[tuple[float, float]]) -> str:
+    """Resident memory at the start, every five minutes and at the end."""
+    out, next_s = [], 0.0
+    for at_s, used_mb in samples:
+        if at_s >= next_s or at_s == samples[-1][0]:
+            out.append(f"{used_mb:.0f} MB at {at_s / 60.0:.1f} min")
+            next_s += MEMORY_EVERY_S
+    return ", ".join(out)
+
+
 def report(seconds: float, *, pictures: bool = False, whole_hand: bool = False) -> Iterator[str]:
     """Measure and tell, line by line."""
     with tempfile.TemporaryDirectory() as folder:
@@ -187,9 +251,15 @@ def report(seconds: float, *, pictures: bool = False, whole_hand: bool = False) 
     cost_ms, share = facts["window_cpu_ms"], 100.0 * facts["window_cpu"]
     yield f"| window's thread, a drawing | {cost_ms:.1f} ms CPU, {share:.0f} % of a core |"
     yield f"| whole process (with reading the pictures) | {100.0 * facts['cpu']:.0f} % of a core |"
-    yield f"| longest time the window did not answer | {max(run.stall_ms):.0f} ms |"
-    slope = growth_mb_per_min(run.resident_mb)
-    first, last = run.resident_mb[0][1], run.resident_mb[-1][1]
-    yield f"| memory at start, at end, growth | {first:.0f} MB, {last:.0f} MB, {slope:+.1f} MB a minute |"
+    wall_ms, cpu_ms = (np.array(values) for values in zip(*run.late_ms, strict=True))
+    yield f"| time without an answer, 99 % and longest | {_99_most(wall_ms)} |"
+    yield f"| CPU time of the window's thread in it | {_99_most(cpu_ms)} |"
+    yield f"| of it Python's collector, longest | {max(run.collected_ms, default=0.0):.0f} ms CPU |"
+    yield f"| memory | {memory_words(run.resident_mb)} |"
+    yield f"| its growth | {growth_mb_per_min(run.resident_mb):+.1f} MB a minute |"
     yield f"| looked back at while recorded | {facts['looked_back']} |"
     yield f"| from Stop to the review | {facts['stop_s']:.1f} s |"
+
+
+def _99_most(many_ms: np.ndarray) -> str:
+    return f"{np.percentile(many_ms, 99.0):.0f}, {many_ms.max():.0f} ms"

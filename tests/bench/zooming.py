@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import gc
 import time
 from collections.abc import Iterator
 
@@ -12,8 +13,10 @@ from PySide6.QtWidgets import QApplication
 
 from carpus.app import compose
 from carpus.core.output.exercises import exercise_named
+from carpus.core.output.joint_content import JointCurves
 from carpus.core.output.report_content import Curves
-from carpus.ui.plot.session import SessionPlot
+from carpus.ui.figures import FIGURES
+from carpus.ui.plot.session import HandPlot, SessionPlot
 from carpus.ui.plot.session_view import CurveView
 from carpus.ui.theme import Theme
 
@@ -22,28 +25,36 @@ WANTED_MS = 50.0
 
 
 def report() -> Iterator[str]:
-    """In at the middle and out again, then along: each step until it is painted."""
+    """In at the middle and out again, then along: each step until it is painted; of the wrist and of the whole hand."""
     qt = compose.application(["carpus"])
-    theme = Theme("light")
-    view = CurveView(theme)
-    view.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose, False)
-    view.resize(1232, 420)
-    view.show()
-    view.show_plot(SessionPlot(_curves(), exercise_named("WRIST_FE"), ()))
-    qt.processEvents()
-    took_ms = [
-        _step_ms(view, turn, modifiers)
-        for turns, modifiers in (
-            ([120] * STEPS + [-120] * STEPS, Qt.KeyboardModifier.NoModifier),
-            ([120] * 8, Qt.KeyboardModifier.NoModifier),
-            ([-120, 120] * STEPS, Qt.KeyboardModifier.ShiftModifier),
-        )
-        for turn in turns
-    ]
-    yield f"review of {SECONDS / 60.0:.0f} minutes, {len(took_ms)} steps of the wheel until painted"
-    yield f"  median {np.percentile(took_ms, 50):.1f} ms, 95th percentile {np.percentile(took_ms, 95):.1f} ms"
-    yield f"  longest {max(took_ms):.1f} ms ({WANTED_MS:.0f} ms were wanted at most)"
-    view.close()
+    gc.collect()
+    gc.freeze()  # as the program does before a session is opened
+    curves = _curves()
+    for words, plot in (
+        ("wrist", SessionPlot(curves, exercise_named("WRIST_FE"), ())),
+        ("whole hand", HandPlot(curves, exercise_named("FIST_COMPOSITE"), (), joints=_joints(curves))),
+    ):
+        view = CurveView(Theme("light"))
+        view.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose, False)
+        view.resize(1232, 420)
+        view.show()
+        view.show_plot(plot)
+        qt.processEvents()
+        took = [
+            _step_ms(view, turn, modifiers)
+            for turns, modifiers in (
+                ([120] * STEPS + [-120] * STEPS, Qt.KeyboardModifier.NoModifier),
+                ([120] * 8, Qt.KeyboardModifier.NoModifier),
+                ([-120, 120] * STEPS, Qt.KeyboardModifier.ShiftModifier),
+            )
+            for turn in turns
+        ]
+        yield f"review of {SECONDS / 60.0:.0f} minutes, {words}, {len(took)} steps of the wheel until painted"
+        for clock, many_ms in zip(("on the clock", "CPU time"), np.array(took).T, strict=True):
+            p50, p95, most = np.percentile(many_ms, (50.0, 95.0, 100.0))
+            yield f"  {clock}: median {p50:.1f} ms, 95th percentile {p95:.1f} ms, longest {most:.1f} ms"
+        view.close()
+    yield f"{WANTED_MS:.0f} ms were wanted at most; on a computer that does other work too the CPU time says more"
 
 
 def _curves() -> Curves:
@@ -53,14 +64,23 @@ def _curves() -> Curves:
     return Curves(time_s, angles_deg, np.full_like(angles_deg, 0.7), np.zeros(len(time_s), dtype=np.int64))
 
 
-def _step_ms(view: CurveView, turn: int, modifiers: Qt.KeyboardModifier) -> float:
+def _joints(curves: Curves) -> JointCurves:
+    """All joints bend and straighten in turn, with the wrist's noise."""
+    names = tuple(dict.fromkeys(figure.joint for figure in FIGURES if figure.row != "tam"))
+    bent = np.abs(curves.angles_deg[:, 1:2]) + np.arange(len(names))
+    noise = np.random.default_rng(2).normal(0.0, 0.4, bent.shape)
+    return JointCurves(names, curves.time_s, bent + noise, np.full_like(bent, 0.7), np.ones(bent.shape, dtype=bool))
+
+
+def _step_ms(view: CurveView, turn: int, modifiers: Qt.KeyboardModifier) -> tuple[float, float]:
+    """On the clock, and CPU time of the window's thread."""
     face = view.face
     at = QPointF(view.panels()[0][0].box.center().toPoint())
     event = QWheelEvent(
         at, face.mapToGlobal(at), QPoint(), QPoint(0, turn), Qt.MouseButton.NoButton, modifiers,
         Qt.ScrollPhase.NoScrollPhase, False,
     )  # fmt: skip
-    begin = time.perf_counter()
+    begin_s, cpu_s = time.perf_counter(), time.thread_time()
     QApplication.sendEvent(face, event)
     QApplication.processEvents()
-    return 1e3 * (time.perf_counter() - begin)
+    return 1e3 * (time.perf_counter() - begin_s), 1e3 * (time.thread_time() - cpu_s)

@@ -16,7 +16,7 @@ from carpus.core.output.report_content import RepetitionChoices, session_figures
 from carpus.ui.figures import FIGURES, Figure
 from carpus.ui.joint_figures import figures_of
 from carpus.ui.plot.axes import Panel, Scale
-from carpus.ui.plot.series import Series, paint_series
+from carpus.ui.plot.series import Drawn, Series, paint_series
 from carpus.ui.plot.style import screen_style
 from carpus.ui.plot.thin import thinned
 from carpus.ui.theme import Theme
@@ -67,11 +67,11 @@ def drawn(theme: Theme, many: list[Series]) -> list[QRectF]:
     picture = QImage(600, 120, QImage.Format.Format_RGB32)
     panel = Panel(QRectF(0, 0, 600, 120), Scale(-15.0, 115.0, (90.0, 0.0), ()), 0.0, 20.0)
     painter = QPainter(picture)
-    numbered: list[QRectF] = []
+    shared = Drawn()
     for series in many:
-        paint_series(painter, screen_style(theme), panel, series, "curve_a", numbered)
+        paint_series(painter, screen_style(theme), panel, series, "curve_a", shared)
     painter.end()
-    return numbered
+    return shared.numbers
 
 
 def test_numbers_of_values_beyond_the_scale_never_cover_each_other(qapp: QApplication, theme: Theme) -> None:

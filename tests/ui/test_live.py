@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import time
 from dataclasses import replace
 
 import numpy as np
@@ -201,6 +202,26 @@ def test_a_lost_camera_leaves_no_old_picture_and_no_old_number(qtbot: QtBot, the
     assert math.isnan(screen.number.reading.value_deg)
     assert screen.light.lamp.state == "No picture"
     assert screen.recording_state == "paused"
+
+
+@pytest.mark.parametrize(
+    ("since_s", "drawing_ms", "drawn"),
+    [
+        (math.inf, 5.0, True),
+        (-1000.0, 5.0, False),  # too soon after the last drawing
+        (1000.0, 4e6, False),  # drawing takes so long that tracking would have no time left
+    ],
+)
+def test_a_new_picture_is_drawn_at_once_but_drawing_never_takes_all_the_time(
+    qtbot: QtBot, theme: Theme, since_s: float, drawing_ms: float, drawn: bool
+) -> None:
+    feed = FakeFeed()
+    screen, _ = live(qtbot, theme, feed)
+    run(screen, feed, 0.5)
+    feed.step(2)
+    screen._ticked_at_s, screen._drawing_ms = time.monotonic() - since_s, drawing_ms
+    screen.look()
+    assert (screen.history.last_index == feed.place) == drawn
 
 
 def test_f4_changes_between_angles_and_speeds(qtbot: QtBot, theme: Theme) -> None:

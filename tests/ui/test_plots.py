@@ -11,7 +11,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from PySide6.QtCore import QEvent, QPoint, QPointF, Qt
+from PySide6.QtCore import QEvent, QPoint, QPointF, QRectF, Qt
 from PySide6.QtGui import QColor, QGuiApplication, QImage, QMouseEvent, QPainter, QWheelEvent
 from PySide6.QtWidgets import QApplication, QWidget
 from pytestqt.qtbot import QtBot
@@ -21,8 +21,10 @@ from carpus.core.output.exercises import exercise_named
 from carpus.core.output.report_content import Curves, session_curves, session_figures
 from carpus.core.types import ByteImage
 from carpus.ui.numbers import with_spread
+from carpus.ui.plot.axes import Panel, Scale
 from carpus.ui.plot.history import History
 from carpus.ui.plot.live_curves import LiveCurves
+from carpus.ui.plot.series import Series, paint_series
 from carpus.ui.plot.session import SessionPlot, paint_session
 from carpus.ui.plot.session_view import CurveView
 from carpus.ui.plot.style import screen_style
@@ -230,6 +232,38 @@ def test_twenty_minutes_are_drawn_with_few_points_and_every_peak() -> None:
         assert len(drawn.time_s) <= 3 * 600
         assert drawn.value.max() == 83.0
         assert not drawn.gaps_s()
+
+
+@pytest.mark.parametrize("ratio", [1.0, 1.5])
+def test_a_curve_by_columns_looks_like_the_stroked_one_and_keeps_every_peak(
+    qapp: QApplication, theme: Theme, ratio: float, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Up and down every dozen pixels, with one sample far out, a gap, and a stretch that is predicted."""
+    time_s = np.arange(0.0, 60.0, 1.0 / 30.0)
+    value = 20.0 * np.sin(3.0 * time_s)
+    value[900] = 83.0
+    value[1200:1230] = math.nan
+    predicted = (time_s > 50.0) & (time_s < 55.0)
+    series = Series(time_s, value, np.full(len(time_s), 2.0), predicted)
+    pictures = []
+    for dense in (1.5, math.inf):
+        monkeypatch.setattr("carpus.ui.plot.series.DENSE", dense)
+        image = QImage(round(600 * ratio), round(200 * ratio), QImage.Format.Format_RGB32)
+        image.setDevicePixelRatio(ratio)
+        image.fill(QColor("white"))
+        painter = QPainter(image)
+        panel = Panel(QRectF(0, 0, 600, 200), Scale(-90.0, 90.0, (), ()), 0.0, 60.0)
+        paint_series(painter, screen_style(theme), panel, series, "curve_a")
+        painter.end()
+        pictures.append(pixels(image)[..., :3].astype(int))
+    by_columns, stroked = pictures
+    assert np.abs(by_columns - stroked).mean() < 5.0
+    part = np.s_[:, round(505 * ratio) : round(545 * ratio)]
+    assert by_columns[part].mean() == pytest.approx(stroked[part].mean(), abs=6.0), "as many dashes"
+    tops = [np.flatnonzero((picture < 128).any(axis=(1, 2)))[0] for picture in pictures]
+    assert abs(int(tops[0]) - int(tops[1])) <= 1 + round(ratio)
+    ink = [(255 - picture).sum() for picture in pictures]
+    assert ink[0] == pytest.approx(ink[1], rel=0.1)
 
 
 def test_nothing_moves_by_mouse_while_measuring(qtbot: QtBot, theme: Theme) -> None:

@@ -38,10 +38,16 @@ from carpus.ui.ports import Measuring
 from carpus.ui.theme import GAP_PX, MARGIN_PX, Theme, is_tight
 from carpus.ui.tour.bubble import LEAST_SCREEN_PX, BubbleView
 
-DRAW_EVERY_MS = 40
-"""25 drawings a second; what arrives in between is in the curves, not drawn on its own."""
+LOOK_EVERY_MS = 8
+"""So often the screen looks for a new picture: the curves are as old as this, not as the time between two drawings."""
+DRAW_AFTER_MS = 25
+"""Never sooner after the last drawing; what arrives in between is in the curves, not drawn on its own."""
+DRAWING_SHARE = 0.5
+"""At most this part of the time goes to drawing: on a slow computer fewer drawings, not fewer pictures tracked."""
+TICK_EVERY_MS = 40
+"""So often figures and state go on where no pictures come."""
 VALUES_EVERY = 3
-SLOW_EVERY = 25
+SLOW_EVERY = 30
 HASTY_S = 3.0
 """So soon after a recording began nobody is taken to mean its end without being asked."""
 WRIST_COLUMNS, HAND_COLUMNS = (520, 696), (440, 776)
@@ -75,6 +81,7 @@ class LiveScreen(QWidget):
         self._camera_lost = False
         self._stopping = False
         self._tick = 0
+        self._ticked_at_s, self._drawing_ms = -math.inf, 0.0
         self._started_at_s = -HASTY_S
         self.stage = QWidget()
         """All but the bar below: what a message may cover while the light goes on speaking to the far eye."""
@@ -100,8 +107,9 @@ class LiveScreen(QWidget):
         self._connect(keys)
         theme.changed.connect(self._fit)
         self._timer = QTimer(self)
-        self._timer.setInterval(DRAW_EVERY_MS)
-        self._timer.timeout.connect(self.tick)
+        self._timer.setTimerType(Qt.TimerType.PreciseTimer)
+        self._timer.setInterval(LOOK_EVERY_MS)
+        self._timer.timeout.connect(self.look)
 
     def _lay_out(self) -> None:
         left = QVBoxLayout()
@@ -368,10 +376,25 @@ class LiveScreen(QWidget):
         return self._measuring is not None and self._measuring.feed.add_event(kind, text)
 
     # --- drawing ------------------------------------------------------------------------------------------
+    def look(self) -> None:
+        """Draw as soon as there is a new picture, and go on without one now and then."""
+        if self._measuring is None:
+            return
+        since_ms = 1e3 * (time.monotonic() - self._ticked_at_s)
+        if self._drawing_ms is None:  # the first look since: all that was asked for has been painted
+            self._drawing_ms = since_ms
+        if since_ms < max(DRAW_AFTER_MS, self._drawing_ms / DRAWING_SHARE):
+            return
+        view, shown = self._measuring.feed.newest(), self._view
+        is_new = view is not None and (shown is None or view.tracked.index != shown.tracked.index)
+        if since_ms >= TICK_EVERY_MS or (is_new and not self._camera_lost):
+            self.tick()
+
     def tick(self) -> None:
         """Pull what is new and draw it."""
         if self._measuring is None:
             return
+        self._ticked_at_s, self._drawing_ms = time.monotonic(), None
         feed = self._measuring.feed
         fresh = feed.tracked_since(self.history.last_index)
         self.history.append(fresh)
@@ -385,7 +408,7 @@ class LiveScreen(QWidget):
             self.picture.show_frame(view.frame.color_rgb)
             self.plots().draw()
         if self._camera_lost:
-            self.history.wait(0.001 * DRAW_EVERY_MS)
+            self.history.wait(0.001 * TICK_EVERY_MS)
             self.plots().draw()
         if self._tick % VALUES_EVERY == 0:
             self._show_values()

@@ -6,7 +6,7 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-from PySide6.QtCore import QPointF, QRectF, Qt
+from PySide6.QtCore import QLineF, QRectF, Qt
 from PySide6.QtGui import QBrush, QPainter, QPen
 
 from carpus.core.types import FloatArray
@@ -84,6 +84,9 @@ def hatch(painter: QPainter, style: PlotStyle, box: QRectF, token: str = "border
     step = 5.0 * style.unit
     offset = box.height()
     start = np.floor((box.left() - offset) / step) * step
-    for left in np.arange(start, box.right() + step, step):
-        painter.drawLine(QPointF(left, box.bottom()), QPointF(left + offset, box.top()))
+    lines = [
+        QLineF(left, box.bottom(), left + offset, box.top())
+        for left in np.arange(start, box.right() + step, step).tolist()
+    ]
+    painter.drawLines(lines)
     painter.restore()

@@ -61,8 +61,11 @@ class PanelBox(pg.ViewBox):
     def show_panel(self, panel: Panel) -> None:
         """Another place, scale or time."""
         self.setGeometry(panel.box)
-        self.setXRange(panel.start_s, panel.end_s, padding=0.0)
-        self.setYRange(panel.scale.low, panel.scale.high, padding=0.0)
+        across, up = self.viewRange()  # each setting costs as much as a curve, so only what is new is set
+        if tuple(across) != (panel.start_s, panel.end_s):
+            self.setXRange(panel.start_s, panel.end_s, padding=0.0)
+        if tuple(up) != (panel.scale.low, panel.scale.high):
+            self.setYRange(panel.scale.low, panel.scale.high, padding=0.0)
         self.panel = panel
 
     def unlock(self, hands: Hands) -> None:

@@ -17,7 +17,7 @@ from PySide6.QtGui import QFontMetricsF, QPainter, QPen
 from carpus.core.output.report_content import ShownRepetition
 from carpus.ui.plot import axes
 from carpus.ui.plot.axes import Panel
-from carpus.ui.plot.series import Series, paint_series
+from carpus.ui.plot.series import Drawn, Series, paint_series
 from carpus.ui.plot.style import PlotStyle
 from carpus.ui.translate import tr
 
@@ -143,22 +143,22 @@ class Curve:
     series: Series
     token: str
 
-    def paint(self, painter: QPainter, style: PlotStyle, panel: Panel, numbered: list[QRectF] | None = None) -> None:
-        paint_series(painter, style, panel, self.series, self.token, numbered)
+    def paint(self, painter: QPainter, style: PlotStyle, panel: Panel, drawn: Drawn | None = None) -> None:
+        paint_series(painter, style, panel, self.series, self.token, drawn)
 
 
 @dataclass(frozen=True, slots=True)
 class Curves:
-    """All curves of a panel, whose numbers beyond the scale cover none of each other."""
+    """All curves of a panel: numbers beyond the scale cover none of each other, a gap of several is hatched once."""
 
     curves: Sequence[Curve]
 
     def paint(self, painter: QPainter, style: PlotStyle, panel: Panel) -> None:
-        numbered: list[QRectF] = []
+        drawn = Drawn()
         painter.save()
         painter.setClipRect(panel.box.adjusted(0, -2, 0, 2).toAlignedRect(), Qt.ClipOperation.IntersectClip)
         for curve in self.curves:
-            curve.paint(painter, style, panel, numbered)
+            curve.paint(painter, style, panel, drawn)
         painter.restore()
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 from PySide6.QtCore import QRectF
@@ -181,6 +181,8 @@ class HandPlot(SessionPlot):
 
     joints: JointCurves | None = None
     finger: int = 0
+    _drawn: dict[Figure, tuple[JointCurves, Series | None]] = field(default_factory=dict, repr=False, compare=False)
+    """What :meth:`joint_series` has found: it is asked at every step of the wheel."""
 
     def figures(self, panel: int) -> list[Figure]:
         """What is drawn in a panel."""
@@ -192,15 +194,11 @@ class HandPlot(SessionPlot):
         """A joint as it is drawn, dashed where it was not seen; None for one that is neither measured nor bound."""
         joints = self.joints
         assert joints is not None
-        name, share, bound = figure.joint, figure.sign, False
-        if name not in joints.names and figure.row == "end":
-            name, share, bound = f"PIP{figure.finger}_flexion", DIP_PER_PIP, True
-        if name not in joints.names:
-            return None
-        column = joints.names.index(name)
-        value, sd = share * joints.angles_deg[:, column], abs(share) * joints.sds_deg[:, column]
-        hidden = np.isfinite(value) & (bound | ~joints.seen[:, column])
-        return Series(joints.time_s, value, sd, hidden)
+        of, found = self._drawn.get(figure, (None, None))
+        if of is not joints:
+            found = _joint_series(joints, figure)
+            self._drawn[figure] = joints, found
+        return found
 
     def is_bound(self, figure: Figure) -> bool:
         """Whether a joint has no angle of its own."""
@@ -245,6 +243,18 @@ class HandPlot(SessionPlot):
         figures = [figure for figure in self.figures(key) if self.joint_series(figure) is not None]
         shown = figures if self.finger else [figure for figure in figures if not self.is_bound(figure)]
         return [Value(figure.row_name, figure.token, *joint_at(self, figure, time_s)) for figure in shown]
+
+
+def _joint_series(joints: JointCurves, figure: Figure) -> Series | None:
+    name, share, bound = figure.joint, figure.sign, False
+    if name not in joints.names and figure.row == "end":
+        name, share, bound = f"PIP{figure.finger}_flexion", DIP_PER_PIP, True
+    if name not in joints.names:
+        return None
+    column = joints.names.index(name)
+    value, sd = share * joints.angles_deg[:, column], abs(share) * joints.sds_deg[:, column]
+    hidden = np.isfinite(value) & (bound | ~joints.seen[:, column])
+    return Series(joints.time_s, value, sd, hidden)
 
 
 def _bend_scale(roomy: bool) -> Scale:

@@ -37,11 +37,12 @@ def thinned(series: Series, columns: int) -> Series:
     lowest = first + np.where(known, value, np.inf).argmin(axis=1)
     highest = first + np.where(known, value, -np.inf).argmax(axis=1)
     unknown = first + (~known & inside).argmax(axis=1)
-    index = np.unique(
-        np.concatenate(
-            (lowest[some], highest[some], unknown[gap & some], first[~some], np.minimum(first + size, count)[~some] - 1)
-        )
-    )
+    kept = np.zeros(count, dtype=bool)
+    for index in (
+        lowest[some], highest[some], unknown[gap & some], first[~some], np.minimum(first + size, count)[~some] - 1,
+    ):  # fmt: skip
+        kept[index] = True
+    index = np.flatnonzero(kept)
     sd = None
     if series.sd is not None:
         spread = np.full(rows * size, -np.inf)
@@ -68,6 +69,8 @@ def within(series: Series, start_s: float, end_s: float) -> Series:
 def _with_gaps(series: Series) -> Series:
     """A sample without a value in the middle of each step that is too long to be joined."""
     before = np.flatnonzero(np.diff(series.time_s) > series.longest_step_s)
+    if not len(before):
+        return series
     middle_s = 0.5 * (series.time_s[before] + series.time_s[before + 1])
     return Series(
         np.insert(series.time_s, before + 1, middle_s),
