@@ -7,6 +7,7 @@ import os
 import tempfile
 import threading
 import time
+from array import array
 from collections.abc import Callable, Iterator
 from contextlib import suppress
 from dataclasses import dataclass, field, replace
@@ -48,11 +49,12 @@ MEMORY_EVERY_S = 300.0
 class Run:
     """What was seen of the running window."""
 
-    latency_ms: list[float] = field(default_factory=list)
-    drawn_at_s: list[float] = field(default_factory=list)
+    latency_ms: array[float] = field(default_factory=lambda: array("d"))
+    drawn_at_s: array[float] = field(default_factory=lambda: array("d"))
     resident_mb: list[tuple[float, float]] = field(default_factory=list)
-    late_ms: list[tuple[float, float]] = field(default_factory=list)
-    """How late each beat of the window's thread came, and the CPU time that this thread took since the one before."""
+    late_ms: array[float] = field(default_factory=lambda: array("d"))
+    """How late each beat of the window's thread came, and the CPU time that this thread took since the one before, in
+    turn: an array, or what watches would take the memory that it looks for."""
     collected_ms: list[float] = field(default_factory=list)
     """CPU time of each run of Python's collector in the window's thread."""
 
@@ -79,7 +81,7 @@ class Pulse:
     def _beat(self) -> None:
         now_s, cpu_s = time.monotonic(), time.thread_time()
         late_ms = max(1e3 * (now_s - self._beat_s) - BEAT_MS, 0.0)
-        self._run.late_ms.append((late_ms, 1e3 * (cpu_s - self._cpu_s)))
+        self._run.late_ms.extend((late_ms, 1e3 * (cpu_s - self._cpu_s)))
         self._beat_s, self._cpu_s = now_s, cpu_s
 
     def _collect(self, phase: str, facts: dict[str, int]) -> None:
@@ -251,7 +253,7 @@ def report(seconds: float, *, pictures: bool = False, whole_hand: bool = False) 
     cost_ms, share = facts["window_cpu_ms"], 100.0 * facts["window_cpu"]
     yield f"| window's thread, a drawing | {cost_ms:.1f} ms CPU, {share:.0f} % of a core |"
     yield f"| whole process (with reading the pictures) | {100.0 * facts['cpu']:.0f} % of a core |"
-    wall_ms, cpu_ms = (np.array(values) for values in zip(*run.late_ms, strict=True))
+    wall_ms, cpu_ms = np.array(run.late_ms).reshape(-1, 2).T
     yield f"| time without an answer, 99 % and longest | {_99_most(wall_ms)} |"
     yield f"| CPU time of the window's thread in it | {_99_most(cpu_ms)} |"
     yield f"| of it Python's collector, longest | {max(run.collected_ms, default=0.0):.0f} ms CPU |"

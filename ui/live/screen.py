@@ -81,7 +81,8 @@ class LiveScreen(QWidget):
         self._camera_lost = False
         self._stopping = False
         self._tick = 0
-        self._ticked_at_s, self._drawing_ms = -math.inf, 0.0
+        self._ticked_at_s = -math.inf
+        self._drawing_ms: float | None = 0.0
         self._started_at_s = -HASTY_S
         self.stage = QWidget()
         """All but the bar below: what a message may cover while the light goes on speaking to the far eye."""
