@@ -144,6 +144,7 @@ class TrackedFrame:
     ``measured_share`` (3,) or (J,) share of direct measurement in the last second; ``nis`` normalised
     innovation squared and ``nis_dof`` its degrees of freedom.
     ``doubted`` (M,) whether what is seen contradicts what is stated of the marker; none when not given.
+    ``no_disc`` (D,) detections that a person said are no disc, and that were not used; none when not given; not stored.
     """
 
     index: int
@@ -161,7 +162,10 @@ class TrackedFrame:
     nis: float
     nis_dof: int
     doubted: BoolArray = field(default_factory=lambda: np.zeros(0, dtype=np.bool_))
+    no_disc: BoolArray = field(default_factory=lambda: np.zeros(0, dtype=np.bool_))
 
     def __post_init__(self) -> None:
         if not len(self.doubted):
             object.__setattr__(self, "doubted", np.zeros(len(self.marker_measured_px), dtype=np.bool_))
+        if len(self.no_disc) != len(self.detections):
+            object.__setattr__(self, "no_disc", np.zeros(len(self.detections), dtype=np.bool_))

@@ -16,6 +16,7 @@ from carpus.core.hand.protocols import MarkerProtocol
 from carpus.core.output.report_content import RepetitionChoices, SessionFigures
 from carpus.core.pipeline.live_values import LiveCounters, LiveEvent, TrackedView
 from carpus.core.session.values import AngleOrder, Session
+from carpus.core.tracking.said_spots import SpotAnswer
 from carpus.core.types import ByteImage, FloatArray, Frame, Side, TrackedFrame
 
 AffectedSide = Literal["right", "left", "both"]
@@ -216,6 +217,10 @@ class Measuring(Protocol):
     @property
     def starts_with_recording(self) -> bool:
         """Whether this is a stored recording, which plays from its first picture when recording starts."""
+        ...
+
+    def answer_spot(self, answer: SpotAnswer) -> None:
+        """What the person says of blue spots; holds from the next picture on, and the recording notes it."""
         ...
 
     def start_recording(self) -> None: ...

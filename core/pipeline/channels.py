@@ -5,6 +5,7 @@ channel              where                        policy at the bound
 ===================  ===========================  ================================================
 :class:`DropOldest`  capture -> tracking          the oldest is lost, counted, told to who takes next
 :class:`NeverDrop`   tracking or capture -> disk  :class:`ChannelFull`: the recording ends with a fault
+                     screen -> tracking           the same, of what a person says: it is not taken in
 :class:`Waits`       file -> tracking -> disk     who puts waits: a file has time, and nothing of it is lost
 :class:`Newest`      anything -> screen           only the newest value is kept; who looks takes nothing away
 ===================  ===========================  ================================================
@@ -141,6 +142,13 @@ class NeverDrop(_Bounded[T]):
             if len(self._items) == self.capacity:
                 raise ChannelFull
             self._append(item)
+
+    def taken(self) -> list[T]:
+        """Everything that waits now, oldest first, for who does not wait for more."""
+        with self._changed:
+            out = list(self._items)
+            self._items.clear()
+        return out
 
     def __iter__(self) -> Iterator[T]:
         """Items in order until the channel is closed and empty; waits for each."""

@@ -23,6 +23,7 @@ from carpus.core.session.marker_places import SAME_SPOT_PX, Correction
 from carpus.core.session.reader import read_detections, read_session
 from carpus.core.session.values import DetectionTable, Session, motion_of, new_header
 from carpus.core.session.writer import SessionWriter
+from carpus.core.tracking.said_spots import SPOT_SAID, SpotAnswer
 from carpus.core.tracking.tracker import Tracker
 from carpus.core.types import SIMULATED, BoolArray, Detections, FloatArray, Moment, TrackedFrame
 
@@ -84,6 +85,18 @@ def _settings(session: Session) -> TrackSettings:
     return told.settings if told is not None else TrackSettings()
 
 
+def _answers_in(session: Session) -> dict[int, list[SpotAnswer]]:
+    """What was said of blue spots while measuring, by the row of the picture that took it up."""
+    out: dict[int, list[SpotAnswer]] = {}
+    for event in session.events:
+        if event.kind == SPOT_SAID and len(session):
+            row = int(abs(session.timestamp_s - event.time_s).argmin())
+            answer = SpotAnswer.of_text(event.text, row)
+            if answer is not None:
+                out.setdefault(row, []).append(answer)
+    return out
+
+
 def not_held(session: Session, corrections: Sequence[Correction]) -> tuple[str, ...]:
     """Markers that the new result does not have where the person put them, nor soon after."""
     markers = list(session.header.protocol.markers)
@@ -133,6 +146,7 @@ class _Retracking:
         self._session, self._table, self._settings = session, table, settings
         self._learnt = learnt_in(session.header.parameters) or learnt_from(StillNoise(), -np.inf, settings.tracker)
         self._by_row = {correction.row: correction for correction in corrections}
+        self._answers = _answers_in(session)
         self._moments: list[Moment] = []
         self._tracker = self._new_tracker()
         self._false: list[_FalseSpot] = []
@@ -153,6 +167,8 @@ class _Retracking:
             correction = self._by_row.get(row)
             if correction is not None:
                 blobs = self._put_right(correction, blobs, time_s)
+            for answer in self._answers.get(row, ()):
+                self._tracker.hear(answer)
             for false in self._false:
                 blobs = false.left_out_of(blobs, time_s)
             self._false = [false for false in self._false if not false.is_gone]

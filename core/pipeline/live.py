@@ -323,9 +323,9 @@ class LiveSession:
             self._paused = False
             self.add_event("resume", "")
 
-    def add_event(self, kind: str, text: str = "") -> bool:
-        """Notes something at the newest frame's time in the running recording; False when there is none."""
-        rows, now_s = self._rows, self._now_s()
+    def add_event(self, kind: str, text: str = "", at_s: float = math.nan) -> bool:
+        """Notes something in the running recording, at a time or at the newest frame's; False when there is none."""
+        rows, now_s = self._rows, at_s if math.isfinite(at_s) else self._now_s()
         self._hear(lambda listener: listener.event(now_s, kind))
         return rows is not None and rows.put(_Note(now_s, kind, text))
 

@@ -27,6 +27,7 @@ from carpus.core.errors import DiskFull, EndStalled, ExtraMissing, NotLookedBack
 from carpus.core.library.beside import MARKERS_SUFFIX
 from carpus.core.library.set_up import SetUp
 from carpus.core.pipeline.around_hand import AroundHand, HandArea
+from carpus.core.pipeline.channels import ChannelFull, NeverDrop
 from carpus.core.pipeline.frame_walk import FrameWalk
 from carpus.core.pipeline.live import Listener, LiveSession
 from carpus.core.pipeline.looking_back import LookingBack
@@ -34,6 +35,7 @@ from carpus.core.pipeline.pieces import TrackedHand
 from carpus.core.pipeline.track import Learnt, TrackSettings, build_walk, learnt_from, parameters_json, source_facts
 from carpus.core.session.values import new_header
 from carpus.core.session.writer import Fallback, SessionWriter
+from carpus.core.tracking.said_spots import SPOT_SAID, SpotAnswer
 from carpus.core.tracking.tracker import KeptSteps, Tracker
 from carpus.core.types import ByteImage, FloatArray, Frame, TrackedFrame
 from carpus.core.words import one_sentence
@@ -44,6 +46,7 @@ _AROUND_HAND = 0.6
 """The picture of the markers reaches this share of their box beyond it."""
 LEAST_FREE_BYTES = 100_000_000
 """A recording does not begin with less: ten minutes of rows, or ten seconds of pictures."""
+_ANSWERS_WAITING = 16
 NOT_LOOKED_BACK = "not_looked_back"
 """The event of a session that is stored as tracked, though looking back was asked for."""
 
@@ -86,6 +89,22 @@ class LiveWalk:
         """Called in the tracking thread with the step of every frame; must not wait."""
         self.seen: Callable[[TrackedFrame], None] | None = None
         """Called in the tracking thread with every frame; must not wait."""
+        self.taken_up: Callable[[SpotAnswer, float], None] | None = None
+        """Called in the tracking thread with every answer that a frame has taken up, and that frame's time."""
+        self._answers: NeverDrop[SpotAnswer] = NeverDrop(_ANSWERS_WAITING)
+        self._shown: set[str] = set()
+        self._to_restate: set[str] = set()
+        self._restating = False
+
+    def restate(self) -> None:
+        """A recording begins: which spots were shown to be markers before it is told once more, of its own pictures."""
+        self._restating = True
+
+    def answer(self, answer: SpotAnswer) -> None:
+        """What a person says of blue spots; from any thread, taken up with the next frame. Dropped where a dozen wait
+        already, as when no pictures come."""
+        with suppress(ChannelFull):
+            self._answers.put(answer)
 
     def __call__(self, frame: Frame) -> TrackedFrame:
         """Track one frame; in the tracking thread."""
@@ -94,13 +113,31 @@ class LiveWalk:
             # The still frames made the calibration; counted twice they would make it too sure of itself.
             tracker.begin_at_neutral()
             self._begun = True
+        for answer in self._answers.taken():
+            tracker.hear(answer)
         tracked = self._walk(frame)
+        self._tell_answers(tracker.taken_up(), tracked)
         if self.seen is not None:
             self.seen(tracked)
         kept, keep = tracker.hand_over(), self.keep
         if keep is not None:
             keep(kept)
         return tracked
+
+    def _tell_answers(self, heard: list[SpotAnswer], tracked: TrackedFrame) -> None:
+        if self._restating:
+            self._restating, self._to_restate = False, set(self._shown)
+        markers = self._walk.tracker.markers
+        for name in sorted(self._to_restate):
+            u, v = tracked.marker_measured_px[markers.index(name)]
+            if np.isfinite(u):
+                self._to_restate.remove(name)
+                heard.append(SpotAnswer(tracked.index, name, (float(u), float(v))))
+        for answer in heard:
+            if answer.place_px is not None:
+                self._shown.add(answer.marker)
+            if self.taken_up is not None:
+                self.taken_up(answer, tracked.timestamp_s)
 
 
 class SmoothedSession:
@@ -236,6 +273,7 @@ class SourceMeasuring:
         self._learnt = learnt_from(outcome.noise, neutral_ends_s, self._settings.tracker)
         walk = build_walk(outcome, self.camera, self._settings, self._learnt, keep_history=self._settings.smooth)
         self._walk = LiveWalk(walk, neutral_ends_s)
+        self._walk.taken_up = lambda answer, time_s: self._note(SPOT_SAID, answer.text(), time_s)
         self._calibration = outcome.calibration
         self._markers_rgb = _around_hand(held[0].color_rgb, outcome.pixel)
         try:
@@ -244,6 +282,15 @@ class SourceMeasuring:
             self._session.notice(fault)
         self._session.begin_tracking(self._walk)
         self._on_begin()
+
+    def answer_spot(self, answer: SpotAnswer) -> None:
+        """What a person says of blue spots of a picture shown: the tracker takes it up in its own thread, with the next
+        frame, and the recording notes it."""
+        if self._walk is not None:
+            self._walk.answer(answer)
+
+    def _note(self, kind: str, text: str, time_s: float) -> None:
+        self._session.add_event(kind, text, time_s)
 
     def start_recording(self) -> None:
         """Open the session file, and a raw recording beside it if wanted; waits for the disk."""
@@ -289,6 +336,7 @@ class SourceMeasuring:
             if looking_back is not None:
                 looking_back.cancel()
             raise
+        walk.restate()
         if self._starts_with_recording and not self._played:
             self._played = True
             self._session.start()

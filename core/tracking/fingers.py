@@ -126,6 +126,19 @@ class Fingers:
         anywhere = self.model.anywhere(self._mean, self._covariance)
         self._take(anywhere, anywhere.merged())
 
+    def look_anew(self, ray: int) -> None:
+        """A person shows a disc of a ray where it was not believed: its joints may be anywhere."""
+        anywhere = self.model.anywhere(self._mean, self._covariance)
+        mean, covariance = self._beliefs.mean.copy(), self._beliefs.covariance.copy()
+        probability = self._beliefs.probability.copy()
+        mean[ray], covariance[ray] = anywhere.mean[ray], anywhere.covariance[ray]
+        probability[ray] = anywhere.probability[ray]
+        self._visible[ray] = 0.5
+        self._missing[ray] = self._settings.fingers.patience_frames
+        self._unseen_s[ray] = self._settings.fingers.range_after_s
+        beliefs = Bank(mean, covariance, probability)
+        self._take(beliefs, beliefs.merged())
+
     def _take(self, beliefs: Bank, merged: tuple[FloatArray, FloatArray]) -> None:
         self._beliefs, (self._mean, self._covariance) = beliefs, merged
         self._ahead: tuple[float, Bank, RayPoints] | None = None

@@ -19,6 +19,7 @@ from numpy.typing import NDArray
 from carpus.core import so3
 from carpus.core.calibration.result import Calibration
 from carpus.core.camera import Camera
+from carpus.core.tracking.disc_anew import disc_anew, with_discs_as_known
 from carpus.core.tracking.doubt import DoubtWatch, passed_over
 from carpus.core.tracking.finger_model import seat_of
 from carpus.core.tracking.finger_smoother import FingersLookedBack, FingerStart, FingerStep, smooth_fingers
@@ -33,6 +34,7 @@ from carpus.core.tracking.palm_state import POSE, RELIEF, SHAPE, SIZE, SKIN, TUR
 from carpus.core.tracking.palm_view import Forecast, View, forecast, recentred
 from carpus.core.tracking.reacquire import FoundPalm, Reach, find_palm
 from carpus.core.tracking.readout import Readout, lost_frame, lost_moment
+from carpus.core.tracking.said_spots import NoDisc, RecentSpots, SpotAnswer
 from carpus.core.tracking.settings import TrackerSettings
 from carpus.core.tracking.shape_learning import hidden_by_calibration, shape_covariance, shape_shares
 from carpus.core.tracking.smoother import FilterStep, smooth
@@ -42,6 +44,8 @@ from carpus.core.types import Detections, FloatArray, Moment, TrackedFrame, Trac
 
 _SAME_AXIS = np.eye(2)
 _NO_NOISE = np.full((1, 3), 1e-12)
+ANSWER_HOLDS_S = 0.5
+"""So long what a person said of a spot waits for a picture that shows the spot."""
 BACK_DISCS, KNUCKLES = np.arange(4), slice(2, 6)
 """WRIST, CMC1, MCP2, MCP3, which span the surface of the fixed unit."""
 
@@ -141,6 +145,12 @@ class Tracker:
         self._resolution_px2 = float(camera.width_px * camera.height_px)
         self._readout = Readout(calibration)
         self._doubt = DoubtWatch(len(self._protocol.markers), settings.doubt)
+        self._recent_spots = RecentSpots()
+        self._answers: list[tuple[SpotAnswer, float]] = []
+        self._taken_up: list[SpotAnswer] = []
+        self._no_discs: list[NoDisc] = []
+        self._held = np.zeros(len(self._protocol.markers), dtype=bool)
+        self._named_anew = np.zeros(self._rows.size, dtype=bool)
         self._noise_factor = np.ones((self._rows.size, 3))
         self._recent: deque[tuple[float, NDArray[np.int64]]] = deque()
         self._recently_measured = np.zeros(self._joint_count or 3, dtype=np.int64)
@@ -168,6 +178,7 @@ class Tracker:
         start.covariance[RELIEF, RELIEF] = self._settled[RELIEF, RELIEF]
         self._begin(start)
         self._doubt.forget()
+        self._named_anew[:] = False
         if self._fingers is not None:
             self._fingers.begin_at_neutral()
         self._anew = True
@@ -178,6 +189,11 @@ class Tracker:
 
     def _resting_bank(self, belief: PalmBelief) -> Bank:
         return Bank.alike(np.zeros((1, SIZE)), belief.covariance[None], self._scales.size)
+
+    @property
+    def markers(self) -> tuple[str, ...]:
+        """Names of the discs, in the order of every row."""
+        return self._protocol.markers
 
     @property
     def is_lost(self) -> bool:
@@ -218,11 +234,103 @@ class Tracker:
         dropped_before: int = 0,
     ) -> TrackedFrame:
         """Associate the blobs of one frame and correct the belief; the frame's result."""
+        self._recent_spots.keep(index, detections.pixel)
+        heard = self._heard(index, timestamp_s)
+        no_disc = self._without_no_discs(timestamp_s, detections.pixel)
+        if not no_disc.any():
+            frame = self._stepped(index, timestamp_s, detections, dropped_before, heard)
+        else:
+            seen = self._stepped(index, timestamp_s, detections.only(~no_disc), dropped_before, heard)
+            frame = replace(seen, detections=detections, no_disc=no_disc)
+        self._held = np.isfinite(frame.marker_measured_px[:, 0])
+        return frame
+
+    def hear(self, answer: SpotAnswer) -> None:
+        """What a person says of the blue spots of a picture shown a moment ago, from the next frame on. To be called
+        between frames, where they are tracked."""
+        self._answers.append((answer, math.nan))
+
+    def taken_up(self) -> list[SpotAnswer]:
+        """The answers that the frames since the last call have taken up, with the spots as they lay there."""
+        out, self._taken_up = self._taken_up, []
+        return out
+
+    def _heard(self, index: int, timestamp_s: float) -> SpotAnswer | None:
+        """The answer to take up now, its spots followed to this frame: the first of which a spot is seen."""
+        waiting, self._answers = self._answers, []
+        found: SpotAnswer | None = None
+        for answer, since_s in waiting:
+            asked_s = timestamp_s if math.isnan(since_s) else since_s
+            now = None if found is not None else self._now(answer)
+            if now is not None:
+                found = replace(now, index=index)
+            elif timestamp_s - asked_s < ANSWER_HOLDS_S and answer.marker in self._protocol.markers:
+                self._answers.append((answer, asked_s))
+        if found is not None:
+            self._take_no_discs(found, timestamp_s)
+        return found
+
+    def _now(self, answer: SpotAnswer) -> SpotAnswer | None:
+        """The answer with its spots where they lie in the newest picture; None while the spot it names is not seen."""
+        if answer.marker not in self._protocol.markers:
+            return None
+
+        def now_px(place: tuple[float, float]) -> tuple[float, float] | None:
+            found = self._recent_spots.now_px(answer.index, np.array(place))
+            return None if found is None else (float(found[0]), float(found[1]))
+
+        place = None if answer.place_px is None else now_px(answer.place_px)
+        others = tuple(spot for one in answer.not_px if (spot := now_px(one)) is not None)
+        if place is None and (answer.place_px is not None or not others):
+            return None
+        return replace(answer, place_px=place, not_px=others)
+
+    def _take_no_discs(self, answer: SpotAnswer, timestamp_s: float) -> None:
+        marker = self._protocol.markers.index(answer.marker)
+        beside = self._expected_px(timestamp_s)[marker]
+        for place in answer.not_px:
+            place_px = np.array(place)
+            self._no_discs.append(NoDisc(marker, place_px, place_px - beside, timestamp_s))
+        self._held[marker] = False
+        if answer.place_px is None:
+            self._taken_up.append(answer)
+
+    def _expected_px(self, timestamp_s: float) -> FloatArray:
+        """Where the markers should be in the picture (M, 2), NaN while the hand is lost."""
+        expected = self.expect(timestamp_s)
+        if expected is None:
+            return np.full((len(self._protocol.markers), 2), np.nan)
+        return self.view.camera.distort(expected.pixel)
+
+    def _without_no_discs(self, timestamp_s: float, pixel: FloatArray) -> NDArray[np.bool_]:
+        """Which spots (D, 2) a person said are none of the markers they were asked about."""
+        out = np.zeros(len(pixel), dtype=bool)
+        self._no_discs = [one for one in self._no_discs if one.holds(timestamp_s)]
+        if not self._no_discs:
+            return out
+        expected_px = self._expected_px(timestamp_s)
+        for one in self._no_discs:
+            found = one.find(pixel, expected_px, self._held)
+            if found >= 0:
+                out[found] = True
+        return out
+
+    def _stepped(
+        self,
+        index: int,
+        timestamp_s: float,
+        detections: Detections,
+        dropped_before: int,
+        heard: SpotAnswer | None,
+    ) -> TrackedFrame:
+        """:meth:`step` of the spots that may be discs."""
         picture, linked = self._begun(timestamp_s, detections)
         if self._known is None:
             return self._lost(index, timestamp_s, detections, dropped_before)
         ahead = self._predicted(timestamp_s, self._known)
         picture = replace(picture, blobs=self._measurable(ahead, picture.ideal))
+        if heard is not None and heard.place_px is not None:
+            ahead, linked = self._named_by_person(heard, heard.place_px, picture, ahead, detections, linked)
         step = self._weighed(picture, ahead)
         ahead, step, linked, turn_sd_rad = self._found_elsewhere(picture, ahead, step, linked)
         holding = self.settings.holding
@@ -246,6 +354,36 @@ class Tracker:
             self.history.append(FilterStep(timestamp_s, self._known[0], scale, linked, unseen))
         return self._shown(index, status, picture, ahead, step, detections, dropped_before)
 
+    def _named_by_person(
+        self,
+        heard: SpotAnswer,
+        place_px: tuple[float, float],
+        picture: _Picture,
+        ahead: Forecast,
+        detections: Detections,
+        linked: bool,
+    ) -> tuple[Forecast, bool]:
+        """The forecast, and whether the step follows from the one before, when a person has said which spot a marker
+        is: a disc of the palm begins anew there; a finger is looked for anew."""
+        away = np.linalg.norm(detections.pixel - place_px, axis=1)
+        if not away.size or away.min() > 0.5:
+            return ahead, linked
+        marker = self._protocol.markers.index(heard.marker)
+        self._taken_up.append(heard)
+        self._doubt.forget()
+        on_palm = np.flatnonzero(self._rows == marker)
+        if not on_palm.size:
+            if self._fingers is not None:
+                self._fingers.look_anew(int(np.argwhere(np.equal(RAY_MARKERS, marker))[0, 0]))
+            return ahead, linked
+        disc = int(on_palm[0])
+        belief, bank, self.view = disc_anew(ahead, self.view, disc, int(away.argmin()), picture.blobs, self.settings)
+        self._noise_factor[disc] = 1.0
+        self._named_anew[disc] = True
+        self._known = belief, bank
+        ahead = forecast(belief, bank, self.view, self.settings.spread, self._shares)
+        return ahead, False
+
     def _begun(self, timestamp_s: float, detections: Detections) -> tuple[_Picture, bool]:
         """The picture to weigh, and whether it follows from the one before; the belief may be lost or found here."""
         ideal = detections
@@ -262,7 +400,7 @@ class Tracker:
         if self._is_past(timestamp_s):
             self._give_up()
         if self._known is None:
-            found = find_palm(ideal, self.view, self.settings.finding, self._reach())
+            found = find_palm(ideal, self._finding_view(), self.settings.finding, self._reach())
             if found is not None:
                 self._begin(self._belief_found(found))
                 self._seen_s, linked, self._time_s = timestamp_s, False, timestamp_s
@@ -270,6 +408,10 @@ class Tracker:
         dt_s = 0.0 if self._time_s is None else timestamp_s - self._time_s
         nothing = Measurable(np.empty((0, 3)), np.empty((0, 3)))
         return _Picture(timestamp_s, dt_s, ideal, nothing), linked
+
+    def _finding_view(self) -> View:
+        """The palm to look for: as calibrated, but for discs that a person showed elsewhere."""
+        return with_discs_as_known(self.view, self._shape, self._named_anew)
 
     def _found_elsewhere(
         self, picture: _Picture, ahead: Forecast, step: _Step, linked: bool
@@ -282,7 +424,7 @@ class Tracker:
         if not ((few or vague) and np.count_nonzero(step.spare) + step.palm_seen > self.settings.holding.least_discs):
             return ahead, step, linked, turn_sd_rad
         ideal = picture.ideal if vague else picture.ideal.only(~step.is_finger)
-        found = find_palm(ideal, self.view, self.settings.finding, self._reach())
+        found = find_palm(ideal, self._finding_view(), self.settings.finding, self._reach())
         if found is None or not (vague or found.count > step.palm_seen):
             return ahead, step, linked, turn_sd_rad
         if not self._may_be_at(found, ahead.nominal, picture.timestamp_s):

@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 import signal
 from collections.abc import Callable, Iterator
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -12,18 +13,23 @@ import pytest
 
 from carpus.core.errors import RecordingEmpty
 from carpus.core.pipeline import looking_back
+from carpus.core.pipeline.correction import correct, task_of
 from carpus.core.pipeline.frame_walk import FrameWalk
+from carpus.core.pipeline.live import LiveSession
 from carpus.core.pipeline.looking_back import LookingBack
 from carpus.core.pipeline.measuring import NOT_LOOKED_BACK, LiveWalk, SmoothedSession
 from carpus.core.pipeline.pieces import PIECE_S, TrackedHand
+from carpus.core.pipeline.track import Learnt, TrackSettings, parameters_json
 from carpus.core.session.reader import read_session
+from carpus.core.session.values import new_header
 from carpus.core.session.writer import SessionWriter
+from carpus.core.tracking.said_spots import SPOT_SAID, SpotAnswer
 from carpus.core.tracking.settings import TrackerSettings
 from carpus.core.tracking.tracker import Tracker
 from carpus.core.types import Detections, Frame
-from tests.pipeline.live_fakes import wait_until
+from tests.pipeline.live_fakes import HeldSource, wait_until
 from tests.session.samples import make_header
-from tests.tracking.hands import CAMERA, DT_S, Pose, blobs, calibration
+from tests.tracking.hands import CAMERA, DT_S, MCP3, Pose, blobs, calibration
 
 FRAMES = 600
 NO_PICTURE = np.zeros((1, 1, 3), np.uint8)
@@ -129,6 +135,60 @@ def test_the_walk_keeps_no_steps() -> None:
         walk(frame)
         assert not walk._walk.tracker.history
     assert [[step.timestamp_s for step in steps.steps] for steps in kept] == [[10.0 + 3 * DT_S], [10.0 + 4 * DT_S]]
+
+
+def test_what_is_said_of_a_spot_while_measuring_reaches_the_tracker_and_the_file(tmp_path: Path) -> None:
+    """Said in the window's thread; tracked again from what the file holds, the session comes out as it was measured."""
+    source, path, begun_at, said_at = HeldSource(), tmp_path / "session.h5", 10, 40
+    settings = TrackSettings(smooth=False)
+    learnt = Learnt(0.15, 1.0, -np.inf)
+    right = calibration()
+    wrong_m = right.marker_position_w0_m.copy()
+    wrong_m[MCP3] += [0.0, 0.014, 0.0]
+    wrong = replace(right, marker_position_w0_m=wrong_m)
+    walk = LiveWalk(FrameWalk(Blobs(), Tracker(wrong, CAMERA, learnt.applied(settings.tracker))), -np.inf)  # type: ignore[arg-type]
+    header = new_header(
+        hand="right", protocol=right.clicks.protocol, software_version="0.1", subject_id="Linden 42",
+        exercise="WRIST_FE", parameters=parameters_json(settings, {}, learnt), dip_free=False,
+    )  # fmt: skip
+    said: list[SpotAnswer] = []
+
+    def take_up(answer: SpotAnswer, time_s: float) -> None:
+        said.append(answer)
+        live.add_event(SPOT_SAID, answer.text(), time_s)
+
+    with LiveSession(source) as live:
+        walk.taken_up = take_up
+        live.begin_tracking(walk)
+        for count in range(1, 91):
+            if count == begun_at:
+                live.start_recording(lambda: SessionWriter.create(path, header, CAMERA, wrong))
+            if count == said_at:
+                view = live.newest()
+                assert view is not None
+                assert not np.isfinite(view.tracked.marker_measured_px[MCP3]).any()
+                hidden = view.tracked.detections.pixel
+                taken = view.tracked.marker_measured_px
+                spare = [px for px in hidden if not (np.linalg.norm(taken - px, axis=1) < 1.0).any()]
+                assert len(spare) == 1
+                walk.answer(SpotAnswer(view.tracked.index, "MCP3", (float(spare[0][0]), float(spare[0][1]))))
+            source.let(1)
+            wait_until(lambda count=count: live.counters().tracked == count)
+        assert live.stop_recording() == path
+        walk.restate()
+        source.let(1)
+        wait_until(lambda: live.counters().tracked == 91)
+    assert [answer.index for answer in said] == [said_at - 1, 90], "told anew for a recording that begins later"
+    measured = read_session(path)
+    used = np.isfinite(measured.markers.measured_px[:, MCP3, 0])
+    assert used.tolist() == [index >= said_at - 1 for index in range(begun_at - 1, 90)]
+    (event,) = measured.events
+    assert event.kind == SPOT_SAID
+    assert event.time_s == measured.timestamp_s[said_at - begun_at]
+    correct(task_of(path, tmp_path / "again.h5", (), "0.2"))
+    again = read_session(tmp_path / "again.h5")
+    np.testing.assert_array_equal(np.isfinite(again.markers.measured_px[:, MCP3, 0]), used)
+    assert [event.kind for event in again.events] == [SPOT_SAID]
 
 
 def test_a_session_without_a_frame_is_none(tmp_path: Path) -> None:

@@ -2,9 +2,17 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 
+from carpus.core.calibration.result import Calibration
 from carpus.core.tracking.doubt import DoubtSettings, DoubtWatch, passed_over
+from carpus.core.tracking.said_spots import SpotAnswer
+from carpus.core.tracking.settings import TrackerSettings
+from carpus.core.tracking.tracker import Tracker
+from carpus.core.types import TrackedFrame
+from tests.tracking.hands import CAMERA, MCP3, angles_deg, blobs, calibration, discs_cam_m, swing, truth_deg
 
 DT_S = 1.0 / 30.0
 NONE = np.zeros(3, dtype=bool)
@@ -53,3 +61,52 @@ def test_only_a_free_blob_at_the_place_and_depth_is_passed_over() -> None:
     assert over([-1, 0], [[200.0, 100.0], [130.0, 100.0]], [0.7, 0.7]) == [False, False]
     assert over([-1, 0], [[200.0, 100.0], [103.0, 101.0]], [0.7, 0.6]) == [False, False]
     assert over([-1, 0], [[200.0, 100.0], [103.0, 101.0]], [0.7, np.nan]) == [True, False]
+
+
+MISPLACED_M = np.array([0.0, 0.014, 0.0])
+"""Where a spot that was no disc was clicked as the middle knuckle, from the knuckle."""
+
+
+def misclicked() -> Calibration:
+    right = calibration()
+    discs = right.marker_position_w0_m.copy()
+    discs[MCP3] += MISPLACED_M
+    return replace(right, marker_position_w0_m=discs)
+
+
+def test_what_a_person_says_of_a_spot_holds_from_then_on() -> None:
+    """The true middle knuckle is shown to a tracker that was told another; the spot beside the hand is no disc."""
+    motion, rng = swing(1, 35.0, 0.4), np.random.default_rng(1)
+    tracker = Tracker(misclicked(), CAMERA, TrackerSettings())
+    said_at, no_disc_at, still_px = 90, 100, np.array([260.0, 120.0])
+    frames: list[TrackedFrame] = []
+    for k in range(240):
+        true_px = CAMERA.project(discs_cam_m(motion(k * DT_S)))[MCP3]
+        if k == said_at:  # of a picture shown some frames ago, where the spot lay elsewhere
+            shown = CAMERA.project(discs_cam_m(motion((k - 3) * DT_S)))[MCP3]
+            tracker.hear(SpotAnswer(k - 3, "MCP3", (float(shown[0]), float(shown[1]))))
+        if k == no_disc_at:
+            tracker.hear(SpotAnswer(k - 1, "MCP3", None, ((float(still_px[0]), float(still_px[1])),)))
+        seen = blobs(motion(k * DT_S), rng, false_px=[] if 150 <= k < 170 else [still_px.tolist()])
+        frames.append(tracker.step(k, k * DT_S, seen))
+        heard = tracker.taken_up()
+        assert bool(heard) == (k in (said_at, no_disc_at))
+        if k == said_at and heard[0].place_px is not None:
+            np.testing.assert_allclose(heard[0].place_px, true_px, atol=1.0)
+    used = np.array([np.isfinite(frame.marker_measured_px[MCP3, 0]) for frame in frames])
+    assert not used[10:said_at].any(), "what lies elsewhere than was clicked is not taken by itself"
+    assert used[said_at:].all()
+    true_px = np.array([CAMERA.project(discs_cam_m(motion(k * DT_S)))[MCP3] for k in range(said_at, 240)])
+    taken_px = np.array([frame.marker_measured_px[MCP3] for frame in frames[said_at:]])
+    assert np.linalg.norm(taken_px - true_px, axis=1).max() < 1.0
+    error = angles_deg(frames) - truth_deg(motion, np.arange(240) * DT_S)
+    assert np.abs(error[10:said_at, 2]).max() > 4.0, "the axes were laid through the wrong place"
+    assert np.all(np.sqrt((error[said_at:] ** 2).mean(axis=0)) < [0.3, 0.9, 1.5])
+    left_out = np.array([int(frame.no_disc.sum()) for frame in frames])
+    assert not left_out[:no_disc_at].any()
+    shown = np.r_[no_disc_at:150, 170:240]
+    assert (left_out[shown] == 1).all(), "known again after it was out of sight"
+    assert all(len(frames[k].detections) == 7 for k in shown), "and stored all the same"
+    looked_back = np.degrees([moment.angles_rad for moment in tracker.smoothed()])[said_at:]
+    true_deg = truth_deg(motion, np.arange(said_at, 240) * DT_S)
+    assert np.all(np.sqrt(((looked_back - true_deg) ** 2).mean(axis=0)) < [0.3, 0.7, 1.5])

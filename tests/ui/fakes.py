@@ -25,6 +25,7 @@ from carpus.core.pipeline.live_values import LiveCounters, LiveEvent, TrackedVie
 from carpus.core.session.values import Event, MarkerSeries, QualitySeries, Session, SessionHeader, motion_of
 from carpus.core.simulation.recording import SimulatedPictures
 from carpus.core.simulation.spec import RecordingSpec
+from carpus.core.tracking.said_spots import SpotAnswer
 from carpus.core.types import ByteImage, Detections, Frame, Moment, TrackedFrame, TrackStatus
 from carpus.ui.ports import (
     FoundMarker,
@@ -270,6 +271,28 @@ class FakeFeed:
         self.paused = False
 
 
+def with_other_spot(feed: FakeFeed, marker: int, from_s: float, *, taken: bool, off_px: tuple[float, float]) -> None:
+    """From a time on a marker is hidden while another blue spot lies by it, or with ``taken`` it is doubted."""
+    for number, frame in enumerate(feed.frames):
+        if number < from_s * FPS:
+            continue
+        measured = frame.marker_measured_px.copy()
+        spot = frame.marker_predicted_px[marker] + off_px
+        if not taken:
+            measured[marker] = math.nan
+        pixel = np.vstack((measured[np.isfinite(measured[:, 0])], spot))
+        spots = Detections(pixel, *np.ones((4, len(pixel))))
+        rows = np.arange(len(measured)) == marker
+        feed.frames[number] = replace(
+            frame,
+            marker_measured_px=measured,
+            detections=spots,
+            doubted=rows if taken else frame.doubted,
+            no_disc=np.zeros(len(pixel), dtype=bool),
+            status=TrackStatus.DOUBTFUL if taken else frame.status,
+        )
+
+
 class FakeMeasuring:
     """An open simulated source with a perfect calibration."""
 
@@ -279,6 +302,10 @@ class FakeMeasuring:
         self.calibration: Calibration | None = calibration(feed.pictures)
         self.fault: Exception | None = None
         self.closed = False
+        self.answers: list[SpotAnswer] = []
+
+    def answer_spot(self, answer: SpotAnswer) -> None:
+        self.answers.append(answer)
 
     starts_with_recording = False
 

@@ -76,6 +76,7 @@ from tests.ui.fakes import (
     picture,
     retest_plan,
     set_up,
+    with_other_spot,
 )
 from tests.ui.hand_fakes import FakeHandSessions, hand_session
 
@@ -374,6 +375,12 @@ class Gallery:
 
     def live_marker_hidden(self) -> None:
         with self._live(FakeFeed(seconds=32.0, hidden=[(23.0, 30.0, "CMC1")])):
+            pass
+
+    def live_which_spot(self) -> None:
+        feed = FakeFeed(seconds=32.0)
+        with_other_spot(feed, 3, 23.0, taken=True, off_px=(26.0, -4.0))
+        with self._live(feed):
             pass
 
     def live_hand_lost(self) -> None:
@@ -795,7 +802,7 @@ class Gallery:
             "markers_start_angle", "markers_proposed", "markers_proposed_doubtful", "markers_proposed_incomplete",
             "markers_straight", "markers_other_spot", "sessions_list", "sessions_erase",
             "patient_erase",
-            "live", "live_speeds", "live_marker_hidden", "live_hand_lost", "live_hand",
+            "live", "live_speeds", "live_marker_hidden", "live_which_spot", "live_hand_lost", "live_hand",
             "live_hand_thumb_hidden", "live_hand_fist", "live_hand_not_found", "live_arm_moved",
             "live_disk_full", "live_note",
             "live_pain", "live_camera_lost", "review", "review_hand",

@@ -26,7 +26,7 @@ from carpus.ui.plot.history import KEPT_S, History
 from carpus.ui.plot.live_curves import LiveCurves
 from carpus.ui.theme import Theme
 from tests.moments import with_moment
-from tests.ui.fakes import FakeFeed, FakeMeasuring, set_up
+from tests.ui.fakes import FakeFeed, FakeMeasuring, set_up, with_other_spot
 
 MARKERS = ("WRIST", "CMC1", "MCP2", "MCP3", "MCP4", "MCP5")
 
@@ -432,6 +432,48 @@ def test_a_spot_in_plain_sight_is_asked_about_before_its_marker_is_called_hidden
     doubt = doubt_of(replace(questioned, detections=Detections.none()), MARKERS, measuring.camera)
     assert doubt is not None
     assert (doubt.marker, doubt.hidden, doubt.has_spot) == ("MCP3", False, False)
+
+
+def test_a_question_about_a_spot_is_answered_while_measuring_goes_on(qtbot: QtBot, theme: Theme) -> None:
+    feed = FakeFeed()
+    with_other_spot(feed, 3, 1.5, taken=False, off_px=(20.0, 0.0))
+    screen, measuring = live(qtbot, theme, feed)
+    record(qtbot, screen, measuring)
+    run(screen, feed, 1.5)
+    places = [widget.geometry() for widget in (screen.picture, screen.path, screen.number, screen.curves, screen.light)]
+    assert screen.question.isHidden()
+    angle = screen.number.reading.angle
+    for _ in range(12):  # whatever the rhythm in which values are shown
+        run(screen, feed, 0.1)
+        if screen.question.isVisible():
+            break
+    assert screen.question.words.text() == "Is this blue spot the middle knuckle?"
+    assert [button.text() for button in screen.question.buttons.values() if button.isVisible()] == ["Yes", "No"]
+    assert screen.light.lamp == Lamp("warn", "Another blue spot is here", "Is it the middle knuckle?")
+    qtbot.keyClick(screen, Qt.Key.Key_F2)
+    assert not measuring.answers, "a key that was meant for something else a moment ago"
+    run(screen, feed, 0.6)
+    qtbot.keyClick(screen, Qt.Key.Key_F2)
+    shown = feed.newest()
+    assert shown is not None
+    (answer,) = measuring.answers
+    assert (answer.marker, answer.not_px) == ("MCP3", ())
+    told = feed.frames[answer.index]
+    np.testing.assert_allclose(answer.place_px or (), told.detections.pixel[-1])
+    assert shown.tracked.index - answer.index <= 6, "of a picture shown a moment ago"
+    assert screen.question.isHidden()
+    assert feed.recording
+    assert screen.number.reading.angle == angle
+    assert [
+        widget.geometry() for widget in (screen.picture, screen.path, screen.number, screen.curves, screen.light)
+    ] == places, "nothing jumps"
+    run(screen, feed, 1.2)
+    qtbot.mouseClick(screen.question.buttons["none"], Qt.MouseButton.LeftButton)
+    assert measuring.answers[-1].place_px is None
+    assert len(measuring.answers[-1].not_px) == 1
+    feed.frames[feed.place + 1 :] = feed.frames[:10]
+    qtbot.keyClick(screen, Qt.Key.Key_F2)
+    assert screen.number.reading.angle != angle, "without a question the key does what it did"
 
 
 def test_a_question_stands_only_after_it_has_lasted() -> None:

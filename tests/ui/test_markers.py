@@ -18,6 +18,7 @@ from carpus.ui.markers.screen import MarkersScreen
 from carpus.ui.ports import ProposedMarker
 from carpus.ui.theme import Theme
 from tests.ui.fakes import FakeCalibrator, FakePhrasebook
+from tests.ui.geometry import painted_texts
 
 
 @pytest.fixture
@@ -125,6 +126,12 @@ def test_a_click_beside_every_disc_sets_nothing_and_says_so(qtbot: QtBot, screen
     assert screen.clicking is not None
     assert not screen.clicking.pixel
     assert "No blue marker" in screen.picture.no_marker_words
+    with painted_texts(screen) as painted:
+        screen.grab()
+    shift, loupe = screen.picture.mapTo(screen, QPoint()), screen.picture.loupe_box()
+    told = [one for one in painted if one.text in screen.picture.no_marker_words]
+    assert " ".join(one.text for one in told) == screen.picture.no_marker_words
+    assert all(loupe.translated(shift).contains(one.box) for one in told), "within the loupe"
 
 
 def test_backspace_takes_back_one_marker_and_asks_for_it_again(qtbot: QtBot, screen: MarkersScreen) -> None:

@@ -153,17 +153,17 @@ def test_a_key_can_be_given_to_one_action_only(qtbot: QtBot, theme: Theme) -> No
     screen = SettingsScreen(theme, Preferences(), "1.0.0")
     qtbot.addWidget(screen)
     screen.show()
-    screen.keys["note"].setKeySequence(QKeySequence("F12"))
+    screen.keys["note"].setKeySequence(QKeySequence("F11"))
     screen.keys["note"].editingFinished.emit()
-    assert screen.preferences.keys == {"note": "F12"}
-    screen.keys["pain"].setKeySequence(QKeySequence("F12"))
+    assert screen.preferences.keys == {"note": "F11"}
+    screen.keys["pain"].setKeySequence(QKeySequence("F11"))
     screen.keys["pain"].editingFinished.emit()
-    assert screen.preferences.keys == {"note": "F12"}
+    assert screen.preferences.keys == {"note": "F11"}
     assert screen.fault.isVisible()
     assert screen.keys["pain"].keySequence() == QKeySequence("F6")
     screen.reset.click()
     assert screen.preferences.keys == {}
-    assert Keys({"note": "F12"})["note"] == "F12"
+    assert Keys({"note": "F11"})["note"] == "F11"
 
 
 def test_every_key_has_words_and_is_a_key() -> None:

@@ -5,10 +5,12 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import Literal
 
 import numpy as np
 
 from carpus.core.camera import Camera
+from carpus.core.tracking.said_spots import SpotAnswer
 from carpus.core.types import FloatArray, TrackedFrame, TrackStatus
 from carpus.ui.live.light import AMBER_AFTER_S, Lamp
 from carpus.ui.marker_words import marker_name
@@ -18,15 +20,18 @@ REACH_M = 0.03
 """A spot this near to where a marker is taken to be may be that marker."""
 _SAME_SPOT_PX = 1.5
 
+Chosen = Literal["disc", "spot", "none"]
+
 
 @dataclass(frozen=True, slots=True)
 class Doubt:
     """``marker`` in question; ``disc_px`` (2,) the spot that is taken for it, NaN while it counts as hidden;
-    ``spot_px`` (2,) the spot that may be it, NaN where only the marker itself is doubted."""
+    ``spot_px`` (2,) the spot that may be it, NaN where only the marker itself is doubted; all in picture ``index``."""
 
     marker: str
     disc_px: FloatArray
     spot_px: FloatArray
+    index: int = -1
 
     @property
     def has_spot(self) -> bool:
@@ -37,6 +42,18 @@ class Doubt:
     def hidden(self) -> bool:
         """Whether no spot is taken for the marker."""
         return not np.isfinite(self.disc_px).all()
+
+    def answer(self, chosen: Chosen) -> SpotAnswer:
+        """What a person says to it: the disc that is taken for the marker, the other spot, or neither."""
+        disc = () if self.hidden else (_place(self.disc_px),)
+        spot = _place(self.spot_px)
+        if chosen == "spot":
+            return SpotAnswer(self.index, self.marker, spot, disc)
+        return SpotAnswer(self.index, self.marker, None, (spot,) if chosen == "disc" else (*disc, spot))
+
+
+def _place(pixel: FloatArray) -> tuple[float, float]:
+    return float(pixel[0]), float(pixel[1])
 
 
 def doubt_of(frame: TrackedFrame | None, markers: Sequence[str], camera: Camera) -> Doubt | None:
@@ -58,10 +75,10 @@ def doubt_of(frame: TrackedFrame | None, markers: Sequence[str], camera: Camera)
                 nearest.append((float(distance.min()), int(k), unused[int(distance.argmin())]))
         if nearest:
             _, row, spot = min(nearest, key=lambda one: one[0])
-            return Doubt(markers[row], measured[row], spot)
+            return Doubt(markers[row], measured[row], spot, frame.index)
     if frame.doubted.any():
         first = int(np.flatnonzero(frame.doubted)[0])
-        return Doubt(markers[first], measured[first], np.full(2, np.nan))
+        return Doubt(markers[first], measured[first], np.full(2, np.nan), frame.index)
     return None
 
 
@@ -85,21 +102,31 @@ class SteadyDoubt:
         self._wanted = wanted
         return self._shown
 
+    def answered(self) -> None:
+        """A person has answered: the question goes at once."""
+        self._shown, self._wanted, self._since_s = None, "", math.nan
+
+
+def lower_name(marker: str) -> str:
+    """The marker's name within a sentence."""
+    name = marker_name(marker)
+    return name[0].lower() + name[1:]
+
 
 def doubt_lamp(doubt: Doubt) -> Lamp:
     """The tracking light while the question is open: never that the marker is hidden while a spot lies by it."""
-    name = marker_name(doubt.marker)
-    lower = name[0].lower() + name[1:]
+    lower = lower_name(doubt.marker)
     if not doubt.has_spot:
-        return Lamp("warn", tr("Doubtful"), tr("Does the {marker} lie where it is marked?").format(marker=lower))
+        words = tr("Look whether the {marker} lies where it is marked").format(marker=lower)
+        return Lamp("warn", tr("Doubtful"), words)
     if doubt.hidden:
         return Lamp("warn", tr("Another blue spot is here"), tr("Is it the {marker}?").format(marker=lower))
     return Lamp("warn", tr("Doubtful"), tr("Which blue spot is the {marker}?").format(marker=lower))
 
 
 def _unused(frame: TrackedFrame) -> FloatArray:
-    """Spots (S, 2) that are taken for no marker."""
-    seen = frame.detections.pixel
+    """Spots (S, 2) that are taken for no marker, and of which nobody has said that they are none."""
+    seen = frame.detections.pixel[~frame.no_disc]
     taken = frame.marker_measured_px[np.isfinite(frame.marker_measured_px[:, 0])]
     if not len(seen) or not len(taken):
         return seen

@@ -14,6 +14,7 @@ from carpus.ui import numbers, terms
 from carpus.ui.controls.card import paint_card
 from carpus.ui.figures import Figure, side_word
 from carpus.ui.fonts import MEDIUM, REGULAR, SEMIBOLD, font
+from carpus.ui.icons import paint_state
 from carpus.ui.plot.axes import hatch
 from carpus.ui.plot.style import CURVE_TOKENS, screen_style
 from carpus.ui.theme import Theme
@@ -38,6 +39,8 @@ class Reading:
     value_deg: float = math.nan
     sd_deg: float = math.nan
     predicted: bool = False
+    doubtful: bool = False
+    """Measured, but what is seen contradicts it: nothing of it counts."""
     repetitions_done: int = 0
     repetitions_asked: int = 0
     repetition_running: bool = False
@@ -140,9 +143,25 @@ class NumberCard(QWidget):
         painter.setFont(font(size, SEMIBOLD))
         painter.setPen(theme.color("text"))
         painter.drawText(QRectF(40, 14, room, 40 * scale), int(Qt.AlignmentFlag.AlignVCenter), self.movement())
+        if reading.doubtful:
+            self._paint_doubtful(painter, 40 + QFontMetricsF(painter.font()).horizontalAdvance(self.movement()), room)
         self._paint_number(painter, 24.0, 36 * scale + 20)
         self._paint_right(painter)
         self._paint_gauge(painter, QRectF(24, self.height() - 42 * scale, self.width() - 48, 12), token)
+
+    def _paint_doubtful(self, painter: QPainter, left: float, room: float) -> None:
+        """Beside the movement, in as many words as there is room for."""
+        theme, scale = self._theme, self._theme.text_scale
+        painter.setFont(font(16 * scale, SEMIBOLD))
+        metrics, sign = QFontMetricsF(painter.font()), 20 * scale
+        for words in (self.tr("doubtful, not counted"), self.tr("doubtful")):
+            if left + 20 + sign + 8 + metrics.horizontalAdvance(words) <= 40 + room:
+                box = QRectF(left + 20, 14 + 20 * scale - sign / 2, sign, sign)
+                paint_state(painter, "warn", box, theme.color("warn"), theme.color("surface"))
+                painter.setPen(theme.color("warn"))
+                place = QRectF(box.right() + 8, 14, room, 40 * scale)
+                painter.drawText(place, int(Qt.AlignmentFlag.AlignVCenter), words)
+                return
 
     def _paint_number(self, painter: QPainter, left: float, top: float) -> None:
         theme, scale, reading = self._theme, self._theme.text_scale, self.reading
@@ -152,7 +171,7 @@ class NumberCard(QWidget):
         baseline = top + QFontMetricsF(font(max(size, NUMBER_PX), SEMIBOLD)).capHeight() + 16
         text = numbers.degrees(reading.value_deg)
         known = math.isfinite(reading.value_deg)
-        painter.setPen(theme.color("text2" if reading.predicted or not known else "text"))
+        painter.setPen(theme.color("text2" if reading.predicted or reading.doubtful or not known else "text"))
         painter.drawText(QPointF(left - 0.035 * size, baseline), text)
         beside = left + metrics.horizontalAdvance(text) + 8
         if not known:

@@ -5,9 +5,10 @@ from __future__ import annotations
 import math
 import time
 from dataclasses import replace
+from functools import partial
 from typing import Literal
 
-from PySide6.QtCore import QRectF, Qt, QTimer, Signal
+from PySide6.QtCore import QEvent, QObject, QRectF, Qt, QTimer, Signal
 from PySide6.QtGui import QPainter, QResizeEvent
 from PySide6.QtWidgets import QHBoxLayout, QVBoxLayout, QWidget
 
@@ -20,13 +21,14 @@ from carpus.ui.controls.card import Line, Surface
 from carpus.ui.figures import FIGURES, FINGERS, Figure, figure_of
 from carpus.ui.keys import Keys, bind
 from carpus.ui.live.counting import RunningCount
-from carpus.ui.live.doubt import Doubt, SteadyDoubt, doubt_lamp, doubt_of
+from carpus.ui.live.doubt import Chosen, Doubt, SteadyDoubt, doubt_lamp, doubt_of
 from carpus.ui.live.hand_map import HandMap
 from carpus.ui.live.hand_words import hand_lamp
 from carpus.ui.live.light import Lamp, SteadyLight, lamp_for
 from carpus.ui.live.light_view import LightView
 from carpus.ui.live.notes import NoteSheet, PainSheet
 from carpus.ui.live.number_card import NumberCard, Reading
+from carpus.ui.live.question import SpotQuestion, paint_question
 from carpus.ui.picture import overlay, skeleton
 from carpus.ui.picture.view import HAND_ROOM, PALM_ROOM, PictureView
 from carpus.ui.plot.card import PlotCard
@@ -88,6 +90,7 @@ class LiveScreen(QWidget):
         """All but the bar below: what a message may cover while the light goes on speaking to the far eye."""
         self.picture = PictureView(theme)
         self.picture.overlay = self._paint_overlay
+        self.question = SpotQuestion(self.picture, theme, keys)
         self.path = PathView(theme, self.history)
         self.number = NumberCard(theme)
         self.curves = LiveCurves(theme, self.history)
@@ -106,6 +109,7 @@ class LiveScreen(QWidget):
         self.pain_sheet = PainSheet(self.stage, theme)
         self._lay_out()
         self._connect(keys)
+        self.picture.installEventFilter(self)
         theme.changed.connect(self._fit)
         self._timer = QTimer(self)
         self._timer.setTimerType(Qt.TimerType.PreciseTimer)
@@ -178,11 +182,22 @@ class LiveScreen(QWidget):
             "side_view": self.toggle_side,
         }  # fmt: skip
         self.fingers.chosen.connect(self.choose_figure)
-        for name, action in actions.items():
-            bind(self, keys, name, action)
+        self._shortcuts = {name: bind(self, keys, name, action) for name, action in actions.items()}
+        self.question.chosen.connect(self._answer)
+        self._answer_keys = {
+            name: bind(self, keys, name, partial(self._answer_by_key, name))
+            for name in ("answer_first", "answer_second", "answer_none")
+        }
+        self._arm_keys()
 
     def resizeEvent(self, event: QResizeEvent) -> None:
         self._fit()
+
+    def eventFilter(self, watched: QObject, event: QEvent) -> bool:
+        """The question keeps its place on the picture."""
+        if watched is self.picture and event.type() == QEvent.Type.Resize:
+            self.question.place()
+        return super().eventFilter(watched, event)
 
     def _fit(self) -> None:
         """With large text on a small screen, what is read from afar keeps its room and the path gives way."""
@@ -205,11 +220,10 @@ class LiveScreen(QWidget):
         """Show a source whose tracking has begun."""
         self._measuring, self._set_up = measuring, set_up
         self.history.clear()
-        self.history.clear()
         self._whole_hand = set_up.protocol.has_fingers
         self._light = SteadyLight()
         self._steady_doubt = SteadyDoubt()
-        self.doubt = None
+        self._open_question(None)
         self._count = None
         self._view = None
         self._camera_lost = self._stopping = False
@@ -365,8 +379,45 @@ class LiveScreen(QWidget):
         self.fingers.set_waiting(lost)
         self._show_buttons()
         if lost:
+            self._steady_doubt.answered()
+            self._open_question(None)
             self.picture.clear(self.tr("No picture"))
             self._view = None
+
+    # --- which spot is which -------------------------------------------------------------------------------
+    @property
+    def now_s(self) -> float:
+        """The recording's own time, 0 before the first picture."""
+        now = self.history.now_s
+        return now if math.isfinite(now) else 0.0
+
+    def _open_question(self, doubt: Doubt | None) -> None:
+        self.doubt = doubt
+        if self.question.ask(doubt, self.now_s, self.picture):
+            self._arm_keys()
+
+    def _arm_keys(self) -> None:
+        """While a question stands its keys answer it, and do nothing else."""
+        armed = [key for name, key in self._answer_keys.items() if self.question.key_of(name) is not None]
+        for key in self._answer_keys.values():
+            key.setEnabled(key in armed)
+        for key in self._shortcuts.values():
+            key.setEnabled(key.key() not in [one.key() for one in armed])
+
+    def _answer_by_key(self, name: str) -> None:
+        chosen = self.question.key_of(name)
+        if chosen is not None and self.question.takes_answers(self.now_s):
+            self._answer(chosen)
+
+    def _answer(self, chosen: Chosen) -> None:
+        """Tell the tracker what the person says, and go on."""
+        doubt = self.question.doubt
+        if doubt is None or self._measuring is None:
+            return
+        self._measuring.answer_spot(doubt.answer(chosen))
+        self._steady_doubt.answered()
+        self._open_question(None)
+        self.picture.update()
 
     def _keep_pain(self, score: int) -> None:
         """Store it, and let the button say so until the next one."""
@@ -437,14 +488,12 @@ class LiveScreen(QWidget):
         if self._camera_lost:
             lamp = Lamp("bad", self.tr("No picture"), self.tr("Plug the camera in again"))
         else:
-            now = self.history.now_s
-            now_s = now if math.isfinite(now) else 0.0
             if self._whole_hand:
                 lamp = hand_lamp(frame, self.hand_map.seen)
             else:
-                lamp = self._light.show(lamp_for(frame, markers, pure and self.history.forearm_moved()), now_s)
+                lamp = self._light.show(lamp_for(frame, markers, pure and self.history.forearm_moved()), self.now_s)
             doubt = doubt_of(frame, markers, self._measuring.camera) if self._measuring else None
-            self.doubt = self._steady_doubt.show(doubt, now_s)
+            self._open_question(self._steady_doubt.show(doubt, self.now_s))
             if self.doubt is not None and lamp.rank in ("good", "warn"):
                 lamp = doubt_lamp(self.doubt)
         self.light.show_lamp(lamp)
@@ -489,10 +538,13 @@ class LiveScreen(QWidget):
                 value_deg=math.nan if lost else float(values[angle]),
                 sd_deg=math.nan if lost else float(sds[angle]),
                 predicted=not lost and self.history.status == TrackStatus.PREDICTED,
+                doubtful=not lost and self.history.status == TrackStatus.DOUBTFUL,
                 repetitions_done=done,
                 repetitions_asked=asked,
                 repetition_running=self.recording_state == "recording" and done < asked,
-                speed_deg_s=math.nan if lost else float(self.history.speeds[1]),
+                speed_deg_s=math.nan
+                if lost or self.history.status == TrackStatus.DOUBTFUL
+                else float(self.history.speeds[1]),
                 best_positive_deg=count.best_positive_deg if count and own else math.nan,
                 best_negative_deg=count.best_negative_deg if count and own else math.nan,
             )
@@ -545,13 +597,25 @@ class LiveScreen(QWidget):
         frame = self._view.tracked
         if self._whole_hand:
             self._paint_hand(painter, picture, frame)
+            self._paint_question(painter, picture, frame)
             return
         overlay.paint_links(painter, frame, self._measuring.camera, picture.to_screen)
         overlay.paint_markers(painter, frame, picture.to_screen, picture.scale)
-        if calibration is not None and frame.status != TrackStatus.LOST:
+        asked = self.question.doubt is not None  # then the discs are what is to be looked at
+        if calibration is not None and frame.status != TrackStatus.LOST and not asked:
             shown = QRectF(picture.rect())
             camera = self._measuring.camera
             overlay.paint_axes(painter, self._theme, frame, calibration, camera, picture.to_screen, shown)
+        self._paint_question(painter, picture, frame)
+
+    def _paint_question(self, painter: QPainter, picture: PictureView, frame: TrackedFrame) -> None:
+        """What is asked about, as it lies in the picture shown."""
+        asked, calibration = self.question.doubt, self._measuring.calibration if self._measuring else None
+        if asked is None or calibration is None or self._measuring is None:
+            return
+        now = doubt_of(frame, calibration.clicks.protocol.markers, self._measuring.camera)
+        if now is not None and now.marker == asked.marker and now.has_spot and now.hidden == asked.hidden:
+            paint_question(painter, self._theme, now, picture)
 
     def _paint_hand(self, painter: QPainter, picture: PictureView, frame: TrackedFrame) -> None:
         assert self._measuring is not None

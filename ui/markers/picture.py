@@ -16,7 +16,7 @@ from carpus.ui.marker_words import finger_name, marker_name
 from carpus.ui.markers.clicking import Clicking
 from carpus.ui.picture.name_places import place_for
 from carpus.ui.picture.overlay import haloed
-from carpus.ui.picture.photo import paint_label, paint_wrong_label
+from carpus.ui.picture.photo import label_size, paint_label, paint_wrong_label
 from carpus.ui.picture.view import PictureView
 from carpus.ui.ports import FoundMarker
 from carpus.ui.theme import (
@@ -322,10 +322,24 @@ class MarkerPicture(PictureView):
             pattern = self.tr("Marker found · {width} px wide") if box.width() >= 200 else self.tr("Found · {width} px")
             words = pattern.format(width=f"{self.found.width_px:.0f}")
         if words:
-            painter.setFont(font(12 * self._theme.text_scale, SEMIBOLD))
-            height = QFontMetricsF(painter.font()).height() + 5
-            paint_label(painter, self._theme, words, inner.left() + 8, inner.bottom() - height - 8)
+            self._paint_loupe_words(painter, words, inner)
         painter.restore()
+
+    def _paint_loupe_words(self, painter: QPainter, words: str, inner: QRectF) -> None:
+        """At the foot of the loupe, within it, in as many lines as that takes."""
+        room = inner.width() - 8.0
+        lines: list[str] = []
+        for word in words.split(" "):
+            longer = f"{lines[-1]} {word}" if lines else word
+            if lines and label_size(self._theme, longer).width() <= room:
+                lines[-1] = longer
+            else:
+                lines.append(word)
+        height = label_size(self._theme, words).height()
+        top = inner.bottom() - 4 - height * len(lines)
+        for line in lines:
+            paint_label(painter, self._theme, line, inner.left() + 4, top)
+            top += height
 
     def paintEvent(self, event: QPaintEvent) -> None:
         super().paintEvent(event)

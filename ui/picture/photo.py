@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from PySide6.QtCore import QRectF, QSize, Qt
+from PySide6.QtCore import QPointF, QRectF, QSize, QSizeF, Qt
 from PySide6.QtGui import QColor, QFontMetricsF, QImage, QPainter, QPainterPath, QPaintEvent
 from PySide6.QtWidgets import QSizePolicy, QWidget
 
@@ -23,11 +23,16 @@ def fitted(size: QSize, room: QRectF) -> QRectF:
     return box
 
 
+def label_size(theme: Theme, text: str) -> QSizeF:
+    """Room that :func:`paint_label` takes."""
+    metrics = QFontMetricsF(font(12 * theme.text_scale, SEMIBOLD))
+    return QSizeF(metrics.horizontalAdvance(text) + 12, metrics.height() + 5)
+
+
 def paint_label(painter: QPainter, theme: Theme, text: str, left: float, top: float) -> QRectF:
     """White words on a dark plate over the picture; returns the plate."""
     painter.setFont(font(12 * theme.text_scale, SEMIBOLD))
-    metrics = QFontMetricsF(painter.font())
-    plate = QRectF(left, top, metrics.horizontalAdvance(text) + 12, metrics.height() + 5)
+    plate = QRectF(QPointF(left, top), label_size(theme, text))
     color = QColor(ON_PICTURE_LABEL)
     color.setAlpha(LABEL_ALPHA)
     painter.setPen(Qt.PenStyle.NoPen)

@@ -1,0 +1,77 @@
+"""A disc of the palm begun anew: a person says that it lies elsewhere than was believed.
+
+What was known of its place is given up, and the spot that was shown is measured once as if nothing had been: what the
+rest of the palm leaves open of the pose stays open, and goes with the place from here on.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from carpus.core.tracking.kernel import Bank
+from carpus.core.tracking.naming import Measurable, correct
+from carpus.core.tracking.palm_state import SHAPE, SKIN, PalmBelief
+from carpus.core.tracking.palm_view import Forecast, View, forecast, recentred
+from carpus.core.tracking.settings import TrackerSettings
+from carpus.core.tracking.soft_tissue import settled_covariance
+from carpus.core.types import BoolArray, FloatArray
+
+ANYWHERE_M = 0.02
+"""How far the disc may be from where the one picture shows it: more than any depth errs."""
+_TWICE = 2.0
+"""The picture is read once more right after: half of its weight now, half then."""
+
+
+def disc_anew(
+    ahead: Forecast, view: View, disc: int, blob: int, blobs: Measurable, settings: TrackerSettings
+) -> tuple[PalmBelief, Bank, View]:
+    """Belief and bank with the palm's ``disc`` (its row of 6) at a blob, and the view to go on with."""
+    u_px, v_px, depth_m = blobs.value[blob]
+    depth_m = depth_m if np.isfinite(depth_m) else float(ahead.own_mean[disc, 2])
+    belief = ahead.nominal
+    in_camera = view.camera.back_project(np.array([[u_px, v_px]]), np.array([depth_m]))[0]
+    in_w0 = view.rotation_w0_cam.T @ (in_camera - view.translation_w0_cam_m)
+    on_palm_m = belief.rotation_w2_w0.T @ (in_w0 - belief.position_m)
+
+    shape, skin = (np.arange(part.start + 3 * disc, part.start + 3 * disc + 3) for part in (SHAPE, SKIN))
+    own = np.concatenate((shape, skin))
+    fresh = np.zeros((6, 6))
+    fresh[:3, :3] = ANYWHERE_M**2 * np.eye(3)
+    fresh[3:, 3:] = settled_covariance(settings.tissue)[skin[:, None], skin]
+    value = belief.value.copy()
+    value[shape], value[skin] = on_palm_m - view.palm_m[disc], 0.0
+    belief = PalmBelief(belief.rotation_w2_w0, value, _with_block(belief.covariance, own, fresh))
+    mean = ahead.bank.mean.copy()
+    mean[..., own] = 0.0
+    bank = Bank(mean, _with_block(ahead.bank.covariance, own, fresh), ahead.bank.probability)
+
+    # How wrong its depth was at the calibration says nothing of it any more.
+    hidden = view.hidden.copy()
+    hidden[disc, 3 * disc : 3 * disc + 3] = 0.0
+    view = replace(view, hidden=hidden)
+    taken: NDArray[np.int64] = np.full(len(ahead.own_mean), -1, dtype=np.int64)
+    taken[disc] = blob
+    with_depth: BoolArray = (taken >= 0) & np.isfinite(blobs.value[blob, 2])
+    whole = forecast(belief, bank, view, settings.spread)
+    measured = correct(whole, blobs, taken, with_depth, np.full((taken.size, 3), _TWICE))
+    return *recentred(belief, measured.bank), view
+
+
+def with_discs_as_known(view: View, shape: FloatArray, named: BoolArray) -> View:
+    """The view in which to look for the hand anew: the discs that a person ``named`` (6,) where they are by now, by the
+    shape (18,)."""
+    if not named.any():
+        return view
+    return replace(view, palm_m=view.palm_m + np.where(named[:, None], shape.reshape(-1, 3), 0.0))
+
+
+def _with_block(covariance: FloatArray, rows: NDArray[np.int64], block: FloatArray) -> FloatArray:
+    """A covariance (..., n, n) in which those rows go with nothing else, and with each other as in ``block``."""
+    out = covariance.copy()
+    out[..., rows, :] = 0.0
+    out[..., :, rows] = 0.0
+    out[..., rows[:, None], rows] = block
+    return out
