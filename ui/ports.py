@@ -16,7 +16,7 @@ from carpus.core.hand.protocols import MarkerProtocol
 from carpus.core.output.report_content import RepetitionChoices, SessionFigures
 from carpus.core.pipeline.live_values import LiveCounters, LiveEvent, TrackedView
 from carpus.core.session.values import AngleOrder, Session
-from carpus.core.tracking.said_spots import SpotAnswer
+from carpus.core.spot_answer import SpotAnswer
 from carpus.core.types import ByteImage, FloatArray, Frame, Side, TrackedFrame
 
 AffectedSide = Literal["right", "left", "both"]

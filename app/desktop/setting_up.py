@@ -16,9 +16,9 @@ from carpus.app.desktop.practice import PRACTICE_REPETITIONS
 from carpus.app.desktop.sources import OpenSource
 from carpus.app.desktop.ways import FindPatient, Tell, Way
 from carpus.core.calibration.result import Verdict
+from carpus.core.capture.raw import MB_PER_MINUTE
 from carpus.core.library.set_up import PRACTICE_PATIENT, SetUp
 from carpus.core.output.exercises import EXERCISES
-from carpus.core.pipeline.around_hand import MB_PER_MINUTE
 from carpus.core.session.register import SessionEntry
 from carpus.core.types import ByteImage, Side
 from carpus.ui import numbers

@@ -21,6 +21,7 @@ from typing import Literal
 import numpy as np
 
 from carpus.core.capture.openni2 import load_library
+from carpus.core.capture.raw import MB_PER_MINUTE
 from carpus.core.capture.xtion import XtionSource
 from carpus.core.capture.xtion_usb import UsbCamera, usb_cameras
 from carpus.core.errors import CameraBusy, CameraMissing, CameraPermission, CarpusFault, DriverMissing
@@ -34,8 +35,6 @@ PACKED_WITHOUT = ("GL", "EGL")
 """Of these what a packed program does not bring: they belong to the graphics card."""
 RULES_FOLDERS = tuple(Path(root) / "udev/rules.d" for root in ("/etc", "/run", "/usr/lib", "/lib"))
 LOW_DISK_BYTES = 2_000_000_000
-RAW_BYTES_S = 10_000_000
-"""A raw recording, by experience: depth without loss and colour as JPEG at 30 fps."""
 NEEDED_MBIT = 480
 WANTED_FPS = 29.0
 NEEDED_FPS = 20.0
@@ -163,7 +162,7 @@ def data_folder_finding(folder: Path) -> Finding:
 
 def disk_finding(folder: Path, free_bytes: int) -> Finding:
     """Room for recordings."""
-    minutes = free_bytes / RAW_BYTES_S / 60.0
+    minutes = free_bytes / (1e6 * MB_PER_MINUTE)
     text = f"{free_bytes / 1e9:.1f} GB free, about {minutes:.0f} minutes with pictures"
     if free_bytes < LOW_DISK_BYTES:
         return Finding("Disk", "warning", text, f"Free space on the disk of {_existing(folder)}.")

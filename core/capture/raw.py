@@ -44,6 +44,10 @@ from carpus.core.private import copy_open_file, is_still_there, private
 from carpus.core.types import ByteImage, Frame
 
 SUFFIX = ".carpusraw"
+BYTES_PER_PICTURE = 60_000
+"""Colour and depth of the hand and its surroundings, by experience with the simulated camera; a whole picture takes
+170 000."""
+MB_PER_MINUTE = round(60 * 30 * BYTES_PER_PICTURE / 1e6, -1)
 MAGIC = b"CARPUSRW"
 VERSION = 1
 _START = struct.Struct("<8sI")

@@ -17,9 +17,6 @@ REACH = {False: 1.5, True: 0.6}
 """How far the area reaches beyond the box of the discs, in its larger side: of the palm's alone to the finger tips and
 past them, of the whole hand's a hand's breadth."""
 LEAST_REACH_PX = 48.0
-BYTES_PER_PICTURE = 60_000
-"""Colour and depth of the area together, by experience with the simulated camera; a whole picture takes 170 000."""
-MB_PER_MINUTE = round(60 * 30 * BYTES_PER_PICTURE / 1e6, -1)
 
 
 @dataclass(frozen=True, slots=True)

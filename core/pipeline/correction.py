@@ -23,7 +23,7 @@ from carpus.core.session.marker_places import SAME_SPOT_PX, Correction
 from carpus.core.session.reader import read_detections, read_session
 from carpus.core.session.values import DetectionTable, Session, motion_of, new_header
 from carpus.core.session.writer import SessionWriter
-from carpus.core.tracking.said_spots import SPOT_SAID, SpotAnswer
+from carpus.core.spot_answer import SPOT_SAID, SpotAnswer
 from carpus.core.tracking.tracker import Tracker
 from carpus.core.types import SIMULATED, BoolArray, Detections, FloatArray, Moment, TrackedFrame
 

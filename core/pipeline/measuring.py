@@ -35,7 +35,7 @@ from carpus.core.pipeline.pieces import TrackedHand
 from carpus.core.pipeline.track import Learnt, TrackSettings, build_walk, learnt_from, parameters_json, source_facts
 from carpus.core.session.values import new_header
 from carpus.core.session.writer import Fallback, SessionWriter
-from carpus.core.tracking.said_spots import SPOT_SAID, SpotAnswer
+from carpus.core.spot_answer import SPOT_SAID, SpotAnswer
 from carpus.core.tracking.tracker import KeptSteps, Tracker
 from carpus.core.types import ByteImage, FloatArray, Frame, TrackedFrame
 from carpus.core.words import one_sentence

@@ -19,6 +19,7 @@ from numpy.typing import NDArray
 from carpus.core import so3
 from carpus.core.calibration.result import Calibration
 from carpus.core.camera import Camera
+from carpus.core.spot_answer import SpotAnswer
 from carpus.core.tracking.disc_anew import disc_anew, with_discs_as_known
 from carpus.core.tracking.doubt import DoubtWatch, passed_over
 from carpus.core.tracking.finger_model import seat_of
@@ -34,7 +35,7 @@ from carpus.core.tracking.palm_state import POSE, RELIEF, SHAPE, SIZE, SKIN, TUR
 from carpus.core.tracking.palm_view import Forecast, View, forecast, recentred
 from carpus.core.tracking.reacquire import FoundPalm, Reach, find_palm
 from carpus.core.tracking.readout import Readout, lost_frame, lost_moment
-from carpus.core.tracking.said_spots import NoDisc, RecentSpots, SpotAnswer
+from carpus.core.tracking.said_spots import NoDisc, RecentSpots
 from carpus.core.tracking.settings import TrackerSettings
 from carpus.core.tracking.shape_learning import hidden_by_calibration, shape_covariance, shape_shares
 from carpus.core.tracking.smoother import FilterStep, smooth

@@ -23,7 +23,7 @@ from carpus.core.pipeline.track import Learnt, TrackSettings, parameters_json
 from carpus.core.session.reader import read_session
 from carpus.core.session.values import new_header
 from carpus.core.session.writer import SessionWriter
-from carpus.core.tracking.said_spots import SPOT_SAID, SpotAnswer
+from carpus.core.spot_answer import SPOT_SAID, SpotAnswer
 from carpus.core.tracking.settings import TrackerSettings
 from carpus.core.tracking.tracker import Tracker
 from carpus.core.types import Detections, Frame

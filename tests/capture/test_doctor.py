@@ -83,7 +83,7 @@ def test_a_folder_that_cannot_be_written(tmp_path: Path) -> None:
 def test_a_full_disk(tmp_path: Path) -> None:
     assert doctor.disk_finding(tmp_path, 1_000_000_000).state == "warning"
     finding = doctor.disk_finding(tmp_path, 60_000_000_000)
-    assert (finding.state, finding.found) == ("good", "60.0 GB free, about 100 minutes with pictures")
+    assert (finding.state, finding.found) == ("good", "60.0 GB free, about 545 minutes with pictures")
 
 
 def test_no_driver(monkeypatch: pytest.MonkeyPatch) -> None:

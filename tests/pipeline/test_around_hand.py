@@ -7,11 +7,11 @@ from pathlib import Path
 
 import numpy as np
 
-from carpus.core.capture.raw import RawRecording, RawWriter
+from carpus.core.capture.raw import BYTES_PER_PICTURE, RawRecording, RawWriter
 from carpus.core.capture.raw_pictures import encode_color, encode_depth
 from carpus.core.capture.source import SourceInfo
 from carpus.core.hand.protocols import WRIST6
-from carpus.core.pipeline.around_hand import BYTES_PER_PICTURE, AroundHand, HandArea, area_of, only
+from carpus.core.pipeline.around_hand import AroundHand, HandArea, area_of, only
 from carpus.core.tracking.tracker import Tracker
 from carpus.core.types import Frame, TrackedFrame, TrackStatus
 from tests.tracking.hands import CAMERA, RIGID, blobs, calibration, swing

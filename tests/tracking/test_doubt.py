@@ -7,8 +7,8 @@ from dataclasses import replace
 import numpy as np
 
 from carpus.core.calibration.result import Calibration
+from carpus.core.spot_answer import SpotAnswer
 from carpus.core.tracking.doubt import DoubtSettings, DoubtWatch, passed_over
-from carpus.core.tracking.said_spots import SpotAnswer
 from carpus.core.tracking.settings import TrackerSettings
 from carpus.core.tracking.tracker import Tracker
 from carpus.core.types import TrackedFrame

@@ -25,7 +25,7 @@ from carpus.core.pipeline.live_values import LiveCounters, LiveEvent, TrackedVie
 from carpus.core.session.values import Event, MarkerSeries, QualitySeries, Session, SessionHeader, motion_of
 from carpus.core.simulation.recording import SimulatedPictures
 from carpus.core.simulation.spec import RecordingSpec
-from carpus.core.tracking.said_spots import SpotAnswer
+from carpus.core.spot_answer import SpotAnswer
 from carpus.core.types import ByteImage, Detections, Frame, Moment, TrackedFrame, TrackStatus
 from carpus.ui.ports import (
     FoundMarker,

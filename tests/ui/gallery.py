@@ -112,7 +112,7 @@ CHECKS = (
           "Needed for live cameras and .oni files. Run: sudo apt-get install libopenni2-0"),
     Check("Camera rights", "good", "/lib/udev/rules.d/60-libopenni2-0.rules"),
     Check("Data folder", "good", "/home/clinic/.local/share/carpus, made at the first recording"),
-    Check("Disk", "good", "212.4 GB free, about 354 minutes with pictures"),
+    Check("Disk", "good", "212.4 GB free, about 1931 minutes with pictures"),
     Check("Fonts", "good", "6 faces"),
     Check("Screen", "good", "1920 × 1053 for windows"),
 )  # fmt: skip

@@ -10,7 +10,7 @@ from typing import Literal
 import numpy as np
 
 from carpus.core.camera import Camera
-from carpus.core.tracking.said_spots import SpotAnswer
+from carpus.core.spot_answer import SpotAnswer
 from carpus.core.types import FloatArray, TrackedFrame, TrackStatus
 from carpus.ui.live.light import AMBER_AFTER_S, Lamp
 from carpus.ui.marker_words import marker_name

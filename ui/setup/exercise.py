@@ -54,7 +54,7 @@ class ExerciseScreen(QWidget):
         self.ends = Choices(theme, ends)
         self._ends_field = Labelled(theme, self.tr("End joints of the fingers"), self.ends)
         self.view = Text(theme, "", 14, token="text2", wrap=True)
-        keep: list[tuple[object, str]] = [(False, self.tr("No")), (True, self.tr("Yes, up to 600 MB a minute"))]
+        keep: list[tuple[object, str]] = [(False, self.tr("No")), (True, self.tr("Yes"))]
         self.pictures = Choices(theme, keep)
         self.primary = Button(theme, self.tr("Next: the camera"), "primary", icon="arrow-right", hint=self.tr("Enter"))
         self._lay_out()
