@@ -5,7 +5,7 @@ from __future__ import annotations
 from importlib.resources import files
 
 from PySide6.QtCore import QByteArray
-from PySide6.QtGui import QFont, QFontDatabase
+from PySide6.QtGui import QFont, QFontDatabase, QFontInfo
 
 TEXT_FAMILY = "Carpus Inter"
 DISPLAY_FAMILY = "Carpus Inter Display"
@@ -13,13 +13,15 @@ DISPLAY_FROM_PX = 28
 REGULAR, MEDIUM, SEMIBOLD = 400, 500, 600
 
 
+_PROBED_PX = (*range(11, 25), 28, 32, 44)
 _loaded: list[str] = []
 
 
 def load_fonts() -> tuple[str, ...]:
-    """Register the bundled faces with Qt; the families found. Needs a QGuiApplication; costs nothing twice, and does it
-    again where Qt has forgotten them, as it may with an application that was made anew."""
-    if _loaded and QFontDatabase.hasFamily(TEXT_FAMILY):
+    """Register the bundled faces with Qt; the families found. Needs a QGuiApplication; costs next to nothing twice, and
+    does it again where Qt has forgotten them: it has been seen, after many minutes, to draw single sizes in the system's
+    face and to keep to that. Registering drops what it keeps, so that it looks again."""
+    if _loaded and all(_answers(size_px, weight) for size_px in _PROBED_PX for weight in (REGULAR, MEDIUM, SEMIBOLD)):
         return tuple(_loaded)
     families: set[str] = set()
     for entry in sorted(files("carpus.resources").joinpath("fonts").iterdir(), key=lambda item: item.name):
@@ -28,6 +30,11 @@ def load_fonts() -> tuple[str, ...]:
             families.update(QFontDatabase.applicationFontFamilies(number))
     _loaded[:] = sorted(families)
     return tuple(_loaded)
+
+
+def _answers(size_px: int, weight: int) -> bool:
+    asked = font(size_px, weight)
+    return QFontInfo(asked).family() == asked.family()
 
 
 def font(size_px: float, weight: int = REGULAR, *, display: bool | None = None) -> QFont:
