@@ -19,8 +19,8 @@ _loaded: list[str] = []
 
 def load_fonts() -> tuple[str, ...]:
     """Register the bundled faces with Qt; the families found. Needs a QGuiApplication; costs next to nothing twice, and
-    does it again where Qt has forgotten them: it has been seen, after many minutes, to draw single sizes in the system's
-    face and to keep to that. Registering drops what it keeps, so that it looks again."""
+    does it again where Qt has forgotten them: it has been seen, after many minutes, to draw single sizes in the
+    system's face and to keep to that. Registering drops what it keeps, so that it looks again."""
     if _loaded and all(_answers(size_px, weight) for size_px in _PROBED_PX for weight in (REGULAR, MEDIUM, SEMIBOLD)):
         return tuple(_loaded)
     families: set[str] = set()

@@ -6,6 +6,7 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 
 from carpus.core import so3
 from carpus.core.calibration.result import Calibration
@@ -24,7 +25,7 @@ from carpus.core.tracking.hand_geometry import (
     ray_frames,
     ray_joints_m,
 )
-from carpus.core.tracking.joint_limits import MID_RANGE_RAD, RANGE_SD_RAD
+from carpus.core.tracking.joint_limits import MID_RANGE_RAD, RANGE_SD_RAD, constrained, outside_limits
 from carpus.core.tracking.kernel import Bank, mixed, switching
 from carpus.core.tracking.motion import REFERENCE_DT_S
 from carpus.core.tracking.palm_state import POSE, PalmBelief
@@ -148,6 +149,22 @@ class FingerModel:
         probability[rays] = fresh.probability[rays]
         return Bank(mean, covariance, probability)
 
+    def within_reach(self, beliefs: Bank, before: Bank) -> tuple[Bank, NDArray[np.bool_]]:
+        """Beliefs with the limits taken into account, and rays (5,) that a picture has bent as no finger bends: it was
+        misread there, so their joints may be anywhere, on the anatomy as it was ``before``."""
+        beliefs = constrained(beliefs, beliefs.merged()[0][:, :SLOTS])
+        beyond_rad = np.abs(outside_limits(beliefs.merged()[0][:, :SLOTS]))
+        misread = np.asarray((beyond_rad > self.settings.fingers.most_beyond_rad).any(axis=1))
+        if not misread.any():
+            return beliefs, misread
+        fresh, rays = self.anywhere(*before.merged()), misread[:, None]
+        kept = Bank(
+            np.where(rays[..., None], fresh.mean, beliefs.mean),
+            np.where(rays[..., None, None], fresh.covariance, beliefs.covariance),
+            np.where(rays, fresh.probability, beliefs.probability),
+        )
+        return kept, misread
+
     def alike(self, mean: FloatArray, covariance: FloatArray) -> Bank:
         """All modes alike and as probable, of means (5, n) and covariances (5, n, n)."""
         count = self.scales.size
@@ -158,12 +175,19 @@ class FingerModel:
         )
 
     def predicted(self, beliefs: Bank, unseen_s: FloatArray, dt_s: float) -> Bank:
-        """The rays ``dt_s`` later; ``unseen_s`` (5, 5) for how long nothing has shown each slot."""
+        """The rays ``dt_s`` later; ``unseen_s`` (5, 5) for how long nothing has shown each slot.
+
+        After a gap between pictures a rate has led anywhere, full turns of a joint among it, between which no line
+        tells: there the limits are heard before the picture as well, and a long gap leaves nothing of the joints.
+        """
         if dt_s <= 0.0:
             return beliefs
         switch = switching(self.scales.size, self.settings.mode_dwell_s, dt_s)
         mean = (beliefs.probability[:, None] @ beliefs.mean)[:, 0]
-        return self.motion.predicted(mixed(beliefs, switch), dt_s, self.forgetting(mean, unseen_s, dt_s))
+        if dt_s >= self.settings.fingers.range_after_s:
+            return self.anywhere(*beliefs.merged())
+        ahead = self.motion.predicted(mixed(beliefs, switch), dt_s, self.forgetting(mean, unseen_s, dt_s))
+        return ahead if dt_s < self.settings.fingers.gap_s else constrained(ahead, ahead.merged()[0][:, :SLOTS])
 
     def forgetting(self, mean: FloatArray, unseen_s: FloatArray, dt_s: float) -> Forgetting | None:
         """What becomes of the slots of rays at ``mean`` (5, n) that nothing shows; None where all are shown.

@@ -37,6 +37,8 @@ class FingerSettings:
     ``least_facing``. Centres of discs nearer than ``crowded_radii`` stray by ``crowded_px``. ``click_px`` of a disc
     with no depth. ``across_m``: how closely a disc holds its joints across the line of sight where errors stay;
     ``sure_turn_rad`` of the palm, all axes, at which half as much is learnt of the fingers.
+    ``gap_s`` between pictures from which on limits count before a picture too; a
+    finger ``most_beyond_rad`` past its limits was misread.
     """
 
     skin_offsets: bool = True
@@ -73,3 +75,5 @@ class FingerSettings:
     click_px: float = 2.0
     across_m: float = 0.00015
     sure_turn_rad: float = math.radians(1.0)
+    gap_s: float = 0.12
+    most_beyond_rad: float = math.radians(30.0)

@@ -17,7 +17,6 @@ from carpus.core.tracking.finger_depth import KnuckleBends, with_bends
 from carpus.core.tracking.finger_model import FingerModel, Seat
 from carpus.core.tracking.finger_naming import far_rays
 from carpus.core.tracking.hand_geometry import RAYS, SHOWS, SLOTS, JointMoment
-from carpus.core.tracking.joint_limits import constrained
 from carpus.core.tracking.kernel import Bank, corrected, learning_shares, looked_back
 from carpus.core.tracking.ray_filter import ANATOMY, PINNINGS, RATES, RAY_SIZE, RayForecast, forecast, spread_points
 from carpus.core.types import FloatArray
@@ -42,7 +41,7 @@ class _Filtered:
     """One frame filtered again: ``mean`` (5, n) and the lower triangles of ``covariance`` (5, n (n + 1) / 2).
 
     ``scale`` (5,) of the process noise that led to it, ``unseen_s`` (5, 5) for how long each slot had not been shown,
-    ``is_linked`` whether it follows from the frame before.
+    ``is_linked`` whether it follows from the frame before; ``anew`` (5,) rays of which only the anatomy does.
     """
 
     mean: FloatArray
@@ -50,6 +49,7 @@ class _Filtered:
     scale: FloatArray
     unseen_s: FloatArray
     is_linked: bool
+    anew: NDArray[np.bool_]
 
 
 @dataclass(frozen=True, slots=True)
@@ -137,7 +137,8 @@ def _filtered(
             out.append(None)
             is_lost = True
             continue
-        is_linked = not (step.begins or is_lost)
+        is_gap = step.timestamp_s - time_s >= model.settings.fingers.range_after_s
+        is_linked = not (step.begins or is_lost or is_gap)
         before_s = unseen_s
         if step.begins:
             beliefs, unseen_s = model.at_neutral(), np.zeros((RAYS, SLOTS))
@@ -148,17 +149,18 @@ def _filtered(
             beliefs = model.predicted(beliefs, unseen_s, step.timestamp_s - time_s)
         if step.postures:
             beliefs = model.at_postures(beliefs, step.postures)
+        anew = np.isin(np.arange(RAYS), list(step.postures))
         nearest, shares = beliefs, learning_shares(RAY_SIZE, ANATOMY, model.learning(seat))
         is_far = bool(step.postures) or bool(far_rays(beliefs.merged()[1], step.shown, model.settings.fingers).any())
         for _ in range(1 + (PINNINGS if is_far else 0)):
             line = _line(model, *nearest.merged(), seat)
             palm_part = model.palm_part(line, seat)
             nearest = corrected(beliefs, line, step.measured, step.variance, palm_part, shares).bank
-        beliefs = with_bends(nearest, step.bends) if step.bends.is_any else nearest
-        beliefs = constrained(beliefs, beliefs.merged()[0][:, :SLOTS])
+        bent = with_bends(nearest, step.bends) if step.bends.is_any else nearest
+        beliefs, misread = model.within_reach(bent, beliefs)
         mean, covariance = beliefs.merged()
         scale = np.sqrt(beliefs.probability @ model.scales**2)
-        out.append(_Filtered(mean, covariance[:, lower[0], lower[1]], scale, before_s, is_linked))
+        out.append(_Filtered(mean, covariance[:, lower[0], lower[1]], scale, before_s, is_linked, anew | misread))
         shown = (SHOWS & step.shown[:, None, :]).any(axis=-1)
         unseen_s = np.where(shown, 0.0, unseen_s + (step.timestamp_s - time_s if is_linked else 0.0))
         time_s, is_lost = step.timestamp_s, False
@@ -184,7 +186,7 @@ def _back(
         return later_mean, later_covariance
     forward, noise = model.motion.step(dt_s, later.scale, model.forgetting(mean, later.unseen_s, dt_s))
     moving = np.arange(RATES.stop)
-    for ray in after.postures:
+    for ray in np.flatnonzero(later.anew):
         # Nothing of the joints passes through: only what the later frames say of the anatomy goes back.
         forward[ray][moving] = 0.0
         noise[ray][moving, moving] = 1.0

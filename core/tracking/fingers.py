@@ -27,7 +27,6 @@ from carpus.core.tracking.finger_settings import FingerSettings
 from carpus.core.tracking.finger_smoother import FingerStart, FingerStep
 from carpus.core.tracking.hand_geometry import DISCS, RAYS, SHOWS, SLOTS, JointMoment
 from carpus.core.tracking.joint_association import holds_together
-from carpus.core.tracking.joint_limits import constrained
 from carpus.core.tracking.kernel import Bank
 from carpus.core.tracking.naming import Measurable
 from carpus.core.tracking.noise_watch import watched_factor
@@ -319,10 +318,9 @@ class Fingers:
         watched = watched_factor(factor, residual, np.isfinite(measured), dt_s, self._settings.noise)
         self._noise_factor = watched.reshape(RAYS, 3 * DISCS)
         self._disc_m2 = learnt_sizes(self._disc_m2, trial.disc_m2, self._settings.fingers)
-        after = named.update.bank
-        merged = after.merged()
-        kept = constrained(after, merged[0][:, :SLOTS])
-        self._take(kept, merged if kept is after else kept.merged())
+        kept, misread = self.model.within_reach(named.update.bank, self._beliefs)
+        self._missing[misread] = self._settings.fingers.patience_frames
+        self._take(kept, kept.merged())
         self._palm = trial.seat.palm
         begins, self._begins = self._begins, False
         return FingerStep(timestamp_s, named.measured, named.variance, is_named, trial.postures, begins, trial.bends)

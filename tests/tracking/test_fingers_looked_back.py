@@ -5,6 +5,7 @@ from __future__ import annotations
 from functools import lru_cache
 
 import numpy as np
+import pytest
 
 from carpus.core.calibration.settings import CalibrationSettings
 from carpus.core.hand.protocols import joint_angle_names
@@ -79,3 +80,24 @@ def test_what_is_forgotten_leaves_no_steps_of_the_fingers_behind() -> None:
         tracker.forget()
         tracker.step(i, float(blobs.truth.timestamp_s[i]), blobs.detections[i])
     assert len(tracker.history) == len(tracker._finger_history) == 1
+
+
+@pytest.mark.parametrize("gap_s", [0.25, 0.4, 1.0, 2.5])
+def test_gaps_between_pictures_leave_every_joint_within_reach(gap_s: float) -> None:
+    """A busy computer measures few pictures: what a rate had done by then must not be taken for turns of a joint."""
+    blobs = sequence()
+    times = blobs.truth.timestamp_s
+    hand, neutral_ends_s = measured_hand(blobs, CalibrationSettings())
+    assert hand.calibration is not None
+    settings = learnt_from(hand.noise, neutral_ends_s, TrackerSettings()).applied(TrackerSettings())
+    tracker = Tracker(hand.calibration, blobs.truth.camera, settings)
+    kept = [i for i in range(len(times)) if times[i] < times[0] + 2.0]
+    while (after := int(np.searchsorted(times, times[kept[-1]] + gap_s))) < len(times) - 1:
+        kept += [after, after + 1]
+    live = [tracker.step(i, float(times[i]), blobs.detections[i]).moment.joint_angles_rad for i in kept]
+    back = [moment.joint_angles_rad for moment in tracker.smoothed()]
+    truth = blobs.truth.joint_angles_rad[kept]
+    bending = [i for i, name in enumerate(joint_angle_names()) if "flexion" in name]
+    for found in (np.array(live), np.array(back)):
+        assert np.degrees(np.nanmax(np.abs(found))) < 130.0
+        assert np.degrees(np.nanmedian(np.abs(found - truth)[:, bending])) < 4.0
