@@ -75,7 +75,7 @@ def write_guide() -> int:
     folder.mkdir(parents=True, exist_ok=True)
     for name, state in GUIDE_PICTURES.items():
         with tempfile.TemporaryDirectory() as rendered:
-            written = render_all_screens(Path(rendered), sizes=(README_SIZE,), only=state)
+            written = render_all_screens(Path(rendered), sizes=(README_SIZE,), states=(state,), themes=("light",))
             picture = QImage(str(next(path for path in written if f"-{state}-light-" in path.name)))
         picture.save(str(folder / f"{name}.jpg"), None, GUIDE_QUALITY)
     for name, paint in (

@@ -33,8 +33,8 @@ _OTHERWISE: dict[str, dict[str, Any]] = {
 """A touch of each finger, which falls short of none; reaches that so few pictures can follow."""
 _FPS = 15.0
 """Few pictures: they are drawn before the first report can be made. A real camera has 30 a second."""
-_TILT_DEG, _HAND_TILT_DEG = 4.0, 11.0
-"""The thumb's discs face sideways: for them the thumb side is turned up."""
+_TILT_DEG, _HAND_TILT_DEG = 4.0, {"right": 11.0, "left": 8.0}
+"""The thumb's discs face sideways: for them the thumb side is turned up, as far as the verdict allows."""
 _READ_AHEAD = 8
 
 
@@ -57,7 +57,7 @@ def practice_spec(set_up: SetUp, seconds: float | None = None) -> RecordingSpec:
         sleeve="grey",
         distance_m=0.64,
         yaw_deg=3.0,
-        tilt_deg=_HAND_TILT_DEG if exercise.protocol.has_fingers else _TILT_DEG,
+        tilt_deg=_HAND_TILT_DEG[set_up.side] if exercise.protocol.has_fingers else _TILT_DEG,
         hidden_share=0.02,
     )
     own = replace(usual, **_OTHERWISE.get(exercise.id, {}))

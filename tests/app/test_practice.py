@@ -3,22 +3,41 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 
 import numpy as np
+import pytest
 
 from carpus.app.desktop.practice import practice_spec
+from carpus.core.calibration.settings import CalibrationSettings
 from carpus.core.hand.protocols import HAND21
 from carpus.core.library.set_up import PRACTICE_PATIENT, SetUp
 from carpus.core.measures.reach import find_reaches
 from carpus.core.measures.signals import even_signal, low_pass
 from carpus.core.output.exercises import exercise_named
+from carpus.core.simulation.measurements import measurement_sequence
 from carpus.core.simulation.recording import SimulatedPictures
+from carpus.core.simulation.spec import RecordingSpec
 from carpus.core.simulation.truth import Truth
+from carpus.core.types import Side
+from tests.accuracy.carpus import measured_hand
+
+
+def spec_of(exercise: str, side: Side = "right") -> RecordingSpec:
+    set_up = SetUp(PRACTICE_PATIENT, "Practice", side, exercise_named(exercise), 3, math.nan, math.nan)
+    return practice_spec(set_up)
 
 
 def truth_of(exercise: str) -> Truth:
-    set_up = SetUp(PRACTICE_PATIENT, "Practice", "right", exercise_named(exercise), 3, math.nan, math.nan)
-    return SimulatedPictures(practice_spec(set_up)).truth
+    return SimulatedPictures(spec_of(exercise)).truth
+
+
+@pytest.mark.parametrize("side", ["right", "left"])
+def test_its_hand_lies_as_flat_as_the_calibration_asks(side: Side) -> None:
+    still = replace(spec_of("FIST_COMPOSITE", side), hidden_share=0.0)
+    calibrated, _ = measured_hand(measurement_sequence(still), CalibrationSettings())
+    assert calibrated.verdict.is_good
+    assert calibrated.verdict.tilt_deg < CalibrationSettings().most_tilt_deg - 1.0
 
 
 def test_its_thumb_touches_every_finger_tip() -> None:

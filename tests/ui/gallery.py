@@ -269,7 +269,7 @@ class Gallery:
     def exercise(self) -> None:
         self.place(steps=0)
         screen = ExerciseScreen(self.theme)
-        screen.begin(FakeStore().rows[5], set_up(), "right", False)
+        screen.begin(FakeStore().rows[5], set_up(), "right", True, 110.0, 720.0)
         self.show(screen, screen.first())
 
     def exercise_hand(self) -> None:
@@ -534,19 +534,26 @@ class Gallery:
     def review_finger_ways(self) -> None:
         self._review_exercise("THUMB_OPP", "opposition", "path", 1)
 
-    def _correct(self, *, pictures: bool = True) -> CorrectScreen:
+    def _correct(self, *, pictures: bool = True, wrong_px: tuple[float, float] | None = None) -> CorrectScreen:
+        """With ``wrong_px``, where the middle knuckle was taken to be."""
         self.place(tab=1, camera="Saved 11:37")
         store = FakeCorrections(self.sessions, pictures=pictures)
         screen = CorrectScreen(self.theme, self.keys, self.background, store)
         self.show(screen)
-        screen.begin("session-7", self.sessions.session("session-7"), 620)
+        session = self.sessions.session("session-7")
+        if wrong_px is not None:
+            measured = session.markers.measured_px.copy()
+            measured[620, 3] = wrong_px
+            session = replace(session, markers=replace(session.markers, measured_px=measured))
+        screen.begin("session-7", session, 620)
         self.settle()
         return screen
 
     def correct(self) -> None:
-        screen = self._correct()
-        screen.put("MCP3", np.array([300.0, 300.0]))
-        screen.picture._dragged, screen.picture._at = "MCP4", np.array([310.0, 260.0])
+        """A name that stood where there is no disc has been put on its own."""
+        right_px = self.sessions.session("session-7").markers.measured_px[620, 3]
+        screen = self._correct(wrong_px=(right_px[0] - 10.0, right_px[1] + 36.0))
+        screen.put("MCP3", right_px)
         self.settle()
 
     def correct_spots(self) -> None:
@@ -827,9 +834,10 @@ class Gallery:
 
 
 def render_all_screens(
-    folder: Path, *, sizes: tuple[tuple[int, int], ...] = SIZES, scales: tuple[float, ...] = (1.0,), only: str = ""
-) -> list[Path]:
-    """Write every state in both themes; the paths written."""
+    folder: Path, *, sizes: tuple[tuple[int, int], ...] = SIZES, scales: tuple[float, ...] = (1.0,), only: str = "",
+    states: tuple[str, ...] = (), themes: tuple[ThemeName, ...] = ("light", "dark"),
+) -> list[Path]:  # fmt: skip
+    """Write every state, those whose name begins with ``only``, or just ``states``; the paths written."""
     application = QApplication.instance() or QApplication(["carpus"])
     assert isinstance(application, QApplication)
     application.setStyle("Fusion")
@@ -837,13 +845,12 @@ def render_all_screens(
     load_fonts()
     folder.mkdir(parents=True, exist_ok=True)
     written = []
-    themes: tuple[ThemeName, ...] = ("light", "dark")
     for size in sizes:
         for theme in themes:
             for scale in scales:
                 gallery = Gallery(application, theme, size, scale)
                 for number, (name, show) in enumerate(gallery.states().items(), 1):
-                    if only and not name.startswith(only):
+                    if (only and not name.startswith(only)) or (states and name not in states):
                         continue
                     show()
                     suffix = f"-{100 * scale:.0f}" if scale != 1.0 else ""

@@ -9,20 +9,25 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from PySide6.QtGui import QFontMetricsF
 
 from carpus.app.desktop.printing import write_table
 from carpus.core.output.joint_content import finger_keys
 from carpus.core.output.report_content import compare_rows, progress, session_figures
 from carpus.ui import numbers
 from carpus.ui.figures import Figure, with_side
+from carpus.ui.fonts import REGULAR, font
 from carpus.ui.plot.course import axis_top_deg, panels_of
 from carpus.ui.progress.words import headline
+from carpus.ui.report.hand_part import EDGES, EDGES_ALONE, LEAST_SIZE_PT
 from carpus.ui.report.hand_rows import cell_of, finger_rows, followed_keys, followed_kinds, hand_summary, limits_words
 from carpus.ui.report.pdf import progress_report, write_progress_report, write_session_report
 from carpus.ui.report.words import quality_lines
 from carpus.ui.terms import LEGAL_SENTENCE
 from tests.ui.hand_fakes import FakeHandSessions, hand_session, without_hidden
 from tests.ui.test_report_pdf import tool, words_of
+
+PAGE_WIDTH_PT = 510.0
 
 
 @pytest.fixture(scope="module")
@@ -49,6 +54,9 @@ def test_one_page_with_every_finger_its_total_and_the_limits_of_view_in_words(
     for head in ("(MCP)", "(PIP)", "(DIP)", "TAM", "Bending arc", "Limited by the camera’s view", "DIP not measured"):
         assert head in words
     assert LEGAL_SENTENCE in words
+    longest = QFontMetricsF(font(100, REGULAR)).horizontalAdvance("12° ulnar to 12° radial") * LEAST_SIZE_PT / 100
+    for edges in (EDGES, EDGES_ALONE):
+        assert longest < (edges[5] - edges[4]) * PAGE_WIDTH_PT, "runs into the total beside it"
 
 
 @pytest.mark.parametrize(

@@ -17,8 +17,10 @@ from carpus.ui.terms import arc_name
 from carpus.ui.theme import LIGHT
 from carpus.ui.translate import tr
 
-EDGES = (0.0, 0.068, 0.176, 0.282, 0.372, 0.484, 0.626, 0.700, 0.790)
+EDGES = (0.0, 0.064, 0.166, 0.268, 0.356, 0.487, 0.626, 0.700, 0.790)
 """Left edge of the finger, the five figures, the share, last time, change, as shares of the width."""
+EDGES_ALONE = (*(edge / EDGES[7] for edge in EDGES[:7]), 1.0, 1.0)
+"""The same where there is no last time to compare with."""
 ROW_PT, CURVES_PT, LEAST_CURVES_PT, BETWEEN_PT = 21.5, 176.0, 110.0, 6.0
 LEAST_SIZE_PT = 6.0
 TITLE_PT, KEY_PT, KEY_GAP_PT = 11.5, 8.5, 22.0
@@ -30,41 +32,49 @@ def paint_finger_table(
     """One row for each finger, then in words what the camera's view limits."""
     page.title(tr("Range of motion of the fingers"), top + 11, repetition_words(figures))
     baseline = top + 25
+    edges = EDGES if previous is not None else EDGES_ALONE
     for column, head in enumerate(column_heads(figures, previous, other), 1):
-        _fitted(page, head, column, baseline, 8.0, MEDIUM, "text2")
+        _fitted(page, edges, head, column, baseline, 8.0, MEDIUM, "text2")
     y = baseline + 4.5
     for row in finger_rows(figures, previous, other):
         page.rule(y)
-        _paint_row(page, row, y)
+        _paint_row(page, edges, row, y)
         y += ROW_PT
     page.rule(y)
     words = limits_words(figures)
     return page.paragraph(words, page.left, y + 2, page.right - page.left, 8.0) if words else y
 
 
-def _paint_row(page: Page, row: FingerRow, top: float) -> None:
+def _paint_row(page: Page, edges: tuple[float, ...], row: FingerRow, top: float) -> None:
     middle = top + ROW_PT / 2 + 3
-    _fitted(page, row.name, 0, middle, 9.0, MEDIUM)
+    _fitted(page, edges, row.name, 0, middle, 9.0, MEDIUM)
     for column, cell in enumerate(row.cells, 1):
         if cell.small:
-            _fitted(page, cell.shown, column, top + 9.5, 9.0, SEMIBOLD)
-            _fitted(page, cell.small, column, top + 18.5, 7.5, REGULAR, "text2")
+            _fitted(page, edges, cell.shown, column, top + 9.5, 9.0, SEMIBOLD)
+            _fitted(page, edges, cell.small, column, top + 18.5, 7.5, REGULAR, "text2")
         else:
-            _fitted(page, cell.shown, column, middle, 8.5, REGULAR, "text2")
+            _fitted(page, edges, cell.shown, column, middle, 8.5, REGULAR, "text2")
     if row.share.small:
-        _fitted(page, row.share.main, 6, top + 9.5, 9.0, SEMIBOLD)
-        _fitted(page, row.share.small, 6, top + 18.5, 7.5, REGULAR, "text2")
-    _fitted(page, row.last, 7, middle, 8.5)
-    _fitted(page, row.change, 8, middle, 8.0, MEDIUM)
+        _fitted(page, edges, row.share.main, 6, top + 9.5, 9.0, SEMIBOLD)
+        _fitted(page, edges, row.share.small, 6, top + 18.5, 7.5, REGULAR, "text2")
+    _fitted(page, edges, row.last, 7, middle, 8.5)
+    _fitted(page, edges, row.change, 8, middle, 8.0, MEDIUM)
 
 
 def _fitted(
-    page: Page, text: str, column: int, baseline: float, size: float, weight: int = REGULAR, token: str = "text"
+    page: Page,
+    edges: tuple[float, ...],
+    text: str,
+    column: int,
+    baseline: float,
+    size: float,
+    weight: int = REGULAR,
+    token: str = "text",
 ) -> None:
     """A text in its column, smaller or on two lines where it is too long."""
     width = page.right - page.left
-    room = ((EDGES[column + 1] if column + 1 < len(EDGES) else 1.0) - EDGES[column]) * width - 6
-    left = page.left + EDGES[column] * width
+    room = ((edges[column + 1] if column + 1 < len(edges) else 1.0) - edges[column]) * width - 6
+    left = page.left + edges[column] * width
     while size > LEAST_SIZE_PT and page.width_of(text, size, weight) > room:
         if " " in text and column == len(EDGES) - 1 and size <= 7.0:
             page.paragraph(text, left, baseline - 1.6 * size, room, LEAST_SIZE_PT + 0.5, weight, token)
