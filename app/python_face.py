@@ -32,7 +32,7 @@ from carpus.core.errors import CalibrationImpossible, RecordingEmpty, SettingsIn
 from carpus.core.formats.csv_tables import tables
 from carpus.core.formats.export import Exported, Wanted, export_sessions
 from carpus.core.formats.provenance import provenance
-from carpus.core.hand.protocols import joint_angle_names, protocol_named
+from carpus.core.hand.protocols import protocol_named
 from carpus.core.library.library import read_choices
 from carpus.core.output.measures_table import measure_rows
 from carpus.core.output.report_content import session_figures
@@ -159,7 +159,7 @@ def track(path: str | Path, clicks: str | Path | ProposedClicks, **settings: Any
         ends_s = opening[outcome.capture_frames - 1].timestamp_s
         learnt = learnt_from(outcome.noise, ends_s, chosen.tracker)
         walk = build_walk(outcome, source.info.camera, chosen, learnt, keep_history=False)
-        names = joint_angle_names(chosen.tracker.dip == "free") if told.protocol.has_fingers else ()
+        names = told.protocol.joint_names(chosen.tracker.dip == "free")
         for frame in from_neutral(chain(opening, frames), walk.tracker, ends_s, lambda each: each.timestamp_s):
             found = walk(frame)
             deviation, flexion, pronosupination = np.degrees(found.moment.angles_rad).tolist()

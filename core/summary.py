@@ -13,7 +13,7 @@ from carpus.core.camera import Camera
 from carpus.core.capture.camera_info import CAMERA_FILE
 from carpus.core.capture.source import SourceInfo, is_simulated
 from carpus.core.capture.tum import TumFolder
-from carpus.core.hand.protocols import WRIST_ANGLES
+from carpus.core.hand.sites import WRIST_ANGLES
 from carpus.core.output.exercises import SIDES
 from carpus.core.output.range_rows import is_total
 from carpus.core.output.report_content import RepetitionChoices, session_figures

@@ -13,7 +13,7 @@ from dataclasses import dataclass
 from carpus.core import errors
 from carpus.core.calibration.result import Finding
 from carpus.core.errors import CarpusFault
-from carpus.core.hand.protocols import HAND21
+from carpus.core.hand.sites import SITES
 
 
 @dataclass(frozen=True, slots=True)
@@ -551,7 +551,7 @@ def marker_in_words(marker: str) -> str:
     >>> marker_in_words("MCP2"), marker_in_words("CMC1"), marker_in_words("PIP5")
     ('index knuckle', 'thumb base', 'little finger middle joint')
     """
-    if marker not in HAND21.markers:
+    if marker not in SITES:
         return marker
     if marker == "WRIST":
         return "wrist"
@@ -570,7 +570,7 @@ def markers_in_words(markers: list[str] | tuple[str, ...]) -> str:
     ('index and middle knuckle', 'wrist, thumb base and ring knuckle')
     """
     names = [marker_in_words(marker) for marker in markers]
-    if len(names) > 1 and all(marker in HAND21.markers and marker.startswith("MCP") for marker in markers):
+    if len(names) > 1 and all(marker in SITES and marker.startswith("MCP") for marker in markers):
         names = [*(name.removesuffix(" knuckle") for name in names[:-1]), names[-1]]
     return " and ".join(part for part in (", ".join(names[:-1]), *names[-1:]) if part)
 

@@ -11,7 +11,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from carpus.core.hand.kinematics import DIP_PER_PIP
-from carpus.core.hand.protocols import HAND21, joint_angle_names
+from carpus.core.hand.marker_protocol import MarkerProtocol
+from carpus.core.hand.sites import joint_discs
 from carpus.core.measures.fingers import possible_joints
 from carpus.core.types import FloatArray, TrackedFrame, TrackStatus
 from carpus.ui.figures import FIGURES, Figure
@@ -31,11 +32,15 @@ class Mix:
     inferred: BoolArray
 
 
-@lru_cache(maxsize=2)
-def mix(joint_count: int) -> Mix:
-    """For the 17 angles with coupled end joints, or for all 21."""
-    dip_free = joint_count > 17
-    names = joint_angle_names(dip_free)
+def joints_of(protocol: MarkerProtocol, count: int) -> tuple[str, ...]:
+    """The names of so many joint angles as a protocol measures: with coupled end joints or with free ones."""
+    coupled = protocol.joint_names()
+    return coupled if len(coupled) == count else protocol.joint_names(dip_free=True)
+
+
+@lru_cache(maxsize=4)
+def mix(names: tuple[str, ...]) -> Mix:
+    """For joint angles of those names; what they do not tell is NaN."""
     weight = np.zeros((len(FIGURES), len(names)))
     for row, figure in enumerate(FIGURES):
         parts = [figure]
@@ -45,39 +50,52 @@ def mix(joint_count: int) -> Mix:
         for part in parts:
             if part.joint in names:
                 weight[row, names.index(part.joint)] += part.sign
+            elif (follows := f"PIP{part.finger}_flexion") in names:
+                weight[row, names.index(follows)] += DIP_PER_PIP
             else:
-                weight[row, names.index(f"PIP{part.finger}_flexion")] += DIP_PER_PIP
-    inferred = np.array([figure.row == "end" and figure.finger > 1 and not dip_free for figure in FIGURES])
-    return Mix(weight, weight**2, inferred)
+                weight[row] = math.nan
+    inferred = [
+        figure.row == "end"
+        and figure.finger > 1
+        and f"PIP{figure.finger}_flexion" in names
+        and figure.joint not in names
+        for figure in FIGURES
+    ]
+    return Mix(weight, weight**2, np.array(inferred))
 
 
-@lru_cache(maxsize=1)
-def _needed() -> BoolArray:
-    """Discs (F, M) a figure needs: of a joint the one over it and the next one outwards, as in every file's figures."""
-    out = np.zeros((len(FIGURES), len(HAND21.markers)), dtype=bool)
+@lru_cache(maxsize=4)
+def _needed(protocol: MarkerProtocol) -> tuple[BoolArray, BoolArray]:
+    """Discs (F, M) a figure needs: of a joint the one over it and the next one outwards, as in every file's figures;
+    and whether the protocol has them all (F,)."""
+    out, has = np.zeros((len(FIGURES), len(protocol.markers)), dtype=bool), np.ones(len(FIGURES), dtype=bool)
     for row, figure in enumerate(FIGURES):
         joints = [figure.joint]
         if figure.row == "tam":
             joints = ["MCP1_flexion", "IP1_flexion"] if figure.finger == 1 else []
             joints = joints or [f"MCP{figure.finger}_flexion", f"PIP{figure.finger}_flexion"]
-        for joint in joints:
-            first = HAND21.markers.index(joint.split("_")[0])
-            out[row, first : first + 2] = True
-    return out
+        discs = {disc for joint in joints for disc in joint_discs(joint)}
+        has[row] = discs <= set(protocol.markers)
+        out[row, [protocol.markers.index(disc) for disc in discs if has[row]]] = True
+    return out, has
 
 
-def measured_figures(seen: BoolArray) -> BoolArray:
+def measured_figures(protocol: MarkerProtocol, seen: BoolArray) -> BoolArray:
     """Which figures (n, F) are seen where discs (n, M) are."""
-    return np.asarray(~(~seen[:, None] & _needed()).any(axis=2), dtype=np.bool_)
+    needed, has = _needed(protocol)
+    return np.asarray(~(~seen[:, None] & needed).any(axis=2) & has, dtype=np.bool_)
 
 
-def figures_of(frames: Sequence[TrackedFrame]) -> tuple[FloatArray, FloatArray, FloatArray, BoolArray, BoolArray]:
+def figures_of(
+    protocol: MarkerProtocol, frames: Sequence[TrackedFrame]
+) -> tuple[FloatArray, FloatArray, FloatArray, BoolArray, BoolArray]:
     """Times (n,), values and standard deviations (n, F) in degrees, supported (n, F), discs seen (n, M)."""
-    mixed = mix(len(frames[-1].moment.joint_angles_rad))
+    names = joints_of(protocol, len(frames[-1].moment.joint_angles_rad))
+    mixed = mix(names)
     angles = np.array([frame.moment.joint_angles_rad for frame in frames])
     sds = np.array([frame.moment.joint_angles_sd_rad for frame in frames])
     seen = np.isfinite(np.array([frame.marker_measured_px for frame in frames])[..., 0])
-    impossible = ~possible_joints(joint_angle_names(angles.shape[1] > 17), angles)
+    impossible = ~possible_joints(names, angles)
     value = np.degrees(np.where(impossible, 0.0, angles) @ mixed.weight.T)
     sd = np.degrees(np.sqrt(np.where(impossible, 0.0, sds) ** 2 @ mixed.variance_weight.T))
     of_it = impossible.astype(float) @ np.abs(mixed.weight.T) > 0.0
@@ -85,5 +103,5 @@ def figures_of(frames: Sequence[TrackedFrame]) -> tuple[FloatArray, FloatArray, 
     tracked = np.array([frame.status == TrackStatus.TRACKED for frame in frames])
     lost = np.array([frame.status == TrackStatus.LOST for frame in frames])
     value[lost] = sd[lost] = math.nan
-    measured = measured_figures(seen) & tracked[:, None] & np.isfinite(value)
+    measured = measured_figures(protocol, seen) & tracked[:, None] & np.isfinite(value)
     return np.array([frame.timestamp_s for frame in frames]), value, sd, measured, seen

@@ -12,7 +12,7 @@ from typing import Literal, Protocol
 
 from carpus.core.calibration.result import Calibration, Clicks, Finding, Verdict
 from carpus.core.camera import Camera
-from carpus.core.hand.protocols import MarkerProtocol
+from carpus.core.hand.marker_protocol import MarkerProtocol
 from carpus.core.output.report_content import RepetitionChoices, SessionFigures
 from carpus.core.pipeline.live_values import LiveCounters, LiveEvent, TrackedView
 from carpus.core.session.values import AngleOrder, Session

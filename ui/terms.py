@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 
+from carpus.core.hand.marker_protocol import MarkerProtocol
 from carpus.core.output.exercises import SIDES
 from carpus.core.types import FloatArray
 from carpus.ui import numbers
@@ -30,6 +31,16 @@ def exercise_name(exercise_id: str) -> str:
         "REACH_GRASP": tr("Reach and grasp"),
         "FREE_HAND": tr("Free movement of the fingers"),
     }.get(exercise_id, exercise_id)
+
+
+def protocol_name(protocol: MarkerProtocol) -> str:
+    """What a marker protocol covers and with how many markers."""
+    count = len(protocol.markers)
+    if protocol.is_whole_hand:
+        return tr("Whole hand · {count} markers").format(count=count)
+    if protocol.has_fingers:
+        return tr("Some fingers · {count} markers").format(count=count)
+    return tr("Wrist · {count} markers").format(count=count)
 
 
 def exercise_instruction(exercise_id: str) -> str:

@@ -8,7 +8,7 @@ from pathlib import Path
 
 from carpus import __version__
 from carpus.core.agreement.compare import MOST_SHIFT_S
-from carpus.core.hand.protocols import HAND21
+from carpus.core.hand.sites import SITES
 
 
 def mapping(text: str) -> dict[str, str]:
@@ -22,9 +22,9 @@ def mapping(text: str) -> dict[str, str]:
 def marker_mapping(text: str) -> dict[str, str]:
     """As :func:`mapping`, of discs."""
     found = {name.upper(): value for name, value in mapping(text).items()}
-    unknown = [name for name in found if name not in HAND21.markers]
+    unknown = [name for name in found if name not in SITES]
     if unknown:
-        raise argparse.ArgumentTypeError(f"{', '.join(unknown)}: no such disc; they are {', '.join(HAND21.markers)}")
+        raise argparse.ArgumentTypeError(f"{', '.join(unknown)}: no such disc; they are {', '.join(SITES)}")
     return found
 
 

@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from carpus.app.commands.progress import bar
+from carpus.core.hand.protocols import protocol_names
 from carpus.core.simulation.motions import MOTIONS
 from carpus.core.simulation.spec import HABITS, WORN, RecordingSpec
 
@@ -21,7 +22,7 @@ def number_or_drawn(text: str) -> float | None:
 
 
 _OPTIONS: tuple[tuple[str, dict[str, Any]], ...] = (
-    ("protocol", {"choices": ("wrist6", "hand21"), "help": "6 discs on the palm or 21 on the hand"}),
+    ("protocol", {"choices": protocol_names(), "help": "6 discs on the palm or 21 on the hand"}),
     ("motion", {"choices": tuple(sorted(MOTIONS)), "help": "the exercise"}),
     ("hand", {"choices": ("right", "left")}),
     ("seed", {"type": int, "help": "another seed is another patient, room and day"}),

@@ -21,7 +21,7 @@ from carpus.core.capture.identity import Recorded
 from carpus.core.capture.paced import PacedSource
 from carpus.core.dates import iso
 from carpus.core.errors import IntrinsicsAssumed, RecordingMissing
-from carpus.core.hand.protocols import MarkerProtocol
+from carpus.core.hand.marker_protocol import MarkerProtocol
 from carpus.core.output.exercises import EXERCISES
 from carpus.core.papers.settings import PaperSettings
 from carpus.core.pipeline.live import Listener

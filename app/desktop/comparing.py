@@ -25,7 +25,7 @@ from carpus.core.agreement.reference import (
     outline_of,
 )
 from carpus.core.agreement.watch import Stopped, Watch
-from carpus.core.hand.protocols import PALM_MARKERS, WRIST_ANGLES, joint_angle_names
+from carpus.core.hand.sites import PALM_MARKERS, WRIST_ANGLES
 from carpus.core.output.exercises import exercise_named
 from carpus.core.output.report_content import RepetitionChoices
 from carpus.core.session.register import SessionEntry
@@ -161,8 +161,8 @@ class Comparing(QObject):
     def _ours(self, outline: Outline) -> Sequence[str]:
         if outline.kind == "points":
             return PALM_MARKERS
-        has_fingers = exercise_named(self._stored.entry(self._session_id).exercise).protocol.has_fingers
-        return ("time", *WRIST_ANGLES, *(joint_angle_names(True) if has_fingers else ()))
+        protocol = exercise_named(self._stored.entry(self._session_id).exercise).protocol
+        return ("time", *WRIST_ANGLES, *protocol.joint_names(True))
 
     # --- the work -----------------------------------------------------------------------------------------
     def _start(self, choice: ReferenceChoice) -> None:

@@ -44,7 +44,7 @@ def practice_spec(set_up: SetUp, seconds: float | None = None) -> RecordingSpec:
     usual = RecordingSpec(
         seed=5,
         hand=set_up.side,
-        protocol=exercise.protocol.name,
+        protocol=set_up.protocol.name,
         motion=_HAND_MOTION.get(exercise.id, _MOTION[exercise.angle]),
         seconds=_SECONDS,
         fps=_FPS,
@@ -57,7 +57,7 @@ def practice_spec(set_up: SetUp, seconds: float | None = None) -> RecordingSpec:
         sleeve="grey",
         distance_m=0.64,
         yaw_deg=3.0,
-        tilt_deg=_HAND_TILT_DEG[set_up.side] if exercise.protocol.has_fingers else _TILT_DEG,
+        tilt_deg=_HAND_TILT_DEG[set_up.side] if set_up.protocol.has_fingers else _TILT_DEG,
         hidden_share=0.02,
     )
     own = replace(usual, **_OTHERWISE.get(exercise.id, {}))

@@ -15,7 +15,7 @@ import numpy as np
 from carpus.core.errors import ReferenceUnreadable
 from carpus.core.formats.c3d_read import read_c3d
 from carpus.core.formats.opensim_read import Columns, read_mot, read_trc, text_of
-from carpus.core.hand.protocols import HAND21, WRIST_ANGLES, joint_angle_names
+from carpus.core.hand.sites import SITES, WRIST_ANGLES, joint_angle_names
 from carpus.core.output.range_rows import best_motion
 from carpus.core.session.reader import read_session
 from carpus.core.types import FloatArray
@@ -79,7 +79,7 @@ def outline_of(path: Path) -> Outline:
     if suffix in POINT_FILES:
         track = read_c3d(path) if suffix == ".c3d" else read_trc(path)
         there = {_plain(name): name for name in track.names}
-        return Outline(path, "points", track.names, {name: there[name] for name in HAND21.markers if name in there})
+        return Outline(path, "points", track.names, {name: there[name] for name in SITES if name in there})
     if suffix in TABLE_FILES:
         _, head, low = _rows_of(path)
         if _is_list(low):
@@ -137,7 +137,7 @@ def _of_points(path: Path, suffix: str, markers: Mapping[str, str]) -> Reference
     track = read_c3d(path) if suffix == ".c3d" else read_trc(path)
     there = {_plain(name): k for k, name in enumerate(track.names)}
     points = {}
-    for name in HAND21.markers:
+    for name in SITES:
         wanted = _plain(markers.get(name, name))
         if wanted in there:
             points[name] = track.place_m[:, there[wanted]]

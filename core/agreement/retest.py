@@ -15,7 +15,7 @@ import numpy as np
 from scipy.special import chdtri
 
 from carpus.core.agreement.statistics import Interval, icc_2_1
-from carpus.core.hand.protocols import WRIST_ANGLES
+from carpus.core.hand.sites import WRIST_ANGLES
 from carpus.core.measures.change import MDC95_FACTOR
 from carpus.core.measures.error_limits import MeasuredLimit, RetestStudy
 from carpus.core.output.report_content import SessionFigures, newest_results, unfair_reasons

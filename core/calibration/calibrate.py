@@ -425,7 +425,7 @@ def _judged(clicks: Clicks, verdict: Verdict, plan: FloatArray, settings: Calibr
     elif shifted and not clicks.protocol.has_fingers:
         out.append(Finding("swapped", shifted))
     elif clicks.protocol.has_fingers:
-        names_at_fault = misnamed(clicks.side, plan)
+        names_at_fault = misnamed(clicks.protocol, clicks.side, plan)
         if names_at_fault is not None and names_at_fault.alone:
             out.append(Finding("misnamed", (names_at_fault.alone,)))
         elif names_at_fault is not None:

@@ -8,7 +8,7 @@ faces the camera, so the side decides which of two mirror images it is.
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
 
@@ -19,7 +19,8 @@ from carpus.core.assignment import linear_sum_assignment
 from carpus.core.camera import Camera
 from carpus.core.hand.anatomy import anatomy_from_size
 from carpus.core.hand.kinematics import disc_centres
-from carpus.core.hand.protocols import HAND21, HAND21_CHAINS, MarkerProtocol, joint_angle_names
+from carpus.core.hand.marker_protocol import MarkerProtocol
+from carpus.core.hand.sites import SITES, joint_angle_names
 from carpus.core.types import Detections, FloatArray, Side
 
 IntArray = NDArray[np.int64]
@@ -58,7 +59,7 @@ def propose_names(
     blobs: Detections,
     camera: Camera,
     side: Side,
-    protocol: MarkerProtocol = HAND21,
+    protocol: MarkerProtocol,
     known: Mapping[int, int] | None = None,
 ) -> NameProposal:
     """Names for the blobs of a flat, neutral hand with its back to the camera.
@@ -67,10 +68,11 @@ def propose_names(
     decide between hands that fit alike. Without a likely hand nothing but these is named.
     """
     fixed = dict(known or {})
-    rows = np.array([HAND21.markers.index(name) for name in protocol.markers])
+    rows = np.array(protocol.sites)
     place = _in_picture_plane(blobs, camera)
     fits = _rough_fits(place, rows, side, fixed)
-    refined = [_refined(place, fit, fixed) for fit in fits]
+    rays = [np.array(chain[1:]) for chain in protocol.chains.values()]
+    refined = [_refined(place, fit, fixed, rays) for fit in fits]
     if not refined:
         return _only(fixed, rows.size)
     best = min(refined, key=lambda one: one.cost)
@@ -167,7 +169,7 @@ def _pairs(rows: IntArray, fixed: Mapping[int, int]) -> list[tuple[int, int]]:
         return [(named[0], other) for other in named[1:]]
     at = {int(row): i for i, row in enumerate(rows)}
     names = (("WRIST", "TIP3"), ("WRIST", "MCP3"), ("CMC1", "TIP4"), ("MCP2", "MCP5"), ("TIP2", "TIP5"))
-    pairs = [(at.get(HAND21.markers.index(a), -1), at.get(HAND21.markers.index(b), -1)) for a, b in names]
+    pairs = [(at.get(SITES.index(a), -1), at.get(SITES.index(b), -1)) for a, b in names]
     return [(a, b) for a, b in pairs if a >= 0 and b >= 0]
 
 
@@ -178,13 +180,13 @@ def _ends(a: int, b: int, first: IntArray, second: IntArray, fixed: Mapping[int,
     return first, second
 
 
-def _refined(place: FloatArray, fit: _Fit, fixed: Mapping[int, int]) -> _Named:
+def _refined(place: FloatArray, fit: _Fit, fixed: Mapping[int, int], rays: Sequence[IntArray]) -> _Named:
     """Named by the nearest overall; the whole hand, then each of its rays, moved to what was named."""
     laid = fit.place
     reach = 2.2 * _GATE_M * fit.scale
     for step in range(6):
         blob = _assigned(place, laid, reach, fixed)
-        laid = _moved(laid, place, blob) if step < 3 else _rays_moved(laid, place, blob)
+        laid = _moved(laid, place, blob) if step < 3 else _rays_moved(laid, place, blob, rays)
         reach = max(0.7 * reach, _CLOSE_M * fit.scale)
     blob = _assigned(place, laid, reach, fixed)
     distance = np.abs(laid[:, None] - place)
@@ -226,13 +228,12 @@ def _moved(laid: FloatArray, place: FloatArray, blob: IntArray) -> FloatArray:
     return np.asarray(middle + turn * (laid - centre))
 
 
-def _rays_moved(laid: FloatArray, place: FloatArray, blob: IntArray) -> FloatArray:
+def _rays_moved(laid: FloatArray, place: FloatArray, blob: IntArray, rays: Sequence[IntArray]) -> FloatArray:
     """Each ray turned and stretched about its first named disc, the rest of it following."""
     out = laid.copy()
-    if laid.size != len(HAND21.markers):
+    if not rays:
         return _moved(laid, place, blob)
-    for ray in HAND21_CHAINS:
-        chain = np.array(ray[1:])
+    for chain in rays:
         named = chain[blob[chain] >= 0]
         if named.size >= 2:
             out[chain] = _moved(laid[chain], place, blob[chain])

@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from carpus.core.hand.anatomy import anatomy_from_size
-from carpus.core.hand.protocols import PALM_MARKERS
+from carpus.core.hand.sites import PALM_MARKERS
 from carpus.core.types import FloatArray, Side
 
 _CLEARLY = 0.6

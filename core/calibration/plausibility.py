@@ -9,7 +9,7 @@ import numpy as np
 
 from carpus.core.hand.anatomy import anatomy_from_size
 from carpus.core.hand.kinematics import disc_centres
-from carpus.core.hand.protocols import HAND21, MarkerProtocol
+from carpus.core.hand.marker_protocol import MarkerProtocol
 from carpus.core.types import FloatArray, Side
 
 _CLEARLY = 0.6
@@ -19,12 +19,8 @@ _GOOD_MISFIT = 0.05
 
 
 @lru_cache(maxsize=4)
-def _average_plan(protocol_name: str, side: Side) -> FloatArray:
-    anatomy = anatomy_from_size(0.18)
-    discs = disc_centres(anatomy, np.zeros(17))
-    names = HAND21.markers if protocol_name == HAND21.name else None
-    if names is None:
-        discs = discs[list(HAND21.palm)]
+def _average_plan(protocol: MarkerProtocol, side: Side) -> FloatArray:
+    discs = disc_centres(anatomy_from_size(0.18), np.zeros(17))[list(protocol.sites)]
     plan = discs[:, :2].copy()
     if side == "left":
         plan[:, 1] = -plan[:, 1]
@@ -57,7 +53,7 @@ def _best_swap(average: FloatArray, plan: FloatArray) -> float:
 def looks_like_other_side(protocol: MarkerProtocol, side: Side, plan: FloatArray) -> bool:
     """Whether the constellation is clearly the other hand's, and not this one's with two names swapped."""
     other: Side = "left" if side == "right" else "right"
-    average = _average_plan(protocol.name, side)
+    average = _average_plan(protocol, side)
     own = _misfit(average, plan)
-    mirrored = _misfit(_average_plan(protocol.name, other), plan)
+    mirrored = _misfit(_average_plan(protocol, other), plan)
     return own >= _GOOD_MISFIT and mirrored < _CLEARLY * own and mirrored < _best_swap(average, plan)

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from typing import Literal
 
 from carpus.core.hand.back_surface import BackSurface
-from carpus.core.hand.protocols import MarkerProtocol
+from carpus.core.hand.marker_protocol import MarkerProtocol
 from carpus.core.types import FloatArray, Side
 
 FindingKind = Literal[

@@ -17,7 +17,7 @@ import numpy as np
 
 from carpus.core.formats.new_output import new_json, new_table
 from carpus.core.formats.take import ANGLES_MEAN, CAMERA_AXES, W0_AXES, Take, measured, number
-from carpus.core.hand.protocols import WRIST_ANGLES
+from carpus.core.hand.sites import WRIST_ANGLES
 from carpus.core.output.measures_table import MeasureRow, measure_rows
 from carpus.core.output.motion_table import motion_columns
 from carpus.core.session.values import Session

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from carpus.core.hand.protocols import HAND21
+from carpus.core.hand.sites import PALM_SITES, SITES
 from carpus.core.hand.wrist_frame import wrist_axes
 from carpus.core.types import FloatArray, Side
 
@@ -97,8 +97,8 @@ class HandAnatomy:
     @property
     def skin_offset_m(self) -> FloatArray:
         """Height of each disc over its joint centre, (21,) in the order of ``hand21``."""
-        offset = np.empty(len(HAND21.markers))
-        offset[list(HAND21.palm)] = self.palm_disc_m[:, 2] - self.palm_joint_m[:, 2]
+        offset = np.empty(len(SITES))
+        offset[list(PALM_SITES)] = self.palm_disc_m[:, 2] - self.palm_joint_m[:, 2]
         offset[2:5] = self.thumb_offset_m
         offset[5:].reshape(4, 4)[:, 1:] = self.finger_offset_m
         return offset

@@ -13,14 +13,14 @@ import numpy as np
 
 from carpus.core.hand.anatomy import HandAnatomy, anatomy_from_size
 from carpus.core.hand.kinematics import DIP_PER_PIP
-from carpus.core.hand.protocols import HAND21
 from carpus.core.hand.ray_fitting import Gaussian
+from carpus.core.hand.sites import PALM_SITES
 from carpus.core.types import FloatArray, Side
 
 RAY_DISCS = ((2, 3, 4), (6, 7, 8), (10, 11, 12), (14, 15, 16), (18, 19, 20))
 """Places in ``hand21`` of the three moving discs of the thumb and of fingers 2 to 5."""
 
-_PALM = list(HAND21.palm)
+_PALM = list(PALM_SITES)
 
 _FIXED = 1e-6
 _DOWN = np.array([1.0, 1.0, -1.0])

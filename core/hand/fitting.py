@@ -21,8 +21,8 @@ from carpus.core.hand.anatomy_prior import (
     neutral_prior,
     with_constants,
 )
-from carpus.core.hand.protocols import HAND21
 from carpus.core.hand.ray_fitting import Gaussian, RayModel, finger_model, fit_ray, thumb_model
+from carpus.core.hand.sites import PALM_SITES, SITES
 from carpus.core.types import FloatArray, Side
 
 
@@ -95,7 +95,7 @@ def fit_anatomy(
     blind = replace(seen, depth_sd_m=np.full_like(seen.depth_sd_m, np.inf))
     across = _right_handed(blind, side)[1]
     average = average_hand(disc[0], side, skin_offsets)
-    starts = list(HAND21.palm[1:])
+    starts = list(PALM_SITES[1:])
     rays = constants_prior(average, prior, seen.lateral_sd_m[0, starts], seen.depth_sd_m[0, starts])
     absurd: list[str] = []
     neutral: list[Gaussian] = []
@@ -108,7 +108,7 @@ def fit_anatomy(
         neutral.append(angles)
         for i in _absurd_depths(model, known, angles, disc[:, own], information[:, own], across[:, own], prior):
             information[:, own[i]] = across[:, own[i]]
-            absurd.append(HAND21.markers[own[i]])
+            absurd.append(SITES[own[i]])
     return _fitted(average, rays, neutral, disc, information, tuple(absurd), dip_free)
 
 

@@ -14,7 +14,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from carpus.core.hand.anatomy import HandAnatomy
-from carpus.core.hand.protocols import HAND21
+from carpus.core.hand.sites import PALM_SITES, SITES
 from carpus.core.types import FloatArray
 
 DIP_PER_PIP = 2.0 / 3.0
@@ -22,7 +22,7 @@ DIP_PER_PIP = 2.0 / 3.0
 
 SEGMENTS = ("palm", "MC1", "PP1", "DP1") + tuple(f"{bone}{k}" for k in (2, 3, 4, 5) for bone in ("PP", "MP", "DP"))
 
-_PALM = list(HAND21.palm)
+_PALM = list(PALM_SITES)
 
 
 @dataclass(frozen=True, slots=True)
@@ -40,7 +40,7 @@ def joint_centres(anatomy: HandAnatomy, angles_rad: FloatArray) -> FloatArray:
 
     >>> from carpus.core.hand.anatomy import anatomy_from_size
     >>> straight = joint_centres(anatomy_from_size(0.180, 0.080, arch=0.0, skin_offsets=False), np.zeros(17))
-    >>> straight[HAND21.markers.index("TIP2")].round(4)
+    >>> straight[SITES.index("TIP2")].round(4)
     array([0.1674, 0.0277, 0.    ])
     """
     out = np.empty((*angles_rad.shape[:-1], 21, 3))
@@ -127,7 +127,7 @@ def segment_frames(anatomy: HandAnatomy, angles_rad: FloatArray) -> SegmentFrame
     shape = angles_rad.shape[:-1]
     joints = joint_centres(anatomy, angles_rad)
     start, end = np.empty((*shape, 16, 3)), np.empty((*shape, 16, 3))
-    wrist, mcp3 = HAND21.markers.index("WRIST"), HAND21.markers.index("MCP3")
+    wrist, mcp3 = SITES.index("WRIST"), SITES.index("MCP3")
     start[..., 0, :], end[..., 0, :] = joints[..., wrist, :], joints[..., mcp3, :]
     start[..., 1:4, :], end[..., 1:4, :] = joints[..., 1:4, :], joints[..., 2:5, :]
     start[..., 4:, :] = _rays(joints)[..., :3, :].reshape(*shape, 12, 3)

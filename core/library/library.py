@@ -515,6 +515,7 @@ class Library:
                 _target(stored["target_negative_deg"]),
                 bool(stored["keep_pictures"]),
                 bool(stored.get("ends_free", False)),
+                str(stored.get("discs", "")),
             )
         except (OSError, ValueError, KeyError, TypeError, RecursionError):
             return None  # only a convenience: without it the set-up is asked for
@@ -546,6 +547,7 @@ class Library:
                 "target_negative_deg": _known(set_up.target_negative_deg),
                 "keep_pictures": set_up.keep_pictures,
                 "ends_free": set_up.ends_free,
+                "discs": set_up.discs,
             }
             _write_json(path, stored)
 

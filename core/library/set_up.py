@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from carpus.core.hand.protocols import MarkerProtocol
+from carpus.core.hand.marker_protocol import MarkerProtocol
+from carpus.core.hand.protocols import protocol_named, protocol_names
 from carpus.core.output.exercises import Exercise
 from carpus.core.types import Side
 
@@ -29,8 +30,10 @@ class SetUp:
     keep_pictures: bool = False
     ends_free: bool = False
     """Whether the end joints of the fingers are measured by themselves, not taken to follow the middle joints."""
+    discs: str = ""
+    """Name of the marker protocol; empty for the exercise's usual one."""
 
     @property
     def protocol(self) -> MarkerProtocol:
-        """The discs on the hand, which the exercise decides."""
-        return self.exercise.protocol
+        """The discs on the hand."""
+        return protocol_named(self.discs) if self.discs in protocol_names() else self.exercise.protocol

@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from carpus.core.hand.anatomy import HARD_LIMITS_RAD
-from carpus.core.hand.protocols import HAND21
+from carpus.core.hand.sites import joint_discs
 from carpus.core.measures.motion_range import FEWEST_FOR_SPREAD, Figure, MotionRange, motion_range
 from carpus.core.measures.noise import HIGHEST_CUTOFF_HZ
 from carpus.core.measures.repetitions import Repetition
@@ -71,11 +71,13 @@ class TotalMotion:
     seen_share: float
 
 
-def joints_seen(joint_names: Sequence[str], measured_px: FloatArray) -> BoolArray:
-    """Frames and joints (N, J) with a blob at both discs that show the joint; ``measured_px`` (N, M, 2) of hand21."""
+def joints_seen(joint_names: Sequence[str], markers: Sequence[str], measured_px: FloatArray) -> BoolArray:
+    """Frames and joints (N, J) with a blob at both discs that show the joint; ``measured_px`` (N, M, 2) of
+    ``markers``."""
     has_blob = np.isfinite(measured_px[..., 0])
-    at = np.array([HAND21.markers.index(name.split("_")[0]) for name in joint_names], dtype=np.int64)
-    return np.asarray(has_blob[:, at] & has_blob[:, at + 1], dtype=np.bool_)
+    rows = [[markers.index(disc) for disc in joint_discs(name)] for name in joint_names]
+    at, past = np.array(rows, dtype=np.int64).reshape(-1, 2).T
+    return np.asarray(has_blob[:, at] & has_blob[:, past], dtype=np.bool_)
 
 
 def valid_joints(

@@ -10,7 +10,7 @@ from typing import Literal
 import numpy as np
 
 from carpus.core.hand.clinical_angles import side_sign
-from carpus.core.hand.protocols import HAND21
+from carpus.core.hand.sites import DIGITS
 from carpus.core.measures.coherence import digit_coherence
 from carpus.core.measures.fingers import DIP_PER_PIP, JointTrack
 from carpus.core.measures.forearm import rotation_in_place
@@ -32,7 +32,6 @@ SURELY = 2.0
 """So many standard deviations nearer a hidden tip may be than it is tracked."""
 LARGEST_APERTURE_SD_M = 0.015
 """An aperture of hidden tips known worse than this is not told (looked back at, it is then 10 mm off at times)."""
-TIPS = tuple(HAND21.markers.index(f"TIP{k}") for k in range(1, 6))
 _WITH_REACHES = ("REACH_GRASP", "FREE", "FREE_HAND")
 _WITH_HIDDEN_THUMB = ("REACH_GRASP", "THUMB_OPP")
 _THUMB = ("CMC1", "MCP1", "IP1")
@@ -87,16 +86,16 @@ def further_measures(
     out += reach_measures(reaches)
     if not tracks:
         return tuple(out)
-    motion = best_motion(session)
-    tips = np.where((session.status != 2)[:, None, None], motion.joint_position_m[:, list(TIPS)], np.nan)
-    aperture = distance_m(tips[:, 0], tips[:, 1])
-    out += _aperture_measures(session, aperture, reaches)
+    tips = _tips_m(session, best_motion(session))
+    has_tip = [digit in session.header.protocol.digits for digit in DIGITS]
+    if has_tip[0] and has_tip[1]:
+        out += _aperture_measures(session, distance_m(tips[:, 0], tips[:, 1]), reaches)
     if exercise.id == "FINGER_ABAD":
-        out.append(_span(session, "hand span", 0, 4, tips))
-        out += [_span(session, "tip span", k - 1, k, tips) for k in range(1, 5)]
-    if exercise.id == "THUMB_OPP":
+        spans = [("hand span", 0, 4), *(("tip span", k - 1, k) for k in range(1, 5))]
+        out += [_span(session, name, a, b, tips) for name, a, b in spans if has_tip[a] and has_tip[b]]
+    if exercise.id == "THUMB_OPP" and all(has_tip):
         out += opposition_measures(session, tips)
-    if exercise.id in _WITH_HIDDEN_THUMB:
+    if exercise.id in _WITH_HIDDEN_THUMB and has_tip[0]:
         out += thumb_coherence(session)
     if exercise.id in ("FIST_COMPOSITE", "FIST_HOOK"):
         out += _together(tracks)
@@ -167,7 +166,7 @@ def opposition_measures(session: Session, tips_m: FloatArray) -> list[FurtherMea
             out.append(away if nearer else FurtherMeasure("least distance", of, "mm", (1e3 * least,)))
             unsure = FurtherMeasure("touches", of, "1", (math.nan,), "hidden")
             out.append(unsure if maybe else FurtherMeasure("touches", of, "1", (float(len(near)),)))
-    place = _in_the_hand(best_motion(session), TIPS[0])
+    place = _in_the_hand(best_motion(session), _row(session, "TIP1"))
     known = np.isfinite(place).all(axis=1) & (np.asarray(session.status) != 2)
     if int(known.sum()) >= 2:
         time_s = session.timestamp_s - session.timestamp_s[0]
@@ -179,9 +178,22 @@ def opposition_measures(session: Session, tips_m: FloatArray) -> list[FurtherMea
     return out
 
 
+def _row(session: Session, marker: str) -> int:
+    return session.header.protocol.markers.index(marker)
+
+
+def _tips_m(session: Session, motion: Motion) -> FloatArray:
+    """Tips (N, 5, 3) of thumb and fingers, NaN while lost and of digits that carry no discs."""
+    out = np.full((len(session), len(DIGITS), 3), np.nan)
+    for digit, chain in session.header.protocol.chains.items():
+        out[:, digit - 1] = motion.joint_position_m[:, chain[-1]]
+    out[np.asarray(session.status) == 2] = np.nan
+    return out
+
+
 def _tip_seen(session: Session, tip: int) -> BoolArray:
     """Frames (N,) with a blob at a finger's tip, 0 the thumb's."""
-    return np.asarray(np.isfinite(session.markers.measured_px[:, TIPS[tip], 0]), dtype=np.bool_)
+    return np.asarray(np.isfinite(session.markers.measured_px[:, _row(session, f"TIP{tip + 1}"), 0]), dtype=np.bool_)
 
 
 def _distance_sd_m(session: Session, tip: int) -> FloatArray:
@@ -190,13 +202,13 @@ def _distance_sd_m(session: Session, tip: int) -> FloatArray:
     motion, names = best_motion(session), session.header.joint_names
     variance = np.zeros(len(session))
     for digit in (0, tip):
-        at = motion.joint_position_m[:, TIPS[digit]]
+        at = motion.joint_position_m[:, _row(session, f"TIP{digit + 1}")]
         for column, name in enumerate(names):
             joint = name.split("_")[0]
             if joint.endswith(str(digit + 1)):
-                arm = distance_m(at, motion.joint_position_m[:, HAND21.markers.index(joint)])
+                arm = distance_m(at, motion.joint_position_m[:, _row(session, joint)])
                 if joint.startswith("PIP") and f"DIP{digit + 1}_flexion" not in names:
-                    end = motion.joint_position_m[:, HAND21.markers.index(f"DIP{digit + 1}")]
+                    end = motion.joint_position_m[:, _row(session, f"DIP{digit + 1}")]
                     arm = arm + DIP_PER_PIP * distance_m(at, end)
                 variance += (motion.joint_angles_sd_rad[:, column] * arm) ** 2
     return np.asarray(np.sqrt(variance))
@@ -211,14 +223,14 @@ def thumb_coherence(session: Session) -> list[FurtherMeasure]:
     """
     motion, names = session.motion, session.header.joint_names
     columns = [k for k, name in enumerate(names) if name.split("_")[0] in _THUMB]
-    outer = [HAND21.markers.index(name) for name in ("MCP1", "IP1", "TIP1")]
+    outer = list(session.header.protocol.rows(("MCP1", "IP1", "TIP1")))
     hidden: BoolArray = np.any(~np.isfinite(session.markers.measured_px[:, outer, 0]), axis=1)
     found = digit_coherence(
         session.timestamp_s,
         [names[k] for k in columns],
         motion.joint_angles_rad[:, columns],
         motion.joint_angles_sd_rad[:, columns],
-        _in_the_hand(motion, TIPS[0]),
+        _in_the_hand(motion, _row(session, "TIP1")),
         hidden,
         np.asarray(session.status) != 2,
     )

@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from carpus.core.hand.protocols import joint_angle_names
+from carpus.core.hand.sites import joint_angle_names
 from carpus.core.measures.fingers import (
     FINGERS,
     JointTrack,
@@ -48,7 +48,7 @@ def joint_curves(session: Session) -> JointCurves | None:
     if not names:
         return None
     motion = best_motion(session)
-    seen = joints_seen(names, session.markers.measured_px)
+    seen = joints_seen(names, session.header.protocol.markers, session.markers.measured_px)
     possible = possible_joints(names, motion.joint_angles_rad)
     angles = np.where(possible, motion.joint_angles_rad, np.nan)
     sds = np.where(possible, motion.joint_angles_sd_rad, np.nan)
@@ -82,9 +82,9 @@ def joint_rows(
     if tracks and exercise.id not in WITHOUT_TOTAL:
         for finger in FINGERS:
             joints, inferred = bending_joints(finger, tuple(tracks))
-            rows += _total_rows(
-                total_active_motion(finger, [tracks[name] for name in joints], counted, inferred=inferred)
-            )
+            if set(joints) <= set(tracks):
+                own = [tracks[name] for name in joints]
+                rows += _total_rows(total_active_motion(finger, own, counted, inferred=inferred))
     for name, track in tracks.items():
         found = joint_range(track, counted)
         share = track.seen_share

@@ -6,7 +6,7 @@ import math
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-from carpus.core.hand.protocols import WRIST_ANGLES
+from carpus.core.hand.sites import WRIST_ANGLES
 from carpus.core.output.report_content import SessionFigures, Spread
 
 

@@ -15,7 +15,7 @@ from typing import Literal
 import numpy as np
 
 from carpus.core.calibration.result import Finding
-from carpus.core.hand.protocols import WRIST_ANGLES
+from carpus.core.hand.sites import WRIST_ANGLES
 from carpus.core.measures.change import ARC_LIMIT_FACTOR, TOTAL_ACTIVE_MOTION, MeasuredMean, Obstacle, change_between
 from carpus.core.measures.error_limits import DEFAULT_LIMITS, ErrorLimits, RetestStudy
 from carpus.core.measures.fingers import JointTrack

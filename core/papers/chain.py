@@ -14,10 +14,11 @@ import numpy as np
 
 from carpus.core.calibration.result import Calibration
 from carpus.core.camera import Camera
+from carpus.core.errors import SettingsInvalid
 from carpus.core.hand.anatomy import HandAnatomy, anatomy_from_size
 from carpus.core.hand.clinical_angles import side_sign
 from carpus.core.hand.kinematics import joint_centres
-from carpus.core.hand.protocols import HAND21_CHAINS, joint_angle_names
+from carpus.core.hand.sites import SITE_CHAINS, joint_angle_names
 from carpus.core.types import FloatArray
 
 PalmModel = Literal["flat", "measured"]
@@ -66,9 +67,11 @@ def hand_measured(calibration: Calibration, camera: Camera, palm: PalmModel) -> 
     palm_m = palm_modelled(disc_m[list(protocol.palm)], palm)
     if not protocol.has_fingers:
         return PaperHand(palm_m, None)
+    if not protocol.is_whole_hand:
+        raise SettingsInvalid("filter", f"paper: the papers have the palm or the whole hand, not {protocol.name}")
     side = calibration.clicks.side
     mirror = np.array([1.0, side_sign(side), 1.0])
-    chain_m = disc_m[np.array(HAND21_CHAINS)[:, 1:]] * mirror  # (5, 4, 3), axes of a right hand
+    chain_m = disc_m[np.array(SITE_CHAINS)[:, 1:]] * mirror  # (5, 4, 3), axes of a right hand
     length_m = np.linalg.norm(np.diff(chain_m, axis=1), axis=-1)
     along = chain_m[:, -1] - chain_m[:, 0]
     along[0] = chain_m[0, 1] - chain_m[0, 0]  # the thumb's first bone: the rest turns out of that plane

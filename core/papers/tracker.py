@@ -17,7 +17,7 @@ from carpus.core import so3
 from carpus.core.calibration.result import Calibration
 from carpus.core.camera import Camera
 from carpus.core.hand import clinical_angles
-from carpus.core.hand.protocols import HAND21, joint_angle_names
+from carpus.core.hand.sites import SITES, joint_angle_names, joint_discs
 from carpus.core.papers.association import blobs_of_markers, log_posteriors
 from carpus.core.papers.augmented_filter import Corrected, Predicted, Seen, correct, predict, seen_from
 from carpus.core.papers.chain import hand_measured
@@ -220,10 +220,10 @@ class PaperTracker:
         seen = np.array([taken for _, taken in self._recent]) >= 0
         if self._hand.anatomy is None:
             return np.full(3, seen[:, self._palm].mean())
-        return np.asarray((seen[:, _AT_JOINT] & seen[:, _AT_JOINT + 1]).mean(axis=0))
+        return np.asarray(seen[:, _SHOWING].all(axis=2).mean(axis=0))
 
 
-_AT_JOINT = np.array([HAND21.markers.index(name.split("_")[0]) for name in joint_angle_names()])
+_SHOWING = np.array([[SITES.index(disc) for disc in joint_discs(name)] for name in joint_angle_names()])
 _OF_THE_HAND = (
     "marker_position_cam_m",
     "marker_predicted_px",

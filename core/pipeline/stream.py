@@ -14,7 +14,8 @@ import numpy as np
 
 from carpus.core.calibration.result import Clicks
 from carpus.core.errors import ExtraMissing
-from carpus.core.hand.protocols import WRIST_ANGLES, MarkerProtocol, joint_angle_names
+from carpus.core.hand.marker_protocol import MarkerProtocol
+from carpus.core.hand.sites import WRIST_ANGLES
 from carpus.core.types import Side, TrackedFrame
 
 NAME, EVENTS_NAME = "Carpus", "CarpusEvents"
@@ -104,7 +105,7 @@ class Stream:
     ) -> Stream:
         """As :meth:`open`, of the hand that was clicked, under :data:`LIVE_ID`; the first picture was taken at what
         ``clock``, asked once, says in LSL's time: without it when it comes."""
-        names = joint_angle_names(dip_free) if clicks.protocol.has_fingers else ()
+        names = clicks.protocol.joint_names(dip_free)
         offset_s = None if clock is None else _first_is_now(clock)
         return cls.open(clicks.protocol, names, clicks.side, LIVE_ID, rate_hz, offset_s)
 

@@ -10,11 +10,13 @@ from __future__ import annotations
 import math
 from collections.abc import Collection
 from dataclasses import dataclass
+from functools import lru_cache
 from itertools import combinations, pairwise
 
 import numpy as np
+from numpy.typing import NDArray
 
-from carpus.core.hand.protocols import HAND21_CHAINS
+from carpus.core.hand.marker_protocol import MarkerProtocol
 from carpus.core.session.marker_places import (
     FEWEST_FOR_PALM,
     SAME_SPOT_PX,
@@ -23,6 +25,8 @@ from carpus.core.session.marker_places import (
 )
 from carpus.core.session.values import Session
 from carpus.core.types import FloatArray
+
+IndexArray = NDArray[np.int64]
 
 WRONG_MISFIT_M = 0.005
 """Root mean square beyond which the palm's names are asked about; discs on moving skin stay below it."""
@@ -33,6 +37,8 @@ LONGER, MORE_M = 1.4, 0.010
 
 CROSSING, CLEARLY = 0.15, 0.12
 """What a crossing counts as against length, and what an exchange of two names must gain to be spoken of."""
+
+_THUMB = 1
 
 STRETCHED = 0.8
 """Share of its length from which on a finger counts as seen at length."""
@@ -112,9 +118,10 @@ def _palm_doubt(
 
 def _tangled(session: Session, places: FloatArray, changed: set[int], *, palm_too: bool) -> tuple[int, int] | None:
     """Two discs of different fingers that were exchanged: without that the lines of the fingers are clearly shorter."""
-    size_px = float(np.linalg.norm(places[HAND21_CHAINS[2][1]] - places[0]))
-    finger = {number: n for n, chain in enumerate(HAND21_CHAINS) for number in chain[1:]}
-    palm = set() if palm_too else set(session.header.protocol.palm)
+    protocol = session.header.protocol
+    size_px = float(np.linalg.norm(places[protocol.markers.index("MCP3")] - places[0]))
+    finger = {number: digit for digit, chain in protocol.chains.items() for number in chain[1:]}
+    palm = set() if palm_too else set(protocol.palm)
     seen = [k for k in finger if np.isfinite(places[k]).all() and k not in palm]
     trials = []
     for number in sorted(changed & set(seen)) if size_px > 0.0 else ():
@@ -124,8 +131,8 @@ def _tangled(session: Session, places: FloatArray, changed: set[int], *, palm_to
             if finger[other] == finger[number] and not _stretched(session, trial, size_px, finger[number]):
                 continue  # along a bent finger discs lie in any order
             # A thumb may lie across the palm.
-            gain = _tangle(places, size_px) - _tangle(trial, size_px)
-            gain *= 0.5 if 0 in (finger[number], finger[other]) else 1.0
+            gain = _tangle(protocol, places, size_px) - _tangle(protocol, trial, size_px)
+            gain *= 0.5 if _THUMB in (finger[number], finger[other]) else 1.0
             trials.append((gain, (min(number, other), max(number, other))))
     best, pair = max(trials, default=(0.0, (0, 0)))
     return pair if best > CLEARLY else None
@@ -133,10 +140,11 @@ def _tangled(session: Session, places: FloatArray, changed: set[int], *, palm_to
 
 def _stretched(session: Session, places: FloatArray, size_px: float, finger: int) -> bool:
     """Whether a finger is seen at nearly its whole length."""
-    chain, shape_m = list(HAND21_CHAINS[finger][1:]), session.calibration.marker_position_w0_m
+    protocol, shape_m = session.header.protocol, session.calibration.marker_position_w0_m
+    chain = list(protocol.chains[finger][1:])
     if not np.isfinite(places[chain]).all():
         return False
-    palm_m = float(np.linalg.norm(shape_m[HAND21_CHAINS[2][1]] - shape_m[0]))
+    palm_m = float(np.linalg.norm(shape_m[protocol.markers.index("MCP3")] - shape_m[0]))
     seen = float(np.linalg.norm(np.diff(places[chain], axis=0), axis=1).sum()) / size_px
     whole = float(np.linalg.norm(np.diff(shape_m[chain], axis=0), axis=1).sum()) / palm_m
     return seen >= STRETCHED * whole
@@ -146,7 +154,7 @@ def _too_far(session: Session, places: FloatArray, depth_m: FloatArray, changed:
     """A finger's disc that is further from its neighbour than the finger is long, and by how much, metres."""
     shape_m, camera = session.calibration.marker_position_w0_m, session.camera
     flat_m = camera.back_project(camera.undistort(places), depth_m)[:, :2]
-    for chain in HAND21_CHAINS:
+    for chain in session.header.protocol.chains.values():
         for one, other in pairwise(chain[1:]):
             apart_m = float(np.linalg.norm(flat_m[one] - flat_m[other]))
             more_m = apart_m - LONGER * float(np.linalg.norm(shape_m[one] - shape_m[other])) - MORE_M
@@ -155,12 +163,13 @@ def _too_far(session: Session, places: FloatArray, depth_m: FloatArray, changed:
     return None
 
 
-def _tangle(places: FloatArray, size_px: float) -> float:
+def _tangle(protocol: MarkerProtocol, places: FloatArray, size_px: float) -> float:
     """How long the fingers' lines are, in lengths from the wrist to the middle knuckle, and how often they cross."""
-    start, end = places[_PIECES[:, 0]], places[_PIECES[:, 1]]
+    pieces, pairs = _pieces_of(protocol)
+    start, end = places[pieces[:, 0]], places[pieces[:, 1]]
     length_px = float(np.nansum(np.linalg.norm(start - end, axis=1)))
-    a, b = start[_PAIRS[:, 0]], end[_PAIRS[:, 0]]
-    c, d = start[_PAIRS[:, 1]], end[_PAIRS[:, 1]]
+    a, b = start[pairs[:, 0]], end[pairs[:, 0]]
+    c, d = start[pairs[:, 1]], end[pairs[:, 1]]
     cut = (_side(a, b, c) * _side(a, b, d) < 0.0) & (_side(c, d, a) * _side(c, d, b) < 0.0)
     return length_px / size_px + CROSSING * float(np.count_nonzero(cut))
 
@@ -170,13 +179,14 @@ def _side(a: FloatArray, b: FloatArray, c: FloatArray) -> FloatArray:
     return np.asarray((b[:, 0] - a[:, 0]) * (c[:, 1] - a[:, 1]) - (b[:, 1] - a[:, 1]) * (c[:, 0] - a[:, 0]))
 
 
-_ENDS = [(a, b, n) for n, chain in enumerate(HAND21_CHAINS) for a, b in pairwise(chain)]
-_PIECES = np.array([(a, b) for a, b, _ in _ENDS])
-_PAIRS = np.array(
-    [
+@lru_cache(maxsize=4)
+def _pieces_of(protocol: MarkerProtocol) -> tuple[IndexArray, IndexArray]:
+    """Pieces (P, 2) of the fingers' lines as rows of markers, and pairs (K, 2) of pieces of different fingers that
+    share no disc."""
+    ends = [(a, b, digit) for digit, chain in protocol.chains.items() for a, b in pairwise(chain)]
+    pairs = [
         (i, j)
-        for i, j in combinations(range(len(_ENDS)), 2)
-        if _ENDS[i][2] != _ENDS[j][2] and not set(_ENDS[i][:2]) & set(_ENDS[j][:2])
+        for i, j in combinations(range(len(ends)), 2)
+        if ends[i][2] != ends[j][2] and not set(ends[i][:2]) & set(ends[j][:2])
     ]
-)
-"""Pieces of different fingers that share no disc."""
+    return np.array([(a, b) for a, b, _ in ends]), np.array(pairs, dtype=np.int64).reshape(-1, 2)

@@ -26,7 +26,7 @@ from carpus.core.errors import (
     SessionUnreadable,
 )
 from carpus.core.hand.back_surface import BackSurface
-from carpus.core.hand.protocols import joint_angle_names, protocol_named
+from carpus.core.hand.protocols import protocol_named
 from carpus.core.session import schema
 from carpus.core.session.plain_file import check_plain
 from carpus.core.session.plausible import LONGEST_S, check_header, check_values
@@ -275,7 +275,7 @@ class _Source:
         if hand not in ("right", "left"):
             raise SessionUnreadable(self._path, f"hand {hand!r}")
         joints = tuple(map(str, self._file["/joints"].attrs["names"])) if protocol.has_fingers else ()
-        if protocol.has_fingers and joints not in (joint_angle_names(False), joint_angle_names(True)):
+        if protocol.has_fingers and joints not in (protocol.joint_names(False), protocol.joint_names(True)):
             raise SessionUnreadable(self._path, f"{len(joints)} joint angles with other names than {protocol.name} has")
         header = SessionHeader(
             session_id=str(self._attribute("session_id")),

@@ -12,7 +12,8 @@ import h5py
 import numpy as np
 
 from carpus.core.hand.back_surface import TABLE_ROWS
-from carpus.core.hand.protocols import WRIST_ANGLES, MarkerProtocol
+from carpus.core.hand.marker_protocol import MarkerProtocol
+from carpus.core.hand.sites import WRIST_ANGLES
 from carpus.core.types import FINGER_READINGS, SURFACE_READINGS
 
 FORMAT = "carpus-session"

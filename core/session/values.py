@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 from carpus.core.calibration.result import Calibration
 from carpus.core.camera import Camera
 from carpus.core.dates import is_moment
-from carpus.core.hand.protocols import MarkerProtocol, joint_angle_names
+from carpus.core.hand.marker_protocol import MarkerProtocol
 from carpus.core.types import SIMULATED, BoolArray, Detections, FloatArray, Moment, Side, SurfaceSamples, TrackedFrame
 
 IntArray = NDArray[np.integer]
@@ -123,7 +123,7 @@ def new_header(
         software_version=software_version,
         parameters=parameters,
         origin=origin,
-        joint_names=joint_angle_names(dip_free) if protocol.has_fingers else (),
+        joint_names=protocol.joint_names(dip_free),
         recorded=created if recorded is None else recorded,
         recording_id=recording_id,
     )

@@ -9,7 +9,8 @@ import numpy as np
 
 from carpus.core.hand.anatomy import HandAnatomy, anatomy_from_size
 from carpus.core.hand.kinematics import disc_centres
-from carpus.core.hand.protocols import HAND21, MarkerProtocol
+from carpus.core.hand.marker_protocol import MarkerProtocol
+from carpus.core.hand.sites import PALM_SITES, SITES
 from carpus.core.hand.wrist_frame import wrist_axes
 from carpus.core.simulation.spec import RecordingSpec, Stream
 from carpus.core.types import FloatArray
@@ -24,8 +25,9 @@ _LEAST_SPACING_M = 0.0145
 
 _THUMB_ROLL_DEG = (54.0, 4.0)
 """Mean and scatter; below the reference's 60, as a disc on a thumb rolled further cannot be seen from above."""
-_LENGTH_RANGE_M = {"wrist6": (0.130, 0.200), "hand21": (0.150, 0.200)}
-"""Hands drawn. On smaller ones the discs at the ends of the little finger touch: only when asked for."""
+_LENGTH_RANGE_M = {False: (0.130, 0.200), True: (0.150, 0.200)}
+"""Hands drawn, without and with discs on fingers. On smaller ones those at the end of the little
+finger touch: only when asked for."""
 _SEGMENT_SD, _FLESH_SD, _OFFSET_SD = 0.05, 0.08, 0.03
 _DISC_PLACE_SD_M = np.array([0.0007, 0.0007, 0.0007])
 
@@ -47,7 +49,7 @@ class Patient:
 def patient_of(spec: RecordingSpec) -> Patient:
     """Draw a patient: segments vary by 5 %, flesh by 8 %, disc places by 0.7 mm around the reference's table."""
     rng = spec.random(Stream.PATIENT)
-    drawn_m = rng.uniform(*_LENGTH_RANGE_M[spec.protocol])
+    drawn_m = rng.uniform(*_LENGTH_RANGE_M[spec.marker_protocol.has_fingers])
     length_m = drawn_m if spec.hand_length_mm is None else spec.hand_length_mm / 1000.0
     size = length_m / 0.180
     breadth_m = length_m * rng.uniform(0.43, 0.47)
@@ -87,13 +89,13 @@ def disc_radii(flat_m: FloatArray, protocol: MarkerProtocol, usual_m: float = DI
     """Radius of each disc of ``hand21``, at places (21, 3) of the straight hand, usually ``usual_m``: all small on a
     hand whose palm is too narrow for large ones, and at the ends of the fingers where two discs of the protocol would
     nearly touch."""
-    used = [HAND21.markers.index(name) for name in protocol.markers]
+    used = list(protocol.sites)
     gap = np.linalg.norm(flat_m[used][:, None] - flat_m[used][None], axis=-1) + np.eye(len(used))
-    is_tight = np.zeros(len(HAND21.markers), dtype=bool)
+    is_tight = np.zeros(len(SITES), dtype=bool)
     is_tight[used] = gap.min(axis=1) < _LEAST_SPACING_M + 2.0 * (usual_m - DISC_RADIUS_M)
-    ends = [row for row, name in enumerate(HAND21.markers) if name[:3] in ("DIP", "TIP") and name != "TIP1"]
-    radius = np.full(len(HAND21.markers), usual_m)
-    if is_tight[list(HAND21.palm)].any():
+    ends = [row for row, name in enumerate(SITES) if name[:3] in ("DIP", "TIP") and name != "TIP1"]
+    radius = np.full(len(SITES), usual_m)
+    if is_tight[list(PALM_SITES)].any():
         radius[:] = SMALL_DISC_RADIUS_M
     elif is_tight.any():
         radius[ends] = SMALL_DISC_RADIUS_M

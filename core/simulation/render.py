@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from carpus.core.hand.kinematics import SEGMENTS
-from carpus.core.hand.protocols import HAND21
+from carpus.core.hand.sites import PALM_SITES
 from carpus.core.simulation import paint
 from carpus.core.simulation.appearance import Appearance, appearance_of
 from carpus.core.simulation.lighting import corner_light, shaded_skin, shadow_on_table
@@ -149,7 +149,7 @@ class Renderer:
         for m, row in enumerate(self._rows):
             if covered[row]:
                 continue
-            bend = _PALM_BEND if row in HAND21.palm else _DIGIT_BEND
+            bend = _PALM_BEND if row in PALM_SITES else _DIGIT_BEND
             radius_m = float(scene.patient.disc_radius_m[row])
             disc = paint.Patch(centers[row], normals[row], radius_m, self.looks.paper, bend)
             laid = self._lay_patch(color, depth_m, disc)

@@ -11,7 +11,7 @@ import numpy as np
 from carpus.core.camera import Camera
 from carpus.core.hand.clinical_angles import rotation_from_angles, side_sign
 from carpus.core.hand.kinematics import SegmentFrames, disc_centres, joint_centres, segment_frames
-from carpus.core.hand.protocols import HAND21
+from carpus.core.hand.sites import PALM_SITES
 from carpus.core.hand.wrist_frame import wrist_axes
 from carpus.core.simulation.hand_motion import HandMotion
 from carpus.core.simulation.motions import motion_of
@@ -90,7 +90,7 @@ class Scene:
         local = disc_centres(self.patient.anatomy, pose.joint_angles_rad)
         if self.spec.skin_movement_mm > 0.0:
             share = np.clip(pose.angles_rad[:, 1] / _FULL_FLEXION_RAD, -1.0, 1.0)
-            local[:, list(HAND21.palm)] += self._skin_shift_m(share)
+            local[:, list(PALM_SITES)] += self._skin_shift_m(share)
         return _moved(local, pose)
 
     def disc_normals_w0(self, pose: HandPose) -> FloatArray:
@@ -100,7 +100,7 @@ class Scene:
             return np.asarray(self._riding_discs_w(pose)[1] @ pose.rotation_w2_w0.transpose(0, 2, 1))
         bones = segment_frames(self.patient.anatomy, pose.joint_angles_rad).dorsal_normal[:, 1:].reshape(-1, 5, 3, 3)
         normals = np.empty((len(bones), 21, 3))
-        normals[:, list(HAND21.palm)] = self._palm_normals
+        normals[:, list(PALM_SITES)] = self._palm_normals
         rays = normals[:, 1:].reshape(-1, 5, 4, 3)
         rays[:, 1:, 1] = bones[:, 1:, 0] + bones[:, 1:, 1]
         rays[:, 0, 1] = bones[:, 0, 0]
@@ -134,7 +134,7 @@ class Scene:
         discs = disc_centres(anatomy, pose.joint_angles_rad)
         discs = discs + self._displacement_m(segment_frames(anatomy, pose.joint_angles_rad), tissue.glide_m)
         share = np.clip(pose.angles_rad[:, 1] / _FULL_FLEXION_RAD, -1.0, 1.0)
-        discs[:, list(HAND21.palm), 0] += self._skin_shift_m(share)[..., 0]
+        discs[:, list(PALM_SITES), 0] += self._skin_shift_m(share)[..., 0]
         cones = self.skin.cones_w(pose.joint_angles_rad, tissue)
         return on_surface(self.skin.cupped(discs, tissue.cup_rad), cones)
 
@@ -157,7 +157,7 @@ class Scene:
         radial = mirror * np.cross(up, distal)
         off_m = self.patient.stuck_off_m
         glides = distal.copy()
-        palm = list(HAND21.palm)
+        palm = list(PALM_SITES)
         glides[:, palm, 1] += mirror * self.tissue.swerve_rad[palm]
         return np.asarray(glide_m[..., None] * glides + off_m[:, :1] * distal + off_m[:, 1:] * radial)
 
@@ -171,7 +171,7 @@ class Scene:
 
     def _skin_rises_m(self) -> FloatArray:
         """Rise (2, 6) of the skin under each palm disc at full extension and at full flexion."""
-        discs = disc_centres(self.patient.anatomy, np.zeros(17))[list(HAND21.palm)]
+        discs = disc_centres(self.patient.anatomy, np.zeros(17))[list(PALM_SITES)]
         along = 0.5e-3 * self.spec.skin_movement_mm * _SKIN_MOVEMENT_SHARE
         return np.array(
             [
@@ -191,7 +191,7 @@ class Scene:
         """
         if not self.patient.stuck_off_m.any():
             return np.eye(3), np.zeros(3)
-        palm = self.discs_w0_m(self.pose(np.zeros(1)))[0, list(HAND21.palm)]
+        palm = self.discs_w0_m(self.pose(np.zeros(1)))[0, list(PALM_SITES)]
         return wrist_axes(palm, towards=np.array([0.0, 0.0, 1.0])), palm[0]
 
     def joints_w0_m(self, pose: HandPose) -> FloatArray:

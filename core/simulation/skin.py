@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 from carpus.core import so3
 from carpus.core.hand.anatomy import anatomy_from_size
 from carpus.core.hand.kinematics import SEGMENTS, disc_centres, segment_frames
-from carpus.core.hand.protocols import HAND21
+from carpus.core.hand.sites import PALM_SITES
 from carpus.core.simulation.patient import WRIST_JOINT_DEPTH_M, Patient
 from carpus.core.simulation.soft_tissue import TissueState
 from carpus.core.types import FloatArray
@@ -383,7 +383,7 @@ class HandSkin:
         depth of their radius under the discs. Millimetres of a hand 180 mm long."""
         mm = 0.001 * self._size
         discs = self._patient.anatomy.palm_disc_m / mm
-        r = self._radius[list(HAND21.palm)] / mm
+        r = self._radius[list(PALM_SITES)] / mm
         under = discs - r[:, None] * np.array([0.0, 0.0, 1.0])
         knuckle = under[2:]
         level = np.array([0.0, 1.0, 0.0])

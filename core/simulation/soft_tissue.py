@@ -12,7 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from carpus.core.hand.kinematics import finger_angles
-from carpus.core.hand.protocols import HAND21
+from carpus.core.hand.sites import SITES
 from carpus.core.simulation.hand_motion import HandMotion
 from carpus.core.simulation.spec import RecordingSpec, Stream
 from carpus.core.types import FloatArray
@@ -75,7 +75,7 @@ def tissue_of(spec: RecordingSpec) -> SoftTissue:
     drawn_mm, drawn_cup = rng.uniform(0.0, MOST_GLIDE_MM), rng.uniform(0.3, 1.0)
     glide_mm = drawn_mm if spec.skin_glide_mm is None else spec.skin_glide_mm
     cupping = drawn_cup if spec.cupping is None else spec.cupping
-    share = np.array([_GAIN_OF_JOINT.get(name, _GAIN_OF_JOINT.get(name[:3], 0.0)) for name in HAND21.markers])
+    share = np.array([_GAIN_OF_JOINT.get(name, _GAIN_OF_JOINT.get(name[:3], 0.0)) for name in SITES])
     gain = share * rng.uniform(0.8, 1.2, len(share)) * glide_mm * 1e-3 / (0.5 * math.pi)
     swerve = rng.uniform(-0.25, 0.25, len(share))
     return SoftTissue(
@@ -103,7 +103,7 @@ class TissueMovement:
         self._glide_m = skin * tissue.glide_m_rad
         grip = _grip(motion.joint_names, joints)
         self._cup_rad = (grip - grip[0])[:, None] * tissue.cup_rad
-        knuckles = beneath[:, [HAND21.markers.index(f"MCP{k}") for k in (2, 3, 4, 5)]]
+        knuckles = beneath[:, [SITES.index(f"MCP{k}") for k in (2, 3, 4, 5)]]
         self._rise = np.clip(knuckles / _FULL_RISE_RAD, 0.0, 1.0)
 
     def at(self, time_s: FloatArray) -> TissueState:
@@ -139,7 +139,7 @@ def _angles_beneath_rad(wrist_rad: FloatArray, names: tuple[str, ...], joints_ra
     out = np.zeros((len(joints_rad), 21))
     out[:, 0] = wrist_rad[:, 1]
     for disc, joint in (("CMC1", "CMC1_abduction"), ("MCP1", "MCP1_flexion"), ("IP1", "IP1_flexion")):
-        out[:, HAND21.markers.index(disc)] = joints_rad[:, names.index(joint)]
+        out[:, SITES.index(disc)] = joints_rad[:, names.index(joint)]
     out[:, 5:].reshape(-1, 4, 4)[..., :3] = finger_angles(joints_rad)[..., 1:]
     return out
 

@@ -13,7 +13,8 @@ from typing import Any, Literal
 import numpy as np
 
 from carpus.core.errors import SettingsInvalid
-from carpus.core.hand.protocols import MarkerProtocol, protocol_named
+from carpus.core.hand.marker_protocol import MarkerProtocol
+from carpus.core.hand.protocols import protocol_named
 from carpus.core.types import Side
 
 RENDERER_VERSION = 5

@@ -9,7 +9,6 @@ from numpy.typing import NDArray
 
 from carpus.core.camera import Camera
 from carpus.core.hand.clinical_angles import angles_from_rotation
-from carpus.core.hand.protocols import HAND21
 from carpus.core.simulation.scene import HandPose, Scene
 from carpus.core.simulation.spec import RecordingSpec
 from carpus.core.simulation.trouble import FrameTimes, frame_times
@@ -57,8 +56,8 @@ class Truth:
 
 
 def protocol_rows(spec: RecordingSpec) -> list[int]:
-    """Rows of ``hand21`` that the protocol of a spec has, in its order."""
-    return [HAND21.markers.index(name) for name in spec.marker_protocol.markers]
+    """Rows of the sites that the protocol of a spec uses, in its order."""
+    return list(spec.marker_protocol.sites)
 
 
 def truth_of(scene: Scene, times: FrameTimes | None = None) -> Truth:
@@ -74,9 +73,9 @@ def truth_of(scene: Scene, times: FrameTimes | None = None) -> Truth:
     )
     rows = protocol_rows(spec)
     discs_cam = scene.to_camera(scene.discs_w0_m(pose)[:, rows])
-    fingers = spec.marker_protocol.has_fingers
+    joint_names = spec.marker_protocol.joint_names(spec.dip == "free")
+    columns = [scene.motion.joint_names.index(name) for name in joint_names]
     joint_velocity = (after.joint_angles_rad - before.joint_angles_rad) / (2.0 * _STEP_S)
-    empty = np.empty((len(t), 0))
     return Truth(
         spec=spec,
         camera=scene.camera,
@@ -88,9 +87,9 @@ def truth_of(scene: Scene, times: FrameTimes | None = None) -> Truth:
         rotation_w2_w0=now.rotation_w2_w0,
         angular_velocity_rad_s=_turn_rate(before, after),
         angles_rad=now.angles_rad,
-        joint_names=scene.motion.joint_names if fingers else (),
-        joint_angles_rad=pose.joint_angles_rad if fingers else empty,
-        joint_velocity_rad_s=joint_velocity if fingers else empty,
+        joint_names=joint_names,
+        joint_angles_rad=pose.joint_angles_rad[:, columns],
+        joint_velocity_rad_s=joint_velocity[:, columns],
         joint_position_w0_m=(scene.joints_w0_m(pose)[:, rows] - origin) @ axes,
         disc_position_cam_m=discs_cam,
         disc_pixel=scene.camera.project(discs_cam),

@@ -7,7 +7,7 @@ import math
 import numpy as np
 
 from carpus.core.hand.kinematics import SEGMENTS
-from carpus.core.hand.protocols import HAND21
+from carpus.core.hand.sites import SITES
 from carpus.core.simulation.scene import HandPose, Scene
 from carpus.core.simulation.trouble import PassingThing
 from carpus.core.types import FloatArray
@@ -21,7 +21,7 @@ _BONE_RADIUS_M = 0.008
 def _own_bones() -> np.ndarray:
     """(21, 15) whether a bone (all of SEGMENTS but the palm) ends or begins under a disc."""
     own = np.zeros((21, 15), dtype=bool)
-    for row, name in enumerate(HAND21.markers):
+    for row, name in enumerate(SITES):
         if name in ("WRIST",):
             continue
         digit, joint = (row - 1) // 4, (row - 1) % 4

@@ -11,7 +11,7 @@ import dataclasses
 import numpy as np
 
 from carpus.core.hand.kinematics import disc_centres
-from carpus.core.hand.protocols import HAND21
+from carpus.core.hand.sites import SITES
 from carpus.core.hand.wrist_frame import wrist_axes
 from carpus.core.simulation.patient import Patient, disc_radii
 from carpus.core.simulation.spec import RecordingSpec, Stream
@@ -78,9 +78,9 @@ def widened(patient: Patient, spec: RecordingSpec) -> Patient:
 def _stuck_off_m(flat_m: FloatArray, radius_m: FloatArray, size: float, rng: np.random.Generator) -> FloatArray:
     """Displacement (21, 2) of each disc from its place (21, 3), distally and to the radial side; nobody sticks a disc
     onto its neighbour."""
-    off_m = np.zeros((len(HAND21.markers), 2))
+    off_m = np.zeros((len(SITES), 2))
     mirror = -1.0 if flat_m[2, 1] < 0.0 else 1.0
-    for row, name in enumerate(HAND21.markers):
+    for row, name in enumerate(SITES):
         share = _OFF_SHARE.get(name, _OFF_SHARE.get(name[:3], 1.0))
         others = np.delete(np.arange(len(off_m)), row)
         for _ in range(_TRIES):

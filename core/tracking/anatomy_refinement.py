@@ -10,8 +10,10 @@ from carpus.core.calibration.result import Calibration
 from carpus.core.camera import Camera
 from carpus.core.hand.fitting import AnatomyFit, SeenDiscs, fit_anatomy
 from carpus.core.hand.kinematics import DIP_PER_PIP
+from carpus.core.hand.marker_protocol import MarkerProtocol
+from carpus.core.hand.sites import SITES
 from carpus.core.tracking.finger_settings import FingerSettings
-from carpus.core.tracking.hand_geometry import CONSTANTS, RAY_MARKERS, RAYS, SLOTS, is_crowded
+from carpus.core.tracking.hand_geometry import CONSTANTS, RAYS, SLOTS, is_crowded
 from carpus.core.types import FloatArray
 
 _NARROW_RAD = 1e-6
@@ -36,7 +38,7 @@ def ray_start(
     marker_radius_m: float,
     own: FingerSettings,
 ) -> RayStart:
-    """The anatomy of a calibrated ``hand21``."""
+    """The anatomy of a calibrated hand; of a digit without discs it is the average hand's."""
     seen = _seen(calibration, camera, marker_radius_m, own)
     fit = fit_anatomy(
         seen,
@@ -67,7 +69,7 @@ def ray_start(
 
 def _seen(calibration: Calibration, camera: Camera, marker_radius_m: float, own: FingerSettings) -> SeenDiscs:
     """The calibrated discs; where one has no depth, the line of sight through its click."""
-    disc = calibration.marker_position_w0_m.copy()
+    protocol, disc = calibration.clicks.protocol, calibration.marker_position_w0_m.copy()
     rotation, translation = calibration.rotation_w0_cam, calibration.translation_w0_cam_m
     clicked = camera.back_project(camera.undistort(calibration.clicks.pixel), np.full(len(disc), translation[2]))
     is_blind = np.asarray(np.isnan(disc).any(axis=-1))
@@ -79,13 +81,21 @@ def _seen(calibration: Calibration, camera: Camera, marker_radius_m: float, own:
     across = np.sqrt(np.maximum(np.linalg.eigvalsh(covariance)[:, 0], 1e-10))
     pixel_m = in_camera[:, 2] / camera.fx_px
     crowded = np.zeros(len(disc), dtype=bool)
-    radius_px = (marker_radius_m / pixel_m)[RAY_MARKERS]
-    crowded[RAY_MARKERS] = is_crowded(camera.project(in_camera)[RAY_MARKERS], radius_px, own.crowded_radii)
+    rays = np.array([chain[2:] for chain in protocol.chains.values()])
+    radius_px = (marker_radius_m / pixel_m)[rays]
+    crowded[rays] = is_crowded(camera.project(in_camera)[rays], radius_px, own.crowded_radii)
     across = np.where(crowded, np.hypot(across, own.crowded_px * pixel_m), across)
     blind_m = own.click_px * pixel_m
     return SeenDiscs(
-        disc[None],
-        view[None],
-        np.where(is_blind, blind_m, across)[None],
-        np.where(is_blind, np.inf, along)[None],
+        _at_sites(protocol, disc, np.nan),
+        _at_sites(protocol, view, np.nan),
+        _at_sites(protocol, np.where(is_blind, blind_m, across), 1.0),
+        _at_sites(protocol, np.where(is_blind, np.inf, along), np.inf),
     )
+
+
+def _at_sites(protocol: MarkerProtocol, values: FloatArray, nothing: float) -> FloatArray:
+    """Values (1, 21, ...) of the sites from those of the markers (M, ...); ``nothing`` where there is no disc."""
+    out = np.full((1, len(SITES), *values.shape[1:]), nothing)
+    out[0, list(protocol.sites)] = values
+    return out

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from carpus.core import so3
 from carpus.core.calibration.result import Calibration
 from carpus.core.camera import Camera
+from carpus.core.hand.sites import DIGITS
 from carpus.core.tracking.anatomy_refinement import RayStart, ray_start
 from carpus.core.tracking.finger_depth import FLEXION
 from carpus.core.tracking.geometry import palm_of
@@ -77,8 +78,14 @@ class FingerModel:
         own, dip_free = settings.fingers, settings.dip == "free"
         self.settings = settings
         self.side = calibration.clicks.side
-        self.reading = JointReading.of(dip_free)
-        self.direct_markers = direct_markers(dip_free)
+        protocol = calibration.clicks.protocol
+        self.reading = JointReading.of(dip_free, protocol.digits)
+        self.direct_markers = direct_markers(protocol, dip_free)
+        self.has_discs = np.array([digit in protocol.digits for digit in DIGITS])
+        """(5,) rays that carry discs; the others are believed to be anywhere and are not told of."""
+        self.markers = np.array(list(protocol.chains.values()))[:, 2:]
+        """Rows (R, 3) of the moving discs of those rays."""
+        self._sites = list(protocol.sites)
         self.resolution_px2 = float(camera.width_px * camera.height_px)
         self.calibrated_palm = PalmInBody.of(palm_of(calibration).marker_position_w0_m, np.eye(3), self.side)
         self.scales = np.array(settings.mode_scales)
@@ -248,7 +255,7 @@ class FingerModel:
             centre[:, 1] *= -1.0
         disc = chain[:, 1:] + state[:, SLOTS + 8 :, None] * frames.normal
         disc_cam = disc @ seat.view.rotation.T + seat.view.translation_m
-        return JointMoment(angles, np.sqrt(np.maximum(variance, 0.0)), rates, centre, disc_cam)
+        return JointMoment(angles, np.sqrt(np.maximum(variance, 0.0)), rates, centre[self._sites], disc_cam)
 
     def _inherited(self, joints: FloatArray, seat: Seat, line: RayForecast, normal: FloatArray) -> FloatArray:
         """Covariance (5, 5, 5) that the slots inherit from the turn of W2 and from depths that stay wrong.

@@ -58,7 +58,7 @@ class FingerScene:
     palm's error included; ``palm_part`` that error alone; ``visible`` (5, 3) chance that each disc is to be seen;
     ``free`` (D,) blobs that are not the palm's; ``area_px`` (D,) of the blobs, ``whole_px`` (5, 3) of each disc where
     nothing hides it, NaN where not known yet; ``noise_factor`` (5, 9); ``learning`` share of what is said of the
-    anatomy that is believed.
+    anatomy that is believed; ``has_discs`` (5,) rays that carry discs at all.
     """
 
     covariance: FloatArray
@@ -74,6 +74,7 @@ class FingerScene:
     resolution_px2: float
     view: RayView
     learning: float
+    has_discs: NDArray[np.bool_]
 
 
 def name_fingers(beliefs: Bank, scene: FingerScene, settings: TrackerSettings) -> NamedFingers:
@@ -172,6 +173,7 @@ def _each_by_itself(scene: FingerScene, settings: TrackerSettings) -> FingerName
     )
     assumed = np.log(settings.association.prior_marker / settings.association.prior_clutter)
     value = odds.value + (np.log(scene.visible / (1.0 - scene.visible)).ravel() - assumed)[:, None]
+    value[~np.repeat(scene.has_discs, DISCS)] = association.IMPOSSIBLE
     found = association.resolve(value)
     named = found >= 0
     taken[named] = free[found[named]]

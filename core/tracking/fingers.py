@@ -181,7 +181,8 @@ class Fingers:
 
     def _bent(self, trial: FingerTrial, samples: SurfaceSamples | None) -> FingerTrial:
         """The trial with what depth says of knuckles whose fingers' discs are hidden."""
-        hidden = [ray for ray in range(1, RAYS) if trial.blob[ray, 0] < 0 and self._unseen_s[ray, FLEXION] > 0.0]
+        unseen = self.model.has_discs & (trial.blob[:, 0] < 0) & (self._unseen_s[:, FLEXION] > 0.0)
+        hidden = [ray for ray in range(1, RAYS) if unseen[ray]]
         if samples is None or not hidden:
             return trial
         mean = trial.named.update.bank.merged()[0]
@@ -249,7 +250,7 @@ class Fingers:
         """Postures (5,) of rays just given up or missing for some frames, if the blobs left over show them."""
         named = np.count_nonzero(trial.blob >= 0, axis=1)
         is_due = given_up | ((self._missing >= self._settings.fingers.patience_frames) & (self._missing % 2 == 0))
-        rays = np.flatnonzero((named < LEAST_DISCS) & is_due)
+        rays = np.flatnonzero((named < LEAST_DISCS) & is_due & self.model.has_discs)
         if not rays.size:
             return {}
         spare = free & np.isfinite(blobs.value[:, 2])
@@ -290,6 +291,7 @@ class Fingers:
             self.model.resolution_px2,
             seat.view,
             self.model.learning(seat),
+            self.model.has_discs,
         )
         named = name_fingers(beliefs, scene, self._settings)
         taken = named.names.taken

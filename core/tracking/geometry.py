@@ -7,7 +7,10 @@ from dataclasses import replace
 import numpy as np
 
 from carpus.core.calibration.result import Calibration
-from carpus.core.hand.protocols import WRIST6
+from carpus.core.hand.marker_protocol import MarkerProtocol
+from carpus.core.hand.sites import PALM_MARKERS
+
+_PALM = MarkerProtocol("palm", PALM_MARKERS)
 
 
 def palm_of(calibration: Calibration) -> Calibration:
@@ -18,7 +21,7 @@ def palm_of(calibration: Calibration) -> Calibration:
     rows = np.array(clicks.protocol.palm)
     return replace(
         calibration,
-        clicks=replace(clicks, protocol=WRIST6, pixel=clicks.pixel[rows]),
+        clicks=replace(clicks, protocol=_PALM, pixel=clicks.pixel[rows]),
         marker_position_w0_m=calibration.marker_position_w0_m[rows],
         marker_covariance_w0_m2=calibration.marker_covariance_w0_m2[rows],
     )

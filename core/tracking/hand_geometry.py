@@ -9,6 +9,7 @@ Constants as in :mod:`core.hand.ray_fitting`. Lengths in metres, axes of a right
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -16,15 +17,13 @@ from numpy.typing import NDArray
 
 from carpus.core import so3
 from carpus.core.hand.kinematics import DIP_PER_PIP
-from carpus.core.hand.protocols import HAND21, HAND21_CHAINS, joint_angle_names
+from carpus.core.hand.marker_protocol import MarkerProtocol
+from carpus.core.hand.sites import DIGITS, joint_discs
 from carpus.core.types import FloatArray, Side
 
 RAYS, SLOTS, CONSTANTS = 5, 5, 11
 DISCS = 3
 """Discs of a ray that move against the palm."""
-
-RAY_MARKERS = np.array(HAND21_CHAINS)[:, 2:]
-"""Places (5, 3) of the rays' discs in ``hand21``."""
 
 # The first disc that moves with a slot: 0 the first of the ray's three; 3 none.
 _FIRST_DISC = np.array([[0, 0, 1, 1, 2], *([0, 0, 1, 2, 3],) * 4])
@@ -241,7 +240,7 @@ class PalmInBody:
 
 @dataclass(frozen=True, slots=True)
 class JointMoment:
-    """Joint angles (J,), standard deviations and rates (NaN in the papers' model); joint centres and tips (21, 3) in
+    """Joint angles (J,), standard deviations and rates (NaN in the papers' model); joint centres and tips (M, 3) in
     W2 of the hand's own side; the rays' discs (5, 3, 3) in camera axes."""
 
     angles_rad: FloatArray
@@ -253,15 +252,15 @@ class JointMoment:
 
 @dataclass(frozen=True, slots=True)
 class JointReading:
-    """From the rays' slots to the 17 (21) joint angles: angle j is ``weight[j] @ slots[ray[j]]``."""
+    """From the rays' slots to the joint angles of some digits: angle j is ``weight[j] @ slots[ray[j]]``."""
 
     ray: np.ndarray
     weight: FloatArray
 
     @staticmethod
-    def of(dip_free: bool) -> JointReading:
-        rows = [(0, np.eye(SLOTS)[slot]) for slot in range(5)]
-        for ray in range(1, RAYS):
+    def of(dip_free: bool, digits: Sequence[int] = DIGITS) -> JointReading:
+        rows = [(0, np.eye(SLOTS)[slot]) for slot in range(5) if 1 in digits]
+        for ray in (digit - 1 for digit in DIGITS[1:] if digit in digits):
             rows += [(ray, np.eye(SLOTS)[slot]) for slot in range(3)]
             if dip_free:
                 rows.append((ray, np.array([0.0, 0.0, DIP_PER_PIP, 1.0, 0.0])))
@@ -276,13 +275,9 @@ class JointReading:
         return np.asarray(np.einsum("ji,jik,jk->j", self.weight, covariance[self.ray], self.weight))
 
 
-def direct_markers(dip_free: bool) -> np.ndarray:
-    """Rows (J, 2) in ``hand21`` of the discs at each joint and next past it, which measure it directly."""
-    rows = []
-    for name in joint_angle_names(dip_free):
-        at = HAND21.markers.index(name.split("_")[0])
-        rows.append((at, at + 1))
-    return np.array(rows)
+def direct_markers(protocol: MarkerProtocol, dip_free: bool) -> np.ndarray:
+    """Rows (J, 2) of the discs at each joint and next past it, which measure it directly."""
+    return np.array([protocol.rows(joint_discs(name)) for name in protocol.joint_names(dip_free)])
 
 
 def slots_of(angles_rad: FloatArray) -> FloatArray:

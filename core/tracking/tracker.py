@@ -26,7 +26,6 @@ from carpus.core.tracking.finger_model import seat_of
 from carpus.core.tracking.finger_smoother import FingersLookedBack, FingerStart, FingerStep, smooth_fingers
 from carpus.core.tracking.fingers import Fingers, FingerTrial
 from carpus.core.tracking.geometry import palm_of
-from carpus.core.tracking.hand_geometry import RAY_MARKERS
 from carpus.core.tracking.kernel import Bank, carried, corrected, mixed, switching
 from carpus.core.tracking.motion import PalmMotion, mode_scale, palm_step, slowing, slowing_unseen, unseen_turns
 from carpus.core.tracking.naming import Corrected, Measurable, measurable, name_and_correct
@@ -557,15 +556,16 @@ class Tracker:
             self._by_marker(palm.covariance_px2, covariance),
             self._by_marker(palm.depth_m, depth),
             palm.back_px,
-            np.concatenate((palm.pixel[KNUCKLES], pixel[1:].reshape(-1, 2))),
+            np.concatenate((palm.pixel[KNUCKLES], pixel[1:][fingers.model.has_discs[1:]].reshape(-1, 2))),
         )
 
     def _by_marker(self, palm: NDArray[Any], fingers: NDArray[Any] | None) -> NDArray[Any]:
         """Rows (M, ...) of the protocol from those of the palm (6, ...) and of the rays' discs (5, 3, ...)."""
-        if fingers is None:
+        if fingers is None or self._fingers is None:
             return palm
+        model = self._fingers.model
         out = np.empty((len(self._protocol.markers), *palm.shape[1:]), dtype=palm.dtype)
-        out[self._rows], out[RAY_MARKERS] = palm, fingers
+        out[self._rows], out[model.markers] = palm, fingers[model.has_discs]
         return out
 
     def _shown(

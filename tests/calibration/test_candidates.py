@@ -14,6 +14,7 @@ from carpus.core.calibration.naming import propose_names
 from carpus.core.calibration.settings import CalibrationSettings
 from carpus.core.camera import Camera
 from carpus.core.detection.settings import DetectionSettings
+from carpus.core.hand.hand21 import HAND21
 from carpus.core.simulation.recording import SimulatedPictures, clicks_of
 from carpus.core.simulation.spec import RecordingSpec
 from carpus.core.types import FloatArray, Frame, Side
@@ -54,7 +55,7 @@ def test_all_discs_of_a_whole_hand_are_found_and_named_before_any_click(seed: in
     pictures = SimulatedPictures(spec)
     color, depth = pictures.sensed(0, pictures.clean(0))
     found = marker_candidates(Frame(0, 0.0, color, depth, 1.0 / 5000.0), pictures.truth.camera, SETTINGS)
-    proposal = propose_names(found, pictures.truth.camera, side)
+    proposal = propose_names(found, pictures.truth.camera, side, HAND21)
     assert proposal.is_complete
     assert np.linalg.norm(found.pixel[proposal.blob] - pictures.truth.disc_pixel[0], axis=1).max() < 3.0  # under a disc
 
@@ -122,7 +123,7 @@ def test_a_dark_pullover_has_no_discs(seed: int, base: tuple[int, int, int]) -> 
     cloth = in_dark_cloth(frame, base, 0, seed)
     found = marker_candidates(cloth, camera, SETTINGS)
     assert len(found) <= 8  # it was all that is ever handed on, 48
-    assert not (propose_names(found, camera, "right").blob >= 0).any()
+    assert not (propose_names(found, camera, "right", HAND21).blob >= 0).any()
     clicks = np.random.default_rng(seed).uniform((20, 20), (620, 460), (60, 2))
     assert sum(len(disc_at(cloth, click, camera, SETTINGS)) for click in clicks) <= 1
 

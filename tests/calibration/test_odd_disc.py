@@ -12,7 +12,7 @@ from carpus.core.calibration.odd_disc import odd_disc
 from carpus.core.calibration.palm_names import average_palm
 from carpus.core.calibration.settings import CalibrationSettings
 from carpus.core.detection.settings import DetectionSettings
-from carpus.core.hand.protocols import PALM_MARKERS
+from carpus.core.hand.sites import PALM_MARKERS
 from carpus.core.types import FloatArray, Side
 from tests.calibration.still_hands import Scene, clicks_on, frames_of
 from tests.detection.pictures import CAMERA, PAPERS, Extra

@@ -9,7 +9,8 @@ import numpy as np
 import pytest
 
 from carpus.core.hand.anatomy import HARD_LIMITS_RAD, anatomy_from_size, joint_limits_rad, palm_axes
-from carpus.core.hand.protocols import HAND21, PALM_MARKERS, joint_angle_names
+from carpus.core.hand.hand21 import HAND21
+from carpus.core.hand.sites import PALM_MARKERS, joint_angle_names
 from carpus.core.hand.wrist_frame import wrist_axes
 
 

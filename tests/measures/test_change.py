@@ -8,7 +8,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from carpus.core.hand.protocols import WRIST_ANGLES, joint_angle_names
+from carpus.core.hand.sites import WRIST_ANGLES, joint_angle_names
 from carpus.core.measures.change import MeasuredMean, change_between, change_limit_rad, minimal_detectable_change
 
 BEFORE = MeasuredMean(math.radians(40.0), 5, "right", "wrist6", "WRIST_FE")

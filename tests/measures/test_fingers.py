@@ -7,7 +7,8 @@ import math
 import numpy as np
 import pytest
 
-from carpus.core.hand.protocols import HAND21, joint_angle_names
+from carpus.core.hand.hand21 import HAND21
+from carpus.core.hand.sites import joint_angle_names
 from carpus.core.measures.fingers import (
     JointTrack,
     joint_range,
@@ -139,7 +140,7 @@ def test_a_joint_is_seen_by_the_disc_over_it_and_the_next_one() -> None:
     names = joint_angle_names(True)
     px = np.zeros((1, 21, 2))
     px[0, HAND21.markers.index("DIP4")] = np.nan
-    seen = joints_seen(names, px)[0]
+    seen = joints_seen(names, HAND21.markers, px)[0]
     unseen = {name for name, is_seen in zip(names, seen, strict=True) if not is_seen}
     assert unseen == {"PIP4_flexion", "DIP4_flexion"}
 

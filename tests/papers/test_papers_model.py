@@ -7,8 +7,9 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 from carpus.core.hand.anatomy import anatomy_from_size
+from carpus.core.hand.hand21 import HAND21
 from carpus.core.hand.kinematics import joint_centres
-from carpus.core.hand.protocols import HAND21, HAND21_CHAINS
+from carpus.core.hand.sites import SITE_CHAINS, SITES
 from carpus.core.papers.chain import hand_measured, palm_modelled
 from carpus.core.papers.euler import body_turn_by_euler, euler_near, rotation_of
 from carpus.core.papers.motion import PaperMotion
@@ -90,7 +91,7 @@ def test_lengths_of_the_chain_are_those_between_the_discs() -> None:
     hand = hand_measured(calibration(skin, HAND21, side="left"), CAMERA, "flat")
     rng = np.random.default_rng(1)
     model = hand.discs_m(rng.uniform(-0.5, 1.0, 17))
-    for chain in HAND21_CHAINS:
+    for chain in SITE_CHAINS:
         of_skin, of_model = (np.linalg.norm(np.diff(disc[list(chain[1:])], axis=0), axis=1) for disc in (skin, model))
         assert np.allclose(of_skin, of_model)
 
@@ -98,7 +99,7 @@ def test_lengths_of_the_chain_are_those_between_the_discs() -> None:
 def test_a_disc_without_depth_is_as_far_as_the_one_before() -> None:
     whole = hand_calibration(FROM_ABOVE)
     lost = whole.marker_position_w0_m.copy()
-    tip = HAND21.markers.index("TIP3")
+    tip = SITES.index("TIP3")
     lost[tip] = np.nan
     holed = calibration(whole.marker_position_w0_m, HAND21)
     object.__setattr__(holed, "marker_position_w0_m", lost)

@@ -8,11 +8,11 @@ import pytest
 from carpus.core.camera import Camera
 from carpus.core.hand.anatomy import HandAnatomy, anatomy_from_size
 from carpus.core.hand.anatomy_prior import constants_of
+from carpus.core.hand.hand21 import HAND21
 from carpus.core.hand.kinematics import disc_centres, joint_centres, segment_frames
-from carpus.core.hand.protocols import HAND21, joint_angle_names
+from carpus.core.hand.sites import SITE_CHAINS, joint_angle_names
 from carpus.core.tracking.hand_geometry import (
     CONSTANTS,
-    RAY_MARKERS,
     RAYS,
     SLOTS,
     JointReading,
@@ -26,6 +26,8 @@ from carpus.core.tracking.hand_geometry import (
 from carpus.core.tracking.ray_filter import RATES, RAY_SIZE, SEEN, RayView, forecast, spread_points
 from carpus.core.tracking.unscented import Spread
 from carpus.core.types import FloatArray
+
+RAY_MARKERS = np.array(SITE_CHAINS)[:, 2:]
 
 
 def hand(seed: int) -> HandAnatomy:
@@ -127,7 +129,7 @@ def test_slots_hold_the_angles_and_give_them_back(dip_free: bool) -> None:
 
 
 def test_every_joint_is_measured_by_the_disc_on_it_and_the_next() -> None:
-    for name, (at, past) in zip(joint_angle_names(True), direct_markers(True), strict=True):
+    for name, (at, past) in zip(joint_angle_names(True), direct_markers(HAND21, True), strict=True):
         assert HAND21.markers[at] == name.split("_")[0]
         assert HAND21.markers[past][-1] == name.split("_")[0][-1]
         assert past == at + 1

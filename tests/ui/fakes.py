@@ -17,7 +17,7 @@ from carpus.core.agreement.retest_plan import Mounting, Person, RetestPlan
 from carpus.core.agreement.statistics import agreement
 from carpus.core.calibration.result import Calibration, Clicks, Finding, Verdict
 from carpus.core.camera import Camera
-from carpus.core.hand.protocols import WRIST_ANGLES, joint_angle_names
+from carpus.core.hand.sites import WRIST_ANGLES, joint_angle_names
 from carpus.core.library.set_up import PRACTICE_PATIENT, SetUp
 from carpus.core.output.exercises import exercise_named
 from carpus.core.output.report_content import RepetitionChoices, SessionFigures, session_figures

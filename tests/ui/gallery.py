@@ -21,7 +21,7 @@ from carpus.app.desktop.phrases import WordTable
 from carpus.core.agreement.reference import Outline
 from carpus.core.calibration.result import Finding
 from carpus.core.errors import DiskFull
-from carpus.core.hand.protocols import WRIST_ANGLES
+from carpus.core.hand.sites import WRIST_ANGLES
 from carpus.core.measures.error_limits import DEFAULT_LIMITS
 from carpus.core.output.joint_content import joint_curves
 from carpus.core.output.report_content import RepetitionChoices, session_curves, session_figures

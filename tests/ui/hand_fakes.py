@@ -11,7 +11,8 @@ from pathlib import Path
 
 import numpy as np
 
-from carpus.core.hand.protocols import HAND21, joint_angle_names
+from carpus.core.hand.hand21 import HAND21
+from carpus.core.hand.sites import joint_angle_names
 from carpus.core.output.report_content import RepetitionChoices, SessionFigures, session_figures
 from carpus.core.session.values import Event, MarkerSeries, Motion, QualitySeries, Session, SessionHeader
 from carpus.core.simulation.recording import SimulatedPictures

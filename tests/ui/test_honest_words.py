@@ -14,6 +14,7 @@ from PySide6.QtWidgets import QWidget
 from pytestqt.qtbot import QtBot
 
 from carpus.core import so3
+from carpus.core.hand.protocols import WRIST6
 from carpus.core.measures.repetitions import Uncounted
 from carpus.core.output.joint_content import joint_curves
 from carpus.core.output.report_content import SessionFigures, Spread, progress, session_curves, session_figures
@@ -123,7 +124,7 @@ def turning(frames: list[TrackedFrame], moved_mm: float) -> list[TrackedFrame]:
 
 @pytest.mark.parametrize("moved_mm", [0.0, 22.0])
 def test_the_lamp_judges_the_forearm_by_the_point_that_the_wrist_turns_about(moved_mm: float) -> None:
-    history, seen = History(), []
+    history, seen = History(WRIST6), []
     for frame in turning(FakeFeed(seconds=20.0).frames[:500], moved_mm):
         history.append([frame])
         seen.append(history.forearm_moved())

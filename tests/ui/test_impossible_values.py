@@ -10,7 +10,8 @@ from PySide6.QtCore import QRectF
 from PySide6.QtGui import QImage, QPainter
 from PySide6.QtWidgets import QApplication
 
-from carpus.core.hand.protocols import joint_angle_names
+from carpus.core.hand.protocols import HAND21
+from carpus.core.hand.sites import joint_angle_names
 from carpus.core.output.joint_content import joint_curves
 from carpus.core.output.report_content import RepetitionChoices, session_figures
 from carpus.ui.figures import FIGURES, Figure
@@ -47,7 +48,7 @@ def test_an_angle_that_no_joint_can_have_takes_only_its_own_figures_live() -> No
     frame = FakeFeed("fist", 3.0, protocol="hand21").frames[10]
     angles = frame.moment.joint_angles_rad.copy()
     angles[COLUMN] = np.radians(-3627.0)
-    _, value, _, measured, _ = figures_of([with_moment(frame, joint_angles_rad=angles)])
+    _, value, _, measured, _ = figures_of(HAND21, [with_moment(frame, joint_angles_rad=angles)])
     gone = {FIGURES[k] for k in np.flatnonzero(np.isnan(value[0]))}
     assert gone == {Figure(4, "middle"), Figure(4, "end"), Figure(4, "tam")}
     assert not measured[0, [FIGURES.index(figure) for figure in gone]].any()

@@ -13,6 +13,7 @@ from PySide6.QtWidgets import QWidget
 from pytestqt.qtbot import QtBot
 
 from carpus.core.errors import DiskFull
+from carpus.core.hand.protocols import WRIST6
 from carpus.core.types import Detections, TrackStatus
 from carpus.ui.background import Background
 from carpus.ui.keys import Keys
@@ -290,7 +291,7 @@ def test_zero_degrees_name_no_side(qtbot: QtBot, theme: Theme, value_deg: float,
 # --- pieces -----------------------------------------------------------------------------------------------
 def test_history_keeps_ten_seconds_whatever_comes() -> None:
     feed = FakeFeed()
-    history = History()
+    history = History(WRIST6)
     history.append(feed.frames)
     history.append(feed.frames)
     series = history.angle(0)
@@ -301,7 +302,7 @@ def test_history_keeps_ten_seconds_whatever_comes() -> None:
 def test_the_arm_is_said_to_have_moved_only_outside_the_ball() -> None:
     feed = FakeFeed()
     frames = [with_moment(frame, position_m=np.zeros(3)) for frame in feed.frames[:30]]
-    history = History()
+    history = History(WRIST6)
     history.append(frames)
     for distance_m, moved in ((0.0149, False), (0.0151, True)):
         step = np.array([0.0, 0.0, distance_m])
@@ -341,7 +342,7 @@ def test_the_light_names_the_one_hidden_marker_and_its_remedy() -> None:
 
 def test_curves_scroll_on_fixed_scales(qtbot: QtBot, theme: Theme) -> None:
     feed = FakeFeed()
-    history = History()
+    history = History(WRIST6)
     curves = LiveCurves(theme, history)
     qtbot.addWidget(curves)
     curves.resize(696, 396)

@@ -11,7 +11,8 @@ import pytest
 from PySide6.QtCore import Qt
 from pytestqt.qtbot import QtBot
 
-from carpus.core.hand.protocols import HAND21, joint_angle_names
+from carpus.core.hand.hand21 import HAND21
+from carpus.core.hand.sites import joint_angle_names
 from carpus.core.output.exercises import exercise_named
 from carpus.core.output.report_content import RepetitionChoices, session_figures
 from carpus.core.session.values import Session
@@ -85,7 +86,7 @@ def test_every_figure_is_the_angle_of_its_name_and_spreading_is_away_from_the_mi
     frame = feed_of().frames[at(feed_of(), CLOSED_S)]
     names = joint_angle_names()
     angle = dict(zip(names, np.degrees(frame.moment.joint_angles_rad), strict=True))
-    _, value, sd, _, _ = figures_of([frame])
+    _, value, sd, _, _ = figures_of(HAND21, [frame])
     shown = dict(zip((figure.joint for figure in FIGURES), value[0], strict=True))
     for name in ("MCP1_flexion", "IP1_flexion", "CMC1_abduction", "CMC1_extension", "MCP4_flexion", "PIP5_flexion"):
         assert shown[name] == pytest.approx(angle[name])
@@ -108,7 +109,7 @@ def test_with_free_end_joints_nothing_is_inferred() -> None:
         joint_angles_sd_rad=np.full(21, 0.1),
         joint_velocity_rad_s=np.zeros(21),
     )
-    history = History()
+    history = History(HAND21)
     history.append([frame])
     end = FIGURES.index(Figure(4, "end"))
     assert history.figure_value(end)[0] == pytest.approx(free.index("DIP4_flexion"))
@@ -117,7 +118,7 @@ def test_with_free_end_joints_nothing_is_inferred() -> None:
 
 def test_a_joint_counts_as_measured_only_while_a_disc_beyond_it_is_seen() -> None:
     hidden = [(0.0, 9.0, name) for name in ("DIP4", "TIP4", "MCP1")]
-    history = History()
+    history = History(HAND21)
     history.append(feed_of(hidden).frames[:90])
     measured = {figure: history.figure_value(k)[2] for k, figure in enumerate(FIGURES)}
     wrong = {Figure(4, "middle"), Figure(4, "end"), Figure(4, "tam")}
@@ -130,7 +131,7 @@ def test_a_joint_counts_as_measured_only_while_a_disc_beyond_it_is_seen() -> Non
 
 
 def test_the_band_of_a_hidden_joint_grows() -> None:
-    history = History()
+    history = History(HAND21)
     history.append(feed_of([(1.0, 9.0, "DIP2"), (1.0, 9.0, "TIP2")]).frames[:90])
     sd = history.block().series(FIGURES.index(Figure(2, "middle"))).sd
     assert sd is not None
@@ -246,7 +247,7 @@ def test_the_map_says_it_in_one_sentence() -> None:
 
 def test_a_bent_finger_goes_below_the_back_of_the_hand_in_the_side_view() -> None:
     feed = feed_of()
-    straight, bent = (side_points_m(feed.frames[at(feed, time_s)], 3) for time_s in (OPEN_S, CLOSED_S))
+    straight, bent = (side_points_m(feed.frames[at(feed, time_s)], HAND21, 3) for time_s in (OPEN_S, CLOSED_S))
     assert np.all(np.diff(straight[:, 0]) > 0.0)
     assert abs(straight[3, 1]) < 0.03
     assert bent[3, 1] < -0.03
@@ -257,7 +258,7 @@ def test_a_bent_finger_goes_below_the_back_of_the_hand_in_the_side_view() -> Non
 
 def test_a_predicted_frame_supports_no_joint() -> None:
     frame = replace(feed_of().frames[20], status=TrackStatus.PREDICTED)
-    assert not figures_of([frame])[3].any()
+    assert not figures_of(HAND21, [frame])[3].any()
 
 
 @pytest.mark.parametrize("exercise", ["FIST_COMPOSITE", "FIST_HOOK"])

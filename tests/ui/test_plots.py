@@ -17,6 +17,7 @@ from PySide6.QtWidgets import QApplication, QWidget
 from pytestqt.qtbot import QtBot
 
 from carpus.core.errors import OutputNotWritable
+from carpus.core.hand.protocols import WRIST6
 from carpus.core.output.exercises import exercise_named
 from carpus.core.output.report_content import Curves, session_curves, session_figures
 from carpus.core.types import ByteImage
@@ -267,7 +268,7 @@ def test_a_curve_by_columns_looks_like_the_stroked_one_and_keeps_every_peak(
 
 
 def test_nothing_moves_by_mouse_while_measuring(qtbot: QtBot, theme: Theme) -> None:
-    feed, history = FakeFeed(), History()
+    feed, history = FakeFeed(), History(WRIST6)
     curves = LiveCurves(theme, history)
     qtbot.addWidget(curves)
     curves.resize(696, 396)

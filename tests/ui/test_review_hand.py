@@ -13,7 +13,7 @@ from PySide6.QtGui import QImage, QPainter, QWheelEvent
 from PySide6.QtWidgets import QApplication, QWidget
 from pytestqt.qtbot import QtBot
 
-from carpus.core.hand.protocols import HAND21, HAND21_CHAINS, joint_angle_names
+from carpus.core.hand.sites import SITE_CHAINS, SITES, joint_angle_names
 from carpus.core.output.joint_content import joint_curves
 from carpus.core.output.report_content import session_curves, session_figures
 from carpus.core.session.values import Session
@@ -78,7 +78,7 @@ def test_a_curve_is_dashed_exactly_where_a_disc_of_the_joint_was_hidden(
     session = store.session("hand-7")
     series = plot_of(screen).joint_series(Figure(3, "middle"))
     assert series is not None
-    at = HAND21.markers.index("PIP3")
+    at = SITES.index("PIP3")
     known = np.isfinite(session.markers.measured_px[:, [at, at + 1], 0]).all(axis=1)
     value = np.isfinite(series.value)
     assert (~known & value).any()
@@ -136,8 +136,8 @@ def test_a_time_in_no_repetition_has_no_number(screen: ReviewScreen) -> None:
 
 def test_the_skeleton_goes_from_the_wrist_to_each_tip(store: FakeHandSessions) -> None:
     for finger in (1, 2, 3, 4, 5):
-        assert HAND21.markers[HAND21_CHAINS[finger - 1][0]] == "WRIST"
-        assert HAND21.markers[HAND21_CHAINS[finger - 1][-1]] == f"TIP{finger}"
+        assert SITES[SITE_CHAINS[finger - 1][0]] == "WRIST"
+        assert SITES[SITE_CHAINS[finger - 1][-1]] == f"TIP{finger}"
     session = store.session("hand-7")
     places = modelled_px(session.camera, session.markers.position_cam_m)
     seen = np.isfinite(session.markers.measured_px)

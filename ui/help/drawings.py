@@ -5,7 +5,7 @@ from __future__ import annotations
 from PySide6.QtCore import QPointF, QRectF, Qt
 from PySide6.QtGui import QColor, QFont, QFontMetricsF, QPainter, QPen
 
-from carpus.core.hand.protocols import HAND21, WRIST6
+from carpus.core.hand.sites import PALM_MARKERS, SITES
 from carpus.core.types import Side
 from carpus.ui.fonts import MEDIUM, SEMIBOLD, font
 from carpus.ui.hand_drawing import PLACES, SIZE, outline, placement
@@ -35,14 +35,13 @@ def paint_discs(painter: QPainter, box: QRectF, side: Side, *, whole_hand: bool,
     painter.restore()
     scale = to.map(QPointF(0, 1)).y() - to.map(QPointF(0, 0)).y()
     radius = max(0.5 * DISC_MM / HAND_MM * SIZE[1] * scale * 0.9, 2.0 * unit)
-    protocol = HAND21 if whole_hand else WRIST6
-    for name in protocol.markers:
+    for name in SITES if whole_hand else PALM_MARKERS:
         at = to.map(QPointF(*PLACES[name]))
         painter.setPen(Qt.PenStyle.NoPen)
         painter.setBrush(QColor(DISC))
         size = radius * (0.8 if name.startswith(("TIP", "DIP")) else 1.0)
         painter.drawEllipse(at, size, size)
-    named = dict.fromkeys(("WRIST", "CMC1", "MCP2", "MCP3", "MCP4", "MCP5"), "")
+    named = dict.fromkeys(PALM_MARKERS, "")
     if whole_hand:
         named = {
             "WRIST": "",

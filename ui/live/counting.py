@@ -8,6 +8,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from carpus.core.hand.marker_protocol import MarkerProtocol
 from carpus.core.measures.fingers import FURTHER_RAD
 from carpus.core.measures.repetitions import find_repetitions
 from carpus.core.measures.signals import LONGEST_GAP_S, even_signal
@@ -21,7 +22,8 @@ from carpus.ui.joint_figures import figures_of
 class RunningCount:
     """Takes recorded frames; counts when asked. Counting is for once a second, not for each frame."""
 
-    def __init__(self, exercise: Exercise) -> None:
+    def __init__(self, exercise: Exercise, protocol: MarkerProtocol | None = None) -> None:
+        self._protocol = protocol or exercise.protocol
         self.angle = FLEXION if exercise.angle is None else exercise.angle
         self.joint = exercise.joint
         self._figure = FIGURES.index(figure_of(exercise.joint)) if exercise.joint else -1
@@ -77,7 +79,7 @@ class RunningCount:
     def _read(self, frames: Sequence[TrackedFrame]) -> list[tuple[float, float, bool]]:
         """Trained angle and standard deviation in radians, and whether it was measured, frame by frame."""
         if self._figure >= 0 and frames and len(frames[0].moment.joint_angles_rad):
-            _, value_deg, sd_deg, measured, _ = figures_of(frames)
+            _, value_deg, sd_deg, measured, _ = figures_of(self._protocol, frames)
             column = self._figure
             value, sd = np.radians(value_deg[:, column]).tolist(), np.radians(sd_deg[:, column]).tolist()
             return list(zip(value, sd, measured[:, column].tolist(), strict=True))

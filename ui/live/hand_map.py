@@ -6,7 +6,7 @@ from PySide6.QtCore import QPointF, QRectF, QSize, Qt
 from PySide6.QtGui import QFontMetricsF, QPainter, QPaintEvent, QPen
 from PySide6.QtWidgets import QSizePolicy, QWidget
 
-from carpus.core.hand.protocols import HAND21
+from carpus.core.hand.sites import SITES
 from carpus.core.types import Side
 from carpus.ui.controls.card import paint_card
 from carpus.ui.fonts import MEDIUM, REGULAR, SEMIBOLD, font
@@ -67,7 +67,7 @@ class HandMap(QWidget):
         painter.setBrush(theme.color("sunken"))
         painter.drawPath(to.map(outline()))
         painter.setClipping(False)
-        for name in HAND21.markers:
+        for name in self.seen or SITES:
             self._paint_disc(painter, to.map(QPointF(*PLACES[name])), self.seen.get(name, "hidden"), 7.0)
         self._paint_words(painter, words_left)
 

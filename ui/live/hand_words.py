@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 
-from carpus.core.hand.protocols import PALM_MARKERS
+from carpus.core.hand.sites import PALM_MARKERS
 from carpus.core.types import TrackedFrame, TrackStatus
 from carpus.ui.live.light import Lamp
 from carpus.ui.marker_words import finger_name, hidden_remedy, marker_name

@@ -12,6 +12,7 @@ from PySide6.QtCore import QEvent, QObject, QRectF, Qt, QTimer, Signal
 from PySide6.QtGui import QPainter, QResizeEvent
 from PySide6.QtWidgets import QHBoxLayout, QVBoxLayout, QWidget
 
+from carpus.core.hand.protocols import PROTOCOLS
 from carpus.core.library.set_up import SetUp
 from carpus.core.pipeline.live_values import LiveCounters, TrackedView
 from carpus.core.types import TrackedFrame, TrackStatus
@@ -73,7 +74,7 @@ class LiveScreen(QWidget):
         self._theme, self._background = theme, background
         self._measuring: Measuring | None = None
         self._set_up: SetUp | None = None
-        self.history = History()
+        self.history = History(PROTOCOLS[0])
         self._light = SteadyLight()
         self._steady_doubt = SteadyDoubt()
         self.doubt: Doubt | None = None
@@ -219,7 +220,7 @@ class LiveScreen(QWidget):
     def begin(self, measuring: Measuring, set_up: SetUp) -> None:
         """Show a source whose tracking has begun."""
         self._measuring, self._set_up = measuring, set_up
-        self.history.clear()
+        self.history.clear(set_up.protocol)
         self._whole_hand = set_up.protocol.has_fingers
         self._light = SteadyLight()
         self._steady_doubt = SteadyDoubt()
@@ -293,7 +294,7 @@ class LiveScreen(QWidget):
         assert self._set_up is not None
         self._stopping = False
         self._started_at_s = time.monotonic()
-        self._count = RunningCount(self._set_up.exercise)
+        self._count = RunningCount(self._set_up.exercise, self._set_up.protocol)
         self.history.set_home()
         self._show_buttons()
 
@@ -620,10 +621,19 @@ class LiveScreen(QWidget):
     def _paint_hand(self, painter: QPainter, picture: PictureView, frame: TrackedFrame) -> None:
         assert self._measuring is not None
         assert self._set_up is not None
-        skeleton.paint_skeleton(painter, frame, self._measuring.camera, picture.to_screen, picture.scale)
+        skeleton.paint_skeleton(
+            painter, frame, self._set_up.protocol, self._measuring.camera, picture.to_screen, picture.scale
+        )
         figure = self.number.reading.figure
         if self._side_on and figure is not None:
             name = self.tr("Side · {finger}").format(finger=figure.long_name.split(",")[0].lower())
             skeleton.paint_side(
-                painter, self._theme, frame, figure.finger, name, QRectF(picture.rect()), self._set_up.side
+                painter,
+                self._theme,
+                frame,
+                self._set_up.protocol,
+                figure.finger,
+                name,
+                QRectF(picture.rect()),
+                self._set_up.side,
             )

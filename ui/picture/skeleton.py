@@ -9,7 +9,7 @@ from PySide6.QtCore import QPointF, QRectF, Qt
 from PySide6.QtGui import QColor, QFontMetricsF, QPainter, QPen
 
 from carpus.core.camera import Camera
-from carpus.core.hand.protocols import HAND21_CHAINS
+from carpus.core.hand.marker_protocol import MarkerProtocol
 from carpus.core.types import FloatArray, Side, TrackedFrame, TrackStatus
 from carpus.ui.fonts import SEMIBOLD, font
 from carpus.ui.picture.overlay import HALO, LEAST_RING_PX, ToScreen, ellipse, haloed
@@ -22,7 +22,9 @@ SIDE_SPAN_M = 0.105
 SIDE_WIDTH_PX, SIDE_HEIGHT_PX = 138, 126
 
 
-def paint_skeleton(painter: QPainter, frame: TrackedFrame, camera: Camera, to_screen: ToScreen, scale: float) -> None:
+def paint_skeleton(
+    painter: QPainter, frame: TrackedFrame, protocol: MarkerProtocol, camera: Camera, to_screen: ToScreen, scale: float
+) -> None:
     """Bones between the discs' places in the model: solid between discs that are seen, dashed where predicted."""
     places = frame.marker_position_cam_m
     if frame.status == TrackStatus.LOST or not np.isfinite(places).all():
@@ -33,8 +35,9 @@ def paint_skeleton(painter: QPainter, frame: TrackedFrame, camera: Camera, to_sc
     for k in np.flatnonzero(seen):
         u, v = frame.marker_measured_px[k]
         at[k] = to_screen(float(u), float(v))
-    solid = [(at[a], at[b]) for chain in HAND21_CHAINS for a, b in pairwise(chain) if seen[a] and seen[b]]
-    dashed = [(at[a], at[b]) for chain in HAND21_CHAINS for a, b in pairwise(chain) if not (seen[a] and seen[b])]
+    bones = [ends for chain in protocol.chains.values() for ends in pairwise(chain)]
+    solid = [(at[a], at[b]) for a, b in bones if seen[a] and seen[b]]
+    dashed = [(at[a], at[b]) for a, b in bones if not (seen[a] and seen[b])]
     haloed(painter, ON_PICTURE_LINE, 2.0, lambda: [painter.drawLine(a, b) for a, b in solid])
     haloed(painter, ON_PICTURE_LINE, 1.5, lambda: [painter.drawLine(a, b) for a, b in dashed], dash=True)
     for row, spot in enumerate(at):
@@ -61,17 +64,24 @@ def _paint_hidden(painter: QPainter, covariance_px2: FloatArray, spot: QPointF, 
     painter.restore()
 
 
-def side_points_m(frame: TrackedFrame, finger: int) -> FloatArray:
+def side_points_m(frame: TrackedFrame, protocol: MarkerProtocol, finger: int) -> FloatArray:
     """Joints (4, 2) of a finger from the side: along the hand and out of its back, from the knuckle, metres."""
     joints = frame.moment.joint_position_m - frame.moment.position_m
-    chain = (joints @ frame.moment.rotation_w2_w0)[list(HAND21_CHAINS[finger - 1][1:])]
+    chain = (joints @ frame.moment.rotation_w2_w0)[list(protocol.chains[finger][1:])]
     along = np.array([1.0, 0.0]) if finger > 1 else chain[1, :2] - chain[0, :2]
     away = chain - chain[0]
     return np.stack((away[:, :2] @ along / max(float(np.linalg.norm(along)), 1e-9), away[:, 2]), axis=1)
 
 
 def paint_side(
-    painter: QPainter, theme: Theme, frame: TrackedFrame, finger: int, name: str, shown: QRectF, side: Side
+    painter: QPainter,
+    theme: Theme,
+    frame: TrackedFrame,
+    protocol: MarkerProtocol,
+    finger: int,
+    name: str,
+    shown: QRectF,
+    side: Side,
 ) -> None:
     """One finger from the side, fingers to the right, in the lower corner on the little finger's side of the hand."""
     scale = theme.text_scale
@@ -86,15 +96,15 @@ def paint_side(
     painter.setFont(font(12 * scale, SEMIBOLD))
     painter.setPen(QColor(ON_PICTURE_LINE))
     painter.drawText(QPointF(box.left() + 10, box.top() + 6 + QFontMetricsF(painter.font()).ascent()), name)
-    if frame.status == TrackStatus.LOST or not len(frame.moment.joint_position_m):
+    if frame.status == TrackStatus.LOST or finger not in protocol.chains:
         return
-    points = side_points_m(frame, finger)
+    points = side_points_m(frame, protocol, finger)
     if not np.isfinite(points).all():
         return
     unit = (0.72 * box.width() - 12) / SIDE_SPAN_M
     start = QPointF(box.left() + 0.28 * box.width(), box.top() + 0.38 * box.height())
     at = [start + QPointF(float(x) * unit, -float(z) * unit) for x, z in points]
-    seen = np.isfinite(frame.marker_measured_px[list(HAND21_CHAINS[finger - 1][1:]), 0])
+    seen = np.isfinite(frame.marker_measured_px[list(protocol.chains[finger][1:]), 0])
     painter.setPen(QPen(QColor(255, 255, 255, 110), 4))
     painter.drawLine(QPointF(box.left() + 8, start.y()), start)
     for row, (a, b) in enumerate(pairwise(at)):

@@ -9,12 +9,12 @@ from typing import Literal
 
 import numpy as np
 
-from carpus.core.hand.protocols import HAND21
+from carpus.core.hand.marker_protocol import MarkerProtocol
 from carpus.core.measures.forearm import USUAL_CENTRE_M, rotation_in_place, wrist_centre
 from carpus.core.output.exercises import STILL_RADIUS_MM
 from carpus.core.types import FloatArray, TrackedFrame, TrackStatus
 from carpus.ui.figures import FIGURES
-from carpus.ui.joint_figures import BoolArray, figures_of, measured_figures, mix
+from carpus.ui.joint_figures import BoolArray, figures_of, joints_of, measured_figures, mix
 from carpus.ui.plot.series import Series
 
 SHOWN_S = 10.0
@@ -64,15 +64,16 @@ class History:
     Figures of the fingers are numbered as in :data:`ui.figures.FIGURES`; without discs on them all are unknown.
     """
 
-    def __init__(self) -> None:
-        self.clear()
+    def __init__(self, protocol: MarkerProtocol) -> None:
+        self.clear(protocol)
 
-    def clear(self) -> None:
-        """Forget everything, as before another recording."""
+    def clear(self, protocol: MarkerProtocol) -> None:
+        """Forget everything, as before another recording with these discs."""
+        self._protocol = protocol
         self._rows = np.empty((0, _COLUMNS))
         self._index = np.empty(0, dtype=np.int64)
-        self._hand = _Hand.of(())
-        self._mix = mix(17)
+        self._hand = _Hand.of(protocol, ())
+        self._mix = mix(protocol.joint_names())
         self._home_mm = np.full(3, math.nan)
         self._home_turned = np.full((3, 3), math.nan)
         self._centre_mm = 1000.0 * USUAL_CENTRE_M
@@ -92,9 +93,9 @@ class History:
             return
         self.last_index = fresh[-1].index
         self._waited_s = 0.0
-        known, more = self._hand, _Hand.of(fresh)
+        known, more = self._hand, _Hand.of(self._protocol, fresh)
         if more.value_deg.shape[1]:
-            self._mix = mix(len(fresh[-1].moment.joint_angles_rad))
+            self._mix = mix(joints_of(self._protocol, len(fresh[-1].moment.joint_angles_rad)))
         more_rows = np.array([_row(frame) for frame in fresh])
         self._rows = np.concatenate((self._rows, more_rows))
         self._keep_poses(more_rows)
@@ -186,7 +187,7 @@ class History:
             return math.nan, math.nan, False
         value, sd = float(hand.value_deg[-1, figure]), float(hand.sd_deg[-1, figure])
         visible = self._recent_share() >= HIDDEN_SHARE
-        shown = bool(measured_figures(visible[None])[0, figure]) and self.status == TrackStatus.TRACKED
+        shown = bool(measured_figures(self._protocol, visible[None])[0, figure]) and self.status == TrackStatus.TRACKED
         return value, sd, shown and math.isfinite(value)
 
     def figure_speed_deg_s(self, figure: int) -> float:
@@ -205,10 +206,10 @@ class History:
     def seen(self) -> dict[str, Seen]:
         """How well each disc has been seen of late: light, map, cells and the large number all go by it."""
         if not len(self._rows) or not self.has_fingers:
-            return dict.fromkeys(HAND21.markers, "hidden")
+            return dict.fromkeys(self._protocol.markers, "hidden")
         return {
             name: "seen" if part >= SEEN_SHARE else "hidden" if part < HIDDEN_SHARE else "partly"
-            for name, part in zip(HAND21.markers, self._recent_share().tolist(), strict=True)
+            for name, part in zip(self._protocol.markers, self._recent_share().tolist(), strict=True)
         }
 
     def _recent_share(self) -> FloatArray:
@@ -275,13 +276,14 @@ class _Hand:
     seen: BoolArray
 
     @staticmethod
-    def of(frames: Sequence[TrackedFrame]) -> _Hand:
+    def of(protocol: MarkerProtocol, frames: Sequence[TrackedFrame]) -> _Hand:
         joints = len(frames[-1].moment.joint_angles_rad) if frames else 0
         if not joints:
             none = np.empty((len(frames), 0))
             return _Hand(none, none, none, none.astype(bool), none.astype(bool))
-        _, value, sd, measured, seen = figures_of(frames)
-        speed = np.degrees(np.array([frame.moment.joint_velocity_rad_s for frame in frames]) @ mix(joints).weight.T)
+        _, value, sd, measured, seen = figures_of(protocol, frames)
+        weight = mix(joints_of(protocol, joints)).weight
+        speed = np.degrees(np.array([frame.moment.joint_velocity_rad_s for frame in frames]) @ weight.T)
         return _Hand(value, sd, np.where(np.isfinite(value), speed, math.nan), measured, seen)
 
     def then(self, more: _Hand) -> _Hand:

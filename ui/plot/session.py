@@ -11,7 +11,7 @@ from PySide6.QtCore import QRectF
 from PySide6.QtGui import QPainter
 
 from carpus.core.hand.kinematics import DIP_PER_PIP
-from carpus.core.hand.protocols import WRIST_ANGLES
+from carpus.core.hand.sites import WRIST_ANGLES
 from carpus.core.output.exercises import AXIS_LIMIT_DEG, AXIS_TICK_DEG, FLEXION, PRONOSUPINATION, SIDES, Exercise
 from carpus.core.output.joint_content import JointCurves
 from carpus.core.output.report_content import Curves, ShownRepetition

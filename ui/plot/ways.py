@@ -89,13 +89,14 @@ def finger_ways(curves: MotionCurves, finger: int) -> WayPlot:
         named = [
             (f"TIP{k}", "text" if k == 1 else "curve_a" if k % 2 else "curve_b", finger_name(str(k))) for k in FINGERS
         ]
-    at = [(curves.joint_names.index(joint), token, words) for joint, token, words in named]
+    there = curves.joint_names
+    at = [(there.index(joint), token, words) for joint, token, words in named if joint in there]
     ways = [Way(curves.joint_mm[:, k], token, words, curves.joint_seen[:, k]) for k, token, words in at]
     return _plot(curves, ways, None)
 
 
 def _plot(curves: MotionCurves, ways: Sequence[Way], axes: FloatArray | None) -> WayPlot:
-    every = np.concatenate([way.place_mm for way in ways])
+    every = np.concatenate([np.empty((0, 3)), *(way.place_mm for way in ways)])
     known = every[np.isfinite(every).all(axis=1)]
     low, high = (known.min(axis=0), known.max(axis=0)) if len(known) else (np.zeros(3), np.zeros(3))
     return WayPlot(curves.time_s, ways, axes, curves.side, low, high)

@@ -7,7 +7,7 @@ from datetime import date
 
 from carpus.core.agreement.retest import Retest
 from carpus.core.agreement.retest_plan import Mounting, Person, RetestPlan
-from carpus.core.hand.protocols import WRIST_ANGLES
+from carpus.core.hand.sites import WRIST_ANGLES
 from carpus.core.measures.change import ARC_LIMIT_FACTOR, change_limit_rad
 from carpus.core.measures.error_limits import FEWEST_PEOPLE, ErrorLimits
 from carpus.ui import numbers, terms

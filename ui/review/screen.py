@@ -610,9 +610,9 @@ class ReviewScreen(QWidget):
         times = self._curves.time_s
         recent = slice(int(np.searchsorted(times, times[self._row] - TRAIL_S)), self._row + 1)
         all_seen = np.isfinite(self._session.markers.measured_px[recent, :, 0])
-        finger = max(self._finger, 0)
-        paint_trails(painter, picture, self._modelled_px[recent], all_seen, finger)
-        paint_skeleton(painter, picture, spots, seen, finger)
+        finger, protocol = max(self._finger, 0), self._session.header.protocol
+        paint_trails(painter, picture, protocol, self._modelled_px[recent], all_seen, finger)
+        paint_skeleton(painter, picture, protocol, spots, seen, finger)
         self._paint_labels(painter, picture)
 
     def _under(self, time_s: float) -> list[int]:

@@ -9,9 +9,8 @@ from PySide6.QtCore import Qt
 from PySide6.QtGui import QColor, QPainter, QPolygonF
 
 from carpus.core.camera import Camera
-from carpus.core.hand.protocols import HAND21, HAND21_CHAINS
+from carpus.core.hand.marker_protocol import MarkerProtocol
 from carpus.core.types import FloatArray
-from carpus.ui.figures import FINGERS
 from carpus.ui.picture.overlay import haloed
 from carpus.ui.picture.view import PictureView
 from carpus.ui.plot.polygon import runs
@@ -28,11 +27,16 @@ def modelled_px(camera: Camera, position_cam_m: FloatArray) -> FloatArray:
 
 
 def paint_skeleton(
-    painter: QPainter, picture: PictureView, spots: FloatArray, seen: np.ndarray, finger: int = 0
+    painter: QPainter,
+    picture: PictureView,
+    protocol: MarkerProtocol,
+    spots: FloatArray,
+    seen: np.ndarray,
+    finger: int = 0,
 ) -> None:
-    """Bones and discs of ``hand21``; ``spots`` (21, 2) pixels, ``seen`` bool (21,), ``finger`` 0 for all."""
-    for number in FINGERS:
-        for a, b in pairwise(HAND21_CHAINS[number - 1]):
+    """Bones and discs; ``spots`` (M, 2) pixels, ``seen`` bool (M,), ``finger`` 0 for all."""
+    for number, chain in protocol.chains.items():
+        for a, b in pairwise(chain):
             if np.isfinite(spots[[a, b]]).all():
                 start, end = (picture.to_screen(float(u), float(v)) for u, v in spots[[a, b]])
                 width = 2.5 if number == finger else 1.5
@@ -49,12 +53,16 @@ def paint_skeleton(
 
 
 def paint_trails(
-    painter: QPainter, picture: PictureView, modelled: FloatArray, seen: np.ndarray, finger: int = 0
+    painter: QPainter,
+    picture: PictureView,
+    protocol: MarkerProtocol,
+    modelled: FloatArray,
+    seen: np.ndarray,
+    finger: int = 0,
 ) -> None:
-    """Ways of the fingertips; ``modelled`` (n, 21, 2) pixels of the frames shown, ``seen`` bool (n, 21)."""
+    """Ways of the fingertips; ``modelled`` (n, M, 2) pixels of the frames shown, ``seen`` bool (n, M)."""
     painter.setBrush(Qt.BrushStyle.NoBrush)
-    for number in FINGERS if finger == 0 else (finger,):
-        tip = HAND21.markers.index(f"TIP{number}")
+    for tip in (chain[-1] for number, chain in protocol.chains.items() if finger in (0, number)):
         known = np.isfinite(modelled[:, tip]).all(axis=1)
         for flag, dash in ((known & seen[:, tip], False), (known & ~seen[:, tip], True)):
             for first, last in runs(flag):

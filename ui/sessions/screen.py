@@ -7,7 +7,7 @@ from PySide6.QtGui import QKeyEvent
 from PySide6.QtWidgets import QHBoxLayout, QVBoxLayout, QWidget
 
 from carpus.core.library.set_up import PRACTICE_PATIENT
-from carpus.core.output.exercises import EXERCISES, exercise_named
+from carpus.core.output.exercises import exercise_named, exercises_of
 from carpus.ui import numbers, terms
 from carpus.ui.background import Background
 from carpus.ui.controls.button import Button
@@ -198,8 +198,8 @@ class SessionsScreen(QWidget):
         line = self.chosen()
         if line is None:
             return
-        protocol = exercise_named(line.exercise).protocol
-        others = [one.id for one in EXERCISES if one.protocol is protocol and one.id != line.exercise]
+        alike = exercises_of(exercise_named(line.exercise).protocol)
+        others = [one.id for one in alike if one.id != line.exercise]
         self.rename_sheet.begin(
             self.tr("Which exercise was it?"),
             self.tr("Repetitions and figures are worked out anew. The recording itself is not changed."),

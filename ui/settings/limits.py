@@ -7,7 +7,7 @@ from datetime import date
 
 from PySide6.QtWidgets import QGridLayout
 
-from carpus.core.hand.protocols import WRIST_ANGLES
+from carpus.core.hand.sites import WRIST_ANGLES
 from carpus.core.measures.change import ARC_LIMIT_FACTOR, TOTAL_ACTIVE_MOTION, change_limit_rad
 from carpus.core.measures.error_limits import DEFAULT_LIMITS, FEWEST_PEOPLE, ErrorLimits, RetestStudy
 from carpus.ui import numbers, terms

@@ -7,9 +7,10 @@ import math
 from PySide6.QtCore import Signal
 from PySide6.QtWidgets import QHBoxLayout, QVBoxLayout, QWidget
 
-from carpus.core.hand.protocols import HAND21, WRIST6
+from carpus.core.hand.marker_protocol import MarkerProtocol
+from carpus.core.hand.protocols import PROTOCOLS, protocol_named
 from carpus.core.library.set_up import SetUp
-from carpus.core.output.exercises import EXERCISES, SIDES, Exercise, exercise_named
+from carpus.core.output.exercises import SIDES, Exercise, exercise_named, exercises_of
 from carpus.core.types import Side
 from carpus.ui import numbers, terms
 from carpus.ui.controls.button import Button
@@ -34,12 +35,9 @@ class ExerciseScreen(QWidget):
         super().__init__()
         self._theme = theme
         self._row: PatientRow | None = None
-        protocols: list[tuple[object, str]] = [
-            (WRIST6.name, self.tr("Wrist · 6 markers")),
-            (HAND21.name, self.tr("Whole hand · 21 markers")),
-        ]
+        protocols: list[tuple[object, str]] = [(one.name, terms.protocol_name(one)) for one in PROTOCOLS]
         self.protocol = Choices(theme, protocols)
-        self.lists = {str(name): _exercises_of(theme, str(name)) for name, _ in protocols}
+        self.lists = {one.name: _exercises_of(theme, one) for one in PROTOCOLS}
         sides: list[tuple[object, str]] = [("right", terms.side_name("right")), ("left", terms.side_name("left"))]
         self.side = Choices(theme, sides)
         self.repetitions = number_field(theme, MOST_REPETITIONS, nothing=self.tr("none"))
@@ -126,8 +124,10 @@ class ExerciseScreen(QWidget):
                 pattern.format(size=f"{mb_per_minute:.0f}", time=numbers.room_left(room_minutes))
             )
         self._row = row
-        exercise = last.exercise if last is not None else EXERCISES[0]
-        self.choose(exercise)
+        if last is not None:
+            self.choose(last.exercise, last.protocol)
+        else:
+            self.choose(exercises_of(PROTOCOLS[0])[0])
         if side is None:
             self.side.choose_nothing()
         else:
@@ -148,9 +148,9 @@ class ExerciseScreen(QWidget):
         """The exercises of the markers chosen."""
         return self.lists[str(self.protocol.value())]
 
-    def choose(self, exercise: Exercise) -> None:
-        """Show an exercise as the chosen one."""
-        self.protocol.choose(exercise.protocol.name)
+    def choose(self, exercise: Exercise, protocol: MarkerProtocol | None = None) -> None:
+        """Show an exercise as the chosen one, with its usual discs or others."""
+        self.protocol.choose((protocol or exercise.protocol).name)
         self.exercises.choose(exercise.id)
         self._show_protocol()
 
@@ -178,15 +178,19 @@ class ExerciseScreen(QWidget):
             positive,
             negative,
             bool(self.pictures.value()),
-            exercise.protocol.has_fingers and bool(self.ends.value()),
+            self._discs().has_fingers and bool(self.ends.value()),
+            self._discs().name,
         )
+
+    def _discs(self) -> MarkerProtocol:
+        return protocol_named(str(self.protocol.value()))
 
     def _exercise(self) -> Exercise:
         return exercise_named(str(self.exercises.value()))
 
     def _show_exercise(self, exercise_id: object) -> None:
         exercise = exercise_named(str(exercise_id))
-        if exercise.protocol.name != self.protocol.value():
+        if not exercise.is_allowed_by(self._discs()):
             return  # the list that is not shown
         self._repetition_field.setVisible(exercise.counts)
         for number, (field, name) in enumerate(zip(self._target_fields, self._target_names, strict=True)):
@@ -203,7 +207,7 @@ class ExerciseScreen(QWidget):
                 self.targets[number].setAccessibleName(words)
         if exercise.counts:
             self.repetitions.setValue(exercise.repetitions)
-        self._ends_field.setVisible(exercise.protocol.has_fingers)
+        self._ends_field.setVisible(self._discs().has_fingers)
         self.ends.choose(exercise.ends_free)
         words = terms.exercise_view(exercise.id)
         self.view.setText(words)
@@ -232,8 +236,8 @@ def _caption(field: Labelled) -> Text:
     return next(child for child in field.findChildren(Text))
 
 
-def _exercises_of(theme: Theme, protocol: str) -> Options:
-    rows = [item for item in EXERCISES if item.protocol.name == protocol]
+def _exercises_of(theme: Theme, protocol: MarkerProtocol) -> Options:
+    rows = exercises_of(protocol)
     return Options(
         theme, [(item.id, terms.exercise_name(item.id), terms.exercise_instruction(item.id)) for item in rows]
     )

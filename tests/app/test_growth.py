@@ -1,0 +1,103 @@
+"""What grows by one file and one line, done in a copy: a further marker protocol is simulated, tracked, stored, read
+back, exported, reported on and tracked again."""
+
+from __future__ import annotations
+
+import os
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).parents[2]
+
+PROTOCOL_FILE = '''"""Four fingers without the thumb."""
+
+from carpus.core.hand.marker_protocol import MarkerProtocol
+from carpus.core.hand.sites import CHAIN_NAMES, PALM_MARKERS
+
+FINGERS18 = MarkerProtocol("fingers18", (*PALM_MARKERS, *(name for chain in CHAIN_NAMES[1:] for name in chain[2:])))
+'''
+BEFORE = "(WRIST6, HAND21)"
+IMPORT = "from carpus.core.hand.hand21 import HAND21\n"
+
+WALK = """
+import json
+from pathlib import Path
+
+import carpus
+import numpy as np
+from carpus.app.__main__ import main
+from carpus.core.hand.protocols import protocol_named
+from carpus.core.output.exercises import exercises_of
+from carpus.ui.terms import protocol_name
+
+
+def done(*arguments):
+    assert main([str(one) for one in arguments]) == 0, arguments
+
+
+if __name__ == "__main__":
+    protocol = protocol_named("fingers18")
+    assert [one.id for one in exercises_of(protocol)] == ["FIST_COMPOSITE", "FIST_HOOK", "FINGER_ABAD"]
+    assert protocol_name(protocol) == "Some fingers · 18 markers"
+    done("simulate", "--output", "take", "--protocol", "fingers18", "--motion", "fist", "--seconds", "1.2",
+         "--fps", "15", "--seed", "4")
+    clicks = json.loads(Path("take/calibration.json").read_text(encoding="utf-8"))["markers"]
+    proposed = carpus.propose_clicks("take", protocol="fingers18").markers
+    assert len(proposed) >= 12
+    assert all(np.hypot(*np.subtract(pixel, clicks[name])) < 6.0 for name, pixel in proposed.items()), proposed
+    done("track", "take", "--calibration", "take/calibration.json", "--exercise", "FIST_COMPOSITE", "--output", "s.h5")
+    session, truth = carpus.open_session("s.h5"), carpus.open_session("take/truth.h5")
+    names = protocol.joint_names()
+    assert session.header.joint_names == truth.header.joint_names == names and len(names) == 12
+    assert session.motion.joint_position_m.shape[1:] == session.markers.position_cam_m.shape[1:] == (18, 3)
+    assert (session.status == 0).all()
+    for motion in (session.motion, session.smoothed):
+        off = np.degrees(motion.joint_angles_rad - truth.motion.joint_angles_rad)
+        assert np.sqrt((off**2).mean()) < 4.0, off
+    assert session.quality.measured_share.shape[1] == 12
+    of = {row.of for row in session.measures()}
+    assert {"TAM3", *names} <= of and not of & {"TAM1", "MCP1_flexion", "CMC1_abduction"}, of
+    done("export", "s.h5", "--format", "csv,c3d,mot,bids,h5", "--output", "out")
+    copy = carpus.open_session("out/s.h5")
+    assert np.array_equal(copy.motion.joint_angles_rad, session.motion.joint_angles_rad)
+    table = Path("out/s.joints.csv").read_text(encoding="utf-8")
+    assert "PIP5_flexion" in table and "CMC1" not in table
+    done("report", "s.h5", "--output", "report.pdf")
+    done("track", "s.h5", "--output", "again.h5")
+"""
+
+
+@pytest.fixture(scope="module")
+def copy(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """The program with one more file, and one line changed where protocols are registered, with its import."""
+    folder = tmp_path_factory.mktemp("grown")
+    shutil.copy(ROOT / "carpus.py", folder)
+    (folder / "core").mkdir()
+    for part in ("app", "ui", "resources"):
+        (folder / part).symlink_to(ROOT / part)
+    for part in (ROOT / "core").iterdir():
+        if part.name != "hand":
+            (folder / "core" / part.name).symlink_to(part)
+    shutil.copytree(ROOT / "core" / "hand", folder / "core" / "hand", ignore=shutil.ignore_patterns("__pycache__"))
+    (folder / "core" / "hand" / "fingers18.py").write_text(PROTOCOL_FILE, encoding="utf-8")
+    register = folder / "core" / "hand" / "protocols.py"
+    text = register.read_text(encoding="utf-8")
+    assert text.count(BEFORE) == text.count(IMPORT) == 1
+    text = text.replace(BEFORE, BEFORE.replace(")", ", FINGERS18)"))
+    text = text.replace(IMPORT, "from carpus.core.hand.fingers18 import FINGERS18\n" + IMPORT)
+    register.write_text(text, encoding="utf-8")
+    return folder
+
+
+def test_a_marker_protocol_is_one_file_and_one_registered_line(copy: Path, tmp_path: Path) -> None:
+    script = tmp_path / "walk.py"
+    script.write_text(WALK, encoding="utf-8")
+    environment = os.environ | {"PYTHONPATH": str(copy), "QT_QPA_PLATFORM": "offscreen", "CARPUS_DEBUG": "1"}
+    walked = subprocess.run(
+        [sys.executable, str(script)], cwd=tmp_path, env=environment, capture_output=True, text=True, timeout=170
+    )
+    assert walked.returncode == 0, walked.stdout[-2000:] + walked.stderr[-4000:]
