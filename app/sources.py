@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from dataclasses import dataclass
 from pathlib import Path
 
 from carpus.core.capture.notice import Notice, ignore
@@ -26,7 +28,7 @@ def open_recording(
     ``leave_out_damaged``: a missing or damaged picture of a folder is left out, counted and told, not a fault.
     ``data_folder``: what is kept there of the camera is used where the recording brings no intrinsics of its own.
     """
-    source = _opened(path, need_depth, registered, leave_out_damaged, notice)
+    source = _opened(path, _How(need_depth, registered, leave_out_damaged, notice))
     if data_folder is None:
         return source
     from carpus.core.capture.calibrated import with_stored_calibration
@@ -34,24 +36,61 @@ def open_recording(
     return with_stored_calibration(source, data_folder)
 
 
-def _opened(
-    path: Path, need_depth: bool, registered: bool | None, leave_out_damaged: bool, notice: Notice
-) -> FrameSource:
+@dataclass(frozen=True, slots=True)
+class _How:
+    """As in :func:`open_recording`."""
+
+    need_depth: bool
+    registered: bool | None
+    leave_out_damaged: bool
+    notice: Notice
+
+
+def _tum_folder(path: Path, how: _How) -> FrameSource:
+    from carpus.core.capture.tum import TumFolder
+
+    return TumFolder(
+        path, need_depth=how.need_depth, read_ahead=8, leave_out_damaged=how.leave_out_damaged, notice=how.notice
+    )
+
+
+def _is_oni(path: Path) -> bool:
+    return path.suffix.lower() == ".oni"
+
+
+def _oni(path: Path, how: _How) -> FrameSource:
+    from carpus.core.capture.oni_source import OniSource
+
+    return OniSource(path, registered=how.registered, notice=how.notice)
+
+
+def _is_raw(path: Path) -> bool:
+    from carpus.core.capture.raw import is_raw_recording
+
+    return is_raw_recording(path)
+
+
+def _raw(path: Path, how: _How) -> FrameSource:
+    from carpus.core.capture.raw import RawRecording
+
+    return RawRecording(path, notice=how.notice)
+
+
+RECORDINGS: tuple[tuple[Callable[[Path], bool], Callable[[Path, _How], FrameSource]], ...] = (
+    (Path.is_dir, _tum_folder),
+    (_is_oni, _oni),
+    (_is_raw, _raw),
+)
+"""Every kind: whether a path is of it, and how it is opened; the first that is it counts."""
+
+
+def _opened(path: Path, how: _How) -> FrameSource:
     if not path.exists():
         raise RecordingMissing(path)
     rendered = path / RECORDING_FILE
     if path.is_dir() and rendered.is_file() and not (path / COLOR_LIST).exists():
         path = rendered  # what "carpus simulate --format oni" makes
-    if path.is_dir():
-        from carpus.core.capture.tum import TumFolder
-
-        return TumFolder(path, need_depth=need_depth, read_ahead=8, leave_out_damaged=leave_out_damaged, notice=notice)
-    if path.suffix.lower() == ".oni":
-        from carpus.core.capture.oni_source import OniSource
-
-        return OniSource(path, registered=registered, notice=notice)
-    from carpus.core.capture.raw import RawRecording, is_raw_recording
-
-    if is_raw_recording(path):
-        return RawRecording(path, notice=notice)
+    for is_it, opened in RECORDINGS:
+        if is_it(path):
+            return opened(path, how)
     raise RecordingUnreadable(path, "neither a TUM folder, an .oni file nor a raw recording")

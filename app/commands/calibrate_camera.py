@@ -124,9 +124,9 @@ def _source(recording: Path | None) -> FrameSource:
 
         return open_recording(recording, need_depth=False, leave_out_damaged=True, notice=tell)
     from carpus.app.settings import load_settings
-    from carpus.core.capture.xtion import XtionSource
+    from carpus.core.capture.cameras import open_camera
 
-    return XtionSource(uri=load_settings().camera.uri or None, notice=tell)
+    return open_camera(load_settings().camera.uri, notice=tell)
 
 
 def _boards(arguments: argparse.Namespace) -> list[Board]:

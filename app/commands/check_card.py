@@ -121,9 +121,9 @@ def _source(recording: Path | None, data_folder: Path) -> FrameSource:
         return open_recording(recording, leave_out_damaged=True, data_folder=data_folder, notice=tell)
     from carpus.app.settings import load_settings
     from carpus.core.capture.calibrated import with_stored_calibration
-    from carpus.core.capture.xtion import XtionSource
+    from carpus.core.capture.cameras import open_camera
 
-    return with_stored_calibration(XtionSource(uri=load_settings().camera.uri or None, notice=tell), data_folder)
+    return with_stored_calibration(open_camera(load_settings().camera.uri, notice=tell), data_folder)
 
 
 def _shown(source: FrameSource) -> Iterator[Frame]:

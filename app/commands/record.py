@@ -54,9 +54,9 @@ def run(arguments: argparse.Namespace) -> int:
 
         source = open_recording(arguments.origin, notice=tell)
     else:
-        from carpus.core.capture.xtion import XtionSource
+        from carpus.core.capture.cameras import open_camera
 
-        source = XtionSource(notice=tell)
+        source = open_camera(notice=tell)
         if arguments.format == "tum":
             # A folder of pictures cannot say which camera it came from; a raw recording can, and stays as it came.
             source = with_stored_calibration(source, load_settings().data_folder)

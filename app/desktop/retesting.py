@@ -11,6 +11,7 @@ from PySide6.QtWidgets import QFileDialog, QWidget
 
 from carpus.app.desktop.last_places import LastPlaces
 from carpus.app.desktop.ways import Tell, Way
+from carpus.core.agreement.restated import Restated
 from carpus.core.agreement.retest import StudyFigures
 from carpus.core.agreement.retest_plan import RetestPlan
 from carpus.core.agreement.retest_table import write_study
@@ -49,6 +50,7 @@ class Retesting(QObject):
         self._places, self._background, self._today = places, background, today
         self._people = RetestPeople(library)
         self._exercise = ""
+        self._asked = 0
         self.sheet = PeopleSheet(window, theme)
         self.sheet.chosen.connect(self._choose)
         screen.people.connect(self._ask_people)
@@ -64,6 +66,7 @@ class Retesting(QObject):
 
     def _read(self) -> None:
         wanted, people, today = self._exercise, self._people, self._today()
+        self._asked += 1
         self._screen.reading()
 
         def read() -> tuple[Sequence[str], RetestPlan]:
@@ -80,6 +83,35 @@ class Retesting(QObject):
         self._screen.show_plan(plan, self._library.error_limits)
         if self._way.place == "retest":
             self._screen.first().setFocus(Qt.FocusReason.OtherFocusReason)
+        study, asked = plan.study, self._asked
+        if study is not None and study.found and not study.simulated:
+            self._background.run(
+                lambda: self._people.patients(study),
+                lambda found: self._restate(study, asked, list(found), 0, ()),
+                self._tell.fault,
+                self,
+            )
+
+    def _restate(
+        self,
+        study: StudyFigures,
+        asked: int,
+        patients: Sequence[tuple[str, str]],
+        done: int,
+        found: Sequence[Restated],
+    ) -> None:
+        """What the limits would change, patient by patient: between two of them other work has its turn."""
+        if asked != self._asked:
+            return  # another study is shown by now
+        self._screen.show_restated(found, done, len(patients))
+        if done < len(patients) and self._way.place == "retest":
+            patient_id, pseudonym = patients[done]
+            self._background.run(
+                lambda: self._people.restated(patient_id, pseudonym, study),
+                lambda more: self._restate(study, asked, patients, done + 1, (*found, *more)),
+                self._tell.fault,
+                self,
+            )
 
     def _take_exercise(self, exercise: str) -> None:
         self._exercise = exercise

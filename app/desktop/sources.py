@@ -16,6 +16,7 @@ from carpus.app.sources import open_recording
 from carpus.core.calibration.result import Calibration
 from carpus.core.capture.calibrated import with_stored_calibration
 from carpus.core.capture.camera_info import read_camera_info
+from carpus.core.capture.cameras import open_camera
 from carpus.core.capture.paced import PacedSource
 from carpus.core.capture.practice import PracticeSource
 from carpus.core.capture.source import FrameSource, is_simulated
@@ -79,21 +80,19 @@ class Sources:
         return self._camera(set_up) if choice.kind == "camera" else self._practice(set_up, progress)
 
     def _camera(self, set_up: SetUp) -> OpenSource:
-        from carpus.core.capture.xtion import XtionSource  # needs the driver, which only a live camera does
-
         told: list[CarpusFault] = []
         heard: list[Callable[[CarpusFault], None]] = [told.append]
         named = self._settings.camera.intrinsics
         camera = read_camera_info(Path(named).expanduser()).camera if named else None
-        xtion = XtionSource(uri=self._settings.camera.uri or None, camera=camera, notice=lambda fault: heard[-1](fault))
-        source = with_stored_calibration(xtion, self._settings.data_folder)
+        live = open_camera(self._settings.camera.uri, camera=camera, notice=lambda fault: heard[-1](fault))
+        source = with_stored_calibration(live, self._settings.data_folder)
         session = self._session(source)
         heard.append(session.notice)
         for fault in told:
             session.notice(fault)
         session.start()
         # From the calibration on, the markers must keep their colours.
-        return self._live(session, source, set_up, on_begin=xtion.lock_exposure)
+        return self._live(session, source, set_up, on_begin=live.lock_exposure)
 
     def _practice(self, set_up: SetUp, progress: Progress) -> OpenSource:
         take, still_s = self._practice_take(set_up, progress)

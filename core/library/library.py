@@ -234,7 +234,7 @@ class Library:
 
     def sessions_alike(self, patient_id: str, set_up: SetUp) -> Sequence[SessionEntry]:
         """Those with the discs of a set-up on the same hand, newest first."""
-        own = (set_up.side, set_up.protocol)
+        own = (set_up.side, set_up.exercise.protocol)
         entries = self.sessions(patient_id)
         return [entry for entry in entries if (entry.hand, exercise_named(entry.exercise).protocol) == own]
 

@@ -9,6 +9,7 @@ from datetime import date
 from pathlib import Path
 
 from carpus.core.agreement.limits_file import store_limits
+from carpus.core.agreement.restated import Restated, as_if_complete, restated
 from carpus.core.agreement.retest import StudyFigures
 from carpus.core.agreement.retest_plan import RetestPlan, plan_of
 from carpus.core.errors import CarpusFault, OutputNotWritable
@@ -70,6 +71,26 @@ class RetestPeople:
                             figures.append(library.figures(entry))
                 people.append((patient_id, pseudonym, figures))
         return plan_of(people, exercise, self._raters(), today)
+
+    def patients(self, study: StudyFigures) -> Sequence[tuple[str, str]]:
+        """Identity and pseudonym of those who take no part and of whom limits of this study may say something: with
+        two sessions or more of its exercise."""
+        taking_part, out = set(self.chosen()), []
+        for patient_id, pseudonym, _ in self.candidates():
+            if patient_id not in taking_part:
+                own = [one for one in self._library.sessions(patient_id) if one.exercise == study.exercise]
+                if sum(not one.simulated for one in own) > 1:
+                    out.append((patient_id, pseudonym))
+        return out
+
+    def restated(self, patient_id: str, pseudonym: str, study: StudyFigures) -> Sequence[Restated]:
+        """What is said of a patient today and would be by the limits of a study; reads the sessions."""
+        figures = []
+        for entry in self._library.sessions(patient_id):
+            if entry.exercise == study.exercise and not entry.simulated:
+                with suppress(CarpusFault):  # a damaged file says nothing; opening it alone tells
+                    figures.append(self._library.figures(entry))
+        return restated(pseudonym, figures, as_if_complete(study.study(date.min.isoformat())))
 
     def _raters(self) -> dict[str, str]:
         """Initials of who recorded each session, as the log has them."""

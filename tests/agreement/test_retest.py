@@ -14,7 +14,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from PySide6.QtWidgets import QApplication
+from PySide6.QtWidgets import QApplication, QWidget
 from pytestqt.qtbot import QtBot
 
 from carpus.app import compose
@@ -22,6 +22,7 @@ from carpus.app.__main__ import main
 from carpus.app.settings import RecordingSettings, ScreenSettings, Settings
 from carpus.core import so3
 from carpus.core.agreement.limits_file import LIMITS_FILE, read_limits, store_limits
+from carpus.core.agreement.restated import as_if_complete, restated
 from carpus.core.agreement.retest import retest, studies
 from carpus.core.agreement.retest_plan import plan_of
 from carpus.core.errors import SettingsInvalid
@@ -222,6 +223,18 @@ def test_a_change_is_judged_by_the_clinics_limit(folder: Path) -> None:
     other_order = replace(limits(6.6).studies[0], angle_order="isb")
     assert arc(ErrorLimits((other_order,))) == ("no_change", 14.1)
 
+    # What limits about to be put into force would change in what is said of this patient today.
+    def changes(study: RetestStudy) -> list[tuple[str, str, str]]:
+        found = restated("Otter 29", (after, before), as_if_complete(study))
+        return [(one.now.movement, one.now.verdict, one.then) for one in found if one.is_changed]
+
+    assert changes(limits(6.6).studies[0]) == [("arc", "no_change", "improved")]
+    assert changes(limits(6.6, people=3).studies[0]) == [("arc", "no_change", "improved")], "as if it were complete"
+    assert changes(limits(12.0).studies[0]) == []
+    assert len(restated("Otter 29", (after, before), limits(12.0).studies[0])) == 1, "said all the same, as now"
+    assert restated("Otter 29", (after, before), other_order) == ()
+    assert restated("Otter 29", (replace(after, simulated=True), before), limits(6.6).studies[0]) == ()
+
 
 def test_limits_are_read_as_stored_and_a_new_study_takes_the_place_of_its_like(tmp_path: Path) -> None:
     assert read_limits(tmp_path) == ErrorLimits()
@@ -255,6 +268,10 @@ def test_a_damaged_file_is_told(tmp_path: Path, text: str) -> None:
         read_limits(tmp_path)
 
 
+def words_of(widget: QWidget) -> str:
+    return " ".join(text.text() for text in widget.findChildren(Text) if not text.isHidden())
+
+
 def test_the_study_in_the_window_from_people_to_limits_in_force(
     qapp: QApplication, qtbot: QtBot, folder: Path, tmp_path: Path
 ) -> None:
@@ -267,6 +284,12 @@ def test_the_study_in_the_window_from_people_to_limits_in_force(
             entry = library.clinic.enter_session(path, patient)
             library.who = lambda stored=stored: "JS" if stored.stem.endswith("2") else "MK"  # type: ignore[misc]
             library.note_session("recorded", entry.session_id)
+    otter = library.clinic.add(PatientEntry("Otter 29", "right"))
+    for day, reach_deg in ((0, 40.0), (9, 46.0)):
+        when = FIRST + timedelta(days=day)
+        path = library.clinic.new_session_path(otter, "WRIST_FE", "right", when)
+        written(tmp_path, 29, day, when, reach_deg).rename(path)
+        library.clinic.enter_session(path, otter)
     library.close()
     settings = Settings(screen=ScreenSettings("light"), recording=RecordingSettings(folder=str(tmp_path / "data")))
     today = (FIRST + timedelta(days=12)).date()
@@ -283,7 +306,8 @@ def test_the_study_in_the_window_from_people_to_limits_in_force(
         assert "Nobody" in screen.answer.text()
         screen.people_button.click()
         for tick in journey.retesting.sheet.ticks.values():
-            tick.click()
+            if "Otter" not in tick.text():
+                tick.click()
         journey.retesting.sheet.take.click()
         qtbot.waitUntil(lambda: len(screen.plan.people) == 12)
         states = [one.state for one in screen.plan.people]
@@ -300,6 +324,9 @@ def test_the_study_in_the_window_from_people_to_limits_in_force(
             same[("flexion", "flexion")].mdc95
         )
         assert read_limits(tmp_path / "data").studies == ()
+        qtbot.waitUntil(lambda: "Otter 29, flexion, 2 Nov → 11 Nov" in words_of(screen))
+        assert "3 of 3 statements change" in words_of(screen)
+        assert words_of(screen).count("no change → improved") == 3
         screen.use_button.click()
         qtbot.waitUntil(lambda: journey.teller.busy)
         (use,) = [one for one in desktop.shell.findChildren(Button) if one.text() == "Use these limits"]
@@ -309,6 +336,7 @@ def test_the_study_in_the_window_from_people_to_limits_in_force(
         assert (stored_study.people, stored_study.made) == (10, today.isoformat())
         said = " ".join(text.text() for text in settings_screen.findChildren(Text))
         assert "On 14 Nov 2026 with 10 people in 20 sessions" in said
+        qtbot.waitUntil(lambda: "0 of 3 statements change" in words_of(screen))
         screen.measure_button.click()
         assert journey.patient is not None
         assert journey.patient.pseudonym == "P11"

@@ -7,9 +7,17 @@ import os
 import shutil
 import subprocess
 import sys
+from importlib import import_module
+from inspect import signature
 from pathlib import Path
 
 import pytest
+
+from carpus.core.capture.cameras import CAMERAS, kind_of
+from carpus.core.formats.formats import FORMATS
+from carpus.core.hand.protocols import PROTOCOLS, MarkerProtocol, protocol_names
+from carpus.core.hand.sites import PALM_MARKERS
+from carpus.core.output.exercises import EXERCISES, exercises_of
 
 ROOT = Path(__file__).parents[2]
 
@@ -101,3 +109,24 @@ def test_a_marker_protocol_is_one_file_and_one_registered_line(copy: Path, tmp_p
         [sys.executable, str(script)], cwd=tmp_path, env=environment, capture_output=True, text=True, timeout=170
     )
     assert walked.returncode == 0, walked.stdout[-2000:] + walked.stderr[-4000:]
+
+
+def test_every_registered_line_leads_to_its_file() -> None:
+    for name, form in FORMATS.items():
+        assert callable(import_module(f"carpus.core.formats.{form.module}").write), name
+    for kind, (module, name) in CAMERAS.items():
+        camera = getattr(import_module(f"carpus.core.capture.{module}"), name)
+        assert {"info", "frames", "close", "lock_exposure"} <= set(dir(camera)), kind
+        assert {"uri", "camera", "notice"} <= set(signature(camera).parameters), kind
+        assert kind_of(f"{kind}:1") == kind
+    assert kind_of("") == kind_of("1d27/0601@1/2") == next(iter(CAMERAS)), "what an older settings file says"
+    assert len(set(protocol_names())) == len(PROTOCOLS)
+    for protocol in PROTOCOLS:
+        assert exercises_of(protocol), protocol.name
+    assert {one.id for protocol in PROTOCOLS for one in exercises_of(protocol)} == {one.id for one in EXERCISES}
+
+
+@pytest.mark.parametrize("markers", [("WRIST", "CMC1"), (*PALM_MARKERS, "TIP3"), (*PALM_MARKERS, "ELBOW")])
+def test_discs_that_cannot_be_tracked_make_no_protocol(markers: tuple[str, ...]) -> None:
+    with pytest.raises(ValueError, match="odd"):
+        MarkerProtocol("odd", markers)

@@ -8,10 +8,12 @@ from dataclasses import replace
 from datetime import date, datetime, timedelta, timezone
 from functools import lru_cache
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
 from carpus.core.agreement.compare import Alignment, Compared, Pairs, Shift
+from carpus.core.agreement.restated import Restated
 from carpus.core.agreement.retest import Retest, StudyFigures
 from carpus.core.agreement.retest_plan import Mounting, Person, RetestPlan
 from carpus.core.agreement.statistics import agreement
@@ -19,8 +21,13 @@ from carpus.core.calibration.result import Calibration, Clicks, Finding, Verdict
 from carpus.core.camera import Camera
 from carpus.core.hand.sites import WRIST_ANGLES, joint_angle_names
 from carpus.core.library.set_up import PRACTICE_PATIENT, SetUp
-from carpus.core.output.exercises import exercise_named
-from carpus.core.output.report_content import RepetitionChoices, SessionFigures, session_figures
+from carpus.core.output.exercises import Movement, exercise_named
+from carpus.core.output.report_content import (
+    Comparison,
+    RepetitionChoices,
+    SessionFigures,
+    session_figures,
+)
 from carpus.core.pipeline.live_values import LiveCounters, LiveEvent, TrackedView
 from carpus.core.session.values import Event, MarkerSeries, QualitySeries, Session, SessionHeader, motion_of
 from carpus.core.simulation.recording import SimulatedPictures
@@ -650,6 +657,21 @@ def compared(*, readings: bool = False, hand: bool = False) -> Compared:
         "points by C3D", tuple(pairs), Shift(-0.034, 0.99), alignment, 1860, 214, 62.0, 100.0,
         ("markers ELBOW, C7: none of the discs by their names",),
     )  # fmt: skip
+
+
+def restated_statements() -> list[Restated]:
+    """One that changes among those that stay."""
+
+    def one(name: str, day: int, movement: Movement, gain: float, now: Any, then: Any) -> Restated:
+        first = datetime(2026, 10, day, 9, 0)
+        said = Comparison(movement, 1, 40.0, 40.0 + gain, gain, 10.0, now)
+        return Restated(name, first, first + timedelta(days=42), said, then)
+
+    return [
+        one("Linden 42", 2, "flexion", 18.0, "improved", "improved"),
+        one("Otter 29", 6, "extension", 9.0, "no_change", "improved"),
+        one("Heron 17", 1, "flexion", 2.0, "no_change", "no_change"),
+    ]
 
 
 def retest_plan(people: int = 9) -> RetestPlan:

@@ -74,6 +74,7 @@ from tests.ui.fakes import (
     FakeStore,
     compared,
     picture,
+    restated_statements,
     retest_plan,
     set_up,
     with_other_spot,
@@ -725,6 +726,7 @@ class Gallery:
         self.show(screen)
         screen.show_exercises(["WRIST_FE", "WRIST_RU"], "WRIST_FE")
         screen.show_plan(retest_plan(), DEFAULT_LIMITS)
+        screen.show_restated(restated_statements(), 3, 3)
         self.settle()
         return screen
 

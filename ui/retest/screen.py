@@ -8,6 +8,7 @@ from PySide6.QtCore import Qt, Signal
 from PySide6.QtGui import QResizeEvent
 from PySide6.QtWidgets import QBoxLayout, QComboBox, QGridLayout, QHBoxLayout, QVBoxLayout, QWidget
 
+from carpus.core.agreement.restated import Restated, changed_first
 from carpus.core.agreement.retest_plan import RetestPlan
 from carpus.core.measures.error_limits import DEFAULT_LIMITS, FEWEST_PEOPLE, ErrorLimits
 from carpus.ui import numbers, terms
@@ -23,11 +24,20 @@ from carpus.ui.retest.words import (
     mounting_words,
     new_limit_deg,
     person_words,
+    restated_state,
+    restated_title,
+    restated_words,
     second_words,
     state_words,
+    statement_words,
     tenths,
+    verdict_change,
 )
 from carpus.ui.theme import GAP_PX, MARGIN_PX, Theme, is_tight
+from carpus.ui.verdicts import difference
+
+MOST_RESTATED = 12
+"""So many statements are shown, those that change first; the sentence above counts all."""
 
 
 class RetestScreen(QWidget):
@@ -56,6 +66,7 @@ class RetestScreen(QWidget):
         self.basis = Text(theme, "", 16, REGULAR, "text2", wrap=True)
         self._people_card = Card(theme, 20)
         self._figures_card = Card(theme, 20)
+        self._restated_card = Card(theme, 20)
         self._lay_out()
         self.exercise.activated.connect(lambda _: self.exercise_chosen.emit(str(self.exercise.currentData())))
         self.people_button.clicked.connect(self.people)
@@ -80,7 +91,12 @@ class RetestScreen(QWidget):
         self._columns.setContentsMargins(0, 0, 0, 0)
         self._columns.setSpacing(GAP_PX)
         self._columns.addWidget(self._people_card, 1, Qt.AlignmentFlag.AlignTop)
-        self._columns.addWidget(self._figures_card, 1, Qt.AlignmentFlag.AlignTop)
+        right = QVBoxLayout()
+        right.setSpacing(GAP_PX)
+        right.addWidget(self._figures_card)
+        right.addWidget(self._restated_card)
+        right.addStretch(1)
+        self._columns.addLayout(right, 1)
         whole = QVBoxLayout(self)
         whole.setContentsMargins(MARGIN_PX, GAP_PX - 4, MARGIN_PX, GAP_PX)
         whole.setSpacing(0)
@@ -136,6 +152,33 @@ class RetestScreen(QWidget):
         self.save_button.setEnabled(plan.study is not None)
         self._fill_people()
         self._fill_figures()
+        self._restated_card.hide()
+
+    def show_restated(self, statements: Sequence[Restated], done: int, patients: int) -> None:
+        """What the new limits would change in what is said of patients, of whom so many were looked at."""
+        body, theme = self._restated_card.body, self._theme
+        _clear(self._restated_card)
+        self._restated_card.show()
+        body.addWidget(Text(theme, restated_title(self.plan), 16, SEMIBOLD, wrap=True))
+        body.addWidget(caption(theme, restated_words(statements, done, patients), wrap=True))
+        shown = changed_first(statements)[:MOST_RESTATED]
+        table = QWidget()
+        grid = QGridLayout(table)
+        grid.setContentsMargins(0, 0, 0, 0)
+        grid.setHorizontalSpacing(12)
+        grid.setVerticalSpacing(6)
+        for column, stretch in enumerate((0, 50, 16, 34)):
+            grid.setColumnStretch(column, stretch)
+        for number, one in enumerate(shown):
+            row = 2 * number
+            grid.addWidget(Line(theme), row, 0, 1, 4)
+            grid.addWidget(StateSign(theme, restated_state(one)), row + 1, 0)
+            weight, token = (SEMIBOLD, "accent") if one.is_changed else (REGULAR, "text2")
+            grid.addWidget(Text(theme, statement_words(one), 14, REGULAR, wrap=True), row + 1, 1)
+            grid.addWidget(Text(theme, difference(one.now.shown_difference_deg), 14, MEDIUM, wrap=True), row + 1, 2)
+            grid.addWidget(Text(theme, verdict_change(one), 14, weight, token, wrap=True), row + 1, 3)
+        body.addWidget(table)
+        table.setVisible(bool(shown))
 
     def first(self) -> QWidget:
         """What takes the keyboard."""

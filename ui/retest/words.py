@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from datetime import date
 
+from carpus.core.agreement.restated import Restated
 from carpus.core.agreement.retest import Retest
 from carpus.core.agreement.retest_plan import Mounting, Person, RetestPlan
 from carpus.core.hand.sites import WRIST_ANGLES
@@ -14,7 +16,7 @@ from carpus.ui import numbers, terms
 from carpus.ui.figures import figure_of
 from carpus.ui.icons import State
 from carpus.ui.translate import tr
-from carpus.ui.verdicts import reason_words
+from carpus.ui.verdicts import reason_words, verdict_word
 
 
 def headline(plan: RetestPlan, limits: ErrorLimits) -> tuple[str, str]:
@@ -101,6 +103,46 @@ def limit_now_deg(plan: RetestPlan, of: str, movement: str, limits: ErrorLimits)
 def new_limit_deg(found: Retest) -> float:
     """What it would become: whole degrees, upwards."""
     return float(math.ceil(found.mdc95 - 1e-9)) if math.isfinite(found.mdc95) else math.nan
+
+
+def restated_title(plan: RetestPlan) -> str:
+    """Over what the limits would change."""
+    if plan.blocked == "few":
+        return tr("What changes in reports, once complete")
+    return tr("What would change in today's reports")
+
+
+def restated_words(statements: Sequence[Restated], done: int, patients: int) -> str:
+    """How many of the statements about patients change, or how far the look at them is."""
+    if done < patients:
+        return tr("Looking at the sessions of {done} of {count} patients…").format(done=done + 1, count=patients)
+    if not statements:
+        return tr("Nobody else has two sessions of this exercise that compare.")
+    changed = sum(one.is_changed for one in statements)
+    pattern = tr("{changed} of {count} statements change. Reports already made keep theirs.")
+    return pattern.format(changed=changed, count=len(statements))
+
+
+def restated_state(one: Restated) -> State:
+    """Sign of what is said of a patient then."""
+    if one.is_changed:
+        return "partly"
+    return "good" if one.then == "improved" else "warn" if one.then == "worse" else "open"
+
+
+def statement_words(one: Restated) -> str:
+    """``Otter 29, extension, 6 Oct → 17 Nov``."""
+    of = one.now.joint or WRIST_ANGLES[one.now.angle]
+    name = figure_name(of, one.now.movement)
+    days = f"{numbers.day_month(one.first)} → {numbers.day_month(one.last)}"
+    return f"{one.pseudonym}, {name[:1].lower() + name[1:]}, {days}"
+
+
+def verdict_change(one: Restated) -> str:
+    """``no change → improved``, or ``improved, as now``."""
+    if one.is_changed:
+        return f"{verdict_word(one.now.verdict)} → {verdict_word(one.then)}"
+    return tr("{verdict}, as now").format(verdict=verdict_word(one.then))
 
 
 def tenths(size_deg: float) -> str:
