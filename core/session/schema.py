@@ -13,6 +13,7 @@ import numpy as np
 
 from carpus.core.hand.back_surface import TABLE_ROWS
 from carpus.core.hand.marker_protocol import MarkerProtocol
+from carpus.core.hand.protocols import protocol_names
 from carpus.core.hand.sites import WRIST_ANGLES
 from carpus.core.types import FINGER_READINGS, SURFACE_READINGS
 
@@ -30,7 +31,7 @@ ROOT_ATTRIBUTES = {
     "recorded": "when the hand moved, ISO 8601 with zone, empty where nobody knows; since version 2",
     "created": "when this file was made, ISO 8601 with zone",
     "hand": "right or left",
-    "protocol": "wrist6 or hand21",
+    "protocol": " or ".join(protocol_names()),
     "exercise": "what was trained",
     "software_version": "of the Carpus that wrote the file",
     "parameters": "JSON of all settings",
