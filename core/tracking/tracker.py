@@ -374,7 +374,8 @@ class Tracker:
         on_palm = np.flatnonzero(self._rows == marker)
         if not on_palm.size:
             if self._fingers is not None:
-                self._fingers.look_anew(int(np.argwhere(np.equal(RAY_MARKERS, marker))[0, 0]))
+                chains = self._protocol.chains.items()
+                self._fingers.look_anew(next(digit for digit, chain in chains if marker in chain) - 1)
             return ahead, linked
         disc = int(on_palm[0])
         belief, bank, self.view = disc_anew(ahead, self.view, disc, int(away.argmin()), picture.blobs, self.settings)
