@@ -324,8 +324,8 @@ def test_the_study_in_the_window_from_people_to_limits_in_force(
             same[("flexion", "flexion")].mdc95
         )
         assert read_limits(tmp_path / "data").studies == ()
-        qtbot.waitUntil(lambda: "Otter 29, flexion, 2 Nov → 11 Nov" in words_of(screen))
-        assert "3 of 3 statements change" in words_of(screen)
+        qtbot.waitUntil(lambda: "3 of 3 statements change" in words_of(screen))
+        assert "Otter 29, flexion, 2 Nov → 11 Nov" in words_of(screen)
         assert words_of(screen).count("no change → improved") == 3
         screen.use_button.click()
         qtbot.waitUntil(lambda: journey.teller.busy)
