@@ -4,11 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from itertools import permutations
 
 import numpy as np
 from numpy.typing import NDArray
 
 from carpus.core import so3
+from carpus.core.depth_noise import pattern_sd_m
 from carpus.core.tracking.palm_view import View
 from carpus.core.types import Detections, FloatArray
 
@@ -19,8 +21,9 @@ class FindingSettings:
 
     Two discs' distance may differ from the calibrated one by ``distance_m`` (depth noise of both), a disc lie ``fit_m``
     from where the fitted palm puts it; ``least`` discs are needed. ``most_blobs``, the likest ones, are looked at.
-    Beyond ``most_gap_m`` root mean square of the discs it is not this palm; another pose is a rival when its gap is
-    below ``rival_gap`` times the best one's and ``rival_gap_m``. ``explained``: share of all blobs that a palm of none,
+    Beyond ``most_gap_m`` root mean square of the discs it is not this palm; other names are rivals when their misfit
+    (chi squared) is below ``rival_ratio`` times the best one's and ``rival_margin``. ``across_m``: how well a blob's
+    place across its ray is known. ``explained``: share of all blobs that a palm of none,
     one, two ... six discs and the fingers on it must explain, where there are fingers. ``disc_sd_m`` how far a disc may
     lie from where the found pose puts it (depth noise of one picture, and the shape), ``turn_sd_rad`` and
     ``place_sd_m`` how well such a pose is known at best, ``turn_prior_rad`` at worst.
@@ -31,8 +34,9 @@ class FindingSettings:
     least: int = 4
     most_blobs: int = 40
     most_gap_m: float = 0.004
-    rival_gap: float = 1.5
-    rival_gap_m: float = 0.001
+    rival_ratio: float = 1.25
+    rival_margin: float = 9.0
+    across_m: float = 0.00025
     explained: tuple[float, ...] = (1.0, 1.0, 1.0, 1.0, 0.8, 0.5, 0.0)
     disc_sd_m: float = 0.003
     turn_sd_rad: float = 0.05
@@ -46,8 +50,21 @@ _MOST_FITTED = 24
 # WRIST MCP2, CMC1 MCP4, MCP3 MCP5: a pair with one of the next pair. Any four discs hold one of these six triples.
 _TRIPLES = np.array([(0, 2, 1), (0, 2, 4), (1, 4, 3), (1, 4, 5), (3, 5, 0), (3, 5, 2)])
 
+_FOURS = np.array(list(permutations(range(6), 4)))
+"""All names that four blobs can have."""
+_LOOSE_M2 = 1.0
+"""Variance of a disc that nothing shows: it takes no part."""
+
 Reach = Callable[[FloatArray], NDArray[np.bool_]]
 """Whether points (..., 3) in the body may be discs of thumb or fingers."""
+
+
+@dataclass(frozen=True, slots=True)
+class Facing:
+    """How a hand that is looked for can have turned: within ``most_rad`` of ``rotation_w2_w0`` (3, 3)."""
+
+    rotation_w2_w0: FloatArray
+    most_rad: float
 
 
 @dataclass(frozen=True, slots=True)
@@ -81,29 +98,58 @@ class FoundPalm:
 
 
 @dataclass(frozen=True, slots=True)
+class _Blobs:
+    """What may be discs: places (B, 3) before the camera, and the standard deviation (B,) of their depths."""
+
+    point_m: FloatArray
+    depth_sd_m: FloatArray
+
+
+@dataclass(frozen=True, slots=True)
 class _Fits:
-    """Poses (N, 3, 3), (N, 3) of a palm, discs matched (N, 6), their root mean square gap (N,), and blobs explained
-    (N,) by palm and fingers."""
+    """Poses (N, 3, 3), (N, 3) of a palm, the blob ``named`` (N, 6) for each disc or -1, the discs' root mean square gap
+    (N,), and blobs explained (N,) by palm and fingers."""
 
     rotation: FloatArray
     translation: FloatArray
-    matched: NDArray[np.bool_]
+    named: NDArray[np.int64]
     gap_m: FloatArray
     explained: NDArray[np.int64]
 
     @property
     def count(self) -> NDArray[np.int64]:
-        return np.asarray(self.matched.sum(axis=1))
+        return np.asarray((self.named >= 0).sum(axis=1))
+
+    def only(self, rows: NDArray[np.int64]) -> _Fits:
+        return _Fits(
+            self.rotation[rows], self.translation[rows], self.named[rows], self.gap_m[rows], self.explained[rows]
+        )
+
+    def and_more(self, other: _Fits) -> _Fits:
+        return _Fits(
+            np.concatenate((self.rotation, other.rotation)),
+            np.concatenate((self.translation, other.translation)),
+            np.concatenate((self.named, other.named)),
+            np.concatenate((self.gap_m, other.gap_m)),
+            np.concatenate((self.explained, other.explained)),
+        )
 
 
 def find_palm(
-    detections: Detections, view: View, settings: FindingSettings, reach: Reach | None = None
+    detections: Detections,
+    view: View,
+    strays: FloatArray,
+    facing: Facing,
+    settings: FindingSettings,
+    reach: Reach | None = None,
 ) -> FoundPalm | None:
     """Where the palm is, or None.
 
-    Triples of discs with the distances of the palm fix a pose; the pose that most other discs confirm
-    wins if it is confirmed by at least four in all and no other, different pose by as many about as well.
-    Needs depth; the back of the hand must face the camera, and the other hand must not explain more discs.
+    Triples of discs with the distances of the palm fix a pose; the pose that most other discs confirm wins if it is
+    confirmed by at least four in all and no other names of as many fit about as well. Of just four every naming is
+    asked: knuckles in a row look much like others. ``strays`` (18, 18): covariance of the discs' places on the palm.
+    Needs depth; the back of the hand must face the camera, and the other hand must not explain more discs, nor one that
+    is turned further than ``facing`` allows.
     With ``reach`` the blobs left over must mostly lie where the fingers could be.
     """
     known = np.flatnonzero(np.isfinite(detections.depth_m) & (detections.similarity > 0.0))
@@ -117,16 +163,19 @@ def find_palm(
     if not triple.size:
         return None
     fits = _fits(palm, triple, blobs, points, settings, reach)
-    best = _best(fits, palm, known.size if reach is not None else 0, settings)
+    seen = _Blobs(points, np.hypot(detections.depth_sd_m[known], pattern_sd_m(points[:, 2])))
+    about = Facing(view.rotation_w0_cam @ facing.rotation_w2_w0, facing.most_rad)
+    best = _best(fits, palm, seen, strays, about, known.size if reach is not None else 0, settings, reach)
     if best is None:
         return None
-    if fits.count[best] < len(palm):
+    matched = best.named[0] >= 0
+    if not matched.all():
         mirrored = _fits(palm * _MIRROR, triple, blobs, points, settings, None)
-        if mirrored.count.size and mirrored.count.max() > fits.count[best]:
+        if mirrored.count.size and mirrored.count.max() > np.count_nonzero(matched):
             return None
-    rotation = view.rotation_w0_cam.T @ fits.rotation[best]
-    position = view.rotation_w0_cam.T @ (fits.translation[best] - view.translation_w0_cam_m)
-    return FoundPalm(position, rotation, fits.matched[best])
+    rotation = view.rotation_w0_cam.T @ best.rotation[0]
+    position = view.rotation_w0_cam.T @ (best.translation[0] - view.translation_w0_cam_m)
+    return FoundPalm(position, rotation, matched)
 
 
 def _triples(
@@ -185,6 +234,18 @@ def _fits(
         kept = np.argsort(-worth, kind="stable")[:_MOST_FITTED]
         kept = kept[count[kept] >= settings.least - (0 if last else 1)]
         rotation, translation = _refitted(model, points[nearest[kept]], matched[kept])
+    return _scored(model, rotation, translation, points, settings, reach)
+
+
+def _scored(
+    model: FloatArray,
+    rotation: FloatArray,
+    translation: FloatArray,
+    points: FloatArray,
+    settings: FindingSettings,
+    reach: Reach | None,
+) -> _Fits:
+    """What the points (B, 3) confirm of these poses."""
     nearest, gap_m = _nearest(model, points, rotation, translation)
     matched = gap_m < settings.fit_m
     count = matched.sum(axis=1)
@@ -195,7 +256,7 @@ def _fits(
         is_finger = reach(local)
         np.put_along_axis(is_finger, np.where(matched, nearest, nearest[:, :1]), False, axis=1)
         explained = count + is_finger.sum(axis=1)
-    return _Fits(rotation, translation, matched, mean_m, explained)
+    return _Fits(rotation, translation, np.where(matched, nearest, -1), mean_m, explained)
 
 
 def _nearest(
@@ -219,25 +280,101 @@ def _refitted(model: FloatArray, points: FloatArray, used: NDArray[np.bool_]) ->
     return rotation, point_mean - (rotation @ model_mean[..., None])[..., 0]
 
 
-def _best(fits: _Fits, model: FloatArray, blobs: int, settings: FindingSettings) -> int | None:
-    """The pose to believe; None when none is good enough, or when a clearly different one is about as good.
+def _best(
+    fits: _Fits,
+    model: FloatArray,
+    seen: _Blobs,
+    strays: FloatArray,
+    about: Facing,
+    blobs: int,
+    settings: FindingSettings,
+    reach: Reach | None,
+) -> _Fits | None:
+    """The one pose to believe; None when none is good enough, or when other names are about as good.
 
-    ``blobs`` of which palm and fingers must explain their share, 0 where there are no fingers to explain any.
+    ``about`` in the axes of the camera; ``blobs`` of which palm and fingers must explain their share, 0 where there are
+    no fingers to explain any.
     """
-    good = (fits.count >= settings.least) & (fits.rotation[:, 2, 2] < 0.0)
-    order = np.flatnonzero(good & (fits.explained >= np.array(settings.explained)[fits.count] * blobs))
-    if not order.size:
+    fits = _believable(fits, blobs, settings)
+    if not fits.count.size:
+        return None
+    best, misfit = _best_first(fits, model, seen, strays, about, settings)
+    if best.count[0] == settings.least:
+        every = _every_naming(model, seen.point_m, best.named[0, best.named[0] >= 0], settings, reach)
+        both = best.only(np.arange(1)).and_more(_believable(every, blobs, settings))
+        best, misfit = _best_first(both, model, seen, strays, about, settings)
+    beyond = _turned_beyond(best, about)
+    if best.gap_m[0] > settings.most_gap_m or beyond[0]:
         return None
     # A disc of the palm counts for more than one that a finger could reach.
-    worth = fits.explained + fits.count
-    order = order[np.lexsort((fits.gap_m[order], -worth[order]))]
-    best = int(order[0])
-    if fits.gap_m[best] > settings.most_gap_m:
-        return None
-    placed = model @ np.swapaxes(fits.rotation[order], -1, -2) + fits.translation[order][:, None]
-    apart = np.median(np.linalg.norm(placed - placed[0], axis=-1), axis=1)
-    rival = worth[order] >= worth[best]
-    rival &= (apart > 2 * settings.fit_m) & (
-        fits.gap_m[order] < settings.rival_gap * fits.gap_m[best] + settings.rival_gap_m
-    )
-    return None if rival.any() else best
+    worth = best.explained + best.count
+    placed = model @ np.swapaxes(best.rotation, -1, -2) + best.translation[:, None]
+    apart_m = np.linalg.norm(placed - placed[0], axis=-1).max(axis=1)
+    rival = (worth >= worth[0]) & (apart_m > settings.fit_m) & ~beyond
+    rival &= misfit < settings.rival_ratio * misfit[0] + settings.rival_margin
+    return None if rival.any() else best.only(np.arange(1))
+
+
+def _believable(fits: _Fits, blobs: int, settings: FindingSettings) -> _Fits:
+    """Those with enough discs, the back of the hand before the camera, and their share of the blobs explained."""
+    good = (fits.count >= settings.least) & (fits.rotation[:, 2, 2] < 0.0)
+    return fits.only(np.flatnonzero(good & (fits.explained >= np.array(settings.explained)[fits.count] * blobs)))
+
+
+def _best_first(
+    fits: _Fits, model: FloatArray, seen: _Blobs, strays: FloatArray, about: Facing, settings: FindingSettings
+) -> tuple[_Fits, FloatArray]:
+    """The poses by worth, then those a hand can have, then by their misfits (N,), which come with them."""
+    misfit = _misfit(fits, model, seen, strays, settings)
+    order = np.lexsort((misfit, _turned_beyond(fits, about), -(fits.explained + fits.count)))
+    return fits.only(order), misfit[order]
+
+
+def _turned_beyond(fits: _Fits, about: Facing) -> NDArray[np.bool_]:
+    """Which poses (N,) are turned further than a hand can be."""
+    cosine = 0.5 * (np.einsum("ij,nij->n", about.rotation_w2_w0, fits.rotation) - 1.0)
+    return np.asarray(np.arccos(np.clip(cosine, -1.0, 1.0)) > about.most_rad)
+
+
+def _every_naming(
+    model: FloatArray,
+    points: FloatArray,
+    four: NDArray[np.int64],
+    settings: FindingSettings,
+    reach: Reach | None,
+) -> _Fits:
+    """The poses that four blobs would have by all their names, where these fit at all."""
+    used = np.zeros((len(_FOURS), len(model)), dtype=bool)
+    np.put_along_axis(used, _FOURS, True, axis=1)
+    at = np.zeros(used.shape, dtype=np.int64)
+    np.put_along_axis(at, _FOURS, np.broadcast_to(four, _FOURS.shape), axis=1)
+    rotation, translation = _refitted(model, points[at], used)
+    fits = _scored(model, rotation, translation, points, settings, reach)
+    return fits.only(np.flatnonzero((fits.named == np.where(used, at, -1)).all(axis=1)))
+
+
+def _misfit(fits: _Fits, model: FloatArray, seen: _Blobs, strays: FloatArray, settings: FindingSettings) -> FloatArray:
+    """Chi squared (N,) of the discs' places, each pose moved to where it is least.
+
+    Across the ray of the camera and of the finger a disc is known to a fraction of a millimetre, along them to some:
+    names are told apart by that, much better than by plain distances.
+    """
+    discs = len(model)
+    named = fits.named >= 0
+    at = np.where(named, fits.named, 0)
+    point_m = seen.point_m[at]
+    off_m = (point_m - fits.translation[:, None]) @ fits.rotation - model
+    off = np.where(named[..., None], off_m, 0.0).reshape(-1, 3 * discs)
+    ray = (point_m / point_m[..., 2:]) @ fits.rotation * seen.depth_sd_m[at][..., None]
+    own = ray[..., :, None] * ray[..., None, :] + settings.across_m**2 * np.eye(3)
+    own += np.where(named, 0.0, _LOOSE_M2)[..., None, None] * np.eye(3)
+    disc = np.arange(discs)
+    covariance = np.repeat(strays[None], len(off), axis=0)
+    covariance.reshape(-1, discs, 3, discs, 3)[:, disc, :, disc] += np.swapaxes(own, 0, 1)
+    by_pose = np.empty((discs, 3, 6))
+    by_pose[..., :3], by_pose[..., 3:] = np.eye(3), so3.skew(-model)
+    lines = by_pose.reshape(-1, 6)
+    told = np.linalg.solve(covariance, np.concatenate((off[..., None], np.broadcast_to(lines, (*off.shape, 6))), -1))
+    across = lines.T @ told[..., 0:1]
+    moved = np.linalg.solve(lines.T @ told[..., 1:], across)
+    return np.asarray((off * told[..., 0]).sum(axis=-1) - (across * moved)[..., 0].sum(axis=-1))

@@ -32,7 +32,7 @@ from carpus.core.tracking.naming import Corrected, Measurable, measurable, name_
 from carpus.core.tracking.noise_watch import watched
 from carpus.core.tracking.palm_state import POSE, RELIEF, SHAPE, SIZE, SKIN, TURN, InitialSd, PalmBelief, resting_belief
 from carpus.core.tracking.palm_view import Forecast, View, forecast, recentred
-from carpus.core.tracking.reacquire import FoundPalm, Reach, find_palm
+from carpus.core.tracking.reacquire import Facing, FoundPalm, find_palm
 from carpus.core.tracking.readout import Readout, lost_frame, lost_moment
 from carpus.core.tracking.said_spots import NoDisc, RecentSpots
 from carpus.core.tracking.settings import TrackerSettings
@@ -163,6 +163,10 @@ class Tracker:
         self._begun_s = -np.inf
         self._found_s = -np.inf
         self._anew = True
+        # False from when just four discs found a palm until five lie where it has them: it is looked for all the while.
+        self._is_sure = True
+        self._suspected: tuple[float, FoundPalm] | None = None
+        self._suspected_before: tuple[float, FoundPalm] | None = None
         self.history: list[FilterStep] = []
         self._finger_history: list[FingerStep | None] = []
         self._finger_start: FingerStart | None = None
@@ -177,6 +181,7 @@ class Tracker:
         start = resting_belief(self.settings.initial, self._shape_covariance)
         start.covariance[RELIEF, RELIEF] = self._settled[RELIEF, RELIEF]
         self._begin(start)
+        self._is_sure = True
         self._doubt.forget()
         self._named_anew[:] = False
         if self._fingers is not None:
@@ -395,15 +400,17 @@ class Tracker:
                 for some in (detections.surface, detections.fingers)
             )
             ideal = replace(detections, pixel=undistort(detections.pixel), surface=surface, fingers=fingers)
+        self._suspected_before, self._suspected = self._suspected, None
         linked, self._anew = not self._anew, False
         if not linked:
             self._begun_s = timestamp_s
         if self._is_past(timestamp_s):
             self._give_up()
         if self._known is None:
-            found = find_palm(ideal, self._finding_view(), self.settings.finding, self._reach())
-            if found is not None:
+            found = self._found(ideal, self._anyhow())
+            if found is not None and self._is_borne_out(found, timestamp_s):
                 self._begin(self._belief_found(found))
+                self._is_sure = found.count > self.settings.finding.least
                 self._seen_s, linked, self._time_s = timestamp_s, False, timestamp_s
                 self._found_s = timestamp_s
         dt_s = 0.0 if self._time_s is None else timestamp_s - self._time_s
@@ -414,6 +421,26 @@ class Tracker:
         """The palm to look for: as calibrated, but for discs that a person showed elsewhere."""
         return with_discs_as_known(self.view, self._shape, self._named_anew)
 
+    def _found(self, ideal: Detections, facing: Facing) -> FoundPalm | None:
+        """The palm as the blobs show it, wherever it was expected."""
+        strays = self._settled[SKIN, SKIN] + self._shape_covariance
+        reach = None if self._fingers is None else self._fingers.reach
+        return find_palm(ideal, self._finding_view(), strays, facing, self.settings.finding, reach)
+
+    def _is_borne_out(self, found: FoundPalm, timestamp_s: float) -> bool:
+        """Whether a palm found out of nothing is to be believed: among the discs of fingers some four often look like
+        one, and only the palm goes on doing so."""
+        if self._fingers is None or found.count > self.settings.finding.least:
+            return True
+        holding, since_s = self.settings.holding, timestamp_s
+        if self._suspected_before is not None:
+            first_s, before = self._suspected_before
+            goes_on = _apart_rad(before, found) < holding.turn_slack_rad
+            if goes_on and np.array_equal(before.matched, found.matched):
+                since_s = first_s
+        self._suspected = since_s, found
+        return timestamp_s - since_s >= holding.suspected_s
+
     def _found_elsewhere(
         self, picture: _Picture, ahead: Forecast, step: _Step, linked: bool
     ) -> tuple[Forecast, _Step, bool, float]:
@@ -421,14 +448,16 @@ class Tracker:
         little was expected; else all as it was. With it how surely the turn was expected, radians."""
         turn_sd_rad = _turn_sd_rad(ahead.nominal)
         vague = turn_sd_rad > self.settings.holding.vague_rad
-        few = step.palm_seen <= self.settings.holding.least_discs
+        few = step.palm_seen <= self.settings.holding.least_discs or not self._is_sure
         if not ((few or vague) and np.count_nonzero(step.spare) + step.palm_seen > self.settings.holding.least_discs):
             return ahead, step, linked, turn_sd_rad
         ideal = picture.ideal if vague else picture.ideal.only(~step.is_finger)
-        found = find_palm(ideal, self._finding_view(), self.settings.finding, self._reach())
+        facing = self._facing(ahead.nominal, picture.timestamp_s) if self._is_sure else self._anyhow()
+        found = self._found(ideal, facing)
         if found is None or not (vague or found.count > step.palm_seen):
             return ahead, step, linked, turn_sd_rad
-        if not self._may_be_at(found, ahead.nominal, picture.timestamp_s):
+        is_expected = _apart_rad(ahead.nominal, found) < self.settings.holding.turn_slack_rad
+        if vague and not (is_expected or self._is_borne_out(found, picture.timestamp_s)):
             return ahead, step, linked, turn_sd_rad
         belief = self._belief_found(found)
         there = forecast(belief, self._resting_bank(belief), self.view, self.settings.spread, self._shares)
@@ -440,6 +469,7 @@ class Tracker:
         )
         if agreed or step_there.palm_seen < max(self.settings.holding.least_discs + 1, step.palm_seen):
             return ahead, step, linked, turn_sd_rad
+        self._is_sure = found.count > self.settings.finding.least
         # A vague belief has nothing against the place found: the smoother may go on through it.
         return there, step_there, linked and vague, 0.0
 
@@ -459,6 +489,8 @@ class Tracker:
         self._noise_factor = watched(self._noise_factor, step.palm, dt_s, self.settings.noise)
         self._shape = step.belief.value[SHAPE]
         self._shape_covariance = step.belief.covariance[SHAPE, SHAPE]
+        if step.palm_seen > self.settings.finding.least and self._fits(step.palm):
+            self._is_sure = True
         if step.palm_seen >= self.settings.holding.least_discs:
             self._known, self._seen_s = (step.belief, step.bank), timestamp_s
             if self._unseen is not None:
@@ -499,13 +531,15 @@ class Tracker:
         """Whether the discs lie where the corrected pose puts them."""
         return bool((np.abs(palm.raw_residual) <= self.settings.noise.outlier_sd).all())
 
-    def _may_be_at(self, found: FoundPalm, expected: PalmBelief, timestamp_s: float) -> bool:
-        """Whether a hand can have turned there since it was last seen."""
-        apart = so3.log(expected.rotation_w2_w0.T @ found.rotation_w2_w0)
+    def _anyhow(self) -> Facing:
+        """How far a hand can be turned of which nothing is known."""
+        return Facing(np.eye(3), self.settings.holding.most_turn_rad)
+
+    def _facing(self, expected: PalmBelief, timestamp_s: float) -> Facing:
+        """How far a hand can have turned since it was last seen."""
         gone_s, holding = timestamp_s - max(self._seen_s, self._begun_s), self.settings.holding
-        return float(np.linalg.norm(apart)) < min(
-            holding.turn_slack_rad + holding.most_rate_rad_s * gone_s, holding.most_turn_rad
-        )
+        turned_rad = holding.turn_slack_rad + holding.most_rate_rad_s * gone_s
+        return Facing(expected.rotation_w2_w0, min(turned_rad, holding.most_turn_rad))
 
     def _measurable(self, ahead: Forecast, ideal: Detections) -> Measurable:
         depth_m = max(float(ahead.own_mean[0, 2]), 0.1)
@@ -698,10 +732,6 @@ class Tracker:
         seen = self._by_marker(step.palm.taken, step.fingers.blob) >= 0
         return np.asarray(seen[self._fingers.model.direct_markers].all(axis=-1), dtype=np.int64)
 
-    def _reach(self) -> Reach | None:
-        """Where the fingers' discs can be, as seen from the palm."""
-        return None if self._fingers is None else self._fingers.reach
-
     def _belief_found(self, found: FoundPalm) -> PalmBelief:
         initial = InitialSd(velocity_m_s=0.5, rate_rad_s=2.0)
         belief = resting_belief(initial, self._shape_covariance)
@@ -721,6 +751,11 @@ class Tracker:
         """Share of direct measurement of the palm (3,) or of each joint (J,) lately."""
         possible = self._rows.size if self._fingers is None else 1
         return np.asarray(self._recently_measured / (possible * len(self._recent)))
+
+
+def _apart_rad(one: PalmBelief | FoundPalm, other: FoundPalm) -> float:
+    """By how much two palms are turned against each other."""
+    return float(np.linalg.norm(so3.log(one.rotation_w2_w0.T @ other.rotation_w2_w0)))
 
 
 def _turn_sd_rad(belief: PalmBelief) -> float:

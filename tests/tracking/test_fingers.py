@@ -6,15 +6,23 @@ import functools
 from dataclasses import replace
 
 import numpy as np
+import pytest
 
 from carpus.core.calibration.settings import CalibrationSettings
 from carpus.core.hand.protocols import HAND21
 from carpus.core.simulation.measurements import MeasurementSequence, measurement_sequence
 from carpus.core.simulation.spec import RecordingSpec
+from carpus.core.tracking.finger_model import seat_of
 from carpus.core.tracking.finger_settings import FingerSettings
+from carpus.core.tracking.fingers import Fingers, FingerTrial
+from carpus.core.tracking.geometry import palm_of
+from carpus.core.tracking.naming import measurable
+from carpus.core.tracking.palm_state import InitialSd, resting_belief
+from carpus.core.tracking.ray_filter import ANATOMY
+from carpus.core.tracking.readout import Readout
 from carpus.core.tracking.settings import TrackerSettings
 from carpus.core.tracking.tracker import Tracker
-from carpus.core.types import Detections, TrackedFrame, TrackStatus
+from carpus.core.types import Detections, FloatArray, TrackedFrame, TrackStatus
 from tests.accuracy.carpus import measured_hand
 from tests.accuracy.hand21 import HandRun, HandScenario, run_on_blobs
 from tests.accuracy.hand21_table import JOINT_GROUPS, figures
@@ -91,6 +99,40 @@ def frames_of(hidden: dict[int, tuple[int, ...]], count: int = 60) -> tuple[list
         tracker.step(i, float(times[i]), without(seen.detections[i], seen.marker[i], hidden.get(i, ())))
         for i in range(count)
     ], seen
+
+
+def weighed(place_m: float, off_px: tuple[float, float], own: FingerSettings) -> tuple[FingerTrial, FloatArray]:
+    """The fingers of the first picture on a palm known to ``place_m``, their discs off to the sides in turn, and how
+    far they go on from neutral (5, n)."""
+    seen = sequence()
+    hand, _ = measured_hand(seen, CalibrationSettings())
+    assert hand.calibration is not None
+    settings = TrackerSettings(fingers=own)
+    fingers = Fingers(hand.calibration, seen.truth.camera, settings)
+    view = Tracker(hand.calibration, seen.truth.camera, settings).view
+    belief = resting_belief(InitialSd(position_m=place_m, turn_rad=1e-4), 1e-8 * np.eye(18))
+    seat = seat_of(belief, view, Readout(palm_of(hand.calibration)))
+    blobs, marker = seen.detections[0], seen.marker[0]
+    pixel = blobs.pixel + np.column_stack((np.choose(marker % 2, off_px), np.zeros(marker.size)))
+    found = measurable(replace(blobs, pixel=pixel), 5.0, settings)
+    trial = fingers.weigh(0.0, 0.0, seat, found, blobs.area_px, ~np.isin(marker, HAND21.palm))
+    return trial, trial.named.update.bank.merged()[0] - fingers.model.at_neutral().merged()[0]
+
+
+def test_discs_share_what_the_palm_may_be_off_by() -> None:
+    """All discs to one side is an unsure palm's error; some to one and some to the other is not."""
+    aside, apart = (weighed(5e-3, off_px, FingerSettings())[0] for off_px in ((1.0, 1.0), (1.0, -1.0)))
+    assert np.count_nonzero(aside.blob >= 0) == np.count_nonzero(apart.blob >= 0) == 15
+    assert aside.nis < 0.5 * apart.nis
+    assert aside.nis < 0.5 * weighed(1e-4, (1.0, 1.0), FingerSettings())[0].nis
+
+
+def test_a_fifth_of_what_a_picture_says_of_the_anatomy_is_believed() -> None:
+    usual, whole = (
+        weighed(1e-5, (0.3, -0.3), own)[1][:, ANATOMY] for own in (FingerSettings(), FingerSettings(learning=1.0))
+    )
+    assert np.abs(whole).max() > 1e-4
+    assert usual == pytest.approx(0.2 * whole, rel=0.1, abs=1e-6)
 
 
 def test_a_finger_that_hides_is_unsure_at_once_and_knows_nothing_soon() -> None:
