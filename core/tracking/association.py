@@ -26,13 +26,17 @@ class AssociationSettings:
 
     ``prior_marker``: that a blob is one given marker; ``prior_clutter``: that it is none.
     ``gate_sd``: blobs further than this from a prediction (in standard deviations of the innovation) are
-    never that marker. ``depth_range_m``: over which clutter's depth is spread.
+    never that marker. ``depth_range_m``: over which clutter's depth is spread. ``least_company``: so many discs at
+    their depth bear out another whose depth is something else's. ``beam``: so many ways to name all are followed side
+    by side.
     """
 
     prior_marker: float = 0.9
     prior_clutter: float = 0.1
     gate_sd: float = 5.0
     depth_range_m: float = 0.5
+    least_company: int = 3
+    beam: int = 10
 
 
 @dataclass(frozen=True, slots=True)

@@ -17,7 +17,6 @@ from scipy.special import gammaincinv
 from carpus.core.tracking.association import AssociationSettings
 from carpus.core.types import FloatArray
 
-BEAM = 10
 CONSISTENT = 0.9995
 """A set of associations is doubted when chance gives a greater NIS less often than one in two thousand."""
 
@@ -60,7 +59,7 @@ def associate_jointly(
     resolution_px2: float,
     depth_outlier: float,
     settings: AssociationSettings,
-    beam: int = BEAM,
+    beam: int | None = None,
 ) -> JointAssociation:
     """Most probable names of all blobs together.
 
@@ -91,7 +90,7 @@ def associate_jointly(
             possible = (distance2 <= settings.gate_sd**2) & ~is_used
             ways.append(np.where(possible, branches.score[:, None] + log_normal + clutter[used], -np.inf))
         score = np.concatenate(ways, axis=1)  # (B, 1 + 2 D): no blob, each with its depth, each without
-        order = np.argsort(-score, axis=None, kind="stable")[:beam]
+        order = np.argsort(-score, axis=None, kind="stable")[: settings.beam if beam is None else beam]
         order = order[np.isfinite(score.ravel()[order])]
         parent, way = np.divmod(order, score.shape[1])
         branches = _grown(branches, parent, way, score.ravel()[order], block, measured, noise_variance)

@@ -15,9 +15,6 @@ from carpus.core.tracking.palm_view import Forecast
 from carpus.core.tracking.settings import MeasurementNoise, TrackerSettings
 from carpus.core.types import Detections, FloatArray
 
-LEAST_COMPANY = 3
-"""So many discs at their depth bear out another whose depth is something else's."""
-
 
 @dataclass(frozen=True, slots=True)
 class Measurable:
@@ -124,18 +121,23 @@ def name_and_correct(
     )
     taken = association.resolve(odds.value)
     with_depth = odds.with_depth[np.arange(markers), taken]
-    taken = _in_company(taken, with_depth, blobs)
+    taken = _in_company(taken, with_depth, blobs, settings.association)
     simple = correct(forecast, blobs, taken, with_depth, noise_factor)
     named = np.count_nonzero(taken >= 0)
     if (named >= enough or named == len(blobs)) and holds_together(simple.nis, simple.dof):
         return _without_outliers(simple, forecast, blobs, with_depth, noise_factor, settings.noise)
     found = _by_any_mode(forecast, blobs, resolution_px2, settings)
-    taken = _in_company(found.taken, found.with_depth, blobs)
+    taken = _in_company(found.taken, found.with_depth, blobs, settings.association)
     jointly = correct(forecast, blobs, taken, found.with_depth, noise_factor)
     return _without_outliers(jointly, forecast, blobs, found.with_depth, noise_factor, settings.noise)
 
 
-def _in_company(taken: NDArray[np.int64], with_depth: NDArray[np.bool_], blobs: Measurable) -> NDArray[np.int64]:
+def _in_company(
+    taken: NDArray[np.int64],
+    with_depth: NDArray[np.bool_],
+    blobs: Measurable,
+    settings: association.AssociationSettings,
+) -> NDArray[np.int64]:
     """The names without those of blobs at another depth, unless enough discs where they should be bear them out.
 
     What covers the hand may have blue on it: alone, a blob before or behind a disc's place is not that disc.
@@ -144,7 +146,7 @@ def _in_company(taken: NDArray[np.int64], with_depth: NDArray[np.bool_], blobs: 
     if not elsewhere.any():
         return taken
     elsewhere &= np.isfinite(blobs.value[taken, 2])
-    if not elsewhere.any() or np.count_nonzero((taken >= 0) & ~elsewhere) >= LEAST_COMPANY:
+    if not elsewhere.any() or np.count_nonzero((taken >= 0) & ~elsewhere) >= settings.least_company:
         return taken
     return np.where(elsewhere, -1, taken)
 

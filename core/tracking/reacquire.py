@@ -26,7 +26,8 @@ class FindingSettings:
     place across its ray is known. ``explained``: share of all blobs that a palm of none,
     one, two ... six discs and the fingers on it must explain, where there are fingers. ``disc_sd_m`` how far a disc may
     lie from where the found pose puts it (depth noise of one picture, and the shape), ``turn_sd_rad`` and
-    ``place_sd_m`` how well such a pose is known at best, ``turn_prior_rad`` at worst.
+    ``place_sd_m`` how well such a pose is known at best, ``turn_prior_rad`` at worst; ``velocity_m_s`` and
+    ``rate_rad_s`` how fast such a hand may be. So many poses as ``most_fitted`` are fitted to all blobs.
     """
 
     distance_m: float = 0.007
@@ -42,10 +43,12 @@ class FindingSettings:
     turn_sd_rad: float = 0.05
     place_sd_m: float = 0.004
     turn_prior_rad: float = 0.6
+    velocity_m_s: float = 0.5
+    rate_rad_s: float = 2.0
+    most_fitted: int = 24
 
 
 _MIRROR = np.array([1.0, -1.0, 1.0])
-_MOST_FITTED = 24
 
 # WRIST MCP2, CMC1 MCP4, MCP3 MCP5: a pair with one of the next pair. Any four discs hold one of these six triples.
 _TRIPLES = np.array([(0, 2, 1), (0, 2, 4), (1, 4, 3), (1, 4, 5), (3, 5, 0), (3, 5, 2)])
@@ -231,7 +234,7 @@ def _fits(
         matched = gap_m < settings.fit_m
         count = matched.sum(axis=1)
         worth = count - np.where(matched, gap_m, 0.0).sum(axis=1) / (6.0 * settings.fit_m)
-        kept = np.argsort(-worth, kind="stable")[:_MOST_FITTED]
+        kept = np.argsort(-worth, kind="stable")[: settings.most_fitted]
         kept = kept[count[kept] >= settings.least - (0 if last else 1)]
         rotation, translation = _refitted(model, points[nearest[kept]], matched[kept])
     return _scored(model, rotation, translation, points, settings, reach)

@@ -733,9 +733,10 @@ class Tracker:
         return np.asarray(seen[self._fingers.model.direct_markers].all(axis=-1), dtype=np.int64)
 
     def _belief_found(self, found: FoundPalm) -> PalmBelief:
-        initial = InitialSd(velocity_m_s=0.5, rate_rad_s=2.0)
+        finding = self.settings.finding
+        initial = InitialSd(velocity_m_s=finding.velocity_m_s, rate_rad_s=finding.rate_rad_s)
         belief = resting_belief(initial, self._shape_covariance)
-        belief.covariance[POSE[:, None], POSE] = found.pose_covariance(self.view.palm_m, self.settings.finding)
+        belief.covariance[POSE[:, None], POSE] = found.pose_covariance(self.view.palm_m, finding)
         belief.covariance[SKIN, SKIN] = self._settled[SKIN, SKIN]
         belief.covariance[RELIEF, RELIEF] = self._settled[RELIEF, RELIEF]
         belief.value[SHAPE], belief.value[:3] = self._shape, found.position_m

@@ -7,6 +7,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from carpus.core.tracking.doubt import DoubtSettings
 from carpus.core.tracking.palm_state import SHAPE
 from carpus.core.tracking.settings import TrackerSettings
 from carpus.core.tracking.tracker import Tracker
@@ -516,6 +517,18 @@ def lost_and_found(shown_after: int) -> list[TrackStatus]:
             hidden = tuple(ALL) if k < back else (0, 1, 2, 4, 5)
         frames.append((t, blobs(Pose(), rng, hidden=hidden)))
     return statuses(track(frames))[back:]
+
+
+def test_what_is_doubted_is_stated_so_much_less_surely_and_nothing_else_changes() -> None:
+    frames = [(t, blobs(Pose(), np.random.default_rng(i), pixel_sd_px=0.6)) for i, t in enumerate(times(20))]
+    sure, doubted = (
+        track(frames, replace(TrackerSettings(), doubt=DoubtSettings(most_nis=most)))[-1] for most in (1e9, 0.0)
+    )
+    assert (sure.status, doubted.status) == (TrackStatus.TRACKED, TrackStatus.DOUBTFUL)
+    assert np.array_equal(sure.moment.angles_rad, doubted.moment.angles_rad)
+    widened = doubted.moment.angles_sd_rad / sure.moment.angles_sd_rad
+    assert widened[0] > 1.2
+    assert widened == pytest.approx(np.full(3, widened[0]))
 
 
 def test_a_hand_found_again_is_on_probation() -> None:
