@@ -379,10 +379,11 @@ class Gallery:
             pass
 
     def live_which_spot(self) -> None:
-        feed = FakeFeed(seconds=32.0)
-        with_other_spot(feed, 3, 23.0, taken=True, off_px=(26.0, -4.0))
-        with self._live(feed):
-            pass
+        """On the whole hand, where the picture has least room for it."""
+        feed = FakeFeed("fist", 32.0, protocol="hand21")
+        with_other_spot(feed, 9, 23.0, taken=True, off_px=(6.0, 20.0))
+        with self._live(feed, exercise="FIST_COMPOSITE", target_deg=90.0):
+            self.shell.bar.show_place("Linden 42", "Right hand · Full fist")
 
     def live_hand_lost(self) -> None:
         with self._live(FakeFeed(seconds=32.0, lost=[(23.5, 30.0)])):

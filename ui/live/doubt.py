@@ -117,7 +117,7 @@ def doubt_lamp(doubt: Doubt) -> Lamp:
     """The tracking light while the question is open: never that the marker is hidden while a spot lies by it."""
     lower = lower_name(doubt.marker)
     if not doubt.has_spot:
-        words = tr("Look whether the {marker} lies where it is marked").format(marker=lower)
+        words = tr("Look at the {marker}").format(marker=lower)
         return Lamp("warn", tr("Doubtful"), words)
     if doubt.hidden:
         return Lamp("warn", tr("Another blue spot is here"), tr("Is it the {marker}?").format(marker=lower))

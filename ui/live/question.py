@@ -4,11 +4,10 @@ from __future__ import annotations
 
 import math
 
-from PySide6.QtCore import Qt, Signal
+from PySide6.QtCore import QPointF, QRectF, QSizeF, Qt, Signal
 from PySide6.QtGui import QPainter
-from PySide6.QtWidgets import QHBoxLayout, QWidget
+from PySide6.QtWidgets import QGridLayout
 
-from carpus.core.types import FloatArray
 from carpus.ui.controls.button import Button
 from carpus.ui.controls.card import Card
 from carpus.ui.controls.text import Text
@@ -21,7 +20,7 @@ from carpus.ui.picture.view import PictureView
 from carpus.ui.theme import DARK, Theme
 from carpus.ui.translate import tr
 
-AWAY_PX = 12
+AWAY_PX, PADDING_PX, GAP_PX = 12, 12, 8
 RING_PX = 15.0
 SETTLES_S = 0.5
 """A question that has only just come takes no answer: the key was meant for something else."""
@@ -32,8 +31,8 @@ class SpotQuestion(Card):
 
     chosen = Signal(str)
 
-    def __init__(self, picture: QWidget, theme: Theme, keys: Keys) -> None:
-        super().__init__(theme, 12, "surface", "warn")
+    def __init__(self, picture: PictureView, theme: Theme, keys: Keys) -> None:
+        super().__init__(theme, PADDING_PX, "surface", "warn")
         self._keys, self._picture = keys, picture
         self.setParent(picture)
         self.set_colors("surface", "warn", 2.0)
@@ -41,22 +40,21 @@ class SpotQuestion(Card):
         self.doubt: Doubt | None = None
         self._since_s = math.nan
         self._at_top = False
-        self.words = Text(theme, "", 16, SEMIBOLD)
+        self.words = Text(theme, "", 16, SEMIBOLD, wrap=True)
         self.buttons: dict[Chosen, Button] = {
-            name: Button(theme, "", height_px=36) for name in ("disc", "spot", "none")
+            name: Button(theme, "", height_px=32) for name in ("disc", "spot", "none")
         }
-        row = QHBoxLayout()
-        row.setSpacing(8)
+        self._grid = QGridLayout()
+        self._grid.setSpacing(GAP_PX)
         for name, button in self.buttons.items():
             button.setFocusPolicy(Qt.FocusPolicy.NoFocus)
             button.clicked.connect(lambda _=False, name=name: self.chosen.emit(name))
-            row.addWidget(button)
-        row.addStretch(1)
+        self._grid.setColumnStretch(len(self.buttons), 1)
         self.body.addWidget(self.words)
-        self.body.addLayout(row)
+        self.body.addLayout(self._grid)
         self.hide()
 
-    def ask(self, doubt: Doubt | None, now_s: float, picture: PictureView) -> bool:
+    def ask(self, doubt: Doubt | None, now_s: float) -> bool:
         """Show a question, or none; whether it is another than before. ``now_s`` in the recording's own time."""
         if doubt is not None and not doubt.has_spot:
             doubt = None
@@ -69,7 +67,6 @@ class SpotQuestion(Card):
             return True
         self._since_s = now_s
         self._set_faces(doubt)
-        self._at_top = self._would_cover(doubt, picture)
         self.place()
         self.show()
         self.raise_()
@@ -87,13 +84,34 @@ class SpotQuestion(Card):
         told |= {"answer_first": "spot"} if self.doubt.hidden else {"answer_first": "disc", "answer_second": "spot"}
         return told.get(name)
 
+    @property
+    def covers_head(self) -> bool:
+        """Whether it stands at the head of the picture, where its size is told."""
+        return self._at_top and not self.isHidden()
+
     def place(self) -> None:
-        """At the foot of the picture, or at its head where the foot shows what is asked about."""
+        """At the foot of the picture, or at its head where the foot shows what is asked about.
+
+        Told when the question comes and when the window changes, not for every picture.
+        """
         host = self._picture
         width = host.width() - 2 * AWAY_PX
-        height = self.sizeHint().height()
+        self._arrange(width - 2 * PADDING_PX)
+        height = self.body.totalHeightForWidth(width)
+        if self.doubt is not None:
+            self._at_top = self._would_cover(self.doubt, height)
         top = AWAY_PX if self._at_top else host.height() - AWAY_PX - height
         self.setGeometry(AWAY_PX, top, width, height)
+
+    def _arrange(self, room_px: int) -> None:
+        """The answers in one row, or in two where they do not fit."""
+        shown = [button for button in self.buttons.values() if not button.isHidden()]
+        needed = sum(button.sizeHint().width() for button in shown) + GAP_PX * max(len(shown) - 1, 0)
+        columns = len(shown) if needed <= room_px else 2
+        for button in self.buttons.values():
+            self._grid.removeWidget(button)
+        for number, button in enumerate(shown):
+            self._grid.addWidget(button, number // columns, number % columns)
 
     @staticmethod
     def _key(doubt: Doubt) -> tuple[str, bool]:
@@ -117,34 +135,48 @@ class SpotQuestion(Card):
                 words, key = faces[which]
                 button.set_face(words, hint=self._keys[key])
 
-    def _would_cover(self, doubt: Doubt, picture: PictureView) -> bool:
-        foot_px = picture.height() - 2 * AWAY_PX - self.sizeHint().height() - RING_PX
+    def _would_cover(self, doubt: Doubt, height_px: int) -> bool:
+        """Whether at the foot of the picture it would lie over what is asked about."""
+        foot_px = self._picture.height() - 2 * AWAY_PX - height_px - RING_PX * self._theme.text_scale
         return any(
-            math.isfinite(place[0]) and picture.to_screen(float(place[0]), float(place[1])).y() > foot_px
+            math.isfinite(place[0]) and self._picture.to_screen(float(place[0]), float(place[1])).y() > foot_px
             for place in (doubt.disc_px, doubt.spot_px)
         )
 
 
-def paint_question(painter: QPainter, theme: Theme, doubt: Doubt, picture: PictureView) -> None:
-    """Rings about what is asked about, numbered where there are two."""
-    words = tr("Another blue spot")
-    _ring(painter, theme, picture, doubt.spot_px, words if doubt.hidden else f"2 · {words}", beside=True)
-    if not doubt.hidden:
-        _ring(painter, theme, picture, doubt.disc_px, "1", beside=False)
+def _beside(at: QPointF, away: QPointF, radius: float, size: QSizeF) -> QRectF:
+    """A plate next to a ring in the direction ``away``."""
+    middle = at + away * (radius + 5.0) + QPointF(0.5 * size.width() * away.x(), 0.5 * size.height() * away.y())
+    return QRectF(QPointF(middle.x() - 0.5 * size.width(), middle.y() - 0.5 * size.height()), size)
+
+
+def paint_question(painter: QPainter, theme: Theme, doubt: Doubt, picture: PictureView, covered: QRectF) -> None:
+    """Rings about what is asked about; where there are two, each has its number on the side away from the other.
+
+    ``covered`` is what the card hides of the picture.
+    """
+    spot = picture.to_screen(float(doubt.spot_px[0]), float(doubt.spot_px[1]))
+    if doubt.hidden:
+        _ring(painter, theme, picture, covered, spot, QPointF(1.0, 0.0), tr("Another blue spot"))
+        return
+    disc = picture.to_screen(float(doubt.disc_px[0]), float(doubt.disc_px[1]))
+    away = spot - disc
+    away /= math.hypot(away.x(), away.y()) or 1.0
+    _ring(painter, theme, picture, covered, disc, -away, "1")
+    _ring(painter, theme, picture, covered, spot, away, "2")
 
 
 def _ring(
-    painter: QPainter, theme: Theme, picture: PictureView, place: FloatArray, words: str, *, beside: bool
+    painter: QPainter, theme: Theme, picture: PictureView, covered: QRectF, at: QPointF, away: QPointF, words: str
 ) -> None:
-    """A ring with words to the right of it or, where the picture ends, above; else below."""
-    at = picture.to_screen(float(place[0]), float(place[1]))
+    """A ring with words beside it in the direction ``away``, within the picture."""
     radius = RING_PX * theme.text_scale
     haloed(painter, DARK.warn, 2.5, lambda: painter.drawEllipse(at, radius, radius))
     size = label_size(theme, words)
-    left, top = at.x() + radius + 6, at.y() - size.height() / 2
-    if not beside:
-        left, top = at.x() - size.width() / 2, at.y() + radius + 5
-    elif left + size.width() > picture.width() - 8:
-        left, top = at.x() - size.width() / 2, at.y() - radius - 5 - size.height()
-    most_left = picture.width() - 8 - size.width()
-    paint_label(painter, theme, words, max(8.0, min(left, most_left)), max(8.0, top))
+    plate = _beside(at, away, radius, size)
+    if plate.intersects(covered):
+        plate = _beside(at, QPointF(1.0 if away.x() >= 0.0 else -1.0, 0.0), radius, size)
+    left, top = plate.left(), plate.top()
+    if left + size.width() > picture.width() - 8:
+        left, top = picture.width() - 8 - size.width(), at.y() - radius - 5 - size.height()
+    paint_label(painter, theme, words, max(8.0, left), max(8.0, top))

@@ -197,7 +197,7 @@ class LiveScreen(QWidget):
     def eventFilter(self, watched: QObject, event: QEvent) -> bool:
         """The question keeps its place on the picture."""
         if watched is self.picture and event.type() == QEvent.Type.Resize:
-            self.question.place()
+            QTimer.singleShot(0, self.question.place)  # when the picture has its new place
         return super().eventFilter(watched, event)
 
     def _fit(self) -> None:
@@ -212,6 +212,7 @@ class LiveScreen(QWidget):
         least_px = LEAST_SCREEN_PX * self._theme.text_scale
         self.bubble.give_room(self.height() >= least_px and not (tight and self._whole_hand))
         self.curves.show_single(tight)
+        self.question.place()
         for button, hint in ((self.note, "F5"), (self.pain, "F6"), (self.pause, "F7")):
             button.set_face(button.text(), hint="" if tight else hint)
         self._show_buttons()
@@ -394,7 +395,7 @@ class LiveScreen(QWidget):
 
     def _open_question(self, doubt: Doubt | None) -> None:
         self.doubt = doubt
-        if self.question.ask(doubt, self.now_s, self.picture):
+        if self.question.ask(doubt, self.now_s):
             self._arm_keys()
 
     def _arm_keys(self) -> None:
@@ -591,7 +592,8 @@ class LiveScreen(QWidget):
             self.main.set_face(words, icon="square" if recording else "", hint=hint)
 
     def _paint_overlay(self, painter: QPainter, picture: PictureView) -> None:
-        picture.paint_area_label(painter)
+        if not self.question.covers_head:
+            picture.paint_area_label(painter)
         if not self._overlay_on or self._view is None or self._measuring is None:
             return
         calibration = self._measuring.calibration
@@ -616,7 +618,7 @@ class LiveScreen(QWidget):
             return
         now = doubt_of(frame, calibration.clicks.protocol.markers, self._measuring.camera)
         if now is not None and now.marker == asked.marker and now.has_spot and now.hidden == asked.hidden:
-            paint_question(painter, self._theme, now, picture)
+            paint_question(painter, self._theme, now, picture, QRectF(self.question.geometry()))
 
     def _paint_hand(self, painter: QPainter, picture: PictureView, frame: TrackedFrame) -> None:
         assert self._measuring is not None
