@@ -321,6 +321,7 @@ def measure_hand(
         _nanmean(capture.depth_sd_m),
         noise,
         camera,
+        settings,
     )
     residual_mm = _residuals_mm(capture, camera, marker_w0_m, rotation, translation, palm)
     hand_length_mm = 1e3 * float(np.linalg.norm(marker_w0_m[palm[3]])) / _MCP3_OVER_HAND_LENGTH
@@ -381,6 +382,7 @@ def _disc_covariances(
     said_sd_m: FloatArray,
     noise: StillNoise,
     camera: Camera,
+    settings: CalibrationSettings,
 ) -> FloatArray:
     """Covariance (M, 3, 3) in W0 of the averaged disc places: across by the pixels, along the ray by the depth."""
     z = point_cam[:, 2]
@@ -388,8 +390,8 @@ def _disc_covariances(
     scatter_m = noise.depth_sd_m if np.isfinite(noise.depth_sd_m) else book_m
     steep2 = np.maximum(said_sd_m**2 - book_m**2, 0.0)  # of a slope, as steep in every frame
     along = scatter_m**2 / np.maximum(depth_count, 1) + pattern_sd_m(z) ** 2 + steep2
-    pixel_sd = noise.pixel_sd_px if np.isfinite(noise.pixel_sd_px) else 0.3
-    across_m = np.hypot(pixel_sd / np.sqrt(np.maximum(pixel_count, 1)), 0.1) * z / camera.fx_px
+    pixel_sd = noise.pixel_sd_px if np.isfinite(noise.pixel_sd_px) else settings.pixel_sd_px
+    across_m = np.hypot(pixel_sd / np.sqrt(np.maximum(pixel_count, 1)), settings.pixel_stays_px) * z / camera.fx_px
     ray = point_cam / z[:, None]
     flat = np.diag([1.0, 1.0, 0.0])
     in_cam = across_m[:, None, None] ** 2 * flat + along[:, None, None] * (ray[:, :, None] * ray[:, None, :])
