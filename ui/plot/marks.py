@@ -21,6 +21,9 @@ from carpus.ui.plot.series import Drawn, Series, paint_series
 from carpus.ui.plot.style import PlotStyle
 from carpus.ui.translate import tr
 
+NUMBERS_ABOVE = 10.0
+"""Design pixels between the numbers of repetitions and their panel."""
+
 
 def left_out(number: int) -> str:
     """What stands at a repetition that does not count."""
@@ -45,13 +48,20 @@ class Scales:
             y = round(y) + 0.5 if style.unit == 1.0 else y
             painter.setPen(QPen(style.color("border" if value == 0.0 else "line"), style.grid_width))
             painter.drawLine(QPointF(panel.box.left(), y), QPointF(panel.box.right(), y))
-        height = QFontMetricsF(style.label).height()
-        for value, text in panel.scale.labels:
+        metrics = QFontMetricsF(style.label)
+        height, least = metrics.height(), metrics.capHeight() + 5 * style.unit
+        taken: list[float] = []
+        # The ends first: where a panel is low, one between them gives way.
+        for value, text in sorted(panel.scale.labels, key=lambda label: label[0] not in end_values):
+            middle = float(panel.y(value))
+            if value not in end_values and any(abs(middle - other) < least for other in taken):
+                continue
+            taken.append(middle)
             strong = panel.scale.strong_ends and value in end_values and value != 0.0
             painter.setFont(style.end_label if strong else style.label)
             painter.setPen(style.color("text" if strong else "text2"))
             right = panel.box.left() - 12 * style.unit
-            box = QRectF(right - 300 * style.unit, float(panel.y(value)) - height / 2, 300 * style.unit, height)
+            box = QRectF(right - 300 * style.unit, middle - height / 2, 300 * style.unit, height)
             painter.drawText(box, int(Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter), text)
 
 
@@ -217,7 +227,7 @@ class Repetitions:
         """The numbers over the first panel; where they would touch, some are left out, never the current one."""
         metrics = QFontMetricsF(style.end_label)
         painter.setFont(style.end_label)
-        baseline = panel.box.top() - 7 * style.unit
+        baseline = panel.box.top() - NUMBERS_ABOVE * style.unit
         taken = -math.inf
         for number, repetition in enumerate(self.shown):
             text = str(number + 1) if repetition.counts else left_out(number + 1)

@@ -14,7 +14,7 @@ from PySide6.QtGui import QPainter
 from carpus.ui import numbers
 from carpus.ui.plot import axes
 from carpus.ui.plot.axes import Panel
-from carpus.ui.plot.marks import Cursor, Curves, Edges, Readout
+from carpus.ui.plot.marks import NUMBERS_ABOVE, Cursor, Curves, Edges, Readout
 from carpus.ui.plot.readings import paint_readings
 from carpus.ui.plot.session import HandPlot, SessionPlot, paint_behind, paint_session
 from carpus.ui.plot.style import PlotStyle, screen_style
@@ -137,7 +137,7 @@ class CurveView(ZoomCard):
         painter.setFont(style.label)
         painter.setPen(style.color("text2"))
         if plot.repetitions:
-            painter.drawText(QPointF(20, (TOP_PX - 7) * scale), self.tr("Repetitions"))
+            painter.drawText(QPointF(20, TOP_PX * scale - NUMBERS_ABOVE), self.tr("Repetitions"))
         painter.drawText(QPointF(20, self.height() - 10 * scale), self.tr("Wheel: zoom"))
         paint_behind(painter, style, plot, self.panels())
 

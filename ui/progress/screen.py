@@ -246,8 +246,10 @@ class _Row(QWidget):
         word.show_state(state, verdict_word(verdict), token=verdict_token(verdict))  # type: ignore[arg-type]
         top.addWidget(word)
         below.addWidget(Text(theme, figures, 16, SEMIBOLD))
-        below.addStretch(1)
-        below.addWidget(Text(theme, small, 12, MEDIUM, "text2"))
+        below.addSpacing(8)
+        words = Text(theme, small, 12, MEDIUM, "text2", wrap=True)  # two lines where the text is large
+        words.setAlignment(Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter)
+        below.addWidget(words, 1)
         column.addLayout(top)
         column.addLayout(below)
 
