@@ -46,7 +46,7 @@ LOOK_EVERY_MS = 8
 DRAW_AFTER_MS = 25
 """Never sooner after the last drawing; what arrives in between is in the curves, not drawn on its own."""
 DRAWING_SHARE = 0.5
-"""At most this part of the time goes to drawing: on a slow computer fewer drawings, not fewer pictures tracked."""
+"""At most this part of a processor goes to drawing: on a slow computer fewer drawings, not fewer pictures tracked."""
 TICK_EVERY_MS = 40
 """So often figures and state go on where no pictures come."""
 VALUES_EVERY = 3
@@ -84,7 +84,7 @@ class LiveScreen(QWidget):
         self._camera_lost = False
         self._stopping = False
         self._tick = 0
-        self._ticked_at_s = -math.inf
+        self._ticked_at_s, self._ticked_cpu_s = -math.inf, 0.0
         self._drawing_ms: float | None = 0.0
         self._started_at_s = -HASTY_S
         self.stage = QWidget()
@@ -436,7 +436,7 @@ class LiveScreen(QWidget):
             return
         since_ms = 1e3 * (time.monotonic() - self._ticked_at_s)
         if self._drawing_ms is None:  # the first look since: all that was asked for has been painted
-            self._drawing_ms = since_ms
+            self._drawing_ms = 1e3 * (time.thread_time() - self._ticked_cpu_s)
         if since_ms < max(DRAW_AFTER_MS, self._drawing_ms / DRAWING_SHARE):
             return
         view, shown = self._measuring.feed.newest(), self._view
@@ -448,7 +448,7 @@ class LiveScreen(QWidget):
         """Pull what is new and draw it."""
         if self._measuring is None:
             return
-        self._ticked_at_s, self._drawing_ms = time.monotonic(), None
+        self._ticked_at_s, self._ticked_cpu_s, self._drawing_ms = time.monotonic(), time.thread_time(), None
         feed = self._measuring.feed
         fresh = feed.tracked_since(self.history.last_index)
         self.history.append(fresh)
