@@ -16,6 +16,7 @@ import numpy as np
 
 from carpus.core.calibration.calibrate import StillNoise
 from carpus.core.errors import NotCorrectable, OutputExists
+from carpus.core.pipeline.said_again import answers_in, notes_in
 from carpus.core.pipeline.told_settings import settings_told
 from carpus.core.pipeline.track import Progress, TrackSettings, from_neutral, learnt_from, learnt_in, parameters_json
 from carpus.core.session.corrected import CORRECTED, said_of
@@ -23,7 +24,6 @@ from carpus.core.session.marker_places import SAME_SPOT_PX, Correction
 from carpus.core.session.reader import read_detections, read_session
 from carpus.core.session.values import DetectionTable, Session, motion_of, new_header
 from carpus.core.session.writer import SessionWriter
-from carpus.core.spot_answer import SPOT_SAID, SpotAnswer
 from carpus.core.tracking.tracker import Tracker
 from carpus.core.types import SIMULATED, BoolArray, Detections, FloatArray, Moment, TrackedFrame
 
@@ -68,7 +68,7 @@ def correct(task: Task, progress: Progress | None = None) -> None:
             writer.append(frame)
             if progress is not None:
                 progress(done, len(session))
-        for event in session.events:
+        for event in notes_in(session):
             writer.add_event(event.time_s, event.kind, event.text)
         for correction in ordered:
             writer.add_event(float(session.timestamp_s[correction.row]), CORRECTED, said_of(correction, task.by))
@@ -83,18 +83,6 @@ def correct(task: Task, progress: Progress | None = None) -> None:
 def _settings(session: Session) -> TrackSettings:
     told = settings_told(session.header.parameters)
     return told.settings if told is not None else TrackSettings()
-
-
-def _answers_in(session: Session) -> dict[int, list[SpotAnswer]]:
-    """What was said of blue spots while measuring, by the row of the picture that took it up."""
-    out: dict[int, list[SpotAnswer]] = {}
-    for event in session.events:
-        if event.kind == SPOT_SAID and len(session):
-            row = int(abs(session.timestamp_s - event.time_s).argmin())
-            answer = SpotAnswer.of_text(event.text, row)
-            if answer is not None:
-                out.setdefault(row, []).append(answer)
-    return out
 
 
 def not_held(session: Session, corrections: Sequence[Correction]) -> tuple[str, ...]:
@@ -146,7 +134,7 @@ class _Retracking:
         self._session, self._table, self._settings = session, table, settings
         self._learnt = learnt_in(session.header.parameters) or learnt_from(StillNoise(), -np.inf, settings.tracker)
         self._by_row = {correction.row: correction for correction in corrections}
-        self._answers = _answers_in(session)
+        self._answers = answers_in(session)
         self._moments: list[Moment] = []
         self._tracker = self._new_tracker()
         self._false: list[_FalseSpot] = []

@@ -32,6 +32,7 @@ from carpus.core.pipeline.frame_walk import FrameWalk
 from carpus.core.pipeline.live import Listener, LiveSession
 from carpus.core.pipeline.looking_back import LookingBack
 from carpus.core.pipeline.pieces import TrackedHand
+from carpus.core.pipeline.said_again import NOT_LOOKED_BACK
 from carpus.core.pipeline.track import Learnt, TrackSettings, build_walk, learnt_from, parameters_json, source_facts
 from carpus.core.session.values import new_header
 from carpus.core.session.writer import Fallback, SessionWriter
@@ -47,8 +48,6 @@ _AROUND_HAND = 0.6
 LEAST_FREE_BYTES = 100_000_000
 """A recording does not begin with less: ten minutes of rows, or ten seconds of pictures."""
 _ANSWERS_WAITING = 16
-NOT_LOOKED_BACK = "not_looked_back"
-"""The event of a session that is stored as tracked, though looking back was asked for."""
 
 
 class SessionPlaces(Protocol):

@@ -27,11 +27,13 @@ from carpus.core.papers.settings import PaperSettings
 from carpus.core.papers.tracker import PaperTracker
 from carpus.core.pipeline.frame_walk import FrameWalk, HandTracker
 from carpus.core.pipeline.live import Listener
+from carpus.core.pipeline.said_again import answers_in, notes_in
 from carpus.core.pipeline.session_source import SessionPictures
 from carpus.core.provenance import revision, sha256_of_file, sha256_of_recording, sha256_of_settings
 from carpus.core.session.reader import has_raw, read_detections, read_session
-from carpus.core.session.values import SET_UP, motion_of, new_header
+from carpus.core.session.values import SET_UP, Event, Session, motion_of, new_header
 from carpus.core.session.writer import SessionWriter
+from carpus.core.spot_answer import SpotAnswer
 from carpus.core.tracking.settings import TrackerSettings
 from carpus.core.tracking.tracker import Tracker
 from carpus.core.types import SIMULATED, FloatArray, Frame, Moment, TrackedFrame, TrackStatus
@@ -204,11 +206,13 @@ def track_recording(
     path: Path | None = None,
     on_date: Callable[[Recorded | None], None] | None = None,
     listener: Listener | None = None,
+    said: Session | None = None,
 ) -> TrackReport:
     """Track a recording from its first frame to its last into ``output``; smooth it if asked.
 
     ``recorded`` is when the hand moved, if somebody knows; else the recording is asked, at last the date of the file
     or folder ``path``, and ``on_date`` hears what it was. ``listener`` hears every frame as it is tracked.
+    ``said``: the session of the same pictures whose notes and answers hold again.
     A poor verdict is handed to ``on_verdict`` and tracking goes on; a click with no blob or no depth raises.
     When a picture cannot be read, nothing half-done is left behind.
     """
@@ -249,8 +253,22 @@ def track_recording(
         recording_id=recording_id(source.info, opening[0]),
     )
     writer = SessionWriter.create(output, header, source.info.camera, calibration)
-    tracked = _heard(map(walk, ordered), listener)
-    return _written(writer, tracked, look_back, outcome.verdict, source.info.frame_count, progress)
+    answers = {} if said is None else answers_in(said)
+
+    def walked(frame: Frame) -> TrackedFrame:
+        _answer(tracker, answers.get(frame.index, ()))
+        return walk(frame)
+
+    tracked = _heard(map(walked, ordered), listener)
+    notes = () if said is None else notes_in(said)
+    return _written(writer, tracked, look_back, outcome.verdict, source.info.frame_count, progress, notes)
+
+
+def _answer(tracker: HandTracker, answers: Iterable[SpotAnswer]) -> None:
+    """The papers' filter is as written: it hears nobody."""
+    if isinstance(tracker, Tracker):
+        for answer in answers:
+            tracker.hear(answer)
 
 
 def retrack_session(
@@ -264,9 +282,9 @@ def retrack_session(
 ) -> TrackReport:
     """Track a session again, from its pictures where it kept them, else from its detections.
 
-    From detections the session's own calibration and what it learnt are used again, so that equal settings
-    give equal angles. The old file is not touched; the new one names it as its origin, aims at the same, and is
-    simulated where that was.
+    From detections the session's own calibration and what it learnt are used again, so that equal settings give
+    equal angles. What was noted and answered while measuring holds again. The old file is not touched; the new one
+    names it as its origin, aims at the same, and is simulated where that was.
     """
     if output.exists():
         raise OutputExists(output)
@@ -288,6 +306,7 @@ def retrack_session(
             set_up=old.set_up,
             recorded=Recorded(old.recorded, "recording"),
             path=origin,
+            said=session,
         )
     table = read_detections(origin)
     learnt = learnt_in(old.parameters) or learnt_from(StillNoise(), -np.inf, settings.tracker)
@@ -296,11 +315,12 @@ def retrack_session(
     if (before and before.palm) != (settings.paper and settings.paper.palm):
         calibration = _calibrated(by_the_discs(calibration) if before else calibration, session.camera, settings.paper)
     tracker, look_back = _following(calibration, session.camera, settings, learnt)
-    time_s = session.timestamp_s
+    time_s, answers = session.timestamp_s, answers_in(session)
 
     def tracked() -> Iterator[TrackedFrame]:
         rows = from_neutral(range(len(session)), tracker, learnt.neutral_ends_s, lambda row: float(time_s[row]))
         for row in rows:
+            _answer(tracker, answers.get(row, ()))
             dropped = max(int(session.quality.dropped_before[row]), 0)
             yield tracker.step(row, float(time_s[row]), table.of_frame(row), dropped)
 
@@ -319,7 +339,7 @@ def retrack_session(
         recording_id=old.recording_id,
     )
     writer = SessionWriter.create(output, header, session.camera, calibration)
-    return _written(writer, tracked(), look_back, calibration.verdict, len(session), progress)
+    return _written(writer, tracked(), look_back, calibration.verdict, len(session), progress, notes_in(session))
 
 
 def _heard(frames: Iterator[TrackedFrame], listener: Listener | None) -> Iterator[TrackedFrame]:
@@ -346,6 +366,7 @@ def _written(
     verdict: Verdict,
     total: int | None,
     progress: Progress | None,
+    notes: Iterable[Event],
 ) -> TrackReport:
     counts = dict.fromkeys(TrackStatus, 0)
     try:
@@ -356,6 +377,8 @@ def _written(
             done += 1
             if progress is not None:
                 progress(done, total)
+        for note in notes:
+            writer.add_event(note.time_s, note.kind, note.text)
         if look_back is not None and done:  # of no frame there is nothing to look back at
             writer.write_smoothed(motion_of(look_back()))
         writer.close()

@@ -17,9 +17,10 @@ from carpus.core.pipeline.correction import correct, task_of
 from carpus.core.pipeline.frame_walk import FrameWalk
 from carpus.core.pipeline.live import LiveSession
 from carpus.core.pipeline.looking_back import LookingBack
-from carpus.core.pipeline.measuring import NOT_LOOKED_BACK, LiveWalk, SmoothedSession
+from carpus.core.pipeline.measuring import LiveWalk, SmoothedSession
 from carpus.core.pipeline.pieces import PIECE_S, TrackedHand
-from carpus.core.pipeline.track import Learnt, TrackSettings, parameters_json
+from carpus.core.pipeline.said_again import NOT_LOOKED_BACK
+from carpus.core.pipeline.track import Learnt, TrackSettings, parameters_json, retrack_session
 from carpus.core.session.reader import read_session
 from carpus.core.session.values import new_header
 from carpus.core.session.writer import SessionWriter
@@ -185,10 +186,12 @@ def test_what_is_said_of_a_spot_while_measuring_reaches_the_tracker_and_the_file
     (event,) = measured.events
     assert event.kind == SPOT_SAID
     assert event.time_s == measured.timestamp_s[said_at - begun_at]
-    correct(task_of(path, tmp_path / "again.h5", (), "0.2"))
-    again = read_session(tmp_path / "again.h5")
-    np.testing.assert_array_equal(np.isfinite(again.markers.measured_px[:, MCP3, 0]), used)
-    assert [event.kind for event in again.events] == [SPOT_SAID]
+    correct(task_of(path, tmp_path / "corrected.h5", (), "0.2"))
+    retrack_session(path, tmp_path / "again.h5", TrackSettings(), software_version="0.2")
+    for anew in ("corrected.h5", "again.h5"):
+        again = read_session(tmp_path / anew)
+        np.testing.assert_array_equal(np.isfinite(again.markers.measured_px[:, MCP3, 0]), used)
+        assert [event.kind for event in again.events] == [SPOT_SAID]
 
 
 def test_a_session_without_a_frame_is_none(tmp_path: Path) -> None:
