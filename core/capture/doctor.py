@@ -155,7 +155,10 @@ def data_folder_finding(folder: Path) -> Finding:
     if not folder.exists():
         return Finding("Data folder", "good", f"{folder}, made at the first recording")
     if os.name == "posix" and folder.stat().st_mode & 0o077:
-        remedy = f"Others on this computer can look into it. Run: chmod 700 '{folder}'"
+        remedy = (
+            "Others on this computer can look into it. In its properties, take away every right of the group and of "
+            f"others; or run: chmod 700 '{folder}'"
+        )
         return Finding("Data folder", "warning", str(folder), remedy)
     return Finding("Data folder", "good", str(folder))
 

@@ -131,6 +131,7 @@ def test_another_folder_is_looked_at_and_counts_from_the_next_start(
     click(qtbot, panel.folder_button)
     assert panel.where.text() == str(other)
     assert panel.close_button.isVisible()
+    assert not panel.close_button.visibleRegion().isEmpty(), "it is not scrolled away"
     qtbot.waitUntil(lambda: any(str(other) in row.check.found for row in panel.checks))
     assert load_settings(tmp_path / "settings").data_folder == other
     assert desktop.library.folder != other

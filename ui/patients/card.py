@@ -21,6 +21,7 @@ from carpus.ui.tour.bubble import BubbleView
 from carpus.ui.verdicts import change_since_first, counted_once_words, verdict_token
 
 PHOTO_FROM_PX = 600
+RECALL_BY_GUIDE_FROM_PX = 440
 
 
 class PatientCardView(Card):
@@ -83,7 +84,8 @@ class PatientCardView(Card):
         host = QWidget()
         host.setLayout(recall)
         # Large text: what must be recalled scrolls, the buttons stay.
-        self.body.addWidget(scroll_area(host), 1)
+        self._recall = scroll_area(host)
+        self.body.addWidget(self._recall, 1)
         self.body.addSpacing(16)
         self.body.addWidget(self.bubble)
         self.body.addWidget(self.start_button)
@@ -101,10 +103,16 @@ class PatientCardView(Card):
             (self.sessions_button, self.sessions), (self.edit_button, self.edit),
         ):  # fmt: skip
             button.clicked.connect(signal)
+        self.bubble.changed.connect(self._make_room)
+
+    def _make_room(self) -> None:
+        """With large text the guide's sentence goes before what is recalled."""
+        self._recall.setVisible(self.bubble.isHidden() or self.height() >= self._theme.px(RECALL_BY_GUIDE_FROM_PX))
 
     def resizeEvent(self, event: QResizeEvent) -> None:
         """Where there is little room the picture gives way to the results."""
         self._photo.set_roomy(self.height() >= self._theme.px(PHOTO_FROM_PX))
+        self._make_room()
 
     def show_card(self, card: PatientCard | None, camera_ready: bool) -> None:
         """Show one patient, or hide when none is chosen."""

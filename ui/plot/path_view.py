@@ -230,8 +230,11 @@ class PathView(PlotCard):
         painter.setFont(style.label)
         painter.setPen(theme.color("text2"))
         painter.drawText(QPointF(box.left() + 8, box.top() + 16 * scale), up)
-        beside = box.adjusted(0, 4 * scale, -8, 0)  # below, the ring may lie
-        painter.drawText(beside, int(Qt.AlignmentFlag.AlignTop | Qt.AlignmentFlag.AlignRight), across)
+        beside = box.adjusted(0, 4 * scale, -8, -4 * scale)
+        metrics = QFontMetricsF(style.label)
+        fits = metrics.horizontalAdvance(up) + metrics.horizontalAdvance(across) + 24 <= box.width()
+        edge = Qt.AlignmentFlag.AlignTop if fits else Qt.AlignmentFlag.AlignBottom  # below, the ring may lie
+        painter.drawText(beside, int(edge | Qt.AlignmentFlag.AlignRight), across)
         under = QRectF(box.left(), box.bottom() + 4, box.width(), 20 * scale)
         painter.setFont(style.end_label)
         painter.setPen(theme.color("text"))

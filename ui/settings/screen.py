@@ -8,6 +8,7 @@ from dataclasses import replace
 from PySide6.QtCore import Qt, Signal
 from PySide6.QtGui import QKeySequence
 from PySide6.QtWidgets import (
+    QApplication,
     QFileDialog,
     QGridLayout,
     QHBoxLayout,
@@ -235,7 +236,8 @@ class SettingsScreen(QWidget):
 
     def ask_folder(self) -> None:
         """Ask for another data folder."""
-        path = QFileDialog.getExistingDirectory(self, self.tr("Data folder"), self._preferences.data_folder)
+        over = self if self.isVisible() else QApplication.activeWindow()  # the first start asks from another screen
+        path = QFileDialog.getExistingDirectory(over, self.tr("Data folder"), self._preferences.data_folder)
         if path:
             self.folder.setText(path)
             self._change(replace(self._preferences, data_folder=path))

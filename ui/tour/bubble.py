@@ -9,10 +9,10 @@ from PySide6.QtWidgets import QHBoxLayout, QSizePolicy, QVBoxLayout, QWidget
 from carpus.ui.controls.button import Button
 from carpus.ui.controls.text import MEDIUM, Text, caption
 from carpus.ui.theme import CARD_RADIUS_PX, Theme
-from carpus.ui.tour.order import PARTS, Bubble, part_of, words_of
+from carpus.ui.tour.order import PARTS, POINTLESS, Bubble, part_of, words_of
 
 TAIL_PX = 9
-LEAST_SCREEN_PX = 460
+LEAST_SCREEN_PX = 445
 """On a screen lower than this in text-scaled pixels, what is worked with goes before the bubble."""
 TAIL_WIDTH_PX = 20
 TAIL_IN_PX = 96
@@ -81,6 +81,12 @@ class BubbleView(QWidget):
             self.next_button.set_face(self.tr("&Done") if bubble == "end" else self.tr("&Next"))
             self.setAccessibleName(words_of(bubble))
         self._appear()
+        self.update()
+
+    @property
+    def points(self) -> bool:
+        """Whether what it says is about the control below it."""
+        return self.bubble not in POINTLESS
 
     def give_room(self, has_room: bool) -> None:
         """Where large text leaves no room for it, what is measured goes before it."""
@@ -105,4 +111,4 @@ class BubbleView(QWidget):
         tail.closeSubpath()
         painter.setPen(QPen(self._theme.color("accent"), 1.5))
         painter.setBrush(self._theme.color("soft"))
-        painter.drawPath(outline.united(tail))
+        painter.drawPath(outline.united(tail) if self.points else outline)

@@ -22,6 +22,8 @@ PARTS = ("patients", "markers", "live", "review", "report")
 """The way as it is counted: who is measured on what is set up once, and mostly passed over."""
 ONLY_READ: tuple[Bubble, ...] = ("click", "results")
 """Bubbles whose “Next” presses nothing: only a person can do it, or there is nothing to do."""
+POINTLESS: tuple[Bubble, ...] = (*ONLY_READ, "end")
+"""Bubbles that speak of something else than the control below them, and so do not point at it."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -65,16 +67,16 @@ def part_of(bubble: Bubble) -> int:
 def words_of(bubble: Bubble) -> str:
     """One sentence."""
     words: Mapping[Bubble, str] = {
-        "patient": tr("Choose who is measured in the list; the practice patient is simulated and counts nowhere."),
+        "patient": tr("Choose in the list who is measured and start here; the practice patient is simulated."),
         "camera": tr("Choose where the pictures come from, then go on here."),
         "aim": tr("Take the picture when the hand lies flat and every disc is to be seen."),
         "click": tr("Click the blue discs in the picture, each as it is asked for above."),
         "check": tr("Every disc has its name and every check is good: start here."),
         "record": tr("The joints are followed already; the space bar starts the recording."),
         "stop": tr("Let the hand move a few times; the space bar then stores it all."),
-        "results": tr("These are the results; a repetition that went wrong is left out by X."),
+        "results": tr("These are the results; the key X leaves out the repetition you are at."),
         "report": tr("Make the report of this session here."),
         "save": tr("Save the report as a PDF; only the made-up name is on it."),
-        "end": tr("That was a whole session; the name at the top left leads back to the patients."),
+        "end": tr("That was a whole session; the arrow at the top left leads back, at last to the patients."),
     }
     return words[bubble]

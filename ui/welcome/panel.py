@@ -54,7 +54,7 @@ class WelcomePanel(Card):
         self.tour_button = Button(theme, self.tr("&Guide me through a first session"), icon="arrow-right")
         self.later_button = Button(theme, self.tr("Not now"), "quiet", hint=self.tr("Esc"))
         self._rows = QVBoxLayout()
-        self._rows.setSpacing(6)
+        self._rows.setSpacing(4)
         self._lay_out()
         for button, signal in (
             (self.tour_button, self.tour), (self.later_button, self.later), (self.again_button, self.again),
@@ -75,21 +75,22 @@ class WelcomePanel(Card):
         head.addWidget(self.again_button)
         text.addLayout(head)
         text.addLayout(self._rows)
-        text.addSpacing(4)
         text.addWidget(Line(theme))
-        text.addSpacing(4)
         note = self.tr("Patients and sessions will lie here; nothing leaves this computer.")
-        text.addWidget(Text(theme, note, 14, REGULAR, "text2", wrap=True))
+        lies = QVBoxLayout()
+        lies.setSpacing(0)
+        lies.addWidget(Text(theme, note, 14, REGULAR, "text2", wrap=True))
+        lies.addWidget(self.where)
         place = QHBoxLayout()
         place.setSpacing(12)
-        place.addWidget(self.where, 1)
+        place.addLayout(lies, 1)
         place.addWidget(self.folder_button)
         text.addLayout(place)
         later = QHBoxLayout()
+        later.setContentsMargins(20, 6, 20, 8)  # its widgets hide it whole, and this with it
         later.setSpacing(12)
         later.addWidget(self.counts, 1)
         later.addWidget(self.close_button)
-        text.addLayout(later)
         text.addStretch(1)
         foot = QHBoxLayout()
         foot.setContentsMargins(20, 10, 20, 12)
@@ -102,6 +103,7 @@ class WelcomePanel(Card):
         area = scrolled(text)
         text.setContentsMargins(20, 14, 20, 8)
         self.body.addWidget(area, 1)
+        self.body.addLayout(later)  # never scrolled away: it came after what was looked at
         self.body.addWidget(Line(theme))
         self.body.addLayout(foot)
 
@@ -134,7 +136,7 @@ class WelcomePanel(Card):
         """Where the data lie, or will from the next start on."""
         self.where.setText(folder)
         self.counts.setText(
-            self.tr("From the next start on: close Carpus and open it again before you measure.")
+            self.tr("The folder counts from the next start on: close Carpus and open it again before you measure.")
             if counts_later
             else ""
         )
