@@ -254,6 +254,13 @@ def load_library() -> ctypes.CDLL:
     raise DriverMissing(names[0], complaint)
 
 
+def library_version() -> str:
+    """Version of the library, to be asked in a process of its own: where a thread that is no more has loaded it, being
+    asked ends the process."""
+    found = load_library().oniGetVersion()
+    return f"{found.major}.{found.minor}.{found.maintenance}.{found.build}"
+
+
 class Context:
     """The initialised library. Use as ``with Context() as library:``; one per process."""
 

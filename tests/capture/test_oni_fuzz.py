@@ -21,7 +21,7 @@ from carpus.core.capture.xtion_link import START_S
 from carpus.core.errors import CarpusFault, DriverFailed
 from tests.capture.oni_samples import HEIGHT, WIDTH, records, write_sample
 
-COUNT = int(os.environ.get("CARPUS_FUZZ_FILES", "2000"))
+COUNT = int(os.environ.get("CARPUS_FUZZ_FILES", "600"))
 LIMIT_S = 5.0
 """For the library to answer, or to be given up. Starting the process comes on top: long, on a busy computer."""
 NUMBERS = (0, 1, 2, 27, 29, 255, 65_535, 65_536, 5_760_000, 0x7FFFFFFF, 0x80000000, 0xFFFFFFFF)
