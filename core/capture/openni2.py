@@ -257,7 +257,11 @@ def load_library() -> ctypes.CDLL:
 def library_version() -> str:
     """Version of the library, to be asked in a process of its own: where a thread that is no more has loaded it, being
     asked ends the process."""
-    found = load_library().oniGetVersion()
+    return _version_of(load_library())
+
+
+def _version_of(library: ctypes.CDLL) -> str:
+    found = library.oniGetVersion()
     return f"{found.major}.{found.minor}.{found.maintenance}.{found.build}"
 
 
@@ -284,8 +288,7 @@ class Context:
     @property
     def version(self) -> str:
         """Version of the library."""
-        found = self._c.oniGetVersion()
-        return f"{found.major}.{found.minor}.{found.maintenance}.{found.build}"
+        return _version_of(self._c)
 
     def check(self, call: str, status: int) -> None:
         """Raise :class:`CallFailed` unless ``status`` is OK."""

@@ -142,9 +142,8 @@ class FingerModel:
     def at_postures(self, beliefs: Bank, postures: dict[int, FloatArray]) -> Bank:
         """Some rays begun anew about postures, slots (5,) by ray, the anatomy as known by now."""
         rays, slots = np.array(list(postures)), np.array(list(postures.values()))
-        fresh = self.anywhere(*beliefs.merged())
-        mean, covariance = beliefs.mean.copy(), beliefs.covariance.copy()
-        mean[rays], covariance[rays] = fresh.mean[rays], fresh.covariance[rays]
+        kept = self.begun_anew(beliefs, np.isin(np.arange(RAYS), rays), beliefs)
+        mean, covariance = kept.mean, kept.covariance
         mean[rays, :, :SLOTS] = slots[:, None]
         own = self.settings.fingers
         moving = np.where(self._moves[rays], own.posture_sd_rad**2, self._settled2[rays])
@@ -152,25 +151,33 @@ class FingerModel:
         rate = SLOTS + _SLOT
         moving = np.where(self._moves[rays], own.posture_rate_sd**2, 1e-12)
         covariance[rays[:, None], :, rate, rate] = moving[..., None]
-        probability = beliefs.probability.copy()
-        probability[rays] = fresh.probability[rays]
-        return Bank(mean, covariance, probability)
+        return kept
 
-    def within_reach(self, beliefs: Bank, before: Bank) -> tuple[Bank, NDArray[np.bool_]]:
-        """Beliefs with the limits taken into account, and rays (5,) that a picture has bent as no finger bends: it was
-        misread there, so their joints may be anywhere, on the anatomy as it was ``before``."""
-        beliefs = constrained(beliefs, beliefs.merged()[0][:, :SLOTS])
-        beyond_rad = np.abs(outside_limits(beliefs.merged()[0][:, :SLOTS]))
-        misread = np.asarray((beyond_rad > self.settings.fingers.most_beyond_rad).any(axis=1))
-        if not misread.any():
-            return beliefs, misread
-        fresh, rays = self.anywhere(*before.merged()), misread[:, None]
-        kept = Bank(
-            np.where(rays[..., None], fresh.mean, beliefs.mean),
-            np.where(rays[..., None, None], fresh.covariance, beliefs.covariance),
-            np.where(rays, fresh.probability, beliefs.probability),
+    def begun_anew(self, beliefs: Bank, rays: NDArray[np.bool_], known: Bank) -> Bank:
+        """Beliefs of which ``rays`` (5,) may be anywhere, on the anatomy as ``known``."""
+        fresh, chosen = self.anywhere(*known.merged()), rays[:, None]
+        return Bank(
+            np.where(chosen[..., None], fresh.mean, beliefs.mean),
+            np.where(chosen[..., None, None], fresh.covariance, beliefs.covariance),
+            np.where(chosen, fresh.probability, beliefs.probability),
         )
-        return kept, misread
+
+    def within_reach(
+        self, beliefs: Bank, before: Bank
+    ) -> tuple[Bank, tuple[FloatArray, FloatArray], NDArray[np.bool_]]:
+        """Beliefs with the limits taken into account, and rays (5,) that a picture has bent as no finger bends: it was
+        misread there, so their joints may be anywhere, on the anatomy as it was ``before``. Between them the beliefs
+        merged."""
+        merged = beliefs.merged()
+        kept = constrained(beliefs, merged[0][:, :SLOTS])
+        if kept is not beliefs:
+            merged = kept.merged()
+        beyond_rad = np.abs(outside_limits(merged[0][:, :SLOTS]))
+        misread = np.asarray((beyond_rad > self.settings.fingers.most_beyond_rad).any(axis=1))
+        if misread.any():
+            kept = self.begun_anew(kept, misread, before)
+            merged = kept.merged()
+        return kept, merged, misread
 
     def alike(self, mean: FloatArray, covariance: FloatArray) -> Bank:
         """All modes alike and as probable, of means (5, n) and covariances (5, n, n)."""

@@ -157,8 +157,7 @@ def _filtered(
             palm_part = model.palm_part(line, seat)
             nearest = corrected(beliefs, line, step.measured, step.variance, palm_part, shares).bank
         bent = with_bends(nearest, step.bends) if step.bends.is_any else nearest
-        beliefs, misread = model.within_reach(bent, beliefs)
-        mean, covariance = beliefs.merged()
+        beliefs, (mean, covariance), misread = model.within_reach(bent, beliefs)
         scale = np.sqrt(beliefs.probability @ model.scales**2)
         out.append(_Filtered(mean, covariance[:, lower[0], lower[1]], scale, before_s, is_linked, anew | misread))
         shown = (SHOWS & step.shown[:, None, :]).any(axis=-1)

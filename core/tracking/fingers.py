@@ -127,15 +127,10 @@ class Fingers:
 
     def look_anew(self, ray: int) -> None:
         """A person shows a disc of a ray where it was not believed: its joints may be anywhere."""
-        anywhere = self.model.anywhere(self._mean, self._covariance)
-        mean, covariance = self._beliefs.mean.copy(), self._beliefs.covariance.copy()
-        probability = self._beliefs.probability.copy()
-        mean[ray], covariance[ray] = anywhere.mean[ray], anywhere.covariance[ray]
-        probability[ray] = anywhere.probability[ray]
+        beliefs = self.model.begun_anew(self._beliefs, np.arange(RAYS) == ray, self._beliefs)
         self._visible[ray] = 0.5
         self._missing[ray] = self._settings.fingers.patience_frames
         self._unseen_s[ray] = self._settings.fingers.range_after_s
-        beliefs = Bank(mean, covariance, probability)
         self._take(beliefs, beliefs.merged())
 
     def _take(self, beliefs: Bank, merged: tuple[FloatArray, FloatArray]) -> None:
@@ -320,9 +315,9 @@ class Fingers:
         watched = watched_factor(factor, residual, np.isfinite(measured), dt_s, self._settings.noise)
         self._noise_factor = watched.reshape(RAYS, 3 * DISCS)
         self._disc_m2 = learnt_sizes(self._disc_m2, trial.disc_m2, self._settings.fingers)
-        kept, misread = self.model.within_reach(named.update.bank, self._beliefs)
+        kept, merged, misread = self.model.within_reach(named.update.bank, self._beliefs)
         self._missing[misread] = self._settings.fingers.patience_frames
-        self._take(kept, kept.merged())
+        self._take(kept, merged)
         self._palm = trial.seat.palm
         begins, self._begins = self._begins, False
         return FingerStep(timestamp_s, named.measured, named.variance, is_named, trial.postures, begins, trial.bends)
