@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import cv2
 import numpy as np
 
+from carpus.core.depth_sensor import ASSUMED_SENSOR, DepthSensor
 from carpus.core.types import FloatArray
 
 
@@ -23,6 +24,8 @@ class Camera:
     distortion: tuple[float, float, float, float, float] = (0.0, 0.0, 0.0, 0.0, 0.0)
     origin: str = "default"
     """Where the numbers come from: ``file``, ``calibration`` (kept for this camera), ``driver`` or ``default``."""
+    sensor: DepthSensor = ASSUMED_SENSOR
+    """What its depth is worth."""
 
     @property
     def matrix(self) -> FloatArray:

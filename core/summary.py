@@ -13,6 +13,7 @@ from carpus.core.camera import Camera
 from carpus.core.capture.camera_info import CAMERA_FILE
 from carpus.core.capture.source import SourceInfo, is_simulated
 from carpus.core.capture.tum import TumFolder
+from carpus.core.depth_sensor import ASSUMED, DepthSensor
 from carpus.core.hand.sites import WRIST_ANGLES
 from carpus.core.output.exercises import SIDES
 from carpus.core.output.range_rows import is_total
@@ -22,6 +23,8 @@ from carpus.core.session.values import Session
 from carpus.core.types import FloatArray, TrackStatus
 from carpus.core.words import finding_sentence
 
+_USUAL_M = 0.7
+"""Camera to hand."""
 LIMITED = ", limited by the camera's view"
 FREE_MOVEMENT = "FREE"
 _WRIST_DIRECTIONS = {
@@ -51,6 +54,7 @@ def session_summary(session: Session, choices: RepetitionChoices | None = None) 
         *_ranges(session, choices),
         *_calibration(session),
         _line("Camera", camera_text(session.camera) + _calibrated(header.parameters)),
+        _line("Sensor", sensor_text(session.camera.sensor)),
         _line("Smoothed", "yes" if session.smoothed is not None else "no"),
         _line("Pictures", "kept" if has_raw(session.path) else "not kept"),
         _line("Events", _events(session)),
@@ -74,6 +78,7 @@ def recording_summary(folder: Path, recording: TumFolder) -> list[str]:
         *_frames(times, dropped),
         _line("Depth", f"{with_depth} of {len(times)} frames have a depth picture"),
         _line("Camera", camera_text(camera, f"no {CAMERA_FILE}")),
+        _line("Sensor", sensor_text(camera.sensor)),
     ]
 
 
@@ -85,6 +90,7 @@ def source_summary(path: Path, info: SourceInfo) -> list[str]:
         _line("Frames", f"{count}, {info.nominal_fps:.1f} a second"),
         _line("Depth", "yes" if info.has_depth else "no"),
         _line("Camera", camera_text(info.camera)),
+        _line("Sensor", sensor_text(info.sensor)),
         *(_line(name.replace("_", " ").capitalize(), value) for name, value in sorted(info.settings.items())),
     ]
 
@@ -110,6 +116,13 @@ def camera_text(camera: Camera, without_file: str = "no camera file") -> str:
     numbers = f"fx {camera.fx_px:.2f}, fy {camera.fy_px:.2f}, cx {camera.cx_px:.2f}, cy {camera.cy_px:.2f}"
     distortion = ", distorted" if camera.is_distorted else ""
     return f"{camera.width_px} x {camera.height_px} pixels, {numbers}{distortion} ({source})"
+
+
+def sensor_text(sensor: DepthSensor) -> str:
+    """Which depth sensor, and how sure one of its readings is."""
+    sd_mm = 1e3 * float(sensor.reading_sd_m(np.array(_USUAL_M)))
+    assumed = ", assumed: nobody said which" if sensor.origin == ASSUMED else ""
+    return f"{sensor.name}, {sensor.kind}, a reading at {_USUAL_M * 100:.0f} cm within {sd_mm:.1f} mm{assumed}"
 
 
 def _line(title: str, text: str) -> str:

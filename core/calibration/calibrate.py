@@ -21,7 +21,7 @@ from carpus.core.calibration.registration import SURELY_OFF_PX, depth_offset_px
 from carpus.core.calibration.result import Calibration, Clicks, Finding, FindingKind, Verdict
 from carpus.core.calibration.settings import CalibrationSettings
 from carpus.core.camera import Camera
-from carpus.core.depth_noise import pattern_sd_m, reading_sd_m
+from carpus.core.depth_sensor import DepthSensor
 from carpus.core.detection.appearance import REACH, MarkerAppearance, expected_radius_px, learn_appearance
 from carpus.core.detection.color_histogram import to_hsv
 from carpus.core.detection.detector import Detector, Region
@@ -302,7 +302,7 @@ def measure_hand(
     with np.errstate(all="ignore"):
         pixel = camera.undistort(np.nanmean(capture.pixel, axis=0))
         depth_m = _nanmean(capture.depth_m)
-    noise = replace(_noise(capture), disc_radius_m=_disc_radius_m(capture, camera, palm))
+    noise = replace(_noise(capture, camera.sensor), disc_radius_m=_disc_radius_m(capture, camera, palm))
     point_cam = camera.back_project(pixel, depth_m)
     axes_cam = wrist_axes(point_cam[palm], _TOWARDS_CAMERA)
     origin_cam = point_cam[palm[0]]
@@ -319,6 +319,7 @@ def measure_hand(
         np.isfinite(capture.pixel[..., 0]).sum(axis=0),
         depth_count,
         _nanmean(capture.depth_sd_m),
+        _nanmean(capture.area_px),
         noise,
         camera,
         settings,
@@ -330,7 +331,8 @@ def measure_hand(
     verdict = Verdict(residual_mm, hand_length_mm, tilt_deg, float(origin_cam[2]), capture.frames, ())
     usual_m = float(np.median(depth_m[seen]))
     plan = plan_view(camera.back_project(pixel, np.where(seen, depth_m, usual_m)))
-    findings += _judged(clicks, verdict, plan, settings)
+    near_m = max(settings.least_distance_m, camera.sensor.nearest_m)
+    findings += _judged(clicks, verdict, plan, replace(settings, least_distance_m=near_m))
     calibration = Calibration(
         clicks,
         marker_w0_m,
@@ -349,7 +351,7 @@ def _nanmean(values: FloatArray) -> FloatArray:
     return np.asarray(np.where(count > 0, total / np.maximum(count, 1), np.nan))
 
 
-def _noise(capture: NeutralCapture) -> StillNoise:
+def _noise(capture: NeutralCapture, sensor: DepthSensor) -> StillNoise:
     """Noise of one picture on the still hand, common drift of the centres removed; NaN where too little was seen."""
     if capture.frames < 4:
         return StillNoise()
@@ -359,7 +361,8 @@ def _noise(capture: NeutralCapture) -> StillNoise:
     seen = int(np.count_nonzero(np.isfinite(capture.pixel[..., 0]).sum(axis=0) > 1))
     pixel_sd = math.sqrt(_mean_variance(drift) * seen / max(seen - 1, 1))
     depth_sd = math.sqrt(_mean_variance(capture.depth_m))
-    return StillNoise(pixel_sd, depth_sd, depth_sd / float(np.nanmean(reading_sd_m(capture.depth_m))))
+    book_m = sensor.disc_sd_m(capture.depth_m, capture.area_px)
+    return StillNoise(pixel_sd, depth_sd, depth_sd / float(np.nanmean(book_m)))
 
 
 def _mean_variance(series: FloatArray) -> float:
@@ -380,16 +383,17 @@ def _disc_covariances(
     pixel_count: NDArray[np.int64],
     depth_count: NDArray[np.int64],
     said_sd_m: FloatArray,
+    area_px: FloatArray,
     noise: StillNoise,
     camera: Camera,
     settings: CalibrationSettings,
 ) -> FloatArray:
     """Covariance (M, 3, 3) in W0 of the averaged disc places: across by the pixels, along the ray by the depth."""
     z = point_cam[:, 2]
-    book_m = reading_sd_m(z)
+    book_m = camera.sensor.disc_sd_m(z, area_px)
     scatter_m = noise.depth_sd_m if np.isfinite(noise.depth_sd_m) else book_m
     steep2 = np.maximum(said_sd_m**2 - book_m**2, 0.0)  # of a slope, as steep in every frame
-    along = scatter_m**2 / np.maximum(depth_count, 1) + pattern_sd_m(z) ** 2 + steep2
+    along = scatter_m**2 / np.maximum(depth_count, 1) + camera.sensor.stays_sd_m(z) ** 2 + steep2
     pixel_sd = noise.pixel_sd_px if np.isfinite(noise.pixel_sd_px) else settings.pixel_sd_px
     across_m = np.hypot(pixel_sd / np.sqrt(np.maximum(pixel_count, 1)), settings.pixel_stays_px) * z / camera.fx_px
     ray = point_cam / z[:, None]

@@ -27,7 +27,8 @@ def calibrate_camera(views: Sequence[View], before: Camera, subject: str) -> Cam
     """Calibrate from kept views; raises what :func:`solve_intrinsics` does."""
     intrinsics = solve_intrinsics(views, before.width_px, before.height_px, subject)
     judgement = judge(views, before.width_px, before.height_px)
-    return CameraCalibration(before, intrinsics, check_depth(views, intrinsics), judgement, board_of(views).name())
+    depth = check_depth(views, intrinsics, before.sensor)
+    return CameraCalibration(before, intrinsics, depth, judgement, board_of(views).name())
 
 
 def calibration_lines(made: CameraCalibration) -> list[str]:

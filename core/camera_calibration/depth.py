@@ -17,7 +17,7 @@ import numpy as np
 from carpus.core.camera import Camera
 from carpus.core.camera_calibration.solve import Intrinsics
 from carpus.core.camera_calibration.views import View
-from carpus.core.depth_noise import reading_sd_m
+from carpus.core.depth_sensor import DepthSensor
 from carpus.core.types import FloatArray
 
 MOST_APART_PX = 2.0
@@ -70,7 +70,7 @@ class DepthCheck:
         return f"Depth reads {abs(share):.1f} % too {'long' if share > 0 else 'short'}{shift}."
 
 
-def check_depth(views: Sequence[View], intrinsics: Intrinsics) -> DepthCheck | None:
+def check_depth(views: Sequence[View], intrinsics: Intrinsics, sensor: DepthSensor) -> DepthCheck | None:
     """Depth against the board's plane over all views that count; None where too few have depth."""
     blocks = [
         _readings(views[k], intrinsics.camera, turn, shift)
@@ -81,10 +81,10 @@ def check_depth(views: Sequence[View], intrinsics: Intrinsics) -> DepthCheck | N
         return None
     middle = np.array([np.median(block[:, 1]) for block in known])
     with_offset = bool(middle.max() >= NEAR_FAR_RATIO * middle.min())
-    values, sd = _with_sd(known, with_offset)
+    values, sd = _with_sd(known, with_offset, sensor)
     if with_offset and abs(values[3]) < SURE_SD * sd[3]:
         # A shift that is not sure of itself only makes the scale less sure.
-        values, sd = _with_sd(known, False)
+        values, sd = _with_sd(known, False, sensor)
         with_offset = False
     scatter = np.concatenate([block[:, 0] - _design(block, with_offset) @ values for block in known])
     flat_m = 1.4826 * float(np.median(np.abs(scatter)))
@@ -95,14 +95,14 @@ def check_depth(views: Sequence[View], intrinsics: Intrinsics) -> DepthCheck | N
     return DepthCheck(float(values[0]), scale_sd, offset, offset_sd, values[1:3], apart_sd, flat_m, len(known))
 
 
-def _with_sd(blocks: Sequence[FloatArray], with_offset: bool) -> tuple[FloatArray, FloatArray]:
+def _with_sd(blocks: Sequence[FloatArray], with_offset: bool, sensor: DepthSensor) -> tuple[FloatArray, FloatArray]:
     """The fit and its standard deviations, of what leaving out each view changes: readings of one view agree in what
     is off."""
     count = len(blocks)
-    others = np.array([_robust([*blocks[:k], *blocks[k + 1 :]], with_offset) for k in range(count)])
+    others = np.array([_robust([*blocks[:k], *blocks[k + 1 :]], with_offset, sensor) for k in range(count)])
     spread = others - others.mean(axis=0)
     sd = np.sqrt((count - 1) / count * np.sum(spread**2, axis=0))
-    return _robust(blocks, with_offset), np.asarray(sd)
+    return _robust(blocks, with_offset, sensor), np.asarray(sd)
 
 
 def _design(block: FloatArray, with_offset: bool) -> FloatArray:
@@ -110,12 +110,12 @@ def _design(block: FloatArray, with_offset: bool) -> FloatArray:
     return np.column_stack((block[:, 1:4], np.ones(len(block)))) if with_offset else block[:, 1:4]
 
 
-def _robust(blocks: Sequence[FloatArray], with_offset: bool) -> FloatArray:
+def _robust(blocks: Sequence[FloatArray], with_offset: bool, sensor: DepthSensor) -> FloatArray:
     """Weighted least squares, readings far off left out; each view counts the same."""
     design = np.concatenate([_design(block, with_offset) for block in blocks])
     measured = np.concatenate([block[:, 0] for block in blocks])
     share = np.concatenate([np.full(len(block), 1.0 / math.sqrt(len(block))) for block in blocks])
-    sd = reading_sd_m(design[:, 0])
+    sd = sensor.reading_sd_m(design[:, 0])
     kept = np.ones(len(measured), dtype=bool)
     values: FloatArray = np.zeros(design.shape[1])
     for _ in range(_ROUNDS):

@@ -35,7 +35,7 @@ class CalibratedSource:
         self._source, self._calibration = source, info.calibration
         self.info: SourceInfo = replace(
             source.info,
-            camera=replace(info.camera, origin=ORIGIN),
+            camera=replace(info.camera, origin=ORIGIN, sensor=source.info.sensor),
             settings={**source.info.settings, **_said(info.calibration, source.info, now or datetime.now(UTC))},
         )
         self._table: tuple[float, DepthImage] | None = None

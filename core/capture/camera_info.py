@@ -10,6 +10,7 @@ from typing import Any
 import yaml
 
 from carpus.core.camera import DEFAULT_CAMERA, Camera
+from carpus.core.depth_sensor import ASSUMED, ASSUMED_SENSOR, DepthSensor, sensor_of
 from carpus.core.errors import CameraFileUnreadable, OutputExists, OutputNotWritable
 from carpus.core.types import SIMULATED
 
@@ -22,6 +23,7 @@ _FOCAL_SHARE = (0.2, 10.0)
 
 
 _CALIBRATION = "carpus_calibration"
+_SENSOR = "depth_sensor"
 
 
 @dataclass(frozen=True, slots=True)
@@ -100,6 +102,8 @@ def write_camera_info(
             content[name] = value
     if simulated:
         content[SIMULATED] = True
+    if camera.sensor.origin != ASSUMED:
+        content[_SENSOR] = camera.sensor.as_mapping()
     if calibration is not None:
         content[_CALIBRATION] = asdict(calibration)
     text = yaml.safe_dump(content, sort_keys=False, default_flow_style=None, width=120)
@@ -150,7 +154,17 @@ def _camera(path: Path, content: dict[str, Any]) -> Camera:
     if len(distortion) not in (0, 4, 5):
         raise CameraFileUnreadable(path, f"distortion_coefficients has {len(distortion)} numbers, 5 expected")
     k1, k2, p1, p2, k3 = [*distortion, *[0.0] * (5 - len(distortion))]
-    return Camera(fx, fy, cx, cy, width, height, (k1, k2, p1, p2, k3), origin="file")
+    return Camera(fx, fy, cx, cy, width, height, (k1, k2, p1, p2, k3), "file", _sensor(path, content))
+
+
+def _sensor(path: Path, content: dict[str, Any]) -> DepthSensor:
+    said = content.get(_SENSOR)
+    if said is None:
+        return ASSUMED_SENSOR
+    try:
+        return sensor_of(said)
+    except ValueError as cause:
+        raise CameraFileUnreadable(path, f"{_SENSOR}: {cause}") from cause
 
 
 def _calibration(path: Path, content: dict[str, Any]) -> StoredCalibration | None:

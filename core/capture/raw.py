@@ -29,6 +29,7 @@ from carpus.core.camera import Camera
 from carpus.core.capture.notice import Notice, ignore
 from carpus.core.capture.raw_pictures import decode_color, decode_depth, encode_color, encode_depth
 from carpus.core.capture.source import SourceInfo
+from carpus.core.depth_sensor import ASSUMED_SENSOR, sensor_of
 from carpus.core.encryption.content import open_kept
 from carpus.core.errors import (
     ContentDamaged,
@@ -184,6 +185,7 @@ class RawWriter:
             "settings": dict(info.settings),
             "recording_id": info.recording_id,
             "recorded": info.recorded,
+            "depth_sensor": camera.sensor.as_mapping(),
             "camera": {
                 "fx_px": camera.fx_px,
                 "fy_px": camera.fy_px,
@@ -248,6 +250,7 @@ class RawRecording:
         try:
             camera = dict(head["camera"])
             camera["distortion"] = tuple(camera["distortion"])
+            camera["sensor"] = sensor_of(head["depth_sensor"]) if "depth_sensor" in head else ASSUMED_SENSOR
             self._depth_unit_m = float(head["depth_unit_m"])
             self._info = SourceInfo(
                 str(head["name"]),

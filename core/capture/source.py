@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 from typing import Protocol
 
 from carpus.core.camera import Camera
+from carpus.core.depth_sensor import DepthSensor
 from carpus.core.types import SIMULATED, Frame
 
 
@@ -27,6 +28,11 @@ class SourceInfo:
     settings: Mapping[str, str] = field(default_factory=dict)
     recording_id: str = ""
     recorded: str = ""
+
+    @property
+    def sensor(self) -> DepthSensor:
+        """The depth sensor; it goes with the camera to whoever weighs its readings."""
+        return self.camera.sensor
 
 
 def is_simulated(info: SourceInfo) -> bool:

@@ -6,6 +6,7 @@ import math
 import threading
 import time
 from collections.abc import Iterator
+from dataclasses import replace
 
 from carpus.core.camera import Camera
 from carpus.core.capture.notice import Notice, ignore
@@ -14,6 +15,7 @@ from carpus.core.capture.source import SourceInfo
 from carpus.core.capture.xtion_assembly import Assembler, Layout, camera_of_view, fitted_camera
 from carpus.core.capture.xtion_link import ANSWER_S, OPEN_CAMERA_S, CaptureProcess
 from carpus.core.capture.xtion_messages import Arrived, CameraPlan, Ended, ExposureSet, LockExposure, Opened
+from carpus.core.depth_sensor import PRIMESENSE
 from carpus.core.errors import (
     CameraBusy,
     CameraFileUnreadable,
@@ -218,7 +220,8 @@ class XtionSource:
             self._notice(DepthNotRegistered(name))
         if layout.enlarged:
             self._notice(PicturesEnlarged(name, layout.enlarged))
-        return SourceInfo(name, found, True, None, float(opened.modes[Sensor.COLOR].fps), opened.settings)
+        camera = replace(found, sensor=PRIMESENSE)
+        return SourceInfo(name, camera, True, None, float(opened.modes[Sensor.COLOR].fps), opened.settings)
 
 
 def _layout(opened: Opened) -> Layout:

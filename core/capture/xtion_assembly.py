@@ -167,6 +167,7 @@ def fitted_camera(camera: Camera, size_px: tuple[int, int]) -> Camera | None:
         *size_px,
         camera.distortion,
         camera.origin,
+        camera.sensor,
     )
 
 

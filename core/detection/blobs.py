@@ -12,7 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from carpus.core.depth_noise import reading_sd_m
+from carpus.core.depth_sensor import DepthSensor
 from carpus.core.detection.settings import DetectionSettings
 from carpus.core.detection.stencil import WEDGES, Stencil
 from carpus.core.types import FloatArray
@@ -108,7 +108,11 @@ def _fill_in(
 
 
 def blob_depths(
-    depth_raw: NDArray[np.uint16], core: NDArray[np.bool_], unit_m: float, settings: DetectionSettings
+    depth_raw: NDArray[np.uint16],
+    core: NDArray[np.bool_],
+    unit_m: float,
+    settings: DetectionSettings,
+    sensor: DepthSensor,
 ) -> tuple[FloatArray, FloatArray]:
     """Depth (B,) and its standard deviation (B,) in metres from the blobs' cores; NaN where not trusted.
 
@@ -132,9 +136,8 @@ def blob_depths(
     # The sensor matches small windows: near an edge of the surface they hold two, and the depth is of neither.
     other = np.abs(metres - depth[:, None]) > settings.edge_step_m
     edge = (settings.edge_sd_m / metres.shape[1]) * other.sum(axis=1)
-    # Readings a few pixels apart share one correlation window of the sensor: together they count as one.
     slope = settings.slope_share / 1.35 * iqr
-    sd = np.sqrt(reading_sd_m(depth) ** 2 + slope**2 + edge**2)
+    sd = np.sqrt(sensor.mean_sd_m(depth, near.sum(axis=0)) ** 2 + slope**2 + edge**2)
     if trusted.all():
         return depth, sd
     return np.where(trusted, depth, np.nan), np.where(trusted, sd, np.nan)

@@ -125,7 +125,9 @@ class Detector:
         else:
             raw = frame.depth_raw[region.top : region.bottom, region.left : region.right].reshape(-1)
             core = outline.mine[:, stencil.core]
-            depth, depth_sd = blob_depths(raw.take(pixels[:, stencil.near]), core, frame.depth_unit_m, settings)
+            depth, depth_sd = blob_depths(
+                raw.take(pixels[:, stencil.near]), core, frame.depth_unit_m, settings, self._camera.sensor
+            )
         keep = (similarity >= self._looks.least_similarity) & (skin_share >= settings.skin_share)
         if keep.all():
             return Detections(centre, depth, depth_sd, area, similarity)

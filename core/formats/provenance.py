@@ -15,7 +15,10 @@ LEGAL = (
     "For research and education. Not a medical device, not CE-marked or FDA-cleared; values support, and do not "
     "replace, the judgement of a qualified clinician; do not use as the only basis for diagnosis or treatment."
 )
-OF_NO_ONE = ("depth_unit_m", "format", "intrinsics", "nominal_fps", "registered", "mirrored", "simulated", "driver")
+OF_NO_ONE = (
+    "depth_sensor", "depth_unit_m", "format", "intrinsics", "nominal_fps", "registered", "mirrored", "simulated",
+    "driver",
+)  # fmt: skip
 """What a de-identified export says of the source: nothing that names a device, a file or a day."""
 
 

@@ -19,6 +19,7 @@ from carpus.core.calibration.settings import CalibrationSettings
 from carpus.core.camera import Camera
 from carpus.core.capture.identity import Recorded, recorded_at, recording_id
 from carpus.core.capture.source import FrameSource, SourceInfo
+from carpus.core.depth_sensor import ASSUMED
 from carpus.core.detection.detector import Detector
 from carpus.core.detection.settings import DetectionSettings
 from carpus.core.errors import DiskFull, OutputExists, RecordingEmpty
@@ -119,6 +120,7 @@ def source_facts(info: SourceInfo) -> dict[str, Any]:
         "name": info.name,
         "nominal_fps": info.nominal_fps,
         "intrinsics": info.camera.origin,
+        "depth_sensor": info.sensor.name if info.sensor.origin != ASSUMED else f"{info.sensor.name} (assumed)",
         **info.settings,
     }
 

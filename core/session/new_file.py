@@ -49,7 +49,8 @@ def write_header(file: h5py.File, header: SessionHeader, camera: Camera) -> None
     for name in schema.ROOT_ATTRIBUTES:
         file.attrs[name] = values[name] if name in values else getattr(header, name)
     group = file.create_group("/camera")
-    for name, value in zip(schema.CAMERA_ATTRIBUTES, asdict(camera).values(), strict=True):
+    told = asdict(camera) | {"sensor": json.dumps(camera.sensor.as_mapping(), sort_keys=True)}
+    for name, value in zip(schema.CAMERA_ATTRIBUTES, told.values(), strict=True):
         group.attrs[name] = value
 
 

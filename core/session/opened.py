@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 from carpus.core.calibration.result import Calibration, Clicks, Finding, Verdict
 from carpus.core.camera import Camera
 from carpus.core.dates import iso, time_of_day
+from carpus.core.depth_sensor import ASSUMED_SENSOR, DepthSensor, sensor_of
 from carpus.core.encryption.cipher import is_encrypted
 from carpus.core.encryption.content import open_kept
 from carpus.core.errors import (
@@ -337,7 +338,14 @@ class _Source:
             height_px=int(said["height"]),
             distortion=(k1, k2, p1, p2, k3),
             origin=str(said.get("origin", "file")),
+            sensor=self._sensor(said.get("depth_sensor")),
         )
+
+    def _sensor(self, said: str | None) -> DepthSensor:
+        try:
+            return ASSUMED_SENSOR if said is None else sensor_of(json.loads(said))
+        except ValueError as cause:
+            raise SessionUnreadable(self._path, f"damaged: depth sensor, {cause}") from cause
 
     def _calibration(self) -> Calibration:
         arrays = {field.attribute: self.array(field) for field in schema.CALIBRATION_FIELDS}

@@ -50,6 +50,8 @@ CAMERA_ATTRIBUTES = {
     "height": "px",
     "distortion": "plumb_bob k1 k2 p1 p2 k3",
     "origin": "file, driver or default",
+    "depth_sensor": "JSON: the depth sensor whose noise was reckoned with, `origin` assumed where no source said; "
+    "without this attribute PrimeSense",
 }
 VERDICT_ATTRIBUTES = {
     "hand_length_m": "estimated from the palm",

@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from carpus.core.depth_noise import pattern_sd_m, reading_sd_m
+from carpus.core.depth_sensor import DepthSensor
 from carpus.core.tracking import association
 from carpus.core.tracking.joint_association import JointAssociation, associate_jointly, holds_together
 from carpus.core.tracking.kernel import Bank, corrected
@@ -45,7 +45,7 @@ class Corrected:
     raw_residual: FloatArray
 
 
-def measurable(blobs: Detections, radius_px: float, settings: TrackerSettings) -> Measurable:
+def measurable(blobs: Detections, radius_px: float, settings: TrackerSettings, sensor: DepthSensor) -> Measurable:
     """Blobs with the noise of each: what its picture and its depth are worth.
 
     ``radius_px`` of a disc at the hand's distance: a blob much smaller than it is half hidden, and its centre
@@ -61,11 +61,11 @@ def measurable(blobs: Detections, radius_px: float, settings: TrackerSettings) -
     at_m, sd_m = depth, blobs.depth_sd_m
     if not known.all():
         at_m, sd_m = np.where(known, depth, 1.0), np.where(known, sd_m, 1.0)
-    book2 = reading_sd_m(at_m) ** 2
+    book2 = sensor.disc_sd_m(at_m, blobs.area_px) ** 2
     beyond2 = np.maximum(sd_m**2 - book2, 0.0)
     variance = np.empty((len(blobs), 3))
     variance[:, :2] = (noise.pixel_sd_px**2 + wander_px**2)[:, None]
-    variance[:, 2] = noise.depth_ratio**2 * book2 + beyond2 + pattern_sd_m(at_m) ** 2
+    variance[:, 2] = noise.depth_ratio**2 * book2 + beyond2 + sensor.stays_sd_m(at_m) ** 2
     return Measurable(value, variance)
 
 

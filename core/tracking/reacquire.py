@@ -10,7 +10,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from carpus.core import so3
-from carpus.core.depth_noise import pattern_sd_m
 from carpus.core.tracking.palm_view import View
 from carpus.core.types import Detections, FloatArray
 
@@ -166,7 +165,7 @@ def find_palm(
     if not triple.size:
         return None
     fits = _fits(palm, triple, blobs, points, settings, reach)
-    seen = _Blobs(points, np.hypot(detections.depth_sd_m[known], pattern_sd_m(points[:, 2])))
+    seen = _Blobs(points, np.hypot(detections.depth_sd_m[known], view.camera.sensor.stays_sd_m(points[:, 2])))
     about = Facing(view.rotation_w0_cam @ facing.rotation_w2_w0, facing.most_rad)
     best = _best(fits, palm, seen, strays, about, known.size if reach is not None else 0, settings, reach)
     if best is None:

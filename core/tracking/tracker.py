@@ -543,7 +543,8 @@ class Tracker:
 
     def _measurable(self, ahead: Forecast, ideal: Detections) -> Measurable:
         depth_m = max(float(ahead.own_mean[0, 2]), 0.1)
-        return measurable(ideal, self.view.camera.fx_px * self.settings.marker_radius_m / depth_m, self.settings)
+        camera = self.view.camera
+        return measurable(ideal, camera.fx_px * self.settings.marker_radius_m / depth_m, self.settings, camera.sensor)
 
     def _weighed(self, picture: _Picture, ahead: Forecast) -> _Step:
         """Palm and fingers named and corrected, the fingers by what the palm leaves; nothing is remembered."""

@@ -14,7 +14,7 @@ from carpus.core.calibration.calibrate import NeutralCapture, calibrate, measure
 from carpus.core.calibration.result import Calibration, Clicks, Finding
 from carpus.core.calibration.same_hand import compared_with_last_time
 from carpus.core.calibration.settings import CalibrationSettings
-from carpus.core.depth_noise import reading_sd_m
+from carpus.core.depth_sensor import PRIMESENSE
 from carpus.core.detection.settings import DetectionSettings
 from carpus.core.errors import ClickOnNoMarker, MarkerWithoutDepth
 from carpus.core.hand.protocols import HAND21, WRIST6, MarkerProtocol
@@ -348,7 +348,7 @@ def test_the_noise_of_discs_is_that_of_their_own_whatever_their_number(protocol:
 @pytest.mark.parametrize("said_over_book", [1.0, 3.0])
 def test_how_well_a_disc_is_known_after_so_many_pictures(frames: int, said_over_book: float) -> None:
     """Scatter is averaged away; the pattern of the depth and a slope stay; across, a tenth of a pixel stays."""
-    book_m = float(reading_sd_m(np.array(0.7)))
+    book_m = float(PRIMESENSE.reading_sd_m(np.array(0.7)))
     clicks = Clicks("right", WRIST6, PALM_PX)
     capture = _still_capture(clicks, frames, 0.1, 0.001, said_over_book * book_m)
     calibration = measure_hand(clicks, capture, CAMERA, CalibrationSettings()).calibration

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -10,6 +11,7 @@ import yaml
 
 from carpus.core.camera import DEFAULT_CAMERA, Camera
 from carpus.core.capture.camera_info import default_camera, read_camera_info, write_camera_info
+from carpus.core.depth_sensor import D435, PRIMESENSE
 from carpus.core.errors import CameraFileUnreadable, OutputExists, OutputNotWritable
 
 CAMERA = Camera(570.3, 571.9, 314.2, 235.1, 640, 480, (0.041, -0.12, 1e-5, -3e-4, 0.07), origin="file")
@@ -42,6 +44,21 @@ def test_a_written_camera_is_read_back_exactly(tmp_path: Path) -> None:
     info = read_camera_info(path)
     assert info.camera == CAMERA
     assert (info.registered, info.mirrored) == (True, None)
+
+
+def test_the_sensor_is_read_back_or_taken_for_a_primesense(tmp_path: Path) -> None:
+    path, named, silent = (tmp_path / name for name in ("a.yaml", "b.yaml", "c.yaml"))
+    write_camera_info(path, replace(CAMERA, sensor=D435.with_focal(600.0)))
+    assert read_camera_info(path).camera.sensor == D435.with_focal(600.0)
+    write_camera_info(silent, CAMERA)
+    assert "depth_sensor" not in silent.read_text()
+    assert read_camera_info(silent).camera.sensor == replace(PRIMESENSE, origin="assumed")
+    named.write_text(ROS_FILE + "depth_sensor: d435\n")
+    assert read_camera_info(named).camera.sensor == D435
+    for wrong in ("x1", "[1, 2]", "{name: mine, kind: radar}", "{name: mine, reading: 3, stays: {}}"):
+        named.write_text(ROS_FILE + f"depth_sensor: {wrong}\n")
+        with pytest.raises(CameraFileUnreadable, match="depth_sensor"):
+            read_camera_info(named)
 
 
 def test_the_written_file_has_the_fields_of_ros(tmp_path: Path) -> None:

@@ -18,6 +18,7 @@ from carpus.core.camera import Camera
 from carpus.core.capture.raw import RawRecording, RawWriter, is_raw_recording
 from carpus.core.capture.raw_pictures import decode_color, decode_depth, encode_color, encode_depth
 from carpus.core.capture.source import SourceInfo
+from carpus.core.depth_sensor import D435
 from carpus.core.errors import (
     CarpusFault,
     OutputExists,
@@ -31,7 +32,7 @@ from carpus.core.types import Frame
 from tests.capture.oni_samples import HEIGHT, WIDTH, color_picture, depth_picture
 
 ROOT = Path(__file__).parents[2]
-CAMERA = Camera(52.0, 53.0, 31.0, 23.0, WIDTH, HEIGHT, (0.1, -0.2, 0.001, 0.002, 0.3), "file")
+CAMERA = Camera(52.0, 53.0, 31.0, 23.0, WIDTH, HEIGHT, (0.1, -0.2, 0.001, 0.002, 0.3), "file", D435)
 INFO = SourceInfo("Xtion Pro Live", CAMERA, True, None, 30.0, {"serial": "1206", "registered": "by the camera"})
 
 

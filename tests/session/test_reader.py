@@ -13,6 +13,7 @@ import h5py
 import numpy as np
 import pytest
 
+from carpus.core.depth_sensor import D455
 from carpus.core.errors import SessionUnreadable
 from carpus.core.hand.protocols import HAND21, WRIST6, MarkerProtocol
 from carpus.core.session.reader import has_raw, read_detections, read_session
@@ -20,11 +21,13 @@ from carpus.core.session.values import Event, Motion, motion_of, new_header
 from carpus.core.session.writer import SessionWriter
 from tests.session.samples import CAMERA, make_calibration, make_frame, make_header, time_of
 
+SEEN = dataclasses.replace(CAMERA, sensor=D455)
+
 N = 12
 
 
 def write(path: Path, protocol: MarkerProtocol = WRIST6) -> Path:
-    with SessionWriter.create(path, make_header(protocol), CAMERA, make_calibration(protocol)) as session:
+    with SessionWriter.create(path, make_header(protocol), SEEN, make_calibration(protocol)) as session:
         for row in range(N):
             session.append(make_frame(row, protocol))
         session.add_event(time_of(2), "note", "ein Wort")
@@ -52,7 +55,7 @@ def test_what_was_written_is_read(tmp_path: Path, protocol: MarkerProtocol) -> N
     frames = [make_frame(row, protocol) for row in range(N)]
     session = read_session(write(tmp_path / "s.h5", protocol))
     assert session.header == make_header(protocol)
-    assert session.camera == CAMERA
+    assert session.camera == SEEN
     assert_same(session.calibration, make_calibration(protocol))
     assert session.calibration.verdict.findings[0].markers == ("MCP2", "MCP3")
     assert_same(session.motion, motion_of(frames))

@@ -13,14 +13,14 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from carpus.core.depth_noise import pattern_sd_m, reading_sd_m
+from carpus.core.depth_sensor import PRIMESENSE
 from carpus.core.tracking.settings import TrackerSettings
 from carpus.core.tracking.tracker import Tracker
 from carpus.core.types import FloatArray
 from tests.tracking.hands import CAMERA, DT_S, RIGID, Motion, Pose, blobs, calibration, rotation_of, swing
 
 PIXEL_SD_PX = 0.15
-DEPTH_SD_M = float(np.hypot(reading_sd_m(np.array(0.7)), pattern_sd_m(np.array(0.7))))
+DEPTH_SD_M = float(np.hypot(PRIMESENSE.reading_sd_m(np.array(0.7)), PRIMESENSE.stays_sd_m(np.array(0.7))))
 SECONDS, RUNS, SETTLED = 4.0, 2, 15
 HIDDEN_SHARE = 0.1
 MOTIONS: dict[str, Motion] = {

@@ -1,0 +1,218 @@
+"""What is known of a depth sensor: how it measures, how sure one reading is, where it cannot be trusted.
+
+One value per sensor goes with the camera (:attr:`core.camera.Camera.sensor`) from the source to the detector, the
+calibration, the tracker and the session file, so that a new sensor is one more value here.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import asdict, dataclass, fields, replace
+from typing import Any, Literal, TypeGuard, get_args
+
+import numpy as np
+
+from carpus.core.types import FloatArray
+
+Kind = Literal["structured light", "active stereo", "time of flight"]
+Edge = Literal["torn", "fattened", "flying"]
+Registration = Literal["camera", "library", "none"]
+
+ASSUMED = "assumed"
+"""Origin of a sensor that no source stated."""
+_MOST_TEXT = 80
+_CORE_SHARE = 0.4
+"""Of a disc's area: what the detector takes its depth from."""
+
+
+@dataclass(frozen=True, slots=True)
+class NoiseLaw:
+    """Standard deviation ``fixed_m`` + ``square_per_m`` z^2 at a depth of z metres."""
+
+    fixed_m: float = 0.0
+    square_per_m: float = 0.0
+
+    def sd_m(self, depth_m: FloatArray) -> FloatArray:
+        """Standard deviation (...) at depths (...), metres."""
+        out = self.square_per_m * depth_m**2
+        return np.asarray(out + self.fixed_m if self.fixed_m else out)
+
+
+@dataclass(frozen=True, slots=True)
+class DepthSensor:
+    """How depth came to be.
+
+    ``reading``: noise of one reading. ``stays``: the part of it that stays as long as the surface stays: no averaging
+    over time removes it. ``patch_px``: readings within a square so wide are as one; readings of further ones average
+    where ``averages``. ``edge``: what becomes of readings about an edge (``torn`` in flecks, ``fattened`` by the
+    matching window, ``flying`` between both surfaces), ``edge_px`` how far about it. Readings are none below
+    ``nearest_m`` and above ``farthest_m``. ``registration``: who lays depth on colour. Of a pair of eyes ``baseline_m``
+    and ``focal_px`` of the depth picture, 0 for time of flight. ``origin``: ``stated`` by the source, or ``assumed``.
+    """
+
+    name: str
+    kind: Kind
+    reading: NoiseLaw
+    stays: NoiseLaw
+    patch_px: float
+    averages: bool
+    edge: Edge
+    edge_px: int
+    nearest_m: float
+    farthest_m: float
+    registration: Registration
+    baseline_m: float = 0.0
+    focal_px: float = 0.0
+    origin: str = "stated"
+
+    def reading_sd_m(self, depth_m: FloatArray) -> FloatArray:
+        """Standard deviation (...) of one reading at depths (...)."""
+        return self.reading.sd_m(depth_m)
+
+    def mean_sd_m(self, depth_m: FloatArray, pixels: FloatArray) -> FloatArray:
+        """Standard deviation (...) of the mean of so many neighbouring readings (...) at depths (...)."""
+        sd = self.reading.sd_m(depth_m)
+        if not self.averages:
+            return sd
+        return np.asarray(sd / np.sqrt(np.maximum(pixels / self.patch_px**2, 1.0)))
+
+    def disc_sd_m(self, depth_m: FloatArray, area_px: FloatArray) -> FloatArray:
+        """Standard deviation (...) of a disc's depth, read over the middle of its area (...)."""
+        return self.mean_sd_m(depth_m, _CORE_SHARE * area_px)
+
+    def stays_sd_m(self, depth_m: FloatArray) -> FloatArray:
+        """Standard deviation (...) of the part that stays."""
+        return self.stays.sd_m(depth_m)
+
+    def with_focal(self, focal_px: float) -> DepthSensor:
+        """The same pair of eyes with depth pictures of another focal length; their disparity is as sure as before.
+        Time of flight has no such length and stays as it is."""
+        if not self.focal_px:
+            return self
+        ratio = self.focal_px / focal_px
+        return replace(self, reading=_scaled(self.reading, ratio), stays=_scaled(self.stays, ratio), focal_px=focal_px)
+
+    def as_mapping(self) -> dict[str, Any]:
+        """All of it in plain values, as files carry it."""
+        return asdict(self)
+
+
+def _scaled(law: NoiseLaw, ratio: float) -> NoiseLaw:
+    return NoiseLaw(law.fixed_m * ratio, law.square_per_m * ratio)
+
+
+def sensor_of(said: object) -> DepthSensor:
+    """The sensor that a file tells by the name of a known one or as :meth:`DepthSensor.as_mapping` wrote it.
+
+    Raises ValueError with what is wrong. Keys that are not known are passed over: a newer file may say more.
+    """
+    if isinstance(said, str):
+        known = next((sensor for sensor in SENSORS.values() if sensor.name == said), SENSORS.get(said))
+        if known is None:
+            raise ValueError(f"no sensor that Carpus knows: {said[:_MOST_TEXT]!r} (known: {', '.join(SENSORS)})")
+        return known
+    if not isinstance(said, Mapping):
+        raise ValueError("neither a sensor's name nor its figures")
+    values: dict[str, Any] = {}
+    for field in fields(DepthSensor):
+        if field.name in said:
+            values[field.name] = said[field.name]
+    try:
+        values |= {law: NoiseLaw(*(float(said[law][f.name]) for f in fields(NoiseLaw))) for law in ("reading", "stays")}
+        out = DepthSensor(**values)
+    except (KeyError, TypeError, ValueError, OverflowError) as cause:
+        raise ValueError("its figures are not all there") from cause
+    return _checked(out)
+
+
+def _checked(sensor: DepthSensor) -> DepthSensor:
+    laws = (sensor.reading, sensor.stays)
+    numbers = (sensor.patch_px, sensor.edge_px, sensor.nearest_m, sensor.farthest_m, sensor.baseline_m, sensor.focal_px)
+    told: tuple[tuple[object, type], ...] = ((sensor.name, str), (sensor.origin, str), (sensor.averages, bool))
+    ok = all(isinstance(value, kind) for value, kind in told)
+    ok = ok and 0 < len(sensor.name) <= _MOST_TEXT and len(sensor.origin) <= _MOST_TEXT
+    ok = ok and sensor.kind in get_args(Kind) and sensor.edge in get_args(Edge)
+    ok = ok and sensor.registration in get_args(Registration)
+    ok = ok and all(_is_amount(number) for number in numbers)
+    ok = ok and all(0.0 <= law.fixed_m < 1.0 and 0.0 <= law.square_per_m < 1.0 for law in laws)
+    ok = ok and max(sensor.reading.fixed_m, sensor.reading.square_per_m) > 0.0
+    if not ok or sensor.patch_px < 1.0 or sensor.farthest_m <= sensor.nearest_m:
+        raise ValueError("its figures are no sensor's")
+    return sensor
+
+
+def _is_amount(value: object) -> TypeGuard[float]:
+    return isinstance(value, int | float) and not isinstance(value, bool) and math.isfinite(value) and value >= 0.0
+
+
+def _stereo(name: str, baseline_m: float, focal_px: float, nearest_m: float, farthest_m: float) -> DepthSensor:
+    """A RealSense of the D400 family: sd = z^2 subpixel / (focal length x baseline), with a disparity to 0.08 pixel.
+
+    Grunnet-Jepsen, Sweetser and Woodfill, "Tuning depth cameras for best performance" (maker's paper, rev. 2.0): the
+    formula and its 0.08 pixel for a textured surface, over a plane: it holds what stays (the projector's spots as they
+    lie on the surface, the larger part) and what changes from picture to picture.
+    """
+    law = NoiseLaw(square_per_m=_SUBPIXEL_PX / (focal_px * baseline_m))
+    stays = NoiseLaw(square_per_m=_SUBPIXEL_STAYS_PX / (focal_px * baseline_m))
+    return DepthSensor(
+        name, "active stereo", law, stays, 11.0, True, "fattened", 6, nearest_m, farthest_m, "library",
+        baseline_m=baseline_m, focal_px=focal_px,
+    )  # fmt: skip
+
+
+_SUBPIXEL_PX, _SUBPIXEL_STAYS_PX = 0.08, 0.06
+
+PRIMESENSE = DepthSensor(
+    "PrimeSense",
+    "structured light",
+    NoiseLaw(square_per_m=1.425e-3),
+    NoiseLaw(square_per_m=0.5e-3),
+    9.0,
+    False,
+    "torn",
+    6,
+    0.4,
+    3.5,
+    "camera",
+    baseline_m=0.075,
+    focal_px=575.0,
+)
+"""Asus Xtion, Kinect for Xbox 360, Orbbec Astra: half a step of 1/8 pixel in disparity (Khoshelham and Elberink 2012,
+clinical reference 7.2). Neighbours share the step that they are rounded to: they do not average."""
+
+D415 = _stereo("RealSense D415", 0.055, 1004.0, 0.45, 6.0)
+"""65 degrees across 1280 pixels."""
+D435 = _stereo("RealSense D435", 0.050, 424.0, 0.20, 6.0)
+"""90 degrees across 848 pixels; the D435i, D435f are the same pair of eyes."""
+D455 = _stereo("RealSense D455", 0.095, 424.0, 0.40, 6.0)
+"""90 degrees across 848 pixels; the D456, D457 are the same pair of eyes."""
+
+AZURE_KINECT = DepthSensor(
+    "Azure Kinect",
+    "time of flight",
+    NoiseLaw(fixed_m=0.5e-3, square_per_m=0.5e-3),
+    NoiseLaw(fixed_m=0.5e-3, square_per_m=0.2e-3),
+    2.0,
+    True,
+    "flying",
+    2,
+    0.30,
+    3.8,
+    "library",
+)
+"""Azure Kinect and Orbbec Femto (the same chip), narrow view: about 1 mm at 1 m on bright surfaces (Tolgyessy et al.
+2021, Kurillo et al. 2022); neighbours are independent but for their interpolation onto the colour picture. What stays:
+fixed pattern and light that comes by another way."""
+
+SENSORS: Mapping[str, DepthSensor] = {
+    "primesense": PRIMESENSE,
+    "d415": D415,
+    "d435": D435,
+    "d455": D455,
+    "azure": AZURE_KINECT,
+}
+"""Every known sensor by the name that files, commands and settings use."""
+
+ASSUMED_SENSOR = replace(PRIMESENSE, origin=ASSUMED)
+"""Of a source that does not say."""

@@ -1,0 +1,64 @@
+"""What is stated of each depth sensor, and what is taken from a file."""
+
+from __future__ import annotations
+
+import dataclasses
+import json
+
+import numpy as np
+import pytest
+
+from carpus.core.depth_sensor import AZURE_KINECT, D415, D435, D455, PRIMESENSE, SENSORS, DepthSensor, sensor_of
+
+Z_M = np.array([0.5, 0.7, 1.2])
+
+
+def test_the_laws_are_those_of_their_sources() -> None:
+    """Half a step of 1/8 pixel; z^2 over focal length and baseline; a millimetre at a metre."""
+    assert PRIMESENSE.reading_sd_m(Z_M) == pytest.approx(1.425e-3 * Z_M**2, rel=1e-15)
+    for sensor, baseline_m, focal_px in ((D415, 0.055, 1004.0), (D435, 0.05, 424.0), (D455, 0.095, 424.0)):
+        assert sensor.reading_sd_m(Z_M) == pytest.approx(Z_M**2 * 0.08 / (focal_px * baseline_m))
+    assert float(AZURE_KINECT.reading_sd_m(np.array(1.0))) == pytest.approx(1e-3)
+    halved = D435.with_focal(212.0)
+    assert halved.reading_sd_m(Z_M) == pytest.approx(2.0 * D435.reading_sd_m(Z_M))
+    assert halved.stays_sd_m(Z_M) == pytest.approx(2.0 * D435.stays_sd_m(Z_M))
+
+
+def test_neighbours_average_only_where_they_are_independent() -> None:
+    many = np.full(3, 400.0)
+    assert np.array_equal(PRIMESENSE.mean_sd_m(Z_M, many), PRIMESENSE.reading_sd_m(Z_M))
+    assert AZURE_KINECT.mean_sd_m(Z_M, many) == pytest.approx(AZURE_KINECT.reading_sd_m(Z_M) / 10.0)
+    assert np.array_equal(AZURE_KINECT.mean_sd_m(Z_M, np.ones(3)), AZURE_KINECT.reading_sd_m(Z_M))
+
+
+@pytest.mark.parametrize("sensor", SENSORS.values(), ids=SENSORS)
+def test_every_sensor_goes_through_a_file(sensor: DepthSensor) -> None:
+    said = json.loads(json.dumps(sensor.as_mapping()))
+    assert sensor_of(said) == sensor
+    assert sensor_of(said | {"colour_of_its_case": "grey"}) == sensor
+    assert sensor_of(sensor.name) == sensor
+
+
+@pytest.mark.parametrize(
+    "wrong",
+    [
+        {"name": ""},
+        {"name": 7},
+        {"kind": "radar"},
+        {"kind": ["time of flight"]},
+        {"reading": {"fixed_m": -1.0, "square_per_m": 0.0}},
+        {"reading": {"fixed_m": 0.0, "square_per_m": 0.0}},
+        {"stays": {"fixed_m": float("nan"), "square_per_m": 0.0}},
+        {"stays": 3},
+        {"patch_px": 0.0},
+        {"patch_px": "9"},
+        {"averages": 1},
+        {"nearest_m": 7.0},
+        {"farthest_m": float("inf")},
+        {"registration": None},
+    ],
+    ids=str,
+)
+def test_what_is_no_sensor_is_refused(wrong: dict[str, object]) -> None:
+    with pytest.raises(ValueError, match="figures"):
+        sensor_of(dataclasses.asdict(D435) | wrong)
