@@ -1,8 +1,7 @@
 """Looking back at thumb and fingers: filtered again over the smoothed palm, then smoothed themselves.
 
-The names of the blobs are those of the first pass. Rauch, Tung and Striebel's recursion runs over joints, rates and
-anatomy, so what a movement teaches of the bones also serves the frames before it. Where a finger was found anew
-only its anatomy is carried back.
+The names of the blobs are those of the first pass. The smoother runs over joints, rates and anatomy, so what a movement
+teaches of the bones also serves the frames before it. Where a finger was found anew only its anatomy is carried back.
 """
 
 from __future__ import annotations
@@ -17,9 +16,12 @@ from carpus.core.tracking.finger_depth import KnuckleBends, with_bends
 from carpus.core.tracking.finger_model import FingerModel, Seat
 from carpus.core.tracking.finger_naming import far_rays
 from carpus.core.tracking.hand_geometry import RAYS, SHOWS, SLOTS, JointMoment
-from carpus.core.tracking.kernel import Bank, corrected, learning_shares, looked_back
+from carpus.core.tracking.kernel import Bank, corrected, learning_shares
 from carpus.core.tracking.ray_filter import ANATOMY, PINNINGS, RATES, RAY_SIZE, RayForecast, forecast, spread_points
+from carpus.core.tracking.smoother import Passage, Smoother
 from carpus.core.types import FloatArray
+
+_LOWER = np.tril_indices(RAY_SIZE)
 
 
 @dataclass(frozen=True, slots=True)
@@ -78,17 +80,66 @@ class FingersLookedBack:
         now, step = self.filtered[known[-1]], self.steps[known[-1]]
         assert now is not None
         assert step is not None
-        lower = np.tril_indices(RAY_SIZE)
         shown = (SHOWS & step.shown[:, None, :]).any(axis=-1)
         return FingerStart(
-            model.alike(now.mean, _whole(now.covariance, lower, RAY_SIZE)),
+            model.alike(now.mean, _whole(now.covariance)),
             np.where(shown, 0.0, now.unseen_s),
             step.timestamp_s,
             known[-1] != count - 1,
         )
 
 
-def smooth_fingers(
+@dataclass(frozen=True, slots=True)
+class _RayBelief:
+    """Gaussians of the rays: ``mean`` (5, n) and ``covariance`` (5, n, n)."""
+
+    mean: FloatArray
+    covariance: FloatArray
+
+
+@dataclass(frozen=True, slots=True)
+class FingerWalk:
+    """Thumb and fingers as ``filtered_again`` over the smoothed palm, by the ``steps`` of the first pass."""
+
+    model: FingerModel
+    steps: Sequence[FingerStep | None]
+    filtered_again: Sequence[_Filtered | None]
+
+    def __len__(self) -> int:
+        return len(self.filtered_again)
+
+    def filtered(self, frame: int) -> _RayBelief | None:
+        now = self.filtered_again[frame]
+        return None if now is None else _RayBelief(now.mean, _whole(now.covariance))
+
+    def seconds_on(self, frame: int) -> float | None:
+        if frame + 1 == len(self):
+            return None
+        now, after, later = self.steps[frame], self.steps[frame + 1], self.filtered_again[frame + 1]
+        if now is None or after is None or later is None or not later.is_linked:
+            return None
+        return after.timestamp_s - now.timestamp_s
+
+    def passage(self, frame: int, now: _RayBelief, later: _RayBelief, dt_s: float) -> Passage:
+        after = self.filtered_again[frame + 1]
+        assert after is not None
+        forgetting = self.model.forgetting(now.mean, after.unseen_s, dt_s)
+        forward, noise = self.model.motion.step(dt_s, after.scale, forgetting)
+        moving, later_mean = np.arange(RATES.stop), later.mean
+        for ray in np.flatnonzero(after.anew):
+            # Nothing of the joints passes through: only what the later frames say of the anatomy goes back.
+            forward[ray][moving] = 0.0
+            noise[ray][moving, moving] = 1.0
+            later_mean = later_mean.copy()
+            later_mean[ray, moving] = 0.0
+        apart = later_mean - (forward @ now.mean[..., None])[..., 0]
+        return Passage(now.covariance, forward, noise, apart, later.covariance)
+
+    def moved(self, now: _RayBelief, correction: FloatArray, covariance: FloatArray) -> _RayBelief:
+        return _RayBelief(now.mean + correction, covariance)
+
+
+def smoothed_fingers(
     model: FingerModel,
     steps: Sequence[FingerStep | None],
     seats: Sequence[Seat | None],
@@ -98,19 +149,11 @@ def smooth_fingers(
     at the neutral pose."""
     filtered = _filtered(model, steps, seats, start)
     out: list[JointMoment | None] = [None] * len(steps)
-    lower = np.tril_indices(RAY_SIZE)
-    mean, covariance = np.empty(0), np.empty(0)
-    for k in range(len(steps) - 1, -1, -1):
-        now, seat = filtered[k], seats[k]
-        if now is None or seat is None:
-            continue
-        mean_now, covariance_now = now.mean, _whole(now.covariance, lower, RAY_SIZE)
-        later = filtered[k + 1] if k + 1 < len(steps) else None
-        if later is not None and later.is_linked:
-            mean, covariance = _back(model, mean_now, covariance_now, steps, k, later, mean, covariance)
-        else:
-            mean, covariance = mean_now, covariance_now
-        out[k] = model.read(mean, covariance, seat, _line(model, mean, covariance, seat))
+    for frame, belief in Smoother(FingerWalk(model, steps, filtered)).backwards():
+        seat = seats[frame]
+        if belief is not None and seat is not None:
+            line = _line(model, belief.mean, belief.covariance, seat)
+            out[frame] = model.read(belief.mean, belief.covariance, seat, line)
     return FingersLookedBack(out, filtered, steps)
 
 
@@ -131,7 +174,6 @@ def _filtered(
     is_lost = False
     if start is not None:
         beliefs, unseen_s, time_s, is_lost = start.beliefs, start.unseen_s, start.timestamp_s, start.is_lost
-    lower = np.tril_indices(RAY_SIZE)
     for step, seat in zip(steps, seats, strict=True):
         if step is None or seat is None:
             out.append(None)
@@ -159,46 +201,16 @@ def _filtered(
         bent = with_bends(nearest, step.bends) if step.bends.is_any else nearest
         beliefs, (mean, covariance), misread = model.within_reach(bent, beliefs)
         scale = np.sqrt(beliefs.probability @ model.scales**2)
-        out.append(_Filtered(mean, covariance[:, lower[0], lower[1]], scale, before_s, is_linked, anew | misread))
+        out.append(_Filtered(mean, covariance[:, _LOWER[0], _LOWER[1]], scale, before_s, is_linked, anew | misread))
         shown = (SHOWS & step.shown[:, None, :]).any(axis=-1)
         unseen_s = np.where(shown, 0.0, unseen_s + (step.timestamp_s - time_s if is_linked else 0.0))
         time_s, is_lost = step.timestamp_s, False
     return out
 
 
-def _back(
-    model: FingerModel,
-    mean: FloatArray,
-    covariance: FloatArray,
-    steps: Sequence[FingerStep | None],
-    k: int,
-    later: _Filtered,
-    later_mean: FloatArray,
-    later_covariance: FloatArray,
-) -> tuple[FloatArray, FloatArray]:
-    """The smoothed mean and covariance of frame k from those of frame k + 1."""
-    now, after = steps[k], steps[k + 1]
-    assert now is not None
-    assert after is not None
-    dt_s = after.timestamp_s - now.timestamp_s
-    if dt_s <= 0.0:
-        return later_mean, later_covariance
-    forward, noise = model.motion.step(dt_s, later.scale, model.forgetting(mean, later.unseen_s, dt_s))
-    moving = np.arange(RATES.stop)
-    for ray in np.flatnonzero(later.anew):
-        # Nothing of the joints passes through: only what the later frames say of the anatomy goes back.
-        forward[ray][moving] = 0.0
-        noise[ray][moving, moving] = 1.0
-        later_mean = later_mean.copy()
-        later_mean[ray, moving] = 0.0
-    apart = later_mean - (forward @ mean[..., None])[..., 0]
-    correction, smoothed = looked_back(covariance, forward, noise, apart, later_covariance)
-    return mean + correction, smoothed
-
-
-def _whole(triangle: FloatArray, lower: tuple[NDArray[np.int64], NDArray[np.int64]], size: int) -> FloatArray:
+def _whole(triangle: FloatArray) -> FloatArray:
     """Symmetric matrices (5, n, n) from their lower triangles."""
-    out = np.zeros((RAYS, size, size))
-    out[:, lower[0], lower[1]] = triangle
-    out[:, lower[1], lower[0]] = triangle
+    out = np.zeros((RAYS, RAY_SIZE, RAY_SIZE))
+    out[:, _LOWER[0], _LOWER[1]] = triangle
+    out[:, _LOWER[1], _LOWER[0]] = triangle
     return out

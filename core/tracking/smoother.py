@@ -1,49 +1,75 @@
-"""Looking back at the palm: every frame's belief in the light of all that came after (linear prediction).
+"""Looking back, written once: every frame's belief in the light of all that came after.
 
-Rauch, Tung and Striebel's recursion on the tangent space of the filter's state. Where the track was lost and
-begun anew the two stretches are smoothed each by itself.
+Rauch, Tung and Striebel's recursion. What the numbers of a chain mean is the walk's: the palm's and the fingers' are
+:mod:`core.tracking.palm_smoother` and :mod:`core.tracking.finger_smoother`. Where a track was lost and begun anew, the
+two stretches are looked back at each by itself.
 """
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass, replace
-
-import numpy as np
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import Generic, Protocol, TypeVar
 
 from carpus.core.tracking.kernel import looked_back
-from carpus.core.tracking.motion import PalmMotion, palm_step
-from carpus.core.tracking.palm_state import PalmBelief
 from carpus.core.types import FloatArray
+
+Belief = TypeVar("Belief")
 
 
 @dataclass(frozen=True, slots=True)
-class FilterStep:
-    """One step of the filter: the corrected belief (None when lost), how it was predicted, when.
+class Passage:
+    """From one frame of C chains to the next, about the earlier one's filtered mean: its ``covariance``, the step's
+    ``forward`` and ``noise`` (C, n, n), how far the later smoothed mean lies from the predicted one, ``apart`` (C, n),
+    and the ``later_covariance`` (C, n, n)."""
 
-    ``noise_scale`` of the process noise that led to it; ``linked`` False where the track began anew; ``unseen`` (3, 3)
-    turns that nothing had shown before the step.
-    """
-
-    timestamp_s: float
-    belief: PalmBelief | None
-    noise_scale: float
-    linked: bool
-    unseen: FloatArray | None = None
+    covariance: FloatArray
+    forward: FloatArray
+    noise: FloatArray
+    apart: FloatArray
+    later_covariance: FloatArray
 
 
-def smooth(steps: Sequence[FilterStep], motion: PalmMotion) -> list[PalmBelief | None]:
-    """Smoothed belief of every step; None where the hand was lost."""
-    out: list[PalmBelief | None] = [step.belief for step in steps]
-    for k in range(len(steps) - 2, -1, -1):
-        now, later, after = steps[k].belief, out[k + 1], steps[k + 1]
-        dt_s = after.timestamp_s - steps[k].timestamp_s
-        if now is None or later is None or not after.linked or dt_s <= 0.0:
-            continue
-        step = palm_step(now.rate_rad_s, replace(motion, scales=np.array([after.noise_scale])), dt_s, after.unseen)
-        apart = step.carries(now, dt_s).error_to(later)
+class Walk(Protocol[Belief]):
+    """Frames as a filter has left them, in order of time."""
+
+    def __len__(self) -> int: ...
+
+    def filtered(self, frame: int) -> Belief | None:
+        """What was believed after a frame; None where nothing was known."""
+
+    def seconds_on(self, frame: int) -> float | None:
+        """Time to the next frame; None where that one does not follow from this one."""
+
+    def passage(self, frame: int, now: Belief, later: Belief, dt_s: float) -> Passage:
+        """From the belief of a frame to the smoothed one of the next."""
+
+    def moved(self, now: Belief, correction: FloatArray, covariance: FloatArray) -> Belief:
+        """A belief moved by a ``correction`` (C, n), with another ``covariance`` (C, n, n)."""
+
+
+class Smoother(Generic[Belief]):
+    """Looks back over one walk."""
+
+    def __init__(self, walk: Walk[Belief]) -> None:
+        self._walk = walk
+
+    def backwards(self) -> Iterator[tuple[int, Belief | None]]:
+        """Every frame with its smoothed belief, None where nothing was known; the last frame first."""
+        later: Belief | None = None
+        for frame in reversed(range(len(self._walk))):
+            later = self._before(frame, later)
+            yield frame, later
+
+    def _before(self, frame: int, later: Belief | None) -> Belief | None:
+        """The smoothed belief of a frame from that of the next."""
+        now, dt_s = self._walk.filtered(frame), self._walk.seconds_on(frame)
+        if now is None or later is None or dt_s is None:
+            return now
+        if dt_s <= 0.0:
+            return later  # the same moment: nothing lies between
+        passage = self._walk.passage(frame, now, later, dt_s)
         correction, covariance = looked_back(
-            now.covariance[None], step.forward[None], step.noise, apart[None], later.covariance[None]
+            passage.covariance, passage.forward, passage.noise, passage.apart, passage.later_covariance
         )
-        out[k] = now.moved(correction[0], covariance[0])
-    return out
+        return self._walk.moved(now, correction, covariance)

@@ -23,13 +23,14 @@ from carpus.core.spot_answer import SpotAnswer
 from carpus.core.tracking.disc_anew import disc_anew, with_discs_as_known
 from carpus.core.tracking.doubt import DoubtWatch, passed_over
 from carpus.core.tracking.finger_model import seat_of
-from carpus.core.tracking.finger_smoother import FingersLookedBack, FingerStart, FingerStep, smooth_fingers
+from carpus.core.tracking.finger_smoother import FingersLookedBack, FingerStart, FingerStep, smoothed_fingers
 from carpus.core.tracking.fingers import Fingers, FingerTrial
 from carpus.core.tracking.geometry import palm_of
 from carpus.core.tracking.kernel import Bank, carried, corrected, mixed, switching
 from carpus.core.tracking.motion import PalmMotion, mode_scale, palm_step, slowing, slowing_unseen, unseen_turns
 from carpus.core.tracking.naming import Corrected, Measurable, measurable, name_and_correct
 from carpus.core.tracking.noise_watch import watched
+from carpus.core.tracking.palm_smoother import FilterStep, smoothed_palm
 from carpus.core.tracking.palm_state import POSE, RELIEF, SHAPE, SIZE, SKIN, TURN, InitialSd, PalmBelief, resting_belief
 from carpus.core.tracking.palm_view import Forecast, View, forecast, recentred
 from carpus.core.tracking.reacquire import Facing, FoundPalm, find_palm
@@ -37,7 +38,6 @@ from carpus.core.tracking.readout import Readout, lost_frame, lost_moment
 from carpus.core.tracking.said_spots import NoDisc, RecentSpots
 from carpus.core.tracking.settings import TrackerSettings
 from carpus.core.tracking.shape_learning import hidden_by_calibration, shape_covariance, shape_shares
-from carpus.core.tracking.smoother import FilterStep, smooth
 from carpus.core.tracking.soft_tissue import settled_covariance
 from carpus.core.tracking.surface_fit import surface_measurement
 from carpus.core.types import Detections, FloatArray, Moment, TrackedFrame, TrackStatus
@@ -683,14 +683,14 @@ class Tracker:
 
     def smoothed(self) -> list[Moment]:
         """Every frame so far in the light of all the others; needs the history kept. Tracking may go on meanwhile."""
-        beliefs = smooth(list(self.history), self._motion)
+        beliefs = smoothed_palm(list(self.history), self._motion)
         readout = Readout(self._calibration)
         lost = lost_moment(self._joint_count, len(self._protocol.markers))
         moments = [lost if belief is None else readout.moment(belief) for belief in beliefs]
         if self._fingers is None:
             return moments
         seats = [None if belief is None else seat_of(belief, self.view, readout) for belief in beliefs]
-        self._looked_back = smooth_fingers(
+        self._looked_back = smoothed_fingers(
             self._fingers.model, self._finger_history[: len(beliefs)], seats, self._finger_start
         )
         return [

@@ -17,10 +17,10 @@ from carpus.core.simulation.measurements import MeasurementSequence
 from carpus.core.tracking.kernel import Bank, mixed, predicted, switching
 from carpus.core.tracking.motion import PalmMotion, mode_scale, palm_step, slowing
 from carpus.core.tracking.naming import Measurable, correct
+from carpus.core.tracking.palm_smoother import FilterStep, smoothed_palm
 from carpus.core.tracking.palm_state import SIZE, TURN, PalmBelief, resting_belief
 from carpus.core.tracking.palm_view import View, forecast, recentred
 from carpus.core.tracking.settings import TrackerSettings
-from carpus.core.tracking.smoother import FilterStep, smooth
 from carpus.core.types import FloatArray, Side, TrackStatus
 from tests.accuracy.runs import INFORMED, Estimate, Mode, Run, degrees_between
 from tests.accuracy.scenarios import Scenario
@@ -75,7 +75,7 @@ def informed_run(
         steps.append(FilterStep(float(times[i]), belief, mode_scale(bank.probability[0], scales), True))
     ms = 1e3 * (time.process_time() - begin) / len(times)
     scored = scored_frames(truth, begin_s)
-    smoothed = [belief for belief in smooth(steps, motion) if belief is not None]
+    smoothed = [belief for belief in smoothed_palm(steps, motion) if belief is not None]
     true_rad = truth.angles_rad[scored]
     return Run(
         scenario.name,

@@ -12,11 +12,11 @@ from carpus.core.tracking.kernel import (
     carried,
     corrected,
     learning_shares,
-    looked_back,
     mixed,
     predicted,
     switching,
 )
+from carpus.core.tracking.smoother import Passage, Smoother
 from carpus.core.types import FloatArray
 
 CHAINS, MODES, STATES, SEEN = 3, 2, 5, 4
@@ -169,6 +169,39 @@ def test_slow_numbers_take_their_share_and_all_else_the_whole(learning: float) -
     assert np.allclose(lost, (1.0 - (1.0 - learning) ** 2) * (bank.covariance - whole.covariance)[..., slow, slow])
 
 
+class LinearWalk:
+    """Frames of one chain of which the filtered beliefs are known, ``seconds`` apart (None: begun anew)."""
+
+    def __init__(self, banks: list[Bank], forward: FloatArray, noise: FloatArray, seconds: list[float | None]) -> None:
+        self._beliefs = [(bank.mean[:, 0], bank.covariance[:, 0]) for bank in banks]
+        self._forward, self._noise, self._seconds = forward[None], noise[None], seconds
+
+    def __len__(self) -> int:
+        return len(self._beliefs)
+
+    def filtered(self, frame: int) -> tuple[FloatArray, FloatArray]:
+        return self._beliefs[frame]
+
+    def seconds_on(self, frame: int) -> float | None:
+        return self._seconds[frame]
+
+    def passage(
+        self, frame: int, now: tuple[FloatArray, FloatArray], later: tuple[FloatArray, FloatArray], dt_s: float
+    ) -> Passage:
+        return Passage(now[1], self._forward, self._noise, later[0] - now[0] @ self._forward[0].T, later[1])
+
+    def moved(
+        self, now: tuple[FloatArray, FloatArray], correction: FloatArray, covariance: FloatArray
+    ) -> tuple[FloatArray, FloatArray]:
+        return now[0] + correction, covariance
+
+
+def beliefs_of(walk: LinearWalk) -> dict[int, tuple[FloatArray, FloatArray]]:
+    found = {frame: belief for frame, belief in Smoother(walk).backwards() if belief is not None}
+    assert len(found) == len(walk)
+    return found
+
+
 def test_looking_back_is_the_least_squares_of_all_measurements() -> None:
     """A line of Gaussian steps and measurements, solved at once and by the recursion."""
     rng, steps, n, m = np.random.default_rng(2), 6, 3, 2
@@ -184,15 +217,9 @@ def test_looking_back_is_the_least_squares_of_all_measurements() -> None:
             bank = predicted(bank, forward[None], noise[None, None])
         bank = corrected(bank, line, seen[None, k], r[None]).bank
         filtered.append(bank)
-    mean, covariance = filtered[-1].mean[0, 0], filtered[-1].covariance[0, 0]
-    smoothed = [mean]
-    for bank in filtered[-2::-1]:
-        own = bank.mean[0, 0]
-        correction, both = looked_back(
-            bank.covariance[:, 0], forward[None], noise[None], (mean - forward @ own)[None], covariance[None]
-        )
-        mean, covariance = own + correction[0], both[0]
-        smoothed.insert(0, mean)
+    walk = LinearWalk(filtered, forward, noise, [0.1] * (steps - 1) + [None])
+    found = beliefs_of(walk)
+    smoothed, covariance = [found[k][0][0] for k in range(steps)], found[0][1][0]
     information = np.zeros((steps * n, steps * n))
     vector = np.zeros(steps * n)
     information[:n, :n] += np.linalg.inv(spread)
@@ -208,3 +235,8 @@ def test_looking_back_is_the_least_squares_of_all_measurements() -> None:
     batch = np.linalg.solve(information, vector).reshape(steps, n)
     assert np.allclose(smoothed, batch, atol=1e-8)
     assert np.allclose(covariance, np.linalg.inv(information)[:n, :n], atol=1e-8)
+
+    apart = beliefs_of(LinearWalk(filtered, forward, noise, [0.1, None, 0.1, 0.0, 0.1, None]))
+    assert np.array_equal(apart[1][0], filtered[1].mean[:, 0]), "begun anew after it"
+    assert apart[3] is apart[4], "of one moment there is one belief"
+    assert not np.allclose(apart[0][0], smoothed[0]), "what came after the break says nothing"

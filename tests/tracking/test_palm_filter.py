@@ -11,6 +11,7 @@ from filterpy.kalman import MerweScaledSigmaPoints, UnscentedKalmanFilter
 from carpus.core import so3
 from carpus.core.tracking.kernel import Bank
 from carpus.core.tracking.motion import MotionNoise, PalmMotion, palm_step, slowing, slowing_unseen, unseen_turns
+from carpus.core.tracking.palm_smoother import FilterStep, smoothed_palm
 from carpus.core.tracking.palm_state import (
     MOVING,
     POSE,
@@ -27,7 +28,6 @@ from carpus.core.tracking.palm_state import (
     resting_belief,
 )
 from carpus.core.tracking.palm_view import View, recentred, sight
-from carpus.core.tracking.smoother import FilterStep, smooth
 from carpus.core.tracking.soft_tissue import SoftTissue, keeping, settled_covariance
 from carpus.core.tracking.unscented import Spread
 from carpus.core.types import FloatArray
@@ -186,7 +186,7 @@ def test_looking_back_draws_a_straight_line_through_a_gap() -> None:
         angle = 0.1 * k if k in (0, 10) else 0.1 * k + 0.05
         rotation = so3.exp(np.array([0.0, angle, 0.0]))
         steps.append(FilterStep(0.1 * k, PalmBelief(rotation, value, sharp if k in (0, 10) else wide), 1.0, k > 0))
-    found = smooth(steps, MOTION)
+    found = smoothed_palm(steps, MOTION)
     middle = found[5]
     assert middle is not None
     assert so3.log(middle.rotation_w2_w0)[1] == pytest.approx(0.5, abs=0.02)
@@ -198,7 +198,7 @@ def test_looking_back_draws_a_straight_line_through_a_gap() -> None:
 def test_looking_back_does_not_reach_over_a_new_beginning() -> None:
     steps = [FilterStep(0.1 * k, moving(k), 1.0, k not in (0, 2)) for k in range(4)]
     steps[1] = replace(steps[1], belief=None)
-    found = smooth(steps, MOTION)
+    found = smoothed_palm(steps, MOTION)
     assert found[0] is steps[0].belief
     assert found[1] is None
     assert found[2] is not steps[2].belief
