@@ -7,6 +7,7 @@ import sys
 from dataclasses import replace
 from datetime import datetime
 from pathlib import Path
+from typing import get_args
 
 import numpy as np
 
@@ -29,7 +30,7 @@ from carpus.core.pipeline.told_settings import Told, differences, settings_told
 from carpus.core.pipeline.track import TrackReport, TrackSettings, retrack_session, track_recording
 from carpus.core.session.reader import read_outline, read_session
 from carpus.core.summary import range_lines
-from carpus.core.tracking.settings import PROFILES
+from carpus.core.tracking.settings import Profile
 from carpus.core.words import finding_sentence
 
 LARGEST_START_DEG = 120.0
@@ -135,7 +136,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         action="store_true",
         help="go on without missing and damaged pictures of a folder, as frames that were lost; else they are a fault",
     )
-    parser.add_argument("--profile", choices=tuple(PROFILES), help="how lively the hand is (default: standard)")
+    parser.add_argument("--profile", choices=get_args(Profile), help="how lively the hand is (default: standard)")
     parser.add_argument(
         "--smooth",
         action=argparse.BooleanOptionalAction,

@@ -28,7 +28,7 @@ class AssociationSettings:
     ``gate_sd``: blobs further than this from a prediction (in standard deviations of the innovation) are
     never that marker. ``depth_range_m``: over which clutter's depth is spread. ``least_company``: so many discs at
     their depth bear out another whose depth is something else's. ``beam``: so many ways to name all are followed side
-    by side.
+    by side. A set of names is doubted when chance gives a smaller NIS with the probability ``consistent``.
     """
 
     prior_marker: float = 0.9
@@ -37,6 +37,7 @@ class AssociationSettings:
     depth_range_m: float = 0.5
     least_company: int = 3
     beam: int = 10
+    consistent: float = 0.9995
 
 
 @dataclass(frozen=True, slots=True)

@@ -19,8 +19,6 @@ from carpus.core.tracking.settings import TrackerSettings
 from carpus.core.tracking.soft_tissue import settled_covariance
 from carpus.core.types import BoolArray, FloatArray
 
-ANYWHERE_M = 0.02
-"""How far the disc may be from where the one picture shows it: more than any depth errs."""
 _TWICE = 2.0
 """The picture is read once more right after: half of its weight now, half then."""
 
@@ -39,7 +37,7 @@ def disc_anew(
     shape, skin = (np.arange(part.start + 3 * disc, part.start + 3 * disc + 3) for part in (SHAPE, SKIN))
     own = np.concatenate((shape, skin))
     fresh = np.zeros((6, 6))
-    fresh[:3, :3] = ANYWHERE_M**2 * np.eye(3)
+    fresh[:3, :3] = settings.said.anywhere_m**2 * np.eye(3)
     fresh[3:, 3:] = settled_covariance(settings.tissue)[skin[:, None], skin]
     value = belief.value.copy()
     value[shape], value[skin] = on_palm_m - view.palm_m[disc], 0.0

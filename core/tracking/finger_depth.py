@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import lru_cache
 
 import numpy as np
 
@@ -19,9 +20,6 @@ from carpus.core.types import FINGER_STEP_PX, FloatArray, SurfaceSamples
 
 FLEXION = 1
 """The slot of a finger's flexion at the knuckle."""
-_GRID_RAD = np.radians(np.arange(-20.0, 111.0, 5.0))
-_ALONG = np.array([0.35, 0.6, 0.85, 1.05])
-"""Where on the proximal phalanx its back is looked for, as shares of its length."""
 _LENGTH, _FAN, _START, _HEIGHT = SLOTS, SLOTS + 3, slice(SLOTS + 5, SLOTS + 8), SLOTS + 8
 _DOWN = np.array([1.0, 1.0, -1.0])
 
@@ -31,7 +29,9 @@ class FingerDepthSettings:
     """``near_m``: how far a reading strays from the surface it lies on, ``steep_m`` where that is steep; a reading past
     the finger costs up to ``most_past``, one before it, which may be another finger, up to ``most_before``, none
     ``nothing``. ``least_sd_rad`` of what one picture says, ``most_sd_rad`` beyond which it is not asked; ``alike``
-    frames err as one."""
+    frames err as one. The back of the proximal phalanx is looked for at ``along``, shares of its length, for bends
+    from ``straightest_deg`` to ``most_bent_deg`` in steps of ``step_deg``; it is steep where less than
+    ``facing_share`` of it faces the camera."""
 
     near_m: float = 0.005
     steep_m: float = 0.010
@@ -41,6 +41,11 @@ class FingerDepthSettings:
     least_sd_rad: float = 0.14
     most_sd_rad: float = 0.45
     alike: float = 8.0
+    along: tuple[float, ...] = (0.35, 0.6, 0.85, 1.05)
+    straightest_deg: float = -20.0
+    most_bent_deg: float = 110.0
+    step_deg: float = 5.0
+    facing_share: float = 0.5
 
 
 @dataclass(frozen=True, slots=True)
@@ -71,7 +76,8 @@ def knuckle_bends(
     """What the readings say of the rays ``asked`` (fingers), with means (5, n), that begin under ``root_m`` (5, 3)."""
     out = KnuckleBends.none()
     depth_at = _lattice(samples)
-    sin, cos = np.sin(_GRID_RAD), np.cos(_GRID_RAD)
+    bend_rad, share = _grid_rad(settings), np.array(settings.along)
+    sin, cos = np.sin(bend_rad), np.cos(bend_rad)
     for ray in asked:
         state = mean[ray, SEEN]
         azimuth = state[_FAN] + state[0]
@@ -80,23 +86,30 @@ def knuckle_bends(
         knuckle = root_m[ray] + state[_START] * _DOWN
         along = cos[:, None] * ahead - sin[:, None] * up  # (Q, 3)
         normal = sin[:, None] * ahead + cos[:, None] * up
-        reach = _ALONG * state[_LENGTH]
+        reach = share * state[_LENGTH]
         place = knuckle + reach[None, :, None] * along[:, None] + state[_HEIGHT] * normal[:, None]  # (Q, P, 3)
         seen = view.observe(place)
         past_m = depth_at(seen[..., :2]) - seen[..., 2]
         facing = -(normal @ view.rotation.T)[:, 2]
-        near_m = np.where(facing > 0.5, settings.near_m, settings.steep_m)[:, None]
+        near_m = np.where(facing > settings.facing_share, settings.near_m, settings.steep_m)[:, None]
         cost = 0.5 * (past_m / near_m) ** 2
         cost = np.where(past_m > 0.0, np.minimum(cost, settings.most_past), np.minimum(cost, settings.most_before))
         total = np.where(np.isfinite(past_m), cost, settings.nothing).sum(axis=1)
         weight = np.exp(total.min() - total)
         weight /= weight.sum()
-        value = float(weight @ _GRID_RAD)
-        variance = float(weight @ (_GRID_RAD - value) ** 2)
+        value = float(weight @ bend_rad)
+        variance = float(weight @ (bend_rad - value) ** 2)
         if variance < settings.most_sd_rad**2:
             out.value_rad[ray] = value
             out.variance_rad2[ray] = settings.alike * max(variance, settings.least_sd_rad**2)
     return out
+
+
+@lru_cache(maxsize=2)
+def _grid_rad(settings: FingerDepthSettings) -> FloatArray:
+    """The bends (Q,) that are weighed."""
+    end_deg = settings.most_bent_deg + 0.5 * settings.step_deg
+    return np.asarray(np.radians(np.arange(settings.straightest_deg, end_deg, settings.step_deg)))
 
 
 def with_bends(bank: Bank, bends: KnuckleBends) -> Bank:

@@ -169,7 +169,7 @@ class FingerModel:
         misread there, so their joints may be anywhere, on the anatomy as it was ``before``. Between them the beliefs
         merged."""
         merged = beliefs.merged()
-        kept = constrained(beliefs, merged[0][:, :SLOTS])
+        kept = constrained(beliefs, merged[0][:, :SLOTS], self.settings.fingers.limits)
         if kept is not beliefs:
             merged = kept.merged()
         beyond_rad = np.abs(outside_limits(merged[0][:, :SLOTS]))
@@ -201,7 +201,9 @@ class FingerModel:
         if dt_s >= self.settings.fingers.range_after_s:
             return self.anywhere(*beliefs.merged())
         ahead = self.motion.predicted(mixed(beliefs, switch), dt_s, self.forgetting(mean, unseen_s, dt_s))
-        return ahead if dt_s < self.settings.fingers.gap_s else constrained(ahead, ahead.merged()[0][:, :SLOTS])
+        if dt_s < self.settings.fingers.gap_s:
+            return ahead
+        return constrained(ahead, ahead.merged()[0][:, :SLOTS], self.settings.fingers.limits)
 
     def forgetting(self, mean: FloatArray, unseen_s: FloatArray, dt_s: float) -> Forgetting | None:
         """What becomes of the slots of rays at ``mean`` (5, n) that nothing shows; None where all are shown.
@@ -276,7 +278,7 @@ class FingerModel:
         unit[..., 2, 0] = 1.0 / depth_m
         slope = line.slope[..., :SLOTS] * unit.reshape(RAYS, 9, 1)
         across = np.swapaxes(slope, 1, 2)
-        doubt = 0.25 * np.linalg.inv(joints + _NARROW2 * np.eye(SLOTS))
+        doubt = self.settings.fingers.inherited * np.linalg.inv(joints + _NARROW2 * np.eye(SLOTS))
         response = np.linalg.solve(across @ slope + doubt, across)
         root_m = seat.palm.disc_m[1:, None] @ seat.view.rotation.T + seat.view.translation_m
         turned = response @ (line.by_place @ so3.skew(root_m - line.centre_m) * unit).reshape(RAYS, 9, 3)

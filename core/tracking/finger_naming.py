@@ -17,7 +17,7 @@ from carpus.core.tracking import association
 from carpus.core.tracking.finger_settings import FingerSettings
 from carpus.core.tracking.hand_geometry import DISCS, RAYS, SHOWS, SLOTS, is_crowded, ray_frames
 from carpus.core.tracking.joint_association import holds_together
-from carpus.core.tracking.joint_limits import SOFT_RAD, outside_limits
+from carpus.core.tracking.joint_limits import outside_limits
 from carpus.core.tracking.kernel import Bank, Update, corrected, learning_shares
 from carpus.core.tracking.naming import Measurable
 from carpus.core.tracking.ray_filter import ANATOMY, RAY_SIZE, SEEN, RayForecast, RayView
@@ -28,7 +28,6 @@ _AXES = np.arange(3)
 _SLOT = np.arange(SLOTS)
 _BENDS = np.array([[0.0, 0.0, 1.0, 0.0, 1.0], *([0.0, 1.0, 1.0, 1.0, 0.0],) * 4])
 """Slots (5, 5) that tilt the discs past them."""
-_CANDIDATES = 4
 _LOG_2_PI = float(np.log(2.0 * np.pi))
 
 
@@ -81,7 +80,8 @@ def name_fingers(beliefs: Bank, scene: FingerScene, settings: TrackerSettings) -
     """Names and corrects all rays."""
     names = _each_by_itself(scene, settings)
     found = corrected_as_named(beliefs, scene, names, settings)
-    doubtful = [r for r in range(RAYS) if not holds_together(float(found.update.nis[r]), int(found.update.dof[r]))]
+    nis, dof = found.update.nis.tolist(), found.update.dof.tolist()
+    doubtful = [r for r in range(RAYS) if not holds_together(nis[r], dof[r], settings.association)]
     if doubtful:
         taken, with_depth = names.taken.copy(), names.with_depth.copy()
         taken[doubtful] = -1
@@ -124,7 +124,7 @@ def far_rays(covariance: FloatArray, named: NDArray[np.bool_], own: FingerSettin
 
 def beyond_reach(mean: FloatArray, covariance: FloatArray, own: FingerSettings) -> NDArray[np.bool_]:
     """Rays (5,) bent surely beyond their limits, by means (5, n) and covariances (5, n, n)."""
-    sd = np.sqrt(np.diagonal(covariance, axis1=1, axis2=2)[:, :SLOTS] + SOFT_RAD**2)
+    sd = np.sqrt(np.diagonal(covariance, axis1=1, axis2=2)[:, :SLOTS] + own.limits.soft_rad**2)
     return np.asarray((np.abs(outside_limits(mean[:, :SLOTS])) > own.surely_sd * sd).any(axis=1))
 
 
@@ -230,10 +230,11 @@ def _ray_jointly(
         pixel2 = (off[:, :2] ** 2 / sd2[:, :2]).sum(axis=1)
         whole2 = pixel2 + off[:, 2] ** 2 / sd2[:, 2]
         gate2 = settings.association.gate_sd**2
-        near = blobs[np.argsort(np.where(np.isfinite(whole2), np.minimum(whole2, pixel2 + 14.0), pixel2 + 14.0))]
+        flat2 = pixel2 + settings.fingers.without_depth2
+        near = blobs[np.argsort(np.where(np.isfinite(whole2), np.minimum(whole2, flat2), flat2))]
         order = {int(b): i for i, b in enumerate(blobs)}
         own: list[tuple[int, bool]] = [(-1, False)]
-        for blob in near[:_CANDIDATES]:
+        for blob in near[: settings.fingers.candidates]:
             i = order[int(blob)]
             if pixel2[i] > 2.0 * gate2:
                 continue
@@ -280,4 +281,4 @@ def seen_chance(
     sd = np.sqrt(tilt_sd_rad**2 + settings.steepest_sd_rad**2)
     # Logistic in place of the normal integral.
     facing = 1.0 / (1.0 + np.exp(np.clip(1.7 * (tilt_rad - settings.steepest_rad) / sd, -30.0, 30.0)))
-    return np.asarray(np.clip(by_time * facing, 1e-4, 0.98))
+    return np.asarray(np.clip(by_time * facing, settings.least_seen, settings.most_seen))

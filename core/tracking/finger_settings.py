@@ -7,6 +7,8 @@ from dataclasses import dataclass, field
 
 from carpus.core.hand.anatomy_prior import AnatomyPrior
 from carpus.core.tracking.finger_depth import FingerDepthSettings
+from carpus.core.tracking.joint_limits import LimitSettings
+from carpus.core.tracking.ray_search import RaySearchSettings
 
 
 @dataclass(frozen=True, slots=True)
@@ -23,7 +25,8 @@ class FingerSettings:
     stays hidden or seen on average; ``steepest_rad``: tilt at which discs vanish, give or take ``steepest_sd_rad``.
     ``clutter``: other blobs expected in a picture. ``skin_sd_rad``: how far discs
     that ride on gliding skin mislead about a joint, however long it is seen. ``anatomy``: how far a hand may
-    differ from the average one. ``depth``: what depth says where discs are hidden.
+    differ from the average one. ``depth``: what depth says where discs are hidden. ``limits`` of joints; ``search`` of
+    a ray that is lost.
 
     ``dip_slack_rad``: how far end joints that follow the middle ones stray from two thirds of them;
     ``thumb_aside_rad``: how far the thumb's MCP joint, which hardly moves sideways, strays from straight; both return
@@ -39,6 +42,13 @@ class FingerSettings:
     ``sure_turn_rad`` of the palm, all axes, at which half as much is learnt of the fingers.
     ``gap_s`` between pictures from which on limits count before a picture too; a
     finger ``most_beyond_rad`` past its limits was misread.
+
+    The chance that a disc is to be seen stays between ``least_seen`` and ``most_seen``, is ``seen_anew`` on a ray begun
+    anew, and one that is in sight goes without a name with the chance ``missed``. Where a ray's names are weighed
+    jointly each disc may be one of ``candidates`` blobs, one without its depth counted ``without_depth2`` (squared
+    standard deviations) further off. ``pinnings``: how often the line of a ray found far from where it was expected is
+    drawn again about what its discs say. ``inherited``: share of a joint's information that resists errors of its
+    discs that stay.
     """
 
     skin_offsets: bool = True
@@ -56,6 +66,8 @@ class FingerSettings:
     skin_sd_rad: float = 0.022
     anatomy: AnatomyPrior = field(default_factory=AnatomyPrior)
     depth: FingerDepthSettings = field(default_factory=FingerDepthSettings)
+    limits: LimitSettings = field(default_factory=LimitSettings)
+    search: RaySearchSettings = field(default_factory=RaySearchSettings)
     dip_slack_rad: float = math.radians(6.0)
     thumb_aside_rad: float = math.radians(6.0)
     settles_s: float = 1.0
@@ -77,3 +89,11 @@ class FingerSettings:
     sure_turn_rad: float = math.radians(1.0)
     gap_s: float = 0.12
     most_beyond_rad: float = math.radians(30.0)
+    least_seen: float = 1e-4
+    most_seen: float = 0.98
+    seen_anew: float = 0.5
+    missed: float = 0.1
+    candidates: int = 4
+    without_depth2: float = 14.0
+    pinnings: int = 2
+    inherited: float = 0.25

@@ -17,7 +17,7 @@ from carpus.core.tracking.finger_model import FingerModel, Seat
 from carpus.core.tracking.finger_naming import far_rays
 from carpus.core.tracking.hand_geometry import RAYS, SHOWS, SLOTS, JointMoment
 from carpus.core.tracking.kernel import Bank, corrected, learning_shares
-from carpus.core.tracking.ray_filter import ANATOMY, PINNINGS, RATES, RAY_SIZE, RayForecast, forecast, spread_points
+from carpus.core.tracking.ray_filter import ANATOMY, RATES, RAY_SIZE, RayForecast, forecast, spread_points
 from carpus.core.tracking.smoother import Passage, Smoother
 from carpus.core.types import FloatArray
 
@@ -194,7 +194,7 @@ def _filtered(
         anew = np.isin(np.arange(RAYS), list(step.postures))
         nearest, shares = beliefs, learning_shares(RAY_SIZE, ANATOMY, model.learning(seat))
         is_far = bool(step.postures) or bool(far_rays(beliefs.merged()[1], step.shown, model.settings.fingers).any())
-        for _ in range(1 + (PINNINGS if is_far else 0)):
+        for _ in range(1 + (model.settings.fingers.pinnings if is_far else 0)):
             line = _line(model, *nearest.merged(), seat)
             palm_part = model.palm_part(line, seat)
             nearest = corrected(beliefs, line, step.measured, step.variance, palm_part, shares).bank

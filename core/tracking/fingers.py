@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from carpus.core.calibration.result import Calibration
 from carpus.core.camera import Camera
+from carpus.core.tracking.association import AssociationSettings
 from carpus.core.tracking.finger_depth import FLEXION, KnuckleBends, knuckle_bends, with_bends
 from carpus.core.tracking.finger_model import FingerModel, Seat, ray_view
 from carpus.core.tracking.finger_naming import (
@@ -32,8 +33,8 @@ from carpus.core.tracking.naming import Measurable
 from carpus.core.tracking.noise_watch import watched_factor
 from carpus.core.tracking.palm_state import PalmBelief
 from carpus.core.tracking.palm_view import View
-from carpus.core.tracking.ray_filter import PINNINGS, SEEN, RayPoints, forecast, spread_points
-from carpus.core.tracking.ray_search import LEAST_DISCS, in_reach, search_rays
+from carpus.core.tracking.ray_filter import SEEN, RayPoints, forecast, spread_points
+from carpus.core.tracking.ray_search import in_reach, search_rays
 from carpus.core.tracking.settings import TrackerSettings
 from carpus.core.tracking.unscented import weights_for
 from carpus.core.types import FloatArray, SurfaceSamples
@@ -81,10 +82,10 @@ class FingerTrial:
         """Its degrees of freedom."""
         return int(self.named.update.dof.sum())
 
-    def holds_together(self, rays: NDArray[np.int64]) -> bool:
+    def holds_together(self, rays: NDArray[np.int64], settings: AssociationSettings) -> bool:
         """Whether what was measured of those rays is what was foreseen."""
         update = self.named.update
-        return all(holds_together(float(update.nis[ray]), int(update.dof[ray])) for ray in rays)
+        return all(holds_together(float(update.nis[ray]), int(update.dof[ray]), settings) for ray in rays)
 
     @property
     def blob(self) -> NDArray[np.int64]:
@@ -103,7 +104,7 @@ class Fingers:
     def begin_at_neutral(self) -> None:
         """Start (again) from the neutral pose, at rest."""
         self._palm = self.model.calibrated_palm
-        self._visible = np.full((RAYS, DISCS), 0.98)
+        self._visible = np.full((RAYS, DISCS), self._settings.fingers.most_seen)
         self._missing = np.zeros(RAYS, dtype=np.int64)
         self._unseen_s = np.zeros((RAYS, SLOTS))
         self._noise_factor = np.ones((RAYS, 3 * DISCS))
@@ -115,11 +116,12 @@ class Fingers:
     def reach(self, point_m: FloatArray) -> NDArray[np.bool_]:
         """Whether points (..., 3) in the tracked body may be discs of these fingers."""
         palm = self._palm
-        return in_reach((point_m - palm.origin_m) @ palm.axes, palm.disc_m[1:], self._mean[:, SEEN])
+        on_palm = (point_m - palm.origin_m) @ palm.axes
+        return in_reach(on_palm, palm.disc_m[1:], self._mean[:, SEEN], self._settings.fingers.search)
 
     def begin_anywhere(self) -> None:
         """Start again after the hand was lost: the anatomy is known, the joints may be anywhere."""
-        self._visible = np.full((RAYS, DISCS), 0.5)
+        self._visible = np.full((RAYS, DISCS), self._settings.fingers.seen_anew)
         self._missing = np.full(RAYS, self._settings.fingers.patience_frames)
         self._unseen_s = np.full((RAYS, SLOTS), self._settings.fingers.range_after_s)
         anywhere = self.model.anywhere(self._mean, self._covariance)
@@ -128,7 +130,7 @@ class Fingers:
     def look_anew(self, ray: int) -> None:
         """A person shows a disc of a ray where it was not believed: its joints may be anywhere."""
         beliefs = self.model.begun_anew(self._beliefs, np.arange(RAYS) == ray, self._beliefs)
-        self._visible[ray] = 0.5
+        self._visible[ray] = self._settings.fingers.seen_anew
         self._missing[ray] = self._settings.fingers.patience_frames
         self._unseen_s[ray] = self._settings.fingers.range_after_s
         self._take(beliefs, beliefs.merged())
@@ -207,7 +209,8 @@ class Fingers:
         points = spread_points(*restarted.merged(), self._palm.disc_m[1:], self._settings.spread)
         other = self._pinned(restarted, self._tried(restarted, points, dt_s, seat, blobs, area_px, free))
         better = np.count_nonzero(other.blob[rays] >= 0) > np.count_nonzero(trial.blob[rays] >= 0)
-        return replace(other, postures=anew) if better and other.holds_together(rays) else trial
+        believed = better and other.holds_together(rays, self._settings.association)
+        return replace(other, postures=anew) if believed else trial
 
     def _found_far(self, beliefs: Bank, trial: FingerTrial) -> tuple[FingerTrial, NDArray[np.bool_]]:
         """The trial, its line drawn anew where joints may be far from where they were expected (iterated posterior
@@ -217,7 +220,8 @@ class Fingers:
             return trial, far
         pinned = self._pinned(beliefs, trial)
         wrong = far & beyond_reach(*pinned.named.update.bank.merged(), self._settings.fingers)
-        wrong |= far & np.array([not pinned.holds_together(np.array([ray])) for ray in range(RAYS)])
+        names = self._settings.association
+        wrong |= far & np.array([not pinned.holds_together(np.array([ray]), names) for ray in range(RAYS)])
         if not wrong.any():
             return pinned, wrong
         discs = np.repeat(wrong[:, None], DISCS, axis=1)
@@ -225,7 +229,7 @@ class Fingers:
 
     def _pinned(self, beliefs: Bank, trial: FingerTrial) -> FingerTrial:
         """The same names, the line drawn anew about what they say: what was expected is some way off."""
-        for _ in range(PINNINGS):
+        for _ in range(self._settings.fingers.pinnings):
             nearer = spread_points(*trial.named.update.bank.merged(), self._palm.disc_m[1:], self._settings.spread)
             line = forecast(nearer, trial.seat.view, self._settings.spread)
             scene = replace(trial.scene, line=line)
@@ -245,15 +249,15 @@ class Fingers:
         """Postures (5,) of rays just given up or missing for some frames, if the blobs left over show them."""
         named = np.count_nonzero(trial.blob >= 0, axis=1)
         is_due = given_up | ((self._missing >= self._settings.fingers.patience_frames) & (self._missing % 2 == 0))
-        rays = np.flatnonzero((named < LEAST_DISCS) & is_due & self.model.has_discs)
+        rays = np.flatnonzero((named < self._settings.fingers.search.least_discs) & is_due & self.model.has_discs)
         if not rays.size:
             return {}
         spare = free & np.isfinite(blobs.value[:, 2])
-        spare[trial.blob[(trial.blob >= 0) & (named >= LEAST_DISCS)[:, None]]] = False
+        spare[trial.blob[(trial.blob >= 0) & (named >= self._settings.fingers.search.least_discs)[:, None]]] = False
         value, camera = blobs.value[spare], seat.view.camera
         in_camera = camera.back_project(value[:, :2], value[:, 2])
         point = (in_camera - seat.view.translation_m) @ seat.view.rotation
-        return search_rays(rays, points.mean[:, SEEN], self._palm.disc_m[1:], point)
+        return search_rays(rays, points.mean[:, SEEN], self._palm.disc_m[1:], point, self._settings.fingers.search)
 
     def _tried(
         self,
@@ -305,11 +309,14 @@ class Fingers:
         """Go on from a trial; what the smoother needs of it."""
         named = trial.named
         is_named = named.names.taken >= 0
-        self._visible = np.where(is_named, 0.98, trial.scene.visible * 0.1 / (1.0 - 0.9 * trial.scene.visible))
+        own, visible = self._settings.fingers, trial.scene.visible
+        # Bayes: a disc that is in sight goes without a name with the chance ``missed``.
+        unnamed = visible * own.missed / (1.0 - (1.0 - own.missed) * visible)
+        self._visible = np.where(is_named, own.most_seen, unnamed)
         shown = (SHOWS & is_named[:, None, :]).any(axis=-1)
         self._unseen_s = np.where(shown, 0.0, self._unseen_s + dt_s)
         count = np.count_nonzero(is_named, axis=1)
-        self._missing = np.where(count < LEAST_DISCS, self._missing + 1, 0)
+        self._missing = np.where(count < self._settings.fingers.search.least_discs, self._missing + 1, 0)
         residual, measured = (values.reshape(RAYS, DISCS, 3) for values in (named.update.residual, named.measured))
         factor = self._noise_factor.reshape(RAYS, DISCS, 3)
         watched = watched_factor(factor, residual, np.isfinite(measured), dt_s, self._settings.noise)

@@ -9,6 +9,7 @@ compatibility of Neira and Tardos 2001, weighed by probability instead of a gate
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,16 +18,17 @@ from scipy.special import gammaincinv
 from carpus.core.tracking.association import AssociationSettings
 from carpus.core.types import FloatArray
 
-CONSISTENT = 0.9995
-"""A set of associations is doubted when chance gives a greater NIS less often than one in two thousand."""
 
-_LIMITS = np.concatenate(([np.inf], 2.0 * gammaincinv(0.5 * np.arange(1, 200), CONSISTENT)))
-"""Quantiles of chi squared by degrees of freedom."""
+@lru_cache(maxsize=4)
+def _most_nis(chance: float) -> tuple[float, ...]:
+    """Quantiles of chi squared by degrees of freedom."""
+    return (np.inf, *(2.0 * gammaincinv(0.5 * np.arange(1, 200), chance)).tolist())
 
 
-def holds_together(nis: float, dof: int) -> bool:
+def holds_together(nis: float, dof: int, settings: AssociationSettings) -> bool:
     """Whether the innovations of all markers together are what the filter foresaw."""
-    return dof == 0 or nis <= float(_LIMITS[min(dof, _LIMITS.size - 1)])
+    most = _most_nis(settings.consistent)
+    return dof == 0 or nis <= most[min(dof, len(most) - 1)]
 
 
 @dataclass(frozen=True, slots=True)

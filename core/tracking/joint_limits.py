@@ -9,6 +9,7 @@ known ends up spread over its range.
 from __future__ import annotations
 
 import math
+from dataclasses import dataclass
 
 import numpy as np
 from scipy.special import erfcx
@@ -19,8 +20,6 @@ from carpus.core.tracking.hand_geometry import RAYS, SLOTS
 from carpus.core.tracking.kernel import Bank
 from carpus.core.types import FloatArray
 
-SOFT_RAD = math.radians(3.0)
-_NEAR_SD = 3.0
 _ROOT_HALF = math.sqrt(0.5)
 _ROOT_2_OVER_PI = math.sqrt(2.0 / math.pi)
 
@@ -42,6 +41,15 @@ MID_RANGE_RAD[1:, 3] = 0.0
 """Slots (5, 5) in the middle of their range; the end joint as the coupling has it."""
 
 
+@dataclass(frozen=True, slots=True)
+class LimitSettings:
+    """``soft_rad``: standard deviation of the step that a limit is; ``near_sd`` standard deviations from a limit, of
+    angle and step together, from which on it pulls."""
+
+    soft_rad: float = math.radians(3.0)
+    near_sd: float = 3.0
+
+
 def slot_limits_rad(slots: FloatArray) -> FloatArray:
     """Lowest and highest (5, 5, 2) of the angles at slots (5, 5); abduction shrinks as the finger bends."""
     limits = _LIMITS.copy()
@@ -57,9 +65,11 @@ def outside_limits(slots: FloatArray) -> FloatArray:
     return np.asarray(np.maximum(angles - limits[..., 1], 0.0) + np.minimum(angles - limits[..., 0], 0.0))
 
 
-def _softened(mean: FloatArray, variance: FloatArray, edge: FloatArray) -> tuple[FloatArray, FloatArray]:
+def _softened(
+    mean: FloatArray, variance: FloatArray, edge: FloatArray, soft_rad: float
+) -> tuple[FloatArray, FloatArray]:
     """Mean and variance after multiplication by a soft step up at ``edge``."""
-    total = variance + SOFT_RAD**2
+    total = variance + soft_rad**2
     z = (mean - edge) / np.sqrt(total)
     # phi(z) / Phi(z) without underflow: Phi(z) = exp(-z^2/2) erfcx(-z/sqrt 2) / 2.
     ratio = _ROOT_2_OVER_PI / erfcx(np.maximum(-z, -20.0) * _ROOT_HALF)
@@ -67,7 +77,7 @@ def _softened(mean: FloatArray, variance: FloatArray, edge: FloatArray) -> tuple
     return shifted, variance - variance**2 * ratio * (z + ratio) / total
 
 
-def constrained(beliefs: Bank, slots: FloatArray) -> Bank:
+def constrained(beliefs: Bank, slots: FloatArray, settings: LimitSettings) -> Bank:
     """Beliefs with the limits taken into account; ``slots`` (5, 5) the merged joints, for the abduction's limit.
 
     Each angle's pull is found by itself, then all pulls of a ray act together, as measurements with independent
@@ -78,14 +88,14 @@ def constrained(beliefs: Bank, slots: FloatArray) -> Bank:
     shared = _DIRECTION[:, None] @ across[..., :SLOTS, :]  # (5, K, 5, 5)
     variance = np.diagonal(shared, axis1=-2, axis2=-1)
     limits = slot_limits_rad(slots)[:, None]
-    reach = _NEAR_SD * np.sqrt(variance + SOFT_RAD**2)
+    reach = settings.near_sd * np.sqrt(variance + settings.soft_rad**2)
     near = (angle - reach < limits[..., 0]) | (angle + reach > limits[..., 1])
     ray = np.flatnonzero(near.any(axis=(1, 2)))
     if not ray.size:
         return beliefs
     angle, variance, limits, near = angle[ray], variance[ray], limits[ray], near[ray]
-    lifted, narrowed = _softened(angle, variance, limits[..., 0])
-    lowered, narrowed = _softened(-lifted, narrowed, -limits[..., 1])
+    lifted, narrowed = _softened(angle, variance, limits[..., 0], settings.soft_rad)
+    lowered, narrowed = _softened(-lifted, narrowed, -limits[..., 1], settings.soft_rad)
     known = near & (variance > 1e-9)
     safe, narrowed = np.where(known, variance, 1.0), np.where(known, narrowed, 1.0)
     precision = np.where(known, np.maximum(1.0 / narrowed - 1.0 / safe, 0.0), 0.0)

@@ -124,7 +124,7 @@ def name_and_correct(
     taken = _in_company(taken, with_depth, blobs, settings.association)
     simple = correct(forecast, blobs, taken, with_depth, noise_factor)
     named = np.count_nonzero(taken >= 0)
-    if (named >= enough or named == len(blobs)) and holds_together(simple.nis, simple.dof):
+    if (named >= enough or named == len(blobs)) and holds_together(simple.nis, simple.dof, settings.association):
         return _without_outliers(simple, forecast, blobs, with_depth, noise_factor, settings.noise)
     found = _by_any_mode(forecast, blobs, resolution_px2, settings)
     taken = _in_company(found.taken, found.with_depth, blobs, settings.association)

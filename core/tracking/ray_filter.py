@@ -29,8 +29,6 @@ from carpus.core.tracking.kernel import Bank, Line, predicted
 from carpus.core.tracking.unscented import Spread, weights_for
 from carpus.core.types import FloatArray
 
-PINNINGS = 2
-"""How often the line of a ray found far from where it was expected is drawn again about what its discs say."""
 _FLOOR = 1e-14
 _SLOT = np.arange(SLOTS)
 _ROLL = 4

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from functools import lru_cache
 from itertools import product
 
@@ -11,48 +12,78 @@ from numpy.typing import NDArray
 from carpus.core.tracking.hand_geometry import DISCS, RAYS, SLOTS, ray_discs_m
 from carpus.core.types import FloatArray
 
-NEAR_M = 0.012
-"""How far from a posture of the grid a disc may lie: half a step of it and the noise of a depth."""
-LEAST_DISCS = 2
-_REACH_M = 0.015
-_BACK_M, _ACROSS_M, _ABOVE_M = -0.02, 0.03, 0.05
-"""How far behind its root, for the thumb across the palm, and above the palm a disc may still be seen."""
+
+@dataclass(frozen=True, slots=True)
+class RaySearchSettings:
+    """When blobs are a ray that nothing foretold.
+
+    ``near_m``: how far from a posture of the grid a disc may lie: half a step of it and the noise of a depth;
+    ``least_discs`` of a ray that tell its posture; ``reach_m`` beyond its length; ``behind_m`` its root, for the thumb
+    ``across_m`` the palm, and ``above_m`` the palm a disc may still be seen. Of postures that explain as many discs
+    the nearer one counts, by ``nearness`` of a disc at most for each. ``thumb_deg`` by slot and ``finger_deg`` by its
+    first three: the grid, all that a ray can do in steps of about 15 degrees.
+    """
+
+    near_m: float = 0.012
+    least_discs: int = 2
+    reach_m: float = 0.015
+    behind_m: float = 0.02
+    across_m: float = 0.03
+    above_m: float = 0.05
+    nearness: float = 0.3
+    thumb_deg: tuple[tuple[float, ...], ...] = (
+        (-25.0, -5.0, 15.0, 35.0),
+        (-5.0, 15.0, 35.0, 55.0),
+        (-5.0, 20.0, 45.0, 70.0),
+        (0.0,),
+        (-10.0, 20.0, 50.0, 80.0),
+    )
+    finger_deg: tuple[tuple[float, ...], ...] = (
+        (-18.0, -6.0, 6.0, 18.0),
+        (-30.0, -15.0, 0.0, 15.0, 30.0, 45.0, 60.0, 75.0, 90.0),
+        (0.0, 20.0, 40.0, 60.0, 80.0, 100.0),
+    )
 
 
-def in_reach(point_m: FloatArray, root_disc_m: FloatArray, state: FloatArray) -> NDArray[np.bool_]:
+def in_reach(
+    point_m: FloatArray, root_disc_m: FloatArray, state: FloatArray, settings: RaySearchSettings
+) -> NDArray[np.bool_]:
     """Whether points (..., 3) in W2 may be discs of the rays with slots and constants ``state`` (5, 16)."""
-    length = state[:, SLOTS : SLOTS + DISCS].sum(axis=1) + _REACH_M
+    length = state[:, SLOTS : SLOTS + DISCS].sum(axis=1) + settings.reach_m
     off = point_m[..., None, :] - root_disc_m
-    ahead = off[..., 0] > _BACK_M
-    ahead[..., 0] &= off[..., 0, 1] > -_ACROSS_M
-    return np.asarray((ahead & ((off * off).sum(axis=-1) < length**2) & (off[..., 2] < _ABOVE_M)).any(axis=-1))
+    ahead = off[..., 0] > -settings.behind_m
+    ahead[..., 0] &= off[..., 0, 1] > -settings.across_m
+    return np.asarray((ahead & ((off * off).sum(axis=-1) < length**2) & (off[..., 2] < settings.above_m)).any(axis=-1))
 
 
-@lru_cache(maxsize=1)
-def _grid() -> FloatArray:
-    """Postures (5, S, 5) in slots, radians: all that a ray can do, in steps of about 15 degrees."""
-    thumb = list(product((-25, -5, 15, 35), (-5, 15, 35, 55), (-5, 20, 45, 70), (0,), (-10, 20, 50, 80)))
-    finger = list(product((-18, -6, 6, 18), (-30, -15, 0, 15, 30, 45, 60, 75, 90), (0, 20, 40, 60, 80, 100)))
+@lru_cache(maxsize=2)
+def _grid(settings: RaySearchSettings) -> FloatArray:
+    """Postures (5, S, 5) in slots, radians."""
+    thumb, finger = list(product(*settings.thumb_deg)), list(product(*settings.finger_deg))
     postures = np.zeros((RAYS, max(len(thumb), len(finger)), SLOTS))
     postures[0, : len(thumb)] = thumb
-    postures[1:, : len(finger), :3] = finger
+    postures[1:, : len(finger), : len(settings.finger_deg)] = finger
     return np.asarray(np.radians(postures))
 
 
 def search_rays(
-    rays: NDArray[np.int64], state: FloatArray, root_disc_m: FloatArray, point_m: FloatArray
+    rays: NDArray[np.int64],
+    state: FloatArray,
+    root_disc_m: FloatArray,
+    point_m: FloatArray,
+    settings: RaySearchSettings,
 ) -> dict[int, FloatArray]:
     """Slots (5,) of each of the ``rays`` that explain at least two of the blobs at ``point_m`` (B, 3) in W2.
 
     ``state`` (5, 16) slots and constants of all rays; ``root_disc_m`` (5, 3) discs under which they begin. No blob is
     used by two rays: the ray that explains most comes first.
     """
-    length = state[:, SLOTS : SLOTS + DISCS].sum(axis=1) + _REACH_M
+    length = state[:, SLOTS : SLOTS + DISCS].sum(axis=1) + settings.reach_m
     near = np.linalg.norm(point_m - root_disc_m[:, None], axis=-1) < length[:, None]
-    waiting = [int(ray) for ray in rays if np.count_nonzero(near[ray]) >= LEAST_DISCS]
+    waiting = [int(ray) for ray in rays if np.count_nonzero(near[ray]) >= settings.least_discs]
     if not waiting:
         return {}
-    postures = _grid()
+    postures = _grid(settings)
     points = np.repeat(state[waiting, None], postures.shape[1], axis=1)
     points[..., :SLOTS] = postures[waiting]
     disc = dict(zip(waiting, ray_discs_m(root_disc_m[waiting], points, waiting), strict=True))
@@ -62,10 +93,10 @@ def search_rays(
         best: tuple[float, int, int, NDArray[np.int64]] | None = None
         for ray in waiting:
             reached = np.flatnonzero(free & near[ray])
-            if reached.size < LEAST_DISCS:
+            if reached.size < settings.least_discs:
                 continue
-            score, posture, used = _best_posture(disc[ray], point_m[reached])
-            if used.size >= LEAST_DISCS and (best is None or score > best[0]):
+            score, posture, used = _best_posture(disc[ray], point_m[reached], settings)
+            if used.size >= settings.least_discs and (best is None or score > best[0]):
                 best = score, ray, posture, reached[used]
         if best is None:
             break
@@ -76,17 +107,19 @@ def search_rays(
     return found
 
 
-def _best_posture(disc_m: FloatArray, point_m: FloatArray) -> tuple[float, int, NDArray[np.int64]]:
+def _best_posture(
+    disc_m: FloatArray, point_m: FloatArray, settings: RaySearchSettings
+) -> tuple[float, int, NDArray[np.int64]]:
     """Score, index of the posture and blobs used, for discs (S, 3, 3) of postures and blobs (B, 3)."""
     gap2 = np.sum((disc_m[:, :, None] - point_m) ** 2, axis=-1)  # (S, 3, B)
     nearest = gap2.argmin(axis=-1)
-    worth = np.maximum(1.0 - np.take_along_axis(gap2, nearest[..., None], axis=-1)[..., 0] / NEAR_M**2, 0.0)
+    worth = np.maximum(1.0 - np.take_along_axis(gap2, nearest[..., None], axis=-1)[..., 0] / settings.near_m**2, 0.0)
     # A blob is one disc only: the second disc that takes it is worth nothing.
     for first, second in ((0, 1), (0, 2), (1, 2)):
         same = nearest[:, first] == nearest[:, second]
         lesser = same & (worth[:, first] < worth[:, second])
         worth[lesser, first] = 0.0
         worth[same & ~lesser, second] = 0.0
-    score = np.count_nonzero(worth, axis=1) + 0.3 * worth.sum(axis=1)
+    score = np.count_nonzero(worth, axis=1) + settings.nearness * worth.sum(axis=1)
     best = int(np.argmax(score))
     return float(score[best]), best, nearest[best][worth[best] > 0.0]

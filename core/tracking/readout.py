@@ -7,7 +7,7 @@ The covariance of an angle holds both the pose's and the calibration's part.
 
 from __future__ import annotations
 
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -27,18 +27,23 @@ _AXES = np.arange(3)
 _DORSAL = np.array([0.0, 0.0, 1.0])
 _READ = slice(TURN.start, SHAPE.stop)
 _SHAPE_SIZE = SHAPE.stop - SHAPE.start
-_SHAPE_MOVED_M = 3e-4
-"""The axes are computed anew when a disc's refined place has moved by this much; before, to first order."""
 
 
-METACARPAL_M = 0.055
-"""From the joint at its base to its head, of ring and little finger (clinical reference 3.3)."""
+@dataclass(frozen=True, slots=True)
+class ReadoutSettings:
+    """``shape_moved_m``: the axes are computed anew when a disc's refined place has moved by this much; before, to
+    first order. ``metacarpal_m`` of ring and little finger from the joint at its base to its head (clinical
+    reference 3.3)."""
+
+    shape_moved_m: float = 3e-4
+    metacarpal_m: float = 0.055
 
 
 class Readout:
     """Reads beliefs of one calibrated palm; remembers only the axes of the last shape."""
 
-    def __init__(self, calibration: Calibration) -> None:
+    def __init__(self, calibration: Calibration, settings: ReadoutSettings) -> None:
+        self._settings = settings
         self._side = calibration.clicks.side
         self._disc_m = calibration.marker_position_w0_m
         self._start = clinical_angles.rotation_from_angles(calibration.start_angles_rad, self._side)
@@ -49,7 +54,7 @@ class Readout:
 
     def _axes_of(self, shape: FloatArray) -> tuple[FloatArray, FloatArray]:
         moved_m = shape - self._axes_shape
-        if not np.abs(moved_m).max() <= _SHAPE_MOVED_M:  # so too at first
+        if not np.abs(moved_m).max() <= self._settings.shape_moved_m:  # so too at first
             self._axes, self._sensitivity = wrist_axes_sensitivity(self._disc_m + shape.reshape(-1, 3), _DORSAL)
             self._axes_shape = shape.copy()
             return self._axes, self._sensitivity
@@ -65,9 +70,9 @@ class Readout:
         # Ring and little metacarpal flex and take their fingers along; what else a disc moves is skin.
         disc_m[LOOSE, 1:] += belief.skin_m[LOOSE, 1:]
         cup, cup_sd = NO_CUP.copy(), NO_CUP.copy()
-        cup[-2:] = -belief.skin_m[LOOSE, 2] / METACARPAL_M
+        cup[-2:] = -belief.skin_m[LOOSE, 2] / self._settings.metacarpal_m
         down = SKIN.start + 3 * LOOSE + 2
-        cup_sd[-2:] = np.sqrt(belief.covariance[down, down]) / METACARPAL_M
+        cup_sd[-2:] = np.sqrt(belief.covariance[down, down]) / self._settings.metacarpal_m
         palm = PalmInBody.of(disc_m, axes, self._side, cup, cup_sd)
         return palm, error @ belief.covariance @ error.T
 

@@ -8,25 +8,38 @@ from __future__ import annotations
 
 import math
 from collections import deque
+from dataclasses import dataclass
 
 import numpy as np
 
 from carpus.core.types import BoolArray, FloatArray
 
-STEP_PX = 8.0
-"""A spot is followed from picture to picture no further than this."""
-BACK_WITHIN_PX = 12.0
-"""So near to where it was, in the picture or beside its marker, a spot that comes back is the same."""
-HOLDS_S = 60.0
-"""For so long a spot that is no disc stays one: then it is asked about again, if there is still something to ask."""
-KEPT_PICTURES = 60
+
+@dataclass(frozen=True, slots=True)
+class SaidSettings:
+    """What becomes of what a person says of spots.
+
+    A spot is followed from picture to picture no further than ``step_px``; so near as ``back_within_px`` to where it
+    was, in the picture or beside its marker, one that comes back is the same. One that is no disc stays so for
+    ``holds_s``: then it is asked about again, if there is still something to ask. ``kept_pictures`` in which a spot
+    that was spoken of is looked for; what was said waits ``answer_holds_s`` for a picture that shows it. A disc shown
+    elsewhere may be as far as ``anywhere_m`` from where the one picture shows it: more than any depth errs.
+    """
+
+    step_px: float = 8.0
+    back_within_px: float = 12.0
+    holds_s: float = 60.0
+    kept_pictures: int = 60
+    answer_holds_s: float = 0.5
+    anywhere_m: float = 0.02
 
 
 class RecentSpots:
     """The spots of the last pictures: what was said of one, a moment ago, is found in the newest."""
 
-    def __init__(self) -> None:
-        self._pictures: deque[tuple[int, FloatArray]] = deque(maxlen=KEPT_PICTURES)
+    def __init__(self, settings: SaidSettings) -> None:
+        self._step_px = settings.step_px
+        self._pictures: deque[tuple[int, FloatArray]] = deque(maxlen=settings.kept_pictures)
 
     def keep(self, index: int, pixel: FloatArray) -> None:
         """Remember the spots (D, 2) of a picture."""
@@ -39,7 +52,7 @@ class RecentSpots:
             if number < index or not len(pixel):
                 continue
             away = np.linalg.norm(pixel - place, axis=1)
-            if away.min() <= STEP_PX:
+            if away.min() <= self._step_px:
                 place = pixel[int(away.argmin())]
         return place if len(self._pictures) and len(self._pictures[-1][1]) and self._is_seen(place) else None
 
@@ -50,14 +63,16 @@ class RecentSpots:
 class NoDisc:
     """A spot that a person said is not a marker, row ``marker`` of the protocol."""
 
-    def __init__(self, marker: int, place_px: FloatArray, beside_px: FloatArray, time_s: float) -> None:
-        self.marker = marker
+    def __init__(
+        self, marker: int, place_px: FloatArray, beside_px: FloatArray, time_s: float, settings: SaidSettings
+    ) -> None:
+        self.marker, self._settings = marker, settings
         self._place_px, self._beside_px, self._said_s = place_px, beside_px, time_s
         self._was_seen = True
 
     def holds(self, time_s: float) -> bool:
         """Whether what was said of it still counts."""
-        return time_s - self._said_s <= HOLDS_S
+        return time_s - self._said_s <= self._settings.holds_s
 
     def find(self, pixel: FloatArray, expected_px: FloatArray, held: BoolArray) -> int:
         """Which of the spots (D, 2) it is, -1 for none. ``expected_px`` (M, 2) where the markers should be; those
@@ -67,7 +82,7 @@ class NoDisc:
             return -1
         marker_px = expected_px[self.marker]
         guesses = [self._place_px] if self._was_seen else [self._place_px, marker_px + self._beside_px]
-        reach_px = STEP_PX if self._was_seen else BACK_WITHIN_PX
+        reach_px = self._settings.step_px if self._was_seen else self._settings.back_within_px
         away = np.min([np.linalg.norm(pixel - guess, axis=1) for guess in guesses if np.isfinite(guess).all()], axis=0)
         claims = expected_px[held & np.isfinite(expected_px).all(axis=1)]
         if len(claims):

@@ -12,18 +12,25 @@ from carpus.core.tracking.holding import HoldingSettings
 from carpus.core.tracking.motion import MotionNoise
 from carpus.core.tracking.palm_state import InitialSd
 from carpus.core.tracking.reacquire import FindingSettings
+from carpus.core.tracking.readout import ReadoutSettings
+from carpus.core.tracking.said_spots import SaidSettings
 from carpus.core.tracking.soft_tissue import SoftTissue
 from carpus.core.tracking.surface_fit import SurfaceSettings
 from carpus.core.tracking.unscented import Spread
 
 Profile = Literal["slow", "standard", "brisk"]
 
-PROFILES: dict[Profile, MotionNoise] = {
-    "slow": MotionNoise(0.7, 2.0, 6.0),
-    "standard": MotionNoise(2.0, 8.0, 12.0),
-    "brisk": MotionNoise(6.0, 40.0, 60.0),
-}
-"""Process noise by reference 4.5: acceleration of wrist, turning and joints."""
+
+@dataclass(frozen=True, slots=True)
+class Profiles:
+    """Process noise by reference 4.5: acceleration of wrist, turning and joints."""
+
+    slow: MotionNoise = field(default_factory=lambda: MotionNoise(0.7, 2.0, 6.0))
+    standard: MotionNoise = field(default_factory=lambda: MotionNoise(2.0, 8.0, 12.0))
+    brisk: MotionNoise = field(default_factory=lambda: MotionNoise(6.0, 40.0, 60.0))
+
+    def of(self, profile: Profile) -> MotionNoise:
+        return {"slow": self.slow, "standard": self.standard, "brisk": self.brisk}[profile]
 
 
 @dataclass(frozen=True, slots=True)
@@ -57,16 +64,19 @@ class MeasurementNoise:
 class TrackerSettings:
     """Defaults of the tracker; all of it is stored with every session.
 
-    ``mode_scales``: the motion modes run side by side, as factors on the process noise, each kept for ``mode_dwell_s``;
-    ``dip``: end joints bound to the middle joints or free. The palm goes on being measured while it moves:
+    ``profile`` which of the ``profiles`` moves the hand. ``mode_scales``: the motion modes run side by side, as factors
+    on the process noise, each kept for ``mode_dwell_s``; ``dip``: end joints bound to the middle joints or free. The
+    palm goes on being measured while it moves:
     ``shape_hidden`` the share of a correction taken for a depth that stays wrong, ``shape_news`` the share of what a
     frame says of it taken for new. ``tissue``: how skin and relief move; ``use_surface``: measure the back of the hand
     by its depth, as ``surface`` says. ``unseen_scale``: the factor on the noise of turns that no disc shows.
+    ``said``: what becomes of what a person says of spots. ``readout`` of angles from what is believed.
     ``marker_radius_m`` of the paper discs; ``lost_after_s`` without three palm markers the hand is lost;
     ``rate_memory_s``: how long an unseen hand is taken to go on as it moved.
     """
 
     profile: Profile = "standard"
+    profiles: Profiles = field(default_factory=Profiles)
     use_depth: bool = True
     dip: Literal["coupled", "free"] = "coupled"
     shape_hidden: float = 0.5
@@ -85,10 +95,12 @@ class TrackerSettings:
     doubt: DoubtSettings = field(default_factory=DoubtSettings)
     holding: HoldingSettings = field(default_factory=HoldingSettings)
     finding: FindingSettings = field(default_factory=FindingSettings)
+    said: SaidSettings = field(default_factory=SaidSettings)
+    readout: ReadoutSettings = field(default_factory=ReadoutSettings)
     marker_radius_m: float = 0.006
     lost_after_s: float = 1.5
     rate_memory_s: float = 0.2
 
     @property
     def motion_noise(self) -> MotionNoise:
-        return PROFILES[self.profile]
+        return self.profiles.of(self.profile)

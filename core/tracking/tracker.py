@@ -44,8 +44,8 @@ from carpus.core.types import Detections, FloatArray, Moment, TrackedFrame, Trac
 
 _SAME_AXIS = np.eye(2)
 _NO_NOISE = np.full((1, 3), 1e-12)
-ANSWER_HOLDS_S = 0.5
-"""So long what a person said of a spot waits for a picture that shows the spot."""
+_NEAREST_M = 0.1
+"""No camera sees a hand nearer: keeps the size of a disc finite."""
 BACK_DISCS, KNUCKLES = np.arange(4), slice(2, 6)
 """WRIST, CMC1, MCP2, MCP3, which span the surface of the fixed unit."""
 
@@ -143,9 +143,9 @@ class Tracker:
         self._shares = shape_shares(settings.shape_news)
         self._settled = settled_covariance(settings.tissue)
         self._resolution_px2 = float(camera.width_px * camera.height_px)
-        self._readout = Readout(calibration)
+        self._readout = Readout(calibration, settings.readout)
         self._doubt = DoubtWatch(len(self._protocol.markers), settings.doubt)
-        self._recent_spots = RecentSpots()
+        self._recent_spots = RecentSpots(settings.said)
         self._answers: list[tuple[SpotAnswer, float]] = []
         self._taken_up: list[SpotAnswer] = []
         self._no_discs: list[NoDisc] = []
@@ -269,7 +269,7 @@ class Tracker:
             now = None if found is not None else self._now(answer)
             if now is not None:
                 found = replace(now, index=index)
-            elif timestamp_s - asked_s < ANSWER_HOLDS_S and answer.marker in self._protocol.markers:
+            elif timestamp_s - asked_s < self.settings.said.answer_holds_s and answer.marker in self._protocol.markers:
                 self._answers.append((answer, asked_s))
         if found is not None:
             self._take_no_discs(found, timestamp_s)
@@ -295,7 +295,7 @@ class Tracker:
         beside = self._expected_px(timestamp_s)[marker]
         for place in answer.not_px:
             place_px = np.array(place)
-            self._no_discs.append(NoDisc(marker, place_px, place_px - beside, timestamp_s))
+            self._no_discs.append(NoDisc(marker, place_px, place_px - beside, timestamp_s, self.settings.said))
         self._held[marker] = False
         if answer.place_px is None:
             self._taken_up.append(answer)
@@ -542,7 +542,7 @@ class Tracker:
         return Facing(expected.rotation_w2_w0, min(turned_rad, holding.most_turn_rad))
 
     def _measurable(self, ahead: Forecast, ideal: Detections) -> Measurable:
-        depth_m = max(float(ahead.own_mean[0, 2]), 0.1)
+        depth_m = max(float(ahead.own_mean[0, 2]), _NEAREST_M)
         camera = self.view.camera
         return measurable(ideal, camera.fx_px * self.settings.marker_radius_m / depth_m, self.settings, camera.sensor)
 
@@ -684,7 +684,7 @@ class Tracker:
     def smoothed(self) -> list[Moment]:
         """Every frame so far in the light of all the others; needs the history kept. Tracking may go on meanwhile."""
         beliefs = smoothed_palm(list(self.history), self._motion)
-        readout = Readout(self._calibration)
+        readout = Readout(self._calibration, self.settings.readout)
         lost = lost_moment(self._joint_count, len(self._protocol.markers))
         moments = [lost if belief is None else readout.moment(belief) for belief in beliefs]
         if self._fingers is None:

@@ -238,8 +238,8 @@ def test_blobs_of_strange_depth_are_named_by_their_pixels() -> None:
 
 
 def test_the_whole_is_doubted_when_chance_would_hardly_make_it() -> None:
-    assert holds_together(float("nan"), 0)
+    assert holds_together(float("nan"), 0, SETTINGS)
     for dof in (1, 6, 18, 63):
         limit = chi2.isf(5e-4, dof)
-        assert holds_together(0.999 * limit, dof)
-        assert not holds_together(1.001 * limit, dof)
+        assert holds_together(0.999 * limit, dof, SETTINGS)
+        assert not holds_together(1.001 * limit, dof, SETTINGS)

@@ -9,11 +9,12 @@ import pytest
 
 from carpus.core.hand.anatomy import HARD_LIMITS_RAD
 from carpus.core.tracking.hand_geometry import CONSTANTS, RAYS, SLOTS
-from carpus.core.tracking.joint_limits import SOFT_RAD, constrained, outside_limits, slot_limits_rad
+from carpus.core.tracking.joint_limits import LimitSettings, constrained, outside_limits, slot_limits_rad
 from carpus.core.tracking.kernel import Bank
 
 SIZE = SLOTS + CONSTANTS
 INDEX, PIP = 1, 2
+SETTINGS = LimitSettings()
 
 
 def belief(pip_deg: float, sd_deg: float) -> Bank:
@@ -29,14 +30,14 @@ def belief(pip_deg: float, sd_deg: float) -> Bank:
 def pulled(pip_deg: float, sd_deg: float) -> tuple[float, float]:
     """PIP and its standard deviation after the limits, degrees."""
     before = belief(pip_deg, sd_deg)
-    after = constrained(before, before.mean[:, 0, :SLOTS])
+    after = constrained(before, before.mean[:, 0, :SLOTS], SETTINGS)
     sd = math.sqrt(after.covariance[INDEX, 0, PIP, PIP])
     return math.degrees(after.mean[INDEX, 0, PIP]), math.degrees(sd)
 
 
 def test_an_angle_well_inside_is_left_alone() -> None:
     before = belief(60.0, 5.0)
-    after = constrained(before, before.mean[:, 0, :SLOTS])
+    after = constrained(before, before.mean[:, 0, :SLOTS], SETTINGS)
     assert after.mean[INDEX, 0, PIP] == before.mean[INDEX, 0, PIP]
     assert np.array_equal(after.covariance, before.covariance)
 
@@ -44,7 +45,7 @@ def test_an_angle_well_inside_is_left_alone() -> None:
 def test_far_outside_a_limit_acts_as_a_measurement_of_it() -> None:
     """PIP ends at 125 degrees; believed at 175 give or take 10, the step of 3 degrees has the last word."""
     limit, sd = 125.0, 10.0
-    soft = math.degrees(SOFT_RAD)
+    soft = math.degrees(SETTINGS.soft_rad)
     as_measurement = 175.0 + sd**2 / (sd**2 + soft**2) * (limit - 175.0)
     angle, after_sd = pulled(175.0, sd)
     assert angle == pytest.approx(as_measurement, abs=2.5)
@@ -68,7 +69,7 @@ def test_an_angle_of_which_little_is_known_stays_within_its_range() -> None:
 def test_the_truncated_normal_is_that_of_sampling() -> None:
     """Mean and variance of a Gaussian times a soft step, by a million samples."""
     rng = np.random.default_rng(3)
-    mean, sd, limit, soft = 120.0, 12.0, 125.0, math.degrees(SOFT_RAD)
+    mean, sd, limit, soft = 120.0, 12.0, 125.0, math.degrees(SETTINGS.soft_rad)
     sample = rng.normal(mean, sd, 1_000_000)
     kept = sample[sample < limit + rng.normal(0.0, soft, sample.size)]
     angle, after_sd = pulled(mean, sd)
