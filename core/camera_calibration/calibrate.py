@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 from carpus.core.camera import Camera
 from carpus.core.camera_calibration.depth import MOST_APART_PX, DepthCheck, check_depth
-from carpus.core.camera_calibration.solve import Intrinsics, solve_intrinsics
+from carpus.core.camera_calibration.solve import FAIR_PX, Intrinsics, solve_intrinsics
 from carpus.core.camera_calibration.views import Judgement, View, board_of, judge
 
 
@@ -21,6 +21,13 @@ class CameraCalibration:
     depth: DepthCheck | None
     judgement: Judgement
     board: str
+
+    @property
+    def is_usable(self) -> bool:
+        """Whether it may be used: corners land fairly where they should, and depth, where there is any, lies on
+        colour; otherwise a session would be measured worse than before and not know it."""
+        fits = self.intrinsics.error_px <= FAIR_PX
+        return fits and (self.depth is None or self.depth.is_registered)
 
 
 def calibrate_camera(views: Sequence[View], before: Camera, subject: str) -> CameraCalibration:

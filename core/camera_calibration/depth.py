@@ -16,7 +16,7 @@ import numpy as np
 
 from carpus.core.camera import Camera
 from carpus.core.camera_calibration.solve import Intrinsics
-from carpus.core.camera_calibration.views import View
+from carpus.core.camera_calibration.views import NEAR_FAR_RATIO, View
 from carpus.core.depth_sensor import DepthSensor
 from carpus.core.types import FloatArray
 
@@ -25,8 +25,6 @@ MOST_APART_PX = 2.0
 FEWEST_VIEWS = 6
 SURE_SD = 2.0
 """A shift smaller than this many standard deviations is none."""
-NEAR_FAR_RATIO = 1.4
-"""Farthest over nearest board below which a shift of depth cannot be told from its scale."""
 _STEP_PX = 4
 _EDGE_PX = 6
 """Left out along the board's edge: a depth window there holds two surfaces."""

@@ -23,6 +23,8 @@ LEAST_TILT_DEG = 15.0
 """A board less tilted than this is as good as straight."""
 MOST_TILT_DEG = 60.0
 FEWEST_SIDES = 3
+NEAR_FAR_RATIO = 1.4
+"""Farthest over nearest board below which a shift of depth cannot be told from its scale."""
 NEW_PX = 18.0
 """A picture in which the corners have moved less than this since a kept one says nothing new."""
 MOST_MOTION_PX = 1.0
@@ -59,6 +61,11 @@ class Judgement:
     def fields(self) -> int:
         """Fields of the picture in which a corner has been."""
         return int(np.count_nonzero(self.corners_in_field))
+
+    @property
+    def is_near_and_far(self) -> bool:
+        """Whether a shift of the depth can be told from its scale."""
+        return self.farthest_m >= NEAR_FAR_RATIO * self.nearest_m
 
     @property
     def missing(self) -> str:

@@ -5,24 +5,88 @@ from __future__ import annotations
 import itertools
 import math
 from collections.abc import Iterable
+from dataclasses import dataclass
 
 import numpy as np
 
 from carpus.core.calibration.candidates import marker_candidates
 from carpus.core.camera import Camera
 from carpus.core.check_card.card import disc_places_m, figures_of
-from carpus.core.check_card.reading import CardReading
+from carpus.core.check_card.reading import CHECK_S, CardReading
 from carpus.core.detection.settings import DetectionSettings
 from carpus.core.errors import CardMissing
 from carpus.core.types import Detections, FloatArray, Frame
 
-CHECK_S = 30.0
 LOOK_EVERY_S = 0.25
 """Pictures in a row have the same pattern in their depth: more of them say little more."""
 FEWEST_PICTURES = 5
 _MOST_BLOBS = 8
 _MOST_MISFIT_M = 0.015
 """Root mean square over all distances between discs: more is not the card."""
+_MOST_MOVED_M = 0.02
+"""From one look to the next, of any disc: more is no noise."""
+_LONGEST_GAP_S = 1.5
+"""Time between two looks that counts: longer, and nobody knows what was in between."""
+
+
+@dataclass(frozen=True, slots=True)
+class CardLook:
+    """What one picture shows: ``pixel`` of the discs A to F (6, 2), None where they are not all seen; ``blue`` discs of
+    any kind; ``seconds`` of steady pictures so far and how many ``pictures`` count; ``moved``: it lies elsewhere than
+    before, and all begins again."""
+
+    pixel: FloatArray | None
+    blue: int
+    seconds: float
+    pictures: int
+    moved: bool = False
+
+
+class CardWatch:
+    """Looks at the card in one frame after the other. With ``steady`` only time counts in which the card is seen and
+    lies still, as before a live camera; else the first 30 s, as of a recording."""
+
+    def __init__(self, camera: Camera, settings: DetectionSettings | None = None, *, steady: bool = False) -> None:
+        self._camera, self._settings, self._steady = camera, settings or DetectionSettings(), steady
+        self._places: list[FloatArray] = []
+        self._looked, self._first_s, self._last_s, self._seen_s = 0, math.nan, -math.inf, 0.0
+
+    @property
+    def done(self) -> bool:
+        """Whether it has been looked at for long enough."""
+        return self._seen_s >= CHECK_S
+
+    def look(self, frame: Frame) -> CardLook | None:
+        """Look at a frame; None where it has no depth or comes too soon after the last one."""
+        now_s = frame.timestamp_s
+        self._first_s = now_s if math.isnan(self._first_s) else self._first_s
+        if frame.depth_raw is None or now_s - self._last_s < LOOK_EVERY_S:
+            return None
+        since_s, self._last_s = now_s - self._last_s, now_s
+        blobs = marker_candidates(frame, self._camera, self._settings)
+        self._looked += 1
+        found = card_blobs(blobs, self._camera)
+        moved = False
+        if found is not None:
+            if self._steady and self._places and np.abs(found[0] - self._places[-1]).max() > _MOST_MOVED_M:
+                moved, self._places, self._looked, self._seen_s = True, [], 1, 0.0
+            elif self._places and since_s < _LONGEST_GAP_S:
+                self._seen_s += since_s
+            self._places.append(found[0])
+        if not self._steady:
+            self._seen_s = now_s - self._first_s
+        return CardLook(None if found is None else found[1], len(blobs), self._seen_s, len(self._places), moved)
+
+    def reading(self, subject: str) -> CardReading:
+        """What was measured. Raises :class:`CardMissing` where the six discs were seen in fewer than five pictures."""
+        if len(self._places) < FEWEST_PICTURES:
+            raise CardMissing(subject, f"all six discs in {len(self._places)} of {self._looked} pictures")
+        each = np.array([figures_of(one) for one in self._places])
+        middle = np.median(np.array(self._places), axis=0)
+        ratio = _distances(middle) @ _distances(disc_places_m()) / np.sum(_distances(disc_places_m()) ** 2)
+        distance_m = float(np.linalg.norm(middle.mean(axis=0)))
+        sd = each.std(axis=0, ddof=1)
+        return CardReading(figures_of(middle), sd, float(ratio), distance_m, len(self._places), self._looked)
 
 
 def measure_card(
@@ -32,31 +96,19 @@ def measure_card(
 
     Raises :class:`CardMissing` where its six discs are seen in fewer than five pictures.
     """
-    chosen = settings or DetectionSettings()
-    places: list[FloatArray] = []
-    looked, first_s, last_s = 0, math.nan, -math.inf
+    watch = CardWatch(camera, settings)
+    first_s = math.nan
     for frame in frames:
         first_s = frame.timestamp_s if math.isnan(first_s) else first_s
         if frame.timestamp_s - first_s > CHECK_S:
             break
-        if frame.depth_raw is None or frame.timestamp_s - last_s < LOOK_EVERY_S:
-            continue
-        last_s = frame.timestamp_s
-        looked += 1
-        found = card_discs(marker_candidates(frame, camera, chosen), camera)
-        if found is not None:
-            places.append(found)
-    if len(places) < FEWEST_PICTURES:
-        raise CardMissing(subject, f"all six discs in {len(places)} of {looked} pictures")
-    each = np.array([figures_of(one) for one in places])
-    middle = np.median(np.array(places), axis=0)
-    ratio = _distances(middle) @ _distances(disc_places_m()) / np.sum(_distances(disc_places_m()) ** 2)
-    distance_m = float(np.linalg.norm(middle.mean(axis=0)))
-    return CardReading(figures_of(middle), each.std(axis=0, ddof=1), float(ratio), distance_m, len(places), looked)
+        watch.look(frame)
+    return watch.reading(subject)
 
 
-def card_discs(found: Detections, camera: Camera) -> FloatArray | None:
-    """The six discs (6, 3) in camera axes, named by the distances between them; None where they are not all there."""
+def card_blobs(found: Detections, camera: Camera) -> tuple[FloatArray, FloatArray] | None:
+    """The six discs, (6, 3) in camera axes and (6, 2) in the picture, named by the distances between them; None where
+    they are not all there."""
     usable = np.flatnonzero(np.isfinite(found.depth_m))
     if len(usable) < 6:
         return None
@@ -68,7 +120,9 @@ def card_discs(found: Detections, camera: Camera) -> FloatArray | None:
     off = measured[orders[:, :, None], orders[:, None, :]] - true
     misfit = np.sqrt(np.mean(off**2, axis=(1, 2)))
     k = int(np.argmin(misfit))
-    return None if misfit[k] > _MOST_MISFIT_M else np.asarray(points[orders[k]])
+    if misfit[k] > _MOST_MISFIT_M:
+        return None
+    return np.asarray(points[orders[k]]), np.asarray(found.pixel[best][orders[k]])
 
 
 def _table(points: FloatArray) -> FloatArray:

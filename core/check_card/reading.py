@@ -9,6 +9,8 @@ import numpy as np
 from carpus.core.check_card.card import FIGURES
 from carpus.core.types import FloatArray
 
+CHECK_S = 30.0
+"""Length of a check."""
 MOST_ANGLE_DEG, MOST_LENGTH_MM, MOST_SCALE = 2.0, 2.5, 0.012
 """Fixed limits of the largest error of an angle and a length, and of all lengths together."""
 

@@ -8,8 +8,9 @@ from tqdm import tqdm
 from carpus.core.camera import DEFAULT_CAMERA
 from carpus.core.camera_calibration.board import CHESSBOARD, board_sheet
 from carpus.core.camera_calibration.gather import Gathering
+from carpus.core.simulation.printed_sheets import Studio, poses, texture_of
 from carpus.core.types import Frame
-from tests.camera_calibration.printed import ShownSheets, Studio, poses, texture_of
+from tests.camera_calibration.printed import ShownSheets
 
 
 @pytest.fixture(autouse=True)

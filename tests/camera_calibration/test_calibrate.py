@@ -4,19 +4,24 @@ from __future__ import annotations
 
 from dataclasses import replace
 
+import cv2
 import numpy as np
 import pytest
 
 from carpus.core.camera import DEFAULT_CAMERA
 from carpus.core.camera_calibration.board import BOARDS, CHARUCO, CHESSBOARD, Board, board_sheet
 from carpus.core.camera_calibration.calibrate import CameraCalibration, calibrate_camera, calibration_lines
+from carpus.core.camera_calibration.effect import HAND_LENGTH_M, effect_of
 from carpus.core.camera_calibration.find_board import find_board
 from carpus.core.camera_calibration.gather import Gathering
+from carpus.core.camera_calibration.guidance import ASKED_VIEWS, Step, next_step, target_outline
 from carpus.core.camera_calibration.sheet import PAPER_MM, Box, Paper
-from carpus.core.camera_calibration.views import FEWEST_VIEWS, View, judge
+from carpus.core.camera_calibration.views import FEWEST_VIEWS, SIDES, View, judge
 from carpus.core.errors import BoardMissing, BoardUnfit, BoardViewsAlike
+from carpus.core.simulation.printed_sheets import LENS, Studio, held, poses, texture_of
 from carpus.core.simulation.sensor import depth_scale
-from tests.camera_calibration.printed import LENS, ShownSheets, Studio, held, poses, texture_of
+from carpus.core.types import Frame
+from tests.camera_calibration.printed import ShownSheets
 
 
 @pytest.fixture(scope="package")
@@ -118,6 +123,61 @@ def test_a_bent_board_is_refused(gathered: Gathering) -> None:
 
     with pytest.raises(BoardUnfit):
         calibrate_camera([bent(view) for view in gathered.views], DEFAULT_CAMERA, "studio")
+
+
+def test_what_to_do_next_is_where_nothing_has_been_and_all_of_the_board_fits_there(gathered: Gathering) -> None:
+    first = next_step(judge([], 640, 480))
+    assert first.kind == "place"
+    for judgement in (judge(gathered.views[:1], 640, 480), judge(gathered.views[:6], 640, 480)):
+        step = next_step(judgement, gathered.views[0].found)
+        if step.field is not None:
+            assert judgement.corners_in_field[step.field] == judgement.corners_in_field.min()
+    for field in ((0, 0), (0, 5), (3, 0), (3, 5), (1, 2)):
+        for side in SIDES:
+            outline = target_outline(Step("place", field, side), CHESSBOARD, DEFAULT_CAMERA)
+            assert outline is not None
+            assert outline.min() > 0.0
+            assert (outline.max(axis=0) < [640, 480]).all()
+    upright = replace(judge(gathered.views, 640, 480), sides=frozenset({"left"}))
+    assert next_step(upright) == Step("tilt", side="right")
+    assert next_step(replace(judge(gathered.views, 640, 480), views=ASKED_VIEWS)).kind == "done"
+
+
+def test_a_picture_that_is_not_kept_says_why(shown: list[Frame]) -> None:
+    def look(*frames: Frame) -> list[str]:
+        gathering = Gathering(DEFAULT_CAMERA)
+        out = []
+        for k, frame in enumerate(frames):
+            told = gathering.look(replace(frame, timestamp_s=0.2 * k))
+            assert told is not None
+            out.append(told.lack if told.lack or told.kept else "?")
+        return out
+
+    def with_color(frame: Frame, color: np.ndarray) -> Frame:
+        return replace(frame, color_rgb=np.ascontiguousarray(color))
+
+    blurred = with_color(shown[0], cv2.blur(shown[0].color_rgb, (9, 1)))
+    dark = with_color(shown[0], shown[0].color_rgb // 8)
+    assert look(shown[0], shown[0], shown[1]) == ["", "known", "moving"]
+    assert look(blurred) == ["blurred"]
+    assert look(with_color(dark, np.zeros_like(dark.color_rgb))) == ["dark"]
+    gathering = Gathering(DEFAULT_CAMERA)
+    gathering.take()
+    assert gathering.add(blurred), "by hand it counts"
+    gathering.undo()
+    gathering.add(replace(shown[1], timestamp_s=shown[0].timestamp_s + 9.0))
+    assert len(gathering.views) == 1
+
+
+def test_the_effect_on_a_hand_is_told(made: CameraCalibration, gathered: Gathering, studio: Studio) -> None:
+    effect = effect_of(made, gathered.views)
+    assert np.nanmax(np.abs(effect.map_px)) < 0.5
+    assert effect.before_px > made.intrinsics.error_px
+    # Focal length too short and depth too long both make a hand too long, by their shares together.
+    long = HAND_LENGTH_M * 1e3 * (depth_scale(studio.spec) * LENS.fy_px / DEFAULT_CAMERA.fy_px - 1.0)
+    assert effect.length_more_mm == pytest.approx(long, abs=0.6)
+    assert abs(effect.angle_more_deg) < 1.5
+    assert made.is_usable
 
 
 def test_the_next_step_names_what_is_missing(gathered: Gathering) -> None:

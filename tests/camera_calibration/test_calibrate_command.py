@@ -32,9 +32,10 @@ from carpus.core.capture.raw_tum import TumWriter
 from carpus.core.capture.source import SourceInfo
 from carpus.core.errors import CameraFileUnreadable
 from carpus.core.pipeline.track import source_facts
+from carpus.core.simulation.printed_sheets import LENS, Studio
 from carpus.core.simulation.sensor import depth_scale
 from carpus.core.types import Frame
-from tests.camera_calibration.printed import LENS, ShownSheets, Studio
+from tests.camera_calibration.printed import ShownSheets
 
 SERIAL = "1206-77"
 

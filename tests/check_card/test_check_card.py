@@ -32,12 +32,13 @@ from carpus.core.check_card.chart import (
     usual_of,
     verdict_of,
 )
-from carpus.core.check_card.measure import measure_card
+from carpus.core.check_card.measure import CardWatch, measure_card
 from carpus.core.check_card.reading import CardReading
+from carpus.core.check_card.standing import standing_of, unsure_of
 from carpus.core.errors import CardMissing
+from carpus.core.simulation.card_scene import card_scene
+from carpus.core.simulation.printed_sheets import LENS, Studio
 from carpus.core.types import Frame
-from tests.camera_calibration.printed import LENS, Studio
-from tests.check_card.card_scene import card_scene
 
 NOW = datetime(2026, 11, 20, 9, tzinfo=UTC)
 
@@ -77,6 +78,26 @@ def test_a_right_camera_is_within_its_limits(shown: list[Frame]) -> None:
     assert reading.lengths_hold
     assert reading.scale == pytest.approx(1.0, abs=0.003)
     assert reading.distance_m == pytest.approx(0.59, abs=0.03)
+
+
+def test_before_a_live_camera_only_steady_pictures_count(shown: list[Frame]) -> None:
+    watch = CardWatch(LENS, steady=True)
+    seen = [watch.look(frame) for frame in shown[:3]]
+    assert [look.pictures for look in seen if look is not None] == [1, 2, 3]
+    last = seen[-1]
+    assert last is not None
+    assert last.pixel is not None
+    assert last.seconds == pytest.approx(1.0)
+    blank = replace(shown[0], timestamp_s=101.5, color_rgb=np.full_like(shown[0].color_rgb, 200))
+    gone = watch.look(blank)
+    assert gone is not None
+    assert (gone.pixel, gone.seconds) == (None, pytest.approx(1.0))
+    away = replace(shown[3], timestamp_s=102.0, depth_unit_m=shown[3].depth_unit_m * 1.1)
+    moved = watch.look(away)
+    assert moved is not None
+    assert (moved.moved, moved.pictures, moved.seconds) == (True, 1, 0.0)
+    with pytest.raises(CardMissing):
+        watch.reading("card")
 
 
 @pytest.mark.parametrize("share", [0.98, 1.02])
@@ -166,6 +187,23 @@ def test_the_doctor_names_the_age_of_calibration_and_check(tmp_path: Path) -> No
     add_check(chart_path(tmp_path, "77"), check(12, scale=1.02))
     (out,) = camera_ages(tmp_path, NOW + timedelta(days=12))
     assert out.state == "bad"
+
+
+def test_where_a_camera_stands_and_which_sessions_are_not_sure(tmp_path: Path) -> None:
+    nothing = standing_of(tmp_path, "77", NOW)
+    assert not any((nothing.is_old, nothing.is_out, nothing.is_unusual))
+    for day, scale in ((0, 1.0), (4, 1.02)):
+        add_check(chart_path(tmp_path, "77"), check(day, scale=scale))
+    now = standing_of(tmp_path, "77", NOW + timedelta(days=12))
+    assert (now.is_out, now.is_old, round(now.checked_days)) == (True, True, 8)
+    path = new_calibration_path(tmp_path, "77", NOW + timedelta(days=5))
+    when = (NOW + timedelta(days=5)).isoformat()
+    write_camera_info(path, LENS, calibration=StoredCalibration("77", when, 1.02, 0.0, 0.2, 20))
+    assert not standing_of(tmp_path, "77", NOW + timedelta(days=12)).is_out, "something was done about it"
+    checks = read_checks(chart_path(tmp_path, "77"))
+    assert unsure_of(checks, NOW - timedelta(days=1), "x") == (False, False)
+    assert unsure_of(checks, NOW + timedelta(days=1), "x") == (True, False)
+    assert unsure_of(checks, NOW + timedelta(days=1), "another") == (False, False)
 
 
 @pytest.mark.usefixtures("qapp")

@@ -17,8 +17,8 @@ from carpus.core.check_card.card import (
     card_sheet,
     wedge_sheet,
 )
+from carpus.core.simulation.printed_sheets import PX_PER_MM, Placed, texture_of
 from carpus.core.types import FloatArray
-from tests.camera_calibration.printed import PX_PER_MM, Placed, texture_of
 
 
 def card_scene(distance_m: float = 0.6, tilt_deg: float = 4.0, turn_deg: float = 7.0) -> list[Placed]:
@@ -27,7 +27,7 @@ def card_scene(distance_m: float = 0.6, tilt_deg: float = 4.0, turn_deg: float =
     tilt = np.asarray(cv2.Rodrigues(np.array([math.radians(tilt_deg), 0.0, 0.0]))[0])
     turn = np.asarray(cv2.Rodrigues(np.array([0.0, 0.0, math.radians(turn_deg)]))[0])
     # The sheet's x to the right, y down, z into the table: as the camera looks.
-    rotation = tilt @ turn
+    rotation = np.asarray(tilt @ turn, dtype=np.float64)
     a_m = np.array([*CARD_CORNER_MM, 0.0]) / 1e3
     middle_m = a_m + np.array([0.04, 0.07, 0.0])
     shift = np.array([0.01, -0.005, distance_m]) - rotation @ middle_m
@@ -42,7 +42,8 @@ def card_scene(distance_m: float = 0.6, tilt_deg: float = 4.0, turn_deg: float =
     for texture, rise_deg, corner_m in faces:
         # Up, out of the sheet, is -z here: a face that rises along y turns about x by a negative angle.
         face = np.asarray(cv2.Rodrigues(np.array([-math.radians(rise_deg), 0.0, 0.0]))[0])
-        out.append(Placed(np.ascontiguousarray(texture), rotation @ face, rotation @ corner_m + shift))
+        turned = np.asarray(rotation @ face, dtype=np.float64)
+        out.append(Placed(np.ascontiguousarray(texture), turned, rotation @ corner_m + shift))
     return out
 
 

@@ -1,0 +1,94 @@
+"""A simulated camera before which a board is shown, or a check card lies: to try both without a camera."""
+
+from __future__ import annotations
+
+import itertools
+import threading
+from collections.abc import Iterator
+
+import cv2
+import numpy as np
+
+from carpus.core.camera import DEFAULT_CAMERA
+from carpus.core.camera_calibration.board import Board, board_sheet
+from carpus.core.capture.calibrated import SERIAL
+from carpus.core.capture.source import SourceInfo
+from carpus.core.simulation.card_scene import card_scene
+from carpus.core.simulation.printed_sheets import LENS, Placed, Studio, poses, texture_of
+from carpus.core.types import SIMULATED, FloatArray, Frame
+
+PRACTICE_SERIAL = "practice"
+NAME = "Simulated camera"
+FPS = 5.0
+_STILL_FRAMES = 3
+"""The board is held so long in each place, after one picture on the way."""
+_DEPTH_SCALE_ERROR, _SEED = 0.03, 21
+_MOST_PICTURES = 24
+"""Different pictures of the card; then they come again, as nothing moves."""
+
+
+class PracticeCamera:
+    """Frames without end, not paced, times rising by themselves; ends by :meth:`close`."""
+
+    def __init__(self, pictures: Iterator[Frame]) -> None:
+        settings = {SERIAL: PRACTICE_SERIAL, SIMULATED: "yes"}
+        self.info = SourceInfo(NAME, DEFAULT_CAMERA, True, None, FPS, settings)
+        self._pictures = pictures
+        self._closed = threading.Event()
+
+    def frames(self) -> Iterator[Frame]:
+        """Frames until :meth:`close`."""
+        for frame in self._pictures:
+            if self._closed.is_set():
+                return
+            yield frame
+
+    def close(self) -> None:
+        """End; may be called twice and from another thread."""
+        self._closed.set()
+
+
+def board_camera(board: Board, seed: int = 5) -> PracticeCamera:
+    """The board as a person shows it who does what is asked: everywhere, tilted to all sides, near and far."""
+    return PracticeCamera(_board_frames(board, seed))
+
+
+def card_camera(seed: int = 9) -> PracticeCamera:
+    """The check card as it lies under the camera."""
+    return PracticeCamera(_card_frames(seed))
+
+
+def _board_frames(board: Board, seed: int) -> Iterator[Frame]:
+    studio = _studio()
+    texture = texture_of(board_sheet(board, "a4"))
+    distances_m = (0.5, 0.62, 0.8) if board.pattern == "chessboard" else (0.42, 0.5, 0.62)
+    index = 0
+    before: Placed | None = None
+    for around in itertools.count(seed):
+        for placed in poses(texture, distances_m=distances_m, seed=around):
+            on_the_way = [] if before is None else [_between(before, placed)]
+            for shown in (*on_the_way, *[placed] * _STILL_FRAMES):
+                yield studio.frame([shown], index, index / FPS)
+                index += 1
+            before = placed
+
+
+def _card_frames(seed: int) -> Iterator[Frame]:
+    studio, scene = _studio(), card_scene(turn_deg=float(np.random.default_rng(seed).uniform(-12.0, 12.0)))
+    made: list[Frame] = []
+    for index in itertools.count():
+        if len(made) < _MOST_PICTURES:
+            made.append(studio.frame(scene, index, index / FPS))
+        kept = made[index % _MOST_PICTURES]
+        yield Frame(index, index / FPS, kept.color_rgb, kept.depth_raw, kept.depth_unit_m)
+
+
+def _studio() -> Studio:
+    return Studio(LENS, _SEED, _DEPTH_SCALE_ERROR)
+
+
+def _between(one: Placed, other: Placed) -> Placed:
+    """Half-way from one pose to the next."""
+    away: FloatArray = np.ravel(cv2.Rodrigues(other.rotation @ one.rotation.T)[0])
+    half = np.asarray(cv2.Rodrigues(0.5 * away)[0])
+    return Placed(other.texture, half @ one.rotation, 0.5 * (one.shift_m + other.shift_m))
