@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
+from typing import Literal
 
 import cv2
 import numpy as np
@@ -10,10 +12,23 @@ import numpy as np
 from carpus.core.depth_sensor import ASSUMED_SENSOR, DepthSensor
 from carpus.core.types import FloatArray
 
+DistortionModel = Literal["plumb_bob", "rational_polynomial", "inverse_brown_conrady"]
+
+COEFFICIENTS: Mapping[DistortionModel, int] = {"plumb_bob": 5, "rational_polynomial": 8, "inverse_brown_conrady": 5}
+"""Of every model that is known, how many there are; in OpenCV's order k1 k2 p1 p2 k3, then k4 k5 k6."""
+
+_MOST_ROUNDS, _NEAR_PX = 20, 1e-7
+"""OpenCV's own few rounds leave a strong lens unfinished."""
+
 
 @dataclass(frozen=True, slots=True)
 class Camera:
-    """Intrinsics of the colour camera in pixels; ``distortion`` is plumb_bob (k1, k2, p1, p2, k3)."""
+    """Intrinsics of the colour camera in pixels, and its lens.
+
+    ``distortion_model`` says what ``distortion`` is: plumb_bob (k1, k2, p1, p2, k3); rational_polynomial, with k4, k5,
+    k6 of a denominator after them; inverse_brown_conrady (RealSense), the polynomial of plumb_bob that leads the other
+    way, from the real picture to the ideal one.
+    """
 
     fx_px: float
     fy_px: float
@@ -21,11 +36,12 @@ class Camera:
     cy_px: float
     width_px: int = 640
     height_px: int = 480
-    distortion: tuple[float, float, float, float, float] = (0.0, 0.0, 0.0, 0.0, 0.0)
+    distortion: tuple[float, ...] = (0.0, 0.0, 0.0, 0.0, 0.0)
     origin: str = "default"
     """Where the numbers come from: ``file``, ``calibration`` (kept for this camera), ``driver`` or ``default``."""
     sensor: DepthSensor = ASSUMED_SENSOR
     """What its depth is worth."""
+    distortion_model: DistortionModel = "plumb_bob"
 
     @property
     def matrix(self) -> FloatArray:
@@ -58,19 +74,37 @@ class Camera:
         """Pixels (D, 2) as an ideal pinhole would see them."""
         if not self.is_distorted or pixel.size == 0:
             return pixel
-        k = self.matrix
-        flat = cv2.undistortPoints(pixel.reshape(-1, 1, 2), k, np.array(self.distortion), P=k)
-        return np.asarray(flat, dtype=np.float64).reshape(-1, 2)
+        if self.distortion_model == "plumb_bob":
+            k = self.matrix
+            flat = cv2.undistortPoints(pixel.reshape(-1, 1, 2), k, np.array(self.distortion), P=k)
+            return np.asarray(flat, dtype=np.float64).reshape(-1, 2)
+        return self._through(pixel) if self.distortion_model == "inverse_brown_conrady" else self._back_through(pixel)
 
     def distort(self, pixel: FloatArray) -> FloatArray:
         """Inverse of :meth:`undistort`: where ideal pixels (D, 2) lie in the real picture."""
         if not self.is_distorted or pixel.size == 0:
             return pixel
+        return self._back_through(pixel) if self.distortion_model == "inverse_brown_conrady" else self._through(pixel)
+
+    def _through(self, pixel: FloatArray) -> FloatArray:
+        """Pixels (D, 2) moved by the polynomial."""
         rays = self.back_project(pixel, np.ones(pixel.shape[:-1]))
         out, _ = cv2.projectPoints(
             rays.reshape(-1, 1, 3), np.zeros(3), np.zeros(3), self.matrix, np.array(self.distortion)
         )
         return np.asarray(out, dtype=np.float64).reshape(-1, 2)
+
+    def _back_through(self, pixel: FloatArray) -> FloatArray:
+        """Inverse of :meth:`_through`, to the end."""
+        k = self.matrix
+        flat = cv2.undistortPoints(pixel.reshape(-1, 1, 2), k, np.array(self.distortion), P=k)
+        out = np.asarray(flat, dtype=np.float64).reshape(-1, 2)
+        for _ in range(_MOST_ROUNDS):
+            off = self._through(out) - pixel
+            out = out - off
+            if np.abs(off).max() < _NEAR_PX:
+                break
+        return out
 
 
 DEFAULT_CAMERA = Camera(525.0, 525.0, 319.5, 239.5)

@@ -99,7 +99,7 @@ class Judgement:
 def view_of(found: FoundBoard, camera: Camera, depth_raw: DepthImage | None, depth_unit_m: float) -> View | None:
     """What a picture shows; ``camera`` may be a rough guess. None where the board cannot stand like that."""
     points = found.board.corners_m[found.corner]
-    there, turn, shift = cv2.solvePnP(points, found.pixel, camera.matrix, np.array(camera.distortion))
+    there, turn, shift = cv2.solvePnP(points, camera.undistort(found.pixel), camera.matrix, np.zeros(5))
     if not there:
         return None
     rotation = np.asarray(cv2.Rodrigues(turn)[0], dtype=np.float64)

@@ -9,13 +9,13 @@ from typing import Any
 
 import yaml
 
-from carpus.core.camera import DEFAULT_CAMERA, Camera
+from carpus.core.camera import COEFFICIENTS, DEFAULT_CAMERA, Camera, DistortionModel
 from carpus.core.depth_sensor import ASSUMED, ASSUMED_SENSOR, DepthSensor, sensor_of
 from carpus.core.errors import CameraFileUnreadable, OutputExists, OutputNotWritable
 from carpus.core.types import SIMULATED
 
 CAMERA_FILE = "camera_info.yaml"
-DISTORTION_MODEL = "plumb_bob"
+_USUAL_MODEL: DistortionModel = "plumb_bob"
 _MOST_BYTES = 1_000_000
 _SCALES, _MOST_OFFSET_M = (0.8, 1.25), 0.1
 _FOCAL_SHARE = (0.2, 10.0)
@@ -92,8 +92,8 @@ def write_camera_info(
         "image_height": camera.height_px,
         "camera_name": camera_name,
         "camera_matrix": _matrix(3, 3, k),
-        "distortion_model": DISTORTION_MODEL,
-        "distortion_coefficients": _matrix(1, 5, list(camera.distortion)),
+        "distortion_model": camera.distortion_model,
+        "distortion_coefficients": _matrix(1, len(camera.distortion), list(camera.distortion)),
         "rectification_matrix": _matrix(3, 3, [1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0]),
         "projection_matrix": _matrix(3, 4, [*k[0:3], 0.0, *k[3:6], 0.0, *k[6:9], 0.0]),
     }
@@ -138,9 +138,10 @@ def _matrix(rows: int, columns: int, data: list[float]) -> dict[str, Any]:
 
 
 def _camera(path: Path, content: dict[str, Any]) -> Camera:
-    model = content.get("distortion_model", DISTORTION_MODEL)
-    if model != DISTORTION_MODEL:
-        raise CameraFileUnreadable(path, f"distortion_model {model}, {DISTORTION_MODEL} expected")
+    said = content.get("distortion_model", _USUAL_MODEL)
+    model = next((known for known in COEFFICIENTS if known == said), None)
+    if model is None:
+        raise CameraFileUnreadable(path, f"distortion_model {said}, {' or '.join(COEFFICIENTS)} expected")
     width, height = (_size(path, content, key) for key in ("image_width", "image_height"))
     k = _data(path, content, "camera_matrix")
     if len(k) != 9:
@@ -151,10 +152,11 @@ def _camera(path: Path, content: dict[str, Any]) -> Camera:
     if not all(_FOCAL_SHARE[0] <= f / width <= _FOCAL_SHARE[1] for f in (fx, fy)):
         raise CameraFileUnreadable(path, f"fx {fx:g} and fy {fy:g} are no camera's with pictures {width} pixels wide")
     distortion = _data(path, content, "distortion_coefficients") if "distortion_coefficients" in content else []
-    if len(distortion) not in (0, 4, 5):
-        raise CameraFileUnreadable(path, f"distortion_coefficients has {len(distortion)} numbers, 5 expected")
-    k1, k2, p1, p2, k3 = [*distortion, *[0.0] * (5 - len(distortion))]
-    return Camera(fx, fy, cx, cy, width, height, (k1, k2, p1, p2, k3), "file", _sensor(path, content))
+    wanted = COEFFICIENTS[model]
+    if len(distortion) not in (0, 4, 5, wanted):
+        raise CameraFileUnreadable(path, f"distortion_coefficients has {len(distortion)} numbers, {wanted} expected")
+    lens = (*distortion, *[0.0] * (wanted - len(distortion)))
+    return Camera(fx, fy, cx, cy, width, height, lens, "file", _sensor(path, content), model)
 
 
 def _sensor(path: Path, content: dict[str, Any]) -> DepthSensor:

@@ -25,7 +25,7 @@ from typing import Any, BinaryIO
 
 import numpy as np
 
-from carpus.core.camera import Camera
+from carpus.core.camera import COEFFICIENTS, Camera
 from carpus.core.capture.notice import Notice, ignore
 from carpus.core.capture.raw_pictures import decode_color, decode_depth, encode_color, encode_depth
 from carpus.core.capture.source import SourceInfo
@@ -195,6 +195,8 @@ class RawWriter:
                 "height_px": camera.height_px,
                 "distortion": list(camera.distortion),
                 "origin": camera.origin,
+                # An older Carpus, which would take any lens for plumb_bob, refuses a head that names one.
+                **({} if camera.distortion_model == "plumb_bob" else {"distortion_model": camera.distortion_model}),
             },
         }
         return json.dumps(content, ensure_ascii=False).encode()
@@ -250,6 +252,8 @@ class RawRecording:
         try:
             camera = dict(head["camera"])
             camera["distortion"] = tuple(camera["distortion"])
+            if len(camera["distortion"]) != COEFFICIENTS[camera.get("distortion_model", "plumb_bob")]:
+                raise ValueError("a lens of no kind")
             camera["sensor"] = sensor_of(head["depth_sensor"]) if "depth_sensor" in head else ASSUMED_SENSOR
             self._depth_unit_m = float(head["depth_unit_m"])
             self._info = SourceInfo(

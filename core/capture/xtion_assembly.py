@@ -168,6 +168,7 @@ def fitted_camera(camera: Camera, size_px: tuple[int, int]) -> Camera | None:
         camera.distortion,
         camera.origin,
         camera.sensor,
+        camera.distortion_model,
     )
 
 

@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from carpus.core.calibration.result import Calibration, Clicks, Finding, Verdict
-from carpus.core.camera import Camera
+from carpus.core.camera import COEFFICIENTS, Camera
 from carpus.core.dates import iso, time_of_day
 from carpus.core.depth_sensor import ASSUMED_SENSOR, DepthSensor, sensor_of
 from carpus.core.encryption.cipher import is_encrypted
@@ -328,7 +328,11 @@ class _Source:
 
     def _camera(self) -> Camera:
         said = self._file["/camera"].attrs
-        k1, k2, p1, p2, k3 = (float(value) for value in said["distortion"])
+        model = str(said.get("distortion_model", "plumb_bob"))
+        lens = tuple(float(value) for value in said["distortion"])
+        known = next((one for one, count in COEFFICIENTS.items() if one == model and count == len(lens)), None)
+        if known is None:
+            raise SessionUnreadable(self._path, f"distortion {model} with {len(lens)} coefficients")
         return Camera(
             fx_px=float(said["fx"]),
             fy_px=float(said["fy"]),
@@ -336,9 +340,10 @@ class _Source:
             cy_px=float(said["cy"]),
             width_px=int(said["width"]),
             height_px=int(said["height"]),
-            distortion=(k1, k2, p1, p2, k3),
+            distortion=lens,
             origin=str(said.get("origin", "file")),
             sensor=self._sensor(said.get("depth_sensor")),
+            distortion_model=known,
         )
 
     def _sensor(self, said: str | None) -> DepthSensor:

@@ -38,11 +38,17 @@ mirrored: false
 """
 
 
-def test_a_written_camera_is_read_back_exactly(tmp_path: Path) -> None:
+EIGHT = (0.5, -0.3, 1e-5, -3e-4, 0.1, 0.4, -0.2, 0.05)
+WIDE = replace(CAMERA, distortion=EIGHT, distortion_model="rational_polynomial")
+INVERSE = replace(CAMERA, distortion_model="inverse_brown_conrady")
+
+
+@pytest.mark.parametrize("camera", [CAMERA, WIDE, INVERSE], ids=lambda camera: camera.distortion_model)
+def test_a_written_camera_is_read_back_exactly(tmp_path: Path, camera: Camera) -> None:
     path = tmp_path / "camera_info.yaml"
-    write_camera_info(path, CAMERA, registered=True)
+    write_camera_info(path, camera, registered=True)
     info = read_camera_info(path)
-    assert info.camera == CAMERA
+    assert info.camera == camera
     assert (info.registered, info.mirrored) == (True, None)
 
 
@@ -85,7 +91,7 @@ def test_a_file_of_ros_is_read(tmp_path: Path) -> None:
     [
         ("image_width: 640", "", "image_width"),
         ("image_height: 480", "image_height: tall", "image_height"),
-        ("plumb_bob", "rational_polynomial", "rational_polynomial"),
+        ("plumb_bob", "equidistant", "distortion_model equidistant, plumb_bob or rational_polynomial"),
         ("0, 0, 1]\ndist", "0, 0]\ndist", "8 numbers"),
         ("[537.5,", "[-537.5,", "camera_matrix"),
         ("[537.5,", "[.nan,", "camera_matrix"),

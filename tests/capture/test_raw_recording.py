@@ -32,7 +32,8 @@ from carpus.core.types import Frame
 from tests.capture.oni_samples import HEIGHT, WIDTH, color_picture, depth_picture
 
 ROOT = Path(__file__).parents[2]
-CAMERA = Camera(52.0, 53.0, 31.0, 23.0, WIDTH, HEIGHT, (0.1, -0.2, 0.001, 0.002, 0.3), "file", D435)
+LENS = (0.1, -0.2, 0.001, 0.002, 0.3)
+CAMERA = Camera(52.0, 53.0, 31.0, 23.0, WIDTH, HEIGHT, LENS, "file", D435, "inverse_brown_conrady")
 INFO = SourceInfo("Xtion Pro Live", CAMERA, True, None, 30.0, {"serial": "1206", "registered": "by the camera"})
 
 

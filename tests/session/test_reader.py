@@ -21,7 +21,7 @@ from carpus.core.session.values import Event, Motion, motion_of, new_header
 from carpus.core.session.writer import SessionWriter
 from tests.session.samples import CAMERA, make_calibration, make_frame, make_header, time_of
 
-SEEN = dataclasses.replace(CAMERA, sensor=D455)
+SEEN = dataclasses.replace(CAMERA, sensor=D455, distortion_model="inverse_brown_conrady")
 
 N = 12
 
