@@ -1,4 +1,4 @@
-"""Looks now and then whether a camera is plugged in."""
+"""Looks now and then whether a camera is plugged in, and which."""
 
 from __future__ import annotations
 
@@ -10,13 +10,16 @@ LOOK_EVERY_MS = 2000
 
 
 class CameraWatch(QObject):
-    """``looked`` carries what was seen, each time."""
+    """``looked`` carries what was seen, each time: whether one is there, and its name, empty where nobody knows.
 
-    looked = Signal(bool)
+    ``name`` answers with the name, None where none is there.
+    """
 
-    def __init__(self, parent: QObject, is_there: Callable[[], bool]) -> None:
+    looked = Signal(bool, str)
+
+    def __init__(self, parent: QObject, name: Callable[[], str | None]) -> None:
         super().__init__(parent)
-        self._is_there = is_there
+        self._name = name
         self.there = False
         self._timer = QTimer(self)
         self._timer.setInterval(LOOK_EVERY_MS)
@@ -33,5 +36,6 @@ class CameraWatch(QObject):
 
     def look(self) -> None:
         """Look once."""
-        self.there = self._is_there()
-        self.looked.emit(self.there)
+        name = self._name()
+        self.there = name is not None
+        self.looked.emit(self.there, name or "")

@@ -127,7 +127,7 @@ class Journey(QObject):
     def _make_flows(self, theme: Theme) -> None:
         now, tell, library, places = self.now, self.teller, self._parts.library, self._places
         self.way = Navigator(self._shell, lambda: tell.busy, lambda: self.live.recording_state != "off")
-        self.watch = CameraWatch(self, self._parts.sources.camera_there)
+        self.watch = CameraWatch(self, self._parts.sources.camera_name)
         self.setting_up = SettingUp(
             self, SetUpScreens(self.exercise, self.camera, self.markers), self.way, tell, now, library,
             self._find_patient, self.opener, places, self.background,
@@ -363,8 +363,8 @@ class Journey(QObject):
         if self.teller.busy or not self.takes_escape():
             self.way.back()
 
-    def _camera_looked_for(self, there: bool) -> None:
-        self.camera.set_camera_ready(there)
+    def _camera_looked_for(self, there: bool, name: str) -> None:
+        self.camera.set_camera_ready(there, name)
         self.patients.set_camera_ready(there or self.now.kind == "practice")
         self.bar.show_camera()
 

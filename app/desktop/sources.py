@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import contextlib
-import sys
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from importlib import import_module
@@ -16,11 +15,10 @@ from carpus.app.sources import open_recording
 from carpus.core.calibration.result import Calibration
 from carpus.core.capture.calibrated import with_stored_calibration
 from carpus.core.capture.camera_info import read_camera_info
-from carpus.core.capture.cameras import open_camera
+from carpus.core.capture.cameras import name_to_open, open_camera
 from carpus.core.capture.paced import PacedSource
 from carpus.core.capture.practice import PracticeSource
 from carpus.core.capture.source import FrameSource, is_simulated
-from carpus.core.capture.xtion_usb import usb_cameras
 from carpus.core.errors import CarpusFault, RecordingEmpty, RegistrationAssumed
 from carpus.core.library.set_up import SetUp
 from carpus.core.pipeline.live import Listener, LiveSession
@@ -61,9 +59,9 @@ class Sources:
         self.streams: Callable[[], bool] = lambda: settings.stream.on
         """Whether live values go out to other programs; asked whenever tracking begins."""
 
-    def camera_there(self) -> bool:
-        """Whether a camera is plugged in; taken for true where the system does not tell."""
-        return bool(usb_cameras()) or not sys.platform.startswith("linux")
+    def camera_name(self) -> str | None:
+        """Name of the camera that would be opened, empty where the system does not tell, None when none is there."""
+        return name_to_open(self._settings.camera.uri)
 
     def prepare_practice(self, set_up: SetUp, progress: Progress) -> None:
         """Render the take of a set-up if it is not there yet."""

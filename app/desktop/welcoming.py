@@ -11,7 +11,8 @@ from carpus.app.desktop.journey import Journey
 from carpus.app.desktop.preferences import PreferenceKeeper
 from carpus.app.desktop.touring import Tour
 from carpus.app.settings import FirstStartSettings
-from carpus.core.capture.doctor import Finding, examine_at_start
+from carpus.core.capture.doctor import examine_at_start
+from carpus.core.capture.finding import Finding
 from carpus.core.library.library import Library
 from carpus.ui.background import Background
 from carpus.ui.fonts import DISPLAY_FAMILY, TEXT_FAMILY, load_fonts

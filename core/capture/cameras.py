@@ -1,30 +1,24 @@
 """The live cameras that there are: one line here and one module for each.
 
-Its class takes ``uri``, ``camera`` (measured intrinsics or None) and ``notice`` by name, and is a
-:class:`LiveCamera`. It is loaded, and its driver needed, only when it is opened.
+A module has ``KIND``, a :class:`CameraKind`. Loading it loads no driver.
 """
 
 from __future__ import annotations
 
+import math
+import sys
 from importlib import import_module
-from typing import Protocol
 
 from carpus.core.camera import Camera
+from carpus.core.capture.camera_kind import CameraKind, LiveCamera
 from carpus.core.capture.notice import Notice, ignore
-from carpus.core.capture.source import FrameSource
+from carpus.core.capture.usb_devices import UsbCamera
 
 CAMERAS = {
-    "xtion": ("xtion", "XtionSource"),
+    "xtion": "xtion",
+    "astra": "astra",
 }
-"""Module and class by kind; the first is the usual one."""
-
-
-class LiveCamera(FrameSource, Protocol):
-    """A source of frames that runs from construction on."""
-
-    def lock_exposure(self) -> None:
-        """From now on colours stay as they are."""
-        ...
+"""Module by kind; the first is the usual one."""
 
 
 def kind_of(uri: str) -> str:
@@ -33,10 +27,37 @@ def kind_of(uri: str) -> str:
     return named if named in CAMERAS else next(iter(CAMERAS))
 
 
-def open_camera(uri: str = "", *, camera: Camera | None = None, notice: Notice = ignore) -> LiveCamera:
-    """Open a camera by its address, empty for the first that is found. Raises the faults of its module."""
-    module, name = CAMERAS[kind_of(uri)]
-    source: LiveCamera = getattr(import_module(f"{__package__}.{module}"), name)(
-        uri=uri or None, camera=camera, notice=notice
-    )
-    return source
+def camera_kind(name: str) -> CameraKind:
+    """The kind of that name."""
+    kind: CameraKind = import_module(f"{__package__}.{CAMERAS[name]}").KIND
+    return kind
+
+
+def seen_cameras() -> list[tuple[str, UsbCamera]]:
+    """The cameras plugged in, of all kinds, with the names of their kinds; empty where the system does not tell."""
+    return [(name, camera) for name in CAMERAS for camera in camera_kind(name).seen()]
+
+
+def name_to_open(uri: str = "") -> str | None:
+    """Name of what :func:`open_camera` would open, empty where the system does not tell, None where there is none."""
+    wanted = [camera.name for name, camera in seen_cameras() if not uri or name == kind_of(uri)]
+    if wanted:
+        return wanted[0]
+    return None if sys.platform.startswith("linux") else ""
+
+
+def kind_to_open(uri: str = "") -> str:
+    """The kind that :func:`open_camera` opens: as named, else of the first that is plugged in, else the usual one."""
+    return kind_of(uri) if uri else next((name for name, _ in seen_cameras()), kind_of(uri))
+
+
+def open_camera(
+    uri: str = "", *, camera: Camera | None = None, patience_s: float = math.inf, notice: Notice = ignore
+) -> LiveCamera:
+    """Open a camera by its address (``KIND:`` and what the kind calls it), empty for the first that is plugged in.
+
+    Raises the faults of its module; :class:`CameraLost` when it is away for more than ``patience_s``.
+    """
+    name = kind_to_open(uri)
+    place = uri.removeprefix(f"{name}:")
+    return camera_kind(name).open(uri=place or None, camera=camera, patience_s=patience_s, notice=notice)

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import ctypes
 import ctypes.util
-import multiprocessing
 import os
 import platform
 import shutil
@@ -12,25 +11,22 @@ import sys
 import threading
 import time
 from collections.abc import Iterator
-from concurrent.futures import ProcessPoolExecutor
-from concurrent.futures.process import BrokenProcessPool
-from dataclasses import dataclass
+from dataclasses import replace
 from importlib.metadata import PackageNotFoundError, version
 from importlib.resources import files
 from itertools import pairwise
 from pathlib import Path
-from typing import Literal
 
 import numpy as np
 
-from carpus.core.capture.openni2 import library_version, load_library
+from carpus.core.capture.camera_kind import CameraKind
+from carpus.core.capture.cameras import CAMERAS, camera_kind, kind_to_open, open_camera
+from carpus.core.capture.finding import Finding
 from carpus.core.capture.raw import MB_PER_MINUTE
-from carpus.core.capture.xtion import XtionSource
-from carpus.core.capture.xtion_usb import UsbCamera, usb_cameras
-from carpus.core.errors import CameraBusy, CameraMissing, CameraPermission, CarpusFault, DriverMissing
+from carpus.core.capture.source import SourceInfo
+from carpus.core.capture.usb_devices import UsbCamera
+from carpus.core.errors import CameraBusy, CameraMissing, CameraPermission, CarpusFault
 from carpus.core.types import Frame
-
-State = Literal["good", "warning", "bad"]
 
 PACKAGES = ("numpy", "scipy", "opencv-python-headless", "h5py", "PyYAML", "platformdirs", "threadpoolctl")
 WINDOW_LIBRARIES = ("GL", "EGL", "fontconfig", "dbus-1", "xkbcommon", "xcb-cursor")
@@ -38,7 +34,8 @@ PACKED_WITHOUT = ("GL", "EGL")
 """Of these what a packed program does not bring: they belong to the graphics card."""
 RULES_FOLDERS = tuple(Path(root) / "udev/rules.d" for root in ("/etc", "/run", "/usr/lib", "/lib"))
 LOW_DISK_BYTES = 2_000_000_000
-NEEDED_MBIT = 480
+SLOWEST_MBIT = 480
+CLOCK_SHARE, CLOCK_ROOM_S = 0.02, 0.3
 WANTED_FPS = 29.0
 NEEDED_FPS = 20.0
 MEASURE_S = 3.0
@@ -50,16 +47,6 @@ _REMEDIES: dict[type[CarpusFault], str] = {
 }
 
 
-@dataclass(frozen=True, slots=True)
-class Finding:
-    """One need. ``found`` is the fact; ``remedy`` what to do, empty when nothing is to be done."""
-
-    name: str
-    state: State
-    found: str
-    remedy: str = ""
-
-
 def examine(data_folder: Path, *, camera_uri: str | None = None, measure_s: float = MEASURE_S) -> Iterator[Finding]:
     """All findings, each as soon as it is known; the camera is opened for ``measure_s`` seconds at the end."""
     yield python_finding(sys.version_info[:3])
@@ -68,14 +55,15 @@ def examine(data_folder: Path, *, camera_uri: str | None = None, measure_s: floa
     yield fonts_finding()
     yield data_folder_finding(data_folder)
     yield disk_finding(data_folder, shutil.disk_usage(_existing(data_folder)).free)
-    driver = driver_finding()
-    yield driver
-    if sys.platform.startswith("linux"):
-        yield rules_finding(RULES_FOLDERS)
-    cameras = usb_cameras()
-    yield camera_finding(cameras)
-    if driver.state == "good" and (cameras or camera_uri or not sys.platform.startswith("linux")):
-        yield rates_finding(camera_uri, measure_s)
+    on_linux = sys.platform.startswith("linux")
+    yield from drivers_findings(asks_version=True)
+    if on_linux:
+        yield from rights_findings(RULES_FOLDERS)
+    plugged_in = [(kind, camera) for kind in _kinds() for camera in kind.seen()]
+    if on_linux:  # elsewhere only opening it tells
+        yield from camera_findings(plugged_in)
+    if plugged_in or camera_uri or not on_linux:
+        yield from opened_findings(camera_uri or "", measure_s)
 
 
 def examine_at_start(data_folder: Path) -> Iterator[Finding]:
@@ -85,10 +73,10 @@ def examine_at_start(data_folder: Path) -> Iterator[Finding]:
     """
     on_linux = sys.platform.startswith("linux")
     if on_linux:  # elsewhere only opening it tells
-        yield camera_finding(usb_cameras())
-    yield driver_finding(asks_version=False)
+        yield from camera_findings([(kind, camera) for kind in _kinds() for camera in kind.seen()])
+    yield from drivers_findings(asks_version=False)
     if on_linux:
-        yield rules_finding(RULES_FOLDERS)
+        yield from rights_findings(RULES_FOLDERS)
     yield data_folder_finding(data_folder)
     yield disk_finding(data_folder, shutil.disk_usage(_existing(data_folder)).free)
     yield fonts_finding()
@@ -175,83 +163,89 @@ def disk_finding(folder: Path, free_bytes: int) -> Finding:
     return Finding("Disk", "good", text)
 
 
-def driver_finding(*, asks_version: bool = True) -> Finding:
-    """The OpenNI2 library; loaded, but not started. ``asks_version``, in a process of its own, takes half a second."""
-    try:
-        load_library()
-    except DriverMissing as fault:
-        remedy = (
-            "Run: sudo apt-get install libopenni2-0"
-            if sys.platform.startswith("linux")
-            else "Install OpenNI2 from the camera's maker, then start Carpus again."
-        )
-        return Finding(
-            "Driver", "bad", fault.detail or "not found", f"Needed for live cameras and .oni files. {remedy}"
-        )
-    if not asks_version:
-        return Finding("Driver", "good", "OpenNI2")
-    try:
-        with ProcessPoolExecutor(1, multiprocessing.get_context("spawn")) as other:
-            return Finding("Driver", "good", f"OpenNI2 {other.submit(library_version).result()}")
-    except BrokenProcessPool:
-        return Finding("Driver", "bad", "OpenNI2 ends when it is asked for its version", "Install it again.")
+def drivers_findings(*, asks_version: bool) -> Iterator[Finding]:
+    """The libraries of all kinds. What another kind lacks is no obstacle while one is plugged in that has all."""
+    kinds = _kinds()
+    wanted = [bool(kind.seen()) for kind in kinds]
+    for kind, is_wanted in zip(kinds, wanted, strict=True):
+        finding = kind.driver(asks_version, is_wanted)
+        if finding is None:
+            continue
+        if finding.state == "bad" and any(wanted) and not is_wanted:
+            finding = replace(finding, state="warning")
+        yield finding
 
 
-def rules_finding(folders: tuple[Path, ...]) -> Finding:
-    """Whether the system lets everybody open the camera."""
+def rights_findings(folders: tuple[Path, ...]) -> Iterator[Finding]:
+    """Whether the system lets everybody open the cameras: the usual kind, and what is plugged in of others."""
+    for number, kind in enumerate(_kinds()):
+        if number == 0 or kind.seen():
+            yield rules_finding(kind, folders)
+
+
+def rules_finding(kind: CameraKind, folders: tuple[Path, ...]) -> Finding:
+    """Whether the system lets everybody open a camera of this kind."""
+    name = "Camera rights" if kind is _kinds()[0] else f"Camera rights, {kind.title}"
     for folder in folders:
         for rules in sorted(folder.glob("*.rules")) if folder.is_dir() else []:
-            if "1d27" in rules.read_text(encoding="utf-8", errors="replace").lower():
-                return Finding("Camera rights", "good", str(rules))
-    remedy = "Run: sudo apt-get install libopenni2-0, which brings them. Then plug the camera in again."
-    return Finding("Camera rights", "warning", "no udev rules for the camera", remedy)
+            text = rules.read_text(encoding="utf-8", errors="replace").lower()
+            of_all = "idproduct" not in text
+            if any(vendor in text and (of_all or product in text) for vendor, product in kind.models):
+                return Finding(name, "good", str(rules))
+    return Finding(name, "warning", "no udev rules for the camera", kind.rights)
 
 
-def camera_finding(cameras: list[UsbCamera]) -> Finding:
-    """The camera on the bus, before anything opens it."""
-    if not cameras:
-        remedy = (
-            "Plug the camera in, at best straight into the computer. It needs a USB 2 port; some USB 3 ports refuse "
-            "cameras with old firmware."
-        )
-        return Finding("Camera", "warning", "none plugged in", remedy)
-    camera = cameras[0]
-    text = f"{camera.name} (1d27:{camera.product}) at {camera.node}, {camera.speed_mbit} Mbit/s"
+def camera_findings(plugged_in: list[tuple[CameraKind, UsbCamera]]) -> list[Finding]:
+    """The cameras on the bus, before anything opens one."""
+    if not plugged_in:
+        remedy = "Plug the camera in, at best straight into the computer. " + _kinds()[0].port
+        return [Finding("Camera", "warning", "none plugged in", remedy)]
+    return [camera_finding(kind, camera) for kind, camera in plugged_in]
+
+
+def camera_finding(kind: CameraKind, camera: UsbCamera) -> Finding:
+    """One camera on the bus."""
+    text = f"{camera.name} ({camera.vendor}:{camera.product}) at {camera.node}, {camera.speed_mbit} Mbit/s"
     if not camera.may_open:
         remedy = f"You may not open {camera.node}. Install the camera rights named above and plug it in again."
         return Finding("Camera", "bad", text, remedy)
     if camera.is_claimed:
         return Finding("Camera", "warning", f"{text}, in use", "Close the other program that uses the camera.")
-    if 0 < camera.speed_mbit < NEEDED_MBIT:
-        return Finding("Camera", "bad", text, "This port is too slow. Plug the camera into a USB 2 or USB 3 port.")
+    if 0 < camera.speed_mbit < SLOWEST_MBIT:
+        return Finding("Camera", "bad", text, f"This port is too slow. {kind.port}")
+    if 0 < camera.speed_mbit < kind.needed_mbit:
+        return Finding("Camera", "warning", text, f"This port is slow for it. {kind.port}")
     return Finding("Camera", "good", text)
 
 
-def rates_finding(uri: str | None, measure_s: float) -> Finding:
-    """What really comes from the camera."""
+def opened_findings(uri: str, measure_s: float) -> list[Finding]:
+    """What really comes from the camera, and how it stands."""
     frames: list[Frame] = []
+    arrived_s: list[float] = []
     try:
-        source = XtionSource(uri=uri, patience_s=0.0)
+        source = open_camera(uri, patience_s=0.0)
     except CarpusFault as fault:
-        return Finding("Pictures", "bad", _fault_text(fault), _open_remedy(fault))
+        return [Finding("Pictures", "bad", _fault_text(fault), _open_remedy(fault))]
     ending = threading.Timer(measure_s + 2.0, source.close)
     ending.start()
     start_s = time.monotonic()
     try:
         for frame in source.frames():
             frames.append(frame)
+            arrived_s.append(time.monotonic())
             if time.monotonic() - start_s > measure_s:
                 break
     except CarpusFault as fault:
-        return Finding("Pictures", "bad", _fault_text(fault), _open_remedy(fault))
+        return [Finding("Pictures", "bad", _fault_text(fault), _open_remedy(fault))]
     finally:
         ending.cancel()
         source.close()
         ending.join()
-    return frames_finding(frames, source.info.settings.get("registered", ""))
+    further = camera_kind(kind_to_open(uri)).further(source.info.settings)
+    return [frames_finding(frames), *standing_findings(source.info, frames, arrived_s), *further]
 
 
-def frames_finding(frames: list[Frame], registered: str) -> Finding:
+def frames_finding(frames: list[Frame]) -> Finding:
     """Rate, gaps and depth of some seconds of frames."""
     if len(frames) < 2:
         remedy = "Plug the camera in again, into another port, without a hub."
@@ -267,10 +261,40 @@ def frames_finding(frames: list[Frame], registered: str) -> Finding:
         return Finding("Pictures", "bad", text, remedy)
     if fps < WANTED_FPS or missing:
         return Finding("Pictures", "warning", text, remedy + " In a dark room the camera slows down: add light.")
+    return Finding("Pictures", "good", text)
+
+
+def standing_findings(info: SourceInfo, frames: list[Frame], arrived_s: list[float]) -> list[Finding]:
+    """Registration, mirror and clock of a camera that ran for some seconds."""
+    settings, findings = info.settings, []
+    registered = settings.get("registered", "")
     if registered == "no":
         remedy = "This camera does not lay depth on colour by itself; depths will be read beside the markers."
-        return Finding("Pictures", "warning", text + ", depth not registered", remedy)
-    return Finding("Pictures", "good", text)
+        findings.append(Finding("Registration", "warning", "depth does not lie on colour", remedy))
+    elif registered:
+        findings.append(Finding("Registration", "good", f"depth lies on colour, {registered}"))
+    turned = settings.get("mirrored", "no") != "no"
+    findings.append(Finding("Mirror", "good", "on, turned back by Carpus" if turned else "off"))
+    if len(frames) > 1:
+        own_s, here_s = frames[-1].timestamp_s - frames[0].timestamp_s, arrived_s[-1] - arrived_s[0]
+        findings.append(clock_finding(own_s, here_s, settings.get("clock", "")))
+    return findings
+
+
+def clock_finding(own_s: float, here_s: float, whose: str) -> Finding:
+    """The camera's times against the computer's over the same pictures. Pictures wait on their way, hence the room."""
+    text = f"{own_s:.2f} s while {here_s:.2f} s passed here"
+    if whose == "computer":
+        remedy = "This camera does not tell when it took a picture; its times are those of arrival: speeds are rough."
+        return Finding("Clock", "warning", text, remedy)
+    if abs(own_s - here_s) > CLOCK_SHARE * here_s + CLOCK_ROOM_S:
+        remedy = "Plug the camera in again; if it stays, times and speeds of this camera are not to be trusted."
+        return Finding("Clock", "warning", text, remedy)
+    return Finding("Clock", "good", text)
+
+
+def _kinds() -> list[CameraKind]:
+    return [camera_kind(name) for name in CAMERAS]
 
 
 def _fault_text(fault: CarpusFault) -> str:

@@ -20,7 +20,7 @@ from numpy.typing import NDArray
 
 from carpus.core.capture import oni_format as oni
 from carpus.core.capture.oni_format import Codec, NodeType, RecordType
-from carpus.core.capture.openni2 import PixelFormat
+from carpus.core.capture.video_mode import PixelFormat
 from carpus.core.errors import (
     CarpusFault,
     RecordingDamaged,

@@ -11,21 +11,23 @@ from typing import Literal
 import numpy as np
 
 from carpus.core.capture.camera_info import CameraInfo, read_camera_info
-from carpus.core.capture.notice import Notice, ignore
-from carpus.core.capture.oni_check import OniContents, check_recording
-from carpus.core.capture.oni_jpeg import deadly_pictures
-from carpus.core.capture.oni_writer import sidecar_path
-from carpus.core.capture.openni2 import Sensor, VideoMode
-from carpus.core.capture.source import SourceInfo
-from carpus.core.capture.xtion_assembly import (
+from carpus.core.capture.capture_link import ANSWER_S, OPEN_FILE_S, CaptureProcess
+from carpus.core.capture.capture_messages import Arrived, Ended
+from carpus.core.capture.frame_assembly import (
     DEPTH_UNIT_M,
     Assembler,
     Layout,
     camera_of_view,
     fitted_camera,
 )
-from carpus.core.capture.xtion_link import ANSWER_S, OPEN_FILE_S, CaptureProcess
-from carpus.core.capture.xtion_messages import Arrived, Ended, FilePlan
+from carpus.core.capture.notice import Notice, ignore
+from carpus.core.capture.oni_check import OniContents, check_recording
+from carpus.core.capture.oni_jpeg import deadly_pictures
+from carpus.core.capture.oni_writer import sidecar_path
+from carpus.core.capture.openni2_plans import FilePlan
+from carpus.core.capture.openni2_process import serve
+from carpus.core.capture.source import SourceInfo
+from carpus.core.capture.video_mode import Sensor, VideoMode
 from carpus.core.errors import (
     CameraFileUnreadable,
     DepthNotRegistered,
@@ -97,7 +99,7 @@ class OniSource:
             streams[Sensor.DEPTH] = contents.depth
         last_number = {sensor: int(stream.number[-1]) for sensor, stream in streams.items()}
         plan = FilePlan(str(self._path.resolve()), contents.identity, last_number, deadly)
-        process = CaptureProcess(plan, str(self._path), max(stream.frame_bytes for stream in streams.values()))
+        process = CaptureProcess(serve, plan, str(self._path), max(stream.frame_bytes for stream in streams.values()))
         self._process = process
         modes = {
             sensor: VideoMode(stream.pixel_format, stream.width_px, stream.height_px, stream.fps)

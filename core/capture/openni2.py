@@ -1,7 +1,7 @@
 """The OpenNI2 C library: types, calls, statuses, nothing else.
 
 One thread makes all calls. The library can take its process down (a close in the wrong order, a bad file), so it
-is used in a process of its own: see :mod:`core.capture.xtion_process`. Seeking is left out on purpose: in the
+is used in a process of its own: see :mod:`core.capture.openni2_process`. Seeking is left out on purpose: in the
 builds that systems ship, the call never returns.
 """
 
@@ -19,6 +19,7 @@ from enum import IntEnum
 from pathlib import Path
 from typing import Any
 
+from carpus.core.capture.video_mode import Sensor, VideoMode
 from carpus.core.errors import DriverMissing
 
 API_VERSION = 2002
@@ -40,27 +41,6 @@ class Status(IntEnum):
     OUT_OF_FLOW = 5
     NO_DEVICE = 6
     TIME_OUT = 102
-
-
-class Sensor(IntEnum):
-    """Kinds of streams."""
-
-    IR = 1
-    COLOR = 2
-    DEPTH = 3
-
-
-class PixelFormat(IntEnum):
-    """Pixel formats that occur."""
-
-    DEPTH_1_MM = 100
-    DEPTH_100_UM = 101
-    RGB888 = 200
-    YUV422 = 201
-    GRAY8 = 202
-    GRAY16 = 203
-    JPEG = 204
-    YUYV = 205
 
 
 class DeviceState(IntEnum):
@@ -180,20 +160,6 @@ _SIGNATURES: dict[str, tuple[Any, list[Any]]] = {
     "oniFrameRelease": (None, [POINTER(_Frame)]),
     "oniWaitForAnyStream": (c_int, [POINTER(c_void_p), c_int, POINTER(c_int), c_int]),
 }
-
-
-@dataclass(frozen=True, slots=True)
-class VideoMode:
-    """Size, rate and pixel format of a stream."""
-
-    pixel_format: int
-    width_px: int
-    height_px: int
-    fps: int
-
-    def __str__(self) -> str:
-        names = {int(item): item.name for item in PixelFormat}
-        return f"{self.width_px}x{self.height_px} {names.get(self.pixel_format, self.pixel_format)} {self.fps} fps"
 
 
 @dataclass(frozen=True, slots=True)

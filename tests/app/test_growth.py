@@ -13,7 +13,7 @@ from pathlib import Path
 
 import pytest
 
-from carpus.core.capture.cameras import CAMERAS, kind_of
+from carpus.core.capture.cameras import CAMERAS, camera_kind, kind_of
 from carpus.core.formats.formats import FORMATS
 from carpus.core.hand.protocols import PROTOCOLS, MarkerProtocol, protocol_names
 from carpus.core.hand.sites import PALM_MARKERS
@@ -114,11 +114,12 @@ def test_a_marker_protocol_is_one_file_and_one_registered_line(copy: Path, tmp_p
 def test_every_registered_line_leads_to_its_file() -> None:
     for name, form in FORMATS.items():
         assert callable(import_module(f"carpus.core.formats.{form.module}").write), name
-    for kind, (module, name) in CAMERAS.items():
-        camera = getattr(import_module(f"carpus.core.capture.{module}"), name)
-        assert {"info", "frames", "close", "lock_exposure"} <= set(dir(camera)), kind
-        assert {"uri", "camera", "notice"} <= set(signature(camera).parameters), kind
-        assert kind_of(f"{kind}:1") == kind
+    for name in CAMERAS:
+        kind = camera_kind(name)
+        assert {"uri", "camera", "patience_s", "notice"} == set(signature(kind.open).parameters), name
+        assert all(len(vendor) == len(product) == 4 for vendor, product in kind.models), name
+        assert all((kind.title, kind.rights, kind.port)), name
+        assert kind_of(f"{name}:1") == name
     assert kind_of("") == kind_of("1d27/0601@1/2") == next(iter(CAMERAS)), "what an older settings file says"
     assert len(set(protocol_names())) == len(PROTOCOLS)
     for protocol in PROTOCOLS:

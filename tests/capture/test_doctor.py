@@ -7,9 +7,13 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from carpus.core.capture import doctor
-from carpus.core.capture.doctor import Finding, examine
-from carpus.core.capture.xtion_usb import UsbCamera
+from carpus.core.camera import DEFAULT_CAMERA
+from carpus.core.capture import doctor, openni2_driver, xtion
+from carpus.core.capture.cameras import camera_kind
+from carpus.core.capture.doctor import examine
+from carpus.core.capture.finding import Finding
+from carpus.core.capture.source import SourceInfo
+from carpus.core.capture.usb_devices import UsbCamera
 from carpus.core.errors import CameraBusy, DriverMissing
 from carpus.core.types import Frame
 
@@ -27,6 +31,9 @@ def test_everything_is_examined_with_a_camera_that_always_is_there(tmp_path: Pat
         "Camera rights",
         "Camera",
         "Pictures",
+        "Registration",
+        "Mirror",
+        "Clock",
     ]
     for name in ("Python", "Packages", "Fonts", "Data folder", "Driver", "Camera rights"):
         assert findings[name].state == "good", findings[name]
@@ -90,16 +97,17 @@ def test_no_driver(monkeypatch: pytest.MonkeyPatch) -> None:
     def missing() -> None:
         raise DriverMissing("libOpenNI2.so.0", "cannot open shared object file")
 
-    monkeypatch.setattr(doctor, "load_library", missing)
-    finding = doctor.driver_finding()
+    monkeypatch.setattr(openni2_driver, "load_library", missing)
+    finding = openni2_driver.driver_finding()
     assert (finding.state, finding.found) == ("bad", "cannot open shared object file")
     assert "libopenni2-0" in finding.remedy
 
 
 def test_rules_of_the_system(tmp_path: Path) -> None:
-    assert doctor.rules_finding((tmp_path / "none", tmp_path)).state == "warning"
+    assert doctor.rules_finding(xtion.KIND, (tmp_path / "none", tmp_path)).state == "warning"
     (tmp_path / "60-camera.rules").write_text('SUBSYSTEM=="usb", ATTR{idVendor}=="1D27", MODE="0666"\n')
-    assert doctor.rules_finding((tmp_path,)).state == "good"
+    assert doctor.rules_finding(xtion.KIND, (tmp_path,)).state == "good"
+    assert doctor.rules_finding(camera_kind("astra"), (tmp_path,)).state == "warning"
 
 
 @pytest.mark.parametrize(
@@ -107,8 +115,8 @@ def test_rules_of_the_system(tmp_path: Path) -> None:
     [(480, True, False, "good"), (480, False, False, "bad"), (480, True, True, "warning"), (12, True, False, "bad")],
 )
 def test_the_camera_on_the_bus(speed: int, may_open: bool, claimed: bool, state: str) -> None:
-    camera = UsbCamera("Asus Xtion Pro Live", "0601", Path("/dev/bus/usb/001/007"), speed, may_open, claimed)
-    finding = doctor.camera_finding([camera])
+    camera = UsbCamera("Asus Xtion Pro Live", "1d27", "0601", Path("/dev/bus/usb/001/007"), speed, may_open, claimed)
+    finding = doctor.camera_finding(xtion.KIND, camera)
     assert finding.state == state
     assert "1d27:0601" in finding.found
 
@@ -119,25 +127,45 @@ def frames(period_s: float, *, missing: int = 0, depth: bool = True) -> list[Fra
 
 
 @pytest.mark.parametrize(
-    ("some", "registered", "state"),
+    ("some", "state"),
     [
-        (frames(1 / 30), "by the camera", "good"),
-        (frames(1 / 30), "no", "warning"),
-        (frames(1 / 30, missing=1), "by the camera", "warning"),
-        (frames(1 / 25), "by the camera", "warning"),
-        (frames(1 / 15), "by the camera", "bad"),
-        (frames(1 / 30, depth=False), "by the camera", "bad"),
-        ([], "by the camera", "bad"),
+        (frames(1 / 30), "good"),
+        (frames(1 / 30, missing=1), "warning"),
+        (frames(1 / 25), "warning"),
+        (frames(1 / 15), "bad"),
+        (frames(1 / 30, depth=False), "bad"),
+        ([], "bad"),
     ],
 )
-def test_what_comes_from_the_camera(some: list[Frame], registered: str, state: str) -> None:
-    assert doctor.frames_finding(some, registered).state == state
+def test_what_comes_from_the_camera(some: list[Frame], state: str) -> None:
+    assert doctor.frames_finding(some).state == state
+
+
+@pytest.mark.parametrize(
+    ("settings", "states"),
+    [
+        ({"registered": "by the camera", "mirrored": "no"}, ["good", "good", "good"]),
+        ({"registered": "no", "mirrored": "turned back"}, ["warning", "good", "good"]),
+        ({"registered": "by the driver", "clock": "computer"}, ["good", "good", "warning"]),
+    ],
+)
+def test_registration_mirror_and_clock(settings: dict[str, str], states: list[str]) -> None:
+    info = SourceInfo("a camera", DEFAULT_CAMERA, True, None, 30.0, settings)
+    some = frames(1 / 30)
+    findings = doctor.standing_findings(info, some, [frame.timestamp_s for frame in some])
+    assert [finding.name for finding in findings] == ["Registration", "Mirror", "Clock"]
+    assert [finding.state for finding in findings] == states
+
+
+def test_a_clock_that_runs_wrong() -> None:
+    assert doctor.clock_finding(3.0, 3.1, "camera").state == "good"
+    assert doctor.clock_finding(1.5, 3.0, "camera").state == "warning"
 
 
 def test_a_camera_that_cannot_be_opened(monkeypatch: pytest.MonkeyPatch) -> None:
-    def busy(**_: object) -> None:
+    def busy(*_: object, **__: object) -> None:
         raise CameraBusy("camera", "Failed to set USB interface!")
 
-    monkeypatch.setattr(doctor, "XtionSource", busy)
-    finding = doctor.rates_finding(None, 1.0)
+    monkeypatch.setattr(doctor, "open_camera", busy)
+    (finding,) = doctor.opened_findings("", 1.0)
     assert (finding.state, finding.remedy) == ("bad", "Close the other program that uses the camera.")

@@ -12,7 +12,7 @@ import pytest
 from carpus.core.capture import oni_format as oni
 from carpus.core.capture.oni_check import check_recording
 from carpus.core.capture.oni_format import NodeType, RecordType
-from carpus.core.capture.openni2 import PixelFormat
+from carpus.core.capture.video_mode import PixelFormat
 from carpus.core.errors import (
     CarpusFault,
     RecordingDamaged,

@@ -16,8 +16,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from carpus.core.capture.capture_link import START_S
 from carpus.core.capture.oni_source import OniSource
-from carpus.core.capture.xtion_link import START_S
 from carpus.core.errors import CarpusFault, DriverFailed
 from tests.capture.oni_samples import HEIGHT, WIDTH, records, write_sample
 

@@ -15,7 +15,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from carpus.core.capture import xtion_link
+from carpus.core.capture import capture_link
 from carpus.core.capture.camera_info import write_camera_info
 from carpus.core.capture.oni_check import check_recording
 from carpus.core.capture.oni_format import RecordType
@@ -345,7 +345,7 @@ def memories(monkeypatch: pytest.MonkeyPatch) -> list[str]:
         names.append(memory.name)
         return memory
 
-    monkeypatch.setattr(xtion_link, "SharedMemory", noted)
+    monkeypatch.setattr(capture_link, "SharedMemory", noted)
     return names
 
 

@@ -12,7 +12,8 @@ from typing import Any
 import pytest
 
 from carpus.core.capture import openni2
-from carpus.core.capture.openni2 import PixelFormat, VideoMode, load_library
+from carpus.core.capture.openni2 import load_library
+from carpus.core.capture.video_mode import PixelFormat, VideoMode
 from carpus.core.errors import DriverMissing
 from tests.capture.oni_samples import HEIGHT, WIDTH, write_sample
 

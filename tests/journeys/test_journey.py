@@ -501,7 +501,7 @@ def test_stopping_at_once_stores_nothing_and_says_so(qtbot: QtBot, open_desktop:
 def test_the_simulated_camera_is_the_practice_patient_s_and_nobody_else_s(
     qtbot: QtBot, open_desktop: Open, take: Path, demo: bool, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(Sources, "camera_there", lambda _: False)
+    monkeypatch.setattr(Sources, "camera_name", lambda _: None)
     desktop = open_desktop()
     journey = desktop.journey
     if demo:
@@ -549,7 +549,7 @@ def test_a_camera_that_is_not_there_is_told_with_what_to_do(
     def missing(**_: object) -> None:
         raise CameraMissing("", "no device")
 
-    monkeypatch.setattr("carpus.core.capture.xtion.XtionSource", missing)
+    monkeypatch.setattr("carpus.core.capture.xtion.OpenNI2Camera", missing)
     journey.setting_up.start(PRACTICE_PATIENT)
     at(qtbot, desktop, "markers")
     journey.way.back()

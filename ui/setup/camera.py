@@ -29,6 +29,7 @@ class CameraScreen(QWidget):
         super().__init__()
         self._theme = theme
         self._camera_there = False
+        self._camera_name = ""
         self._path = ""
         self._patient_id = ""
         self.start_folder = ""
@@ -123,10 +124,10 @@ class CameraScreen(QWidget):
         """Whether a source is being opened."""
         return self._opening
 
-    def set_camera_ready(self, there: bool) -> None:
-        """Whether a camera is plugged in; looked at now and then."""
-        if there != self._camera_there:
-            self._camera_there = there
+    def set_camera_ready(self, there: bool, name: str = "") -> None:
+        """Whether a camera is plugged in, and its name where it is known; looked at now and then."""
+        if (there, name) != (self._camera_there, self._camera_name):
+            self._camera_there, self._camera_name = there, name
             self._show()
 
     def set_path(self, path: str) -> None:
@@ -158,7 +159,9 @@ class CameraScreen(QWidget):
         there = self._camera_there
         camera = self.sources.option("camera")
         camera.show_sentence(
-            self.tr("The depth camera over the hand.") if there else self.tr("Plug it straight into the computer."),
+            (self._camera_name or self.tr("The depth camera over the hand."))
+            if there
+            else self.tr("Plug it straight into the computer."),
             "good" if there else "bad",
             self.tr("Camera ready") if there else self.tr("No camera"),
         )

@@ -7,25 +7,17 @@ import tempfile
 from collections.abc import Callable, Sequence
 from pathlib import Path
 
-from carpus.core.capture.openni2 import (
-    CallFailed,
-    Context,
-    Device,
-    DeviceProperty,
-    PixelFormat,
-    Sensor,
-    Stream,
-    StreamProperty,
-    VideoMode,
-)
-from carpus.core.capture.xtion_messages import CameraPlan, FilePlan, Opened
-from carpus.core.capture.xtion_usb import usb_cameras
+from carpus.core.capture.capture_messages import Opened
+from carpus.core.capture.capture_process import GaveUp
+from carpus.core.capture.openni2 import CallFailed, Context, Device, DeviceProperty, Stream, StreamProperty
+from carpus.core.capture.openni2_plans import CameraPlan, FilePlan
+from carpus.core.capture.usb_devices import UsbCamera, usb_cameras
+from carpus.core.capture.video_mode import PixelFormat, Sensor, VideoMode
 from carpus.core.errors import (
     CameraBusy,
     CameraMissing,
     CameraPermission,
     CameraUnsuited,
-    CarpusFault,
     DriverFailed,
     RecordingDamaged,
 )
@@ -34,15 +26,6 @@ LOCKSTEP = -1.0
 """Playback speed at which the library reads on only when a picture is asked for."""
 
 COPY_BLOCK = 1 << 20
-
-
-class GaveUp(Exception):
-    """Ends the process with a fault for the owner."""
-
-    def __init__(self, fault: type[CarpusFault], detail: str) -> None:
-        super().__init__(detail)
-        self.fault = fault
-        self.detail = detail
 
 
 def open_unchanged(plan: FilePlan) -> int:
@@ -112,14 +95,15 @@ def open_camera(library: Context, plan: CameraPlan) -> tuple[Device, Opened]:
     """Open a live camera, start colour and depth, lay depth on colour."""
     uri = plan.uri
     if uri is None:
-        found = library.devices()
+        known = {(int(vendor, 16), int(product, 16)) for vendor, product in plan.models}
+        found = [each for each in library.devices() if (each.vendor_id, each.product_id) in known]
         if not found:
-            raise _no_camera()
+            raise _no_camera(usb_cameras(plan.models))
         uri = found[0].uri
     try:
         device = library.open(uri)
     except CallFailed as failure:
-        raise _why_not_opened(failure) from failure
+        raise _why_not_opened(failure, usb_cameras(plan.models)) from failure
     streams: dict[Sensor, Stream] = {}
     for sensor, wanted in ((Sensor.COLOR, PixelFormat.RGB888), (Sensor.DEPTH, PixelFormat.DEPTH_1_MM)):
         mode = choose_mode(device.modes(sensor), wanted, plan.size_px, plan.fps)
@@ -140,8 +124,9 @@ def open_camera(library: Context, plan: CameraPlan) -> tuple[Device, Opened]:
     synchronous = device.enable_sync()
     modes = {sensor: stream.mode() for sensor, stream in streams.items()}
     info = device.info()
+    by_usb = plan.models.get((f"{info.vendor_id:04x}", f"{info.product_id:04x}"))
     settings = {
-        "camera": info.name or uri,
+        "camera": by_usb or info.name or uri,
         "vendor": info.vendor,
         "uri": info.uri,
         "serial": device.text(DeviceProperty.SERIAL_NUMBER),
@@ -180,8 +165,7 @@ def choose_mode(
     return max(fitting, key=lambda mode: (mode.width_px * mode.height_px, -abs(mode.fps - fps)), default=None)
 
 
-def _no_camera() -> GaveUp:
-    seen = usb_cameras()
+def _no_camera(seen: Sequence[UsbCamera]) -> GaveUp:
     if not seen:
         return GaveUp(CameraMissing, "")
     if not seen[0].may_open:
@@ -189,8 +173,7 @@ def _no_camera() -> GaveUp:
     return GaveUp(DriverFailed, f"{seen[0].name} is plugged in, but the driver does not see it")
 
 
-def _why_not_opened(failure: CallFailed) -> GaveUp:
-    seen = usb_cameras()
+def _why_not_opened(failure: CallFailed, seen: Sequence[UsbCamera]) -> GaveUp:
     if any(not camera.may_open for camera in seen):
         return GaveUp(CameraPermission, str(next(camera.node for camera in seen if not camera.may_open)))
     if any(camera.is_claimed for camera in seen) or "USB interface" in failure.reason:

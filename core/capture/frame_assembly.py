@@ -11,10 +11,11 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from carpus.core.camera import Camera
+from carpus.core.camera import COEFFICIENTS, Camera, DistortionModel
 from carpus.core.capture.camera_info import default_camera
-from carpus.core.capture.openni2 import PixelFormat
-from carpus.core.capture.xtion_pairing import NearestPairing, Pair, Stamped
+from carpus.core.capture.capture_messages import Lens
+from carpus.core.capture.nearest_pairing import NearestPairing, Pair, Stamped
+from carpus.core.capture.video_mode import PixelFormat
 from carpus.core.types import Frame
 
 AnyImage = NDArray[Any]
@@ -149,6 +150,22 @@ def camera_of_view(size_px: tuple[int, int], field_of_view_rad: tuple[float, flo
         width,
         height,
         origin="driver",
+    )
+
+
+def camera_of_lens(size_px: tuple[int, int], lens: Lens) -> Camera:
+    """Intrinsics as the driver tells them, for pictures of ``size_px``; a model not known is taken as none."""
+    model: DistortionModel = "inverse_brown_conrady" if lens.model == "inverse_brown_conrady" else "plumb_bob"
+    known = lens.model == model and len(lens.coefficients) == COEFFICIENTS[model]
+    return Camera(
+        lens.fx_px,
+        lens.fy_px,
+        lens.cx_px,
+        lens.cy_px,
+        *size_px,
+        lens.coefficients if known else (0.0,) * COEFFICIENTS[model],
+        origin="driver",
+        distortion_model=model,
     )
 
 

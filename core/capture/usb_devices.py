@@ -1,27 +1,22 @@
-"""What the operating system knows of cameras that the driver can serve, whether it can open them or not."""
+"""What the operating system knows of cameras that are plugged in, whether a driver can open them or not."""
 
 from __future__ import annotations
 
 import os
+from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
 SYSFS = Path("/sys/bus/usb/devices")
 DEVICE_NODES = Path("/dev/bus/usb")
-PRIMESENSE = "1d27"
-PRODUCTS = {
-    "0500": "PrimeSense Carmine",
-    "0600": "Asus Xtion Pro Live",
-    "0601": "Asus Xtion Pro Live",
-    "0609": "PrimeSense Carmine 1.09",
-}
 
 
 @dataclass(frozen=True, slots=True)
 class UsbCamera:
-    """One camera on the bus. ``speed_mbit`` is what the port gives it; it needs 480."""
+    """One camera on the bus. ``speed_mbit`` is what the port gives it."""
 
     name: str
+    vendor: str
     product: str
     node: Path
     speed_mbit: int
@@ -29,14 +24,18 @@ class UsbCamera:
     is_claimed: bool
 
 
-def usb_cameras(sysfs: Path = SYSFS, nodes: Path = DEVICE_NODES) -> list[UsbCamera]:
-    """The cameras plugged in; empty where the system does not tell (no Linux)."""
+def usb_cameras(
+    models: Mapping[tuple[str, str], str], sysfs: Path = SYSFS, nodes: Path = DEVICE_NODES
+) -> list[UsbCamera]:
+    """The cameras plugged in among ``models`` (names by USB vendor and product, four hexadecimal digits each).
+
+    Empty where the system does not tell (no Linux).
+    """
     found = []
     for device in sorted(sysfs.glob("*")) if sysfs.is_dir() else []:
-        if _text(device / "idVendor") != PRIMESENSE:
-            continue
-        product = _text(device / "idProduct")
-        if product not in PRODUCTS:
+        vendor, product = _text(device / "idVendor"), _text(device / "idProduct")
+        name = models.get((vendor, product))
+        if name is None:
             continue
         bus, number = (int(_text(device / part) or 0) for part in ("busnum", "devnum"))
         node = nodes / f"{bus:03d}" / f"{number:03d}"
@@ -44,7 +43,8 @@ def usb_cameras(sysfs: Path = SYSFS, nodes: Path = DEVICE_NODES) -> list[UsbCame
         speed = _text(device / "speed")
         found.append(
             UsbCamera(
-                PRODUCTS[product],
+                name,
+                vendor,
                 product,
                 node,
                 int(float(speed)) if speed else 0,

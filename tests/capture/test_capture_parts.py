@@ -10,12 +10,14 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from carpus.core.camera import Camera
-from carpus.core.capture import xtion_opening
-from carpus.core.capture.openni2 import CallFailed, Picture, PixelFormat, Sensor, VideoMode
-from carpus.core.capture.xtion_assembly import Assembler, Layout, camera_of_view, fitted_camera
-from carpus.core.capture.xtion_pairing import TOLERANCE_US, NearestPairing, Stamped
-from carpus.core.capture.xtion_process import agreed_size
-from carpus.core.capture.xtion_usb import UsbCamera, usb_cameras
+from carpus.core.capture import openni2_opening
+from carpus.core.capture.frame_assembly import Assembler, Layout, camera_of_view, fitted_camera
+from carpus.core.capture.nearest_pairing import TOLERANCE_US, NearestPairing, Stamped
+from carpus.core.capture.openni2 import CallFailed, Picture
+from carpus.core.capture.openni2_process import agreed_size
+from carpus.core.capture.usb_devices import UsbCamera, usb_cameras
+from carpus.core.capture.video_mode import PixelFormat, Sensor, VideoMode
+from carpus.core.capture.xtion import MODELS
 from carpus.core.errors import CameraBusy, CameraMissing, CameraPermission, CarpusFault, DriverFailed
 
 PERIOD_US = 33_333
@@ -227,19 +229,19 @@ def plugged_in(root: Path, product: str = "0601", *, mode: int = 0o666, driver: 
 
 def test_the_camera_on_the_bus(tmp_path: Path) -> None:
     nodes = plugged_in(tmp_path, driver="usbfs")
-    (camera,) = usb_cameras(tmp_path / "sys", nodes)
-    assert camera == UsbCamera("Asus Xtion Pro Live", "0601", nodes / "001" / "007", 480, True, True)
+    (camera,) = usb_cameras(MODELS, tmp_path / "sys", nodes)
+    assert camera == UsbCamera("Asus Xtion Pro Live", "1d27", "0601", nodes / "001" / "007", 480, True, True)
 
 
 def test_other_devices_and_other_systems(tmp_path: Path) -> None:
     nodes = plugged_in(tmp_path, product="9999")
-    assert usb_cameras(tmp_path / "sys", nodes) == []
-    assert usb_cameras(tmp_path / "nowhere", nodes) == []
+    assert usb_cameras(MODELS, tmp_path / "sys", nodes) == []
+    assert usb_cameras(MODELS, tmp_path / "nowhere", nodes) == []
 
 
 def seen(**changes: bool) -> UsbCamera:
     values = {"may_open": True, "is_claimed": False, **changes}
-    return UsbCamera("Asus Xtion Pro Live", "0601", Path("/dev/bus/usb/001/007"), 480, **values)
+    return UsbCamera("Asus Xtion Pro Live", "1d27", "0601", Path("/dev/bus/usb/001/007"), 480, **values)
 
 
 @pytest.mark.parametrize(
@@ -252,11 +254,8 @@ def seen(**changes: bool) -> UsbCamera:
         ([seen()], "USB transfer timeout!", DriverFailed),
     ],
 )
-def test_why_a_camera_could_not_be_opened(
-    cameras: list[UsbCamera], reason: str, fault: type[CarpusFault], monkeypatch: pytest.MonkeyPatch
-) -> None:
-    monkeypatch.setattr(xtion_opening, "usb_cameras", lambda: cameras)
-    failed = xtion_opening._why_not_opened(CallFailed("oniDeviceOpen", 1, reason))
+def test_why_a_camera_could_not_be_opened(cameras: list[UsbCamera], reason: str, fault: type[CarpusFault]) -> None:
+    failed = openni2_opening._why_not_opened(CallFailed("oniDeviceOpen", 1, reason), cameras)
     assert failed.fault is fault
 
 
@@ -264,11 +263,8 @@ def test_why_a_camera_could_not_be_opened(
     ("cameras", "fault"),
     [([], CameraMissing), ([seen(may_open=False)], CameraPermission), ([seen()], DriverFailed)],
 )
-def test_why_the_driver_lists_no_camera(
-    cameras: list[UsbCamera], fault: type[CarpusFault], monkeypatch: pytest.MonkeyPatch
-) -> None:
-    monkeypatch.setattr(xtion_opening, "usb_cameras", lambda: cameras)
-    assert xtion_opening._no_camera().fault is fault
+def test_why_the_driver_lists_no_camera(cameras: list[UsbCamera], fault: type[CarpusFault]) -> None:
+    assert openni2_opening._no_camera(cameras).fault is fault
 
 
 def test_the_modes_of_an_xtion() -> None:
@@ -277,6 +273,6 @@ def test_the_modes_of_an_xtion() -> None:
         for code in (PixelFormat.RGB888, PixelFormat.YUV422)
         for width, height, fps in ((320, 240, 30), (320, 240, 60), (640, 480, 30), (1280, 1024, 30))
     ]
-    best = xtion_opening.choose_mode(offered, PixelFormat.RGB888, (640, 480), 30)
+    best = openni2_opening.choose_mode(offered, PixelFormat.RGB888, (640, 480), 30)
     assert best == VideoMode(PixelFormat.RGB888, 640, 480, 30)
-    assert xtion_opening.choose_mode(offered, PixelFormat.DEPTH_1_MM, (640, 480), 30) is None
+    assert openni2_opening.choose_mode(offered, PixelFormat.DEPTH_1_MM, (640, 480), 30) is None

@@ -5,30 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-from carpus.core.capture.openni2 import Sensor, VideoMode
+from carpus.core.capture.video_mode import Sensor, VideoMode
 from carpus.core.errors import CarpusFault
-
-
-@dataclass(frozen=True, slots=True)
-class FilePlan:
-    """Play a recording in order, picture by picture. ``last_number`` ends each stream that is wanted.
-
-    ``deadly`` are positions of pictures on which the library dies: it gets a private copy with these spoilt.
-    """
-
-    path: str
-    identity: tuple[int, int]
-    last_number: Mapping[Sensor, int]
-    deadly: tuple[int, ...] = ()
-
-
-@dataclass(frozen=True, slots=True)
-class CameraPlan:
-    """Open a live camera: the first one, or the one at ``uri``. ``size_px`` is the picture size to ask for."""
-
-    uri: str | None = None
-    size_px: tuple[int, int] = (640, 480)
-    fps: int = 30
 
 
 @dataclass(frozen=True, slots=True)
@@ -42,17 +20,36 @@ class Ring:
 
 @dataclass(frozen=True, slots=True)
 class Alive:
-    """The process is up and not stuck in the library."""
+    """The process is up and not stuck in the driver."""
+
+
+@dataclass(frozen=True, slots=True)
+class Lens:
+    """Intrinsics of the colour pictures as the driver tells them: pixels, and the lens's model with coefficients."""
+
+    fx_px: float
+    fy_px: float
+    cx_px: float
+    cy_px: float
+    model: str
+    coefficients: tuple[float, ...]
 
 
 @dataclass(frozen=True, slots=True)
 class Opened:
-    """The device is open and its streams run. ``settings`` goes into the session."""
+    """The device is open and its streams run; ``modes`` are those of the pictures that come through the ring.
+
+    ``settings`` goes into the session; ``lens`` where the driver knows it, else perhaps the ``field_of_view_rad``.
+    ``frame_count``: colour pictures of a recording, None where nobody knows.
+    """
 
     modes: Mapping[Sensor, VideoMode]
     mirrored: Mapping[Sensor, bool]
     field_of_view_rad: tuple[float, float] | None
     settings: Mapping[str, str]
+    lens: Lens | None = None
+    depth_unit_m: float = 1e-3
+    frame_count: int | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -114,6 +111,5 @@ class Stop:
     """To the process: close the device and end."""
 
 
-Plan = FilePlan | CameraPlan
 Report = Alive | Opened | Arrived | Broken | ExposureSet | Ended | Trouble
 Command = Free | LockExposure | Stop

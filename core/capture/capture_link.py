@@ -13,27 +13,30 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from carpus.core.capture.openni2 import Sensor, VideoMode
-from carpus.core.capture.xtion_messages import Arrived, Command, Free, Opened, Plan, Report, Ring, Stop, Trouble
-from carpus.core.capture.xtion_process import run
+from carpus.core.capture.capture_messages import Arrived, Command, Free, Opened, Report, Ring, Stop, Trouble
+from carpus.core.capture.capture_process import Serve, run
+from carpus.core.capture.video_mode import Sensor, VideoMode
 from carpus.core.errors import DriverFailed
 
 SLOTS = 8
 START_S = 30.0
-"""A loaded computer may take long to start a process; this is not the library's fault."""
+"""A loaded computer may take long to start a process; this is not the driver's fault."""
 OPEN_FILE_S = 4.5
 OPEN_CAMERA_S = 15.0
 ANSWER_S = 4.5
-"""The process reports each second; silent for longer, it is stuck in the library."""
+"""The process reports each second; silent for longer, it is stuck in the driver."""
 STOP_S = 3.0
 LOOK_S = 0.1
 """How often a wait looks whether it is still wanted."""
 
 
 class CaptureProcess:
-    """A running capture process and the memory it shares. One thread at a time calls it."""
+    """A running capture process, in which ``serve`` carries out ``plan``, and the memory it shares.
 
-    def __init__(self, plan: Plan, subject: str, slot_bytes: int, slots: int = SLOTS) -> None:
+    One thread at a time calls it.
+    """
+
+    def __init__(self, serve: Serve, plan: object, subject: str, slot_bytes: int, slots: int = SLOTS) -> None:
         self._subject = subject
         self._memory = SharedMemory(create=True, size=slots * slot_bytes)
         self._slot_bytes = slot_bytes
@@ -41,7 +44,9 @@ class CaptureProcess:
         context = multiprocessing.get_context("spawn")
         self._link, theirs = context.Pipe()
         ring = Ring(self._memory.name, slots, slot_bytes)
-        self._process = context.Process(target=run, args=(theirs, plan, ring), name="carpus-capture", daemon=True)
+        self._process = context.Process(
+            target=run, args=(theirs, serve, plan, ring), name="carpus-capture", daemon=True
+        )
         self._closed = False
         try:
             self._process.start()

@@ -1,0 +1,68 @@
+"""Orbbec's Astra cameras that speak OpenNI2: opened like the Xtion, through the maker's driver in OpenNI2's folder."""
+
+from __future__ import annotations
+
+import os
+import sys
+from dataclasses import replace
+from pathlib import Path
+
+from carpus.core.camera import Camera
+from carpus.core.capture import openni2_driver
+from carpus.core.capture.camera_kind import CameraKind
+from carpus.core.capture.finding import Finding
+from carpus.core.capture.notice import Notice
+from carpus.core.capture.openni2_camera import OpenNI2Camera
+from carpus.core.depth_sensor import PRIMESENSE
+
+MODELS = {
+    ("2bc5", "0401"): "Orbbec Astra",
+    ("2bc5", "0402"): "Orbbec Astra S",
+    ("2bc5", "0403"): "Orbbec Astra Pro",
+    ("2bc5", "0404"): "Orbbec Astra Mini",
+    ("2bc5", "0407"): "Orbbec Astra Mini S",
+}
+"""The Astra Pro is named, but its colour camera does not speak OpenNI2: opening it says so."""
+DRIVER_FILES = {"win32": "orbbec.dll", "darwin": "liborbbec.dylib"}
+DRIVER_FILE = "liborbbec.so"
+NAME = "Astra driver"
+
+
+def open_astra(*, uri: str | None, camera: Camera | None, patience_s: float, notice: Notice) -> OpenNI2Camera:
+    """The first Astra, or the one at OpenNI2's ``uri``."""
+    return OpenNI2Camera(uri=uri, camera=camera, patience_s=patience_s, notice=notice, models=MODELS, sensor=PRIMESENSE)
+
+
+def driver_folders() -> list[Path]:
+    """Where OpenNI2 may look for the drivers of makers."""
+    installed = [Path(os.environ[key]) for key in ("OPENNI2_REDIST64", "OPENNI2_REDIST") if os.environ.get(key)]
+    shared = [Path("/usr/lib"), *sorted(Path("/usr/lib").glob("*-linux-*")), Path("/usr/local/lib")]
+    return [root / "OpenNI2" / "Drivers" for root in (*installed, *shared)]
+
+
+def driver_finding(asks_version: bool = True, wanted: bool = True) -> Finding | None:
+    """OpenNI2 and, beside it, the maker's driver; None where no Astra is plugged in."""
+    if not wanted:
+        return None
+    library = openni2_driver.driver_finding(asks_version)
+    if library.state != "good":
+        return replace(library, name=NAME)
+    file = DRIVER_FILES.get(sys.platform, DRIVER_FILE)
+    folders = [folder for folder in driver_folders() if folder.is_dir()]
+    for folder in folders:
+        if (folder / file).exists():
+            return Finding(NAME, "good", f"{library.found}, {folder / file}")
+    into = folders[0] if folders else Path("OpenNI2") / "Drivers"
+    remedy = f"Copy {file} from the folder OpenNI2/Drivers of Orbbec's OpenNI2 package into {into}."
+    return Finding(NAME, "bad", f"{library.found}, without the maker's driver", remedy)
+
+
+KIND = CameraKind(
+    title="Orbbec Astra",
+    models=MODELS,
+    open=open_astra,
+    driver=driver_finding,
+    rights="Install the udev rules that come with Orbbec's OpenNI2 package, then plug the camera in again.",
+    needed_mbit=480,
+    port="It needs a USB 2 port.",
+)

@@ -1,0 +1,56 @@
+"""What Carpus knows of a kind of live camera before one is opened."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Protocol
+
+from carpus.core.camera import Camera
+from carpus.core.capture.finding import Finding
+from carpus.core.capture.notice import Notice
+from carpus.core.capture.source import FrameSource
+from carpus.core.capture.usb_devices import UsbCamera, usb_cameras
+
+
+class LiveCamera(FrameSource, Protocol):
+    """A source of frames that runs from construction on."""
+
+    def lock_exposure(self) -> None:
+        """From now on colours stay as they are."""
+        ...
+
+
+class Opening(Protocol):
+    """Opens a camera. ``uri`` None: the first; ``camera``: measured intrinsics; ``patience_s``: how long it may be
+    away before that is a fault. Its driver is loaded then and not before."""
+
+    def __call__(self, *, uri: str | None, camera: Camera | None, patience_s: float, notice: Notice) -> LiveCamera: ...
+
+
+def no_findings(_settings: Mapping[str, str]) -> Sequence[Finding]:
+    """Of a kind of which nothing more is known."""
+    return ()
+
+
+@dataclass(frozen=True, slots=True)
+class CameraKind:
+    """``models`` are names by USB vendor and product (four hexadecimal digits each).
+
+    ``driver`` says how its library is, None where nothing need be said: whether its version is asked (in a process
+    of its own, half a second), and whether a camera of the kind is wanted. ``rights`` is what to do where the system
+    has no rule that lets everybody open it; ``further`` what its settings, once opened, tell of firmware and port.
+    """
+
+    title: str
+    models: Mapping[tuple[str, str], str]
+    open: Opening
+    driver: Callable[[bool, bool], Finding | None]
+    rights: str
+    needed_mbit: int
+    port: str
+    further: Callable[[Mapping[str, str]], Sequence[Finding]] = no_findings
+
+    def seen(self) -> list[UsbCamera]:
+        """Those plugged in; empty where the system does not tell."""
+        return usb_cameras(self.models)

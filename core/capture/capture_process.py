@@ -1,0 +1,161 @@
+"""The capture process: owns a camera's driver, so that whatever kills or hangs it does not take Carpus along.
+
+One thread makes every call of the driver. A second one only listens to the owner; when the owner is gone it ends
+the process at once, even from within a call. Pictures are copied once into a shared ring and announced through the
+pipe. This module loads no NumPy: the process starts fast.
+
+Ring: bounded. A recording waits for a free slot, so nothing is lost. A camera does not wait: with no slot free the
+picture is dropped and counted with the next one.
+"""
+
+from __future__ import annotations
+
+import os
+import queue
+import signal
+import threading
+import time
+from collections import Counter, deque
+from collections.abc import Callable
+from multiprocessing.connection import Connection
+from multiprocessing.shared_memory import SharedMemory
+from typing import Any
+
+from carpus.core.capture.capture_messages import (
+    Alive,
+    Arrived,
+    Broken,
+    Command,
+    Ended,
+    ExposureSet,
+    Free,
+    LockExposure,
+    Report,
+    Ring,
+    Stop,
+    Trouble,
+)
+from carpus.core.capture.video_mode import Sensor
+from carpus.core.errors import CarpusFault, DriverMissing
+
+WAIT_MS = 200
+ALIVE_EVERY_S = 1.0
+CAMERA_SILENCE_S = 3.0
+CAMERA_WARM_UP_S = 6.0
+"""Time to the first picture after opening."""
+
+
+class GaveUp(Exception):
+    """Ends the process with a fault for the owner."""
+
+    def __init__(self, fault: type[CarpusFault], detail: str) -> None:
+        super().__init__(detail)
+        self.fault = fault
+        self.detail = detail
+
+
+class Outlet:
+    """What a driver's code in the capture process hands pictures and reports to, and hears commands from.
+
+    ``set_exposure`` is called with whether exposure and white balance are to follow the light; it answers whether
+    the camera can, or None where that is reported later.
+    """
+
+    def __init__(self, link: Connection, commands: queue.SimpleQueue[Command], ring: Ring) -> None:
+        self._link = link
+        self._commands = commands
+        self._ring = ring
+        self._memory = SharedMemory(ring.name)
+        assert self._memory.buf is not None
+        self._pixels = self._memory.buf
+        self._free = deque(range(ring.slots))
+        self._overrun: Counter[Sensor] = Counter()
+        self._last_sent = time.monotonic()
+        self._held: list[object] = []
+        self.stopping = False
+        self.set_exposure: Callable[[bool], bool | None] = lambda automatic: False
+
+    @property
+    def has_room(self) -> bool:
+        """Whether the next picture finds a slot."""
+        return bool(self._free)
+
+    def hold(self, *kept: object) -> None:
+        """A driver's threads call back and copy until the very end: what they use lives as long as the process."""
+        self._held += kept
+
+    def send(self, report: Report) -> None:
+        """Tell the owner."""
+        self._link.send(report)
+        self._last_sent = time.monotonic()
+
+    def stay_alive(self) -> None:
+        """Tell the owner now and then that the driver is not stuck."""
+        if time.monotonic() - self._last_sent > ALIVE_EVERY_S:
+            self.send(Alive())
+
+    def put(self, sensor: Sensor, number: int, timestamp_us: int, picture: memoryview) -> None:
+        """Copy one picture (contiguous bytes) and announce it; dropped and counted when no slot is free."""
+        if picture.nbytes > self._ring.slot_bytes:
+            self.send(Broken(sensor, number))
+        elif not self._free:
+            self._overrun[sensor] += 1
+        else:
+            slot = self._free.popleft()
+            start = slot * self._ring.slot_bytes
+            self._pixels[start : start + picture.nbytes] = picture
+            self.send(Arrived(sensor, slot, number, timestamp_us, self._overrun.pop(sensor, 0)))
+
+    def obey(self, *, block: bool) -> None:
+        """Carry out what the owner asked for; with ``block`` wait a moment for it."""
+        while True:
+            try:
+                command = self._commands.get(timeout=WAIT_MS / 1000) if block else self._commands.get_nowait()
+            except queue.Empty:
+                return
+            block = False
+            if isinstance(command, Free):
+                self._free.append(command.slot)
+            elif isinstance(command, LockExposure):
+                done = self.set_exposure(not command.locked)
+                if done is not None:
+                    self.send(ExposureSet(command.locked, done))
+            elif isinstance(command, Stop):
+                self.stopping = True
+
+
+Serve = Callable[[Outlet, Any], None]
+"""A driver's code: serves a plan until its end or ``outlet.stopping``; raises :class:`GaveUp` or DriverMissing."""
+
+
+def run(link: Connection, serve: Serve, plan: object, ring: Ring) -> None:
+    """Entry of the process: serve ``plan`` until its end, a :class:`Stop`, or the death of the owner."""
+    # an interrupt from the keyboard reaches both processes; the owner decides what it means
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+    commands: queue.SimpleQueue[Command] = queue.SimpleQueue()
+    threading.Thread(target=_listen, args=(link, commands), name="owner", daemon=True).start()
+    link.send(Alive())
+    report: Report = Ended()
+    outlet = Outlet(link, commands, ring)
+    try:
+        serve(outlet, plan)
+    except GaveUp as failure:
+        report = Trouble(failure.fault, failure.detail)
+    except DriverMissing as fault:
+        report = Trouble(DriverMissing, fault.detail)
+    except (BrokenPipeError, ConnectionResetError):
+        os._exit(0)
+    try:
+        link.send(report)
+        link.close()
+    finally:
+        # threads of the driver still run; leaving without any clean-up is the one safe way out
+        os._exit(0)
+
+
+def _listen(link: Connection, commands: queue.SimpleQueue[Command]) -> None:
+    try:
+        while True:
+            commands.put(link.recv())
+    except (EOFError, OSError):
+        os._exit(0)

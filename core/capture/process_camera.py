@@ -1,0 +1,247 @@
+"""A live camera, driven in a process of its own, as a source of frames. It comes back by itself when unplugged."""
+
+from __future__ import annotations
+
+import math
+import threading
+import time
+from collections.abc import Iterator
+from dataclasses import replace
+
+from carpus.core.camera import Camera
+from carpus.core.capture.capture_link import ANSWER_S, OPEN_CAMERA_S, CaptureProcess
+from carpus.core.capture.capture_messages import Arrived, Ended, ExposureSet, LockExposure, Opened
+from carpus.core.capture.capture_process import Serve
+from carpus.core.capture.frame_assembly import Assembler, Layout, camera_of_lens, camera_of_view, fitted_camera
+from carpus.core.capture.notice import Notice, ignore
+from carpus.core.capture.source import SourceInfo
+from carpus.core.capture.video_mode import Sensor
+from carpus.core.depth_sensor import DepthSensor
+from carpus.core.errors import (
+    CameraBusy,
+    CameraFileUnreadable,
+    CameraLost,
+    CameraMissing,
+    CameraPermission,
+    CameraReturned,
+    CameraUnsuited,
+    CarpusFault,
+    DepthNotRegistered,
+    DriverFailed,
+    PicturesEnlarged,
+)
+from carpus.core.types import Frame
+
+SIZE_PX = (640, 480)
+WAITING_PICTURES = 3
+"""A tenth of a second: longer than that a colour picture does not wait for its depth."""
+START_PICTURES = 30
+"""Colour pictures left out at the start while there is no depth yet; after a second without any, pictures go on."""
+RETRY_S = 1.0
+MAX_CRASHES = 3
+"""Restarts in a row without a single frame."""
+SETTLE_FRAMES = 45
+"""Frames until automatic exposure has settled, when a lock has to be set again."""
+_PASSING = (CameraBusy, CameraLost, CameraMissing, CameraPermission, DriverFailed)
+"""Faults that plugging in again, or waiting, can mend."""
+
+
+class ProcessCamera:
+    """Frames of a live camera: 640x480 RGB with depth laid on it, at 30 fps, in the device's own time.
+
+    The camera runs from construction on, until :meth:`close`: ``serve`` carries out ``plan`` in the capture process.
+    ``subject`` names it in faults until it has told its name; ``sensor`` says what its depth is worth; ``camera`` are
+    measured intrinsics, otherwise the driver's lens, or its field of view, is taken. When the camera is lost,
+    ``notice`` hears :class:`CameraLost`, then :class:`CameraReturned`; it is raised when the camera stays away for
+    ``patience_s``. Frames that were missed meanwhile are counted in the next one.
+    """
+
+    def __init__(
+        self,
+        serve: Serve,
+        plan: object,
+        subject: str,
+        sensor: DepthSensor,
+        *,
+        camera: Camera | None = None,
+        patience_s: float = math.inf,
+        notice: Notice = ignore,
+    ) -> None:
+        self._serve, self._plan, self._subject, self._sensor = serve, plan, subject, sensor
+        self._patience_s = patience_s
+        self._notice = notice
+        self._closing = threading.Event()
+        self._lock = threading.Lock()
+        self._locked = False
+        self._relock_in = 0
+        self._exposure_locked: bool | None = False
+        self._last_frame_s = time.monotonic()
+        self._process = self._start()
+        try:
+            opened = self._process.wait_open(self._closing, OPEN_CAMERA_S)
+            assert opened is not None
+            self._opened: Opened = opened
+            self._assembler = Assembler(
+                _layout(opened), 1e6 / opened.modes[Sensor.COLOR].fps, WAITING_PICTURES, START_PICTURES
+            )
+            self._info = self._describe(camera)
+        except BaseException:
+            self._process.close(gently=True)
+            raise
+
+    @property
+    def info(self) -> SourceInfo:
+        """Facts about the camera."""
+        return self._info
+
+    @property
+    def exposure_locked(self) -> bool | None:
+        """Whether exposure and white balance are held; None when the camera cannot hold them."""
+        return self._exposure_locked
+
+    def lock_exposure(self) -> None:
+        """Hold exposure and white balance as they are now, so that the markers keep their colours."""
+        self._set_exposure(locked=True)
+
+    def unlock_exposure(self) -> None:
+        """Let exposure and white balance follow the light again."""
+        self._set_exposure(locked=False)
+
+    def frames(self) -> Iterator[Frame]:
+        """Frames from now on, until :meth:`close`; what waited since the opening is thrown away."""
+        with self._lock:
+            if not self._closing.is_set():
+                self._process.discard()
+        crashes = 0
+        while not self._closing.is_set():
+            count = 0
+            try:
+                for frame in self._run():
+                    count += 1
+                    yield frame
+                return
+            except _PASSING as fault:
+                crashes = 1 if count else crashes + 1
+                if isinstance(fault, DriverFailed) and crashes >= MAX_CRASHES:
+                    raise
+                lost = fault if isinstance(fault, CameraLost) else CameraLost(self._info.name, fault.detail)
+            self._notice(lost)
+            away_s = self._wait_for_return(lost)
+            if away_s is None:
+                return
+            self._notice(CameraReturned(self._info.name, f"{away_s:.0f} s"))
+
+    def close(self) -> None:
+        """Give the camera back; may be called twice, and while another thread waits for a frame."""
+        self._closing.set()
+        with self._lock:
+            self._process.close(gently=True)
+
+    def _set_exposure(self, *, locked: bool) -> None:
+        self._locked = locked
+        self._process.tell(LockExposure(locked))
+
+    def _start(self) -> CaptureProcess:
+        width, height = SIZE_PX
+        return CaptureProcess(self._serve, self._plan, self._subject, width * height * 3)
+
+    def _run(self) -> Iterator[Frame]:
+        """Frames of the process that runs now, until it ends or :meth:`close`."""
+        modes = self._opened.modes
+        while True:
+            frames: list[Frame] = []
+            with self._lock:
+                if self._closing.is_set():
+                    return
+                report = self._process.report(self._closing, ANSWER_S)
+                if isinstance(report, Arrived):
+                    take = self._assembler.color if report.sensor == Sensor.COLOR else self._assembler.depth
+                    frames = take(
+                        report.timestamp_us, report.number, self._process.pixels(report, modes[report.sensor])
+                    )
+                    self._process.free(report)
+                elif isinstance(report, ExposureSet):
+                    self._exposure_locked = report.locked if report.done else None
+                elif report is None or isinstance(report, Ended):
+                    return
+            for frame in frames:
+                self._last_frame_s = time.monotonic()
+                self._hold_again()
+                yield frame
+
+    def _hold_again(self) -> None:
+        """A camera that came back has forgotten its lock: set it when its automatics have settled."""
+        if self._relock_in:
+            self._relock_in -= 1
+            if self._relock_in == 0 and self._locked:
+                self._process.tell(LockExposure(locked=True))
+
+    def _wait_for_return(self, lost: CarpusFault) -> float | None:
+        """Seconds the camera was away; None when closed meanwhile. Raises ``lost`` when patience ends."""
+        start_s = time.monotonic()
+        while not self._closing.is_set():
+            try:
+                with self._lock:
+                    self._process.close(gently=False)
+                    if self._closing.is_set():
+                        return None
+                    self._process = self._start()
+                    opened = self._process.wait_open(self._closing, OPEN_CAMERA_S)
+                    first = self._first_picture() if opened else None
+                if opened is None or first is None:
+                    return None
+                if opened.modes != self._opened.modes:
+                    raise CameraUnsuited(self._info.name, "another camera was plugged in")
+                self._opened = opened
+                away_s = time.monotonic() - self._last_frame_s
+                self._assembler.restart(_layout(opened), first.timestamp_us, round(away_s * 1e6))
+                self._relock_in = SETTLE_FRAMES if self._locked else 0
+                return time.monotonic() - start_s
+            except _PASSING:
+                if time.monotonic() - start_s > self._patience_s:
+                    raise lost from None
+                self._closing.wait(RETRY_S)
+        return None
+
+    def _first_picture(self) -> Arrived | None:
+        """The first picture after a restart, for its time only."""
+        while (report := self._process.report(self._closing, ANSWER_S)) is not None:
+            if isinstance(report, Arrived):
+                self._process.free(report)
+                return report
+        return None
+
+    def _describe(self, camera: Camera | None) -> SourceInfo:
+        opened, layout = self._opened, self._assembler.layout
+        name = opened.settings.get("camera", "camera")
+        if camera is not None:
+            found = fitted_camera(camera, layout.size_px)
+        elif opened.lens is not None:
+            found = fitted_camera(camera_of_lens(layout.color_size_px, opened.lens), layout.size_px)
+        else:
+            found = camera_of_view(layout.size_px, opened.field_of_view_rad)
+        if found is None:
+            raise CameraFileUnreadable(name, "for pictures of another shape: {}x{}".format(*layout.size_px))
+        if opened.settings.get("registered") == "no":
+            self._notice(DepthNotRegistered(name))
+        if layout.enlarged:
+            self._notice(PicturesEnlarged(name, layout.enlarged))
+        turned = any(opened.mirrored.values())
+        settings = {**opened.settings, "mirrored": "turned back" if turned else "no"}
+        seen = replace(found, sensor=self._sensor)
+        return SourceInfo(name, seen, True, None, float(opened.modes[Sensor.COLOR].fps), settings)
+
+
+def _layout(opened: Opened) -> Layout:
+    sizes = {sensor: (mode.width_px, mode.height_px) for sensor, mode in opened.modes.items()}
+    mirrored = opened.mirrored
+    layout = Layout(
+        sizes[Sensor.COLOR],
+        sizes[Sensor.DEPTH],
+        mirrored[Sensor.COLOR],
+        mirrored[Sensor.DEPTH],
+        opened.depth_unit_m,
+    )
+    if layout.misfit():
+        raise CameraUnsuited(opened.settings.get("camera", "camera"), layout.misfit())
+    return layout
