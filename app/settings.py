@@ -126,6 +126,13 @@ class StreamSettings:
 
 
 @dataclass(frozen=True, slots=True)
+class PatientSettings:
+    """``sound``: the patient's view beeps once whenever a goal is reached."""
+
+    sound: bool = False
+
+
+@dataclass(frozen=True, slots=True)
 class FirstStartSettings:
     """``answered``: what the first start offers was taken up or declined, and is not offered again."""
 
@@ -144,6 +151,7 @@ class Settings:
     records: RecordsSettings = field(default_factory=RecordsSettings)
     lock: LockSettings = field(default_factory=LockSettings)
     stream: StreamSettings = field(default_factory=StreamSettings)
+    patient: PatientSettings = field(default_factory=PatientSettings)
     first_start: FirstStartSettings = field(default_factory=FirstStartSettings)
     live: LiveSettings = field(default_factory=LiveSettings)
     detection: DetectionSettings = field(default_factory=DetectionSettings)
@@ -226,6 +234,8 @@ def keep_preferences(chosen: Settings, folder: Path | None = None) -> None:
         f"after_min = {chosen.lock.after_min}",
         "[stream]",
         f"on = {'true' if chosen.stream.on else 'false'}",
+        "[patient]",
+        f"sound = {'true' if chosen.patient.sound else 'false'}",
         "[first_start]",
         f"answered = {'true' if chosen.first_start.answered else 'false'}",
     ]

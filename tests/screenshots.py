@@ -13,7 +13,7 @@ FOLDER = Path("out/screenshots")
 GUIDE = Path("resources/guide")
 GUIDE_PICTURES = {
     "patients": "patients", "exercise": "exercise", "markers": "markers_clicking", "live": "live", "review": "review",
-    "progress": "progress", "correct": "correct", "sessions": "sessions_list",
+    "progress": "progress", "patient": "patient_view", "correct": "correct", "sessions": "sessions_list",
 }  # fmt: skip
 """Names of the guide's pictures, and the states they show."""
 GUIDE_QUALITY = 82

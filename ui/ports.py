@@ -417,3 +417,5 @@ class Preferences:
     angle_order: AngleOrder = "zyx"
     stream: bool = False
     agreement_limit_deg: float = 0.0
+    patient_sound: bool = False
+    """Whether the patient's view beeps where a goal is reached."""

@@ -23,6 +23,7 @@ from carpus.app.desktop.measuring_flow import MeasuringFlow
 from carpus.app.desktop.navigation import Navigator, Stop
 from carpus.app.desktop.now_open import NowOpen
 from carpus.app.desktop.opening import Opener
+from carpus.app.desktop.patient_view import PatientViewing
 from carpus.app.desktop.places import STEPS, Place
 from carpus.app.desktop.printing import Printing
 from carpus.app.desktop.retesting import Retesting
@@ -135,6 +136,7 @@ class Journey(QObject):
             free_bytes=lambda: free_bytes(library.folder),
         )  # fmt: skip
         self.measuring = MeasuringFlow(self, self.live, self.way, tell, now)
+        self.patient_view = PatientViewing(self._shell, self.live, theme, lambda: self.settings.patient.sound)
         views = ViewScreens(self.sessions, self.review, self.progress)
         self.viewing = Viewing(self, views, self.way, tell, now, library, self._find_patient, places)
         self.printing = Printing(
@@ -209,6 +211,9 @@ class Journey(QObject):
         self.setting_up.closing.connect(self._source_closes)
         self.live.recording_changed.connect(self.bar.show_recording)
         self.live.counted.connect(self.bar.show_counters)
+        self.measuring.begun.connect(self.patient_view.begin)
+        self.measuring.stored.connect(lambda _: self.patient_view.stored())
+        way.leaving.connect(lambda to: None if to == "live" else self.patient_view.leave())
         self.measuring.stored.connect(self._stored)
         self.measuring.patients_wanted.connect(self._to_patient)
         self.measuring.close_wanted.connect(shell.close_surely)
@@ -382,6 +387,7 @@ class Journey(QObject):
     def close(self) -> None:
         """The window closes: finish what runs, in order, and wait for it."""
         self.watch.stop()
+        self.patient_view.close()
         self.markers.end()
         self.review.end()
         self.correcting.close()

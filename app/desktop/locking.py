@@ -100,8 +100,11 @@ class Locking(QObject):
         if self.locked:
             return
         for widget in QApplication.topLevelWidgets():
+            if widget.property("stays_when_locked"):
+                continue  # the patient's view, which shows nothing but a word then
             if widget is not self._shell and widget.isVisible():
                 widget.close()  # menus and dialogs name patients too
+        self._journey.patient_view.hide_all()
         stored = self._journey.session_id != ""
         self.sheet.begin(self.sheet.reason(datetime.now(), minutes), stored=stored)
         for widget in self._hidden:

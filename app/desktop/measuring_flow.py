@@ -9,6 +9,7 @@ from PySide6.QtCore import QObject, Signal
 from carpus.app.desktop.now_open import NowOpen
 from carpus.app.desktop.ways import TellOfCamera, Way
 from carpus.core.errors import CameraLost
+from carpus.core.library.set_up import SetUp
 from carpus.core.pipeline.live_values import LiveEvent
 from carpus.ui import numbers
 from carpus.ui.live.screen import LiveScreen
@@ -21,6 +22,8 @@ log = logging.getLogger(__name__)
 class MeasuringFlow(QObject):
     """``stored`` carries the session's identity; ``patients_wanted`` and ``close_wanted`` are answers of a person."""
 
+    begun = Signal(SetUp)
+    """The live screen is shown for this set-up."""
     stored = Signal(str)
     patients_wanted = Signal()
     close_wanted = Signal()
@@ -44,6 +47,7 @@ class MeasuringFlow(QObject):
         assert now.source is not None
         assert now.set_up is not None
         self._live.begin(now.source.measuring, now.set_up)
+        self.begun.emit(now.set_up)
         self._way.go("live")
 
     # --- what the source tells ----------------------------------------------------------------------------

@@ -14,6 +14,7 @@ from carpus.app.settings import (
     BackupSettings,
     FirstStartSettings,
     LockSettings,
+    PatientSettings,
     RecordsSettings,
     ReportSettings,
     ScreenSettings,
@@ -54,6 +55,7 @@ class PreferenceKeeper(QObject):
             settings.report.angle_order,
             settings.stream.on,
             settings.report.agreement_limit_deg,
+            settings.patient.sound,
         )
         self.screen = SettingsScreen(theme, chosen, __version__, measured)
         self._shown_folder = chosen.data_folder
@@ -74,10 +76,14 @@ class PreferenceKeeper(QObject):
             recording=recording,
             report=ReportSettings(chosen.therapist, chosen.angle_order, chosen.agreement_limit_deg),
             stream=StreamSettings(chosen.stream),
+            patient=PatientSettings(chosen.patient_sound),
         )
         self._theme.choose(self._theme_of(self._settings), chosen.text_scale)
         self._journey.settings = replace(
-            self._journey.settings, report=self._settings.report, stream=self._settings.stream
+            self._journey.settings,
+            report=self._settings.report,
+            stream=self._settings.stream,
+            patient=self._settings.patient,
         )
         self._store()
 

@@ -516,6 +516,7 @@ class Library:
                 bool(stored["keep_pictures"]),
                 bool(stored.get("ends_free", False)),
                 str(stored.get("discs", "")),
+                bool(stored.get("for_child", False)),
             )
         except (OSError, ValueError, KeyError, TypeError, RecursionError):
             return None  # only a convenience: without it the set-up is asked for
@@ -548,6 +549,7 @@ class Library:
                 "keep_pictures": set_up.keep_pictures,
                 "ends_free": set_up.ends_free,
                 "discs": set_up.discs,
+                "for_child": set_up.for_child,
             }
             _write_json(path, stored)
 

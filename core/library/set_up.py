@@ -32,6 +32,8 @@ class SetUp:
     """Whether the end joints of the fingers are measured by themselves, not taken to follow the middle joints."""
     discs: str = ""
     """Name of the marker protocol; empty for the exercise's usual one."""
+    for_child: bool = False
+    """Whether the patient's view speaks and draws for a child."""
 
     @property
     def protocol(self) -> MarkerProtocol:

@@ -26,6 +26,7 @@ from carpus.core.measures.error_limits import DEFAULT_LIMITS
 from carpus.core.output.joint_content import joint_curves
 from carpus.core.output.report_content import RepetitionChoices, session_curves, session_figures
 from carpus.core.session.values import Session
+from carpus.core.types import Side
 from carpus.core.words import finding_words
 from carpus.ui.agreement.reference_sheet import ColumnsSheet, ReferenceSheet
 from carpus.ui.agreement.screen import AgreementScreen
@@ -40,6 +41,8 @@ from carpus.ui.live.screen import LiveScreen
 from carpus.ui.markers.screen import MarkersScreen
 from carpus.ui.messages.stop_card import Answer, StopCard
 from carpus.ui.messages.strip import NoticeStrip
+from carpus.ui.patient.guide import Scene
+from carpus.ui.patient.view import PatientView
 from carpus.ui.patients.screen import PatientsScreen
 from carpus.ui.ports import Preferences, ReferenceChoice, Words
 from carpus.ui.progress.screen import ProgressScreen
@@ -155,6 +158,7 @@ class Gallery:
 
     def place(self, steps: int = -1, tab: int = -1, where: str = "Right hand", camera: str = "Camera ready") -> None:
         bar = self.shell.bar
+        bar.show()
         bar.show_place("Linden 42" if steps >= 0 or tab >= 0 or where else "", where)
         if steps >= 0:
             bar.show_steps(STEPS, steps)
@@ -368,6 +372,26 @@ class Gallery:
     def live(self) -> None:
         with self._live(FakeFeed(seconds=32.0, hidden=[(16.0, 16.9, "CMC1")])):
             pass
+
+    def patient_view(self) -> None:
+        self._patient_view("WRIST_FE", Scene("out", 1, 42.0, 60.0, done=5, asked=10))
+
+    def patient_view_goal(self) -> None:
+        self._patient_view("FIST_COMPOSITE", Scene("there", 1, 81.0, 80.0, done=5, asked=10), side="left")
+
+    def patient_view_child(self) -> None:
+        self._patient_view("WRIST_RU", Scene("out", 1, 14.0, 20.0, done=5, asked=10), for_child=True)
+
+    def patient_view_lost(self) -> None:
+        self._patient_view("FOREARM_PS", Scene("lost", 1, goal_deg=70.0, done=5, asked=10))
+
+    def _patient_view(self, exercise: str, scene: Scene, side: Side = "right", *, for_child: bool = False) -> None:
+        self.shell.bar.hide()
+        view = PatientView(self.theme)
+        self.show(view)
+        view.begin(replace(set_up(exercise), side=side, for_child=for_child))
+        view.show_scene(scene)
+        self.settle()
 
     def live_speeds(self) -> None:
         with self._live(FakeFeed(seconds=32.0)) as screen:
@@ -814,7 +838,8 @@ class Gallery:
             "patient_erase",
             "live", "live_speeds", "live_marker_hidden", "live_which_spot", "live_hand_lost", "live_hand",
             "live_hand_thumb_hidden", "live_hand_fist", "live_hand_not_found", "live_arm_moved",
-            "live_disk_full", "live_note",
+            "live_disk_full", "live_note", "patient_view", "patient_view_goal", "patient_view_child",
+            "patient_view_lost",
             "live_pain", "live_camera_lost", "review", "review_hand",
             "review_path", "review_speeds", "review_zyz", "review_hand_finger",
             "review_reach", "review_opposition", "review_finger_ways",

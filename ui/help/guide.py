@@ -12,8 +12,8 @@ from carpus.ui.theme import Theme
 
 LANGUAGE = "en"
 PAGES = (
-    "session", "discs", "camera", "calibration", "exercises", "measuring", "figures", "limits", "correct", "sessions",
-    "checking", "trouble", "data",
+    "session", "discs", "camera", "calibration", "exercises", "measuring", "patient", "figures", "limits", "correct",
+    "sessions", "checking", "trouble", "data",
 )  # fmt: skip
 """In the order of the guide."""
 KEYS_PAGE = "keys"

@@ -6,7 +6,6 @@ import math
 import time
 from dataclasses import replace
 from functools import partial
-from typing import Literal
 
 from PySide6.QtCore import QEvent, QObject, QRectF, Qt, QTimer, Signal
 from PySide6.QtGui import QPainter, QResizeEvent
@@ -14,6 +13,7 @@ from PySide6.QtWidgets import QHBoxLayout, QVBoxLayout, QWidget
 
 from carpus.core.hand.protocols import PROTOCOLS
 from carpus.core.library.set_up import SetUp
+from carpus.core.measures.validity import LARGEST_SD_RAD
 from carpus.core.pipeline.live_values import LiveCounters, TrackedView
 from carpus.core.types import TrackedFrame, TrackStatus
 from carpus.ui.background import Background
@@ -23,6 +23,7 @@ from carpus.ui.figures import FIGURES, FINGERS, Figure, figure_of
 from carpus.ui.keys import Keys, bind
 from carpus.ui.live.counting import RunningCount
 from carpus.ui.live.doubt import Chosen, Doubt, SteadyDoubt, doubt_lamp, doubt_of
+from carpus.ui.live.glance import Glance, RecordingState
 from carpus.ui.live.hand_map import HandMap
 from carpus.ui.live.hand_words import hand_lamp
 from carpus.ui.live.light import Lamp, SteadyLight, lamp_for
@@ -55,7 +56,9 @@ HASTY_S = 3.0
 """So soon after a recording began nobody is taken to mean its end without being asked."""
 WRIST_COLUMNS, HAND_COLUMNS = (520, 696), (440, 776)
 
-RecordingState = Literal["off", "recording", "paused"]
+GLANCE_EVERY_S = 0.09
+STALE_S = 0.4
+"""Without a new picture for so long, what was tracked last is not the hand of now."""
 
 
 class LiveScreen(QWidget):
@@ -66,6 +69,10 @@ class LiveScreen(QWidget):
     told = Signal(object)
     stopped = Signal(str)
     stop_failed = Signal(object)
+    patient_wanted = Signal()
+    """A person opens or closes the patient's own view."""
+    glanced = Signal(Glance)
+    """How the trained angle stands, as often as the figures change."""
     hasty = Signal()
     """A person ends a recording that has only just begun: is it meant?"""
 
@@ -87,6 +94,7 @@ class LiveScreen(QWidget):
         self._ticked_at_s, self._ticked_cpu_s = -math.inf, 0.0
         self._drawing_ms: float | None = 0.0
         self._started_at_s = -HASTY_S
+        self._fresh_at_s = self._glanced_at_s = -math.inf
         self.stage = QWidget()
         """All but the bar below: what a message may cover while the light goes on speaking to the far eye."""
         self.picture = PictureView(theme)
@@ -105,6 +113,7 @@ class LiveScreen(QWidget):
         self.pause = Button(theme, self.tr("Pause"), icon="pause", hint="F7", height_px=52)
         self.main = Button(theme, "", "primary", height_px=56)
         self.speeds = Button(theme, self.tr("Speeds"), "quiet", hint="F4", height_px=32)
+        self.patient = Button(theme, self.tr("Patient’s view"), icon="monitor", height_px=32)
         self.bubble = BubbleView(theme, wide=True, keys=False)
         self.note_sheet = NoteSheet(self.stage, theme)
         self.pain_sheet = PainSheet(self.stage, theme)
@@ -138,6 +147,11 @@ class LiveScreen(QWidget):
         on_curves.setContentsMargins(0, 4, 6, 0)
         on_curves.addStretch(1)
         on_curves.addWidget(self.speeds, 0, Qt.AlignmentFlag.AlignTop)
+        self.patient.setProperty("floats", True)
+        on_picture = QHBoxLayout(self.picture)
+        on_picture.setContentsMargins(0, 8, 8, 0)
+        on_picture.addStretch(1)
+        on_picture.addWidget(self.patient, 0, Qt.AlignmentFlag.AlignTop)
         bottom = QHBoxLayout()
         bottom.setContentsMargins(0, 0, MARGIN_PX, 0)
         bottom.setSpacing(4)
@@ -171,8 +185,9 @@ class LiveScreen(QWidget):
         self.pause.clicked.connect(self.toggle_pause)
         self.main.clicked.connect(self.toggle_recording)
         self.speeds.clicked.connect(self.toggle_speeds)
+        self.patient.clicked.connect(self.patient_wanted)
         # The space bar (or the pedal that sends it) stops whatever has the keyboard: buttons are clicked by Enter here.
-        for button in (self.note, self.pain, self.pause, self.main, self.speeds):
+        for button in (self.note, self.pain, self.pause, self.main, self.speeds, self.patient):
             button.setFocusPolicy(Qt.FocusPolicy.NoFocus)
         self.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
         self.setProperty("shows_own_focus", True)
@@ -180,7 +195,7 @@ class LiveScreen(QWidget):
             "record": self.toggle_recording, "note": self.note.click, "pain": self.pain.click,
             "pause": self.toggle_pause, "overlay": self.toggle_overlay, "whole_picture": self.toggle_whole,
             "speeds": self.toggle_speeds, "next_angle": self.next_angle, "next_finger": self.next_finger,
-            "side_view": self.toggle_side,
+            "side_view": self.toggle_side, "patient_view": self.patient_wanted.emit,
         }  # fmt: skip
         self.fingers.chosen.connect(self.choose_figure)
         self._shortcuts = {name: bind(self, keys, name, action) for name, action in actions.items()}
@@ -452,6 +467,8 @@ class LiveScreen(QWidget):
         feed = self._measuring.feed
         fresh = feed.tracked_since(self.history.last_index)
         self.history.append(fresh)
+        if fresh:
+            self._fresh_at_s = self._ticked_at_s
         begin = feed.recorded_from
         if self._count is not None and begin is not None and not feed.paused:
             self._count.append([tracked for tracked in fresh if tracked.index >= begin])
@@ -466,6 +483,9 @@ class LiveScreen(QWidget):
             self.plots().draw()
         if self._tick % VALUES_EVERY == 0:
             self._show_values()
+        if self._ticked_at_s - self._glanced_at_s >= GLANCE_EVERY_S:
+            self._glanced_at_s = self._ticked_at_s
+            self.glanced.emit(self.glance())
         if self._tick % SLOW_EVERY == 0:
             self._show_slow()
         self._tick += 1
@@ -501,6 +521,35 @@ class LiveScreen(QWidget):
         self.light.show_lamp(lamp)
         self.number.show_reading(self._reading())
         self.recording_changed.emit(self.recording_state, self.recorded_s)
+
+    def set_patient_view(self, is_open: bool) -> None:
+        """The patient's own view is there, or not."""
+        self.patient.set_face(self.patient.text(), icon="check" if is_open else "monitor")
+        words = self.tr("Close the patient’s view") if is_open else self.tr("Open the patient’s view")
+        self.patient.setAccessibleName(words)
+
+    def glance(self) -> Glance:
+        """The trained angle of this moment, whichever figure is the large one."""
+        count, set_up, history = self._count, self._set_up, self.history
+        state, now_s = self.recording_state, time.monotonic()
+        done, asked = (count.repetitions if count else 0), (set_up.repetitions if set_up else 0)
+        if set_up is None or self._camera_lost or now_s - self._fresh_at_s > STALE_S:
+            return Glance(now_s, state=state, done=done, asked=asked)
+        deviation, flexion, turned = (float(value) for value in history.angles_deg)
+        seen = history.status == TrackStatus.TRACKED
+        angle = set_up.exercise.angle
+        value, sd, measured = math.nan, math.nan, seen
+        if self._whole_hand and set_up.exercise.joint:
+            value, sd, measured = history.figure_value(FIGURES.index(figure_of(set_up.exercise.joint)))
+        elif angle is not None:
+            value, sd = float(history.angles_deg[angle]), float(history.sds_deg[angle])
+        sure = measured and seen and math.isfinite(value) and sd <= math.degrees(LARGEST_SD_RAD)
+        bent = [history.figure_value(FIGURES.index(Figure(finger, "middle"))) for finger in FINGERS[1:]]
+        bent_deg = [one for one, _, known in bent if known] if self._whole_hand else []
+        return Glance(
+            now_s, value, sure, seen, (deviation, flexion, turned),
+            sum(bent_deg) / len(bent_deg) if bent_deg else math.nan, state, done, asked,
+        )  # fmt: skip
 
     def _hand_reading(self, figure: Figure) -> Reading:
         column = FIGURES.index(figure)

@@ -66,6 +66,9 @@ class SettingsScreen(QWidget):
         self.stream = Choices(
             theme, [(False, self.tr("Off")), (True, self.tr("Stream live values"))], preferences.stream
         )
+        self.patient_sound = Choices(
+            theme, [(False, self.tr("No sound")), (True, self.tr("One beep at the goal"))], preferences.patient_sound
+        )
         self.agreement = DegreesField(theme, MOST_AGREEMENT_DEG, self.tr("none"))
         self.agreement.set_value(preferences.agreement_limit_deg or math.nan)
         self.agreement.setAccessibleName(self.tr("Agree within"))
@@ -111,6 +114,13 @@ class SettingsScreen(QWidget):
         )
         stream.body.addWidget(Text(theme, words, 14, REGULAR, "text2", wrap=True))
         stream.body.addWidget(self.stream)
+        patient = self._card(self.tr("The patient’s view"))
+        words = self.tr(
+            "A second screen, or a window of its own, that shows the patient what to do. It opens from the screen one "
+            "measures on; whether it speaks to a child or an adult is chosen with the exercise."
+        )
+        patient.body.addWidget(Text(theme, words, 14, REGULAR, "text2", wrap=True))
+        patient.body.addWidget(self.patient_sound)
         agreement = self._card(self.tr("Agreement"))
         words = self.tr(
             "The most that Carpus and another measurement may differ by and still stand for each other: what would not "
@@ -160,7 +170,7 @@ class SettingsScreen(QWidget):
         self._limits = Card(theme, 0)  # what is in it changes when new limits are put into force
         self._limits.set_colors("canvas", "canvas")
         self.show_limits(self._measured)
-        for card in (looks, data, self._limits, agreement, stream, keys, about):
+        for card in (looks, data, patient, self._limits, agreement, stream, keys, about):
             page.addWidget(card)
         page.addStretch(1)
         self._page = page
@@ -209,6 +219,7 @@ class SettingsScreen(QWidget):
         self.text_scale.chosen.connect(lambda value: self._change(replace(self._preferences, text_scale=value)))
         self.angle_order.chosen.connect(lambda value: self._change(replace(self._preferences, angle_order=value)))
         self.stream.chosen.connect(lambda value: self._change(replace(self._preferences, stream=value)))
+        self.patient_sound.chosen.connect(lambda value: self._change(replace(self._preferences, patient_sound=value)))
         self.therapist.editingFinished.connect(self._take_therapist)
         self.agreement.editingFinished.connect(self._take_agreement)
         self.folder_button.clicked.connect(self.ask_folder)

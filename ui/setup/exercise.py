@@ -52,6 +52,8 @@ class ExerciseScreen(QWidget):
         self.ends = Choices(theme, ends)
         self._ends_field = Labelled(theme, self.tr("End joints of the fingers"), self.ends)
         self.view = Text(theme, "", 14, token="text2", wrap=True)
+        audiences: list[tuple[object, str]] = [(False, self.tr("Adult")), (True, self.tr("Child"))]
+        self.audience = Choices(theme, audiences)
         keep: list[tuple[object, str]] = [(False, self.tr("No")), (True, self.tr("Yes"))]
         self.pictures = Choices(theme, keep)
         self.primary = Button(theme, self.tr("Next: the camera"), "primary", icon="arrow-right", hint=self.tr("Enter"))
@@ -60,7 +62,7 @@ class ExerciseScreen(QWidget):
             options.chosen.connect(self._show_exercise)
             options.accepted.connect(self._go_on)
         self.protocol.chosen.connect(self._show_protocol)
-        for chips in (self.protocol, self.side, self.ends, self.pictures):
+        for chips in (self.protocol, self.side, self.ends, self.audience, self.pictures):
             chips.accepted.connect(self._go_on)
         self.primary.clicked.connect(self._go_on)
         self.side.chosen.connect(lambda _: self._show_problem())
@@ -95,6 +97,7 @@ class ExerciseScreen(QWidget):
         body.addLayout(row)
         body.addWidget(self.problem)
         body.addWidget(self._ends_field)
+        body.addWidget(Labelled(theme, self.tr("The patient’s view is for"), self.audience))
         body.addWidget(Labelled(theme, self.tr("Keep the pictures too"), self.pictures))
         self.pictures_cost = caption(theme, wrap=True)
         body.addWidget(self.pictures_cost)
@@ -133,6 +136,7 @@ class ExerciseScreen(QWidget):
         else:
             self.side.choose(side)
         self.pictures.choose(keep_pictures)
+        self.audience.choose(last is not None and last.for_child)
         if last is not None:
             self.repetitions.setValue(last.repetitions)
             self.ends.choose(last.ends_free)
@@ -180,6 +184,7 @@ class ExerciseScreen(QWidget):
             bool(self.pictures.value()),
             self._discs().has_fingers and bool(self.ends.value()),
             self._discs().name,
+            bool(self.audience.value()),
         )
 
     def _discs(self) -> MarkerProtocol:

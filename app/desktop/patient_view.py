@@ -1,0 +1,97 @@
+"""The patient's own view: when it opens, what it follows, and what stands there while nothing is measured."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+
+from PySide6.QtCore import QObject
+from PySide6.QtWidgets import QApplication, QWidget
+
+from carpus.core.library.set_up import SetUp
+from carpus.ui.live.glance import Glance
+from carpus.ui.live.screen import LiveScreen
+from carpus.ui.patient.guide import Guide, Scene
+from carpus.ui.patient.window import PatientWindow
+from carpus.ui.theme import Theme
+
+
+class PatientViewing(QObject):
+    """One window at most, made when it is first wanted; it draws what the live screen's own beat tells it."""
+
+    def __init__(self, shell: QWidget, live: LiveScreen, theme: Theme, sound: Callable[[], bool]) -> None:
+        super().__init__(shell)
+        self._shell, self._live, self._theme, self._sound = shell, live, theme, sound
+        self._set_up: SetUp | None = None
+        self._guide: Guide | None = None
+        self._sounded = 0
+        self.window: PatientWindow | None = None
+        live.patient_wanted.connect(self.toggle)
+        live.glanced.connect(self._follow)
+
+    @property
+    def is_open(self) -> bool:
+        """Whether the patient sees anything."""
+        return self.window is not None and self.window.isVisible()
+
+    def toggle(self) -> None:
+        """Open it, or close it."""
+        if self.is_open:
+            self.close()
+            return
+        if self.window is None:
+            self.window = PatientWindow(self._theme)
+            self.window.closed.connect(self._closed)
+        self.window.view.sound_on = self._sound()
+        self.window.view.begin(self._set_up)
+        self.window.open_beside(self._shell)
+        self._live.set_patient_view(True)
+
+    def close(self) -> None:
+        """Let it go; may be called although it is not there."""
+        if self.window is not None:
+            self.window.close()
+
+    def begin(self, set_up: SetUp) -> None:
+        """An exercise is shown live from now on."""
+        self._set_up, self._sounded = set_up, 0
+        self._guide = Guide(set_up.exercise, set_up.target_positive_deg, set_up.target_negative_deg)
+        if self.window is not None:
+            self.window.view.begin(set_up)
+
+    def stored(self) -> None:
+        """A recording has ended."""
+        self._stand(Scene("done", asked=self._asked, done=self._done))
+
+    def leave(self) -> None:
+        """Nobody measures any more: nothing of the hand is left standing."""
+        if self.window is None or self.window.view.scene.phase != "done":
+            self._stand(Scene())
+
+    def hide_all(self) -> None:
+        """The program is locked: nothing but a word."""
+        self._stand(Scene())
+
+    @property
+    def _asked(self) -> int:
+        return self.window.view.scene.asked if self.window is not None else 0
+
+    @property
+    def _done(self) -> int:
+        return self.window.view.scene.done if self.window is not None else 0
+
+    def _stand(self, scene: Scene) -> None:
+        if self.window is not None:
+            self.window.show_standing(scene)
+
+    def _follow(self, glance: Glance) -> None:
+        if self.window is None or not self.is_open or self._guide is None:
+            return
+        self.window.show_running(self._guide.take(glance))
+        if self._guide.reached > self._sounded:
+            self._sounded = self._guide.reached
+            if self._sound() and math.isfinite(self.window.view.scene.goal_deg):
+                QApplication.beep()
+
+    def _closed(self) -> None:
+        self._live.set_patient_view(False)

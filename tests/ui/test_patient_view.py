@@ -1,0 +1,130 @@
+"""The patient's own view: what it asks for, that it never shows an old pose, and where it opens."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+from itertools import pairwise
+
+import pytest
+from PySide6.QtCore import Qt
+from pytestqt.qtbot import QtBot
+
+from carpus.core.output.exercises import EXERCISES, exercise_named
+from carpus.ui.live.glance import Glance
+from carpus.ui.patient.figure import arc_of, figure_at
+from carpus.ui.patient.guide import LOST_AFTER_S, Guide, Scene
+from carpus.ui.patient.view import PatientView
+from carpus.ui.patient.window import PatientWindow
+from carpus.ui.patient.words import said
+from carpus.ui.theme import Theme
+from tests.ui.fakes import set_up
+
+NONE = math.nan
+
+
+def walk(
+    guide: Guide, values_deg: list[float], *, sure: bool = True, seen: bool = True, from_s: float = 0.0
+) -> list[Scene]:
+    """One look every tenth of a second."""
+    state = {"sure": sure, "hand_seen": seen, "state": "recording", "asked": 10}
+    return [
+        guide.take(Glance(from_s + 0.1 * number, value, **state))  # type: ignore[arg-type]
+        for number, value in enumerate(values_deg)
+    ]
+
+
+def ramp(*corners_deg: float) -> list[float]:
+    """From corner to corner by four degrees."""
+    way: list[float] = []
+    for start, end in pairwise(corners_deg):
+        steps = max(1, round(abs(end - start) / 4))
+        way += [start + (end - start) * k / steps for k in range(steps)]
+    return [*way, corners_deg[-1]]
+
+
+def phases(scenes: list[Scene]) -> list[tuple[str, int]]:
+    """Each phase once, with its aim."""
+    found: list[tuple[str, int]] = []
+    for scene in scenes:
+        if not found or found[-1] != (scene.phase, scene.aim):
+            found.append((scene.phase, scene.aim))
+    return found
+
+
+def test_a_goal_reached_is_held_then_comes_the_way_back_and_the_other_side() -> None:
+    guide = Guide(exercise_named("WRIST_FE"), 60.0, -40.0)
+    scenes = walk(guide, [*[0.0] * 4, *ramp(0, 62), *[62.0] * 14, *ramp(62, -42), *[-42.0] * 14, *ramp(-42, 30)])
+    assert phases(scenes) == [
+        ("lost", 1), ("out", 1), ("there", 1), ("back", 1), ("out", -1), ("there", -1), ("back", -1), ("out", 1),
+    ]  # fmt: skip
+    assert guide.reached == 2
+
+
+def test_a_missed_goal_is_not_said_and_the_way_just_empties() -> None:
+    guide = Guide(exercise_named("FIST_COMPOSITE"), 80.0, NONE)
+    scenes = walk(guide, [*[5.0] * 4, *ramp(5, 60, 5, 50)])
+    assert phases(scenes)[1:] == [("out", 1), ("back", 1), ("out", 1)]
+    assert guide.reached == 0
+    words = {said("FIST_COMPOSITE", scene, "adult").now for scene in scenes}
+    assert words <= {"One moment.", "", "A little further", "And back"}
+
+
+def test_small_movements_without_a_goal_are_followed_too() -> None:
+    guide = Guide(exercise_named("FINGER_ABAD"), NONE, NONE)
+    values = [2 + 8 * math.sin(0.25 * k) ** 2 for k in range(40)]
+    assert phases(walk(guide, values))[1:4] == [("out", 1), ("back", 1), ("out", 1)]
+
+
+@pytest.mark.parametrize("sure", [True, False])
+def test_a_hand_not_surely_seen_fades_and_goes_and_comes_back(sure: bool) -> None:
+    guide = Guide(exercise_named("WRIST_FE"), 60.0, NONE)
+    walk(guide, [20.0] * 5)
+    value = NONE if sure else 20.0
+    unsure = walk(guide, [value] * 8, sure=False, seen=False, from_s=0.5)
+    assert unsure[1].opacity < 1.0
+    gone = [scene for k, scene in enumerate(unsure) if 0.1 * k >= LOST_AFTER_S]
+    assert all(scene.phase == "lost" and math.isnan(scene.value_deg) for scene in gone)
+    assert walk(guide, [22.0] * 5, from_s=1.4)[-1].phase == "out"
+
+
+def test_a_fist_hidden_at_its_end_is_no_lost_hand_but_shows_no_pose() -> None:
+    guide = Guide(exercise_named("FIST_COMPOSITE"), 80.0, NONE)
+    walk(guide, [*[5.0] * 4, *ramp(5, 60)])
+    hidden = walk(guide, [66.0] * 12, sure=False, seen=True, from_s=3.0)
+    assert {scene.phase for scene in hidden} == {"hidden"}
+    assert all(math.isnan(scene.value_deg) for scene in hidden)
+    assert said("FIST_COMPOSITE", hidden[-1], "adult").task == "Open your hand"
+
+
+def test_every_exercise_has_words_a_figure_and_a_way_and_a_left_hand_is_its_mirror_image(
+    qtbot: QtBot, theme: Theme
+) -> None:
+    view = PatientView(theme)
+    qtbot.addWidget(view)
+    view.resize(640, 360)
+    for exercise in EXERCISES:
+        scene = Scene("out", 1, 20.0, 30.0) if exercise.counts else Scene("free", wrist_deg=(5.0, 20.0, 0.0))
+        for audience in ("adult", "child"):
+            assert said(exercise.id, scene, audience).task, exercise.id  # type: ignore[arg-type]
+        pictures = []
+        for side in ("right", "left"):
+            view.begin(replace(set_up(exercise.id), side=side))  # type: ignore[arg-type]
+            view.show_scene(scene)
+            pictures.append(view.grab().toImage())
+        assert pictures[0] != pictures[1], exercise.id
+        if exercise.counts:
+            assert not figure_at(exercise, 25.0).hand.isEmpty()
+            arc = arc_of(exercise)
+            assert (arc.at(0.0) - arc.at(30.0)).manhattanLength() > 40.0
+
+
+def test_a_window_that_hears_nothing_more_shows_no_hand(qtbot: QtBot, theme: Theme) -> None:
+    window = PatientWindow(theme)
+    qtbot.addWidget(window)
+    assert window.windowFlags() & Qt.WindowType.WindowDoesNotAcceptFocus
+    window.view.begin(set_up())
+    window.show_running(Scene("out", 1, 30.0, 60.0))
+    assert window.view.words().task == "Bend your hand down"
+    qtbot.waitUntil(lambda: window.view.scene == Scene())
+    assert window.view.accessibleName() == "One moment."

@@ -1,0 +1,265 @@
+"""What the patient looks at, two or three metres away: the task, the hand, the way to the goal, what is done.
+
+Drawn on a plane 1080 high and at least 1440 wide, scaled to the window, at most ten times a second.
+"""
+
+from __future__ import annotations
+
+import math
+
+from PySide6.QtCore import QPointF, QRectF, QSize, Qt
+from PySide6.QtGui import QColor, QFontMetricsF, QPainter, QPainterPath, QPaintEvent, QPen, QTransform
+from PySide6.QtWidgets import QWidget
+
+from carpus.core.library.set_up import SetUp
+from carpus.core.output.exercises import FLEXION, PRONOSUPINATION, Exercise
+from carpus.ui import numbers
+from carpus.ui.fonts import SEMIBOLD, font
+from carpus.ui.icons import paint_icon, paint_state
+from carpus.ui.patient.figure import Arc, Figure, arc_of, figure_at, free_figure
+from carpus.ui.patient.guide import Scene
+from carpus.ui.patient.story import paint_climber, paint_flower, paint_stem
+from carpus.ui.patient.words import Audience, Said, said
+from carpus.ui.theme import Theme
+
+HEIGHT, LEAST_WIDTH = 1080.0, 1440.0
+MARGIN = 96.0
+TASK_PX, NOW_PX, SMALL_PX = 64.0, 128.0, 44.0
+LEAST_PX = 36.0
+WAY_WIDTH, WAY_WIDTH_CHILD = 46.0, 58.0
+MOST_MARKS = 20
+END_DEG = 80.0
+"""Without a goal the way has no end that is shown; it goes on as far as here."""
+
+
+class PatientView(QWidget):
+    """Paints a :class:`Scene` of one exercise."""
+
+    def __init__(self, theme: Theme) -> None:
+        super().__init__()
+        self._theme = theme
+        self._set_up: SetUp | None = None
+        self.audience: Audience = "adult"
+        self.sound_on = False
+        self.scene = Scene()
+        self.setAttribute(Qt.WidgetAttribute.WA_OpaquePaintEvent)
+        theme.changed.connect(self.update)
+
+    def sizeHint(self) -> QSize:
+        return QSize(1280, 720)
+
+    def begin(self, set_up: SetUp | None) -> None:
+        """Another exercise, or nothing."""
+        self._set_up = set_up
+        self.audience = "child" if set_up is not None and set_up.for_child else "adult"
+        self.show_scene(Scene())
+
+    def show_scene(self, scene: Scene) -> None:
+        """Show how it stands."""
+        if scene != self.scene:
+            self.scene = scene
+            words = self.words()
+            self.setAccessibleName(" ".join(part for part in (words.task, words.now) if part))
+            self.update()
+
+    def words(self) -> Said:
+        """What is read."""
+        return said(self._set_up.exercise.id if self._set_up else "", self.scene, self.audience)
+
+    # --- painting -----------------------------------------------------------------------------------------
+    def paintEvent(self, event: QPaintEvent) -> None:
+        painter = QPainter(self)
+        painter.setRenderHint(QPainter.RenderHint.Antialiasing)
+        painter.fillRect(self.rect(), self._theme.color("canvas"))
+        scale = min(self.width() / LEAST_WIDTH, self.height() / HEIGHT)
+        if scale <= 0.0:
+            return
+        painter.scale(scale, scale)
+        width, height = self.width() / scale, self.height() / scale
+        painter.translate(0, (height - HEIGHT) / 2)
+        shown = self._set_up is not None and self.scene.phase not in ("away", "done", "paused")
+        if shown and self._set_up is not None:
+            self._paint_exercise(painter, self._set_up, width)
+        self._paint_words(painter, width, shown)
+        if self.sound_on:
+            paint_icon(painter, "volume-2", QRectF(width - MARGIN - 36, 984, 44, 44), self._theme.color("text2"))
+
+    def _paint_words(self, painter: QPainter, width: float, shown: bool) -> None:
+        words, scene, color = self.words(), self.scene, self._theme.color
+        if not shown:
+            box = QRectF(MARGIN, 300, width - 2 * MARGIN, 220)
+            _fitted(painter, box, words.now, NOW_PX * self._theme.text_scale, color("text"))
+            _fitted(painter, box.translated(0, 210), words.task, TASK_PX * self._theme.text_scale, color("text2"))
+            if scene.asked and scene.phase == "done":
+                self._paint_marks(painter, QPointF(MARGIN, 800), width - 2 * MARGIN)
+            return
+        task_width = 0.5 * width
+        _fitted(
+            painter, QRectF(MARGIN, 72, task_width, 170), words.task, TASK_PX * self._theme.text_scale, color("text2")
+        )
+        token = "good" if scene.phase == "there" else "text"
+        now = QRectF(MARGIN, 840, width * 0.5, 190)
+        _fitted(painter, now, words.now, NOW_PX * self._theme.text_scale, color(token), bottom=True)
+        if scene.asked:
+            self._paint_marks(painter, QPointF(MARGIN, 760), 0.4 * width)
+
+    def _paint_marks(self, painter: QPainter, at: QPointF, room: float) -> None:
+        """What is done, as checks or flowers; many as a number."""
+        scene, color = self.scene, self._theme.color
+        size = 52.0 if self.audience == "child" else 44.0
+        if scene.asked > MOST_MARKS:
+            words = self.tr("{done} of {asked}").format(done=scene.done, asked=scene.asked)
+            _fitted(painter, QRectF(at.x(), at.y(), room, 70), words, SMALL_PX, color("text2"))
+            return
+        in_row = max(1, min(scene.asked, int(room // (size + 14))))
+        rows = -(-scene.asked // in_row)
+        for number in range(scene.asked):
+            row, column = divmod(number, in_row)
+            box = QRectF(at.x() + column * (size + 14), at.y() - (rows - 1 - row) * (size + 14), size, size)
+            if self.audience == "child" and number < scene.done:
+                paint_flower(painter, self._theme, box.center(), size / 2, open_share=1.0)
+            else:
+                is_done = number < scene.done
+                token = "accent" if is_done else "border"
+                paint_state(painter, "good" if is_done else "open", box, color(token), color("on_accent"))
+
+    def _paint_exercise(self, painter: QPainter, set_up: SetUp, width: float) -> None:
+        exercise, scene = set_up.exercise, self.scene
+        to = _placement(exercise, width, mirrored=set_up.side == "left")
+        hand: Figure | None = None
+        if scene.phase == "free":
+            if all(math.isfinite(value) for value in scene.wrist_deg):
+                hand = free_figure(exercise, scene.wrist_deg, scene.bent_deg)
+            self._paint_hand(painter, to, hand)
+            return
+        if math.isfinite(scene.value_deg):
+            hand = figure_at(exercise, scene.value_deg)
+        self._paint_way(painter, to, arc_of(exercise))
+        goal = figure_at(exercise, scene.goal_deg) if math.isfinite(scene.goal_deg) else None
+        if goal is not None and scene.phase != "there":
+            painter.setBrush(Qt.BrushStyle.NoBrush)
+            painter.setPen(QPen(self._theme.color("accent"), 4, Qt.PenStyle.DashLine))
+            painter.drawPath(to.map(goal.hand))
+        self._paint_hand(painter, to, hand if hand is not None else None, arm=figure_at(exercise, 0.0))
+        self._paint_goal(painter, to, arc_of(exercise))
+
+    def _paint_hand(self, painter: QPainter, to: QTransform, hand: Figure | None, arm: Figure | None = None) -> None:
+        """The arm always, the hand only where it is known, the fainter the longer it was not seen."""
+        color, line = self._theme.color, 8.0 if self.audience == "child" else 5.0
+        painter.setPen(QPen(color("border"), line))
+        painter.setBrush(color("sunken"))
+        rest = hand or arm
+        if rest is not None:
+            painter.drawPath(to.map(rest.arm))
+        if hand is None:
+            return
+        painter.save()
+        painter.setOpacity(self.scene.opacity)
+        painter.setPen(
+            QPen(color("text2"), line, Qt.PenStyle.SolidLine, Qt.PenCapStyle.RoundCap, Qt.PenJoinStyle.RoundJoin)
+        )
+        painter.setBrush(_skin(self._theme, self.audience))
+        painter.drawPath(to.map(hand.whole))
+        painter.setPen(Qt.PenStyle.NoPen)
+        painter.setBrush(color("curve_a"))
+        for dot in hand.dots:
+            painter.drawEllipse(to.map(dot), hand.dot_radius, hand.dot_radius)
+        painter.restore()
+
+    def _paint_way(self, painter: QPainter, to: QTransform, arc: Arc) -> None:
+        scene, color = self.scene, self._theme.color
+        child = self.audience == "child"
+        wide = WAY_WIDTH_CHILD if child else WAY_WIDTH
+        if math.isfinite(scene.goal_deg):
+            self._stroke(painter, to.map(arc.path(0.0, scene.goal_deg)), wide, color("norm"))
+        if not math.isfinite(scene.value_deg):
+            return
+        end = abs(scene.goal_deg) if math.isfinite(scene.goal_deg) else END_DEG
+        along = min(max(scene.aim * scene.value_deg, 0.0), end)
+        way = to.map(arc.path(0.0, scene.aim * along))
+        painter.save()
+        painter.setOpacity(scene.opacity)
+        if child:
+            paint_stem(painter, self._theme, way, wide)
+            ahead = to.map(arc.at(scene.aim * (along + 1.0))) - to.map(arc.at(scene.aim * along))
+            paint_climber(painter, self._theme, to.map(arc.at(scene.aim * along)), ahead, 0.85 * wide)
+        else:
+            token = "good" if scene.phase == "there" else "accent"
+            self._stroke(painter, way, wide, color(token))
+            painter.setPen(QPen(color(token), 8))
+            painter.setBrush(color("surface"))
+            painter.drawEllipse(to.map(arc.at(scene.aim * along)), 0.8 * wide, 0.8 * wide)
+        painter.restore()
+
+    def _paint_goal(self, painter: QPainter, to: QTransform, arc: Arc) -> None:
+        scene, color = self.scene, self._theme.color
+        if not math.isfinite(scene.goal_deg):
+            return
+        at = to.map(arc.at(scene.goal_deg))
+        reached = scene.phase == "there"
+        if self.audience == "child":
+            paint_flower(painter, self._theme, at, 78.0, open_share=1.0 if reached else 0.45)
+            return
+        if reached:
+            paint_state(painter, "good", QRectF(at.x() - 62, at.y() - 62, 124, 124), color("good"), color("surface"))
+        else:
+            painter.setPen(QPen(color("accent"), 8))
+            for radius, token in ((62.0, "surface"), (32.0, "surface"), (9.0, "accent")):
+                painter.setBrush(color(token))
+                painter.drawEllipse(at, radius, radius)
+        painter.setFont(font(SMALL_PX * min(self._theme.text_scale, 1.25), SEMIBOLD))
+        painter.setPen(color("good" if reached else "accent"))
+        words = self.tr("Goal {angle}").format(angle=numbers.degrees(abs(scene.goal_deg)))
+        metrics = QFontMetricsF(painter.font())
+        beyond = to.map(arc.at(1.05 * scene.goal_deg)) - at
+        # Away from the joint, unless the way comes from there.
+        aside = beyond if abs(beyond.x()) > abs(beyond.y()) else at - to.map(arc.pivot)
+        left = at.x() + 84 if aside.x() > 0 else at.x() - 84 - metrics.horizontalAdvance(words)
+        painter.drawText(QPointF(left, at.y() + 0.36 * metrics.capHeight()), words)
+
+    @staticmethod
+    def _stroke(painter: QPainter, path: QPainterPath, wide: float, color: QColor) -> None:
+        painter.setBrush(Qt.BrushStyle.NoBrush)
+        painter.setPen(QPen(color, wide, Qt.PenStyle.SolidLine, Qt.PenCapStyle.RoundCap))
+        painter.drawPath(path)
+
+
+def _skin(theme: Theme, audience: Audience) -> QColor:
+    return theme.color("warn_soft" if audience == "child" else "soft")
+
+
+def _placement(exercise: Exercise, width: float, *, mirrored: bool) -> QTransform:
+    """From the figure's plane to the drawn one: clear of the words, which stay at the left."""
+    to = QTransform()
+    if exercise.angle == PRONOSUPINATION:
+        at, scale = QPointF(0.66 * width, 560.0), 0.95
+    elif exercise.angle == FLEXION:
+        at, scale = QPointF((0.60 if mirrored else 0.50) * width, 470.0), 0.98
+    elif exercise.angle is not None or not exercise.digits or _is_seen_from_above(exercise):
+        at, scale = QPointF(0.68 * width, 790.0), 1.3
+    else:
+        at, scale = QPointF((0.84 if mirrored else 0.40) * width, 400.0), 1.5
+    to.translate(at.x(), at.y())
+    to.scale(-scale if mirrored else scale, scale)
+    return to
+
+
+def _is_seen_from_above(exercise: Exercise) -> bool:
+    return exercise.joint.startswith("MCP") and exercise.joint.endswith("abduction")
+
+
+def _fitted(painter: QPainter, box: QRectF, words: str, size: float, color: QColor, *, bottom: bool = False) -> None:
+    """As large as asked for, smaller only where the words would not fit in two lines."""
+    if not words:
+        return
+    flags = int(Qt.AlignmentFlag.AlignLeft | Qt.TextFlag.TextWordWrap)
+    flags |= int(Qt.AlignmentFlag.AlignBottom if bottom else Qt.AlignmentFlag.AlignTop)
+    while True:
+        face = font(size, SEMIBOLD)
+        needed = QFontMetricsF(face).boundingRect(QRectF(0, 0, box.width(), 10_000), flags, words)
+        if size <= LEAST_PX or (needed.height() <= box.height() and needed.width() <= box.width()):
+            break
+        size -= 4.0
+    painter.setFont(face)
+    painter.setPen(color)
+    painter.drawText(box, flags, words)
