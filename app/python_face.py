@@ -21,9 +21,9 @@ from carpus.app.sources import open_recording
 from carpus.core.agreement.compare import MOST_SHIFT_S, Compared
 from carpus.core.agreement.compared_files import compare_files
 from carpus.core.calibration.calibrate import calibrate
-from carpus.core.calibration.candidates import marker_candidates
+from carpus.core.calibration.candidates import CandidateSettings, marker_candidates
 from carpus.core.calibration.clicks import read_clicks, write_clicks
-from carpus.core.calibration.naming import propose_names
+from carpus.core.calibration.naming import NamingSettings, propose_names
 from carpus.core.calibration.result import Clicks
 from carpus.core.camera import DEFAULT_CAMERA, Camera
 from carpus.core.detection.settings import DetectionSettings
@@ -230,8 +230,8 @@ def propose_clicks(
     else:
         first = Frame(0, 0.0, np.asarray(frame, dtype=np.uint8), depth, depth_unit_m)
     camera = camera or DEFAULT_CAMERA
-    blobs = marker_candidates(first, camera, DetectionSettings())
-    found = propose_names(blobs, camera, hand, markers)
+    blobs = marker_candidates(first, camera, DetectionSettings(), CandidateSettings())
+    found = propose_names(blobs, camera, hand, markers, NamingSettings())
     named = {
         name: (blobs.pixel[blob].tolist(), bool(sure))
         for name, blob, sure in zip(markers.markers, found.blob.tolist(), found.is_sure, strict=True)

@@ -6,11 +6,15 @@ import ast
 from pathlib import Path
 
 ROOT = Path(__file__).parents[1]
-SHAPING = ("tracking",)
+SHAPING = ("hand", "detection", "calibration", "tracking")
 """Packages of core between the pictures and the stored angles."""
 
 NO_CHOICE = {
     "what keeps numbers finite, far from any that counts": {
+        "calibration/clicks._NO_PIXEL_PX",
+        "detection/blobs._BEYOND_M",
+        "hand/anatomy_prior._FIXED",
+        "hand/back_surface._NOWHERE",
         "tracking/anatomy_refinement._NARROW_RAD",
         "tracking/association.IMPOSSIBLE",
         "tracking/finger_model._NARROW2",
@@ -31,7 +35,49 @@ NO_CHOICE = {
         "tracking/joint_limits.RANGE_SD_RAD",  # of an even spread over the limits
         "tracking/joint_limits.MID_RANGE_RAD",
     },
+    "when a search for a least sum of squares has settled": {
+        "calibration/neutral_pose._ROUNDS",
+        "calibration/neutral_pose._SETTLED",
+        "hand/ray_fitting._DIFFERENCE_STEP",
+        "hand/ray_fitting._MOST_STEPS",
+        "hand/ray_fitting._SETTLED",
+    },
+    "tables of the clinical reference; how far a hand may be from them lies in settings": {
+        "calibration/calibrate._MCP3_OVER_HAND_LENGTH",
+        "hand/anatomy.ABDUCTION_LIMIT_RAD",
+        "hand/anatomy.BREADTH_SHARE",
+        "hand/anatomy.HARD_LIMITS_RAD",
+        "hand/anatomy.REFERENCE_LENGTH_M",
+        "hand/anatomy._ARCH_M",
+        "hand/anatomy._FAN_RAD",
+        "hand/anatomy._FINGER_OFFSET_M",
+        "hand/anatomy._FINGER_SHARE",
+        "hand/anatomy._NAIL_SHARE_FINGER",
+        "hand/anatomy._NAIL_SHARE_THUMB",
+        "hand/anatomy._PALM_OFFSET_M",
+        "hand/anatomy._PALM_X_SHARE",
+        "hand/anatomy._PALM_Y_SHARE",
+        "hand/anatomy._THUMB_OFFSET_M",
+        "hand/anatomy._THUMB_ROLL_RAD",
+        "hand/anatomy._THUMB_SHARE",
+        "hand/kinematics.DIP_PER_PIP",
+    },
+    "which of three clinical angles are defined at all, by the clinical reference": {
+        "hand/clinical_angles.ZYZ_MOST_SD_RAD",
+        "hand/clinical_angles.ZYZ_UNDEFINED_BELOW_RAD",
+    },
+    "limits and layouts of files and tables": {
+        "calibration/clicks._MOST_BYTES",
+        "detection/color_histogram.BINS",
+        "detection/color_histogram._RANGES",
+        "detection/detector._SIMILARITY_BINS",
+        "detection/stencil.WEDGES",
+        "hand/back_surface.TABLE_ROWS",
+    },
     "axes and signs": {
+        "calibration/calibrate._TOWARDS_CAMERA",
+        "hand/anatomy_prior._DOWN",
+        "hand/ray_fitting._DOWN",
         "tracking/finger_depth._DOWN",
         "tracking/finger_naming._BENDS",
         "tracking/hand_geometry._DOWN",
@@ -45,6 +91,8 @@ NO_CHOICE = {
     },
     "a unit: noise is told per sample at 30 Hz": {"tracking/motion.REFERENCE_DT_S"},
     "where a number stands among others": {
+        "calibration/back._CORNERS",
+        "calibration/finger_order._THUMB",
         "tracking/finger_depth.FLEXION",
         "tracking/hand_geometry.DISCS",
         "tracking/palm_state.PALM_DISCS",

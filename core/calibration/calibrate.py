@@ -17,12 +17,12 @@ from carpus.core.calibration.neutral_pose import pose_by_least_squares
 from carpus.core.calibration.odd_disc import odd_disc
 from carpus.core.calibration.palm_names import shifted_names
 from carpus.core.calibration.plausibility import looks_like_other_side, plan_view
-from carpus.core.calibration.registration import SURELY_OFF_PX, depth_offset_px
+from carpus.core.calibration.registration import depth_offset_px
 from carpus.core.calibration.result import Calibration, Clicks, Finding, FindingKind, Verdict
 from carpus.core.calibration.settings import CalibrationSettings
 from carpus.core.camera import Camera
 from carpus.core.depth_sensor import DepthSensor
-from carpus.core.detection.appearance import REACH, MarkerAppearance, expected_radius_px, learn_appearance
+from carpus.core.detection.appearance import MarkerAppearance, expected_radius_px, learn_appearance
 from carpus.core.detection.color_histogram import to_hsv
 from carpus.core.detection.detector import Detector, Region
 from carpus.core.detection.settings import DetectionSettings
@@ -108,12 +108,13 @@ def calibrate(
         """The discs under the clicks, the colours learnt where the discs are taken to be, at ``pixel`` (M, 2)."""
         appearance, _ = learn_appearance(first, pixel, camera, detection)
         blobs = Detector(appearance, camera, detection).detect(first, region)
-        return _Found(appearance, blobs, *_named(clicks, blobs, radius_px))
+        return _Found(appearance, blobs, *_named(clicks, blobs, detection.click_reach * radius_px))
 
     found = tried(clicks.pixel)
     if np.any(found.taken < 0):
         # Small discs and clicks at their edges: colours are better learnt in the middle of what is blue.
-        again = tried(_snapped(clicks.pixel, marker_candidates(first, camera, detection), radius_px))
+        candidates = marker_candidates(first, camera, detection, settings.candidates)
+        again = tried(_snapped(clicks.pixel, candidates, detection.click_reach * radius_px))
         found = max(found, again, key=lambda each: int(np.count_nonzero(each.taken >= 0)))
     appearance, blobs, taken, findings = found.appearance, found.blobs, found.taken, found.findings
     detector = Detector(appearance, camera, detection)
@@ -122,9 +123,9 @@ def calibrate(
         verdict = _no_verdict(clicks, findings)
         return CalibrationOutcome(verdict, appearance, found_px, None, 0, StillNoise())
 
-    offset_px = depth_offset_px(first, appearance, found_px)
+    offset_px = depth_offset_px(first, appearance, found_px, settings.registration)
     if offset_px > 0.0:
-        limit_px = SURELY_OFF_PX * camera.width_px / 640
+        limit_px = settings.registration.surely_off_px * camera.width_px / settings.registration.width_px
         findings.append(Finding("depth_off", (), offset_px, limit_px, "px"))
 
     def seen() -> Iterator[tuple[float, Detections]]:
@@ -135,18 +136,15 @@ def calibrate(
     capture = still_capture(seen(), taken, settings)
     hand = measure_hand(clicks, capture, camera, settings, findings, start_angles_rad)
     if not any(finding.kind in _NAMES_WRONG for finding in hand.verdict.findings):
-        hand = _with_odd_disc(hand, clicks, first, found_px, detector.detect(first), camera, detection)
+        hand = _with_odd_disc(hand, clicks, first, found_px, detector.detect(first), camera, settings, detection)
     calibration = hand.calibration
     if calibration is not None:
         still = [frame for frame in frames if frame.timestamp_s <= first.timestamp_s + capture.lasted_s]
-        calibration = replace(calibration, surface=surface_of(calibration, still, camera))
+        calibration = replace(calibration, surface=surface_of(calibration, still, camera, settings.back))
     return CalibrationOutcome(hand.verdict, appearance, found_px, calibration, capture.frames, hand.noise)
 
 
 _NAMES_WRONG = ("shifted", "swapped", "misnamed", "wrong_side")
-_SAME_SPOT_PX = 4.0
-_OF_THE_HAND_M = 0.06
-"""A spot farther than this from the depth of the palm lies on something else."""
 
 
 def _with_odd_disc(
@@ -156,21 +154,22 @@ def _with_odd_disc(
     found_px: FloatArray,
     everywhere: Detections,
     camera: Camera,
+    settings: CalibrationSettings,
     detection: DetectionSettings,
 ) -> MeasuredHand:
     """The measured hand, doubted where a disc makes no palm, or where a spot that nobody named fits better."""
-    palm = list(clicks.protocol.palm)
-    taken = np.linalg.norm(everywhere.pixel[:, None] - found_px[None], axis=-1).min(axis=1) < _SAME_SPOT_PX
+    palm, own = list(clicks.protocol.palm), settings.odd_disc
+    taken = np.linalg.norm(everywhere.pixel[:, None] - found_px[None], axis=-1).min(axis=1) < own.same_spot_px
     depth_m = float(hand.verdict.distance_m)
-    near = ~np.isfinite(everywhere.depth_m) | (np.abs(everywhere.depth_m - depth_m) < _OF_THE_HAND_M)
+    near = ~np.isfinite(everywhere.depth_m) | (np.abs(everywhere.depth_m - depth_m) < own.of_the_hand_m)
     spare_px = everywhere.pixel[~taken & near]
-    spare_px = spare_px[is_paper(spare_px, first, to_hsv(first.color_rgb), camera, detection)]
+    spare_px = spare_px[is_paper(spare_px, first, to_hsv(first.color_rgb), camera, detection, settings.candidates)]
     names = clicks.protocol.markers
 
     def plan(pixel: FloatArray) -> FloatArray:
         return plan_view(camera.back_project(camera.undistort(pixel), np.full(len(pixel), depth_m)))
 
-    odd = odd_disc(clicks.side, plan(found_px[palm]), plan(spare_px))
+    odd = odd_disc(clicks.side, plan(found_px[palm]), plan(spare_px), own)
     if odd is None or not np.isfinite(depth_m):
         return hand
     kind: FindingKind = "other_spot" if odd.fits else "spare_spot" if odd.spot >= 0 else "no_palm"
@@ -191,12 +190,12 @@ class _Found:
     findings: list[Finding]
 
 
-def _snapped(pixel: FloatArray, blobs: Detections, radius_px: FloatArray) -> FloatArray:
+def _snapped(pixel: FloatArray, blobs: Detections, reach_px: FloatArray) -> FloatArray:
     """Clicks (M, 2) moved onto the blob that each means, all together; where there is none, as clicked."""
     if not len(blobs):
         return pixel
     distance = np.linalg.norm(pixel[:, None] - blobs.pixel[None], axis=-1)
-    far = distance > REACH * radius_px[:, None]
+    far = distance > reach_px[:, None]
     rows, columns = linear_sum_assignment(np.where(far, 1e6, distance))
     good = ~far[rows, columns]
     out = pixel.copy()
@@ -228,13 +227,13 @@ def _around(pixel: FloatArray, margin_px: float, camera: Camera) -> Region:
     )
 
 
-def _named(clicks: Clicks, blobs: Detections, radius_px: FloatArray) -> tuple[NDArray[np.int64], list[Finding]]:
+def _named(clicks: Clicks, blobs: Detections, reach_px: FloatArray) -> tuple[NDArray[np.int64], list[Finding]]:
     """Blob of every click (M,), -1 for none, each blob once, nearest overall; and what was wrong."""
     names = clicks.protocol.markers
     taken = np.full(len(names), -1, dtype=np.int64)
     findings: list[Finding] = []
     distance = np.linalg.norm(clicks.pixel[:, None] - blobs.pixel[None], axis=-1)
-    far = distance > REACH * radius_px[:, None]
+    far = distance > reach_px[:, None]
     rows, columns = linear_sum_assignment(np.where(far, 1e6, distance))
     good = ~far[rows, columns]
     taken[rows[good]] = columns[good]
@@ -268,8 +267,8 @@ def still_capture(
             continue
         distance = np.linalg.norm(start_px[:, None] - blobs.pixel[None], axis=-1)
         nearest = distance.argmin(axis=1)
-        near = distance[np.arange(len(start_px)), nearest] < 4.0
-        if np.count_nonzero(near) < 3:
+        near = distance[np.arange(len(start_px)), nearest] < settings.same_disc_px
+        if np.count_nonzero(near) < settings.least_discs:
             continue
         moved_px = np.median(blobs.pixel[nearest[near]] - start_px[near], axis=0)
         if float(np.hypot(*moved_px)) > settings.still_px:
@@ -423,15 +422,15 @@ def _residuals_mm(
 def _judged(clicks: Clicks, verdict: Verdict, plan: FloatArray, settings: CalibrationSettings) -> list[Finding]:
     names = clicks.protocol.markers
     out: list[Finding] = []
-    shifted = shifted_names(clicks.side, plan[list(clicks.protocol.palm)])
+    shifted = shifted_names(clicks.side, plan[list(clicks.protocol.palm)], settings.palm_names)
     if len(shifted) > 2:
         out.append(Finding("shifted", shifted))
-    elif looks_like_other_side(clicks.protocol, clicks.side, plan):
+    elif looks_like_other_side(clicks.protocol, clicks.side, plan, settings.side):
         out.append(Finding("wrong_side"))
     elif shifted and not clicks.protocol.has_fingers:
         out.append(Finding("swapped", shifted))
     elif clicks.protocol.has_fingers:
-        names_at_fault = misnamed(clicks.protocol, clicks.side, plan)
+        names_at_fault = misnamed(clicks.protocol, clicks.side, plan, settings.finger_order)
         if names_at_fault is not None and names_at_fault.alone:
             out.append(Finding("misnamed", (names_at_fault.alone,)))
         elif names_at_fault is not None:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from typing import Any
 
 import cv2
@@ -11,72 +11,93 @@ from numpy.typing import NDArray
 
 from carpus.core.camera import Camera
 from carpus.core.detection import color_histogram
-from carpus.core.detection.appearance import REACH, expected_radius_px, learn_appearance
+from carpus.core.detection.appearance import expected_radius_px, learn_appearance
 from carpus.core.detection.components import components
 from carpus.core.detection.detector import Detector
 from carpus.core.detection.settings import DetectionSettings
 from carpus.core.types import ByteImage, Detections, FloatArray, Frame
 
-_BLUE = ((90, 60, 30), (130, 255, 255))
-"""Lowest and highest hue, saturation and value of blue paper in any usual light (OpenCV's scales)."""
-_TINGED_BLUE = ((85, 50, 25), (145, 255, 255))
-"""The same of discs so small that they take on some of the skin; with it a sleeve falls into specks."""
-_MOST_TRIED = 400
-_FEWEST = 3
-"""Fewer blue spots are not taken for a marked hand."""
-_WINDOW_RADII = 8.0
-_MOST_ALIKE = 0.6
-"""Bhattacharyya coefficient of a spot to what lies around it, above which it is no paper."""
-_LEAST_COLOUR = 24.0
-"""Strongest channel less the weakest, of 255: coloured paper in a dim room has 60, a dark pullover up to 15."""
-_LEAST_VALUE = 60.0
-"""Strongest channel of a spot, of 255: 90 on paper in a dim room; darker nothing has such a colour but by chance."""
-_LEAST_STEP = 50.0
-"""Distance in colour (RGB) of most of the ring about a disc from the disc: 65 in a dim room, in cloth rarely 45."""
-_OF_THE_USUAL = 0.35
-"""All discs are of one paper: a spot with less than this share of the usual colour of the spots is none of them."""
+
+@dataclass(frozen=True, slots=True)
+class CandidateSettings:
+    """What is taken for a disc before today's colours are known.
+
+    ``blue``: lowest and highest hue, saturation and value of blue paper in any usual light (OpenCV's scales);
+    ``tinged_blue`` of discs so small that they take on some of the skin; with it a sleeve falls into specks.
+    ``least_area`` and ``least_tinged_area`` of such spots over a disc's. ``most_tried`` spots are looked at; ``fewest``
+    make a marked hand. ``window_radii`` about a click are searched. ``most_alike``: Bhattacharyya coefficient of a spot
+    to what lies around it, above which it is no paper. ``least_colour``: strongest channel less the weakest, of 255:
+    coloured paper in a dim room has 60, a dark pullover up to 15. ``least_value``: strongest channel of a spot: 90 on
+    paper in a dim room; darker nothing has such a colour but by chance. ``least_step``: distance in colour (RGB) of
+    most of the ring about a disc from the disc: 65 in a dim room, in cloth rarely 45. ``of_the_usual``: all discs are
+    of one paper: a spot with less than this share of the usual colour of the spots is none of them.
+    """
+
+    blue: tuple[tuple[int, ...], ...] = ((90, 60, 30), (130, 255, 255))
+    tinged_blue: tuple[tuple[int, ...], ...] = ((85, 50, 25), (145, 255, 255))
+    least_area: float = 0.3
+    least_tinged_area: float = 0.2
+    most_tried: int = 400
+    fewest: int = 3
+    window_radii: float = 8.0
+    most_alike: float = 0.6
+    least_colour: float = 24.0
+    least_value: float = 60.0
+    least_step: float = 50.0
+    of_the_usual: float = 0.35
 
 
-def marker_candidates(frame: Frame, camera: Camera, settings: DetectionSettings) -> Detections:
+def marker_candidates(frame: Frame, camera: Camera, settings: DetectionSettings, own: CandidateSettings) -> Detections:
     """Every blue disc-sized blob of a picture, exactly placed; none where fewer than three are seen.
 
     A first, wide search for blue shows what today's paper and skin look like; the detector then finds the discs.
     """
     hsv = color_histogram.to_hsv(frame.color_rgb)
-    blue = cv2.inRange(hsv, *(np.array(limit) for limit in _BLUE))
+    blue = cv2.inRange(hsv, *(np.array(limit) for limit in own.blue))
     opened = cv2.morphologyEx(blue, cv2.MORPH_OPEN, np.ones((3, 3), np.uint8))
-    spots = _paper(_disc_sized(opened, 0.3, frame, camera, settings), frame, hsv, camera, settings)
-    if len(spots) < _FEWEST:
-        tinged = cv2.inRange(hsv, *(np.array(limit) for limit in _TINGED_BLUE))
-        spots = _paper(_disc_sized(tinged, 0.2, frame, camera, settings), frame, hsv, camera, settings)
-    if len(spots) < _FEWEST:
+    spots = _paper(_disc_sized(opened, own.least_area, frame, camera, settings), frame, hsv, camera, settings, own)
+    if len(spots) < own.fewest:
+        tinged = cv2.inRange(hsv, *(np.array(limit) for limit in own.tinged_blue))
+        spots = _paper(
+            _disc_sized(tinged, own.least_tinged_area, frame, camera, settings), frame, hsv, camera, settings, own
+        )
+    if len(spots) < own.fewest:
         return Detections.none()
     looks, _ = learn_appearance(frame, spots, camera, settings)
     # In cloth of the paper's hue there are more spots than discs: they must not crowd these out before they are tried.
-    found = Detector(looks, camera, replace(settings, most_blobs=_MOST_TRIED)).detect(frame)
-    kept = is_paper(found.pixel, frame, hsv, camera, settings)
-    return _some(found, kept) if np.count_nonzero(kept) >= _FEWEST else Detections.none()
+    found = Detector(looks, camera, replace(settings, most_blobs=own.most_tried)).detect(frame)
+    kept = is_paper(found.pixel, frame, hsv, camera, settings, own)
+    return _some(found, kept) if np.count_nonzero(kept) >= own.fewest else Detections.none()
 
 
-def _paper(pixel: FloatArray, frame: Frame, hsv: ByteImage, camera: Camera, settings: DetectionSettings) -> FloatArray:
-    return pixel[is_paper(pixel, frame, hsv, camera, settings)]
+def _paper(
+    pixel: FloatArray, frame: Frame, hsv: ByteImage, camera: Camera, settings: DetectionSettings, own: CandidateSettings
+) -> FloatArray:
+    return pixel[is_paper(pixel, frame, hsv, camera, settings, own)]
 
 
 def is_paper(
-    pixel: FloatArray, frame: Frame, hsv: ByteImage, camera: Camera, settings: DetectionSettings
+    pixel: FloatArray, frame: Frame, hsv: ByteImage, camera: Camera, settings: DetectionSettings, own: CandidateSettings
 ) -> NDArray[np.bool_]:
     """Which spots (B, 2) have a colour of their own, other than what lies around them, and about as much of it as
     the others. Dark cloth falls into specks whose hue is blue by chance; they have hardly any colour."""
     colour = np.zeros(len(pixel))
     for i, (at, radius_px) in enumerate(zip(pixel, _radii_px(frame, pixel, camera, settings), strict=True)):
         others = pixel[(np.abs(pixel - at).max(axis=1) < 4.0 * radius_px) & (np.arange(len(pixel)) != i)]
-        colour[i] = _own_colour(frame.color_rgb, hsv, at, radius_px, others)
-    coloured = colour >= _LEAST_COLOUR
+        colour[i] = _own_colour(frame.color_rgb, hsv, at, radius_px, others, own)
+    coloured = colour >= own.least_colour
     usual = float(np.median(colour[coloured])) if coloured.any() else 0.0
-    return np.asarray(coloured & (colour >= _OF_THE_USUAL * usual))
+    return np.asarray(coloured & (colour >= own.of_the_usual * usual))
 
 
-def _own_colour(color_rgb: ByteImage, hsv: ByteImage, at: FloatArray, radius_px: float, others: FloatArray) -> float:
+def _own_colour(
+    color_rgb: ByteImage,
+    hsv: ByteImage,
+    at: FloatArray,
+    radius_px: float,
+    others: FloatArray,
+    settings: CandidateSettings,
+) -> float:
     """Strongest channel less the weakest of a spot, 0 for one that looks like what lies around it."""
     half = int(3.0 * radius_px) + 2
     left, top = (max(0, round(float(value)) - half) for value in at)
@@ -92,27 +113,34 @@ def _own_colour(color_rgb: ByteImage, hsv: ByteImage, at: FloatArray, radius_px:
         return 0.0
     step = np.linalg.norm(rgb[ring] - np.median(rgb[own], axis=0), axis=1)
     mine, around = (color_histogram.histogram(part, mask, smooth_bins=1.2).ravel() for mask in (own, ring))
-    if np.quantile(step, 0.7) < _LEAST_STEP or color_histogram.bhattacharyya(mine, around) > _MOST_ALIKE:
+    if (
+        np.quantile(step, 0.7) < settings.least_step
+        or color_histogram.bhattacharyya(mine, around) > settings.most_alike
+    ):
         return 0.0
-    if np.median(rgb[own].max(axis=1)) < _LEAST_VALUE:
+    if np.median(rgb[own].max(axis=1)) < settings.least_value:
         return 0.0
     return float(np.median(rgb[own].max(axis=1) - rgb[own].min(axis=1)))
 
 
 def _disc_sized(mask: Any, least_area: float, frame: Frame, camera: Camera, settings: DetectionSettings) -> FloatArray:
     """Middles (B, 2) of the mask's components that are as large as a disc there, or ``least_area`` of it."""
-    found = components((mask > 0).astype(np.uint8), lambda at: _radii_px(frame, at, camera, settings))
+    found = components(
+        (mask > 0).astype(np.uint8), lambda at: _radii_px(frame, at, camera, settings), settings.touching
+    )
     full = np.pi * found.radius_px**2
     return found.centre_px[(found.area_px > least_area * full) & (found.area_px < 2.0 * full)]
 
 
-def disc_at(frame: Frame, pixel: FloatArray, camera: Camera, settings: DetectionSettings) -> Detections:
+def disc_at(
+    frame: Frame, pixel: FloatArray, camera: Camera, settings: DetectionSettings, own: CandidateSettings
+) -> Detections:
     """The disc that covers a pixel (2,), whatever its colour: one blob, or none.
 
     Only a small window is looked at. A spot that looks like all that lies around it is no disc.
     """
     radius_px = expected_radius_px(frame, pixel, camera, settings)
-    half = _WINDOW_RADII * radius_px
+    half = own.window_radii * radius_px
     height, width = frame.color_rgb.shape[:2]
     left, top = (int(max(0.0, value - half)) for value in pixel)
     right, bottom = int(min(width, pixel[0] + half + 1)), int(min(height, pixel[1] + half + 1))
@@ -129,26 +157,26 @@ def disc_at(frame: Frame, pixel: FloatArray, camera: Camera, settings: Detection
     squared = (u - centre[0, 0]) ** 2 + (v - centre[0, 1]) ** 2
     ring = (squared > (1.5 * radius_px) ** 2) & (squared < (3.0 * radius_px) ** 2)
     around = color_histogram.histogram(hsv, ring, smooth_bins=1.2)
-    if color_histogram.bhattacharyya(looks.paper_histogram.ravel(), around.ravel()) > _MOST_ALIKE:
+    if color_histogram.bhattacharyya(looks.paper_histogram.ravel(), around.ravel()) > own.most_alike:
         return Detections.none()
-    if not is_paper(centre + corner, frame, color_histogram.to_hsv(frame.color_rgb), camera, settings).all():
+    if not is_paper(centre + corner, frame, color_histogram.to_hsv(frame.color_rgb), camera, settings, own).all():
         return Detections.none()
     window = Detector(looks, camera, settings).region_about(centre, np.zeros((1, 2, 2)), np.array([0.5]))
-    return _nearest(_moved(Detector(looks, camera, settings).detect(part, window), corner), pixel, radius_px)
+    return _nearest(_moved(Detector(looks, camera, settings).detect(part, window), corner), pixel, radius_px, settings)
 
 
-def snapped(blobs: Detections, pixel: FloatArray, radius_px: float) -> Detections:
+def snapped(blobs: Detections, pixel: FloatArray, radius_px: float, settings: DetectionSettings) -> Detections:
     """The blob within a click's reach of a pixel (2,), the nearest one: one blob, or none."""
-    return _nearest(blobs, pixel, radius_px)
+    return _nearest(blobs, pixel, radius_px, settings)
 
 
 def _radii_px(frame: Frame, centre_px: FloatArray, camera: Camera, settings: DetectionSettings) -> FloatArray:
     return np.array([expected_radius_px(frame, at, camera, settings) for at in centre_px])
 
 
-def _nearest(blobs: Detections, pixel: FloatArray, radius_px: float) -> Detections:
+def _nearest(blobs: Detections, pixel: FloatArray, radius_px: float, settings: DetectionSettings) -> Detections:
     distance = np.linalg.norm(blobs.pixel - pixel, axis=1)
-    if not distance.size or float(distance.min()) > REACH * radius_px:
+    if not distance.size or float(distance.min()) > settings.click_reach * radius_px:
         return Detections.none()
     return _some(blobs, slice(int(distance.argmin()), int(distance.argmin()) + 1))
 

@@ -25,18 +25,25 @@ from carpus.core.types import Detections, FloatArray, Side
 
 IntArray = NDArray[np.int64]
 
-_REFERENCE_M = 0.180
-_LEAST_SCALE, _MOST_SCALE = 0.62, 1.25
-"""Hands 112 to 225 mm long."""
-_GATE_M = 0.016
-"""Of the first, rough laying-over, for a hand of the reference's length."""
-_CLOSE_M = 0.011
-"""A disc farther from where the fitted hand has it is not given its name."""
-_SURE_M = 0.006
-"""By so much another disc must be farther away than the named one."""
-_TRIED = 24
-"""So many of the best rough fits are refined."""
-_USUAL_DEPTH_M = 0.7
+
+@dataclass(frozen=True, slots=True)
+class NamingSettings:
+    """How names are proposed.
+
+    The average hand of ``reference_m`` length is laid over the blobs by a scale of ``least_scale`` to ``most_scale``:
+    hands 112 to 225 mm long. ``gate_m`` of the first, rough laying-over, for a hand of that length; ``tried`` of the
+    best are refined. A disc farther than ``close_m`` from where the fitted hand has it is not given its name;
+    ``sure_m``: by so much another disc must be farther away than the named one. ``usual_depth_m`` where no depth is.
+    """
+
+    reference_m: float = 0.180
+    least_scale: float = 0.62
+    most_scale: float = 1.25
+    gate_m: float = 0.016
+    tried: int = 24
+    close_m: float = 0.011
+    sure_m: float = 0.006
+    usual_depth_m: float = 0.7
 
 
 @dataclass(frozen=True, slots=True)
@@ -60,6 +67,7 @@ def propose_names(
     camera: Camera,
     side: Side,
     protocol: MarkerProtocol,
+    settings: NamingSettings,
     known: Mapping[int, int] | None = None,
 ) -> NameProposal:
     """Names for the blobs of a flat, neutral hand with its back to the camera.
@@ -69,10 +77,10 @@ def propose_names(
     """
     fixed = dict(known or {})
     rows = np.array(protocol.sites)
-    place = _in_picture_plane(blobs, camera)
-    fits = _rough_fits(place, rows, side, fixed)
+    place = _in_picture_plane(blobs, camera, settings.usual_depth_m)
+    fits = _rough_fits(place, rows, side, fixed, settings)
     rays = [np.array(chain[1:]) for chain in protocol.chains.values()]
-    refined = [_refined(place, fit, fixed, rays) for fit in fits]
+    refined = [_refined(place, fit, fixed, rays, settings) for fit in fits]
     if not refined:
         return _only(fixed, rows.size)
     best = min(refined, key=lambda one: one.cost)
@@ -93,10 +101,10 @@ def _only(fixed: Mapping[int, int], count: int) -> NameProposal:
     return NameProposal(blob, blob >= 0, np.full(count, np.nan))
 
 
-def _in_picture_plane(blobs: Detections, camera: Camera) -> FloatArray:
+def _in_picture_plane(blobs: Detections, camera: Camera, usual_depth_m: float) -> FloatArray:
     """Places (D,) as complex numbers x - iy in metres, x right and y down in the camera's axes."""
     known = np.isfinite(blobs.depth_m)
-    usual_m = float(np.median(blobs.depth_m[known])) if known.any() else _USUAL_DEPTH_M
+    usual_m = float(np.median(blobs.depth_m[known])) if known.any() else usual_depth_m
     point = camera.back_project(camera.undistort(blobs.pixel), np.where(known, blobs.depth_m, usual_m))
     return np.asarray(point[:, 0] - 1j * point[:, 1])
 
@@ -118,10 +126,10 @@ class _Named:
 
 
 @lru_cache(maxsize=4)
-def _postures(side: Side) -> FloatArray:
+def _postures(side: Side, reference_m: float) -> FloatArray:
     """Places (P, 21), complex x + iy in W, of the discs of the average hand in usual flat postures."""
     names = joint_angle_names()
-    hand = anatomy_from_size(_REFERENCE_M, side=side, nail_discs=True)
+    hand = anatomy_from_size(reference_m, side=side, nail_discs=True)
     out = []
     for spread in (-4.0, 4.0, 12.0):
         for thumb_extension, thumb_abduction in ((0.0, 5.0), (20.0, 10.0), (35.0, 25.0), (-10.0, 30.0)):
@@ -133,7 +141,9 @@ def _postures(side: Side) -> FloatArray:
     return np.array(out)
 
 
-def _rough_fits(place: FloatArray, rows: IntArray, side: Side, fixed: Mapping[int, int]) -> list[_Fit]:
+def _rough_fits(
+    place: FloatArray, rows: IntArray, side: Side, fixed: Mapping[int, int], settings: NamingSettings
+) -> list[_Fit]:
     """The likeliest ways to lay a posture over the blobs, best first: two of its discs on two of the blobs."""
     if place.size < 3:
         return []
@@ -141,25 +151,25 @@ def _rough_fits(place: FloatArray, rows: IntArray, side: Side, fixed: Mapping[in
     apart = first != second
     first, second = first[apart], second[apart]
     found: list[tuple[float, _Fit]] = []
-    for posture in _postures(side)[:, rows]:
+    for posture in _postures(side, settings.reference_m)[:, rows]:
         for a, b in _pairs(rows, fixed):
             ends = _ends(a, b, first, second, fixed)
             turn = (place[ends[1]] - place[ends[0]]) / (posture[b] - posture[a])
             scale = np.abs(turn)
-            usable = (scale > _LEAST_SCALE) & (scale < _MOST_SCALE)
+            usable = (scale > settings.least_scale) & (scale < settings.most_scale)
             turn, start, scale = turn[usable], place[ends[0]][usable], scale[usable]
             if not turn.size:
                 continue
             laid = start[:, None] + turn[:, None] * (posture - posture[a])
-            near2 = (np.abs(laid[:, :, None] - place).min(axis=2) / (_GATE_M * scale[:, None])) ** 2
+            near2 = (np.abs(laid[:, :, None] - place).min(axis=2) / (settings.gate_m * scale[:, None])) ** 2
             # A marker counts the more the nearer a blob is; a hand of the usual size a little more.
             score = np.maximum(1.0 - near2, 0.0).sum(axis=1) - 2.0 * np.log(scale) ** 2
             for row, blob in fixed.items():
-                score -= 4.0 * (np.abs(laid[:, row] - place[blob]) > 2.0 * _GATE_M)
+                score -= 4.0 * (np.abs(laid[:, row] - place[blob]) > 2.0 * settings.gate_m)
             for i in np.argsort(-score)[:6]:
                 found.append((float(score[i]), _Fit(laid[i], float(scale[i]))))
     found.sort(key=lambda one: -one[0])
-    return [fit for _, fit in found[:_TRIED]]
+    return [fit for _, fit in found[: settings.tried]]
 
 
 def _pairs(rows: IntArray, fixed: Mapping[int, int]) -> list[tuple[int, int]]:
@@ -180,22 +190,24 @@ def _ends(a: int, b: int, first: IntArray, second: IntArray, fixed: Mapping[int,
     return first, second
 
 
-def _refined(place: FloatArray, fit: _Fit, fixed: Mapping[int, int], rays: Sequence[IntArray]) -> _Named:
+def _refined(
+    place: FloatArray, fit: _Fit, fixed: Mapping[int, int], rays: Sequence[IntArray], settings: NamingSettings
+) -> _Named:
     """Named by the nearest overall; the whole hand, then each of its rays, moved to what was named."""
     laid = fit.place
-    reach = 2.2 * _GATE_M * fit.scale
+    reach = 2.2 * settings.gate_m * fit.scale
     for step in range(6):
         blob = _assigned(place, laid, reach, fixed)
         laid = _moved(laid, place, blob) if step < 3 else _rays_moved(laid, place, blob, rays)
-        reach = max(0.7 * reach, _CLOSE_M * fit.scale)
+        reach = max(0.7 * reach, settings.close_m * fit.scale)
     blob = _assigned(place, laid, reach, fixed)
     distance = np.abs(laid[:, None] - place)
     own = np.where(blob >= 0, distance[np.arange(blob.size), blob], np.nan)
     others = distance.copy()
     others[np.arange(blob.size)[blob >= 0], blob[blob >= 0]] = np.inf
-    sure = (blob >= 0) & (others.min(axis=1, initial=np.inf) - own > _SURE_M * fit.scale)
+    sure = (blob >= 0) & (others.min(axis=1, initial=np.inf) - own > settings.sure_m * fit.scale)
     size = math.log(fit.scale)
-    cost = float(np.where(blob >= 0, (own / (_CLOSE_M * fit.scale)) ** 2, 2.0).sum()) + 2.0 * size**2
+    cost = float(np.where(blob >= 0, (own / (settings.close_m * fit.scale)) ** 2, 2.0).sum()) + 2.0 * size**2
     return _Named(blob, sure, own, cost)
 
 

@@ -14,16 +14,26 @@ from numpy.typing import NDArray
 from carpus.core.calibration.palm_names import average_palm
 from carpus.core.types import FloatArray, Side
 
-_QUESTIONED = 0.08
-"""Misfit, as a share of the palm's size, from which a spot without a name may stand in for a disc."""
-_NO_PALM = 0.17
-"""Misfit that no palm has: hands differ by up to 0.05, discs stuck 4 mm off by up to 0.12."""
-_CLEARLY = 0.6
-"""What stands in must leave less than this share of the misfit."""
-_BESIDE = 0.18
-"""A spot this near to the palm's discs, as a share of its length, lies on the palm: there is one disc too many."""
-_MOST_SPARE = 2
-"""More spots than these beside the palm are the discs of a whole hand, or a pattern; nobody is asked of each."""
+
+@dataclass(frozen=True, slots=True)
+class OddDiscSettings:
+    """When a disc is odd.
+
+    ``questioned``: misfit, as a share of the palm's size, from which a spot without a name may stand in for a disc;
+    what does must leave less than the share ``clearly`` of it. ``no_palm``: misfit that no palm has: hands differ by up
+    to 0.05, discs stuck 4 mm off by up to 0.12. A spot as near to the palm's discs as ``beside``, a share of its
+    length, lies on the palm: there is one disc too many. More than ``most_spare`` of these are the discs of a whole
+    hand, or a pattern; nobody is asked of each. Spots within ``same_spot_px`` of a disc are that disc; one farther than
+    ``of_the_hand_m`` from the depth of the palm lies on something else.
+    """
+
+    questioned: float = 0.08
+    clearly: float = 0.6
+    no_palm: float = 0.17
+    beside: float = 0.18
+    most_spare: int = 2
+    same_spot_px: float = 4.0
+    of_the_hand_m: float = 0.06
 
 
 @dataclass(frozen=True, slots=True)
@@ -36,34 +46,34 @@ class OddDisc:
     fits: bool
 
 
-def odd_disc(side: Side, palm_plan: FloatArray, spots_plan: FloatArray) -> OddDisc | None:
+def odd_disc(side: Side, palm_plan: FloatArray, spots_plan: FloatArray, settings: OddDiscSettings) -> OddDisc | None:
     """What is odd about a palm (6, 2), seen from the camera with y up, among the spots (S, 2) that have no name."""
     average = average_palm(side)
     misfit = _misfit(average, palm_plan)
     best = (misfit, -1, -1)
-    if misfit >= _QUESTIONED:
+    if misfit >= settings.questioned:
         for marker in range(len(palm_plan)):
             for spot in range(len(spots_plan)):
                 other = palm_plan.copy()
                 other[marker] = spots_plan[spot]
                 best = min(best, (_misfit(average, other), marker, spot))
-    if best[0] < _CLEARLY * misfit:
+    if best[0] < settings.clearly * misfit:
         return OddDisc(best[1], best[2], fits=True)
-    if misfit >= _NO_PALM:
+    if misfit >= settings.no_palm:
         return OddDisc(_worst(average, palm_plan), -1, fits=False)
-    spare = _beside(palm_plan, spots_plan)
-    if 0 < len(spare) <= _MOST_SPARE:
+    spare = _beside(palm_plan, spots_plan, settings)
+    if 0 < len(spare) <= settings.most_spare:
         return OddDisc(-1, int(spare[0]), fits=False)
     return None
 
 
-def _beside(palm_plan: FloatArray, spots_plan: FloatArray) -> NDArray[np.int64]:
+def _beside(palm_plan: FloatArray, spots_plan: FloatArray, settings: OddDiscSettings) -> NDArray[np.int64]:
     if not len(spots_plan):
         return np.empty(0, dtype=np.int64)
     length = float(np.linalg.norm(palm_plan[3] - palm_plan[0]))
     distance = np.linalg.norm(spots_plan[:, None] - palm_plan[None], axis=-1).min(axis=1)
     inside = np.array([_is_inside(spot, palm_plan) for spot in spots_plan])
-    return np.flatnonzero(inside | (distance < _BESIDE * length))
+    return np.flatnonzero(inside | (distance < settings.beside * length))
 
 
 def _is_inside(spot: FloatArray, corners: FloatArray) -> bool:

@@ -6,26 +6,31 @@ only asks whether two were exchanged, or whether they stay together. Of the 720 
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from functools import lru_cache
 from itertools import permutations
 
 import numpy as np
 from numpy.typing import NDArray
 
-from carpus.core.hand.anatomy import anatomy_from_size
+from carpus.core.hand.anatomy import REFERENCE_LENGTH_M, anatomy_from_size
 from carpus.core.hand.sites import PALM_MARKERS
 from carpus.core.types import FloatArray, Side
-
-_CLEARLY = 0.6
-"""The better order must leave less than this share of the misfit of the names as clicked."""
-_GOOD_MISFIT = 0.08
-"""Misfit, as a share of the palm's size, below which nothing is questioned: hands differ from the average by up to
-0.05, and the next best order of the names of a right palm leaves 0.25."""
 
 _ORDERS = np.array(list(permutations(range(len(PALM_MARKERS)))))
 
 
-def shifted_names(side: Side, palm_plan: FloatArray) -> tuple[str, ...]:
+@dataclass(frozen=True, slots=True)
+class PalmNameSettings:
+    """``good_misfit``, as a share of the palm's size, below which nothing is questioned: hands differ from the average
+    by up to 0.05, and the next best order of the names of a right palm leaves 0.25. The better order must leave less
+    than the share ``clearly`` of the misfit of the names as clicked."""
+
+    good_misfit: float = 0.08
+    clearly: float = 0.6
+
+
+def shifted_names(side: Side, palm_plan: FloatArray, settings: PalmNameSettings) -> tuple[str, ...]:
     """The wrong names among the palm's, empty when another order does not fit clearly better.
 
     ``palm_plan`` (6, 2) the discs in the order of ``PALM_MARKERS``, seen from the camera, y up. The first disc that
@@ -34,7 +39,7 @@ def shifted_names(side: Side, palm_plan: FloatArray) -> tuple[str, ...]:
     """
     misfit = _misfits(average_palm(side), palm_plan)
     best = int(misfit.argmin())
-    if misfit[0] < _GOOD_MISFIT or misfit[best] > _CLEARLY * misfit[0]:
+    if misfit[0] < settings.good_misfit or misfit[best] > settings.clearly * misfit[0]:
         return ()
     if misfit[best] > _misfits(average_palm("left" if side == "right" else "right"), palm_plan)[0]:
         return ()  # the names are in order, but on the other hand
@@ -45,7 +50,7 @@ def shifted_names(side: Side, palm_plan: FloatArray) -> tuple[str, ...]:
 @lru_cache(maxsize=2)
 def average_palm(side: Side) -> FloatArray:
     """The discs (6, 2) of the average palm in the order of ``PALM_MARKERS``, seen from the camera, y up, in metres."""
-    return anatomy_from_size(0.18).palm_disc_m[:, :2] * (1.0, 1.0 if side == "right" else -1.0)
+    return anatomy_from_size(REFERENCE_LENGTH_M).palm_disc_m[:, :2] * (1.0, 1.0 if side == "right" else -1.0)
 
 
 def _misfits(average: FloatArray, plan: FloatArray) -> FloatArray:

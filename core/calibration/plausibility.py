@@ -2,25 +2,30 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from functools import lru_cache
 from itertools import combinations
 
 import numpy as np
 
-from carpus.core.hand.anatomy import anatomy_from_size
+from carpus.core.hand.anatomy import REFERENCE_LENGTH_M, anatomy_from_size
 from carpus.core.hand.kinematics import disc_centres
 from carpus.core.hand.marker_protocol import MarkerProtocol
 from carpus.core.types import FloatArray, Side
 
-_CLEARLY = 0.6
-"""Another reading must leave less than this share of the misfit to be called the likelier one."""
-_GOOD_MISFIT = 0.05
-"""Misfit, as a share of the constellation's size, below which nothing is questioned."""
+
+@dataclass(frozen=True, slots=True)
+class SideSettings:
+    """``good_misfit``, as a share of the constellation's size, below which nothing is questioned; the other hand must
+    leave less than the share ``clearly`` of it to be called the likelier one."""
+
+    good_misfit: float = 0.05
+    clearly: float = 0.6
 
 
 @lru_cache(maxsize=4)
 def _average_plan(protocol: MarkerProtocol, side: Side) -> FloatArray:
-    discs = disc_centres(anatomy_from_size(0.18), np.zeros(17))[list(protocol.sites)]
+    discs = disc_centres(anatomy_from_size(REFERENCE_LENGTH_M), np.zeros(17))[list(protocol.sites)]
     plan = discs[:, :2].copy()
     if side == "left":
         plan[:, 1] = -plan[:, 1]
@@ -50,10 +55,10 @@ def _best_swap(average: FloatArray, plan: FloatArray) -> float:
     return best
 
 
-def looks_like_other_side(protocol: MarkerProtocol, side: Side, plan: FloatArray) -> bool:
+def looks_like_other_side(protocol: MarkerProtocol, side: Side, plan: FloatArray, settings: SideSettings) -> bool:
     """Whether the constellation is clearly the other hand's, and not this one's with two names swapped."""
     other: Side = "left" if side == "right" else "right"
     average = _average_plan(protocol, side)
     own = _misfit(average, plan)
     mirrored = _misfit(_average_plan(protocol, other), plan)
-    return own >= _GOOD_MISFIT and mirrored < _CLEARLY * own and mirrored < _best_swap(average, plan)
+    return own >= settings.good_misfit and mirrored < settings.clearly * own and mirrored < _best_swap(average, plan)

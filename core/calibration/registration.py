@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 import cv2
 import numpy as np
 from numpy.typing import NDArray
@@ -10,70 +12,84 @@ from carpus.core.detection import color_histogram
 from carpus.core.detection.appearance import MarkerAppearance
 from carpus.core.types import FloatArray, Frame
 
-_WIDTH_PX = 640
-"""Pictures are compared at this width."""
-_REACH_PX = 40
-_AROUND_PX = 80
-_SKIN_PX = 14
-"""Skin is what lies this near to a disc."""
-_FEWEST = 50
-_ABOVE_M, _BELOW_M = 0.02, 0.04
-"""Depths this far below the discs are the ground, those this far above them the hand, between them in part."""
-_ALIKE = 0.7
-"""Correlation of the two outlines below which the skin does not stand out well enough to say anything."""
-_GAIN = 0.08
-"""By how much they must lie better on each other elsewhere."""
-SURELY_OFF_PX = 8.0
-"""At 640 pixels a row. The sensor's shadow beside the hand alone moves the outline by up to that."""
-
 Image = NDArray[np.float32]
 
 
-def depth_offset_px(frame: Frame, looks: MarkerAppearance, disc_px: FloatArray) -> float:
+@dataclass(frozen=True, slots=True)
+class RegistrationSettings:
+    """How the two outlines are compared.
+
+    Pictures are compared at a width of ``width_px``, shifted by up to ``reach_px``, as far as ``around_px`` about the
+    discs. Skin is what lies within ``skin_px`` of a disc, ``fewest_px`` of it at least. Depths ``below_m`` the
+    discs and more are the ground, those ``above_m`` them the hand, between them in part. Below the correlation
+    ``alike`` of the two outlines the skin does not stand out well enough to say anything; by ``gain`` they must lie
+    better on each other elsewhere. Further apart than ``surely_off_px``, at that width, they are off: the sensor's
+    shadow beside the hand alone moves the outline by up to that.
+    """
+
+    width_px: int = 640
+    reach_px: int = 40
+    around_px: int = 80
+    skin_px: int = 14
+    fewest_px: int = 50
+    above_m: float = 0.02
+    below_m: float = 0.04
+    alike: float = 0.7
+    gain: float = 0.08
+    surely_off_px: float = 8.0
+
+
+def depth_offset_px(
+    frame: Frame, looks: MarkerAppearance, disc_px: FloatArray, settings: RegistrationSettings
+) -> float:
     """By how many pixels depth lies beside colour; 0 when it does not, or when the pictures do not say.
 
     ``disc_px`` (M, 2) the discs in the colour picture.
     """
     if frame.depth_raw is None or not len(disc_px):
         return 0.0
-    scale = _WIDTH_PX / frame.color_rgb.shape[1]
-    size = (_WIDTH_PX, round(frame.color_rgb.shape[0] * scale))
+    scale = settings.width_px / frame.color_rgb.shape[1]
+    size = (settings.width_px, round(frame.color_rgb.shape[0] * scale))
     color = np.asarray(cv2.resize(frame.color_rgb, size, interpolation=cv2.INTER_AREA), dtype=np.uint8)
     raw = cv2.resize(frame.depth_raw, size, interpolation=cv2.INTER_NEAREST)
     depth_m = np.asarray(raw, dtype=np.float32) * np.float32(frame.depth_unit_m)
     spots = np.clip(np.rint(disc_px * scale), 0, np.array(size) - 1).astype(np.int64)
-    left, top = np.maximum(spots.min(axis=0) - _AROUND_PX, 0)
-    right, bottom = np.minimum(spots.max(axis=0) + _AROUND_PX, size)
-    hand = _hand(depth_m, spots)
+    left, top = np.maximum(spots.min(axis=0) - settings.around_px, 0)
+    right, bottom = np.minimum(spots.max(axis=0) + settings.around_px, size)
+    hand = _hand(depth_m, spots, settings)
     if hand is None:
         return 0.0
     # Ground is ground wherever depth lies: further from any hand than it may be beside colour.
-    reached = cv2.dilate((hand > 0.05).astype(np.uint8), np.ones((2 * _REACH_PX + 1,) * 2, np.uint8))
-    skin = _skin(color, looks, spots, reached == 0)[top:bottom, left:right]
+    reached = cv2.dilate((hand > 0.05).astype(np.uint8), np.ones((2 * settings.reach_px + 1,) * 2, np.uint8))
+    skin = _skin(color, looks, spots, reached == 0, settings)[top:bottom, left:right]
     if skin.std() < 0.05 or hand[top:bottom, left:right].std() < 0.05:
         return 0.0
-    reach = _REACH_PX
+    reach = settings.reach_px
     wide = cv2.copyMakeBorder(hand, reach, reach, reach, reach, cv2.BORDER_REPLICATE)
     wide = wide[top : bottom + 2 * reach, left : right + 2 * reach]
     alike = cv2.matchTemplate(wide, skin, cv2.TM_CCOEFF_NORMED)
     v, u = np.unravel_index(int(alike.argmax()), alike.shape)
     best, here = float(alike[v, u]), float(alike[reach, reach])
     offset = float(np.hypot(u - reach, v - reach))
-    is_off = best >= _ALIKE and best - here >= _GAIN and offset > SURELY_OFF_PX
+    is_off = best >= settings.alike and best - here >= settings.gain and offset > settings.surely_off_px
     return offset / scale if is_off else 0.0
 
 
 def _skin(
-    color_rgb: NDArray[np.uint8], looks: MarkerAppearance, spots: NDArray[np.int64], ground: NDArray[np.bool_]
+    color_rgb: NDArray[np.uint8],
+    looks: MarkerAppearance,
+    spots: NDArray[np.int64],
+    ground: NDArray[np.bool_],
+    settings: RegistrationSettings,
 ) -> Image:
     """How much likelier, 0 to 1, each pixel (H, W) is skin such as lies about the discs, or paper, than ground."""
     hsv = color_histogram.to_hsv(color_rgb)
     paper = np.asarray(color_histogram.back_project(hsv, looks.paper_lookup) >= 128, dtype=np.float32)
     near = np.zeros(paper.shape, dtype=np.uint8)
     for u, v in spots.tolist():
-        cv2.circle(near, (u, v), _SKIN_PX, 1, -1)
+        cv2.circle(near, (u, v), settings.skin_px, 1, -1)
     skin = (near > 0) & (cv2.dilate(paper, np.ones((5, 5), np.uint8)) == 0)
-    if min(np.count_nonzero(skin), np.count_nonzero(ground)) < _FEWEST:
+    if min(np.count_nonzero(skin), np.count_nonzero(ground)) < settings.fewest_px:
         return np.zeros(paper.shape, dtype=np.float32)
     lab = cv2.GaussianBlur(cv2.cvtColor(color_rgb, cv2.COLOR_RGB2LAB), (0, 0), 1.0)
     hue = lab[..., 1:].astype(np.float32)  # without lightness: the hand's shadow is ground
@@ -89,13 +105,15 @@ def _unlikeness(hue: Image, sample: Image) -> FloatArray:
     return np.asarray(0.5 * (np.minimum(squared, 50.0) + np.log(np.linalg.det(spread))))
 
 
-def _hand(depth_m: Image, spots: NDArray[np.int64]) -> Image | None:
+def _hand(depth_m: Image, spots: NDArray[np.int64], settings: RegistrationSettings) -> Image | None:
     """Whether each pixel (H, W) is as near as the discs, 0 to 1; holes are ground. None without depth at the discs."""
     at_discs = [depth_m[max(v - 5, 0) : v + 6, max(u - 5, 0) : u + 6] for u, v in spots.tolist()]
     middle = [float(np.median(patch[patch > 0.0])) for patch in at_discs if (patch > 0.0).any()]
     if not middle:
         return None
-    share = np.clip((float(np.median(middle)) + _BELOW_M - depth_m) / (_ABOVE_M + _BELOW_M), 0.0, 1.0)
+    share = np.clip(
+        (float(np.median(middle)) + settings.below_m - depth_m) / (settings.above_m + settings.below_m), 0.0, 1.0
+    )
     return _soft(np.where(depth_m > 0.0, share, 0.0))
 
 

@@ -7,17 +7,17 @@ from dataclasses import replace
 
 from carpus.core.calibration.calibrate import CalibrationOutcome
 from carpus.core.calibration.result import Finding, Verdict
-
-MOST_LENGTH_CHANGE = 0.15
-"""Of last time's length. Discs put on anew lie up to half a centimetre elsewhere on the 8 cm that are measured."""
+from carpus.core.calibration.settings import CalibrationSettings
 
 
-def compared_with_last_time(outcome: CalibrationOutcome, last_length_mm: float) -> CalibrationOutcome:
+def compared_with_last_time(
+    outcome: CalibrationOutcome, last_length_mm: float, settings: CalibrationSettings
+) -> CalibrationOutcome:
     """The outcome, doubted where the hand is not as long as the same hand was; NaN: there is none to compare with."""
     now_mm = outcome.verdict.hand_length_mm
     if not (math.isfinite(last_length_mm) and math.isfinite(now_mm)):
         return outcome
-    if abs(now_mm - last_length_mm) <= MOST_LENGTH_CHANGE * last_length_mm:
+    if abs(now_mm - last_length_mm) <= settings.most_length_change * last_length_mm:
         return outcome
     finding = Finding("other_length", (), now_mm, last_length_mm, "mm")
     verdict: Verdict = replace(outcome.verdict, findings=(*outcome.verdict.findings, finding))

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from carpus.core.calibration.candidates import marker_candidates
+from carpus.core.calibration.candidates import CandidateSettings, marker_candidates
 from carpus.core.camera import Camera
 from carpus.core.check_card.card import disc_places_m, figures_of
 from carpus.core.check_card.reading import CHECK_S, CardReading
@@ -63,7 +63,7 @@ class CardWatch:
         if frame.depth_raw is None or now_s - self._last_s < LOOK_EVERY_S:
             return None
         since_s, self._last_s = now_s - self._last_s, now_s
-        blobs = marker_candidates(frame, self._camera, self._settings)
+        blobs = marker_candidates(frame, self._camera, self._settings, CandidateSettings())
         self._looked += 1
         found = card_blobs(blobs, self._camera)
         moved = False

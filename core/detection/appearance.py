@@ -17,11 +17,6 @@ from carpus.core.detection.settings import DetectionSettings
 from carpus.core.detection.stencil import packed, stencil_for, unpacked, window_pixels
 from carpus.core.types import ByteImage, FloatArray, Frame
 
-_FALLBACK_RADIUS_PX = 5.0
-_ROUNDS = 3
-_PAPER_REACH = 0.8
-"""Radii of a disc up to which its pixels are paper, those at its edge more paper than skin."""
-
 
 @dataclass(frozen=True, slots=True)
 class MarkerAppearance:
@@ -53,12 +48,12 @@ def disc_mask(shape: tuple[int, ...], centre_px: FloatArray, radius_px: float) -
 def expected_radius_px(frame: Frame, pixel: FloatArray, camera: Camera, settings: DetectionSettings) -> float:
     """Radius of a disc facing the camera at the depth found about ``pixel``; a guess where there is none."""
     if frame.depth_raw is None:
-        return _FALLBACK_RADIUS_PX
+        return settings.fallback_radius_px
     near = disc_mask(frame.depth_raw.shape, pixel, 12.0)
     depth_raw = frame.depth_raw[near]
     depth_raw = depth_raw[depth_raw > 0]
     if depth_raw.size == 0:
-        return _FALLBACK_RADIUS_PX
+        return settings.fallback_radius_px
     return float(camera.fx_px * settings.marker_radius_m / (float(np.median(depth_raw)) * frame.depth_unit_m))
 
 
@@ -82,18 +77,18 @@ def learn_appearance(
     centre = np.full(click_px.shape, np.nan)
     looks = _appearance(hsv, on_paper, ring, settings)
     middle_radius, size = float(np.median(radius_px)), 1.0
-    for _ in range(_ROUNDS):
+    for _ in range(settings.learning_rounds):
         blobs = _paper_blobs(hsv, looks, settings, middle_radius * size)
-        found = _blobs_under(click_px, radius_px, blobs)
+        found = _blobs_under(click_px, settings.click_reach * radius_px, blobs)
         if not np.any(found >= 0):
             break
         centre = np.full(click_px.shape, np.nan)
         there = found >= 0
-        centre[there], radius = _measured(frame.color_rgb, blobs, found[there], middle_radius * size)
+        centre[there], radius = _measured(frame.color_rgb, blobs, found[there], middle_radius * size, settings)
         size = _size(radius / radius_px[there], settings)
         on_paper, around = np.zeros(shape, dtype=bool), np.zeros(shape, dtype=bool)
         for point, reach in zip(centre[there], radius, strict=True):
-            on_paper |= disc_mask(shape, point, _PAPER_REACH * reach)
+            on_paper |= disc_mask(shape, point, settings.paper_reach * reach)
             around |= disc_mask(shape, point, 2.2 * reach) & ~disc_mask(shape, point, 1.45 * reach)
         looks = _appearance(hsv, on_paper, around & ~_grown(blobs.labels > 0), settings)
     looks = replace(looks, radius_m=size * settings.marker_radius_m)
@@ -101,7 +96,7 @@ def learn_appearance(
 
 
 def _paper_blobs(hsv: ByteImage, looks: MarkerAppearance, settings: DetectionSettings, radius_px: float) -> Components:
-    return components(paper_mask(hsv, looks, settings), lambda at: np.full(len(at), radius_px))
+    return components(paper_mask(hsv, looks, settings), lambda at: np.full(len(at), radius_px), settings.touching)
 
 
 def _size(ratio: FloatArray, settings: DetectionSettings) -> float:
@@ -111,16 +106,16 @@ def _size(ratio: FloatArray, settings: DetectionSettings) -> float:
 
 
 def _measured(
-    color_rgb: ByteImage, blobs: Components, found: NDArray[np.int64], radius_px: float
+    color_rgb: ByteImage, blobs: Components, found: NDArray[np.int64], radius_px: float, settings: DetectionSettings
 ) -> tuple[FloatArray, FloatArray]:
     """Centres (B, 2) and radii (B,) of the discs under the blobs ``found``, by unmixing at their edges.
 
     While the paper's colours are only partly known a blob is smaller than its disc.
     """
-    stencil = stencil_for(radius_px)
+    stencil = stencil_for(radius_px, settings.stencil)
     pixels, inside, middle = window_pixels(stencil, blobs.centre_px[found], blobs.labels.shape)
     outline = outlines(blobs.labels.reshape(-1).take(pixels), blobs.label[found], inside, stencil)
-    offset, area = refined_centres(unpacked(packed(color_rgb).take(pixels)), outline, stencil)
+    offset, area = refined_centres(unpacked(packed(color_rgb).take(pixels)), outline, stencil, settings)
     return middle + offset, np.sqrt(area / np.pi)
 
 
@@ -130,7 +125,7 @@ def _measured_by_discs(
     """The appearance with what the found discs reach by it: share of area, likeness to the reference."""
     there = np.isfinite(centre[:, 0])
     blobs = _paper_blobs(hsv, looks, settings, float(np.median(radius_px)))
-    found = _blobs_under(centre[there], radius_px[there], blobs)
+    found = _blobs_under(centre[there], settings.click_reach * radius_px[there], blobs)
     found = found[found >= 0]
     if found.size == 0:
         return looks
@@ -186,13 +181,13 @@ def _appearance(
     )
 
 
-def _blobs_under(click_px: FloatArray, radius_px: FloatArray, blobs: Components) -> NDArray[np.int64]:
+def _blobs_under(click_px: FloatArray, reach_px: FloatArray, blobs: Components) -> NDArray[np.int64]:
     """Disc-sized blob of every click (M,), -1 when none is within its reach; each blob once, nearest overall."""
     taken = np.full(len(click_px), -1, dtype=np.int64)
     full = np.pi * blobs.radius_px**2
     fits = (blobs.area_px > 0.2 * full) & (blobs.area_px < 3.0 * full)
     distance = np.linalg.norm(click_px[:, None] - blobs.centre_px[None], axis=-1)
-    far = (distance > REACH * radius_px[:, None]) | ~fits
+    far = (distance > reach_px[:, None]) | ~fits
     rows, columns = linear_sum_assignment(np.where(far, 1e6, distance))
     near = ~far[rows, columns]
     taken[rows[near]] = columns[near]
@@ -201,7 +196,3 @@ def _blobs_under(click_px: FloatArray, radius_px: FloatArray, blobs: Components)
 
 def _rows(values: FloatArray, index: NDArray[np.int64]) -> FloatArray:
     return values[np.maximum(index, 0)]
-
-
-REACH = 2.2
-"""A click finds a disc whose centre is within this many radii (about 10 px at 0.7 m)."""

@@ -8,6 +8,7 @@ edge pixels do not pull the centre.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,11 +18,6 @@ from carpus.core.detection.settings import DetectionSettings
 from carpus.core.detection.stencil import WEDGES, Stencil
 from carpus.core.types import FloatArray
 
-_LOW, _HIGH = 0.2, 0.8
-"""Shares of paper below and above these count as none and all; symmetric, so an edge's centre stays."""
-_FEWEST = np.array([3.0] * WEDGES + [4.0])
-"""With fewer pixels than these in a direction of the rim, or in the core, all of the rim or of the blob is taken."""
-_FEWEST_READINGS = 3
 _QUARTERS = np.arange(1, 4)[:, None]
 _BEYOND_M = 1e3
 """Stands for no reading among readings in order."""
@@ -51,25 +47,28 @@ def outlines(
     return Outline(mine, counted, free[:, stencil.rim])
 
 
-def refined_centres(color: NDArray[np.float32], outline: Outline, stencil: Stencil) -> tuple[FloatArray, FloatArray]:
+def refined_centres(
+    color: NDArray[np.float32], outline: Outline, stencil: Stencil, settings: DetectionSettings
+) -> tuple[FloatArray, FloatArray]:
     """Weighted centres (B, 2) from the middles of the windows, and areas (B,) in pixels.
 
     ``color`` (B, P, 4) windows of the picture: red, green, blue and 1. What surrounds a pixel's blob is looked up in
     the pixel's own direction: at the edge of the hand one side of a disc lies on skin and the other before the table.
     """
     total = _totals(color, outline, stencil)
-    few = total[:, 3] < _FEWEST
+    low, high = settings.paper_low, settings.paper_high
+    few = total[:, 3] < _fewest(settings.fewest_rim, settings.fewest_core)
     if few.any():
         _fill_in(total, few, color, outline, stencil)
     mean = total[:, :3] / np.maximum(total[:, 3:], 1.0)
     ground = mean[..., :WEDGES]
     direction = mean[..., WEDGES:] - ground
-    # Share of paper in a colour c, 0 for the ground's and 1 for the paper's, then stretched from _LOW.._HIGH to 0..1:
+    # Share of paper in a colour c, 0 for the ground's and 1 for the paper's, then stretched from low..high to 0..1:
     # direction (c - ground) / |direction|^2, in each direction one column of numbers for c and 1.
-    direction /= (_HIGH - _LOW) * np.maximum((direction * direction).sum(axis=1, keepdims=True), 1.0)
+    direction /= (high - low) * np.maximum((direction * direction).sum(axis=1, keepdims=True), 1.0)
     unmix = np.empty((color.shape[0], 4, WEDGES), dtype=np.float32)
     unmix[:, :3] = direction
-    np.subtract(-_LOW / (_HIGH - _LOW), (direction * ground).sum(axis=1), out=unmix[:, 3])
+    np.subtract(-low / (high - low), (direction * ground).sum(axis=1), out=unmix[:, 3])
     share = (color @ unmix).reshape(color.shape[0], -1).take(stencil.pick, axis=1)
     np.maximum(share, 0.0, out=share)
     np.minimum(share, 1.0, out=share)
@@ -77,6 +76,12 @@ def refined_centres(color: NDArray[np.float32], outline: Outline, stencil: Stenc
     moments = (share @ stencil.moments).astype(np.float64)
     area = np.maximum(moments[:, 0], 1e-9)
     return moments[:, 1:] / area[:, None], area
+
+
+@lru_cache(maxsize=4)
+def _fewest(rim: float, core: float) -> FloatArray:
+    """Pixels (WEDGES + 1) that each direction of the rim and the core must have."""
+    return np.array([rim] * WEDGES + [core])
 
 
 def _totals(color: NDArray[np.float32], outline: Outline, stencil: Stencil) -> NDArray[np.float32]:
@@ -131,7 +136,7 @@ def blob_depths(
     near = valid & (np.abs(inner - middle) <= settings.depth_iqr_m)
     depth = (inner * near).sum(axis=0) / np.maximum(near.sum(axis=0), 1)
     iqr = high - low
-    enough = np.maximum(settings.depth_valid_share * own.sum(axis=0), _FEWEST_READINGS)
+    enough = np.maximum(settings.depth_valid_share * own.sum(axis=0), settings.fewest_readings)
     trusted = (count >= enough) & (iqr <= settings.depth_iqr_m)
     # The sensor matches small windows: near an edge of the surface they hold two, and the depth is of neither.
     other = np.abs(metres - depth[:, None]) > settings.edge_step_m

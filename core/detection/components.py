@@ -9,7 +9,7 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from carpus.core.detection.touching import split_touching
+from carpus.core.detection.touching import TouchingSettings, split_touching
 from carpus.core.types import ByteImage, FloatArray
 
 
@@ -25,7 +25,9 @@ class Components:
     radius_px: FloatArray
 
 
-def components(mask: ByteImage, radius_at: Callable[[FloatArray], FloatArray]) -> Components:
+def components(
+    mask: ByteImage, radius_at: Callable[[FloatArray], FloatArray], touching: TouchingSettings
+) -> Components:
     """Blobs of a mask; ``radius_at`` gives the radius (B,) of a disc facing the camera at pixels (B, 2)."""
     # 16-bit labels are three times quicker than the default.
     count, found, table, middle = cv2.connectedComponentsWithStats(mask, connectivity=8, ltype=cv2.CV_16U)
@@ -36,7 +38,7 @@ def components(mask: ByteImage, radius_at: Callable[[FloatArray], FloatArray]) -
     radius = radius_at(centre)
     label = np.arange(count, dtype=np.uint16)
     area = stats[:, cv2.CC_STAT_AREA].astype(np.float64)
-    split = split_touching(labels, stats, radius)
+    split = split_touching(labels, stats, radius, touching)
     for whole, _, facts in split:
         centre[whole], area[whole] = facts[0, :2], facts[0, 2]
     if split:

@@ -19,13 +19,7 @@ from carpus.core.detection.settings import DetectionSettings
 from carpus.core.detection.stencil import Stencil, packed, stencil_for, unpacked, window_pixels
 from carpus.core.types import ByteImage, Detections, FloatArray, Frame
 
-_COARSE = 4
-"""The hand's region is looked for in a picture this many times smaller."""
 _SIMILARITY_BINS = 16
-_SKIN_LEVEL = 128
-_USUAL_DEPTH_M = 0.7
-_MOST_UNSURE_PX = 120.0
-"""However little is known of where a disc is, it is looked for no further away."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -54,7 +48,7 @@ class Detector:
         self._settings = settings
         coarse = looks.paper_histogram.reshape(_SIMILARITY_BINS, 2, _SIMILARITY_BINS, 2).sum(axis=(1, 3))
         self._reference = np.sqrt(coarse.ravel())
-        self._cell, self._is_skin = _by_hue_and_saturation(looks)
+        self._cell, self._is_skin = _by_hue_and_saturation(looks, settings.skin_level)
         self._least_area = settings.least_area * looks.least_share
         self._most_area = settings.most_area * looks.most_share
         self._first_cell = self._reference.size * np.arange(settings.most_blobs)[:, None]
@@ -63,7 +57,7 @@ class Detector:
         """Rectangle that holds all predicted discs (M, 2) with their uncertainty (M, 2, 2)."""
         disc_px_m, region_sd = self._camera.fx_px * self._settings.marker_radius_m, self._settings.region_sd
         variance = np.maximum(covariance_px2.diagonal(axis1=1, axis2=2), 0.0)
-        reach = np.minimum(region_sd * np.sqrt(variance), _MOST_UNSURE_PX)
+        reach = np.minimum(region_sd * np.sqrt(variance), self._settings.most_unsure_px)
         reach += (2.2 * disc_px_m / np.maximum(depth_m, 0.2) + 3.0)[:, None]
         left, top = (pixel - reach).min(axis=0).tolist()
         right, bottom = (pixel + reach).max(axis=0).tolist()
@@ -80,7 +74,7 @@ class Detector:
         color = frame.color_rgb[region.top : region.bottom, region.left : region.right]
         hsv = color_histogram.to_hsv(color)
         mask = paper_mask(hsv, self._looks, self._settings)
-        blobs = components(mask, lambda centre_px: self._radius_at(frame, region, centre_px))
+        blobs = components(mask, lambda centre_px: self._radius_at(frame, region, centre_px), self._settings.touching)
         area = blobs.area_px
         ratio = area / (np.pi * blobs.radius_px**2)
         fits = np.flatnonzero((ratio >= self._least_area) & (ratio <= self._most_area))
@@ -94,11 +88,11 @@ class Detector:
         """Radius in pixels (B,) of a disc facing the camera at the depth of each place; NaN-free."""
         scale = self._camera.fx_px * self._looks.radius_m
         if frame.depth_raw is None:
-            return np.full(len(centre_px), scale / _USUAL_DEPTH_M)
+            return np.full(len(centre_px), scale / self._settings.usual_depth_m)
         radius = []
         for u, v in centre_px.tolist():
             depth_m = frame.depth_raw.item(round(v) + region.top, round(u) + region.left) * frame.depth_unit_m
-            radius.append(scale / (depth_m if depth_m > 0.2 else _USUAL_DEPTH_M))
+            radius.append(scale / (depth_m if depth_m > 0.2 else self._settings.usual_depth_m))
         return np.array(radius)
 
     def _measure(
@@ -112,11 +106,11 @@ class Detector:
     ) -> Detections:
         settings, labels = self._settings, blobs.labels
         own, rough_px = blobs.label[fits], blobs.centre_px[fits]
-        stencil = stencil_for(median(blobs.radius_px[fits].tolist()))
+        stencil = stencil_for(median(blobs.radius_px[fits].tolist()), settings.stencil)
         pixels, inside, middle = window_pixels(stencil, rough_px, labels.shape)
         outline = outlines(labels.reshape(-1).take(pixels), own, inside, stencil)
         similarity, skin_share = self._likeness(packed(hsv).take(pixels), outline, stencil)
-        offset, area = refined_centres(unpacked(packed(color).take(pixels)), outline, stencil)
+        offset, area = refined_centres(unpacked(packed(color).take(pixels)), outline, stencil, settings)
         centre = middle + offset
         centre[:, 0] += region.left
         centre[:, 1] += region.top
@@ -149,26 +143,27 @@ class Detector:
 
     def _hand_region(self, color_rgb: ByteImage) -> Region | None:
         """Rectangle about the skin and paper of the largest hand-like region, None when there is no paper."""
-        small = cv2.resize(color_rgb, None, fx=1 / _COARSE, fy=1 / _COARSE, interpolation=cv2.INTER_AREA)
+        coarse = self._settings.coarse
+        small = cv2.resize(color_rgb, None, fx=1 / coarse, fy=1 / coarse, interpolation=cv2.INTER_AREA)
         hsv = color_histogram.to_hsv(np.asarray(small, dtype=np.uint8))
-        paper = color_histogram.back_project(hsv, self._looks.paper_lookup) >= 96
+        paper = color_histogram.back_project(hsv, self._looks.paper_lookup) >= self._settings.paper_level
         if not paper.any():
             return None
-        skin = color_histogram.back_project(hsv, self._looks.skin_lookup) >= _SKIN_LEVEL
+        skin = color_histogram.back_project(hsv, self._looks.skin_lookup) >= self._settings.skin_level
         near_skin = cv2.dilate(skin.astype(np.uint8), np.ones((7, 7), np.uint8)) > 0
         row, column = np.nonzero(paper & near_skin)
         if row.size == 0:
             return None
         margin = 4
         return Region(
-            int((column.min() - margin) * _COARSE),
-            int((row.min() - margin) * _COARSE),
-            int((column.max() + 1 + margin) * _COARSE),
-            int((row.max() + 1 + margin) * _COARSE),
+            int((column.min() - margin) * coarse),
+            int((row.min() - margin) * coarse),
+            int((column.max() + 1 + margin) * coarse),
+            int((row.max() + 1 + margin) * coarse),
         ).clipped(color_rgb.shape[1], color_rgb.shape[0])
 
 
-def _by_hue_and_saturation(looks: MarkerAppearance) -> tuple[NDArray[np.uint8], NDArray[np.bool_]]:
+def _by_hue_and_saturation(looks: MarkerAppearance, skin_level: int) -> tuple[NDArray[np.uint8], NDArray[np.bool_]]:
     """For each pair of hue and saturation, read as one number of two bytes: its cell of the coarse histogram, and
     whether it is likelier on skin than on paper."""
     bins = color_histogram.BINS
@@ -177,5 +172,5 @@ def _by_hue_and_saturation(looks: MarkerAppearance) -> tuple[NDArray[np.uint8], 
     number = np.stack(np.broadcast_arrays(level[:, None], level), axis=-1).astype(np.uint8).view(np.uint16)[..., 0]
     cell, is_skin = np.empty(1 << 16, dtype=np.uint8), np.empty(1 << 16, dtype=np.bool_)
     cell[number] = (hue >> 1) * _SIMILARITY_BINS + (saturation >> 1)
-    is_skin[number] = looks.skin_lookup[hue, saturation] >= _SKIN_LEVEL
+    is_skin[number] = looks.skin_lookup[hue, saturation] >= skin_level
     return cell, is_skin

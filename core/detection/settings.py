@@ -2,7 +2,11 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
+
+from carpus.core.detection.stencil import StencilSettings
+from carpus.core.detection.surface_samples import SamplingSettings
+from carpus.core.detection.touching import TouchingSettings
 
 
 @dataclass(frozen=True, slots=True)
@@ -18,7 +22,18 @@ class DetectionSettings:
     ``depth_valid_share``, ``depth_iqr_m``: when a blob's depth is not trusted (reference 7.2);
     ``slope_share``: on a steep surface half a pixel between the two pictures is a depth error of this share of
     the spread of the readings; ``edge_step_m``: a reading this far from the blob's is of another surface, and
-    ``edge_sd_m`` is the depth's sd if all around were.
+    ``edge_sd_m`` is the depth's sd if all around were; ``fewest_readings`` make a depth.
+    ``paper_low``, ``paper_high``: shares of paper in a pixel below and above these count as none and all; symmetric, so
+    an edge's centre stays. With fewer pixels than ``fewest_rim`` in a direction of the rim, or ``fewest_core`` in the
+    core, all of the rim or of the blob is taken.
+
+    Learning the colours: discs are found from clicks within ``click_reach`` radii (about 10 px at 0.7 m), their pixels
+    are paper up to ``paper_reach`` radii, those at the edge more paper than skin; ``learning_rounds`` at most;
+    ``fallback_radius_px`` of a disc where there is no depth.
+    Without a prediction the hand is looked for in a picture ``coarse`` times smaller, as what is of skin's colour from
+    ``skin_level`` on, of paper's from ``paper_level`` (of 255). ``usual_depth_m`` where none is read; however little is
+    known of where a disc is, it is looked for no further away than ``most_unsure_px``.
+    ``stencil`` of the window about a blob, ``touching`` discs, ``sampling`` of depths beside the discs.
     """
 
     marker_radius_m: float = 0.006
@@ -36,3 +51,20 @@ class DetectionSettings:
     edge_step_m: float = 0.015
     edge_sd_m: float = 0.008
     most_blobs: int = 48
+    fewest_readings: int = 3
+    paper_low: float = 0.2
+    paper_high: float = 0.8
+    fewest_rim: float = 3.0
+    fewest_core: float = 4.0
+    click_reach: float = 2.2
+    paper_reach: float = 0.8
+    learning_rounds: int = 3
+    fallback_radius_px: float = 5.0
+    coarse: int = 4
+    skin_level: int = 128
+    paper_level: int = 96
+    usual_depth_m: float = 0.7
+    most_unsure_px: float = 120.0
+    stencil: StencilSettings = field(default_factory=StencilSettings)
+    touching: TouchingSettings = field(default_factory=TouchingSettings)
+    sampling: SamplingSettings = field(default_factory=SamplingSettings)

@@ -15,11 +15,19 @@ from numpy.typing import NDArray
 
 from carpus.core.types import ByteImage, FloatArray
 
-EDGE_REACH_PX = 6
-"""The sensor's matching window reaches this far."""
 WEDGES = 8
-_CORE, _REACH, _RIM_FROM, _RIM_TO = 0.62, 1.35, 1.35, 1.9
-"""Radii, in disc radii: the paper's own colour, what may belong to the disc, what surrounds it."""
+
+
+@dataclass(frozen=True, slots=True)
+class StencilSettings:
+    """Radii, in disc radii: up to ``core`` the paper's own colour, up to ``reach`` what may belong to the disc, from
+    ``rim_from`` to ``rim_to`` what surrounds it. The sensor's matching window reaches as far as ``sensor_px``."""
+
+    core: float = 0.62
+    reach: float = 1.35
+    rim_from: float = 1.35
+    rim_to: float = 1.9
+    sensor_px: int = 6
 
 
 @dataclass(frozen=True, slots=True)
@@ -45,23 +53,28 @@ class Stencil:
     moments: NDArray[np.float32]
 
 
-def stencil_for(radius_px: float) -> Stencil:
+def stencil_for(radius_px: float, settings: StencilSettings) -> Stencil:
     """The stencil of discs of about this radius (to a quarter of a pixel)."""
-    return _stencil(max(4, round(4.0 * radius_px)))
+    return _stencil(max(4, round(4.0 * radius_px)), settings)
 
 
 @lru_cache(maxsize=64)
-def _stencil(quarters: int) -> Stencil:
+def _stencil(quarters: int, settings: StencilSettings) -> Stencil:
     radius = quarters / 4.0
-    half = max(int(np.ceil(_RIM_TO * radius)), EDGE_REACH_PX)
+    half = max(int(np.ceil(settings.rim_to * radius)), settings.sensor_px)
     offset = np.arange(-half, half + 1)
     row, column = (grid.ravel() for grid in np.meshgrid(offset, offset, indexing="ij"))
     distance = np.hypot(row, column)
-    core, reach, rim_from, rim_to = _CORE * radius + 0.25, _REACH * radius + 0.5, _RIM_FROM * radius, _RIM_TO * radius
-    used = distance <= max(reach, rim_to, EDGE_REACH_PX)
+    core, reach, rim_from, rim_to = (
+        settings.core * radius + 0.25,
+        settings.reach * radius + 0.5,
+        settings.rim_from * radius,
+        settings.rim_to * radius,
+    )
+    used = distance <= max(reach, rim_to, settings.sensor_px)
     row, column, distance = row[used], column[used], distance[used]
     # Rings between the limits from the middle outwards, in each of them row by row.
-    ring = sum((distance > limit).astype(np.int64) for limit in (core, reach, rim_to, EDGE_REACH_PX))
+    ring = sum((distance > limit).astype(np.int64) for limit in (core, reach, rim_to, settings.sensor_px))
     order = np.argsort(ring + (distance >= rim_from), kind="stable")
     row, column, distance = row[order], column[order], distance[order]
 
@@ -80,7 +93,7 @@ def _stencil(quarters: int) -> Stencil:
         column,
         first(core),
         distance <= reach,
-        first(max(EDGE_REACH_PX, core)),
+        first(max(settings.sensor_px, core)),
         rim,
         is_seen.astype(np.float32),
         np.arange(row.size) * WEDGES + apart.argmin(axis=0),

@@ -3,24 +3,29 @@
 from __future__ import annotations
 
 import math
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
 from carpus.core.types import FloatArray
 
-_LONG_SIDE = 2.8
-"""A blob's box longer than this many radii is more than one disc facing any way."""
-_LONG_AXIS = 0.72
-"""So is one whose pixels scatter along their main axis by more than this many radii (a disc: one half)."""
-_EDGE_PX = 0.5
-"""By so much a blurred edge widens every disc, large or small."""
-_ROUNDS = 6
-MOST_PARTS = 4
+
+@dataclass(frozen=True, slots=True)
+class TouchingSettings:
+    """A blob's box longer than ``long_side`` radii is more than one disc facing any way; so is one whose pixels scatter
+    along their main axis by more than ``long_axis`` radii (a disc: one half). ``edge_px``: by so much a blurred edge
+    widens every disc, large or small. It is taken apart in ``rounds``; more than ``most_parts`` are none of discs."""
+
+    long_side: float = 2.8
+    long_axis: float = 0.72
+    edge_px: float = 0.5
+    rounds: int = 6
+    most_parts: int = 4
 
 
 def split_touching(
-    labels: NDArray[np.uint16], stats: NDArray[np.int32], radius_px: FloatArray
+    labels: NDArray[np.uint16], stats: NDArray[np.int32], radius_px: FloatArray, settings: TouchingSettings
 ) -> list[tuple[int, NDArray[np.int64], FloatArray]]:
     """Take apart the blobs that are longer than a disc; ``labels`` (H, W) is changed in place.
 
@@ -30,7 +35,7 @@ def split_touching(
     """
     out: list[tuple[int, NDArray[np.int64], FloatArray]] = []
     following = len(stats)
-    is_long = np.maximum(stats[:, 2], stats[:, 3]) > _LONG_SIDE * (radius_px + _EDGE_PX)
+    is_long = np.maximum(stats[:, 2], stats[:, 3]) > settings.long_side * (radius_px + settings.edge_px)
     is_long[0] = False  # the background
     for label in np.flatnonzero(is_long).tolist():
         left, top, width, height, _ = stats[label].tolist()
@@ -39,7 +44,7 @@ def split_touching(
         points = np.empty((row.size, 2))
         np.add(column, left, out=points[:, 0])
         np.add(row, top, out=points[:, 1])
-        parts = _parts(points, float(radius_px[label]))
+        parts = _parts(points, float(radius_px[label]), settings)
         if parts is None:
             continue
         area = np.bincount(parts)
@@ -54,20 +59,20 @@ def split_touching(
     return out
 
 
-def _parts(points: FloatArray, radius_px: float) -> NDArray[np.int64] | None:
+def _parts(points: FloatArray, radius_px: float, settings: TouchingSettings) -> NDArray[np.int64] | None:
     """Part of every pixel (P, 2), or None for a blob that is one disc or much more than a few of them."""
     centre = points.sum(axis=0) / len(points)
     centred = points - centre
     (xx, xy), (_, yy) = (centred.T @ centred / len(points)).tolist()
     half_gap = math.hypot(0.5 * (xx - yy), xy)
-    if math.sqrt(0.5 * (xx + yy) + half_gap) <= _LONG_AXIS * (radius_px + _EDGE_PX):
+    if math.sqrt(0.5 * (xx + yy) + half_gap) <= settings.long_axis * (radius_px + settings.edge_px):
         return None
     tilt = 0.5 * math.atan2(2.0 * xy, xx - yy)
     axis = np.array([math.cos(tilt), math.sin(tilt)])
     along = centred @ axis
     low, high = float(along.min()), float(along.max())
     count = max(2, round((high - low - 2.0 * radius_px) / (2.0 * radius_px)) + 1)
-    if count > MOST_PARTS:
+    if count > settings.most_parts:
         return None
     if count == 2:
         # Two discs: the line between them crosses the main axis in the middle of the blob.
@@ -76,7 +81,7 @@ def _parts(points: FloatArray, radius_px: float) -> NDArray[np.int64] | None:
     middle = (centre + (low + radius_px + gap * np.arange(count))[:, None] * axis).T
     u, v = points.T.copy()
     part: NDArray[np.int64] | None = None
-    for _ in range(_ROUNDS):
+    for _ in range(settings.rounds):
         before, part = part, _nearest(u, v, middle)
         area = np.bincount(part, minlength=count)
         if area.min() == 0:

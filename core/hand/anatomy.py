@@ -19,7 +19,7 @@ from carpus.core.types import FloatArray, Side
 BREADTH_SHARE = 0.45
 """Hand breadth over hand length where only the length is known (reference 3.3)."""
 
-_REFERENCE_LENGTH_M = 0.180
+REFERENCE_LENGTH_M = 0.180
 """Hand length for which the offsets and the arch of the reference are given."""
 
 # Buchholz 1992 (reference 3.3): shares of hand length, the lateral place a share of hand breadth.
@@ -123,7 +123,7 @@ def anatomy_from_size(
     array([0.0805, 0.0201, 0.    ])
     """
     breadth_m = BREADTH_SHARE * hand_length_m if hand_breadth_m is None else hand_breadth_m
-    size = hand_length_m / _REFERENCE_LENGTH_M
+    size = hand_length_m / REFERENCE_LENGTH_M
     discs = np.column_stack((_PALM_X_SHARE * hand_length_m, _PALM_Y_SHARE * breadth_m, arch * size * _ARCH_M))
     discs = discs @ palm_axes(discs, side="right")
     offset_size = size if skin_offsets else 0.0

@@ -56,10 +56,10 @@ AnyTracker = TypeVar("AnyTracker", bound=HandTracker)
 class FrameWalk(Generic[AnyTracker]):
     """Detector and tracker of one calibrated hand; call it with each frame in order."""
 
-    def __init__(self, detector: Detector, tracker: AnyTracker) -> None:
+    def __init__(self, detector: Detector, tracker: AnyTracker, sampling: SamplingSettings) -> None:
         self.detector = detector
         self.tracker = tracker
-        self.sampling = SamplingSettings()
+        self.sampling = sampling
 
     def __call__(self, frame: Frame) -> TrackedFrame:
         """Track one frame. Without a prediction the whole picture is searched."""

@@ -125,10 +125,6 @@ def source_facts(info: SourceInfo) -> dict[str, Any]:
     }
 
 
-DEPTH_RATIO = (0.5, 2.0)
-"""How far the still hand may correct what is said of the depths' noise; a still hand can lock to one step."""
-
-
 def learnt_from(still: StillNoise, neutral_ends_s: float, settings: TrackerSettings) -> Learnt:
     """Noise of one picture and discs' size as the still hand showed them, or the settings' where it could not."""
     noise = settings.noise
@@ -136,7 +132,7 @@ def learnt_from(still: StillNoise, neutral_ends_s: float, settings: TrackerSetti
     if np.isfinite(still.pixel_sd_px):
         pixel_sd_px = float(np.hypot(still.pixel_sd_px, noise.pixel_model_sd_px))
     if np.isfinite(still.depth_ratio):
-        depth_ratio = float(np.clip(still.depth_ratio, *DEPTH_RATIO))
+        depth_ratio = float(np.clip(still.depth_ratio, *noise.depth_ratios))
     radius_m = still.disc_radius_m if np.isfinite(still.disc_radius_m) else settings.marker_radius_m
     return Learnt(pixel_sd_px, depth_ratio, neutral_ends_s, radius_m)
 
@@ -148,7 +144,7 @@ def build_walk(
     calibration = require_calibration(outcome)
     detector = Detector(outcome.appearance, camera, settings.detection)
     tracker = Tracker(calibration, camera, learnt.applied(settings.tracker), keep_history=keep_history)
-    return FrameWalk(detector, tracker)
+    return FrameWalk(detector, tracker, settings.detection.sampling)
 
 
 def _calibrated(calibration: Calibration, camera: Camera, paper: PaperSettings | None) -> Calibration:
@@ -232,7 +228,9 @@ def track_recording(
     learnt = learnt_from(outcome.noise, neutral_ends_s, settings.tracker)
     calibration = _calibrated(calibration, source.info.camera, settings.paper)
     tracker, look_back = _following(calibration, source.info.camera, settings, learnt)
-    walk = FrameWalk(Detector(outcome.appearance, source.info.camera, settings.detection), tracker)
+    walk = FrameWalk(
+        Detector(outcome.appearance, source.info.camera, settings.detection), tracker, settings.detection.sampling
+    )
     ordered = from_neutral(chain(opening, frames), tracker, neutral_ends_s, lambda frame: frame.timestamp_s)
     if recorded is None:
         recorded = recorded_at(source.info, opening[0].timestamp_s, path)

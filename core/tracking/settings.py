@@ -37,7 +37,8 @@ class Profiles:
 class MeasurementNoise:
     """``pixel_sd_px`` of a whole, well lit disc's centre, measured anew on every still hand;
     ``pixel_model_sd_px`` what a still hand does not show (shading, blur, the lens);
-    ``depth_ratio`` of the depths' scatter to that of a reading by the book, likewise measured;
+    ``depth_ratio`` of the depths' scatter to that of a reading by the book, likewise measured, but no further off than
+    ``depth_ratios``, as a still hand can lock to one step;
     ``depth_stays_m``: error of a disc's depth that stays over a recording (the matching window flattens knuckles);
     ``outlier_sd``: a residual beyond this many sds is given the noise it shows, at most ``most_outliers`` in a
     frame; ``adapt_s``: over which time each marker's own noise is judged by its residuals; its variance rises to at
@@ -49,6 +50,7 @@ class MeasurementNoise:
     pixel_sd_px: float = 0.15
     pixel_model_sd_px: float = 0.08
     depth_ratio: float = 1.0
+    depth_ratios: tuple[float, float] = (0.5, 2.0)
     shade_share: float = 0.7
     whole_from: float = 0.6
     outlier_sd: float = 3.5

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from carpus.core.detection.surface_samples import SamplingSettings
 from carpus.core.pipeline.frame_walk import FrameWalk
 from carpus.core.tracking import naming
 from carpus.core.tracking.settings import TrackerSettings
@@ -40,7 +41,7 @@ def test_the_spy_measures_the_parts_of_a_frame_and_leaves_no_trace() -> None:
         def region_about(self, *_: object) -> object:
             return object()
 
-    walk = FrameWalk(Blobs(), Tracker(calibration(), CAMERA, TrackerSettings()))  # type: ignore[arg-type]
+    walk = FrameWalk(Blobs(), Tracker(calibration(), CAMERA, TrackerSettings()), SamplingSettings())  # type: ignore[arg-type]
     true = naming.corrected
     with spied(walk) as spy:
         for index in range(5):

@@ -7,7 +7,7 @@ from itertools import combinations
 import numpy as np
 import pytest
 
-from carpus.core.calibration.finger_order import misnamed
+from carpus.core.calibration.finger_order import FingerOrderSettings, misnamed
 from carpus.core.calibration.plausibility import plan_view
 from carpus.core.hand.anatomy import anatomy_from_size
 from carpus.core.hand.hand21 import HAND21
@@ -18,6 +18,7 @@ from carpus.core.simulation.spec import RecordingSpec
 from carpus.core.simulation.truth import truth_of
 from carpus.core.types import FloatArray, Side
 
+SETTINGS = FingerOrderSettings()
 ROW = HAND21.markers.index
 
 
@@ -46,9 +47,9 @@ def bent_plan(rng: np.random.Generator, side: Side) -> FloatArray:
 @pytest.mark.parametrize("side", ["right", "left"])
 def test_no_hand_is_doubted(side: Side) -> None:
     for seed in range(12):
-        assert misnamed(HAND21, side, seen_plan(seed, side)) is None
+        assert misnamed(HAND21, side, seen_plan(seed, side), SETTINGS) is None
     rng = np.random.default_rng(4)
-    assert [misnamed(HAND21, side, bent_plan(rng, side)) for _ in range(80)] == [None] * 80
+    assert [misnamed(HAND21, side, bent_plan(rng, side), SETTINGS) for _ in range(80)] == [None] * 80
 
 
 def test_any_two_exchanged_names_are_found_and_named() -> None:
@@ -56,7 +57,7 @@ def test_any_two_exchanged_names_are_found_and_named() -> None:
     for pair in list(combinations(range(21), 2))[::3]:
         wrong = plan.copy()
         wrong[list(pair)] = plan[list(pair)[::-1]]
-        found = misnamed(HAND21, "right", wrong)
+        found = misnamed(HAND21, "right", wrong, SETTINGS)
         assert found is not None, pair
         assert set(sum(found.swapped, ())) == {HAND21.markers[i] for i in pair}
 
@@ -70,7 +71,7 @@ def test_the_usual_mistakes_are_named_on_many_hands(pair: tuple[str, str], side:
     for seed in range(4):
         plan = seen_plan(seed, side)
         plan[rows] = plan[rows[::-1]]
-        found = misnamed(HAND21, side, plan)
+        found = misnamed(HAND21, side, plan, SETTINGS)
         assert found is not None
         assert {*found.swapped[0], *found.swapped[1]} == set(pair)
 
@@ -79,7 +80,7 @@ def test_two_whole_fingers_that_stand_in_for_each_other_are_named() -> None:
     plan = seen_plan(1, "right")
     middle, ring = ([ROW(f"{joint}{k}") for joint in ("MCP", "PIP", "DIP", "TIP")] for k in (3, 4))
     plan[middle + ring] = plan[ring + middle]
-    found = misnamed(HAND21, "right", plan)
+    found = misnamed(HAND21, "right", plan, SETTINGS)
     assert found is not None
     assert found.swapped == tuple(tuple(HAND21.markers[i] for i in rows) for rows in (middle, ring))
 
@@ -87,6 +88,6 @@ def test_two_whole_fingers_that_stand_in_for_each_other_are_named() -> None:
 def test_a_name_on_something_that_is_no_disc_of_the_hand_is_named_alone() -> None:
     plan = seen_plan(2, "right")
     plan[ROW("TIP5")] = plan[0] + [0.05, -0.06]  # a blue sleeve
-    found = misnamed(HAND21, "right", plan)
+    found = misnamed(HAND21, "right", plan, SETTINGS)
     assert found is not None
     assert found.alone == "TIP5"

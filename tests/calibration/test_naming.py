@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from carpus.core.calibration.naming import propose_names
+from carpus.core.calibration.naming import NamingSettings, propose_names
 from carpus.core.camera import DEFAULT_CAMERA
 from carpus.core.hand.protocols import HAND21, WRIST6
 from carpus.core.simulation.measurements import measurement_sequence
@@ -14,6 +14,7 @@ from carpus.core.simulation.spec import RecordingSpec
 from carpus.core.types import Detections, FloatArray, Side
 
 IntArray = NDArray[np.int64]
+SETTINGS = NamingSettings()
 SEEDS = range(200, 206)
 
 
@@ -49,7 +50,7 @@ def without(blobs: Detections, gone: IntArray) -> Detections:
 @pytest.mark.parametrize("side", ["right", "left"])
 def test_all_discs_get_their_names_among_false_blobs(side: Side, seed: int) -> None:
     blobs, marker = hand(seed, side, false_blobs=3.0)
-    proposal = propose_names(blobs, DEFAULT_CAMERA, side, HAND21)
+    proposal = propose_names(blobs, DEFAULT_CAMERA, side, HAND21, SETTINGS)
     assert np.array_equal(proposal.blob, blob_of(marker, 21))
     assert proposal.is_sure.sum() >= 20
     assert np.nanmax(proposal.misfit_m) < 0.01
@@ -59,7 +60,7 @@ def test_all_discs_get_their_names_among_false_blobs(side: Side, seed: int) -> N
 def test_a_disc_that_is_not_there_is_not_named_and_the_others_keep_their_names(seed: int) -> None:
     blobs, marker = hand(seed, "right", false_blobs=2.0)
     gone = np.random.default_rng(seed).choice(np.flatnonzero(marker >= 0), 2, replace=False)
-    proposal = propose_names(without(blobs, gone), DEFAULT_CAMERA, "right", HAND21)
+    proposal = propose_names(without(blobs, gone), DEFAULT_CAMERA, "right", HAND21, SETTINGS)
     true = blob_of(np.delete(marker, gone), 21)
     assert np.array_equal(proposal.blob, true)
     assert not proposal.is_complete
@@ -69,24 +70,24 @@ def test_a_disc_that_is_not_there_is_not_named_and_the_others_keep_their_names(s
 @pytest.mark.parametrize("seed", SEEDS)
 def test_the_six_discs_of_the_palm(seed: int) -> None:
     blobs, marker = hand(seed, "left", "wrist6", false_blobs=2.0)
-    proposal = propose_names(blobs, DEFAULT_CAMERA, "left", WRIST6)
+    proposal = propose_names(blobs, DEFAULT_CAMERA, "left", WRIST6, SETTINGS)
     assert np.array_equal(proposal.blob, blob_of(marker, 6))
 
 
 def test_the_other_side_does_not_fit() -> None:
     for seed in SEEDS:
         blobs, _ = hand(seed, "right")
-        assert not propose_names(blobs, DEFAULT_CAMERA, "left", HAND21).is_complete
+        assert not propose_names(blobs, DEFAULT_CAMERA, "left", HAND21, SETTINGS).is_complete
 
 
 def test_names_that_a_person_gave_are_kept() -> None:
     blobs, marker = hand(201, "right")
     true = blob_of(marker, 21)
     given = {row: int(true[row]) for row in (0, 1, 5, 9, 17)}
-    assert np.array_equal(propose_names(blobs, DEFAULT_CAMERA, "right", HAND21, known=given).blob, true)
+    assert np.array_equal(propose_names(blobs, DEFAULT_CAMERA, "right", HAND21, SETTINGS, known=given).blob, true)
     tip, other = HAND21.markers.index("TIP2"), HAND21.markers.index("TIP3")
     turned_round = given | {tip: int(true[other]), other: int(true[tip])}
-    kept = propose_names(blobs, DEFAULT_CAMERA, "right", HAND21, known=turned_round)
+    kept = propose_names(blobs, DEFAULT_CAMERA, "right", HAND21, SETTINGS, known=turned_round)
     assert all(kept.blob[row] == blob for row, blob in turned_round.items())
     assert len(set(kept.blob[kept.blob >= 0])) == np.count_nonzero(kept.blob >= 0)
 
@@ -97,7 +98,7 @@ def test_what_is_no_hand_is_not_named() -> None:
         pixel = rng.uniform((0.0, 0.0), (640.0, 480.0), (count, 2))
         many: FloatArray = np.full(count, 0.7)
         blobs = Detections(pixel, many, 0.001 * many, 80.0 * many, many)
-        proposal = propose_names(blobs, DEFAULT_CAMERA, "right", HAND21)
+        proposal = propose_names(blobs, DEFAULT_CAMERA, "right", HAND21, SETTINGS)
         assert not proposal.is_complete
         assert proposal.is_sure.sum() <= 4
 
@@ -105,4 +106,4 @@ def test_what_is_no_hand_is_not_named() -> None:
 def test_unknown_depths_do_not_matter_much() -> None:
     blobs, marker = hand(203, "left")
     flat = Detections(blobs.pixel, np.full(len(blobs), np.nan), blobs.depth_sd_m, blobs.area_px, blobs.similarity)
-    assert np.array_equal(propose_names(flat, DEFAULT_CAMERA, "left", HAND21).blob, blob_of(marker, 21))
+    assert np.array_equal(propose_names(flat, DEFAULT_CAMERA, "left", HAND21, SETTINGS).blob, blob_of(marker, 21))

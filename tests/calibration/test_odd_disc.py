@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from carpus.core.calibration.calibrate import CalibrationOutcome, calibrate
-from carpus.core.calibration.odd_disc import odd_disc
+from carpus.core.calibration.odd_disc import OddDiscSettings, odd_disc
 from carpus.core.calibration.palm_names import average_palm
 from carpus.core.calibration.settings import CalibrationSettings
 from carpus.core.detection.settings import DetectionSettings
@@ -74,7 +74,7 @@ def test_no_palm_has_this_shape_and_the_disc_at_fault_is_named(side: Side) -> No
         outward = plan[marker] - plan.mean(axis=0)
         plan[marker] -= 0.9 * outward  # pulled into the middle
         plan += rng.normal(0.0, 0.001, plan.shape)
-        odd = odd_disc(side, plan, NO_SPOT)
+        odd = odd_disc(side, plan, NO_SPOT, OddDiscSettings())
         assert odd is not None
         assert (odd.marker, odd.fits) == (marker, False)
 
@@ -85,7 +85,7 @@ def test_hands_and_sticking_differ_without_a_question() -> None:
     for _ in range(300):
         plan = average_palm("right") * rng.uniform(0.92, 1.08, 2)  # slender and broad hands
         plan = plan + rng.normal(0.0, 0.003, plan.shape)
-        asked += odd_disc("right", plan, NO_SPOT) is not None
+        asked += odd_disc("right", plan, NO_SPOT, OddDiscSettings()) is not None
     assert asked <= 3
 
 
@@ -93,4 +93,4 @@ def test_the_discs_of_the_fingers_are_no_spare_spots_of_the_palm() -> None:
     palm = average_palm("right")
     along = (palm[2:6] - palm[0]) / np.linalg.norm(palm[2:6] - palm[0], axis=1)[:, None]
     fingers = np.concatenate([palm[2:6] + reach * along for reach in (0.045, 0.07, 0.09)])
-    assert odd_disc("right", palm, fingers) is None
+    assert odd_disc("right", palm, fingers, OddDiscSettings()) is None

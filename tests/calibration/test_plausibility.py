@@ -5,13 +5,14 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from carpus.core.calibration.plausibility import looks_like_other_side, plan_view
+from carpus.core.calibration.plausibility import SideSettings, looks_like_other_side, plan_view
 from carpus.core.hand.protocols import HAND21, WRIST6
 from carpus.core.simulation.scene import Scene
 from carpus.core.simulation.spec import RecordingSpec
 from carpus.core.simulation.truth import truth_of
 from carpus.core.types import FloatArray, Side
 
+SETTINGS = SideSettings()
 PROTOCOLS = {"wrist6": WRIST6, "hand21": HAND21}
 
 
@@ -26,7 +27,7 @@ def seen_plan(seed: int, side: Side, protocol: str) -> FloatArray:
 def test_patients_hands_are_not_doubted(protocol: str, side: Side) -> None:
     for seed in range(12):
         plan = seen_plan(seed, side, protocol)
-        assert not looks_like_other_side(PROTOCOLS[protocol], side, plan)
+        assert not looks_like_other_side(PROTOCOLS[protocol], side, plan, SETTINGS)
 
 
 @pytest.mark.parametrize("protocol", PROTOCOLS)
@@ -34,11 +35,11 @@ def test_patients_hands_are_not_doubted(protocol: str, side: Side) -> None:
 def test_the_other_side_is_seen(protocol: str, side: Side) -> None:
     claimed: Side = "left" if side == "right" else "right"
     for seed in range(12):
-        assert looks_like_other_side(PROTOCOLS[protocol], claimed, seen_plan(seed, side, protocol))
+        assert looks_like_other_side(PROTOCOLS[protocol], claimed, seen_plan(seed, side, protocol), SETTINGS)
 
 
 def test_turn_size_and_place_of_the_hand_do_not_matter() -> None:
     plan = seen_plan(0, "right", "wrist6")
     turn = np.array([[0.0, -1.0], [1.0, 0.0]])
-    assert not looks_like_other_side(WRIST6, "right", 0.7 * plan @ turn.T - 0.1)
-    assert looks_like_other_side(WRIST6, "left", 0.7 * plan @ turn.T - 0.1)
+    assert not looks_like_other_side(WRIST6, "right", 0.7 * plan @ turn.T - 0.1, SETTINGS)
+    assert looks_like_other_side(WRIST6, "left", 0.7 * plan @ turn.T - 0.1, SETTINGS)

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from carpus.core.calibration.calibrate import calibrate
-from carpus.core.calibration.registration import depth_offset_px
+from carpus.core.calibration.registration import RegistrationSettings, depth_offset_px
 from carpus.core.calibration.settings import CalibrationSettings
 from carpus.core.detection.appearance import learn_appearance
 from carpus.core.detection.settings import DetectionSettings
@@ -23,7 +23,7 @@ SEEDS = (1, 2, 5, 11)
 def offset_px(pictures: SimulatedPictures, frame: Frame) -> float:
     clicks = clicks_of(pictures.truth)
     looks, centre = learn_appearance(frame, clicks.pixel, pictures.truth.camera, DETECTION)
-    return depth_offset_px(frame, looks, centre[np.isfinite(centre[:, 0])])
+    return depth_offset_px(frame, looks, centre[np.isfinite(centre[:, 0])], RegistrationSettings())
 
 
 def moved(frame: Frame, columns: int, rows: int) -> Frame:

@@ -24,6 +24,7 @@ from carpus.core.capture.oni_source import OniSource
 from carpus.core.capture.paced import PacedSource
 from carpus.core.capture.raw import RawWriter
 from carpus.core.capture.source import FrameSource, SourceInfo
+from carpus.core.detection.surface_samples import SamplingSettings
 from carpus.core.pipeline.frame_walk import FrameWalk
 from carpus.core.pipeline.live import LiveSession
 from carpus.core.pipeline.looking_back import LookingBack
@@ -96,7 +97,8 @@ def main() -> None:
     looker = None if told.oni else LookingBack(TrackedHand(calibration(), CAMERA, TrackerSettings()))
     walk: Callable[[Frame], TrackedFrame] = tracked
     if looker is not None:
-        live_walk = LiveWalk(FrameWalk(Blobs(), Tracker(calibration(), CAMERA, TrackerSettings())), 10.0)  # type: ignore[arg-type]
+        walk = FrameWalk(Blobs(), Tracker(calibration(), CAMERA, TrackerSettings()), SamplingSettings())  # type: ignore[arg-type]
+        live_walk = LiveWalk(walk, 10.0)
         live_walk.keep = looker.take
         walk = live_walk
 

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from carpus.core import so3
-from carpus.core.hand.back_surface import BackSurface, back_surface_from
+from carpus.core.hand.back_surface import BackSurface, BackSurfaceSettings, back_surface_from
 from carpus.core.tracking.palm_state import POSITION, SIZE, PalmBelief
 from carpus.core.tracking.palm_view import View
 from carpus.core.tracking.surface_fit import SurfaceSettings, surface_measurement
@@ -43,7 +43,7 @@ def surface() -> BackSurface:
     points = np.stack((x.ravel(), y.ravel(), height_m(x, y).ravel()), axis=1)
     corner = RIGHT_PALM_M[:4].copy()
     corner[:, 2] = height_m(corner[:, 0], corner[:, 1])
-    found = back_surface_from(points, corner)
+    found = back_surface_from(points, corner, BackSurfaceSettings())
     assert found is not None
     return found
 
@@ -116,6 +116,6 @@ def test_a_covered_hand_is_not_asked(surface: BackSurface) -> None:
 
 
 def test_too_little_of_the_back_is_no_surface() -> None:
-    assert back_surface_from(np.empty((0, 3)), RIGHT_PALM_M[:4]) is None
+    assert back_surface_from(np.empty((0, 3)), RIGHT_PALM_M[:4], BackSurfaceSettings()) is None
     lonely = np.column_stack((np.linspace(0.0, 0.08, 40), np.zeros(40), np.zeros(40)))
-    assert back_surface_from(lonely, RIGHT_PALM_M[:4]) is None
+    assert back_surface_from(lonely, RIGHT_PALM_M[:4], BackSurfaceSettings()) is None
