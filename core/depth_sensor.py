@@ -38,17 +38,22 @@ class NoiseLaw:
         out = self.square_per_m * depth_m**2
         return np.asarray(out + self.fixed_m if self.fixed_m else out)
 
+    def times(self, factor: float) -> NoiseLaw:
+        """This law, all of it so many times as large."""
+        return NoiseLaw(self.fixed_m * factor, self.square_per_m * factor)
+
 
 @dataclass(frozen=True, slots=True)
 class DepthSensor:
     """How depth came to be.
 
-    ``reading``: noise of one reading. ``stays``: the part of it that stays as long as the surface stays: no averaging
-    over time removes it. ``patch_px``: readings within a square so wide are as one; readings of further ones average
-    where ``averages``. ``edge``: what becomes of readings about an edge (``torn`` in flecks, ``fattened`` by the
-    matching window, ``flying`` between both surfaces), ``edge_px`` how far about it. Readings are none below
-    ``nearest_m`` and above ``farthest_m``. ``registration``: who lays depth on colour. Of a pair of eyes ``baseline_m``
-    and ``focal_px`` of the depth picture, 0 for time of flight. ``origin``: ``stated`` by the source, or ``assumed``.
+    ``reading``: noise of one reading. ``stays``: error that stays as long as the surface stays, of it or beside it: no
+    averaging over time removes it. ``patch_px``: readings within a square so wide are as one; those of several such
+    squares average where ``averages``. ``edge``: what becomes of readings about an edge (``torn`` in flecks,
+    ``fattened`` by the matching window, ``flying`` between both surfaces), ``edge_px`` how far about it.
+    There are no readings below ``nearest_m`` and above ``farthest_m``. ``registration``: who lays depth on colour. Of a
+    pair of eyes ``baseline_m`` and ``focal_px`` of the depth picture, 0 for time of flight. ``origin``: ``stated`` by
+    the source, or ``assumed``.
     """
 
     name: str
@@ -91,15 +96,11 @@ class DepthSensor:
         if not self.focal_px:
             return self
         ratio = self.focal_px / focal_px
-        return replace(self, reading=_scaled(self.reading, ratio), stays=_scaled(self.stays, ratio), focal_px=focal_px)
+        return replace(self, reading=self.reading.times(ratio), stays=self.stays.times(ratio), focal_px=focal_px)
 
     def as_mapping(self) -> dict[str, Any]:
         """All of it in plain values, as files carry it."""
         return asdict(self)
-
-
-def _scaled(law: NoiseLaw, ratio: float) -> NoiseLaw:
-    return NoiseLaw(law.fixed_m * ratio, law.square_per_m * ratio)
 
 
 def sensor_of(said: object) -> DepthSensor:
@@ -154,7 +155,7 @@ def _stereo(name: str, baseline_m: float, focal_px: float, nearest_m: float, far
     lie on the surface, the larger part) and what changes from picture to picture.
     """
     law = NoiseLaw(square_per_m=_SUBPIXEL_PX / (focal_px * baseline_m))
-    stays = NoiseLaw(square_per_m=_SUBPIXEL_STAYS_PX / (focal_px * baseline_m))
+    stays = NoiseLaw(_WINDOW_M, _SUBPIXEL_STAYS_PX / (focal_px * baseline_m))
     return DepthSensor(
         name, "active stereo", law, stays, 11.0, True, "fattened", 6, nearest_m, farthest_m, "library",
         baseline_m=baseline_m, focal_px=focal_px,
@@ -162,6 +163,8 @@ def _stereo(name: str, baseline_m: float, focal_px: float, nearest_m: float, far
 
 
 _SUBPIXEL_PX, _SUBPIXEL_STAYS_PX = 0.08, 0.06
+_WINDOW_M = 0.0005
+"""What the wide matching window takes off the height of knuckles, besides."""
 
 PRIMESENSE = DepthSensor(
     "PrimeSense",
@@ -192,7 +195,7 @@ AZURE_KINECT = DepthSensor(
     "Azure Kinect",
     "time of flight",
     NoiseLaw(fixed_m=0.5e-3, square_per_m=0.5e-3),
-    NoiseLaw(fixed_m=0.5e-3, square_per_m=0.2e-3),
+    NoiseLaw(fixed_m=0.9e-3, square_per_m=0.1e-3),
     2.0,
     True,
     "flying",

@@ -21,7 +21,7 @@ def test_the_laws_are_those_of_their_sources() -> None:
     assert float(AZURE_KINECT.reading_sd_m(np.array(1.0))) == pytest.approx(1e-3)
     halved = D435.with_focal(212.0)
     assert halved.reading_sd_m(Z_M) == pytest.approx(2.0 * D435.reading_sd_m(Z_M))
-    assert halved.stays_sd_m(Z_M) == pytest.approx(2.0 * D435.stays_sd_m(Z_M))
+    assert halved.stays.square_per_m == pytest.approx(2.0 * D435.stays.square_per_m)
 
 
 def test_neighbours_average_only_where_they_are_independent() -> None:

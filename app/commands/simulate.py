@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from carpus.app.commands.progress import bar
+from carpus.core.depth_sensor import SENSORS
 from carpus.core.hand.protocols import protocol_names
 from carpus.core.simulation.motions import MOTIONS
 from carpus.core.simulation.spec import HABITS, WORN, RecordingSpec
@@ -55,6 +56,7 @@ _OPTIONS: tuple[tuple[str, dict[str, Any]], ...] = (
     ("hidden-share", {"type": float, "help": "share of the time each disc is covered"}),
     ("dropped-share", {"type": float, "help": "share of the frames that is missing"}),
     ("click-error-px", {"type": float}),
+    ("sensor", {"choices": tuple(SENSORS), "help": "whose depth it is"}),
     ("depth-scale-error", {"type": float, "help": "largest scale error of the depth"}),
 )
 _SWITCHES = {

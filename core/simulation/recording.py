@@ -22,9 +22,10 @@ from carpus.core.capture.camera_info import CAMERA_FILE, write_camera_info
 from carpus.core.capture.tum import COLOR_LIST, DEPTH_LIST, DEPTH_UNIT_M, SIMULATED_REMARK
 from carpus.core.durable import write_fault
 from carpus.core.errors import OutputExists, OutputNotWritable
+from carpus.core.simulation.depth_kinds import depth_pictures
 from carpus.core.simulation.render import CleanPicture, Renderer
 from carpus.core.simulation.scene import Scene
-from carpus.core.simulation.sensor import ColorSensor, DepthSensor
+from carpus.core.simulation.sensor import ColorSensor
 from carpus.core.simulation.spec import RecordingSpec, Stream
 from carpus.core.simulation.trouble import FrameTimes, covered_discs, frame_times
 from carpus.core.simulation.truth import RECORDING_EPOCH_S, Truth, truth_of
@@ -60,9 +61,8 @@ class SimulatedPictures:
         self.times: FrameTimes = frame_times(spec)
         self.truth: Truth = truth_of(self.scene, self.times)
         self._renderer = Renderer(self.scene)
-        camera = self.scene.camera
         self._color_sensor = ColorSensor(spec, self._renderer.looks)
-        self._depth_sensor = DepthSensor(spec, (camera.height_px, camera.width_px))
+        self._depth_sensor = depth_pictures(spec, self.scene.camera)
         self._covered = covered_discs(spec, self.times.color_s)
 
     def __len__(self) -> int:
@@ -89,7 +89,7 @@ class SimulatedPictures:
 
     def sensed(self, i: int, clean: CleanPicture) -> tuple[ByteImage, DepthImage]:
         """What the camera makes of a clean picture."""
-        return self._color_sensor.expose(clean.color, i), self._depth_sensor.measure(clean.depth_m, i)
+        return self._color_sensor.expose(clean.color, i), self._depth_sensor.measure(clean.depth_m, i, clean.color)
 
     def frames(self) -> Iterator[Frame]:
         """Frames in order, as a source would give them."""

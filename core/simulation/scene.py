@@ -9,6 +9,7 @@ import cv2
 import numpy as np
 
 from carpus.core.camera import Camera
+from carpus.core.depth_sensor import SENSORS
 from carpus.core.hand.clinical_angles import rotation_from_angles, side_sign
 from carpus.core.hand.kinematics import SegmentFrames, disc_centres, joint_centres, segment_frames
 from carpus.core.hand.sites import PALM_SITES
@@ -67,7 +68,7 @@ class Scene:
         focal_px = 525.0 * rng.uniform(0.98, 1.02)
         self.camera = Camera(
             focal_px, focal_px * rng.uniform(0.998, 1.002), 319.5 + rng.uniform(-5, 5), 239.5 + rng.uniform(-5, 5),
-            origin="file",
+            origin="file", sensor=SENSORS[spec.sensor],
         )  # fmt: skip
         self.table_height_m = self._lowest_m() - _LOWEST_GAP_M
         self.rotation_w0_cam = self._orientation(rng)

@@ -100,61 +100,67 @@ class DepthSensor:
         self._noisy = spec.sensor_noise
         self._scale = depth_scale(spec)
         self._shape = shape
-        self._fixed = np.float32(_FIXED_STEPS * DISPARITY_STEP_PX) * self._window_noise(rng)
+        self._fixed = np.float32(_FIXED_STEPS * DISPARITY_STEP_PX) * window_noise(rng, self._shape, _WINDOW_PX)
         self._shadow_side = 1 if rng.random() < 0.5 else -1
 
-    def measure(self, depth_m: FloatImage, frame: int) -> DepthImage:
+    def measure(self, depth_m: FloatImage, frame: int, color: FloatImage | None = None) -> DepthImage:
         """(H, W) true metres to counts of 1/5000 m, 0 where there is no reading.
 
-        The noise depends on seed and frame number alone."""
+        The noise depends on seed and frame number alone; the light in ``color`` plays no part."""
         if not self._noisy:
-            return _counts(depth_m)
+            return counts(depth_m)
         rng = np.random.default_rng([self._seed, Stream.DEPTH_NOISE, frame])
         disparity = np.float32(DISPARITY_PX_M) / depth_m
         window = np.ones((5, 5), np.uint8)
         spread = cv2.dilate(disparity, window) - cv2.erode(disparity, window)
         at_edge = spread > _EDGE_DISPARITY_PX
         smooth = cv2.blur(disparity, (7, 7))
-        wobble = [np.float32(_EDGE_JITTER_PX) * self._edge_noise(rng) for _ in range(2)]
+        wobble = [np.float32(_EDGE_JITTER_PX) * flecks(rng, self._shape) for _ in range(2)]
         v, u = np.indices(self._shape, dtype=np.float32)
         torn = cv2.remap(disparity, u + wobble[0], v + wobble[1], cv2.INTER_NEAREST, borderMode=cv2.BORDER_REPLICATE)
         wide = cv2.dilate(at_edge.astype(np.uint8), np.ones((3, 3), np.uint8)).astype(bool)
         mixed = cv2.blur(disparity, (3, 3))
-        chance = self._edge_noise(rng)
+        chance = flecks(rng, self._shape)
         seen = np.where(wide, np.where(chance > 0.9, mixed, torn), smooth)
-        seen = seen + self._fixed + np.float32(_TEMPORAL_STEPS * DISPARITY_STEP_PX) * self._window_noise(rng)
+        wobble_px = np.float32(_TEMPORAL_STEPS * DISPARITY_STEP_PX) * window_noise(rng, self._shape, _WINDOW_PX)
+        seen = seen + self._fixed + wobble_px
         seen = np.round(seen / np.float32(DISPARITY_STEP_PX)) * np.float32(DISPARITY_STEP_PX)
         depth = np.float32(DISPARITY_PX_M * self._scale) / np.maximum(seen, 1.0)
-        lost = at_edge & (self._edge_noise(rng) > 0.35)
-        lost |= self._in_shadow(disparity)
+        lost = at_edge & (flecks(rng, self._shape) > 0.35)
+        lost |= in_shadow(disparity, self._shadow_side)
         lost |= (depth < _NEAREST_M) | (depth > _FARTHEST_M)
         lost |= rng.random(self._shape, dtype=np.float32) < 2e-4
         # The sensor itself speaks in whole millimetres.
         depth = np.round(depth * 1000.0) / 1000.0
-        return np.where(lost, np.uint16(0), _counts(depth))
-
-    def _window_noise(self, rng: np.random.Generator) -> FloatImage:
-        """Noise (H, W) of standard deviation 1, correlated over the matching window."""
-        white = rng.standard_normal(self._shape, dtype=np.float32)
-        return np.asarray(cv2.blur(white, (_WINDOW_PX, _WINDOW_PX)) * np.float32(_WINDOW_PX))
-
-    def _edge_noise(self, rng: np.random.Generator) -> FloatImage:
-        """Noise (H, W) of standard deviation about 1, in flecks of some pixels."""
-        height, width = self._shape
-        coarse = rng.standard_normal((height // 4 + 1, width // 4 + 1), dtype=np.float32)
-        return np.asarray(1.4 * cv2.resize(coarse, (width, height), interpolation=cv2.INTER_LINEAR), dtype=np.float32)
-
-    def _in_shadow(self, disparity: FloatImage) -> NDArray[np.bool_]:
-        """Pixels that the projector, beside the camera, cannot light past a nearer surface."""
-        column = np.arange(self._shape[1], dtype=np.float32)[None]
-        if self._shadow_side > 0:
-            lit = column + disparity
-            reached = np.maximum.accumulate(lit, axis=1)
-            return np.asarray(reached > lit + 1.5)
-        lit = column - disparity
-        reached = np.minimum.accumulate(lit[:, ::-1], axis=1)[:, ::-1]
-        return np.asarray(reached < lit - 1.5)
+        return np.where(lost, np.uint16(0), counts(depth))
 
 
-def _counts(depth_m: FloatImage) -> DepthImage:
+def window_noise(rng: np.random.Generator, shape: tuple[int, int], width_px: int) -> FloatImage:
+    """Noise (H, W) of standard deviation 1, correlated over a matching window."""
+    white = rng.standard_normal(shape, dtype=np.float32)
+    return np.asarray(cv2.blur(white, (width_px, width_px)) * np.float32(width_px))
+
+
+def flecks(rng: np.random.Generator, shape: tuple[int, int]) -> FloatImage:
+    """Noise (H, W) of standard deviation about 1, in flecks of some pixels."""
+    height, width = shape
+    coarse = rng.standard_normal((height // 4 + 1, width // 4 + 1), dtype=np.float32)
+    return np.asarray(1.4 * cv2.resize(coarse, (width, height), interpolation=cv2.INTER_LINEAR), dtype=np.float32)
+
+
+def in_shadow(disparity: FloatImage, side: int) -> NDArray[np.bool_]:
+    """Pixels that a second eye or a projector, beside the camera on ``side`` (1 or -1), cannot reach past a nearer
+    surface; ``disparity`` (H, W) in pixels of this picture."""
+    column = np.arange(disparity.shape[1], dtype=np.float32)[None]
+    if side > 0:
+        lit = column + disparity
+        reached = np.maximum.accumulate(lit, axis=1)
+        return np.asarray(reached > lit + 1.5)
+    lit = column - disparity
+    reached = np.minimum.accumulate(lit[:, ::-1], axis=1)[:, ::-1]
+    return np.asarray(reached < lit - 1.5)
+
+
+def counts(depth_m: FloatImage) -> DepthImage:
+    """Metres (H, W) in counts of 1/5000 m."""
     return np.clip(np.round(depth_m * _DEPTH_COUNTS_PER_M), 0.0, 65535.0).astype(np.uint16)

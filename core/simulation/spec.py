@@ -12,6 +12,7 @@ from typing import Any, Literal
 
 import numpy as np
 
+from carpus.core.depth_sensor import SENSORS
 from carpus.core.errors import SettingsInvalid
 from carpus.core.hand.marker_protocol import MarkerProtocol
 from carpus.core.hand.protocols import protocol_named
@@ -99,9 +100,10 @@ class RecordingSpec:
     Trouble: ``false_blobs`` mean number in each frame; ``hidden_share`` of the time each disc is covered, for
     ``hidden_mean_s`` on average; ``dropped_share`` of the frames. ``click_error_px`` standard deviation per axis.
 
-    Sensor: ``depth_scale_error`` largest scale error of the unit (the seed draws it between minus and plus this);
-    ``depth_delay_s`` of the depth picture after the colour picture; ``exposure_s`` blurs moving things over that
-    time, 0 not at all; ``sensor_noise=False`` gives clean pictures for tests.
+    Sensor: ``sensor`` a name of :data:`core.depth_sensor.SENSORS`; ``depth_scale_error`` largest scale error of the
+    unit (the seed draws it between minus and plus this); ``depth_delay_s`` of the depth picture after the colour
+    picture; ``exposure_s`` blurs moving things over that time, 0 not at all; ``sensor_noise=False`` gives clean
+    pictures for tests.
     """
 
     seed: int = 0
@@ -144,6 +146,7 @@ class RecordingSpec:
     depth_delay_s: float = 0.004
     exposure_s: float = 0.008
     sensor_noise: bool = True
+    sensor: str = "primesense"
 
     def __post_init__(self) -> None:
         protocol_named(self.protocol)
@@ -153,6 +156,8 @@ class RecordingSpec:
                 raise SettingsInvalid("simulation", f"{name} = {value}, from {low:g} to {high:g}")
         if self.hand not in ("right", "left"):
             raise SettingsInvalid("simulation", f"hand = {self.hand}")
+        if self.sensor not in SENSORS:
+            raise SettingsInvalid("simulation", f"sensor = {self.sensor} ({', '.join(SENSORS)})")
         if self.anatomy not in ("usual", "wide"):
             raise SettingsInvalid("simulation", f"anatomy = {self.anatomy}")
         for name, given, known in (("habit", self.habits, HABITS), ("worn", self.things_worn, WORN)):
@@ -180,7 +185,10 @@ class RecordingSpec:
 
     def to_json(self) -> str:
         """All options, as stored beside a recording."""
-        return json.dumps(dataclasses.asdict(self), sort_keys=True)
+        told = dataclasses.asdict(self)
+        if self.sensor == "primesense":  # as before there were others, so that what was rendered is found again
+            del told["sensor"]
+        return json.dumps(told, sort_keys=True)
 
     @staticmethod
     def from_json(text: str) -> RecordingSpec:

@@ -16,6 +16,7 @@ from tests.accuracy.hand21 import ROWS, HandScenario
 from tests.accuracy.jobs import all_runs, jobs_for
 from tests.accuracy.robustness import robustness_verdicts
 from tests.accuracy.scenarios import GROUPS, Scenario
+from tests.accuracy.sensors import SENSOR_HAND, SENSOR_WRIST
 from tests.accuracy.soft import SOFT_HAND, SOFT_WRIST
 from tests.accuracy.table import markdown, read_rows, rows_of, terminal
 from tests.accuracy.targets import verdicts
@@ -23,8 +24,8 @@ from tests.accuracy.targets import verdicts
 _Row = TypeVar("_Row", Scenario, HandScenario)
 
 QUICK_SEEDS = 3
-WRIST_ROWS: Mapping[str, tuple[Scenario, ...]] = {**GROUPS, "soft": SOFT_WRIST}
-HAND_ROWS: Mapping[str, tuple[HandScenario, ...]] = {"hand": ROWS, "soft": SOFT_HAND}
+WRIST_ROWS: Mapping[str, tuple[Scenario, ...]] = {**GROUPS, "soft": SOFT_WRIST, "sensors": SENSOR_WRIST}
+HAND_ROWS: Mapping[str, tuple[HandScenario, ...]] = {"hand": ROWS, "soft": SOFT_HAND, "sensors": SENSOR_HAND}
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
@@ -79,7 +80,7 @@ def _wrist_report(
     rows = list(rows_of(runs, scenarios))
     form, read_form = (markdown, readings_table.markdown) if as_markdown else (terminal, readings_table.terminal)
     lines = [form(rows), "", read_form(read_rows(rows))]
-    promised = [row for row in scenarios if row not in SOFT_WRIST]
+    promised = [row for row in scenarios if row not in (*SOFT_WRIST, *SENSOR_WRIST)]
     names = {row.name for row in promised}
     kept = [run for run in runs if run.scenario in names]
     lines += ["", "Synthetic: simulated hands before a simulated camera. What was promised:"] if kept else []

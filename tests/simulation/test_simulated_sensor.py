@@ -2,15 +2,23 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 import numpy as np
 import pytest
 
-from carpus.core.simulation.recording import SimulatedPictures
+from carpus.core.capture.tum import TumFolder
+from carpus.core.depth_sensor import D455
+from carpus.core.session.reader import read_session
+from carpus.core.simulation.depth_kinds import depth_pictures
+from carpus.core.simulation.recording import SimulatedPictures, simulate
+from carpus.core.simulation.scene import Scene
 from carpus.core.simulation.sensor import DepthSensor
 from carpus.core.simulation.spec import RecordingSpec
 
 SHAPE = (480, 640)
 UNIT_M = 1.0 / 5000.0
+WHOLE_MM_M = 1e-3 / np.sqrt(12.0)
 
 
 def slope(z_m: float) -> np.ndarray:
@@ -36,6 +44,67 @@ def test_depth_noise_is_that_of_the_reference(z_m: float) -> None:
     # A part of the error stays from frame to frame.
     fixed = np.nanmean(error, axis=0)
     assert np.nanstd(fixed) > 1.3 * sigma / np.sqrt(12)
+
+
+@pytest.mark.parametrize("name", ["d415", "d435", "d455", "azure"])
+@pytest.mark.parametrize("z_m", [0.6, 1.0])
+def test_other_sensors_scatter_by_their_own_law(name: str, z_m: float) -> None:
+    """On a wall: what changes from picture to picture, what stays, and how far neighbours are one reading."""
+    spec = RecordingSpec(seed=1, depth_scale_error=0.0, sensor=name)
+    camera = Scene(spec).camera
+    sensor, wall, count = depth_pictures(spec, camera), slope(z_m), 8
+    stack = np.stack([sensor.measure(wall, i) * UNIT_M for i in range(count)])
+    error = np.where(stack > 0.0, stack - wall, np.nan)
+    stays = np.nanmean(error, axis=0)
+    passing = error - stays
+    passing_m = float(np.nanstd(passing)) * np.sqrt(count / (count - 1))
+    said_m, said_stays_m = (float(of(np.array(z_m))) for of in (camera.sensor.reading_sd_m, camera.sensor.stays_sd_m))
+    is_stereo = camera.sensor.kind == "active stereo"
+    said_stays_m -= camera.sensor.stays.fixed_m if is_stereo else 0.0  # a wall has no knuckles
+    in_one = said_stays_m**2 if is_stereo else 0.0
+    assert passing_m == pytest.approx(np.sqrt(said_m**2 - in_one + WHOLE_MM_M**2), rel=0.1)
+    assert np.sqrt(np.nanvar(stays) - passing_m**2 / count) == pytest.approx(said_stays_m, rel=0.15)
+    assert np.isnan(error).mean() < 0.002
+    one, apart = np.nan_to_num(passing[0]), round(camera.sensor.patch_px)
+    variance = (one * one).mean()
+    assert (one[:, : -apart // 2] * one[:, -(-apart // 2) :]).mean() > 0.2 * variance
+    assert abs((one[:, : -3 * apart] * one[:, 3 * apart :]).mean()) < 0.1 * variance
+
+
+def test_edges_are_thick_for_two_eyes_and_fly_for_time_of_flight() -> None:
+    depth = np.full(SHAPE, 0.80, dtype=np.float32)
+    depth[100:380, 200:400] = 0.70
+    found = {}
+    for name in ("d435", "azure"):
+        spec = RecordingSpec(seed=3, depth_scale_error=0.0, sensor=name)
+        raw = depth_pictures(spec, Scene(spec).camera).measure(depth, 0)[150:330] * UNIT_M
+        found[name] = raw
+        holes = (raw == 0.0).mean(axis=0)
+        assert holes[212:388].max() < 0.1
+        assert holes[:180].max() < 0.1
+        assert holes[420:].max() < 0.1
+        left, right = holes[185:205].sum(), holes[395:415].sum()
+        assert max(left, right) > max(1.0, 2.0 * min(left, right))  # one side is seen by one eye alone
+    beside = np.c_[found["d435"][:, 198:200], found["d435"][:, 400:402]]
+    assert ((beside > 0.68) & (beside < 0.72)).mean() > 0.2  # the front's depth on what lies behind
+    assert (np.abs(found["azure"] - 0.75) < 0.03).any(axis=1).mean() > 0.5  # between both surfaces
+    assert not (np.abs(found["d435"] - 0.75) < 0.03).any(axis=1).mean() > 0.5
+
+
+def test_dark_things_are_noisier_to_time_of_flight() -> None:
+    spec = RecordingSpec(seed=5, depth_scale_error=0.0, sensor="azure")
+    sensor, wall = depth_pictures(spec, Scene(spec).camera), slope(0.7)
+    light = np.full((*SHAPE, 3), 0.4, dtype=np.float32)
+    light[:, :320] = 0.1
+    for brightness in (1.0, 0.2):  # of the room, which does not count
+        noise = np.abs(sensor.measure(wall, 0, light * np.float32(brightness)) - 1.0 * sensor.measure(wall, 1))
+        assert noise[:, :320].clip(max=50.0).mean() > 1.3 * noise[:, 320:].clip(max=50.0).mean()
+
+
+def test_the_written_recording_says_its_sensor(tmp_path: Path) -> None:
+    simulate(RecordingSpec(seed=1, seconds=0.05, sensor="d455"), tmp_path / "r")
+    assert TumFolder(tmp_path / "r").info.sensor == D455
+    assert read_session(tmp_path / "r" / "truth.h5").camera.sensor == D455
 
 
 def test_depth_comes_in_steps_of_an_eighth_of_a_pixel() -> None:
