@@ -26,7 +26,7 @@ NO_CHOICE = {
         "tracking/reacquire._LOOSE_M2",
         "tracking/shape_learning._FLOOR_M",
         "tracking/tracker._NEAREST_M",
-        "tracking/tracker._NO_NOISE",
+        "tracking/surface_fit._NO_NOISE",
     },
     "mathematics": {
         "tracking/finger_naming._LOG_2_PI",

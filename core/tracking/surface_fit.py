@@ -13,13 +13,14 @@ import numpy as np
 
 from carpus.core import so3
 from carpus.core.hand.back_surface import BackSurface
-from carpus.core.tracking.kernel import Line
+from carpus.core.tracking.kernel import Bank, Line, corrected
 from carpus.core.tracking.palm_state import POSITION, RELIEF, SIZE, TURN, PalmBelief
 from carpus.core.tracking.palm_view import View
 from carpus.core.types import FloatArray, SurfaceSamples
 
 _KEPT = np.array([0, 1, 5])
 """Turn about X and Y and shift along Z among turn and shift."""
+_NO_NOISE = np.full((1, 3), 1e-12)
 
 
 @dataclass(frozen=True, slots=True)
@@ -113,6 +114,16 @@ def surface_measurement(
     out[:, RELIEF] = np.eye(3)
     value = by_shift @ shifted + by_turn @ turned
     return SurfaceMeasurement(value, np.asarray(covariance, dtype=np.float64), out, count)
+
+
+def levelled_bank(
+    bank: Bank, found: SurfaceMeasurement, shares: tuple[FloatArray, FloatArray], settings: SurfaceSettings
+) -> Bank | None:
+    """The palm's modes corrected by what the surface says, numbers taking their ``shares``; None where it is so far
+    from what was believed that it is another surface."""
+    # Its noise has no scale of its own: the covariance is that of the line.
+    update = corrected(bank, found.line(), found.value[None], _NO_NOISE, shares=shares)
+    return None if float(update.nis[0]) > settings.most_nis else update.bank
 
 
 def _turns_and_shifts(place: FloatArray, plane: FloatArray) -> FloatArray:

@@ -26,7 +26,7 @@ from carpus.core.tracking.finger_model import seat_of
 from carpus.core.tracking.finger_smoother import FingersLookedBack, FingerStart, FingerStep, smoothed_fingers
 from carpus.core.tracking.fingers import Fingers, FingerTrial
 from carpus.core.tracking.geometry import palm_of
-from carpus.core.tracking.kernel import Bank, carried, corrected, mixed, switching
+from carpus.core.tracking.kernel import Bank, carried, mixed, switching
 from carpus.core.tracking.motion import PalmMotion, mode_scale, palm_step, slowing, slowing_unseen, unseen_turns
 from carpus.core.tracking.naming import Corrected, Measurable, measurable, name_and_correct
 from carpus.core.tracking.noise_watch import watched
@@ -39,11 +39,10 @@ from carpus.core.tracking.said_spots import NoDisc, RecentSpots
 from carpus.core.tracking.settings import TrackerSettings
 from carpus.core.tracking.shape_learning import hidden_by_calibration, shape_covariance, shape_shares
 from carpus.core.tracking.soft_tissue import settled_covariance
-from carpus.core.tracking.surface_fit import surface_measurement
+from carpus.core.tracking.surface_fit import levelled_bank, surface_measurement
 from carpus.core.types import Detections, FloatArray, Moment, TrackedFrame, TrackStatus
 
 _SAME_AXIS = np.eye(2)
-_NO_NOISE = np.full((1, 3), 1e-12)
 _NEAREST_M = 0.1
 """No camera sees a hand nearer: keeps the size of a disc finite."""
 BACK_DISCS, KNUCKLES = np.arange(4), slice(2, 6)
@@ -574,14 +573,10 @@ class Tracker:
         """The palm corrected by the surface of the back of the hand; None where that says nothing."""
         if self._surface is None or picture.ideal.surface is None:
             return None
-        found = surface_measurement(belief, picture.ideal.surface, self._surface, self.view, self.settings.surface)
-        if found is None:
-            return None
-        # Its noise has no scale of its own: the covariance is that of the line.
-        update = corrected(bank, found.line(), found.value[None], _NO_NOISE, shares=self._shares)
-        if float(update.nis[0]) > self.settings.surface.most_nis:
-            return None
-        return recentred(belief, update.bank)
+        own = self.settings.surface
+        found = surface_measurement(belief, picture.ideal.surface, self._surface, self.view, own)
+        levelled = None if found is None else levelled_bank(bank, found, self._shares, own)
+        return None if levelled is None else recentred(belief, levelled)
 
     def _with_fingers(self, palm: Expectation, ahead: Forecast, timestamp_s: float, fingers: Fingers) -> Expectation:
         dt_s = 0.0 if self._time_s is None else timestamp_s - self._time_s

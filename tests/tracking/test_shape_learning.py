@@ -2,16 +2,18 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
 from carpus.core.tracking.palm_state import SHAPE, SIZE, PalmBelief
 from carpus.core.tracking.palm_view import sight
 from carpus.core.tracking.settings import TrackerSettings
-from carpus.core.tracking.shape_learning import along_rays, hidden_by_calibration, shape_shares
+from carpus.core.tracking.shape_learning import along_rays, hidden_by_calibration, shape_covariance, shape_shares
 from carpus.core.tracking.tracker import Tracker
 from carpus.core.tracking.unscented import Spread
-from tests.tracking.hands import CAMERA, FROM_ABOVE, MIDDLE_M, RIGHT_PALM_M, calibration
+from tests.tracking.hands import CAMERA, DT_S, FROM_ABOVE, MIDDLE_M, RIGHT_PALM_M, Pose, blobs, calibration
 
 
 @pytest.mark.parametrize("news", [0.1, 1.0])
@@ -50,3 +52,30 @@ def test_calibration_hides_its_share_of_a_depth_that_stays_wrong(share: float) -
     change = seen[0] - seen[1]
     assert change[:, 2] == pytest.approx([0.0, 0.0, 0.0, (1.0 - share) * 0.001, 0.0, 0.0], abs=1e-9)
     assert np.array_equal(hidden_by_calibration(calibration(), share), tracker.view.hidden)
+
+
+def test_a_calibrated_place_is_as_sure_as_it_was_measured_and_less_along_its_ray() -> None:
+    measured, stays_m = calibration(sd_m=4e-4), 3e-4
+    found = shape_covariance(measured, stays_m)
+    for disc, place in enumerate(RIGHT_PALM_M @ FROM_ABOVE.T + MIDDLE_M):
+        own = slice(3 * disc, 3 * disc + 3)
+        ray = FROM_ABOVE.T @ (place / np.linalg.norm(place))
+        along = stays_m * np.linalg.norm(place) / place[2]
+        assert ray @ found[own, own] @ ray == pytest.approx(4e-4**2 + along**2, rel=1e-2)
+        across = np.cross(ray, [1.0, 0.0, 0.0])
+        assert across @ found[own, own] @ across / (across @ across) == pytest.approx(4e-4**2, rel=1e-2)
+        assert not np.delete(found[own], np.arange(own.start, own.stop), axis=1).any()
+
+
+def test_depths_that_stay_wrong_keep_the_angles_of_a_turned_hand_from_being_surer() -> None:
+    """The axes of the hand are those of its discs: as sure as their heights are, seen from elsewhere."""
+    stated = []
+    for stays_m in (0.0, TrackerSettings().noise.depth_stays_m, 1e-3):
+        noise = replace(TrackerSettings().noise, depth_stays_m=stays_m)
+        tracker = Tracker(calibration(sd_m=5e-5), CAMERA, TrackerSettings(noise=noise, use_surface=False))
+        for k in range(16):
+            pose = Pose(np.array([3.0, 2.0, 2.0]) * min(k, 10))
+            frame = tracker.step(k, k * DT_S, blobs(pose))
+        stated.append(np.degrees(frame.moment.angles_sd_rad))
+    assert (stated[1] > 1.01 * stated[0]).any(), "the shipped size of it counts"
+    assert (stated[2] > 1.2 * stated[1]).any()

@@ -2,15 +2,19 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import cv2
 import numpy as np
 import pytest
 
 from carpus.core import so3
 from carpus.core.hand.back_surface import BackSurface, BackSurfaceSettings, back_surface_from
-from carpus.core.tracking.palm_state import POSITION, SIZE, PalmBelief
+from carpus.core.tracking.kernel import Bank
+from carpus.core.tracking.palm_state import POSITION, SIZE, TURN, PalmBelief
 from carpus.core.tracking.palm_view import View
-from carpus.core.tracking.surface_fit import SurfaceSettings, surface_measurement
+from carpus.core.tracking.shape_learning import shape_shares
+from carpus.core.tracking.surface_fit import SurfaceSettings, levelled_bank, surface_measurement
 from carpus.core.types import FloatArray, SurfaceSamples
 from tests.tracking.hands import CAMERA, FROM_ABOVE, MIDDLE_M, RIGHT_PALM_M
 
@@ -113,6 +117,26 @@ def test_a_covered_hand_is_not_asked(surface: BackSurface) -> None:
     assert surface_measurement(here, covered, surface, VIEW, SurfaceSettings()) is None
     nothing = SurfaceSamples(np.empty((0, 2)), np.empty(0))
     assert surface_measurement(here, nothing, surface, VIEW, SurfaceSettings()) is None
+
+
+@pytest.mark.parametrize(("off_sd", "heard"), [(1.0, True), (5.5, True), (7.0, False), (20.0, False)])
+def test_a_surface_far_from_what_was_believed_is_another(surface: BackSurface, off_sd: float, heard: bool) -> None:
+    """Tilted by so many standard deviations of what was expected; the limit of 40 for the squares lies at 6.3."""
+    settings, here = SurfaceSettings(), belief_at(np.eye(3), np.zeros(3))
+    found = surface_measurement(here, thinned(place_on(np.eye(3), np.zeros(3))), surface, VIEW, settings)
+    assert found is not None
+    covariance = 1e-12 * np.eye(SIZE)
+    covariance[TURN, TURN] = 0.01**2 * np.eye(3)
+    expected = np.linalg.inv(found.slope @ covariance @ found.slope.T + found.covariance)
+    tilt = np.array([0.0, off_sd / np.sqrt(expected[1, 1]), 0.0])
+    bank = Bank.alike(np.zeros((1, SIZE)), covariance[None], 2)
+    levelled = levelled_bank(bank, replace(found, value=tilt), shape_shares(0.1), settings)
+    assert (levelled is not None) == heard
+    if levelled is not None:
+        gain = covariance @ found.slope.T @ expected
+        assert levelled.merged()[0][0, TURN] == pytest.approx((gain @ tilt)[TURN], rel=1e-4)
+        left = covariance - gain @ found.slope @ covariance
+        assert np.allclose(levelled.covariance[0, :, TURN, TURN], left[TURN, TURN], atol=1e-9)
 
 
 def test_too_little_of_the_back_is_no_surface() -> None:
