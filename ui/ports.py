@@ -10,6 +10,7 @@ from dataclasses import dataclass, field
 from datetime import datetime
 from typing import Literal, Protocol
 
+from carpus.core.by_hand.values import HandValue
 from carpus.core.calibration.result import Calibration, Clicks, Finding, Verdict
 from carpus.core.camera import Camera
 from carpus.core.hand.marker_protocol import MarkerProtocol
@@ -368,6 +369,10 @@ class SessionStore(Protocol):
 
     def history(self, patient_id: str) -> Sequence[SessionFigures]:
         """Figures of all of a patient's sessions, choices applied, in no particular order."""
+        ...
+
+    def by_hand(self, patient_id: str) -> Sequence[HandValue]:
+        """Everything that was ever measured by hand of a patient, in the order in which it was entered."""
         ...
 
 

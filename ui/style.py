@@ -11,18 +11,19 @@ from carpus.ui.fonts import font
 from carpus.ui.theme import Theme
 
 _SHEET = """
-QLineEdit, QPlainTextEdit, QSpinBox, QDoubleSpinBox, QComboBox, QKeySequenceEdit {{
+QLineEdit, QPlainTextEdit, QSpinBox, QDoubleSpinBox, QDateEdit, QComboBox, QKeySequenceEdit {{
   background: {surface}; color: {text}; border: 1px solid {border}; border-radius: 8px; padding: 0 {pad}px;
   selection-background-color: {accent}; selection-color: {on_accent}; min-height: {field}px;
   placeholder-text-color: {text2}; }}
 QPlainTextEdit {{ padding: 8px; }}
-QLineEdit:focus, QPlainTextEdit:focus, QSpinBox:focus, QDoubleSpinBox:focus {{
+QLineEdit:focus, QPlainTextEdit:focus, QSpinBox:focus, QDoubleSpinBox:focus, QDateEdit:focus {{
   border: 2px solid {accent}; padding: 0 {pad_focus}px; }}
 QPlainTextEdit:focus {{ padding: 7px; }}
 QComboBox {{ font-weight: 500; padding-right: 28px; }}
 QComboBox:hover {{ background: {canvas}; }}
-QComboBox::drop-down {{ border: 0; width: 28px; }}
-QComboBox::down-arrow {{ image: url({chevron}); width: 16px; height: 16px; }}
+QDateEdit {{ padding-right: 28px; }}
+QComboBox::drop-down, QDateEdit::drop-down {{ border: 0; width: 28px; subcontrol-position: center right; }}
+QComboBox::down-arrow, QDateEdit::down-arrow {{ image: url({chevron}); width: 16px; height: 16px; }}
 QComboBox QAbstractItemView {{ background: {surface}; color: {text}; border: 1px solid {border}; outline: 0;
   selection-background-color: {soft}; selection-color: {text}; padding: 4px; }}
 QComboBox QAbstractItemView::item {{ min-height: {row}px; padding: 0 8px; }}

@@ -11,7 +11,7 @@ from PySide6.QtCore import QObject
 
 from carpus.app.desktop.now_open import NowOpen
 from carpus.app.desktop.phrases import shortened
-from carpus.app.desktop.places import STEPS, TABS, Place
+from carpus.app.desktop.places import STEPS, TABS, UNDER_TABS, Place
 from carpus.core.calibration.result import Finding
 from carpus.core.output.report_content import SessionFigures
 from carpus.core.pipeline.live_values import LiveCounters
@@ -66,9 +66,9 @@ class Bar(QObject):
         if place in STEPS and place != "live":
             names = [self.tr("Exercise"), self.tr("Camera"), self.tr("Markers"), self.tr("Measure")]
             bar.show_steps(names, STEPS.index(place))
-        elif place in TABS or place == "agreement":
+        elif place in TABS or place in UNDER_TABS:
             names = [self.tr("Sessions"), self.tr("Review"), self.tr("Progress"), self.tr("Report")]
-            bar.show_tabs(names, TABS.index("review" if place == "agreement" else place))
+            bar.show_tabs(names, TABS.index(UNDER_TABS.get(place, place)))
         else:
             bar.show_nothing()
         if place != "live":

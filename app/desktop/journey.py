@@ -15,6 +15,7 @@ from PySide6.QtCore import QObject, Qt, Signal
 from PySide6.QtWidgets import QWidget
 
 from carpus.app.desktop.bar import Bar
+from carpus.app.desktop.by_hand import ByHand
 from carpus.app.desktop.camera_watch import CameraWatch
 from carpus.app.desktop.comparing import Comparing
 from carpus.app.desktop.correcting import Correcting, Moments
@@ -39,6 +40,7 @@ from carpus.core.library.library import Library, Recovered
 from carpus.core.library.set_up import PRACTICE_PATIENT, SetUp
 from carpus.ui.agreement.screen import AgreementScreen
 from carpus.ui.background import Background
+from carpus.ui.by_hand.screen import ByHandScreen
 from carpus.ui.correct.results_sheet import ResultsSheet
 from carpus.ui.correct.screen import CorrectScreen
 from carpus.ui.help.screen import HelpScreen
@@ -116,6 +118,7 @@ class Journey(QObject):
         self.review = ReviewScreen(theme, keys, background, library)
         self.sessions = SessionsScreen(theme, background, StoredSessions(library))
         self.progress = ProgressScreen(theme, keys, background, library)
+        self.by_hand = ByHandScreen(theme, self._parts.today)
         self.report = ReportScreen(theme, keys, background)
         self.agreement = AgreementScreen(theme, keys)
         self.retest = RetestScreen(theme, keys)
@@ -142,6 +145,10 @@ class Journey(QObject):
         self.printing = Printing(
             self._shell, self.report, self.way, tell, now, library, places, self.background,
             theme=theme, therapist=lambda: self.settings.report.therapist,
+        )  # fmt: skip
+        self.entering_by_hand = ByHand(
+            self, self.by_hand, self.way, tell, now, library, self.background,
+            initials=lambda: self.settings.report.therapist, back=self._to_progress,
         )  # fmt: skip
         self.comparing = Comparing(
             self._shell, self.agreement, self.way, tell, now, library, places,
@@ -174,6 +181,7 @@ class Journey(QObject):
         put("sessions", Stop(self.sessions, self.sessions.first, self._to_patient))
         put("review", Stop(self.review, first(self.review), self._to_patient, self.review.end))
         put("progress", Stop(self.progress, first(self.progress), self._to_session))
+        put("by_hand", Stop(self.by_hand, self.by_hand.first, self.entering_by_hand.leave))
         put("report", Stop(self.report, lambda: self.report.save_button, self._to_session))
         put("correct", Stop(self.correct, first(self.correct), self._to_session, while_aside=True))
         put(
@@ -228,7 +236,9 @@ class Journey(QObject):
         self.review.again.connect(self._another_set)
         self.review.arrived.connect(self.bar.show)
         self.progress.report.connect(
-            lambda figures: self.printing.course(figures, self.progress.followed.currentData())
+            lambda figures: self.printing.course(
+                figures, self.progress.followed.currentData(), self.progress.progress.by_hand
+            )
         )
         self.review.correct.connect(self.correcting.show)
         self.review.result.connect(self.viewing.open_review)
@@ -238,6 +248,7 @@ class Journey(QObject):
         self.correcting.used.connect(self._result_used)
         self.sessions.changed.connect(self.correcting.look_for_waiting)
         self.progress.table_wanted.connect(self.printing.table)
+        self.progress.by_hand_wanted.connect(self.entering_by_hand.show)
 
     # --- where one is -------------------------------------------------------------------------------------
     @property
@@ -292,6 +303,12 @@ class Journey(QObject):
     def _to_session(self) -> None:
         if self.now.session_id:
             self.viewing.open_review(self.now.session_id)
+        else:
+            self._to_patient()
+
+    def _to_progress(self) -> None:
+        if self.now.patient is not None:
+            self.viewing.open_progress(self.now.patient.patient_id)
         else:
             self._to_patient()
 

@@ -16,6 +16,8 @@ from carpus import __version__
 from carpus.app.desktop.last_places import LastPlaces
 from carpus.app.desktop.now_open import NowOpen
 from carpus.app.desktop.ways import Tell, Way
+from carpus.core.by_hand.measures import measure_named
+from carpus.core.by_hand.values import HandValue
 from carpus.core.errors import OutputNotWritable
 from carpus.core.output.report_content import Progress, RepetitionChoices, SessionFigures
 from carpus.core.session.values import Session
@@ -37,6 +39,8 @@ class Printable(Protocol):
     def choices(self, session_id: str) -> RepetitionChoices: ...
 
     def history(self, patient_id: str) -> Sequence[SessionFigures]: ...
+
+    def by_hand(self, patient_id: str) -> Sequence[HandValue]: ...
 
     def export(
         self,
@@ -99,6 +103,7 @@ class Printing(QObject):
                 pseudonym=row.pseudonym,
                 dominance=row.dominance,
                 therapist=self._therapist(),
+                by_hand=stored.by_hand(row.patient_id),
             )
 
         def show(report: SessionReport) -> None:
@@ -108,8 +113,9 @@ class Printing(QObject):
 
         self._background.run(gather, show, self._tell.fault)
 
-    def course(self, sessions: Sequence[SessionFigures], followed: object) -> None:
-        """Make the report over sessions and show it; ``followed`` is what of the whole hand is on the screen."""
+    def course(self, sessions: Sequence[SessionFigures], followed: object, by_hand: Sequence[HandValue] = ()) -> None:
+        """Make the report over sessions and show it; ``followed`` is what of the whole hand is on the screen,
+        ``by_hand`` what counts of what was measured by hand."""
         row = self._now.patient
         if sessions and row is not None:
             self._shown = [one.session_id for one in sessions]
@@ -119,6 +125,7 @@ class Printing(QObject):
                 therapist=self._therapist(),
                 what=followed if isinstance(followed, str) else None,
                 software_version=__version__,
+                by_hand=by_hand,
             )
             self._screen.begin(report, self._places.folder("reports"))
             self._way.go("report")
@@ -162,7 +169,7 @@ class Printing(QObject):
         if path:
             self._places.keep("exports", str(Path(path).parent))
             self._background.run(
-                lambda: write_table(Path(path), progress),
+                lambda: write_tables(Path(path), progress),
                 lambda _: self._table_written(path, [point.figures.session_id for point in progress.points]),
                 self._tell.fault,
             )
@@ -228,6 +235,29 @@ def write_table(path: Path, progress: Progress) -> None:
                     values = [_decimal(value) for value in (row.mean_deg, row.sd_deg, row.best_deg)]
                     reasons, limited = " ".join(point.reasons), "yes" if row.limited else ""
                     table.writerow([*facts, row.movement, *values, row.count, reasons, row.joint, limited])
+    except OSError as cause:
+        raise OutputNotWritable(path, cause.strerror or "") from cause
+
+
+def write_tables(path: Path, progress: Progress) -> None:
+    """The table of the sessions; what was measured by hand goes into one of its own beside it."""
+    write_table(path, progress)
+    if progress.by_hand:
+        write_by_hand(path.with_name(f"{path.stem}-by-hand{path.suffix}"), progress.by_hand)
+
+
+def write_by_hand(path: Path, values: Sequence[HandValue]) -> None:
+    """One line for each value that counts, as it was entered by hand: every try, and their mean in the unit named."""
+    head = ["day", "hand", "measure", "way", "unit", "value", "tries", "where", "by", "entered"]
+    try:
+        with path.open("w", newline="", encoding="utf-8") as file:
+            table = csv.writer(file)
+            table.writerow(head)
+            for one in values:
+                tries = " ".join(f"{number:g}" for number in one.tries)
+                entered = one.entered.isoformat() if one.entered else ""
+                facts = (one.day.isoformat(), one.side, one.measure, one.way, measure_named(one.measure).unit)
+                table.writerow([*facts, f"{one.value:g}", tries, plain_cell(one.where), plain_cell(one.by), entered])
     except OSError as cause:
         raise OutputNotWritable(path, cause.strerror or "") from cause
 

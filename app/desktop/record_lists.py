@@ -144,6 +144,7 @@ class RecordLists(QObject):
             "backup_compared": self.tr("back-up compared"), "restored": self.tr("restored"),
             "locked": self.tr("locked"), "unlocked": self.tr("unlocked"), "pin_refused": self.tr("PIN refused"),
             "pin_changed": self.tr("PIN changed"), "read_log": self.tr("log read"),
+            "entered_by_hand": self.tr("values by hand entered"),
             "encrypted": self.tr("encryption switched on"), "decrypted": self.tr("encryption switched off"),
         }  # fmt: skip
         return words.get(did, did)

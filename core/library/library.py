@@ -17,6 +17,7 @@ from typing import Any
 import numpy as np
 
 from carpus.core.agreement.limits_file import read_limits
+from carpus.core.by_hand.values import HandValue
 from carpus.core.calibration.result import ALL_STRAIGHT
 from carpus.core.capture.picture_file import read_color
 from carpus.core.capture.raw import SUFFIX as RAW_SUFFIX
@@ -231,6 +232,17 @@ class Library:
         """Every session file of a patient, also the earlier results of a recording that was tracked again."""
         register, key = self.of(patient_id)
         return register.sessions(key)
+
+    def by_hand(self, patient_id: str) -> Sequence[HandValue]:
+        """Everything that was ever measured by hand of a patient, in the order in which it was entered."""
+        register, key = self.of(patient_id)
+        return register.by_hand(key)
+
+    def enter_by_hand(self, patient_id: str, values: Sequence[HandValue]) -> None:
+        """Keep what was measured by hand; what was entered before for the same stays readable."""
+        register, key = self.of(patient_id)
+        register.enter_by_hand(key, values)
+        self.note_patient("entered_by_hand", patient_id, values=len(values))
 
     def sessions_alike(self, patient_id: str, set_up: SetUp) -> Sequence[SessionEntry]:
         """Those with the discs of a set-up on the same hand, newest first."""

@@ -14,6 +14,7 @@ from typing import Literal
 
 import numpy as np
 
+from carpus.core.by_hand.values import HandValue
 from carpus.core.calibration.result import Finding
 from carpus.core.hand.sites import WRIST_ANGLES
 from carpus.core.measures.change import ARC_LIMIT_FACTOR, TOTAL_ACTIVE_MOTION, MeasuredMean, Obstacle, change_between
@@ -308,6 +309,8 @@ class Progress:
     other_hand: SessionFigures | None
     keys: tuple[RowKey, ...] = ()
     replaced: tuple[SessionFigures, ...] = ()
+    by_hand: tuple[HandValue, ...] = ()
+    """What counts of what was measured by hand, of this hand and of the person, by day; beside ours, never in it."""
 
     @property
     def earlier_results(self) -> int:

@@ -38,7 +38,7 @@ Deed = Literal[
     "opened", "recorded", "added", "changed", "exported", "reported", "set_aside", "taken_back", "moved", "renamed",
     "tracked_again", "recovered", "archived", "brought_back", "erase_begun", "erased", "backed_up", "backup_compared",
     "restored", "locked", "unlocked", "pin_refused", "pin_changed", "read_log", "encrypted",
-    "decrypted",
+    "decrypted", "entered_by_hand",
 ]  # fmt: skip
 Kind = Literal["session", "patient", "everything", "program"]
 By = Literal["window", "command"]

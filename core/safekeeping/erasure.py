@@ -15,6 +15,7 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
+from carpus.core.by_hand import kept as by_hand
 from carpus.core.errors import ErasureUnfinished
 from carpus.core.safekeeping.audit import AuditLog, Kind
 from carpus.core.session import made_files, out_of_sight, seen_files
@@ -158,6 +159,7 @@ def _delete_rows(database: sqlite3.Connection, session_ids: Iterable[str], patie
     database.executemany("DELETE FROM session WHERE id = ?", [(one,) for one in session_ids])
     if patient_id:
         database.execute("DELETE FROM session WHERE patient_id = ?", (patient_id,))
+        by_hand.forget(database, patient_id)
         database.execute("DELETE FROM patient WHERE id = ?", (patient_id,))
 
 

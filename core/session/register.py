@@ -18,6 +18,8 @@ from typing import Any, Literal, Self
 
 import platformdirs
 
+from carpus.core.by_hand import kept as by_hand
+from carpus.core.by_hand.values import HandValue
 from carpus.core.errors import CarpusFault, PseudonymTaken, SessionUnreadable
 from carpus.core.session import made_files, out_of_sight, seen_files
 from carpus.core.session.database import Database, make_private
@@ -71,6 +73,7 @@ MIGRATIONS = (
     # Every session is read once more, so that what was simulated is known.
     "ALTER TABLE session ADD COLUMN simulated INTEGER NOT NULL DEFAULT 0; DELETE FROM seen",
     made_files.MIGRATION + out_of_sight.MIGRATION,
+    by_hand.MIGRATION,
 )
 """One script for each version of the register, in order; ``PRAGMA user_version`` counts those that ran."""
 
@@ -83,6 +86,7 @@ TABLES = {
     "made": made_files.COLUMNS,
     "archived": "identity, since",
     "erasing": "path",
+    "by_hand": by_hand.COLUMNS,
 }
 """What every register has; one without it is damaged."""
 
@@ -251,6 +255,18 @@ class PatientRegister:
             if changed.rowcount == 0:
                 raise KeyError(patient_id)
         self.database.leave_no_trace()  # of a name that was taken away
+
+    def enter_by_hand(self, patient_id: str, values: Iterable[HandValue]) -> None:
+        """Add what was measured by hand; raises KeyError for a patient who is not in the register."""
+        with self.database.transaction() as database:
+            if database.execute("SELECT 1 FROM patient WHERE id = ?", (patient_id,)).fetchone() is None:
+                raise KeyError(patient_id)
+            by_hand.enter(database, patient_id, values)
+
+    def by_hand(self, patient_id: str) -> list[HandValue]:
+        """Everything that was ever measured by hand of a patient, in the order in which it was entered."""
+        with self.database.transaction() as database:
+            return by_hand.entries_of(database, patient_id)
 
     def sessions(self, patient_id: str, *, archived: bool = False) -> list[SessionEntry]:
         """The patient's sessions, newest first, every result of a recording (:func:`newest_results`); without those in

@@ -17,6 +17,7 @@ from carpus.core.agreement.restated import Restated
 from carpus.core.agreement.retest import Retest, StudyFigures
 from carpus.core.agreement.retest_plan import Mounting, Person, RetestPlan
 from carpus.core.agreement.statistics import agreement
+from carpus.core.by_hand.values import HandValue
 from carpus.core.calibration.result import Calibration, Clicks, Finding, Verdict
 from carpus.core.camera import Camera
 from carpus.core.hand.sites import WRIST_ANGLES, joint_angle_names
@@ -525,6 +526,8 @@ class FakePhrasebook:
 class FakeSessions:
     """Seven sessions of Linden 42 that get better, and one of the other hand."""
 
+    hand_values: Sequence[HandValue] = ()
+
     def __init__(self, pictures: bool = True) -> None:
         days = (49, 42, 35, 28, 21, 7, 0)
         scales = (0.62, 0.66, 0.72, 0.80, 0.86, 0.97, 1.0)
@@ -573,6 +576,28 @@ class FakeSessions:
 
     def history(self, patient_id: str) -> list[SessionFigures]:
         return [session_figures(stored, self.choices(key)) for key, stored in self.sessions.items()]
+
+    def by_hand(self, patient_id: str) -> list[HandValue]:
+        return list(self.hand_values)
+
+
+def hand_values() -> list[HandValue]:
+    """What somebody measured by hand on three days, in the order in which it was entered."""
+    found = []
+    for day, (flexion, passive, grip, score) in {
+        date(2026, 10, 2): (25.0, 40.0, (9.0, 10.0, 9.5), 71.0),
+        date(2026, 11, 13): (45.0, 56.0, (15.0, 16.0, 15.5), 52.0),
+        date(2026, 11, 20): (47.0, 58.0, (18.0, 19.0, 17.0), 46.5),
+    }.items():
+        found += [
+            HandValue("FLEXION", "active", "right", day, (flexion,), by="MK"),
+            HandValue("FLEXION", "passive", "right", day, (passive,), by="MK"),
+            HandValue("GRIP", "", "right", day, grip, by="MK"),
+            HandValue("PRWE", "", "", day, (score,), by="MK"),
+        ]
+    other = HandValue("GRIP", "", "left", date(2026, 10, 2), (34.0, 33.0, 35.0), by="MK")
+    size = HandValue("WRIST_ROUND", "", "right", date(2026, 11, 13), (17.6,), "over both styloids", "MK")
+    return [*found, other, size]
 
 
 class FakeShelf:

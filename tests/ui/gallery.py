@@ -31,6 +31,7 @@ from carpus.core.words import finding_words
 from carpus.ui.agreement.reference_sheet import ColumnsSheet, ReferenceSheet
 from carpus.ui.agreement.screen import AgreementScreen
 from carpus.ui.background import Background
+from carpus.ui.by_hand.screen import ByHandScreen, HandRecord
 from carpus.ui.controls.sheet import Sheet
 from carpus.ui.correct.results_sheet import BothResults, ResultsSheet
 from carpus.ui.correct.screen import CorrectScreen
@@ -76,6 +77,7 @@ from tests.ui.fakes import (
     FakeShelf,
     FakeStore,
     compared,
+    hand_values,
     picture,
     restated_statements,
     retest_plan,
@@ -632,6 +634,31 @@ class Gallery:
         screen.begin("linden", "session-7")
         self.settle()
 
+    def progress_by_hand(self) -> None:
+        self.place(tab=2, camera="")
+        store = FakeSessions()
+        store.hand_values = hand_values()
+        screen = ProgressScreen(self.theme, self.keys, self.background, store)
+        self.show(screen)
+        screen.begin("linden", "session-7")
+        self.settle()
+
+    def by_hand(self) -> None:
+        self.place(tab=2, camera="")
+        screen = ByHandScreen(self.theme, date(2026, 11, 20))
+        self.show(screen)
+        figures = sorted(self.sessions.history("linden"), key=lambda one: one.when)
+        screen.show_record(HandRecord("Linden 42", "right", tuple(hand_values()), tuple(figures), "MK"))
+        self.settle()
+
+    def by_hand_empty(self) -> None:
+        self.place(tab=2, camera="")
+        screen = ByHandScreen(self.theme, date(2026, 11, 20))
+        self.show(screen)
+        screen.show_record(HandRecord("Linden 42", "left", (), (), ""))
+        screen.form.rows["FLEXION"].fields[1][1].setText("170")
+        self.settle()
+
     def progress_hand(self) -> None:
         self.place(tab=2, camera="")
         screen = ProgressScreen(self.theme, self.keys, self.background, FakeHandSessions())
@@ -846,7 +873,8 @@ class Gallery:
             "correct", "correct_spots", "agreement", "agreement_curves", "agreement_goniometer", "agreement_hand",
             "agreement_running", "agreement_reference", "agreement_columns", "retest", "retest_empty", "retest_people",
             "correct_exchanged", "correct_results", "correct_results_hand", "correct_running",
-            "progress", "progress_hand", "report", "report_hand", "report_progress",
+            "progress", "progress_by_hand", "progress_hand", "by_hand", "by_hand_empty", "report", "report_hand",
+            "report_progress",
             "settings", "settings_safe", "locked", "pin_change", "records_due", "records_log", "help",
             "patients_welcome", "patients_welcome_good", "patients_guided", "camera_guided",
             "markers_guided", "markers_ready_guided", "live_guided", "live_hand_guided", "review_guided",

@@ -11,6 +11,7 @@ from pathlib import Path
 
 import numpy as np
 
+from carpus.core.by_hand.values import HandValue
 from carpus.core.hand.hand21 import HAND21
 from carpus.core.hand.sites import joint_angle_names
 from carpus.core.output.report_content import RepetitionChoices, SessionFigures, session_figures
@@ -162,6 +163,9 @@ class FakeHandSessions:
 
     def history(self, patient_id: str) -> list[SessionFigures]:
         return [session_figures(stored, self.choices(key)) for key, stored in self.sessions.items()]
+
+    def by_hand(self, patient_id: str) -> list[HandValue]:
+        return []
 
     def export(self, session_id: str, folder: str) -> list[str]:
         return []

@@ -10,6 +10,8 @@ import numpy as np
 from PySide6.QtCore import QPointF, QRectF, Qt
 from PySide6.QtGui import QFontMetricsF, QPainter, QPen, QPolygonF
 
+from carpus.core.by_hand.measures import measure_named
+from carpus.core.by_hand.values import HandValue
 from carpus.core.output.exercises import Movement
 from carpus.core.output.joint_content import USUAL_TOTAL_DEG
 from carpus.core.output.range_rows import RangeRow, RowKey, is_total
@@ -18,6 +20,7 @@ from carpus.ui import numbers, terms
 from carpus.ui.figures import figure_of
 from carpus.ui.fonts import SEMIBOLD, font
 from carpus.ui.plot.axes import Panel, Scale
+from carpus.ui.plot.by_hand import Squares, noon_s, paint_square
 from carpus.ui.plot.marks import Across, EndLabels, Level, Mark, Scales
 from carpus.ui.plot.polygon import polygon
 from carpus.ui.plot.style import CURVE_TOKENS, PlotStyle
@@ -73,8 +76,14 @@ def scale_of(progress: Progress, key: RowKey) -> Scale:
 def extent_s(progress: Progress) -> tuple[float, float]:
     """Ends of the time axis, to scale, with room beside the first and the last session."""
     times = [point.figures.when.timestamp() for point in progress.points]
+    times = sorted([*times, *(noon_s(one.day) for key in panels_of(progress) for one in by_hand_of(progress, key))])
     pad = PAD_SHARE * (times[-1] - times[0]) if len(times) > 1 and times[-1] > times[0] else ALONE_S / 2
     return times[0] - pad, times[-1] + pad
+
+
+def by_hand_of(progress: Progress, key: RowKey) -> list[HandValue]:
+    """What was measured by hand of the same, moved by the patient."""
+    return [one for one in progress.by_hand if one.way == "active" and measure_named(one.measure).figure == key]
 
 
 def place_panels(
@@ -247,7 +256,7 @@ def paint_behind(
         painter.setFont(font(style.end_label.pixelSize() * 1.25, SEMIBOLD, display=False))
         painter.setPen(style.color("text"))
         painter.drawText(QPointF(panel.box.left(), panel.box.top() - 9 * unit), name_of(progress, key))
-        for mark in still(progress, key):
+        for mark in (*still(progress, key), Squares(by_hand_of(progress, key))):
             mark.paint(painter, style, panel)
         if panel.box.left() not in dates:
             dates.add(panel.box.left())
@@ -293,6 +302,8 @@ def _key_lines(style: PlotStyle, box: QRectF, progress: Progress) -> list[list[t
     """What the signs mean, sign and words, in as many lines as it needs."""
     entries = [("dot", tr("mean, ± sd between repetitions")), ("ring", tr("other set-up: not compared"))]
     entries += [("arrow", tr("at least: hidden in part"))] if progress.keys else []
+    if any(by_hand_of(progress, key) for key in panels_of(progress)):
+        entries.append(("square", tr("by hand, active")))
     metrics, unit = QFontMetricsF(style.end_label), style.unit
     lines: list[list[tuple[str, str]]] = [[]]
     across = 36 * unit
@@ -318,6 +329,9 @@ def _paint_key(painter: QPainter, style: PlotStyle, progress: Progress, box: QRe
             painter.setBrush(style.color("text" if sign == "dot" else "surface"))
             if sign == "arrow":
                 paint_at_least(painter, across + 5 * unit, baseline - 1 * unit, unit)
+            elif sign == "square":
+                painter.setPen(QPen(style.color("text"), 1.6 * unit))
+                paint_square(painter, QPointF(across + 5 * unit, baseline - metrics.ascent() * 0.36), unit)
             else:
                 at = QPointF(across + 5 * unit, baseline - metrics.ascent() * 0.36)
                 painter.drawEllipse(at, 4.5 * unit, 4.5 * unit)

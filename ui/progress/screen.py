@@ -3,14 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 
 from PySide6.QtCore import Qt, Signal
 from PySide6.QtGui import QResizeEvent
 from PySide6.QtWidgets import QComboBox, QHBoxLayout, QVBoxLayout, QWidget
 
+from carpus.core.by_hand.values import HandValue, counted
 from carpus.core.output.report_content import Comparison, Progress, SessionFigures, other_hand_of, progress
 from carpus.ui import numbers, terms
 from carpus.ui.background import Background
+from carpus.ui.by_hand.names import change_words, changes, day_words, full_name, verdict_words
 from carpus.ui.controls.button import Button
 from carpus.ui.controls.card import Card, Line
 from carpus.ui.controls.column import ScrolledColumn, scroll_area
@@ -34,12 +37,14 @@ class ProgressScreen(QWidget):
     told = Signal(object)
     table_wanted = Signal(object)
     session = Signal(str)
+    by_hand_wanted = Signal()
 
     def __init__(self, theme: Theme, keys: Keys, background: Background, store: SessionStore) -> None:
         super().__init__()
         self._theme, self._background, self._store = theme, background, store
         self._all: tuple[SessionFigures, ...] = ()
         self._kinds: list[tuple[str, str]] = []
+        self._by_hand: list[HandValue] = []
         self.progress = Progress((), (), None)
         self.exercise = QComboBox()
         self.followed = QComboBox()
@@ -49,11 +54,13 @@ class ProgressScreen(QWidget):
         )
         self.picture_button = Button(theme, self.tr("Save picture…"), "plain")
         self.table_button = Button(theme, self.tr("Save table…"), "plain", hint="Ctrl+E")
+        self.by_hand_button = Button(theme, self.tr("Values by &hand…"), "plain", hint="Alt+H")
         self.answer = heading(theme, wrap=True)
         self.basis = Text(theme, "", 16, REGULAR, "text2", wrap=True)
         self.chart = ProgressChart(theme)
         self._table = Card(theme, 20)
         self._fair = Card(theme, 20)
+        self._hand = Card(theme, 20)
         self._lay_out()
         self.exercise.currentIndexChanged.connect(lambda _: self._choose_exercise())
         self.followed.currentIndexChanged.connect(lambda _: self._choose())
@@ -61,6 +68,7 @@ class ProgressScreen(QWidget):
         self.picture_button.clicked.connect(self.chart.save_picture)
         self.chart.told.connect(self.told)
         self.chart.opened.connect(self.session)
+        self.by_hand_button.clicked.connect(self.by_hand_wanted)
         self.table_button.clicked.connect(lambda: self.table_wanted.emit(self.progress))
         self.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
         self.setProperty("shows_own_focus", True)
@@ -91,6 +99,7 @@ class ProgressScreen(QWidget):
         right.setContentsMargins(0, 0, 0, 0)
         right.setSpacing(GAP_PX)
         right.addWidget(self._table)
+        right.addWidget(self._hand)
         right.addWidget(self._fair)
         right.addStretch(1)
         host = ScrolledColumn()
@@ -107,7 +116,11 @@ class ProgressScreen(QWidget):
         whole.setSpacing(0)
         whole.addLayout(filters)
         whole.addSpacing(18)
-        whole.addWidget(self.answer)
+        said = QHBoxLayout()
+        said.setSpacing(12)
+        said.addWidget(self.answer, 1)
+        said.addWidget(self.by_hand_button, 0, Qt.AlignmentFlag.AlignBottom)
+        whole.addLayout(said)
         whole.addSpacing(2)
         whole.addWidget(self.basis)
         whole.addSpacing(16)
@@ -129,11 +142,15 @@ class ProgressScreen(QWidget):
         """Read all sessions of a patient; the kind of the given or newest session is shown."""
         store = self._store
         self._background.run(
-            lambda: store.history(patient_id), lambda found: self._show(found, session_id), self.told.emit, self
+            lambda: (store.history(patient_id), store.by_hand(patient_id)),
+            lambda found: self._show(found[0], found[1], session_id),
+            self.told.emit,
+            self,
         )
         self.setFocus(Qt.FocusReason.OtherFocusReason)
 
-    def _show(self, found: Sequence[SessionFigures], session_id: str) -> None:
+    def _show(self, found: Sequence[SessionFigures], by_hand: Sequence[HandValue], session_id: str) -> None:
+        self._by_hand = counted(by_hand)
         self._all = tuple(sorted(found, key=lambda figures: figures.when))
         asked = next((f for f in self._all if f.session_id == session_id), self._all[-1] if self._all else None)
         self._kinds = list(dict.fromkeys((figures.exercise.id, figures.side) for figures in reversed(self._all)))
@@ -166,7 +183,9 @@ class ProgressScreen(QWidget):
         alike = self._alike()
         other = other_hand_of(self._all, alike[-1]) if alike else None
         what = self.followed.currentData()
-        self.progress = progress(alike, other, followed_keys(what) if isinstance(what, str) and what else ())
+        course = progress(alike, other, followed_keys(what) if isinstance(what, str) and what else ())
+        mine = tuple(one for one in self._by_hand if one.side in (alike[-1].side, "")) if alike else ()
+        self.progress = replace(course, by_hand=mine)
         self.chart.show_progress(self.progress)
         answer, basis = headline(self.progress)
         self.answer.setText(answer)
@@ -181,6 +200,7 @@ class ProgressScreen(QWidget):
         for button in (self.report_button, self.picture_button, self.table_button):
             button.setEnabled(bool(alike))
         self._fill_table()
+        self._fill_by_hand()
         self._fill_fairness()
 
     def _fill_table(self) -> None:
@@ -208,6 +228,28 @@ class ProgressScreen(QWidget):
         return _Row(
             self._theme, self.tr("Peak speed"), f"{before} → {after}", "not_judged", self.tr("error not yet known")
         )
+
+    def _fill_by_hand(self) -> None:
+        """What was measured by hand, each way for itself."""
+        _clear(self._hand)
+        values, theme = self.progress.by_hand, self._theme
+        self._hand.setVisible(bool(values))
+        if not values:
+            return
+        body, changed = self._hand.body, changes(values)
+        body.addWidget(Text(theme, self.tr("Measured by hand"), 16, SEMIBOLD))
+        for key, change in changed:
+            body.addWidget(Line(theme))
+            state, verdict = verdict_words(change)
+            sign = StateText(theme, 14, SEMIBOLD, 16)
+            sign.show_state(state, f"{full_name(key)}: {verdict}", token="text")  # type: ignore[arg-type]
+            body.addWidget(sign)
+            body.addWidget(Text(theme, change_words(change), 14, REGULAR, "text2", wrap=True))
+        known = {key for key, _ in changed}
+        once = [one for one in values if one.key not in known]
+        for day in sorted({one.day for one in once}):
+            words = f"{numbers.day_month(day)}: {day_words([one for one in once if one.day == day])}"
+            body.addWidget(Text(theme, words, 14, wrap=True))
 
     def _fill_fairness(self) -> None:
         _clear(self._fair)

@@ -11,6 +11,7 @@ from pathlib import Path
 from PySide6.QtCore import QBuffer, QByteArray, QIODevice, QMarginsF, QSizeF
 from PySide6.QtGui import QGuiApplication, QPageLayout, QPageSize, QPainter, QPdfWriter
 
+from carpus.core.by_hand.values import HandValue, counted
 from carpus.core.camera_calibration.sheet import Sheet
 from carpus.core.errors import DiskFull, OutputExists, OutputNotWritable
 from carpus.core.output.joint_content import joint_curves
@@ -61,8 +62,10 @@ def session_report(
     pseudonym: str = "",
     dominance: str = "unknown",
     therapist: str = "",
+    by_hand: Sequence[HandValue] = (),
 ) -> SessionReport:
-    """What the page of a session says; ``history`` figures of the patient's other sessions, in any order."""
+    """What the page of a session says; ``history`` figures of the patient's other sessions, in any order, ``by_hand``
+    all that was ever measured by hand: what counts of the session's day and hand is told."""
     figures = session_figures(session, choices, limits_of(history))
     known = next((other for other in history if other.session_id == figures.session_id), figures)
     figures = replace(figures, earlier_results=known.earlier_results)
@@ -87,6 +90,9 @@ def session_report(
         settings_digest=hashlib.sha256(session.header.parameters.encode()).hexdigest(),
         revision=str(made_by.get("revision") or ""),
         recording_digest=str(source.get("sha256") or ""),
+        by_hand=tuple(
+            one for one in counted(by_hand) if one.day == figures.when.date() and one.side in (figures.side, "")
+        ),
     )
 
 
@@ -114,11 +120,13 @@ def progress_report(
     therapist: str = "",
     what: str | None = None,
     software_version: str = "",
+    by_hand: Sequence[HandValue] = (),
 ) -> ProgressReport:
     """The course of the newest session's exercise and hand; the other hand's last session beside it.
 
     ``what`` of the whole hand is followed, as of :func:`followed_kinds`; the first of them by itself.
-    ``software_version`` is of the program that makes it, the newest session's where it is not given.
+    ``software_version`` is of the program that makes it, the newest session's where it is not given; ``by_hand`` what
+    counts of what was measured by hand of this hand and person.
     """
     newest = max(sessions, key=lambda figures: figures.when)
     alike = [f for f in sessions if (f.exercise.id, f.side) == (newest.exercise.id, newest.side)]
@@ -126,6 +134,7 @@ def progress_report(
     followed = followed_keys(what if what is not None else kinds[0][0]) if kinds else ()
     course = progress(alike, other_hand_of(sessions, newest), followed)
     made_by = with_revision(software_version) if software_version else newest.software_version
+    course = replace(course, by_hand=tuple(by_hand))
     return ProgressReport(course, pseudonym or newest.subject_id or "–", therapist, made_by)
 
 

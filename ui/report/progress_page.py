@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 from carpus.core.output.report_content import Progress
 from carpus.ui import numbers, terms
+from carpus.ui.by_hand.names import change_words, changes, day_words, full_name, verdict_words
 from carpus.ui.fonts import MEDIUM, REGULAR, SEMIBOLD
 from carpus.ui.plot.course import paint_chart
 from carpus.ui.progress.words import before_after, change_line, comparison_name, doubt_words, headline, unfair_words
@@ -17,6 +18,8 @@ from carpus.ui.verdicts import counted_once_words, limit_words, verdict_token, v
 CHART_HEIGHT_PT, LEAST_CHART_PT = 390.0, 180.0
 MOST_UNFAIR = 4
 MOST_IDS = 8
+MOST_BY_HAND, MOST_DAYS = 5, 3
+"""So many changes, and days of what was taken once, are on the page; the table of them has all."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -81,7 +84,7 @@ def made_of(report: ProgressReport) -> str:
 
 def _paint_below(page: Page, progress: Progress, top: float) -> float:
     """What stands under the chart; returns the lower edge."""
-    return _paint_fairness(page, progress, _paint_table(page, progress, top) + 16)
+    return _paint_fairness(page, progress, _paint_by_hand(page, progress, _paint_table(page, progress, top)) + 16)
 
 
 def _paint_table(page: Page, progress: Progress, top: float) -> float:
@@ -105,6 +108,28 @@ def _paint_table(page: Page, progress: Progress, top: float) -> float:
         )
     page.rule(baseline)
     return baseline
+
+
+def _paint_by_hand(page: Page, progress: Progress, top: float) -> float:
+    """What was measured by hand, each way for itself; values of one day only in one paragraph."""
+    if not progress.by_hand:
+        return top
+    page.title(tr("Entered by hand"), top + 22, tr("never joined with the figures above"))
+    baseline, changed = top + 28, changes(progress.by_hand)
+    for key, change in changed[:MOST_BY_HAND]:
+        page.rule(baseline)
+        baseline += 15.5
+        page.text(full_name(key), page.left, baseline - 4, 9.0, MEDIUM)
+        page.text(change_words(change), page.left + 190, baseline - 4, 9.0)
+        page.text_right(verdict_words(change)[1], page.right, baseline - 4, 9.0, SEMIBOLD)
+    page.rule(baseline)
+    known = {key for key, _ in changed[:MOST_BY_HAND]}
+    rest = [one for one in progress.by_hand if one.key not in known]
+    words = "; ".join(
+        f"{numbers.day_month(day)}: {day_words([one for one in rest if one.day == day])}"
+        for day in sorted({one.day for one in rest})[-MOST_DAYS:]
+    )
+    return page.paragraph(words, page.left, baseline + 4, page.right - page.left, 8.5) if words else baseline
 
 
 def _paint_fairness(page: Page, progress: Progress, top: float) -> float:

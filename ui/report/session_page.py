@@ -9,11 +9,13 @@ from dataclasses import dataclass
 from PySide6.QtCore import QPointF, Qt
 from PySide6.QtGui import QColor, QPainter, QPen, QPicture
 
+from carpus.core.by_hand.values import HandValue
 from carpus.core.output.exercises import AXIS_TICK_DEG, SIDES
 from carpus.core.output.joint_content import JointCurves
 from carpus.core.output.motion_curves import MotionCurves
 from carpus.core.output.report_content import Curves, SessionFigures, compare_rows, usual_deg
 from carpus.ui import numbers, terms
+from carpus.ui.by_hand.names import day_words
 from carpus.ui.fonts import MEDIUM, REGULAR, SEMIBOLD
 from carpus.ui.icons import paint_mark, paint_state
 from carpus.ui.plot.session import SessionPlot, paint_session
@@ -50,6 +52,8 @@ class SessionReport:
     settings_digest: str = ""
     revision: str = ""
     recording_digest: str = ""
+    by_hand: tuple[HandValue, ...] = ()
+    """What was measured by hand of this hand and person on the day of the session."""
 
 
 def paint_session_page(page: Page, report: SessionReport) -> None:
@@ -76,12 +80,13 @@ def _paint_all(page: Page, report: SessionReport) -> float:
         y = paint_finger_table(page, report.figures, report.previous, report.other_hand, y + 7)
         y = paint_wrist_line(page, report.figures, y + 7)
         below = painted_on_nothing(
-            page, lambda trial: _paint_foot(trial, report, _paint_boxes(trial, report, 9.0) + 10)
+            page,
+            lambda trial: _paint_foot(trial, report, _paint_by_hand(trial, report, _paint_boxes(trial, report, 9.0))),
         )
         room = LOWEST_PT - 2 - y - 8 - below
         y = paint_finger_curves(page, report.curves, report.joints, report.figures, y + 8, room)
     y = _paint_boxes(page, report, y + 9)
-    return _paint_foot(page, report, y + 10)
+    return _paint_foot(page, report, _paint_by_hand(page, report, y))
 
 
 def painted_on_nothing(page: Page, paint: Callable[[Page], float]) -> float:
@@ -308,6 +313,14 @@ def _paint_boxes(page: Page, report: SessionReport, top: float) -> float:
         shown = notes if len(notes) <= most else notes[: most - 1] + "…"
         page.paragraph(shown, left, baseline - 9, width - 2 * inside, 8.5)
     return top + height
+
+
+def _paint_by_hand(page: Page, report: SessionReport, top: float) -> float:
+    """What was entered by hand that day, in one paragraph; where the foot begins."""
+    if not report.by_hand:
+        return top + 10
+    words = tr("Entered by hand, not measured by Carpus: {values}.").format(values=day_words(report.by_hand))
+    return page.paragraph(words, page.left, top + 5, page.right - page.left, 8.5) + 5
 
 
 def _speaks_of_error(report: SessionReport) -> bool:

@@ -1,0 +1,116 @@
+"""The flow of values measured by hand: asked for from the progress, kept in the register."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import replace
+
+from PySide6.QtCore import QObject, Qt
+
+from carpus.app.desktop.now_open import NowOpen
+from carpus.app.desktop.ways import Tell, Way
+from carpus.core.by_hand.values import HandValue
+from carpus.core.library.library import Library
+from carpus.core.types import Side
+from carpus.ui.background import Background
+from carpus.ui.by_hand.screen import ByHandScreen, HandRecord
+from carpus.ui.messages.stop_card import Answer
+from carpus.ui.ports import Words
+
+
+class ByHand(QObject):
+    """``back`` leads to where the form was asked for."""
+
+    def __init__(
+        self,
+        parent: QObject,
+        screen: ByHandScreen,
+        way: Way,
+        tell: Tell,
+        now: NowOpen,
+        library: Library,
+        background: Background,
+        *,
+        initials: Callable[[], str],
+        back: Callable[[], None],
+    ) -> None:
+        super().__init__(parent)
+        self._screen, self._way, self._tell, self._now, self._library = screen, way, tell, now, library
+        self._background, self._initials, self._back = background, initials, back
+        screen.save.connect(self._ask_to_save)
+        screen.done.connect(self.leave)
+
+    def show(self) -> None:
+        """The form of the patient who is open, for today."""
+        self._read(again=False)
+
+    def leave(self) -> None:
+        """Back to the progress; what is written and not saved is asked about first."""
+        if not self._screen.has_unsaved:
+            self._back()
+            return
+        self._tell.ask(
+            Words(
+                self.tr("Leave without saving?"),
+                self.tr("Values are written that are not kept yet."),
+                self.tr("Save them, or let them go."),
+            ),
+            (
+                Answer(self.tr("Back to the form"), lambda: None, self.tr("Enter")),
+                Answer(self.tr("Let them go"), self._back, "L"),
+            ),
+            icon="file-text",
+        )
+
+    def _read(self, *, again: bool) -> None:
+        patient, library = self._now.patient, self._library
+        if patient is None:
+            return
+        patient_id, initials = patient.patient_id, self._initials()
+        side: Side = "left" if patient.side == "left" else "right"
+
+        def read() -> HandRecord:
+            figures = sorted(library.history(patient_id), key=lambda one: one.when)
+            return HandRecord(patient.pseudonym, side, tuple(library.by_hand(patient_id)), tuple(figures), initials)
+
+        def shown(record: HandRecord) -> None:
+            if self._now.patient is None or self._now.patient.patient_id != patient_id:
+                return
+            self._screen.show_record(record, again=again)
+            if not again:
+                self._way.go("by_hand")
+                self._screen.first().setFocus(Qt.FocusReason.OtherFocusReason)
+
+        self._background.run(read, shown, self._tell.fault, self)
+
+    def _ask_to_save(self, values: Sequence[HandValue], doubts: Sequence[str]) -> None:
+        if not values:
+            return
+        if not doubts:
+            self._save(values)
+            return
+        self._tell.ask(
+            Words(
+                self.tr("Unusual: check, or keep it"),
+                "; ".join(doubts),
+                self.tr("Look at the numbers once more before they are kept."),
+            ),
+            (
+                Answer(self.tr("Back to the form"), lambda: None, self.tr("Enter")),
+                Answer(self.tr("Keep as written"), lambda: self._save(values), "K"),
+            ),
+            icon="file-text",
+        )
+
+    def _save(self, values: Sequence[HandValue]) -> None:
+        patient = self._now.patient
+        if patient is None:
+            return
+        patient_id, by = patient.patient_id, self._initials()
+        signed = [replace(one, by=by) for one in values]
+        self._background.run(
+            lambda: self._library.enter_by_hand(patient_id, signed),
+            lambda _: self._read(again=True),
+            self._tell.fault,
+            self,
+        )

@@ -1,0 +1,1 @@
+"""What a person measures by hand beside Carpus: goniometer, force, size, scores."""

@@ -1,0 +1,191 @@
+"""The form for values by hand: by keyboard in seconds, nobody led, nothing impossible kept; and where they are told."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+from PySide6.QtCore import QObject, Qt
+from PySide6.QtTest import QTest
+from pytestqt.qtbot import QtBot
+
+from carpus.app.desktop.by_hand import ByHand
+from carpus.app.desktop.now_open import NowOpen
+from carpus.app.desktop.printing import write_tables
+from carpus.core.by_hand.values import HandValue, counted
+from carpus.core.library.library import Library
+from carpus.core.output.report_content import progress
+from carpus.core.safekeeping.audit import read_audit
+from carpus.core.session.register import PatientEntry
+from carpus.ui.background import Background
+from carpus.ui.by_hand.screen import ByHandScreen, HandRecord
+from carpus.ui.ports import PatientRow
+from carpus.ui.report.pdf import progress_report, session_report, write_progress_report, write_session_report
+from carpus.ui.setup.choice import SourceChoice
+from carpus.ui.theme import Theme
+from tests.ui.fakes import NOW, FakeSessions, hand_values
+from tests.ui.test_report_pdf import words_of
+
+TODAY = NOW.date()
+
+
+@pytest.fixture
+def screen(theme: Theme, qtbot: QtBot) -> ByHandScreen:
+    made = ByHandScreen(theme, TODAY)
+    qtbot.addWidget(made)
+    made.resize(1280, 740)
+    made.show()
+    return made
+
+
+def typed(screen: ByHandScreen, name: str, *texts: str) -> None:
+    for (_, field), text in zip(screen.form.rows[name].fields, texts, strict=False):
+        field.setFocus()
+        QTest.keyClick(field, Qt.Key.Key_A, Qt.KeyboardModifier.ControlModifier)
+        QTest.keyClicks(field, text) if text else QTest.keyClick(field, Qt.Key.Key_Delete)
+
+
+def test_only_what_differs_is_entered_and_carpus_leads_nobody(screen: ByHandScreen, qtbot: QtBot) -> None:
+    figures = sorted(FakeSessions().history("linden"), key=lambda one: one.when)
+    screen.show_record(HandRecord("Linden 42", "right", tuple(hand_values()), tuple(figures), "MK"))
+    assert not screen.save_button.isEnabled()
+    flexion, extension = screen.form.rows["FLEXION"], screen.form.rows["EXTENSION"]
+    assert flexion.last.text() == "13 Nov: 45° / 56°"
+    assert "48°" in flexion.beside.text()
+    assert extension.beside.text() == "–", "what Carpus measured is not shown before the hand's value is there"
+    typed(screen, "EXTENSION", "44")
+    assert "48°" in extension.beside.text()
+    typed(screen, "GRIP", "18", "19", "20,5")
+    assert screen.form.rows["GRIP"].beside.text() == "mean 19.2 kg"
+    typed(screen, "FLEXION", "47", "")
+    with qtbot.waitSignal(screen.save) as caught:
+        QTest.keyClick(screen, Qt.Key.Key_Return, Qt.KeyboardModifier.ControlModifier)
+    assert caught.args == [
+        [
+            HandValue("FLEXION", "passive", "right", TODAY, ()),
+            HandValue("EXTENSION", "active", "right", TODAY, (44.0,)),
+            HandValue("GRIP", "", "right", TODAY, (18.0, 19.0, 20.5)),
+        ],
+        [],
+    ]
+    screen.hand.choose("left")
+    screen.hand.chosen.emit("left")
+    assert flexion.fields[0][1].is_empty
+    assert screen.form.rows["GRIP"].last.text() == "2 Oct: 34.0 kg"
+    assert screen.form.rows["PRWE"].fields[0][1].value() == 46.5, "a score is of the person"
+
+
+def test_enter_goes_on_nonsense_is_refused_and_the_unusual_is_asked_about(screen: ByHandScreen, qtbot: QtBot) -> None:
+    screen.show_record(HandRecord("Linden 42", "right", (), (), ""))
+    active, passive = (field for _, field in screen.form.rows["FLEXION"].fields)
+    active.setFocus()
+    QTest.keyClick(active, Qt.Key.Key_Return)
+    assert screen.focusWidget() is passive
+    for text in ("abc", "181", "1e9", "nan", "--3"):
+        typed(screen, "FLEXION", text)
+        assert active.problem, text
+        assert not screen.save_button.isEnabled()
+        assert "0" in screen.state.text() or text in screen.state.text()
+    typed(screen, "FLEXION", "170")
+    assert screen.save_button.isEnabled()
+    with qtbot.waitSignal(screen.save) as caught:
+        screen.save_button.click()
+    assert "170°?" in caught.args[1][0]
+    screen.more.setCurrentIndex(screen.more.findData("PIP3_FLEXION"))
+    screen.more.activated.emit(screen.more.currentIndex())
+    assert active.value() == 170.0, "what is written stays when a row is added"
+    assert screen.focusWidget() is screen.form.rows["PIP3_FLEXION"].fields[0][1]
+
+
+class Told:
+    """A window that answers every question with its second answer."""
+
+    busy = False
+
+    def __init__(self) -> None:
+        self.asked: list[str] = []
+        self.place = "progress"
+
+    def ask(self, question: object, answers: list[object], **_: object) -> None:
+        self.asked.append(question.what)  # type: ignore[attr-defined]
+        answers[1].action()  # type: ignore[attr-defined]
+
+    def fault(self, fault: Exception) -> None:
+        raise fault
+
+    def go(self, place: str) -> None:
+        self.place = place
+
+
+@pytest.fixture
+def background() -> Iterator[Background]:
+    made = Background()
+    yield made
+    made.wait()
+
+
+@pytest.fixture
+def library(tmp_path: Path) -> Iterator[Library]:
+    opened = Library(tmp_path / "data")
+    yield opened
+    opened.close()
+
+
+def test_what_is_saved_is_in_the_register_and_in_the_log(
+    screen: ByHandScreen, library: Library, background: Background, qtbot: QtBot
+) -> None:
+    patient = library.clinic.add(PatientEntry("Linden 42", "left"))
+    told, now, left = Told(), NowOpen(choice=SourceChoice("camera")), []
+    now.patient = PatientRow(patient, "Linden 42", "left")
+    owner = QObject()
+    flow = ByHand(
+        owner,
+        screen,
+        told,
+        told,
+        now,
+        library,
+        background,
+        initials=lambda: "MK",
+        back=lambda: left.append(1),  # type: ignore[arg-type]
+    )
+    flow.show()
+    qtbot.waitUntil(lambda: told.place == "by_hand", timeout=60_000)
+    assert screen.side == "left"
+    typed(screen, "FLEXION", "170")
+    screen.save_button.click()
+    qtbot.waitUntil(lambda: screen.state.text() == "Kept.", timeout=60_000)
+    (kept,) = library.by_hand(patient)
+    assert (kept.value, kept.by, kept.side, kept.day) == (170.0, "MK", "left", TODAY)
+    assert told.asked == ["Unusual: check, or keep it"]
+    flow.leave()
+    assert left == [1]
+    typed(screen, "FLEXION", "70")
+    flow.leave()
+    assert told.asked[1:] == ["Leave without saving?"]
+    assert [entry.did for entry in read_audit(library.folder).entries] == ["entered_by_hand"]
+
+
+def test_reports_and_table_tell_them_as_entered_by_hand(tmp_path: Path) -> None:
+    store = FakeSessions()
+    values = hand_values()
+    report = session_report(store.session("session-7"), history=store.history("linden"), by_hand=values)
+    said = words_of(write_session_report(report, tmp_path / "session.pdf"))
+    assert "Entered by hand, not measured by Carpus" in said
+    assert "Flexion 47° active, 58° passive" in " ".join(said.split())
+    assert "17.6" not in said, "of another day"
+    mine = [one for one in counted(values) if one.side in ("right", "")]
+    course = progress_report(store.history("linden"), by_hand=mine)
+    said = " ".join(words_of(write_progress_report(course, tmp_path / "progress.pdf")).split())
+    for words in ("Entered by hand", "25° → 47° since 2 Oct", "Grip", "17.6 cm over both styloids"):
+        assert words in said, words
+    path = tmp_path / "course.csv"
+    write_tables(path, course.progress)
+    lines = (tmp_path / "course-by-hand.csv").read_text(encoding="utf-8").splitlines()
+    assert len(lines) == 1 + len(mine)
+    assert any(line.startswith("2026-11-20,right,GRIP,,kg,18,18 19 17") for line in lines)
+    assert "by_hand" not in path.read_text(encoding="utf-8")
+    bare = progress(store.history("linden"))
+    write_tables(tmp_path / "bare.csv", bare)
+    assert not (tmp_path / "bare-by-hand.csv").exists()

@@ -1,0 +1,1 @@
+"""The form for values measured by hand, their names and their chart."""

@@ -1,0 +1,121 @@
+"""Words for what is measured by hand, its units and ways, and whether it changed."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Sequence
+
+from carpus.core.by_hand.measures import MEASURES, HandMeasure, measure_named
+from carpus.core.by_hand.values import HandChange, HandValue, Key, change_of, course_of
+from carpus.ui import numbers, terms
+from carpus.ui.marker_words import finger_name
+from carpus.ui.translate import tr
+
+
+def measure_name(measure: HandMeasure) -> str:
+    """``Flexion``, ``Grip``, ``Ring finger, PIP flexion``."""
+    names = {
+        "GRIP": tr("Grip"), "KEY_PINCH": tr("Key pinch"), "THREE_POINT_PINCH": tr("Three-point pinch"),
+        "TIP_PINCH": tr("Tip pinch"), "WRIST_ROUND": tr("Round the wrist"), "PALM_ROUND": tr("Round the palm"),
+        "FIGURE_OF_EIGHT": tr("Figure of eight"), "VOLUME": tr("Volume of the hand"), "PRWE": "PRWE",
+        "QUICK_DASH": "QuickDASH", "DASH": "DASH", "MHQ": "MHQ", "PAIN_AT_REST": tr("Pain at rest"),
+        "PAIN_MOVING": tr("Pain when moving"),
+    }  # fmt: skip
+    if measure.id in names:
+        return names[measure.id]
+    joint, _, movement = measure.id.rpartition("_")
+    if not joint:
+        return terms.movement_long_name(movement.lower())
+    finger = int(joint[-1])
+    row = {"MCP": tr("knuckle"), "PIP": tr("middle joint"), "DIP": tr("end joint"), "IP": tr("end joint")}[joint[:-1]]
+    name = tr("Thumb") if finger == 1 else tr("{finger} finger").format(finger=finger_name(str(finger)))
+    return tr("{finger}, {joint}, {movement}").format(
+        finger=name, joint=row, movement=tr("straight") if movement == "EXTENSION" else tr("bent")
+    )
+
+
+def way_name(way: str) -> str:
+    """How it was moved; empty where there is one way only."""
+    return {"active": tr("active"), "passive": tr("passive")}.get(way, "")
+
+
+def unit_name(measure: HandMeasure) -> str:
+    """The unit behind a number."""
+    if measure.unit == "points":
+        return tr("of {most}").format(most=f"{measure.most:g}")
+    return {"deg": "°", "kg": "kg", "cm": "cm", "ml": "ml"}[measure.unit]
+
+
+def value_words(measure: HandMeasure, value: float) -> str:
+    """``45°``, ``5.3 kg``; nothing measured is a dash."""
+    if not math.isfinite(value):
+        return "–"
+    text = f"{value:.{measure.decimals}f}"
+    text = text.removesuffix(".0") if measure.unit == "points" else text
+    if measure.unit == "deg":
+        return f"{text}°".replace("-", "−")
+    return text if measure.unit == "points" else f"{text} {unit_name(measure)}"
+
+
+def group_names() -> dict[str, str]:
+    """Headings of the form, by kind, in its order."""
+    return {
+        "angle": tr("Goniometer"), "force": tr("Force"), "size": tr("Size"), "score": tr("Scores"),
+    }  # fmt: skip
+
+
+def direction_words(measure: HandMeasure) -> str:
+    """Which way is better, of a score."""
+    return {"less": tr("less is better"), "more": tr("more is better"), "": ""}[measure.better]
+
+
+def full_name(key: Key) -> str:
+    """``Flexion, active``."""
+    return ", ".join(filter(None, (measure_name(measure_named(key[0])), way_name(key[1]))))
+
+
+def verdict_words(change: HandChange) -> tuple[str, str]:
+    """State of a sign and its word, of a change by one way of measuring."""
+    if change.verdict == "not_judged":
+        return "none", tr("not judged")
+    if change.verdict == "within_error":
+        return "none", tr("no change beyond error")
+    return ("good", tr("improved")) if change.verdict == "improved" else ("bad", tr("worse"))
+
+
+def change_words(change: HandChange) -> str:
+    """``45° → 58° since 2 Oct (error 10°)``."""
+    of = measure_named(change.first.measure)
+    words = tr("{before} → {after} since {day}").format(
+        before=value_words(of, change.first.value), after=value_words(of, change.last.value),
+        day=numbers.day_month(change.first.day),
+    )  # fmt: skip
+    if math.isfinite(change.real_change):
+        words += " " + tr("(error {size})").format(size=value_words(of, change.real_change))
+    return words
+
+
+def keys_in_order(values: Iterable[HandValue]) -> list[Key]:
+    """What was measured, in the order of the form."""
+    order = {measure.id: number for number, measure in enumerate(MEASURES)}
+    return sorted({value.key for value in values}, key=lambda key: (order[key[0]], key[1], key[2]))
+
+
+def day_words(values: Sequence[HandValue]) -> str:
+    """What counts, newest of each, in one line: ``Flexion 45° active, 58° passive; Grip 18 kg``."""
+    by_measure: dict[str, list[HandValue]] = {}
+    for key in keys_in_order(values):
+        by_measure.setdefault(key[0], []).append(course_of(values, key)[-1])
+    words = []
+    for name, found in by_measure.items():
+        of = measure_named(name)
+        said = ", ".join(" ".join(filter(None, (value_words(of, v.value), way_name(v.way), v.where))) for v in found)
+        unit = f" {unit_name(of)}" if of.unit == "points" else ""
+        words.append(f"{measure_name(of)} {said}{unit}")
+    return "; ".join(words)
+
+
+def changes(values: Sequence[HandValue]) -> list[tuple[Key, HandChange]]:
+    """First and last of all that was measured on two days or more; ``values`` are those that count, of one hand."""
+    found = [(key, change_of(course_of(values, key))) for key in keys_in_order(values)]
+    return [(key, change) for key, change in found if change is not None]

@@ -1,0 +1,258 @@
+"""The form for what was measured by hand on a day, with its course beside it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from datetime import date, datetime
+
+from PySide6.QtCore import QDate, Qt, Signal
+from PySide6.QtGui import QKeySequence, QResizeEvent, QShortcut
+from PySide6.QtWidgets import QBoxLayout, QComboBox, QDateEdit, QHBoxLayout, QVBoxLayout, QWidget
+
+from carpus.core.by_hand.measures import MEASURES, HandMeasure, measure_named
+from carpus.core.by_hand.values import HandValue, counted
+from carpus.core.output.range_rows import RangeRow
+from carpus.core.output.report_content import SessionFigures
+from carpus.core.types import Side
+from carpus.ui import numbers, terms
+from carpus.ui.by_hand.form import HandForm
+from carpus.ui.by_hand.names import change_words, changes, full_name, measure_name, verdict_words
+from carpus.ui.controls.button import Button
+from carpus.ui.controls.card import Card, Line
+from carpus.ui.controls.column import ScrolledColumn, scroll_area
+from carpus.ui.controls.field import Choices
+from carpus.ui.controls.text import REGULAR, SEMIBOLD, StateText, Text, heading
+from carpus.ui.plot.by_hand import HandChart
+from carpus.ui.theme import GAP_PX, MARGIN_PX, Theme, is_tight
+
+
+@dataclass(frozen=True, slots=True)
+class HandRecord:
+    """All of a patient that the screen shows: ``values`` as entered, ``figures`` of the sessions in order of time."""
+
+    pseudonym: str
+    side: Side
+    values: tuple[HandValue, ...]
+    figures: tuple[SessionFigures, ...]
+    initials: str
+
+
+class ByHandScreen(QWidget):
+    """``save`` carries what is to be entered and words of what is unusual in it; ``done`` leaves."""
+
+    save = Signal(object, object)
+    done = Signal()
+
+    def __init__(self, theme: Theme, today: date) -> None:
+        super().__init__()
+        self._theme, self._today = theme, today
+        self.record = HandRecord("", "right", (), (), "")
+        self._more: set[str] = set()
+        self.title = heading(theme, wrap=True)
+        self.basis = Text(theme, "", 16, REGULAR, "text2", wrap=True)
+        self.day = QDateEdit(QDate(today.year, today.month, today.day))
+        self.day.setCalendarPopup(True)
+        self.day.setMaximumDate(self.day.date())
+        self.day.setAccessibleName(self.tr("Day of measuring"))
+        self.hand = Choices(theme, [(side, terms.hand_name(side)) for side in ("right", "left")])
+        self.form = HandForm(theme)
+        self.more = QComboBox()
+        self.more.setAccessibleName(self.tr("Other measures"))
+        self.more.setSizeAdjustPolicy(QComboBox.SizeAdjustPolicy.AdjustToContents)
+        self.state = Text(theme, "", 14, REGULAR, "text2", wrap=True)
+        self.cancel = Button(theme, self.tr("Close"), "quiet", hint="Esc")
+        self.save_button = Button(
+            theme, self.tr("Save values"), "primary", icon="check", hint="Ctrl+Enter", height_px=44
+        )
+        self.chart = HandChart(theme)
+        self._changes = Card(theme, 20)
+        self._lay_out()
+        self.day.dateChanged.connect(lambda _: self._fill())
+        self.hand.chosen.connect(lambda _: self._fill())
+        self.form.edited.connect(self._edited)
+        self.form.chosen.connect(self._show_course)
+        self.more.activated.connect(self._add)
+        self.save_button.clicked.connect(self._save)
+        self.cancel.clicked.connect(self.done)
+        for keys in ("Ctrl+Return", "Ctrl+Enter"):
+            QShortcut(QKeySequence(keys), self, self.save_button.click)
+        self.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
+        self.setProperty("shows_own_focus", True)
+
+    def _lay_out(self) -> None:
+        head = QHBoxLayout()
+        head.setSpacing(12)
+        head.addWidget(self.title, 1)
+        head.addWidget(self.day)
+        head.addWidget(self.hand)
+        entries = Card(self._theme, 20)
+        entries.body.addWidget(self.form)
+        course = Card(self._theme, 20)
+        course.body.addWidget(self.chart)
+        right = QVBoxLayout()
+        right.setSpacing(GAP_PX)
+        right.addWidget(course)
+        right.addWidget(self._changes)
+        right.addStretch(1)
+        host = ScrolledColumn()
+        self._columns = QBoxLayout(QBoxLayout.Direction.LeftToRight, host)
+        self._columns.setContentsMargins(0, 0, 0, 0)
+        self._columns.setSpacing(GAP_PX)
+        self._columns.addWidget(entries, 5, Qt.AlignmentFlag.AlignTop)
+        self._columns.addLayout(right, 4)
+        foot = QHBoxLayout()
+        foot.setSpacing(12)
+        foot.addWidget(self.more)
+        foot.addWidget(self.state, 1)
+        foot.addWidget(self.cancel)
+        foot.addWidget(self.save_button)
+        whole = QVBoxLayout(self)
+        whole.setContentsMargins(MARGIN_PX, GAP_PX, MARGIN_PX, GAP_PX)
+        whole.setSpacing(0)
+        whole.addLayout(head)
+        whole.addSpacing(2)
+        whole.addWidget(self.basis)
+        whole.addSpacing(14)
+        whole.addWidget(scroll_area(host), 1)
+        whole.addSpacing(12)
+        whole.addLayout(foot)
+        self._theme.changed.connect(self._fit)
+
+    def resizeEvent(self, event: QResizeEvent) -> None:
+        self._fit()
+
+    def _fit(self) -> None:
+        """With large text what stood at the right goes below."""
+        tight = is_tight(self, self._theme) or self.width() < 1180 * self._theme.text_scale
+        directions = QBoxLayout.Direction
+        self._columns.setDirection(directions.TopToBottom if tight else directions.LeftToRight)
+
+    # --- what is shown ------------------------------------------------------------------------------------
+    @property
+    def side(self) -> Side:
+        """The hand that is entered."""
+        return "left" if self.hand.value() == "left" else "right"
+
+    @property
+    def day_shown(self) -> date:
+        """The day that is entered."""
+        return date(self.day.date().year(), self.day.date().month(), self.day.date().day())
+
+    @property
+    def has_unsaved(self) -> bool:
+        """Whether something is written that is not stored."""
+        try:
+            return bool(self.form.differing(self.record.values, self.side, self.day_shown))
+        except ValueError:
+            return True
+
+    def show_record(self, record: HandRecord, *, again: bool = False) -> None:
+        """Everything of one patient; ``again`` after saving, where day and hand stay."""
+        self.record = record
+        if not again:
+            self._more = set()
+            for widget in (self.day, self.hand):
+                widget.blockSignals(True)
+            self.day.setDate(QDate(self._today.year, self._today.month, self._today.day))
+            self.hand.choose(record.side)
+            for widget in (self.day, self.hand):
+                widget.blockSignals(False)
+        self._fill()
+        if again:
+            self.state.setText(self.tr("Kept."))
+
+    def first(self) -> QWidget:
+        """What has the keyboard first."""
+        return self.form.first() if self.form.rows else self
+
+    def _fill(self) -> None:
+        usual = {one.id for one in MEASURES if one.usual_form}
+        self.form.set_measures(usual | {one.measure for one in self.record.values} | self._more)
+        self.form.show_values(self.record.values, self.side, self.day_shown, self._of_carpus())
+        self._fill_more()
+        self.title.setText(self.tr("Measured by hand, {day}").format(day=numbers.short_date(self.day_shown)))
+        by = self.tr("By {initials}.").format(initials=self.record.initials) if self.record.initials else ""
+        words = self.tr("Empty means not measured. Nothing here changes a figure of Carpus.")
+        self.basis.setText(f"{by} {words}".strip())
+        shown = self.chart.measure.id if self.chart.measure else ""
+        self._show_course(shown if shown in self.form.rows else next(iter(self.form.rows)))
+        self._fill_changes()
+        self._edited()
+
+    def _fill_more(self) -> None:
+        self.more.clear()
+        self.more.addItem(self.tr("Other measures…"), "")
+        for one in MEASURES:
+            if one.id not in self.form.rows:
+                self.more.addItem(measure_name(one), one.id)
+
+    def _add(self, _number: int) -> None:
+        name = str(self.more.currentData())
+        if not name:
+            return
+        self._more.add(name)
+        self.form.set_measures({*self.form.rows, name})
+        self.form.rows[name].show(self.record.values, self.side, self.day_shown, self._of_carpus().get(name))
+        self._fill_more()
+        self._show_course(name)
+        self.form.rows[name].fields[0][1].setFocus(Qt.FocusReason.OtherFocusReason)
+
+    def _of_carpus(self) -> dict[str, RangeRow]:
+        """What Carpus measured of the same on that day: the last session that did."""
+        found: dict[str, RangeRow] = {}
+        for measure in MEASURES:
+            for _, row in self._sessions_of(measure):
+                if _.date() == self.day_shown:
+                    found[measure.id] = row
+        return found
+
+    def _sessions_of(self, measure: HandMeasure) -> list[tuple[datetime, RangeRow]]:
+        if measure.figure is None:
+            return []
+        joint, movement, angle = measure.figure
+        out = []
+        for figures in self.record.figures:
+            if figures.side != self.side or figures.simulated or figures.not_counted:
+                continue
+            row = figures.row(movement, angle, joint)  # type: ignore[arg-type]
+            if row is not None and row.count:
+                out.append((figures.when, row))
+        return out
+
+    def _show_course(self, name: str) -> None:
+        measure = measure_named(name)
+        side = self.side if measure.of_hand else ""
+        values = [one for one in counted(self.record.values) if (one.measure, one.side) == (name, side)]
+        self.chart.show_course(measure, values, [(when, row.mean_deg) for when, row in self._sessions_of(measure)])
+
+    def _fill_changes(self) -> None:
+        body, theme = self._changes.body, self._theme
+        while (item := body.takeAt(0)) is not None:
+            if (widget := item.widget()) is not None:
+                widget.hide()
+                widget.deleteLater()
+        body.addWidget(Text(theme, self.tr("By hand and by Carpus are never joined"), 16, SEMIBOLD, wrap=True))
+        words = self.tr("Neither averaged nor subtracted. A change is judged within one way of measuring.")
+        body.addWidget(Text(theme, words, 14, REGULAR, "text2", wrap=True))
+        for key, change in changes([one for one in counted(self.record.values) if one.side in (self.side, "")]):
+            body.addWidget(Line(theme))
+            state, verdict = verdict_words(change)
+            sign = StateText(theme, 14, SEMIBOLD, 16)
+            sign.show_state(state, f"{full_name(key)}: {verdict}", token="text")  # type: ignore[arg-type]
+            body.addWidget(sign)
+            body.addWidget(Text(theme, change_words(change), 14, REGULAR, "text2", wrap=True))
+
+    # --- entering -----------------------------------------------------------------------------------------
+    def _edited(self) -> None:
+        problems = self.form.problems()
+        doubts = self.form.doubts()
+        self.state.setText(
+            f"{problems[0][0].accessibleName()}: {problems[0][1]}" if problems
+            else doubts[0] if doubts
+            else self.tr("Kept with initials and time; every later change stays readable.")
+        )  # fmt: skip
+        self.save_button.setEnabled(not problems and self.has_unsaved)
+
+    def _save(self) -> None:
+        if not self.form.problems():
+            self.save.emit(self.form.differing(self.record.values, self.side, self.day_shown), self.form.doubts())

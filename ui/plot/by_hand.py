@@ -1,0 +1,211 @@
+"""The course of one measure taken by hand: hollow squares, beside Carpus's own dots where it measures the same."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from datetime import date, datetime, time
+
+import numpy as np
+from PySide6.QtCore import QPointF, QRectF, QSize
+from PySide6.QtGui import QFontMetricsF, QPainter, QPaintEvent, QPen, QPolygonF
+from PySide6.QtWidgets import QSizePolicy, QWidget
+
+from carpus.core.by_hand.measures import HandMeasure
+from carpus.core.by_hand.values import HandValue
+from carpus.ui import numbers
+from carpus.ui.by_hand.names import measure_name, value_words
+from carpus.ui.fonts import SEMIBOLD, font
+from carpus.ui.plot.axes import Panel, Scale
+from carpus.ui.plot.marks import EndLabels, Scales
+from carpus.ui.plot.style import PlotStyle, screen_style
+from carpus.ui.theme import Theme
+from carpus.ui.translate import tr
+
+HALF_PX = 4.5
+DAY_S = 86_400.0
+
+
+def noon_s(day: date) -> float:
+    """Where a day lies on an axis of time."""
+    return datetime.combine(day, time(12)).timestamp()
+
+
+@dataclass(frozen=True, slots=True)
+class Squares:
+    """Values by hand of one way: hollow squares, diamonds where it was moved by somebody else; never joined with ours.
+
+    ``joined``: a thin line between them, where nothing else is in the panel."""
+
+    values: Sequence[HandValue]
+    joined: bool = False
+
+    def paint(self, painter: QPainter, style: PlotStyle, panel: Panel) -> None:
+        places = [QPointF(float(panel.x(noon_s(one.day))), float(panel.y(one.value))) for one in self.values]
+        shown = [at for at in places if panel.box.left() - 1 <= at.x() <= panel.box.right() + 1]
+        painter.setPen(QPen(style.color("text"), 1.6 * style.unit))
+        if self.joined and len(shown) > 1:
+            painter.drawPolyline(QPolygonF(shown))
+        painter.setBrush(style.color("surface"))
+        passive = bool(self.values) and self.values[0].way == "passive"
+        for at in shown:
+            paint_square(painter, at, style.unit, turned=passive)
+
+
+def paint_square(painter: QPainter, at: QPointF, unit: float, *, turned: bool = False) -> None:
+    """The sign of what was entered by hand."""
+    half = HALF_PX * unit
+    if turned:
+        half *= 1.3
+        corners = [QPointF(0, -half), QPointF(half, 0), QPointF(0, half), QPointF(-half, 0)]
+        painter.drawPolygon(QPolygonF([at + corner for corner in corners]))
+    else:
+        painter.drawRect(QRectF(at.x() - half, at.y() - half, 2 * half, 2 * half))
+
+
+@dataclass(frozen=True, slots=True)
+class OurDots:
+    """What Carpus measured of the same, each session's mean."""
+
+    points: Sequence[tuple[datetime, float]]
+
+    def paint(self, painter: QPainter, style: PlotStyle, panel: Panel) -> None:
+        places = [QPointF(float(panel.x(when.timestamp())), float(panel.y(value))) for when, value in self.points]
+        painter.setPen(QPen(style.color("curve_a"), style.line_width))
+        painter.drawPolyline(QPolygonF(places))
+        painter.setBrush(style.color("curve_a"))
+        for at in places:
+            painter.drawEllipse(at, 4 * style.unit, 4 * style.unit)
+
+
+def scale_of(measure: HandMeasure, values: Sequence[float]) -> Scale:
+    """From zero, or below it where something is, to the next round number above all there is."""
+    top = max([*values, 0.5 * measure.usual[1] if measure.kind == "score" else 0.0, 1e-6])
+    steps = (0.5, 1.0, 2.0, 5.0, 10.0, 20.0, 30.0, 50.0, 100.0, 200.0, 500.0)
+    step = next((one for one in steps if top / one <= 4.0), 500.0)
+    low = step * math.floor(min([*values, 0.0]) / step)
+    high = step * math.ceil(top / step + 1e-9)
+    ticks = tuple(np.arange(low, high + step / 2, step).tolist())
+    return Scale(low, high, ticks, tuple((tick, value_words(measure, tick)) for tick in ticks), strong_ends=False)
+
+
+class HandChart(QWidget):
+    """One measure over the days."""
+
+    def __init__(self, theme: Theme) -> None:
+        super().__init__()
+        self._theme = theme
+        self.measure: HandMeasure | None = None
+        self._values: Sequence[HandValue] = ()
+        self._ours: Sequence[tuple[datetime, float]] = ()
+        self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
+        theme.changed.connect(self.updateGeometry)
+
+    def show_course(
+        self, measure: HandMeasure, values: Sequence[HandValue], ours: Sequence[tuple[datetime, float]]
+    ) -> None:
+        """Draw the values that count of one hand, and Carpus's own by day."""
+        self.measure, self._values, self._ours = measure, values, ours
+        self.setAccessibleName(self.tr("{name} over the days").format(name=measure_name(measure)))
+        self.update()
+
+    def sizeHint(self) -> QSize:
+        return QSize(400, self._theme.px(250))
+
+    def minimumSizeHint(self) -> QSize:
+        return QSize(260, self.sizeHint().height())
+
+    def paintEvent(self, event: QPaintEvent) -> None:
+        if self.measure is None:
+            return
+        painter = QPainter(self)
+        painter.setRenderHint(QPainter.RenderHint.Antialiasing)
+        paint_course(painter, screen_style(self._theme), QRectF(self.rect()), self.measure, self._values, self._ours)
+
+
+def paint_course(
+    painter: QPainter,
+    style: PlotStyle,
+    box: QRectF,
+    measure: HandMeasure,
+    values: Sequence[HandValue],
+    ours: Sequence[tuple[datetime, float]],
+) -> None:
+    """Title, axis, squares, dots and what they mean."""
+    unit, metrics = style.unit, QFontMetricsF(style.end_label)
+    painter.setFont(font(style.end_label.pixelSize() * 1.25, SEMIBOLD, display=False))
+    painter.setPen(style.color("text"))
+    title = QFontMetricsF(painter.font()).height()
+    painter.drawText(QPointF(box.left(), box.top() + 0.8 * title), measure_name(measure))
+    active = [one for one in values if one.way != "passive"]
+    passive = [one for one in values if one.way == "passive"]
+    times = [noon_s(one.day) for one in values] + [when.timestamp() for when, _ in ours]
+    if not times:
+        painter.setFont(style.end_label)
+        painter.setPen(style.color("text2"))
+        painter.drawText(QPointF(box.left(), box.top() + 2.2 * title), tr("Nothing measured by hand yet."))
+        return
+    pad = max(0.06 * (max(times) - min(times)), 2 * DAY_S)
+    scale = scale_of(measure, [one.value for one in values] + [value for _, value in ours])
+    left = max(metrics.horizontalAdvance(text) for _, text in scale.labels) + 14 * unit
+    right = metrics.horizontalAdvance(tr("passive {value}").format(value="100°")) + 20 * unit
+    area = QRectF(
+        box.left() + left, box.top() + title + 12 * unit, box.width() - left - right,
+        box.height() - title - 2 * metrics.height() - 34 * unit,
+    )  # fmt: skip
+    panel = Panel(area, scale, min(times) - pad, max(times) + pad)
+    Scales().paint(painter, style, panel)
+    if ours:
+        OurDots(ours).paint(painter, style, panel)
+    for some in (passive, active):
+        Squares(some, joined=not ours).paint(painter, style, panel)
+    labels = (
+        [(ours[-1][1], tr("Carpus {value}").format(value=value_words(measure, ours[-1][1])), "curve_a")] if ours else []
+    )
+    for some in (passive, active):
+        if some:
+            pattern = {"passive": tr("passive {value}"), "active": tr("active {value}")}.get(some[-1].way, "{value}")
+            words = pattern.format(value=value_words(measure, some[-1].value))
+            labels.append((some[-1].value, words, "text"))
+    EndLabels(labels).paint(painter, style, panel)
+    _paint_days(painter, style, panel, [one.day for one in values] + [when.date() for when, _ in ours])
+    _paint_meaning(painter, style, box, has_passive=bool(passive), has_ours=bool(ours), ways=len(measure.ways))
+
+
+def _paint_days(painter: QPainter, style: PlotStyle, panel: Panel, days: Sequence[date]) -> None:
+    """The first and the last day, and what fits between."""
+    metrics, taken = QFontMetricsF(style.end_label), list[tuple[float, float]]()
+    painter.setFont(style.end_label)
+    painter.setPen(style.color("text2"))
+    known = sorted(set(days))
+    for day in [known[-1], known[0], *known[1:-1]]:
+        text = numbers.day_month(day)
+        width = metrics.horizontalAdvance(text)
+        left = float(panel.x(noon_s(day))) - width / 2
+        if any(left < end + 6 * style.unit and left + width > start - 6 * style.unit for start, end in taken):
+            continue
+        taken.append((left, left + width))
+        painter.drawText(QPointF(left, panel.box.bottom() + metrics.ascent() + 6 * style.unit), text)
+
+
+def _paint_meaning(
+    painter: QPainter, style: PlotStyle, box: QRectF, *, has_passive: bool, has_ours: bool, ways: int
+) -> None:
+    unit, metrics = style.unit, QFontMetricsF(style.end_label)
+    baseline = box.bottom() - 5 * unit
+    across = box.left() + 8 * unit
+    signs = [("square", tr("by hand, active") if ways > 1 else tr("by hand"))]
+    signs += [("diamond", tr("by hand, passive"))] if has_passive else []
+    signs += [("dot", tr("Carpus, mean"))] if has_ours else []
+    for sign, words in signs:
+        at = QPointF(across, baseline - 0.36 * metrics.ascent())
+        painter.setPen(QPen(style.color("curve_a" if sign == "dot" else "text"), 1.6 * unit))
+        painter.setBrush(style.color("curve_a" if sign == "dot" else "surface"))
+        if sign == "dot":
+            painter.drawEllipse(at, 4 * unit, 4 * unit)
+        else:
+            paint_square(painter, at, unit, turned=sign == "diamond")
+        painter.setPen(style.color("text2"))
+        painter.drawText(QPointF(across + 12 * unit, baseline), words)
+        across += 28 * unit + metrics.horizontalAdvance(words)
