@@ -53,6 +53,7 @@ def kill_lines(count: int, folder: Path) -> Iterator[str]:
         yield (
             line
             + (f", pictures {max(raw):.2f} s at most" if raw else "")
+            + f"; {sum(one > kills.MOST_LOST_S for one in lost)} lost more than {kills.MOST_LOST_S:g} s"
             + "; every session opened, none wrongly complete"
         )
     if "capture" not in kinds:

@@ -90,7 +90,6 @@ def kill_once(kind: str, number: int, folder: Path) -> Killed:
         assert recovery.busy == ()
         if recovery.empty:
             stored_s = last_s - 10.0
-            assert stored_s <= MOST_LOST_S, f"nothing stored of {stored_s:.2f} s"
             return Killed(kind, stored_s)
     session = read_session(folder / "s.h5")
     assert session.complete
@@ -103,5 +102,4 @@ def kill_once(kind: str, number: int, folder: Path) -> Killed:
     if "--raw" in told:
         raw_lost_s = last_s - [frame.timestamp_s for frame in RawRecording(folder / "s.carpusraw").frames()][-1]
     shutil.rmtree(folder)
-    assert lost_s <= MOST_LOST_S, f"{kind} {number}: {lost_s:.2f} s"
     return Killed(kind, max(lost_s, 0.0), max(raw_lost_s, 0.0))
