@@ -651,14 +651,6 @@ class Gallery:
         screen.show_record(HandRecord("Linden 42", "right", tuple(hand_values()), tuple(figures), "MK"))
         self.settle()
 
-    def by_hand_empty(self) -> None:
-        self.place(tab=2, camera="")
-        screen = ByHandScreen(self.theme, date(2026, 11, 20))
-        self.show(screen)
-        screen.show_record(HandRecord("Linden 42", "left", (), (), ""))
-        screen.form.rows["FLEXION"].fields[1][1].setText("170")
-        self.settle()
-
     def progress_hand(self) -> None:
         self.place(tab=2, camera="")
         screen = ProgressScreen(self.theme, self.keys, self.background, FakeHandSessions())
@@ -873,7 +865,7 @@ class Gallery:
             "correct", "correct_spots", "agreement", "agreement_curves", "agreement_goniometer", "agreement_hand",
             "agreement_running", "agreement_reference", "agreement_columns", "retest", "retest_empty", "retest_people",
             "correct_exchanged", "correct_results", "correct_results_hand", "correct_running",
-            "progress", "progress_by_hand", "progress_hand", "by_hand", "by_hand_empty", "report", "report_hand",
+            "progress", "progress_by_hand", "progress_hand", "by_hand", "report", "report_hand",
             "report_progress",
             "settings", "settings_safe", "locked", "pin_change", "records_due", "records_log", "help",
             "patients_welcome", "patients_welcome_good", "patients_guided", "camera_guided",

@@ -158,13 +158,18 @@ def test_what_is_saved_is_in_the_register_and_in_the_log(
     qtbot.waitUntil(lambda: screen.state.text() == "Kept.", timeout=60_000)
     (kept,) = library.by_hand(patient)
     assert (kept.value, kept.by, kept.side, kept.day) == (170.0, "MK", "left", TODAY)
+    typed(screen, "FLEXION", "71")
+    screen.save_button.click()
+    qtbot.waitUntil(lambda: len(library.by_hand(patient)) == 2 and not background.busy, timeout=60_000)
+    assert screen.form.rows["FLEXION"].last.text() == "changed"
+    assert "170° active · MK" in screen.form.rows["FLEXION"].last.toolTip()
     assert told.asked == ["Unusual: check, or keep it"]
     flow.leave()
     assert left == [1]
     typed(screen, "FLEXION", "70")
     flow.leave()
     assert told.asked[1:] == ["Leave without saving?"]
-    assert [entry.did for entry in read_audit(library.folder).entries] == ["entered_by_hand"]
+    assert [entry.did for entry in read_audit(library.folder).entries] == ["entered_by_hand"] * 2
 
 
 def test_reports_and_table_tell_them_as_entered_by_hand(tmp_path: Path) -> None:

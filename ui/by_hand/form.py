@@ -11,7 +11,7 @@ from PySide6.QtCore import QObject, Qt, Signal
 from PySide6.QtWidgets import QGridLayout, QLineEdit, QWidget
 
 from carpus.core.by_hand.measures import MEASURES, HandMeasure, Way
-from carpus.core.by_hand.values import MOST_WHERE, HandValue, Key, before, on_day
+from carpus.core.by_hand.values import MOST_WHERE, HandValue, Key, before, on_day, replaced
 from carpus.core.output.range_rows import RangeRow
 from carpus.core.types import Side
 from carpus.ui import numbers, terms
@@ -91,6 +91,7 @@ class MeasureRow(QObject):
         words = " / ".join(value_words(self.measure, one.value) if one else "–" for one in last)
         known = [one for one in last if one]
         self.last.setText(f"{numbers.day_month(max(one.day for one in known))}: {words}" if known else "")
+        self._say_earlier(values, side, day)
         self.other.setText("")
         if self.measure.of_hand and self.measure.kind != "angle":
             other: Side = "left" if side == "right" else "right"
@@ -100,6 +101,20 @@ class MeasureRow(QObject):
                 value = value_words(self.measure, found.value)
                 self.other.setText(pattern.format(side=terms.side_name(other), value=value))
         self._say_beside()
+
+    def _say_earlier(self, values: Sequence[HandValue], side: Side, day: date) -> None:
+        """What was entered before for the same day, and by whom."""
+        lines = []
+        for key in self.keys(side):
+            for one in replaced(values, key, day):
+                when = numbers.report_date(one.entered.astimezone()) if one.entered else ""
+                said = (value_words(self.measure, one.value) if one.tries else self.tr("taken back"), way_name(one.way))
+                lines.append(" · ".join(filter(None, (" ".join(filter(None, said)), one.by, when))))
+        if lines:
+            changed = self.tr("changed")
+            self.last.setText(f"{changed} · {self.last.text()}" if self.last.text() else changed)
+        self.last.setToolTip(self.tr("Entered before for this day:") + "\n" + "\n".join(lines) if lines else "")
+        self.last.setAccessibleDescription(self.last.toolTip())
 
     def entered(self, side: Side, day: date) -> list[HandValue]:
         """What is written, one for each way, without tries where nothing is. Raises ValueError for what cannot be."""
