@@ -15,6 +15,7 @@ from carpus.core.output.range_rows import RangeRow
 from carpus.core.output.report_content import SessionFigures
 from carpus.core.types import Side
 from carpus.ui import numbers, terms
+from carpus.ui.by_hand.chart import HandChart
 from carpus.ui.by_hand.form import HandForm
 from carpus.ui.by_hand.names import change_words, changes, full_name, measure_name, verdict_words
 from carpus.ui.controls.button import Button
@@ -22,7 +23,6 @@ from carpus.ui.controls.card import Card, Line
 from carpus.ui.controls.column import ScrolledColumn, scroll_area
 from carpus.ui.controls.field import Choices
 from carpus.ui.controls.text import REGULAR, SEMIBOLD, StateText, Text, heading
-from carpus.ui.plot.by_hand import HandChart
 from carpus.ui.theme import GAP_PX, MARGIN_PX, Theme, is_tight
 
 

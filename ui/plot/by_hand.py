@@ -8,9 +8,8 @@ from dataclasses import dataclass
 from datetime import date, datetime, time
 
 import numpy as np
-from PySide6.QtCore import QPointF, QRectF, QSize
-from PySide6.QtGui import QFontMetricsF, QPainter, QPaintEvent, QPen, QPolygonF
-from PySide6.QtWidgets import QSizePolicy, QWidget
+from PySide6.QtCore import QPointF, QRectF
+from PySide6.QtGui import QFontMetricsF, QPainter, QPen, QPolygonF
 
 from carpus.core.by_hand.measures import HandMeasure
 from carpus.core.by_hand.values import HandValue
@@ -19,8 +18,7 @@ from carpus.ui.by_hand.names import measure_name, value_words
 from carpus.ui.fonts import SEMIBOLD, font
 from carpus.ui.plot.axes import Panel, Scale
 from carpus.ui.plot.marks import EndLabels, Scales
-from carpus.ui.plot.style import PlotStyle, screen_style
-from carpus.ui.theme import Theme
+from carpus.ui.plot.style import PlotStyle
 from carpus.ui.translate import tr
 
 HALF_PX = 4.5
@@ -88,40 +86,6 @@ def scale_of(measure: HandMeasure, values: Sequence[float]) -> Scale:
     high = step * math.ceil(top / step + 1e-9)
     ticks = tuple(np.arange(low, high + step / 2, step).tolist())
     return Scale(low, high, ticks, tuple((tick, value_words(measure, tick)) for tick in ticks), strong_ends=False)
-
-
-class HandChart(QWidget):
-    """One measure over the days."""
-
-    def __init__(self, theme: Theme) -> None:
-        super().__init__()
-        self._theme = theme
-        self.measure: HandMeasure | None = None
-        self._values: Sequence[HandValue] = ()
-        self._ours: Sequence[tuple[datetime, float]] = ()
-        self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
-        theme.changed.connect(self.updateGeometry)
-
-    def show_course(
-        self, measure: HandMeasure, values: Sequence[HandValue], ours: Sequence[tuple[datetime, float]]
-    ) -> None:
-        """Draw the values that count of one hand, and Carpus's own by day."""
-        self.measure, self._values, self._ours = measure, values, ours
-        self.setAccessibleName(self.tr("{name} over the days").format(name=measure_name(measure)))
-        self.update()
-
-    def sizeHint(self) -> QSize:
-        return QSize(400, self._theme.px(250))
-
-    def minimumSizeHint(self) -> QSize:
-        return QSize(260, self.sizeHint().height())
-
-    def paintEvent(self, event: QPaintEvent) -> None:
-        if self.measure is None:
-            return
-        painter = QPainter(self)
-        painter.setRenderHint(QPainter.RenderHint.Antialiasing)
-        paint_course(painter, screen_style(self._theme), QRectF(self.rect()), self.measure, self._values, self._ours)
 
 
 def paint_course(
