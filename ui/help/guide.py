@@ -19,7 +19,8 @@ PAGES = (
 KEYS_PAGE = "keys"
 PAGE_OF_PLACE = {
     "patients": "session", "exercise": "exercises", "camera": "camera", "markers": "calibration", "live": "measuring",
-    "sessions": "sessions", "review": "figures", "progress": "figures", "by_hand": "figures", "report": "figures", "correct": "correct",
+    "sessions": "sessions", "review": "figures", "progress": "figures", "report": "figures",
+    "by_hand": "figures", "correct": "correct",
     "agreement": "checking", "retest": "checking", "settings": "data",
 }  # fmt: skip
 """What F1 opens on each screen."""
