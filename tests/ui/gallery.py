@@ -395,6 +395,11 @@ class Gallery:
         view.show_scene(scene)
         self.settle()
 
+    def live_large(self) -> None:
+        with self._live(FakeFeed(seconds=32.0)) as screen:
+            screen.toggle_large()
+            self.settle()
+
     def live_speeds(self) -> None:
         with self._live(FakeFeed(seconds=32.0)) as screen:
             screen.toggle_speeds()
@@ -855,7 +860,7 @@ class Gallery:
             "markers_start_angle", "markers_proposed", "markers_proposed_doubtful", "markers_proposed_incomplete",
             "markers_straight", "markers_other_spot", "sessions_list", "sessions_erase",
             "patient_erase",
-            "live", "live_speeds", "live_marker_hidden", "live_which_spot", "live_hand_lost", "live_hand",
+            "live", "live_large", "live_speeds", "live_marker_hidden", "live_which_spot", "live_hand_lost", "live_hand",
             "live_hand_thumb_hidden", "live_hand_fist", "live_hand_not_found", "live_arm_moved",
             "live_disk_full", "live_note", "patient_view", "patient_view_goal", "patient_view_child",
             "patient_view_lost",

@@ -97,6 +97,25 @@ def test_space_records_and_space_stops_and_leads_to_the_session(qtbot: QtBot, th
     assert screen.recording_state == "off"
 
 
+def test_the_large_view_leaves_the_figure_the_light_and_the_keys(qtbot: QtBot, theme: Theme) -> None:
+    feed = FakeFeed()
+    screen, measuring = live(qtbot, theme, feed)
+    run(screen, feed, 1.0)
+    record(qtbot, screen, measuring)
+    height_px = screen.number.height()
+    qtbot.keyClick(screen, Qt.Key.Key_F11)
+    qtbot.waitUntil(lambda: screen.number.height() > 2 * height_px)
+    run(screen, feed, 0.5)
+    assert screen.light.isVisible()
+    assert not any(part.isVisible() for part in (screen.picture, screen.curves, screen.path, screen.note))
+    key(qtbot, screen, "F5")
+    assert screen.note_sheet.isVisible()
+    screen.note_sheet.close_sheet()
+    qtbot.keyClick(screen, Qt.Key.Key_F11)
+    qtbot.waitUntil(lambda: screen.number.height() == height_px)
+    assert screen.picture.isVisible()
+
+
 def test_repetitions_and_best_are_counted_from_recorded_frames_only(qtbot: QtBot, theme: Theme) -> None:
     feed = FakeFeed(seconds=32.0)
     screen, measuring = live(qtbot, theme, feed)

@@ -25,6 +25,8 @@ MOST_DOTS = 12
 SPREAD_PX = 44
 LEAST_NUMBER_PX = 72.0
 RIGHT_PX, NARROW_RIGHT_PX, NARROW_BELOW_PX = 230, 182, 640
+LARGE_PX = (640, 300)
+"""The large view is this card, as many times as large as it fits."""
 PRESSED_PX = 26
 """With large text the card may be lower by so much: the dots of the repetitions give way."""
 
@@ -63,6 +65,31 @@ class NumberCard(QWidget):
         self._word = SIDES[1][0]
         self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Maximum)
         theme.changed.connect(self.updateGeometry)
+        self._large = False
+
+    def set_large(self, large: bool) -> None:
+        """Fill all the room there is, to be read from across the room, or take its usual place."""
+        self._large = large
+        self.setSizePolicy(
+            QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Expanding if large else QSizePolicy.Policy.Maximum
+        )
+        self.updateGeometry()
+        self.update()
+
+    @property
+    def _zoom(self) -> float:
+        if not self._large:
+            return 1.0
+        scale = self._theme.text_scale
+        return max(1.0, min(self.width() / (LARGE_PX[0] * scale), self.height() / (LARGE_PX[1] * scale)))
+
+    @property
+    def _across(self) -> float:
+        return self.width() / self._zoom
+
+    @property
+    def _down(self) -> float:
+        return self.height() / self._zoom
 
     def show_reading(self, reading: Reading) -> None:
         """Show new figures; the word for the direction stays while the angle is about zero."""
@@ -100,17 +127,25 @@ class NumberCard(QWidget):
 
     def _number_px(self) -> float:
         """As large as the widest figure of the gauge has room, and never larger than designed."""
-        if self.width() >= WIDE_FROM_PX * self._theme.text_scale:
+        if self._large:
+            scale = self._theme.text_scale
+            high = (self._down - 36 - 136 * scale) / QFontMetricsF(font(NUMBER_PX, SEMIBOLD)).capHeight() * NUMBER_PX
+            return max(NUMBER_PX, min(high, self._widest_px()))
+        if self._across >= WIDE_FROM_PX * self._theme.text_scale:
             return float(NUMBER_WIDE_PX)
+        return max(LEAST_NUMBER_PX, min(NUMBER_PX, self._widest_px()))
+
+    def _widest_px(self) -> float:
+        """As large as the widest figure has room beside its spread and the column at the right."""
         widest = numbers.degrees(round(max(abs(end) for end in self._ends()[:2]), -1))
         needed = QFontMetricsF(font(NUMBER_PX, SEMIBOLD)).horizontalAdvance(widest)
         spread = QFontMetricsF(font(SPREAD_PX, MEDIUM)).horizontalAdvance(numbers.spread(10.0))
-        room = self.width() - 24 - self._right_px() - spread - 20
-        return max(LEAST_NUMBER_PX, min(NUMBER_PX, NUMBER_PX * room / needed))
+        room = self._across - 24 - self._right_px() - spread - 20
+        return NUMBER_PX * room / needed
 
     def _right_px(self) -> float:
         """Width of the column at the right: repetition, speed, best."""
-        narrow = self.width() < NARROW_BELOW_PX * self._theme.text_scale
+        narrow = self._across < NARROW_BELOW_PX * self._theme.text_scale
         return (NARROW_RIGHT_PX if narrow else RIGHT_PX) * self._theme.text_scale
 
     def sizeHint(self) -> QSize:
@@ -122,7 +157,7 @@ class NumberCard(QWidget):
 
     def _pressed_px(self) -> float:
         """How much of its height large text on a low screen has taken."""
-        return min(max(self.sizeHint().height() - self.height(), 0.0), PRESSED_PX)
+        return 0.0 if self._large else min(max(self.sizeHint().height() - self._down, 0.0), PRESSED_PX)
 
     def resizeEvent(self, event) -> None:  # type: ignore[no-untyped-def]
         self.updateGeometry()
@@ -132,11 +167,12 @@ class NumberCard(QWidget):
         painter = QPainter(self)
         painter.setRenderHint(QPainter.RenderHint.Antialiasing)
         paint_card(painter, theme, QRectF(self.rect()))
+        painter.scale(self._zoom, self._zoom)
         token = CURVE_TOKENS[reading.angle] if reading.figure is None else reading.figure.token
         painter.setPen(Qt.PenStyle.NoPen)
         painter.setBrush(theme.color(token))
         painter.drawRoundedRect(QRectF(24, 24, 6, 20 * scale), 3, 3)
-        room = self.width() - self._right_px() - 52
+        room = self._across - self._right_px() - 52
         size = 28 * scale
         while size > 20 and QFontMetricsF(font(size, SEMIBOLD)).horizontalAdvance(self.movement()) > room:
             size -= 1
@@ -147,7 +183,7 @@ class NumberCard(QWidget):
             self._paint_doubtful(painter, 40 + QFontMetricsF(painter.font()).horizontalAdvance(self.movement()), room)
         self._paint_number(painter, 24.0, 36 * scale + 20)
         self._paint_right(painter)
-        self._paint_gauge(painter, QRectF(24, self.height() - 42 * scale, self.width() - 48, 12), token)
+        self._paint_gauge(painter, QRectF(24, self._down - 42 * scale, self._across - 48, 12), token)
 
     def _paint_doubtful(self, painter: QPainter, left: float, room: float) -> None:
         """Beside the movement, in as many words as there is room for."""
@@ -193,7 +229,7 @@ class NumberCard(QWidget):
 
     def _paint_right(self, painter: QPainter) -> None:
         theme, scale, reading = self._theme, self._theme.text_scale, self.reading
-        left = self.width() - self._right_px()
+        left = self._across - self._right_px()
         y = 16.0
         if reading.repetitions_asked:
             self._text(painter, self.tr("Repetition"), left, y, 14, REGULAR, "text2")
@@ -228,7 +264,7 @@ class NumberCard(QWidget):
     def _paint_dots(self, painter: QPainter, left: float, middle: float) -> None:
         reading, color = self.reading, self._theme.color
         count = min(reading.repetitions_asked, MOST_DOTS)
-        step = min(20.5, (self.width() - left - 30) / max(count, 1))
+        step = min(20.5, (self._across - left - 30) / max(count, 1))
         for number in range(count):
             center = QPointF(left + 6 + number * step, middle)
             painter.setPen(Qt.PenStyle.NoPen)

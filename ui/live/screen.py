@@ -107,6 +107,7 @@ class LiveScreen(QWidget):
         self.hand_map = HandMap(theme)
         self._whole_hand = False
         self._side_on = False
+        self._large = False
         self.light = LightView(theme)
         self.note = Button(theme, self.tr("Note"), "quiet", icon="notebook-pen", hint="F5")
         self.pain = Button(theme, self.tr("Pain"), "quiet", hint="F6")
@@ -196,6 +197,7 @@ class LiveScreen(QWidget):
             "pause": self.toggle_pause, "overlay": self.toggle_overlay, "whole_picture": self.toggle_whole,
             "speeds": self.toggle_speeds, "next_angle": self.next_angle, "next_finger": self.next_finger,
             "side_view": self.toggle_side, "patient_view": self.patient_wanted.emit,
+            "large_view": self.toggle_large,
         }  # fmt: skip
         self.fingers.chosen.connect(self.choose_figure)
         self._shortcuts = {name: bind(self, keys, name, action) for name, action in actions.items()}
@@ -218,12 +220,16 @@ class LiveScreen(QWidget):
     def _fit(self) -> None:
         """With large text on a small screen, what is read from afar keeps its room and the path gives way."""
         tight = is_tight(self, self._theme)
-        self.path.setVisible(not tight and not self._whole_hand)
-        self.hand_map.setVisible(not tight and self._whole_hand)
-        self.curves.setVisible(not self._whole_hand)
-        self.fingers.setVisible(self._whole_hand)
+        small = not self._large
+        self.picture.setVisible(small)
+        self.path.setVisible(small and not tight and not self._whole_hand)
+        self.hand_map.setVisible(small and not tight and self._whole_hand)
+        self.curves.setVisible(small and not self._whole_hand)
+        self.fingers.setVisible(small and self._whole_hand)
         for place, share in enumerate(HAND_COLUMNS if self._whole_hand else WRIST_COLUMNS):
-            self._columns.setStretch(place, share)
+            self._columns.setStretch(place, share if small or place else 0)
+        for button in (self.note, self.pain, self.pause):
+            button.setVisible(small)  # the light has the room; their keys go on working
         least_px = LEAST_SCREEN_PX * self._theme.text_scale
         self.bubble.give_room(self.height() >= least_px and not (tight and self._whole_hand))
         self.curves.show_single(tight)
@@ -355,6 +361,12 @@ class LiveScreen(QWidget):
     def toggle_whole(self) -> None:
         """Whole picture or hand area."""
         self.picture.show_whole(not self.picture.shows_whole)
+
+    def toggle_large(self) -> None:
+        """One figure and the light, to be read from across the room, or everything."""
+        self._large = not self._large
+        self.number.set_large(self._large)
+        self._fit()
 
     def toggle_speeds(self) -> None:
         """Curves of the angles or of the speeds."""
