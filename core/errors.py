@@ -126,6 +126,10 @@ class SettingsInvalid(CarpusFault):
     """A settings file has an unknown key or a value out of range."""
 
 
+class SetsUnreadable(CarpusFault):
+    """The file of the therapist's own sets of exercises cannot be read."""
+
+
 class DriverMissing(CarpusFault):
     """The OpenNI2 library is not on this computer or cannot be loaded."""
 

@@ -193,6 +193,11 @@ FAULTS: dict[type[CarpusFault], Words] = {
         _UNTOUCHED,
         "Correct the setting, or take it out to use the usual value.",
     ),
+    errors.SetsUnreadable: Words(
+        "The sets of exercises cannot be read: {subject} ({detail}).",
+        _UNTOUCHED,
+        "Single exercises can be measured as ever. Put a copy of the file back, or make the sets anew.",
+    ),
     errors.RegisterUnreadable: Words(
         "The list of patients cannot be opened: {subject} ({detail}).",
         "The session files are safe; the list can be made again from them, without the names.",

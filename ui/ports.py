@@ -14,6 +14,7 @@ from carpus.core.by_hand.values import HandValue
 from carpus.core.calibration.result import Calibration, Clicks, Finding, Verdict
 from carpus.core.camera import Camera
 from carpus.core.hand.marker_protocol import MarkerProtocol
+from carpus.core.library.set_up import SetUp
 from carpus.core.output.report_content import RepetitionChoices, SessionFigures
 from carpus.core.pipeline.live_values import LiveCounters, LiveEvent, TrackedView
 from carpus.core.session.values import AngleOrder, Session
@@ -222,6 +223,10 @@ class Measuring(Protocol):
 
     def answer_spot(self, answer: SpotAnswer) -> None:
         """What the person says of blue spots; holds from the next picture on, and the recording notes it."""
+        ...
+
+    def choose(self, set_up: SetUp) -> None:
+        """What is recorded next: another exercise with the same discs."""
         ...
 
     def start_recording(self) -> None: ...

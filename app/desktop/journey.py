@@ -19,6 +19,7 @@ from carpus.app.desktop.by_hand import ByHand
 from carpus.app.desktop.camera_watch import CameraWatch
 from carpus.app.desktop.comparing import Comparing
 from carpus.app.desktop.correcting import Correcting, Moments
+from carpus.app.desktop.courses import CourseRun, KeptSets
 from carpus.app.desktop.last_places import LastPlaces
 from carpus.app.desktop.measuring_flow import MeasuringFlow
 from carpus.app.desktop.navigation import Navigator, Stop
@@ -140,6 +141,8 @@ class Journey(QObject):
         )  # fmt: skip
         self.measuring = MeasuringFlow(self, self.live, self.way, tell, now)
         self.patient_view = PatientViewing(self._shell, self.live, theme, lambda: self.settings.patient.sound)
+        self.kept_sets = KeptSets(self._shell.stage, self.exercise, tell, library, theme)
+        self.course = CourseRun(self, self.live, self.patient_view, now)
         views = ViewScreens(self.sessions, self.review, self.progress)
         self.viewing = Viewing(self, views, self.way, tell, now, library, self._find_patient, places)
         self.printing = Printing(
@@ -220,7 +223,8 @@ class Journey(QObject):
         self.live.recording_changed.connect(self.bar.show_recording)
         self.live.counted.connect(self.bar.show_counters)
         self.measuring.begun.connect(self.patient_view.begin)
-        self.measuring.stored.connect(lambda _: self.patient_view.stored())
+        self.measuring.begun.connect(self.course.begun)
+        self.course.wanted.connect(self.measuring.begin)
         way.leaving.connect(lambda to: None if to == "live" else self.patient_view.leave())
         self.measuring.stored.connect(self._stored)
         self.measuring.patients_wanted.connect(self._to_patient)
@@ -314,7 +318,15 @@ class Journey(QObject):
 
     def _stored(self, session_id: str) -> None:
         self.bar.show_recording("off", 0.0)
-        self.viewing.open_review(session_id)
+        in_course = self.now.set_up is not None and self.now.set_up.course is not None
+        if self.course.goes_on():
+            self.bar.show()
+            return
+        self.patient_view.stored()
+        if in_course and self.now.patient is not None:
+            self.viewing.open_sessions(self.now.patient.patient_id)
+        else:
+            self.viewing.open_review(session_id)
 
     def show_retest(self) -> None:
         """The clinic's own test and retest; whatever was open is closed."""
@@ -340,6 +352,7 @@ class Journey(QObject):
 
     def _source_closes(self) -> None:
         self.live.end()
+        self.course.end()
         self.bar.show_recording("off", 0.0)
 
     def review_recovered(self, found: Recovered) -> None:

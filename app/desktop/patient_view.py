@@ -25,6 +25,7 @@ class PatientViewing(QObject):
         self._set_up: SetUp | None = None
         self._guide: Guide | None = None
         self._sounded = 0
+        self._rests = False
         self.window: PatientWindow | None = None
         live.patient_wanted.connect(self.toggle)
         live.glanced.connect(self._follow)
@@ -59,6 +60,14 @@ class PatientViewing(QObject):
         if self.window is not None:
             self.window.view.begin(set_up)
 
+    def rest(self, left: tuple[int, int, int, int] | None) -> None:
+        """Between two parts of a set: seconds left and in all, parts done and in all; None: no rest any more."""
+        self._rests = left is not None
+        if left is not None:
+            left_s, rest_s, done, asked = left
+            share = math.ceil(10 * left_s / max(rest_s, 1)) / 10
+            self._stand(Scene("rest", done=done, asked=asked, rest_share=share, rest_s=left_s))
+
     def stored(self) -> None:
         """A recording has ended."""
         self._stand(Scene("done", asked=self._asked, done=self._done))
@@ -85,7 +94,7 @@ class PatientViewing(QObject):
             self.window.show_standing(scene)
 
     def _follow(self, glance: Glance) -> None:
-        if self.window is None or not self.is_open or self._guide is None:
+        if self.window is None or not self.is_open or self._guide is None or self._rests:
             return
         self.window.show_running(self._guide.take(glance))
         if self._guide.reached > self._sounded:

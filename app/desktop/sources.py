@@ -93,11 +93,25 @@ class Sources:
         return self._live(session, source, set_up, on_begin=live.lock_exposure)
 
     def _practice(self, set_up: SetUp, progress: Progress) -> OpenSource:
+        course = set_up.course
+        exercises = {part.exercise.id: part.exercise for part in course.parts} if course is not None else {}
+        others = {
+            name: self._practice_take(replace(set_up, exercise=exercise), progress)[0]
+            for name, exercise in exercises.items()
+            if name != set_up.exercise.id
+        }
         take, still_s = self._practice_take(set_up, progress)
-        patient = PracticeSource(take, still_s)
+        takes = others | {set_up.exercise.id: take}
+        patient = PracticeSource(take, still_s, tuple(others.values()))
         session = self._session(PacedSource(patient, self._speed))
         session.start()
-        return self._live(session, take, set_up, on_recording=patient.let_go)
+        return self._live(
+            session,
+            take,
+            set_up,
+            on_recording=patient.let_go,
+            on_chosen=lambda chosen: patient.play_next(takes[chosen.exercise.id]),
+        )
 
     def _recording(self, choice: SourceChoice, set_up: SetUp) -> OpenSource:
         told: list[CarpusFault] = []
@@ -153,6 +167,7 @@ class Sources:
         set_up: SetUp,
         on_begin: Callable[[], None] = lambda: None,
         on_recording: Callable[[], None] = lambda: None,
+        on_chosen: Callable[[SetUp], None] = lambda _: None,
     ) -> OpenSource:
         measuring = SourceMeasuring(
             session,
@@ -163,6 +178,7 @@ class Sources:
             software_version=__version__,
             on_begin=on_begin,
             on_recording=on_recording,
+            on_chosen=on_chosen,
             listener=self._listener(session, set_up),
         )
         return OpenSource(self._calibrator(LivePictures(session), source, set_up, measuring), measuring)

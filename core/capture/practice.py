@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import threading
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from itertools import chain
 
@@ -18,9 +18,11 @@ class PracticeSource:
     backwards, until :meth:`let_go`. Then the take is played through once, and the hand rests until let go again.
     """
 
-    def __init__(self, take: FrameSource, still_s: float) -> None:
-        self._take = take
+    def __init__(self, take: FrameSource, still_s: float, others: Sequence[FrameSource] = ()) -> None:
+        """``others`` are further takes of the same hand, for :meth:`play_next`; closed with this."""
+        self._take, self._others = take, others
         self._still_s = still_s
+        self._next: FrameSource | None = None
         self._free = threading.Event()
         self._closed = threading.Event()
 
@@ -32,6 +34,10 @@ class PracticeSource:
     def let_go(self) -> None:
         """The hand moves once from now on, or goes on if it moves already; may be called from another thread."""
         self._free.set()
+
+    def play_next(self, take: FrameSource) -> None:
+        """Another take of the same hand at the same place, from the next :meth:`let_go` on; from another thread."""
+        self._next = take
 
     def frames(self) -> Iterator[Frame]:
         """Frames until :meth:`close`."""
@@ -53,9 +59,14 @@ class PracticeSource:
 
         rest, last_s = _to_and_fro(still), first_moving.timestamp_s - period_s
         moving: Iterator[Frame] = chain([first_moving], take)
+        playing = self._take
         while True:
             while not self._free.is_set():
                 yield timed(replace(next(rest), dropped_before=0), period_s)
+            following, self._next = self._next, None
+            if following is not None:
+                moving, last_s = following.frames(), still[0].timestamp_s - period_s
+                playing = following
             for frame in moving:
                 if self._closed.is_set():
                     return
@@ -64,13 +75,14 @@ class PracticeSource:
             self._free.clear()
             if self._closed.is_set():
                 return
-            moving, last_s = self._take.frames(), still[0].timestamp_s - period_s
+            moving, last_s = playing.frames(), still[0].timestamp_s - period_s
 
     def close(self) -> None:
         """End; may be called twice and from another thread."""
         self._closed.set()
         self._free.set()
-        self._take.close()
+        for take in (self._take, *self._others):
+            take.close()
 
 
 def _to_and_fro(frames: list[Frame]) -> Iterator[Frame]:

@@ -39,6 +39,7 @@ from carpus.core.formats.export import Wanted, export_sessions
 from carpus.core.library.beside import CHOICES_SUFFIX, MARKERS_SUFFIX
 from carpus.core.library.coming_home import bring_home, fallback_place
 from carpus.core.library.encrypting import Encrypting
+from carpus.core.library.exercise_sets import begun, read_sets
 from carpus.core.library.set_up import PRACTICE_PATIENT, SetUp
 from carpus.core.measures.error_limits import DEFAULT_LIMITS
 from carpus.core.output.angle_order import in_order
@@ -517,7 +518,7 @@ class Library:
         register, key = self.of(patient_id)
         try:
             stored = json.loads((self.folder / SET_UPS_FILE).read_text(encoding="utf-8"))[patient_id]
-            return SetUp(
+            last = SetUp(
                 patient_id,
                 register.patient(key).entry.pseudonym,
                 "left" if stored["side"] == "left" else "right",
@@ -530,8 +531,17 @@ class Library:
                 str(stored.get("discs", "")),
                 bool(stored.get("for_child", False)),
             )
+            return self._with_set(last, str(stored.get("set", "")))
         except (OSError, ValueError, KeyError, TypeError, RecursionError):
             return None  # only a convenience: without it the set-up is asked for
+
+    def _with_set(self, set_up: SetUp, set_id: str) -> SetUp:
+        """The beginning of the set it was a part of, as the set is now."""
+        with suppress(CarpusFault):
+            for one in read_sets(self.folder) if set_id else ():
+                if one.set_id == set_id and one.discs == set_up.protocol.name:
+                    return begun(one, set_up)
+        return set_up
 
     def forget_set_up(self, patient_id: str) -> None:
         """Of a patient who is erased. Raises :class:`OutputNotWritable`."""
@@ -562,6 +572,7 @@ class Library:
                 "ends_free": set_up.ends_free,
                 "discs": set_up.discs,
                 "for_child": set_up.for_child,
+                "set": set_up.course.set_id if set_up.course is not None else "",
             }
             _write_json(path, stored)
 

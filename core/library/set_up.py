@@ -14,6 +14,37 @@ PRACTICE_PATIENT = "practice"
 
 
 @dataclass(frozen=True, slots=True)
+class CoursePart:
+    """One exercise of a set: until ``repetitions`` are done or, where these are 0, for ``seconds``; then ``rest_s``."""
+
+    exercise: Exercise
+    repetitions: int = 10
+    seconds: int = 0
+    rest_s: int = 30
+
+    @property
+    def has_end(self) -> bool:
+        """Whether it ends by itself."""
+        return self.seconds > 0 or (self.repetitions > 0 and self.exercise.counts)
+
+
+@dataclass(frozen=True, slots=True)
+class Course:
+    """A set that runs; ``run_id`` is the same for all its sessions, ``number`` the part that it has come to, from 0."""
+
+    set_id: str
+    name: str
+    run_id: str
+    parts: tuple[CoursePart, ...]
+    number: int = 0
+
+    @property
+    def part(self) -> CoursePart:
+        """The exercise it has come to."""
+        return self.parts[self.number]
+
+
+@dataclass(frozen=True, slots=True)
 class SetUp:
     """What was chosen before measuring.
 
@@ -34,6 +65,8 @@ class SetUp:
     """Name of the marker protocol; empty for the exercise's usual one."""
     for_child: bool = False
     """Whether the patient's view speaks and draws for a child."""
+    course: Course | None = None
+    """The set that it is a part of."""
 
     @property
     def protocol(self) -> MarkerProtocol:

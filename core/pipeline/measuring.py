@@ -208,7 +208,8 @@ class SourceMeasuring:
     ``recording`` is the stored one that is played, None of a camera: it plays from its first picture when recording
     starts, so that none is missed; a camera has been running since it was opened. ``on_begin`` is called when
     tracking begins,
-    ``on_recording`` when a recording has begun. ``listener`` is asked who else hears what is tracked.
+    ``on_recording`` when a recording has begun, ``on_chosen`` when the same hand is to do another exercise.
+    ``listener`` is asked who else hears what is tracked.
     """
 
     def __init__(
@@ -223,13 +224,14 @@ class SourceMeasuring:
         recording: Path | None = None,
         on_begin: Callable[[], None] = lambda: None,
         on_recording: Callable[[], None] = lambda: None,
+        on_chosen: Callable[[SetUp], None] = lambda _: None,
         listener: Callable[[Calibration], Listener | None] = lambda _: None,
     ) -> None:
         self._listener = listener
         self._session, self._info, self._set_up, self._settings = session, info, set_up, settings
         self._software_version = software_version
         self._places, self._recording, self._starts_with_recording = places, recording, recording is not None
-        self._on_begin, self._on_recording = on_begin, on_recording
+        self._on_begin, self._on_recording, self._on_chosen = on_begin, on_recording, on_chosen
         self._played = False
         self._identity: tuple[str, str] | None = None
         self._walk: LiveWalk | None = None
@@ -281,6 +283,13 @@ class SourceMeasuring:
             self._session.notice(fault)
         self._session.begin_tracking(self._walk)
         self._on_begin()
+
+    def choose(self, set_up: SetUp) -> None:
+        """What is recorded next: another exercise of the same hand with the same discs. Not while a recording runs."""
+        assert not self._session.recording
+        assert set_up.protocol == self._set_up.protocol
+        self._set_up = set_up
+        self._on_chosen(set_up)
 
     def answer_spot(self, answer: SpotAnswer) -> None:
         """What a person says of blue spots of a picture shown: the tracker takes it up in its own thread, with the next
@@ -356,6 +365,14 @@ class SourceMeasuring:
             "repetitions": self._set_up.repetitions,
             "targets_deg": [aim if np.isfinite(aim) else None for aim in aims],
         }
+        course = self._set_up.course
+        if course is not None:
+            set_up["set"] = {
+                "run": course.run_id,
+                "part": course.number + 1,
+                "of": len(course.parts),
+                "seconds": course.part.seconds,
+            }
         return parameters_json(self._settings, source_facts(self._info), learnt, set_up)
 
     def stop_recording(self) -> str:

@@ -65,6 +65,22 @@ def test_after_the_take_the_hand_rests_until_let_go_again_and_times_rise_all_the
     assert [frame.index for frame in frames] == list(range(len(frames)))
 
 
+def test_another_take_of_the_same_hand_is_played_from_the_next_time_on() -> None:
+    take = Take()
+    other = Take()
+    source = PracticeSource(take, 0.55, (other,))
+    source.let_go()
+    walk = source.frames()
+    list(islice(walk, TOTAL - STILL + 3))
+    other.frames = lambda: iter(list(Take().frames())[::-1])  # type: ignore[method-assign]
+    source.play_next(other)
+    source.let_go()
+    assert numbers(list(islice(walk, TOTAL))) == list(range(TOTAL))[::-1]
+    source.close()
+    assert take.closed
+    assert other.closed
+
+
 def test_closing_ends_it_and_gives_the_take_back() -> None:
     take = Take()
     source = PracticeSource(take, still_s=0.55)

@@ -317,6 +317,9 @@ class FakeMeasuring:
 
     starts_with_recording = False
 
+    def choose(self, set_up: SetUp) -> None:
+        self.chosen = set_up
+
     def start_recording(self) -> None:
         if self.fault is not None:
             raise self.fault

@@ -22,6 +22,7 @@ from carpus.core.agreement.reference import Outline
 from carpus.core.calibration.result import Finding
 from carpus.core.errors import DiskFull
 from carpus.core.hand.sites import WRIST_ANGLES
+from carpus.core.library.exercise_sets import USUAL_SETS
 from carpus.core.measures.error_limits import DEFAULT_LIMITS
 from carpus.core.output.joint_content import joint_curves
 from carpus.core.output.report_content import RepetitionChoices, session_curves, session_figures
@@ -62,6 +63,7 @@ from carpus.ui.sessions.screen import SessionsScreen
 from carpus.ui.settings.screen import SettingsScreen
 from carpus.ui.setup.camera import CameraScreen
 from carpus.ui.setup.exercise import ExerciseScreen
+from carpus.ui.setup.set_sheet import SetSheet
 from carpus.ui.shell import Shell
 from carpus.ui.theme import Theme, ThemeName
 from carpus.ui.welcome.panel import Check, WelcomePanel
@@ -276,6 +278,7 @@ class Gallery:
     def exercise(self) -> None:
         self.place(steps=0)
         screen = ExerciseScreen(self.theme)
+        screen.show_sets(USUAL_SETS)
         screen.begin(FakeStore().rows[5], set_up(), "right", True, 110.0, 720.0)
         self.show(screen, screen.first())
 
@@ -386,6 +389,14 @@ class Gallery:
 
     def patient_view_lost(self) -> None:
         self._patient_view("FOREARM_PS", Scene("lost", 1, goal_deg=70.0, done=5, asked=10))
+
+    def patient_view_rest(self) -> None:
+        self._patient_view("WRIST_RU", Scene("rest", done=1, asked=3, rest_share=0.5, rest_s=30))
+
+    def exercise_sets(self) -> None:
+        self.exercise()
+        self._over(SetSheet(self.shell.stage, self.theme)).begin(USUAL_SETS, "wrist6")
+        self.settle()
 
     def _patient_view(self, exercise: str, scene: Scene, side: Side = "right", *, for_child: bool = False) -> None:
         self.shell.bar.hide()
@@ -863,7 +874,7 @@ class Gallery:
             "live", "live_large", "live_speeds", "live_marker_hidden", "live_which_spot", "live_hand_lost", "live_hand",
             "live_hand_thumb_hidden", "live_hand_fist", "live_hand_not_found", "live_arm_moved",
             "live_disk_full", "live_note", "patient_view", "patient_view_goal", "patient_view_child",
-            "patient_view_lost",
+            "patient_view_lost", "patient_view_rest", "exercise_sets",
             "live_pain", "live_camera_lost", "review", "review_hand",
             "review_path", "review_speeds", "review_zyz", "review_hand_finger",
             "review_reach", "review_opposition", "review_finger_ways",

@@ -30,6 +30,8 @@ class RunningCount:
         self._counts = exercise.counts
         self._times, self._values, self._valid = array("d"), array("d"), array("b")
         self.repetitions = 0
+        self.found = 0
+        """As counted now: with what comes later a repetition may turn out to be none."""
         self.recorded_s = 0.0
         self.best_positive_deg = math.nan
         self.best_negative_deg = math.nan
@@ -72,8 +74,8 @@ class RunningCount:
         if self._counts and len(self._times) > 2:
             valid = None if self._figure >= 0 else np.array(self._valid, dtype=bool)
             signal = even_signal(np.array(self._times), np.array(self._values), valid)
-            found = len(find_repetitions(signal).repetitions) if len(signal.time_s) else 0
-            self.repetitions = max(self.repetitions, found)  # what was done stays done
+            self.found = len(find_repetitions(signal).repetitions) if len(signal.time_s) else 0
+            self.repetitions = max(self.repetitions, self.found)  # what was done stays done
         return self.repetitions
 
     def _read(self, frames: Sequence[TrackedFrame]) -> list[tuple[float, float, bool]]:

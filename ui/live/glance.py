@@ -16,7 +16,8 @@ class Glance:
     ``at_s`` on a clock that never stands still. ``value_deg`` of the trained angle with its sign, ``sure`` whether it
     is measured now; ``hand_seen`` whether at least the hand is, where the trained joint is not. ``wrist_deg``
     deviation, flexion, pro/supination and ``bent_deg`` the mean bending of the fingers, for exercises without a
-    trained angle. ``done`` full repetitions of ``asked``.
+    trained angle. ``done`` full repetitions of ``asked``; ``found`` as they
+    are counted now, of which one may still turn out to be none.
     """
 
     at_s: float
@@ -28,3 +29,4 @@ class Glance:
     state: RecordingState = "off"
     done: int = 0
     asked: int = 0
+    found: int = 0

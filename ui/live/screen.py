@@ -12,6 +12,7 @@ from PySide6.QtGui import QPainter, QResizeEvent
 from PySide6.QtWidgets import QHBoxLayout, QVBoxLayout, QWidget
 
 from carpus.core.hand.protocols import PROTOCOLS
+from carpus.core.library.exercise_sets import next_part
 from carpus.core.library.set_up import SetUp
 from carpus.core.measures.validity import LARGEST_SD_RAD
 from carpus.core.pipeline.live_values import LiveCounters, TrackedView
@@ -19,6 +20,7 @@ from carpus.core.types import TrackedFrame, TrackStatus
 from carpus.ui.background import Background
 from carpus.ui.controls.button import Button
 from carpus.ui.controls.card import Line, Surface
+from carpus.ui.controls.text import SEMIBOLD, Text
 from carpus.ui.figures import FIGURES, FINGERS, Figure, figure_of
 from carpus.ui.keys import Keys, bind
 from carpus.ui.live.counting import RunningCount
@@ -57,6 +59,8 @@ HASTY_S = 3.0
 WRIST_COLUMNS, HAND_COLUMNS = (520, 696), (440, 776)
 
 GLANCE_EVERY_S = 0.09
+TIMED_MARKS = 10
+"""What goes by time is told in so many parts."""
 STALE_S = 0.4
 """Without a new picture for so long, what was tracked last is not the hand of now."""
 
@@ -115,6 +119,8 @@ class LiveScreen(QWidget):
         self.main = Button(theme, "", "primary", height_px=56)
         self.speeds = Button(theme, self.tr("Speeds"), "quiet", hint="F4", height_px=32)
         self.patient = Button(theme, self.tr("Patient’s view"), icon="monitor", height_px=32)
+        self.course = Text(theme, "", 16, SEMIBOLD, wrap=True)
+        self.course.hide()
         self.bubble = BubbleView(theme, wide=True, keys=False)
         self.note_sheet = NoteSheet(self.stage, theme)
         self.pain_sheet = PainSheet(self.stage, theme)
@@ -169,6 +175,10 @@ class LiveScreen(QWidget):
         whole.setContentsMargins(0, 0, 0, 0)
         whole.setSpacing(0)
         whole.addWidget(self.stage, 1)
+        named = QHBoxLayout()
+        named.setContentsMargins(MARGIN_PX, 0, MARGIN_PX, 8)
+        named.addWidget(self.course)
+        whole.addLayout(named)
         above = QHBoxLayout()
         above.setContentsMargins(MARGIN_PX, 0, MARGIN_PX, 4)
         above.addWidget(self.bubble)
@@ -540,11 +550,18 @@ class LiveScreen(QWidget):
         words = self.tr("Close the patient’s view") if is_open else self.tr("Open the patient’s view")
         self.patient.setAccessibleName(words)
 
+    def show_course(self, words: str) -> None:
+        """Which part of a set it is, and how long the rest still is; empty outside a set."""
+        self.course.setText(words)
+        self.course.setVisible(bool(words))
+
     def glance(self) -> Glance:
         """The trained angle of this moment, whichever figure is the large one."""
         count, set_up, history = self._count, self._set_up, self.history
         state, now_s = self.recording_state, time.monotonic()
         done, asked = (count.repetitions if count else 0), (set_up.repetitions if set_up else 0)
+        if set_up is not None and set_up.course is not None and set_up.course.part.seconds:
+            done, asked = int(TIMED_MARKS * self.recorded_s / set_up.course.part.seconds), TIMED_MARKS
         if set_up is None or self._camera_lost or now_s - self._fresh_at_s > STALE_S:
             return Glance(now_s, state=state, done=done, asked=asked)
         deviation, flexion, turned = (float(value) for value in history.angles_deg)
@@ -560,7 +577,7 @@ class LiveScreen(QWidget):
         bent_deg = [one for one, _, known in bent if known] if self._whole_hand else []
         return Glance(
             now_s, value, sure, seen, (deviation, flexion, turned),
-            sum(bent_deg) / len(bent_deg) if bent_deg else math.nan, state, done, asked,
+            sum(bent_deg) / len(bent_deg) if bent_deg else math.nan, state, done, asked, count.found if count else 0,
         )  # fmt: skip
 
     def _hand_reading(self, figure: Figure) -> Reading:
@@ -648,7 +665,9 @@ class LiveScreen(QWidget):
             self.main.setEnabled(True)
             stored = self._measuring is not None and self._measuring.starts_with_recording
             words = self.tr("Play and record") if stored else self.tr("Record")
-            words = self.tr("Stop and review") if recording else words
+            if recording:
+                follows = self._set_up is not None and next_part(self._set_up) is not None
+                words = self.tr("Stop and go on") if follows else self.tr("Stop and review")
             hint = self.tr("Space") if is_tight(self, self._theme) else self.tr("Space · pedal")
             self.main.set_face(words, icon="square" if recording else "", hint=hint)
 

@@ -9,9 +9,9 @@ from typing import Literal
 from carpus.core.output.exercises import FLEXION, PRONOSUPINATION, Exercise
 from carpus.ui.live.glance import Glance
 
-Phase = Literal["out", "there", "back", "free", "hidden", "lost", "paused", "done", "away"]
+Phase = Literal["out", "there", "back", "free", "hidden", "lost", "paused", "done", "rest", "away"]
 """Way to the goal, at it, way back; no goal; the trained joint is out of sight at the far end; the hand is not surely
-seen; a break; all repetitions done; nothing is measured."""
+seen; a break; all repetitions done; rest before the next exercise; nothing is measured."""
 
 LOST_AFTER_S = 0.5
 FOUND_AFTER_S = 0.3
@@ -43,6 +43,10 @@ class Scene:
     tries: bool = False
     done: int = 0
     asked: int = 0
+    """Repetitions; in a rest between exercises, exercises."""
+    rest_share: float = 0.0
+    rest_s: int = 0
+    """What is left of a rest, as a part of it in tenths, and in seconds."""
 
     @property
     def share(self) -> float:

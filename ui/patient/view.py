@@ -19,7 +19,7 @@ from carpus.ui.icons import paint_icon, paint_state
 from carpus.ui.patient.figure import Arc, Figure, arc_of, figure_at, free_figure
 from carpus.ui.patient.guide import Scene
 from carpus.ui.patient.story import paint_climber, paint_flower, paint_stem
-from carpus.ui.patient.words import Audience, Said, said
+from carpus.ui.patient.words import Audience, Said, rest_words, said, then_words
 from carpus.ui.theme import Theme
 
 HEIGHT, LEAST_WIDTH = 1080.0, 1440.0
@@ -77,7 +77,7 @@ class PatientView(QWidget):
         painter.scale(scale, scale)
         width, height = self.width() / scale, self.height() / scale
         painter.translate(0, (height - HEIGHT) / 2)
-        shown = self._set_up is not None and self.scene.phase not in ("away", "done", "paused")
+        shown = self._set_up is not None and self.scene.phase not in ("away", "done", "paused", "rest")
         if shown and self._set_up is not None:
             self._paint_exercise(painter, self._set_up, width)
         self._paint_words(painter, width, shown)
@@ -90,8 +90,10 @@ class PatientView(QWidget):
             box = QRectF(MARGIN, 300, width - 2 * MARGIN, 220)
             _fitted(painter, box, words.now, NOW_PX * self._theme.text_scale, color("text"))
             _fitted(painter, box.translated(0, 210), words.task, TASK_PX * self._theme.text_scale, color("text2"))
-            if scene.asked and scene.phase == "done":
-                self._paint_marks(painter, QPointF(MARGIN, 800), width - 2 * MARGIN)
+            if scene.asked and scene.phase in ("done", "rest"):
+                self._paint_marks(painter, QPointF(MARGIN, 800), 0.45 * width)
+            if scene.phase == "rest":
+                self._paint_rest(painter, width)
             return
         task_width = 0.5 * width
         _fitted(
@@ -102,6 +104,21 @@ class PatientView(QWidget):
         _fitted(painter, now, words.now, NOW_PX * self._theme.text_scale, color(token), bottom=True)
         if scene.asked:
             self._paint_marks(painter, QPointF(MARGIN, 760), 0.4 * width)
+
+    def _paint_rest(self, painter: QPainter, width: float) -> None:
+        """A ring that runs down in ten steps, and words instead of seconds."""
+        scene, color = self.scene, self._theme.color
+        ring = QRectF(0.73 * width - 220, 230, 440, 440)
+        painter.setBrush(Qt.BrushStyle.NoBrush)
+        for token, share in (("norm", 1.0), ("accent", scene.rest_share)):
+            painter.setPen(QPen(color(token), 44, Qt.PenStyle.SolidLine, Qt.PenCapStyle.FlatCap))
+            painter.drawArc(ring, 90 * 16, round(-360 * 16 * share))
+        box = QRectF(0.73 * width - 0.24 * width, 740, 0.48 * width, 100)
+        _fitted(painter, box, rest_words(scene.rest_s), TASK_PX * self._theme.text_scale, color("text"), middle=True)
+        if self._set_up is not None:
+            words = then_words(self._set_up.exercise.id, scene, self.audience)
+            size = SMALL_PX * self._theme.text_scale
+            _fitted(painter, box.translated(0, 110), words, size, color("text2"), middle=True)
 
     def _paint_marks(self, painter: QPainter, at: QPointF, room: float) -> None:
         """What is done, as checks or flowers; many as a number."""
@@ -248,11 +265,21 @@ def _is_seen_from_above(exercise: Exercise) -> bool:
     return exercise.joint.startswith("MCP") and exercise.joint.endswith("abduction")
 
 
-def _fitted(painter: QPainter, box: QRectF, words: str, size: float, color: QColor, *, bottom: bool = False) -> None:
+def _fitted(
+    painter: QPainter,
+    box: QRectF,
+    words: str,
+    size: float,
+    color: QColor,
+    *,
+    bottom: bool = False,
+    middle: bool = False,
+) -> None:
     """As large as asked for, smaller only where the words would not fit in two lines."""
     if not words:
         return
-    flags = int(Qt.AlignmentFlag.AlignLeft | Qt.TextFlag.TextWordWrap)
+    across = Qt.AlignmentFlag.AlignHCenter if middle else Qt.AlignmentFlag.AlignLeft
+    flags = int(across | Qt.TextFlag.TextWordWrap)
     flags |= int(Qt.AlignmentFlag.AlignBottom if bottom else Qt.AlignmentFlag.AlignTop)
     while True:
         face = font(size, SEMIBOLD)

@@ -32,6 +32,8 @@ def said(exercise_id: str, scene: Scene, audience: Audience) -> Said:
         return Said("" if child else tr("Let your hand rest."), tr("A short break."))
     if scene.phase == "done":
         return Said("" if child else tr("Let your hand rest."), tr("Well done."))
+    if scene.phase == "rest":
+        return Said("" if child else tr("Let your hand rest."), tr("Well done."))
     if scene.phase == "free":
         return Said(_task(exercise_id, 1, child), tr("Just try it.") if scene.tries else "")
     back = _back(exercise_id, child)
@@ -45,6 +47,21 @@ def said(exercise_id: str, scene: Scene, audience: Audience) -> Said:
     if scene.goal_deg != scene.goal_deg:
         return Said(task, "" if child else tr("As far as is comfortable"))
     return Said(task, (tr("Further") if child else tr("A little further")) if scene.share >= FURTHER_FROM else "")
+
+
+def rest_words(seconds: int) -> str:
+    """How long a rest still is, as one says it."""
+    if seconds > 75:
+        return tr("A few minutes")
+    if seconds > 40:
+        return tr("About a minute")
+    return tr("About half a minute") if seconds > 15 else tr("A moment longer")
+
+
+def then_words(exercise_id: str, scene: Scene, audience: Audience) -> str:
+    """What comes after a rest."""
+    task = _task(exercise_id, 1, audience == "child")
+    return tr("then: {task}").format(task=task[:1].lower() + task[1:]) if task else ""
 
 
 def _task(exercise_id: str, aim: int, child: bool) -> str:

@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 
-from PySide6.QtCore import Signal
+from PySide6.QtCore import Qt, Signal
 from PySide6.QtWidgets import QHBoxLayout, QVBoxLayout, QWidget
 
 from carpus.core.hand.marker_protocol import MarkerProtocol
 from carpus.core.hand.protocols import PROTOCOLS, protocol_named
+from carpus.core.library.exercise_sets import ExerciseSet, begun
 from carpus.core.library.set_up import SetUp
 from carpus.core.output.exercises import SIDES, Exercise, exercise_named, exercises_of
 from carpus.core.types import Side
@@ -21,7 +23,9 @@ from carpus.ui.controls.text import SEMIBOLD, Text, caption, heading
 from carpus.ui.figures import figure_of
 from carpus.ui.ports import PatientRow
 from carpus.ui.setup.option import Options
+from carpus.ui.setup.set_words import set_words
 from carpus.ui.theme import MARGIN_PX, Theme
+from carpus.ui.translate import tr
 
 MOST_REPETITIONS, MOST_TARGET_DEG = 50, 90
 
@@ -30,6 +34,8 @@ class ExerciseScreen(QWidget):
     """``ready`` carries the :class:`SetUp`."""
 
     ready = Signal(object)
+    sets_wanted = Signal()
+    """A person makes or changes sets of exercises."""
 
     def __init__(self, theme: Theme) -> None:
         super().__init__()
@@ -37,7 +43,10 @@ class ExerciseScreen(QWidget):
         self._row: PatientRow | None = None
         protocols: list[tuple[object, str]] = [(one.name, terms.protocol_name(one)) for one in PROTOCOLS]
         self.protocol = Choices(theme, protocols)
-        self.lists = {one.name: _exercises_of(theme, one) for one in PROTOCOLS}
+        self._sets: tuple[ExerciseSet, ...] = ()
+        self.lists = {one.name: _exercises_of(theme, one, ()) for one in PROTOCOLS}
+        self._offered = QVBoxLayout()
+        self.sets_button = Button(theme, self.tr("Sets of exercises…"), "plain", height_px=40)
         sides: list[tuple[object, str]] = [("right", terms.side_name("right")), ("left", terms.side_name("left"))]
         self.side = Choices(theme, sides)
         self.repetitions = number_field(theme, MOST_REPETITIONS, nothing=self.tr("none"))
@@ -58,9 +67,8 @@ class ExerciseScreen(QWidget):
         self.pictures = Choices(theme, keep)
         self.primary = Button(theme, self.tr("Next: the camera"), "primary", icon="arrow-right", hint=self.tr("Enter"))
         self._lay_out()
-        for options in self.lists.values():
-            options.chosen.connect(self._show_exercise)
-            options.accepted.connect(self._go_on)
+        self._listen()
+        self.sets_button.clicked.connect(self.sets_wanted)
         self.protocol.chosen.connect(self._show_protocol)
         for chips in (self.protocol, self.side, self.ends, self.audience, self.pictures):
             chips.accepted.connect(self._go_on)
@@ -78,10 +86,10 @@ class ExerciseScreen(QWidget):
         left.setSpacing(16)
         left.addWidget(heading(theme, self.tr("Which exercise?")))
         left.addWidget(self.protocol)
-        offered = QVBoxLayout()
         for options in self.lists.values():
-            offered.addWidget(options, 1)
-        left.addWidget(scrolled(offered), 1)
+            self._offered.addWidget(options, 1)
+        left.addWidget(scrolled(self._offered), 1)
+        left.addWidget(self.sets_button, 0, Qt.AlignmentFlag.AlignLeft)
         self._card = Card(theme, 24)
         self._card.body.setSpacing(12)
         self._card.body.addWidget(Text(theme, self.tr("This set"), 20, SEMIBOLD))
@@ -111,6 +119,31 @@ class ExerciseScreen(QWidget):
         columns.addLayout(left, 1)
         columns.addWidget(self._card)
 
+    def _listen(self) -> None:
+        for options in self.lists.values():
+            options.chosen.connect(self._show_exercise)
+            options.accepted.connect(self._go_on)
+
+    def show_sets(self, sets: Sequence[ExerciseSet], chosen_id: str = "") -> None:
+        """What is offered beside the single exercises, and which one is chosen from now on."""
+        chosen = _set_id(chosen_id) if chosen_id else self.exercises.value()
+        count = self.repetitions.value()
+        self._sets = tuple(sets)
+        for options in self.lists.values():
+            self._offered.removeWidget(options)
+            options.hide()
+            options.deleteLater()
+        self.lists = {one.name: _exercises_of(self._theme, one, self._sets) for one in PROTOCOLS}
+        for options in self.lists.values():
+            self._offered.addWidget(options, 1)
+        self._listen()
+        known = [name for name, _, _ in _rows(protocol_named(str(self.protocol.value())), self._sets)]
+        if chosen in known:
+            self.exercises.choose(chosen)
+        self._show_protocol()
+        if chosen == self.exercises.value() and self._set(chosen) is None:
+            self.repetitions.setValue(count)
+
     def _fit(self) -> None:
         self._card.setFixedWidth(self._theme.px(376))
 
@@ -129,6 +162,9 @@ class ExerciseScreen(QWidget):
         self._row = row
         if last is not None:
             self.choose(last.exercise, last.protocol)
+            if last.course is not None and self._set(_set_id(last.course.set_id)) is not None:
+                self.exercises.choose(_set_id(last.course.set_id))
+                self._show_protocol()
         else:
             self.choose(exercises_of(PROTOCOLS[0])[0])
         if side is None:
@@ -173,7 +209,7 @@ class ExerciseScreen(QWidget):
             negative = math.nan
         if not exercise.counts:
             positive = math.nan
-        return SetUp(
+        single = SetUp(
             self._row.patient_id,
             self._row.pseudonym,
             side,
@@ -186,17 +222,28 @@ class ExerciseScreen(QWidget):
             self._discs().name,
             bool(self.audience.value()),
         )
+        chosen = self._set(self.exercises.value())
+        return begun(chosen, single) if chosen is not None else single
+
+    def _set(self, value: object) -> ExerciseSet | None:
+        """The set of an entry of the list, None for an exercise."""
+        return next((one for one in self._sets if _set_id(one.set_id) == value), None)
 
     def _discs(self) -> MarkerProtocol:
         return protocol_named(str(self.protocol.value()))
 
     def _exercise(self) -> Exercise:
-        return exercise_named(str(self.exercises.value()))
+        chosen = self._set(self.exercises.value())
+        return chosen.parts[0].exercise if chosen is not None else exercise_named(str(self.exercises.value()))
 
     def _show_exercise(self, exercise_id: object) -> None:
-        exercise = exercise_named(str(exercise_id))
+        chosen = self._set(exercise_id)
+        exercise = chosen.parts[0].exercise if chosen is not None else exercise_named(str(exercise_id))
         if not exercise.is_allowed_by(self._discs()):
             return  # the list that is not shown
+        if chosen is not None:
+            self._show_set(chosen)
+            return
         self._repetition_field.setVisible(exercise.counts)
         for number, (field, name) in enumerate(zip(self._target_fields, self._target_names, strict=True)):
             field.setVisible(exercise.angle is not None or (bool(exercise.joint) and number == 0))
@@ -217,6 +264,15 @@ class ExerciseScreen(QWidget):
         words = terms.exercise_view(exercise.id)
         self.view.setText(words)
         self.view.setVisible(bool(words))
+        self._show_problem()
+
+    def _show_set(self, chosen: ExerciseSet) -> None:
+        """A set brings its own counts; targets come from the goals."""
+        for field in (self._repetition_field, *self._target_fields):
+            field.hide()
+        self._ends_field.setVisible(self._discs().has_fingers)
+        self.ends.choose(any(part.exercise.ends_free for part in chosen.parts))
+        self.view.hide()
         self._show_problem()
 
     def _show_protocol(self, *_: object) -> None:
@@ -241,11 +297,25 @@ def _caption(field: Labelled) -> Text:
     return next(child for child in field.findChildren(Text))
 
 
-def _exercises_of(theme: Theme, protocol: MarkerProtocol) -> Options:
-    rows = exercises_of(protocol)
-    return Options(
-        theme, [(item.id, terms.exercise_name(item.id), terms.exercise_instruction(item.id)) for item in rows]
-    )
+def _exercises_of(theme: Theme, protocol: MarkerProtocol, sets: Sequence[ExerciseSet]) -> Options:
+    return Options(theme, _rows(protocol, sets))
+
+
+def _rows(protocol: MarkerProtocol, sets: Sequence[ExerciseSet]) -> list[tuple[str, str, str]]:
+    """What a list offers: the exercises, then the sets of the same discs; value, name and sentence."""
+    single = [
+        (item.id, terms.exercise_name(item.id), terms.exercise_instruction(item.id)) for item in exercises_of(protocol)
+    ]
+    several = [
+        (_set_id(one.set_id), tr("Set: {name}").format(name=one.name), set_words(one))
+        for one in sets
+        if one.discs == protocol.name
+    ]
+    return single + several
+
+
+def _set_id(set_id: str) -> str:
+    return f"set:{set_id}"
 
 
 def _lower(words: str) -> str:

@@ -1,0 +1,153 @@
+"""Sets of exercises: kept, damaged, run part after part with rest, and each part stored as its own exercise."""
+
+from __future__ import annotations
+
+import json
+import math
+from dataclasses import replace
+from pathlib import Path
+from types import SimpleNamespace
+
+import pytest
+from pytestqt.qtbot import QtBot
+
+from carpus.app.desktop.courses import LINGER_S, CourseRun
+from carpus.app.desktop.patient_view import PatientViewing
+from carpus.core.errors import SetsUnreadable
+from carpus.core.library.exercise_sets import (
+    SETS_FILE,
+    USUAL_SETS,
+    ExerciseSet,
+    begun,
+    keep_sets,
+    next_part,
+    read_sets,
+)
+from carpus.core.library.library import Library
+from carpus.core.library.set_up import CoursePart
+from carpus.core.output.exercises import exercise_named
+from carpus.core.session.register import PatientEntry
+from carpus.ui.background import Background
+from carpus.ui.keys import Keys
+from carpus.ui.live.glance import Glance
+from carpus.ui.live.screen import LiveScreen
+from carpus.ui.setup.exercise import ExerciseScreen
+from carpus.ui.setup.set_sheet import SetSheet
+from carpus.ui.theme import Theme
+from tests.ui.fakes import FakeFeed, FakeMeasuring, FakeStore, set_up
+
+OWN = ExerciseSet(
+    "own",
+    "Short",
+    "wrist6",
+    (CoursePart(exercise_named("WRIST_FE"), 2, 0, 20), CoursePart(exercise_named("FREE"), 0, 8, 0)),
+)
+
+
+def test_sets_are_read_as_they_were_kept_and_a_damaged_file_is_told_and_kept_beside(tmp_path: Path) -> None:
+    assert read_sets(tmp_path) == USUAL_SETS
+    keep_sets(tmp_path, (*USUAL_SETS, OWN))
+    assert read_sets(tmp_path) == (*USUAL_SETS, OWN)
+    path = tmp_path / SETS_FILE
+    stored = json.loads(path.read_text(encoding="utf-8"))
+    for damage in (
+        {"discs": "wrist7"},
+        {"parts": []},
+        {"parts": [{"exercise": "FIST_HOOK", "repetitions": 3, "seconds": 0, "rest_s": 0}]},
+        {"parts": [{"exercise": "FREE", "repetitions": 3, "seconds": 0, "rest_s": 0}]},
+        {"parts": [{"exercise": "WRIST_FE", "repetitions": 10**9, "seconds": 0, "rest_s": 0}]},
+    ):
+        path.write_text(json.dumps({"sets": [stored["sets"][0] | damage]}), encoding="utf-8")
+        with pytest.raises(SetsUnreadable):
+            read_sets(tmp_path)
+    path.write_text("[", encoding="utf-8")
+    keep_sets(tmp_path, (OWN,))
+    assert read_sets(tmp_path) == (OWN,)
+    assert (tmp_path / "exercise_sets.unusable.json").read_text(encoding="utf-8") == "["
+
+
+def test_the_next_session_begins_with_the_set_of_the_last_one(tmp_path: Path) -> None:
+    library = Library(tmp_path)
+    patient = library.clinic.add(PatientEntry("Heron 3", "left"))
+    keep_sets(tmp_path, (OWN,))
+    first = begun(OWN, replace(set_up(), patient_id=patient, pseudonym="Heron 3", side="left", for_child=True))
+    second = next_part(first)
+    assert second is not None
+    assert next_part(second) is None
+    library._keep_set_up(second)
+    again = library.last_set_up(patient)
+    assert again is not None
+    assert again.course is not None
+    assert first.course is not None
+    assert (again.exercise.id, again.repetitions, again.for_child) == ("WRIST_FE", 2, True)
+    assert again.course.run_id != first.course.run_id
+    keep_sets(tmp_path, USUAL_SETS)
+    assert library.last_set_up(patient).course is None  # type: ignore[union-attr]
+    library.close()
+
+
+def test_a_set_runs_part_after_part_with_its_rest(qtbot: QtBot, theme: Theme) -> None:
+    live = LiveScreen(theme, Keys(), Background())
+    qtbot.addWidget(live)
+    patient = PatientViewing(live, live, theme, lambda: False)
+    measuring = FakeMeasuring(FakeFeed(seconds=2.0))
+    now = SimpleNamespace(set_up=begun(OWN, set_up()), source=SimpleNamespace(measuring=measuring))
+    run = CourseRun(live, live, patient, now)  # type: ignore[arg-type]
+    stops: list[float] = []
+    live.stop = lambda: stops.append(1.0)  # type: ignore[method-assign]
+    run.begun(now.set_up)
+    assert "1 of 2" in live.course.text()
+    recording = {"state": "recording", "asked": 2}
+    live.glanced.emit(Glance(0.0, 10.0, True, found=2, **recording))  # type: ignore[arg-type]
+    assert not stops
+    live.glanced.emit(Glance(1.0, 10.0, True, found=1, **recording))  # type: ignore[arg-type]
+    live.glanced.emit(Glance(1.1, 10.0, True, found=2, **recording))  # type: ignore[arg-type]
+    live.glanced.emit(Glance(LINGER_S + 0.1, 10.0, True, found=2, **recording))  # type: ignore[arg-type]
+    assert not stops, "what looked like a repetition was none"
+    live.glanced.emit(Glance(LINGER_S + 1.2, 10.0, True, found=2, **recording))  # type: ignore[arg-type]
+    assert stops
+    with qtbot.waitSignal(run.wanted):
+        assert run.goes_on()
+    assert measuring.chosen.exercise.id == "FREE"
+    patient.toggle()
+    assert patient.window is not None
+    qtbot.addWidget(patient.window)
+    run._second()
+    assert patient.window.view.scene.phase == "rest"
+    assert "Rest 00:19" in live.course.text()
+    live.glanced.emit(Glance(9.0, math.nan, True, True, (0.0, 5.0, 0.0)))
+    assert patient.window.view.scene.phase == "rest", "the hand is not looked at in its rest"
+    live.glanced.emit(Glance(9.1, math.nan, True, True, (0.0, 5.0, 0.0), state="recording"))
+    assert not run.resting
+    assert "Rest" not in live.course.text()
+    assert not run.goes_on(), "nothing comes after the last part"
+    patient.close()
+
+
+def test_a_therapist_makes_names_and_chooses_a_set(qtbot: QtBot, theme: Theme) -> None:
+    screen = ExerciseScreen(theme)
+    qtbot.addWidget(screen)
+    screen.show_sets(USUAL_SETS)
+    screen.begin(FakeStore().rows[5], set_up(), "right", False)
+    sheet = SetSheet(screen, theme)
+    sheet.kept.connect(screen.show_sets)
+    screen.show()
+    sheet.begin(USUAL_SETS, "wrist6")
+    sheet.which.setCurrentIndex(sheet.which.count() - 1)
+    assert not sheet.keep.isEnabled(), "it has no name"
+    sheet.name.setText("Wrist, all ways")
+    sheet._judge()
+    assert not sheet.keep.isEnabled(), "another one has this name"
+    sheet.name.setText("Mine")
+    sheet.add.click()
+    free = sheet.rows[1].exercise
+    free.setCurrentIndex(free.findData("FREE"))
+    assert sheet.rows[1].part().seconds == 60, "what has no repetitions goes by time"
+    sheet.rows[1].earlier.click()
+    sheet._judge()
+    sheet.keep.click()
+    chosen = screen.set_up()
+    assert chosen.course is not None
+    assert [part.exercise.id for part in chosen.course.parts] == ["FREE", "WRIST_FE"]
+    assert chosen.exercise.id == "FREE"
+    assert chosen.course.name == "Mine"

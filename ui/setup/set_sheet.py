@@ -1,0 +1,245 @@
+"""Where a therapist puts sets of exercises together: name, exercises, how often or how long, rest."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+from itertools import pairwise
+
+from PySide6.QtCore import Qt, Signal
+from PySide6.QtWidgets import QComboBox, QGridLayout, QHBoxLayout, QLineEdit, QVBoxLayout, QWidget
+
+from carpus.core.hand.protocols import protocol_named
+from carpus.core.library.exercise_sets import (
+    MOST_NAME,
+    MOST_PARTS,
+    MOST_REPETITIONS,
+    MOST_REST_S,
+    MOST_SECONDS,
+    ExerciseSet,
+    new_set_id,
+)
+from carpus.core.library.set_up import CoursePart
+from carpus.core.output.exercises import exercise_named, exercises_of
+from carpus.ui import terms
+from carpus.ui.controls.button import Button
+from carpus.ui.controls.column import scrolled
+from carpus.ui.controls.field import Labelled, number_field
+from carpus.ui.controls.sheet import Sheet
+from carpus.ui.controls.text import SEMIBOLD, Text, caption
+from carpus.ui.theme import Theme
+
+USUAL_SECONDS = 60
+
+
+class PartRow:
+    """One exercise of the set: which, how often or how long, rest after it, earlier, away."""
+
+    def __init__(self, theme: Theme, sheet: SetSheet, discs: str, part: CoursePart) -> None:
+        self.exercise = QComboBox()
+        for one in exercises_of(protocol_named(discs)):
+            self.exercise.addItem(terms.exercise_name(one.id), one.id)
+        self.exercise.setCurrentIndex(max(0, self.exercise.findData(part.exercise.id)))
+        self.exercise.setAccessibleName(sheet.tr("Exercise"))
+        self.count = number_field(theme, MOST_SECONDS)
+        self.unit = QComboBox()
+        self.unit.addItem(sheet.tr("times"), False)
+        self.unit.addItem(sheet.tr("seconds"), True)
+        self.unit.setAccessibleName(sheet.tr("Times or seconds"))
+        self.unit.setCurrentIndex(0 if part.repetitions else 1)
+        self.count.setValue(part.repetitions or part.seconds)
+        self.count.setAccessibleName(sheet.tr("How often or how long"))
+        self.rest = number_field(theme, MOST_REST_S, " s", sheet.tr("none"))
+        self.rest.setValue(part.rest_s)
+        self.rest.setAccessibleName(sheet.tr("Rest after it"))
+        self.earlier = Button(theme, sheet.tr("Earlier"), "plain", height_px=36)
+        self.remove = Button(theme, sheet.tr("Remove"), "plain", height_px=36)
+        self.exercise.currentIndexChanged.connect(lambda _: self._keep_possible())
+        self.unit.currentIndexChanged.connect(lambda _: self._keep_possible())
+        self._keep_possible()
+
+    @property
+    def widgets(self) -> tuple[QWidget, ...]:
+        return (self.exercise, self.count, self.unit, self.rest, self.earlier, self.remove)
+
+    def part(self) -> CoursePart:
+        """As it is shown."""
+        exercise = exercise_named(str(self.exercise.currentData()))
+        timed, count = bool(self.unit.currentData()), self.count.value()
+        return CoursePart(exercise, 0 if timed else count, count if timed else 0, self.rest.value())
+
+    def _keep_possible(self) -> None:
+        """What has no repetitions goes by time."""
+        counts = exercise_named(str(self.exercise.currentData())).counts
+        if not counts and not self.unit.currentData():
+            self.unit.setCurrentIndex(1)
+            self.count.setValue(max(self.count.value(), USUAL_SECONDS))
+        self.unit.setEnabled(counts)
+        self.count.setRange(1, MOST_SECONDS if self.unit.currentData() else MOST_REPETITIONS)
+
+
+class SetSheet(Sheet):
+    """``kept`` carries all sets as they are to be from now on, and the one that was made or changed."""
+
+    kept = Signal(object, str)
+
+    def __init__(self, host: QWidget, theme: Theme) -> None:
+        super().__init__(host, theme, 900)
+        self._sets: list[ExerciseSet] = []
+        self._now: ExerciseSet | None = None
+        self._discs = ""
+        self.rows: list[PartRow] = []
+        self.which = QComboBox()
+        self.which.setAccessibleName(self.tr("Set"))
+        self.name = QLineEdit()
+        self.name.setMaxLength(MOST_NAME)
+        self.name.setPlaceholderText(self.tr("No names of patients"))
+        self.name.setAccessibleName(self.tr("Name of the set"))
+        self.add = Button(theme, self.tr("Add an exercise"), "plain", icon="plus", height_px=40)
+        self.delete = Button(theme, self.tr("Delete this set"), "quiet", icon="trash-2", height_px=40)
+        self.problem = Text(theme, "", 14, token="bad", wrap=True)
+        self.keep = Button(theme, self.tr("Keep the set"), "primary", height_px=44)
+        self.close_button = Button(theme, self.tr("Close"), "plain", hint=self.tr("Esc"), height_px=44)
+        self._grid = QGridLayout()
+        self._grid.setHorizontalSpacing(8)
+        self._grid.setVerticalSpacing(8)
+        self._grid.setColumnStretch(0, 1)
+        self._lay_out()
+        self.which.currentIndexChanged.connect(lambda _: self._choose())
+        self.name.textEdited.connect(lambda _: self._judge())
+        self.add.clicked.connect(self._add)
+        self.delete.clicked.connect(self._delete)
+        self.keep.clicked.connect(self._keep)
+        self.close_button.clicked.connect(self.close_sheet)
+
+    def _lay_out(self) -> None:
+        theme, body = self._theme, self.card.body
+        body.setSpacing(12)
+        body.addWidget(Text(theme, self.tr("Sets of exercises"), 20, SEMIBOLD))
+        words = self.tr(
+            "Exercises that run one after the other with the same markers. Each becomes a session of its own."
+        )
+        body.addWidget(Text(theme, words, 14, token="text2", wrap=True))
+        top = QHBoxLayout()
+        top.setSpacing(16)
+        top.addWidget(Labelled(theme, self.tr("Set"), self.which), 1)
+        top.addWidget(Labelled(theme, self.tr("Name of the set"), self.name), 1)
+        body.addLayout(top)
+        for column, head in enumerate((self.tr("Exercise"), self.tr("How much"), "", self.tr("Rest after it"))):
+            self._grid.addWidget(caption(theme, head), 0, column)
+        rows = QVBoxLayout()
+        rows.addLayout(self._grid)
+        rows.addStretch(1)
+        area = scrolled(rows)
+        area.setMinimumHeight(theme.px(190))
+        body.addWidget(area, 1)
+        body.addWidget(self.problem)
+        bottom = QHBoxLayout()
+        bottom.addWidget(self.add)
+        bottom.addWidget(self.delete)
+        bottom.addStretch(1)
+        bottom.addWidget(self.close_button)
+        bottom.addWidget(self.keep)
+        body.addLayout(bottom)
+
+    def begin(self, sets: Sequence[ExerciseSet], discs: str, chosen_id: str = "") -> None:
+        """Open with the sets of these discs; the others are kept as they are."""
+        self._sets, self._discs = list(sets), discs
+        self._fill(chosen_id)
+        self.open(self.which)
+
+    def _own(self) -> list[ExerciseSet]:
+        return [one for one in self._sets if one.discs == self._discs]
+
+    def _fill(self, chosen_id: str) -> None:
+        self.which.blockSignals(True)
+        self.which.clear()
+        for one in self._own():
+            self.which.addItem(one.name, one.set_id)
+        self.which.addItem(self.tr("New set"), "")
+        found = self.which.findData(chosen_id) if chosen_id else 0
+        self.which.setCurrentIndex(max(found, 0))
+        self.which.blockSignals(False)
+        self._choose()
+
+    def _choose(self) -> None:
+        known = next((one for one in self._own() if one.set_id == self.which.currentData()), None)
+        first = exercises_of(protocol_named(self._discs))[0]
+        self._now = known or ExerciseSet(new_set_id(), "", self._discs, (CoursePart(first),))
+        self.delete.setEnabled(known is not None)
+        self.name.setText(self._now.name)
+        self._show_parts(self._now.parts)
+
+    def _show_parts(self, parts: Sequence[CoursePart]) -> None:
+        for row in self.rows:
+            for widget in row.widgets:
+                self._grid.removeWidget(widget)
+                widget.hide()
+                widget.deleteLater()
+        self.rows = [PartRow(self._theme, self, self._discs, part) for part in parts]
+        for number, row in enumerate(self.rows):
+            for column, widget in enumerate(row.widgets):
+                self._grid.addWidget(widget, number + 1, column)
+            row.earlier.setEnabled(number > 0)
+            row.earlier.clicked.connect(lambda _=False, number=number: self._earlier(number))
+            row.remove.clicked.connect(lambda _=False, number=number: self._remove(number))
+        self.add.setEnabled(len(parts) < MOST_PARTS)
+        self._keep_order()
+        self._judge()
+
+    def _keep_order(self) -> None:
+        """Tab goes along the rows."""
+        order: list[QWidget] = [self.which, self.name]
+        order += [widget for row in self.rows for widget in row.widgets]
+        order += [self.add, self.delete, self.close_button, self.keep]
+        for before, after in pairwise(order):
+            QWidget.setTabOrder(before, after)
+
+    def _parts(self) -> list[CoursePart]:
+        return [row.part() for row in self.rows]
+
+    def _earlier(self, number: int) -> None:
+        parts = self._parts()
+        parts[number - 1], parts[number] = parts[number], parts[number - 1]
+        self._show_parts(parts)
+        self.rows[number - 1].exercise.setFocus(Qt.FocusReason.OtherFocusReason)
+
+    def _remove(self, number: int) -> None:
+        self._show_parts([part for k, part in enumerate(self._parts()) if k != number])
+        (self.rows[min(number, len(self.rows) - 1)].exercise if self.rows else self.add).setFocus(
+            Qt.FocusReason.OtherFocusReason
+        )
+
+    def _add(self) -> None:
+        parts = self._parts()
+        last = parts[-1] if parts else CoursePart(exercises_of(protocol_named(self._discs))[0])
+        self._show_parts([*parts, last])
+        self.rows[-1].exercise.setFocus(Qt.FocusReason.OtherFocusReason)
+
+    def _shown(self) -> ExerciseSet:
+        assert self._now is not None
+        return replace(self._now, name=self.name.text().strip(), parts=tuple(self._parts()))
+
+    def _judge(self) -> None:
+        shown = self._shown()
+        words = {"name": self.tr("The set needs a name."), "parts": self.tr("The set needs an exercise."), "": ""}
+        taken = any(one.name == shown.name and one.set_id != shown.set_id for one in self._own())
+        said = words[shown.problem] or (self.tr("Another set has this name.") if taken else "")
+        self.problem.setText(said)
+        self.keep.setEnabled(not said)
+
+    def _keep(self) -> None:
+        shown = self._shown()
+        known = [one.set_id for one in self._sets]
+        if shown.set_id in known:
+            self._sets[known.index(shown.set_id)] = shown
+        else:
+            self._sets.append(shown)
+        self.close_sheet()
+        self.kept.emit(tuple(self._sets), shown.set_id)
+
+    def _delete(self) -> None:
+        assert self._now is not None
+        self._sets = [one for one in self._sets if one.set_id != self._now.set_id]
+        self.kept.emit(tuple(self._sets), "")
+        self._fill("")

@@ -1,0 +1,28 @@
+"""What is said of sets of exercises and of the part that one has come to."""
+
+from __future__ import annotations
+
+from carpus.core.library.exercise_sets import ExerciseSet
+from carpus.core.library.set_up import Course, CoursePart
+from carpus.ui import terms
+from carpus.ui.translate import tr
+
+
+def part_words(part: CoursePart) -> str:
+    """``Full fist, 10 times``; ``Free movement, 60 s``."""
+    if part.repetitions:
+        pattern = tr("{exercise}, {count} times")
+        return pattern.format(exercise=terms.exercise_name(part.exercise.id), count=part.repetitions)
+    return tr("{exercise}, {count} s").format(exercise=terms.exercise_name(part.exercise.id), count=part.seconds)
+
+
+def set_words(one: ExerciseSet) -> str:
+    """All parts in a row."""
+    return " → ".join(part_words(part) for part in one.parts)
+
+
+def course_words(course: Course) -> str:
+    """``Set “Wrist, all ways”, 2 of 3: Wrist side to side, 10 times``."""
+    return tr("Set “{name}”, {number} of {count}: {part}").format(
+        name=course.name, number=course.number + 1, count=len(course.parts), part=part_words(course.part)
+    )
