@@ -22,6 +22,7 @@ from PySide6.QtWidgets import QApplication
 
 from carpus import __version__
 from carpus.app.desktop.backing_up import BackingUp
+from carpus.app.desktop.care_cameras import CareCameras
 from carpus.app.desktop.encrypting import AskPin, SwitchingEncryption
 from carpus.app.desktop.erasing import Erasing
 from carpus.app.desktop.journey import Journey, Parts
@@ -47,9 +48,11 @@ from carpus.core.library.library import Library
 from carpus.core.library.records import Records
 from carpus.core.library.set_up import SetUp
 from carpus.core.session.database import make_private
+from carpus.ui.check_card.standing_words import card_words
 from carpus.ui.fonts import load_fonts
 from carpus.ui.keys import Keys
 from carpus.ui.ports import Words
+from carpus.ui.settings.camera_card import CameraCard
 from carpus.ui.shell import Shell
 from carpus.ui.style import apply_style
 from carpus.ui.theme import Theme, ThemeName
@@ -178,7 +181,16 @@ def compose(
     LINES.names = library.pseudonyms
     recovered, faults = library.recover()
     sources = Sources(settings, library, take, speed)
-    parts = Parts(library, PatientShelf(library), sources, WordTable(), settings, is_demo, today or date.today())
+    parts = Parts(
+        library,
+        PatientShelf(library),
+        sources,
+        WordTable(),
+        settings,
+        is_demo,
+        today or date.today(),
+        CareCameras(settings, speed),
+    )
     shell = Shell(theme)
     journey = Journey(shell, theme, Keys(settings.screen.keys), parts)
     keeper = PreferenceKeeper(
@@ -191,7 +203,13 @@ def compose(
     library.angle_order = lambda: journey.settings.report.angle_order
     sources.streams = lambda: journey.settings.stream.on
     Witness(journey, library)
+    camera_card = CameraCard(theme)
+    camera_card.calibrate.connect(journey.show_board)
+    camera_card.check.connect(journey.show_card)
+    journey.care.changed.connect(lambda: camera_card.show_standing(*card_words(journey.care.standing)))
+    camera_card.show_standing(*card_words(journey.care.standing))
     safe = _safekeeping(shell, theme, journey, library, keeper, settings, settings_folder, parts.today)
+    keeper.screen.add_cards(camera_card)
     tour = Tour(journey)
     welcome = Welcome(journey, theme, tour, keeper, library)
     desktop = Desktop(qt, shell, theme, journey, library, safe, welcome, tour)

@@ -333,6 +333,11 @@ FAULTS: dict[type[CarpusFault], Words] = {
         _UNTOUCHED,
         "Lay it flat under the camera, all of it in the picture, about 60 cm away, in good light.",
     ),
+    errors.CameraNameless: Words(
+        "The camera does not say its number: {subject}.",
+        "Nothing was kept; what was measured before stays.",
+        "Check it by “carpus check-card --serial NUMBER” with the number printed on it.",
+    ),
     errors.PinUncheckable: Words(
         "The PIN cannot be checked: {subject} is missing on this computer ({detail}).",
         "Nothing is lost; everything stays hidden.",

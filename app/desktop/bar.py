@@ -16,6 +16,7 @@ from carpus.core.calibration.result import Finding
 from carpus.core.output.report_content import SessionFigures
 from carpus.core.pipeline.live_values import LiveCounters
 from carpus.ui import numbers, terms
+from carpus.ui.icons import State
 from carpus.ui.ports import Phrasebook
 from carpus.ui.shell import Shell
 
@@ -48,10 +49,13 @@ class Bar(QObject):
         phrasebook: Phrasebook,
         *,
         is_demo: bool,
+        care: Callable[[], tuple[State, str] | None] = lambda: None,
+        sign_more: Callable[[], list[str]] = list,
     ) -> None:
         super().__init__(shell)
         self._shell, self._now, self._place = shell, now, place
         self._again = (-1, 0)
+        self._care, self._sign_more = care, sign_more
         self._camera_there, self._review, self._phrasebook, self._is_demo = camera_there, review, phrasebook, is_demo
 
     def show(self) -> None:
@@ -61,7 +65,10 @@ class Bar(QObject):
         words = [terms.hand_name(side)] if side else []
         if place == "live" and set_up is not None:
             words.append(terms.exercise_name(set_up.exercise.id))
-        name = self.tr("Test and retest") if place == "retest" else row.pseudonym if row is not None else ""
+        own = {
+            "retest": self.tr("Test and retest"), "board": self.tr("Camera calibration"), "card": self.tr("Check card")
+        }  # fmt: skip
+        name = own.get(place, row.pseudonym if row is not None else "")
         bar.show_place(name, " · ".join(words))
         if place in STEPS and place != "live":
             names = [self.tr("Exercise"), self.tr("Camera"), self.tr("Markers"), self.tr("Measure")]
@@ -98,6 +105,7 @@ class Bar(QObject):
         if findings:
             said = " ".join(self._phrasebook.finding(finding).what for finding in findings)
             lines.append(self.tr("Measured although doubtful: {findings}").format(findings=said))
+        lines += self._sign_more()
         return lines
 
     def show_camera(self) -> None:
@@ -112,6 +120,8 @@ class Bar(QObject):
         elif now.kind == "file" and now.source is not None:
             name = Path(now.choice.path).name
             camera.show_state("good", self.tr("Recording {name}").format(name=shortened(name, MOST_NAME)))
+        elif self._camera_there() and (said := self._care()) is not None and place != "card":
+            camera.show_state(*said)
         elif self._camera_there():
             camera.show_state("good", self.tr("Camera ready"))
         else:

@@ -8,7 +8,7 @@ from __future__ import annotations
 import shutil
 from collections.abc import Callable
 from dataclasses import dataclass
-from datetime import date
+from datetime import date, datetime
 from pathlib import Path
 
 from PySide6.QtCore import QObject, Qt, Signal
@@ -16,7 +16,11 @@ from PySide6.QtWidgets import QWidget
 
 from carpus.app.desktop.bar import Bar
 from carpus.app.desktop.by_hand import ByHand
+from carpus.app.desktop.calibrating import Calibrating
+from carpus.app.desktop.camera_care import CameraCare
 from carpus.app.desktop.camera_watch import CameraWatch
+from carpus.app.desktop.care_cameras import CareCameras
+from carpus.app.desktop.checking import Checking
 from carpus.app.desktop.comparing import Comparing
 from carpus.app.desktop.correcting import Correcting, Moments
 from carpus.app.desktop.courses import CourseRun, KeptSets
@@ -35,6 +39,7 @@ from carpus.app.desktop.sources import OpenSource, Sources
 from carpus.app.desktop.teller import Teller
 from carpus.app.desktop.viewing import Viewing, ViewScreens
 from carpus.app.settings import Settings
+from carpus.core.capture.calibrated import SERIAL
 from carpus.core.errors import CarpusFault
 from carpus.core.library.corrections import Corrections
 from carpus.core.library.library import Library, Recovered
@@ -42,9 +47,13 @@ from carpus.core.library.set_up import PRACTICE_PATIENT, SetUp
 from carpus.ui.agreement.screen import AgreementScreen
 from carpus.ui.background import Background
 from carpus.ui.by_hand.screen import ByHandScreen
+from carpus.ui.camera_calibration.screen import BoardScreen
+from carpus.ui.check_card.screen import CardScreen
+from carpus.ui.check_card.standing_words import bar_words, card_words, session_words
 from carpus.ui.correct.results_sheet import ResultsSheet
 from carpus.ui.correct.screen import CorrectScreen
 from carpus.ui.help.screen import HelpScreen
+from carpus.ui.icons import State
 from carpus.ui.keys import Keys
 from carpus.ui.live.screen import LiveScreen
 from carpus.ui.markers.screen import MarkersScreen
@@ -76,6 +85,7 @@ class Parts:
     settings: Settings
     is_demo: bool
     today: date
+    cameras: CareCameras
 
 
 def free_bytes(folder: Path) -> float:
@@ -84,6 +94,10 @@ def free_bytes(folder: Path) -> float:
         return float(shutil.disk_usage(folder).free)
     except OSError:
         return 0.0
+
+
+def _now() -> datetime:
+    return datetime.now().astimezone()
 
 
 class Journey(QObject):
@@ -107,6 +121,7 @@ class Journey(QObject):
         self._fill_table()
         self._connect(keys)
         self.watch.start()
+        self.care.look()
         self.correcting.look_for_waiting()
 
     def _make_screens(self, theme: Theme, keys: Keys) -> None:
@@ -123,6 +138,8 @@ class Journey(QObject):
         self.report = ReportScreen(theme, keys, background)
         self.agreement = AgreementScreen(theme, keys)
         self.retest = RetestScreen(theme, keys)
+        self.board = BoardScreen(theme, keys)
+        self.card = CardScreen(theme, keys)
         self._corrections = Corrections(library)
         self._corrections.clear_unfinished()
         self.correct = CorrectScreen(theme, keys, background, Moments(self._corrections))
@@ -161,13 +178,22 @@ class Journey(QObject):
             self._shell, self.retest, self.way, tell, library, places, self.background, theme=theme,
             today=lambda: self._parts.today,
         )  # fmt: skip
+        cameras, is_demo = self._parts.cameras, self._parts.is_demo
+        self.care = CameraCare(self, cameras, self.background, _now)
+        self.calibrating = Calibrating(
+            self._shell, self.board, self.way, tell, cameras, places, self.background,
+            camera_there=lambda: self.watch.there, is_demo=is_demo, now=_now,
+        )  # fmt: skip
+        self.checking = Checking(
+            self._shell, self.card, self.way, tell, cameras, places, self.background, is_demo=is_demo, now=_now
+        )
         self.correcting = Correcting(
             self, self.correct, self.results_sheet, self.way, tell, self._corrections,
             initials=lambda: self.settings.report.therapist,
         )  # fmt: skip
         self.bar = Bar(
             self._shell, now, lambda: self.way.place, lambda: self.watch.there, self.review, self._parts.phrasebook,
-            is_demo=self._parts.is_demo,
+            is_demo=is_demo, care=self._care_words, sign_more=self._care_lines,
         )  # fmt: skip
 
     def _fill_table(self) -> None:
@@ -192,6 +218,8 @@ class Journey(QObject):
             Stop(self.agreement, self.agreement.first, self._to_session, self.comparing.leave, while_aside=True),
         )
         put("retest", Stop(self.retest, self.retest.first, self._to_patient))
+        put("board", Stop(self.board, self.board.first, self._up_from_board, self.calibrating.leave, while_aside=True))
+        put("card", Stop(self.card, self.card.first, self._up_from_card, self.checking.leave, while_aside=True))
         put("help", Stop(self.help, lambda: self.help.text, self._to_patient))
 
     @staticmethod
@@ -220,6 +248,12 @@ class Journey(QObject):
         self.patients.sessions.connect(self.viewing.open_sessions)
         self.setting_up.ready.connect(self.measuring.begin)
         self.setting_up.closing.connect(self._source_closes)
+        self.way.arrived.connect(self._meet_camera)
+        for changed in (self.care.changed, self.board.turned, self.card.turned):
+            changed.connect(self.bar.show)
+        self.checking.calibrate.connect(self.show_board)
+        self.checking.checked.connect(self.care.look)
+        self.calibrating.kept.connect(self._calibration_kept)
         self.live.recording_changed.connect(self.bar.show_recording)
         self.live.counted.connect(self.bar.show_counters)
         self.measuring.begun.connect(self.patient_view.begin)
@@ -335,6 +369,56 @@ class Journey(QObject):
         self.now.session_id = ""
         self.retesting.show()
 
+    # --- the camera itself --------------------------------------------------------------------------------
+    def show_board(self) -> None:
+        """Calibrate the camera; whatever was open is closed."""
+        self._close_for_camera()
+        self.calibrating.show(card_words(self.care.standing)[1])
+
+    def show_card(self) -> None:
+        """Check the camera; whatever was open is closed."""
+        self._close_for_camera()
+        self.checking.show()
+
+    def _close_for_camera(self) -> None:
+        self.setting_up.close_source()
+        self.now.patient = self.now.set_up = None
+        self.now.session_id = ""
+
+    def _calibration_kept(self, practice: bool) -> None:
+        """The card shows at once whether it is right now."""
+        self.care.look()
+        self.checking.show(practice=practice)
+
+    def _up_from_board(self) -> None:
+        if self.board.is_beginning:
+            self._to_patient()
+        else:
+            self.calibrating.back()
+
+    def _up_from_card(self) -> None:
+        if self.card.is_measuring:
+            self.checking.back()
+        else:
+            self._to_patient()
+
+    def _meet_camera(self, place: str) -> None:
+        """A session begins with a camera: how far it is to be trusted is told, and keeps nobody from measuring."""
+        if place == "markers" and self.now.kind == "camera" and self.now.source is not None:
+            self.care.met(self.now.source.measuring.feed.info.settings.get(SERIAL, ""))
+
+    def _care_words(self) -> tuple[State, str] | None:
+        return bar_words(self.care.standing)
+
+    def _care_lines(self) -> list[str]:
+        """What must not be forgotten of the camera where one is."""
+        simulated = self.board.shows_simulated if self.place == "board" else self.card.checks.simulated
+        if self.place in ("board", "card"):
+            return [self.tr("Simulated camera: nothing here is of a real one.")] if simulated else []
+        if self.place in ("markers", "live") and self.now.kind == "camera":
+            return [words] if (words := session_words(self.care.standing)) else []
+        return []
+
     def _compare_listed(self, session_id: str) -> None:
         self.now.session_id = session_id
         self.comparing.show(session_id)
@@ -401,6 +485,8 @@ class Journey(QObject):
     def _camera_looked_for(self, there: bool, name: str) -> None:
         self.camera.set_camera_ready(there, name)
         self.patients.set_camera_ready(there or self.now.kind == "practice")
+        self.calibrating.set_camera_there(there)
+        self.card.set_camera_there(there)
         self.bar.show_camera()
 
     def _open_guide(self) -> None:
@@ -424,5 +510,7 @@ class Journey(QObject):
         self.comparing.close()
         recording = self.measuring.let_go()
         self.opener.close()
+        self.calibrating.hand.wait()
+        self.checking.hand.wait()
         self.background.wait()
         self.measuring.finish(recording=recording)

@@ -11,7 +11,7 @@ import time
 from collections.abc import Mapping, Sequence
 from typing import TypeVar
 
-from tests.accuracy import hand21_table, papers, readings_table, second
+from tests.accuracy import cameras, hand21_table, papers, readings_table, second
 from tests.accuracy.hand21 import ROWS, HandScenario
 from tests.accuracy.jobs import all_runs, jobs_for
 from tests.accuracy.robustness import robustness_verdicts
@@ -32,9 +32,10 @@ def main(arguments: Sequence[str] | None = None) -> int:
     parser = argparse.ArgumentParser(prog="python -m tests.accuracy", description=__doc__)
     parser.add_argument(
         "--group",
-        choices=("all", *dict.fromkeys((*WRIST_ROWS, *HAND_ROWS)), "papers", "second"),
+        choices=("all", *dict.fromkeys((*WRIST_ROWS, *HAND_ROWS)), "papers", "second", "camera"),
         default="all",
-        help="which rows; second: the patient that is for judging only, by rendered pictures alone",
+        help="which rows; second: the patient that is for judging only, by rendered pictures alone; camera: "
+        "calibration and check card",
     )
     parser.add_argument("--only", default="", metavar="TEXT", help="rows whose name holds this")
     parser.add_argument(
@@ -48,7 +49,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     seeds, pictures = (QUICK_SEEDS, 0) if options.quick else (options.seeds, options.pictures)
     wrist, hand = (_named(rows, options.group, options.only) for rows in (WRIST_ROWS, HAND_ROWS))
     judged = second.rows_named(options.only) if options.group in ("all", "second") and pictures else []
-    if not wrist and not hand and not judged and options.group != "papers":
+    if not wrist and not hand and not judged and options.group not in ("papers", "camera"):
         print(f"no row of {options.group} is named like {options.only}", file=sys.stderr)
         return 2
     begin = time.monotonic()
@@ -59,6 +60,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
         print(hand21_table.report(hand, seeds, pictures, options.processes, as_markdown=options.markdown))
     if options.group in ("all", "papers"):
         print("", papers.report(options.only, seeds, options.processes, as_markdown=options.markdown), sep="\n")
+    if options.group in ("all", "camera") and pictures:
+        print("", cameras.report(options.only, max(seeds // 2, 1), as_markdown=options.markdown), sep="\n")
     if judged:
         print()
         print(second.report(judged, pictures, options.processes, as_markdown=options.markdown))

@@ -33,6 +33,9 @@ from carpus.ui.agreement.reference_sheet import ColumnsSheet, ReferenceSheet
 from carpus.ui.agreement.screen import AgreementScreen
 from carpus.ui.background import Background
 from carpus.ui.by_hand.screen import ByHandScreen, HandRecord
+from carpus.ui.camera_calibration.screen import BoardScreen
+from carpus.ui.check_card.screen import CardScreen
+from carpus.ui.check_card.values import CameraChecks
 from carpus.ui.controls.sheet import Sheet
 from carpus.ui.correct.results_sheet import BothResults, ResultsSheet
 from carpus.ui.correct.screen import CorrectScreen
@@ -68,6 +71,7 @@ from carpus.ui.shell import Shell
 from carpus.ui.theme import Theme, ThemeName
 from carpus.ui.welcome.panel import Check, WelcomePanel
 from tests.moments import with_moment
+from tests.ui.camera_fakes import board_progress, board_result, camera_checks, card_progress
 from tests.ui.fakes import (
     NOW,
     FakeCalibrator,
@@ -858,6 +862,67 @@ class Gallery:
         self._over(LogSheet(self.shell.stage, self.theme)).begin(deeds, ())
         self.settle()
 
+    def _board(self) -> BoardScreen:
+        self.place(where="")
+        self.shell.bar.show_place("Camera calibration", "")
+        screen = BoardScreen(self.theme, self.keys)
+        self.show(screen)
+        return screen
+
+    def board(self) -> None:
+        screen = self._board()
+        screen.beginning.show_standing(
+            "Camera 1210130114: calibrated 214 days ago. Checked 9 days ago: it measured right.", camera_there=True
+        )
+        screen.show_beginning()
+        self.settle()
+
+    def board_showing(self) -> None:
+        screen = self._board()
+        screen.show_showing(simulated=False)
+        screen.showing.opened()
+        frame, progress = board_progress()
+        screen.showing.show_frame(frame.color_rgb)
+        screen.showing.show_progress(progress)
+        self.settle()
+
+    def board_result(self) -> None:
+        self._board().show_result(board_result())
+        self.settle()
+
+    def board_poor(self) -> None:
+        self._board().show_result(board_result(poor=True))
+        self.settle()
+
+    def _card(self, checks: CameraChecks) -> CardScreen:
+        self.place(where="")
+        self.shell.bar.show_place("Check card", "")
+        screen = CardScreen(self.theme, self.keys)
+        screen.set_camera_there(True)
+        self.show(screen)
+        screen.show_checks(checks)
+        self.settle()
+        return screen
+
+    def card(self) -> None:
+        self._card(camera_checks())
+
+    def card_out(self) -> None:
+        self._card(camera_checks(out=True))
+
+    def card_none(self) -> None:
+        self._card(CameraChecks("", ""))
+
+    def card_measuring(self) -> None:
+        screen = self._card(CameraChecks("", "", simulated=True))
+        self.shell.sign.show_lines(["Simulated camera: nothing here is of a real one."])
+        screen.begin_measuring()
+        frame, progress = card_progress()
+        screen.show_frame(frame.color_rgb)
+        screen.show_progress(progress)
+        self.settle()
+        self.shell.sign.show_lines([])
+
     def help(self) -> None:
         self.place(where="")
         self.show(HelpScreen(self.theme, self.keys))
@@ -886,7 +951,8 @@ class Gallery:
             "settings", "settings_safe", "locked", "pin_change", "records_due", "records_log", "help",
             "patients_welcome", "patients_welcome_good", "patients_guided", "camera_guided",
             "markers_guided", "markers_ready_guided", "live_guided", "live_hand_guided", "review_guided",
-            "report_guided",
+            "report_guided", "board", "board_showing", "board_result", "board_poor", "card", "card_out", "card_none",
+            "card_measuring",
         )  # fmt: skip
         return {name: getattr(self, name) for name in names}
 

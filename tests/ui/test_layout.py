@@ -23,6 +23,7 @@ MAIN = (
     "patients", "patients_welcome", "exercise_hand", "camera", "markers_clicking", "markers_ready", "markers_proposed",
     "live", "live_hand", "live_marker_hidden", "review", "review_hand", "correct", "agreement", "retest", "progress",
     "progress_hand", "report", "report_hand", "settings", "sessions_list", "help",
+    "board_showing", "board_result", "card",
 )  # fmt: skip
 """Where the usual size has a layout of its own, or is what nearly everybody sees."""
 LOW = ((1280, 720), 1.5)
@@ -47,6 +48,7 @@ STATES = (
     "settings", "settings_safe", "locked", "pin_change", "records_due", "records_log", "help",
     "patients_welcome", "patients_welcome_good", "patients_guided", "camera_guided",
     "markers_guided", "markers_ready_guided", "live_guided", "live_hand_guided", "review_guided", "report_guided",
+    "board", "board_showing", "board_result", "board_poor", "card", "card_out", "card_none", "card_measuring",
 )  # fmt: skip
 
 PICTURES: dict[tuple[tuple[int, int], float], QSize] = {}

@@ -12,8 +12,8 @@ from carpus.ui.theme import Theme
 
 LANGUAGE = "en"
 PAGES = (
-    "session", "discs", "camera", "calibration", "exercises", "measuring", "patient", "figures", "limits", "correct",
-    "sessions", "checking", "trouble", "data",
+    "session", "discs", "camera", "cameracheck", "calibration", "exercises", "measuring", "patient", "figures",
+    "limits", "correct", "sessions", "checking", "trouble", "data",
 )  # fmt: skip
 """In the order of the guide."""
 KEYS_PAGE = "keys"
@@ -21,7 +21,8 @@ PAGE_OF_PLACE = {
     "patients": "session", "exercise": "exercises", "camera": "camera", "markers": "calibration", "live": "measuring",
     "sessions": "sessions", "review": "figures", "progress": "figures", "report": "figures",
     "by_hand": "figures", "correct": "correct",
-    "agreement": "checking", "retest": "checking", "settings": "data",
+    "agreement": "checking", "retest": "checking", "board": "cameracheck", "card": "cameracheck",
+    "settings": "data",
 }  # fmt: skip
 """What F1 opens on each screen."""
 _MARK = re.compile(r"\*\*(.+?)\*\*")

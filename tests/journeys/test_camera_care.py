@@ -1,0 +1,129 @@
+"""The camera calibrated with the board and checked with the card, in the real application on the simulated camera."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from datetime import datetime
+from pathlib import Path
+
+import pytest
+from PySide6.QtCore import Qt
+from PySide6.QtWidgets import QApplication, QFileDialog
+from pytestqt.qtbot import QtBot
+
+from carpus.app.compose import Desktop
+from carpus.core.camera_calibration import guidance
+from carpus.core.capture.calibrated import stored_calibration
+from carpus.core.check_card import measure
+from carpus.core.check_card.chart import add_check, chart_path, read_checks
+from carpus.core.errors import CameraLost
+from carpus.core.simulation import practice_camera
+from carpus.ui.camera_calibration import showing
+from carpus.ui.camera_calibration import words as board_words
+from carpus.ui.messages.stop_card import StopCard
+from carpus.ui.settings.camera_card import CameraCard
+from tests.journeys.conftest import Open
+from tests.ui.camera_fakes import camera_checks
+
+FEW = 14
+
+
+@pytest.fixture(autouse=True)
+def hurry(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Each picture of the board another pose and long after the last, so that none must be still; few are asked for."""
+    monkeypatch.setattr(practice_camera, "FPS", 1.0)
+    monkeypatch.setattr(practice_camera, "_STILL_FRAMES", 1)
+    monkeypatch.setattr(practice_camera, "_between", lambda one, other: other)
+    for module in (guidance, showing, board_words):
+        monkeypatch.setattr(module, "ASKED_VIEWS", FEW)
+    monkeypatch.setattr(measure, "CHECK_S", 6.0)
+    monkeypatch.setattr(measure, "_LONGEST_GAP_S", 3.0)
+
+
+def press(qtbot: QtBot, key: Qt.Key, modifier: Qt.KeyboardModifier = Qt.KeyboardModifier.NoModifier) -> None:
+    at = QApplication.focusWidget()
+    assert at is not None
+    qtbot.keyClick(at, key, modifier)
+
+
+def test_from_the_settings_over_board_and_card_to_their_pages(
+    qtbot: QtBot, open_desktop: Open, data: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    desktop = open_desktop()
+    journey, board, card = desktop.journey, desktop.journey.board, desktop.journey.card
+    practice = data / "practice"
+
+    def saved_as(name: str) -> Path:
+        path = tmp_path / name
+        monkeypatch.setattr(QFileDialog, "getSaveFileName", lambda *_: (str(path), ""))
+        return path
+
+    journey.settings_wanted.emit()
+    settings_card = desktop.shell.findChild(CameraCard)
+    assert settings_card is not None
+    settings_card.calibrate_button.click()
+    assert journey.place == "board"
+    assert not board.beginning.begin_button.isEnabled(), "no camera is plugged in here"
+    pdf = saved_as("board.pdf")
+    board.beginning.print_button.click()
+    qtbot.waitUntil(pdf.exists)
+    board.beginning.camera.buttons()[1].click()
+    board.beginning.begin_button.click()
+    assert not board.showing.primary.isEnabled()
+    qtbot.waitUntil(lambda: board.showing.progress is not None)
+    assert "nothing here is of a real one" in desktop.shell.sign.text
+    press(qtbot, Qt.Key.Key_Escape)
+    assert board.is_beginning, "left half-way"
+    board.beginning.begin_button.click()
+    qtbot.waitUntil(board.showing.primary.isEnabled, timeout=240_000)
+    board.showing.primary.click()
+    qtbot.waitUntil(lambda: board.result.result is not None)
+    result = board.result.result
+    assert result is not None
+    assert result.simulated
+    assert "The camera is calibrated" in board.result.answer.text()
+    page = saved_as("calibration.pdf")
+    press(qtbot, Qt.Key.Key_P, Qt.KeyboardModifier.ControlModifier)
+    qtbot.waitUntil(page.exists)
+    board.result.use_button.click()
+    qtbot.waitUntil(lambda: journey.place == "card")
+    kept = stored_calibration(practice, practice_camera.PRACTICE_SERIAL)
+    assert kept is not None
+    assert not (data / "cameras").exists(), "a simulated camera is never kept among real ones"
+    assert card.checks.simulated
+    card.check_button.click()
+    qtbot.waitUntil(lambda: card.progress is not None and card.progress.pixel is not None)
+    qtbot.waitUntil(lambda: card.checks.newest is not None and not card.is_measuring)
+    assert card.answer.text() == "The camera measures right."
+    page = saved_as("check.pdf")
+    card.page_button.click()
+    qtbot.waitUntil(page.exists)
+    card.check_button.click()
+    qtbot.waitUntil(lambda: journey.checking.hand._session is not None)
+    journey.checking.hand.failed.emit(CameraLost("simulated"))
+    assert not card.is_measuring
+    told = [one for one in desktop.shell.findChildren(StopCard) if one.isVisible()]
+    assert told
+    desktop.close()
+    assert len(read_checks(chart_path(practice, practice_camera.PRACTICE_SERIAL))) == 1
+
+
+def test_the_top_bar_and_the_settings_say_that_the_camera_was_out(
+    qtbot: QtBot, open_desktop: Open, data: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    desktop: Desktop = open_desktop()
+    journey = desktop.journey
+    monkeypatch.setattr(journey.watch, "_name", lambda: "Xtion PRO LIVE")
+    journey.watch.look()
+    last = camera_checks(out=True).checks[-1]
+    add_check(chart_path(data, "77"), replace(last, serial="77", when=datetime.now().astimezone().isoformat()))
+    journey.care.look()
+    qtbot.waitUntil(lambda: journey.care.standing.is_out)
+    assert desktop.shell.bar.camera.text() == "Camera out: check it"
+    journey.settings_wanted.emit()
+    card = desktop.shell.findChild(CameraCard)
+    assert card is not None
+    assert "out of its limits" in card._state.text()
+    journey.show_card()
+    qtbot.waitUntil(lambda: journey.card.checks.verdict == "out")
+    assert journey.card.check_button.text() == "Check once more"

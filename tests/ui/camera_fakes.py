@@ -1,0 +1,85 @@
+"""A calibration and checks as the screens of the camera show them: simulated pictures, figures made up."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from datetime import timedelta
+from functools import cache
+
+import numpy as np
+
+from carpus.core.camera import DEFAULT_CAMERA
+from carpus.core.camera_calibration.board import CHESSBOARD, board_sheet
+from carpus.core.camera_calibration.calibrate import CameraCalibration
+from carpus.core.camera_calibration.depth import DepthCheck
+from carpus.core.camera_calibration.effect import CELLS, Effect
+from carpus.core.camera_calibration.gather import Gathering
+from carpus.core.camera_calibration.guidance import next_step, target_outline
+from carpus.core.camera_calibration.solve import Intrinsics
+from carpus.core.camera_calibration.views import FIELDS, Judgement
+from carpus.core.check_card.card import FIGURES
+from carpus.core.check_card.chart import Check, verdict_of
+from carpus.core.check_card.measure import CardWatch
+from carpus.core.simulation.card_scene import card_scene
+from carpus.core.simulation.printed_sheets import LENS, Studio, poses, texture_of
+from carpus.core.types import Frame
+from carpus.ui.camera_calibration.values import BoardProgress, BoardResult
+from carpus.ui.check_card.values import CameraChecks, CardProgress
+from tests.ui.fakes import NOW
+
+
+@cache
+def board_progress() -> tuple[Frame, BoardProgress]:
+    """Five pictures of the board, the newest with what follows."""
+    studio, gathering = Studio(seed=2), Gathering(DEFAULT_CAMERA, [CHESSBOARD])
+    placed = poses(texture_of(board_sheet(CHESSBOARD, "a4")))[2:4]
+    frames = [studio.frame([one], k, float(k)) for k, one in enumerate(placed)]
+    looks = [gathering.look(frame) for frame in frames]
+    look, judgement = looks[-1], gathering.judgement
+    assert look is not None
+    step = next_step(judgement, look.found)
+    target = target_outline(step, CHESSBOARD, DEFAULT_CAMERA)
+    return frames[-1], BoardProgress(look, judgement, step, target, CHESSBOARD.corner_count)
+
+
+def board_result(*, poor: bool = False) -> BoardResult:
+    """A camera whose depth read too short; with ``poor`` pictures of a bent board."""
+    rng = np.random.default_rng(3)
+    off = rng.normal(0.0, 0.12 if not poor else 0.5, (CELLS[1], CELLS[0], 2))
+    off[0, :2] = np.nan
+    corners = np.full((FIELDS[1], FIELDS[0]), 80)
+    corners[0, 0] = 0
+    error = 0.84 if poor else 0.21
+    found = Intrinsics(LENS, 0.5, 0.6, error, np.zeros((20, 3)), np.zeros((20, 3)), tuple(range(20)))
+    depth = DepthCheck(0.996, 0.001, 0.0006, 0.0003, np.array([0.9, 0.6]), 0.1, 0.0011, 20)
+    judged = Judgement(20, corners, frozenset(("left", "right", "top", "bottom")), 0.47, 0.84)
+    made = CameraCalibration(DEFAULT_CAMERA, found, depth, judged, CHESSBOARD.name())
+    return BoardResult(made, Effect(off, 0.92, 10.4, 0.2, -0.8), "Xtion PRO LIVE", "1210130114", "18 Apr 2026")
+
+
+def camera_checks(*, out: bool = False) -> CameraChecks:
+    """Three months of a camera: an odd check, a calibration, and now."""
+    rng = np.random.default_rng(8)
+    checks: list[Check] = []
+    for k in range(12):
+        when = (NOW - timedelta(days=7 * (11 - k))).isoformat()
+        angle, length = 0.6 + 0.1 * float(rng.normal()), 0.8 + 0.1 * float(rng.normal())
+        if k == 6:
+            angle, length = 1.7, 3.4
+        scale = 1.0 + (0.026 if out and k == 11 else 0.0)
+        if out and k == 11:
+            length = 3.3
+        measured = [one.true * (scale if one.kind == "length" else 1.0) + 0.3 for one in FIGURES]
+        calibrated = (NOW - timedelta(days=200 if k < 7 else 31)).isoformat()
+        checks.append(Check(when, "1210130114", angle, length, scale, tuple(measured), (0.2,) * 6, calibrated))
+    verdict = verdict_of(checks[:-1], checks[-1])
+    return CameraChecks("Xtion PRO LIVE", "1210130114", checks, verdict, 0.1, "20 Oct 2026")
+
+
+@cache
+def card_progress() -> tuple[Frame, CardProgress]:
+    """The card under the simulated camera, some seconds in."""
+    frame = Studio(seed=2, depth_scale_error=0.0).frame(card_scene(), 0, 0.0)
+    look = CardWatch(LENS, steady=True).look(frame)
+    assert look is not None
+    return replace(frame), CardProgress(look.pixel, look.blue, 8.4)

@@ -1,0 +1,293 @@
+"""The check card: one glance says whether the camera measures right; half a minute of looking adds a check."""
+
+from __future__ import annotations
+
+from PySide6.QtCore import Qt, Signal
+from PySide6.QtGui import QPainter, QResizeEvent
+from PySide6.QtWidgets import QBoxLayout, QGridLayout, QHBoxLayout, QStackedWidget, QVBoxLayout, QWidget
+
+from carpus.core.check_card.reading import CHECK_S
+from carpus.core.types import ByteImage
+from carpus.ui.camera_calibration.overlay import paint_discs
+from carpus.ui.check_card.values import CameraChecks, CardProgress
+from carpus.ui.check_card.words import cause_words, check_day, figure_rows, headline, hint
+from carpus.ui.controls.button import Button
+from carpus.ui.controls.card import Card, Line
+from carpus.ui.controls.column import ScrolledColumn, scroll_area, scrolled
+from carpus.ui.controls.field import Choices
+from carpus.ui.controls.progress_bar import ThinBar
+from carpus.ui.controls.text import MEDIUM, REGULAR, SEMIBOLD, StateSign, Text, caption, heading
+from carpus.ui.keys import Keys, bind
+from carpus.ui.picture.photo import label_size, paint_label
+from carpus.ui.picture.view import PictureView
+from carpus.ui.plot.control_view import ControlCharts
+from carpus.ui.theme import GAP_PX, MARGIN_PX, Theme
+
+COLUMN_PX = 352
+MOST_PX = 16777215
+"""Qt's own greatest width."""
+
+
+class CardScreen(QWidget):
+    """``camera_chosen`` carries whether the simulated camera is meant; ``check`` begins, ``leave`` ends one;
+    ``print_card`` and ``page`` ask for PDFs, ``calibrate`` for the screen of the board.
+    ``turned`` when another camera's checks are shown."""
+
+    camera_chosen = Signal(bool)
+    check = Signal()
+    leave = Signal()
+    print_card = Signal(str)
+    page = Signal()
+    calibrate = Signal()
+    turned = Signal()
+
+    def __init__(self, theme: Theme, keys: Keys) -> None:
+        super().__init__()
+        self._theme = theme
+        self.checks = CameraChecks("", "")
+        self.progress: CardProgress | None = None
+        self._camera_there = False
+        self.overview, self.measuring = QWidget(), QWidget()
+        self.camera = Choices(theme, [(False, self.tr("The camera")), (True, self.tr("Simulated camera"))], False)
+        self.answer = heading(theme, wrap=True)
+        self.basis = Text(theme, "", 16, REGULAR, "text2", wrap=True)
+        self.check_button = Button(theme, "", "primary", icon="play", hint=self.tr("Enter"))
+        self.charts = ControlCharts(theme)
+        self._figures, self._out = Card(theme, 16), Card(theme, 16)
+        self.paper = Choices(theme, [("a4", "A4"), ("letter", "Letter")], "a4")
+        self.print_button = Button(theme, self.tr("Print &card…"), icon="file-text")
+        self.page_button = Button(theme, self.tr("One page…"), hint="Ctrl+P")
+        self.calibrate_button = Button(theme, self.tr("Cali&brate the camera…"))
+        self.picture = PictureView(theme, (832, 624))
+        self.picture.show_whole(True)
+        self.picture.overlay = self._paint_over
+        self.left_s = Text(theme, "", 44, SEMIBOLD)
+        self.hint = Text(theme, "", 20, SEMIBOLD, wrap=True)
+        self.bar = ThinBar(theme, self.tr("How far the check is"))
+        self.leave_button = Button(theme, self.tr("Stop"), hint=self.tr("Esc"))
+        self._parts = QStackedWidget()
+        self._lay_out_overview()
+        self._lay_out_measuring()
+        for part in (self.overview, self.measuring):
+            self._parts.addWidget(part)
+        whole = QVBoxLayout(self)
+        whole.setContentsMargins(0, 0, 0, 0)
+        whole.addWidget(self._parts)
+        self.camera.chosen.connect(lambda practice: self.camera_chosen.emit(bool(practice)))
+        self.check_button.clicked.connect(self.check)
+        self.print_button.clicked.connect(lambda: self.print_card.emit(str(self.paper.value())))
+        self.page_button.clicked.connect(self.page)
+        self.calibrate_button.clicked.connect(self.calibrate)
+        self.leave_button.clicked.connect(self.leave)
+        bind(self.overview, keys, "report", self.page_button.click)
+        theme.changed.connect(self._fit)
+        self.show_checks(self.checks)
+
+    def _lay_out_overview(self) -> None:
+        theme = self._theme
+        texts = QVBoxLayout()
+        texts.setSpacing(2)
+        texts.addWidget(self.answer)
+        texts.addWidget(self.basis)
+        head = QHBoxLayout()
+        head.setSpacing(GAP_PX)
+        head.addLayout(texts, 1)
+        head.addWidget(self.check_button, 0, Qt.AlignmentFlag.AlignTop)
+        right = QVBoxLayout()
+        right.setSpacing(12)
+        right.addWidget(self._figures)
+        right.addWidget(self._out)
+        row = QHBoxLayout()
+        row.setSpacing(12)
+        row.addWidget(self.paper)
+        row.addWidget(self.print_button)
+        right.addLayout(row)
+        right.addWidget(self.page_button)
+        right.addWidget(self.calibrate_button)
+        words = self.tr("Usual: mean of the first 7 checks after a calibration, + 3 sd. Limits are fixed.")
+        right.addWidget(caption(theme, words, wrap=True))
+        right.addStretch(1)
+        self._side_scroll = scrolled(right)
+        host = ScrolledColumn()
+        self._columns = QBoxLayout(QBoxLayout.Direction.LeftToRight, host)
+        self._columns.setContentsMargins(0, 0, 8, 0)
+        self._columns.setSpacing(GAP_PX)
+        self._columns.addWidget(self.charts, 1)
+        self._columns.addWidget(self._side_scroll)
+        whole = QVBoxLayout(self.overview)
+        whole.setContentsMargins(MARGIN_PX, GAP_PX - 4, MARGIN_PX - 8, GAP_PX)
+        whole.setSpacing(12)
+        whole.addWidget(self.camera)
+        whole.addLayout(head)
+        whole.addWidget(scroll_area(host), 1)
+
+    def _lay_out_measuring(self) -> None:
+        theme = self._theme
+        column = QVBoxLayout()
+        column.setContentsMargins(0, 0, 0, 0)
+        column.setSpacing(12)
+        column.addWidget(Text(theme, self.tr("Checking"), 28, SEMIBOLD))
+        column.addWidget(self.left_s)
+        column.addWidget(self.bar)
+        column.addWidget(self.hint)
+        words = self.tr("Its ruler must be 100 mm long, the wedge glued onto the dashed field. Nothing is held.")
+        column.addWidget(Text(theme, words, 14, REGULAR, "text2", wrap=True))
+        column.addStretch(1)
+        column.addWidget(self.leave_button)
+        self._side = QWidget()
+        self._side.setLayout(column)
+        whole = QHBoxLayout(self.measuring)
+        whole.setContentsMargins(MARGIN_PX, GAP_PX, MARGIN_PX, GAP_PX)
+        whole.setSpacing(MARGIN_PX)
+        whole.addWidget(self.picture, 1)
+        whole.addWidget(self._side)
+
+    def resizeEvent(self, event: QResizeEvent) -> None:
+        self._fit()
+
+    def _fit(self) -> None:
+        scale = self._theme.text_scale
+        narrow = self.width() < 1000 * scale
+        directions = QBoxLayout.Direction
+        self._columns.setDirection(directions.TopToBottom if narrow else directions.LeftToRight)
+        wide = self._theme.px(COLUMN_PX)
+        # Beside the charts the column scrolls by itself; under them the whole page does.
+        side = self._side_scroll.widget()
+        assert side is not None
+        self._side_scroll.setMaximumWidth(MOST_PX if narrow else wide)
+        self._side_scroll.setMinimumWidth(0 if narrow else wide)
+        across = max(self.width() - 2 * MARGIN_PX, 1)
+        self._side_scroll.setMinimumHeight(max(side.heightForWidth(across), side.sizeHint().height()) if narrow else 0)
+        self._side.setFixedWidth(min(wide, round(0.4 * max(self.width(), 640))))
+
+    # --- states -------------------------------------------------------------------------------------------
+    @property
+    def is_measuring(self) -> bool:
+        """Whether a check runs."""
+        return self._parts.currentWidget() is self.measuring
+
+    def set_camera_there(self, there: bool) -> None:
+        """Whether a camera is plugged in."""
+        self._camera_there = there
+        self._show_button()
+
+    def show_checks(self, checks: CameraChecks) -> None:
+        """All checks of a camera."""
+        self.checks = checks
+        self.camera.choose(checks.simulated)
+        answer, basis = headline(checks)
+        self.answer.setText(answer)
+        self.basis.setText(basis)
+        empty = self.tr("Each check is a point here: a camera that drifts is seen before it is out.")
+        self.charts.show_checks(checks.checks, empty)
+        self.page_button.setEnabled(checks.newest is not None)
+        self._show_button()
+        self._fill_figures()
+        self._fill_out()
+        self._show(self.overview)
+        self.turned.emit()
+
+    def _show_button(self) -> None:
+        ready = self.checks.simulated or self._camera_there
+        again = self.checks.verdict in ("out", "unusual") and not self.checks.recalibrated
+        words = self.tr("Check once more") if again else self.tr("Check now, 30 seconds")
+        self.check_button.setEnabled(ready)
+        self.check_button.set_face(words if ready else self.tr("Check · plug the camera in"))
+
+    def begin_measuring(self) -> None:
+        """The camera is being opened."""
+        self.progress = None
+        self.picture.clear(self.tr("The camera is being opened."))
+        self.left_s.setText(self.tr("{seconds} s").format(seconds=round(CHECK_S)))
+        self.hint.setText(self.tr("The camera is being opened."))
+        self.bar.begin()
+        self._show(self.measuring)
+
+    def show_frame(self, color_rgb: ByteImage) -> None:
+        """The newest picture."""
+        self.picture.show_frame(color_rgb)
+
+    def show_lost(self, words: str) -> None:
+        """The camera sends nothing: why, and what to do."""
+        self.picture.clear(words)
+        self.hint.setText(words)
+
+    def show_progress(self, now: CardProgress | None) -> None:
+        """What the newest picture showed; None while nothing has been looked at."""
+        self.progress = now
+        seconds = 0.0 if now is None else now.seconds
+        self.left_s.setText(self.tr("{seconds} s").format(seconds=max(round(CHECK_S - seconds), 0)))
+        self.bar.show_progress(round(10 * min(seconds, CHECK_S)), round(10 * CHECK_S))
+        self.hint.setText(hint(now))
+        self.picture.update()
+
+    def _show(self, part: QWidget) -> None:
+        changed = self._parts.currentWidget() is not part
+        self._parts.setCurrentWidget(part)
+        if changed and self.isVisible():
+            self.first().setFocus(Qt.FocusReason.OtherFocusReason)
+
+    def first(self) -> QWidget:
+        """What has the keyboard."""
+        if self.is_measuring:
+            return self.leave_button
+        return self.check_button if self.check_button.isEnabled() else self.print_button
+
+    def _fill_figures(self) -> None:
+        body, theme, last = self._figures.body, self._theme, self.checks.newest
+        _clear(body)
+        self._figures.setVisible(last is not None)
+        if last is None:
+            return
+        title = Text(theme, check_day(last), 16, SEMIBOLD, wrap=True)
+        body.addWidget(title)
+        table = QWidget()
+        grid = QGridLayout(table)
+        grid.setContentsMargins(0, 0, 0, 0)
+        grid.setHorizontalSpacing(8)
+        grid.setVerticalSpacing(3)
+        for column, stretch in enumerate((0, 46, 32, 22)):
+            grid.setColumnStretch(column, stretch)
+        right = Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter
+        for column, words in enumerate((self.tr("On the card"), self.tr("Measured"), self.tr("Off by")), 1):
+            grid.addWidget(caption(theme, words), 0, column, right if column > 1 else Qt.AlignmentFlag.AlignLeft)
+        for number, (state, name, measured, off) in enumerate(figure_rows(last), 1):
+            row = 2 * number
+            grid.addWidget(Line(theme), row - 1, 0, 1, 4)
+            grid.addWidget(StateSign(theme, state), row, 0)
+            grid.addWidget(Text(theme, name, 14, wrap=True), row, 1)
+            grid.addWidget(Text(theme, measured, 14), row, 2, right)
+            grid.addWidget(Text(theme, off, 14, SEMIBOLD), row, 3, right)
+        body.addWidget(table)
+        body.addWidget(caption(theme, cause_words(self.checks), wrap=True))
+
+    def _fill_out(self) -> None:
+        body, theme = self._out.body, self._theme
+        _clear(body)
+        out = self.checks.verdict == "out" and not self.checks.recalibrated
+        self._out.set_colors("surface", "bad" if out else "line", 2.0 if out else 1.0)
+        body.addWidget(Text(theme, self.tr("If it is out"), 16, SEMIBOLD))
+        steps = (
+            (self.tr("Check once more"), self.tr("card flat, 60 cm away, its ruler 100 mm long")),
+            (self.tr("Calibrate the camera again"), self.tr("with the board, five minutes")),
+            (self.tr("Still out: do not measure"), self.tr("sessions near this check say that they are not sure")),
+        )
+        for number, (what, how) in enumerate(steps, 1):
+            body.addWidget(Text(theme, f"{number}  {what}", 14, MEDIUM, wrap=True))
+            body.addWidget(caption(theme, how, wrap=True))
+
+    def _paint_over(self, painter: QPainter, view: PictureView) -> None:
+        if self.checks.simulated:
+            words = self.tr("Simulated camera and card")
+            left = view.width() - label_size(self._theme, words).width() - 12.0
+            paint_label(painter, self._theme, words, left, 12.0)
+        now = self.progress
+        if now is not None and now.pixel is not None:
+            paint_discs(painter, view, self._theme, now.pixel)
+
+
+def _clear(body: QVBoxLayout) -> None:
+    while (item := body.takeAt(0)) is not None:
+        if (old := item.widget()) is not None:
+            old.hide()
+            old.deleteLater()

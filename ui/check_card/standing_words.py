@@ -1,0 +1,68 @@
+"""How far a camera is to be trusted today, in one sentence, in two words for the top bar, and over a session."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING
+
+from carpus.ui.icons import State
+from carpus.ui.translate import tr
+
+if TYPE_CHECKING:  # a window loads nothing that reads files
+    from carpus.core.check_card.standing import Standing
+
+
+def bar_words(now: Standing) -> tuple[State, str] | None:
+    """For the top bar; None where there is nothing to say."""
+    if now.is_out:
+        return "bad", tr("Camera out: check it")
+    if now.is_unusual:
+        return "warn", tr("Camera unusual: check it")
+    if now.is_old:
+        return "warn", tr("Check {days} days old").format(days=int(now.checked_days))
+    return None
+
+
+def session_words(now: Standing) -> str:
+    """Over the screens of a session that is measured with a camera which was out; empty otherwise."""
+    last = now.check
+    if last is None or not now.is_out:
+        return ""
+    if last.angles_hold:
+        share = 100.0 * (last.scale - 1.0)
+        pattern = (
+            tr("This camera was out at its last check: lengths {share} % too long. Angles hold. Check once more.")
+            if share > 0
+            else tr("This camera was out at its last check: lengths {share} % too short. Angles hold. Check once more.")
+        )
+        return pattern.format(share=f"{abs(share):.1f}")
+    return tr(
+        "This camera was out at its last check: angles {angle}° off. Check it once more, or calibrate it."
+    ).format(angle=f"{last.angle_error_deg:.1f}")
+
+
+def card_words(now: Standing) -> tuple[State, str]:
+    """For the settings."""
+    if not now.serial:
+        return "open", tr("Not calibrated and not checked yet.")
+    calibrated = tr("Never calibrated.")
+    if math.isfinite(now.calibrated_days):
+        calibrated = tr("Calibrated {ago}.").format(ago=_ago(now.calibrated_days))
+    checked = tr("Never checked.")
+    state: State = "open"
+    if math.isfinite(now.checked_days):
+        found = tr("out of its limits") if now.verdict == "out" else tr("otherwise than usual")
+        found = tr("it measured right") if now.verdict == "right" else found
+        checked = tr("Checked {ago}: {found}.").format(ago=_ago(now.checked_days), found=found)
+        state = "bad" if now.is_out else "warn" if now.is_unusual or now.is_old or now.recalibrated else "good"
+    words = tr("Camera {serial}: {calibrated} {checked}").format(
+        serial=now.serial, calibrated=calibrated[0].lower() + calibrated[1:], checked=checked
+    )
+    if now.recalibrated:
+        words += " " + tr("Check it again: it was calibrated since.")
+    return state, words
+
+
+def _ago(days: float) -> str:
+    whole = int(days)
+    return {0: tr("today"), 1: tr("yesterday")}.get(whole, tr("{days} days ago").format(days=whole))

@@ -1,0 +1,188 @@
+"""A control chart: what each check of a camera found, the fixed limit, and what is usual with its calibration."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from datetime import datetime
+
+import numpy as np
+from PySide6.QtCore import QPointF, QRectF, Qt
+from PySide6.QtGui import QFontMetricsF, QPainter, QPen, QPolygonF
+
+from carpus.core.check_card.chart import Check, Verdict, usual_of, verdict_of
+from carpus.core.check_card.reading import MOST_ANGLE_DEG, MOST_LENGTH_MM
+from carpus.ui import numbers
+from carpus.ui.icons import octagon
+from carpus.ui.plot.axes import Panel, Scale
+from carpus.ui.plot.style import PlotStyle
+from carpus.ui.translate import tr
+
+MOST_SHOWN = 24
+_ROOM = 1.5
+"""The scale reaches this many times the limit, or further where a check does."""
+
+
+@dataclass(frozen=True, slots=True)
+class ControlPlot:
+    """One followed figure of the last checks, oldest first; ``cut`` (C,) where another calibration begins; ``usual``
+    highest usual value of the newest calibration, NaN while nobody knows, from check ``usual_from`` on."""
+
+    title: str
+    unit: str
+    limit: float
+    value: np.ndarray
+    verdict: Sequence[Verdict]
+    when: Sequence[datetime]
+    cut: np.ndarray
+    usual: float
+    usual_from: int
+
+    def scale(self) -> Scale:
+        """Zero to half above the limit, or to the worst check."""
+        top = max(_ROOM * self.limit, 1.1 * float(self.value.max(initial=0.0)))
+        step = next(step for step in (0.5, 1.0, 2.0, 5.0, 10.0, 20.0, 50.0, 1e9) if top / step <= 5.0)
+        ticks = tuple(float(one) for one in np.arange(0.0, top + 1e-9, step))
+        return Scale(0.0, top, ticks, tuple((one, f"{one:g}{self.unit}") for one in ticks), strong_ends=False)
+
+    def panel(self, box: QRectF) -> Panel:
+        """Checks one after the other, evenly."""
+        return Panel(box, self.scale(), -0.5, max(len(self.value) - 0.5, 0.5))
+
+
+def control_plots(checks: Sequence[Check]) -> list[ControlPlot]:
+    """Angles and lengths of the last checks; none where there was no check."""
+    if not checks:
+        return []
+    first = max(len(checks) - MOST_SHOWN, 0)
+    shown = checks[first:]
+    usual = usual_of(checks[:-1], shown[-1].calibrated)
+    since = next(k for k, one in enumerate(shown) if one.calibrated == shown[-1].calibrated)
+    cut = np.array([k > 0 and one.calibrated != shown[k - 1].calibrated for k, one in enumerate(shown)])
+    when = [datetime.fromisoformat(one.when) for one in shown]
+    kinds = (
+        (tr("Angles: largest error of three"), "°", MOST_ANGLE_DEG),
+        (tr("Lengths: largest error of three"), f"{numbers.NARROW_GAP}mm", MOST_LENGTH_MM),
+    )
+    return [
+        ControlPlot(
+            title, unit, limit, np.array([one.values[k] for one in shown]),
+            [_verdict(checks[: first + number], one, k) for number, one in enumerate(shown)], when, cut,
+            float(usual.band[k, 1]) if usual is not None else math.nan, since,
+        )
+        for k, (title, unit, limit) in enumerate(kinds)
+    ]  # fmt: skip
+
+
+def _verdict(earlier: Sequence[Check], check: Check, kind: int) -> Verdict:
+    """What is said of one figure of a check; a drift, which shows on none by itself, is said of both."""
+    if not (check.angles_hold, check.lengths_hold)[kind]:
+        return "out"
+    whole, usual = verdict_of(earlier, check), usual_of(earlier, check.calibrated)
+    if usual is None or whole == "right":
+        return "right"
+    beyond = [check.values[one] > usual.band[one, 1] for one in (0, 1)]
+    return "unusual" if beyond[kind] or (whole == "unusual" and not any(beyond)) else "right"
+
+
+def paint_control_ground(painter: QPainter, style: PlotStyle, plot: ControlPlot, panel: Panel) -> None:
+    """What stays: the usual band, the limit, days, and the words at the right."""
+    box, unit = panel.box, style.unit
+    taken: list[float] = []
+    if math.isfinite(plot.usual):
+        left = float(panel.x(plot.usual_from - 0.5))
+        top = float(panel.y(plot.usual))
+        painter.fillRect(QRectF(left, top, box.right() - left, box.bottom() - top), style.color("norm"))
+    pen = QPen(style.color("bad"), 1.5 * style.grid_width)
+    pen.setDashPattern([6, 4])
+    painter.setPen(pen)
+    at = float(panel.y(plot.limit))
+    painter.drawLine(QPointF(box.left(), at), QPointF(box.right(), at))
+    last = float(plot.value[-1])
+    words = tr("newest {value}").format(value=f"{last:.1f}{plot.unit}")
+    token = {"right": "text", "unusual": "warn", "out": "bad"}[plot.verdict[-1]] if last > plot.limit else "text"
+    _say(
+        painter,
+        style,
+        panel,
+        plot.limit,
+        tr("Limit {value}").format(value=f"{plot.limit:.1f}{plot.unit}"),
+        "bad",
+        taken,
+    )
+    _say(painter, style, panel, last, words, token, taken)
+    if math.isfinite(plot.usual):
+        words = tr("usual, up to {value}").format(value=f"{plot.usual:.1f}{plot.unit}")
+        _say(painter, style, panel, plot.usual, words, "text2", taken)
+    _paint_days(painter, style, plot, panel)
+    for k in np.flatnonzero(plot.cut).tolist():
+        x = float(panel.x(k - 0.5))
+        pen = QPen(style.color("text2"), style.grid_width)
+        pen.setDashPattern([3, 3])
+        painter.setPen(pen)
+        painter.drawLine(QPointF(x, box.top()), QPointF(x, box.bottom()))
+        painter.setFont(style.label)
+        painter.drawText(QPointF(x + 4 * unit, box.top() + QFontMetricsF(style.label).ascent()), tr("calibrated"))
+
+
+def _say(
+    painter: QPainter, style: PlotStyle, panel: Panel, value: float, words: str, token: str, taken: list[float]
+) -> None:
+    """Words right of the panel beside a value, moved aside from those that stand there already."""
+    painter.setFont(style.end_label)
+    height = QFontMetricsF(style.end_label).height()
+    middle = float(panel.y(value))
+    for away in (0.0, height, -height, 2 * height, -2 * height):
+        if all(abs(middle + away - other) >= height for other in taken):
+            middle += away
+            break
+    taken.append(middle)
+    painter.setPen(style.color(token))
+    box = QRectF(panel.box.right() + 10 * style.unit, middle - height / 2, 400 * style.unit, height)
+    painter.drawText(box, int(Qt.AlignmentFlag.AlignVCenter), words)
+
+
+def _paint_days(painter: QPainter, style: PlotStyle, plot: ControlPlot, panel: Panel) -> None:
+    """Days under the checks: the newest, the first, and those between as far as there is room."""
+    painter.setFont(style.label)
+    painter.setPen(style.color("text2"))
+    metrics = QFontMetricsF(style.label)
+    taken: list[tuple[float, float]] = []
+    count = len(plot.when)
+    for k in [count - 1, 0, *range(count - 2, 0, -1)]:
+        words = numbers.day_month(plot.when[k])
+        width = metrics.horizontalAdvance(words)
+        left = min(float(panel.x(k)) - width / 2, panel.box.right() - width)
+        if all(left > right + 14 or left + width < start - 14 for start, right in taken):
+            taken.append((left, left + width))
+            painter.drawText(QPointF(left, panel.box.bottom() + 4 * style.unit + metrics.ascent()), words)
+
+
+@dataclass(frozen=True, slots=True)
+class ControlMarks:
+    """The checks, joined within a calibration: disc usual, triangle unusual, octagon out."""
+
+    plot: ControlPlot
+
+    def paint(self, painter: QPainter, style: PlotStyle, panel: Panel) -> None:
+        plot = self.plot
+        at = [QPointF(float(panel.x(k)), float(panel.y(value))) for k, value in enumerate(plot.value.tolist())]
+        painter.setPen(QPen(style.color("text"), style.line_width))
+        for k in range(1, len(at)):
+            if not plot.cut[k]:
+                painter.drawLine(at[k - 1], at[k])
+        for place, verdict in zip(at, plot.verdict, strict=True):
+            painter.setPen(QPen(style.color("surface"), 1.5 * style.unit))
+            if verdict == "right":
+                painter.setBrush(style.color("text"))
+                painter.drawEllipse(place, 4.5 * style.unit, 4.5 * style.unit)
+            elif verdict == "unusual":
+                painter.setBrush(style.color("warn"))
+                size = 7.0 * style.unit
+                corners = [QPointF(0, -size), QPointF(size, 0.8 * size), QPointF(-size, 0.8 * size)]
+                painter.drawPolygon(QPolygonF([place + corner for corner in corners]))
+            else:
+                painter.setBrush(style.color("bad"))
+                painter.drawPolygon(octagon(place, 7.5 * style.unit))
+        painter.setBrush(Qt.BrushStyle.NoBrush)

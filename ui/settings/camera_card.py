@@ -1,0 +1,55 @@
+"""The camera as a card of the settings: when it was calibrated and checked, and the way to both."""
+
+from __future__ import annotations
+
+from PySide6.QtCore import Signal
+from PySide6.QtWidgets import QHBoxLayout
+
+from carpus.ui.controls.button import Button
+from carpus.ui.controls.card import Card
+from carpus.ui.controls.text import REGULAR, SEMIBOLD, StateSign, Text
+from carpus.ui.icons import State
+from carpus.ui.theme import Theme
+
+
+class CameraCard(Card):
+    """``calibrate`` leads to the board, ``check`` to the check card."""
+
+    calibrate = Signal()
+    check = Signal()
+
+    def __init__(self, theme: Theme) -> None:
+        super().__init__(theme, 24)
+        self._theme = theme
+        self.body.addWidget(Text(theme, self.tr("Camera"), 20, SEMIBOLD))
+        words = self.tr(
+            "A printed board shows how the camera sees and how far off its depth is; a printed card shows in 30 "
+            "seconds whether it still measures right. Both can be tried with a simulated camera."
+        )
+        self.body.addWidget(Text(theme, words, 14, REGULAR, "text2", wrap=True))
+        self._row = QHBoxLayout()
+        self._row.setSpacing(10)
+        self._sign = StateSign(theme, "none")
+        self._state = Text(theme, "", 14, SEMIBOLD, wrap=True)
+        self._row.addWidget(self._sign)
+        self._row.addWidget(self._state, 1)
+        self.body.addLayout(self._row)
+        buttons = QHBoxLayout()
+        buttons.setSpacing(12)
+        self.check_button = Button(theme, self.tr("Chec&k card…"), height_px=40)
+        self.calibrate_button = Button(theme, self.tr("Cali&brate the camera…"), height_px=40)
+        buttons.addWidget(self.check_button)
+        buttons.addWidget(self.calibrate_button)
+        buttons.addStretch(1)
+        self.body.addLayout(buttons)
+        self.check_button.clicked.connect(self.check)
+        self.calibrate_button.clicked.connect(self.calibrate)
+
+    def show_standing(self, state: State, words: str) -> None:
+        """How far it is to be trusted today."""
+        sign = StateSign(self._theme, state)
+        self._row.replaceWidget(self._sign, sign)
+        self._sign.hide()
+        self._sign.deleteLater()
+        self._sign = sign
+        self._state.setText(words)
