@@ -17,7 +17,7 @@ from carpus.core.camera_calibration.board import Board, board_sheet
 from carpus.core.camera_calibration.calibrate import calibrate_camera
 from carpus.core.camera_calibration.effect import effect_of
 from carpus.core.camera_calibration.gather import Gathering
-from carpus.core.camera_calibration.guidance import next_step, target_outline
+from carpus.core.camera_calibration.guidance import ASKED_VIEWS, next_step, target_outline
 from carpus.core.camera_calibration.keep import keep_calibration, stored_of
 from carpus.core.capture.calibrated import SERIAL, stored_calibration
 from carpus.core.capture.source import FrameSource, SourceInfo, is_simulated
@@ -147,6 +147,7 @@ class Calibrating(QObject):
         def looker(info: SourceInfo) -> Look:
             gathering = Gathering(info.camera, [choice.board])
             self._gathering = gathering
+            asked = ASKED_VIEWS[choice.pattern]
             size_px = (info.camera.width_px, info.camera.height_px)
 
             def look(frame: Frame) -> None:
@@ -154,9 +155,9 @@ class Calibrating(QObject):
                 if seen is None:
                     return
                 judgement = gathering.judgement
-                step = next_step(judgement, seen.found, size_px)
+                step = next_step(judgement, seen.found, size_px, asked)
                 target = target_outline(step, choice.board, info.camera)
-                newest.put(BoardProgress(seen, judgement, step, target, choice.board.corner_count))
+                newest.put(BoardProgress(seen, judgement, step, target, choice.board.corner_count, asked))
 
             return look
 

@@ -17,7 +17,7 @@ LOOK_EVERY_S = 0.12
 """Finding the board takes a while, and two pictures in a row show the same."""
 _CAMERA_FPS = 30.0
 _JUST_BEFORE_S = 0.4
-MOST_VIEWS = 40
+MOST_VIEWS = 64
 
 
 class Gathering:

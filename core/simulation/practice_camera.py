@@ -5,6 +5,7 @@ from __future__ import annotations
 import itertools
 import threading
 from collections.abc import Iterator
+from functools import cache
 
 import cv2
 import numpy as np
@@ -83,7 +84,9 @@ def _card_frames(seed: int) -> Iterator[Frame]:
         yield Frame(index, index / FPS, kept.color_rgb, kept.depth_raw, kept.depth_unit_m)
 
 
+@cache
 def _studio() -> Studio:
+    """One for all: it keeps no state, and takes seconds to make."""
     return Studio(LENS, _SEED, _DEPTH_SCALE_ERROR)
 
 

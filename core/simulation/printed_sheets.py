@@ -139,7 +139,7 @@ def poses(
         z = distances_m[k % len(distances_m)] + float(rng.uniform(-0.03, 0.03))
         right, down = places[k % len(places)]
         reach_x, reach_y = z * 0.6 - 0.12, z * 0.45 - 0.09
-        tilt = 0.0 if k % 6 == 5 else float(rng.uniform(18.0, 36.0))
+        tilt = 0.0 if k % 6 == 5 else float(rng.uniform(26.0, 44.0))
         centre = (right * max(reach_x, 0.0) * 1.6, down * max(reach_y, 0.0) * 1.6, z)
         out.append(held(texture, centre, tilt, 90.0 * (k % 4) + float(rng.uniform(-15, 15)), float(rng.uniform(-8, 8))))
     return out

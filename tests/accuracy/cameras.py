@@ -31,7 +31,7 @@ CARD_FRAMES, CARD_EVERY_S = 12, 0.5
 SEED = 7000
 _DISTANCES_M: dict[Pattern, tuple[float, ...]] = {"chessboard": (0.5, 0.62, 0.8), "charuco": (0.44, 0.5, 0.62)}
 _FINE_M = 1e-4
-MOST_POSES, MORE_POSES = 48, 8
+MOST_POSES = 64
 
 
 @dataclass(frozen=True, slots=True)
@@ -76,7 +76,7 @@ def run_one(simulated: SimulatedCamera, pattern: Pattern, seed: int) -> CameraRu
     board = BOARDS[pattern]
     texture = texture_of(board_sheet(board, "a4"))
     gathering = Gathering(DEFAULT_CAMERA, [board])
-    made = _calibrated(gathering, studio, texture, _DISTANCES_M[pattern], seed)
+    made = _calibrated(gathering, studio, texture, pattern, seed)
     found, lens, depth = made.intrinsics.camera, simulated.lens, made.depth
     assert depth is not None
     stored = StoredCalibration("simulated", "", depth.scale, depth.offset_m)
@@ -99,13 +99,13 @@ def run_one(simulated: SimulatedCamera, pattern: Pattern, seed: int) -> CameraRu
 
 
 def _calibrated(
-    gathering: Gathering, studio: Studio, texture: FloatArray, distances_m: Sequence[float], seed: int
+    gathering: Gathering, studio: Studio, texture: FloatArray, pattern: Pattern, seed: int
 ) -> CameraCalibration:
     """As a person does it: as many pictures as are asked for, and more while the program says that it needs them."""
-    shown = poses(texture, MOST_POSES, distances_m, seed)
+    shown = poses(texture, MOST_POSES, _DISTANCES_M[pattern], seed)
     for k, placed in enumerate(shown, 1):
         gathering.add(studio.frame([placed], k, float(k)))
-        if len(gathering.views) >= ASKED_VIEWS and (k % MORE_POSES == 0 or k == len(shown)):
+        if len(gathering.views) >= ASKED_VIEWS[pattern] or k == len(shown):
             try:
                 return calibrate_camera(gathering.views, DEFAULT_CAMERA, "camera")
             except BoardViewsAlike:

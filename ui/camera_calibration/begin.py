@@ -31,7 +31,11 @@ class BoardBeginning(QWidget):
         super().__init__()
         self._theme = theme
         self.pattern = Choices(
-            theme, [("chessboard", self.tr("Chessboard")), ("charuco", self.tr("ChArUco: may be partly hidden"))],
+            theme,
+            [
+                ("chessboard", self.tr("Chessboard")),
+                ("charuco", self.tr("ChArUco: may be partly hidden, takes longer")),
+            ],
             "chessboard",
         )  # fmt: skip
         self.paper = Choices(theme, [("a4", "A4"), ("letter", "Letter")], "a4")

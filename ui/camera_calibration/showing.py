@@ -6,7 +6,6 @@ from PySide6.QtCore import Qt, Signal
 from PySide6.QtGui import QPainter, QResizeEvent
 from PySide6.QtWidgets import QGridLayout, QHBoxLayout, QVBoxLayout, QWidget
 
-from carpus.core.camera_calibration.guidance import ASKED_VIEWS
 from carpus.core.types import ByteImage
 from carpus.ui.camera_calibration.maps import FieldMap
 from carpus.ui.camera_calibration.overlay import paint_corners, paint_target
@@ -174,7 +173,7 @@ class BoardShowing(QWidget):
         words = self.tr("1 picture") if judged.views == 1 else self.tr("{count} pictures")
         self.count.show_state("good" if now.step.kind == "done" else "partly", words.format(count=judged.views))
         self.primary.set_face(to_go_words(now))
-        self.primary.setEnabled(judged.views >= ASKED_VIEWS and not judged.missing)
+        self.primary.setEnabled(judged.views >= now.asked and not judged.missing)
         if now.look.kept:
             self._note = ""
         self._fill()

@@ -32,13 +32,14 @@ class BoardChoice:
 @dataclass(frozen=True, slots=True)
 class BoardProgress:
     """How far the showing of the board is: the newest ``look``, all that was kept, the next ``step``, and where the
-    board is wanted (4, 2) in the picture, None for nowhere in particular."""
+    board is wanted (4, 2) in the picture, None for nowhere in particular; ``asked`` so many pictures."""
 
     look: Look
     judgement: Judgement
     step: Step
     target: FloatArray | None
     corner_count: int
+    asked: int
 
 
 @dataclass(frozen=True, slots=True)

@@ -8,7 +8,7 @@ import numpy as np
 
 from carpus.core.camera_calibration.depth import MOST_APART_PX, DepthCheck
 from carpus.core.camera_calibration.effect import FLEXION_DEG, HAND_LENGTH_M
-from carpus.core.camera_calibration.guidance import ASKED_VIEWS, Lack, Step
+from carpus.core.camera_calibration.guidance import Lack, Step
 from carpus.core.camera_calibration.sharpness import MOST_EDGE_PX
 from carpus.core.camera_calibration.solve import FAIR_PX, GOOD_PX
 from carpus.core.camera_calibration.views import (
@@ -64,7 +64,7 @@ def step_words(step: Step) -> tuple[str, str]:
         return what, how.format(side=side_name(step.side))
     if step.kind == "tilt" and step.side is not None:
         what = tr("Tilt the board: {side} nearer").format(side=side_name(step.side))
-        return what, tr("About a third of the way to upright, then hold still.")
+        return what, tr("Nearly half-way to upright, then hold still.")
     if step.kind == "near":
         return tr("Bring the board nearer"), tr("About 45 cm from the camera, then hold still.")
     if step.kind == "far":
@@ -132,7 +132,7 @@ def to_go_words(now: BoardProgress | None) -> str:
     """The primary button: what it does, or what it waits for."""
     if now is None:
         return tr("Work out · show the board")
-    left = ASKED_VIEWS - now.judgement.views
+    left = now.asked - now.judgement.views
     if left > 0:
         one = tr("Work out · 1 picture to go") if left == 1 else tr("Work out · {count} pictures to go")
         return one.format(count=left)

@@ -2,30 +2,49 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import replace
 from datetime import datetime
 from pathlib import Path
 
 import pytest
-from PySide6.QtCore import Qt
+from PySide6.QtCore import QLocale, Qt
 from PySide6.QtWidgets import QApplication, QFileDialog
 from pytestqt.qtbot import QtBot
 
-from carpus.app.compose import Desktop
+from carpus.app.compose import Desktop, application, compose
+from carpus.app.settings import RecordingSettings, ScreenSettings, Settings
 from carpus.core.camera_calibration import guidance
 from carpus.core.capture.calibrated import stored_calibration
 from carpus.core.check_card import measure
 from carpus.core.check_card.chart import add_check, chart_path, read_checks
 from carpus.core.errors import CameraLost
 from carpus.core.simulation import practice_camera
-from carpus.ui.camera_calibration import showing
-from carpus.ui.camera_calibration import words as board_words
 from carpus.ui.messages.stop_card import StopCard
 from carpus.ui.settings.camera_card import CameraCard
-from tests.journeys.conftest import Open
+from tests.journeys.conftest import let_go
 from tests.ui.camera_fakes import camera_checks
 
-FEW = 14
+FEW = 12
+pytestmark = pytest.mark.timeout(600)
+
+
+@pytest.fixture
+def data(tmp_path: Path) -> Path:
+    """The data folder."""
+    return tmp_path / "data"
+
+
+@pytest.fixture
+def desktop(qapp: QApplication, data: Path, tmp_path: Path) -> Iterator[Desktop]:
+    """The real application, put together as for a user."""
+    QLocale.setDefault(QLocale(QLocale.Language.English, QLocale.Country.UnitedKingdom))
+    settings = replace(Settings(), screen=ScreenSettings("light"), recording=RecordingSettings(folder=str(data)))
+    opened = compose(application([]), settings, speed=20.0, settings_folder=tmp_path / "settings")
+    opened.show()
+    yield opened
+    opened.close()
+    let_go(qapp)
 
 
 @pytest.fixture(autouse=True)
@@ -34,8 +53,7 @@ def hurry(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(practice_camera, "FPS", 1.0)
     monkeypatch.setattr(practice_camera, "_STILL_FRAMES", 1)
     monkeypatch.setattr(practice_camera, "_between", lambda one, other: other)
-    for module in (guidance, showing, board_words):
-        monkeypatch.setattr(module, "ASKED_VIEWS", FEW)
+    monkeypatch.setitem(guidance.ASKED_VIEWS, "chessboard", FEW)
     monkeypatch.setattr(measure, "CHECK_S", 6.0)
     monkeypatch.setattr(measure, "_LONGEST_GAP_S", 3.0)
 
@@ -47,9 +65,8 @@ def press(qtbot: QtBot, key: Qt.Key, modifier: Qt.KeyboardModifier = Qt.Keyboard
 
 
 def test_from_the_settings_over_board_and_card_to_their_pages(
-    qtbot: QtBot, open_desktop: Open, data: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+    qtbot: QtBot, desktop: Desktop, data: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    desktop = open_desktop()
     journey, board, card = desktop.journey, desktop.journey.board, desktop.journey.card
     practice = data / "practice"
 
@@ -109,9 +126,8 @@ def test_from_the_settings_over_board_and_card_to_their_pages(
 
 
 def test_the_top_bar_and_the_settings_say_that_the_camera_was_out(
-    qtbot: QtBot, open_desktop: Open, data: Path, monkeypatch: pytest.MonkeyPatch
+    qtbot: QtBot, desktop: Desktop, data: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    desktop: Desktop = open_desktop()
     journey = desktop.journey
     monkeypatch.setattr(journey.watch, "_name", lambda: "Xtion PRO LIVE")
     journey.watch.look()
