@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import Generic, Protocol, TypeVar
+from typing import Any, Generic, Protocol, TypeVar
 
 from carpus.core.detection.detector import Detector
 from carpus.core.detection.surface_samples import SamplingSettings, finger_samples, surface_samples
@@ -30,14 +30,17 @@ class Expected(Protocol):
     def finger_px(self) -> FloatArray: ...
 
 
-class HandTracker(Protocol):
+E = TypeVar("E", bound=Expected)
+
+
+class HandTracker(Protocol[E]):
     """Follows one calibrated hand through frames in order of time."""
 
     def begin_at_neutral(self, at_s: float | None = None) -> None:
         """Start (again) from the calibrated pose."""
         ...
 
-    def expect(self, timestamp_s: float) -> Expected | None:
+    def expect(self, timestamp_s: float) -> E | None:
         """Where to look at that time; None for the whole picture."""
         ...
 
@@ -45,12 +48,19 @@ class HandTracker(Protocol):
         """Whether blobs of a narrowed search are too few, so that the rest is worth a look."""
         ...
 
-    def step(self, index: int, timestamp_s: float, detections: Detections, dropped_before: int = 0) -> TrackedFrame:
-        """The frame's result from its blobs."""
+    def step(
+        self,
+        index: int,
+        timestamp_s: float,
+        detections: Detections,
+        dropped_before: int = 0,
+        expected: E | None = None,
+    ) -> TrackedFrame:
+        """The frame's result from its blobs, and from what was expected of it where that was asked for."""
         ...
 
 
-AnyTracker = TypeVar("AnyTracker", bound=HandTracker)
+AnyTracker = TypeVar("AnyTracker", bound=HandTracker[Any])
 
 
 class FrameWalk(Generic[AnyTracker]):
@@ -76,4 +86,4 @@ class FrameWalk(Generic[AnyTracker]):
                 surface=surface_samples(frame, expected.back_px, self.sampling),
                 fingers=finger_samples(frame, expected.finger_px, self.sampling),
             )
-        return self.tracker.step(frame.index, frame.timestamp_s, blobs, frame.dropped_before)
+        return self.tracker.step(frame.index, frame.timestamp_s, blobs, frame.dropped_before, expected)

@@ -154,7 +154,7 @@ def _calibrated(calibration: Calibration, camera: Camera, paper: PaperSettings |
 
 def _following(
     calibration: Calibration, camera: Camera, settings: TrackSettings, learnt: Learnt
-) -> tuple[HandTracker, Callable[[], list[Moment]] | None]:
+) -> tuple[HandTracker[Any], Callable[[], list[Moment]] | None]:
     """The chosen filter, and how it looks back if it is to."""
     if settings.paper is not None:
         return PaperTracker(calibration, camera, settings.paper), None
@@ -167,7 +167,7 @@ _SOON_S = 0.25
 
 
 def from_neutral(
-    frames: Iterable[T], tracker: HandTracker, neutral_ends_s: float, time_of: Callable[[T], float]
+    frames: Iterable[T], tracker: HandTracker[Any], neutral_ends_s: float, time_of: Callable[[T], float]
 ) -> Iterator[T]:
     """The frames, the tracker set back to the neutral pose before the first that was not used to calibrate.
 
@@ -264,7 +264,7 @@ def track_recording(
     return _written(writer, tracked, look_back, outcome.verdict, source.info.frame_count, progress, notes)
 
 
-def _answer(tracker: HandTracker, answers: Iterable[SpotAnswer]) -> None:
+def _answer(tracker: HandTracker[Any], answers: Iterable[SpotAnswer]) -> None:
     """The papers' filter is as written: it hears nobody."""
     if isinstance(tracker, Tracker):
         for answer in answers:

@@ -93,6 +93,14 @@ class FingerTrial:
         return self.named.names.taken
 
 
+@dataclass(frozen=True, slots=True)
+class RaysAhead:
+    """The rays as foreseen for one moment, and sigma points of them on the palm."""
+
+    beliefs: Bank
+    points: RayPoints
+
+
 class Fingers:
     """Remembers the rays' beliefs from frame to frame."""
 
@@ -137,23 +145,21 @@ class Fingers:
 
     def _take(self, beliefs: Bank, merged: tuple[FloatArray, FloatArray]) -> None:
         self._beliefs, (self._mean, self._covariance) = beliefs, merged
-        self._ahead: tuple[float, Bank, RayPoints] | None = None
 
-    def _ahead_at(self, timestamp_s: float, dt_s: float) -> tuple[Bank, RayPoints]:
-        """The rays predicted, and their discs on the palm as it was known last."""
-        if self._ahead is not None and self._ahead[0] == timestamp_s:
-            return self._ahead[1:]
+    @property
+    def known(self) -> Bank:
+        """What is believed of the rays; another object whenever anything of them has changed."""
+        return self._beliefs
+
+    def ahead(self, dt_s: float) -> RaysAhead:
+        """The rays ``dt_s`` later, and their discs on the palm as it was known last."""
         beliefs = self.model.predicted(self._beliefs, self._unseen_s, dt_s)
         mean, covariance = beliefs.merged()
-        points = spread_points(mean, covariance, self._palm.disc_m[1:], self._settings.spread)
-        self._ahead = (timestamp_s, beliefs, points)
-        return beliefs, points
+        return RaysAhead(beliefs, spread_points(mean, covariance, self._palm.disc_m[1:], self._settings.spread))
 
-    def expected(
-        self, timestamp_s: float, dt_s: float, belief: PalmBelief, view: View
-    ) -> tuple[FloatArray, FloatArray, FloatArray]:
+    def expected(self, ahead: RaysAhead, belief: PalmBelief, view: View) -> tuple[FloatArray, FloatArray, FloatArray]:
         """Where to look: pixels (5, 3, 2) with covariance (5, 3, 2, 2) given the palm, and depths (5, 3)."""
-        _, points = self._ahead_at(timestamp_s, dt_s)
+        points = ahead.points
         image = ray_view(belief, view, self._palm).observe(points.disc_m)
         count = points.unroot.shape[-1]
         half = image[:, 1 : count + 1, :, :2] - image[:, count + 1 :, :, :2]
@@ -162,7 +168,7 @@ class Fingers:
 
     def weigh(
         self,
-        timestamp_s: float,
+        ahead: RaysAhead,
         dt_s: float,
         seat: Seat,
         blobs: Measurable,
@@ -172,9 +178,10 @@ class Fingers:
     ) -> FingerTrial:
         """Name the blobs that are ``free`` (D,), not the palm's, as if the palm were there; nothing is remembered.
 
+        ``ahead`` the rays ``dt_s`` after the last frame.
         ``area_px`` (D,) of the blobs; ``samples`` depth readings about the fingers.
         """
-        return self._bent(self._named(timestamp_s, dt_s, seat, blobs, area_px, free), samples)
+        return self._bent(self._named(ahead, dt_s, seat, blobs, area_px, free), samples)
 
     def _bent(self, trial: FingerTrial, samples: SurfaceSamples | None) -> FingerTrial:
         """The trial with what depth says of knuckles whose fingers' discs are hidden."""
@@ -192,14 +199,14 @@ class Fingers:
 
     def _named(
         self,
-        timestamp_s: float,
+        ahead: RaysAhead,
         dt_s: float,
         seat: Seat,
         blobs: Measurable,
         area_px: FloatArray,
         free: NDArray[np.bool_],
     ) -> FingerTrial:
-        beliefs, points = self._ahead_at(timestamp_s, dt_s)
+        beliefs, points = ahead.beliefs, ahead.points
         trial, given_up = self._found_far(beliefs, self._tried(beliefs, points, dt_s, seat, blobs, area_px, free))
         anew = self._searched(trial, points, seat, blobs, free, given_up)
         if not anew:

@@ -24,7 +24,7 @@ from carpus.core.tracking.disc_anew import disc_anew, with_discs_as_known
 from carpus.core.tracking.doubt import DoubtWatch, passed_over
 from carpus.core.tracking.finger_model import seat_of
 from carpus.core.tracking.finger_smoother import FingersLookedBack, FingerStart, FingerStep, smoothed_fingers
-from carpus.core.tracking.fingers import Fingers, FingerTrial
+from carpus.core.tracking.fingers import Fingers, FingerTrial, RaysAhead
 from carpus.core.tracking.geometry import palm_of
 from carpus.core.tracking.kernel import Bank, carried, mixed, switching
 from carpus.core.tracking.motion import PalmMotion, mode_scale, palm_step, slowing, slowing_unseen, unseen_turns
@@ -50,16 +50,29 @@ BACK_DISCS, KNUCKLES = np.arange(4), slice(2, 6)
 
 
 @dataclass(frozen=True, slots=True)
+class Foreseen:
+    """The hand as foreseen for one moment, of the beliefs ``palm`` and ``fingers``, which are never changed, only
+    replaced: ``ahead`` of the palm, ``rays`` of the fingers where they are tracked."""
+
+    timestamp_s: float
+    palm: tuple[PalmBelief, Bank]
+    fingers: Bank | None
+    ahead: Forecast
+    rays: RaysAhead | None
+
+
+@dataclass(frozen=True, slots=True)
 class Expectation:
     """Where the discs should be in the next frame: pixels (M, 2) with covariance (M, 2, 2), depths (M,); ``back_px``
     (C, 2) of those that span the surface of the back of the hand, ``finger_px`` (F, 2) of those on long fingers and
-    their knuckles."""
+    their knuckles. ``foreseen``: what it was read of, so that the step need not foresee it again."""
 
     pixel: FloatArray
     covariance_px2: FloatArray
     depth_m: FloatArray
     back_px: FloatArray
     finger_px: FloatArray
+    foreseen: Foreseen
 
 
 @dataclass(frozen=True, slots=True)
@@ -93,24 +106,13 @@ class _Step:
 @dataclass(frozen=True, slots=True)
 class _Picture:
     """What one frame brings: its time, the time since the last, the blobs where an ideal camera would see them, and
-    these as measurements."""
+    these as measurements; and the fingers as foreseen for it."""
 
     timestamp_s: float
     dt_s: float
     ideal: Detections
     blobs: Measurable
-
-
-@dataclass(frozen=True, slots=True)
-class _Foreseen:
-    """What was foreseen of what was known, for a time. Beliefs are never changed, only replaced."""
-
-    timestamp_s: float
-    known: tuple[PalmBelief, Bank]
-    ahead: Forecast
-
-    def holds(self, timestamp_s: float, known: tuple[PalmBelief, Bank]) -> bool:
-        return self.known is known and self.timestamp_s == timestamp_s
+    rays: RaysAhead | None
 
 
 class Tracker:
@@ -154,7 +156,6 @@ class Tracker:
         self._recent: deque[tuple[float, NDArray[np.int64]]] = deque()
         self._recently_measured = np.zeros(self._joint_count or 3, dtype=np.int64)
         self._known: tuple[PalmBelief, Bank] | None = None
-        self._foreseen: _Foreseen | None = None
         self._shape = np.zeros(SHAPE.stop - SHAPE.start)
         self._shape_covariance = self._calibrated_shape
         self._time_s: float | None = None
@@ -207,28 +208,39 @@ class Tracker:
         """Where to look at that time; None when the hand is lost."""
         if self._known is None or self._is_past(timestamp_s):
             return None
-        ahead = self._predicted(timestamp_s, self._known)
+        foreseen = self._foresee(timestamp_s, self._known)
+        ahead = foreseen.ahead
         mean, covariance = ahead.own_mean, ahead.own_covariance
-        palm = Expectation(mean[:, :2], covariance[:, :2, :2], mean[:, 2], mean[BACK_DISCS, :2], mean[:0, :2])
-        return palm if self._fingers is None else self._with_fingers(palm, ahead, timestamp_s, self._fingers)
+        back_px, fingers_px = mean[BACK_DISCS, :2], mean[:0, :2]
+        palm = Expectation(mean[:, :2], covariance[:, :2, :2], mean[:, 2], back_px, fingers_px, foreseen)
+        return palm if self._fingers is None else self._with_fingers(palm, self._fingers)
 
-    def _predicted(self, timestamp_s: float, known: tuple[PalmBelief, Bank]) -> Forecast:
-        """The belief at that time and what the camera should see of it.
-
-        Asked once before the picture is searched and once again for its blobs: the second answer is the first.
-        """
-        if self._foreseen is not None and self._foreseen.holds(timestamp_s, known):
-            return self._foreseen.ahead
+    def _foresee(self, timestamp_s: float, known: tuple[PalmBelief, Bank]) -> Foreseen:
+        """The belief at that time and what the camera should see of it."""
         settings, (belief, bank) = self.settings, known
-        dt_s = 0.0 if self._time_s is None else timestamp_s - self._time_s
+        dt_s = self._since(timestamp_s)
         if dt_s > 0.0:
             step = palm_step(belief.rate_rad_s, self._motion, dt_s, self._unseen)
             start = mixed(bank, switching(self._scales.size, settings.mode_dwell_s, dt_s))
             bank = carried(start, step)
             belief = replace(step.carries(belief, dt_s), covariance=bank.merged()[1][0])
         ahead = forecast(belief, bank, self.view, settings.spread, self._shares)
-        self._foreseen = _Foreseen(timestamp_s, known, ahead)
-        return ahead
+        if self._fingers is None:
+            return Foreseen(timestamp_s, known, None, ahead, None)
+        return Foreseen(timestamp_s, known, self._fingers.known, ahead, self._fingers.ahead(dt_s))
+
+    def _foreseen(self, timestamp_s: float, known: tuple[PalmBelief, Bank], expected: Expectation | None) -> Foreseen:
+        """What was foreseen when the picture was searched, unless other things are known by now; else anew."""
+        if expected is not None:
+            seen = expected.foreseen
+            fingers = None if self._fingers is None else self._fingers.known
+            if seen.timestamp_s == timestamp_s and seen.palm is known and seen.fingers is fingers:
+                return seen
+        return self._foresee(timestamp_s, known)
+
+    def _since(self, timestamp_s: float) -> float:
+        """Time since the last frame, 0 at the first."""
+        return 0.0 if self._time_s is None else timestamp_s - self._time_s
 
     def step(
         self,
@@ -236,15 +248,17 @@ class Tracker:
         timestamp_s: float,
         detections: Detections,
         dropped_before: int = 0,
+        expected: Expectation | None = None,
     ) -> TrackedFrame:
-        """Associate the blobs of one frame and correct the belief; the frame's result."""
+        """Associate the blobs of one frame and correct the belief; the frame's result. ``expected`` of this frame,
+        where it was asked for."""
         self._recent_spots.keep(index, detections.pixel)
         heard = self._heard(index, timestamp_s)
         no_disc = self._without_no_discs(timestamp_s, detections.pixel)
         if not no_disc.any():
-            frame = self._stepped(index, timestamp_s, detections, dropped_before, heard)
+            frame = self._stepped(index, timestamp_s, detections, dropped_before, heard, expected)
         else:
-            seen = self._stepped(index, timestamp_s, detections.only(~no_disc), dropped_before, heard)
+            seen = self._stepped(index, timestamp_s, detections.only(~no_disc), dropped_before, heard, expected)
             frame = replace(seen, detections=detections, no_disc=no_disc)
         self._held = np.isfinite(frame.marker_measured_px[:, 0])
         return frame
@@ -326,13 +340,17 @@ class Tracker:
         detections: Detections,
         dropped_before: int,
         heard: SpotAnswer | None,
+        expected: Expectation | None,
     ) -> TrackedFrame:
         """:meth:`step` of the spots that may be discs."""
         picture, linked = self._begun(timestamp_s, detections)
         if self._known is None:
             return self._lost(index, timestamp_s, detections, dropped_before)
-        ahead = self._predicted(timestamp_s, self._known)
-        picture = replace(picture, blobs=self._measurable(ahead, picture.ideal))
+        if heard is not None and heard.place_px is not None:
+            self._look_anew(heard, heard.place_px, detections)
+        foreseen = self._foreseen(timestamp_s, self._known, expected)
+        ahead = foreseen.ahead
+        picture = replace(picture, blobs=self._measurable(ahead, picture.ideal), rays=foreseen.rays)
         if heard is not None and heard.place_px is not None:
             ahead, linked = self._named_by_person(heard, heard.place_px, picture, ahead, detections, linked)
         step = self._weighed(picture, ahead)
@@ -358,6 +376,14 @@ class Tracker:
             self.history.append(FilterStep(timestamp_s, self._known[0], scale, linked, unseen))
         return self._shown(index, status, picture, ahead, step, detections, dropped_before)
 
+    def _look_anew(self, heard: SpotAnswer, place_px: tuple[float, float], detections: Detections) -> None:
+        """Look for a finger anew of which a person has said which spot a disc is."""
+        marker = self._protocol.markers.index(heard.marker)
+        is_there = _is_there(np.linalg.norm(detections.pixel - place_px, axis=1))
+        if self._fingers is not None and is_there and marker not in self._rows:
+            chains = self._protocol.chains.items()
+            self._fingers.look_anew(next(digit for digit, chain in chains if marker in chain) - 1)
+
     def _named_by_person(
         self,
         heard: SpotAnswer,
@@ -368,18 +394,15 @@ class Tracker:
         linked: bool,
     ) -> tuple[Forecast, bool]:
         """The forecast, and whether the step follows from the one before, when a person has said which spot a marker
-        is: a disc of the palm begins anew there; a finger is looked for anew."""
+        is: a disc of the palm begins anew there."""
         away = np.linalg.norm(detections.pixel - place_px, axis=1)
-        if not away.size or away.min() > 0.5:
+        if not _is_there(away):
             return ahead, linked
         marker = self._protocol.markers.index(heard.marker)
         self._taken_up.append(heard)
         self._doubt.forget()
         on_palm = np.flatnonzero(self._rows == marker)
         if not on_palm.size:
-            if self._fingers is not None:
-                chains = self._protocol.chains.items()
-                self._fingers.look_anew(next(digit for digit, chain in chains if marker in chain) - 1)
             return ahead, linked
         disc = int(on_palm[0])
         belief, bank, self.view = disc_anew(ahead, self.view, disc, int(away.argmin()), picture.blobs, self.settings)
@@ -412,9 +435,8 @@ class Tracker:
                 self._is_sure = found.count > self.settings.finding.least
                 self._seen_s, linked, self._time_s = timestamp_s, False, timestamp_s
                 self._found_s = timestamp_s
-        dt_s = 0.0 if self._time_s is None else timestamp_s - self._time_s
         nothing = Measurable(np.empty((0, 3)), np.empty((0, 3)))
-        return _Picture(timestamp_s, dt_s, ideal, nothing), linked
+        return _Picture(timestamp_s, self._since(timestamp_s), ideal, nothing, None), linked
 
     def _finding_view(self) -> View:
         """The palm to look for: as calibrated, but for discs that a person showed elsewhere."""
@@ -559,11 +581,11 @@ class Tracker:
         is_named = named.taken >= 0
         spare[named.taken[is_named]] = False
         palm_seen = int(np.count_nonzero(is_named))
-        if self._fingers is None:
+        if self._fingers is None or picture.rays is None:
             return _Step(named, belief, bank, palm_seen, None, spare, np.zeros(len(blobs), dtype=bool), levelled)
         seat = seat_of(belief, self.view, self._readout)
         fingers = self._fingers.weigh(
-            picture.timestamp_s, picture.dt_s, seat, blobs, picture.ideal.area_px, spare, picture.ideal.fingers
+            picture.rays, picture.dt_s, seat, blobs, picture.ideal.area_px, spare, picture.ideal.fingers
         )
         is_finger = np.zeros_like(spare)
         is_finger[fingers.blob[fingers.blob >= 0]] = True
@@ -578,9 +600,10 @@ class Tracker:
         levelled = None if found is None else levelled_bank(bank, found, self._shares, own)
         return None if levelled is None else recentred(belief, levelled)
 
-    def _with_fingers(self, palm: Expectation, ahead: Forecast, timestamp_s: float, fingers: Fingers) -> Expectation:
-        dt_s = 0.0 if self._time_s is None else timestamp_s - self._time_s
-        pixel, covariance, depth = fingers.expected(timestamp_s, dt_s, ahead.nominal, self.view)
+    def _with_fingers(self, palm: Expectation, fingers: Fingers) -> Expectation:
+        foreseen = palm.foreseen
+        assert foreseen.rays is not None
+        pixel, covariance, depth = fingers.expected(foreseen.rays, foreseen.ahead.nominal, self.view)
         covariance = covariance + palm.covariance_px2.max(axis=0)
         return Expectation(
             self._by_marker(palm.pixel, pixel),
@@ -588,6 +611,7 @@ class Tracker:
             self._by_marker(palm.depth_m, depth),
             palm.back_px,
             np.concatenate((palm.pixel[KNUCKLES], pixel[1:][fingers.model.has_discs[1:]].reshape(-1, 2))),
+            foreseen,
         )
 
     def _by_marker(self, palm: NDArray[Any], fingers: NDArray[Any] | None) -> NDArray[Any]:
@@ -748,6 +772,11 @@ class Tracker:
         """Share of direct measurement of the palm (3,) or of each joint (J,) lately."""
         possible = self._rows.size if self._fingers is None else 1
         return np.asarray(self._recently_measured / (possible * len(self._recent)))
+
+
+def _is_there(away_px: FloatArray) -> bool:
+    """Whether one of the spots so far away (D,) is the one that was shown."""
+    return bool(away_px.size and away_px.min() <= 0.5)
 
 
 def _apart_rad(one: PalmBelief | FoundPalm, other: FoundPalm) -> float:

@@ -115,7 +115,7 @@ def weighed(place_m: float, off_px: tuple[float, float], own: FingerSettings) ->
     blobs, marker = seen.detections[0], seen.marker[0]
     pixel = blobs.pixel + np.column_stack((np.choose(marker % 2, off_px), np.zeros(marker.size)))
     found = measurable(replace(blobs, pixel=pixel), 5.0, settings, seen.truth.camera.sensor)
-    trial = fingers.weigh(0.0, 0.0, seat, found, blobs.area_px, ~np.isin(marker, HAND21.palm))
+    trial = fingers.weigh(fingers.ahead(0.0), 0.0, seat, found, blobs.area_px, ~np.isin(marker, HAND21.palm))
     return trial, trial.named.update.bank.merged()[0] - fingers.model.at_neutral().merged()[0]
 
 

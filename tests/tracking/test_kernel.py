@@ -14,6 +14,7 @@ from carpus.core.tracking.kernel import (
     learning_shares,
     mixed,
     predicted,
+    reweighed,
     switching,
 )
 from carpus.core.tracking.smoother import Passage, Smoother
@@ -134,6 +135,27 @@ def test_mixing_keeps_mean_and_covariance_of_the_whole(seed: int) -> None:
     stay = mixed(bank, np.eye(MODES))
     assert np.allclose(stay.mean, bank.mean)
     assert np.allclose(stay.covariance, bank.covariance)
+
+
+def test_modes_mix_from_row_to_column() -> None:
+    bank, switch = any_bank(2), np.array([[0.9, 0.1], [0.4, 0.6]])
+    blend = mixed(bank, switch)
+    for c in range(CHAINS):
+        for to in range(MODES):
+            share = switch[:, to] * bank.probability[c]
+            assert blend.probability[c, to] == pytest.approx(share.sum())
+            share /= share.sum()
+            mean = share @ bank.mean[c]
+            apart = bank.mean[c] - mean
+            spread = np.einsum("k,kij->ij", share, bank.covariance[c]) + np.einsum("k,ki,kj->ij", share, apart, apart)
+            assert np.allclose(blend.mean[c, to], mean)
+            assert np.allclose(blend.covariance[c, to], spread)
+
+
+def test_a_mode_that_foresaw_nothing_can_come_back() -> None:
+    found = reweighed(np.array([[0.5, 0.5]]), np.array([[0.0, -1e6]]))
+    assert found.sum() == pytest.approx(1.0)
+    assert 0.0 < found[0, 1] < 1e-5
 
 
 def test_switching_stays_for_its_dwell_time_whatever_the_step() -> None:

@@ -11,7 +11,7 @@ from filterpy.kalman import MerweScaledSigmaPoints, UnscentedKalmanFilter
 from carpus.core import so3
 from carpus.core.tracking.kernel import Bank
 from carpus.core.tracking.motion import MotionNoise, PalmMotion, palm_step, slowing, slowing_unseen, unseen_turns
-from carpus.core.tracking.palm_smoother import FilterStep, smoothed_palm
+from carpus.core.tracking.palm_smoother import FilterStep, PalmWalk, smoothed_palm
 from carpus.core.tracking.palm_state import (
     MOVING,
     POSE,
@@ -197,12 +197,29 @@ def test_looking_back_draws_a_straight_line_through_a_gap() -> None:
 
 def test_looking_back_does_not_reach_over_a_new_beginning() -> None:
     steps = [FilterStep(0.1 * k, moving(k), 1.0, k not in (0, 2)) for k in range(4)]
+    found = smoothed_palm(steps, MOTION)
+    assert found[0] is not steps[0].belief
+    assert found[1] is steps[1].belief
     steps[1] = replace(steps[1], belief=None)
     found = smoothed_palm(steps, MOTION)
     assert found[0] is steps[0].belief
     assert found[1] is None
     assert found[2] is not steps[2].belief
     assert found[3] is steps[3].belief
+
+
+def test_looking_back_goes_by_the_step_that_was_made() -> None:
+    """Its noise, the turns that nothing showed, the rate that it began with."""
+    now, unseen = moving(1), np.diag([1.0, 0.0, 0.0])
+    made = palm_step(now.rate_rad_s, replace(MOTION, scales=np.array([3.0])), 0.1, unseen)
+    later = replace(made.carries(now, 0.1), covariance=moving(2).covariance)
+    steps = [FilterStep(0.0, now, 1.0, False), FilterStep(0.1, later, 3.0, True, unseen)]
+    walk = PalmWalk(steps, MOTION)
+    assert walk.seconds_on(0) == pytest.approx(0.1)
+    passage = walk.passage(0, now, later, 0.1)
+    assert np.array_equal(passage.forward[0], made.forward)
+    assert np.array_equal(passage.noise, made.noise)
+    assert np.allclose(passage.apart, 0.0, atol=1e-12)
 
 
 # --- turns that nothing shows -----------------------------------------------------------------------------

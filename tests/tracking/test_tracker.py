@@ -54,6 +54,22 @@ def statuses(frames: list[TrackedFrame]) -> list[TrackStatus]:
     return [frame.status for frame in frames]
 
 
+def test_a_step_needs_no_expectation_and_takes_none_of_another_moment() -> None:
+    """What was expected spares work and decides nothing."""
+    walk = seen(swing(1, 30.0, 1.0), 12)
+    bare, asked, misled = (Tracker(calibration(), CAMERA, RIGID) for _ in range(3))
+    old = misled.expect(0.0)
+    for k, (time_s, found) in enumerate(walk):
+        frames = (
+            bare.step(k, time_s, found),
+            asked.step(k, time_s, found, expected=asked.expect(time_s)),
+            misled.step(k, time_s, found, expected=old),
+        )
+        assert all(np.array_equal(frames[0].moment.angles_rad, frame.moment.angles_rad) for frame in frames)
+    assert old is not None
+    assert old.foreseen.timestamp_s == 0.0
+
+
 def still(_time_s: float) -> Pose:
     return Pose()
 
