@@ -91,12 +91,11 @@ class DepthSensor:
         return self.stays.sd_m(depth_m)
 
     def with_focal(self, focal_px: float) -> DepthSensor:
-        """The same pair of eyes with depth pictures of another focal length; their disparity is as sure as before.
-        Time of flight has no such length and stays as it is."""
-        if not self.focal_px:
+        """The same pair of eyes with depth pictures of another focal length: its disparity is as sure as before, and
+        its window as many of its own pixels wide. Other kinds stay as they are."""
+        if self.kind != "active stereo":
             return self
-        ratio = self.focal_px / focal_px
-        return replace(self, reading=self.reading.times(ratio), stays=self.stays.times(ratio), focal_px=focal_px)
+        return _stereo(self.name, self.baseline_m, focal_px, self.nearest_m, self.farthest_m)
 
     def as_mapping(self) -> dict[str, Any]:
         """All of it in plain values, as files carry it."""
@@ -155,16 +154,20 @@ def _stereo(name: str, baseline_m: float, focal_px: float, nearest_m: float, far
     lie on the surface, the larger part) and what changes from picture to picture.
     """
     law = NoiseLaw(square_per_m=_SUBPIXEL_PX / (focal_px * baseline_m))
-    stays = NoiseLaw(_WINDOW_M, _SUBPIXEL_STAYS_PX / (focal_px * baseline_m))
+    patch_px = _WINDOW_PX * _COLOR_FOCAL_PX / focal_px
+    relief_m = _RELIEF_M * (patch_px / _RELIEF_PATCH_PX) ** 2
+    stays = NoiseLaw(relief_m, _SUBPIXEL_STAYS_PX / (focal_px * baseline_m))
     return DepthSensor(
-        name, "active stereo", law, stays, 11.0, True, "fattened", 6, nearest_m, farthest_m, "library",
+        name, "active stereo", law, stays, max(patch_px, 1.0), True, "fattened", 6, nearest_m, farthest_m, "library",
         baseline_m=baseline_m, focal_px=focal_px,
     )  # fmt: skip
 
 
 _SUBPIXEL_PX, _SUBPIXEL_STAYS_PX = 0.08, 0.06
-_WINDOW_M = 0.0005
-"""What the wide matching window takes off the height of knuckles, besides."""
+_WINDOW_PX, _COLOR_FOCAL_PX = 9.0, 525.0
+"""Width of the matching window in the depth picture; focal length of the colour picture that depth is laid on."""
+_RELIEF_M, _RELIEF_PATCH_PX = 0.0005, 11.0
+"""What a window so wide takes off the height of knuckles, besides: it grows with the square of its width."""
 
 PRIMESENSE = DepthSensor(
     "PrimeSense",

@@ -49,10 +49,14 @@ def blob_depth(sensor: DepthSensor) -> BlobDepth:
     if sensor.kind == "structured light":
         return BlobDepth(NoiseLaw(0.0, 0.97e-3), NoiseLaw(0.0, 0.42e-3), 0.00045, NoiseLaw(0.0, 1.55e-3))
     sd, pattern, bias_m, stated, cell_px = _STEREO if sensor.kind == "active stereo" else _TIME_OF_FLIGHT
-    stays = sensor.stays if sensor.kind == "time of flight" else NoiseLaw(0.0, sensor.stays.square_per_m)
+    stays = sensor.stays
+    if sensor.kind == "active stereo":  # knuckles lose by the square of the window's width
+        stays, wider = NoiseLaw(0.0, stays.square_per_m), sensor.patch_px / _FITTED_PATCH_PX
+        bias_m, cell_px = bias_m * wider**2, cell_px * wider
     return BlobDepth(sensor.reading.times(sd), stays.times(pattern), bias_m, sensor.reading.times(stated), cell_px)
 
 
+_FITTED_PATCH_PX = 11.0
 _STEREO = (0.57, 0.95, 0.0009, 1.03, 13.0)
 _TIME_OF_FLIGHT = (0.32, 0.6, 0.0004, 0.575, 40.0)
 """Of the sensor's reading, of what stays, metres, of the reading, pixels: fitted on rendered pictures of a D435 and of
