@@ -22,6 +22,7 @@ Registration = Literal["camera", "library", "none"]
 ASSUMED = "assumed"
 """Origin of a sensor that no source stated."""
 _MOST_TEXT = 80
+_WIDEST_EDGE_PX = 40
 _CORE_SHARE = 0.4
 """Of a disc's area: what the detector takes its depth from."""
 
@@ -52,8 +53,9 @@ class DepthSensor:
     squares average where ``averages``. ``edge``: what becomes of readings about an edge (``torn`` in flecks,
     ``fattened`` by the matching window, ``flying`` between both surfaces), ``edge_px`` how far about it.
     There are no readings below ``nearest_m`` and above ``farthest_m``. ``registration``: who lays depth on colour. Of a
-    pair of eyes ``baseline_m`` and ``focal_px`` of the depth picture, 0 for time of flight. ``origin``: ``stated`` by
-    the source, or ``assumed``.
+    pair of eyes ``baseline_m`` and ``focal_px`` of the depth picture, 0 for time of flight. ``stays_px``: over how much
+    of the picture what stays is alike, 0 where no further than the patch. ``origin``: ``stated`` by the source, or
+    ``assumed``.
     """
 
     name: str
@@ -69,6 +71,7 @@ class DepthSensor:
     registration: Registration
     baseline_m: float = 0.0
     focal_px: float = 0.0
+    stays_px: float = 0.0
     origin: str = "stated"
 
     def reading_sd_m(self, depth_m: FloatArray) -> FloatArray:
@@ -128,8 +131,17 @@ def sensor_of(said: object) -> DepthSensor:
 
 def _checked(sensor: DepthSensor) -> DepthSensor:
     laws = (sensor.reading, sensor.stays)
-    numbers = (sensor.patch_px, sensor.edge_px, sensor.nearest_m, sensor.farthest_m, sensor.baseline_m, sensor.focal_px)
-    told: tuple[tuple[object, type], ...] = ((sensor.name, str), (sensor.origin, str), (sensor.averages, bool))
+    numbers = (
+        sensor.patch_px,
+        sensor.stays_px,
+        sensor.edge_px,
+        sensor.nearest_m,
+        sensor.farthest_m,
+        sensor.baseline_m,
+        sensor.focal_px,
+    )
+    flags = ((sensor.averages, bool), (sensor.edge_px, int))
+    told: tuple[tuple[object, type], ...] = ((sensor.name, str), (sensor.origin, str), *flags)
     ok = all(isinstance(value, kind) for value, kind in told)
     ok = ok and 0 < len(sensor.name) <= _MOST_TEXT and len(sensor.origin) <= _MOST_TEXT
     ok = ok and sensor.kind in get_args(Kind) and sensor.edge in get_args(Edge)
@@ -137,7 +149,7 @@ def _checked(sensor: DepthSensor) -> DepthSensor:
     ok = ok and all(_is_amount(number) for number in numbers)
     ok = ok and all(0.0 <= law.fixed_m < 1.0 and 0.0 <= law.square_per_m < 1.0 for law in laws)
     ok = ok and max(sensor.reading.fixed_m, sensor.reading.square_per_m) > 0.0
-    if not ok or sensor.patch_px < 1.0 or sensor.farthest_m <= sensor.nearest_m:
+    if not ok or sensor.edge_px > _WIDEST_EDGE_PX or sensor.patch_px < 1.0 or sensor.farthest_m <= sensor.nearest_m:
         raise ValueError("its figures are no sensor's")
     return sensor
 
@@ -206,6 +218,7 @@ AZURE_KINECT = DepthSensor(
     0.30,
     3.8,
     "library",
+    stays_px=80.0,
 )
 """Azure Kinect and Orbbec Femto (the same chip), narrow view: about 1 mm at 1 m on bright surfaces (Tolgyessy et al.
 2021, Kurillo et al. 2022); neighbours are independent but for their interpolation onto the colour picture. What stays:

@@ -106,7 +106,8 @@ class Detector:
     ) -> Detections:
         settings, labels = self._settings, blobs.labels
         own, rough_px = blobs.label[fits], blobs.centre_px[fits]
-        stencil = stencil_for(median(blobs.radius_px[fits].tolist()), settings.stencil)
+        radius_px = median(blobs.radius_px[fits].tolist())
+        stencil = stencil_for(radius_px, settings.stencil, self._camera.sensor.edge_px)
         pixels, inside, middle = window_pixels(stencil, rough_px, labels.shape)
         outline = outlines(labels.reshape(-1).take(pixels), own, inside, stencil)
         similarity, skin_share = self._likeness(packed(hsv).take(pixels), outline, stencil)

@@ -18,16 +18,19 @@ from carpus.core.types import ByteImage, FloatArray
 WEDGES = 8
 
 
+EDGE_PX = 6
+"""How far about an edge a sensor's readings are of neither side, where none is asked."""
+
+
 @dataclass(frozen=True, slots=True)
 class StencilSettings:
     """Radii, in disc radii: up to ``core`` the paper's own colour, up to ``reach`` what may belong to the disc, from
-    ``rim_from`` to ``rim_to`` what surrounds it. The sensor's matching window reaches as far as ``sensor_px``."""
+    ``rim_from`` to ``rim_to`` what surrounds it."""
 
     core: float = 0.62
     reach: float = 1.35
     rim_from: float = 1.35
     rim_to: float = 1.9
-    sensor_px: int = 6
 
 
 @dataclass(frozen=True, slots=True)
@@ -53,15 +56,15 @@ class Stencil:
     moments: NDArray[np.float32]
 
 
-def stencil_for(radius_px: float, settings: StencilSettings) -> Stencil:
-    """The stencil of discs of about this radius (to a quarter of a pixel)."""
-    return _stencil(max(4, round(4.0 * radius_px)), settings)
+def stencil_for(radius_px: float, settings: StencilSettings, edge_px: int = EDGE_PX) -> Stencil:
+    """The stencil of discs of about this radius (to a quarter of a pixel), for a sensor with edges so wide."""
+    return _stencil(max(4, round(4.0 * radius_px)), settings, edge_px)
 
 
 @lru_cache(maxsize=64)
-def _stencil(quarters: int, settings: StencilSettings) -> Stencil:
+def _stencil(quarters: int, settings: StencilSettings, edge_px: int) -> Stencil:
     radius = quarters / 4.0
-    half = max(int(np.ceil(settings.rim_to * radius)), settings.sensor_px)
+    half = max(int(np.ceil(settings.rim_to * radius)), edge_px)
     offset = np.arange(-half, half + 1)
     row, column = (grid.ravel() for grid in np.meshgrid(offset, offset, indexing="ij"))
     distance = np.hypot(row, column)
@@ -71,10 +74,10 @@ def _stencil(quarters: int, settings: StencilSettings) -> Stencil:
         settings.rim_from * radius,
         settings.rim_to * radius,
     )
-    used = distance <= max(reach, rim_to, settings.sensor_px)
+    used = distance <= max(reach, rim_to, edge_px)
     row, column, distance = row[used], column[used], distance[used]
     # Rings between the limits from the middle outwards, in each of them row by row.
-    ring = sum((distance > limit).astype(np.int64) for limit in (core, reach, rim_to, settings.sensor_px))
+    ring = sum((distance > limit).astype(np.int64) for limit in (core, reach, rim_to, edge_px))
     order = np.argsort(ring + (distance >= rim_from), kind="stable")
     row, column, distance = row[order], column[order], distance[order]
 
@@ -93,7 +96,7 @@ def _stencil(quarters: int, settings: StencilSettings) -> Stencil:
         column,
         first(core),
         distance <= reach,
-        first(max(settings.sensor_px, core)),
+        first(max(edge_px, core)),
         rim,
         is_seen.astype(np.float32),
         np.arange(row.size) * WEDGES + apart.argmin(axis=0),

@@ -26,9 +26,10 @@ _NO_NOISE = np.full((1, 3), 1e-12)
 @dataclass(frozen=True, slots=True)
 class SurfaceSettings:
     """``steps`` of Gauss-Newton; residuals beyond ``huber_m`` count less, beyond ``most_m`` not at all; with less than
-    ``least`` readings the surface is not asked. Readings nearer to each other than the camera's matching ``window_px``
-    share the part ``shared`` of their variance, which is not of rounding to steps of disparity (clinical reference 7.2:
-    a step is two standard deviations); ``reading_per_m`` is a reading's at least, over the depth squared.
+    ``least`` readings the surface is not asked. Readings nearer to each other than the sensor's patch share the
+    part ``shared`` of their variance, which is not of rounding to steps of disparity (clinical reference 7.2: a step is
+    two standard deviations), or all of it where the sensor has no such steps; ``reading_per_m`` is a reading's at
+    least, over the depth squared.
     ``turn_sd_rad`` and ``up_sd_m`` that no number of readings takes away from one picture. Beyond ``most_nis`` it is
     not this surface."""
 
@@ -36,7 +37,6 @@ class SurfaceSettings:
     huber_m: float = 0.003
     most_m: float = 0.010
     least: int = 24
-    window_px: float = 9.0
     shared: float = 2.0 / 3.0
     reading_per_m: float = 1.5e-3
     turn_sd_rad: float = 0.004
@@ -98,12 +98,18 @@ def surface_measurement(
         position = position + rotation @ shift
         rotation = rotation @ so3.exp(turn)
     spread2 = float(weight @ over**2 / weight.sum())
-    reading_m = settings.reading_per_m * _median(samples.depth_m) ** 2
+    sensor, depth_m = view.camera.sensor, _median(samples.depth_m)
+    reading_m = max(settings.reading_per_m * depth_m**2, float(sensor.reading_sd_m(np.array(depth_m))))
     scatter2 = max(spread2, reading_m**2)
-    covariance = scatter2 * (inverse @ _as_errors_go(weighed[:, near], samples.pixel[near], settings) @ inverse)
-    covariance[0, 0] += settings.turn_sd_rad**2
-    covariance[1, 1] += settings.turn_sd_rad**2
-    covariance[2, 2] += settings.up_sd_m**2
+    shared = 1.0 if sensor.averages else settings.shared
+    together = _as_errors_go(weighed[:, near], samples.pixel[near], sensor.patch_px, shared)
+    covariance = scatter2 * (inverse @ together @ inverse)
+    # What stays and changes slowly over the picture tilts and lifts the surface as a whole.
+    up_m = float(sensor.stays_sd_m(np.array(depth_m))) if sensor.stays_px else 0.0
+    turn_rad = up_m * view.camera.fx_px / (max(sensor.stays_px, 1.0) * depth_m)
+    covariance[0, 0] += settings.turn_sd_rad**2 + turn_rad**2
+    covariance[1, 1] += settings.turn_sd_rad**2 + turn_rad**2
+    covariance[2, 2] += settings.up_sd_m**2 + up_m**2
     # Of the whole pose: a shift along the surface and a turn about its normal also move what is read.
     by_pose = inverse @ (weighed @ own.T)
     by_shift = by_pose[:, 3:]
@@ -138,15 +144,15 @@ def _turns_and_shifts(place: FloatArray, plane: FloatArray) -> FloatArray:
     return out
 
 
-def _as_errors_go(weighed: FloatArray, pixel: FloatArray, settings: SurfaceSettings) -> FloatArray:
+def _as_errors_go(weighed: FloatArray, pixel: FloatArray, patch_px: float, shared: float) -> FloatArray:
     """Covariance (3, 3) of sums ``weighed`` (3, s) over readings of unit variance at ``pixel`` (s, 2), of which two
-    share as much of their errors as their matching windows overlap."""
+    share as much of the part ``shared`` of their errors as their patches overlap."""
     overlap = np.abs(pixel[:, None] - pixel)
-    overlap *= -1.0 / settings.window_px
+    overlap *= -1.0 / patch_px
     overlap += 1.0
     np.maximum(overlap, 0.0, out=overlap)
     together = weighed @ (overlap[..., 0] * overlap[..., 1]) @ weighed.T
-    return np.asarray(settings.shared * together + (1.0 - settings.shared) * (weighed @ weighed.T))
+    return np.asarray(shared * together + (1.0 - shared) * (weighed @ weighed.T))
 
 
 def _median(value: FloatArray) -> float:

@@ -11,6 +11,8 @@ from tests.accuracy.hand21 import EXERCISES, TROUBLE, HandScenario
 from tests.accuracy.scenarios import USUAL_TROUBLE, Scenario
 from tests.accuracy.soft import DRAWN
 
+RENDERED = ("d435", "azure")
+"""One of each new kind also by pictures; the Xtion's are those of the other rows."""
 SENSOR_WRIST = tuple(
     Scenario(
         f"sensor: {sensor.name}",
@@ -18,11 +20,13 @@ SENSOR_WRIST = tuple(
         (0.25, 0.5),
         trouble=dict(USUAL_TROUBLE),
         has_bound=False,
-        pictures=True,
+        pictures=name in RENDERED,
     )
     for name, sensor in SENSORS.items()
 )
 SENSOR_HAND = tuple(
-    HandScenario(f"sensor: {sensor.name}", EXERCISES, {**TROUBLE, **DRAWN, "sensor": name}, weight=2, pictures=True)
+    HandScenario(
+        f"sensor: {sensor.name}", EXERCISES, {**TROUBLE, **DRAWN, "sensor": name}, weight=2, pictures=name in RENDERED
+    )
     for name, sensor in SENSORS.items()
 )
