@@ -8,7 +8,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from carpus.core.depth_sensor import PRIMESENSE
+from carpus.core.depth_sensor import AZURE_KINECT, D435, PRIMESENSE, DepthSensor
 from carpus.core.tracking.finger_settings import FingerSettings
 from carpus.core.tracking.fingers import learnt_sizes
 from carpus.core.tracking.naming import measurable
@@ -57,14 +57,15 @@ def test_factors_stay_within_their_bounds_and_unmeasured_ones_where_they_were() 
     assert watched_factor(factor, np.full((1, 3), 9.0), without_depth, DT_S, NOISE)[0, 2] == 3.0
 
 
-def test_a_depth_is_worth_what_the_still_hand_showed_and_what_stays_besides() -> None:
+@pytest.mark.parametrize("sensor", [PRIMESENSE, D435, AZURE_KINECT], ids=lambda sensor: sensor.kind)
+def test_a_depth_is_worth_what_the_still_hand_showed_and_what_stays_besides(sensor: DepthSensor) -> None:
     """Twice the book's scatter is four times its variance; the sensor's pattern and a steep slope come on top."""
     settings = TrackerSettings(noise=replace(NOISE, depth_ratio=2.0))
     area, steep_m = np.full(2, math.pi * 25.0), 0.002
-    book_m, pattern_m = float(PRIMESENSE.reading_sd_m(np.array(0.7))), float(PRIMESENSE.stays_sd_m(np.array(0.7)))
+    book_m, pattern_m = float(sensor.disc_sd_m(np.array(0.7), area[0])), float(sensor.stays_sd_m(np.array(0.7)))
     said_m = np.array([book_m, math.hypot(book_m, steep_m)])
     seen = Detections(np.zeros((2, 2)), np.full(2, 0.7), said_m, area, np.ones(2))
-    flat, steep = measurable(seen, 5.0, settings, PRIMESENSE).variance[:, 2]
+    flat, steep = measurable(seen, 5.0, settings, sensor).variance[:, 2]
     assert flat == pytest.approx(4.0 * book_m**2 + pattern_m**2)
     assert steep == pytest.approx(flat + steep_m**2)
 

@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 from carpus.core import so3
+from carpus.core.depth_sensor import AZURE_KINECT, D435, PRIMESENSE, DepthSensor
 from carpus.core.hand.back_surface import BackSurface, BackSurfaceSettings, back_surface_from
 from carpus.core.tracking.kernel import Bank
 from carpus.core.tracking.palm_state import POSITION, SIZE, TURN, PalmBelief
@@ -97,6 +98,25 @@ def test_depth_noise_scatters_as_stated(surface: BackSurface, shared: float) -> 
         found.append(one.value)
         stated.append(np.sqrt(np.diag(one.covariance)))
     assert np.std(found, axis=0) == pytest.approx(np.mean(stated, axis=0), rel=0.25)
+
+
+def test_the_surface_is_as_sure_as_its_sensor(surface: BackSurface) -> None:
+    """Errors alike over 80 pixels tilt all of it; those of a wide window average less than those of a narrow one."""
+    here, clean = belief_at(np.eye(3), np.zeros(3)), thinned(place_on(np.eye(3), np.zeros(3)))
+
+    def stated(sensor: DepthSensor) -> FloatArray:
+        view = replace(VIEW, camera=replace(VIEW.camera, sensor=sensor))
+        found = surface_measurement(here, clean, surface, view, SurfaceSettings(turn_sd_rad=0.0, up_sd_m=0.0))
+        assert found is not None
+        return np.sqrt(np.diag(found.covariance))
+
+    depth_m = float(np.median(clean.depth_m))
+    stays_m = float(AZURE_KINECT.stays_sd_m(np.array(depth_m)))
+    even = replace(AZURE_KINECT, stays_px=0.0)
+    tilt_rad = stays_m / (80.0 * depth_m / VIEW.camera.fx_px)
+    assert stated(AZURE_KINECT) == pytest.approx(np.hypot(stated(even), [tilt_rad, tilt_rad, stays_m]))
+    assert (stated(replace(even, patch_px=11.0)) > 1.5 * stated(even)).all()
+    assert (stated(D435) > 1.2 * stated(PRIMESENSE)).all()
 
 
 def test_a_finger_over_the_hand_does_not_tilt_it(surface: BackSurface) -> None:
