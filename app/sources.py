@@ -11,6 +11,9 @@ from carpus.core.capture.source import FrameSource
 from carpus.core.errors import RecordingMissing, RecordingUnreadable
 
 COLOR_LIST, RECORDING_FILE = "rgb.txt", "recording.oni"
+REALSENSE_SUFFIXES = (".db3", ".bag")
+FILE_SUFFIXES = (".oni", ".carpusraw", *REALSENSE_SUFFIXES)
+"""What recordings that are one file are called; a raw recording is known whatever its name."""
 
 
 def open_recording(
@@ -22,7 +25,7 @@ def open_recording(
     data_folder: Path | None = None,
     notice: Notice = ignore,
 ) -> FrameSource:
-    """A TUM folder, an .oni file or a raw recording as a source. The readers are loaded when needed.
+    """A TUM folder, an .oni file, a RealSense recording or a raw one as a source. The readers are loaded when needed.
 
     ``registered``: whether depth lies on colour in an .oni file that does not say so itself, None when nobody knows.
     ``leave_out_damaged``: a missing or damaged picture of a folder is left out, counted and told, not a fault.
@@ -76,9 +79,20 @@ def _raw(path: Path, how: _How) -> FrameSource:
     return RawRecording(path, notice=how.notice)
 
 
+def _is_realsense(path: Path) -> bool:
+    return path.suffix.lower() in REALSENSE_SUFFIXES
+
+
+def _realsense(path: Path, _how: _How) -> FrameSource:
+    from carpus.core.capture.realsense_recording import RealSenseRecording
+
+    return RealSenseRecording(path)
+
+
 RECORDINGS: tuple[tuple[Callable[[Path], bool], Callable[[Path, _How], FrameSource]], ...] = (
     (Path.is_dir, _tum_folder),
     (_is_oni, _oni),
+    (_is_realsense, _realsense),
     (_is_raw, _raw),
 )
 """Every kind: whether a path is of it, and how it is opened; the first that is it counts."""
@@ -93,4 +107,4 @@ def _opened(path: Path, how: _How) -> FrameSource:
     for is_it, opened in RECORDINGS:
         if is_it(path):
             return opened(path, how)
-    raise RecordingUnreadable(path, "neither a TUM folder, an .oni file nor a raw recording")
+    raise RecordingUnreadable(path, "neither a TUM folder, an .oni file, a RealSense recording nor a raw recording")

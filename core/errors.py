@@ -131,11 +131,11 @@ class SetsUnreadable(CarpusFault):
 
 
 class DriverMissing(CarpusFault):
-    """The OpenNI2 library is not on this computer or cannot be loaded."""
+    """The library of a camera (OpenNI2, or its maker's) is not on this computer or cannot be loaded."""
 
 
 class DriverFailed(CarpusFault):
-    """The OpenNI2 library died or no longer answers; it ran in a process of its own."""
+    """The library of a camera died or no longer answers; it ran in a process of its own."""
 
 
 class CameraMissing(CarpusFault):

@@ -344,9 +344,9 @@ FAULTS: dict[type[CarpusFault], Words] = {
         "Whoever looks after this computer installs Carpus again, with all its parts.",
     ),
     errors.DriverMissing: Words(
-        "The driver of the camera, OpenNI2, is not on this computer ({detail}).",
+        "The driver of the camera is not on this computer, or cannot be loaded ({detail}).",
         _UNTOUCHED,
-        "Install OpenNI2; “carpus doctor” says how.",
+        "Install it; “carpus doctor” says what and how.",
     ),
     errors.DriverFailed: Words(
         "The driver of the camera has stopped: {subject} ({detail}).",

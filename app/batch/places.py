@@ -8,12 +8,11 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from carpus.app.sources import COLOR_LIST, RECORDING_FILE
+from carpus.app.sources import COLOR_LIST, FILE_SUFFIXES, RECORDING_FILE
 
 CLICKS_FILE = "calibration.json"
 """The clicks of a recording that is a folder; those of ``NAME.oni`` are in ``NAME.calibration.json`` beside it."""
 SESSION_SUFFIX = ".h5"
-FILE_SUFFIXES = (".oni", ".carpusraw")
 
 
 @dataclass(frozen=True, slots=True)

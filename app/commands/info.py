@@ -15,7 +15,7 @@ from carpus.core.summary import recording_summary, session_summary, source_summa
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    parser.add_argument("file", type=Path, help="session (.h5), TUM folder, .oni file or raw recording")
+    parser.add_argument("file", type=Path, help="session (.h5), TUM folder, .oni file, RealSense or raw recording")
     parser.add_argument("--json", action="store_true", help="of a session only its settings, as JSON")
 
 

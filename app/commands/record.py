@@ -13,6 +13,7 @@ from pathlib import Path
 from carpus.app.commands.progress import bar, tell
 from carpus.app.settings import load_settings
 from carpus.core.capture.calibrated import with_stored_calibration
+from carpus.core.capture.cameras import CAMERAS, open_camera
 from carpus.core.capture.identity import recorded_at
 from carpus.core.capture.raw import RawWriter
 from carpus.core.capture.raw_tum import TumWriter
@@ -34,7 +35,13 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "--lossless", action="store_true", help="colour without loss too (raw only; three times the size)"
     )
     parser.add_argument(
-        "--from", dest="origin", type=Path, metavar="FILE.oni", help="play this file as if it were the camera"
+        "--from", dest="origin", type=Path, metavar="FILE", help="play this recording as if it were the camera"
+    )
+    parser.add_argument(
+        "--camera",
+        metavar="KIND[:WHICH]",
+        help=f"one of several cameras ({', '.join(CAMERAS)}; WHICH: its serial number or OpenNI2's address); "
+        "else that of the settings, or the first that is plugged in",
     )
 
 
@@ -54,12 +61,13 @@ def run(arguments: argparse.Namespace) -> int:
 
         source = open_recording(arguments.origin, notice=tell)
     else:
-        from carpus.core.capture.cameras import open_camera
-
-        source = open_camera(notice=tell)
+        settings = load_settings()
+        wanted = settings.camera.uri if arguments.camera is None else arguments.camera
+        source = open_camera(wanted, notice=tell)
+        print(f"Camera: {source.info.name}")
         if arguments.format == "tum":
             # A folder of pictures cannot say which camera it came from; a raw recording can, and stays as it came.
-            source = with_stored_calibration(source, load_settings().data_folder)
+            source = with_stored_calibration(source, settings.data_folder)
 
     def open_writer() -> RawWriter | TumWriter:
         if arguments.format == "raw":

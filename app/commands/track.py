@@ -76,7 +76,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "recording",
         type=Path,
         nargs="+",
-        help="TUM RGB-D folder, .oni file, raw recording, or a session (.h5); several, or a folder that is searched "
+        help="TUM folder, .oni, RealSense or raw recording, or a session (.h5); several, or a folder that is searched "
         "for recordings, are tracked side by side into the folder --output, what is there already left as it is",
     )
     parser.add_argument(

@@ -12,7 +12,7 @@ from carpus.core.session.reader import read_outline, verify
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    parser.add_argument("file", type=Path, help="session (.h5), TUM folder, .oni file or raw recording; only read")
+    parser.add_argument("file", type=Path, help="session (.h5), TUM folder, .oni, RealSense, raw recording; only read")
 
 
 def run(arguments: argparse.Namespace) -> int:

@@ -16,6 +16,7 @@ from carpus.core.capture.usb_devices import UsbCamera
 
 CAMERAS = {
     "xtion": "xtion",
+    "realsense": "realsense",
     "astra": "astra",
 }
 """Module by kind; the first is the usual one."""

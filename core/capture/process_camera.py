@@ -107,6 +107,10 @@ class ProcessCamera:
         """Let exposure and white balance follow the light again."""
         self._set_exposure(locked=False)
 
+    def depth_sensor(self, opened: Opened) -> DepthSensor:
+        """What the depth of the camera that was opened is worth."""
+        return self._sensor
+
     def frames(self) -> Iterator[Frame]:
         """Frames from now on, until :meth:`close`; what waited since the opening is thrown away."""
         with self._lock:
@@ -228,7 +232,7 @@ class ProcessCamera:
             self._notice(PicturesEnlarged(name, layout.enlarged))
         turned = any(opened.mirrored.values())
         settings = {**opened.settings, "mirrored": "turned back" if turned else "no"}
-        seen = replace(found, sensor=self._sensor)
+        seen = replace(found, sensor=self.depth_sensor(opened))
         return SourceInfo(name, seen, True, None, float(opened.modes[Sensor.COLOR].fps), settings)
 
 

@@ -165,7 +165,9 @@ class CameraScreen(QWidget):
             "good" if there else "bad",
             self.tr("Camera ready") if there else self.tr("No camera"),
         )
-        recording = self.tr("A stored recording: a file of Carpus or of the camera (.oni), or a folder of pictures.")
+        recording = self.tr(
+            "A stored recording: a file of Carpus or of the camera (.oni, .db3), or a folder of pictures."
+        )
         self.sources.option("file").show_sentence(self._path or recording)
         kind = self.sources.value()
         self._files.setVisible(kind == "file")
@@ -188,7 +190,7 @@ class CameraScreen(QWidget):
             self.wanted.emit(SourceChoice(kind, self._path if kind == "file" else ""))  # type: ignore[arg-type]
 
     def _ask_file(self) -> None:
-        kinds = self.tr("Recordings (*.oni *.carpusraw);;All files (*)")
+        kinds = self.tr("Recordings (*.oni *.db3 *.bag *.carpusraw);;All files (*)")
         start = str(Path(self._path).parent) if self._path else self.start_folder
         path, _ = QFileDialog.getOpenFileName(self, self.tr("Choose a recording"), start, kinds)
         if path:

@@ -1,0 +1,126 @@
+"""Intel RealSense cameras of the D400 family, by the maker's library (the extra ``realsense``)."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import replace
+from importlib.metadata import PackageNotFoundError, version
+from importlib.util import find_spec
+from typing import Any
+
+from carpus.core.camera import Camera
+from carpus.core.capture.camera_kind import CameraKind
+from carpus.core.capture.capture_messages import Opened
+from carpus.core.capture.finding import Finding
+from carpus.core.capture.notice import Notice, ignore
+from carpus.core.capture.process_camera import SIZE_PX, ProcessCamera
+from carpus.core.capture.realsense_plans import CameraPlan
+from carpus.core.capture.realsense_process import serve
+from carpus.core.depth_sensor import ASSUMED, D415, D435, D455, DepthSensor
+from carpus.core.errors import ExtraMissing
+
+EXTRA, PACKAGE = "realsense", "pyrealsense2"
+MODELS = {
+    ("8086", "0ad3"): "Intel RealSense D415",
+    ("8086", "0b07"): "Intel RealSense D435",
+    ("8086", "0b3a"): "Intel RealSense D435i",
+    ("8086", "0b5b"): "Intel RealSense D405",
+    ("8086", "0b5c"): "Intel RealSense D455",
+    ("8086", "1155"): "Intel RealSense D421",
+}
+SENSORS = {"D415": D415, "D435": D435, "D455": D455, "D456": D455, "D457": D455}
+RULE = (
+    'SUBSYSTEM=="usb", ATTR{idVendor}=="8086", ATTR{idProduct}=="'
+    + "|".join(product for _, product in MODELS)
+    + '", MODE="0660", TAG+="uaccess"'
+)
+RULE_FILE = "/etc/udev/rules.d/60-carpus-realsense.rules"
+
+
+class RealSenseCamera(ProcessCamera):
+    """The first RealSense, or the one whose serial number ``uri`` is; ``context`` as for :class:`CameraPlan`.
+
+    The rest as for :class:`ProcessCamera`. Raises :class:`ExtraMissing` without the library.
+    """
+
+    def __init__(
+        self,
+        *,
+        uri: str | None = None,
+        camera: Camera | None = None,
+        patience_s: float = math.inf,
+        notice: Notice = ignore,
+        context: Callable[[], Any] | None = None,
+    ) -> None:
+        require_library()
+        plan = CameraPlan(uri or "", SIZE_PX, models=MODELS, context=context)
+        super().__init__(serve, plan, uri or "RealSense", D435, camera=camera, patience_s=patience_s, notice=notice)
+
+    def depth_sensor(self, opened: Opened) -> DepthSensor:
+        """By the camera's name, and how its depth pictures see."""
+        return sensor_named(opened.settings)
+
+
+def require_library() -> None:
+    """Raises :class:`ExtraMissing` where the maker's library is not installed; loads nothing."""
+    if find_spec(PACKAGE) is None:
+        raise ExtraMissing(EXTRA, PACKAGE)
+
+
+def sensor_named(settings: Mapping[str, str]) -> DepthSensor:
+    """The depth sensor of a camera with these settings; assumed like a D435's where the name is not known."""
+    name = settings.get("camera", "").upper()
+    known = next((sensor for model, sensor in SENSORS.items() if model in name), None)
+    sensor = replace(D435, origin=ASSUMED) if known is None else known
+    focal_px = float(settings.get("depth_focal_px", "nan"))
+    return sensor.with_focal(focal_px) if focal_px > 0.0 else sensor
+
+
+def open_realsense(*, uri: str | None, camera: Camera | None, patience_s: float, notice: Notice) -> RealSenseCamera:
+    """The first RealSense, or the one whose serial number ``uri`` is."""
+    return RealSenseCamera(uri=uri, camera=camera, patience_s=patience_s, notice=notice)
+
+
+def driver_finding(_asks_version: bool = True, wanted: bool = True) -> Finding:
+    """The maker's library, by its package; nothing is loaded."""
+    name = "RealSense driver"
+    try:
+        return Finding(name, "good", f"{PACKAGE} {version(PACKAGE)}")
+    except PackageNotFoundError:
+        if not wanted:
+            return Finding(name, "good", "not installed; only a RealSense and its recordings need it")
+    return Finding(name, "bad", f"missing: {PACKAGE}", f"Run: pip install {PACKAGE}")
+
+
+def further_findings(settings: Mapping[str, str]) -> Sequence[Finding]:
+    """Firmware and port of an opened camera."""
+    findings = []
+    firmware, wanted = settings.get("firmware", ""), settings.get("firmware_wanted", "")
+    if firmware and wanted and _numbers(firmware) < _numbers(wanted):
+        remedy = "Bring the firmware up to date with the maker's RealSense Viewer."
+        findings.append(Finding("Firmware", "warning", f"{firmware}, the library asks for {wanted}", remedy))
+    elif firmware:
+        findings.append(Finding("Firmware", "good", firmware))
+    usb = settings.get("usb", "")
+    if usb.startswith("2"):
+        findings.append(Finding("USB", "warning", f"USB {usb}", KIND.port))
+    elif usb:
+        findings.append(Finding("USB", "good", f"USB {usb}"))
+    return findings
+
+
+def _numbers(version_text: str) -> list[int]:
+    return [int(part) if part.isdigit() else 0 for part in version_text.split(".")]
+
+
+KIND = CameraKind(
+    title="Intel RealSense",
+    models=MODELS,
+    open=open_realsense,
+    driver=driver_finding,
+    rights=f"As root, write into {RULE_FILE}: {RULE}. Run: udevadm control --reload. Then plug the camera in again.",
+    needed_mbit=5000,
+    port="Plug it into a USB 3 port, with a USB 3 cable and without a hub.",
+    further=further_findings,
+)

@@ -1,0 +1,277 @@
+"""librealsense inside the capture process: hands on what a camera sends, or what a recording holds."""
+
+from __future__ import annotations
+
+import queue
+import threading
+import time
+from collections.abc import Callable
+from typing import Any
+
+from carpus.core.capture.capture_messages import ExposureSet, Opened
+from carpus.core.capture.capture_process import CAMERA_SILENCE_S, CAMERA_WARM_UP_S, WAIT_MS, GaveUp, Outlet
+from carpus.core.capture.color_hold import ColorHold, seen_colors
+from carpus.core.capture.realsense_opening import (
+    Streams,
+    camera_streams,
+    depth_unit_m,
+    device_settings,
+    find_camera,
+    lens_of,
+    library,
+    lies_on_color,
+    prepare,
+    put,
+    put_near,
+    stored_streams,
+)
+from carpus.core.capture.realsense_plans import CameraPlan, FilePlan
+from carpus.core.capture.video_mode import Sensor
+from carpus.core.errors import CameraLost, DriverFailed, RecordingDamaged, RecordingUnsupported
+
+WAITING_FRAMES = 8
+JOIN_MS = 1000
+FILE_SILENCE_S = 5.0
+LIGHT_SHARE = 0.9
+"""Of a picture's time the longest exposure: a longer one would slow the camera down."""
+EXPOSURE_UNIT_S = 1e-4
+"""Of the colour sensor's exposure."""
+
+
+def serve(outlet: Outlet, plan: CameraPlan | FilePlan) -> None:
+    """Serve a plan in the capture process."""
+    rs = library()
+    try:
+        if isinstance(plan, FilePlan):
+            _play(rs, outlet, plan)
+        else:
+            _watch(rs, outlet, plan)
+    except RuntimeError as failure:  # all that the library raises
+        raise GaveUp(DriverFailed, " ".join(str(failure).split())) from failure
+
+
+def _watch(rs: Any, outlet: Outlet, plan: CameraPlan) -> None:
+    """A camera: the newest pictures, whenever there are any."""
+    context = plan.context() if plan.context is not None else rs.context()
+    device = find_camera(rs, context, plan)
+    gone = threading.Event()
+    context.set_devices_changed_callback(lambda change: gone.set() if change.was_removed(device) else None)
+    streams = camera_streams(rs, device, plan)
+    settings = device_settings(rs, device, streams) | prepare(rs, streams)
+    waiting: queue.Queue[Any] = queue.Queue(WAITING_FRAMES)
+    outlet.hold(context, device, streams, waiting)
+
+    def take(frame: Any) -> None:
+        frame.keep()
+        while True:
+            try:
+                waiting.put_nowait(frame)
+                return
+            except queue.Full:
+                _next(waiting, 0.0)  # the oldest; its number is missing then, and counted
+
+    _start(streams, take)
+    pictures = _Pictures(rs, outlet, streams)
+    hold = _Exposure(rs, outlet, streams)
+    outlet.set_exposure = hold.set_automatic
+    heard: dict[Sensor, float] = {}
+    until = time.monotonic() + CAMERA_WARM_UP_S
+    is_told = False
+    while not outlet.stopping:
+        outlet.obey(block=False)
+        if gone.is_set():
+            raise GaveUp(CameraLost, "unplugged")
+        frame = _next(waiting, WAIT_MS / 1000.0)
+        if frame is not None:
+            sensor = _sensor_of(rs, frame)
+            heard[sensor] = time.monotonic()
+            if sensor == Sensor.COLOR and not is_told:
+                outlet.send(_opened(rs, streams, settings | {"clock": _clock(rs, frame)}))
+                is_told = True
+            pictures.pass_on(frame)
+            if sensor == Sensor.COLOR:
+                hold.look(frame)
+        for sensor in streams.modes:
+            if time.monotonic() > heard.get(sensor, until - CAMERA_SILENCE_S) + CAMERA_SILENCE_S:
+                raise GaveUp(CameraLost, f"no {sensor.name.lower()} pictures for {CAMERA_SILENCE_S:g} s")
+        outlet.stay_alive()
+    _stop(streams)
+
+
+def _play(rs: Any, outlet: Outlet, plan: FilePlan) -> None:
+    """A recording: each picture, the next only when there is room for it."""
+    try:
+        playback = rs.context().load_device(plan.path)
+        playback.set_real_time(False)
+        streams = stored_streams(rs, playback)
+    except RuntimeError as failure:
+        raise GaveUp(RecordingDamaged, " ".join(str(failure).split())) from failure
+    except GaveUp as failure:
+        raise GaveUp(RecordingUnsupported, failure.detail) from failure
+    waiting: queue.Queue[Any] = queue.Queue(WAITING_FRAMES)
+    outlet.hold(playback, streams, waiting)
+
+    def take(frame: Any) -> None:
+        frame.keep()
+        waiting.put(frame)  # the library reads on only when this is over
+
+    settings = device_settings(rs, playback, streams)
+    playback.pause()  # else it begins with the first sensor, and the other's pictures are lost
+    _start(streams, take)
+    playback.resume()
+    pictures = _Pictures(rs, outlet, streams)
+    heard = time.monotonic()
+    is_told = False
+    while not outlet.stopping:
+        outlet.obey(block=not outlet.has_room)
+        if not outlet.has_room:
+            heard = time.monotonic()
+            continue
+        frame = _next(waiting, WAIT_MS / 1000.0)
+        if frame is not None:
+            heard = time.monotonic()
+            if not is_told:
+                outlet.send(_opened(rs, streams, settings | {"clock": _clock(rs, frame)}))
+                is_told = True
+            pictures.pass_on(frame)
+        elif playback.current_status() == rs.playback_status.stopped and waiting.empty():
+            if not is_told:
+                raise GaveUp(RecordingDamaged, "no picture in it")
+            return
+        elif time.monotonic() - heard > FILE_SILENCE_S:
+            raise GaveUp(RecordingDamaged, f"no picture for {FILE_SILENCE_S:g} s")
+        outlet.stay_alive()
+
+
+def _start(streams: Streams, take: Callable[[Any], None]) -> None:
+    for sensor, profiles in streams.opening:
+        sensor.open(list(profiles))
+    for sensor, _ in streams.opening:
+        sensor.start(take)
+
+
+def _stop(streams: Streams) -> None:
+    for sensor, _ in streams.opening:
+        sensor.stop()
+        sensor.close()
+
+
+def _next(waiting: queue.Queue[Any], wait_s: float) -> Any | None:
+    try:
+        return waiting.get(timeout=wait_s) if wait_s > 0.0 else waiting.get_nowait()
+    except queue.Empty:
+        return None
+
+
+def _sensor_of(rs: Any, frame: Any) -> Sensor:
+    return Sensor.COLOR if frame.profile.stream_type() == rs.stream.color else Sensor.DEPTH
+
+
+def _clock(rs: Any, frame: Any) -> str:
+    """Whose time stamps are: the camera's, or those of arrival."""
+    return "computer" if frame.get_frame_timestamp_domain() == rs.timestamp_domain.system_time else "camera"
+
+
+def _opened(rs: Any, streams: Streams, settings: dict[str, str]) -> Opened:
+    mirrored = dict.fromkeys(streams.modes, False)
+    return Opened(streams.modes, mirrored, None, settings, lens_of(rs, streams.color), depth_unit_m(rs, streams))
+
+
+class _Pictures:
+    """Passes colour on, and depth, laid on colour by the library; both with their own times."""
+
+    def __init__(self, rs: Any, outlet: Outlet, streams: Streams) -> None:
+        self._rs, self._outlet = rs, outlet
+        self._lies = lies_on_color(streams)
+        self._align = rs.align(rs.stream.color)
+        self._color: Any | None = None
+        self._early: list[Any] = []
+        self._joined = rs.frame_queue(1)
+        self._join = rs.processing_block(self._both)
+        self._join.start(self._joined)
+        outlet.hold(self)
+
+    def pass_on(self, frame: Any) -> None:
+        """One picture; depth from before the first colour waits for it."""
+        if _sensor_of(self._rs, frame) == Sensor.DEPTH:
+            if self._lies:
+                self._put(Sensor.DEPTH, frame, memoryview(frame.get_data()).cast("B"))
+            elif self._color is None:
+                self._early = [*self._early[-WAITING_FRAMES:], frame]
+            else:
+                self._depth(frame)
+            return
+        if self._color is None:
+            self._color = frame  # laying depth on colour asks only how it sees, so any colour picture will do
+        data = memoryview(frame.get_data()).cast("B")
+        is_turned = frame.profile.format() == self._rs.format.bgr8
+        self._put(Sensor.COLOR, frame, _turned(data) if is_turned else data)
+        for early in self._early:
+            self._depth(early)
+        self._early = []
+
+    def _depth(self, frame: Any) -> None:
+        self._join.invoke(frame)
+        both = self._joined.wait_for_frame(JOIN_MS).as_frameset()
+        laid = self._align.process(both).get_depth_frame()
+        self._put(Sensor.DEPTH, laid, memoryview(laid.get_data()).cast("B"))
+
+    def _both(self, frame: Any, source: Any) -> None:
+        source.frame_ready(source.allocate_composite_frame([frame, self._color]))
+
+    def _put(self, sensor: Sensor, frame: Any, picture: memoryview) -> None:
+        self._outlet.put(sensor, frame.get_frame_number(), round(frame.get_timestamp() * 1000.0), picture)
+
+
+def _turned(blue_first: memoryview) -> memoryview:
+    """Red first."""
+    out = bytearray(blue_first.nbytes)
+    out[0::3], out[1::3], out[2::3] = blue_first[2::3], blue_first[1::3], blue_first[0::3]
+    return memoryview(out)
+
+
+class _Exposure:
+    """Holds exposure and white balance. The colour sensor does not tell what its automatics have chosen, so the hold
+    finds by the pictures what looks the same."""
+
+    def __init__(self, rs: Any, outlet: Outlet, streams: Streams) -> None:
+        self._option, self._outlet = rs.option, outlet
+        self._sensor = next(sensor for sensor, profiles in streams.opening if streams.color in profiles)
+        self._longest = LIGHT_SHARE / streams.color.fps() / EXPOSURE_UNIT_S
+        self._hold: ColorHold | None = None
+        self._last: Any | None = None
+
+    def set_automatic(self, on: bool) -> bool | None:
+        """Follow the light, or begin to hold, which is reported when it is done."""
+        option, sensor = self._option, self._sensor
+        self._hold = None
+        balance = put(sensor, option.enable_auto_white_balance, int(on))
+        if on or self._last is None:
+            return put(sensor, option.enable_auto_exposure, int(on)) and balance
+        if not put(sensor, option.enable_auto_exposure, 0) or not sensor.supports(option.exposure):
+            return False
+        reach = sensor.get_option_range(option.exposure)
+        kelvin = sensor.get_option_range(option.white_balance) if sensor.supports(option.white_balance) else None
+        self._hold = ColorHold(
+            seen_colors(self._last),
+            float(sensor.get_option(option.exposure)),
+            (reach.min, min(reach.max, self._longest)),
+            float(sensor.get_option(option.white_balance)) if kelvin else 0.0,
+            (kelvin.min, kelvin.max) if kelvin else None,
+        )
+        return None
+
+    def look(self, frame: Any) -> None:
+        """One more colour picture."""
+        self._last = bytes(memoryview(frame.get_data()).cast("B")) if self._hold is None else self._last
+        if self._hold is None:
+            return
+        step = self._hold.step(seen_colors(memoryview(frame.get_data()).cast("B")))
+        if step is not None:
+            put_near(self._sensor, self._option.exposure, step.exposure)
+            if step.kelvin:
+                put_near(self._sensor, self._option.white_balance, step.kelvin)
+        if self._hold.is_over:
+            done = self._hold.is_like_before
+            self._hold = None
+            self._outlet.send(ExposureSet(True, done))

@@ -1,0 +1,202 @@
+"""RealSense without a camera: the maker's own library with its software device, recorder and player."""
+
+from __future__ import annotations
+
+import multiprocessing
+from collections.abc import Iterator
+from concurrent.futures import ProcessPoolExecutor
+from functools import partial
+from itertools import islice, pairwise
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import carpus
+from carpus.app.sources import open_recording
+from carpus.core.capture import realsense
+from carpus.core.capture.cameras import open_camera
+from carpus.core.capture.color_hold import MOST_ROUNDS, ColorHold, SeenColors
+from carpus.core.capture.realsense import RealSenseCamera, driver_finding, further_findings
+from carpus.core.capture.realsense_recording import RealSenseRecording
+from carpus.core.capture.tum import TumFolder
+from carpus.core.errors import (
+    CameraLost,
+    CameraMissing,
+    CameraReturned,
+    CarpusFault,
+    ExtraMissing,
+    RecordingDamaged,
+)
+from carpus.core.words import one_sentence
+from tests.capture import realsense_stand_in
+from tests.capture.realsense_stand_in import DEPTH_FX, EDGE_PX, FX, HEIGHT, NEAR_MM, SHIFT_M, WIDTH
+
+FRAMES = 24
+EDGE_X = (EDGE_PX - 0.5 - (WIDTH - 1) / 2) / DEPTH_FX
+"""Where the edge of the plane lies, of its depth."""
+
+
+def record_take(take: Path, path: Path) -> None:
+    source = TumFolder(take)
+    realsense_stand_in.record(path, islice(source.frames(), FRAMES), source.info.camera.fx_px)
+    source.close()
+
+
+@pytest.fixture(scope="module")
+def take(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A simulated recording, and the same as the maker's library stores it."""
+    folder = tmp_path_factory.mktemp("realsense")
+    carpus.simulate(folder, protocol="wrist6", motion="flexion", seed=3, seconds=FRAMES / 30.0 + 0.1)
+    with ProcessPoolExecutor(1, multiprocessing.get_context("spawn")) as other:
+        other.submit(record_take, folder, folder / "take.db3").result()
+    return folder
+
+
+def test_a_recording_is_tracked_as_the_folder_it_was_made_of(take: Path) -> None:
+    path = take / "take.db3"
+    source = open_recording(path)
+    assert isinstance(source, RealSenseRecording)
+    info = source.info
+    assert (info.frame_count, info.has_depth, info.nominal_fps) == (FRAMES, True, 30.0)
+    assert (info.camera.origin, info.camera.distortion_model) == ("driver", "plumb_bob")
+    assert (info.settings["serial"], info.settings["clock"]) == ("815412070123", "camera")
+    assert info.sensor.kind == "active stereo"
+    folder = TumFolder(take)
+    for stored, made in zip(source.frames(), folder.frames(), strict=False):
+        assert stored.timestamp_s == pytest.approx(made.timestamp_s, abs=1e-5)
+        assert np.array_equal(stored.color_rgb, made.color_rgb)
+        assert stored.depth_raw is not None
+        assert made.depth_raw is not None
+        off_m = np.abs(stored.depth_raw * stored.depth_unit_m - made.depth_raw * made.depth_unit_m)
+        assert off_m.max() < 0.6e-3
+    folder.close()
+    assert len(list(source.frames())) == FRAMES, "a second walk"
+    source.close()
+    assert list(source.frames()) == []
+    tracked = list(carpus.track(path, take / "calibration.json"))
+    assert [frame.status for frame in tracked] == ["tracked"] * FRAMES
+
+
+@pytest.mark.parametrize(("name", "content"), [("a.db3", b"no database"), ("a.db3", b""), ("a.bag", b"#ROSBAG V2.0\n")])
+def test_what_is_no_recording_is_told(tmp_path: Path, name: str, content: bytes) -> None:
+    (tmp_path / name).write_bytes(content)
+    with pytest.raises(RecordingDamaged):
+        open_recording(tmp_path / name)
+
+
+def test_a_recording_cut_short_is_told(take: Path, tmp_path: Path) -> None:
+    whole = (take / "take.db3").read_bytes()
+    (tmp_path / "half.db3").write_bytes(whole[: len(whole) // 2])
+    with pytest.raises(RecordingDamaged):
+        list(open_recording(tmp_path / "half.db3").frames())
+
+
+@pytest.fixture
+def told() -> list[CarpusFault]:
+    return []
+
+
+@pytest.fixture
+def camera(tmp_path: Path, told: list[CarpusFault]) -> Iterator[RealSenseCamera]:
+    source = RealSenseCamera(notice=told.append, context=partial(realsense_stand_in.plugged_in, tmp_path))
+    yield source
+    source.close()
+
+
+def test_a_camera_streams_is_lost_and_comes_back(
+    camera: RealSenseCamera, told: list[CarpusFault], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("carpus.core.capture.process_camera.RETRY_S", 0.05)
+    info = camera.info
+    assert (info.name, info.settings["preset"], info.settings["emitter"]) == (
+        "Intel RealSense D435", "high accuracy", "on",
+    )  # fmt: skip
+    assert info.settings["registered"] == "by the library"
+    assert info.sensor.name == "RealSense D435"
+    frames = camera.frames()
+    first = list(islice(frames, 8))
+    for frame in first:
+        assert frame.color_rgb.shape == (480, 640, 3)
+        assert frame.depth_raw is not None
+        assert set(np.unique(frame.depth_raw)) == {0, NEAR_MM}
+        edge_px = np.argmax(frame.depth_raw[HEIGHT // 2] > 0)
+        assert edge_px == pytest.approx((WIDTH - 1) / 2 + FX * (EDGE_X + SHIFT_M / (NEAR_MM / 1000.0)), abs=1.0)
+        assert frame.depth_unit_m == 1e-3
+    for earlier, later in pairwise(first):
+        periods = (later.timestamp_s - earlier.timestamp_s) * 30.0
+        assert periods == pytest.approx(later.dropped_before + 1, abs=0.01)
+    (tmp_path / "unplugged").touch()
+    (tmp_path / "crash").touch()
+
+    def plug_in_again(fault: CarpusFault) -> None:
+        told.append(fault)
+        (tmp_path / "unplugged").unlink(missing_ok=True)
+
+    camera._notice = plug_in_again
+    rest = []
+    for frame in frames:
+        rest.append(frame)
+        if told and isinstance(told[-1], CameraReturned):
+            break
+    assert [type(fault) for fault in told] == [CameraLost, CameraReturned]
+    times_s = [frame.timestamp_s for frame in [*first, *rest]]
+    assert all(later > earlier for earlier, later in pairwise(times_s))
+    assert sum(frame.dropped_before for frame in rest) > 0
+
+
+def test_exposure_and_white_balance_are_held_as_they_look(camera: RealSenseCamera) -> None:
+    frames = camera.frames()
+    before = next(frames).color_rgb.mean(axis=(0, 1))
+    camera.lock_exposure()
+    after = before * 0.0
+    for frame in frames:
+        after = frame.color_rgb.mean(axis=(0, 1))
+        if camera.exposure_locked is not False:
+            break
+    assert camera.exposure_locked
+    assert after == pytest.approx(before, rel=0.04)
+
+
+def test_a_camera_that_is_not_there(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    (tmp_path / "unplugged").touch()
+    with pytest.raises(CameraMissing):
+        RealSenseCamera(context=partial(realsense_stand_in.plugged_in, tmp_path))
+    monkeypatch.setattr(realsense, "find_spec", lambda _: None)
+    with pytest.raises(ExtraMissing) as told:
+        open_camera("realsense:815412070123")
+    assert "carpus[realsense]" in one_sentence(told.value)
+
+
+@pytest.mark.parametrize("slope", [1.0 / 8000.0, -1.0 / 3000.0])
+@pytest.mark.parametrize("true", [(60.0, 3500.0), (300.0, 5000.0), (120.0, 6000.0)])
+def test_a_hold_finds_what_looks_the_same(true: tuple[float, float], slope: float) -> None:
+    def look(exposure: float, kelvin: float) -> SeenColors:
+        return SeenColors(80.0 * exposure / true[0], slope * (kelvin - true[1]))
+
+    exposure, kelvin = 156.0, 4600.0
+    hold = ColorHold(look(*true), exposure, (1.0, 320.0), kelvin, (2800.0, 6500.0))
+    for _ in range(10 * MOST_ROUNDS):
+        step = hold.step(look(exposure, kelvin))
+        if step is not None:
+            exposure, kelvin = step.exposure, step.kelvin
+    assert hold.is_over
+    assert hold.is_like_before
+    assert exposure == pytest.approx(true[0], rel=0.03)
+
+
+def test_what_the_doctor_says_of_it(monkeypatch: pytest.MonkeyPatch) -> None:
+    assert driver_finding().state == "good"
+    states = {
+        each.name: each.state
+        for each in further_findings({"firmware": "5.12.1.0", "firmware_wanted": "5.16.0.1", "usb": "2.1"})
+    }
+    assert states == {"Firmware": "warning", "USB": "warning"}
+    assert {each.state for each in further_findings({"firmware": "5.16.0.1", "usb": "3.2"})} == {"good"}
+
+    def missing(name: str) -> str:
+        raise realsense.PackageNotFoundError(name)
+
+    monkeypatch.setattr(realsense, "version", missing)
+    assert (driver_finding(wanted=False).state, driver_finding(wanted=True).state) == ("good", "bad")
+    assert driver_finding(wanted=True).remedy == "Run: pip install pyrealsense2"
