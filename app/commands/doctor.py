@@ -7,6 +7,7 @@ from datetime import UTC, datetime
 from itertools import chain
 from pathlib import Path
 
+from carpus import __version__
 from carpus.app.settings import Settings, load_settings
 from carpus.core.capture.doctor import examine
 from carpus.core.check_card.ages import camera_ages
@@ -18,6 +19,10 @@ _MARK = {"good": "ok     ", "warning": "look   ", "bad": "missing"}
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--data-folder", type=Path, metavar="FOLDER", help="instead of the one in the settings")
+    parser.add_argument("--camera", metavar="KIND[:WHICH]", help="the one to open; else the first that is plugged in")
+    parser.add_argument(
+        "--for-support", action="store_true", help="to send away: folders are left out; no patient is in it either way"
+    )
 
 
 def run(arguments: argparse.Namespace) -> int:
@@ -28,9 +33,26 @@ def run(arguments: argparse.Namespace) -> int:
         print(f"{_MARK['bad']}  Settings: {one_sentence(fault)}")
         worst = 1
     folder = arguments.data_folder or settings.data_folder
-    for finding in chain(examine(folder), camera_ages(folder, datetime.now(UTC))):
-        print(f"{_MARK[finding.state]}  {finding.name}: {finding.found}")
+    said = (lambda text: without_folders(text, folder)) if arguments.for_support else str
+    if arguments.for_support:
+        print(f"Carpus {__version__}, {datetime.now(UTC):%Y-%m-%d}")
+    wanted = settings.camera.uri if arguments.camera is None else arguments.camera
+    for finding in chain(examine(folder, camera_uri=wanted or None), camera_ages(folder, datetime.now(UTC))):
+        print(f"{_MARK[finding.state]}  {finding.name}: {said(finding.found)}")
         if finding.remedy:
-            print(f"         {finding.remedy}")
+            print(f"         {said(finding.remedy)}")
         worst = max(worst, finding.state == "bad")
     return worst
+
+
+def without_folders(text: str, data_folder: Path) -> str:
+    """A line of the doctor without the names of this person's folders: they often hold the person's name.
+
+    >>> without_folders("/users/ada/data/a: full", Path("/users/ada/data"))
+    '(data folder)/a: full'
+    """
+    places = {str(data_folder): "(data folder)", str(data_folder.parent): "(its folder)", str(Path.home()): "~"}
+    for place in sorted(places, key=len, reverse=True):
+        if len(place) > 1:
+            text = text.replace(place, places[place])
+    return text

@@ -55,10 +55,11 @@ def kind_to_open(uri: str = "") -> str:
 def open_camera(
     uri: str = "", *, camera: Camera | None = None, patience_s: float = math.inf, notice: Notice = ignore
 ) -> LiveCamera:
-    """Open a camera by its address (``KIND:`` and what the kind calls it), empty for the first that is plugged in.
+    """Open a camera by its address (``KIND``, or ``KIND:`` and what the kind calls it); empty: the first plugged in.
 
     Raises the faults of its module; :class:`CameraLost` when it is away for more than ``patience_s``.
     """
     name = kind_to_open(uri)
-    place = uri.removeprefix(f"{name}:")
+    named, _, which = uri.partition(":")
+    place = which if named in CAMERAS else uri
     return camera_kind(name).open(uri=place or None, camera=camera, patience_s=patience_s, notice=notice)

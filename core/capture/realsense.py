@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import sys
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from importlib.metadata import PackageNotFoundError, version
@@ -29,6 +30,7 @@ MODELS = {
     ("8086", "0b5c"): "Intel RealSense D455",
     ("8086", "1155"): "Intel RealSense D421",
 }
+"""The D421 has no colour camera: it is named, and opening it says so."""
 SENSORS = {"D415": D415, "D435": D435, "D455": D455, "D456": D455, "D457": D455}
 RULE = (
     'SUBSYSTEM=="usb", ATTR{idVendor}=="8086", ATTR{idProduct}=="'
@@ -90,7 +92,11 @@ def driver_finding(_asks_version: bool = True, wanted: bool = True) -> Finding:
     except PackageNotFoundError:
         if not wanted:
             return Finding(name, "good", "not installed; only a RealSense and its recordings need it")
-    return Finding(name, "bad", f"missing: {PACKAGE}", f"Run: pip install {PACKAGE}")
+    if getattr(sys, "frozen", False):
+        remedy = "The packed program has no driver for it: install Carpus with pip, as carpus[realsense]."
+    else:
+        remedy = f"Run: pip install {PACKAGE}"
+    return Finding(name, "bad", f"missing: {PACKAGE}", remedy)
 
 
 def further_findings(settings: Mapping[str, str]) -> Sequence[Finding]:

@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 import pytest
 
 from carpus.core.camera import DEFAULT_CAMERA
-from carpus.core.capture import doctor, openni2_driver, xtion
+from carpus.core.capture import astra, doctor, openni2_driver, realsense, xtion
+from carpus.core.capture.camera_kind import CameraKind
 from carpus.core.capture.cameras import camera_kind
 from carpus.core.capture.doctor import examine
 from carpus.core.capture.finding import Finding
@@ -28,6 +30,7 @@ def test_everything_is_examined_with_a_camera_that_always_is_there(tmp_path: Pat
         "Data folder",
         "Disk",
         "Driver",
+        "RealSense driver",
         "Camera rights",
         "Camera",
         "Pictures",
@@ -169,3 +172,30 @@ def test_a_camera_that_cannot_be_opened(monkeypatch: pytest.MonkeyPatch) -> None
     monkeypatch.setattr(doctor, "open_camera", busy)
     (finding,) = doctor.opened_findings("", 1.0)
     assert (finding.state, finding.remedy) == ("bad", "Close the other program that uses the camera.")
+
+
+def test_an_astra_without_its_makers_driver(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(astra, "driver_folders", lambda: [tmp_path / "none", tmp_path])
+    assert astra.driver_finding(False, False) is None
+    missing = astra.driver_finding(False, True)
+    assert missing is not None
+    assert (missing.state, str(tmp_path) in missing.remedy) == ("bad", True)
+    (tmp_path / "liborbbec.so").touch()
+    found = astra.driver_finding(False, True)
+    assert found is not None
+    assert found.state == "good"
+
+
+def test_a_camera_of_one_kind_excuses_what_another_lacks(monkeypatch: pytest.MonkeyPatch) -> None:
+    def lacking(_asks_version: bool, _wanted: bool) -> Finding:
+        return Finding("Driver", "bad", "not found", "Install it.")
+
+    there = UsbCamera("Intel RealSense D435", "8086", "0b07", Path("/dev/bus/usb/002/003"), 480, True, False)
+    without = replace(xtion.KIND, driver=lacking)
+    monkeypatch.setattr(CameraKind, "seen", lambda kind: [there] if kind is realsense.KIND else [])
+    monkeypatch.setattr(doctor, "_kinds", lambda: [without, realsense.KIND])
+    assert [each.state for each in doctor.drivers_findings(asks_version=False)] == ["warning", "good"]
+    monkeypatch.setattr(doctor, "_kinds", lambda: [without])
+    assert [each.state for each in doctor.drivers_findings(asks_version=False)] == ["bad"]
+    slow = doctor.camera_finding(realsense.KIND, there)
+    assert (slow.state, "USB 3" in slow.remedy) == ("warning", True)

@@ -17,6 +17,7 @@ from carpus.app.sources import open_recording
 from carpus.core.capture import realsense
 from carpus.core.capture.cameras import open_camera
 from carpus.core.capture.color_hold import MOST_ROUNDS, ColorHold, SeenColors
+from carpus.core.capture.doctor import opened_findings
 from carpus.core.capture.realsense import RealSenseCamera, driver_finding, further_findings
 from carpus.core.capture.realsense_recording import RealSenseRecording
 from carpus.core.capture.tum import TumFolder
@@ -183,6 +184,16 @@ def test_a_hold_finds_what_looks_the_same(true: tuple[float, float], slope: floa
     assert hold.is_over
     assert hold.is_like_before
     assert exposure == pytest.approx(true[0], rel=0.03)
+
+
+def test_the_doctor_opens_it(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    opened = partial(RealSenseCamera, context=partial(realsense_stand_in.plugged_in, tmp_path))
+    monkeypatch.setattr(realsense, "RealSenseCamera", opened)
+    findings = {each.name: each for each in opened_findings("realsense", 0.5)}
+    assert list(findings) == ["Pictures", "Registration", "Mirror", "Clock", "Firmware", "USB"]
+    assert findings["Registration"].found == "depth lies on colour, by the library"
+    assert findings["Firmware"].state == "warning"
+    assert findings["USB"].state == "good"
 
 
 def test_what_the_doctor_says_of_it(monkeypatch: pytest.MonkeyPatch) -> None:
