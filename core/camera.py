@@ -38,7 +38,8 @@ class Camera:
     height_px: int = 480
     distortion: tuple[float, ...] = (0.0, 0.0, 0.0, 0.0, 0.0)
     origin: str = "default"
-    """Where the numbers come from: ``file``, ``calibration`` (kept for this camera), ``driver`` or ``default``."""
+    """Where the numbers come from: ``file``, ``calibration`` (kept for this camera), ``factory`` (told by the camera),
+    ``driver`` (its field of view) or ``default``."""
     sensor: DepthSensor = ASSUMED_SENSOR
     """What its depth is worth."""
     distortion_model: DistortionModel = "plumb_bob"

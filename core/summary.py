@@ -111,6 +111,7 @@ def camera_text(camera: Camera, without_file: str = "no camera file") -> str:
         "file": "from a calibration",
         "calibration": "from the camera's own calibration",
         "driver": "from the driver's field of view",
+        "factory": "from the maker's calibration",
     }
     source = sources.get(camera.origin, f"usual values, {without_file}")
     numbers = f"fx {camera.fx_px:.2f}, fy {camera.fy_px:.2f}, cx {camera.cx_px:.2f}, cy {camera.cy_px:.2f}"

@@ -24,7 +24,7 @@ ORIGIN = "calibration"
 _FINE_M = 1e-4
 """Corrected depth is kept in steps of this: 16 bits reach 6.5 m."""
 _MOST_COUNTS = 65535
-_GUESSES = ("default", "driver")
+_GIVE_WAY = ("default", "driver", "factory")
 
 
 class CalibratedSource:
@@ -72,7 +72,7 @@ def with_stored_calibration(source: FrameSource, data_folder: Path, now: datetim
     """``source`` as the newest stored calibration of its camera has it; itself where there is none, where nobody
     knows which camera it was, or where it brings intrinsics of its own."""
     serial = source.info.settings.get(SERIAL, "")
-    if not serial or source.info.camera.origin not in _GUESSES:
+    if not serial or source.info.camera.origin not in _GIVE_WAY:
         return source
     info = stored_calibration(data_folder, serial)
     size = (source.info.camera.width_px, source.info.camera.height_px)

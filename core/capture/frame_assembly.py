@@ -164,7 +164,7 @@ def camera_of_lens(size_px: tuple[int, int], lens: Lens) -> Camera:
         lens.cy_px,
         *size_px,
         lens.coefficients if known else (0.0,) * COEFFICIENTS[model],
-        origin="driver",
+        origin="factory",
         distortion_model=model,
     )
 

@@ -79,7 +79,8 @@ class RealSenseRecording:
         process = CaptureProcess(serve, plan, str(self._path), LARGEST_BYTES, SLOTS)
         self._process = process
         try:
-            opened = process.wait_open(self._closing, OPEN_S)
+            with self._lock:
+                opened = process.wait_open(self._closing, OPEN_S)
         except BaseException:
             self._end()
             raise

@@ -49,7 +49,7 @@ CAMERA_ATTRIBUTES = {
     "width": "px",
     "height": "px",
     "distortion": "k1 k2 p1 p2 k3, of rational_polynomial also k4 k5 k6",
-    "origin": "file, driver or default",
+    "origin": "file, calibration, factory, driver or default",
     "depth_sensor": "JSON: the depth sensor whose noise was reckoned with, `origin` assumed where no source said; "
     "without this attribute PrimeSense",
     "distortion_model": "plumb_bob, rational_polynomial or inverse_brown_conrady (RealSense); without it plumb_bob",

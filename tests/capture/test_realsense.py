@@ -60,7 +60,7 @@ def test_a_recording_is_tracked_as_the_folder_it_was_made_of(take: Path) -> None
     assert isinstance(source, RealSenseRecording)
     info = source.info
     assert (info.frame_count, info.has_depth, info.nominal_fps) == (FRAMES, True, 30.0)
-    assert (info.camera.origin, info.camera.distortion_model) == ("driver", "plumb_bob")
+    assert (info.camera.origin, info.camera.distortion_model) == ("factory", "plumb_bob")
     assert (info.settings["serial"], info.settings["clock"]) == ("815412070123", "camera")
     assert info.sensor.kind == "active stereo"
     folder = TumFolder(take)
