@@ -19,6 +19,8 @@ from carpus.core.calibration.result import Verdict
 from carpus.core.capture.raw import MB_PER_MINUTE
 from carpus.core.library.set_up import PRACTICE_PATIENT, SetUp
 from carpus.core.output.exercises import EXERCISES
+from carpus.core.output.goals import Goals
+from carpus.core.output.report_content import SessionFigures
 from carpus.core.session.register import SessionEntry
 from carpus.core.types import ByteImage, Side
 from carpus.ui import numbers
@@ -42,6 +44,10 @@ class SetUpMemory(Protocol):
     def sessions_alike(self, patient_id: str, set_up: SetUp) -> Sequence[SessionEntry]: ...
 
     def marker_picture(self, patient_id: str, set_up: SetUp | None = None) -> ByteImage | None: ...
+
+    def goals(self, patient_id: str) -> Goals: ...
+
+    def history(self, patient_id: str) -> Sequence[SessionFigures]: ...
 
 
 @dataclass(frozen=True, slots=True)
@@ -116,7 +122,17 @@ class SettingUp(QObject):
         side = last.side if last is not None else affected
         free = self._free_bytes()
         keep = last.keep_pictures if last is not None else self._keep_pictures and free >= ROOM_FOR_PICTURES_BYTES
-        self._exercise.begin(row, last, side, keep, MB_PER_MINUTE, free / (1e6 * MB_PER_MINUTE))
+        goals = self._memory.goals(patient_id)
+        self._exercise.begin(row, last, side, keep, MB_PER_MINUTE, free / (1e6 * MB_PER_MINUTE), goals)
+        found: list[Sequence[SessionFigures]] = []
+
+        def show(_: object) -> None:
+            self._exercise.show_history(patient_id, found[0])
+
+        # What cannot be read proposes nothing; opening it tells why.
+        self._background.run(
+            lambda: found.append(self._memory.history(patient_id)), show, lambda _: None, self._exercise
+        )
         self._way.go("exercise")
 
     def choose_camera(self, set_up: SetUp) -> None:

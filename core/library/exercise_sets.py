@@ -17,6 +17,7 @@ from carpus.core.errors import OutputNotWritable, SetsUnreadable
 from carpus.core.hand.protocols import protocol_named, protocol_names
 from carpus.core.library.set_up import Course, CoursePart, SetUp
 from carpus.core.output.exercises import EXERCISES, exercise_named
+from carpus.core.output.goals import Goals
 
 SETS_FILE = "exercise_sets.json"
 MOST_PARTS = 8
@@ -108,9 +109,10 @@ def keep_sets(folder: Path, sets: Sequence[ExerciseSet]) -> None:
         raise OutputNotWritable(path, cause.strerror or "") from cause
 
 
-def begun(one: ExerciseSet, set_up: SetUp) -> SetUp:
-    """The first exercise of a set, for the patient, hand and choices of a set-up."""
-    course = Course(one.set_id, one.name, str(uuid.uuid4()), one.parts)
+def begun(one: ExerciseSet, set_up: SetUp, goals: Goals) -> SetUp:
+    """The first exercise of a set, for the patient, hand and choices of a set-up, with the goals there are."""
+    own = {exercise: targets for (exercise, side), targets in goals.items() if side == set_up.side}
+    course = Course(one.set_id, one.name, str(uuid.uuid4()), one.parts, goals_deg=own)
     return at_part(replace(set_up, discs=one.discs), course)
 
 
@@ -123,11 +125,12 @@ def next_part(set_up: SetUp) -> SetUp | None:
 
 
 def at_part(set_up: SetUp, course: Course) -> SetUp:
-    """A set-up at the part that a course has come to, without targets."""
+    """A set-up at the part that a course has come to, with the goals of its exercise."""
     part, none = course.part, float("nan")
+    positive, negative = course.goals_deg.get(part.exercise.id, (none, none))
     return replace(
-        set_up, exercise=part.exercise, repetitions=part.repetitions, target_positive_deg=none,
-        target_negative_deg=none, course=course,
+        set_up, exercise=part.exercise, repetitions=part.repetitions, target_positive_deg=positive,
+        target_negative_deg=negative, course=course,
     )  # fmt: skip
 
 

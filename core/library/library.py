@@ -44,6 +44,7 @@ from carpus.core.library.set_up import PRACTICE_PATIENT, SetUp
 from carpus.core.measures.error_limits import DEFAULT_LIMITS
 from carpus.core.output.angle_order import in_order
 from carpus.core.output.exercises import exercise_named
+from carpus.core.output.goals import Goals
 from carpus.core.output.report_content import NAMES_DOUBTED, RepetitionChoices, SessionFigures, session_figures
 from carpus.core.safekeeping.audit import AuditLog, By, Deed, Fact, Kind
 from carpus.core.safekeeping.encryption import (
@@ -540,8 +541,18 @@ class Library:
         with suppress(CarpusFault):
             for one in read_sets(self.folder) if set_id else ():
                 if one.set_id == set_id and one.discs == set_up.protocol.name:
-                    return begun(one, set_up)
+                    return begun(one, set_up, self.goals(set_up.patient_id))
         return set_up
+
+    def goals(self, patient_id: str) -> Goals:
+        """The targets that were last set for each exercise and hand of a patient."""
+        out: dict[tuple[str, Side], tuple[float, float]] = {}
+        with suppress(OSError, ValueError, KeyError, TypeError, AttributeError, RecursionError):
+            stored = json.loads((self.folder / SET_UPS_FILE).read_text(encoding="utf-8"))[patient_id]
+            for one in stored["goals"]:
+                side: Side = "left" if one["side"] == "left" else "right"
+                out[str(one["exercise"]), side] = _target(one["positive_deg"]), _target(one["negative_deg"])
+        return out
 
     def forget_set_up(self, patient_id: str) -> None:
         """Of a patient who is erased. Raises :class:`OutputNotWritable`."""
@@ -556,6 +567,9 @@ class Library:
 
     def _keep_set_up(self, set_up: SetUp) -> None:
         path = self.folder / SET_UPS_FILE
+        goals = dict(self.goals(set_up.patient_id))
+        if set_up.exercise.counts:
+            goals[set_up.exercise.id, set_up.side] = set_up.target_positive_deg, set_up.target_negative_deg
         with self._lock, suppress(OutputNotWritable):
             try:
                 stored: Any = json.loads(path.read_text(encoding="utf-8"))
@@ -573,6 +587,15 @@ class Library:
                 "discs": set_up.discs,
                 "for_child": set_up.for_child,
                 "set": set_up.course.set_id if set_up.course is not None else "",
+                "goals": [
+                    {
+                        "exercise": exercise,
+                        "side": side,
+                        "positive_deg": _known(positive),
+                        "negative_deg": _known(negative),
+                    }
+                    for (exercise, side), (positive, negative) in goals.items()
+                ],
             }
             _write_json(path, stored)
 

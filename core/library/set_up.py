@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, field
 
 from carpus.core.hand.marker_protocol import MarkerProtocol
 from carpus.core.hand.protocols import protocol_named, protocol_names
@@ -37,6 +38,8 @@ class Course:
     run_id: str
     parts: tuple[CoursePart, ...]
     number: int = 0
+    goals_deg: Mapping[str, tuple[float, float]] = field(default_factory=dict)
+    """Targets of the exercises for this hand of the patient, as of :class:`SetUp`."""
 
     @property
     def part(self) -> CoursePart:

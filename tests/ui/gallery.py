@@ -397,6 +397,13 @@ class Gallery:
     def patient_view_rest(self) -> None:
         self._patient_view("WRIST_RU", Scene("rest", done=1, asked=3, rest_share=0.5, rest_s=30))
 
+    def exercise_goals(self) -> None:
+        self.exercise()
+        screen = self.shell.stage.currentWidget()
+        assert isinstance(screen, ExerciseScreen)
+        screen.show_history("linden", self.sessions.history("linden"))
+        self.settle()
+
     def exercise_sets(self) -> None:
         self.exercise()
         self._over(SetSheet(self.shell.stage, self.theme)).begin(USUAL_SETS, "wrist6")
@@ -939,7 +946,7 @@ class Gallery:
             "live", "live_large", "live_speeds", "live_marker_hidden", "live_which_spot", "live_hand_lost", "live_hand",
             "live_hand_thumb_hidden", "live_hand_fist", "live_hand_not_found", "live_arm_moved",
             "live_disk_full", "live_note", "patient_view", "patient_view_goal", "patient_view_child",
-            "patient_view_lost", "patient_view_rest", "exercise_sets",
+            "patient_view_lost", "patient_view_rest", "exercise_sets", "exercise_goals",
             "live_pain", "live_camera_lost", "review", "review_hand",
             "review_path", "review_speeds", "review_zyz", "review_hand_finger",
             "review_reach", "review_opposition", "review_finger_ways",

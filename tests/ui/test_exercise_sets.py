@@ -26,15 +26,17 @@ from carpus.core.library.exercise_sets import (
 from carpus.core.library.library import Library
 from carpus.core.library.set_up import CoursePart
 from carpus.core.output.exercises import exercise_named
+from carpus.core.output.report_content import progress, session_figures
 from carpus.core.session.register import PatientEntry
 from carpus.ui.background import Background
 from carpus.ui.keys import Keys
 from carpus.ui.live.glance import Glance
 from carpus.ui.live.screen import LiveScreen
+from carpus.ui.plot.course import Goals, still
 from carpus.ui.setup.exercise import ExerciseScreen
 from carpus.ui.setup.set_sheet import SetSheet
 from carpus.ui.theme import Theme
-from tests.ui.fakes import FakeFeed, FakeMeasuring, FakeStore, set_up
+from tests.ui.fakes import FakeFeed, FakeMeasuring, FakeStore, session, set_up
 
 OWN = ExerciseSet(
     "own",
@@ -70,7 +72,7 @@ def test_the_next_session_begins_with_the_set_of_the_last_one(tmp_path: Path) ->
     library = Library(tmp_path)
     patient = library.clinic.add(PatientEntry("Heron 3", "left"))
     keep_sets(tmp_path, (OWN,))
-    first = begun(OWN, replace(set_up(), patient_id=patient, pseudonym="Heron 3", side="left", for_child=True))
+    first = begun(OWN, replace(set_up(), patient_id=patient, pseudonym="Heron 3", side="left", for_child=True), {})
     second = next_part(first)
     assert second is not None
     assert next_part(second) is None
@@ -86,12 +88,56 @@ def test_the_next_session_begins_with_the_set_of_the_last_one(tmp_path: Path) ->
     library.close()
 
 
+def test_goals_are_kept_for_each_exercise_and_hand_and_go_into_sets(tmp_path: Path) -> None:
+    library = Library(tmp_path)
+    patient = library.clinic.add(PatientEntry("Heron 3", "left"))
+    one = replace(set_up(target_deg=50.0), patient_id=patient, pseudonym="Heron 3")
+    library._keep_set_up(one)
+    library._keep_set_up(replace(one, exercise=exercise_named("FREE"), side="left"))
+    library._keep_set_up(replace(one, exercise=exercise_named("WRIST_RU"), target_negative_deg=-20.0))
+    goals = library.goals(patient)
+    assert {key: value[0] for key, value in goals.items()} == {("WRIST_FE", "right"): 50.0, ("WRIST_RU", "right"): 50.0}
+    assert goals["WRIST_RU", "right"][1] == -20.0
+    assert begun(OWN, one, goals).target_positive_deg == 50.0
+    assert math.isnan(begun(OWN, replace(one, side="left"), goals).target_positive_deg)
+    library.forget_set_up(patient)
+    assert library.goals(patient) == {}
+    library.close()
+
+
+def test_a_proposed_goal_is_taken_over_or_changed_and_shown_over_the_weeks(qtbot: QtBot, theme: Theme) -> None:
+    screen = ExerciseScreen(theme)
+    qtbot.addWidget(screen)
+    row = FakeStore().rows[5]
+    last = set_up(target_deg=math.nan)
+    screen.begin(row, last, "right", False, goals={("WRIST_RU", "right"): (15.0, math.nan)})
+    screen.show()
+    assert not screen.accept.isVisible()
+    figures = session_figures(session(seconds=26.0))
+    screen.show_history("somebody else", [figures])
+    assert not screen.accept.isVisible()
+    screen.show_history(row.patient_id, [figures])
+    mean_deg = figures.row("flexion", 1).mean_deg  # type: ignore[union-attr]
+    assert "from the last session" in screen.proposal.text()
+    screen.accept.click()
+    goal_deg = screen.set_up().target_positive_deg
+    assert mean_deg + 3.0 < goal_deg <= mean_deg + 5.0
+    screen.choose(exercise_named("WRIST_RU"))
+    assert screen.set_up().target_positive_deg == 15.0
+    screen.side.buttons()[1].click()
+    assert math.isnan(screen.set_up().target_positive_deg)
+    shown = progress([replace(figures, targets_deg=(goal_deg, math.nan))])
+    assert Goals(shown, ("", "flexion", 1)).newest_deg == goal_deg
+    assert math.isnan(Goals(shown, ("", "extension", 1)).newest_deg)
+    assert any(isinstance(mark, Goals) for mark in still(shown, ("", "flexion", 1)))
+
+
 def test_a_set_runs_part_after_part_with_its_rest(qtbot: QtBot, theme: Theme) -> None:
     live = LiveScreen(theme, Keys(), Background())
     qtbot.addWidget(live)
     patient = PatientViewing(live, live, theme, lambda: False)
     measuring = FakeMeasuring(FakeFeed(seconds=2.0))
-    now = SimpleNamespace(set_up=begun(OWN, set_up()), source=SimpleNamespace(measuring=measuring))
+    now = SimpleNamespace(set_up=begun(OWN, set_up(), {}), source=SimpleNamespace(measuring=measuring))
     run = CourseRun(live, live, patient, now)  # type: ignore[arg-type]
     stops: list[float] = []
     live.stop = lambda: stops.append(1.0)  # type: ignore[method-assign]

@@ -13,6 +13,7 @@ from PySide6.QtGui import QFontMetricsF, QPainter, QPen, QPolygonF
 from carpus.core.by_hand.measures import measure_named
 from carpus.core.by_hand.values import HandValue
 from carpus.core.output.exercises import Movement
+from carpus.core.output.goals import row_aimed_at
 from carpus.core.output.joint_content import USUAL_TOTAL_DEG
 from carpus.core.output.range_rows import RangeRow, RowKey, is_total
 from carpus.core.output.report_content import Progress, usual_deg
@@ -153,7 +154,50 @@ def still(progress: Progress, key: RowKey) -> list[Mark]:
         out.append(Level(other.mean_deg, "text2"))
         words = f"{terms.hand_name(progress.other_hand.side)} {numbers.degrees(other.mean_deg)}"
         labels.append((other.mean_deg, words, "text2"))
+    goals = Goals(progress, key)
+    if math.isfinite(goals.newest_deg):
+        out.append(goals)
+        words = tr("Goal {angle}").format(angle=numbers.degrees(goals.newest_deg))
+        labels.append((goals.newest_deg, words, "accent"))
     return [*out, EndLabels(labels)]
+
+
+@dataclass(frozen=True, slots=True)
+class Goals:
+    """The target that each session had, as a dashed step from one session to the next."""
+
+    progress: Progress
+    key: RowKey
+
+    def goal_deg(self, number: int) -> float:
+        """Of one session, without sign; NaN for none."""
+        joint, movement, angle = self.key
+        figures = self.progress.points[number].figures
+        for target, direction in zip(figures.targets_deg, (1, -1), strict=True):
+            row = row_aimed_at(figures, figures.exercise, direction)
+            if row is not None and (row.joint, row.movement, row.angle) == (joint, movement, angle):
+                return abs(target)
+        return math.nan
+
+    @property
+    def newest_deg(self) -> float:
+        """Of the newest session."""
+        return self.goal_deg(len(self.progress.points) - 1)
+
+    def paint(self, painter: QPainter, style: PlotStyle, panel: Panel) -> None:
+        pen = QPen(style.color("accent"), 2 * style.unit)
+        pen.setDashPattern([5, 3])
+        painter.setPen(pen)
+        starts = [float(panel.x(point.figures.when.timestamp())) for point in self.progress.points]
+        ends = [*starts[1:], panel.box.right()]
+        painter.save()
+        painter.setClipRect(panel.box, Qt.ClipOperation.IntersectClip)
+        for number, (left, right) in enumerate(zip(starts, ends, strict=True)):
+            goal = self.goal_deg(number)
+            if math.isfinite(goal):
+                y = float(panel.y(goal))
+                painter.drawLine(QPointF(left, y), QPointF(right, y))
+        painter.restore()
 
 
 @dataclass(frozen=True, slots=True)

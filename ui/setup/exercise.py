@@ -13,6 +13,8 @@ from carpus.core.hand.protocols import PROTOCOLS, protocol_named
 from carpus.core.library.exercise_sets import ExerciseSet, begun
 from carpus.core.library.set_up import SetUp
 from carpus.core.output.exercises import SIDES, Exercise, exercise_named, exercises_of
+from carpus.core.output.goals import GoalProposal, Goals, proposals
+from carpus.core.output.report_content import SessionFigures
 from carpus.core.types import Side
 from carpus.ui import numbers, terms
 from carpus.ui.controls.button import Button
@@ -22,6 +24,7 @@ from carpus.ui.controls.field import Choices, DegreesField, Labelled, number_fie
 from carpus.ui.controls.text import SEMIBOLD, Text, caption, heading
 from carpus.ui.figures import figure_of
 from carpus.ui.ports import PatientRow
+from carpus.ui.setup.goal_words import proposal_words
 from carpus.ui.setup.option import Options
 from carpus.ui.setup.set_words import set_words
 from carpus.ui.theme import MARGIN_PX, Theme
@@ -41,6 +44,9 @@ class ExerciseScreen(QWidget):
         super().__init__()
         self._theme = theme
         self._row: PatientRow | None = None
+        self._goals: Goals = {}
+        self._history: tuple[SessionFigures, ...] = ()
+        self._proposed: tuple[GoalProposal, ...] = ()
         protocols: list[tuple[object, str]] = [(one.name, terms.protocol_name(one)) for one in PROTOCOLS]
         self.protocol = Choices(theme, protocols)
         self._sets: tuple[ExerciseSet, ...] = ()
@@ -52,6 +58,8 @@ class ExerciseScreen(QWidget):
         self.repetitions = number_field(theme, MOST_REPETITIONS, nothing=self.tr("none"))
         self.targets = tuple(DegreesField(theme, MOST_TARGET_DEG, self.tr("none")) for _ in range(2))
         self.problem = Text(theme, "", 14, token="bad", wrap=True)
+        self.proposal = Text(theme, "", 14, token="text2", wrap=True)
+        self.accept = Button(theme, self.tr("Use as targets"), "plain", height_px=36)
         self._target_fields = tuple(Labelled(theme, "", field) for field in self.targets)
         self._target_names = tuple(_caption(field) for field in self._target_fields)
         ends: list[tuple[object, str]] = [
@@ -73,7 +81,8 @@ class ExerciseScreen(QWidget):
         for chips in (self.protocol, self.side, self.ends, self.audience, self.pictures):
             chips.accepted.connect(self._go_on)
         self.primary.clicked.connect(self._go_on)
-        self.side.chosen.connect(lambda _: self._show_problem())
+        self.side.chosen.connect(lambda _: self._show_side())
+        self.accept.clicked.connect(self._use_proposal)
         for field in self.targets:
             field.checked.connect(lambda _: self._show_problem())
         self.problem.hide()
@@ -104,6 +113,8 @@ class ExerciseScreen(QWidget):
             row.addWidget(field)
         body.addLayout(row)
         body.addWidget(self.problem)
+        body.addWidget(self.proposal)
+        body.addWidget(self.accept, 0, Qt.AlignmentFlag.AlignLeft)
         body.addWidget(self._ends_field)
         body.addWidget(Labelled(theme, self.tr("The patient’s view is for"), self.audience))
         body.addWidget(Labelled(theme, self.tr("Keep the pictures too"), self.pictures))
@@ -149,7 +160,7 @@ class ExerciseScreen(QWidget):
 
     def begin(
         self, row: PatientRow, last: SetUp | None, side: Side | None, keep_pictures: bool,
-        mb_per_minute: float = math.nan, room_minutes: float = math.nan,
+        mb_per_minute: float = math.nan, room_minutes: float = math.nan, goals: Goals | None = None,
     ) -> None:  # fmt: skip
         """Show for a patient, with the last set-up or the usual one; ``side`` None must be chosen by the person.
 
@@ -159,7 +170,7 @@ class ExerciseScreen(QWidget):
             self.pictures_cost.setText(
                 pattern.format(size=f"{mb_per_minute:.0f}", time=numbers.room_left(room_minutes))
             )
-        self._row = row
+        self._row, self._goals, self._history = row, goals or {}, ()
         if last is not None:
             self.choose(last.exercise, last.protocol)
             if last.course is not None and self._set(_set_id(last.course.set_id)) is not None:
@@ -223,7 +234,7 @@ class ExerciseScreen(QWidget):
             bool(self.audience.value()),
         )
         chosen = self._set(self.exercises.value())
-        return begun(chosen, single) if chosen is not None else single
+        return begun(chosen, single, self._goals) if chosen is not None else single
 
     def _set(self, value: object) -> ExerciseSet | None:
         """The set of an entry of the list, None for an exercise."""
@@ -259,6 +270,7 @@ class ExerciseScreen(QWidget):
                 self.targets[number].setAccessibleName(words)
         if exercise.counts:
             self.repetitions.setValue(exercise.repetitions)
+        self._show_goals()
         self._ends_field.setVisible(self._discs().has_fingers)
         self.ends.choose(exercise.ends_free)
         words = terms.exercise_view(exercise.id)
@@ -270,9 +282,49 @@ class ExerciseScreen(QWidget):
         """A set brings its own counts; targets come from the goals."""
         for field in (self._repetition_field, *self._target_fields):
             field.hide()
+        self._show_proposal()
         self._ends_field.setVisible(self._discs().has_fingers)
         self.ends.choose(any(part.exercise.ends_free for part in chosen.parts))
         self.view.hide()
+        self._show_problem()
+
+    def show_history(self, patient_id: str, history: Sequence[SessionFigures]) -> None:
+        """What was measured before, by which goals are proposed; of somebody else it is not shown."""
+        if self._row is not None and self._row.patient_id == patient_id:
+            self._history = tuple(history)
+            self._show_proposal()
+
+    def _side(self) -> Side | None:
+        value = self.side.value()
+        return None if value is None else "left" if value == "left" else "right"
+
+    def _show_side(self) -> None:
+        """Another hand has goals of its own."""
+        self._show_goals()
+        self._show_problem()
+
+    def _show_goals(self) -> None:
+        """The targets that were last set for this exercise and hand; none leaves the fields empty."""
+        side = self._side()
+        if self._set(self.exercises.value()) is None and side is not None:
+            none = (math.nan, math.nan)
+            for field, value in zip(self.targets, self._goals.get((self._exercise().id, side), none), strict=True):
+                field.set_value(abs(value))
+        self._show_proposal()
+
+    def _show_proposal(self) -> None:
+        """What the last sessions speak for, in one sentence, and a button that takes it over."""
+        side, single = self._side(), self._set(self.exercises.value()) is None
+        self._proposed = ()
+        if side is not None and single and self._exercise().counts:
+            self._proposed = proposals(self._history, self._exercise(), side, self._discs().name)
+        self.proposal.setText(proposal_words(self._exercise(), self._proposed))
+        self.proposal.setVisible(bool(self._proposed))
+        self.accept.setVisible(bool(self._proposed))
+
+    def _use_proposal(self) -> None:
+        for one in self._proposed:
+            self.targets[0 if one.direction > 0 else 1].set_value(one.goal_deg)
         self._show_problem()
 
     def _show_protocol(self, *_: object) -> None:

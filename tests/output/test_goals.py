@@ -1,0 +1,56 @@
+"""Goals: proposed from the last sessions that compare, a small step, never above what measurement error can tell."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+from datetime import timedelta
+from functools import cache
+
+import pytest
+
+from carpus.core.measures.error_limits import ErrorLimits, MeasuredLimit, RetestStudy
+from carpus.core.output.exercises import exercise_named
+from carpus.core.output.goals import proposals
+from carpus.core.output.report_content import SessionFigures, session_figures
+from tests.ui.fakes import NOW, session
+
+FLEXION = exercise_named("WRIST_FE")
+
+
+@cache
+def base() -> SessionFigures:
+    return session_figures(session(seconds=26.0))
+
+
+def of_day(day: int, mean_deg: float, **changes: object) -> SessionFigures:
+    """The same session on another day, with another mean of flexion."""
+    rows = tuple(replace(row, mean_deg=mean_deg) if row.movement == "flexion" else row for row in base().rows)
+    return replace(base(), when=NOW + timedelta(days=day), rows=rows, **changes)  # type: ignore[arg-type]
+
+
+def flexion(history: Sequence[SessionFigures]) -> tuple[float, float, int, float]:
+    found = next(one for one in proposals(history, FLEXION, "right", "wrist6") if one.direction == 1)
+    return found.goal_deg, found.told_from_deg, found.sessions, found.basis_deg
+
+
+def test_the_goal_is_a_small_step_above_the_mean_of_the_last_three_sessions_that_compare() -> None:
+    history = [of_day(0, 20.0), of_day(7, 40.0), of_day(9, 44.4), of_day(14, 42.0)]
+    assert flexion(history) == (47.0, 53.0, 3, pytest.approx(42.13, abs=0.01))
+    assert flexion([*history, of_day(20, 80.0, not_counted=True)]) == flexion(history)
+    assert flexion([*history, of_day(20, 80.0, side="left")]) == flexion(history)
+    assert flexion([of_day(0, 88.0)])[0] == 90.0
+    assert proposals([], FLEXION, "right", "wrist6") == ()
+
+
+def test_it_is_never_above_what_the_clinic_own_measurement_error_can_tell() -> None:
+    limit = MeasuredLimit("flexion", "flexion", 12, 0.7, (0.5, 1.0), 2.0, (1.5, 3.0))
+    study = RetestStudy("wrist6", "WRIST_FE", "zyx", "2026-11-01", 12, 24, 2, (limit,))
+    goal, told_from, _, basis = flexion([of_day(0, 40.0, error_limits=ErrorLimits((study,)))])
+    assert (goal, told_from, basis) == (42.0, 42.0, 40.0)
+
+
+def test_what_the_camera_did_not_see_to_its_end_proposes_nothing() -> None:
+    one = of_day(0, 40.0)
+    hidden = replace(one, rows=tuple(replace(row, limited=True) for row in one.rows))
+    assert proposals([hidden], FLEXION, "right", "wrist6") == ()
