@@ -41,7 +41,11 @@ class ByHand(QObject):
         screen.done.connect(self.leave)
 
     def show(self) -> None:
-        """The form of the patient who is open, for today."""
+        """The form of the patient who is open, for today; with what was written and not kept, if it was left so."""
+        patient, screen = self._now.patient, self._screen
+        if patient is not None and screen.record.patient_id == patient.patient_id and screen.has_unsaved:
+            self._way.go("by_hand")
+            return
         self._read(again=False)
 
     def leave(self) -> None:
@@ -57,10 +61,14 @@ class ByHand(QObject):
             ),
             (
                 Answer(self.tr("Back to the form"), lambda: None, self.tr("Enter")),
-                Answer(self.tr("Let them go"), self._back, "L"),
+                Answer(self.tr("Let them go"), self._let_go, "L"),
             ),
             icon="file-text",
         )
+
+    def _let_go(self) -> None:
+        self._screen.show_record(self._screen.record)
+        self._back()
 
     def _read(self, *, again: bool) -> None:
         patient, library = self._now.patient, self._library
@@ -71,7 +79,7 @@ class ByHand(QObject):
 
         def read() -> HandRecord:
             figures = sorted(library.history(patient_id), key=lambda one: one.when)
-            return HandRecord(patient.pseudonym, side, tuple(library.by_hand(patient_id)), tuple(figures), initials)
+            return HandRecord(patient_id, side, tuple(library.by_hand(patient_id)), tuple(figures), initials)
 
         def shown(record: HandRecord) -> None:
             if self._now.patient is None or self._now.patient.patient_id != patient_id:

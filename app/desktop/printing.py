@@ -16,7 +16,7 @@ from carpus import __version__
 from carpus.app.desktop.last_places import LastPlaces
 from carpus.app.desktop.now_open import NowOpen
 from carpus.app.desktop.ways import Tell, Way
-from carpus.core.by_hand.measures import measure_named
+from carpus.core.by_hand.table import COLUMNS, rows_of
 from carpus.core.by_hand.values import HandValue
 from carpus.core.errors import OutputNotWritable
 from carpus.core.output.report_content import Progress, RepetitionChoices, SessionFigures
@@ -170,13 +170,14 @@ class Printing(QObject):
             self._places.keep("exports", str(Path(path).parent))
             self._background.run(
                 lambda: write_tables(Path(path), progress),
-                lambda _: self._table_written(path, [point.figures.session_id for point in progress.points]),
+                lambda paths: self._tables_written(paths, [point.figures.session_id for point in progress.points]),
                 self._tell.fault,
             )
 
-    def _table_written(self, path: str, sessions: Sequence[str]) -> None:
-        self.tabled.emit(path, sessions)
-        self._written(str(Path(path).parent), [Path(path).name])
+    def _tables_written(self, paths: Sequence[Path], sessions: Sequence[str]) -> None:
+        for path in paths:
+            self.tabled.emit(str(path), sessions)
+        self._written(str(paths[0].parent), [path.name for path in paths])
 
     def _written(self, folder: str, names: Sequence[str]) -> None:
         """Say what went where, and offer to open the folder."""
@@ -239,25 +240,23 @@ def write_table(path: Path, progress: Progress) -> None:
         raise OutputNotWritable(path, cause.strerror or "") from cause
 
 
-def write_tables(path: Path, progress: Progress) -> None:
-    """The table of the sessions; what was measured by hand goes into one of its own beside it."""
+def write_tables(path: Path, progress: Progress) -> list[Path]:
+    """The table of the sessions, and one beside it of what was measured by hand, if anything was; the files."""
     write_table(path, progress)
-    if progress.by_hand:
-        write_by_hand(path.with_name(f"{path.stem}-by-hand{path.suffix}"), progress.by_hand)
+    if not progress.by_hand:
+        return [path]
+    beside = path.with_name(f"{path.stem}-by-hand{path.suffix}")
+    write_by_hand(beside, progress.by_hand)
+    return [path, beside]
 
 
 def write_by_hand(path: Path, values: Sequence[HandValue]) -> None:
     """One line for each value that counts, as it was entered by hand: every try, and their mean in the unit named."""
-    head = ["day", "hand", "measure", "way", "unit", "value", "tries", "where", "by", "entered"]
     try:
         with path.open("w", newline="", encoding="utf-8") as file:
             table = csv.writer(file)
-            table.writerow(head)
-            for one in values:
-                tries = " ".join(f"{number:g}" for number in one.tries)
-                entered = one.entered.isoformat() if one.entered else ""
-                facts = (one.day.isoformat(), one.side, one.measure, one.way, measure_named(one.measure).unit)
-                table.writerow([*facts, f"{one.value:g}", tries, plain_cell(one.where), plain_cell(one.by), entered])
+            table.writerow(COLUMNS)
+            table.writerows([plain_cell(text) for text in row] for row in rows_of(values))
     except OSError as cause:
         raise OutputNotWritable(path, cause.strerror or "") from cause
 

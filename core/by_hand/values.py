@@ -75,6 +75,11 @@ def counted(entries: Iterable[HandValue]) -> list[HandValue]:
     return sorted((entry for entry in last.values() if entry.tries), key=lambda entry: entry.day)
 
 
+def of_session(entries: Iterable[HandValue], side: Side, day: date) -> tuple[HandValue, ...]:
+    """What counts of one day, of one hand and of the person."""
+    return tuple(one for one in counted(entries) if one.day == day and one.side in (side, ""))
+
+
 def course_of(entries: Iterable[HandValue], key: Key) -> list[HandValue]:
     """What counts of one measure, way and hand, by day."""
     return [entry for entry in counted(entries) if entry.key == key]

@@ -1,8 +1,8 @@
 """CSV: tidy tables with a unit in each column's name, and a page that explains every column.
 
 ``NAME.wrist.csv`` one row a picture; ``NAME.joints.csv`` one row a picture and joint angle; ``NAME.markers.csv`` one
-row a picture and marker; ``NAME.events.csv``; ``NAME.measures.csv`` one row a figure; ``NAME.csv.json``. What is not
-known is empty.
+row a picture and marker; ``NAME.events.csv``; ``NAME.measures.csv`` one row a figure; ``NAME.by-hand.csv`` where
+somebody measured by hand that day; ``NAME.csv.json``. What is not known is empty.
 """
 
 from __future__ import annotations
@@ -15,6 +15,7 @@ from typing import Any
 
 import numpy as np
 
+from carpus.core.by_hand.table import COLUMNS, rows_of
 from carpus.core.formats.new_output import new_json, new_table
 from carpus.core.formats.take import ANGLES_MEAN, CAMERA_AXES, W0_AXES, Take, measured, number
 from carpus.core.hand.sites import WRIST_ANGLES
@@ -86,6 +87,10 @@ def write(take: Take, folder: Path) -> list[Path]:
     measures = (tuple(_cell(value) for value in astuple(row)) for row in measure_rows(take.figures, take.name))
     head = [field.name for field in fields(MeasureRow)]
     out.append(new_table(folder / f"{take.name}.measures.csv", head, measures))
+    if take.by_hand:
+        rows = ([_cell(text) for text in row] for row in rows_of(take.by_hand))
+        out.append(new_table(folder / f"{take.name}.by-hand.csv", list(COLUMNS), rows))
+        said["by-hand"] = COLUMNS
     content = {
         "provenance": take.provenance,
         "missing": "empty",

@@ -4,9 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from datetime import date
 from pathlib import Path
 from typing import NamedTuple
 
+from carpus.core.by_hand.values import HandValue, of_session
 from carpus.core.errors import CarpusFault, OutputNotWritable
 from carpus.core.formats.deidentify import Deidentification
 from carpus.core.formats.formats import FORMATS, Writer
@@ -27,6 +29,8 @@ class Wanted:
 
     path: Path
     read: Callable[[], tuple[Session, RepetitionChoices | None]]
+    by_hand: tuple[HandValue, ...] = ()
+    """All that was ever measured by hand of the patient; what counts of the session's day and hand goes along."""
 
     @classmethod
     def stored(cls, path: Path, choices: Callable[[Path], RepetitionChoices] | None = None) -> Wanted:
@@ -117,6 +121,7 @@ def export_sessions(
 
 def _take(one: Wanted, nobody: Deidentification | None, names: set[str], version: str) -> Take:
     session, choices = one.read()
+    day = session.header.when.date()  # before anybody's days are moved
     name = one.path.stem
     if nobody is not None:
         session = nobody.session(session)
@@ -129,7 +134,11 @@ def _take(one: Wanted, nobody: Deidentification | None, names: set[str], version
         name = f"{base}-{number}"
     names.add(name)
     said = provenance(session, version, deidentified=nobody is not None)
-    return Take(session, session_figures(session, choices), name, said)
+    figures = session_figures(session, choices)
+    by_hand = of_session(one.by_hand, figures.side, day)
+    if nobody is not None:  # day, place and initials are a person's own
+        by_hand = tuple(replace(value, day=date.min, where="", by="", entered=None) for value in by_hand)
+    return Take(session, figures, name, said, by_hand)
 
 
 def _readme(formats: Sequence[str], deidentified: bool) -> str:

@@ -6,6 +6,7 @@ from dataclasses import asdict
 from pathlib import Path
 from typing import Any
 
+from carpus.core.by_hand.table import COLUMNS, rows_of
 from carpus.core.formats.new_output import new_json
 from carpus.core.formats.take import ANGLES_MEAN, Take
 from carpus.core.output.measures_table import measure_rows
@@ -54,6 +55,7 @@ def content(take: Take) -> dict[str, Any]:
         "pain": [
             {"since_start_s": at, "score": score} for at, score in zip(figures.pain_s, figures.pain, strict=False)
         ],
+        "entered_by_hand": [dict(zip(COLUMNS, row, strict=True)) for row in rows_of(take.by_hand)],
         "doubtful_at_calibration": [finding.kind for finding in figures.findings],
         "provenance": take.provenance,
     }

@@ -8,6 +8,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from carpus.core.by_hand.values import HandValue
 from carpus.core.formats.even import EvenTimes, even_times, rate_of
 from carpus.core.output.report_content import SessionFigures
 from carpus.core.session.values import Session
@@ -31,6 +32,8 @@ class Take:
     figures: SessionFigures
     name: str
     provenance: Mapping[str, Any]
+    by_hand: tuple[HandValue, ...] = ()
+    """What a person measured by hand on the day of the session, of its hand and of the person; never in the figures."""
 
     @property
     def even(self) -> EvenTimes:

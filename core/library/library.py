@@ -472,7 +472,9 @@ class Library:
         """Write a session as open formats into a folder, as it is listed and with a person's choices; the names of the
         files. Raises what kept it from being written."""
         path = self.entry(session_id).path
-        wanted = Wanted(path, lambda: (self._stored(session_id), self.choices(session_id)))
+        wanted = Wanted(
+            path, lambda: (self._stored(session_id), self.choices(session_id)), tuple(self._by_hand_of(session_id))
+        )
         done = export_sessions(
             [wanted],
             Path(folder),
@@ -489,6 +491,13 @@ class Library:
         for refused in done.refused:
             raise refused.fault
         return [str(path.relative_to(folder)) for path in done.files]
+
+    def _by_hand_of(self, session_id: str) -> Sequence[HandValue]:
+        """What was measured by hand of the patient of a session; nothing of nobody's."""
+        with suppress(SessionUnreadable):
+            register = self.register_of(session_id)
+            return register.by_hand(register.owner(session_id))
+        return ()
 
     def made(self, paths: Sequence[Path], kind: MadeKind, session_ids: Iterable[str]) -> None:
         """Take down files that were made from sessions, so that they go when one of these is erased."""

@@ -71,6 +71,22 @@ def test_only_what_differs_is_entered_and_carpus_leads_nobody(screen: ByHandScre
     ]
     screen.hand.choose("left")
     screen.hand.chosen.emit("left")
+    assert screen.form.rows["EXTENSION"].fields[0][1].is_empty
+    typed(screen, "KEY_PINCH", "5,5")
+    screen.hand.choose("right")
+    screen.hand.chosen.emit("right")
+    assert screen.form.rows["EXTENSION"].fields[0][1].value() == 44.0, "what is written stays, also beside another hand"
+    with qtbot.waitSignal(screen.save) as caught:
+        screen.save_button.click()
+    assert HandValue("KEY_PINCH", "", "left", TODAY, (5.5,)) in caught.args[0]
+    assert len(caught.args[0]) == 4
+    typed(screen, "GRIP", "abc")
+    screen.hand.choose("left")
+    screen.hand.chosen.emit("left")
+    assert screen.side == "right", "what cannot be kept is put right first"
+    typed(screen, "GRIP", "18")
+    screen.hand.choose("left")
+    screen.hand.chosen.emit("left")
     assert flexion.fields[0][1].is_empty
     assert screen.form.rows["GRIP"].last.text() == "2 Oct: 34.0 kg"
     assert screen.form.rows["PRWE"].fields[0][1].value() == 46.5, "a score is of the person"

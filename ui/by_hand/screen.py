@@ -10,7 +10,7 @@ from PySide6.QtGui import QKeySequence, QResizeEvent, QShortcut
 from PySide6.QtWidgets import QBoxLayout, QComboBox, QDateEdit, QHBoxLayout, QVBoxLayout, QWidget
 
 from carpus.core.by_hand.measures import MEASURES, HandMeasure, measure_named
-from carpus.core.by_hand.values import HandValue, counted
+from carpus.core.by_hand.values import HandValue, Key, counted
 from carpus.core.output.range_rows import RangeRow
 from carpus.core.output.report_content import SessionFigures
 from carpus.core.types import Side
@@ -30,7 +30,7 @@ from carpus.ui.theme import GAP_PX, MARGIN_PX, Theme, is_tight
 class HandRecord:
     """All of a patient that the screen shows: ``values`` as entered, ``figures`` of the sessions in order of time."""
 
-    pseudonym: str
+    patient_id: str
     side: Side
     values: tuple[HandValue, ...]
     figures: tuple[SessionFigures, ...]
@@ -48,6 +48,9 @@ class ByHandScreen(QWidget):
         self._theme, self._today = theme, today
         self.record = HandRecord("", "right", (), (), "")
         self._more: set[str] = set()
+        self._written: dict[tuple[Key, date], HandValue] = {}
+        """Of other days and the other hand, not kept yet: it stays written until it is saved or let go."""
+        self._shown: tuple[Side, date] = ("right", today)
         self.title = heading(theme, wrap=True)
         self.basis = Text(theme, "", 16, REGULAR, "text2", wrap=True)
         self.day = QDateEdit(QDate(today.year, today.month, today.day))
@@ -67,8 +70,8 @@ class ByHandScreen(QWidget):
         self.chart = HandChart(theme)
         self._changes = Card(theme, 20)
         self._lay_out()
-        self.day.dateChanged.connect(lambda _: self._fill())
-        self.hand.chosen.connect(lambda _: self._fill())
+        self.day.dateChanged.connect(lambda _: self._turn())
+        self.hand.chosen.connect(lambda _: self._turn())
         self.form.edited.connect(self._edited)
         self.form.chosen.connect(self._show_course)
         self.more.activated.connect(self._add)
@@ -142,21 +145,41 @@ class ByHandScreen(QWidget):
     def has_unsaved(self) -> bool:
         """Whether something is written that is not stored."""
         try:
-            return bool(self.form.differing(self.record.values, self.side, self.day_shown))
+            return bool(self._unsaved())
         except ValueError:
             return True
+
+    def _unsaved(self) -> list[HandValue]:
+        """All that is written and not kept, of every day and hand. Raises ValueError for what cannot be kept."""
+        side, day = self._shown
+        here = self.form.differing(self.record.values, side, day)
+        shown = {(key, day) for row in self.form.rows.values() for key in row.keys(side)}
+        return [*(one for at, one in self._written.items() if at not in shown), *here]
+
+    def _turn(self) -> None:
+        """To another day or hand; what is written stays written. What cannot be kept is put right first."""
+        if self.form.problems():
+            self._choose(*self._shown)
+            return
+        self._written = {(one.key, one.day): one for one in self._unsaved()}
+        self._fill()
+
+    def _choose(self, side: Side, day: date) -> None:
+        """Set day and hand without their signals."""
+        for widget in (self.day, self.hand):
+            widget.blockSignals(True)
+        self.day.setDate(QDate(day.year, day.month, day.day))
+        self.hand.choose(side)
+        for widget in (self.day, self.hand):
+            widget.blockSignals(False)
 
     def show_record(self, record: HandRecord, *, again: bool = False) -> None:
         """Everything of one patient; ``again`` after saving, where day and hand stay."""
         self.record = record
+        self._written = {}
         if not again:
             self._more = set()
-            for widget in (self.day, self.hand):
-                widget.blockSignals(True)
-            self.day.setDate(QDate(self._today.year, self._today.month, self._today.day))
-            self.hand.choose(record.side)
-            for widget in (self.day, self.hand):
-                widget.blockSignals(False)
+            self._choose(record.side, self._today)
         self._fill()
         if again:
             self.state.setText(self.tr("Kept."))
@@ -166,9 +189,10 @@ class ByHandScreen(QWidget):
         return self.form.first() if self.form.rows else self
 
     def _fill(self) -> None:
+        self._shown = (self.side, self.day_shown)
         usual = {one.id for one in MEASURES if one.usual_form}
         self.form.set_measures(usual | {one.measure for one in self.record.values} | self._more)
-        self.form.show_values(self.record.values, self.side, self.day_shown, self._of_carpus())
+        self.form.show_values(self._with_written(), self.side, self.day_shown, self._of_carpus())
         self._fill_more()
         self.title.setText(self.tr("Measured by hand, {day}").format(day=numbers.short_date(self.day_shown)))
         by = self.tr("By {initials}.").format(initials=self.record.initials) if self.record.initials else ""
@@ -178,6 +202,9 @@ class ByHandScreen(QWidget):
         self._show_course(shown if shown in self.form.rows else next(iter(self.form.rows)))
         self._fill_changes()
         self._edited()
+
+    def _with_written(self) -> tuple[HandValue, ...]:
+        return (*self.record.values, *self._written.values())
 
     def _fill_more(self) -> None:
         self.more.clear()
@@ -192,7 +219,7 @@ class ByHandScreen(QWidget):
             return
         self._more.add(name)
         self.form.set_measures({*self.form.rows, name})
-        self.form.rows[name].show(self.record.values, self.side, self.day_shown, self._of_carpus().get(name))
+        self.form.rows[name].show(self._with_written(), self.side, self.day_shown, self._of_carpus().get(name))
         self._fill_more()
         self._show_course(name)
         self.form.rows[name].fields[0][1].setFocus(Qt.FocusReason.OtherFocusReason)
@@ -245,14 +272,16 @@ class ByHandScreen(QWidget):
     # --- entering -----------------------------------------------------------------------------------------
     def _edited(self) -> None:
         problems = self.form.problems()
+        elsewhere = [one for (_, day), one in self._written.items() if (one.side, day) != self._shown and one.side]
         doubts = self.form.doubts()
         self.state.setText(
             f"{problems[0][0].accessibleName()}: {problems[0][1]}" if problems
             else doubts[0] if doubts
+            else self.tr("Written and not kept yet: also the other hand or another day.") if elsewhere
             else self.tr("Kept with initials and time; every later change stays readable.")
         )  # fmt: skip
         self.save_button.setEnabled(not problems and self.has_unsaved)
 
     def _save(self) -> None:
         if not self.form.problems():
-            self.save.emit(self.form.differing(self.record.values, self.side, self.day_shown), self.form.doubts())
+            self.save.emit(self._unsaved(), self.form.doubts())

@@ -11,7 +11,7 @@ from pathlib import Path
 from PySide6.QtCore import QBuffer, QByteArray, QIODevice, QMarginsF, QSizeF
 from PySide6.QtGui import QGuiApplication, QPageLayout, QPageSize, QPainter, QPdfWriter
 
-from carpus.core.by_hand.values import HandValue, counted
+from carpus.core.by_hand.values import HandValue, of_session
 from carpus.core.camera_calibration.sheet import Sheet
 from carpus.core.errors import DiskFull, OutputExists, OutputNotWritable
 from carpus.core.output.joint_content import joint_curves
@@ -90,9 +90,7 @@ def session_report(
         settings_digest=hashlib.sha256(session.header.parameters.encode()).hexdigest(),
         revision=str(made_by.get("revision") or ""),
         recording_digest=str(source.get("sha256") or ""),
-        by_hand=tuple(
-            one for one in counted(by_hand) if one.day == figures.when.date() and one.side in (figures.side, "")
-        ),
+        by_hand=of_session(by_hand, figures.side, figures.when.date()),
     )
 
 
