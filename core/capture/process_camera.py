@@ -194,7 +194,7 @@ class ProcessCamera:
                     first = self._first_picture() if opened else None
                 if opened is None or first is None:
                     return None
-                if opened.modes != self._opened.modes:
+                if opened.modes != self._opened.modes or _serial(opened) != _serial(self._opened):
                     raise CameraUnsuited(self._info.name, "another camera was plugged in")
                 self._opened = opened
                 away_s = time.monotonic() - self._last_frame_s
@@ -234,6 +234,11 @@ class ProcessCamera:
         settings = {**opened.settings, "mirrored": "turned back" if turned else "no"}
         seen = replace(found, sensor=self.depth_sensor(opened))
         return SourceInfo(name, seen, True, None, float(opened.modes[Sensor.COLOR].fps), settings)
+
+
+def _serial(opened: Opened) -> str:
+    """Empty where the camera does not tell it."""
+    return opened.settings.get("serial", "")
 
 
 def _layout(opened: Opened) -> Layout:

@@ -32,6 +32,11 @@ def library() -> Any:
     return pyrealsense2
 
 
+def load_library() -> None:
+    """Load the library and no more, to see whether it can be; raises :class:`DriverMissing`."""
+    library()
+
+
 @dataclass(frozen=True, slots=True)
 class Streams:
     """The chosen colour profile and depth profile (None without depth), and which sensor opens which."""

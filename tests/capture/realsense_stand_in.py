@@ -1,7 +1,8 @@
 """The maker's library without a camera: its software device with the pictures of a simulated hand, or plain ones.
 
 :func:`plugged_in` runs in the capture process, in place of the bus. What happens to the camera is told by files in a
-folder: ``unplugged`` (it is not found, and sends nothing), ``crash`` (the driver takes its process down).
+folder: ``unplugged`` (it is not found, and sends nothing), ``crash`` (the driver takes its process down), ``other``
+(another one is there).
 """
 
 from __future__ import annotations
@@ -19,6 +20,7 @@ import pyrealsense2 as rs
 
 WIDTH, HEIGHT, FPS = 640, 480, 30
 PERIOD_MS = 1000.0 / FPS
+SERIAL, OTHER_SERIAL = "815412070123", "815412070124"
 FX, DEPTH_FX, SHIFT_M = 525.0, 470.0, 0.015
 """Focal lengths of colour and depth in pixels, and how far right of the colour camera the depth camera sits."""
 EDGE_PX, NEAR_MM = 320, 700
@@ -30,10 +32,10 @@ AUTO_EXPOSURE, AUTO_KELVIN = 220.0, 5200.0
 class StandIn:
     """One software device with a colour and a depth sensor."""
 
-    def __init__(self, fx: float = 525.0, depth_fx: float = 525.0, shift_m: float = 0.0) -> None:
+    def __init__(self, fx: float = 525.0, depth_fx: float = 525.0, shift_m: float = 0.0, serial: str = SERIAL) -> None:
         self.device = rs.software_device()
         self.device.register_info(rs.camera_info.name, "Intel RealSense D435")
-        self.device.register_info(rs.camera_info.serial_number, "815412070123")
+        self.device.register_info(rs.camera_info.serial_number, serial)
         self.device.register_info(rs.camera_info.firmware_version, "5.12.1.0")
         self.device.register_info(rs.camera_info.recommended_firmware_version, "5.16.0.1")
         self.device.register_info(rs.camera_info.usb_type_descriptor, "3.2")
@@ -93,7 +95,7 @@ def plugged_in(folder: Path) -> Any:
     context = rs.context()
     if (folder / "unplugged").exists():
         return context
-    camera = StandIn(FX, DEPTH_FX, SHIFT_M)
+    camera = StandIn(FX, DEPTH_FX, SHIFT_M, OTHER_SERIAL if (folder / "other").exists() else SERIAL)
     found: list[Any] = []
     context.set_devices_changed_callback(lambda change: found.append(change.get_new_devices()))
     camera.device.add_to(context)

@@ -25,6 +25,7 @@ from carpus.core.errors import (
     CameraLost,
     CameraMissing,
     CameraReturned,
+    CameraUnsuited,
     CarpusFault,
     ExtraMissing,
     RecordingDamaged,
@@ -144,6 +145,15 @@ def test_a_camera_streams_is_lost_and_comes_back(
     times_s = [frame.timestamp_s for frame in [*first, *rest]]
     assert all(later > earlier for earlier, later in pairwise(times_s))
     assert sum(frame.dropped_before for frame in rest) > 0
+
+
+def test_another_camera_of_the_kind_does_not_take_over(camera: RealSenseCamera, tmp_path: Path) -> None:
+    frames = camera.frames()
+    next(frames)
+    (tmp_path / "other").touch()
+    (tmp_path / "crash").touch()
+    with pytest.raises(CameraUnsuited):
+        list(frames)
 
 
 def test_exposure_and_white_balance_are_held_as_they_look(camera: RealSenseCamera) -> None:
