@@ -14,7 +14,7 @@ from carpus.core.errors import CarpusFault
 from carpus.core.library.exercise_sets import USUAL_SETS, ExerciseSet, keep_sets, next_part, read_sets
 from carpus.core.library.library import Library
 from carpus.core.library.set_up import SetUp
-from carpus.ui import numbers
+from carpus.ui import numbers, terms
 from carpus.ui.live.glance import Glance
 from carpus.ui.live.screen import LiveScreen
 from carpus.ui.setup.exercise import ExerciseScreen
@@ -134,7 +134,7 @@ class CourseRun(QObject):
         words = course_words(course)
         if self.resting:
             rest = self.tr("Rest {time}; Space begins at once.").format(time=numbers.clock(self._rest_left_s))
-            words = f"{rest} {words}"
+            words = f"{rest} {words}. {terms.exercise_position(set_up.exercise.id)}"
         self._live.show_course(words)
 
     def _follow(self, glance: Glance) -> None:

@@ -6,6 +6,7 @@ import math
 from collections.abc import Callable
 
 from PySide6.QtCore import QObject
+from PySide6.QtGui import QGuiApplication
 from PySide6.QtWidgets import QApplication, QWidget
 
 from carpus.core.library.set_up import SetUp
@@ -27,6 +28,9 @@ class PatientViewing(QObject):
         self._sounded = 0
         self._rests = False
         self.window: PatientWindow | None = None
+        application = QGuiApplication.instance()
+        if isinstance(application, QGuiApplication):
+            application.screenRemoved.connect(self._screen_gone)
         live.patient_wanted.connect(self.toggle)
         live.glanced.connect(self._follow)
 
@@ -52,6 +56,11 @@ class PatientViewing(QObject):
         """Let it go; may be called although it is not there."""
         if self.window is not None:
             self.window.close()
+
+    def _screen_gone(self, _: object) -> None:
+        """A screen was unplugged: what filled it must not cover the therapist's."""
+        if self.window is not None and self.window.isFullScreen():
+            self.close()
 
     def begin(self, set_up: SetUp) -> None:
         """An exercise is shown live from now on."""

@@ -197,3 +197,9 @@ def test_a_therapist_makes_names_and_chooses_a_set(qtbot: QtBot, theme: Theme) -
     assert [part.exercise.id for part in chosen.course.parts] == ["FREE", "WRIST_FE"]
     assert chosen.exercise.id == "FREE"
     assert chosen.course.name == "Mine"
+    sheet.begin((*USUAL_SETS, OWN), "wrist6", "own")
+    sheet.delete.click()
+    assert "Press again" in sheet.delete.text()
+    with qtbot.waitSignal(sheet.kept) as kept:
+        sheet.delete.click()
+    assert kept.args[0] == USUAL_SETS

@@ -88,6 +88,7 @@ class SetSheet(Sheet):
         self._sets: list[ExerciseSet] = []
         self._now: ExerciseSet | None = None
         self._discs = ""
+        self._sure = False
         self.rows: list[PartRow] = []
         self.which = QComboBox()
         self.which.setAccessibleName(self.tr("Set"))
@@ -166,6 +167,8 @@ class SetSheet(Sheet):
         known = next((one for one in self._own() if one.set_id == self.which.currentData()), None)
         first = exercises_of(protocol_named(self._discs))[0]
         self._now = known or ExerciseSet(new_set_id(), "", self._discs, (CoursePart(first),))
+        self._sure = False
+        self.delete.set_face(self.tr("Delete this set"))
         self.delete.setEnabled(known is not None)
         self.name.setText(self._now.name)
         self._show_parts(self._now.parts)
@@ -240,6 +243,10 @@ class SetSheet(Sheet):
 
     def _delete(self) -> None:
         assert self._now is not None
+        if not self._sure:
+            self._sure = True
+            self.delete.set_face(self.tr("Delete “{name}”? Press again").format(name=self._now.name))
+            return
         self._sets = [one for one in self._sets if one.set_id != self._now.set_id]
         self.kept.emit(tuple(self._sets), "")
         self._fill("")
