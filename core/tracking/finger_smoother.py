@@ -125,14 +125,12 @@ class FingerWalk:
         assert after is not None
         forgetting = self.model.forgetting(now.mean, after.unseen_s, dt_s)
         forward, noise = self.model.motion.step(dt_s, after.scale, forgetting)
-        moving, later_mean = np.arange(RATES.stop), later.mean
+        moving = np.arange(RATES.stop)
         for ray in np.flatnonzero(after.anew):
             # Nothing of the joints passes through: only what the later frames say of the anatomy goes back.
             forward[ray][moving] = 0.0
             noise[ray][moving, moving] = 1.0
-            later_mean = later_mean.copy()
-            later_mean[ray, moving] = 0.0
-        apart = later_mean - (forward @ now.mean[..., None])[..., 0]
+        apart = later.mean - (forward @ now.mean[..., None])[..., 0]
         return Passage(now.covariance, forward, noise, apart, later.covariance)
 
     def moved(self, now: _RayBelief, correction: FloatArray, covariance: FloatArray) -> _RayBelief:

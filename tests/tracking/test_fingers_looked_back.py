@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from functools import lru_cache
 
 import numpy as np
@@ -12,7 +13,11 @@ from carpus.core.hand.sites import joint_angle_names
 from carpus.core.pipeline.track import from_neutral, learnt_from
 from carpus.core.simulation.measurements import MeasurementSequence, measurement_sequence
 from carpus.core.simulation.spec import RecordingSpec
+from carpus.core.tracking.finger_smoother import FingerWalk, _Filtered
+from carpus.core.tracking.hand_geometry import RAYS, SLOTS
+from carpus.core.tracking.ray_filter import ANATOMY, RATES
 from carpus.core.tracking.settings import TrackerSettings
+from carpus.core.tracking.smoother import Smoother
 from carpus.core.tracking.tracker import Tracker
 from carpus.core.types import FloatArray
 from tests.accuracy.carpus import measured_hand
@@ -80,6 +85,50 @@ def test_what_is_forgotten_leaves_no_steps_of_the_fingers_behind() -> None:
         tracker.forget()
         tracker.step(i, float(blobs.truth.timestamp_s[i]), blobs.detections[i])
     assert len(tracker.history) == len(tracker._finger_history) == 1
+
+
+def test_past_a_ray_found_anew_only_its_anatomy_is_carried_back_and_past_a_break_nothing() -> None:
+    blobs = sequence()
+    hand, _ = measured_hand(blobs, CalibrationSettings())
+    assert hand.calibration is not None
+    tracker = Tracker(hand.calibration, blobs.truth.camera, TrackerSettings())
+    for i in range(3):
+        tracker.step(i, float(blobs.truth.timestamp_s[i]), blobs.detections[i])
+    tracker.smoothed()
+    found = tracker._looked_back
+    assert found is not None
+    assert tracker._fingers is not None
+    first, middle, last = found.filtered
+    assert first is not None
+    assert middle is not None
+    assert last is not None
+    ray, joints = 2, slice(0, RATES.stop)
+
+    def back(second: _Filtered, moved_rad: float = 0.0, longer_m: float = 0.0) -> tuple[FloatArray, FloatArray]:
+        """Mean and covariance of the ray in the first frame, with the last one's joints and bones moved."""
+        mean = last.mean.copy()
+        mean[ray, :SLOTS] += moved_rad
+        mean[ray, ANATOMY.start] += longer_m
+        walk = FingerWalk(tracker._fingers.model, found.steps, [first, second, replace(last, mean=mean)])
+        belief = dict(Smoother(walk).backwards())[0]
+        assert belief is not None
+        return belief.mean[ray], belief.covariance[ray]
+
+    anew = replace(middle, anew=np.arange(RAYS) == ray)
+    assert np.abs(back(middle, moved_rad=0.1)[0] - back(middle)[0])[:SLOTS].max() > 1e-4
+    through, alone = back(anew), back(replace(middle, is_linked=False))
+    moved = back(anew, longer_m=0.01)
+    assert np.abs(moved[0] - through[0])[ANATOMY].max() > 1e-5, "bones stay the same bones"
+    assert np.array_equal(alone[0], first.mean[ray])
+    assert (np.diagonal(through[1])[ANATOMY] <= np.diagonal(alone[1])[ANATOMY] * (1.0 + 1e-9)).all()
+    flexed = replace(middle, mean=middle.mean.copy(), anew=anew.anew)
+    flexed.mean[ray, joints] += 0.2
+    held = [dict(Smoother(FingerWalk(tracker._fingers.model, found.steps, [first, two, None])).backwards())[0]
+            for two in (anew, flexed)]  # fmt: skip
+    assert held[0] is not None
+    assert held[1] is not None
+    assert np.array_equal(held[0].mean[ray], held[1].mean[ray]), "where its joints were found says nothing of before"
+    assert np.linalg.eigvalsh(held[0].covariance).min() > 0.0
 
 
 @pytest.mark.parametrize("gap_s", [0.25, 0.4, 1.0, 2.5])
