@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -71,3 +72,31 @@ def test_one_picture_is_taken_for_little_and_the_other_rays_stay() -> None:
     others = np.delete(np.arange(RAYS), INDEX)
     assert np.allclose(once.mean[others], bank.mean[others])
     assert np.allclose(once.covariance[others], bank.covariance[others])
+
+
+def test_what_is_said_is_never_surer_than_frames_that_err_alike() -> None:
+    usual = FingerDepthSettings()
+    found = knuckle_bends([INDEX], states(), RIGHT_PALM_M[1:], VIEW, readings(50.0), usual)
+    single = knuckle_bends(
+        [INDEX], states(), RIGHT_PALM_M[1:], VIEW, readings(50.0), replace(usual, alike=1.0, least_sd_rad=0.0)
+    )
+    assert found.variance_rad2[INDEX] >= 0.99 * usual.alike * usual.least_sd_rad**2
+    assert single.variance_rad2[INDEX] < usual.least_sd_rad**2
+
+
+def covered(at: float, off_m: float) -> SurfaceSamples:
+    """A finger bent by 50 degrees, its end beyond a share of its length read ``off_m`` too far."""
+    bare = readings(50.0)
+    in_w = (CAMERA.back_project(bare.pixel, np.full(len(bare.pixel), MIDDLE_M[2])) - MIDDLE_M) @ FROM_ABOVE
+    reach = RIGHT_PALM_M[2, 0] + at * LENGTH_M * math.cos(math.radians(50.0))
+    hit = (in_w[:, 0] > reach) & (np.abs(in_w[:, 1] - RIGHT_PALM_M[2, 1]) < 0.008)
+    return SurfaceSamples(bare.pixel, bare.depth_m + off_m * hit)
+
+
+def test_where_the_table_is_seen_past_its_place_a_finger_is_not_and_what_is_before_it_may_be_another() -> None:
+    past, before = (
+        knuckle_bends([INDEX], states(), RIGHT_PALM_M[1:], VIEW, covered(0.75, off_m), FingerDepthSettings())
+        for off_m in (0.03, -0.03)
+    )
+    assert math.degrees(past.value_rad[INDEX]) > 70.0, "so it is bent out of the way"
+    assert not before.is_any

@@ -9,7 +9,14 @@ import pytest
 
 from carpus.core.hand.anatomy import HARD_LIMITS_RAD
 from carpus.core.tracking.hand_geometry import CONSTANTS, RAYS, SLOTS
-from carpus.core.tracking.joint_limits import LimitSettings, constrained, outside_limits, slot_limits_rad
+from carpus.core.tracking.joint_limits import (
+    MID_RANGE_RAD,
+    RANGE_SD_RAD,
+    LimitSettings,
+    constrained,
+    outside_limits,
+    slot_limits_rad,
+)
 from carpus.core.tracking.kernel import Bank
 
 SIZE = SLOTS + CONSTANTS
@@ -93,3 +100,28 @@ def test_what_lies_outside_is_told_with_its_sign() -> None:
     assert off[INDEX, 2] == pytest.approx(5.0)
     assert off[2, 1] == pytest.approx(-5.0)
     assert np.count_nonzero(off) == 2
+
+
+def test_the_end_joint_is_what_its_slot_adds_to_its_share_of_the_middle_one() -> None:
+    low, high = HARD_LIMITS_RAD["DIP2_flexion"]
+    slots = np.zeros((RAYS, SLOTS))
+    slots[INDEX, 2] = math.radians(60.0)
+    slots[INDEX, 3] = high - math.radians(40.0) + math.radians(7.0)
+    assert np.degrees(outside_limits(slots)[INDEX, 3]) == pytest.approx(7.0)
+    slots[INDEX, 3] = low - math.radians(40.0) - math.radians(7.0)
+    assert np.degrees(outside_limits(slots)[INDEX, 3]) == pytest.approx(-7.0)
+
+
+def test_what_is_known_of_an_angle_by_its_limits_alone() -> None:
+    low, high = HARD_LIMITS_RAD["MCP3_flexion"]
+    assert MID_RANGE_RAD[2, 1] == pytest.approx(0.5 * (low + high))
+    assert RANGE_SD_RAD[2, 1] == pytest.approx((high - low) / math.sqrt(12.0))
+    assert not MID_RANGE_RAD[1:, 3].any(), "the end joint follows"
+
+
+@pytest.mark.parametrize("pip_deg", [112.0, 118.0])
+def test_a_limit_is_felt_from_three_standard_deviations_off(pip_deg: float) -> None:
+    """125 degrees less 3 times 5 and the step of 3."""
+    angle, _ = pulled(pip_deg, 5.0)
+    assert angle < pip_deg
+    assert pulled(104.0, 5.0)[0] == pytest.approx(104.0, abs=1e-9)

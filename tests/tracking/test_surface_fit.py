@@ -12,10 +12,10 @@ from carpus.core import so3
 from carpus.core.depth_sensor import AZURE_KINECT, D435, PRIMESENSE, DepthSensor
 from carpus.core.hand.back_surface import BackSurface, BackSurfaceSettings, back_surface_from
 from carpus.core.tracking.kernel import Bank
-from carpus.core.tracking.palm_state import POSITION, SIZE, TURN, PalmBelief
+from carpus.core.tracking.palm_state import POSITION, RELIEF, SIZE, TURN, PalmBelief
 from carpus.core.tracking.palm_view import View
 from carpus.core.tracking.shape_learning import shape_shares
-from carpus.core.tracking.surface_fit import SurfaceSettings, levelled_bank, surface_measurement
+from carpus.core.tracking.surface_fit import SurfaceMeasurement, SurfaceSettings, levelled_bank, surface_measurement
 from carpus.core.types import FloatArray, SurfaceSamples
 from tests.tracking.hands import CAMERA, FROM_ABOVE, MIDDLE_M, RIGHT_PALM_M
 
@@ -67,6 +67,7 @@ def test_a_wrong_pose_is_measured_as_wrong_as_it_is(surface: BackSurface, seed: 
     believed = belief_at(rotation @ so3.exp(turn), position + shift)
     found = surface_measurement(believed, place_on(rotation, position), surface, VIEW, SurfaceSettings())
     assert found is not None
+    assert np.array_equal(found.slope[:, RELIEF], np.eye(3)), "what the relief has changed is read as well"
     error = believed.error_to(belief_at(rotation, position))
     assert found.value == pytest.approx(found.slope @ error, abs=6e-4)
     assert abs(found.value[0]) > 1e-3 or abs(turn[0]) < 2e-3
@@ -137,6 +138,53 @@ def test_a_covered_hand_is_not_asked(surface: BackSurface) -> None:
     assert surface_measurement(here, covered, surface, VIEW, SurfaceSettings()) is None
     nothing = SurfaceSamples(np.empty((0, 2)), np.empty(0))
     assert surface_measurement(here, nothing, surface, VIEW, SurfaceSettings()) is None
+
+
+def fitted(surface: BackSurface, samples: SurfaceSamples, settings: SurfaceSettings) -> SurfaceMeasurement:
+    """From a pose 3 degrees and a millimetre off."""
+    believed = belief_at(so3.exp(np.radians([2.0, -2.0, 0.0])), np.array([0.0, 0.0, 0.001]))
+    found = surface_measurement(believed, samples, surface, VIEW, settings)
+    assert found is not None
+    return found
+
+
+def test_what_is_far_from_the_surface_counts_for_nothing_and_what_is_a_little_off_for_less(
+    surface: BackSurface,
+) -> None:
+    clean, settings = thinned(place_on(np.eye(3), np.zeros(3))), SurfaceSettings()
+    one_side = clean.pixel[:, 1] > np.quantile(clean.pixel[:, 1], 0.85)
+    without = fitted(surface, SurfaceSamples(clean.pixel[~one_side], clean.depth_m[~one_side]), settings)
+    far = fitted(surface, SurfaceSamples(clean.pixel, clean.depth_m - 0.03 * one_side), settings)
+    assert far.count == without.count
+    assert far.value == pytest.approx(without.value, abs=1e-9)
+    whole = fitted(surface, clean, settings).value
+    near = SurfaceSamples(clean.pixel, clean.depth_m - 0.006 * one_side)
+    robust, plain = (fitted(surface, near, replace(settings, huber_m=at_m)).value for at_m in (settings.huber_m, 1.0))
+    assert np.abs(robust - whole).max() < 0.8 * np.abs(plain - whole).max()
+
+
+def test_the_steps_arrive_and_the_stated_floor_is_kept(surface: BackSurface) -> None:
+    clean, settings = thinned(place_on(np.eye(3), np.zeros(3))), SurfaceSettings()
+    found, further = fitted(surface, clean, settings), fitted(surface, clean, replace(settings, steps=8))
+    assert found.value == pytest.approx(further.value, abs=5e-5)
+    bare = replace(settings, turn_sd_rad=0.0, up_sd_m=0.0)
+    floor = found.covariance - fitted(surface, clean, bare).covariance
+    assert floor == pytest.approx(np.diag([0.004**2, 0.004**2, 0.0002**2]), abs=1e-12)
+    wide, wider = (replace(bare, reading_per_m=per_m) for per_m in (0.02, 0.04))
+    ratio = fitted(surface, clean, wider).covariance / fitted(surface, clean, wide).covariance
+    assert ratio == pytest.approx(4.0), "readings that agree are no surer than readings are"
+
+
+def test_too_few_readings_say_nothing(surface: BackSurface) -> None:
+    settings, here = SurfaceSettings(), belief_at(np.eye(3), np.zeros(3))
+    clean = thinned(place_on(np.eye(3), np.zeros(3)))
+    for first in range(1, 800):
+        some = SurfaceSamples(clean.pixel[:first], clean.depth_m[:first])
+        found = surface_measurement(here, some, surface, VIEW, settings)
+        if found is not None:
+            break
+    assert found is not None
+    assert found.count == settings.least
 
 
 @pytest.mark.parametrize(("off_sd", "heard"), [(1.0, True), (5.5, True), (7.0, False), (20.0, False)])
