@@ -18,19 +18,17 @@ from carpus.core.types import ByteImage, FloatArray
 WEDGES = 8
 
 
-EDGE_PX = 6
-"""How far about an edge a sensor's readings are of neither side, where none is asked."""
-
-
 @dataclass(frozen=True, slots=True)
 class StencilSettings:
     """Radii, in disc radii: up to ``core`` the paper's own colour, up to ``reach`` what may belong to the disc, from
-    ``rim_from`` to ``rim_to`` what surrounds it."""
+    ``rim_from`` to ``rim_to`` what surrounds it. ``edge_px``: how far about an edge a sensor's readings are of neither
+    side, where none is asked."""
 
     core: float = 0.62
     reach: float = 1.35
     rim_from: float = 1.35
     rim_to: float = 1.9
+    edge_px: int = 6
 
 
 @dataclass(frozen=True, slots=True)
@@ -56,9 +54,9 @@ class Stencil:
     moments: NDArray[np.float32]
 
 
-def stencil_for(radius_px: float, settings: StencilSettings, edge_px: int = EDGE_PX) -> Stencil:
+def stencil_for(radius_px: float, settings: StencilSettings, edge_px: int | None = None) -> Stencil:
     """The stencil of discs of about this radius (to a quarter of a pixel), for a sensor with edges so wide."""
-    return _stencil(max(4, round(4.0 * radius_px)), settings, edge_px)
+    return _stencil(max(4, round(4.0 * radius_px)), settings, settings.edge_px if edge_px is None else edge_px)
 
 
 @lru_cache(maxsize=64)
