@@ -49,7 +49,7 @@ from carpus.ui.background import Background
 from carpus.ui.by_hand.screen import ByHandScreen
 from carpus.ui.camera_calibration.screen import BoardScreen
 from carpus.ui.check_card.screen import CardScreen
-from carpus.ui.check_card.standing_words import bar_words, card_words, session_words
+from carpus.ui.check_card.standing_words import bar_words, card_words, session_words, unsure_words
 from carpus.ui.correct.results_sheet import ResultsSheet
 from carpus.ui.correct.screen import CorrectScreen
 from carpus.ui.help.screen import HelpScreen
@@ -417,6 +417,9 @@ class Journey(QObject):
             return [self.tr("Simulated camera: nothing here is of a real one.")] if simulated else []
         if self.place in ("markers", "live") and self.now.kind == "camera":
             return [words] if (words := session_words(self.care.standing)) else []
+        figures = self.review.figures
+        if self.place == "review" and self.review.shown and figures is not None:
+            return [words] if (words := unsure_words(*self.care.unsure(figures))) else []
         return []
 
     def _compare_listed(self, session_id: str) -> None:

@@ -28,6 +28,7 @@ from carpus.core.measures.repetitions import Repetition, Uncounted, find_repetit
 from carpus.core.measures.signals import Signal, even_signal, low_pass
 from carpus.core.measures.speed import StrokeMeasures, measure_stroke
 from carpus.core.measures.validity import settled, valid_view, valid_wrist_angles
+from carpus.core.output.camera_said import UNKNOWN_CAMERA, CameraSaid, camera_said
 from carpus.core.output.exercises import SIDES, STILL_RADIUS_MM, Exercise, Movement, exercise_named
 from carpus.core.output.further_measures import (
     FurtherMeasure,
@@ -234,6 +235,8 @@ class SessionFigures:
     """Results of the same recording that were made before this one: they do not count."""
     error_limits: ErrorLimits = DEFAULT_LIMITS
     """Against which its changes are judged."""
+    camera: CameraSaid = UNKNOWN_CAMERA
+    """Which camera it was measured with, and its calibration."""
     corrected: CorrectedFrom | None = None
     """Since when it stands with markers that a person put right; None as measured."""
 
@@ -451,6 +454,7 @@ def session_figures(
         created=datetime.fromisoformat(session.header.created),
         angle_order=session.angle_order,
         error_limits=error_limits,
+        camera=camera_said(session.header.parameters),
         corrected=corrected_from(session),
     )
 

@@ -41,6 +41,13 @@ def session_words(now: Standing) -> str:
     ).format(angle=f"{last.angle_error_deg:.1f}")
 
 
+def unsure_words(lengths: bool, angles: bool) -> str:
+    """Over a session near which a check was out; empty where none was."""
+    if angles:
+        return tr("Angles not sure: a check of this camera near this session was out.")
+    return tr("Lengths not sure: a check of this camera near this session was out; angles hold.") if lengths else ""
+
+
 def card_words(now: Standing) -> tuple[State, str]:
     """For the settings."""
     if not now.serial:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from datetime import datetime
 
 from carpus.core.output.exercises import SIDES, STILL_RADIUS_MM
 from carpus.core.output.report_content import Comparison, SessionFigures, compare
@@ -95,12 +96,26 @@ def method(figures: SessionFigures, markers: int, *, compared: bool) -> str:
         tr("The wrist’s angles are in the order of the ISB.")
         if figures.joint_rows and figures.angle_order == "isb"
         else "",
+        camera_words(figures),
         _sd_words(figures).format(sd=numbers.spread(quality.angle_sd_deg)),
         limit_words(figures.study) if compared else "",
         counted_once_words(figures.earlier_results),
         tr("Carpus measures the hand in the room: it is the wrist only while the forearm rests."),
     ]
     return " ".join(filter(None, sentences))
+
+
+def camera_words(figures: SessionFigures) -> str:
+    """Which calibration of the camera was used, and how old it was; empty where nobody knows which camera it was."""
+    camera = figures.camera
+    if not camera.serial:
+        return ""
+    if not camera.calibrated:
+        return tr("Camera not calibrated with a board.")
+    day = numbers.day_of_year(datetime.fromisoformat(camera.calibrated))
+    if not math.isfinite(camera.age_days):
+        return tr("Camera calibrated {day}.").format(day=day)
+    return tr("Camera calibrated {day}, {days} days before.").format(day=day, days=int(camera.age_days))
 
 
 def _sd_words(figures: SessionFigures) -> str:

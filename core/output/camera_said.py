@@ -1,0 +1,38 @@
+"""What a session says of the camera it was measured with: which one, and its calibration."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+from carpus.core.dates import is_moment
+from carpus.core.provenance import said_in
+
+
+@dataclass(frozen=True, slots=True)
+class CameraSaid:
+    """``serial`` number, empty where nobody knows which camera it was; ``calibrated`` when with a board (ISO 8601),
+    empty for not; ``age_days`` how old the calibration was when the hand moved, NaN without one."""
+
+    serial: str = ""
+    calibrated: str = ""
+    age_days: float = math.nan
+
+
+UNKNOWN_CAMERA = CameraSaid()
+
+
+def camera_said(parameters: str) -> CameraSaid:
+    """What the parameters of a session say.
+
+    >>> camera_said('{"source": {"serial": "77", "calibrated": "2026-11-20T09:00+00:00", "calibration_age_days": "5"}}')
+    CameraSaid(serial='77', calibrated='2026-11-20T09:00+00:00', age_days=5.0)
+    """
+    source = said_in(parameters, "source")
+    calibrated = str(source.get("calibrated") or "")
+    try:
+        age_days = float(str(source.get("calibration_age_days")))
+    except ValueError:
+        age_days = math.nan
+    serial = str(source.get("serial") or "")
+    return CameraSaid(serial, calibrated, age_days) if is_moment(calibrated) else CameraSaid(serial)
