@@ -10,7 +10,6 @@ from carpus.core.camera_calibration.board import Board
 from carpus.core.capture.calibrated import with_stored_calibration
 from carpus.core.capture.camera_info import read_camera_info
 from carpus.core.capture.cameras import open_camera
-from carpus.core.capture.paced import PacedSource
 from carpus.core.capture.source import FrameSource
 from carpus.core.check_card.ages import known_serials
 from carpus.core.check_card.standing import Standing, standing_of
@@ -36,7 +35,7 @@ class CareCameras:
         if practice:
             from carpus.core.simulation.practice_camera import board_camera
 
-            return PacedSource(board_camera(board), self._speed)
+            return board_camera(board, self._speed)
         return open_camera(self._settings.camera.uri)
 
     def for_card(self, *, practice: bool) -> FrameSource:
@@ -45,7 +44,7 @@ class CareCameras:
         if practice:
             from carpus.core.simulation.practice_camera import card_camera
 
-            return with_stored_calibration(PacedSource(card_camera(), self._speed), folder)
+            return with_stored_calibration(card_camera(self._speed), folder)
         named = self._settings.camera.intrinsics
         camera = read_camera_info(Path(named).expanduser()).camera if named else None
         return with_stored_calibration(open_camera(self._settings.camera.uri, camera=camera), folder)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import itertools
 import threading
 from collections.abc import Iterator
+from dataclasses import replace
 from functools import cache
 
 import cv2
@@ -21,26 +22,28 @@ from carpus.core.types import SIMULATED, FloatArray, Frame
 PRACTICE_SERIAL = "practice"
 NAME = "Simulated camera"
 FPS = 5.0
-_STILL_FRAMES = 3
-"""The board is held so long in each place, after one picture on the way."""
+_STILL_FRAMES = 8
+"""The board is held so long in each place, after one picture on the way; it is drawn once for all of them."""
 _DEPTH_SCALE_ERROR, _SEED = 0.03, 21
 _MOST_PICTURES = 24
 """Different pictures of the card; then they come again, as nothing moves."""
 
 
 class PracticeCamera:
-    """Frames without end, not paced, times rising by themselves; ends by :meth:`close`."""
+    """Frames without end, each some time after the one before, as a person holds still for as long as it takes;
+    ``speed`` 2 waits half as long. Ends by :meth:`close`."""
 
-    def __init__(self, pictures: Iterator[Frame]) -> None:
+    def __init__(self, pictures: Iterator[Frame], speed: float = 1.0) -> None:
         settings = {SERIAL: PRACTICE_SERIAL, SIMULATED: "yes"}
         self.info = SourceInfo(NAME, DEFAULT_CAMERA, True, None, FPS, settings)
         self._pictures = pictures
+        self._pause_s = 1.0 / (FPS * speed)
         self._closed = threading.Event()
 
     def frames(self) -> Iterator[Frame]:
         """Frames until :meth:`close`."""
         for frame in self._pictures:
-            if self._closed.is_set():
+            if self._closed.wait(self._pause_s):
                 return
             yield frame
 
@@ -49,14 +52,14 @@ class PracticeCamera:
         self._closed.set()
 
 
-def board_camera(board: Board, seed: int = 5) -> PracticeCamera:
+def board_camera(board: Board, speed: float = 1.0, seed: int = 5) -> PracticeCamera:
     """The board as a person shows it who does what is asked: everywhere, tilted to all sides, near and far."""
-    return PracticeCamera(_board_frames(board, seed))
+    return PracticeCamera(_board_frames(board, seed), speed)
 
 
-def card_camera(seed: int = 9) -> PracticeCamera:
+def card_camera(speed: float = 1.0, seed: int = 9) -> PracticeCamera:
     """The check card as it lies under the camera."""
-    return PracticeCamera(_card_frames(seed))
+    return PracticeCamera(_card_frames(seed), speed)
 
 
 def _board_frames(board: Board, seed: int) -> Iterator[Frame]:
@@ -67,10 +70,12 @@ def _board_frames(board: Board, seed: int) -> Iterator[Frame]:
     before: Placed | None = None
     for around in itertools.count(seed):
         for placed in poses(texture, distances_m=distances_m, seed=around):
-            on_the_way = [] if before is None else [_between(before, placed)]
-            for shown in (*on_the_way, *[placed] * _STILL_FRAMES):
-                yield studio.frame([shown], index, index / FPS)
-                index += 1
+            on_the_way = [] if before is None else [(_between(before, placed), 1)]
+            for shown, times in (*on_the_way, (placed, _STILL_FRAMES)):
+                drawn = studio.frame([shown], index, index / FPS)
+                for _ in range(times):
+                    yield replace(drawn, index=index, timestamp_s=index / FPS)
+                    index += 1
             before = placed
 
 
@@ -81,7 +86,7 @@ def _card_frames(seed: int) -> Iterator[Frame]:
         if len(made) < _MOST_PICTURES:
             made.append(studio.frame(scene, index, index / FPS))
         kept = made[index % _MOST_PICTURES]
-        yield Frame(index, index / FPS, kept.color_rgb, kept.depth_raw, kept.depth_unit_m)
+        yield replace(kept, index=index, timestamp_s=index / FPS)
 
 
 @cache
