@@ -215,7 +215,9 @@ class BoardShowing(QWidget):
         top = 12.0
         if self.simulated:
             words = self.tr("Simulated camera and board")
-            paint_label(painter, self._theme, words, view.width() - label_size(self._theme, words).width() - 12.0, top)
+            size = label_size(self._theme, words)
+            left, low = view.width() - size.width() - 12.0, view.height() - size.height() - 12.0
+            paint_label(painter, self._theme, words, left, low)
         now = self.progress
         if now is None:
             return
