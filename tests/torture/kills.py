@@ -72,7 +72,7 @@ def kill_once(kind: str, number: int, folder: Path) -> Killed:
                 os.kill(child, signal.SIGKILL)
             _said, complaint = program.communicate(timeout=120)
             assert program.returncode == 0, complaint
-            assert "Traceback" not in complaint
+            assert "Traceback" not in complaint, complaint
         else:
             program.send_signal(signal.SIGKILL)
     taken = (folder / "taken").read_bytes()

@@ -145,7 +145,7 @@ class PatientCardView(Card):
         same = row.session_count > 0 and not practice
         self.start_button.set_face(self._start_words(practice, same, camera_ready))
         self.review_button.setEnabled(row.session_count > 0)
-        self.progress_button.setEnabled(row.session_count > 0)
+        self.progress_button.setEnabled(row.session_count > 0 or not practice)  # values by hand come first
         self.sessions_button.setEnabled(row.session_count > 0 or card.has_sessions)
 
     def _start_words(self, practice: bool, same: bool, camera_ready: bool) -> str:

@@ -184,7 +184,9 @@ class ProgressScreen(QWidget):
         other = other_hand_of(self._all, alike[-1]) if alike else None
         what = self.followed.currentData()
         course = progress(alike, other, followed_keys(what) if isinstance(what, str) and what else ())
-        mine = tuple(one for one in self._by_hand if one.side in (alike[-1].side, "")) if alike else ()
+        sides = [one.side for one in self._by_hand if one.side]
+        side = alike[-1].side if alike else sides[-1] if sides else ""
+        mine = tuple(one for one in self._by_hand if one.side in (side, ""))
         self.progress = replace(course, by_hand=mine)
         self.chart.show_progress(self.progress)
         answer, basis = headline(self.progress)
