@@ -161,6 +161,7 @@ class ProgressScreen(QWidget):
         if asked is not None:
             self.exercise.setCurrentIndex(self._kinds.index((asked.exercise.id, asked.side)))
         self.exercise.blockSignals(False)
+        self.exercise.setVisible(bool(self._kinds))
         self._choose_exercise()
 
     def _alike(self) -> list[SessionFigures]:
