@@ -211,15 +211,15 @@ def test_looking_back_does_not_reach_over_a_new_beginning() -> None:
 def test_looking_back_goes_by_the_step_that_was_made() -> None:
     """Its noise, the turns that nothing showed, the rate that it began with."""
     now, unseen = moving(1), np.diag([1.0, 0.0, 0.0])
-    made = palm_step(now.rate_rad_s, replace(MOTION, scales=np.array([3.0])), 0.1, unseen)
-    later = replace(made.carries(now, 0.1), covariance=moving(2).covariance)
-    steps = [FilterStep(0.0, now, 1.0, False), FilterStep(0.1, later, 3.0, True, unseen)]
+    made = palm_step(now.rate_rad_s, replace(MOTION, scales=np.array([2.0])), 0.1, unseen)
+    later = made.carries(now, 0.1).moved(0.01 * np.ones(SIZE), moving(2).covariance)
+    steps = [FilterStep(0.0, now, 1.0, False), FilterStep(0.1, later, 2.0, True, unseen)]
     walk = PalmWalk(steps, MOTION)
     assert walk.seconds_on(0) == pytest.approx(0.1)
     passage = walk.passage(0, now, later, 0.1)
     assert np.array_equal(passage.forward[0], made.forward)
     assert np.array_equal(passage.noise, made.noise)
-    assert np.allclose(passage.apart, 0.0, atol=1e-12)
+    assert np.allclose(passage.apart, 0.01, atol=1e-12)
 
 
 # --- turns that nothing shows -----------------------------------------------------------------------------
