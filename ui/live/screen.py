@@ -224,7 +224,7 @@ class LiveScreen(QWidget):
     def eventFilter(self, watched: QObject, event: QEvent) -> bool:
         """The question keeps its place on the picture."""
         if watched is self.picture and event.type() == QEvent.Type.Resize:
-            QTimer.singleShot(0, self.question.place)  # when the picture has its new place
+            QTimer.singleShot(0, self._place_question)  # when the picture has its new place
         return super().eventFilter(watched, event)
 
     def _fit(self) -> None:
@@ -243,7 +243,7 @@ class LiveScreen(QWidget):
         least_px = LEAST_SCREEN_PX * self._theme.text_scale
         self.bubble.give_room(self.height() >= least_px and not (tight and self._whole_hand))
         self.curves.show_single(tight)
-        self.question.place()
+        self._place_question()
         for button, hint in ((self.note, "F5"), (self.pain, "F6"), (self.pause, "F7")):
             button.set_face(button.text(), hint="" if tight else hint)
         self._show_buttons()
@@ -434,6 +434,12 @@ class LiveScreen(QWidget):
         self.doubt = doubt
         if self.question.ask(doubt, self.now_s):
             self._arm_keys()
+            self._place_question()
+
+    def _place_question(self) -> None:
+        """A question over the head of the picture takes the place of the button there, whose key goes on working."""
+        self.question.place()
+        self.patient.setVisible(self.question.isHidden() or self.question.y() > self.patient.geometry().bottom())
 
     def _arm_keys(self) -> None:
         """While a question stands its keys answer it, and do nothing else."""
