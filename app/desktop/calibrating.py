@@ -20,6 +20,7 @@ from carpus.core.camera_calibration.gather import Gathering
 from carpus.core.camera_calibration.guidance import ASKED_VIEWS, next_step, target_outline
 from carpus.core.camera_calibration.keep import keep_calibration, stored_of
 from carpus.core.capture.calibrated import SERIAL, stored_calibration
+from carpus.core.capture.notice import Notice
 from carpus.core.capture.source import FrameSource, SourceInfo, is_simulated
 from carpus.core.errors import BoardMissing, BoardViewsAlike, CameraLost, CarpusFault
 from carpus.core.pipeline.channels import Newest
@@ -36,7 +37,7 @@ from carpus.ui.report.pdf import write_sheets
 class BoardCameras(Protocol):
     """Opens the camera that looks at the board."""
 
-    def for_board(self, board: Board, *, practice: bool) -> FrameSource: ...
+    def for_board(self, board: Board, notice: Notice, *, practice: bool) -> FrameSource: ...
 
     def folder(self, *, practice: bool) -> Path:
         """Where what is known of it is kept."""
@@ -161,7 +162,7 @@ class Calibrating(QObject):
 
             return look
 
-        self.hand.open(lambda: self._cameras.for_board(choice.board, practice=choice.practice), looker)
+        self.hand.open(lambda notice: self._cameras.for_board(choice.board, notice, practice=choice.practice), looker)
 
     def _opened(self, info: SourceInfo) -> None:
         self._info = info

@@ -8,8 +8,9 @@ from collections.abc import Callable
 
 from PySide6.QtCore import QObject, QTimer, Signal
 
+from carpus.core.capture.notice import Notice
 from carpus.core.capture.source import FrameSource, SourceInfo
-from carpus.core.errors import CameraLost
+from carpus.core.errors import CameraLost, CarpusFault
 from carpus.core.pipeline.live import LiveSession
 from carpus.core.types import Frame
 from carpus.ui.background import Background
@@ -52,14 +53,18 @@ class CameraAtHand(QObject):
         """Whether a camera is open, or being opened."""
         return self._session is not None or self._number > 0
 
-    def open(self, source: Callable[[], FrameSource], looker: Callable[[SourceInfo], Look]) -> None:
-        """Open what ``source`` gives and have every newest picture looked at by what ``looker`` gives."""
+    def open(self, source: Callable[[Notice], FrameSource], looker: Callable[[SourceInfo], Look]) -> None:
+        """Open what ``source`` gives, which tells by its notice when the camera is away, and have every newest picture
+        looked at by what ``looker`` gives."""
         self.close()
         self._number = abs(self._number) + 1
         number = self._number
 
         def make() -> None:
-            session = LiveSession(source())
+            told: list[CarpusFault] = []
+            heard: list[Notice] = [told.append]  # until there is a session to be told
+            session = LiveSession(source(lambda fault: heard[-1](fault)))
+            heard.append(session.notice)
             self._made.append(session)
             session.start()
 
@@ -113,7 +118,8 @@ class CameraAtHand(QObject):
                 look(frame)
         except Exception as fault:  # the one catch at the top of this thread
             log.exception("looking at the camera")
-            self._fault = fault
+            if not ending.is_set():
+                self._fault = fault
 
     def _pull(self) -> None:
         """What happened since the last time, in the window's thread."""

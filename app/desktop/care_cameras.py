@@ -10,6 +10,7 @@ from carpus.core.camera_calibration.board import Board
 from carpus.core.capture.calibrated import with_stored_calibration
 from carpus.core.capture.camera_info import read_camera_info
 from carpus.core.capture.cameras import open_camera
+from carpus.core.capture.notice import Notice
 from carpus.core.capture.source import FrameSource
 from carpus.core.check_card.ages import known_serials
 from carpus.core.check_card.standing import Standing, standing_of
@@ -30,16 +31,16 @@ class CareCameras:
         folder = self._settings.data_folder
         return folder / PRACTICE_FOLDER if practice else folder
 
-    def for_board(self, board: Board, *, practice: bool) -> FrameSource:
-        """As the camera says itself, without what was calibrated before."""
+    def for_board(self, board: Board, notice: Notice, *, practice: bool) -> FrameSource:
+        """As the camera says itself, without what was calibrated before; ``notice`` hears when it is away."""
         if practice:
             from carpus.core.simulation.practice_camera import board_camera
 
             return board_camera(board, self._speed)
-        return open_camera(self._settings.camera.uri)
+        return open_camera(self._settings.camera.uri, notice=notice)
 
-    def for_card(self, *, practice: bool) -> FrameSource:
-        """As a session would have it, with what was calibrated."""
+    def for_card(self, notice: Notice, *, practice: bool) -> FrameSource:
+        """As a session would have it, with what was calibrated; ``notice`` hears when it is away."""
         folder = self.folder(practice=practice)
         if practice:
             from carpus.core.simulation.practice_camera import card_camera
@@ -47,7 +48,8 @@ class CareCameras:
             return with_stored_calibration(card_camera(self._speed), folder)
         named = self._settings.camera.intrinsics
         camera = read_camera_info(Path(named).expanduser()).camera if named else None
-        return with_stored_calibration(open_camera(self._settings.camera.uri, camera=camera), folder)
+        live = open_camera(self._settings.camera.uri, camera=camera, notice=notice)
+        return with_stored_calibration(live, folder)
 
     def serial(self, *, practice: bool) -> str:
         """The number of the camera that was met last; before, of the only one that anything is known of."""

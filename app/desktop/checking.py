@@ -17,6 +17,7 @@ from carpus.app.desktop.last_places import LastPlaces
 from carpus.app.desktop.ways import Tell, Way
 from carpus.core.camera_calibration.sheet import PAPER_MM
 from carpus.core.capture.calibrated import SERIAL
+from carpus.core.capture.notice import Notice
 from carpus.core.capture.source import FrameSource, SourceInfo
 from carpus.core.check_card.card import card_sheets
 from carpus.core.check_card.chart import add_check, chart_path, check_of, read_checks
@@ -37,7 +38,7 @@ from carpus.ui.report.pdf import write_sheets
 class CardCameras(Protocol):
     """Opens the camera that looks at the card, as a session would."""
 
-    def for_card(self, *, practice: bool) -> FrameSource: ...
+    def for_card(self, notice: Notice, *, practice: bool) -> FrameSource: ...
 
     def folder(self, *, practice: bool) -> Path:
         """Where what is known of it is kept."""
@@ -151,7 +152,7 @@ class Checking(QObject):
 
             return look
 
-        self.hand.open(lambda: self._cameras.for_card(practice=practice), looker)
+        self.hand.open(lambda notice: self._cameras.for_card(notice, practice=practice), looker)
 
     def _failed(self, fault: Exception) -> None:
         self.back()

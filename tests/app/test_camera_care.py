@@ -13,9 +13,13 @@ from PySide6.QtWidgets import QApplication, QFileDialog
 from pytestqt.qtbot import QtBot
 
 from carpus.app.compose import Desktop, application, compose
+from carpus.app.desktop import care_cameras
 from carpus.app.settings import RecordingSettings, ScreenSettings, Settings
+from carpus.core.camera import Camera
 from carpus.core.camera_calibration import guidance
 from carpus.core.capture.calibrated import stored_calibration
+from carpus.core.capture.notice import Notice
+from carpus.core.capture.source import FrameSource
 from carpus.core.check_card import measure
 from carpus.core.check_card.chart import add_check, chart_path, read_checks
 from carpus.core.errors import CameraLost
@@ -143,3 +147,16 @@ def test_the_top_bar_and_the_settings_say_that_the_camera_was_out(
     journey.show_card()
     qtbot.waitUntil(lambda: journey.card.checks.verdict == "out")
     assert journey.card.check_button.text() == "Check once more"
+    heard: list[Notice] = []
+
+    def opened(_uri: str, *, camera: Camera | None = None, notice: Notice) -> FrameSource:
+        heard.append(notice)
+        return practice_camera.card_camera(20.0)
+
+    monkeypatch.setattr(care_cameras, "open_camera", opened)
+    journey.card.check_button.click()
+    qtbot.waitUntil(lambda: journey.checking.hand._session is not None)
+    told: list[object] = []
+    journey.checking.hand.lost.connect(told.append)
+    heard[0](CameraLost("Xtion PRO LIVE", "unplugged"))
+    qtbot.waitUntil(lambda: bool(told))
