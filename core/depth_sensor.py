@@ -98,7 +98,8 @@ class DepthSensor:
         its window as many of its own pixels wide. Other kinds stay as they are."""
         if self.kind != "active stereo":
             return self
-        return _stereo(self.name, self.baseline_m, focal_px, self.nearest_m, self.farthest_m)
+        made = _stereo(self.name, self.baseline_m, focal_px, self.nearest_m, self.farthest_m)
+        return replace(made, origin=self.origin)
 
     def as_mapping(self) -> dict[str, Any]:
         """All of it in plain values, as files carry it."""

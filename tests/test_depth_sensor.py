@@ -8,7 +8,17 @@ import json
 import numpy as np
 import pytest
 
-from carpus.core.depth_sensor import AZURE_KINECT, D415, D435, D455, PRIMESENSE, SENSORS, DepthSensor, sensor_of
+from carpus.core.depth_sensor import (
+    ASSUMED,
+    AZURE_KINECT,
+    D415,
+    D435,
+    D455,
+    PRIMESENSE,
+    SENSORS,
+    DepthSensor,
+    sensor_of,
+)
 
 Z_M = np.array([0.5, 0.7, 1.2])
 
@@ -22,6 +32,7 @@ def test_the_laws_are_those_of_their_sources() -> None:
     halved = D435.with_focal(212.0)
     assert halved.reading_sd_m(Z_M) == pytest.approx(2.0 * D435.reading_sd_m(Z_M))
     assert halved.stays.square_per_m == pytest.approx(2.0 * D435.stays.square_per_m)
+    assert dataclasses.replace(D435, origin=ASSUMED).with_focal(212.0).origin == ASSUMED, "no source has stated it"
 
 
 def test_neighbours_average_only_where_they_are_independent() -> None:

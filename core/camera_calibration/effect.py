@@ -60,7 +60,7 @@ def _error_px(camera: Camera, found: Intrinsics, views: Sequence[View]) -> float
     for k in found.used:
         seen = views[k].found
         points = seen.board.corners_m[seen.corner]
-        there, turn, shift = cv2.solvePnP(points, seen.pixel, camera.matrix, np.array(camera.distortion))
+        there, turn, shift = cv2.solvePnP(points, camera.undistort(seen.pixel), camera.matrix, np.zeros(5))
         if there:
             at = _projected(camera, points, np.asarray(turn, np.float64), np.asarray(shift, np.float64))
             squares.append(np.asarray(np.sum((seen.pixel - at) ** 2, axis=1)))

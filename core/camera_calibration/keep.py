@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import replace
 from datetime import datetime
 from pathlib import Path
 
@@ -40,7 +41,8 @@ def write_calibration(path: Path, made: CameraCalibration, stored: StoredCalibra
         raise OutputNotWritable(path, cause.strerror or "") from cause
     registered = None if made.depth is None else made.depth.is_registered
     name = stored.serial or "carpus"
-    write_camera_info(path, made.intrinsics.camera, camera_name=name, registered=registered, calibration=stored)
+    camera = replace(made.intrinsics.camera, sensor=made.before.sensor)
+    write_camera_info(path, camera, camera_name=name, registered=registered, calibration=stored)
     return path
 
 

@@ -68,6 +68,8 @@ class CaptureProcess:
         while (report := self.report(closing, open_s)) is not None:
             if isinstance(report, Opened):
                 return report
+            if isinstance(report, Arrived):
+                self.free(report)  # came before its mode was known
         return None
 
     def report(self, closing: threading.Event, patience_s: float = ANSWER_S) -> Report | None:

@@ -178,6 +178,14 @@ def test_the_effect_on_a_hand_is_told(made: CameraCalibration, gathered: Gatheri
     assert effect.length_more_mm == pytest.approx(long, abs=0.6)
     assert abs(effect.angle_more_deg) < 1.5
     assert made.is_usable
+    lens = replace(made.before, distortion=(0.15, -0.1, 0.002, 0.0, 0.0), distortion_model="inverse_brown_conrady")
+    views = []
+    for view in gathered.views:
+        board = view.found.board
+        flat = board.corners_m[view.found.corner] - board.outline_m.mean(axis=0)
+        pixel = lens.distort(lens.project(flat + np.array([0.02, 0.0, 0.7])))
+        views.append(replace(view, found=replace(view.found, pixel=pixel)))
+    assert effect_of(replace(made, before=lens), views).before_px < 1e-2, "its own lens explains its pictures"
 
 
 def test_the_next_step_names_what_is_missing(gathered: Gathering) -> None:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import threading
+from collections import deque
 from pathlib import Path
 
 import numpy as np
@@ -11,6 +13,8 @@ from hypothesis import strategies as st
 
 from carpus.core.camera import Camera
 from carpus.core.capture import openni2_opening
+from carpus.core.capture.capture_link import CaptureProcess
+from carpus.core.capture.capture_messages import Alive, Arrived, Opened
 from carpus.core.capture.frame_assembly import Assembler, Layout, camera_of_view, fitted_camera
 from carpus.core.capture.nearest_pairing import TOLERANCE_US, NearestPairing, Stamped
 from carpus.core.capture.openni2 import CallFailed, Picture
@@ -276,3 +280,13 @@ def test_the_modes_of_an_xtion() -> None:
     best = openni2_opening.choose_mode(offered, PixelFormat.RGB888, (640, 480), 30)
     assert best == VideoMode(PixelFormat.RGB888, 640, 480, 30)
     assert openni2_opening.choose_mode(offered, PixelFormat.DEPTH_1_MM, (640, 480), 30) is None
+
+
+def test_slots_of_pictures_before_the_opening_are_given_back(monkeypatch: pytest.MonkeyPatch) -> None:
+    early, opened = Arrived(Sensor.DEPTH, 3, 1, 0, 0), Opened({}, {}, None, {})
+    reports, freed = deque([Alive(), early, opened]), list[Arrived]()
+    monkeypatch.setattr(CaptureProcess, "report", lambda *_: reports.popleft())
+    monkeypatch.setattr(CaptureProcess, "free", lambda _, arrived: freed.append(arrived))
+    process = object.__new__(CaptureProcess)
+    assert process.wait_open(threading.Event(), 1.0) is opened
+    assert freed == [early]
