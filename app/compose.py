@@ -189,6 +189,7 @@ def compose(
         settings,
         is_demo,
         today or date.today(),
+        date.today if today is None else lambda: today,
         CareCameras(settings, speed),
     )
     shell = Shell(theme)

@@ -85,6 +85,8 @@ class Parts:
     settings: Settings
     is_demo: bool
     today: date
+    today_is: Callable[[], date]
+    """The day now: the program may stand open for days."""
     cameras: CareCameras
 
 
@@ -134,7 +136,7 @@ class Journey(QObject):
         self.review = ReviewScreen(theme, keys, background, library)
         self.sessions = SessionsScreen(theme, background, StoredSessions(library))
         self.progress = ProgressScreen(theme, keys, background, library)
-        self.by_hand = ByHandScreen(theme, self._parts.today)
+        self.by_hand = ByHandScreen(theme, self._parts.today_is)
         self.report = ReportScreen(theme, keys, background)
         self.agreement = AgreementScreen(theme, keys)
         self.retest = RetestScreen(theme, keys)

@@ -126,6 +126,7 @@ class Locking(QObject):
             self.sheet.refuse(tried.left, round(tried.pause_s))
             return
         self._library.note("unlocked")
+        self._journey.patient_view.show_again()
         for widget in self._hidden:
             widget.setVisible(bool(widget.property("shown_before_lock")))
         self.sheet.close_sheet()

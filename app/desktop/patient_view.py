@@ -26,7 +26,7 @@ class PatientViewing(QObject):
         self._set_up: SetUp | None = None
         self._guide: Guide | None = None
         self._sounded = 0
-        self._rests = False
+        self._rests = self._hidden = False
         self.window: PatientWindow | None = None
         application = QGuiApplication.instance()
         if isinstance(application, QGuiApplication):
@@ -87,8 +87,13 @@ class PatientViewing(QObject):
             self._stand(Scene())
 
     def hide_all(self) -> None:
-        """The program is locked: nothing but a word."""
+        """The program is locked: nothing but a word, whatever still runs, until :meth:`show_again`."""
         self._stand(Scene())
+        self._hidden = True
+
+    def show_again(self) -> None:
+        """It was unlocked."""
+        self._hidden = False
 
     @property
     def _asked(self) -> int:
@@ -99,11 +104,11 @@ class PatientViewing(QObject):
         return self.window.view.scene.done if self.window is not None else 0
 
     def _stand(self, scene: Scene) -> None:
-        if self.window is not None:
+        if self.window is not None and not self._hidden:
             self.window.show_standing(scene)
 
     def _follow(self, glance: Glance) -> None:
-        if self.window is None or not self.is_open or self._guide is None or self._rests:
+        if self.window is None or not self.is_open or self._guide is None or self._rests or self._hidden:
             return
         self.window.show_running(self._guide.take(glance))
         if self._guide.reached > self._sounded:

@@ -67,7 +67,7 @@ def read_sets(folder: Path) -> tuple[ExerciseSet, ...]:
         return tuple(_set(one) for one in stored["sets"])
     except FileNotFoundError:
         return USUAL_SETS
-    except (OSError, ValueError, KeyError, TypeError, AttributeError, RecursionError) as cause:
+    except (OSError, ValueError, OverflowError, KeyError, TypeError, AttributeError, RecursionError) as cause:
         raise SetsUnreadable(path, str(cause)) from cause
 
 
@@ -135,7 +135,7 @@ def at_part(set_up: SetUp, course: Course) -> SetUp:
 
 
 def _set(stored: Any) -> ExerciseSet:
-    """Raises ValueError, KeyError or TypeError for what is no set."""
+    """Raises ValueError, OverflowError, KeyError or TypeError for what is no set."""
     discs = str(stored["discs"])
     if discs not in protocol_names():
         raise ValueError(f"discs {discs!r}")

@@ -68,7 +68,7 @@ def _proposal(recent: Sequence[SessionFigures], exercise: Exercise, direction: i
     limit = _limit_deg(known[0][0], known[0][1], exercise)
     told_from = math.ceil(basis + limit)
     goal = min(math.floor(basis + min(STEP_DEG, limit)), MOST_DEG)
-    if goal < 1.0:
+    if goal < 1.0 or (goal == MOST_DEG and goal < basis):  # no step up is left
         return None
     return GoalProposal(direction, basis, len(means), float(goal), float(told_from))
 

@@ -40,6 +40,7 @@ def test_the_goal_is_a_small_step_above_the_mean_of_the_last_three_sessions_that
     assert flexion([*history, of_day(20, 80.0, not_counted=True)]) == flexion(history)
     assert flexion([*history, of_day(20, 80.0, side="left")]) == flexion(history)
     assert flexion([of_day(0, 88.0)])[0] == 90.0
+    assert not [one for one in proposals([of_day(0, 96.0)], FLEXION, "right", "wrist6") if one.direction == 1]
     assert proposals([], FLEXION, "right", "wrist6") == ()
 
 

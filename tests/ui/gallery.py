@@ -672,7 +672,7 @@ class Gallery:
 
     def by_hand(self) -> None:
         self.place(tab=2, camera="")
-        screen = ByHandScreen(self.theme, date(2026, 11, 20))
+        screen = ByHandScreen(self.theme, lambda: date(2026, 11, 20))
         self.show(screen)
         figures = sorted(self.sessions.history("linden"), key=lambda one: one.when)
         screen.show_record(HandRecord("Linden 42", "right", tuple(hand_values()), tuple(figures), "MK"))

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from datetime import timedelta
 from pathlib import Path
 
 import pytest
@@ -32,7 +33,8 @@ TODAY = NOW.date()
 
 @pytest.fixture
 def screen(theme: Theme, qtbot: QtBot) -> ByHandScreen:
-    made = ByHandScreen(theme, TODAY)
+    days = iter((TODAY - timedelta(days=1),))
+    made = ByHandScreen(theme, lambda: next(days, TODAY))  # made yesterday, it stood open over night
     qtbot.addWidget(made)
     made.resize(1280, 740)
     made.show()
@@ -50,6 +52,7 @@ def test_only_what_differs_is_entered_and_carpus_leads_nobody(screen: ByHandScre
     figures = sorted(FakeSessions().history("linden"), key=lambda one: one.when)
     screen.show_record(HandRecord("Linden 42", "right", tuple(hand_values()), tuple(figures), "MK"))
     assert not screen.save_button.isEnabled()
+    assert screen.day_shown == TODAY
     flexion, extension = screen.form.rows["FLEXION"], screen.form.rows["EXTENSION"]
     assert flexion.last.text() == "13 Nov: 45° / 56°"
     assert "48°" in flexion.beside.text()

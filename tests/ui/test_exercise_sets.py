@@ -32,6 +32,7 @@ from carpus.ui.background import Background
 from carpus.ui.keys import Keys
 from carpus.ui.live.glance import Glance
 from carpus.ui.live.screen import LiveScreen
+from carpus.ui.patient.guide import Scene
 from carpus.ui.plot.course import Goals, still
 from carpus.ui.setup.exercise import ExerciseScreen
 from carpus.ui.setup.set_sheet import SetSheet
@@ -58,6 +59,7 @@ def test_sets_are_read_as_they_were_kept_and_a_damaged_file_is_told_and_kept_bes
         {"parts": [{"exercise": "FIST_HOOK", "repetitions": 3, "seconds": 0, "rest_s": 0}]},
         {"parts": [{"exercise": "FREE", "repetitions": 3, "seconds": 0, "rest_s": 0}]},
         {"parts": [{"exercise": "WRIST_FE", "repetitions": 10**9, "seconds": 0, "rest_s": 0}]},
+        {"parts": [{"exercise": "WRIST_FE", "repetitions": math.inf, "seconds": 0, "rest_s": 0}]},
     ):
         path.write_text(json.dumps({"sets": [stored["sets"][0] | damage]}), encoding="utf-8")
         with pytest.raises(SetsUnreadable):
@@ -167,6 +169,17 @@ def test_a_set_runs_part_after_part_with_its_rest(qtbot: QtBot, theme: Theme) ->
     assert not run.resting
     assert "Rest" not in live.course.text()
     assert not run.goes_on(), "nothing comes after the last part"
+    now.set_up = None
+    patient.begin(set_up())
+    told = Glance(9.2, 10.0, True, True, (0.0, 5.0, 0.0), state="recording")
+    live.glanced.emit(told)
+    assert patient.window.view.scene.phase != Scene().phase
+    patient.hide_all()
+    live.glanced.emit(told)
+    assert patient.window.view.scene == Scene(), "the program is locked"
+    patient.show_again()
+    live.glanced.emit(told)
+    assert patient.window.view.scene != Scene()
     patient.close()
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from datetime import date, datetime
 
@@ -43,9 +44,10 @@ class ByHandScreen(QWidget):
     save = Signal(object, object)
     done = Signal()
 
-    def __init__(self, theme: Theme, today: date) -> None:
+    def __init__(self, theme: Theme, today_is: Callable[[], date]) -> None:
         super().__init__()
-        self._theme, self._today = theme, today
+        self._theme, self._today_is = theme, today_is
+        today = today_is()
         self.record = HandRecord("", "right", (), (), "")
         self._more: set[str] = set()
         self._written: dict[tuple[Key, date], HandValue] = {}
@@ -180,7 +182,9 @@ class ByHandScreen(QWidget):
         self._written = {}
         if not again:
             self._more = set()
-            self._choose(record.side, self._today)
+            today = self._today_is()  # the program may have stood open over night
+            self.day.setMaximumDate(QDate(today.year, today.month, today.day))
+            self._choose(record.side, today)
         self._fill()
         if again:
             self.state.setText(self.tr("Kept."))
