@@ -26,14 +26,13 @@ class CameraAtHand(QObject):
     """Opens a source, looks at its pictures in a thread of its own, and lets it go; one at a time.
 
     ``opened`` carries the :class:`SourceInfo`, ``failed`` a fault after which the camera is let go, ``pulled`` the
-    newest frame for the screen, ``lost`` a fault while the camera is away, ``back`` when it has returned.
+    newest frame for the screen, ``lost`` a fault while the camera is away.
     """
 
     opened = Signal(object)
     failed = Signal(object)
     pulled = Signal(object)
     lost = Signal(object)
-    back = Signal()
 
     def __init__(self, parent: QObject) -> None:
         super().__init__(parent)
@@ -130,8 +129,6 @@ class CameraAtHand(QObject):
         for event in session.drain_events():
             if event.kind == "camera_lost":
                 self.lost.emit(event.cause)
-            elif event.kind == "camera_back":
-                self.back.emit()
             elif event.kind in ("source_failed", "source_ended"):
                 fault = event.cause or CameraLost()
         if fault is not None:

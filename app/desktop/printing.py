@@ -5,6 +5,7 @@ from __future__ import annotations
 import csv
 import threading
 from collections.abc import Callable, Sequence
+from itertools import chain, count
 from pathlib import Path
 from typing import Protocol
 
@@ -242,10 +243,13 @@ def write_table(path: Path, progress: Progress) -> None:
 
 def write_tables(path: Path, progress: Progress) -> list[Path]:
     """The table of the sessions, and one beside it of what was measured by hand, if anything was; the files."""
+    replaces = path.exists()  # a person was asked for this one only
     write_table(path, progress)
     if not progress.by_hand:
         return [path]
-    beside = path.with_name(f"{path.stem}-by-hand{path.suffix}")
+    names = chain([f"{path.stem}-by-hand"], (f"{path.stem}-by-hand-{number}" for number in count(2)))
+    others = (path.with_name(f"{name}{path.suffix}") for name in names)
+    beside = next(one for one in others if replaces or not one.exists())
     write_by_hand(beside, progress.by_hand)
     return [path, beside]
 

@@ -189,7 +189,7 @@ def rules_finding(kind: CameraKind, folders: tuple[Path, ...]) -> Finding:
     for folder in folders:
         for rules in sorted(folder.glob("*.rules")) if folder.is_dir() else []:
             text = rules.read_text(encoding="utf-8", errors="replace").lower()
-            of_all = "idproduct" not in text
+            of_all = "idproduct" not in text and ("idvendor" in text or "id_vendor_id" in text)
             if any(vendor in text and (of_all or product in text) for vendor, product in kind.models):
                 return Finding(name, "good", str(rules))
     return Finding(name, "warning", "no udev rules for the camera", kind.rights)

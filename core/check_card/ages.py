@@ -12,6 +12,7 @@ from carpus.core.capture.calibrated import age_days, stored_calibration
 from carpus.core.capture.camera_info import read_camera_info
 from carpus.core.capture.finding import Finding, State
 from carpus.core.check_card.chart import OLD_DAYS, SUFFIX, Check, chart_path, read_checks, verdict_of
+from carpus.core.check_card.standing import standing_of
 from carpus.core.errors import CarpusFault
 
 OLD_CALIBRATION_DAYS = 365.0
@@ -62,7 +63,9 @@ def _camera(data_folder: Path, serial: str, now: datetime) -> Finding:
     else:
         age = age_days(checks[-1].when, now)
         said.append(f"checked {_ago(age)}, {_result(checks)}")
-        if verdict_of(checks[:-1], checks[-1]) == "out":
+        if standing_of(data_folder, serial, now).recalibrated:
+            remedies.append(f"{_CHECK}: it was calibrated since.")
+        elif verdict_of(checks[:-1], checks[-1]) == "out":
             state = "bad"
             remedies.append("It measured wrong at the last check: check once more, then calibrate it again.")
         elif not age <= OLD_DAYS:

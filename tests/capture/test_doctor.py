@@ -111,6 +111,8 @@ def test_rules_of_the_system(tmp_path: Path) -> None:
     (tmp_path / "60-camera.rules").write_text('SUBSYSTEM=="usb", ATTR{idVendor}=="1D27", MODE="0666"\n')
     assert doctor.rules_finding(xtion.KIND, (tmp_path,)).state == "good"
     assert doctor.rules_finding(camera_kind("astra"), (tmp_path,)).state == "warning"
+    (tmp_path / "70-graphics.rules").write_text('SUBSYSTEM=="drm", ATTRS{vendor}=="0x8086"\n')
+    assert doctor.rules_finding(camera_kind("realsense"), (tmp_path,)).state == "warning"
 
 
 @pytest.mark.parametrize(

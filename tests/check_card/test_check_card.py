@@ -187,6 +187,11 @@ def test_the_doctor_names_the_age_of_calibration_and_check(tmp_path: Path) -> No
     add_check(chart_path(tmp_path, "77"), check(12, scale=1.02))
     (out,) = camera_ages(tmp_path, NOW + timedelta(days=12))
     assert out.state == "bad"
+    since = NOW + timedelta(days=12, hours=1)
+    made = StoredCalibration("77", since.isoformat(), 1.0, 0.0, 0.2, 20)
+    write_camera_info(new_calibration_path(tmp_path, "77", since), LENS, calibration=made)
+    (later,) = camera_ages(tmp_path, since)
+    assert (later.state, later.remedy) == ("warning", "Run: carpus check-card: it was calibrated since.")
 
 
 def test_where_a_camera_stands_and_which_sessions_are_not_sure(tmp_path: Path) -> None:

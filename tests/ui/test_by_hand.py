@@ -210,6 +210,9 @@ def test_reports_and_table_tell_them_as_entered_by_hand(tmp_path: Path) -> None:
     assert len(lines) == 1 + len(mine)
     assert any(line.startswith("2026-11-20,right,GRIP,,kg,18,18 19 17") for line in lines)
     assert "by_hand" not in path.read_text(encoding="utf-8")
+    (tmp_path / "other-by-hand.csv").write_text("kept", encoding="utf-8")
+    assert write_tables(tmp_path / "other.csv", course.progress)[1].name == "other-by-hand-2.csv"
+    assert (tmp_path / "other-by-hand.csv").read_text(encoding="utf-8") == "kept", "nobody was asked for it"
     bare = progress(store.history("linden"))
     write_tables(tmp_path / "bare.csv", bare)
     assert not (tmp_path / "bare-by-hand.csv").exists()
