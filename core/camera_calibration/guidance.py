@@ -83,7 +83,8 @@ def next_step(
     if judgement.views >= asked:
         return Step("done")
     thin = empty if len(empty) else np.argwhere(judgement.corners_in_field == judgement.corners_in_field.min())
-    return Step("place", _nearest(thin, last, size_px), side)
+    # In a place where it has been before, the board must at least be tilted another way to say something new.
+    return Step("place", _nearest(thin, last, size_px), side or SIDES[judgement.views % len(SIDES)])
 
 
 def _nearest(fields: np.ndarray, last: FoundBoard | None, size_px: tuple[int, int]) -> tuple[int, int]:

@@ -12,7 +12,7 @@ import cv2
 import numpy as np
 
 from carpus.core.camera import DEFAULT_CAMERA
-from carpus.core.camera_calibration.board import Board, board_sheet
+from carpus.core.camera_calibration.board import Board, Pattern, board_sheet
 from carpus.core.capture.calibrated import SERIAL
 from carpus.core.capture.source import SourceInfo
 from carpus.core.simulation.card_scene import card_scene
@@ -24,6 +24,9 @@ NAME = "Simulated camera"
 FPS = 5.0
 _STILL_FRAMES = 8
 """The board is held so long in each place, after one picture on the way; it is drawn once for all of them."""
+BOARD_DISTANCES_M: dict[Pattern, tuple[float, ...]] = {"chessboard": (0.5, 0.62, 0.8), "charuco": (0.42, 0.5, 0.62)}
+DIFFERENT = 60
+"""So many poses pass before place, distance and tilt come again together."""
 _DEPTH_SCALE_ERROR, _SEED = 0.03, 21
 _MOST_PICTURES = 24
 """Different pictures of the card; then they come again, as nothing moves."""
@@ -65,11 +68,10 @@ def card_camera(speed: float = 1.0, seed: int = 9) -> PracticeCamera:
 def _board_frames(board: Board, seed: int) -> Iterator[Frame]:
     studio = _studio()
     texture = texture_of(board_sheet(board, "a4"))
-    distances_m = (0.5, 0.62, 0.8) if board.pattern == "chessboard" else (0.42, 0.5, 0.62)
     index = 0
     before: Placed | None = None
     for around in itertools.count(seed):
-        for placed in poses(texture, distances_m=distances_m, seed=around):
+        for placed in poses(texture, DIFFERENT, BOARD_DISTANCES_M[board.pattern], around):
             on_the_way = [] if before is None else [(_between(before, placed), 1)]
             for shown, times in (*on_the_way, (placed, _STILL_FRAMES)):
                 drawn = studio.frame([shown], index, index / FPS)

@@ -12,13 +12,14 @@ from carpus.core.camera import DEFAULT_CAMERA
 from carpus.core.camera_calibration.board import BOARDS, CHARUCO, CHESSBOARD, Board, board_sheet
 from carpus.core.camera_calibration.calibrate import CameraCalibration, calibrate_camera, calibration_lines
 from carpus.core.camera_calibration.effect import HAND_LENGTH_M, effect_of
-from carpus.core.camera_calibration.find_board import find_board
+from carpus.core.camera_calibration.find_board import LEAST_CORNERS, FoundBoard, find_board
 from carpus.core.camera_calibration.gather import Gathering
 from carpus.core.camera_calibration.guidance import ASKED_VIEWS, Step, next_step, target_outline
 from carpus.core.camera_calibration.sheet import PAPER_MM, Box, Paper
-from carpus.core.camera_calibration.views import FEWEST_VIEWS, SIDES, View, judge
+from carpus.core.camera_calibration.views import FEWEST_VIEWS, SIDES, View, is_new, judge, view_of
 from carpus.core.errors import BoardMissing, BoardUnfit, BoardViewsAlike
-from carpus.core.simulation.printed_sheets import LENS, Studio, held, poses, texture_of
+from carpus.core.simulation.practice_camera import BOARD_DISTANCES_M, DIFFERENT
+from carpus.core.simulation.printed_sheets import LENS, PX_PER_MM, Studio, held, poses, texture_of
 from carpus.core.simulation.sensor import depth_scale
 from carpus.core.types import Frame
 from tests.camera_calibration.printed import ShownSheets
@@ -234,3 +235,23 @@ def test_what_is_printed_is_what_is_looked_for(board: Board) -> None:
     found = find_board(large, [board])
     assert found is not None
     assert len(found.corner) == board.corner_count
+
+
+@pytest.mark.parametrize("board", [CHESSBOARD, CHARUCO], ids=lambda board: board.pattern)
+def test_the_simulated_board_is_shown_in_as_many_ways_as_are_asked_for(board: Board) -> None:
+    """Corners alone, not drawn: a pose that has been there before is not kept, and the showing would never end."""
+    sheet = board_sheet(board, "a4")
+    texture = np.zeros((round(sheet.height_mm * PX_PER_MM), round(sheet.width_mm * PX_PER_MM), 3), dtype=np.float32)
+    corner_m = np.array([0.5 * (sheet.width_mm - 1e3 * board.columns * board.square_m), 20.0, 0.0]) / 1e3
+    kept: list[View] = []
+    for lap in range(3):
+        for placed in poses(texture, DIFFERENT, BOARD_DISTANCES_M[board.pattern], lap):
+            pixel = LENS.project((board.corners_m + corner_m) @ placed.rotation.T + placed.shift_m)
+            inside = ((pixel > 4.0) & (pixel < [636.0, 476.0])).all(axis=1)
+            if not inside.all() and (board.pattern == "chessboard" or np.count_nonzero(inside) < LEAST_CORNERS):
+                continue
+            found = FoundBoard(board, np.flatnonzero(inside), pixel[inside])
+            view = view_of(found, DEFAULT_CAMERA, None, 1e-3)
+            if view is not None and is_new(found, kept):
+                kept.append(view)
+    assert len(kept) >= ASKED_VIEWS[board.pattern]
