@@ -13,9 +13,10 @@ class CarpusFault(Exception):
     """
 
     def __init__(self, subject: str | Path = "", detail: str = "") -> None:
-        super().__init__(f"{type(self).__name__}: {subject} {detail}".strip())
         self.subject = str(subject)
-        self.detail = detail
+        # A damaged file's own words may be no text; what is told must be storable and printable everywhere.
+        self.detail = str(detail).encode("utf-8", "backslashreplace").decode("utf-8")
+        super().__init__(f"{type(self).__name__}: {self.subject} {self.detail}".strip())
 
 
 class RecordingMissing(CarpusFault):

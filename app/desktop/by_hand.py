@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from contextlib import suppress
 from dataclasses import replace
 
 from PySide6.QtCore import QObject, Qt
@@ -37,6 +38,7 @@ class ByHand(QObject):
         super().__init__(parent)
         self._screen, self._way, self._tell, self._now, self._library = screen, way, tell, now, library
         self._background, self._initials, self._back = background, initials, back
+        self._aside: dict[str, Sequence[HandValue]] = {}
         screen.save.connect(self._ask_to_save)
         screen.done.connect(self.leave)
 
@@ -84,12 +86,21 @@ class ByHand(QObject):
         def shown(record: HandRecord) -> None:
             if self._now.patient is None or self._now.patient.patient_id != patient_id:
                 return
+            self._lay_aside(patient_id)
             self._screen.show_record(record, again=again)
             if not again:
+                self._screen.write_again(self._aside.pop(patient_id, ()))
                 self._way.go("by_hand")
                 self._screen.first().setFocus(Qt.FocusReason.OtherFocusReason)
 
         self._background.run(read, shown, self._tell.fault, self)
+
+    def _lay_aside(self, patient_id: str) -> None:
+        """What is written of another patient and not kept waits until that patient's form is opened again."""
+        before = self._screen.record.patient_id
+        with suppress(ValueError):  # what cannot be kept was marked red all the time
+            if before != patient_id and (values := self._screen.unsaved()):
+                self._aside[before] = values
 
     def _ask_to_save(self, values: Sequence[HandValue], doubts: Sequence[str]) -> None:
         if not values:

@@ -347,3 +347,15 @@ def test_an_entry_needs_a_pseudonym_and_a_known_age_band() -> None:
         PatientEntry("  ", "left")
     with pytest.raises(ValueError, match="age band"):
         PatientEntry("Oak 11", "left", age_band="43")
+
+
+def test_what_a_damaged_file_says_of_itself_keeps_no_start_from_going_on(tmp_path: Path) -> None:
+    """Bytes in a file that are no text come out of HDF5 as lone surrogates, which no database and no log takes."""
+    with PatientRegister(tmp_path) as register:
+        path = register.sessions_folder / "1.h5.part"
+        path.write_bytes(b"nothing")
+        fault = SessionUnreadable(path, "unknown protocol 'wr\udc80st6'")
+        assert register.first_told([fault]) == [fault]
+        assert register.first_told([fault]) == []
+        assert "wr\\udc80st6" in fault.detail
+        str(fault).encode("utf-8")

@@ -186,6 +186,12 @@ def test_what_is_saved_is_in_the_register_and_in_the_log(
     flow.leave()
     assert left == [1]
     typed(screen, "FLEXION", "70")
+    heron = library.clinic.add(PatientEntry("Heron 17", "right"))
+    for person, name, written in ((heron, "Heron 17", ""), (patient, "Linden 42", "70")):
+        now.patient = PatientRow(person, name, "left")
+        flow.show()
+        qtbot.waitUntil(lambda person=person: screen.record.patient_id == person, timeout=60_000)
+        assert screen.form.rows["FLEXION"].fields[0][1].text() == written, name
     flow.leave()
     assert told.asked[1:] == ["Leave without saving?"]
     assert [entry.did for entry in read_audit(library.folder).entries] == ["entered_by_hand"] * 2

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from datetime import date, datetime
 
@@ -148,23 +148,28 @@ class ByHandScreen(QWidget):
     def has_unsaved(self) -> bool:
         """Whether something is written that is not stored."""
         try:
-            return bool(self._unsaved())
+            return bool(self.unsaved())
         except ValueError:
             return True
 
-    def _unsaved(self) -> list[HandValue]:
+    def unsaved(self) -> list[HandValue]:
         """All that is written and not kept, of every day and hand. Raises ValueError for what cannot be kept."""
         side, day = self._shown
         here = self.form.differing(self.record.values, side, day)
         shown = {(key, day) for row in self.form.rows.values() for key in row.keys(side)}
         return [*(one for at, one in self._written.items() if at not in shown), *here]
 
+    def write_again(self, values: Sequence[HandValue]) -> None:
+        """What was written of this patient before and not kept, as if it had just been written."""
+        self._written = {(one.key, one.day): one for one in values}
+        self._fill()
+
     def _turn(self) -> None:
         """To another day or hand; what is written stays written. What cannot be kept is put right first."""
         if self.form.problems():
             self._choose(*self._shown)
             return
-        self._written = {(one.key, one.day): one for one in self._unsaved()}
+        self._written = {(one.key, one.day): one for one in self.unsaved()}
         self._fill()
 
     def _choose(self, side: Side, day: date) -> None:
@@ -289,4 +294,4 @@ class ByHandScreen(QWidget):
 
     def _save(self) -> None:
         if not self.form.problems():
-            self.save.emit(self._unsaved(), self.form.doubts())
+            self.save.emit(self.unsaved(), self.form.doubts())
