@@ -34,7 +34,8 @@ ROOT_ATTRIBUTES = {
     "protocol": " or ".join(protocol_names()),
     "exercise": "what was trained",
     "software_version": "of the Carpus that wrote the file",
-    "parameters": "JSON of all settings",
+    "parameters": "JSON of all settings; `set_up` has repetitions and targets and, within a set of exercises, "
+    "`set`: `run` (the same for all its sessions), `part`, `of`, `seconds`",
     "complete": "false while written, true once closed",
     "origin": "session_id of the session this one was tracked again from, else empty",
 }

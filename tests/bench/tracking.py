@@ -127,7 +127,7 @@ class spied:  # noqa: N801  (read as a word)
         spy.watch(naming.association, "resolve", "names")
         spy.watch(naming, "associate_jointly", "joint")
         spy.watch(naming, "corrected", "update")
-        spy.watch(tracker, "corrected", "update")
+        spy.watch(tracker, "levelled_bank", "update")
         spy.watch(tracker, "recentred", "update")
         for name in ("palm_step", "mixed", "carried"):
             spy.watch(tracker, name, "predict")

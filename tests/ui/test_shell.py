@@ -153,17 +153,17 @@ def test_a_key_can_be_given_to_one_action_only(qtbot: QtBot, theme: Theme) -> No
     screen = SettingsScreen(theme, Preferences(), "1.0.0")
     qtbot.addWidget(screen)
     screen.show()
-    screen.keys["note"].setKeySequence(QKeySequence("F11"))
+    screen.keys["note"].setKeySequence(QKeySequence("Ctrl+J"))
     screen.keys["note"].editingFinished.emit()
-    assert screen.preferences.keys == {"note": "F11"}
-    screen.keys["pain"].setKeySequence(QKeySequence("F11"))
+    assert screen.preferences.keys == {"note": "Ctrl+J"}
+    screen.keys["pain"].setKeySequence(QKeySequence("Ctrl+J"))
     screen.keys["pain"].editingFinished.emit()
-    assert screen.preferences.keys == {"note": "F11"}
+    assert screen.preferences.keys == {"note": "Ctrl+J"}
     assert screen.fault.isVisible()
     assert screen.keys["pain"].keySequence() == QKeySequence("F6")
     screen.reset.click()
     assert screen.preferences.keys == {}
-    assert Keys({"note": "F11"})["note"] == "F11"
+    assert Keys({"note": "Ctrl+J"})["note"] == "Ctrl+J"
 
 
 def test_every_key_has_words_and_is_a_key() -> None:
