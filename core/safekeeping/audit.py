@@ -96,8 +96,11 @@ class AuditLog:
     def note(self, did: Deed, kind: Kind, identity: str = "", **facts: Fact) -> None:
         """Write a deed down and bring it to the disk. Raises :class:`OutputNotWritable` or :class:`DiskFull`.
 
-        ValueError for an identity or a fact that could be a name: a mistake of the caller.
+        ValueError for an identity or a fact that could be a name: a mistake of the caller. A session's identity is what
+        its file says, and a damaged one may say anything: such a one is noted by its fingerprint.
         """
+        if kind == "session" and not _IDENTITY.fullmatch(identity):
+            identity = hashlib.sha256(identity.encode("utf-8", "backslashreplace")).hexdigest()[:32]
         if did not in get_args(Deed) or kind not in get_args(Kind) or not _IDENTITY.fullmatch(identity):
             raise ValueError(f"{did} {kind} {identity!r} is not of the log")
         if not all(isinstance(fact, int) or _WORD.fullmatch(fact) for fact in facts.values()):

@@ -37,7 +37,7 @@ def check_header(path: Path, header: SessionHeader, parameters: object) -> None:
         text: str = getattr(header, name)
         if len(text) > LONGEST_TEXT or not (text.isprintable() or name == "origin"):
             raise SessionUnreadable(path, f"damaged: its {name} is no such thing")
-    if not header.session_id:
+    if not header.session_id.strip():
         raise SessionUnreadable(path, "damaged: no session_id")
     if _depth(parameters) > DEEPEST_PARAMETERS or len(header.parameters) > LONGEST_PARAMETERS:
         raise SessionUnreadable(path, "damaged: its parameters are no settings")

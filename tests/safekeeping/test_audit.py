@@ -108,8 +108,18 @@ def test_programs_write_at_the_same_time(tmp_path: Path) -> None:
 )
 def test_a_name_is_refused(tmp_path: Path, identity: str, facts: dict[str, str]) -> None:
     with pytest.raises(ValueError):
-        AuditLog(tmp_path, "window").note("opened", "session", identity, **facts)
+        AuditLog(tmp_path, "window").note("opened", "patient", identity, **facts)
     assert lines(tmp_path) == []
+
+
+def test_a_session_is_noted_whatever_a_damaged_file_says_it_is(tmp_path: Path) -> None:
+    said = (" ", "Linden 42", "wr\udc80st", "x" * 65)
+    for identity in said:
+        AuditLog(tmp_path, "window").note("recovered", "session", identity)
+    noted = [entry.identity for entry in read_audit(tmp_path).entries]
+    assert len(set(noted)) == len(said)
+    assert all(len(one) == 32 for one in noted)
+    assert "Linden" not in (tmp_path / AUDIT_FILE).read_text(encoding="utf-8")
 
 
 def test_a_log_that_cannot_be_written_is_told(tmp_path: Path) -> None:
