@@ -71,8 +71,12 @@ def counted(entries: Iterable[HandValue]) -> list[HandValue]:
 
     ``entries`` are in the order in which they were entered.
     """
-    last = {(*entry.key, entry.day): entry for entry in entries}
-    return sorted((entry for entry in last.values() if entry.tries), key=lambda entry: entry.day)
+    return sorted((entry for entry in newest(entries).values() if entry.tries), key=lambda entry: entry.day)
+
+
+def newest(entries: Iterable[HandValue]) -> dict[tuple[Key, date], HandValue]:
+    """Of every measure, way, hand and day what was entered last, also where that took it back."""
+    return {(entry.key, entry.day): entry for entry in entries}
 
 
 def of_session(entries: Iterable[HandValue], side: Side, day: date) -> tuple[HandValue, ...]:
@@ -92,7 +96,8 @@ def before(entries: Iterable[HandValue], key: Key, day: date) -> HandValue | Non
 
 def on_day(entries: Iterable[HandValue], key: Key, day: date) -> HandValue | None:
     """What counts of one day."""
-    return next((entry for entry in course_of(entries, key) if entry.day == day), None)
+    found = newest(entries).get((key, day))
+    return found if found is not None and found.tries else None
 
 
 def replaced(entries: Sequence[HandValue], key: Key, day: date) -> list[HandValue]:

@@ -11,7 +11,7 @@ from PySide6.QtCore import QObject, Qt, Signal
 from PySide6.QtWidgets import QGridLayout, QLineEdit, QWidget
 
 from carpus.core.by_hand.measures import MEASURES, HandMeasure, Way
-from carpus.core.by_hand.values import MOST_WHERE, HandValue, Key, before, on_day, replaced
+from carpus.core.by_hand.values import MOST_WHERE, HandValue, Key, before, newest, on_day, replaced
 from carpus.core.output.range_rows import RangeRow
 from carpus.core.types import Side
 from carpus.ui import numbers, terms
@@ -27,11 +27,9 @@ CARPUS, OTHER, LAST = 4, 5, 6
 
 
 class MeasureRow(QObject):
-    """The fields of one measure and what stands beside them. ``edited`` whenever a field changes, ``chosen`` when one
-    has the keyboard."""
+    """The fields of one measure and what stands beside them. ``edited`` whenever a field changes."""
 
     edited = Signal()
-    chosen = Signal()
 
     def __init__(self, theme: Theme, measure: HandMeasure) -> None:
         super().__init__()
@@ -246,10 +244,10 @@ class HandForm(QWidget):
 
     def differing(self, values: Sequence[HandValue], side: Side, day: date) -> list[HandValue]:
         """What is written otherwise than it is stored, to be entered; nothing of what is the same."""
-        found = []
+        found, kept = [], newest(values)
         for row in self.rows.values():
             for one in row.entered(side, day):
-                stored = on_day(values, one.key, day)
+                stored = kept.get((one.key, day))
                 same = (stored.tries, stored.where) == (one.tries, one.where) if stored else not one.tries
                 if not same:
                     found.append(one)

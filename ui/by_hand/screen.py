@@ -16,14 +16,15 @@ from carpus.core.output.range_rows import RangeRow
 from carpus.core.output.report_content import SessionFigures
 from carpus.core.types import Side
 from carpus.ui import numbers, terms
+from carpus.ui.by_hand.change_rows import add_changes
 from carpus.ui.by_hand.chart import HandChart
 from carpus.ui.by_hand.form import HandForm
-from carpus.ui.by_hand.names import change_words, changes, full_name, measure_name, verdict_words
+from carpus.ui.by_hand.names import changes, measure_name
 from carpus.ui.controls.button import Button
-from carpus.ui.controls.card import Card, Line
+from carpus.ui.controls.card import Card
 from carpus.ui.controls.column import ScrolledColumn, scroll_area
 from carpus.ui.controls.field import Choices
-from carpus.ui.controls.text import REGULAR, SEMIBOLD, StateText, Text, heading
+from carpus.ui.controls.text import REGULAR, SEMIBOLD, Text, heading
 from carpus.ui.theme import GAP_PX, MARGIN_PX, Theme, is_tight
 
 
@@ -271,13 +272,8 @@ class ByHandScreen(QWidget):
         body.addWidget(Text(theme, self.tr("By hand and by Carpus are never joined"), 16, SEMIBOLD, wrap=True))
         words = self.tr("Neither averaged nor subtracted. A change is judged within one way of measuring.")
         body.addWidget(Text(theme, words, 14, REGULAR, "text2", wrap=True))
-        for key, change in changes([one for one in counted(self.record.values) if one.side in (self.side, "")]):
-            body.addWidget(Line(theme))
-            state, verdict = verdict_words(change)
-            sign = StateText(theme, 14, SEMIBOLD, 16)
-            sign.show_state(state, f"{full_name(key)}: {verdict}", token="text")  # type: ignore[arg-type]
-            body.addWidget(sign)
-            body.addWidget(Text(theme, change_words(change), 14, REGULAR, "text2", wrap=True))
+        mine = [one for one in counted(self.record.values) if one.side in (self.side, "")]
+        add_changes(body, theme, changes(mine))
 
     # --- entering -----------------------------------------------------------------------------------------
     def _edited(self) -> None:

@@ -13,7 +13,8 @@ from carpus.core.by_hand.values import HandValue, counted
 from carpus.core.output.report_content import Comparison, Progress, SessionFigures, other_hand_of, progress
 from carpus.ui import numbers, terms
 from carpus.ui.background import Background
-from carpus.ui.by_hand.names import change_words, changes, day_words, full_name, verdict_words
+from carpus.ui.by_hand.change_rows import add_changes
+from carpus.ui.by_hand.names import changes, day_words
 from carpus.ui.controls.button import Button
 from carpus.ui.controls.card import Card, Line
 from carpus.ui.controls.column import ScrolledColumn, scroll_area
@@ -241,13 +242,7 @@ class ProgressScreen(QWidget):
             return
         body, changed = self._hand.body, changes(values)
         body.addWidget(Text(theme, self.tr("Measured by hand"), 16, SEMIBOLD))
-        for key, change in changed:
-            body.addWidget(Line(theme))
-            state, verdict = verdict_words(change)
-            sign = StateText(theme, 14, SEMIBOLD, 16)
-            sign.show_state(state, f"{full_name(key)}: {verdict}", token="text")  # type: ignore[arg-type]
-            body.addWidget(sign)
-            body.addWidget(Text(theme, change_words(change), 14, REGULAR, "text2", wrap=True))
+        add_changes(body, theme, changed)
         known = {key for key, _ in changed}
         once = [one for one in values if one.key not in known]
         for day in sorted({one.day for one in once}):

@@ -1,0 +1,24 @@
+"""Changes by hand as rows of a card."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+from PySide6.QtWidgets import QVBoxLayout
+
+from carpus.core.by_hand.values import HandChange, Key
+from carpus.ui.by_hand.names import change_words, full_name, verdict_words
+from carpus.ui.controls.card import Line
+from carpus.ui.controls.text import REGULAR, SEMIBOLD, StateText, Text
+from carpus.ui.theme import Theme
+
+
+def add_changes(body: QVBoxLayout, theme: Theme, found: Iterable[tuple[Key, HandChange]]) -> None:
+    """Each change with its verdict in words and its sign, then from where to where."""
+    for key, change in found:
+        body.addWidget(Line(theme))
+        state, verdict = verdict_words(change)
+        sign = StateText(theme, 14, SEMIBOLD, 16)
+        sign.show_state(state, f"{full_name(key)}: {verdict}", token="text")  # type: ignore[arg-type]
+        body.addWidget(sign)
+        body.addWidget(Text(theme, change_words(change), 14, REGULAR, "text2", wrap=True))
