@@ -5,6 +5,7 @@ from __future__ import annotations
 import errno
 import os
 import re
+from collections.abc import Callable
 from pathlib import Path
 
 from carpus.core.errors import CarpusFault, DiskFull, OutputNotWritable
@@ -33,3 +34,17 @@ def sync_folder(folder: Path) -> None:
         pass  # some network shares refuse; the file itself has been synchronised
     finally:
         os.close(descriptor)
+
+
+def replace_file(path: Path, write: Callable[[Path], object]) -> None:
+    """Have a file written beside an old one and put it in its place, so that a fault never costs the old one.
+
+    Raises what ``write`` raises, and :class:`DiskFull` or :class:`OutputNotWritable`.
+    """
+    part = path.with_name(f".{path.name}.part")
+    try:
+        part.unlink(missing_ok=True)  # of a program that was killed
+        write(part)
+        part.replace(path)
+    except OSError as cause:
+        raise write_fault(path, cause) from cause

@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Protocol
 
 from PySide6.QtCore import QObject, Signal
-from PySide6.QtWidgets import QFileDialog, QWidget
+from PySide6.QtWidgets import QWidget
 
 from carpus.app.desktop.camera_at_hand import CameraAtHand, Look
 from carpus.app.desktop.last_places import LastPlaces
@@ -22,6 +22,7 @@ from carpus.core.camera_calibration.keep import keep_calibration, stored_of
 from carpus.core.capture.calibrated import SERIAL, stored_calibration
 from carpus.core.capture.notice import Notice
 from carpus.core.capture.source import FrameSource, SourceInfo, is_simulated
+from carpus.core.durable import replace_file
 from carpus.core.errors import BoardMissing, BoardViewsAlike, CameraLost, CarpusFault
 from carpus.core.pipeline.channels import Newest
 from carpus.core.types import Frame
@@ -115,7 +116,7 @@ class Calibrating(QObject):
         if path is not None:
             sheet = board_sheet(BoardChoice(choice.pattern, choice.paper).board, choice.paper)
             self._background.run(
-                lambda: replace_file(path, lambda: write_sheets(path, [sheet], "Carpus camera board")),
+                lambda: replace_file(path, lambda part: write_sheets(part, [sheet], "Carpus camera board")),
                 lambda _: None, self._tell.fault, self,
             )  # fmt: skip
 
@@ -125,17 +126,12 @@ class Calibrating(QObject):
         if path is not None and result is not None:
             when = self._now()
             self._background.run(
-                lambda: replace_file(path, lambda: write_calibration_page(path, result, when)),
+                lambda: replace_file(path, lambda part: write_calibration_page(part, result, when)),
                 lambda _: None, self._tell.fault, self,
             )  # fmt: skip
 
     def _ask_path(self, name: str, title: str) -> Path | None:
-        start = str(Path(self._places.folder("reports")) / name)
-        path, _ = QFileDialog.getSaveFileName(self._window, title, start, "PDF (*.pdf)")
-        if not path:
-            return None
-        self._places.keep("reports", str(Path(path).parent))
-        return Path(path)
+        return self._places.ask_where_to_save(self._window, "reports", name, title, "PDF (*.pdf)")
 
     # --- showing ------------------------------------------------------------------------------------------
     def begin(self, choice: BoardChoice) -> None:
@@ -235,9 +231,3 @@ def lost_words(fault: Exception | None) -> str:
     """A camera that is away, and what to do."""
     words = words_of(fault if isinstance(fault, CarpusFault) else CameraLost())
     return f"{words.happened} {words.do}"
-
-
-def replace_file(path: Path, write: Callable[[], object]) -> None:
-    """Write a file under a name that was asked for."""
-    path.unlink(missing_ok=True)  # the system's own dialog has asked whether it may go
-    write()

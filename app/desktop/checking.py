@@ -9,9 +9,9 @@ from pathlib import Path
 from typing import Protocol
 
 from PySide6.QtCore import QObject, Signal
-from PySide6.QtWidgets import QFileDialog, QWidget
+from PySide6.QtWidgets import QWidget
 
-from carpus.app.desktop.calibrating import lost_words, replace_file
+from carpus.app.desktop.calibrating import lost_words
 from carpus.app.desktop.camera_at_hand import CameraAtHand, Look
 from carpus.app.desktop.last_places import LastPlaces
 from carpus.app.desktop.ways import Tell, Way
@@ -24,6 +24,7 @@ from carpus.core.check_card.chart import add_check, chart_path, check_of, read_c
 from carpus.core.check_card.measure import CardWatch
 from carpus.core.check_card.standing import standing_of
 from carpus.core.dates import is_moment, iso
+from carpus.core.durable import replace_file
 from carpus.core.errors import CameraNameless
 from carpus.core.pipeline.channels import Newest
 from carpus.core.types import Frame
@@ -196,7 +197,7 @@ class Checking(QObject):
         path = self._ask_path(f"carpus-check-card-{paper}.pdf", self.tr("Save the card to print"))
         if path is not None:
             self._background.run(
-                lambda: replace_file(path, lambda: write_sheets(path, sheets, "Carpus check card")),
+                lambda: replace_file(path, lambda part: write_sheets(part, sheets, "Carpus check card")),
                 lambda _: None, self._tell.fault, self,
             )  # fmt: skip
 
@@ -213,17 +214,12 @@ class Checking(QObject):
         camera = f"{checks.camera} {checks.serial}".strip()
         result = CheckResult(camera, last, list(checks.checks[:-1]), asides)
         self._background.run(
-            lambda: replace_file(path, lambda: write_check_report(path, result)),
+            lambda: replace_file(path, lambda part: write_check_report(part, result)),
             lambda _: None, self._tell.fault, self,
         )  # fmt: skip
 
     def _ask_path(self, name: str, title: str) -> Path | None:
-        start = str(Path(self._places.folder("reports")) / name)
-        path, _ = QFileDialog.getSaveFileName(self._window, title, start, "PDF (*.pdf)")
-        if not path:
-            return None
-        self._places.keep("reports", str(Path(path).parent))
-        return Path(path)
+        return self._places.ask_where_to_save(self._window, "reports", name, title, "PDF (*.pdf)")
 
 
 def checks_of(folder: Path, serial: str, now: datetime, camera: str = "", *, simulated: bool) -> CameraChecks:

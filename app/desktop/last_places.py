@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import Any, Literal
 
 from PySide6.QtCore import QStandardPaths
+from PySide6.QtWidgets import QFileDialog, QWidget
 
 Kind = Literal["recordings", "reports", "exports"]
 FILE = "last_places.json"
@@ -28,6 +29,15 @@ class LastPlaces:
     def keep(self, kind: Kind, folder: str) -> None:
         """Remember a folder."""
         self._keep(kind, folder)
+
+    def ask_where_to_save(self, window: QWidget, kind: Kind, name: str, title: str, kinds: str) -> Path | None:
+        """Ask for a file to write, beginning at the last place, and remember that; None when the person changed their
+        mind. The system's own dialog asks whether an old file may go."""
+        path, _ = QFileDialog.getSaveFileName(window, title, str(Path(self.folder(kind)) / name), kinds)
+        if not path:
+            return None
+        self.keep(kind, str(Path(path).parent))
+        return Path(path)
 
     def _keep(self, name: str, value: str) -> None:
         try:

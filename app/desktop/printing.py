@@ -165,12 +165,11 @@ class Printing(QObject):
 
     def table(self, progress: Progress) -> None:
         """Ask for a name and write the sessions of the progress screen as CSV."""
-        start = str(Path(self._places.folder("exports")) / "progress.csv")
-        path, _ = QFileDialog.getSaveFileName(self._window, self.tr("Save table"), start, "CSV (*.csv)")
-        if path:
-            self._places.keep("exports", str(Path(path).parent))
+        title, kinds = self.tr("Save table"), "CSV (*.csv)"
+        path = self._places.ask_where_to_save(self._window, "exports", "progress.csv", title, kinds)
+        if path is not None:
             self._background.run(
-                lambda: write_tables(Path(path), progress),
+                lambda: write_tables(path, progress),
                 lambda paths: self._tables_written(paths, [point.figures.session_id for point in progress.points]),
                 self._tell.fault,
             )

@@ -4,10 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from datetime import date
-from pathlib import Path
 
 from PySide6.QtCore import QObject, Qt, Signal
-from PySide6.QtWidgets import QFileDialog, QWidget
+from PySide6.QtWidgets import QWidget
 
 from carpus.app.desktop.last_places import LastPlaces
 from carpus.app.desktop.ways import Tell, Way
@@ -15,6 +14,7 @@ from carpus.core.agreement.restated import Restated
 from carpus.core.agreement.retest import StudyFigures
 from carpus.core.agreement.retest_plan import RetestPlan
 from carpus.core.agreement.retest_table import write_study
+from carpus.core.durable import replace_file
 from carpus.core.library.library import Library
 from carpus.core.library.retest_people import RetestPeople
 from carpus.ui import terms
@@ -158,13 +158,10 @@ class Retesting(QObject):
         study = self._screen.plan.study
         if study is None:
             return
-        start = str(Path(self._places.folder("exports")) / "retest.csv")
-        path, _ = QFileDialog.getSaveFileName(self._window, self.tr("Save table"), start, "CSV (*.csv)")
-        if path:
-            self._places.keep("exports", str(Path(path).parent))
-            self._background.run(lambda: _write(study, Path(path)), lambda _: None, self._tell.fault, self)
-
-
-def _write(study: StudyFigures, path: Path) -> None:
-    path.unlink(missing_ok=True)  # the system's own dialog has asked whether it may go
-    write_study([study], path)
+        title, kinds = self.tr("Save table"), "CSV (*.csv)"
+        path = self._places.ask_where_to_save(self._window, "exports", "retest.csv", title, kinds)
+        if path is not None:
+            self._background.run(
+                lambda: replace_file(path, lambda part: write_study([study], part)),
+                lambda _: None, self._tell.fault, self,
+            )  # fmt: skip

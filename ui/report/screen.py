@@ -9,6 +9,7 @@ from PySide6.QtCore import QSize, Qt, QUrl, Signal
 from PySide6.QtGui import QColor, QDesktopServices, QPainter, QPaintEvent, QPixmap
 from PySide6.QtWidgets import QFileDialog, QHBoxLayout, QScrollArea, QSizePolicy, QVBoxLayout, QWidget
 
+from carpus.core.durable import replace_file
 from carpus.ui.background import Background
 from carpus.ui.controls.button import Button
 from carpus.ui.controls.card import Card
@@ -141,16 +142,18 @@ def suggested_name(report: Report) -> str:
 
 
 def _written(report: Report, target: Path, replace_asked: bool) -> Path:
-    """Write beside an old file first, so that a fault never costs it."""
-    part = target.with_name(f".{target.name}.part")
-    part.unlink(missing_ok=True)
-    place = part if replace_asked and target.exists() else target
-    if isinstance(report, SessionReport):
-        write_session_report(report, place)
+    """Put in the place of an old file only where the person has agreed to that."""
+
+    def write(place: Path) -> None:
+        if isinstance(report, SessionReport):
+            write_session_report(report, place)
+        else:
+            write_progress_report(report, place)
+
+    if replace_asked and target.exists():
+        replace_file(target, write)
     else:
-        write_progress_report(report, place)
-    if place != target:
-        place.replace(target)
+        write(target)
     return target
 
 
