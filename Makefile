@@ -7,7 +7,7 @@ export OMP_NUM_THREADS := 1
 
 PACKAGE_PY := $(or $(PYTHON),python3)
 
-.PHONY: run test lint pytest bench accuracy torture screenshots fresh package package-test windows-test release setup setup-test lock clean
+.PHONY: run test lint pytest bench accuracy torture screenshots fresh package package-test windows-test release translations setup setup-test lock clean
 
 run: setup                      ## the application on a simulated camera and patient
 	.venv/bin/carpus demo
@@ -49,6 +49,9 @@ package-test:                   ## the .deb in clean roots: install, start, meas
 
 windows-test:                   ## the Windows installer around a stand-in, its handling of files under Wine
 	installer/package/windows/try_under_wine.sh
+
+translations: setup-test        ## texts of the sources into resources/translations; says how many are missing
+	$(PY) installer/translations.py $(ARGUMENTS)
 
 release: setup-test             ## all that is handed out, or why not; RELEASE_KEY=... signs the checksums
 	$(PACKAGE_PY) installer/release.py

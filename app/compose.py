@@ -48,6 +48,7 @@ from carpus.core.library.library import Library
 from carpus.core.library.records import Records
 from carpus.core.library.set_up import SetUp
 from carpus.core.session.database import make_private
+from carpus.ui import language
 from carpus.ui.check_card.standing_words import card_words
 from carpus.ui.fonts import load_fonts
 from carpus.ui.keys import Keys
@@ -173,8 +174,7 @@ def compose(
     """
     # Tracking must not wait 5 ms, Python's usual turn, while the window paints, nor the window for tracking.
     sys.setswitchinterval(SWITCH_S)
-    theme = Theme(theme_name(qt, settings), settings.screen.text_scale)
-    apply_style(qt, theme)
+    theme = _dressed(qt, settings)
     library = Library(settings.data_folder)
     library.who = lambda: settings.report.therapist
     library.angle_order = lambda: settings.report.angle_order
@@ -272,10 +272,17 @@ def _safekeeping(
     return Safe(erasing, lists, backing_up, locking, encryption)
 
 
-def ask_for_folder(qt: QApplication, settings: Settings, fault: CarpusFault) -> Path | None:
-    """Tell why the data folder cannot be used; the folder the person chose instead, None to end."""
+def _dressed(qt: QApplication, settings: Settings) -> Theme:
+    """Language, theme and style as chosen."""
+    language.speak(settings.screen.language)
     theme = Theme(theme_name(qt, settings), settings.screen.text_scale)
     apply_style(qt, theme)
+    return theme
+
+
+def ask_for_folder(qt: QApplication, settings: Settings, fault: CarpusFault) -> Path | None:
+    """Tell why the data folder cannot be used; the folder the person chose instead, None to end."""
+    theme = _dressed(qt, settings)
     return NoFolder(theme, WordTable().fault(fault), Path.home()).ask()
 
 
@@ -285,8 +292,7 @@ def ask_for_pin(qt: QApplication, settings: Settings) -> bool:
     folder = settings.data_folder
     if not keys.has_key(folder) or keys.known_key(folder) is not None:
         return True
-    theme = Theme(theme_name(qt, settings), settings.screen.text_scale)
-    apply_style(qt, theme)
+    theme = _dressed(qt, settings)
     return AskPin(theme, folder).ask()
 
 

@@ -9,6 +9,8 @@ from typing import Any
 import shiboken6
 from PySide6.QtCore import QObject, QRunnable, Qt, QThreadPool, Signal
 
+from carpus.ui import language
+
 
 class _Answer(QObject):
     done = Signal(object)
@@ -18,13 +20,14 @@ class _Answer(QObject):
 class _Task(QRunnable):
     def __init__(self, work: Callable[[], Any], answer: _Answer) -> None:
         super().__init__()
-        self._work, self._answer = work, answer
+        self._work, self._answer, self._language = work, answer, language.borrowed()
 
     def run(self) -> None:
         fault: Exception | None = None
         result = None
         try:
-            result = self._work()
+            with language.speaking(self._language):
+                result = self._work()
         except Exception as cause:  # the one catch at the top of this thread
             fault = cause
         with suppress(RuntimeError):  # the program has ended meanwhile, and the answer with its window

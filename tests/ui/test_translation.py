@@ -7,16 +7,21 @@ import re
 import shutil
 import subprocess
 import sys
+import threading
 from datetime import date
 from pathlib import Path
 
 import pytest
-from PySide6.QtCore import QCoreApplication, QTranslator
+from PySide6.QtCore import QCoreApplication, QLocale, QTranslator
+from pytestqt.qtbot import QtBot
 
-from carpus.ui import terms
+from carpus.ui import language, terms
+from carpus.ui.background import Background
 from carpus.ui.live.light_view import LightView
+from carpus.ui.numbers import day_month
 from carpus.ui.patients.listing import ListHeader, PatientList
 from carpus.ui.theme import Theme
+from carpus.ui.translate import tr
 
 ROOT = Path(__file__).parents[2]
 SOURCES = sorted((ROOT / "ui").rglob("*.py"))
@@ -54,7 +59,7 @@ def test_texts_have_named_places_for_what_is_filled_in() -> None:
 
 
 def test_a_translation_made_by_qt_s_tools_reaches_widgets_and_functions(
-    qtbot: object, theme: Theme, tmp_path: Path
+    qtbot: QtBot, theme: Theme, tmp_path: Path
 ) -> None:
     """All texts are extracted, given another language, compiled, installed, and read back from the program."""
     tools = Path(sys.executable).parent
@@ -77,11 +82,44 @@ def test_a_translation_made_by_qt_s_tools_reaches_widgets_and_functions(
     subprocess.run(command, check=True, capture_output=True)
     translator = QTranslator()
     assert translator.load(str(compiled))
-    QCoreApplication.installTranslator(translator)
-    try:
+    texts = language.texts_in(source.read_bytes())
+    assert all(translator.translate(context, text) == said for (context, text), said in texts.items())
+    language.learn("xx", lambda context, text: texts.get((context, text)), QLocale("de_CH"))
+    header, light = ListHeader(theme, PatientList(theme, date(2026, 11, 20))), LightView(theme)
+    assert header.tr("Patient") == "Patient"
+    with language.speaking("xx"):
         assert terms.movement_name("flexion") == "¡Flexion"
-        header = ListHeader(theme, PatientList(theme, date(2026, 11, 20)))
         assert header.tr("Patient") == "¡Patient"
-        assert LightView(theme).tr("nothing like this") == "nothing like this"
+        assert light.tr("nothing like this") == "nothing like this"
+    assert header.tr("Patient") == "Patient"
+
+
+def test_a_page_in_another_language_is_painted_in_a_thread_of_its_own_while_the_window_goes_on_in_its_own(
+    qtbot: QtBot,
+) -> None:
+    language.learn("xx", lambda context, text: f"¡{text}", QLocale("de_CH"))
+    background, said = Background(), []
+    go_on = threading.Event()
+
+    def work() -> str:
+        go_on.wait(20.0)
+        return tr("Cancel") + day_month(date(2026, 11, 13)) + language.spoken()
+
+    with language.speaking("xx"):
+        background.run(work, said.append, said.append)
+    assert tr("Cancel") == "Cancel"
+    go_on.set()
+    qtbot.waitUntil(lambda: bool(said), timeout=20_000)
+    assert said == ["¡Cancel13. Nov.xx"] or said == ["¡Cancel13 Nov.xx"]
+
+
+def test_the_window_speaks_what_is_chosen_with_qt_s_own_texts_and_dates(qtbot: QtBot) -> None:
+    try:
+        language.speak("de")
+        assert QCoreApplication.translate("QPlatformTheme", "Cancel") == "Abbrechen"
+        assert QLocale().toString(1.5, "f", 1) == "1,5"
     finally:
-        QCoreApplication.removeTranslator(translator)
+        language.speak("en")
+    assert QCoreApplication.translate("QPlatformTheme", "Cancel") == "Cancel"
+    assert QLocale().toString(1.5, "f", 1) == "1.5"
+    assert language.of_the_system() in language.LANGUAGES

@@ -1,0 +1,106 @@
+"""Brings resources/translations up to date with the sources, by Qt's own tools, and says what is missing.
+
+``make translations`` runs it: ``lupdate`` over the windows and the texts of core, keeping what is there; ``lrelease``
+over the result, which refuses a file that is none. What was translated and is no longer said is kept as vanished.
+"""
+
+from __future__ import annotations
+
+import ast
+import subprocess
+import sys
+from pathlib import Path
+from tempfile import TemporaryDirectory
+from xml.etree import ElementTree
+
+ROOT = Path(__file__).resolve().parents[1]
+KEPT = ROOT / "resources" / "translations"
+TOOLS = Path(sys.executable).parent
+LANGUAGES = {"de": "de_DE", "it": "it_IT"}
+
+
+def windows_sources() -> list[Path]:
+    """All files whose texts ``lupdate`` reads by itself."""
+    return sorted(path for part in ("ui", "app") for path in (ROOT / part).rglob("*.py"))
+
+
+def said_texts() -> list[str]:
+    """The templates of ``said("...")`` in core and app, sorted: their context is the empty one wherever they stand."""
+    found = set()
+    for part in ("core", "app"):
+        for path in (ROOT / part).rglob("*.py"):
+            source = path.read_text(encoding="utf-8")
+            if "said(" in source:
+                found |= {text for text, _ in said_calls(ast.parse(source))}
+    return sorted(found)
+
+
+def said_calls(tree: ast.AST) -> list[tuple[str, ast.Call]]:
+    """Calls of ``said`` with their templates; a call whose template is no literal cannot be translated and is none."""
+    return [
+        (node.args[0].value, node)
+        for node in ast.walk(tree)
+        if isinstance(node, ast.Call)
+        and isinstance(node.func, ast.Name)
+        and node.func.id == "said"
+        and node.args
+        and isinstance(node.args[0], ast.Constant)
+        and isinstance(node.args[0].value, str)
+    ]
+
+
+def update(kept: Path, language: str) -> None:
+    """Let ``lupdate`` add what is new to one file, and mark what is gone."""
+    with TemporaryDirectory() as folder:
+        core = Path(folder) / "core_texts.py"
+        core.write_text("".join(f"tr({_literal(text)})\n" for text in said_texts()), encoding="utf-8")
+        sources = [str(path) for path in (*windows_sources(), core)]
+        _run("lupdate", *sources, "-locations", "none", "-target-language", language,
+             "-source-language", "en_GB",
+             "-disable-heuristic", "similartext", "-silent", "-ts", str(kept))  # fmt: skip
+
+
+def release(kept: Path, compiled: Path) -> None:
+    """Let ``lrelease`` compile one file."""
+    _run("lrelease", "-silent", str(kept), "-qm", str(compiled))
+
+
+def missing(kept: Path) -> list[tuple[str, str]]:
+    """Context and text of everything without a finished translation."""
+    return [
+        (context.findtext("name") or "", message.findtext("source") or "")
+        for context in ElementTree.parse(kept).iter("context")
+        for message in context.iter("message")
+        if (translation := message.find("translation")) is None or translation.get("type") == "unfinished"
+    ]
+
+
+def _literal(text: str) -> str:
+    """A text as the tool reads it: it knows no escapes by number."""
+    escaped = text.replace("\\", "\\\\").replace('"', '\\"').replace("\n", "\\n")
+    return f'"{escaped}"'
+
+
+def _run(tool: str, *arguments: str) -> None:
+    done = subprocess.run([str(TOOLS / f"pyside6-{tool}"), *arguments], capture_output=True, text=True, check=False)
+    if done.returncode:
+        sys.exit(f"{tool}: {done.stderr.strip() or done.stdout.strip()}")
+
+
+def main() -> None:
+    """Both tools over every language; with ``--list`` each missing text."""
+    KEPT.mkdir(exist_ok=True)
+    for code, name in LANGUAGES.items():
+        kept = KEPT / f"carpus_{code}.ts"
+        update(kept, name)
+        with TemporaryDirectory() as folder:
+            release(kept, Path(folder) / "compiled.qm")
+        left = missing(kept)
+        print(f"{kept.relative_to(ROOT)}: {len(left)} texts without a finished translation")
+        if "--list" in sys.argv[1:]:
+            for context, text in left:
+                print(f"  {context or '-'}: {text}")
+
+
+if __name__ == "__main__":
+    main()

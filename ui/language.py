@@ -1,0 +1,162 @@
+"""Which language the program speaks: the window's, or for a moment another one's.
+
+One translator is installed once and asks for the language that is spoken in its thread; nothing is installed later,
+so a report may be painted in another language in a thread of its own while the window goes on in its own.
+"""
+
+from __future__ import annotations
+
+import threading
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from importlib import resources
+from xml.etree import ElementTree
+
+from PySide6.QtCore import QCoreApplication, QLibraryInfo, QLocale, QTranslator
+
+LANGUAGES = {"en": "English", "de": "Deutsch", "it": "Italiano"}
+"""Languages by their own names; a new one is a line here, one in ``_USUAL`` and its file in resources/translations."""
+
+_USUAL = {
+    "en": QLocale(QLocale.Language.English, QLocale.Country.UnitedKingdom),
+    "de": QLocale(QLocale.Language.German, QLocale.Country.Germany),
+    "it": QLocale(QLocale.Language.Italian, QLocale.Country.Italy),
+}
+
+Find = Callable[[str, str], str | None]
+"""The translation of a text in a context, None where there is none."""
+
+
+class _Spoken(threading.local):
+    """The language of this thread while :func:`speaking`; empty for the window's."""
+
+    code = ""
+
+
+class _Translator(QTranslator):
+    """Asks for every text in the language that is spoken where it is asked for."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.finds: dict[str, Find] = {"en": lambda context, text: None}
+        self.locales: dict[str, QLocale] = dict(_USUAL)
+        self.window = ""
+
+    def translate(self, context: str, text: str, disambiguation: str | None = None, number: int = -1) -> str | None:
+        find = self.finds.get(_SPOKEN.code or self.window)
+        return find(context or "", text or "") if find is not None else None
+
+    def isEmpty(self) -> bool:
+        return False
+
+
+_SPOKEN = _Spoken()
+_TRANSLATOR: list[_Translator] = []
+
+
+def texts_of(code: str) -> dict[tuple[str, str], str]:
+    """What the kept file of a language says, by context and English text; unfinished texts that are there count."""
+    return texts_in((resources.files("carpus.resources") / "translations" / f"carpus_{code}.ts").read_bytes())
+
+
+def texts_in(file: bytes) -> dict[tuple[str, str], str]:
+    """What a file of Qt Linguist says, as above."""
+    found = {}
+    for context in ElementTree.fromstring(file).iter("context"):
+        name = context.findtext("name") or ""
+        for message in context.iter("message"):
+            translation = message.find("translation")
+            if translation is not None and translation.get("type") not in ("vanished", "obsolete"):
+                text = "".join(translation.itertext())
+                if text.strip():
+                    found[name, message.findtext("source") or ""] = text
+    return found
+
+
+def speak(code: str) -> None:
+    """From now on the window's language; ``system`` for the computer's. To be called in the window's thread, once
+    there is an application."""
+    chosen = code if code in known() else of_the_system()
+    translator = _translator()
+    _prepare(translator, chosen)
+    translator.window = chosen
+    QLocale.setDefault(translator.locales[chosen])
+
+
+@contextmanager
+def speaking(code: str) -> Iterator[None]:
+    """Meanwhile this thread speaks another language; empty for the window's. Work that is given to another thread
+    through ``Background`` takes it along."""
+    if code:
+        _prepare(_translator(), code)
+    before, _SPOKEN.code = _SPOKEN.code, code
+    try:
+        yield
+    finally:
+        _SPOKEN.code = before
+
+
+def spoken() -> str:
+    """The language spoken here and now."""
+    return _SPOKEN.code or (_TRANSLATOR[0].window if _TRANSLATOR else "") or "en"
+
+
+def borrowed() -> str:
+    """The language of :func:`speaking`, empty outside of it."""
+    return _SPOKEN.code
+
+
+def locale() -> QLocale:
+    """How numbers and dates are written here and now."""
+    return _TRANSLATOR[0].locales[_SPOKEN.code] if _SPOKEN.code and _TRANSLATOR else QLocale()
+
+
+def of_the_system() -> str:
+    """The first of the person's languages that Carpus speaks; English where it speaks none."""
+    for name in QLocale.system().uiLanguages():
+        code = name.replace("_", "-").split("-")[0].lower()
+        if code in LANGUAGES:
+            return code
+    return "en"
+
+
+def known() -> tuple[str, ...]:
+    """All languages that can be spoken."""
+    return tuple(_TRANSLATOR[0].locales) if _TRANSLATOR else tuple(LANGUAGES)
+
+
+def learn(code: str, find: Find, written_as: QLocale) -> None:
+    """Another language, whose texts ``find`` gives; numbers and dates ``written_as`` in it."""
+    translator = _translator()
+    translator.finds[code], translator.locales[code] = find, written_as
+
+
+def _translator() -> _Translator:
+    """The one translator. What installs it must be the window's thread, which does so before any other paints."""
+    if not _TRANSLATOR:
+        _TRANSLATOR.append(_Translator())
+        QCoreApplication.installTranslator(_TRANSLATOR[0])
+    return _TRANSLATOR[0]
+
+
+def _prepare(translator: _Translator, code: str) -> None:
+    """Read a language when it is first spoken, and take the person's own country's locale where it is theirs."""
+    if code in translator.finds and code != "en":
+        return
+    own = QLocale.system()
+    if code in _USUAL and own.language() == _USUAL[code].language():
+        translator.locales[code] = own
+    if code != "en":
+        translator.finds[code] = _find_in(texts_of(code), code)
+
+
+def _find_in(texts: dict[tuple[str, str], str], code: str) -> Find:
+    """Carpus's own texts, then those of Qt's dialogs and buttons."""
+    qt = QTranslator()
+    qt.load(f"qtbase_{code}", QLibraryInfo.path(QLibraryInfo.LibraryPath.TranslationsPath))
+
+    def find(context: str, text: str) -> str | None:
+        own = texts.get((context, text))
+        return own if own is not None else qt.translate(context, text) or None
+
+    return find
