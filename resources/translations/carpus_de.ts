@@ -5,8588 +5,8593 @@
     <name></name>
     <message>
         <source>Not held: {names}. Correct a picture soon after too.</source>
-        <translation type="unfinished"></translation>
+        <translation>Nicht gehalten: {names}. Berichtigen Sie auch ein Bild kurz danach.</translation>
     </message>
     <message>
         <source>{count} of {common} pictures differ by more than 2°, most at {time}: {size}.</source>
-        <translation type="unfinished"></translation>
+        <translation>{count} von {common} Bildern weichen um mehr als 2° ab, am meisten bei {time}: {size}.</translation>
     </message>
     <message>
         <source>No picture differs by more than 2°.</source>
-        <translation type="unfinished"></translation>
+        <translation>Kein Bild weicht um mehr als 2° ab.</translation>
     </message>
     <message>
         <source>{count} pictures have an angle that had none.</source>
-        <translation type="unfinished"></translation>
+        <translation>{count} Bilder haben jetzt einen Winkel, die keinen hatten.</translation>
     </message>
     <message>
         <source>Close Carpus</source>
-        <translation type="unfinished"></translation>
+        <translation>Carpus schließen</translation>
     </message>
     <message>
         <source>Choose another folder</source>
-        <translation type="unfinished"></translation>
+        <translation>Anderen Ordner wählen</translation>
     </message>
     <message>
         <source>{name}, other sign</source>
-        <translation type="unfinished"></translation>
+        <translation>{name}, anderes Vorzeichen</translation>
     </message>
     <message>
         <source>Three discs of the palm are needed.</source>
-        <translation type="unfinished"></translation>
+        <translation>Drei Punkte der Handfläche werden gebraucht.</translation>
     </message>
     <message>
         <source>The column of the times is needed.</source>
-        <translation type="unfinished"></translation>
+        <translation>Die Spalte der Zeiten wird gebraucht.</translation>
     </message>
     <message>
         <source>At least one angle is needed.</source>
-        <translation type="unfinished"></translation>
+        <translation>Mindestens ein Winkel wird gebraucht.</translation>
     </message>
     <message>
         <source>Flexion–extension</source>
-        <translation type="unfinished"></translation>
+        <translation>Flexion–Extension</translation>
     </message>
     <message>
         <source>Side movement</source>
-        <translation type="unfinished"></translation>
+        <translation>Seitbewegung</translation>
     </message>
     <message>
         <source>Turning</source>
-        <translation type="unfinished"></translation>
+        <translation>Drehung</translation>
     </message>
     <message>
         <source>Thumb, knuckle sideways</source>
-        <translation type="unfinished"></translation>
+        <translation>Daumen, Grundgelenk seitlich</translation>
     </message>
     <message>
         <source>flexion</source>
-        <translation type="unfinished"></translation>
+        <translation>Flexion</translation>
     </message>
     <message>
         <source>extension</source>
-        <translation type="unfinished"></translation>
+        <translation>Extension</translation>
     </message>
     <message>
         <source>radial</source>
-        <translation type="unfinished"></translation>
+        <translation>radial</translation>
     </message>
     <message>
         <source>ulnar</source>
-        <translation type="unfinished"></translation>
+        <translation>ulnar</translation>
     </message>
     <message>
         <source>supination</source>
-        <translation type="unfinished"></translation>
+        <translation>Supination</translation>
     </message>
     <message>
         <source>pronation</source>
-        <translation type="unfinished"></translation>
+        <translation>Pronation</translation>
     </message>
     <message>
         <source>more</source>
-        <translation type="unfinished"></translation>
+        <translation>mehr</translation>
     </message>
     <message>
         <source>less</source>
-        <translation type="unfinished"></translation>
+        <translation>weniger</translation>
     </message>
     <message>
         <source>{low} to {high}</source>
-        <translation type="unfinished"></translation>
+        <translation>{low} bis {high}</translation>
     </message>
     <message>
         <source>not judged: no limit was set</source>
-        <translation type="unfinished"></translation>
+        <translation>nicht beurteilt: keine Grenze festgelegt</translation>
     </message>
     <message>
         <source>too few to say, {count} readings</source>
-        <translation type="unfinished"></translation>
+        <translation>zu wenig für eine Aussage, {count} Ablesungen</translation>
     </message>
     <message>
         <source>agree within {limit}</source>
-        <translation type="unfinished"></translation>
+        <translation>stimmen auf {limit} überein</translation>
     </message>
     <message>
         <source>agree within {apart}, {count} readings</source>
-        <translation type="unfinished"></translation>
+        <translation>stimmen auf {apart} überein, {count} Ablesungen</translation>
     </message>
     <message>
         <source>up to {apart} apart: do not mix</source>
-        <translation type="unfinished"></translation>
+        <translation>bis zu {apart} auseinander: nicht mischen</translation>
     </message>
     <message>
         <source>{angle}: Carpus lies between {low} and {high} of the reference. Not judged.</source>
-        <translation type="unfinished"></translation>
+        <translation>{angle}: Carpus liegt zwischen {low} und {high} der Referenz. Nicht beurteilt.</translation>
     </message>
     <message>
         <source>{angles} agree within {limit}.</source>
-        <translation type="unfinished"></translation>
+        <translation>{angles} stimmen auf {limit} überein.</translation>
     </message>
     <message>
         <source>{angles} agrees within {limit}.</source>
-        <translation type="unfinished"></translation>
+        <translation>{angles} stimmt auf {limit} überein.</translation>
     </message>
     <message>
         <source>{angles} do not.</source>
-        <translation type="unfinished"></translation>
+        <translation>{angles} nicht.</translation>
     </message>
     <message>
         <source>{angles} does not.</source>
-        <translation type="unfinished"></translation>
+        <translation>{angles} nicht.</translation>
     </message>
     <message>
         <source>Too few readings of {angles}.</source>
-        <translation type="unfinished"></translation>
+        <translation>Zu wenige Ablesungen: {angles}.</translation>
     </message>
     <message>
         <source>{angles} do not agree within {limit}.</source>
-        <translation type="unfinished"></translation>
+        <translation>{angles} stimmen nicht auf {limit} überein.</translation>
     </message>
     <message>
         <source>{angles} does not agree within {limit}.</source>
-        <translation type="unfinished"></translation>
+        <translation>{angles} stimmt nicht auf {limit} überein.</translation>
     </message>
     <message>
         <source>Too few readings to say whether they agree within {limit}.</source>
-        <translation type="unfinished"></translation>
+        <translation>Zu wenige Ablesungen, um eine Übereinstimmung auf {limit} zu beurteilen.</translation>
     </message>
     <message>
         <source>Judged against the {limit} that you set before.</source>
-        <translation type="unfinished"></translation>
+        <translation>Beurteilt gegen die {limit}, die Sie vorher festgelegt haben.</translation>
     </message>
     <message>
         <source>No limit is set: Settings, “Agreement”. Set it before you compare.</source>
-        <translation type="unfinished"></translation>
+        <translation>Keine Grenze festgelegt: Einstellungen, „Übereinstimmung“. Legen Sie sie vor dem Vergleich fest.</translation>
     </message>
     <message>
         <source>A goniometer itself repeats within 4 to 5° by one rater.</source>
-        <translation type="unfinished"></translation>
+        <translation>Ein Winkelmesser selbst wiederholt bei derselben Person auf 4 bis 5°.</translation>
     </message>
     <message>
         <source>One session of one person says nothing of others.</source>
-        <translation type="unfinished"></translation>
+        <translation>Eine Sitzung einer Person sagt nichts über andere.</translation>
     </message>
     <message>
         <source>{count} angles</source>
-        <translation type="unfinished"></translation>
+        <translation>{count} Winkel</translation>
     </message>
     <message>
         <source>{first} and {last}</source>
-        <translation type="unfinished"></translation>
+        <translation>{first} und {last}</translation>
     </message>
     <message>
         <source>Time shift</source>
-        <translation type="unfinished"></translation>
+        <translation>Zeitverschiebung</translation>
     </message>
     <message>
         <source>none needed</source>
-        <translation type="unfinished"></translation>
+        <translation>keine nötig</translation>
     </message>
     <message>
         <source>hand held still at each reading</source>
-        <translation type="unfinished"></translation>
+        <translation>Hand bei jeder Ablesung ruhig</translation>
     </message>
     <message>
         <source>reference later</source>
-        <translation type="unfinished"></translation>
+        <translation>Referenz später</translation>
     </message>
     <message>
         <source>Carpus later</source>
-        <translation type="unfinished"></translation>
+        <translation>Carpus später</translation>
     </message>
     <message>
         <source>{later}; curves match {match}</source>
-        <translation type="unfinished"></translation>
+        <translation>{later}; Übereinstimmung der Kurven {match}</translation>
     </message>
     <message>
         <source>curves match {match}</source>
-        <translation type="unfinished"></translation>
+        <translation>Übereinstimmung der Kurven {match}</translation>
     </message>
     <message>
         <source>none</source>
-        <translation type="unfinished"></translation>
+        <translation>keine</translation>
     </message>
     <message>
         <source>Alignment</source>
-        <translation type="unfinished"></translation>
+        <translation>Ausrichtung</translation>
     </message>
     <message>
         <source>angles compared as they are</source>
-        <translation type="unfinished"></translation>
+        <translation>Winkel ohne Umrechnung verglichen</translation>
     </message>
     <message>
         <source>turned as one rigid body; {off} mm apart</source>
-        <translation type="unfinished"></translation>
+        <translation>als starrer Körper gedreht; {off} mm auseinander</translation>
     </message>
     <message>
         <source>of the reference; joined at Carpus’s pictures</source>
-        <translation type="unfinished"></translation>
+        <translation>der Referenz; an den Bildern von Carpus zusammengeführt</translation>
     </message>
     <message>
         <source>Sampling</source>
-        <translation type="unfinished"></translation>
+        <translation>Abtastung</translation>
     </message>
     <message>
         <source>{rate} a second</source>
-        <translation type="unfinished"></translation>
+        <translation>{rate} je Sekunde</translation>
     </message>
     <message>
         <source>readings: hand not still or not seen</source>
-        <translation type="unfinished"></translation>
+        <translation>Ablesungen: Hand nicht ruhig oder nicht gesehen</translation>
     </message>
     <message>
         <source>pictures predicted, doubtful or lost</source>
-        <translation type="unfinished"></translation>
+        <translation>Bilder vorhergesagt, zweifelhaft oder verloren</translation>
     </message>
     <message>
         <source>{left} of {all}</source>
-        <translation type="unfinished"></translation>
+        <translation>{left} von {all}</translation>
     </message>
     <message>
         <source>Left out</source>
-        <translation type="unfinished"></translation>
+        <translation>Ausgelassen</translation>
     </message>
     <message>
         <source>and {count} more, in the table that is saved</source>
-        <translation type="unfinished"></translation>
+        <translation>und {count} weitere, in der gespeicherten Tabelle</translation>
     </message>
     <message>
         <source>Grip</source>
-        <translation type="unfinished"></translation>
+        <translation>Griffkraft</translation>
     </message>
     <message>
         <source>Key pinch</source>
-        <translation type="unfinished"></translation>
+        <translation>Schlüsselgriff</translation>
     </message>
     <message>
         <source>Three-point pinch</source>
-        <translation type="unfinished"></translation>
+        <translation>Dreipunktgriff</translation>
     </message>
     <message>
         <source>Tip pinch</source>
-        <translation type="unfinished"></translation>
+        <translation>Spitzgriff</translation>
     </message>
     <message>
         <source>Round the wrist</source>
-        <translation type="unfinished"></translation>
+        <translation>Umfang Handgelenk</translation>
     </message>
     <message>
         <source>Round the palm</source>
-        <translation type="unfinished"></translation>
+        <translation>Umfang Mittelhand</translation>
     </message>
     <message>
         <source>Figure of eight</source>
-        <translation type="unfinished"></translation>
+        <translation>Achtertour</translation>
     </message>
     <message>
         <source>Volume of the hand</source>
-        <translation type="unfinished"></translation>
+        <translation>Handvolumen</translation>
     </message>
     <message>
         <source>Pain at rest</source>
-        <translation type="unfinished"></translation>
+        <translation>Schmerz in Ruhe</translation>
     </message>
     <message>
         <source>Pain when moving</source>
-        <translation type="unfinished"></translation>
+        <translation>Schmerz bei Bewegung</translation>
     </message>
     <message>
         <source>knuckle</source>
-        <translation type="unfinished"></translation>
+        <translation>Grundgelenk</translation>
     </message>
     <message>
         <source>middle joint</source>
-        <translation type="unfinished"></translation>
+        <translation>Mittelgelenk</translation>
     </message>
     <message>
         <source>end joint</source>
-        <translation type="unfinished"></translation>
+        <translation>Endgelenk</translation>
     </message>
     <message>
         <source>Thumb</source>
-        <translation type="unfinished"></translation>
+        <translation>Daumen</translation>
     </message>
     <message>
         <source>{finger} finger</source>
-        <translation type="unfinished"></translation>
+        <translation>{finger}</translation>
     </message>
     <message>
         <source>{finger}, {joint}, {movement}</source>
-        <translation type="unfinished"></translation>
+        <translation>{finger}, {joint}, {movement}</translation>
     </message>
     <message>
         <source>straight</source>
-        <translation type="unfinished"></translation>
+        <translation>Streckung</translation>
     </message>
     <message>
         <source>bent</source>
-        <translation type="unfinished"></translation>
+        <translation>Beugung</translation>
     </message>
     <message>
         <source>active</source>
-        <translation type="unfinished"></translation>
+        <translation>aktiv</translation>
     </message>
     <message>
         <source>passive</source>
-        <translation type="unfinished"></translation>
+        <translation>passiv</translation>
     </message>
     <message>
         <source>of {most}</source>
-        <translation type="unfinished"></translation>
+        <translation>von {most}</translation>
     </message>
     <message>
         <source>Goniometer</source>
-        <translation type="unfinished"></translation>
+        <translation>Winkelmesser</translation>
     </message>
     <message>
         <source>Force</source>
-        <translation type="unfinished"></translation>
+        <translation>Kraft</translation>
     </message>
     <message>
         <source>Size</source>
-        <translation type="unfinished"></translation>
+        <translation>Umfang</translation>
     </message>
     <message>
         <source>Scores</source>
-        <translation type="unfinished"></translation>
+        <translation>Punktwerte</translation>
     </message>
     <message>
         <source>less is better</source>
-        <translation type="unfinished"></translation>
+        <translation>weniger ist besser</translation>
     </message>
     <message>
         <source>more is better</source>
-        <translation type="unfinished"></translation>
+        <translation>mehr ist besser</translation>
     </message>
     <message>
         <source>not judged</source>
-        <translation type="unfinished"></translation>
+        <translation>nicht beurteilt</translation>
     </message>
     <message>
         <source>no change beyond error</source>
-        <translation type="unfinished"></translation>
+        <translation>keine Änderung über den Fehler hinaus</translation>
     </message>
     <message>
         <source>improved</source>
-        <translation type="unfinished"></translation>
+        <translation>verbessert</translation>
     </message>
     <message>
         <source>worse</source>
-        <translation type="unfinished"></translation>
+        <translation>schlechter</translation>
     </message>
     <message>
         <source>{before} → {after} since {day}</source>
-        <translation type="unfinished"></translation>
+        <translation>{before} → {after} seit {day}</translation>
     </message>
     <message>
         <source>(error {size})</source>
-        <translation type="unfinished"></translation>
+        <translation>(Fehler {size})</translation>
     </message>
     <message>
         <source>left edge</source>
-        <translation type="unfinished"></translation>
+        <translation>linke Kante</translation>
     </message>
     <message>
         <source>right edge</source>
-        <translation type="unfinished"></translation>
+        <translation>rechte Kante</translation>
     </message>
     <message>
         <source>upper edge</source>
-        <translation type="unfinished"></translation>
+        <translation>obere Kante</translation>
     </message>
     <message>
         <source>lower edge</source>
-        <translation type="unfinished"></translation>
+        <translation>untere Kante</translation>
     </message>
     <message>
         <source>top left</source>
-        <translation type="unfinished"></translation>
+        <translation>oben links</translation>
     </message>
     <message>
         <source>top right</source>
-        <translation type="unfinished"></translation>
+        <translation>oben rechts</translation>
     </message>
     <message>
         <source>bottom left</source>
-        <translation type="unfinished"></translation>
+        <translation>unten links</translation>
     </message>
     <message>
         <source>bottom right</source>
-        <translation type="unfinished"></translation>
+        <translation>unten rechts</translation>
     </message>
     <message>
         <source>left</source>
-        <translation type="unfinished"></translation>
+        <translation>links</translation>
     </message>
     <message>
         <source>right</source>
-        <translation type="unfinished"></translation>
+        <translation>rechts</translation>
     </message>
     <message>
         <source>top</source>
-        <translation type="unfinished"></translation>
+        <translation>oben</translation>
     </message>
     <message>
         <source>bottom</source>
-        <translation type="unfinished"></translation>
+        <translation>unten</translation>
     </message>
     <message>
         <source>middle</source>
-        <translation type="unfinished"></translation>
+        <translation>Mitte</translation>
     </message>
     <message>
         <source>Move the board to the {place}</source>
-        <translation type="unfinished"></translation>
+        <translation>Tafel ins Feld {place}</translation>
     </message>
     <message>
         <source>Into the dashed outline, then hold still.</source>
-        <translation type="unfinished"></translation>
+        <translation>In den gestrichelten Umriss, dann stillhalten.</translation>
     </message>
     <message>
         <source>Into the dashed outline, its {side} nearer to the camera; then hold still.</source>
-        <translation type="unfinished"></translation>
+        <translation>In den gestrichelten Umriss, {side} näher zur Kamera; dann stillhalten.</translation>
     </message>
     <message>
         <source>Tilt the board: {side} nearer</source>
-        <translation type="unfinished"></translation>
+        <translation>Tafel neigen: {side} näher</translation>
     </message>
     <message>
         <source>Nearly half-way to upright, then hold still.</source>
-        <translation type="unfinished"></translation>
+        <translation>Fast halb aufrichten, dann stillhalten.</translation>
     </message>
     <message>
         <source>Bring the board nearer</source>
-        <translation type="unfinished"></translation>
+        <translation>Tafel näher heran</translation>
     </message>
     <message>
         <source>About 45 cm from the camera, then hold still.</source>
-        <translation type="unfinished"></translation>
+        <translation>Etwa 45 cm vor die Kamera, dann stillhalten.</translation>
     </message>
     <message>
         <source>Take the board farther away</source>
-        <translation type="unfinished"></translation>
+        <translation>Tafel weiter weg</translation>
     </message>
     <message>
         <source>About 85 cm from the camera, then hold still.</source>
-        <translation type="unfinished"></translation>
+        <translation>Etwa 85 cm vor die Kamera, dann stillhalten.</translation>
     </message>
     <message>
         <source>That is enough</source>
-        <translation type="unfinished"></translation>
+        <translation>Das genügt</translation>
     </message>
     <message>
         <source>Press “Work out”, or show more: it only gets better.</source>
-        <translation type="unfinished"></translation>
+        <translation>Drücken Sie „Berechnen“, oder zeigen Sie mehr: Es wird nur besser.</translation>
     </message>
     <message>
         <source>More light: the picture is too dark.</source>
-        <translation type="unfinished"></translation>
+        <translation>Mehr Licht: Das Bild ist zu dunkel.</translation>
     </message>
     <message>
         <source>No board seen: show all of it, flat, in even light.</source>
-        <translation type="unfinished"></translation>
+        <translation>Keine Tafel zu sehen: Zeigen Sie sie ganz und flach, in gleichmäßigem Licht.</translation>
     </message>
     <message>
         <source>Turn it less: it is nearly edge-on.</source>
-        <translation type="unfinished"></translation>
+        <translation>Weniger drehen: Man sieht fast nur die Kante.</translation>
     </message>
     <message>
         <source>Hold still.</source>
-        <translation type="unfinished"></translation>
+        <translation>Stillhalten.</translation>
     </message>
     <message>
         <source>Not sharp: hold still, or give it more light.</source>
-        <translation type="unfinished"></translation>
+        <translation>Nicht scharf: stillhalten, oder mehr Licht.</translation>
     </message>
     <message>
         <source>Taken. Now another place.</source>
-        <translation type="unfinished"></translation>
+        <translation>Aufgenommen. Jetzt eine andere Stelle.</translation>
     </message>
     <message>
         <source>all four sides</source>
-        <translation type="unfinished"></translation>
+        <translation>alle vier Seiten</translation>
     </message>
     <message>
         <source>{side} missing</source>
-        <translation type="unfinished"></translation>
+        <translation>{side} fehlt</translation>
     </message>
     <message>
         <source>{count} sides</source>
-        <translation type="unfinished"></translation>
+        <translation>{count} Seiten</translation>
     </message>
     <message>
         <source>{near}–{far} cm</source>
-        <translation type="unfinished"></translation>
+        <translation>{near}–{far} cm</translation>
     </message>
     <message>
         <source>Places</source>
-        <translation type="unfinished"></translation>
+        <translation>Stellen</translation>
     </message>
     <message>
         <source>{count} fields</source>
-        <translation type="unfinished"></translation>
+        <translation>{count} Felder</translation>
     </message>
     <message>
         <source>{least} of {all} or more</source>
-        <translation type="unfinished"></translation>
+        <translation>{least} von {all} oder mehr</translation>
     </message>
     <message>
         <source>Tilts</source>
-        <translation type="unfinished"></translation>
+        <translation>Neigungen</translation>
     </message>
     <message>
         <source>{least} sides, over {tilt}°</source>
-        <translation type="unfinished"></translation>
+        <translation>{least} Seiten, über {tilt}°</translation>
     </message>
     <message>
         <source>Distance</source>
-        <translation type="unfinished"></translation>
+        <translation>Abstand</translation>
     </message>
     <message>
         <source>near and far</source>
-        <translation type="unfinished"></translation>
+        <translation>nah und fern</translation>
     </message>
     <message>
         <source>Sharpness</source>
-        <translation type="unfinished"></translation>
+        <translation>Schärfe</translation>
     </message>
     <message>
         <source>sharp</source>
-        <translation type="unfinished"></translation>
+        <translation>scharf</translation>
     </message>
     <message>
         <source>not sharp</source>
-        <translation type="unfinished"></translation>
+        <translation>unscharf</translation>
     </message>
     <message>
         <source>edges below {most} px</source>
-        <translation type="unfinished"></translation>
+        <translation>Kanten unter {most} px</translation>
     </message>
     <message>
         <source>Still</source>
-        <translation type="unfinished"></translation>
+        <translation>Ruhe</translation>
     </message>
     <message>
         <source>still</source>
-        <translation type="unfinished"></translation>
+        <translation>ruhig</translation>
     </message>
     <message>
         <source>moving</source>
-        <translation type="unfinished"></translation>
+        <translation>bewegt</translation>
     </message>
     <message>
         <source>below {most} px/picture</source>
-        <translation type="unfinished"></translation>
+        <translation>unter {most} px je Bild</translation>
     </message>
     <message>
         <source>Work out · show the board</source>
-        <translation type="unfinished"></translation>
+        <translation>Berechnen · Tafel zeigen</translation>
     </message>
     <message>
         <source>Work out · 1 picture to go</source>
-        <translation type="unfinished"></translation>
+        <translation>Berechnen · noch 1 Bild</translation>
     </message>
     <message>
         <source>Work out · {count} pictures to go</source>
-        <translation type="unfinished"></translation>
+        <translation>Berechnen · noch {count} Bilder</translation>
     </message>
     <message>
         <source>Work out · more places and tilts</source>
-        <translation type="unfinished"></translation>
+        <translation>Berechnen · mehr Stellen und Neigungen</translation>
     </message>
     <message>
         <source>Work out</source>
-        <translation type="unfinished"></translation>
+        <translation>Berechnen</translation>
     </message>
     <message>
         <source>Not good enough: lines land {error} px off.</source>
-        <translation type="unfinished"></translation>
+        <translation>Nicht gut genug: Linien liegen {error} px daneben.</translation>
     </message>
     <message>
         <source>Nothing is changed. Glue the board onto something flat and stiff, give it light, and take the pictures again.</source>
-        <translation type="unfinished"></translation>
+        <translation>Nichts ist geändert. Kleben Sie die Tafel auf etwas Flaches, Steifes, geben Sie Licht, und nehmen Sie die Bilder neu auf.</translation>
     </message>
     <message>
         <source>Depth lies {apart} px beside the colours.</source>
-        <translation type="unfinished"></translation>
+        <translation>Die Tiefe liegt {apart} px neben den Farben.</translation>
     </message>
     <message>
         <source>Nothing is changed. Switch the camera’s registration on: run “carpus doctor”, it says how.</source>
-        <translation type="unfinished"></translation>
+        <translation>Nichts ist geändert. Schalten Sie die Deckung von Tiefe und Farbe in der Kamera ein: „carpus doctor“ sagt, wie.</translation>
     </message>
     <message>
         <source>Lines land within {error} pixels of where they are.</source>
-        <translation type="unfinished"></translation>
+        <translation>Linien liegen auf {error} Pixel genau.</translation>
     </message>
     <message>
         <source>The camera is calibrated. {depth}</source>
-        <translation type="unfinished"></translation>
+        <translation>Die Kamera ist kalibriert. {depth}</translation>
     </message>
     <message>
         <source>{land} A hand of {hand} mm read {more} before; it is put right from now on.</source>
-        <translation type="unfinished"></translation>
+        <translation>{land} Eine Hand von {hand} mm maß vorher {more}; ab jetzt ist das berichtigt.</translation>
     </message>
     <message>
         <source>Its depth was not checked.</source>
-        <translation type="unfinished"></translation>
+        <translation>Ihre Tiefe wurde nicht geprüft.</translation>
     </message>
     <message>
         <source>Depth reads right.</source>
-        <translation type="unfinished"></translation>
+        <translation>Die Tiefe stimmt.</translation>
     </message>
     <message>
         <source>Depth read {share} % too long.</source>
-        <translation type="unfinished"></translation>
+        <translation>Die Tiefe war {share} % zu lang.</translation>
     </message>
     <message>
         <source>Depth read {share} % too short.</source>
-        <translation type="unfinished"></translation>
+        <translation>Die Tiefe war {share} % zu kurz.</translation>
     </message>
     <message>
         <source>{size} mm too long</source>
-        <translation type="unfinished"></translation>
+        <translation>{size} mm zu lang</translation>
     </message>
     <message>
         <source>{size} mm too short</source>
-        <translation type="unfinished"></translation>
+        <translation>{size} mm zu kurz</translation>
     </message>
     <message>
         <source>good: below {limit} px</source>
-        <translation type="unfinished"></translation>
+        <translation>gut: unter {limit} px</translation>
     </message>
     <message>
         <source>fair: below {limit} px</source>
-        <translation type="unfinished"></translation>
+        <translation>mäßig: unter {limit} px</translation>
     </message>
     <message>
         <source>poor: above {limit} px</source>
-        <translation type="unfinished"></translation>
+        <translation>schlecht: über {limit} px</translation>
     </message>
     <message>
         <source>Lines land within</source>
-        <translation type="unfinished"></translation>
+        <translation>Linien genau auf</translation>
     </message>
     <message>
         <source>Focal length</source>
-        <translation type="unfinished"></translation>
+        <translation>Brennweite</translation>
     </message>
     <message>
         <source>{share} % off before</source>
-        <translation type="unfinished"></translation>
+        <translation>vorher {share} % daneben</translation>
     </message>
     <message>
         <source>as before</source>
-        <translation type="unfinished"></translation>
+        <translation>wie vorher</translation>
     </message>
     <message>
         <source>Middle of the picture</source>
-        <translation type="unfinished"></translation>
+        <translation>Bildmitte</translation>
     </message>
     <message>
         <source>{away} px to the side</source>
-        <translation type="unfinished"></translation>
+        <translation>{away} px zur Seite</translation>
     </message>
     <message>
         <source>Lens bends lines by</source>
-        <translation type="unfinished"></translation>
+        <translation>Objektiv biegt Linien um</translation>
     </message>
     <message>
         <source>not known</source>
-        <translation type="unfinished"></translation>
+        <translation>nicht bekannt</translation>
     </message>
     <message>
         <source>known</source>
-        <translation type="unfinished"></translation>
+        <translation>bekannt</translation>
     </message>
     <message>
         <source>{bend} px at most</source>
-        <translation type="unfinished"></translation>
+        <translation>höchstens {bend} px</translation>
     </message>
     <message>
         <source>put right</source>
-        <translation type="unfinished"></translation>
+        <translation>berichtigt</translation>
     </message>
     <message>
         <source>Depth</source>
-        <translation type="unfinished"></translation>
+        <translation>Tiefe</translation>
     </message>
     <message>
         <source>too few pictures with depth on the board</source>
-        <translation type="unfinished"></translation>
+        <translation>zu wenige Bilder mit Tiefe auf der Tafel</translation>
     </message>
     <message>
         <source>Depth scale</source>
-        <translation type="unfinished"></translation>
+        <translation>Maßstab der Tiefe</translation>
     </message>
     <message>
         <source>small; put right</source>
-        <translation type="unfinished"></translation>
+        <translation>klein; berichtigt</translation>
     </message>
     <message>
         <source>Depth shift</source>
-        <translation type="unfinished"></translation>
+        <translation>Versatz der Tiefe</translation>
     </message>
     <message>
         <source>none sure</source>
-        <translation type="unfinished"></translation>
+        <translation>keiner gesichert</translation>
     </message>
     <message>
         <source>within the scale’s error</source>
-        <translation type="unfinished"></translation>
+        <translation>im Fehler des Maßstabs</translation>
     </message>
     <message>
         <source>Board flat in depth</source>
-        <translation type="unfinished"></translation>
+        <translation>Tafel flach in der Tiefe</translation>
     </message>
     <message>
         <source>good: within {most} mm</source>
-        <translation type="unfinished"></translation>
+        <translation>gut: bis {most} mm</translation>
     </message>
     <message>
         <source>noisy: keep 50 to 80 cm</source>
-        <translation type="unfinished"></translation>
+        <translation>verrauscht: 50 bis 80 cm einhalten</translation>
     </message>
     <message>
         <source>Colour on depth</source>
-        <translation type="unfinished"></translation>
+        <translation>Farbe auf Tiefe</translation>
     </message>
     <message>
         <source>{apart} px apart</source>
-        <translation type="unfinished"></translation>
+        <translation>{apart} px auseinander</translation>
     </message>
     <message>
         <source>good: below {most} px</source>
-        <translation type="unfinished"></translation>
+        <translation>gut: unter {most} px</translation>
     </message>
     <message>
         <source>registration is off</source>
-        <translation type="unfinished"></translation>
+        <translation>Deckung ist aus</translation>
     </message>
     <message>
         <source>1 field empty</source>
-        <translation type="unfinished"></translation>
+        <translation>1 Feld leer</translation>
     </message>
     <message>
         <source>{count} fields empty</source>
-        <translation type="unfinished"></translation>
+        <translation>{count} Felder leer</translation>
     </message>
     <message>
         <source>Edge of the picture</source>
-        <translation type="unfinished"></translation>
+        <translation>Bildrand</translation>
     </message>
     <message>
         <source>keep the hand inside</source>
-        <translation type="unfinished"></translation>
+        <translation>Hand nicht bis an den Rand</translation>
     </message>
     <message>
         <source>{size}° less</source>
-        <translation type="unfinished"></translation>
+        <translation>{size}° weniger</translation>
     </message>
     <message>
         <source>{size}° more</source>
-        <translation type="unfinished"></translation>
+        <translation>{size}° mehr</translation>
     </message>
     <message>
         <source>Wrist flexion of {angle}°, read before</source>
-        <translation type="unfinished"></translation>
+        <translation>Flexion des Handgelenks von {angle}°, las sich vorher</translation>
     </message>
     <message>
         <source>Hand of {length} mm, read before</source>
-        <translation type="unfinished"></translation>
+        <translation>Hand von {length} mm, las sich vorher</translation>
     </message>
     <message>
         <source>A simulated camera: kept apart, for practice with the check card; no real session uses it.</source>
-        <translation type="unfinished"></translation>
+        <translation>Eine simulierte Kamera: getrennt aufbewahrt, zum Üben mit der Prüfkarte; keine echte Sitzung benutzt sie.</translation>
     </message>
     <message>
         <source>This camera does not say its number, so nothing can be kept for it. “carpus calibrate-camera --output” writes a camera file that the settings can name.</source>
-        <translation type="unfinished"></translation>
+        <translation>Diese Kamera nennt ihre Nummer nicht, darum kann für sie nichts aufbewahrt werden. „carpus calibrate-camera --output“ schreibt eine Kameradatei, die die Einstellungen nennen können.</translation>
     </message>
     <message>
         <source>the one of {day}</source>
-        <translation type="unfinished"></translation>
+        <translation>der vom {day}</translation>
     </message>
     <message>
         <source>the maker’s values</source>
-        <translation type="unfinished"></translation>
+        <translation>der Werte des Herstellers</translation>
     </message>
     <message>
         <source>Kept for this camera, number {serial}, instead of {before}. Sessions measured before keep their values and say so.</source>
-        <translation type="unfinished"></translation>
+        <translation>Aufbewahrt für diese Kamera, Nummer {serial}, anstelle {before}. Früher gemessene Sitzungen behalten ihre Werte und sagen es.</translation>
     </message>
     <message>
         <source>Camera out: check it</source>
-        <translation type="unfinished"></translation>
+        <translation>Kamera misst falsch: prüfen</translation>
     </message>
     <message>
         <source>Camera unusual: check it</source>
-        <translation type="unfinished"></translation>
+        <translation>Kamera ungewöhnlich: prüfen</translation>
     </message>
     <message>
         <source>Check {days} days old</source>
-        <translation type="unfinished"></translation>
+        <translation>Prüfung {days} Tage alt</translation>
     </message>
     <message>
         <source>This camera was out at its last check: lengths {share} % too long. Angles hold. Check once more.</source>
-        <translation type="unfinished"></translation>
+        <translation>Diese Kamera maß bei der letzten Prüfung falsch: Längen {share} % zu groß. Winkel stimmen. Prüfen Sie noch einmal.</translation>
     </message>
     <message>
         <source>This camera was out at its last check: lengths {share} % too short. Angles hold. Check once more.</source>
-        <translation type="unfinished"></translation>
+        <translation>Diese Kamera maß bei der letzten Prüfung falsch: Längen {share} % zu klein. Winkel stimmen. Prüfen Sie noch einmal.</translation>
     </message>
     <message>
         <source>This camera was out at its last check: angles {angle}° off. Check it once more, or calibrate it.</source>
-        <translation type="unfinished"></translation>
+        <translation>Diese Kamera maß bei der letzten Prüfung falsch: Winkel {angle}° daneben. Prüfen Sie noch einmal, oder kalibrieren Sie.</translation>
     </message>
     <message>
         <source>Angles not sure: a check of this camera near this session was out.</source>
-        <translation type="unfinished"></translation>
+        <translation>Winkel unsicher: Eine Prüfung dieser Kamera nahe dieser Sitzung war nicht in Ordnung.</translation>
     </message>
     <message>
         <source>Lengths not sure: a check of this camera near this session was out; angles hold.</source>
-        <translation type="unfinished"></translation>
+        <translation>Längen unsicher: Eine Prüfung dieser Kamera nahe dieser Sitzung war nicht in Ordnung; Winkel stimmen.</translation>
     </message>
     <message>
         <source>Not calibrated and not checked yet.</source>
-        <translation type="unfinished"></translation>
+        <translation>Noch nicht kalibriert und nicht geprüft.</translation>
     </message>
     <message>
         <source>Never calibrated.</source>
-        <translation type="unfinished"></translation>
+        <translation>Nie kalibriert.</translation>
     </message>
     <message>
         <source>Calibrated {ago}.</source>
-        <translation type="unfinished"></translation>
+        <translation>Kalibriert {ago}.</translation>
     </message>
     <message>
         <source>Never checked.</source>
-        <translation type="unfinished"></translation>
+        <translation>Nie geprüft.</translation>
     </message>
     <message>
         <source>out of its limits</source>
-        <translation type="unfinished"></translation>
+        <translation>außerhalb der Grenzen</translation>
     </message>
     <message>
         <source>otherwise than usual</source>
-        <translation type="unfinished"></translation>
+        <translation>anders als sonst</translation>
     </message>
     <message>
         <source>it measured right</source>
-        <translation type="unfinished"></translation>
+        <translation>misst richtig</translation>
     </message>
     <message>
         <source>Checked {ago}: {found}.</source>
-        <translation type="unfinished"></translation>
+        <translation>Geprüft {ago}: {found}.</translation>
     </message>
     <message>
         <source>Camera {serial}: {calibrated} {checked}</source>
-        <translation type="unfinished"></translation>
+        <translation>Kamera {serial}: {calibrated} {checked}</translation>
     </message>
     <message>
         <source>Check it again: it was calibrated since.</source>
-        <translation type="unfinished"></translation>
+        <translation>Prüfen Sie erneut: Seitdem wurde kalibriert.</translation>
     </message>
     <message>
         <source>today</source>
-        <translation type="unfinished"></translation>
+        <translation>heute</translation>
     </message>
     <message>
         <source>yesterday</source>
-        <translation type="unfinished"></translation>
+        <translation>gestern</translation>
     </message>
     <message>
         <source>{days} days ago</source>
-        <translation type="unfinished"></translation>
+        <translation>vor {days} Tagen</translation>
     </message>
     <message>
         <source>This camera has not been checked yet.</source>
-        <translation type="unfinished"></translation>
+        <translation>Diese Kamera ist noch nicht geprüft.</translation>
     </message>
     <message>
         <source>Print the card, lay it under the camera, and look at it for 30 seconds.</source>
-        <translation type="unfinished"></translation>
+        <translation>Drucken Sie die Karte, legen Sie sie unter die Kamera, und warten Sie 30 Sekunden.</translation>
     </message>
     <message>
         <source>the limits are {angle}° and {length} mm</source>
-        <translation type="unfinished"></translation>
+        <translation>die Grenzen sind {angle}° und {length} mm</translation>
     </message>
     <message>
         <source>{angle}° and {length} mm off at most</source>
-        <translation type="unfinished"></translation>
+        <translation>höchstens {angle}° und {length} mm Abweichung</translation>
     </message>
     <message>
         <source>Check of {day}: {off}; {limits}.</source>
-        <translation type="unfinished"></translation>
+        <translation>Prüfung vom {day}: {off}; {limits}.</translation>
     </message>
     <message>
         <source>Calibrated since the last check.</source>
-        <translation type="unfinished"></translation>
+        <translation>Seit der letzten Prüfung neu kalibriert.</translation>
     </message>
     <message>
         <source>{basis} Check it now: that check was with the values before.</source>
-        <translation type="unfinished"></translation>
+        <translation>{basis} Prüfen Sie jetzt: Die Prüfung galt den Werten davor.</translation>
     </message>
     <message>
         <source>The camera measures otherwise than usual.</source>
-        <translation type="unfinished"></translation>
+        <translation>Die Kamera misst anders als sonst.</translation>
     </message>
     <message>
         <source>Within the limits: check once more.</source>
-        <translation type="unfinished"></translation>
+        <translation>Innerhalb der Grenzen: Prüfen Sie noch einmal.</translation>
     </message>
     <message>
         <source>The last check is {days} days old.</source>
-        <translation type="unfinished"></translation>
+        <translation>Die letzte Prüfung ist {days} Tage alt.</translation>
     </message>
     <message>
         <source>It measured right then.</source>
-        <translation type="unfinished"></translation>
+        <translation>Damals maß die Kamera richtig.</translation>
     </message>
     <message>
         <source>The camera measures right.</source>
-        <translation type="unfinished"></translation>
+        <translation>Die Kamera misst richtig.</translation>
     </message>
     <message>
         <source>The camera is out: lengths and angles are wrong.</source>
-        <translation type="unfinished"></translation>
+        <translation>Die Kamera misst falsch: Längen und Winkel stimmen nicht.</translation>
     </message>
     <message>
         <source>The camera is out: angles are {angle}° off.</source>
-        <translation type="unfinished"></translation>
+        <translation>Die Kamera misst falsch: Winkel sind {angle}° daneben.</translation>
     </message>
     <message>
         <source>The camera is out: lengths are {share} % too long.</source>
-        <translation type="unfinished"></translation>
+        <translation>Die Kamera misst falsch: Längen sind {share} % zu groß.</translation>
     </message>
     <message>
         <source>The camera is out: lengths are {share} % too short.</source>
-        <translation type="unfinished"></translation>
+        <translation>Die Kamera misst falsch: Längen sind {share} % zu klein.</translation>
     </message>
     <message>
         <source>The camera is out: a length is {length} mm off.</source>
-        <translation type="unfinished"></translation>
+        <translation>Die Kamera misst falsch: Eine Länge ist {length} mm daneben.</translation>
     </message>
     <message>
         <source>Angles still hold.</source>
-        <translation type="unfinished"></translation>
+        <translation>Winkel stimmen noch.</translation>
     </message>
     <message>
         <source>All distances</source>
-        <translation type="unfinished"></translation>
+        <translation>Alle Abstände</translation>
     </message>
     <message>
         <source>Wedge 30°</source>
-        <translation type="unfinished"></translation>
+        <translation>Keil 30°</translation>
     </message>
     <message>
         <source>Over the ridge 50°</source>
-        <translation type="unfinished"></translation>
+        <translation>Über den First 50°</translation>
     </message>
     <message>
         <source>Flat 90°</source>
-        <translation type="unfinished"></translation>
+        <translation>Flach 90°</translation>
     </message>
     <message>
         <source>80 mm across</source>
-        <translation type="unfinished"></translation>
+        <translation>80 mm quer</translation>
     </message>
     <message>
         <source>120 mm along</source>
-        <translation type="unfinished"></translation>
+        <translation>120 mm längs</translation>
     </message>
     <message>
         <source>25 mm high</source>
-        <translation type="unfinished"></translation>
+        <translation>25 mm hoch</translation>
     </message>
     <message>
         <source>All about {share} % long: the depth, or a card not printed at 100 %; its ruler says which.</source>
-        <translation type="unfinished"></translation>
+        <translation>Alles etwa {share} % zu lang: Es liegt an der Tiefe oder an einer Karte, die nicht mit 100 % gedruckt ist; ihr Lineal zeigt, woran.</translation>
     </message>
     <message>
         <source>All about {share} % short: the depth, or a card not printed at 100 %; its ruler says which.</source>
-        <translation type="unfinished"></translation>
+        <translation>Alles etwa {share} % zu kurz: Es liegt an der Tiefe oder an einer Karte, die nicht mit 100 % gedruckt ist; ihr Lineal zeigt, woran.</translation>
     </message>
     <message>
         <source>Calibrated {day}.</source>
-        <translation type="unfinished"></translation>
+        <translation>Kalibriert am {day}.</translation>
     </message>
     <message>
         <source>Not calibrated yet.</source>
-        <translation type="unfinished"></translation>
+        <translation>Noch nicht kalibriert.</translation>
     </message>
     <message>
         <source>Next check by {day}. {calibrated}</source>
-        <translation type="unfinished"></translation>
+        <translation>Nächste Prüfung bis {day}. {calibrated}</translation>
     </message>
     <message>
         <source>Lay the card flat under the camera, all of it in the picture, about 60 cm away.</source>
-        <translation type="unfinished"></translation>
+        <translation>Legen Sie die Karte flach unter die Kamera, ganz im Bild, etwa 60 cm entfernt.</translation>
     </message>
     <message>
         <source>The card has moved: the seconds begin again.</source>
-        <translation type="unfinished"></translation>
+        <translation>Die Karte hat sich bewegt: Die Sekunden beginnen neu.</translation>
     </message>
     <message>
         <source>{count} of 6 discs seen: all of the card in the picture, even light, its wedge upright.</source>
-        <translation type="unfinished"></translation>
+        <translation>{count} von 6 Punkten zu sehen: die ganze Karte ins Bild, gleichmäßiges Licht, Keil aufgestellt.</translation>
     </message>
     <message>
         <source>All six discs are seen. Leave it lying.</source>
-        <translation type="unfinished"></translation>
+        <translation>Alle sechs Punkte sind zu sehen. Lassen Sie die Karte liegen.</translation>
     </message>
     <message>
         <source>Lift</source>
-        <translation type="unfinished"></translation>
+        <translation>Abheben</translation>
     </message>
     <message>
         <source>Knuckle</source>
-        <translation type="unfinished"></translation>
+        <translation>Grundgelenk</translation>
     </message>
     <message>
         <source>Middle joint</source>
-        <translation type="unfinished"></translation>
+        <translation>Mittelgelenk</translation>
     </message>
     <message>
         <source>End joint</source>
-        <translation type="unfinished"></translation>
+        <translation>Endgelenk</translation>
     </message>
     <message>
         <source>Spread</source>
-        <translation type="unfinished"></translation>
+        <translation>Spreizung</translation>
     </message>
     <message>
         <source>TAM</source>
-        <translation type="unfinished"></translation>
+        <translation>TAM</translation>
     </message>
     <message>
         <source>{finger}, {joint}</source>
-        <translation type="unfinished"></translation>
+        <translation>{finger}, {joint}</translation>
     </message>
     <message>
         <source>In the palm’s plane</source>
-        <translation type="unfinished"></translation>
+        <translation>In der Handebene</translation>
     </message>
     <message>
         <source>Lifted {angle}</source>
-        <translation type="unfinished"></translation>
+        <translation>Abgehoben {angle}</translation>
     </message>
     <message>
         <source>Straight</source>
-        <translation type="unfinished"></translation>
+        <translation>Gerade</translation>
     </message>
     <message>
         <source>Bent {angle}</source>
-        <translation type="unfinished"></translation>
+        <translation>Gebeugt {angle}</translation>
     </message>
     <message>
         <source>Ulnar {angle}</source>
-        <translation type="unfinished"></translation>
+        <translation>Ulnar {angle}</translation>
     </message>
     <message>
         <source>Radial {angle}</source>
-        <translation type="unfinished"></translation>
+        <translation>Radial {angle}</translation>
     </message>
     <message>
         <source>Inwards {angle}</source>
-        <translation type="unfinished"></translation>
+        <translation>Nach innen {angle}</translation>
     </message>
     <message>
         <source>Away {angle}</source>
-        <translation type="unfinished"></translation>
+        <translation>Weg {angle}</translation>
     </message>
     <message>
         <source>in</source>
-        <translation type="unfinished"></translation>
+        <translation>innen</translation>
     </message>
     <message>
         <source>out</source>
-        <translation type="unfinished"></translation>
+        <translation>hin</translation>
     </message>
     <message>
         <source>Out {angle}</source>
-        <translation type="unfinished"></translation>
+        <translation>Außen {angle}</translation>
     </message>
     <message>
         <source>In {angle}</source>
-        <translation type="unfinished"></translation>
+        <translation>Innen {angle}</translation>
     </message>
     <message>
         <source>Total active motion (TAM)</source>
-        <translation type="unfinished"></translation>
+        <translation>Aktive Gesamtbeweglichkeit (TAM)</translation>
     </message>
     <message>
         <source>{row}, range</source>
-        <translation type="unfinished"></translation>
+        <translation>{row}, Umfang</translation>
     </message>
     <message>
         <source>Carpus: discs and set-up</source>
-        <translation type="unfinished"></translation>
+        <translation>Carpus: Punkte und Aufbau</translation>
     </message>
     <message>
         <source>Where the discs go</source>
-        <translation type="unfinished"></translation>
+        <translation>Wohin die Punkte gehören</translation>
     </message>
     <message>
         <source>Blue matt paper, 12 mm, on clean dry skin</source>
-        <translation type="unfinished"></translation>
+        <translation>Blaues mattes Papier, 12 mm, auf sauberer trockener Haut</translation>
     </message>
     <message>
         <source>1. Wrist: middle of the back of the wrist, over the crease of the lifted hand.</source>
-        <translation type="unfinished"></translation>
+        <translation>1. Handgelenk: Mitte des Handgelenkrückens, über der Falte der angehobenen Hand.</translation>
     </message>
     <message>
         <source>2. Thumb base: on the bony edge, a thumb&apos;s width from the wrist disc.</source>
-        <translation type="unfinished"></translation>
+        <translation>2. Daumensattelgelenk: auf der Knochenkante, eine Daumenbreite vom Handgelenkpunkt.</translation>
     </message>
     <message>
         <source>3. Knuckles: on the back of the hand just behind each knuckle.</source>
-        <translation type="unfinished"></translation>
+        <translation>3. Grundgelenke: auf dem Handrücken, gleich hinter jedem Knöchel.</translation>
     </message>
     <message>
         <source>Whole hand: also on the creases of every joint, and on the nails. Small fingers: 8 mm.</source>
-        <translation type="unfinished"></translation>
+        <translation>Ganze Hand: auch auf die Falten jedes Gelenks und auf die Nägel. Kleine Finger: 8 mm.</translation>
     </message>
     <message>
         <source>The left hand is the mirror image.</source>
-        <translation type="unfinished"></translation>
+        <translation>Die linke Hand ist das Spiegelbild.</translation>
     </message>
     <message>
         <source>Put them where they were last time. Never on wounds, dressings or fragile skin.</source>
-        <translation type="unfinished"></translation>
+        <translation>Kleben Sie sie dorthin, wo sie letztes Mal waren. Nie auf Wunden, Verbände oder empfindliche Haut.</translation>
     </message>
     <message>
         <source>Nothing else blue in the picture: no sleeve, pen, ring or nail.</source>
-        <translation type="unfinished"></translation>
+        <translation>Sonst nichts Blaues im Bild: kein Ärmel, Stift, Ring oder Nagel.</translation>
     </message>
     <message>
         <source>{size} mm</source>
-        <translation type="unfinished"></translation>
+        <translation>{size} mm</translation>
     </message>
     <message>
         <source>40 mm, if printed at 100 %</source>
-        <translation type="unfinished"></translation>
+        <translation>40 mm, wenn mit 100 % gedruckt</translation>
     </message>
     <message>
         <source>Setting up</source>
-        <translation type="unfinished"></translation>
+        <translation>Aufbau</translation>
     </message>
     <message>
         <source>Camera, arm, light, picture</source>
-        <translation type="unfinished"></translation>
+        <translation>Kamera, Arm, Licht, Bild</translation>
     </message>
     <message>
         <source>1. Camera 70 to 80 cm above the table, straight down, tied with a cord. Plug it straight in.</source>
-        <translation type="unfinished"></translation>
+        <translation>1. Kamera 70 bis 80 cm über dem Tisch, senkrecht nach unten, mit einer Schnur gesichert. Direkt anschließen.</translation>
     </message>
     <message>
         <source>2. No sun on the hand; even light from the ceiling; no shadow of the camera&apos;s arm.</source>
-        <translation type="unfinished"></translation>
+        <translation>2. Keine Sonne auf der Hand; gleichmäßiges Licht von der Decke; kein Schatten vom Kameraarm.</translation>
     </message>
     <message>
         <source>3. The forearm rests and stays still. A towel under it lets the hand bend down over the edge.</source>
-        <translation type="unfinished"></translation>
+        <translation>3. Der Unterarm liegt auf und bleibt ruhig. Ein Handtuch darunter lässt die Hand über die Kante beugen.</translation>
     </message>
     <message>
         <source>4. Clear the table of everything blue. Roll up a blue sleeve.</source>
-        <translation type="unfinished"></translation>
+        <translation>4. Räumen Sie alles Blaue vom Tisch. Blaue Ärmel hochkrempeln.</translation>
     </message>
     <message>
         <source>5. Choose the patient, Enter. Lay the hand flat and still, Space takes the picture.</source>
-        <translation type="unfinished"></translation>
+        <translation>5. Wählen Sie den Patienten, Eingabe. Hand flach und ruhig hinlegen, die Leertaste nimmt das Bild auf.</translation>
     </message>
     <message>
         <source>6. Click the discs in the order of the drawing; check the names of the whole hand.</source>
-        <translation type="unfinished"></translation>
+        <translation>6. Klicken Sie die Punkte in der Reihenfolge der Zeichnung an; prüfen Sie die Namen der ganzen Hand.</translation>
     </message>
     <message>
         <source>7. All checks green: Enter. Space records, Space stops and opens the review.</source>
-        <translation type="unfinished"></translation>
+        <translation>7. Alle Prüfungen grün: Eingabe. Die Leertaste startet die Aufnahme, beendet sie und öffnet die Auswertung.</translation>
     </message>
     <message>
         <source>Stop at pain of 5 or more, at 2 more than before, at numbness, swelling or dizziness.</source>
-        <translation type="unfinished"></translation>
+        <translation>Abbruch bei Schmerz ab 5, bei 2 mehr als zuvor, bei Taubheit, Schwellung oder Schwindel.</translation>
     </message>
     <message>
         <source>70 to 80 cm,</source>
-        <translation type="unfinished"></translation>
+        <translation>70 bis 80 cm,</translation>
     </message>
     <message>
         <source>at least 60 cm</source>
-        <translation type="unfinished"></translation>
+        <translation>mindestens 60 cm</translation>
     </message>
     <message>
         <source>camera, straight down</source>
-        <translation type="unfinished"></translation>
+        <translation>Kamera, senkrecht nach unten</translation>
     </message>
     <message>
         <source>safety cord</source>
-        <translation type="unfinished"></translation>
+        <translation>Sicherungsschnur</translation>
     </message>
     <message>
         <source>forearm rests, still</source>
-        <translation type="unfinished"></translation>
+        <translation>Unterarm liegt auf, ruhig</translation>
     </message>
     <message>
         <source>plain table, nothing blue</source>
-        <translation type="unfinished"></translation>
+        <translation>leerer Tisch, nichts Blaues</translation>
     </message>
     <message>
         <source>Help</source>
-        <translation type="unfinished"></translation>
+        <translation>Hilfe</translation>
     </message>
     <message>
         <source>Settings</source>
-        <translation type="unfinished"></translation>
+        <translation>Einstellungen</translation>
     </message>
     <message>
         <source>Lock</source>
-        <translation type="unfinished"></translation>
+        <translation>Sperren</translation>
     </message>
     <message>
         <source>Search for a patient</source>
-        <translation type="unfinished"></translation>
+        <translation>Einen Patienten suchen</translation>
     </message>
     <message>
         <source>New patient</source>
-        <translation type="unfinished"></translation>
+        <translation>Neuer Patient</translation>
     </message>
     <message>
         <source>Report</source>
-        <translation type="unfinished"></translation>
+        <translation>Bericht</translation>
     </message>
     <message>
         <source>Export</source>
-        <translation type="unfinished"></translation>
+        <translation>Exportieren</translation>
     </message>
     <message>
         <source>Back</source>
-        <translation type="unfinished"></translation>
+        <translation>Zurück</translation>
     </message>
     <message>
         <source>Record, and stop and review</source>
-        <translation type="unfinished"></translation>
+        <translation>Aufnehmen; beenden und auswerten</translation>
     </message>
     <message>
         <source>Note</source>
-        <translation type="unfinished"></translation>
+        <translation>Notiz</translation>
     </message>
     <message>
         <source>Pain score</source>
-        <translation type="unfinished"></translation>
+        <translation>Schmerzwert</translation>
     </message>
     <message>
         <source>Pause and go on</source>
-        <translation type="unfinished"></translation>
+        <translation>Anhalten und fortsetzen</translation>
     </message>
     <message>
         <source>Hide or show the marks on the picture</source>
-        <translation type="unfinished"></translation>
+        <translation>Marken im Bild aus- oder einblenden</translation>
     </message>
     <message>
         <source>Whole picture or hand area</source>
-        <translation type="unfinished"></translation>
+        <translation>Ganzes Bild oder nur die Hand</translation>
     </message>
     <message>
         <source>Speeds or angles</source>
-        <translation type="unfinished"></translation>
+        <translation>Geschwindigkeiten oder Winkel</translation>
     </message>
     <message>
         <source>Open and close the patient’s view</source>
-        <translation type="unfinished"></translation>
+        <translation>Patientenansicht öffnen und schließen</translation>
     </message>
     <message>
         <source>One figure large, or all</source>
-        <translation type="unfinished"></translation>
+        <translation>Ein Wert groß, oder alle</translation>
     </message>
     <message>
         <source>Next angle as big number</source>
-        <translation type="unfinished"></translation>
+        <translation>Nächster Winkel als große Zahl</translation>
     </message>
     <message>
         <source>Next finger as big number</source>
-        <translation type="unfinished"></translation>
+        <translation>Nächster Finger als große Zahl</translation>
     </message>
     <message>
         <source>One finger from the side</source>
-        <translation type="unfinished"></translation>
+        <translation>Ein Finger von der Seite</translation>
     </message>
     <message>
         <source>Answer about a blue spot: disc 1, or yes</source>
-        <translation type="unfinished"></translation>
+        <translation>Frage zu blauer Stelle: Punkt 1, oder ja</translation>
     </message>
     <message>
         <source>Answer about a blue spot: spot 2</source>
-        <translation type="unfinished"></translation>
+        <translation>Frage zu blauer Stelle: Stelle 2</translation>
     </message>
     <message>
         <source>Answer about a blue spot: neither, or no</source>
-        <translation type="unfinished"></translation>
+        <translation>Frage zu blauer Stelle: keine, oder nein</translation>
     </message>
     <message>
         <source>Accept the marker found</source>
-        <translation type="unfinished"></translation>
+        <translation>Gefundenen Marker annehmen</translation>
     </message>
     <message>
         <source>Undo the last marker</source>
-        <translation type="unfinished"></translation>
+        <translation>Letzten Marker zurücknehmen</translation>
     </message>
     <message>
         <source>Next marker</source>
-        <translation type="unfinished"></translation>
+        <translation>Nächster Marker</translation>
     </message>
     <message>
         <source>Larger loupe</source>
-        <translation type="unfinished"></translation>
+        <translation>Lupe größer</translation>
     </message>
     <message>
         <source>Smaller loupe</source>
-        <translation type="unfinished"></translation>
+        <translation>Lupe kleiner</translation>
     </message>
     <message>
         <source>Swap two markers</source>
-        <translation type="unfinished"></translation>
+        <translation>Zwei Marker tauschen</translation>
     </message>
     <message>
         <source>New picture</source>
-        <translation type="unfinished"></translation>
+        <translation>Neues Bild</translation>
     </message>
     <message>
         <source>Last time&apos;s picture larger</source>
-        <translation type="unfinished"></translation>
+        <translation>Bild vom letzten Mal größer</translation>
     </message>
     <message>
         <source>Click again</source>
-        <translation type="unfinished"></translation>
+        <translation>Neu anklicken</translation>
     </message>
     <message>
         <source>Thumb cannot lie straight</source>
-        <translation type="unfinished"></translation>
+        <translation>Daumen kann nicht gerade liegen</translation>
     </message>
     <message>
         <source>Index finger cannot lie straight</source>
-        <translation type="unfinished"></translation>
+        <translation>Zeigefinger kann nicht gerade liegen</translation>
     </message>
     <message>
         <source>Middle finger cannot lie straight</source>
-        <translation type="unfinished"></translation>
+        <translation>Mittelfinger kann nicht gerade liegen</translation>
     </message>
     <message>
         <source>Ring finger cannot lie straight</source>
-        <translation type="unfinished"></translation>
+        <translation>Ringfinger kann nicht gerade liegen</translation>
     </message>
     <message>
         <source>Little finger cannot lie straight</source>
-        <translation type="unfinished"></translation>
+        <translation>Kleinfinger kann nicht gerade liegen</translation>
     </message>
     <message>
         <source>Play and stop</source>
-        <translation type="unfinished"></translation>
+        <translation>Abspielen und anhalten</translation>
     </message>
     <message>
         <source>Previous picture</source>
-        <translation type="unfinished"></translation>
+        <translation>Voriges Bild</translation>
     </message>
     <message>
         <source>Next picture</source>
-        <translation type="unfinished"></translation>
+        <translation>Nächstes Bild</translation>
     </message>
     <message>
         <source>Previous repetition</source>
-        <translation type="unfinished"></translation>
+        <translation>Vorige Wiederholung</translation>
     </message>
     <message>
         <source>Next repetition</source>
-        <translation type="unfinished"></translation>
+        <translation>Nächste Wiederholung</translation>
     </message>
     <message>
         <source>Leave a repetition out, or take it back</source>
-        <translation type="unfinished"></translation>
+        <translation>Wiederholung auslassen oder zurückholen</translation>
     </message>
     <message>
         <source>Angles, path, speeds, ZYZ in turn</source>
-        <translation type="unfinished"></translation>
+        <translation>Winkel, Weg, Geschwindigkeiten, ZYZ im Wechsel</translation>
     </message>
     <message>
         <source>Move the repetition&apos;s edge back</source>
-        <translation type="unfinished"></translation>
+        <translation>Rand der Wiederholung zurücksetzen</translation>
     </message>
     <message>
         <source>Move the repetition&apos;s edge on</source>
-        <translation type="unfinished"></translation>
+        <translation>Rand der Wiederholung vorsetzen</translation>
     </message>
     <message>
         <source>Less time of the curves, larger</source>
-        <translation type="unfinished"></translation>
+        <translation>Kurven: weniger Zeit, größer</translation>
     </message>
     <message>
         <source>More time of the curves</source>
-        <translation type="unfinished"></translation>
+        <translation>Kurven: mehr Zeit</translation>
     </message>
     <message>
         <source>All of the curves</source>
-        <translation type="unfinished"></translation>
+        <translation>Kurven ganz</translation>
     </message>
     <message>
         <source>Point at the session before</source>
-        <translation type="unfinished"></translation>
+        <translation>Auf die vorige Sitzung zeigen</translation>
     </message>
     <message>
         <source>Point at the next session</source>
-        <translation type="unfinished"></translation>
+        <translation>Auf die nächste Sitzung zeigen</translation>
     </message>
     <message>
         <source>Open the session pointed at</source>
-        <translation type="unfinished"></translation>
+        <translation>Gezeigte Sitzung öffnen</translation>
     </message>
     <message>
         <source>Put a marker right</source>
-        <translation type="unfinished"></translation>
+        <translation>Einen Marker berichtigen</translation>
     </message>
     <message>
         <source>Previous picture to put right</source>
-        <translation type="unfinished"></translation>
+        <translation>Voriges Bild zum Berichtigen</translation>
     </message>
     <message>
         <source>Next picture to put right</source>
-        <translation type="unfinished"></translation>
+        <translation>Nächstes Bild zum Berichtigen</translation>
     </message>
     <message>
         <source>Marker not to be seen here</source>
-        <translation type="unfinished"></translation>
+        <translation>Marker hier nicht zu sehen</translation>
     </message>
     <message>
         <source>Take a step back</source>
-        <translation type="unfinished"></translation>
+        <translation>Einen Schritt zurücknehmen</translation>
     </message>
     <message>
         <source>Next doubtful picture</source>
-        <translation type="unfinished"></translation>
+        <translation>Nächstes zweifelhaftes Bild</translation>
     </message>
     <message>
         <source>Look at the {marker}</source>
-        <translation type="unfinished"></translation>
+        <translation>Prüfen Sie: {marker}</translation>
     </message>
     <message>
         <source>Doubtful</source>
-        <translation type="unfinished"></translation>
+        <translation>Zweifelhaft</translation>
     </message>
     <message>
         <source>Another blue spot is here</source>
-        <translation type="unfinished"></translation>
+        <translation>Hier ist eine andere blaue Stelle</translation>
     </message>
     <message>
         <source>Is it the {marker}?</source>
-        <translation type="unfinished"></translation>
+        <translation>Ist hier: {marker}?</translation>
     </message>
     <message>
         <source>Which blue spot is the {marker}?</source>
-        <translation type="unfinished"></translation>
+        <translation>Welche blaue Stelle ist: {marker}?</translation>
     </message>
     <message>
         <source>Waiting for the first picture</source>
-        <translation type="unfinished"></translation>
+        <translation>Warten auf das erste Bild</translation>
     </message>
     <message>
         <source>Hand lost</source>
-        <translation type="unfinished"></translation>
+        <translation>Hand verloren</translation>
     </message>
     <message>
         <source>Hold the hand flat under the camera</source>
-        <translation type="unfinished"></translation>
+        <translation>Hand flach unter die Kamera halten</translation>
     </message>
     <message>
         <source>Too few markers seen</source>
-        <translation type="unfinished"></translation>
+        <translation>Zu wenige Marker zu sehen</translation>
     </message>
     <message>
         <source>Turn the back of the hand to the camera</source>
-        <translation type="unfinished"></translation>
+        <translation>Handrücken zur Kamera drehen</translation>
     </message>
     <message>
         <source>What is seen does not fit: hold the hand flat for a moment</source>
-        <translation type="unfinished"></translation>
+        <translation>Das Gesehene passt nicht: Hand einen Moment flach halten</translation>
     </message>
     <message>
         <source>Tracking well</source>
-        <translation type="unfinished"></translation>
+        <translation>Verfolgung gut</translation>
     </message>
     <message>
         <source>All {count} markers seen</source>
-        <translation type="unfinished"></translation>
+        <translation>Alle {count} Marker zu sehen</translation>
     </message>
     <message>
         <source>{marker} hidden</source>
-        <translation type="unfinished"></translation>
+        <translation>{marker} verdeckt</translation>
     </message>
     <message>
         <source>Thumb hidden</source>
-        <translation type="unfinished"></translation>
+        <translation>Daumen verdeckt</translation>
     </message>
     <message>
         <source>{finger} finger hidden</source>
-        <translation type="unfinished"></translation>
+        <translation>{finger} verdeckt</translation>
     </message>
     <message>
         <source>Finger ends hidden</source>
-        <translation type="unfinished"></translation>
+        <translation>Fingerenden verdeckt</translation>
     </message>
     <message>
         <source>{count} markers hidden</source>
-        <translation type="unfinished"></translation>
+        <translation>{count} Marker verdeckt</translation>
     </message>
     <message>
         <source>Turn the thumb side up</source>
-        <translation type="unfinished"></translation>
+        <translation>Daumenseite nach oben drehen</translation>
     </message>
     <message>
         <source>Raise the hand</source>
-        <translation type="unfinished"></translation>
+        <translation>Hand anheben</translation>
     </message>
     <message>
         <source>Turn the back of the fingers to the camera</source>
-        <translation type="unfinished"></translation>
+        <translation>Fingerrücken zur Kamera drehen</translation>
     </message>
     <message>
         <source>All markers seen. End joints are not measured: they follow the middle joints.</source>
-        <translation type="unfinished"></translation>
+        <translation>Alle Marker zu sehen. Endgelenke werden nicht gemessen: Sie folgen den Mittelgelenken.</translation>
     </message>
     <message>
         <source>All markers seen, every joint is measured.</source>
-        <translation type="unfinished"></translation>
+        <translation>Alle Marker zu sehen, jedes Gelenk wird gemessen.</translation>
     </message>
     <message>
         <source>{what}: {remedy}.</source>
-        <translation type="unfinished"></translation>
+        <translation>{what}: {remedy}.</translation>
     </message>
     <message>
         <source>{marker} seen now and then</source>
-        <translation type="unfinished"></translation>
+        <translation>{marker} nur ab und zu zu sehen</translation>
     </message>
     <message>
         <source>{count} markers seen now and then</source>
-        <translation type="unfinished"></translation>
+        <translation>{count} Marker nur ab und zu zu sehen</translation>
     </message>
     <message>
         <source>Arm moved</source>
-        <translation type="unfinished"></translation>
+        <translation>Arm bewegt</translation>
     </message>
     <message>
         <source>Lay the forearm back where it was</source>
-        <translation type="unfinished"></translation>
+        <translation>Unterarm dorthin zurücklegen, wo er war</translation>
     </message>
     <message>
         <source>Another blue spot</source>
-        <translation type="unfinished"></translation>
+        <translation>Andere blaue Stelle</translation>
     </message>
     <message>
         <source>Wrist</source>
-        <translation type="unfinished"></translation>
+        <translation>Handgelenk</translation>
     </message>
     <message>
         <source>Thumb base</source>
-        <translation type="unfinished"></translation>
+        <translation>Daumensattelgelenk</translation>
     </message>
     <message>
         <source>{finger} knuckle</source>
-        <translation type="unfinished"></translation>
+        <translation>{finger}-Grundgelenk</translation>
     </message>
     <message>
         <source>{finger} middle joint</source>
-        <translation type="unfinished"></translation>
+        <translation>{finger}-Mittelgelenk</translation>
     </message>
     <message>
         <source>{finger} end joint</source>
-        <translation type="unfinished"></translation>
+        <translation>{finger}-Endgelenk</translation>
     </message>
     <message>
         <source>{finger} tip</source>
-        <translation type="unfinished"></translation>
+        <translation>{finger}-Spitze</translation>
     </message>
     <message>
         <source>Index</source>
-        <translation type="unfinished"></translation>
+        <translation>Zeigefinger</translation>
     </message>
     <message>
         <source>Middle</source>
-        <translation type="unfinished"></translation>
+        <translation>Mittelfinger</translation>
     </message>
     <message>
         <source>Ring</source>
-        <translation type="unfinished"></translation>
+        <translation>Ringfinger</translation>
     </message>
     <message>
         <source>Little</source>
-        <translation type="unfinished"></translation>
+        <translation>Kleinfinger</translation>
     </message>
     <message>
         <source>Click the {marker}</source>
-        <translation type="unfinished"></translation>
+        <translation>Klicken Sie: {marker}</translation>
     </message>
     <message>
         <source>In the middle of the back of the wrist, in the small dimple.</source>
-        <translation type="unfinished"></translation>
+        <translation>Mitten auf dem Handgelenkrücken, im kleinen Grübchen.</translation>
     </message>
     <message>
         <source>At the root of the thumb, just past the hollow beside the wrist.</source>
-        <translation type="unfinished"></translation>
+        <translation>An der Daumenwurzel, gleich hinter der Mulde neben dem Handgelenk.</translation>
     </message>
     <message>
         <source>On the back of the hand, 3–5 mm behind the knuckle, towards the wrist.</source>
-        <translation type="unfinished"></translation>
+        <translation>Auf dem Handrücken, 3–5 mm hinter dem Grundgelenk, zum Handgelenk hin.</translation>
     </message>
     <message>
         <source>In the middle of the creases over the middle joint.</source>
-        <translation type="unfinished"></translation>
+        <translation>Mitten auf den Falten über dem Mittelgelenk.</translation>
     </message>
     <message>
         <source>In the middle of the creases over the end joint.</source>
-        <translation type="unfinished"></translation>
+        <translation>Mitten auf den Falten über dem Endgelenk.</translation>
     </message>
     <message>
         <source>On the nail, in its middle.</source>
-        <translation type="unfinished"></translation>
+        <translation>Mitten auf dem Nagel.</translation>
     </message>
     <message>
         <source>Clear the view of the wrist</source>
-        <translation type="unfinished"></translation>
+        <translation>Sicht auf das Handgelenk freimachen</translation>
     </message>
     <message>
         <source>Turn the little-finger side up</source>
-        <translation type="unfinished"></translation>
+        <translation>Kleinfingerseite nach oben drehen</translation>
     </message>
     <message>
         <source>Take all names</source>
-        <translation type="unfinished"></translation>
+        <translation>Alle Namen übernehmen</translation>
     </message>
     <message>
         <source>Take {count} names</source>
-        <translation type="unfinished"></translation>
+        <translation>{count} Namen übernehmen</translation>
     </message>
     <message>
         <source>All {count} markers found</source>
-        <translation type="unfinished"></translation>
+        <translation>Alle {count} Marker gefunden</translation>
     </message>
     <message>
         <source>Each finger’s line runs from the wrist to its tip. Drag a name to another disc to change it.</source>
-        <translation type="unfinished"></translation>
+        <translation>Die Linie jedes Fingers läuft vom Handgelenk zur Spitze. Ziehen Sie einen Namen auf einen anderen Punkt, um ihn zu ändern.</translation>
     </message>
     <message>
         <source>Are these names right?</source>
-        <translation type="unfinished"></translation>
+        <translation>Stimmen diese Namen?</translation>
     </message>
     <message>
         <source>1 name is doubtful</source>
-        <translation type="unfinished"></translation>
+        <translation>1 Name ist zweifelhaft</translation>
     </message>
     <message>
         <source>{count} names are doubtful</source>
-        <translation type="unfinished"></translation>
+        <translation>{count} Namen sind zweifelhaft</translation>
     </message>
     <message>
         <source>Look at: {markers}. Enter says yes to the one that is asked; drag a name to another disc to change it.</source>
-        <translation type="unfinished"></translation>
+        <translation>Sehen Sie nach: {markers}. Die Eingabetaste bejaht die gestellte Frage; ziehen Sie einen Namen auf einen anderen Punkt, um ihn zu ändern.</translation>
     </message>
     <message>
         <source>Is this the {marker}?</source>
-        <translation type="unfinished"></translation>
+        <translation>Ist hier: {marker}?</translation>
     </message>
     <message>
         <source>Yes, it is</source>
-        <translation type="unfinished"></translation>
+        <translation>Ja, stimmt</translation>
     </message>
     <message>
         <source>{named} of {asked} markers found</source>
-        <translation type="unfinished"></translation>
+        <translation>{named} von {asked} Markern gefunden</translation>
     </message>
     <message>
         <source>Not found: {markers}. Take the other names with Enter, then click these.</source>
-        <translation type="unfinished"></translation>
+        <translation>Nicht gefunden: {markers}. Übernehmen Sie die anderen Namen mit der Eingabetaste, dann klicken Sie diese an.</translation>
     </message>
     <message>
         <source>{markers} and {count} more</source>
-        <translation type="unfinished"></translation>
+        <translation>{markers} und {count} weitere</translation>
     </message>
     <message>
         <source>Swap the two</source>
-        <translation type="unfinished"></translation>
+        <translation>Beide tauschen</translation>
     </message>
     <message>
         <source>Enter</source>
-        <translation type="unfinished"></translation>
+        <translation>Eingabe</translation>
     </message>
     <message>
         <source>Correct names</source>
-        <translation type="unfinished"></translation>
+        <translation>Namen berichtigen</translation>
     </message>
     <message>
         <source>Take that spot</source>
-        <translation type="unfinished"></translation>
+        <translation>Diese Stelle nehmen</translation>
     </message>
     <message>
         <source>with the names</source>
-        <translation type="unfinished"></translation>
+        <translation>mit den Namen</translation>
     </message>
     <message>
         <source>after marker {number}</source>
-        <translation type="unfinished"></translation>
+        <translation>nach Marker {number}</translation>
     </message>
     <message>
         <source>{done} of {asked} found</source>
-        <translation type="unfinished"></translation>
+        <translation>{done} von {asked} gefunden</translation>
     </message>
     <message>
         <source>{done} of {asked}</source>
-        <translation type="unfinished"></translation>
+        <translation>{done} von {asked}</translation>
     </message>
     <message>
         <source>Markers</source>
-        <translation type="unfinished"></translation>
+        <translation>Marker</translation>
     </message>
     <message>
         <source>Camera tilt</source>
-        <translation type="unfinished"></translation>
+        <translation>Kameraneigung</translation>
     </message>
     <message>
         <source>Hand</source>
-        <translation type="unfinished"></translation>
+        <translation>Hand</translation>
     </message>
     <message>
         <source>flat and still</source>
-        <translation type="unfinished"></translation>
+        <translation>flach und ruhig</translation>
     </message>
     <message>
         <source>Hand length</source>
-        <translation type="unfinished"></translation>
+        <translation>Handlänge</translation>
     </message>
     <message>
         <source>{count} of {count}</source>
-        <translation type="unfinished"></translation>
+        <translation>{count} von {count}</translation>
     </message>
     <message>
         <source>names wrong</source>
-        <translation type="unfinished"></translation>
+        <translation>Namen falsch</translation>
     </message>
     <message>
         <source>one doubted</source>
-        <translation type="unfinished"></translation>
+        <translation>einer zweifelhaft</translation>
     </message>
     <message>
         <source>{count} not found</source>
-        <translation type="unfinished"></translation>
+        <translation>{count} nicht gefunden</translation>
     </message>
     <message>
         <source>within {size} mm</source>
-        <translation type="unfinished"></translation>
+        <translation>bis {size} mm</translation>
     </message>
     <message>
         <source>moved</source>
-        <translation type="unfinished"></translation>
+        <translation>bewegt</translation>
     </message>
     <message>
         <source>still, flat</source>
-        <translation type="unfinished"></translation>
+        <translation>ruhig, flach</translation>
     </message>
     <message>
         <source>for {count} pictures</source>
-        <translation type="unfinished"></translation>
+        <translation>über {count} Bilder</translation>
     </message>
     <message>
         <source>Ready</source>
-        <translation type="unfinished"></translation>
+        <translation>Bereit</translation>
     </message>
     <message>
         <source>Cannot start yet</source>
-        <translation type="unfinished"></translation>
+        <translation>Start noch nicht möglich</translation>
     </message>
     <message>
         <source>each within {size} mm</source>
-        <translation type="unfinished"></translation>
+        <translation>je bis {size} mm</translation>
     </message>
     <message>
         <source>{distance} or more</source>
-        <translation type="unfinished"></translation>
+        <translation>{distance} oder mehr</translation>
     </message>
     <message>
         <source>up to {angle}</source>
-        <translation type="unfinished"></translation>
+        <translation>bis {angle}</translation>
     </message>
     <message>
         <source>usual {low}–{high} mm</source>
-        <translation type="unfinished"></translation>
+        <translation>üblich {low}–{high} mm</translation>
     </message>
     <message>
         <source>{minutes} min</source>
-        <translation type="unfinished"></translation>
+        <translation>{minutes} min</translation>
     </message>
     <message>
         <source>more than 99 h</source>
-        <translation type="unfinished"></translation>
+        <translation>mehr als 99 h</translation>
     </message>
     <message>
         <source>{hours} h</source>
-        <translation type="unfinished"></translation>
+        <translation>{hours} h</translation>
     </message>
     <message>
         <source>{number}st</source>
-        <translation type="unfinished"></translation>
+        <translation>{number}.</translation>
     </message>
     <message>
         <source>{number}nd</source>
-        <translation type="unfinished"></translation>
+        <translation>{number}.</translation>
     </message>
     <message>
         <source>{number}rd</source>
-        <translation type="unfinished"></translation>
+        <translation>{number}.</translation>
     </message>
     <message>
         <source>{number}th</source>
-        <translation type="unfinished"></translation>
+        <translation>{number}.</translation>
     </message>
     <message>
         <source>One moment.</source>
-        <translation type="unfinished"></translation>
+        <translation>Einen Moment.</translation>
     </message>
     <message>
         <source>Show the dots</source>
-        <translation type="unfinished"></translation>
+        <translation>Zeig die Punkte</translation>
     </message>
     <message>
         <source>Show the blue dots to the camera</source>
-        <translation type="unfinished"></translation>
+        <translation>Zeigen Sie der Kamera die blauen Punkte</translation>
     </message>
     <message>
         <source>Let your hand rest.</source>
-        <translation type="unfinished"></translation>
+        <translation>Lassen Sie die Hand ruhen.</translation>
     </message>
     <message>
         <source>A short break.</source>
-        <translation type="unfinished"></translation>
+        <translation>Kurze Pause.</translation>
     </message>
     <message>
         <source>Well done.</source>
-        <translation type="unfinished"></translation>
+        <translation>Gut gemacht.</translation>
     </message>
     <message>
         <source>Just try it.</source>
-        <translation type="unfinished"></translation>
+        <translation>Einfach probieren.</translation>
     </message>
     <message>
         <source>And back</source>
-        <translation type="unfinished"></translation>
+        <translation>Und zurück</translation>
     </message>
     <message>
         <source>There!</source>
-        <translation type="unfinished"></translation>
+        <translation>Da!</translation>
     </message>
     <message>
         <source>There. Hold it.</source>
-        <translation type="unfinished"></translation>
+        <translation>Geschafft. Halten.</translation>
     </message>
     <message>
         <source>As far as is comfortable</source>
-        <translation type="unfinished"></translation>
+        <translation>So weit, wie es angenehm ist</translation>
     </message>
     <message>
         <source>Further</source>
-        <translation type="unfinished"></translation>
+        <translation>Weiter</translation>
     </message>
     <message>
         <source>A little further</source>
-        <translation type="unfinished"></translation>
+        <translation>Noch ein wenig weiter</translation>
     </message>
     <message>
         <source>A few minutes</source>
-        <translation type="unfinished"></translation>
+        <translation>Ein paar Minuten</translation>
     </message>
     <message>
         <source>About a minute</source>
-        <translation type="unfinished"></translation>
+        <translation>Etwa eine Minute</translation>
     </message>
     <message>
         <source>About half a minute</source>
-        <translation type="unfinished"></translation>
+        <translation>Etwa eine halbe Minute</translation>
     </message>
     <message>
         <source>A moment longer</source>
-        <translation type="unfinished"></translation>
+        <translation>Noch einen Moment</translation>
     </message>
     <message>
         <source>then: {task}</source>
-        <translation type="unfinished"></translation>
+        <translation>dann: {task}</translation>
     </message>
     <message>
         <source>Bend your hand down</source>
-        <translation type="unfinished"></translation>
+        <translation>Beugen Sie die Hand nach unten</translation>
     </message>
     <message>
         <source>Lift your hand up</source>
-        <translation type="unfinished"></translation>
+        <translation>Heben Sie die Hand</translation>
     </message>
     <message>
         <source>Down</source>
-        <translation type="unfinished"></translation>
+        <translation>Runter</translation>
     </message>
     <message>
         <source>Up</source>
-        <translation type="unfinished"></translation>
+        <translation>Hoch</translation>
     </message>
     <message>
         <source>Slide your hand to the thumb side</source>
-        <translation type="unfinished"></translation>
+        <translation>Schieben Sie die Hand zur Daumenseite</translation>
     </message>
     <message>
         <source>Slide your hand to the little finger side</source>
-        <translation type="unfinished"></translation>
+        <translation>Schieben Sie die Hand zur Kleinfingerseite</translation>
     </message>
     <message>
         <source>To the thumb</source>
-        <translation type="unfinished"></translation>
+        <translation>Zum Daumen</translation>
     </message>
     <message>
         <source>To the little finger</source>
-        <translation type="unfinished"></translation>
+        <translation>Zum kleinen Finger</translation>
     </message>
     <message>
         <source>Turn your palm up</source>
-        <translation type="unfinished"></translation>
+        <translation>Drehen Sie die Handfläche nach oben</translation>
     </message>
     <message>
         <source>Turn your palm down</source>
-        <translation type="unfinished"></translation>
+        <translation>Drehen Sie die Handfläche nach unten</translation>
     </message>
     <message>
         <source>Turn up</source>
-        <translation type="unfinished"></translation>
+        <translation>Nach oben drehen</translation>
     </message>
     <message>
         <source>Turn down</source>
-        <translation type="unfinished"></translation>
+        <translation>Nach unten drehen</translation>
     </message>
     <message>
         <source>Close your hand to a fist</source>
-        <translation type="unfinished"></translation>
+        <translation>Schließen Sie die Hand zur Faust</translation>
     </message>
     <message>
         <source>Close</source>
-        <translation type="unfinished"></translation>
+        <translation>Zu</translation>
     </message>
     <message>
         <source>Bend your fingers to a hook</source>
-        <translation type="unfinished"></translation>
+        <translation>Beugen Sie die Finger zum Haken</translation>
     </message>
     <message>
         <source>Hook</source>
-        <translation type="unfinished"></translation>
+        <translation>Haken</translation>
     </message>
     <message>
         <source>Spread your fingers wide</source>
-        <translation type="unfinished"></translation>
+        <translation>Spreizen Sie die Finger weit</translation>
     </message>
     <message>
         <source>Wide</source>
-        <translation type="unfinished"></translation>
+        <translation>Weit</translation>
     </message>
     <message>
         <source>Open your thumb wide</source>
-        <translation type="unfinished"></translation>
+        <translation>Öffnen Sie den Daumen weit</translation>
     </message>
     <message>
         <source>Thumb wide</source>
-        <translation type="unfinished"></translation>
+        <translation>Daumen weit</translation>
     </message>
     <message>
         <source>Take the cup, lift it a little, put it back</source>
-        <translation type="unfinished"></translation>
+        <translation>Nehmen Sie den Becher, heben Sie ihn etwas, stellen Sie ihn ab</translation>
     </message>
     <message>
         <source>Take the cup</source>
-        <translation type="unfinished"></translation>
+        <translation>Nimm den Becher</translation>
     </message>
     <message>
         <source>Move your fingers as you like</source>
-        <translation type="unfinished"></translation>
+        <translation>Bewegen Sie die Finger, wie Sie möchten</translation>
     </message>
     <message>
         <source>Move your fingers</source>
-        <translation type="unfinished"></translation>
+        <translation>Beweg die Finger</translation>
     </message>
     <message>
         <source>Move your hand as you like</source>
-        <translation type="unfinished"></translation>
+        <translation>Bewegen Sie die Hand, wie Sie möchten</translation>
     </message>
     <message>
         <source>Move your hand</source>
-        <translation type="unfinished"></translation>
+        <translation>Beweg die Hand</translation>
     </message>
     <message>
         <source>Turn your hand back</source>
-        <translation type="unfinished"></translation>
+        <translation>Drehen Sie die Hand zurück</translation>
     </message>
     <message>
         <source>Open your hand</source>
-        <translation type="unfinished"></translation>
+        <translation>Öffnen Sie die Hand</translation>
     </message>
     <message>
         <source>Straighten your fingers</source>
-        <translation type="unfinished"></translation>
+        <translation>Strecken Sie die Finger</translation>
     </message>
     <message>
         <source>Close your fingers</source>
-        <translation type="unfinished"></translation>
+        <translation>Schließen Sie die Finger</translation>
     </message>
     <message>
         <source>Touch the next fingertip</source>
-        <translation type="unfinished"></translation>
+        <translation>Berühren Sie die nächste Fingerspitze</translation>
     </message>
     <message>
         <source>Come back to the middle</source>
-        <translation type="unfinished"></translation>
+        <translation>Kommen Sie zurück zur Mitte</translation>
     </message>
     <message>
         <source>Try everything without a patient</source>
-        <translation type="unfinished"></translation>
+        <translation>Alles ohne Patient ausprobieren</translation>
     </message>
     <message>
         <source>Simulated camera</source>
-        <translation type="unfinished"></translation>
+        <translation>Simulierte Kamera</translation>
     </message>
     <message>
         <source>No session yet</source>
-        <translation type="unfinished"></translation>
+        <translation>Noch keine Sitzung</translation>
     </message>
     <message>
         <source>Carpus</source>
-        <translation type="unfinished"></translation>
+        <translation>Carpus</translation>
     </message>
     <message>
         <source>Reference</source>
-        <translation type="unfinished"></translation>
+        <translation>Referenz</translation>
     </message>
     <message>
         <source>Limit {value}</source>
-        <translation type="unfinished"></translation>
+        <translation>Grenze {value}</translation>
     </message>
     <message>
         <source>Mean {value}</source>
-        <translation type="unfinished"></translation>
+        <translation>Mittel {value}</translation>
     </message>
     <message>
         <source>Carpus shows {what}</source>
-        <translation type="unfinished"></translation>
+        <translation>Carpus zeigt {what}</translation>
     </message>
     <message>
         <source>Carpus shows more {what}</source>
-        <translation type="unfinished"></translation>
+        <translation>Carpus zeigt mehr {what}</translation>
     </message>
     <message>
         <source>hatched: within the limit you set</source>
-        <translation type="unfinished"></translation>
+        <translation>schraffiert: innerhalb Ihrer Grenze</translation>
     </message>
     <message>
         <source>seconds after the first picture</source>
-        <translation type="unfinished"></translation>
+        <translation>Sekunden nach dem ersten Bild</translation>
     </message>
     <message>
         <source>number of the reading</source>
-        <translation type="unfinished"></translation>
+        <translation>Nummer der Ablesung</translation>
     </message>
     <message>
         <source>mean of both · one point each 0.2 s, {count} points</source>
-        <translation type="unfinished"></translation>
+        <translation>Mittel beider · ein Punkt je 0,2 s, {count} Punkte</translation>
     </message>
     <message>
         <source>mean of both · one point each reading, {count} readings</source>
-        <translation type="unfinished"></translation>
+        <translation>Mittel beider · ein Punkt je Ablesung, {count} Ablesungen</translation>
     </message>
     <message>
         <source>Nothing measured by hand yet.</source>
-        <translation type="unfinished"></translation>
+        <translation>Noch nichts von Hand gemessen.</translation>
     </message>
     <message>
         <source>passive {value}</source>
-        <translation type="unfinished"></translation>
+        <translation>passiv {value}</translation>
     </message>
     <message>
         <source>Carpus {value}</source>
-        <translation type="unfinished"></translation>
+        <translation>Carpus {value}</translation>
     </message>
     <message>
         <source>active {value}</source>
-        <translation type="unfinished"></translation>
+        <translation>aktiv {value}</translation>
     </message>
     <message>
         <source>by hand, active</source>
-        <translation type="unfinished"></translation>
+        <translation>von Hand, aktiv</translation>
     </message>
     <message>
         <source>by hand</source>
-        <translation type="unfinished"></translation>
+        <translation>von Hand</translation>
     </message>
     <message>
         <source>by hand, passive</source>
-        <translation type="unfinished"></translation>
+        <translation>von Hand, passiv</translation>
     </message>
     <message>
         <source>Carpus, mean</source>
-        <translation type="unfinished"></translation>
+        <translation>Carpus, Mittel</translation>
     </message>
     <message>
         <source>old result</source>
-        <translation type="unfinished"></translation>
+        <translation>altes Ergebnis</translation>
     </message>
     <message>
         <source>new result</source>
-        <translation type="unfinished"></translation>
+        <translation>neues Ergebnis</translation>
     </message>
     <message>
         <source>was {angle}</source>
-        <translation type="unfinished"></translation>
+        <translation>vorher {angle}</translation>
     </message>
     <message>
         <source>Angles: largest error of three</source>
-        <translation type="unfinished"></translation>
+        <translation>Winkel: größter Fehler von dreien</translation>
     </message>
     <message>
         <source>Lengths: largest error of three</source>
-        <translation type="unfinished"></translation>
+        <translation>Längen: größter Fehler von dreien</translation>
     </message>
     <message>
         <source>newest {value}</source>
-        <translation type="unfinished"></translation>
+        <translation>neueste {value}</translation>
     </message>
     <message>
         <source>usual, up to {value}</source>
-        <translation type="unfinished"></translation>
+        <translation>üblich, bis {value}</translation>
     </message>
     <message>
         <source>calibrated</source>
-        <translation type="unfinished"></translation>
+        <translation>kalibriert</translation>
     </message>
     <message>
         <source>Usual, adults {span}</source>
-        <translation type="unfinished"></translation>
+        <translation>Üblich, Erwachsene {span}</translation>
     </message>
     <message>
         <source>Whole arc</source>
-        <translation type="unfinished"></translation>
+        <translation>Gesamtumfang</translation>
     </message>
     <message>
         <source>Error band ±{gap}{limit}</source>
-        <translation type="unfinished"></translation>
+        <translation>Fehlerband ±{gap}{limit}</translation>
     </message>
     <message>
         <source>Goal {angle}</source>
-        <translation type="unfinished"></translation>
+        <translation>Ziel {angle}</translation>
     </message>
     <message>
         <source>mean, ± sd between repetitions</source>
-        <translation type="unfinished"></translation>
+        <translation>Mittel, ± SD zwischen Wiederholungen</translation>
     </message>
     <message>
         <source>other set-up: not compared</source>
-        <translation type="unfinished"></translation>
+        <translation>anderer Aufbau: nicht verglichen</translation>
     </message>
     <message>
         <source>at least: hidden in part</source>
-        <translation type="unfinished"></translation>
+        <translation>mindestens: zum Teil verdeckt</translation>
     </message>
     <message>
         <source>lift</source>
-        <translation type="unfinished"></translation>
+        <translation>Abheben</translation>
     </message>
     <message>
         <source>{number} out</source>
-        <translation type="unfinished"></translation>
+        <translation>{number} aus</translation>
     </message>
     <message>
         <source>Place</source>
-        <translation type="unfinished"></translation>
+        <translation>Ort</translation>
     </message>
     <message>
         <source>Speed</source>
-        <translation type="unfinished"></translation>
+        <translation>Geschwindigkeit</translation>
     </message>
     <message>
         <source>α and γ are given where their sd stays below 30° ({share} of the time): near the neutral pose only β and α + γ are known.</source>
-        <translation type="unfinished"></translation>
+        <translation>α und γ stehen da, wo ihre SD unter 30° bleibt ({share} der Zeit): Nahe der Nullstellung sind nur β und α + γ bekannt.</translation>
     </message>
     <message>
         <source>Target {angle}</source>
-        <translation type="unfinished"></translation>
+        <translation>Ziel {angle}</translation>
     </message>
     <message>
         <source>no value</source>
-        <translation type="unfinished"></translation>
+        <translation>kein Wert</translation>
     </message>
     <message>
         <source>Bending</source>
-        <translation type="unfinished"></translation>
+        <translation>Beugung</translation>
     </message>
     <message>
         <source>Spreading</source>
-        <translation type="unfinished"></translation>
+        <translation>Spreizung</translation>
     </message>
     <message>
         <source>0° = palm down</source>
-        <translation type="unfinished"></translation>
+        <translation>0° = Handfläche unten</translation>
     </message>
     <message>
         <source>should stay within {angle}</source>
-        <translation type="unfinished"></translation>
+        <translation>soll in {angle} bleiben</translation>
     </message>
     <message>
         <source>thumb ←</source>
-        <translation type="unfinished"></translation>
+        <translation>Daumen ←</translation>
     </message>
     <message>
         <source>thumb →</source>
-        <translation type="unfinished"></translation>
+        <translation>Daumen →</translation>
     </message>
     <message>
         <source>fingers ↑</source>
-        <translation type="unfinished"></translation>
+        <translation>Finger ↑</translation>
     </message>
     <message>
         <source>From above</source>
-        <translation type="unfinished"></translation>
+        <translation>Von oben</translation>
     </message>
     <message>
         <source>up ↑</source>
-        <translation type="unfinished"></translation>
+        <translation>oben ↑</translation>
     </message>
     <message>
         <source>fingers →</source>
-        <translation type="unfinished"></translation>
+        <translation>Finger →</translation>
     </message>
     <message>
         <source>From the side</source>
-        <translation type="unfinished"></translation>
+        <translation>Von der Seite</translation>
     </message>
     <message>
         <source>From the fingers</source>
-        <translation type="unfinished"></translation>
+        <translation>Von den Fingern</translation>
     </message>
     <message>
         <source>No sessions of this exercise yet.</source>
-        <translation type="unfinished"></translation>
+        <translation>Noch keine Sitzungen dieser Übung.</translation>
     </message>
     <message>
         <source>1 session is left out.</source>
-        <translation type="unfinished"></translation>
+        <translation>1 Sitzung ist ausgelassen.</translation>
     </message>
     <message>
         <source>{count} sessions are left out.</source>
-        <translation type="unfinished"></translation>
+        <translation>{count} Sitzungen sind ausgelassen.</translation>
     </message>
     <message>
         <source>Sessions that are left out, or measured otherwise, are not compared: their rings say why.</source>
-        <translation type="unfinished"></translation>
+        <translation>Ausgelassene oder anders gemessene Sitzungen werden nicht verglichen: Ihre Ringe sagen, warum.</translation>
     </message>
     <message>
         <source>Nothing to compare: {left_out}</source>
-        <translation type="unfinished"></translation>
+        <translation>Nichts zu vergleichen: {left_out}</translation>
     </message>
     <message>
         <source>One session does not make a course.</source>
-        <translation type="unfinished"></translation>
+        <translation>Eine Sitzung ergibt noch keinen Verlauf.</translation>
     </message>
     <message>
         <source>Compare after the next session of the same kind.</source>
-        <translation type="unfinished"></translation>
+        <translation>Vergleichen Sie nach der nächsten Sitzung derselben Art.</translation>
     </message>
     <message>
         <source>at least {size}</source>
-        <translation type="unfinished"></translation>
+        <translation>mindestens {size}</translation>
     </message>
     <message>
         <source>TAM has improved in {count} of {all} fingers since {day}.</source>
-        <translation type="unfinished"></translation>
+        <translation>TAM ist seit {day} bei {count} von {all} Fingern besser.</translation>
     </message>
     <message>
         <source>{name} has improved by {size} since {day}.</source>
-        <translation type="unfinished"></translation>
+        <translation>{name} ist seit {day} um {size} besser.</translation>
     </message>
     <message>
         <source>{name} has lost {size} since {day}.</source>
-        <translation type="unfinished"></translation>
+        <translation>{name} hat seit {day} {size} verloren.</translation>
     </message>
     <message>
         <source>No change beyond measurement error since {day}.</source>
-        <translation type="unfinished"></translation>
+        <translation>Keine Änderung über den Messfehler hinaus seit {day}.</translation>
     </message>
     <message>
         <source>Not judged: the joints were hidden in part.</source>
-        <translation type="unfinished"></translation>
+        <translation>Nicht beurteilt: Die Gelenke waren zum Teil verdeckt.</translation>
     </message>
     <message>
         <source>What is hidden does not count.</source>
-        <translation type="unfinished"></translation>
+        <translation>Was verdeckt ist, zählt nicht.</translation>
     </message>
     <message>
         <source>Not judged: {why}.</source>
-        <translation type="unfinished"></translation>
+        <translation>Nicht beurteilt: {why}.</translation>
     </message>
     <message>
         <source>too few repetitions to compare</source>
-        <translation type="unfinished"></translation>
+        <translation>zu wenige Wiederholungen zum Vergleichen</translation>
     </message>
     <message>
         <source>{joint} of the {finger}</source>
-        <translation type="unfinished"></translation>
+        <translation>{joint} ({finger})</translation>
     </message>
     <message>
         <source>The whole arc</source>
-        <translation type="unfinished"></translation>
+        <translation>Der Gesamtumfang</translation>
     </message>
     <message>
         <source>From {before} to {after}: more than the measurement error of {limit}.</source>
-        <translation type="unfinished"></translation>
+        <translation>Von {before} auf {after}: mehr als der Messfehler von {limit}.</translation>
     </message>
     <message>
         <source>From {before} to {after}: within the measurement error of {limit}.</source>
-        <translation type="unfinished"></translation>
+        <translation>Von {before} auf {after}: im Messfehler von {limit}.</translation>
     </message>
     <message>
         <source>at least {change}</source>
-        <translation type="unfinished"></translation>
+        <translation>mindestens {change}</translation>
     </message>
     <message>
         <source>{name}: {change}.</source>
-        <translation type="unfinished"></translation>
+        <translation>{name}: {change}.</translation>
     </message>
     <message>
         <source>{name}: no change beyond measurement error.</source>
-        <translation type="unfinished"></translation>
+        <translation>{name}: keine Änderung über den Messfehler hinaus.</translation>
     </message>
     <message>
         <source>hidden in part, or too few</source>
-        <translation type="unfinished"></translation>
+        <translation>zum Teil verdeckt oder zu wenige</translation>
     </message>
     <message>
         <source>at least {change}, error {limit}</source>
-        <translation type="unfinished"></translation>
+        <translation>mindestens {change}, Fehler {limit}</translation>
     </message>
     <message>
         <source>{change}, error {limit}</source>
-        <translation type="unfinished"></translation>
+        <translation>{change}, Fehler {limit}</translation>
     </message>
     <message>
         <source>{day}: measured although doubtful. {findings}</source>
-        <translation type="unfinished"></translation>
+        <translation>{day}: trotz Zweifel gemessen. {findings}</translation>
     </message>
     <message>
         <source>camera {step} cm further away</source>
-        <translation type="unfinished"></translation>
+        <translation>Kamera {step} cm weiter weg</translation>
     </message>
     <message>
         <source>camera {step} cm nearer</source>
-        <translation type="unfinished"></translation>
+        <translation>Kamera {step} cm näher</translation>
     </message>
     <message>
         <source>the forearm moved {distance}</source>
-        <translation type="unfinished"></translation>
+        <translation>der Unterarm bewegte sich {distance}</translation>
     </message>
     <message>
         <source>{day}: {reasons}. Shown as a ring and left out.</source>
-        <translation type="unfinished"></translation>
+        <translation>{day}: {reasons}. Als Ring gezeigt und ausgelassen.</translation>
     </message>
     <message>
         <source>{count} pairs of one session, against {kind}</source>
-        <translation type="unfinished"></translation>
+        <translation>{count} Paare einer Sitzung, gegen {kind}</translation>
     </message>
     <message>
         <source>Carpus camera calibration</source>
-        <translation type="unfinished"></translation>
+        <translation>Kamerakalibrierung für Carpus</translation>
     </message>
     <message>
         <source>Camera</source>
-        <translation type="unfinished"></translation>
+        <translation>Kamera</translation>
     </message>
     <message>
         <source>Board</source>
-        <translation type="unfinished"></translation>
+        <translation>Tafel</translation>
     </message>
     <message>
         <source>Pictures</source>
-        <translation type="unfinished"></translation>
+        <translation>Bilder</translation>
     </message>
     <message>
         <source>Before ({day})</source>
-        <translation type="unfinished"></translation>
+        <translation>Vorher ({day})</translation>
     </message>
     <message>
         <source>Before (maker)</source>
-        <translation type="unfinished"></translation>
+        <translation>Vorher (Hersteller)</translation>
     </message>
     <message>
         <source>What</source>
-        <translation type="unfinished"></translation>
+        <translation>Was</translation>
     </message>
     <message>
         <source>Now</source>
-        <translation type="unfinished"></translation>
+        <translation>Jetzt</translation>
     </message>
     <message>
         <source>In words</source>
-        <translation type="unfinished"></translation>
+        <translation>In Worten</translation>
     </message>
     <message>
         <source>What this means for a hand</source>
-        <translation type="unfinished"></translation>
+        <translation>Was das für eine Hand bedeutet</translation>
     </message>
     <message>
         <source>Estimated from the change of the camera’s values, not measured on hands.</source>
-        <translation type="unfinished"></translation>
+        <translation>Aus der Änderung der Kamerawerte geschätzt, nicht an Händen gemessen.</translation>
     </message>
     <message>
         <source>ext.</source>
-        <translation type="unfinished"></translation>
+        <translation>Ext.</translation>
     </message>
     <message>
         <source>flex.</source>
-        <translation type="unfinished"></translation>
+        <translation>Flex.</translation>
     </message>
     <message>
         <source>back</source>
-        <translation type="unfinished"></translation>
+        <translation>zurück</translation>
     </message>
     <message>
         <source>across</source>
-        <translation type="unfinished"></translation>
+        <translation>quer</translation>
     </message>
     <message>
         <source>Movement time</source>
-        <translation type="unfinished"></translation>
+        <translation>Bewegungszeit</translation>
     </message>
     <message>
         <source>Peak speed</source>
-        <translation type="unfinished"></translation>
+        <translation>Spitzengeschwindigkeit</translation>
     </message>
     <message>
         <source>Peak reached after</source>
-        <translation type="unfinished"></translation>
+        <translation>Spitze erreicht nach</translation>
     </message>
     <message>
         <source>Length of the way</source>
-        <translation type="unfinished"></translation>
+        <translation>Länge des Weges</translation>
     </message>
     <message>
         <source>Way / straight line</source>
-        <translation type="unfinished"></translation>
+        <translation>Weg / gerade Strecke</translation>
     </message>
     <message>
         <source>Peaks of speed</source>
-        <translation type="unfinished"></translation>
+        <translation>Geschwindigkeitsspitzen</translation>
     </message>
     <message>
         <source>Smoothness (SPARC)</source>
-        <translation type="unfinished"></translation>
+        <translation>Flüssigkeit (SPARC)</translation>
     </message>
     <message>
         <source>Widest opening, thumb–index</source>
-        <translation type="unfinished"></translation>
+        <translation>Größte Öffnung, Daumen–Zeigefinger</translation>
     </message>
     <message>
         <source>Wrist at the grasp</source>
-        <translation type="unfinished"></translation>
+        <translation>Handgelenk beim Greifen</translation>
     </message>
     <message>
         <source>Hand span, thumb–little</source>
-        <translation type="unfinished"></translation>
+        <translation>Handspanne, Daumen–Kleinfinger</translation>
     </message>
     <message>
         <source>Its pose coherent meanwhile</source>
-        <translation type="unfinished"></translation>
+        <translation>Dabei Haltung stimmig</translation>
     </message>
     <message>
         <source>Its pose known to 15° meanwhile</source>
-        <translation type="unfinished"></translation>
+        <translation>Dabei Haltung auf 15° bekannt</translation>
     </message>
     <message>
         <source>Jump when seen again</source>
-        <translation type="unfinished"></translation>
+        <translation>Sprung beim Wiedersehen</translation>
     </message>
     <message>
         <source>All fingers as one movement</source>
-        <translation type="unfinished"></translation>
+        <translation>Alle Finger als eine Bewegung</translation>
     </message>
     <message>
         <source>Tremor, 3 to 12 Hz (rms)</source>
-        <translation type="unfinished"></translation>
+        <translation>Tremor, 3 bis 12 Hz (rms)</translation>
     </message>
     <message>
         <source>Bend together, {one}–{other} (r)</source>
-        <translation type="unfinished"></translation>
+        <translation>Beugen gemeinsam, {one}–{other} (r)</translation>
     </message>
     <message>
         <source>Lag of {other} after {one}</source>
-        <translation type="unfinished"></translation>
+        <translation>{other} folgt {one} nach</translation>
     </message>
     <message>
         <source>Share of {one} that {other} moves</source>
-        <translation type="unfinished"></translation>
+        <translation>Anteil von {one}, den {other} mitgeht</translation>
     </message>
     <message>
         <source>Widest span, {one}–{other}</source>
-        <translation type="unfinished"></translation>
+        <translation>Größte Spanne, {one}–{other}</translation>
     </message>
     <message>
         <source>Nearest, {one}–{other}</source>
-        <translation type="unfinished"></translation>
+        <translation>Geringster Abstand, {one}–{other}</translation>
     </message>
     <message>
         <source>Touches, {one}–{other}</source>
-        <translation type="unfinished"></translation>
+        <translation>Berührungen, {one}–{other}</translation>
     </message>
     <message>
         <source>too slow to judge</source>
-        <translation type="unfinished"></translation>
+        <translation>zu langsam zum Beurteilen</translation>
     </message>
     <message>
         <source>hidden from the camera</source>
-        <translation type="unfinished"></translation>
+        <translation>für die Kamera verdeckt</translation>
     </message>
     <message>
         <source>Out in {time}, fastest {speed}, way {straight} of straight, opened {opening}, wrist {wrist}</source>
-        <translation type="unfinished"></translation>
+        <translation>Hin in {time}, schnellstens {speed}, Weg {straight} der Geraden, Öffnung {opening}, Handgelenk {wrist}</translation>
     </message>
     <message>
         <source>The thumb touched {met} of {all} finger tips</source>
-        <translation type="unfinished"></translation>
+        <translation>Der Daumen berührte {met} von {all} Fingerspitzen</translation>
     </message>
     <message>
         <source>Whether the thumb touched the finger tips was hidden from the camera</source>
-        <translation type="unfinished"></translation>
+        <translation>Ob der Daumen die Fingerspitzen berührte, war für die Kamera verdeckt</translation>
     </message>
     <message>
         <source>{words}; of {hidden} the camera did not see it</source>
-        <translation type="unfinished"></translation>
+        <translation>{words}; bei {hidden} sah die Kamera es nicht</translation>
     </message>
     <message>
         <source>Out in {time}</source>
-        <translation type="unfinished"></translation>
+        <translation>Hin in {time}</translation>
     </message>
     <message>
         <source>Touches hidden</source>
-        <translation type="unfinished"></translation>
+        <translation>Berührungen verdeckt</translation>
     </message>
     <message>
         <source>Touched {met} of {all}</source>
-        <translation type="unfinished"></translation>
+        <translation>{met} von {all} berührt</translation>
     </message>
     <message>
         <source>Reach and grasp</source>
-        <translation type="unfinished"></translation>
+        <translation>Hinlangen und Greifen</translation>
     </message>
     <message>
         <source>Thumb to the finger tips</source>
-        <translation type="unfinished"></translation>
+        <translation>Daumen zu den Fingerspitzen</translation>
     </message>
     <message>
         <source>Spans</source>
-        <translation type="unfinished"></translation>
+        <translation>Spannen</translation>
     </message>
     <message>
         <source>Fingers together</source>
-        <translation type="unfinished"></translation>
+        <translation>Finger gemeinsam</translation>
     </message>
     <message>
         <source>Further figures</source>
-        <translation type="unfinished"></translation>
+        <translation>Weitere Werte</translation>
     </message>
     <message>
         <source>Range of motion of the fingers</source>
-        <translation type="unfinished"></translation>
+        <translation>Bewegungsumfang der Finger</translation>
     </message>
     <message>
         <source>whole arcs over the same time</source>
-        <translation type="unfinished"></translation>
+        <translation>Gesamtumfänge über dieselbe Zeit</translation>
     </message>
     <message>
         <source>not seen</source>
-        <translation type="unfinished"></translation>
+        <translation>nicht gesehen</translation>
     </message>
     <message>
         <source>dashed: hidden; hatched: lost</source>
-        <translation type="unfinished"></translation>
+        <translation>gestrichelt: verdeckt; schraffiert: verloren</translation>
     </message>
     <message>
         <source>Bending over time</source>
-        <translation type="unfinished"></translation>
+        <translation>Beugung über die Zeit</translation>
     </message>
     <message>
         <source>Middle joint, of the thumb lift</source>
-        <translation type="unfinished"></translation>
+        <translation>Mittelgelenk, beim Daumen Abheben</translation>
     </message>
     <message>
         <source>not graded</source>
-        <translation type="unfinished"></translation>
+        <translation>nicht bewertet</translation>
     </message>
     <message>
         <source>excellent</source>
-        <translation type="unfinished"></translation>
+        <translation>sehr gut</translation>
     </message>
     <message>
         <source>good</source>
-        <translation type="unfinished"></translation>
+        <translation>gut</translation>
     </message>
     <message>
         <source>fair</source>
-        <translation type="unfinished"></translation>
+        <translation>mäßig</translation>
     </message>
     <message>
         <source>poor</source>
-        <translation type="unfinished"></translation>
+        <translation>schlecht</translation>
     </message>
     <message>
         <source>spread</source>
-        <translation type="unfinished"></translation>
+        <translation>Spreizung</translation>
     </message>
     <message>
         <source>PIP</source>
-        <translation type="unfinished"></translation>
+        <translation>PIP</translation>
     </message>
     <message>
         <source>Knuckle (MCP)</source>
-        <translation type="unfinished"></translation>
+        <translation>Grundgelenk (MCP)</translation>
     </message>
     <message>
         <source>Middle (PIP)</source>
-        <translation type="unfinished"></translation>
+        <translation>Mittel (PIP)</translation>
     </message>
     <message>
         <source>End (DIP)</source>
-        <translation type="unfinished"></translation>
+        <translation>End (DIP)</translation>
     </message>
     <message>
         <source>Total (TAM)</source>
-        <translation type="unfinished"></translation>
+        <translation>Gesamt (TAM)</translation>
     </message>
     <message>
         <source>Of other hand</source>
-        <translation type="unfinished"></translation>
+        <translation>Von anderer Hand</translation>
     </message>
     <message>
         <source>Of usual</source>
-        <translation type="unfinished"></translation>
+        <translation>Von üblich</translation>
     </message>
     <message>
         <source>{what}, {day}</source>
-        <translation type="unfinished"></translation>
+        <translation>{what}, {day}</translation>
     </message>
     <message>
         <source>Change since {day}</source>
-        <translation type="unfinished"></translation>
+        <translation>Änderung seit {day}</translation>
     </message>
     <message>
         <source>lift of the thumb</source>
-        <translation type="unfinished"></translation>
+        <translation>Abheben des Daumens</translation>
     </message>
     <message>
         <source>knuckles of {fingers}</source>
-        <translation type="unfinished"></translation>
+        <translation>Grundgelenke: {fingers}</translation>
     </message>
     <message>
         <source>middle joints of {fingers}</source>
-        <translation type="unfinished"></translation>
+        <translation>Mittelgelenke: {fingers}</translation>
     </message>
     <message>
         <source>end joints of {fingers}</source>
-        <translation type="unfinished"></translation>
+        <translation>Endgelenke: {fingers}</translation>
     </message>
     <message>
         <source>spreading of {fingers}</source>
-        <translation type="unfinished"></translation>
+        <translation>Spreizung: {fingers}</translation>
     </message>
     <message>
         <source>all fingers</source>
-        <translation type="unfinished"></translation>
+        <translation>alle Finger</translation>
     </message>
     <message>
         <source>Limited by the camera’s view ({sign}: at least): {parts}. Hidden stretches do not count.</source>
-        <translation type="unfinished"></translation>
+        <translation>Durch die Sicht der Kamera begrenzt ({sign}: mindestens): {parts}. Verdeckte Strecken zählen nicht.</translation>
     </message>
     <message>
         <source>Not seen: {joints}.</source>
-        <translation type="unfinished"></translation>
+        <translation>Nicht gesehen: {joints}.</translation>
     </message>
     <message>
         <source>Total active motion (TAM): the largest sum of a finger’s bending in one moment, all its joints seen.</source>
-        <translation type="unfinished"></translation>
+        <translation>Aktive Gesamtbeweglichkeit (TAM): die größte Summe der Beugung eines Fingers in einem Moment, alle Gelenke gesehen.</translation>
     </message>
     <message>
         <source>No total active motion (TAM): no finger’s joints were all seen at once.</source>
-        <translation type="unfinished"></translation>
+        <translation>Keine aktive Gesamtbeweglichkeit (TAM): Bei keinem Finger waren alle Gelenke zugleich zu sehen.</translation>
     </message>
     <message>
         <source>It is missing where a finger’s joints were never all seen at once.</source>
-        <translation type="unfinished"></translation>
+        <translation>Sie fehlt, wo nie alle Gelenke eines Fingers zugleich zu sehen waren.</translation>
     </message>
     <message>
         <source>DIP not measured: TAM takes it as two thirds of PIP.</source>
-        <translation type="unfinished"></translation>
+        <translation>DIP nicht gemessen: Die TAM setzt dafür zwei Drittel des PIP an.</translation>
     </message>
     <message>
         <source>Share of the other hand’s TAM, else of the usual 260° (thumb 140°): excellent from 100 %, good above 75 %, fair above 50 %, else poor (ASSH).</source>
-        <translation type="unfinished"></translation>
+        <translation>Anteil an der TAM der anderen Hand, sonst an den üblichen 260° (Daumen 140°): sehr gut ab 100 %, gut über 75 %, mäßig über 50 %, sonst schlecht (ASSH).</translation>
     </message>
     <message>
         <source>Middle joints</source>
-        <translation type="unfinished"></translation>
+        <translation>Mittelgelenke</translation>
     </message>
     <message>
         <source>{what}: {fingers}.</source>
-        <translation type="unfinished"></translation>
+        <translation>{what}: {fingers}.</translation>
     </message>
     <message>
         <source>{sign}: the camera did not see the end of that movement.</source>
-        <translation type="unfinished"></translation>
+        <translation>{sign}: Die Kamera sah das Ende dieser Bewegung nicht.</translation>
     </message>
     <message>
         <source>the first session on {day}</source>
-        <translation type="unfinished"></translation>
+        <translation>der ersten Sitzung am {day}</translation>
     </message>
     <message>
         <source>Change since {when} is not judged: {why}.</source>
-        <translation type="unfinished"></translation>
+        <translation>Änderung seit {when} nicht beurteilt: {why}.</translation>
     </message>
     <message>
         <source>What was hidden in part is not judged.</source>
-        <translation type="unfinished"></translation>
+        <translation>Was zum Teil verdeckt war, wird nicht beurteilt.</translation>
     </message>
     <message>
         <source>{finger} {size} better</source>
-        <translation type="unfinished"></translation>
+        <translation>{finger} {size} besser</translation>
     </message>
     <message>
         <source>{finger} {size} less</source>
-        <translation type="unfinished"></translation>
+        <translation>{finger} {size} weniger</translation>
     </message>
     <message>
         <source>Since {when}: {changes} (error {limit}).</source>
-        <translation type="unfinished"></translation>
+        <translation>Seit {when}: {changes} (Fehler {limit}).</translation>
     </message>
     <message>
         <source>MCP</source>
-        <translation type="unfinished"></translation>
+        <translation>MCP</translation>
     </message>
     <message>
         <source>IP</source>
-        <translation type="unfinished"></translation>
+        <translation>IP</translation>
     </message>
     <message>
         <source>not measured</source>
-        <translation type="unfinished"></translation>
+        <translation>nicht gemessen</translation>
     </message>
     <message>
         <source>not judged: {why}</source>
-        <translation type="unfinished"></translation>
+        <translation>nicht beurteilt: {why}</translation>
     </message>
     <message>
         <source>bends {full}, lacks {missing}</source>
-        <translation type="unfinished"></translation>
+        <translation>beugt {full}, es fehlen {missing}</translation>
     </message>
     <message>
         <source>TAM of all fingers</source>
-        <translation type="unfinished"></translation>
+        <translation>TAM aller Finger</translation>
     </message>
     <message>
         <source>Spreading of all fingers</source>
-        <translation type="unfinished"></translation>
+        <translation>Spreizung aller Finger</translation>
     </message>
     <message>
         <source>Lift and spread of the thumb</source>
-        <translation type="unfinished"></translation>
+        <translation>Abheben und Spreizung des Daumens</translation>
     </message>
     <message>
         <source>Session report, page 2</source>
-        <translation type="unfinished"></translation>
+        <translation>Sitzungsbericht, Seite 2</translation>
     </message>
     <message>
         <source>Path of the wrist</source>
-        <translation type="unfinished"></translation>
+        <translation>Weg des Handgelenks</translation>
     </message>
     <message>
         <source>with the hand’s axes along it</source>
-        <translation type="unfinished"></translation>
+        <translation>mit den Achsen der Hand</translation>
     </message>
     <message>
         <source>joint centres; dashed: disc hidden</source>
-        <translation type="unfinished"></translation>
+        <translation>Gelenkmitten; gestrichelt: Punkt verdeckt</translation>
     </message>
     <message>
         <source>Ways of the finger tips</source>
-        <translation type="unfinished"></translation>
+        <translation>Wege der Fingerspitzen</translation>
     </message>
     <message>
         <source>X (black) to the fingers, Y (blue) to the thumb, Z (orange) up</source>
-        <translation type="unfinished"></translation>
+        <translation>X (schwarz) zu den Fingern, Y (blau) zum Daumen, Z (orange) nach oben</translation>
     </message>
     <message>
         <source>X (black) to the fingers, Y (blue) from the thumb, Z (orange) up</source>
-        <translation type="unfinished"></translation>
+        <translation>X (schwarz) zu den Fingern, Y (blau) vom Daumen weg, Z (orange) nach oben</translation>
     </message>
     <message>
         <source>Place, speed, turning</source>
-        <translation type="unfinished"></translation>
+        <translation>Ort, Geschwindigkeit, Drehung</translation>
     </message>
     <message>
         <source>ZYZ angles</source>
-        <translation type="unfinished"></translation>
+        <translation>ZYZ-Winkel</translation>
     </message>
     <message>
         <source>band: ± 1 sd; black: α + γ, with γ</source>
-        <translation type="unfinished"></translation>
+        <translation>Band: ± 1 SD; schwarz: α + γ, mit γ</translation>
     </message>
     <message>
         <source>mean ± sd; at the right: {day}</source>
-        <translation type="unfinished"></translation>
+        <translation>Mittel ± SD; rechts: {day}</translation>
     </message>
     <message>
         <source>Progress report</source>
-        <translation type="unfinished"></translation>
+        <translation>Verlaufsbericht</translation>
     </message>
     <message>
         <source>Sessions</source>
-        <translation type="unfinished"></translation>
+        <translation>Sitzungen</translation>
     </message>
     <message>
         <source>First</source>
-        <translation type="unfinished"></translation>
+        <translation>Erste</translation>
     </message>
     <message>
         <source>Last</source>
-        <translation type="unfinished"></translation>
+        <translation>Letzte</translation>
     </message>
     <message>
         <source>Therapist</source>
-        <translation type="unfinished"></translation>
+        <translation>Therapie</translation>
     </message>
     <message>
         <source>1 session: {ids}</source>
-        <translation type="unfinished"></translation>
+        <translation>1 Sitzung: {ids}</translation>
     </message>
     <message>
         <source>{count} sessions: {ids}</source>
-        <translation type="unfinished"></translation>
+        <translation>{count} Sitzungen: {ids}</translation>
     </message>
     <message>
         <source>Made by Carpus {version}</source>
-        <translation type="unfinished"></translation>
+        <translation>Erstellt mit Carpus {version}</translation>
     </message>
     <message>
         <source>measured by Carpus {versions}</source>
-        <translation type="unfinished"></translation>
+        <translation>gemessen mit Carpus {versions}</translation>
     </message>
     <message>
         <source>{before} and {after} repetitions</source>
-        <translation type="unfinished"></translation>
+        <translation>{before} und {after} Wiederholungen</translation>
     </message>
     <message>
         <source>First to last session</source>
-        <translation type="unfinished"></translation>
+        <translation>Erste bis letzte Sitzung</translation>
     </message>
     <message>
         <source>Entered by hand</source>
-        <translation type="unfinished"></translation>
+        <translation>Von Hand eingetragen</translation>
     </message>
     <message>
         <source>never joined with the figures above</source>
-        <translation type="unfinished"></translation>
+        <translation>nie mit den Werten oben verrechnet</translation>
     </message>
     <message>
         <source>Fair comparison</source>
-        <translation type="unfinished"></translation>
+        <translation>Fairer Vergleich</translation>
     </message>
     <message>
         <source>All sessions were set up alike.</source>
-        <translation type="unfinished"></translation>
+        <translation>Alle Sitzungen hatten den gleichen Aufbau.</translation>
     </message>
     <message>
         <source>Session report</source>
-        <translation type="unfinished"></translation>
+        <translation>Sitzungsbericht</translation>
     </message>
     <message>
         <source>SIMULATED</source>
-        <translation type="unfinished"></translation>
+        <translation>SIMULIERT</translation>
     </message>
     <message>
         <source>right-handed</source>
-        <translation type="unfinished"></translation>
+        <translation>rechtshändig</translation>
     </message>
     <message>
         <source>left-handed</source>
-        <translation type="unfinished"></translation>
+        <translation>linkshändig</translation>
     </message>
     <message>
         <source>both-handed</source>
-        <translation type="unfinished"></translation>
+        <translation>beidhändig</translation>
     </message>
     <message>
         <source>Date</source>
-        <translation type="unfinished"></translation>
+        <translation>Datum</translation>
     </message>
     <message>
         <source>Session</source>
-        <translation type="unfinished"></translation>
+        <translation>Sitzung</translation>
     </message>
     <message>
         <source>Length</source>
-        <translation type="unfinished"></translation>
+        <translation>Länge</translation>
     </message>
     <message>
         <source>Markers were put right by hand; the result as measured is kept.</source>
-        <translation type="unfinished"></translation>
+        <translation>Marker wurden von Hand berichtigt; das gemessene Ergebnis bleibt erhalten.</translation>
     </message>
     <message>
         <source>Range of motion</source>
-        <translation type="unfinished"></translation>
+        <translation>Bewegungsumfang</translation>
     </message>
     <message>
         <source>grey: repetitions; band: ± 1 sd of the angle</source>
-        <translation type="unfinished"></translation>
+        <translation>grau: Wiederholungen; Band: ± 1 SD des Winkels</translation>
     </message>
     <message>
         <source>dashed: target</source>
-        <translation type="unfinished"></translation>
+        <translation>gestrichelt: Ziel</translation>
     </message>
     <message>
         <source>Angles over time</source>
-        <translation type="unfinished"></translation>
+        <translation>Winkel über die Zeit</translation>
     </message>
     <message>
         <source>side</source>
-        <translation type="unfinished"></translation>
+        <translation>seitlich</translation>
     </message>
     <message>
         <source>bending</source>
-        <translation type="unfinished"></translation>
+        <translation>Beugung</translation>
     </message>
     <message>
         <source>turning</source>
-        <translation type="unfinished"></translation>
+        <translation>Drehung</translation>
     </message>
     <message>
         <source>Today</source>
-        <translation type="unfinished"></translation>
+        <translation>Heute</translation>
     </message>
     <message>
         <source>Range today, last time and other hand</source>
-        <translation type="unfinished"></translation>
+        <translation>Umfang heute, letztes Mal und andere Hand</translation>
     </message>
     <message>
         <source>Range today</source>
-        <translation type="unfinished"></translation>
+        <translation>Umfang heute</translation>
     </message>
     <message>
         <source>grey: usual in adults (AMA, AAOS)</source>
-        <translation type="unfinished"></translation>
+        <translation>grau: üblich bei Erwachsenen (AMA, AAOS)</translation>
     </message>
     <message>
         <source>How sure are these figures?</source>
-        <translation type="unfinished"></translation>
+        <translation>Wie sicher sind diese Werte?</translation>
     </message>
     <message>
         <source>Speed, pain, note</source>
-        <translation type="unfinished"></translation>
+        <translation>Geschwindigkeit, Schmerz, Notiz</translation>
     </message>
     <message>
         <source>Entered by hand, not measured by Carpus: {values}.</source>
-        <translation type="unfinished"></translation>
+        <translation>Von Hand eingetragen, nicht von Carpus gemessen: {values}.</translation>
     </message>
     <message>
         <source>Session {id}</source>
-        <translation type="unfinished"></translation>
+        <translation>Sitzung {id}</translation>
     </message>
     <message>
         <source>settings {digest}</source>
-        <translation type="unfinished"></translation>
+        <translation>Einstellungen {digest}</translation>
     </message>
     <message>
         <source>data {digest}</source>
-        <translation type="unfinished"></translation>
+        <translation>Daten {digest}</translation>
     </message>
     <message>
         <source>recording {digest}</source>
-        <translation type="unfinished"></translation>
+        <translation>Aufnahme {digest}</translation>
     </message>
     <message>
         <source>calibrated to {size} mm</source>
-        <translation type="unfinished"></translation>
+        <translation>kalibriert auf {size} mm</translation>
     </message>
     <message>
         <source>smoothed</source>
-        <translation type="unfinished"></translation>
+        <translation>geglättet</translation>
     </message>
     <message>
         <source>as measured live</source>
-        <translation type="unfinished"></translation>
+        <translation>wie live gemessen</translation>
     </message>
     <message>
         <source>Movement</source>
-        <translation type="unfinished"></translation>
+        <translation>Bewegung</translation>
     </message>
     <message>
         <source>Today, mean ± sd</source>
-        <translation type="unfinished"></translation>
+        <translation>Heute, Mittel ± SD</translation>
     </message>
     <message>
         <source>Best</source>
-        <translation type="unfinished"></translation>
+        <translation>Bester</translation>
     </message>
     <message>
         <source>Usual (adults)</source>
-        <translation type="unfinished"></translation>
+        <translation>Üblich (Erwachsene)</translation>
     </message>
     <message>
         <source>{count} ways out and back; ranges over the whole recording</source>
-        <translation type="unfinished"></translation>
+        <translation>{count} Wege hin und zurück; Umfänge über die ganze Aufnahme</translation>
     </message>
     <message>
         <source>1 repetition</source>
-        <translation type="unfinished"></translation>
+        <translation>1 Wiederholung</translation>
     </message>
     <message>
         <source>mean of {count} repetitions</source>
-        <translation type="unfinished"></translation>
+        <translation>Mittel aus {count} Wiederholungen</translation>
     </message>
     <message>
         <source>number {number} left out: {reason}</source>
-        <translation type="unfinished"></translation>
+        <translation>Nummer {number} ausgelassen: {reason}</translation>
     </message>
     <message>
         <source>number {number} left out: not seen well enough</source>
-        <translation type="unfinished"></translation>
+        <translation>Nummer {number} ausgelassen: nicht gut genug gesehen</translation>
     </message>
     <message>
         <source>one range over the whole recording; no repetitions</source>
-        <translation type="unfinished"></translation>
+        <translation>ein Umfang über die ganze Aufnahme; keine Wiederholungen</translation>
     </message>
     <message>
         <source>it is too short</source>
-        <translation type="unfinished"></translation>
+        <translation>sie ist zu kurz</translation>
     </message>
     <message>
         <source>what is trained was not seen</source>
-        <translation type="unfinished"></translation>
+        <translation>das Geübte war nicht zu sehen</translation>
     </message>
     <message>
         <source>less than 10° of movement</source>
-        <translation type="unfinished"></translation>
+        <translation>weniger als 10° Bewegung</translation>
     </message>
     <message>
         <source>it never went there and back</source>
-        <translation type="unfinished"></translation>
+        <translation>kein Hin und Zurück</translation>
     </message>
     <message>
         <source>each was quicker than 0.4 s</source>
-        <translation type="unfinished"></translation>
+        <translation>jede war kürzer als 0,4 s</translation>
     </message>
     <message>
         <source>{seconds} s not seen and not counted</source>
-        <translation type="unfinished"></translation>
+        <translation>{seconds} s nicht gesehen und nicht gezählt</translation>
     </message>
     <message>
         <source>limited by the camera&apos;s view</source>
-        <translation type="unfinished"></translation>
+        <translation>durch die Sicht der Kamera begrenzt</translation>
     </message>
     <message>
         <source>limited by view</source>
-        <translation type="unfinished"></translation>
+        <translation>durch Sicht begrenzt</translation>
     </message>
     <message>
         <source>Up and down</source>
-        <translation type="unfinished"></translation>
+        <translation>Auf und ab</translation>
     </message>
     <message>
         <source>{angle} at most</source>
-        <translation type="unfinished"></translation>
+        <translation>höchstens {angle}</translation>
     </message>
     <message>
         <source>under {angle}</source>
-        <translation type="unfinished"></translation>
+        <translation>unter {angle}</translation>
     </message>
     <message>
         <source>as asked: the hand stays in line</source>
-        <translation type="unfinished"></translation>
+        <translation>wie gewünscht: Die Hand bleibt in Linie</translation>
     </message>
     <message>
         <source>more than asked: watch the exercise</source>
-        <translation type="unfinished"></translation>
+        <translation>mehr als gewünscht: Achten Sie auf die Übung</translation>
     </message>
     <message>
         <source>not judged: no error limit is known</source>
-        <translation type="unfinished"></translation>
+        <translation>nicht beurteilt: keine Fehlergrenze bekannt</translation>
     </message>
     <message>
         <source>No range could be measured.</source>
-        <translation type="unfinished"></translation>
+        <translation>Kein Bewegungsumfang messbar.</translation>
     </message>
     <message>
         <source>whole arc</source>
-        <translation type="unfinished"></translation>
+        <translation>Gesamtumfang</translation>
     </message>
     <message>
         <source>No change beyond measurement error since {when}.</source>
-        <translation type="unfinished"></translation>
+        <translation>Keine Änderung über den Messfehler hinaus seit {when}.</translation>
     </message>
     <message>
         <source>{name} {size} better</source>
-        <translation type="unfinished"></translation>
+        <translation>{name} {size} besser</translation>
     </message>
     <message>
         <source>{name} {size} less</source>
-        <translation type="unfinished"></translation>
+        <translation>{name} {size} weniger</translation>
     </message>
     <message>
         <source>(error {limit})</source>
-        <translation type="unfinished"></translation>
+        <translation>(Fehler {limit})</translation>
     </message>
     <message>
         <source>Since {when}: {changes}.</source>
-        <translation type="unfinished"></translation>
+        <translation>Seit {when}: {changes}.</translation>
     </message>
     <message>
         <source>zero is the neutral hand, palm down</source>
-        <translation type="unfinished"></translation>
+        <translation>Null ist die Hand in Nullstellung, Handfläche nach unten</translation>
     </message>
     <message>
         <source>Angles in the order deviation, flexion, pro/supination; {zero}.</source>
-        <translation type="unfinished"></translation>
+        <translation>Winkel in der Reihenfolge Deviation, Flexion, Pro-/Supination; {zero}.</translation>
     </message>
     <message>
         <source>Angles in the order of the ISB: flexion, deviation, pro/supination; {zero}.</source>
-        <translation type="unfinished"></translation>
+        <translation>Winkel in der Reihenfolge der ISB: Flexion, Deviation, Pro-/Supination; {zero}.</translation>
     </message>
     <message>
         <source>Fingers: zero is straight, below it bent back. Wrist: {zero}.</source>
-        <translation type="unfinished"></translation>
+        <translation>Finger: Null ist gerade, darunter überstreckt. Handgelenk: {zero}.</translation>
     </message>
     <message>
         <source>Fingers: zero is straight, below it bent back; TAM is bending less what is missing to straight. Wrist: {zero}.</source>
-        <translation type="unfinished"></translation>
+        <translation>Finger: Null ist gerade, darunter überstreckt; TAM ist Beugung minus Streckdefizit. Handgelenk: {zero}.</translation>
     </message>
     <message>
         <source>zero is straight by the therapist’s goniometer: the hand started at {angles}</source>
-        <translation type="unfinished"></translation>
+        <translation>Null ist gerade nach dem Winkelmesser der Therapie: Die Hand begann bei {angles}</translation>
     </message>
     <message>
         <source>Method: {markers} markers, colour and depth camera, {distance} away.</source>
-        <translation type="unfinished"></translation>
+        <translation>Verfahren: {markers} Marker, Farb- und Tiefenkamera, {distance} entfernt.</translation>
     </message>
     <message>
         <source>The wrist’s angles are in the order of the ISB.</source>
-        <translation type="unfinished"></translation>
+        <translation>Die Winkel des Handgelenks stehen in der Reihenfolge der ISB.</translation>
     </message>
     <message>
         <source>Carpus measures the hand in the room: it is the wrist only while the forearm rests.</source>
-        <translation type="unfinished"></translation>
+        <translation>Carpus misst die Hand im Raum: Das ist das Handgelenk nur, solange der Unterarm ruht.</translation>
     </message>
     <message>
         <source>Camera not calibrated with a board.</source>
-        <translation type="unfinished"></translation>
+        <translation>Kamera nicht mit einer Tafel kalibriert.</translation>
     </message>
     <message>
         <source>Camera calibrated {day}.</source>
-        <translation type="unfinished"></translation>
+        <translation>Kamera kalibriert am {day}.</translation>
     </message>
     <message>
         <source>Camera calibrated {day}, {days} days before.</source>
-        <translation type="unfinished"></translation>
+        <translation>Kamera kalibriert am {day}, {days} Tage zuvor.</translation>
     </message>
     <message>
         <source>± is the spread between repetitions; each angle itself is known to about {sd} where seen.</source>
-        <translation type="unfinished"></translation>
+        <translation>± ist die Streuung zwischen Wiederholungen; jeder gesehene Winkel selbst ist auf etwa {sd} bekannt.</translation>
     </message>
     <message>
         <source>± is the spread between repetitions, of fewer than 3 the tracker’s own sd of one value; each angle itself is known to about {sd} where seen.</source>
-        <translation type="unfinished"></translation>
+        <translation>± ist die Streuung zwischen Wiederholungen, bei weniger als 3 die SD der Verfolgung für einen Wert; jeder gesehene Winkel selbst ist auf etwa {sd} bekannt.</translation>
     </message>
     <message>
         <source>± is the tracker’s own sd of one value: there was no spread to give; each angle is known to about {sd}.</source>
-        <translation type="unfinished"></translation>
+        <translation>± ist die SD der Verfolgung für einen Wert: Eine Streuung gab es nicht; jeder Winkel ist auf etwa {sd} bekannt.</translation>
     </message>
     <message>
         <source>Simulated hand: nobody’s movement was measured.</source>
-        <translation type="unfinished"></translation>
+        <translation>Simulierte Hand: Es wurde keine echte Bewegung gemessen.</translation>
     </message>
     <message>
         <source>Measured although doubtful: {findings}</source>
-        <translation type="unfinished"></translation>
+        <translation>Trotz Zweifel gemessen: {findings}</translation>
     </message>
     <message>
         <source>This session is marked as not counting.</source>
-        <translation type="unfinished"></translation>
+        <translation>Diese Sitzung ist als nicht zählend markiert.</translation>
     </message>
     <message>
         <source>This recording was cut short and recovered.</source>
-        <translation type="unfinished"></translation>
+        <translation>Diese Aufnahme brach ab und wurde wiederhergestellt.</translation>
     </message>
     <message>
         <source>Corrected on {day}, from {time}, by {who}.</source>
-        <translation type="unfinished"></translation>
+        <translation>Berichtigt am {day}, ab {time}, von {who}.</translation>
     </message>
     <message>
         <source>Corrected on {day}, from {time}.</source>
-        <translation type="unfinished"></translation>
+        <translation>Berichtigt am {day}, ab {time}.</translation>
     </message>
     <message>
         <source>{share} of {frames}; {dropped} missed</source>
-        <translation type="unfinished"></translation>
+        <translation>{share} von {frames}; {dropped} verpasst</translation>
     </message>
     <message>
         <source>{share} % of the time</source>
-        <translation type="unfinished"></translation>
+        <translation>{share} % der Zeit</translation>
     </message>
     <message>
         <source>{share} % of the repetitions</source>
-        <translation type="unfinished"></translation>
+        <translation>{share} % der Wiederholungen</translation>
     </message>
     <message>
         <source>Pictures measured</source>
-        <translation type="unfinished"></translation>
+        <translation>Gemessene Bilder</translation>
     </message>
     <message>
         <source>Markers hidden</source>
-        <translation type="unfinished"></translation>
+        <translation>Verdeckte Marker</translation>
     </message>
     <message>
         <source>{count} of {all} figures</source>
-        <translation type="unfinished"></translation>
+        <translation>{count} von {all} Werten</translation>
     </message>
     <message>
         <source>At least (≥) or not seen</source>
-        <translation type="unfinished"></translation>
+        <translation>Mindestens (≥) oder nicht gesehen</translation>
     </message>
     <message>
         <source>{distance} (limit {limit})</source>
-        <translation type="unfinished"></translation>
+        <translation>{distance} (Grenze {limit})</translation>
     </message>
     <message>
         <source>Forearm moved</source>
-        <translation type="unfinished"></translation>
+        <translation>Unterarm bewegt</translation>
     </message>
     <message>
         <source>{depth} under its disc (fit {residual})</source>
-        <translation type="unfinished"></translation>
+        <translation>{depth} unter seinem Punkt (Passung {residual})</translation>
     </message>
     <message>
         <source>Wrist turns about</source>
-        <translation type="unfinished"></translation>
+        <translation>Drehpunkt des Handgelenks</translation>
     </message>
     <message>
         <source>{angle} at most (limit {limit})</source>
-        <translation type="unfinished"></translation>
+        <translation>höchstens {angle} (Grenze {limit})</translation>
     </message>
     <message>
         <source>Markers and camera</source>
-        <translation type="unfinished"></translation>
+        <translation>Marker und Kamera</translation>
     </message>
     <message>
         <source>doubtful, see above</source>
-        <translation type="unfinished"></translation>
+        <translation>zweifelhaft, siehe oben</translation>
     </message>
     <message>
         <source>Peak speed, mean ± sd</source>
-        <translation type="unfinished"></translation>
+        <translation>Spitzengeschwindigkeit, Mittel ± SD</translation>
     </message>
     <message>
         <source>Smoothness (SPARC; 0 is smoothest)</source>
-        <translation type="unfinished"></translation>
+        <translation>Flüssigkeit (SPARC; 0 am flüssigsten)</translation>
     </message>
     <message>
         <source>Target</source>
-        <translation type="unfinished"></translation>
+        <translation>Ziel</translation>
     </message>
     <message>
         <source>Pain first / last (0–10)</source>
-        <translation type="unfinished"></translation>
+        <translation>Schmerz zuerst / zuletzt (0–10)</translation>
     </message>
     <message>
         <source>Pain (0–10)</source>
-        <translation type="unfinished"></translation>
+        <translation>Schmerz (0–10)</translation>
     </message>
     <message>
         <source>not asked</source>
-        <translation type="unfinished"></translation>
+        <translation>nicht gefragt</translation>
     </message>
     <message>
         <source>{pain} at {time}</source>
-        <translation type="unfinished"></translation>
+        <translation>{pain} bei {time}</translation>
     </message>
     <message>
         <source>Nobody takes part yet.</source>
-        <translation type="unfinished"></translation>
+        <translation>Noch nimmt niemand teil.</translation>
     </message>
     <message>
         <source>Choose volunteers or staff, never patients, by “People…”.</source>
-        <translation type="unfinished"></translation>
+        <translation>Wählen Sie über „Personen…“ Freiwillige oder Personal, nie Patienten.</translation>
     </message>
     <message>
         <source>These are simulated hands.</source>
-        <translation type="unfinished"></translation>
+        <translation>Das sind simulierte Hände.</translation>
     </message>
     <message>
         <source>Limits of a simulated hand are never put into force.</source>
-        <translation type="unfinished"></translation>
+        <translation>Grenzen einer simulierten Hand treten nie in Kraft.</translation>
     </message>
     <message>
         <source>1 person is measured twice.</source>
-        <translation type="unfinished"></translation>
+        <translation>1 Person ist zweimal gemessen.</translation>
     </message>
     <message>
         <source>{count} people are measured twice.</source>
-        <translation type="unfinished"></translation>
+        <translation>{count} Personen sind zweimal gemessen.</translation>
     </message>
     <message>
         <source>{count} more make it usable.</source>
-        <translation type="unfinished"></translation>
+        <translation>Mit {count} weiteren wird es brauchbar.</translation>
     </message>
     <message>
         <source>Until then progress and reports use the limits of before. {least} people are the least; 20 are better.</source>
-        <translation type="unfinished"></translation>
+        <translation>Bis dahin gelten in Verlauf und Berichten die bisherigen Grenzen. {least} Personen sind das Mindeste; 20 sind besser.</translation>
     </message>
     <message>
         <source>Limits of {day} with {count} people are in force. “Use these limits” puts these in their place.</source>
-        <translation type="unfinished"></translation>
+        <translation>Grenzen vom {day} mit {count} Personen gelten. „Diese Grenzen verwenden“ ersetzt sie durch diese.</translation>
     </message>
     <message>
         <source>“Use these limits” puts them into force in progress and reports. Reports already made keep theirs.</source>
-        <translation type="unfinished"></translation>
+        <translation>„Diese Grenzen verwenden“ setzt sie in Verlauf und Berichten in Kraft. Fertige Berichte behalten ihre.</translation>
     </message>
     <message>
         <source>{last}, {count} times</source>
-        <translation type="unfinished"></translation>
+        <translation>{last}, {count}-mal</translation>
     </message>
     <message>
         <source>due by {day}</source>
-        <translation type="unfinished"></translation>
+        <translation>fällig bis {day}</translation>
     </message>
     <message>
         <source>complete</source>
-        <translation type="unfinished"></translation>
+        <translation>vollständig</translation>
     </message>
     <message>
         <source>more than 14 days later</source>
-        <translation type="unfinished"></translation>
+        <translation>mehr als 14 Tage später</translation>
     </message>
     <message>
         <source>measure again: {reason}</source>
-        <translation type="unfinished"></translation>
+        <translation>erneut messen: {reason}</translation>
     </message>
     <message>
         <source>second due</source>
-        <translation type="unfinished"></translation>
+        <translation>zweite fällig</translation>
     </message>
     <message>
         <source>too late: measure both again</source>
-        <translation type="unfinished"></translation>
+        <translation>zu spät: beide neu messen</translation>
     </message>
     <message>
         <source>missing</source>
-        <translation type="unfinished"></translation>
+        <translation>fehlt</translation>
     </message>
     <message>
         <source>What changes in reports, once complete</source>
-        <translation type="unfinished"></translation>
+        <translation>Was sich in Berichten ändert, sobald vollständig</translation>
     </message>
     <message>
         <source>What would change in today&apos;s reports</source>
-        <translation type="unfinished"></translation>
+        <translation>Was sich in heutigen Berichten ändern würde</translation>
     </message>
     <message>
         <source>Looking at the sessions of {done} of {count} patients…</source>
-        <translation type="unfinished"></translation>
+        <translation>Sitzungen von {done} von {count} Patienten werden durchgesehen…</translation>
     </message>
     <message>
         <source>Nobody else has two sessions of this exercise that compare.</source>
-        <translation type="unfinished"></translation>
+        <translation>Niemand sonst hat zwei vergleichbare Sitzungen dieser Übung.</translation>
     </message>
     <message>
         <source>{changed} of {count} statements change. Reports already made keep theirs.</source>
-        <translation type="unfinished"></translation>
+        <translation>{changed} von {count} Aussagen ändern sich. Fertige Berichte behalten ihre.</translation>
     </message>
     <message>
         <source>{verdict}, as now</source>
-        <translation type="unfinished"></translation>
+        <translation>{verdict}, wie jetzt</translation>
     </message>
     <message>
         <source>simulated, does not count</source>
-        <translation type="unfinished"></translation>
+        <translation>simuliert, zählt nicht</translation>
     </message>
     <message>
         <source>set aside: {reason}</source>
-        <translation type="unfinished"></translation>
+        <translation>beiseitegelegt: {reason}</translation>
     </message>
     <message>
         <source>cannot be read</source>
-        <translation type="unfinished"></translation>
+        <translation>nicht lesbar</translation>
     </message>
     <message>
         <source>cut short</source>
-        <translation type="unfinished"></translation>
+        <translation>abgebrochen</translation>
     </message>
     <message>
         <source>What counts as a change</source>
-        <translation type="unfinished"></translation>
+        <translation>Was als Änderung zählt</translation>
     </message>
     <message>
         <source>Measured by this clinic: {exercise}</source>
-        <translation type="unfinished"></translation>
+        <translation>Von dieser Einrichtung gemessen: {exercise}</translation>
     </message>
     <message>
         <source>On {date} with {count} people in {sessions} sessions; 95 % intervals in brackets.</source>
-        <translation type="unfinished"></translation>
+        <translation>Am {date} mit {count} Personen in {sessions} Sitzungen; 95-%-Intervalle in Klammern.</translation>
     </message>
     <message>
         <source>In force in progress and reports, in place of the limits above.</source>
-        <translation type="unfinished"></translation>
+        <translation>Gilt in Verlauf und Berichten anstelle der Grenzen oben.</translation>
     </message>
     <message>
         <source>Not in force: {count} people are the least.</source>
-        <translation type="unfinished"></translation>
+        <translation>Gilt nicht: {count} Personen sind das Mindeste.</translation>
     </message>
     <message>
         <source>SEM {size}</source>
-        <translation type="unfinished"></translation>
+        <translation>SEM {size}</translation>
     </message>
     <message>
         <source>{count} people, not in force</source>
-        <translation type="unfinished"></translation>
+        <translation>{count} Personen, gilt nicht</translation>
     </message>
     <message>
         <source>Flexion, extension</source>
-        <translation type="unfinished"></translation>
+        <translation>Flexion, Extension</translation>
     </message>
     <message>
         <source>Flexion and extension, whole arc</source>
-        <translation type="unfinished"></translation>
+        <translation>Flexion und Extension, Gesamtumfang</translation>
     </message>
     <message>
         <source>Radial, ulnar deviation</source>
-        <translation type="unfinished"></translation>
+        <translation>Radial-, Ulnarduktion</translation>
     </message>
     <message>
         <source>Deviation, whole arc</source>
-        <translation type="unfinished"></translation>
+        <translation>Radial-/Ulnarduktion, Gesamtumfang</translation>
     </message>
     <message>
         <source>Supination, pronation</source>
-        <translation type="unfinished"></translation>
+        <translation>Supination, Pronation</translation>
     </message>
     <message>
         <source>Supination and pronation, whole arc</source>
-        <translation type="unfinished"></translation>
+        <translation>Supination und Pronation, Gesamtumfang</translation>
     </message>
     <message>
         <source>Range of a finger’s knuckle, middle or end joint</source>
-        <translation type="unfinished"></translation>
+        <translation>Umfang eines Grund-, Mittel- oder Endgelenks</translation>
     </message>
     <message>
         <source>Range of a finger’s spreading</source>
-        <translation type="unfinished"></translation>
+        <translation>Umfang der Spreizung eines Fingers</translation>
     </message>
     <message>
         <source>Range of the thumb’s joints</source>
-        <translation type="unfinished"></translation>
+        <translation>Umfang der Daumengelenke</translation>
     </message>
     <message>
         <source>Set: {name}</source>
-        <translation type="unfinished"></translation>
+        <translation>Übungsfolge: {name}</translation>
     </message>
     <message>
         <source>{movement} {goal} (mean {mean}; a gain can be told from {told})</source>
-        <translation type="unfinished"></translation>
+        <translation>{movement} {goal} (Mittel {mean}; ein Gewinn ist ab {told} erkennbar)</translation>
     </message>
     <message>
         <source>Proposed from the last session:</source>
-        <translation type="unfinished"></translation>
+        <translation>Vorschlag aus der letzten Sitzung:</translation>
     </message>
     <message>
         <source>Proposed from the last {count} sessions:</source>
-        <translation type="unfinished"></translation>
+        <translation>Vorschlag aus den letzten {count} Sitzungen:</translation>
     </message>
     <message>
         <source>{exercise}, {count} times</source>
-        <translation type="unfinished"></translation>
+        <translation>{exercise}, {count}-mal</translation>
     </message>
     <message>
         <source>{exercise}, {count} s</source>
-        <translation type="unfinished"></translation>
+        <translation>{exercise}, {count} s</translation>
     </message>
     <message>
         <source>Set “{name}”, {number} of {count}: {part}</source>
-        <translation type="unfinished"></translation>
+        <translation>Übungsfolge „{name}“, {number} von {count}: {part}</translation>
     </message>
     <message>
         <source>Wrist flexion–extension</source>
-        <translation type="unfinished"></translation>
+        <translation>Handgelenk Flexion–Extension</translation>
     </message>
     <message>
         <source>Wrist side to side</source>
-        <translation type="unfinished"></translation>
+        <translation>Handgelenk zur Seite</translation>
     </message>
     <message>
         <source>Palm up – palm down</source>
-        <translation type="unfinished"></translation>
+        <translation>Handfläche auf – ab</translation>
     </message>
     <message>
         <source>Free movement</source>
-        <translation type="unfinished"></translation>
+        <translation>Freie Bewegung</translation>
     </message>
     <message>
         <source>Full fist</source>
-        <translation type="unfinished"></translation>
+        <translation>Faustschluss</translation>
     </message>
     <message>
         <source>Hook fist</source>
-        <translation type="unfinished"></translation>
+        <translation>Hakenfaust</translation>
     </message>
     <message>
         <source>Spread the fingers</source>
-        <translation type="unfinished"></translation>
+        <translation>Finger spreizen</translation>
     </message>
     <message>
         <source>Thumb across the palm</source>
-        <translation type="unfinished"></translation>
+        <translation>Daumen über die Handfläche</translation>
     </message>
     <message>
         <source>Free movement of the fingers</source>
-        <translation type="unfinished"></translation>
+        <translation>Freie Bewegung der Finger</translation>
     </message>
     <message>
         <source>Whole hand · {count} markers</source>
-        <translation type="unfinished"></translation>
+        <translation>Ganze Hand · {count} Marker</translation>
     </message>
     <message>
         <source>Some fingers · {count} markers</source>
-        <translation type="unfinished"></translation>
+        <translation>Einige Finger · {count} Marker</translation>
     </message>
     <message>
         <source>Wrist · {count} markers</source>
-        <translation type="unfinished"></translation>
+        <translation>Handgelenk · {count} Marker</translation>
     </message>
     <message>
         <source>Lift the back of the hand up, then let it drop as far as comfortable.</source>
-        <translation type="unfinished"></translation>
+        <translation>Den Handrücken nach oben heben, dann so weit sinken lassen, wie es angenehm ist.</translation>
     </message>
     <message>
         <source>Slide the hand to the thumb side, then to the little-finger side. Keep it flat.</source>
-        <translation type="unfinished"></translation>
+        <translation>Die Hand zur Daumenseite schieben, dann zur Kleinfingerseite. Sie bleibt flach.</translation>
     </message>
     <message>
         <source>Turn the palm up as far as the markers stay visible, then back.</source>
-        <translation type="unfinished"></translation>
+        <translation>Die Handfläche nach oben drehen, solange die Marker zu sehen sind, dann zurück.</translation>
     </message>
     <message>
         <source>Move the wrist freely. All three angles are recorded; no repetitions are counted.</source>
-        <translation type="unfinished"></translation>
+        <translation>Das Handgelenk frei bewegen. Alle drei Winkel werden aufgenommen; Wiederholungen werden nicht gezählt.</translation>
     </message>
     <message>
         <source>Close all fingers into a full fist, then open flat.</source>
-        <translation type="unfinished"></translation>
+        <translation>Alle Finger zur Faust schließen, dann flach öffnen.</translation>
     </message>
     <message>
         <source>Keep the knuckles straight, bend only the end joints like a hook, then open.</source>
-        <translation type="unfinished"></translation>
+        <translation>Die Grundgelenke gestreckt halten, nur Mittel- und Endgelenke wie einen Haken beugen, dann öffnen.</translation>
     </message>
     <message>
         <source>Spread the fingers wide, then close them.</source>
-        <translation type="unfinished"></translation>
+        <translation>Die Finger weit spreizen, dann schließen.</translation>
     </message>
     <message>
         <source>Touch each fingertip with the thumb in turn, opening it wide in between.</source>
-        <translation type="unfinished"></translation>
+        <translation>Mit dem Daumen nacheinander jede Fingerspitze berühren, dazwischen weit öffnen.</translation>
     </message>
     <message>
         <source>Reach, take the cup, lift it a little, put it back, return.</source>
-        <translation type="unfinished"></translation>
+        <translation>Hinlangen, den Becher nehmen, etwas anheben, abstellen, zurück.</translation>
     </message>
     <message>
         <source>Move the fingers freely. All joint angles are recorded; no repetitions are counted.</source>
-        <translation type="unfinished"></translation>
+        <translation>Die Finger frei bewegen. Alle Gelenkwinkel werden aufgenommen; Wiederholungen werden nicht gezählt.</translation>
     </message>
     <message>
         <source>Forearm on a 10 cm wedge, palm down, hand over the edge, fingers relaxed.</source>
-        <translation type="unfinished"></translation>
+        <translation>Unterarm auf einem 10-cm-Keil, Handfläche nach unten, Hand über der Kante, Finger locker.</translation>
     </message>
     <message>
         <source>Palm flat on a smooth sheet, forearm strapped.</source>
-        <translation type="unfinished"></translation>
+        <translation>Handfläche flach auf glatter Unterlage, Unterarm fixiert.</translation>
     </message>
     <message>
         <source>Elbow at the side, forearm free, palm down under the camera.</source>
-        <translation type="unfinished"></translation>
+        <translation>Ellenbogen am Körper, Unterarm frei, Handfläche nach unten unter der Kamera.</translation>
     </message>
     <message>
         <source>Hand in view of the camera, back of the hand up.</source>
-        <translation type="unfinished"></translation>
+        <translation>Hand im Blick der Kamera, Handrücken nach oben.</translation>
     </message>
     <message>
         <source>Forearm on the wedge, back of the hand towards the camera, fingers straight.</source>
-        <translation type="unfinished"></translation>
+        <translation>Unterarm auf dem Keil, Handrücken zur Kamera, Finger gestreckt.</translation>
     </message>
     <message>
         <source>Palm flat on the table, fingers straight and closed.</source>
-        <translation type="unfinished"></translation>
+        <translation>Handfläche flach auf dem Tisch, Finger gestreckt und geschlossen.</translation>
     </message>
     <message>
         <source>Forearm on the wedge, thumb side turned up a little, fingers relaxed.</source>
-        <translation type="unfinished"></translation>
+        <translation>Unterarm auf dem Keil, Daumenseite etwas nach oben gedreht, Finger locker.</translation>
     </message>
     <message>
         <source>Hand at its place at the edge, a cup of 5 to 7 cm at 20 to 30 cm.</source>
-        <translation type="unfinished"></translation>
+        <translation>Hand an ihrem Platz an der Kante, ein Becher von 5 bis 7 cm in 20 bis 30 cm Abstand.</translation>
     </message>
     <message>
         <source>Hand in view of the camera, back of the hand up, fingers straight.</source>
-        <translation type="unfinished"></translation>
+        <translation>Hand im Blick der Kamera, Handrücken nach oben, Finger gestreckt.</translation>
     </message>
     <message>
         <source>At the end of a fist the middle and end joints go out of the camera&apos;s sight: repetitions are counted all the same, and those ranges are given as “at least”. To see more, turn the thumb side up.</source>
-        <translation type="unfinished"></translation>
+        <translation>Am Ende der Faust sieht die Kamera Mittel- und Endgelenke nicht mehr: Wiederholungen werden trotzdem gezählt, und diese Umfänge stehen als „mindestens“ da. Um mehr zu sehen, drehen Sie die Daumenseite nach oben.</translation>
     </message>
     <message>
         <source>About half-way the middle joints go out of the camera&apos;s sight: repetitions are counted all the same, and their range is given as “at least”. To see more, raise the wrist or turn the thumb side up.</source>
-        <translation type="unfinished"></translation>
+        <translation>Etwa auf halbem Weg sieht die Kamera die Mittelgelenke nicht mehr: Wiederholungen werden trotzdem gezählt, und ihr Umfang steht als „mindestens“ da. Um mehr zu sehen, heben Sie das Handgelenk oder drehen Sie die Daumenseite nach oben.</translation>
     </message>
     <message>
         <source>Under the palm the thumb&apos;s tip goes out of the camera&apos;s sight: what is trained here is its lift away from the palm, which stays in view.</source>
-        <translation type="unfinished"></translation>
+        <translation>Unter der Handfläche sieht die Kamera die Daumenspitze nicht mehr: Geübt wird hier das Abheben von der Handfläche, das sichtbar bleibt.</translation>
     </message>
     <message>
         <source>Radial</source>
-        <translation type="unfinished"></translation>
+        <translation>Radial</translation>
     </message>
     <message>
         <source>Ulnar</source>
-        <translation type="unfinished"></translation>
+        <translation>Ulnar</translation>
     </message>
     <message>
         <source>Flexion</source>
-        <translation type="unfinished"></translation>
+        <translation>Flexion</translation>
     </message>
     <message>
         <source>Extension</source>
-        <translation type="unfinished"></translation>
+        <translation>Extension</translation>
     </message>
     <message>
         <source>Supination</source>
-        <translation type="unfinished"></translation>
+        <translation>Supination</translation>
     </message>
     <message>
         <source>Pronation</source>
-        <translation type="unfinished"></translation>
+        <translation>Pronation</translation>
     </message>
     <message>
         <source>{movement} deficit</source>
-        <translation type="unfinished"></translation>
+        <translation>Defizit {movement}</translation>
     </message>
     <message>
         <source>lacks {angle}</source>
-        <translation type="unfinished"></translation>
+        <translation>es fehlen {angle}</translation>
     </message>
     <message>
         <source>Radial deviation</source>
-        <translation type="unfinished"></translation>
+        <translation>Radialduktion</translation>
     </message>
     <message>
         <source>Ulnar deviation</source>
-        <translation type="unfinished"></translation>
+        <translation>Ulnarduktion</translation>
     </message>
     <message>
         <source>Palm down</source>
-        <translation type="unfinished"></translation>
+        <translation>Handfläche unten</translation>
     </message>
     <message>
         <source>Side arc</source>
-        <translation type="unfinished"></translation>
+        <translation>Umfang seitlich</translation>
     </message>
     <message>
         <source>Bending arc</source>
-        <translation type="unfinished"></translation>
+        <translation>Umfang Beugung</translation>
     </message>
     <message>
         <source>Turning arc</source>
-        <translation type="unfinished"></translation>
+        <translation>Umfang Drehung</translation>
     </message>
     <message>
         <source>Right hand</source>
-        <translation type="unfinished"></translation>
+        <translation>Rechte Hand</translation>
     </message>
     <message>
         <source>Left hand</source>
-        <translation type="unfinished"></translation>
+        <translation>Linke Hand</translation>
     </message>
     <message>
         <source>Both hands</source>
-        <translation type="unfinished"></translation>
+        <translation>Beide Hände</translation>
     </message>
     <message>
         <source>Right</source>
-        <translation type="unfinished"></translation>
+        <translation>Rechts</translation>
     </message>
     <message>
         <source>Left</source>
-        <translation type="unfinished"></translation>
+        <translation>Links</translation>
     </message>
     <message>
         <source>Both</source>
-        <translation type="unfinished"></translation>
+        <translation>Beide</translation>
     </message>
     <message>
         <source>Right hand affected</source>
-        <translation type="unfinished"></translation>
+        <translation>Rechte Hand betroffen</translation>
     </message>
     <message>
         <source>Left hand affected</source>
-        <translation type="unfinished"></translation>
+        <translation>Linke Hand betroffen</translation>
     </message>
     <message>
         <source>Both hands affected</source>
-        <translation type="unfinished"></translation>
+        <translation>Beide Hände betroffen</translation>
     </message>
     <message>
         <source>Choose in the list who is measured and start here; the practice patient is simulated.</source>
-        <translation type="unfinished"></translation>
+        <translation>Wählen Sie in der Liste, wer gemessen wird, und beginnen Sie hier; der Probepatient ist simuliert.</translation>
     </message>
     <message>
         <source>Choose where the pictures come from, then go on here.</source>
-        <translation type="unfinished"></translation>
+        <translation>Wählen Sie, woher die Bilder kommen, dann geht es hier weiter.</translation>
     </message>
     <message>
         <source>Take the picture when the hand lies flat and every disc is to be seen.</source>
-        <translation type="unfinished"></translation>
+        <translation>Nehmen Sie das Bild auf, wenn die Hand flach liegt und jeder Punkt zu sehen ist.</translation>
     </message>
     <message>
         <source>Click the blue discs in the picture, each as it is asked for above.</source>
-        <translation type="unfinished"></translation>
+        <translation>Klicken Sie die blauen Punkte im Bild an, jeden, wie oben gefragt.</translation>
     </message>
     <message>
         <source>Every disc has its name and every check is good: start here.</source>
-        <translation type="unfinished"></translation>
+        <translation>Jeder Punkt hat seinen Namen und jede Prüfung ist gut: Beginnen Sie hier.</translation>
     </message>
     <message>
         <source>The joints are followed already; the space bar starts the recording.</source>
-        <translation type="unfinished"></translation>
+        <translation>Den Gelenken wird schon gefolgt; die Leertaste startet die Aufnahme.</translation>
     </message>
     <message>
         <source>Let the hand move a few times; the space bar then stores it all.</source>
-        <translation type="unfinished"></translation>
+        <translation>Lassen Sie die Hand einige Male bewegen; dann speichert die Leertaste alles.</translation>
     </message>
     <message>
         <source>These are the results; the key X leaves out the repetition you are at.</source>
-        <translation type="unfinished"></translation>
+        <translation>Das sind die Ergebnisse; die Taste X lässt die angezeigte Wiederholung aus.</translation>
     </message>
     <message>
         <source>Make the report of this session here.</source>
-        <translation type="unfinished"></translation>
+        <translation>Erstellen Sie hier den Bericht dieser Sitzung.</translation>
     </message>
     <message>
         <source>Save the report as a PDF; only the made-up name is on it.</source>
-        <translation type="unfinished"></translation>
+        <translation>Speichern Sie den Bericht als PDF; nur der erfundene Name steht darauf.</translation>
     </message>
     <message>
         <source>That was a whole session; the arrow at the top left leads back, at last to the patients.</source>
-        <translation type="unfinished"></translation>
+        <translation>Das war eine ganze Sitzung; der Pfeil oben links führt zurück, am Ende zu den Patienten.</translation>
     </message>
     <message>
         <source>no change</source>
-        <translation type="unfinished"></translation>
+        <translation>unverändert</translation>
     </message>
     <message>
         <source>the other hand</source>
-        <translation type="unfinished"></translation>
+        <translation>andere Hand</translation>
     </message>
     <message>
         <source>other markers</source>
-        <translation type="unfinished"></translation>
+        <translation>andere Marker</translation>
     </message>
     <message>
         <source>another exercise</source>
-        <translation type="unfinished"></translation>
+        <translation>andere Übung</translation>
     </message>
     <message>
         <source>fewer than 3 repetitions</source>
-        <translation type="unfinished"></translation>
+        <translation>weniger als 3 Wiederholungen</translation>
     </message>
     <message>
         <source>a simulated hand</source>
-        <translation type="unfinished"></translation>
+        <translation>simulierte Hand</translation>
     </message>
     <message>
         <source>marked as not counting</source>
-        <translation type="unfinished"></translation>
+        <translation>als nicht zählend markiert</translation>
     </message>
     <message>
         <source>measured although the markers were doubtful</source>
-        <translation type="unfinished"></translation>
+        <translation>gemessen, obwohl die Marker zweifelhaft waren</translation>
     </message>
     <message>
         <source>the camera was at another distance</source>
-        <translation type="unfinished"></translation>
+        <translation>die Kamera war in anderem Abstand</translation>
     </message>
     <message>
         <source>another start angle was given</source>
-        <translation type="unfinished"></translation>
+        <translation>ein anderer Anfangswinkel war angegeben</translation>
     </message>
     <message>
         <source>the forearm moved</source>
-        <translation type="unfinished"></translation>
+        <translation>der Unterarm hat sich bewegt</translation>
     </message>
     <message>
         <source>the recording was cut short</source>
-        <translation type="unfinished"></translation>
+        <translation>die Aufnahme brach ab</translation>
     </message>
     <message>
         <source>hidden in part</source>
-        <translation type="unfinished"></translation>
+        <translation>zum Teil verdeckt</translation>
     </message>
     <message>
         <source>angles in another order</source>
-        <translation type="unfinished"></translation>
+        <translation>Winkel in anderer Reihenfolge</translation>
     </message>
     <message>
         <source>A recording counts once, by its newest result: 1 earlier result is left out.</source>
-        <translation type="unfinished"></translation>
+        <translation>Eine Aufnahme zählt einmal, mit ihrem neuesten Ergebnis: 1 früheres Ergebnis ist ausgelassen.</translation>
     </message>
     <message>
         <source>A recording counts once, by its newest result: {count} earlier results are left out.</source>
-        <translation type="unfinished"></translation>
+        <translation>Eine Aufnahme zählt einmal, mit ihrem neuesten Ergebnis: {count} frühere Ergebnisse sind ausgelassen.</translation>
     </message>
     <message>
         <source>“Error” is the smallest real change (MDC95), measured by this clinic on {date} with {count} people; where it has none of its own, experts’ choice for Carpus. For the same protocol, side and set-up.</source>
-        <translation type="unfinished"></translation>
+        <translation>„Fehler“ ist die kleinste nachweisbare Veränderung (MDC95), von dieser Einrichtung am {date} mit {count} Personen gemessen; wo es keine eigene gibt, von Fachleuten für Carpus gewählt. Für gleiche Marker, Seite und gleichen Aufbau.</translation>
     </message>
     <message>
         <source>“Error” is the smallest difference called a change: experts’ choice for Carpus, not published figures; of an arc, which has two ends, √2 as much. For the same protocol, side and set-up, until the clinic has measured its own.</source>
-        <translation type="unfinished"></translation>
+        <translation>„Fehler“ ist der kleinste Unterschied, der Änderung heißt: von Fachleuten für Carpus gewählt, nicht veröffentlicht; bei einem Gesamtumfang mit seinen zwei Enden das √2-Fache. Für gleiche Marker, Seite und gleichen Aufbau, bis die Einrichtung selbst gemessen hat.</translation>
     </message>
     <message>
         <source>the same</source>
-        <translation type="unfinished"></translation>
+        <translation>gleich</translation>
     </message>
     <message>
         <source>{size} more</source>
-        <translation type="unfinished"></translation>
+        <translation>{size} mehr</translation>
     </message>
     <message>
         <source>{size} less</source>
-        <translation type="unfinished"></translation>
+        <translation>{size} weniger</translation>
     </message>
     <message>
         <source>{difference} since the first</source>
-        <translation type="unfinished"></translation>
+        <translation>{difference} seit der ersten</translation>
     </message>
     <message>
         <source>{difference}, within error ({limit})</source>
-        <translation type="unfinished"></translation>
+        <translation>{difference}, im Fehler ({limit})</translation>
     </message>
     <message>
         <source>{difference}, beyond error ({limit})</source>
-        <translation type="unfinished"></translation>
+        <translation>{difference}, über dem Fehler ({limit})</translation>
     </message>
     <message>
         <source>{difference}: within measurement error ({limit})</source>
-        <translation type="unfinished"></translation>
+        <translation>{difference}: im Messfehler ({limit})</translation>
     </message>
     <message>
         <source>{difference}: beyond measurement error ({limit})</source>
-        <translation type="unfinished"></translation>
+        <translation>{difference}: über dem Messfehler ({limit})</translation>
     </message>
 </context>
 <context>
     <name>AgreementChart</name>
     <message>
         <source>Difference of the two measurements</source>
-        <translation type="unfinished"></translation>
+        <translation>Unterschied der beiden Messungen</translation>
     </message>
 </context>
 <context>
     <name>AgreementScreen</name>
     <message>
         <source>Other &amp;reference…</source>
-        <translation type="unfinished"></translation>
+        <translation>Andere &amp;Referenz…</translation>
     </message>
     <message>
         <source>&amp;Columns…</source>
-        <translation type="unfinished"></translation>
+        <translation>&amp;Spalten…</translation>
     </message>
     <message>
         <source>Save tables and plots…</source>
-        <translation type="unfinished"></translation>
+        <translation>Tabellen und Bilder speichern…</translation>
     </message>
     <message>
         <source>How far the comparison is</source>
-        <translation type="unfinished"></translation>
+        <translation>Wie weit der Vergleich ist</translation>
     </message>
     <message>
         <source>Stop</source>
-        <translation type="unfinished"></translation>
+        <translation>Stopp</translation>
     </message>
     <message>
         <source>Angle</source>
-        <translation type="unfinished"></translation>
+        <translation>Winkel</translation>
     </message>
     <message>
         <source>Differences</source>
-        <translation type="unfinished"></translation>
+        <translation>Unterschiede</translation>
     </message>
     <message>
         <source>Curves</source>
-        <translation type="unfinished"></translation>
+        <translation>Kurven</translation>
     </message>
     <message>
         <source>Per angle</source>
-        <translation type="unfinished"></translation>
+        <translation>Je Winkel</translation>
     </message>
     <message>
         <source>Carpus less the reference; in brackets 95 % intervals, repeated values allowed for</source>
-        <translation type="unfinished"></translation>
+        <translation>Carpus minus Referenz; in Klammern 95-%-Intervalle, wiederholte Werte berücksichtigt</translation>
     </message>
     <message>
         <source>The limit is a choice, not a proof: change it in Settings, before comparing.</source>
-        <translation type="unfinished"></translation>
+        <translation>Die Grenze ist eine Wahl, kein Beweis: Ändern Sie sie in den Einstellungen, vor dem Vergleich.</translation>
     </message>
     <message>
         <source>Bringing the two together…</source>
-        <translation type="unfinished"></translation>
+        <translation>Beides wird zusammengeführt…</translation>
     </message>
     <message>
         <source>Compare this session with another measurement.</source>
-        <translation type="unfinished"></translation>
+        <translation>Vergleichen Sie diese Sitzung mit einer anderen Messung.</translation>
     </message>
     <message>
         <source>Of the same movement: markers, angles, goniometer readings, or another session.</source>
-        <translation type="unfinished"></translation>
+        <translation>Derselben Bewegung: Marker, Winkel, Ablesungen am Winkelmesser oder eine andere Sitzung.</translation>
     </message>
     <message>
         <source>Choose a &amp;reference…</source>
-        <translation type="unfinished"></translation>
+        <translation>&amp;Referenz wählen…</translation>
     </message>
     <message>
         <source>Comparing with {name}…</source>
-        <translation type="unfinished"></translation>
+        <translation>Vergleich mit {name}…</translation>
     </message>
     <message>
         <source>The session itself is never changed.</source>
-        <translation type="unfinished"></translation>
+        <translation>Die Sitzung selbst wird nie geändert.</translation>
     </message>
     <message>
         <source>How they were brought together</source>
-        <translation type="unfinished"></translation>
+        <translation>Wie beides zusammengeführt wurde</translation>
     </message>
     <message>
         <source>Not used</source>
-        <translation type="unfinished"></translation>
+        <translation>Nicht verwendet</translation>
     </message>
 </context>
 <context>
     <name>AgreementTable</name>
     <message>
         <source>Angle</source>
-        <translation type="unfinished"></translation>
+        <translation>Winkel</translation>
     </message>
     <message>
         <source>Mean difference</source>
-        <translation type="unfinished"></translation>
+        <translation>Mittlere Differenz</translation>
     </message>
     <message>
         <source>Limits of agreement</source>
-        <translation type="unfinished"></translation>
+        <translation>Übereinstimmungsgrenzen</translation>
     </message>
     <message>
         <source>RMSE</source>
-        <translation type="unfinished"></translation>
+        <translation>RMSE</translation>
     </message>
     <message>
         <source>ICC(2,1)</source>
-        <translation type="unfinished"></translation>
+        <translation>ICC(2,1)</translation>
     </message>
     <message>
         <source>Curve match</source>
-        <translation type="unfinished"></translation>
+        <translation>Kurven gleich</translation>
     </message>
     <message>
         <source>In words</source>
-        <translation type="unfinished"></translation>
+        <translation>In Worten</translation>
     </message>
     <message>
         <source>{low} to {high}</source>
-        <translation type="unfinished"></translation>
+        <translation>{low} bis {high}</translation>
     </message>
 </context>
 <context>
     <name>BackingUp</name>
     <message>
         <source>Plug the disk for back-ups in, and back up.</source>
-        <translation type="unfinished"></translation>
+        <translation>Schließen Sie den Datenträger für Sicherungen an, und sichern Sie.</translation>
     </message>
     <message>
         <source>To the settings</source>
-        <translation type="unfinished"></translation>
+        <translation>Zu den Einstellungen</translation>
     </message>
     <message>
         <source>Folder for back-ups, on another disk</source>
-        <translation type="unfinished"></translation>
+        <translation>Ordner für Sicherungen, auf anderem Datenträger</translation>
     </message>
     <message>
         <source>not chosen yet</source>
-        <translation type="unfinished"></translation>
+        <translation>noch nicht gewählt</translation>
     </message>
     <message>
         <source>not there now</source>
-        <translation type="unfinished"></translation>
+        <translation>jetzt nicht da</translation>
     </message>
     <message>
         <source>{free} GB free</source>
-        <translation type="unfinished"></translation>
+        <translation>{free} GB frei</translation>
     </message>
     <message>
         <source>There is no back-up yet.</source>
-        <translation type="unfinished"></translation>
+        <translation>Es gibt noch keine Sicherung.</translation>
     </message>
     <message>
         <source>Every session is in it.</source>
-        <translation type="unfinished"></translation>
+        <translation>Jede Sitzung ist darin.</translation>
     </message>
     <message>
         <source>1 session is not in it.</source>
-        <translation type="unfinished"></translation>
+        <translation>1 Sitzung ist nicht darin.</translation>
     </message>
     <message>
         <source>{n} sessions are not in it.</source>
-        <translation type="unfinished"></translation>
+        <translation>{n} Sitzungen sind nicht darin.</translation>
     </message>
     <message>
         <source>The last back-up is {days} days old.</source>
-        <translation type="unfinished"></translation>
+        <translation>Die letzte Sicherung ist {days} Tage alt.</translation>
     </message>
     <message>
         <source>{when} · {n} sessions, {size} GB · read back and compared: all equal</source>
-        <translation type="unfinished"></translation>
+        <translation>{when} · {n} Sitzungen, {size} GB · zurückgelesen und verglichen: alles gleich</translation>
     </message>
     <message>
         <source>Reminder after {days} days.</source>
-        <translation type="unfinished"></translation>
+        <translation>Erinnerung nach {days} Tagen.</translation>
     </message>
     <message>
         <source>none</source>
-        <translation type="unfinished"></translation>
+        <translation>keine</translation>
     </message>
     <message>
         <source>Folder that holds the back-ups</source>
-        <translation type="unfinished"></translation>
+        <translation>Ordner mit den Sicherungen</translation>
     </message>
     <message>
         <source>Restore the back-up of {when}? {come} sessions come, {change} change, {go} go.</source>
-        <translation type="unfinished"></translation>
+        <translation>Sicherung vom {when} wiederherstellen? {come} Sitzungen kommen, {change} ändern sich, {go} gehen.</translation>
     </message>
     <message>
         <source>What is here now is backed up first, and its folder is kept beside the new one.</source>
-        <translation type="unfinished"></translation>
+        <translation>Was jetzt hier ist, wird zuerst gesichert, und sein Ordner bleibt neben dem neuen.</translation>
     </message>
     <message>
         <source>Carpus closes when it is done. Start it again then.</source>
-        <translation type="unfinished"></translation>
+        <translation>Carpus schließt sich danach. Starten Sie es dann neu.</translation>
     </message>
     <message>
         <source>Restore it</source>
-        <translation type="unfinished"></translation>
+        <translation>Wiederherstellen</translation>
     </message>
     <message>
         <source>Leave it as it is</source>
-        <translation type="unfinished"></translation>
+        <translation>So lassen</translation>
     </message>
     <message>
         <source>Enter</source>
-        <translation type="unfinished"></translation>
+        <translation>Eingabe</translation>
     </message>
 </context>
 <context>
     <name>BackupCard</name>
     <message>
         <source>Back-up</source>
-        <translation type="unfinished"></translation>
+        <translation>Sicherung</translation>
     </message>
     <message>
         <source>Everything of the data folder: patients, sessions, pictures, log. Works while you measure.</source>
-        <translation type="unfinished"></translation>
+        <translation>Alles aus dem Datenordner: Patienten, Sitzungen, Bilder, Protokoll. Läuft, während Sie messen.</translation>
     </message>
     <message>
         <source>&amp;Back up now</source>
-        <translation type="unfinished"></translation>
+        <translation>Jetzt &amp;sichern</translation>
     </message>
     <message>
         <source>&amp;Restore…</source>
-        <translation type="unfinished"></translation>
+        <translation>&amp;Wiederherstellen…</translation>
     </message>
     <message>
         <source>then read back and compared</source>
-        <translation type="unfinished"></translation>
+        <translation>dann zurückgelesen und verglichen</translation>
     </message>
     <message>
         <source>shows first what changes</source>
-        <translation type="unfinished"></translation>
+        <translation>zeigt erst, was sich ändert</translation>
     </message>
     <message>
         <source>Change…</source>
-        <translation type="unfinished"></translation>
+        <translation>Ändern…</translation>
     </message>
     <message>
         <source>Each day at 12:00</source>
-        <translation type="unfinished"></translation>
+        <translation>Täglich um 12:00</translation>
     </message>
     <message>
         <source>At 18:00</source>
-        <translation type="unfinished"></translation>
+        <translation>Um 18:00</translation>
     </message>
     <message>
         <source>Only when told</source>
-        <translation type="unfinished"></translation>
+        <translation>Nur auf Wunsch</translation>
     </message>
     <message>
         <source>Folder for back-ups</source>
-        <translation type="unfinished"></translation>
+        <translation>Ordner für Sicherungen</translation>
     </message>
     <message>
         <source>By itself</source>
-        <translation type="unfinished"></translation>
+        <translation>Von selbst</translation>
     </message>
     <message>
         <source>the last 14, and one of each month for 2 years</source>
-        <translation type="unfinished"></translation>
+        <translation>die letzten 14, und 2 Jahre lang eine je Monat</translation>
     </message>
     <message>
         <source>Keep</source>
-        <translation type="unfinished"></translation>
+        <translation>Behalten</translation>
     </message>
     <message>
         <source>{percent} %</source>
-        <translation type="unfinished"></translation>
+        <translation>{percent} %</translation>
     </message>
 </context>
 <context>
     <name>Bar</name>
     <message>
         <source>Test and retest</source>
-        <translation type="unfinished"></translation>
+        <translation>Wiederholungstest</translation>
     </message>
     <message>
         <source>Camera calibration</source>
-        <translation type="unfinished"></translation>
+        <translation>Kamerakalibrierung</translation>
     </message>
     <message>
         <source>Check card</source>
-        <translation type="unfinished"></translation>
+        <translation>Prüfkarte</translation>
     </message>
     <message>
         <source>Exercise</source>
-        <translation type="unfinished"></translation>
+        <translation>Übung</translation>
     </message>
     <message>
         <source>Camera</source>
-        <translation type="unfinished"></translation>
+        <translation>Kamera</translation>
     </message>
     <message>
         <source>Markers</source>
-        <translation type="unfinished"></translation>
+        <translation>Marker</translation>
     </message>
     <message>
         <source>Measure</source>
-        <translation type="unfinished"></translation>
+        <translation>Messen</translation>
     </message>
     <message>
         <source>Sessions</source>
-        <translation type="unfinished"></translation>
+        <translation>Sitzungen</translation>
     </message>
     <message>
         <source>Review</source>
-        <translation type="unfinished"></translation>
+        <translation>Auswertung</translation>
     </message>
     <message>
         <source>Progress</source>
-        <translation type="unfinished"></translation>
+        <translation>Verlauf</translation>
     </message>
     <message>
         <source>Report</source>
-        <translation type="unfinished"></translation>
+        <translation>Bericht</translation>
     </message>
     <message>
         <source>Simulated hand: this is not {name}, and does not count.</source>
-        <translation type="unfinished"></translation>
+        <translation>Simulierte Hand: Das ist nicht {name} und zählt nicht.</translation>
     </message>
     <message>
         <source>This session does not count.</source>
-        <translation type="unfinished"></translation>
+        <translation>Diese Sitzung zählt nicht.</translation>
     </message>
     <message>
         <source>Measured although doubtful: {findings}</source>
-        <translation type="unfinished"></translation>
+        <translation>Trotz Zweifel gemessen: {findings}</translation>
     </message>
     <message>
         <source>Saved {time}</source>
-        <translation type="unfinished"></translation>
+        <translation>Gespeichert {time}</translation>
     </message>
     <message>
         <source>Simulated camera</source>
-        <translation type="unfinished"></translation>
+        <translation>Simulierte Kamera</translation>
     </message>
     <message>
         <source>Recording {name}</source>
-        <translation type="unfinished"></translation>
+        <translation>Aufnahme {name}</translation>
     </message>
     <message>
         <source>Camera ready</source>
-        <translation type="unfinished"></translation>
+        <translation>Kamera bereit</translation>
     </message>
     <message>
         <source>No camera</source>
-        <translation type="unfinished"></translation>
+        <translation>Keine Kamera</translation>
     </message>
     <message>
         <source>{percent} %</source>
-        <translation type="unfinished"></translation>
+        <translation>{percent} %</translation>
     </message>
     <message>
         <source>Tracking again {percent}</source>
-        <translation type="unfinished"></translation>
+        <translation>Neu verfolgt {percent}</translation>
     </message>
     <message>
         <source>How far it is, and Stop</source>
-        <translation type="unfinished"></translation>
+        <translation>Wie weit es ist, und Stopp</translation>
     </message>
     <message>
         <source>New result: choose</source>
-        <translation type="unfinished"></translation>
+        <translation>Neues Ergebnis: wählen</translation>
     </message>
     <message>
         <source>{count} new results: choose</source>
-        <translation type="unfinished"></translation>
+        <translation>{count} neue Ergebnisse: wählen</translation>
     </message>
     <message>
         <source>Choose</source>
-        <translation type="unfinished"></translation>
+        <translation>Wählen</translation>
     </message>
     <message>
         <source>Old and new over each other</source>
-        <translation type="unfinished"></translation>
+        <translation>Alt und neu übereinander</translation>
     </message>
     <message>
         <source>{count} pictures/s</source>
-        <translation type="unfinished"></translation>
+        <translation>{count} Bilder/s</translation>
     </message>
     <message>
         <source>{words}, {lost} lost</source>
-        <translation type="unfinished"></translation>
+        <translation>{words}, {lost} verloren</translation>
     </message>
     <message>
         <source>{time} of disk left</source>
-        <translation type="unfinished"></translation>
+        <translation>Platz für {time}</translation>
     </message>
 </context>
 <context>
     <name>BoardBeginning</name>
     <message>
         <source>Chessboard</source>
-        <translation type="unfinished"></translation>
+        <translation>Schachbrett</translation>
     </message>
     <message>
         <source>ChArUco: may be partly hidden, takes longer</source>
-        <translation type="unfinished"></translation>
+        <translation>ChArUco: darf teils verdeckt sein, dauert länger</translation>
     </message>
     <message>
         <source>&amp;Print the board…</source>
-        <translation type="unfinished"></translation>
+        <translation>Tafel &amp;drucken…</translation>
     </message>
     <message>
         <source>The ruler on the print measures</source>
-        <translation type="unfinished"></translation>
+        <translation>Das gedruckte Lineal misst</translation>
     </message>
     <message>
         <source>The camera</source>
-        <translation type="unfinished"></translation>
+        <translation>Die Kamera</translation>
     </message>
     <message>
         <source>Simulated camera, to practise</source>
-        <translation type="unfinished"></translation>
+        <translation>Simulierte Kamera, zum Üben</translation>
     </message>
     <message>
         <source>Begin</source>
-        <translation type="unfinished"></translation>
+        <translation>Beginnen</translation>
     </message>
     <message>
         <source>Enter</source>
-        <translation type="unfinished"></translation>
+        <translation>Eingabe</translation>
     </message>
     <message>
         <source>Five minutes: how the lens sees, how far off the depth is, and whether depth lies on colour. Do it once for each camera, after a knock, and when the check card says so.</source>
-        <translation type="unfinished"></translation>
+        <translation>Fünf Minuten: wie das Objektiv sieht, wie weit die Tiefe daneben liegt und ob Tiefe und Farbe sich decken. Einmal je Kamera, nach einem Stoß, und wenn die Prüfkarte es sagt.</translation>
     </message>
     <message>
         <source>Calibrate the camera</source>
-        <translation type="unfinished"></translation>
+        <translation>Kamera kalibrieren</translation>
     </message>
     <message>
         <source>1  Print the board</source>
-        <translation type="unfinished"></translation>
+        <translation>1  Tafel drucken</translation>
     </message>
     <message>
         <source>Print at 100 % (“actual size”) on plain paper and glue it flat onto something stiff, such as glass or a thick board. Then measure the ruler under it.</source>
-        <translation type="unfinished"></translation>
+        <translation>Drucken Sie mit 100 % („Originalgröße“) auf normales Papier, und kleben Sie es flach auf etwas Steifes, etwa Glas oder eine dicke Platte. Messen Sie dann das Lineal darunter.</translation>
     </message>
     <message>
         <source>2  Show it to the camera</source>
-        <translation type="unfinished"></translation>
+        <translation>2  Der Kamera zeigen</translation>
     </message>
     <message>
         <source>Even light, no reflections. The screen says where to hold the board; pictures are taken by themselves when it is still, sharp and in a new place. Nothing is changed before you say so.</source>
-        <translation type="unfinished"></translation>
+        <translation>Gleichmäßiges Licht, keine Spiegelungen. Der Bildschirm sagt, wohin die Tafel gehört; Bilder entstehen von selbst, wenn sie ruhig, scharf und an neuer Stelle ist. Nichts wird geändert, bevor Sie es sagen.</translation>
     </message>
     <message>
         <source>No picture of the board is stored.</source>
-        <translation type="unfinished"></translation>
+        <translation>Kein Bild der Tafel wird gespeichert.</translation>
     </message>
     <message>
         <source>A simulated board before a simulated camera, both clearly marked; kept apart from real ones.</source>
-        <translation type="unfinished"></translation>
+        <translation>Eine simulierte Tafel vor einer simulierten Kamera, beide deutlich gekennzeichnet; von echten getrennt aufbewahrt.</translation>
     </message>
     <message>
         <source>It is plugged in.</source>
-        <translation type="unfinished"></translation>
+        <translation>Sie ist angeschlossen.</translation>
     </message>
     <message>
         <source>No camera is plugged in.</source>
-        <translation type="unfinished"></translation>
+        <translation>Keine Kamera ist angeschlossen.</translation>
     </message>
     <message>
         <source>Begin · plug the camera in</source>
-        <translation type="unfinished"></translation>
+        <translation>Beginnen · Kamera anschließen</translation>
     </message>
 </context>
 <context>
     <name>BoardResultView</name>
     <message>
         <source>Take &amp;again</source>
-        <translation type="unfinished"></translation>
+        <translation>&amp;Neu aufnehmen</translation>
     </message>
     <message>
         <source>One page…</source>
-        <translation type="unfinished"></translation>
+        <translation>Eine Seite…</translation>
     </message>
     <message>
         <source>Use this calibration</source>
-        <translation type="unfinished"></translation>
+        <translation>Diese Kalibrierung verwenden</translation>
     </message>
     <message>
         <source>Enter</source>
-        <translation type="unfinished"></translation>
+        <translation>Eingabe</translation>
     </message>
     <message>
         <source>Where lines land, enlarged 50 times</source>
-        <translation type="unfinished"></translation>
+        <translation>Wo Linien liegen, 50-fach vergrößert</translation>
     </message>
     <message>
         <source>Next: 30 seconds with the check card show it on known angles.</source>
-        <translation type="unfinished"></translation>
+        <translation>Als Nächstes: 30 Sekunden mit der Prüfkarte zeigen sie an bekannten Winkeln.</translation>
     </message>
     <message>
         <source>Before ({day})</source>
-        <translation type="unfinished"></translation>
+        <translation>Vorher ({day})</translation>
     </message>
     <message>
         <source>Before (maker)</source>
-        <translation type="unfinished"></translation>
+        <translation>Vorher (Hersteller)</translation>
     </message>
     <message>
         <source>What</source>
-        <translation type="unfinished"></translation>
+        <translation>Was</translation>
     </message>
     <message>
         <source>Now</source>
-        <translation type="unfinished"></translation>
+        <translation>Jetzt</translation>
     </message>
     <message>
         <source>In words</source>
-        <translation type="unfinished"></translation>
+        <translation>In Worten</translation>
     </message>
     <message>
         <source>What this means for a hand</source>
-        <translation type="unfinished"></translation>
+        <translation>Was das für eine Hand bedeutet</translation>
     </message>
     <message>
         <source>Estimated from the change of the camera’s values, not measured on hands.</source>
-        <translation type="unfinished"></translation>
+        <translation>Aus der Änderung der Kamerawerte geschätzt, nicht an Händen gemessen.</translation>
     </message>
 </context>
 <context>
     <name>BoardShowing</name>
     <message>
         <source>Undo</source>
-        <translation type="unfinished"></translation>
+        <translation>Zurücknehmen</translation>
     </message>
     <message>
         <source>Stop</source>
-        <translation type="unfinished"></translation>
+        <translation>Stopp</translation>
     </message>
     <message>
         <source>Esc</source>
-        <translation type="unfinished"></translation>
+        <translation>Esc</translation>
     </message>
     <message>
         <source>How far it is</source>
-        <translation type="unfinished"></translation>
+        <translation>Wie weit es ist</translation>
     </message>
     <message>
         <source>take this picture</source>
-        <translation type="unfinished"></translation>
+        <translation>dieses Bild nehmen</translation>
     </message>
     <message>
         <source>undo</source>
-        <translation type="unfinished"></translation>
+        <translation>zurück</translation>
     </message>
     <message>
         <source>Pictures are taken by themselves when the board is still, sharp and in a new place.</source>
-        <translation type="unfinished"></translation>
+        <translation>Bilder entstehen von selbst, wenn die Tafel ruhig, scharf und an neuer Stelle ist.</translation>
     </message>
     <message>
         <source>Where the board has been</source>
-        <translation type="unfinished"></translation>
+        <translation>Wo die Tafel war</translation>
     </message>
     <message>
         <source>The camera is being opened.</source>
-        <translation type="unfinished"></translation>
+        <translation>Die Kamera wird geöffnet.</translation>
     </message>
     <message>
         <source>One moment</source>
-        <translation type="unfinished"></translation>
+        <translation>Einen Moment</translation>
     </message>
     <message>
         <source>No picture yet</source>
-        <translation type="unfinished"></translation>
+        <translation>Noch kein Bild</translation>
     </message>
     <message>
         <source>Hold the board in the picture</source>
-        <translation type="unfinished"></translation>
+        <translation>Halten Sie die Tafel ins Bild</translation>
     </message>
     <message>
         <source>All of it, flat towards the camera, about 60 cm away.</source>
-        <translation type="unfinished"></translation>
+        <translation>Ganz, flach zur Kamera, etwa 60 cm entfernt.</translation>
     </message>
     <message>
         <source>No pictures from the camera</source>
-        <translation type="unfinished"></translation>
+        <translation>Keine Bilder von der Kamera</translation>
     </message>
     <message>
         <source>1 picture</source>
-        <translation type="unfinished"></translation>
+        <translation>1 Bild</translation>
     </message>
     <message>
         <source>{count} pictures</source>
-        <translation type="unfinished"></translation>
+        <translation>{count} Bilder</translation>
     </message>
     <message>
         <source>Working it out</source>
-        <translation type="unfinished"></translation>
+        <translation>Wird berechnet</translation>
     </message>
     <message>
         <source>A few seconds; put the board down.</source>
-        <translation type="unfinished"></translation>
+        <translation>Einige Sekunden; legen Sie die Tafel ab.</translation>
     </message>
     <message>
         <source>{count} of {all}</source>
-        <translation type="unfinished"></translation>
+        <translation>{count} von {all}</translation>
     </message>
     <message>
         <source>Simulated camera and board</source>
-        <translation type="unfinished"></translation>
+        <translation>Simulierte Kamera und Tafel</translation>
     </message>
     <message>
         <source>Hold it here</source>
-        <translation type="unfinished"></translation>
+        <translation>Hierher halten</translation>
     </message>
     <message>
         <source>Hold it here, {side} nearer</source>
-        <translation type="unfinished"></translation>
+        <translation>Hierher, {side} näher</translation>
     </message>
     <message>
         <source>{count} of {all} corners found</source>
-        <translation type="unfinished"></translation>
+        <translation>{count} von {all} Ecken gefunden</translation>
     </message>
 </context>
 <context>
     <name>BubbleView</name>
     <message>
         <source>&amp;Next</source>
-        <translation type="unfinished"></translation>
+        <translation>&amp;Weiter</translation>
     </message>
     <message>
         <source>Leave the guide</source>
-        <translation type="unfinished"></translation>
+        <translation>Rundgang verlassen</translation>
     </message>
     <message>
         <source>Esc</source>
-        <translation type="unfinished"></translation>
+        <translation>Esc</translation>
     </message>
     <message>
         <source>First session · {number} of {count}</source>
-        <translation type="unfinished"></translation>
+        <translation>Erste Sitzung · {number} von {count}</translation>
     </message>
     <message>
         <source>First session</source>
-        <translation type="unfinished"></translation>
+        <translation>Erste Sitzung</translation>
     </message>
     <message>
         <source>&amp;Done</source>
-        <translation type="unfinished"></translation>
+        <translation>&amp;Fertig</translation>
     </message>
 </context>
 <context>
     <name>ByHand</name>
     <message>
         <source>Leave without saving?</source>
-        <translation type="unfinished"></translation>
+        <translation>Ohne Speichern verlassen?</translation>
     </message>
     <message>
         <source>Values are written that are not kept yet.</source>
-        <translation type="unfinished"></translation>
+        <translation>Es sind Werte eingetragen, die noch nicht gespeichert sind.</translation>
     </message>
     <message>
         <source>Save them, or let them go.</source>
-        <translation type="unfinished"></translation>
+        <translation>Speichern Sie sie, oder lassen Sie sie fallen.</translation>
     </message>
     <message>
         <source>Back to the form</source>
-        <translation type="unfinished"></translation>
+        <translation>Zurück zum Formular</translation>
     </message>
     <message>
         <source>Enter</source>
-        <translation type="unfinished"></translation>
+        <translation>Eingabe</translation>
     </message>
     <message>
         <source>Let them go</source>
-        <translation type="unfinished"></translation>
+        <translation>Fallen lassen</translation>
     </message>
     <message>
         <source>Unusual: check, or keep it</source>
-        <translation type="unfinished"></translation>
+        <translation>Ungewöhnlich: prüfen oder behalten</translation>
     </message>
     <message>
         <source>Look at the numbers once more before they are kept.</source>
-        <translation type="unfinished"></translation>
+        <translation>Sehen Sie die Zahlen noch einmal an, bevor sie gespeichert werden.</translation>
     </message>
     <message>
         <source>Keep as written</source>
-        <translation type="unfinished"></translation>
+        <translation>So behalten</translation>
     </message>
 </context>
 <context>
     <name>ByHandScreen</name>
     <message>
         <source>Day of measuring</source>
-        <translation type="unfinished"></translation>
+        <translation>Tag der Messung</translation>
     </message>
     <message>
         <source>Other measures</source>
-        <translation type="unfinished"></translation>
+        <translation>Andere Maße</translation>
     </message>
     <message>
         <source>Close</source>
-        <translation type="unfinished"></translation>
+        <translation>Schließen</translation>
     </message>
     <message>
         <source>Save values</source>
-        <translation type="unfinished"></translation>
+        <translation>Werte speichern</translation>
     </message>
     <message>
         <source>Kept.</source>
-        <translation type="unfinished"></translation>
+        <translation>Gespeichert.</translation>
     </message>
     <message>
         <source>Measured by hand, {day}</source>
-        <translation type="unfinished"></translation>
+        <translation>Von Hand gemessen, {day}</translation>
     </message>
     <message>
         <source>By {initials}.</source>
-        <translation type="unfinished"></translation>
+        <translation>Von {initials}.</translation>
     </message>
     <message>
         <source>Empty means not measured. Nothing here changes a figure of Carpus.</source>
-        <translation type="unfinished"></translation>
+        <translation>Leer heißt nicht gemessen. Nichts hier ändert einen Wert von Carpus.</translation>
     </message>
     <message>
         <source>Other measures…</source>
-        <translation type="unfinished"></translation>
+        <translation>Andere Maße…</translation>
     </message>
     <message>
         <source>By hand and by Carpus are never joined</source>
-        <translation type="unfinished"></translation>
+        <translation>Von Hand und von Carpus wird nie verrechnet</translation>
     </message>
     <message>
         <source>Neither averaged nor subtracted. A change is judged within one way of measuring.</source>
-        <translation type="unfinished"></translation>
+        <translation>Weder gemittelt noch abgezogen. Eine Änderung wird innerhalb einer Messart beurteilt.</translation>
     </message>
     <message>
         <source>Written and not kept yet: also the other hand or another day.</source>
-        <translation type="unfinished"></translation>
+        <translation>Eingetragen und noch nicht gespeichert: auch andere Hand oder anderer Tag.</translation>
     </message>
     <message>
         <source>Kept with initials and time; every later change stays readable.</source>
-        <translation type="unfinished"></translation>
+        <translation>Mit Kürzel und Zeit gespeichert; jede spätere Änderung bleibt lesbar.</translation>
     </message>
 </context>
 <context>
     <name>Calibrating</name>
     <message>
         <source>Save the board to print</source>
-        <translation type="unfinished"></translation>
+        <translation>Tafel zum Drucken speichern</translation>
     </message>
     <message>
         <source>Save one page</source>
-        <translation type="unfinished"></translation>
+        <translation>Eine Seite speichern</translation>
     </message>
     <message>
         <source>Show it some more, tilted more and nearer: {why}.</source>
-        <translation type="unfinished"></translation>
+        <translation>Zeigen Sie sie weiter, stärker geneigt und näher: {why}.</translation>
     </message>
 </context>
 <context>
     <name>CameraCard</name>
     <message>
         <source>Camera</source>
-        <translation type="unfinished"></translation>
+        <translation>Kamera</translation>
     </message>
     <message>
         <source>A printed board shows how the camera sees and how far off its depth is; a printed card shows in 30 seconds whether it still measures right. Both can be tried with a simulated camera.</source>
-        <translation type="unfinished"></translation>
+        <translation>Eine gedruckte Tafel zeigt, wie die Kamera sieht und wie weit ihre Tiefe daneben liegt; eine gedruckte Karte zeigt in 30 Sekunden, ob sie noch richtig misst. Beides lässt sich mit einer simulierten Kamera ausprobieren.</translation>
     </message>
     <message>
         <source>Chec&amp;k card…</source>
-        <translation type="unfinished"></translation>
+        <translation>Prüf&amp;karte…</translation>
     </message>
     <message>
         <source>Cali&amp;brate the camera…</source>
-        <translation type="unfinished"></translation>
+        <translation>Kamera kali&amp;brieren…</translation>
     </message>
 </context>
 <context>
     <name>CameraScreen</name>
     <message>
         <source>Camera</source>
-        <translation type="unfinished"></translation>
+        <translation>Kamera</translation>
     </message>
     <message>
         <source>Recording</source>
-        <translation type="unfinished"></translation>
+        <translation>Aufnahme</translation>
     </message>
     <message>
         <source>Simulated camera</source>
-        <translation type="unfinished"></translation>
+        <translation>Simulierte Kamera</translation>
     </message>
     <message>
         <source>A simulated hand does the exercise, to try things out. It is marked as simulated.</source>
-        <translation type="unfinished"></translation>
+        <translation>Eine simulierte Hand macht die Übung, zum Ausprobieren. Sie ist als simuliert gekennzeichnet.</translation>
     </message>
     <message>
         <source>Choose a &amp;file…</source>
-        <translation type="unfinished"></translation>
+        <translation>&amp;Datei wählen…</translation>
     </message>
     <message>
         <source>Choose a fol&amp;der…</source>
-        <translation type="unfinished"></translation>
+        <translation>&amp;Ordner wählen…</translation>
     </message>
     <message>
         <source>Progress</source>
-        <translation type="unfinished"></translation>
+        <translation>Fortschritt</translation>
     </message>
     <message>
         <source>Enter</source>
-        <translation type="unfinished"></translation>
+        <translation>Eingabe</translation>
     </message>
     <message>
         <source>Where do the pictures come from?</source>
-        <translation type="unfinished"></translation>
+        <translation>Woher kommen die Bilder?</translation>
     </message>
     <message>
         <source>Before you go on</source>
-        <translation type="unfinished"></translation>
+        <translation>Bevor es weitergeht</translation>
     </message>
     <message>
         <source>Camera above the hand, 60 cm or more away, looking straight down. No sun on the markers.</source>
-        <translation type="unfinished"></translation>
+        <translation>Kamera über der Hand, 60 cm oder mehr entfernt, senkrecht nach unten. Keine Sonne auf den Markern.</translation>
     </message>
     <message>
         <source>The depth camera over the hand.</source>
-        <translation type="unfinished"></translation>
+        <translation>Die Tiefenkamera über der Hand.</translation>
     </message>
     <message>
         <source>Plug it straight into the computer.</source>
-        <translation type="unfinished"></translation>
+        <translation>Schließen Sie sie direkt am Computer an.</translation>
     </message>
     <message>
         <source>Camera ready</source>
-        <translation type="unfinished"></translation>
+        <translation>Kamera bereit</translation>
     </message>
     <message>
         <source>No camera</source>
-        <translation type="unfinished"></translation>
+        <translation>Keine Kamera</translation>
     </message>
     <message>
         <source>A stored recording: a file of Carpus or of the camera (.oni, .db3), or a folder of pictures.</source>
-        <translation type="unfinished"></translation>
+        <translation>Eine gespeicherte Aufnahme: eine Datei von Carpus oder der Kamera (.oni, .db3), oder ein Ordner mit Bildern.</translation>
     </message>
     <message>
         <source>Open the camera</source>
-        <translation type="unfinished"></translation>
+        <translation>Kamera öffnen</translation>
     </message>
     <message>
         <source>Open the recording</source>
-        <translation type="unfinished"></translation>
+        <translation>Aufnahme öffnen</translation>
     </message>
     <message>
         <source>Start the simulation</source>
-        <translation type="unfinished"></translation>
+        <translation>Simulation starten</translation>
     </message>
     <message>
         <source>No camera yet</source>
-        <translation type="unfinished"></translation>
+        <translation>Noch keine Kamera</translation>
     </message>
     <message>
         <source>Choose a recording first</source>
-        <translation type="unfinished"></translation>
+        <translation>Erst eine Aufnahme wählen</translation>
     </message>
     <message>
         <source>Opening…</source>
-        <translation type="unfinished"></translation>
+        <translation>Wird geöffnet…</translation>
     </message>
     <message>
         <source>Recordings (*.oni *.db3 *.bag *.carpusraw);;All files (*)</source>
-        <translation type="unfinished"></translation>
+        <translation>Aufnahmen (*.oni *.db3 *.bag *.carpusraw);;Alle Dateien (*)</translation>
     </message>
     <message>
         <source>Choose a recording</source>
-        <translation type="unfinished"></translation>
+        <translation>Aufnahme wählen</translation>
     </message>
     <message>
         <source>Choose a folder of pictures</source>
-        <translation type="unfinished"></translation>
+        <translation>Ordner mit Bildern wählen</translation>
     </message>
 </context>
 <context>
     <name>CardScreen</name>
     <message>
         <source>The camera</source>
-        <translation type="unfinished"></translation>
+        <translation>Die Kamera</translation>
     </message>
     <message>
         <source>Simulated camera</source>
-        <translation type="unfinished"></translation>
+        <translation>Simulierte Kamera</translation>
     </message>
     <message>
         <source>Enter</source>
-        <translation type="unfinished"></translation>
+        <translation>Eingabe</translation>
     </message>
     <message>
         <source>Print &amp;card…</source>
-        <translation type="unfinished"></translation>
+        <translation>Karte &amp;drucken…</translation>
     </message>
     <message>
         <source>One page…</source>
-        <translation type="unfinished"></translation>
+        <translation>Eine Seite…</translation>
     </message>
     <message>
         <source>Cali&amp;brate the camera…</source>
-        <translation type="unfinished"></translation>
+        <translation>Kamera kali&amp;brieren…</translation>
     </message>
     <message>
         <source>How far the check is</source>
-        <translation type="unfinished"></translation>
+        <translation>Wie weit die Prüfung ist</translation>
     </message>
     <message>
         <source>Stop</source>
-        <translation type="unfinished"></translation>
+        <translation>Stopp</translation>
     </message>
     <message>
         <source>Esc</source>
-        <translation type="unfinished"></translation>
+        <translation>Esc</translation>
     </message>
     <message>
         <source>Usual: mean of the first 7 checks after a calibration, + 3 sd. Limits are fixed.</source>
-        <translation type="unfinished"></translation>
+        <translation>Üblich: Mittel der ersten 7 Prüfungen nach einer Kalibrierung, + 3 SD. Grenzen sind fest.</translation>
     </message>
     <message>
         <source>Checking</source>
-        <translation type="unfinished"></translation>
+        <translation>Prüfung läuft</translation>
     </message>
     <message>
         <source>Its ruler must be 100 mm long, the wedge glued onto the dashed field. Nothing is held.</source>
-        <translation type="unfinished"></translation>
+        <translation>Ihr Lineal muss 100 mm lang sein, der Keil auf dem gestrichelten Feld kleben. Nichts wird gehalten.</translation>
     </message>
     <message>
         <source>Each check is a point here: a camera that drifts is seen before it is out.</source>
-        <translation type="unfinished"></translation>
+        <translation>Jede Prüfung ist hier ein Punkt: Eine Kamera, die abdriftet, fällt auf, bevor sie falsch misst.</translation>
     </message>
     <message>
         <source>Check once more</source>
-        <translation type="unfinished"></translation>
+        <translation>Noch einmal prüfen</translation>
     </message>
     <message>
         <source>Check now, 30 seconds</source>
-        <translation type="unfinished"></translation>
+        <translation>Jetzt prüfen, 30 Sekunden</translation>
     </message>
     <message>
         <source>Check · plug the camera in</source>
-        <translation type="unfinished"></translation>
+        <translation>Prüfen · Kamera anschließen</translation>
     </message>
     <message>
         <source>The camera is being opened.</source>
-        <translation type="unfinished"></translation>
+        <translation>Die Kamera wird geöffnet.</translation>
     </message>
     <message>
         <source>{seconds} s</source>
-        <translation type="unfinished"></translation>
+        <translation>{seconds} s</translation>
     </message>
     <message>
         <source>On the card</source>
-        <translation type="unfinished"></translation>
+        <translation>Auf der Karte</translation>
     </message>
     <message>
         <source>Measured</source>
-        <translation type="unfinished"></translation>
+        <translation>Gemessen</translation>
     </message>
     <message>
         <source>Off by</source>
-        <translation type="unfinished"></translation>
+        <translation>Abweichung</translation>
     </message>
     <message>
         <source>If it is out</source>
-        <translation type="unfinished"></translation>
+        <translation>Wenn sie falsch misst</translation>
     </message>
     <message>
         <source>card flat, 60 cm away, its ruler 100 mm long</source>
-        <translation type="unfinished"></translation>
+        <translation>Karte flach, 60 cm entfernt, ihr Lineal 100 mm lang</translation>
     </message>
     <message>
         <source>Calibrate the camera again</source>
-        <translation type="unfinished"></translation>
+        <translation>Kamera neu kalibrieren</translation>
     </message>
     <message>
         <source>with the board, five minutes</source>
-        <translation type="unfinished"></translation>
+        <translation>mit der Tafel, fünf Minuten</translation>
     </message>
     <message>
         <source>Still out: do not measure</source>
-        <translation type="unfinished"></translation>
+        <translation>Weiter falsch: nicht messen</translation>
     </message>
     <message>
         <source>sessions near this check say that they are not sure</source>
-        <translation type="unfinished"></translation>
+        <translation>Sitzungen nahe dieser Prüfung sagen, dass sie unsicher sind</translation>
     </message>
     <message>
         <source>Simulated camera and card</source>
-        <translation type="unfinished"></translation>
+        <translation>Simulierte Kamera und Karte</translation>
     </message>
 </context>
 <context>
     <name>CheckRow</name>
     <message>
         <source>good</source>
-        <translation type="unfinished"></translation>
+        <translation>gut</translation>
     </message>
     <message>
         <source>to be looked at</source>
-        <translation type="unfinished"></translation>
+        <translation>anzusehen</translation>
     </message>
     <message>
         <source>missing</source>
-        <translation type="unfinished"></translation>
+        <translation>fehlt</translation>
     </message>
 </context>
 <context>
     <name>Checking</name>
     <message>
         <source>Save the card to print</source>
-        <translation type="unfinished"></translation>
+        <translation>Karte zum Drucken speichern</translation>
     </message>
     <message>
         <source>Save one page</source>
-        <translation type="unfinished"></translation>
+        <translation>Eine Seite speichern</translation>
     </message>
     <message>
         <source>not with a board</source>
-        <translation type="unfinished"></translation>
+        <translation>nicht mit einer Tafel</translation>
     </message>
     <message>
         <source>Calibrated</source>
-        <translation type="unfinished"></translation>
+        <translation>Kalibriert</translation>
     </message>
     <message>
         <source>Checks</source>
-        <translation type="unfinished"></translation>
+        <translation>Prüfungen</translation>
     </message>
 </context>
 <context>
     <name>ChooseSheet</name>
     <message>
         <source>Choice</source>
-        <translation type="unfinished"></translation>
+        <translation>Auswahl</translation>
     </message>
     <message>
         <source>Leave it as it is</source>
-        <translation type="unfinished"></translation>
+        <translation>So lassen</translation>
     </message>
     <message>
         <source>Esc</source>
-        <translation type="unfinished"></translation>
+        <translation>Esc</translation>
     </message>
 </context>
 <context>
     <name>ColumnsSheet</name>
     <message>
         <source>As the file says</source>
-        <translation type="unfinished"></translation>
+        <translation>Wie in der Datei</translation>
     </message>
     <message>
         <source>Degrees</source>
-        <translation type="unfinished"></translation>
+        <translation>Grad</translation>
     </message>
     <message>
         <source>Radians</source>
-        <translation type="unfinished"></translation>
+        <translation>Radiant</translation>
     </message>
     <message>
         <source>Cancel</source>
-        <translation type="unfinished"></translation>
+        <translation>Abbrechen</translation>
     </message>
     <message>
         <source>Esc</source>
-        <translation type="unfinished"></translation>
+        <translation>Esc</translation>
     </message>
     <message>
         <source>Compare</source>
-        <translation type="unfinished"></translation>
+        <translation>Vergleichen</translation>
     </message>
     <message>
         <source>Enter</source>
-        <translation type="unfinished"></translation>
+        <translation>Eingabe</translation>
     </message>
     <message>
         <source>Which marker is which?</source>
-        <translation type="unfinished"></translation>
+        <translation>Welcher Marker ist welcher?</translation>
     </message>
     <message>
         <source>Which column is which?</source>
-        <translation type="unfinished"></translation>
+        <translation>Welche Spalte ist welche?</translation>
     </message>
     <message>
         <source>Of {file}: at least three discs of the palm. Leave the others open.</source>
-        <translation type="unfinished"></translation>
+        <translation>Aus {file}: mindestens drei Punkte der Handfläche. Lassen Sie die anderen offen.</translation>
     </message>
     <message>
         <source>Of {file}: the time, and at least one angle. Leave the others open.</source>
-        <translation type="unfinished"></translation>
+        <translation>Aus {file}: die Zeit und mindestens ein Winkel. Lassen Sie die anderen offen.</translation>
     </message>
     <message>
         <source>Time</source>
-        <translation type="unfinished"></translation>
+        <translation>Zeit</translation>
     </message>
     <message>
         <source>other sign</source>
-        <translation type="unfinished"></translation>
+        <translation>anderes Vorzeichen</translation>
     </message>
 </context>
 <context>
     <name>Comparing</name>
     <message>
         <source>the session of {when}</source>
-        <translation type="unfinished"></translation>
+        <translation>die Sitzung vom {when}</translation>
     </message>
     <message>
         <source>Other measurements ({endings})</source>
-        <translation type="unfinished"></translation>
+        <translation>Andere Messungen ({endings})</translation>
     </message>
     <message>
         <source>Another measurement</source>
-        <translation type="unfinished"></translation>
+        <translation>Andere Messung</translation>
     </message>
     <message>
         <source>Save tables and plots into a folder</source>
-        <translation type="unfinished"></translation>
+        <translation>Tabellen und Bilder in einen Ordner speichern</translation>
     </message>
     <message>
         <source>{count} files were written.</source>
-        <translation type="unfinished"></translation>
+        <translation>{count} Dateien sind geschrieben.</translation>
     </message>
     <message>
         <source>Folder: {folder}</source>
-        <translation type="unfinished"></translation>
+        <translation>Ordner: {folder}</translation>
     </message>
     <message>
         <source>Files: {names}</source>
-        <translation type="unfinished"></translation>
+        <translation>Dateien: {names}</translation>
     </message>
     <message>
         <source>Open the folder</source>
-        <translation type="unfinished"></translation>
+        <translation>Ordner öffnen</translation>
     </message>
     <message>
         <source>Go on</source>
-        <translation type="unfinished"></translation>
+        <translation>Weiter</translation>
     </message>
     <message>
         <source>Enter</source>
-        <translation type="unfinished"></translation>
+        <translation>Eingabe</translation>
     </message>
 </context>
 <context>
     <name>ControlCharts</name>
     <message>
         <source>Checks of this camera</source>
-        <translation type="unfinished"></translation>
+        <translation>Prüfungen dieser Kamera</translation>
     </message>
 </context>
 <context>
     <name>CorrectScreen</name>
     <message>
         <source>Track again although &amp;doubtful</source>
-        <translation type="unfinished"></translation>
+        <translation>Trotz &amp;Zweifel neu verfolgen</translation>
     </message>
     <message>
         <source>Next doubtful picture</source>
-        <translation type="unfinished"></translation>
+        <translation>Nächstes zweifelhaftes Bild</translation>
     </message>
     <message>
         <source>Not to be seen here</source>
-        <translation type="unfinished"></translation>
+        <translation>Hier nicht zu sehen</translation>
     </message>
     <message>
         <source>Track again from here</source>
-        <translation type="unfinished"></translation>
+        <translation>Ab hier neu verfolgen</translation>
     </message>
     <message>
         <source>Enter</source>
-        <translation type="unfinished"></translation>
+        <translation>Eingabe</translation>
     </message>
     <message>
         <source>Cancel</source>
-        <translation type="unfinished"></translation>
+        <translation>Abbrechen</translation>
     </message>
     <message>
         <source>Back to the review (Esc)</source>
-        <translation type="unfinished"></translation>
+        <translation>Zurück zur Auswertung (Esc)</translation>
     </message>
     <message>
         <source>Drag</source>
-        <translation type="unfinished"></translation>
+        <translation>Ziehen</translation>
     </message>
     <message>
         <source>move a name</source>
-        <translation type="unfinished"></translation>
+        <translation>Namen verschieben</translation>
     </message>
     <message>
         <source>not to be seen here</source>
-        <translation type="unfinished"></translation>
+        <translation>nicht zu sehen</translation>
     </message>
     <message>
         <source>picture</source>
-        <translation type="unfinished"></translation>
+        <translation>Bild</translation>
     </message>
     <message>
         <source>undo</source>
-        <translation type="unfinished"></translation>
+        <translation>zurück</translation>
     </message>
     <message>
         <source>next doubtful</source>
-        <translation type="unfinished"></translation>
+        <translation>nächstes zweifelhaftes</translation>
     </message>
     <message>
         <source>At this picture: distance to its place</source>
-        <translation type="unfinished"></translation>
+        <translation>In diesem Bild: Abstand zum erwarteten Platz</translation>
     </message>
     <message>
         <source>Reading the picture…</source>
-        <translation type="unfinished"></translation>
+        <translation>Bild wird gelesen…</translation>
     </message>
     <message>
         <source>Doubtful at {time}</source>
-        <translation type="unfinished"></translation>
+        <translation>Zweifelhaft bei {time}</translation>
     </message>
     <message>
         <source>Picture at {time}</source>
-        <translation type="unfinished"></translation>
+        <translation>Bild bei {time}</translation>
     </message>
     <message>
         <source>Put “{marker}” on its disc</source>
-        <translation type="unfinished"></translation>
+        <translation>Setzen Sie „{marker}“ auf seinen Punkt</translation>
     </message>
     <message>
         <source>Which name is wrong?</source>
-        <translation type="unfinished"></translation>
+        <translation>Welcher Name ist falsch?</translation>
     </message>
     <message>
         <source>Drag a name in the picture, or choose it below and click its disc.</source>
-        <translation type="unfinished"></translation>
+        <translation>Ziehen Sie einen Namen im Bild, oder wählen Sie ihn unten und klicken Sie seinen Punkt an.</translation>
     </message>
     <message>
         <source>No pictures stored: the {count} blue spots of this moment. Drag a name to its spot.</source>
-        <translation type="unfinished"></translation>
+        <translation>Keine Bilder gespeichert: die {count} blauen Stellen dieses Moments. Ziehen Sie einen Namen auf seine Stelle.</translation>
     </message>
     <message>
         <source>Changed here: {markers}</source>
-        <translation type="unfinished"></translation>
+        <translation>Hier geändert: {markers}</translation>
     </message>
     <message>
         <source>Track again from {time}</source>
-        <translation type="unfinished"></translation>
+        <translation>Ab {time} neu verfolgen</translation>
     </message>
     <message>
         <source>Nothing changed yet</source>
-        <translation type="unfinished"></translation>
+        <translation>Noch nichts geändert</translation>
     </message>
     <message>
         <source>Look at the names at {time}</source>
-        <translation type="unfinished"></translation>
+        <translation>Prüfen Sie die Namen bei {time}</translation>
     </message>
     <message>
         <source>“{one}” and “{other}” look exchanged</source>
-        <translation type="unfinished"></translation>
+        <translation>„{one}“ und „{other}“ scheinen vertauscht</translation>
     </message>
     <message>
         <source>So the angles would be wrong from there on. Let the two change places?</source>
-        <translation type="unfinished"></translation>
+        <translation>Dann wären die Winkel ab dort falsch. Sollen die beiden tauschen?</translation>
     </message>
     <message>
         <source>Change the two names</source>
-        <translation type="unfinished"></translation>
+        <translation>Die beiden Namen tauschen</translation>
     </message>
     <message>
         <source>“{marker}” cannot be there</source>
-        <translation type="unfinished"></translation>
+        <translation>„{marker}“ kann dort nicht sein</translation>
     </message>
     <message>
         <source>It lies {size} mm from where the other discs let it be. It may be another disc, or no disc.</source>
-        <translation type="unfinished"></translation>
+        <translation>Die Stelle liegt {size} mm von dort, wo die anderen Punkte ihn erlauben. Vielleicht ist es ein anderer Punkt oder keiner.</translation>
     </message>
     <message>
         <source>Take the last step back</source>
-        <translation type="unfinished"></translation>
+        <translation>Letzten Schritt zurücknehmen</translation>
     </message>
     <message>
         <source>Show that picture</source>
-        <translation type="unfinished"></translation>
+        <translation>Dieses Bild zeigen</translation>
     </message>
 </context>
 <context>
     <name>CorrectionPicture</name>
     <message>
         <source>Picture to put markers right on</source>
-        <translation type="unfinished"></translation>
+        <translation>Bild zum Berichtigen der Marker</translation>
     </message>
     <message>
         <source>{marker}, so far</source>
-        <translation type="unfinished"></translation>
+        <translation>{marker}, bisher</translation>
     </message>
     <message>
         <source>{marker}, hidden</source>
-        <translation type="unfinished"></translation>
+        <translation>{marker}, verdeckt</translation>
     </message>
     <message>
         <source>{marker}?</source>
-        <translation type="unfinished"></translation>
+        <translation>{marker}?</translation>
     </message>
 </context>
 <context>
     <name>CourseRun</name>
     <message>
         <source>Rest {time}; Space begins at once.</source>
-        <translation type="unfinished"></translation>
+        <translation>Pause {time}; die Leertaste beginnt sofort.</translation>
     </message>
 </context>
 <context>
     <name>CurveView</name>
     <message>
         <source>Curves of the session</source>
-        <translation type="unfinished"></translation>
+        <translation>Kurven der Sitzung</translation>
     </message>
     <message>
         <source>Repetitions</source>
-        <translation type="unfinished"></translation>
+        <translation>Wiederholungen</translation>
     </message>
     <message>
         <source>Wheel: zoom</source>
-        <translation type="unfinished"></translation>
+        <translation>Rad: vergrößern</translation>
     </message>
     <message>
         <source>hidden</source>
-        <translation type="unfinished"></translation>
+        <translation>verdeckt</translation>
     </message>
 </context>
 <context>
     <name>DegreesField</name>
     <message>
         <source>Up to {most}°, or empty</source>
-        <translation type="unfinished"></translation>
+        <translation>Bis {most}°, oder leer</translation>
     </message>
 </context>
 <context>
     <name>EncryptSheet</name>
     <message>
         <source>&amp;PIN until now</source>
-        <translation type="unfinished"></translation>
+        <translation>&amp;Bisherige PIN</translation>
     </message>
     <message>
         <source>&amp;New PIN, ten signs or more; four words are good</source>
-        <translation type="unfinished"></translation>
+        <translation>&amp;Neue PIN, mindestens zehn Zeichen; vier Wörter sind gut</translation>
     </message>
     <message>
         <source>The same &amp;again</source>
-        <translation type="unfinished"></translation>
+        <translation>Dieselbe no&amp;ch einmal</translation>
     </message>
     <message>
         <source>Enter</source>
-        <translation type="unfinished"></translation>
+        <translation>Eingabe</translation>
     </message>
     <message>
         <source>Cancel</source>
-        <translation type="unfinished"></translation>
+        <translation>Abbrechen</translation>
     </message>
     <message>
         <source>Encrypt what is stored</source>
-        <translation type="unfinished"></translation>
+        <translation>Gespeichertes verschlüsseln</translation>
     </message>
     <message>
         <source>Protects patients, sessions, pictures and new back-ups from whoever takes the computer or a disk. Does not protect: a recording until it is stored, names of files (pseudonym, exercise, date), the log, exports, back-ups made before, and everything while Carpus is open.
 
 The PIN is asked for at every start. Without it and without the recovery code that is shown next, the data are lost for good, and nobody can help. Make a back-up first.</source>
-        <translation type="unfinished"></translation>
+        <translation>Schützt Patienten, Sitzungen, Bilder und neue Sicherungen vor allen, die den Computer oder einen Datenträger mitnehmen. Schützt nicht: eine Aufnahme, bis sie gespeichert ist, Dateinamen (Pseudonym, Übung, Datum), das Protokoll, Exporte, ältere Sicherungen und alles, solange Carpus offen ist.
+
+Die PIN wird bei jedem Start verlangt. Ohne sie und ohne den Wiederherstellungscode, der als Nächstes gezeigt wird, sind die Daten für immer verloren, und niemand kann helfen. Machen Sie zuerst eine Sicherung.</translation>
     </message>
     <message>
         <source>Encrypt</source>
-        <translation type="unfinished"></translation>
+        <translation>Verschlüsseln</translation>
     </message>
     <message>
         <source>Make it readable again</source>
-        <translation type="unfinished"></translation>
+        <translation>Wieder lesbar machen</translation>
     </message>
     <message>
         <source>Every file is decrypted. From then on whoever has the disk can read it.</source>
-        <translation type="unfinished"></translation>
+        <translation>Jede Datei wird entschlüsselt. Von da an kann sie lesen, wer den Datenträger hat.</translation>
     </message>
     <message>
         <source>Decrypt</source>
-        <translation type="unfinished"></translation>
+        <translation>Entschlüsseln</translation>
     </message>
     <message>
         <source>Encrypting, {percent} %</source>
-        <translation type="unfinished"></translation>
+        <translation>Wird verschlüsselt, {percent} %</translation>
     </message>
     <message>
         <source>Decrypting, {percent} %</source>
-        <translation type="unfinished"></translation>
+        <translation>Wird entschlüsselt, {percent} %</translation>
     </message>
     <message>
         <source>Everything that is stored is encrypted.</source>
-        <translation type="unfinished"></translation>
+        <translation>Alles Gespeicherte ist verschlüsselt.</translation>
     </message>
     <message>
         <source>Recovery code: it opens everything when the PIN is forgotten. Write it down now and keep it away from this computer; it is not shown again.</source>
-        <translation type="unfinished"></translation>
+        <translation>Wiederherstellungscode: Er öffnet alles, wenn die PIN vergessen ist. Schreiben Sie ihn jetzt auf, und verwahren Sie ihn fern von diesem Computer; er wird nicht noch einmal gezeigt.</translation>
     </message>
     <message>
         <source>I have written it down</source>
-        <translation type="unfinished"></translation>
+        <translation>Ich habe ihn aufgeschrieben</translation>
     </message>
     <message>
         <source>Files can be carried away and tried: ten signs or more.</source>
-        <translation type="unfinished"></translation>
+        <translation>Dateien kann man mitnehmen und durchprobieren: mindestens zehn Zeichen.</translation>
     </message>
     <message>
         <source>The two are not the same.</source>
-        <translation type="unfinished"></translation>
+        <translation>Die beiden sind nicht gleich.</translation>
     </message>
 </context>
 <context>
     <name>EncryptionCard</name>
     <message>
         <source>Encryption</source>
-        <translation type="unfinished"></translation>
+        <translation>Verschlüsselung</translation>
     </message>
     <message>
         <source>Not everything is readable again yet</source>
-        <translation type="unfinished"></translation>
+        <translation>Noch nicht alles ist wieder lesbar</translation>
     </message>
     <message>
         <source>Some files are still encrypted. The PIN stays until they are not.</source>
-        <translation type="unfinished"></translation>
+        <translation>Einige Dateien sind noch verschlüsselt. So lange bleibt die PIN.</translation>
     </message>
     <message>
         <source>Try again…</source>
-        <translation type="unfinished"></translation>
+        <translation>Erneut versuchen…</translation>
     </message>
     <message>
         <source>Encrypted on the disk</source>
-        <translation type="unfinished"></translation>
+        <translation>Auf dem Datenträger verschlüsselt</translation>
     </message>
     <message>
         <source>Patients, sessions and pictures can only be read with the PIN, also from back-ups made since. Not protected: a recording until it is stored, names of files (pseudonym, exercise, date), the log, exports and reports, and everything while Carpus is open. PIN and recovery code lost, the data are lost for good.</source>
-        <translation type="unfinished"></translation>
+        <translation>Patienten, Sitzungen und Bilder sind nur mit der PIN lesbar, auch aus seitdem gemachten Sicherungen. Nicht geschützt: eine Aufnahme, bis sie gespeichert ist, Dateinamen (Pseudonym, Übung, Datum), das Protokoll, Exporte und Berichte, und alles, solange Carpus offen ist. Sind PIN und Wiederherstellungscode verloren, sind die Daten für immer verloren.</translation>
     </message>
     <message>
         <source>Make it readable again…</source>
-        <translation type="unfinished"></translation>
+        <translation>Wieder lesbar machen…</translation>
     </message>
     <message>
         <source>Off: files are readable</source>
-        <translation type="unfinished"></translation>
+        <translation>Aus: Dateien sind lesbar</translation>
     </message>
     <message>
         <source>Whoever has this computer’s account or its disk can read patients and sessions. Encryption makes them readable with a PIN only, which must be typed at every start.</source>
-        <translation type="unfinished"></translation>
+        <translation>Wer das Konto dieses Computers oder seinen Datenträger hat, kann Patienten und Sitzungen lesen. Verschlüsselung macht sie nur mit einer PIN lesbar, die bei jedem Start einzugeben ist.</translation>
     </message>
     <message>
         <source>Encrypt…</source>
-        <translation type="unfinished"></translation>
+        <translation>Verschlüsseln…</translation>
     </message>
 </context>
 <context>
     <name>EraseSheet</name>
     <message>
         <source>Erase for good</source>
-        <translation type="unfinished"></translation>
+        <translation>Endgültig löschen</translation>
     </message>
     <message>
         <source>Cancel</source>
-        <translation type="unfinished"></translation>
+        <translation>Abbrechen</translation>
     </message>
     <message>
         <source>Esc</source>
-        <translation type="unfinished"></translation>
+        <translation>Esc</translation>
     </message>
     <message>
         <source>Archive instead</source>
-        <translation type="unfinished"></translation>
+        <translation>Lieber archivieren</translation>
     </message>
     <message>
         <source>Enter</source>
-        <translation type="unfinished"></translation>
+        <translation>Eingabe</translation>
     </message>
     <message>
         <source>This goes</source>
-        <translation type="unfinished"></translation>
+        <translation>Das geht</translation>
     </message>
     <message>
         <source>This stays</source>
-        <translation type="unfinished"></translation>
+        <translation>Das bleibt</translation>
     </message>
     <message>
         <source>This cannot be undone</source>
-        <translation type="unfinished"></translation>
+        <translation>Das lässt sich nicht rückgängig machen</translation>
     </message>
     <message>
         <source>Leaves all lists and counts nowhere; everything can be brought back.</source>
-        <translation type="unfinished"></translation>
+        <translation>Verlässt alle Listen und zählt nirgends; alles lässt sich zurückholen.</translation>
     </message>
     <message>
         <source>Erase this session for good?</source>
-        <translation type="unfinished"></translation>
+        <translation>Diese Sitzung endgültig löschen?</translation>
     </message>
     <message>
         <source>Erase this patient for good?</source>
-        <translation type="unfinished"></translation>
+        <translation>Diesen Patienten endgültig löschen?</translation>
     </message>
     <message>
         <source>To erase, type “{name}” here</source>
-        <translation type="unfinished"></translation>
+        <translation>Zum Löschen geben Sie hier „{name}“ ein</translation>
     </message>
     <message>
         <source>1 file</source>
-        <translation type="unfinished"></translation>
+        <translation>1 Datei</translation>
     </message>
     <message>
         <source>{count} files</source>
-        <translation type="unfinished"></translation>
+        <translation>{count} Dateien</translation>
     </message>
     <message>
         <source>The patient’s entry, real name and notes, and {count} sessions with all angles, pictures and</source>
-        <translation type="unfinished"></translation>
+        <translation>Der Eintrag des Patienten, echter Name und Notizen, und {count} Sitzungen mit allen Winkeln, Bildern und</translation>
     </message>
     <message>
         <source> notes ({files}, {size} MB).</source>
-        <translation type="unfinished"></translation>
+        <translation> Notizen ({files}, {size} MB).</translation>
     </message>
     <message>
         <source>Angles, pictures, notes and pain scores of this session ({files}, {size} MB).</source>
-        <translation type="unfinished"></translation>
+        <translation>Winkel, Bilder, Notizen und Schmerzwerte dieser Sitzung ({files}, {size} MB).</translation>
     </message>
     <message>
         <source>1 export</source>
-        <translation type="unfinished"></translation>
+        <translation>1 Export</translation>
     </message>
     <message>
         <source>{n} exports</source>
-        <translation type="unfinished"></translation>
+        <translation>{n} Exporte</translation>
     </message>
     <message>
         <source>1 report</source>
-        <translation type="unfinished"></translation>
+        <translation>1 Bericht</translation>
     </message>
     <message>
         <source>{n} reports</source>
-        <translation type="unfinished"></translation>
+        <translation>{n} Berichte</translation>
     </message>
     <message>
         <source>The {made} that Carpus made from it go too.</source>
-        <translation type="unfinished"></translation>
+        <translation>Auch daraus von Carpus erstellt: {made}.</translation>
     </message>
     <message>
         <source> and </source>
-        <translation type="unfinished"></translation>
+        <translation> und </translation>
     </message>
     <message>
         <source>The other session.</source>
-        <translation type="unfinished"></translation>
+        <translation>Die andere Sitzung.</translation>
     </message>
     <message>
         <source>The other {count} sessions.</source>
-        <translation type="unfinished"></translation>
+        <translation>Die anderen {count} Sitzungen.</translation>
     </message>
     <message>
         <source>Back-ups up to {day} and files copied elsewhere: Carpus cannot reach them.</source>
-        <translation type="unfinished"></translation>
+        <translation>Sicherungen bis {day} und anderswohin kopierte Dateien: Carpus erreicht sie nicht.</translation>
     </message>
     <message>
         <source>Files copied elsewhere: Carpus cannot reach them.</source>
-        <translation type="unfinished"></translation>
+        <translation>Anderswohin kopierte Dateien: Carpus erreicht sie nicht.</translation>
     </message>
     <message>
         <source>Exports and reports that were changed since: {n}.</source>
-        <translation type="unfinished"></translation>
+        <translation>Seitdem geänderte Exporte und Berichte: {n}.</translation>
     </message>
     <message>
         <source>Exports and reports that are not where Carpus put them: {n}, look for them yourself.</source>
-        <translation type="unfinished"></translation>
+        <translation>Exporte und Berichte, die nicht mehr liegen, wo Carpus sie abgelegt hat: {n}; suchen Sie sie selbst.</translation>
     </message>
     <message>
         <source>The log keeps that it was erased, no name.</source>
-        <translation type="unfinished"></translation>
+        <translation>Das Protokoll behält, dass gelöscht wurde, ohne Namen.</translation>
     </message>
     <message>
         <source>Nobody can bring it back.</source>
-        <translation type="unfinished"></translation>
+        <translation>Niemand kann es zurückholen.</translation>
     </message>
     <message>
         <source>({years} years, as set in Settings)</source>
-        <translation type="unfinished"></translation>
+        <translation>({years} Jahre, wie in den Einstellungen)</translation>
     </message>
     <message>
         <source>Your records must be kept until {day} {years}: erasing comes before that day.</source>
-        <translation type="unfinished"></translation>
+        <translation>Ihre Unterlagen sind bis {day} aufzubewahren {years}: Das Löschen käme vor diesem Tag.</translation>
     </message>
 </context>
 <context>
     <name>ExerciseScreen</name>
     <message>
         <source>Sets of exercises…</source>
-        <translation type="unfinished"></translation>
+        <translation>Übungsfolgen…</translation>
     </message>
     <message>
         <source>none</source>
-        <translation type="unfinished"></translation>
+        <translation>keine</translation>
     </message>
     <message>
         <source>Use as targets</source>
-        <translation type="unfinished"></translation>
+        <translation>Als Ziele verwenden</translation>
     </message>
     <message>
         <source>Inferred</source>
-        <translation type="unfinished"></translation>
+        <translation>Abgeleitet</translation>
     </message>
     <message>
         <source>Measured</source>
-        <translation type="unfinished"></translation>
+        <translation>Gemessen</translation>
     </message>
     <message>
         <source>End joints of the fingers</source>
-        <translation type="unfinished"></translation>
+        <translation>Endgelenke der Finger</translation>
     </message>
     <message>
         <source>Adult</source>
-        <translation type="unfinished"></translation>
+        <translation>Erwachsene</translation>
     </message>
     <message>
         <source>Child</source>
-        <translation type="unfinished"></translation>
+        <translation>Kind</translation>
     </message>
     <message>
         <source>No</source>
-        <translation type="unfinished"></translation>
+        <translation>Nein</translation>
     </message>
     <message>
         <source>Yes</source>
-        <translation type="unfinished"></translation>
+        <translation>Ja</translation>
     </message>
     <message>
         <source>Next: the camera</source>
-        <translation type="unfinished"></translation>
+        <translation>Weiter: Kamera</translation>
     </message>
     <message>
         <source>Enter</source>
-        <translation type="unfinished"></translation>
+        <translation>Eingabe</translation>
     </message>
     <message>
         <source>Which exercise?</source>
-        <translation type="unfinished"></translation>
+        <translation>Welche Übung?</translation>
     </message>
     <message>
         <source>This set</source>
-        <translation type="unfinished"></translation>
+        <translation>Diese Folge</translation>
     </message>
     <message>
         <source>Hand that is measured</source>
-        <translation type="unfinished"></translation>
+        <translation>Gemessene Hand</translation>
     </message>
     <message>
         <source>Repetitions</source>
-        <translation type="unfinished"></translation>
+        <translation>Wiederholungen</translation>
     </message>
     <message>
         <source>The patient’s view is for</source>
-        <translation type="unfinished"></translation>
+        <translation>Die Patientenansicht ist für</translation>
     </message>
     <message>
         <source>Keep the pictures too</source>
-        <translation type="unfinished"></translation>
+        <translation>Auch die Bilder behalten</translation>
     </message>
     <message>
         <source>Needed to see and correct markers later: {size} MB a minute, room for {time}.</source>
-        <translation type="unfinished"></translation>
+        <translation>Nötig, um Marker später zu sehen und zu berichtigen: {size} MB je Minute, Platz für {time}.</translation>
     </message>
     <message>
         <source>Target, {movement}</source>
-        <translation type="unfinished"></translation>
+        <translation>Ziel, {movement}</translation>
     </message>
     <message>
         <source>Which hand is measured?</source>
-        <translation type="unfinished"></translation>
+        <translation>Welche Hand wird gemessen?</translation>
     </message>
 </context>
 <context>
     <name>ExportSheet</name>
     <message>
         <source>Tables (CSV): angles, joints, markers, events, measures</source>
-        <translation type="unfinished"></translation>
+        <translation>Tabellen (CSV): Winkel, Gelenke, Marker, Ereignisse, Maße</translation>
     </message>
     <message>
         <source>Measures with their origin (JSON)</source>
-        <translation type="unfinished"></translation>
+        <translation>Maße mit ihrer Herkunft (JSON)</translation>
     </message>
     <message>
         <source>Markers for motion capture programs (C3D)</source>
-        <translation type="unfinished"></translation>
+        <translation>Marker für Programme der Bewegungsanalyse (C3D)</translation>
     </message>
     <message>
         <source>Markers for OpenSim (TRC)</source>
-        <translation type="unfinished"></translation>
+        <translation>Marker für OpenSim (TRC)</translation>
     </message>
     <message>
         <source>Angles for OpenSim (MOT)</source>
-        <translation type="unfinished"></translation>
+        <translation>Winkel für OpenSim (MOT)</translation>
     </message>
     <message>
         <source>Data set for research (BIDS-Motion)</source>
-        <translation type="unfinished"></translation>
+        <translation>Datensatz für die Forschung (BIDS-Motion)</translation>
     </message>
     <message>
         <source>The session itself, for another Carpus</source>
-        <translation type="unfinished"></translation>
+        <translation>Die Sitzung selbst, für ein anderes Carpus</translation>
     </message>
     <message>
         <source>Export this session</source>
-        <translation type="unfinished"></translation>
+        <translation>Diese Sitzung exportieren</translation>
     </message>
     <message>
         <source>Files that are there are never overwritten.</source>
-        <translation type="unfinished"></translation>
+        <translation>Vorhandene Dateien werden nie überschrieben.</translation>
     </message>
     <message>
         <source>Nobody can be found by it: new random name, days counted, no notes</source>
-        <translation type="unfinished"></translation>
+        <translation>Niemand ist daran erkennbar: neuer Zufallsname, Tage gezählt, keine Notizen</translation>
     </message>
     <message>
         <source>How far the export is</source>
-        <translation type="unfinished"></translation>
+        <translation>Wie weit der Export ist</translation>
     </message>
     <message>
         <source>Cancel</source>
-        <translation type="unfinished"></translation>
+        <translation>Abbrechen</translation>
     </message>
     <message>
         <source>Esc</source>
-        <translation type="unfinished"></translation>
+        <translation>Esc</translation>
     </message>
     <message>
         <source>Choose the folder…</source>
-        <translation type="unfinished"></translation>
+        <translation>Ordner wählen…</translation>
     </message>
     <message>
         <source>Enter</source>
-        <translation type="unfinished"></translation>
+        <translation>Eingabe</translation>
     </message>
     <message>
         <source>Compare with a &amp;reference…</source>
-        <translation type="unfinished"></translation>
+        <translation>Mit &amp;Referenz vergleichen…</translation>
     </message>
     <message>
         <source>Stop</source>
-        <translation type="unfinished"></translation>
+        <translation>Stopp</translation>
     </message>
 </context>
 <context>
     <name>FieldMap</name>
     <message>
         <source>Where the board has been</source>
-        <translation type="unfinished"></translation>
+        <translation>Wo die Tafel war</translation>
     </message>
 </context>
 <context>
     <name>FingerCurves</name>
     <message>
         <source>Joint angles of the last ten seconds, by finger</source>
-        <translation type="unfinished"></translation>
+        <translation>Gelenkwinkel der letzten zehn Sekunden, je Finger</translation>
     </message>
     <message>
         <source>follows the middle joint</source>
-        <translation type="unfinished"></translation>
+        <translation>folgt dem Mittelgelenk</translation>
     </message>
     <message>
         <source>follows</source>
-        <translation type="unfinished"></translation>
+        <translation>folgt</translation>
     </message>
     <message>
         <source>Last 10 s</source>
-        <translation type="unfinished"></translation>
+        <translation>Letzte 10 s</translation>
     </message>
     <message>
         <source>Bending</source>
-        <translation type="unfinished"></translation>
+        <translation>Beugung</translation>
     </message>
     <message>
         <source>Spreading</source>
-        <translation type="unfinished"></translation>
+        <translation>Spreizung</translation>
     </message>
 </context>
 <context>
     <name>HandChart</name>
     <message>
         <source>{name} over the days</source>
-        <translation type="unfinished"></translation>
+        <translation>{name} über die Tage</translation>
     </message>
 </context>
 <context>
     <name>HandDrawing</name>
     <message>
         <source>Hand from above</source>
-        <translation type="unfinished"></translation>
+        <translation>Hand von oben</translation>
     </message>
     <message>
         <source>Right hand,
 from above</source>
-        <translation type="unfinished"></translation>
+        <translation>Rechte Hand,
+von oben</translation>
     </message>
     <message>
         <source>Left hand,
 from above</source>
-        <translation type="unfinished"></translation>
+        <translation>Linke Hand,
+von oben</translation>
     </message>
 </context>
 <context>
     <name>HandForm</name>
     <message>
         <source>Active</source>
-        <translation type="unfinished"></translation>
+        <translation>Aktiv</translation>
     </message>
     <message>
         <source>Passive</source>
-        <translation type="unfinished"></translation>
+        <translation>Passiv</translation>
     </message>
     <message>
         <source>Carpus</source>
-        <translation type="unfinished"></translation>
+        <translation>Carpus</translation>
     </message>
     <message>
         <source>last time</source>
-        <translation type="unfinished"></translation>
+        <translation>letztes Mal</translation>
     </message>
 </context>
 <context>
     <name>HandMap</name>
     <message>
         <source>Markers</source>
-        <translation type="unfinished"></translation>
+        <translation>Marker</translation>
     </message>
     <message>
         <source>seen</source>
-        <translation type="unfinished"></translation>
+        <translation>gesehen</translation>
     </message>
     <message>
         <source>partly seen</source>
-        <translation type="unfinished"></translation>
+        <translation>teils gesehen</translation>
     </message>
     <message>
         <source>hidden, predicted</source>
-        <translation type="unfinished"></translation>
+        <translation>verdeckt, vorhergesagt</translation>
     </message>
     <message>
         <source>F2 next joint · F3 next finger
 Shift+F8 from the side</source>
-        <translation type="unfinished"></translation>
+        <translation>F2 nächstes Gelenk · F3 nächster Finger
+Umschalt+F8 von der Seite</translation>
     </message>
 </context>
 <context>
     <name>HelpScreen</name>
     <message>
         <source>Back</source>
-        <translation type="unfinished"></translation>
+        <translation>Zurück</translation>
     </message>
     <message>
         <source>Esc</source>
-        <translation type="unfinished"></translation>
+        <translation>Esc</translation>
     </message>
     <message>
         <source>Cards to print…</source>
-        <translation type="unfinished"></translation>
+        <translation>Karten zum Drucken…</translation>
     </message>
     <message>
         <source>Show me around</source>
-        <translation type="unfinished"></translation>
+        <translation>Rundgang</translation>
     </message>
     <message>
         <source>Keys</source>
-        <translation type="unfinished"></translation>
+        <translation>Tasten</translation>
     </message>
     <message>
         <source>Guide</source>
-        <translation type="unfinished"></translation>
+        <translation>Anleitung</translation>
     </message>
     <message>
         <source>Save the cards</source>
-        <translation type="unfinished"></translation>
+        <translation>Karten speichern</translation>
     </message>
 </context>
 <context>
     <name>Journey</name>
     <message>
         <source>Simulated camera: nothing here is of a real one.</source>
-        <translation type="unfinished"></translation>
+        <translation>Simulierte Kamera: Nichts hier kommt von einer echten.</translation>
     </message>
 </context>
 <context>
     <name>LandingMap</name>
     <message>
         <source>Where lines land</source>
-        <translation type="unfinished"></translation>
+        <translation>Wo Linien liegen</translation>
     </message>
     <message>
         <source>hatched: no pictures there</source>
-        <translation type="unfinished"></translation>
+        <translation>schraffiert: dort keine Bilder</translation>
     </message>
     <message>
         <source>0.5 px</source>
-        <translation type="unfinished"></translation>
+        <translation>0,5 px</translation>
     </message>
 </context>
 <context>
     <name>LastPicture</name>
     <message>
         <source>Last time, {day}</source>
-        <translation type="unfinished"></translation>
+        <translation>Letztes Mal, {day}</translation>
     </message>
 </context>
 <context>
     <name>LicencesWindow</name>
     <message>
         <source>Parts and their licences</source>
-        <translation type="unfinished"></translation>
+        <translation>Teile und ihre Lizenzen</translation>
     </message>
 </context>
 <context>
     <name>ListHeader</name>
     <message>
         <source>Patient</source>
-        <translation type="unfinished"></translation>
+        <translation>Patient</translation>
     </message>
     <message>
         <source>Hand</source>
-        <translation type="unfinished"></translation>
+        <translation>Hand</translation>
     </message>
     <message>
         <source>Last exercise</source>
-        <translation type="unfinished"></translation>
+        <translation>Letzte Übung</translation>
     </message>
     <message>
         <source>Last session</source>
-        <translation type="unfinished"></translation>
+        <translation>Letzte Sitzung</translation>
     </message>
     <message>
         <source>Sessions</source>
-        <translation type="unfinished"></translation>
+        <translation>Sitzungen</translation>
     </message>
 </context>
 <context>
     <name>LiveCurves</name>
     <message>
         <source>Curves of the last ten seconds</source>
-        <translation type="unfinished"></translation>
+        <translation>Kurven der letzten zehn Sekunden</translation>
     </message>
     <message>
         <source>Turning</source>
-        <translation type="unfinished"></translation>
+        <translation>Drehung</translation>
     </message>
     <message>
         <source>Moving</source>
-        <translation type="unfinished"></translation>
+        <translation>Bewegung</translation>
     </message>
     <message>
         <source>no value</source>
-        <translation type="unfinished"></translation>
+        <translation>kein Wert</translation>
     </message>
     <message>
         <source>Target {angle}</source>
-        <translation type="unfinished"></translation>
+        <translation>Ziel {angle}</translation>
     </message>
     <message>
         <source>10 s ago</source>
-        <translation type="unfinished"></translation>
+        <translation>vor 10 s</translation>
     </message>
     <message>
         <source>now</source>
-        <translation type="unfinished"></translation>
+        <translation>jetzt</translation>
     </message>
     <message>
         <source>should stay within {angle}</source>
-        <translation type="unfinished"></translation>
+        <translation>soll in {angle} bleiben</translation>
     </message>
     <message>
         <source>0° = palm down; stay within {angle}</source>
-        <translation type="unfinished"></translation>
+        <translation>0° = Handfläche unten; in {angle} bleiben</translation>
     </message>
     <message>
         <source>0° = palm down</source>
-        <translation type="unfinished"></translation>
+        <translation>0° = Handfläche unten</translation>
     </message>
 </context>
 <context>
     <name>LiveScreen</name>
     <message>
         <source>Note</source>
-        <translation type="unfinished"></translation>
+        <translation>Notiz</translation>
     </message>
     <message>
         <source>Pain</source>
-        <translation type="unfinished"></translation>
+        <translation>Schmerz</translation>
     </message>
     <message>
         <source>Pause</source>
-        <translation type="unfinished"></translation>
+        <translation>Anhalten</translation>
     </message>
     <message>
         <source>Speeds</source>
-        <translation type="unfinished"></translation>
+        <translation>Geschwindigkeiten</translation>
     </message>
     <message>
         <source>Patient’s view</source>
-        <translation type="unfinished"></translation>
+        <translation>Patientenansicht</translation>
     </message>
     <message>
         <source>The recording plays from its first picture</source>
-        <translation type="unfinished"></translation>
+        <translation>Die Aufnahme läuft ab dem ersten Bild</translation>
     </message>
     <message>
         <source>Waiting for a picture</source>
-        <translation type="unfinished"></translation>
+        <translation>Warten auf ein Bild</translation>
     </message>
     <message>
         <source>Storing…</source>
-        <translation type="unfinished"></translation>
+        <translation>Wird gespeichert…</translation>
     </message>
     <message>
         <source>Angles</source>
-        <translation type="unfinished"></translation>
+        <translation>Winkel</translation>
     </message>
     <message>
         <source>No picture</source>
-        <translation type="unfinished"></translation>
+        <translation>Kein Bild</translation>
     </message>
     <message>
         <source>Pain {score} noted</source>
-        <translation type="unfinished"></translation>
+        <translation>Schmerz {score} vermerkt</translation>
     </message>
     <message>
         <source>Plug the camera in again</source>
-        <translation type="unfinished"></translation>
+        <translation>Schließen Sie die Kamera wieder an</translation>
     </message>
     <message>
         <source>Close the patient’s view</source>
-        <translation type="unfinished"></translation>
+        <translation>Patientenansicht schließen</translation>
     </message>
     <message>
         <source>Open the patient’s view</source>
-        <translation type="unfinished"></translation>
+        <translation>Patientenansicht öffnen</translation>
     </message>
     <message>
         <source>Go on</source>
-        <translation type="unfinished"></translation>
+        <translation>Fortsetzen</translation>
     </message>
     <message>
         <source>Play and record</source>
-        <translation type="unfinished"></translation>
+        <translation>Abspielen und aufnehmen</translation>
     </message>
     <message>
         <source>Record</source>
-        <translation type="unfinished"></translation>
+        <translation>Aufnehmen</translation>
     </message>
     <message>
         <source>Stop and go on</source>
-        <translation type="unfinished"></translation>
+        <translation>Beenden und weiter</translation>
     </message>
     <message>
         <source>Stop and review</source>
-        <translation type="unfinished"></translation>
+        <translation>Beenden und auswerten</translation>
     </message>
     <message>
         <source>Space</source>
-        <translation type="unfinished"></translation>
+        <translation>Leertaste</translation>
     </message>
     <message>
         <source>Space · pedal</source>
-        <translation type="unfinished"></translation>
+        <translation>Leertaste · Pedal</translation>
     </message>
     <message>
         <source>Side · {finger}</source>
-        <translation type="unfinished"></translation>
+        <translation>Seite · {finger}</translation>
     </message>
 </context>
 <context>
     <name>LockCard</name>
     <message>
         <source>Lock</source>
-        <translation type="unfinished"></translation>
+        <translation>Sperre</translation>
     </message>
     <message>
         <source>A PIN hides names and pictures from those who pass by. Alone it protects no file: for that there is encryption, below, and that of the computer’s own disk.</source>
-        <translation type="unfinished"></translation>
+        <translation>Eine PIN verbirgt Namen und Bilder vor Vorbeigehenden. Allein schützt sie keine Datei: Dafür gibt es die Verschlüsselung unten und die des Datenträgers im Computer.</translation>
     </message>
     <message>
         <source>After 5 min</source>
-        <translation type="unfinished"></translation>
+        <translation>Nach 5 min</translation>
     </message>
     <message>
         <source>After 10 min</source>
-        <translation type="unfinished"></translation>
+        <translation>Nach 10 min</translation>
     </message>
     <message>
         <source>30 min</source>
-        <translation type="unfinished"></translation>
+        <translation>30 min</translation>
     </message>
     <message>
         <source>Never</source>
-        <translation type="unfinished"></translation>
+        <translation>Nie</translation>
     </message>
     <message>
         <source>Lock by itself</source>
-        <translation type="unfinished"></translation>
+        <translation>Von selbst sperren</translation>
     </message>
     <message>
         <source>PIN</source>
-        <translation type="unfinished"></translation>
+        <translation>PIN</translation>
     </message>
     <message>
         <source>locks now</source>
-        <translation type="unfinished"></translation>
+        <translation>sperrt sofort</translation>
     </message>
     <message>
         <source>Change PIN…</source>
-        <translation type="unfinished"></translation>
+        <translation>PIN ändern…</translation>
     </message>
     <message>
         <source>Set a PIN…</source>
-        <translation type="unfinished"></translation>
+        <translation>PIN festlegen…</translation>
     </message>
 </context>
 <context>
     <name>LockSheet</name>
     <message>
         <source>Locked</source>
-        <translation type="unfinished"></translation>
+        <translation>Gesperrt</translation>
     </message>
     <message>
         <source>PIN</source>
-        <translation type="unfinished"></translation>
+        <translation>PIN</translation>
     </message>
     <message>
         <source>Unlock</source>
-        <translation type="unfinished"></translation>
+        <translation>Entsperren</translation>
     </message>
     <message>
         <source>Enter</source>
-        <translation type="unfinished"></translation>
+        <translation>Eingabe</translation>
     </message>
     <message>
         <source>Nothing is lost. The open session is stored.</source>
-        <translation type="unfinished"></translation>
+        <translation>Nichts ist verloren. Die offene Sitzung ist gespeichert.</translation>
     </message>
     <message>
         <source>Nothing is lost.</source>
-        <translation type="unfinished"></translation>
+        <translation>Nichts ist verloren.</translation>
     </message>
     <message>
         <source>Names, pictures and figures are hidden.</source>
-        <translation type="unfinished"></translation>
+        <translation>Namen, Bilder und Werte sind verborgen.</translation>
     </message>
     <message>
         <source>What is stored here is encrypted.</source>
-        <translation type="unfinished"></translation>
+        <translation>Was hier gespeichert ist, ist verschlüsselt.</translation>
     </message>
     <message>
         <source>Locked by itself at {time}, after {minutes} minutes without a key.</source>
-        <translation type="unfinished"></translation>
+        <translation>Um {time} von selbst gesperrt, nach {minutes} Minuten ohne Taste.</translation>
     </message>
     <message>
         <source>Locked at {time}.</source>
-        <translation type="unfinished"></translation>
+        <translation>Um {time} gesperrt.</translation>
     </message>
     <message>
         <source>Not this PIN. 1 more try, then a pause of 1 minute.</source>
-        <translation type="unfinished"></translation>
+        <translation>Nicht diese PIN. Noch 1 Versuch, dann 1 Minute Pause.</translation>
     </message>
     <message>
         <source>Not this PIN. {left} more tries, then a pause of 1 minute.</source>
-        <translation type="unfinished"></translation>
+        <translation>Nicht diese PIN. Noch {left} Versuche, dann 1 Minute Pause.</translation>
     </message>
     <message>
         <source>Too many tries. The next one in {seconds} s.</source>
-        <translation type="unfinished"></translation>
+        <translation>Zu viele Versuche. Der nächste in {seconds} s.</translation>
     </message>
     <message>
         <source>PIN forgotten? F1 says what can be done.</source>
-        <translation type="unfinished"></translation>
+        <translation>PIN vergessen? F1 sagt, was zu tun ist.</translation>
     </message>
     <message>
         <source>Type the recovery code instead, which was shown when the encryption was switched on. Without PIN and code nobody can read what is stored.</source>
-        <translation type="unfinished"></translation>
+        <translation>Geben Sie stattdessen den Wiederherstellungscode ein, der beim Einschalten der Verschlüsselung gezeigt wurde. Ohne PIN und Code kann niemand das Gespeicherte lesen.</translation>
     </message>
     <message>
         <source>Whoever looks after this computer takes the file pin.json out of the data folder and starts Carpus again: nothing is lost. A PIN hides; it does not protect the files.</source>
-        <translation type="unfinished"></translation>
+        <translation>Wer diesen Computer betreut, nimmt die Datei pin.json aus dem Datenordner und startet Carpus neu: Nichts ist verloren. Eine PIN verbirgt; sie schützt die Dateien nicht.</translation>
     </message>
 </context>
 <context>
     <name>Locking</name>
     <message>
         <source>The PIN until now is another one.</source>
-        <translation type="unfinished"></translation>
+        <translation>Die bisherige PIN ist eine andere.</translation>
     </message>
     <message>
         <source>Too many tries. The next one in {seconds} s.</source>
-        <translation type="unfinished"></translation>
+        <translation>Zu viele Versuche. Der nächste in {seconds} s.</translation>
     </message>
     <message>
         <source>It opens what is encrypted: ten signs or more, or decrypt it first.</source>
-        <translation type="unfinished"></translation>
+        <translation>Sie öffnet Verschlüsseltes: mindestens zehn Zeichen, oder entschlüsseln Sie zuerst.</translation>
     </message>
 </context>
 <context>
     <name>LogSheet</name>
     <message>
         <source>Log</source>
-        <translation type="unfinished"></translation>
+        <translation>Protokoll</translation>
     </message>
     <message>
         <source>Only ever added to. In the file patients and sessions are numbers: names are put to them here, as long as they are in the list.</source>
-        <translation type="unfinished"></translation>
+        <translation>Es wird nur ergänzt. In der Datei sind Patienten und Sitzungen Nummern: Namen stehen nur hier dabei, solange sie in der Liste sind.</translation>
     </message>
     <message>
         <source>When</source>
-        <translation type="unfinished"></translation>
+        <translation>Wann</translation>
     </message>
     <message>
         <source>Who</source>
-        <translation type="unfinished"></translation>
+        <translation>Wer</translation>
     </message>
     <message>
         <source>What</source>
-        <translation type="unfinished"></translation>
+        <translation>Was</translation>
     </message>
     <message>
         <source>Of whom</source>
-        <translation type="unfinished"></translation>
+        <translation>Von wem</translation>
     </message>
     <message>
         <source>Details</source>
-        <translation type="unfinished"></translation>
+        <translation>Einzelheiten</translation>
     </message>
     <message>
         <source>Done</source>
-        <translation type="unfinished"></translation>
+        <translation>Fertig</translation>
     </message>
     <message>
         <source>Esc</source>
-        <translation type="unfinished"></translation>
+        <translation>Esc</translation>
     </message>
     <message>
         <source>The log was changed at or before line {line}.</source>
-        <translation type="unfinished"></translation>
+        <translation>Das Protokoll wurde in oder vor Zeile {line} geändert.</translation>
     </message>
     <message>
         <source>Whole: {n} lines, none changed.</source>
-        <translation type="unfinished"></translation>
+        <translation>Vollständig: {n} Zeilen, keine geändert.</translation>
     </message>
 </context>
 <context>
     <name>MarkerPicture</name>
     <message>
         <source>Picture to click the markers on</source>
-        <translation type="unfinished"></translation>
+        <translation>Bild zum Anklicken der Marker</translation>
     </message>
     <message>
         <source>{marker}?</source>
-        <translation type="unfinished"></translation>
+        <translation>{marker}?</translation>
     </message>
     <message>
         <source>What is this?</source>
-        <translation type="unfinished"></translation>
+        <translation>Was ist das?</translation>
     </message>
     <message>
         <source>Marker found · {width} px wide</source>
-        <translation type="unfinished"></translation>
+        <translation>Marker gefunden · {width} px breit</translation>
     </message>
     <message>
         <source>Found · {width} px</source>
-        <translation type="unfinished"></translation>
+        <translation>Gefunden · {width} px</translation>
     </message>
 </context>
 <context>
     <name>MarkerRow</name>
     <message>
         <source>{size} mm</source>
-        <translation type="unfinished"></translation>
+        <translation>{size} mm</translation>
     </message>
     <message>
         <source>hidden</source>
-        <translation type="unfinished"></translation>
+        <translation>verdeckt</translation>
     </message>
     <message>
         <source>{now}, was {size} mm</source>
-        <translation type="unfinished"></translation>
+        <translation>{now}, vorher {size} mm</translation>
     </message>
 </context>
 <context>
     <name>MarkersScreen</name>
     <message>
         <source>Wrist cannot lie straight…</source>
-        <translation type="unfinished"></translation>
+        <translation>Handgelenk kann nicht gerade liegen…</translation>
     </message>
     <message>
         <source>Start although &amp;doubtful</source>
-        <translation type="unfinished"></translation>
+        <translation>Trotz &amp;Zweifel starten</translation>
     </message>
     <message>
         <source>Take all names</source>
-        <translation type="unfinished"></translation>
+        <translation>Alle Namen übernehmen</translation>
     </message>
     <message>
         <source>Click all again</source>
-        <translation type="unfinished"></translation>
+        <translation>Alle neu anklicken</translation>
     </message>
     <message>
         <source>New picture</source>
-        <translation type="unfinished"></translation>
+        <translation>Neues Bild</translation>
     </message>
     <message>
         <source>Space</source>
-        <translation type="unfinished"></translation>
+        <translation>Leertaste</translation>
     </message>
     <message>
         <source>accept</source>
-        <translation type="unfinished"></translation>
+        <translation>annehmen</translation>
     </message>
     <message>
         <source>Backspace</source>
-        <translation type="unfinished"></translation>
+        <translation>Rücktaste</translation>
     </message>
     <message>
         <source>undo</source>
-        <translation type="unfinished"></translation>
+        <translation>zurück</translation>
     </message>
     <message>
         <source>move 1 px</source>
-        <translation type="unfinished"></translation>
+        <translation>1 px verschieben</translation>
     </message>
     <message>
         <source>zoom</source>
-        <translation type="unfinished"></translation>
+        <translation>vergrößern</translation>
     </message>
     <message>
         <source>Tab</source>
-        <translation type="unfinished"></translation>
+        <translation>Tab</translation>
     </message>
     <message>
         <source>next marker</source>
-        <translation type="unfinished"></translation>
+        <translation>nächster Marker</translation>
     </message>
     <message>
         <source>larger last picture</source>
-        <translation type="unfinished"></translation>
+        <translation>letztes Bild größer</translation>
     </message>
     <message>
         <source>Waiting for a picture</source>
-        <translation type="unfinished"></translation>
+        <translation>Warten auf ein Bild</translation>
     </message>
     <message>
         <source>No blue marker here. Click nearer.</source>
-        <translation type="unfinished"></translation>
+        <translation>Hier ist kein blauer Marker. Klicken Sie näher.</translation>
     </message>
     <message>
         <source>Already the {name}</source>
-        <translation type="unfinished"></translation>
+        <translation>Schon vergeben: {name}</translation>
     </message>
     <message>
         <source>This marker is the {name} already. Click another one.</source>
-        <translation type="unfinished"></translation>
+        <translation>Dieser Marker heißt schon: {name}. Klicken Sie einen anderen an.</translation>
     </message>
     <message>
         <source>Starts at {angles} (given)</source>
-        <translation type="unfinished"></translation>
+        <translation>Beginnt bei {angles} (angegeben)</translation>
     </message>
     <message>
         <source>Drag a name to its disc. Names that change places swap.</source>
-        <translation type="unfinished"></translation>
+        <translation>Ziehen Sie einen Namen auf seinen Punkt. Namen, die den Platz wechseln, tauschen.</translation>
     </message>
     <message>
         <source>Picture</source>
-        <translation type="unfinished"></translation>
+        <translation>Bild</translation>
     </message>
     <message>
         <source>Lay the hand flat and still</source>
-        <translation type="unfinished"></translation>
+        <translation>Legen Sie die Hand flach und ruhig hin</translation>
     </message>
     <message>
         <source>Palm down, fingers as straight as they go, forearm in line. Then take the picture.</source>
-        <translation type="unfinished"></translation>
+        <translation>Handfläche nach unten, Finger so gerade wie möglich, Unterarm in Linie. Nehmen Sie dann das Bild auf.</translation>
     </message>
     <message>
         <source>Checks</source>
-        <translation type="unfinished"></translation>
+        <translation>Prüfungen</translation>
     </message>
     <message>
         <source>Take the picture</source>
-        <translation type="unfinished"></translation>
+        <translation>Bild aufnehmen</translation>
     </message>
     <message>
         <source>Marker {number} of {asked}</source>
-        <translation type="unfinished"></translation>
+        <translation>Marker {number} von {asked}</translation>
     </message>
     <message>
         <source>Checking…</source>
-        <translation type="unfinished"></translation>
+        <translation>Wird geprüft…</translation>
     </message>
     <message>
         <source>Good so far</source>
-        <translation type="unfinished"></translation>
+        <translation>So weit gut</translation>
     </message>
     <message>
         <source>1 marker to go</source>
-        <translation type="unfinished"></translation>
+        <translation>Noch 1 Marker</translation>
     </message>
     <message>
         <source>{count} markers to go</source>
-        <translation type="unfinished"></translation>
+        <translation>Noch {count} Marker</translation>
     </message>
     <message>
         <source>Start measuring · {left}</source>
-        <translation type="unfinished"></translation>
+        <translation>Messung starten · {left}</translation>
     </message>
     <message>
         <source>Checking the markers…</source>
-        <translation type="unfinished"></translation>
+        <translation>Marker werden geprüft…</translation>
     </message>
     <message>
         <source>The hand lies flat and still, palm down. Fingers that stay bent are fine.</source>
-        <translation type="unfinished"></translation>
+        <translation>Die Hand liegt flach und ruhig, Handfläche nach unten. Finger, die gebeugt bleiben, sind in Ordnung.</translation>
     </message>
     <message>
         <source>Looking for the markers…</source>
-        <translation type="unfinished"></translation>
+        <translation>Marker werden gesucht…</translation>
     </message>
     <message>
         <source>No blue disc in the picture</source>
-        <translation type="unfinished"></translation>
+        <translation>Kein blauer Punkt im Bild</translation>
     </message>
     <message>
         <source>No blue disc is to be seen</source>
-        <translation type="unfinished"></translation>
+        <translation>Kein blauer Punkt ist zu sehen</translation>
     </message>
     <message>
         <source>Are the discs on, and the hand under the camera? More light helps; dark blue cloth is no disc.</source>
-        <translation type="unfinished"></translation>
+        <translation>Sind die Punkte aufgeklebt, und liegt die Hand unter der Kamera? Mehr Licht hilft; dunkelblauer Stoff ist kein Punkt.</translation>
     </message>
     <message>
         <source>Enter</source>
-        <translation type="unfinished"></translation>
+        <translation>Eingabe</translation>
     </message>
     <message>
         <source>Click by hand</source>
-        <translation type="unfinished"></translation>
+        <translation>Von Hand anklicken</translation>
     </message>
     <message>
         <source>Names to confirm</source>
-        <translation type="unfinished"></translation>
+        <translation>Namen zu bestätigen</translation>
     </message>
     <message>
         <source>All markers found</source>
-        <translation type="unfinished"></translation>
+        <translation>Alle Marker gefunden</translation>
     </message>
     <message>
         <source>Ready to measure</source>
-        <translation type="unfinished"></translation>
+        <translation>Bereit zum Messen</translation>
     </message>
     <message>
         <source>Hold the hand in this position until the measuring begins.</source>
-        <translation type="unfinished"></translation>
+        <translation>Halten Sie die Hand in dieser Lage, bis die Messung beginnt.</translation>
     </message>
     <message>
         <source>Start measuring</source>
-        <translation type="unfinished"></translation>
+        <translation>Messung starten</translation>
     </message>
     <message>
         <source>Correct names</source>
-        <translation type="unfinished"></translation>
+        <translation>Namen berichtigen</translation>
     </message>
     <message>
         <source>Click these again</source>
-        <translation type="unfinished"></translation>
+        <translation>Diese neu anklicken</translation>
     </message>
     <message>
         <source>The names stay as they are until you change one.</source>
-        <translation type="unfinished"></translation>
+        <translation>Die Namen bleiben, bis Sie einen ändern.</translation>
     </message>
 </context>
 <context>
     <name>MeasureRow</name>
     <message>
         <source>where</source>
-        <translation type="unfinished"></translation>
+        <translation>wo</translation>
     </message>
     <message>
         <source>{name}: where it was taken</source>
-        <translation type="unfinished"></translation>
+        <translation>{name}: wo gemessen wurde</translation>
     </message>
     <message>
         <source>{side} {value}</source>
-        <translation type="unfinished"></translation>
+        <translation>{side} {value}</translation>
     </message>
     <message>
         <source>taken back</source>
-        <translation type="unfinished"></translation>
+        <translation>zurückgenommen</translation>
     </message>
     <message>
         <source>changed</source>
-        <translation type="unfinished"></translation>
+        <translation>geändert</translation>
     </message>
     <message>
         <source>Entered before for this day:</source>
-        <translation type="unfinished"></translation>
+        <translation>Für diesen Tag schon eingetragen:</translation>
     </message>
     <message>
         <source>mean {value}</source>
-        <translation type="unfinished"></translation>
+        <translation>Mittel {value}</translation>
     </message>
 </context>
 <context>
     <name>MeasuringFlow</name>
     <message>
         <source>Recording paused by itself at {time}.</source>
-        <translation type="unfinished"></translation>
+        <translation>Die Aufnahme hielt um {time} von selbst an.</translation>
     </message>
     <message>
         <source>{time} and {count} full repetitions are stored.</source>
-        <translation type="unfinished"></translation>
+        <translation>{time} und {count} ganze Wiederholungen sind gespeichert.</translation>
     </message>
     <message>
         <source>Stop and review</source>
-        <translation type="unfinished"></translation>
+        <translation>Beenden und auswerten</translation>
     </message>
     <message>
         <source>Enter</source>
-        <translation type="unfinished"></translation>
+        <translation>Eingabe</translation>
     </message>
     <message>
         <source>Choose another source</source>
-        <translation type="unfinished"></translation>
+        <translation>Andere Quelle wählen</translation>
     </message>
     <message>
         <source>To the patients</source>
-        <translation type="unfinished"></translation>
+        <translation>Zu den Patienten</translation>
     </message>
     <message>
         <source>Go on measuring</source>
-        <translation type="unfinished"></translation>
+        <translation>Weiter messen</translation>
     </message>
     <message>
         <source>The recording has only just begun.</source>
-        <translation type="unfinished"></translation>
+        <translation>Die Aufnahme hat gerade erst begonnen.</translation>
     </message>
     <message>
         <source>It goes on while you choose, and everything is kept.</source>
-        <translation type="unfinished"></translation>
+        <translation>Sie läuft weiter, während Sie wählen, und alles bleibt erhalten.</translation>
     </message>
     <message>
         <source>Go on measuring, or stop it already?</source>
-        <translation type="unfinished"></translation>
+        <translation>Weiter messen oder schon beenden?</translation>
     </message>
     <message>
         <source>Stop, save and close</source>
-        <translation type="unfinished"></translation>
+        <translation>Beenden, speichern, schließen</translation>
     </message>
     <message>
         <source>A recording is running.</source>
-        <translation type="unfinished"></translation>
+        <translation>Eine Aufnahme läuft.</translation>
     </message>
     <message>
         <source>Everything measured up to now is kept, whatever you choose.</source>
-        <translation type="unfinished"></translation>
+        <translation>Alles bisher Gemessene bleibt erhalten, was Sie auch wählen.</translation>
     </message>
     <message>
         <source>Go on measuring, or stop: the session is saved and Carpus closes.</source>
-        <translation type="unfinished"></translation>
+        <translation>Messen Sie weiter, oder beenden Sie: Die Sitzung wird gespeichert, und Carpus schließt sich.</translation>
     </message>
 </context>
 <context>
     <name>NoteSheet</name>
     <message>
         <source>What happened? No names.</source>
-        <translation type="unfinished"></translation>
+        <translation>Was ist geschehen? Keine Namen.</translation>
     </message>
     <message>
         <source>Note</source>
-        <translation type="unfinished"></translation>
+        <translation>Notiz</translation>
     </message>
     <message>
         <source>Keep note</source>
-        <translation type="unfinished"></translation>
+        <translation>Notiz behalten</translation>
     </message>
     <message>
         <source>Enter</source>
-        <translation type="unfinished"></translation>
+        <translation>Eingabe</translation>
     </message>
     <message>
         <source>Close</source>
-        <translation type="unfinished"></translation>
+        <translation>Schließen</translation>
     </message>
     <message>
         <source>Esc</source>
-        <translation type="unfinished"></translation>
+        <translation>Esc</translation>
     </message>
     <message>
         <source>Note at this moment</source>
-        <translation type="unfinished"></translation>
+        <translation>Notiz zu diesem Moment</translation>
     </message>
     <message>
         <source>Stopped for pain</source>
-        <translation type="unfinished"></translation>
+        <translation>Wegen Schmerz abgebrochen</translation>
     </message>
     <message>
         <source>Strap loosened</source>
-        <translation type="unfinished"></translation>
+        <translation>Gurt gelockert</translation>
     </message>
     <message>
         <source>Rest</source>
-        <translation type="unfinished"></translation>
+        <translation>Pause</translation>
     </message>
     <message>
         <source>Helped by hand</source>
-        <translation type="unfinished"></translation>
+        <translation>Von Hand geholfen</translation>
     </message>
 </context>
 <context>
     <name>NoticeStrip</name>
     <message>
         <source>Later</source>
-        <translation type="unfinished"></translation>
+        <translation>Später</translation>
     </message>
     <message>
         <source>Esc</source>
-        <translation type="unfinished"></translation>
+        <translation>Esc</translation>
     </message>
 </context>
 <context>
     <name>NumberCard</name>
     <message>
         <source>{finger}, total active motion (TAM)</source>
-        <translation type="unfinished"></translation>
+        <translation>{finger}, aktive Gesamtbeweglichkeit (TAM)</translation>
     </message>
     <message>
         <source>{joint}, {side}</source>
-        <translation type="unfinished"></translation>
+        <translation>{joint}, {side}</translation>
     </message>
     <message>
         <source>doubtful, not counted</source>
-        <translation type="unfinished"></translation>
+        <translation>zweifelhaft, nicht gezählt</translation>
     </message>
     <message>
         <source>doubtful</source>
-        <translation type="unfinished"></translation>
+        <translation>zweifelhaft</translation>
     </message>
     <message>
         <source>no value</source>
-        <translation type="unfinished"></translation>
+        <translation>kein Wert</translation>
     </message>
     <message>
         <source>predicted</source>
-        <translation type="unfinished"></translation>
+        <translation>vorhergesagt</translation>
     </message>
     <message>
         <source>follows the middle joint</source>
-        <translation type="unfinished"></translation>
+        <translation>folgt dem Mittelgelenk</translation>
     </message>
     <message>
         <source>Repetition</source>
-        <translation type="unfinished"></translation>
+        <translation>Wiederholung</translation>
     </message>
     <message>
         <source>of {asked}</source>
-        <translation type="unfinished"></translation>
+        <translation>von {asked}</translation>
     </message>
     <message>
         <source>Speed</source>
-        <translation type="unfinished"></translation>
+        <translation>Tempo</translation>
     </message>
     <message>
         <source>Best today</source>
-        <translation type="unfinished"></translation>
+        <translation>Bester heute</translation>
     </message>
     <message>
         <source>Target {angle}</source>
-        <translation type="unfinished"></translation>
+        <translation>Ziel {angle}</translation>
     </message>
 </context>
 <context>
     <name>PainSheet</name>
     <message>
         <source>Pain now, 0 (none) to 10 (worst)</source>
-        <translation type="unfinished"></translation>
+        <translation>Schmerz jetzt, 0 (keiner) bis 10 (stärkster)</translation>
     </message>
     <message>
         <source>At 5 or more, or 2 more than before: stop the exercise. Keys: 0 to 9; 1 and 0 for 10.</source>
-        <translation type="unfinished"></translation>
+        <translation>Ab 5, oder bei 2 mehr als zuvor: Beenden Sie die Übung. Tasten: 0 bis 9; 1 und 0 für 10.</translation>
     </message>
     <message>
         <source>Close</source>
-        <translation type="unfinished"></translation>
+        <translation>Schließen</translation>
     </message>
     <message>
         <source>Esc</source>
-        <translation type="unfinished"></translation>
+        <translation>Esc</translation>
     </message>
 </context>
 <context>
     <name>PathView</name>
     <message>
         <source>Path of the wrist</source>
-        <translation type="unfinished"></translation>
+        <translation>Weg des Handgelenks</translation>
     </message>
     <message>
         <source>thumb ←</source>
-        <translation type="unfinished"></translation>
+        <translation>Daumen ←</translation>
     </message>
     <message>
         <source>thumb →</source>
-        <translation type="unfinished"></translation>
+        <translation>Daumen →</translation>
     </message>
     <message>
         <source>fingers ↑</source>
-        <translation type="unfinished"></translation>
+        <translation>Finger ↑</translation>
     </message>
     <message>
         <source>From above</source>
-        <translation type="unfinished"></translation>
+        <translation>Von oben</translation>
     </message>
     <message>
         <source>up ↑</source>
-        <translation type="unfinished"></translation>
+        <translation>oben ↑</translation>
     </message>
     <message>
         <source>fingers →</source>
-        <translation type="unfinished"></translation>
+        <translation>Finger →</translation>
     </message>
     <message>
         <source>From the side</source>
-        <translation type="unfinished"></translation>
+        <translation>Von der Seite</translation>
     </message>
     <message>
         <source>From the fingers</source>
-        <translation type="unfinished"></translation>
+        <translation>Von den Fingern</translation>
     </message>
     <message>
         <source>15 mm</source>
-        <translation type="unfinished"></translation>
+        <translation>15 mm</translation>
     </message>
     <message>
         <source>Path of the wrist, last 10 s</source>
-        <translation type="unfinished"></translation>
+        <translation>Weg des Handgelenks, letzte 10 s</translation>
     </message>
     <message>
         <source>{span} × {span} mm, fixed</source>
-        <translation type="unfinished"></translation>
+        <translation>{span} × {span} mm, fest</translation>
     </message>
     <message>
         <source> · cross: where the wrist turns; it must stay in the ring</source>
-        <translation type="unfinished"></translation>
+        <translation> · Kreuz: Drehpunkt des Handgelenks; er muss im Ring bleiben</translation>
     </message>
     <message>
         <source>arm moved ({distance})</source>
-        <translation type="unfinished"></translation>
+        <translation>Arm bewegt ({distance})</translation>
     </message>
     <message>
         <source>forearm still ({distance})</source>
-        <translation type="unfinished"></translation>
+        <translation>Unterarm ruhig ({distance})</translation>
     </message>
 </context>
 <context>
     <name>PatientCardView</name>
     <message>
         <source>Start session, same set-up</source>
-        <translation type="unfinished"></translation>
+        <translation>Sitzung starten, gleicher Aufbau</translation>
     </message>
     <message>
         <source>Enter</source>
-        <translation type="unfinished"></translation>
+        <translation>Eingabe</translation>
     </message>
     <message>
         <source>&amp;Edit…</source>
-        <translation type="unfinished"></translation>
+        <translation>&amp;Bearbeiten…</translation>
     </message>
     <message>
         <source>&amp;Change…</source>
-        <translation type="unfinished"></translation>
+        <translation>Ä&amp;ndern…</translation>
     </message>
     <message>
         <source>&amp;Review</source>
-        <translation type="unfinished"></translation>
+        <translation>&amp;Auswertung</translation>
     </message>
     <message>
         <source>&amp;Progress</source>
-        <translation type="unfinished"></translation>
+        <translation>&amp;Verlauf</translation>
     </message>
     <message>
         <source>All &amp;sessions</source>
-        <translation type="unfinished"></translation>
+        <translation>Alle &amp;Sitzungen</translation>
     </message>
     <message>
         <source>Simulated: nothing counts</source>
-        <translation type="unfinished"></translation>
+        <translation>Simuliert: Nichts zählt</translation>
     </message>
     <message>
         <source>Markers as on {day}</source>
-        <translation type="unfinished"></translation>
+        <translation>Marker wie am {day}</translation>
     </message>
     <message>
         <source>No session yet</source>
-        <translation type="unfinished"></translation>
+        <translation>Noch keine Sitzung</translation>
     </message>
     <message>
         <source>Note of {day}</source>
-        <translation type="unfinished"></translation>
+        <translation>Notiz vom {day}</translation>
     </message>
     <message>
         <source>Start practice</source>
-        <translation type="unfinished"></translation>
+        <translation>Probe starten</translation>
     </message>
     <message>
         <source>Start from a file · no camera</source>
-        <translation type="unfinished"></translation>
+        <translation>Aus einer Datei starten · keine Kamera</translation>
     </message>
     <message>
         <source>Start first session</source>
-        <translation type="unfinished"></translation>
+        <translation>Erste Sitzung starten</translation>
     </message>
     <message>
         <source>A simulated patient moves in front of a simulated camera. Try every step without a patient.</source>
-        <translation type="unfinished"></translation>
+        <translation>Ein simulierter Patient bewegt sich vor einer simulierten Kamera. Probieren Sie jeden Schritt ohne Patient aus.</translation>
     </message>
     <message>
         <source>Put the markers on, then start.</source>
-        <translation type="unfinished"></translation>
+        <translation>Kleben Sie die Marker auf, dann starten Sie.</translation>
     </message>
     <message>
         <source>{ordinal} session</source>
-        <translation type="unfinished"></translation>
+        <translation>{ordinal} Sitzung</translation>
     </message>
 </context>
 <context>
     <name>PatientForm</name>
     <message>
         <source>&amp;Another</source>
-        <translation type="unfinished"></translation>
+        <translation>&amp;Weiterer</translation>
     </message>
     <message>
         <source>Right</source>
-        <translation type="unfinished"></translation>
+        <translation>Rechts</translation>
     </message>
     <message>
         <source>Left</source>
-        <translation type="unfinished"></translation>
+        <translation>Links</translation>
     </message>
     <message>
         <source>Not known</source>
-        <translation type="unfinished"></translation>
+        <translation>Unbekannt</translation>
     </message>
     <message>
         <source>Enter</source>
-        <translation type="unfinished"></translation>
+        <translation>Eingabe</translation>
     </message>
     <message>
         <source>Close without saving</source>
-        <translation type="unfinished"></translation>
+        <translation>Schließen ohne Speichern</translation>
     </message>
     <message>
         <source>Esc</source>
-        <translation type="unfinished"></translation>
+        <translation>Esc</translation>
     </message>
     <message>
         <source>A made-up name that can be spoken aloud. No real name, no initials, no date of birth.</source>
-        <translation type="unfinished"></translation>
+        <translation>Ein erfundener Name, den man laut sagen kann. Kein echter Name, keine Anfangsbuchstaben, kein Geburtsdatum.</translation>
     </message>
     <message>
         <source>&amp;Name in Carpus</source>
-        <translation type="unfinished"></translation>
+        <translation>&amp;Name in Carpus</translation>
     </message>
     <message>
         <source>&amp;Real name, if wanted (stays in this list, never in a session or report)</source>
-        <translation type="unfinished"></translation>
+        <translation>&amp;Echter Name, falls gewünscht (bleibt in dieser Liste, nie in Sitzung oder Bericht)</translation>
     </message>
     <message>
         <source>Affected hand</source>
-        <translation type="unfinished"></translation>
+        <translation>Betroffene Hand</translation>
     </message>
     <message>
         <source>Writes with</source>
-        <translation type="unfinished"></translation>
+        <translation>Schreibt mit</translation>
     </message>
     <message>
         <source>N&amp;ote (no diagnosis, no names)</source>
-        <translation type="unfinished"></translation>
+        <translation>N&amp;otiz (keine Diagnose, keine Namen)</translation>
     </message>
     <message>
         <source>Archi&amp;ve or delete…</source>
-        <translation type="unfinished"></translation>
+        <translation>Arc&amp;hivieren oder löschen…</translation>
     </message>
     <message>
         <source>New patient</source>
-        <translation type="unfinished"></translation>
+        <translation>Neuer Patient</translation>
     </message>
     <message>
         <source>Change patient</source>
-        <translation type="unfinished"></translation>
+        <translation>Patient ändern</translation>
     </message>
     <message>
         <source>Add patient</source>
-        <translation type="unfinished"></translation>
+        <translation>Patient anlegen</translation>
     </message>
     <message>
         <source>Keep changes</source>
-        <translation type="unfinished"></translation>
+        <translation>Änderungen behalten</translation>
     </message>
     <message>
         <source>A name has up to {count} letters: what goes beyond is not taken.</source>
-        <translation type="unfinished"></translation>
+        <translation>Ein Name hat höchstens {count} Zeichen: Was darüber hinausgeht, wird nicht übernommen.</translation>
     </message>
     <message>
         <source>Give the patient a name.</source>
-        <translation type="unfinished"></translation>
+        <translation>Geben Sie dem Patienten einen Namen.</translation>
     </message>
     <message>
         <source>“{name}” is taken. Choose another name.</source>
-        <translation type="unfinished"></translation>
+        <translation>„{name}“ ist vergeben. Wählen Sie einen anderen Namen.</translation>
     </message>
 </context>
 <context>
     <name>PatientList</name>
     <message>
         <source>Patients</source>
-        <translation type="unfinished"></translation>
+        <translation>Patienten</translation>
     </message>
 </context>
 <context>
     <name>PatientView</name>
     <message>
         <source>{done} of {asked}</source>
-        <translation type="unfinished"></translation>
+        <translation>{done} von {asked}</translation>
     </message>
     <message>
         <source>Goal {angle}</source>
-        <translation type="unfinished"></translation>
+        <translation>Ziel {angle}</translation>
     </message>
 </context>
 <context>
     <name>PatientsScreen</name>
     <message>
         <source>Name or exercise</source>
-        <translation type="unfinished"></translation>
+        <translation>Name oder Übung</translation>
     </message>
     <message>
         <source>Ctrl+F</source>
-        <translation type="unfinished"></translation>
+        <translation>Strg+F</translation>
     </message>
     <message>
         <source>New patient</source>
-        <translation type="unfinished"></translation>
+        <translation>Neuer Patient</translation>
     </message>
     <message>
         <source>Ctrl+N</source>
-        <translation type="unfinished"></translation>
+        <translation>Strg+N</translation>
     </message>
     <message>
         <source>Patients</source>
-        <translation type="unfinished"></translation>
+        <translation>Patienten</translation>
     </message>
     <message>
         <source>choose</source>
-        <translation type="unfinished"></translation>
+        <translation>wählen</translation>
     </message>
     <message>
         <source>Enter</source>
-        <translation type="unfinished"></translation>
+        <translation>Eingabe</translation>
     </message>
     <message>
         <source>start</source>
-        <translation type="unfinished"></translation>
+        <translation>starten</translation>
     </message>
     <message>
         <source>help</source>
-        <translation type="unfinished"></translation>
+        <translation>Hilfe</translation>
     </message>
     <message>
         <source>Practice patient</source>
-        <translation type="unfinished"></translation>
+        <translation>Probepatient</translation>
     </message>
 </context>
 <context>
     <name>PeopleSheet</name>
     <message>
         <source>Who takes part?</source>
-        <translation type="unfinished"></translation>
+        <translation>Wer nimmt teil?</translation>
     </message>
     <message>
         <source>Volunteers or staff whose hands do not change, never patients. Add them under Patients, by a pseudonym such as P01. Each is measured twice or more within 14 days, all discs taken off and put on anew.</source>
-        <translation type="unfinished"></translation>
+        <translation>Freiwillige oder Personal, deren Hände sich nicht ändern, nie Patienten. Fügen Sie sie unter Patienten hinzu, mit einem Pseudonym wie P01. Jede Person wird zweimal oder öfter innerhalb von 14 Tagen gemessen; dazwischen werden alle Punkte abgenommen und neu geklebt.</translation>
     </message>
     <message>
         <source>Cancel</source>
-        <translation type="unfinished"></translation>
+        <translation>Abbrechen</translation>
     </message>
     <message>
         <source>Esc</source>
-        <translation type="unfinished"></translation>
+        <translation>Esc</translation>
     </message>
     <message>
         <source>These take part</source>
-        <translation type="unfinished"></translation>
+        <translation>Diese nehmen teil</translation>
     </message>
     <message>
         <source>Enter</source>
-        <translation type="unfinished"></translation>
+        <translation>Eingabe</translation>
     </message>
     <message>
         <source>1 session</source>
-        <translation type="unfinished"></translation>
+        <translation>1 Sitzung</translation>
     </message>
     <message>
         <source>{count} sessions</source>
-        <translation type="unfinished"></translation>
+        <translation>{count} Sitzungen</translation>
     </message>
     <message>
         <source>Nobody is in the list yet.</source>
-        <translation type="unfinished"></translation>
+        <translation>Noch ist niemand in der Liste.</translation>
     </message>
 </context>
 <context>
     <name>PictureView</name>
     <message>
         <source>Camera picture</source>
-        <translation type="unfinished"></translation>
+        <translation>Kamerabild</translation>
     </message>
     <message>
         <source>Hand area ×{scale}</source>
-        <translation type="unfinished"></translation>
+        <translation>Handbereich ×{scale}</translation>
     </message>
     <message>
         <source>Whole picture</source>
-        <translation type="unfinished"></translation>
+        <translation>Ganzes Bild</translation>
     </message>
 </context>
 <context>
     <name>PinSheet</name>
     <message>
         <source>&amp;PIN until now</source>
-        <translation type="unfinished"></translation>
+        <translation>&amp;Bisherige PIN</translation>
     </message>
     <message>
         <source>Keep this PIN</source>
-        <translation type="unfinished"></translation>
+        <translation>Diese PIN behalten</translation>
     </message>
     <message>
         <source>Enter</source>
-        <translation type="unfinished"></translation>
+        <translation>Eingabe</translation>
     </message>
     <message>
         <source>&amp;Take the PIN away</source>
-        <translation type="unfinished"></translation>
+        <translation>PIN &amp;entfernen</translation>
     </message>
     <message>
         <source>Cancel</source>
-        <translation type="unfinished"></translation>
+        <translation>Abbrechen</translation>
     </message>
     <message>
         <source>Esc</source>
-        <translation type="unfinished"></translation>
+        <translation>Esc</translation>
     </message>
     <message>
         <source>Four signs or more, digits or letters. It hides names and pictures from those who pass by; files are readable for whoever has this computer’s account or disk.</source>
-        <translation type="unfinished"></translation>
+        <translation>Mindestens vier Zeichen, Ziffern oder Buchstaben. Sie verbirgt Namen und Bilder vor Vorbeigehenden; Dateien bleiben lesbar für alle, die das Konto dieses Computers oder den Datenträger haben.</translation>
     </message>
     <message>
         <source>&amp;New PIN</source>
-        <translation type="unfinished"></translation>
+        <translation>&amp;Neue PIN</translation>
     </message>
     <message>
         <source>The same &amp;again</source>
-        <translation type="unfinished"></translation>
+        <translation>Dieselbe no&amp;ch einmal</translation>
     </message>
     <message>
         <source>Change the PIN</source>
-        <translation type="unfinished"></translation>
+        <translation>PIN ändern</translation>
     </message>
     <message>
         <source>Set a PIN</source>
-        <translation type="unfinished"></translation>
+        <translation>PIN festlegen</translation>
     </message>
     <message>
         <source>A PIN has four signs or more.</source>
-        <translation type="unfinished"></translation>
+        <translation>Eine PIN hat mindestens vier Zeichen.</translation>
     </message>
     <message>
         <source>The two are not the same.</source>
-        <translation type="unfinished"></translation>
+        <translation>Die beiden sind nicht gleich.</translation>
     </message>
 </context>
 <context>
     <name>Player</name>
     <message>
         <source>Previous picture (←)</source>
-        <translation type="unfinished"></translation>
+        <translation>Voriges Bild (←)</translation>
     </message>
     <message>
         <source>Play (Space)</source>
-        <translation type="unfinished"></translation>
+        <translation>Abspielen (Leertaste)</translation>
     </message>
     <message>
         <source>Next picture (→)</source>
-        <translation type="unfinished"></translation>
+        <translation>Nächstes Bild (→)</translation>
     </message>
     <message>
         <source>What is drawn</source>
-        <translation type="unfinished"></translation>
+        <translation>Was gezeichnet wird</translation>
     </message>
     <message>
         <source>What is drawn of the movement (V)</source>
-        <translation type="unfinished"></translation>
+        <translation>Was von der Bewegung gezeichnet wird (V)</translation>
     </message>
     <message>
         <source>Angles</source>
-        <translation type="unfinished"></translation>
+        <translation>Winkel</translation>
     </message>
     <message>
         <source>Path</source>
-        <translation type="unfinished"></translation>
+        <translation>Weg</translation>
     </message>
     <message>
         <source>Place, speed</source>
-        <translation type="unfinished"></translation>
+        <translation>Ort, Tempo</translation>
     </message>
     <message>
         <source>ZYZ</source>
-        <translation type="unfinished"></translation>
+        <translation>ZYZ</translation>
     </message>
     <message>
         <source>Space</source>
-        <translation type="unfinished"></translation>
+        <translation>Leertaste</translation>
     </message>
     <message>
         <source>play</source>
-        <translation type="unfinished"></translation>
+        <translation>abspielen</translation>
     </message>
     <message>
         <source>repetition</source>
-        <translation type="unfinished"></translation>
+        <translation>Wiederholung</translation>
     </message>
     <message>
         <source>picture</source>
-        <translation type="unfinished"></translation>
+        <translation>Bild</translation>
     </message>
     <message>
         <source>{time} of {whole}</source>
-        <translation type="unfinished"></translation>
+        <translation>{time} von {whole}</translation>
     </message>
     <message>
         <source>Stop</source>
-        <translation type="unfinished"></translation>
+        <translation>Stopp</translation>
     </message>
     <message>
         <source>Play</source>
-        <translation type="unfinished"></translation>
+        <translation>Abspielen</translation>
     </message>
     <message>
         <source>{factor}× speed</source>
-        <translation type="unfinished"></translation>
+        <translation>{factor}× Tempo</translation>
     </message>
 </context>
 <context>
     <name>Printing</name>
     <message>
         <source>Export into a folder</source>
-        <translation type="unfinished"></translation>
+        <translation>In einen Ordner exportieren</translation>
     </message>
     <message>
         <source>Save table</source>
-        <translation type="unfinished"></translation>
+        <translation>Tabelle speichern</translation>
     </message>
     <message>
         <source>1 file was written.</source>
-        <translation type="unfinished"></translation>
+        <translation>1 Datei ist geschrieben.</translation>
     </message>
     <message>
         <source>{count} files were written.</source>
-        <translation type="unfinished"></translation>
+        <translation>{count} Dateien sind geschrieben.</translation>
     </message>
     <message>
         <source>Folder: {folder}</source>
-        <translation type="unfinished"></translation>
+        <translation>Ordner: {folder}</translation>
     </message>
     <message>
         <source>Files: {names}</source>
-        <translation type="unfinished"></translation>
+        <translation>Dateien: {names}</translation>
     </message>
     <message>
         <source>Open the folder</source>
-        <translation type="unfinished"></translation>
+        <translation>Ordner öffnen</translation>
     </message>
     <message>
         <source>Go on</source>
-        <translation type="unfinished"></translation>
+        <translation>Weiter</translation>
     </message>
     <message>
         <source>Enter</source>
-        <translation type="unfinished"></translation>
+        <translation>Eingabe</translation>
     </message>
 </context>
 <context>
     <name>ProgressChart</name>
     <message>
         <source>Range over the sessions</source>
-        <translation type="unfinished"></translation>
+        <translation>Umfang über die Sitzungen</translation>
     </message>
     <message>
         <source>{name} {value}, {count} repetitions</source>
-        <translation type="unfinished"></translation>
+        <translation>{name} {value}, {count} Wiederholungen</translation>
     </message>
     <message>
         <source>Camera {distance} cm away</source>
-        <translation type="unfinished"></translation>
+        <translation>Kamera {distance} cm entfernt</translation>
     </message>
     <message>
         <source>Click opens the session</source>
-        <translation type="unfinished"></translation>
+        <translation>Ein Klick öffnet die Sitzung</translation>
     </message>
 </context>
 <context>
     <name>ProgressScreen</name>
     <message>
         <source>Progress report</source>
-        <translation type="unfinished"></translation>
+        <translation>Verlaufsbericht</translation>
     </message>
     <message>
         <source>Save picture…</source>
-        <translation type="unfinished"></translation>
+        <translation>Bild speichern…</translation>
     </message>
     <message>
         <source>Save table…</source>
-        <translation type="unfinished"></translation>
+        <translation>Tabelle speichern…</translation>
     </message>
     <message>
         <source>Values by &amp;hand…</source>
-        <translation type="unfinished"></translation>
+        <translation>Werte von &amp;Hand…</translation>
     </message>
     <message>
         <source>Exercise and hand</source>
-        <translation type="unfinished"></translation>
+        <translation>Übung und Hand</translation>
     </message>
     <message>
         <source>What is followed</source>
-        <translation type="unfinished"></translation>
+        <translation>Was verfolgt wird</translation>
     </message>
     <message>
         <source>1 session, {last}</source>
-        <translation type="unfinished"></translation>
+        <translation>1 Sitzung, {last}</translation>
     </message>
     <message>
         <source>{count} sessions, {first} – {last}</source>
-        <translation type="unfinished"></translation>
+        <translation>{count} Sitzungen, {first} – {last}</translation>
     </message>
     <message>
         <source>First to last session</source>
-        <translation type="unfinished"></translation>
+        <translation>Erste bis letzte Sitzung</translation>
     </message>
     <message>
         <source>{first} and {last}</source>
-        <translation type="unfinished"></translation>
+        <translation>{first} und {last}</translation>
     </message>
     <message>
         <source>{before} and {after} repetitions</source>
-        <translation type="unfinished"></translation>
+        <translation>{before} und {after} Wiederholungen</translation>
     </message>
     <message>
         <source>Peak speed</source>
-        <translation type="unfinished"></translation>
+        <translation>Spitzengeschwindigkeit</translation>
     </message>
     <message>
         <source>error not yet known</source>
-        <translation type="unfinished"></translation>
+        <translation>Fehler noch unbekannt</translation>
     </message>
     <message>
         <source>Measured by hand</source>
-        <translation type="unfinished"></translation>
+        <translation>Von Hand gemessen</translation>
     </message>
     <message>
         <source>Fair comparison</source>
-        <translation type="unfinished"></translation>
+        <translation>Fairer Vergleich</translation>
     </message>
     <message>
         <source>All sessions were set up alike.</source>
-        <translation type="unfinished"></translation>
+        <translation>Alle Sitzungen hatten den gleichen Aufbau.</translation>
     </message>
     <message>
         <source>Simulated sessions are among them.</source>
-        <translation type="unfinished"></translation>
+        <translation>Simulierte Sitzungen sind darunter.</translation>
     </message>
 </context>
 <context>
     <name>ReasonSheet</name>
     <message>
         <source>It stays in the recording and on the curves, but counts no longer. The report says so.</source>
-        <translation type="unfinished"></translation>
+        <translation>Sie bleibt in der Aufnahme und auf den Kurven, zählt aber nicht mehr. Der Bericht sagt es.</translation>
     </message>
     <message>
         <source>pain</source>
-        <translation type="unfinished"></translation>
+        <translation>Schmerz</translation>
     </message>
     <message>
         <source>helped by hand</source>
-        <translation type="unfinished"></translation>
+        <translation>von Hand geholfen</translation>
     </message>
     <message>
         <source>other movement</source>
-        <translation type="unfinished"></translation>
+        <translation>andere Bewegung</translation>
     </message>
     <message>
         <source>trial</source>
-        <translation type="unfinished"></translation>
+        <translation>Probe</translation>
     </message>
     <message>
         <source>Another reason</source>
-        <translation type="unfinished"></translation>
+        <translation>Anderer Grund</translation>
     </message>
     <message>
         <source>Keep it in</source>
-        <translation type="unfinished"></translation>
+        <translation>Doch behalten</translation>
     </message>
     <message>
         <source>Esc</source>
-        <translation type="unfinished"></translation>
+        <translation>Esc</translation>
     </message>
     <message>
         <source>Leave repetition {number} out?</source>
-        <translation type="unfinished"></translation>
+        <translation>Wiederholung {number} auslassen?</translation>
     </message>
 </context>
 <context>
     <name>RecordLists</name>
     <message>
         <source>Nothing is due: no patient’s last session is so old.</source>
-        <translation type="unfinished"></translation>
+        <translation>Nichts ist fällig: Keine letzte Sitzung ist so alt.</translation>
     </message>
     <message>
         <source>Say first how many years records must be kept.</source>
-        <translation type="unfinished"></translation>
+        <translation>Legen Sie zuerst fest, wie viele Jahre Unterlagen aufzubewahren sind.</translation>
     </message>
     <message>
         <source>Their last session is more than {n} years ago. Nothing goes by itself.</source>
-        <translation type="unfinished"></translation>
+        <translation>Ihre letzte Sitzung ist mehr als {n} Jahre her. Nichts geht von selbst.</translation>
     </message>
     <message>
         <source>{n} sessions, the last on {last}; had to be kept until {until}</source>
-        <translation type="unfinished"></translation>
+        <translation>{n} Sitzungen, die letzte am {last}; aufzubewahren bis {until}</translation>
     </message>
     <message>
         <source>What is due</source>
-        <translation type="unfinished"></translation>
+        <translation>Was fällig ist</translation>
     </message>
     <message>
         <source>{n} sessions</source>
-        <translation type="unfinished"></translation>
+        <translation>{n} Sitzungen</translation>
     </message>
     <message>
         <source>session of {day}</source>
-        <translation type="unfinished"></translation>
+        <translation>Sitzung vom {day}</translation>
     </message>
     <message>
         <source>archived on {day}</source>
-        <translation type="unfinished"></translation>
+        <translation>archiviert am {day}</translation>
     </message>
     <message>
         <source>In no list and no count. Everything can be brought back.</source>
-        <translation type="unfinished"></translation>
+        <translation>In keiner Liste und keiner Zählung. Alles lässt sich zurückholen.</translation>
     </message>
     <message>
         <source>Archive</source>
-        <translation type="unfinished"></translation>
+        <translation>Archiv</translation>
     </message>
     <message>
         <source>The archive is empty.</source>
-        <translation type="unfinished"></translation>
+        <translation>Das Archiv ist leer.</translation>
     </message>
     <message>
         <source>by command</source>
-        <translation type="unfinished"></translation>
+        <translation>auf Befehl</translation>
     </message>
     <message>
         <source>opened</source>
-        <translation type="unfinished"></translation>
+        <translation>geöffnet</translation>
     </message>
     <message>
         <source>recorded</source>
-        <translation type="unfinished"></translation>
+        <translation>aufgenommen</translation>
     </message>
     <message>
         <source>added</source>
-        <translation type="unfinished"></translation>
+        <translation>hinzugefügt</translation>
     </message>
     <message>
         <source>changed</source>
-        <translation type="unfinished"></translation>
+        <translation>geändert</translation>
     </message>
     <message>
         <source>exported</source>
-        <translation type="unfinished"></translation>
+        <translation>exportiert</translation>
     </message>
     <message>
         <source>report saved</source>
-        <translation type="unfinished"></translation>
+        <translation>Bericht gespeichert</translation>
     </message>
     <message>
         <source>set aside</source>
-        <translation type="unfinished"></translation>
+        <translation>beiseitegelegt</translation>
     </message>
     <message>
         <source>taken back</source>
-        <translation type="unfinished"></translation>
+        <translation>zurückgeholt</translation>
     </message>
     <message>
         <source>moved</source>
-        <translation type="unfinished"></translation>
+        <translation>verschoben</translation>
     </message>
     <message>
         <source>exercise changed</source>
-        <translation type="unfinished"></translation>
+        <translation>Übung geändert</translation>
     </message>
     <message>
         <source>tracked again</source>
-        <translation type="unfinished"></translation>
+        <translation>neu verfolgt</translation>
     </message>
     <message>
         <source>recovered</source>
-        <translation type="unfinished"></translation>
+        <translation>wiederhergestellt</translation>
     </message>
     <message>
         <source>archived</source>
-        <translation type="unfinished"></translation>
+        <translation>archiviert</translation>
     </message>
     <message>
         <source>brought back</source>
-        <translation type="unfinished"></translation>
+        <translation>aus dem Archiv geholt</translation>
     </message>
     <message>
         <source>erasing begun</source>
-        <translation type="unfinished"></translation>
+        <translation>Löschen begonnen</translation>
     </message>
     <message>
         <source>erased</source>
-        <translation type="unfinished"></translation>
+        <translation>gelöscht</translation>
     </message>
     <message>
         <source>backed up</source>
-        <translation type="unfinished"></translation>
+        <translation>gesichert</translation>
     </message>
     <message>
         <source>back-up compared</source>
-        <translation type="unfinished"></translation>
+        <translation>Sicherung verglichen</translation>
     </message>
     <message>
         <source>restored</source>
-        <translation type="unfinished"></translation>
+        <translation>Sicherung eingespielt</translation>
     </message>
     <message>
         <source>locked</source>
-        <translation type="unfinished"></translation>
+        <translation>gesperrt</translation>
     </message>
     <message>
         <source>unlocked</source>
-        <translation type="unfinished"></translation>
+        <translation>entsperrt</translation>
     </message>
     <message>
         <source>PIN refused</source>
-        <translation type="unfinished"></translation>
+        <translation>PIN abgelehnt</translation>
     </message>
     <message>
         <source>PIN changed</source>
-        <translation type="unfinished"></translation>
+        <translation>PIN geändert</translation>
     </message>
     <message>
         <source>log read</source>
-        <translation type="unfinished"></translation>
+        <translation>Protokoll gelesen</translation>
     </message>
     <message>
         <source>values by hand entered</source>
-        <translation type="unfinished"></translation>
+        <translation>Werte von Hand eingetragen</translation>
     </message>
     <message>
         <source>encryption switched on</source>
-        <translation type="unfinished"></translation>
+        <translation>Verschlüsselung eingeschaltet</translation>
     </message>
     <message>
         <source>encryption switched off</source>
-        <translation type="unfinished"></translation>
+        <translation>Verschlüsselung ausgeschaltet</translation>
     </message>
 </context>
 <context>
     <name>RecordingPill</name>
     <message>
         <source>Recording {time}</source>
-        <translation type="unfinished"></translation>
+        <translation>Aufnahme {time}</translation>
     </message>
     <message>
         <source>Paused at {time}</source>
-        <translation type="unfinished"></translation>
+        <translation>Angehalten bei {time}</translation>
     </message>
 </context>
 <context>
     <name>RecordsCard</name>
     <message>
         <source>Records</source>
-        <translation type="unfinished"></translation>
+        <translation>Aufbewahrung</translation>
     </message>
     <message>
         <source>How long records must be kept after the last session: your law says it, Carpus does not know.</source>
-        <translation type="unfinished"></translation>
+        <translation>Wie lange Unterlagen nach der letzten Sitzung aufzubewahren sind: Das sagt Ihr Recht, Carpus weiß es nicht.</translation>
     </message>
     <message>
         <source>Not set</source>
-        <translation type="unfinished"></translation>
+        <translation>Nicht festgelegt</translation>
     </message>
     <message>
         <source>{n} years</source>
-        <translation type="unfinished"></translation>
+        <translation>{n} Jahre</translation>
     </message>
     <message>
         <source>What is d&amp;ue…</source>
-        <translation type="unfinished"></translation>
+        <translation>Was &amp;fällig ist…</translation>
     </message>
     <message>
         <source>&amp;Archive…</source>
-        <translation type="unfinished"></translation>
+        <translation>&amp;Archiv…</translation>
     </message>
     <message>
         <source>&amp;Log…</source>
-        <translation type="unfinished"></translation>
+        <translation>&amp;Protokoll…</translation>
     </message>
 </context>
 <context>
     <name>RecordsSheet</name>
     <message>
         <source>Done</source>
-        <translation type="unfinished"></translation>
+        <translation>Fertig</translation>
     </message>
     <message>
         <source>Esc</source>
-        <translation type="unfinished"></translation>
+        <translation>Esc</translation>
     </message>
     <message>
         <source>Bring back</source>
-        <translation type="unfinished"></translation>
+        <translation>Zurückholen</translation>
     </message>
     <message>
         <source>Archive</source>
-        <translation type="unfinished"></translation>
+        <translation>Archivieren</translation>
     </message>
     <message>
         <source>Erase…</source>
-        <translation type="unfinished"></translation>
+        <translation>Löschen…</translation>
     </message>
 </context>
 <context>
     <name>ReferenceSheet</name>
     <message>
         <source>Compare this session with what?</source>
-        <translation type="unfinished"></translation>
+        <translation>Womit diese Sitzung vergleichen?</translation>
     </message>
     <message>
         <source>The same movement, measured by something else at the same time: markers (C3D, TRC), angles (MOT, STO, or a CSV table), a list of goniometer readings (CSV), or another result.</source>
-        <translation type="unfinished"></translation>
+        <translation>Dieselbe Bewegung, zur selben Zeit anders gemessen: Marker (C3D, TRC), Winkel (MOT, STO oder eine CSV-Tabelle), eine Liste von Ablesungen am Winkelmesser (CSV), oder ein anderes Ergebnis.</translation>
     </message>
     <message>
         <source>Choose a &amp;file…</source>
-        <translation type="unfinished"></translation>
+        <translation>&amp;Datei wählen…</translation>
     </message>
     <message>
         <source>Or another session of this &amp;patient</source>
-        <translation type="unfinished"></translation>
+        <translation>Oder andere Sitzung dieses &amp;Patienten</translation>
     </message>
     <message>
         <source>Compare with this &amp;session</source>
-        <translation type="unfinished"></translation>
+        <translation>Mit dieser &amp;Sitzung vergleichen</translation>
     </message>
     <message>
         <source>Cancel</source>
-        <translation type="unfinished"></translation>
+        <translation>Abbrechen</translation>
     </message>
     <message>
         <source>Esc</source>
-        <translation type="unfinished"></translation>
+        <translation>Esc</translation>
     </message>
 </context>
 <context>
     <name>ReportScreen</name>
     <message>
         <source>Save PDF…</source>
-        <translation type="unfinished"></translation>
+        <translation>PDF speichern…</translation>
     </message>
     <message>
         <source>Open the PDF</source>
-        <translation type="unfinished"></translation>
+        <translation>PDF öffnen</translation>
     </message>
     <message>
         <source>Preview of the report</source>
-        <translation type="unfinished"></translation>
+        <translation>Vorschau des Berichts</translation>
     </message>
     <message>
         <source>One page of A4</source>
-        <translation type="unfinished"></translation>
+        <translation>Eine A4-Seite</translation>
     </message>
     <message>
         <source>{count} pages of A4</source>
-        <translation type="unfinished"></translation>
+        <translation>{count} A4-Seiten</translation>
     </message>
     <message>
         <source>{pages}, readable in grey. It carries the made-up name, never a real one.</source>
-        <translation type="unfinished"></translation>
+        <translation>{pages}, auch in Grau lesbar. Darauf steht der erfundene Name, nie ein echter.</translation>
     </message>
     <message>
         <source>Not saved yet</source>
-        <translation type="unfinished"></translation>
+        <translation>Noch nicht gespeichert</translation>
     </message>
     <message>
         <source>Save report</source>
-        <translation type="unfinished"></translation>
+        <translation>Bericht speichern</translation>
     </message>
     <message>
         <source>PDF (*.pdf)</source>
-        <translation type="unfinished"></translation>
+        <translation>PDF (*.pdf)</translation>
     </message>
     <message>
         <source>Saved</source>
-        <translation type="unfinished"></translation>
+        <translation>Gespeichert</translation>
     </message>
 </context>
 <context>
     <name>ResultChoice</name>
     <message>
         <source>Results of this recording</source>
-        <translation type="unfinished"></translation>
+        <translation>Ergebnisse dieser Aufnahme</translation>
     </message>
     <message>
         <source>{number} · {day}</source>
-        <translation type="unfinished"></translation>
+        <translation>{number} · {day}</translation>
     </message>
     <message>
         <source>{result}, counts</source>
-        <translation type="unfinished"></translation>
+        <translation>{result}, zählt</translation>
     </message>
 </context>
 <context>
     <name>ResultsSheet</name>
     <message>
         <source>How far the tracking is</source>
-        <translation type="unfinished"></translation>
+        <translation>Wie weit die Verfolgung ist</translation>
     </message>
     <message>
         <source>Wrist</source>
-        <translation type="unfinished"></translation>
+        <translation>Handgelenk</translation>
     </message>
     <message>
         <source>&amp;Stop</source>
-        <translation type="unfinished"></translation>
+        <translation>&amp;Stopp</translation>
     </message>
     <message>
         <source>&amp;Keep the old one</source>
-        <translation type="unfinished"></translation>
+        <translation>Altes &amp;behalten</translation>
     </message>
     <message>
         <source>&amp;Use the new result</source>
-        <translation type="unfinished"></translation>
+        <translation>&amp;Neues verwenden</translation>
     </message>
     <message>
         <source>Esc</source>
-        <translation type="unfinished"></translation>
+        <translation>Esc</translation>
     </message>
     <message>
         <source>Tracking again: {percent} %</source>
-        <translation type="unfinished"></translation>
+        <translation>Wird neu verfolgt: {percent} %</translation>
     </message>
     <message>
         <source>Go on working meanwhile. Nothing replaces the old result until you choose; Stop keeps it.</source>
-        <translation type="unfinished"></translation>
+        <translation>Arbeiten Sie derweil weiter. Nichts ersetzt das alte Ergebnis, bevor Sie wählen; Stopp behält es.</translation>
     </message>
     <message>
         <source>Go on working</source>
-        <translation type="unfinished"></translation>
+        <translation>Weiterarbeiten</translation>
     </message>
     <message>
         <source>Reading both results…</source>
-        <translation type="unfinished"></translation>
+        <translation>Beide Ergebnisse werden gelesen…</translation>
     </message>
     <message>
         <source>Decide later</source>
-        <translation type="unfinished"></translation>
+        <translation>Später entscheiden</translation>
     </message>
     <message>
         <source>Use the new result?</source>
-        <translation type="unfinished"></translation>
+        <translation>Das neue Ergebnis verwenden?</translation>
     </message>
 </context>
 <context>
     <name>RetestScreen</name>
     <message>
         <source>Exercise</source>
-        <translation type="unfinished"></translation>
+        <translation>Übung</translation>
     </message>
     <message>
         <source>&amp;People…</source>
-        <translation type="unfinished"></translation>
+        <translation>&amp;Personen…</translation>
     </message>
     <message>
         <source>Save table…</source>
-        <translation type="unfinished"></translation>
+        <translation>Tabelle speichern…</translation>
     </message>
     <message>
         <source>&amp;Use these limits…</source>
-        <translation type="unfinished"></translation>
+        <translation>&amp;Diese Grenzen verwenden…</translation>
     </message>
     <message>
         <source>Reading the sessions…</source>
-        <translation type="unfinished"></translation>
+        <translation>Sitzungen werden gelesen…</translation>
     </message>
     <message>
         <source>Nobody is due</source>
-        <translation type="unfinished"></translation>
+        <translation>Niemand ist fällig</translation>
     </message>
     <message>
         <source>Measure {name}, second time</source>
-        <translation type="unfinished"></translation>
+        <translation>{name} messen, zweites Mal</translation>
     </message>
     <message>
         <source>Measure {name}</source>
-        <translation type="unfinished"></translation>
+        <translation>{name} messen</translation>
     </message>
     <message>
         <source>People</source>
-        <translation type="unfinished"></translation>
+        <translation>Personen</translation>
     </message>
     <message>
         <source>all discs taken off and put on anew before each time, within 14 days</source>
-        <translation type="unfinished"></translation>
+        <translation>vor jedem Mal alle Punkte abnehmen und neu kleben, innerhalb von 14 Tagen</translation>
     </message>
     <message>
         <source>Person</source>
-        <translation type="unfinished"></translation>
+        <translation>Person</translation>
     </message>
     <message>
         <source>First time</source>
-        <translation type="unfinished"></translation>
+        <translation>Erstes Mal</translation>
     </message>
     <message>
         <source>Second time</source>
-        <translation type="unfinished"></translation>
+        <translation>Zweites Mal</translation>
     </message>
     <message>
         <source>Apart</source>
-        <translation type="unfinished"></translation>
+        <translation>Abstand</translation>
     </message>
     <message>
         <source>State</source>
-        <translation type="unfinished"></translation>
+        <translation>Stand</translation>
     </message>
     <message>
         <source>{days} d</source>
-        <translation type="unfinished"></translation>
+        <translation>{days} T</translation>
     </message>
     <message>
         <source>Smallest real change, so far</source>
-        <translation type="unfinished"></translation>
+        <translation>Kleinste nachweisbare Veränderung, bisher</translation>
     </message>
     <message>
         <source>There is nothing yet: two people measured twice give the first figures.</source>
-        <translation type="unfinished"></translation>
+        <translation>Noch ist nichts da: Zwei zweimal gemessene Personen ergeben die ersten Werte.</translation>
     </message>
     <message>
         <source>from {people} people, {sessions} sessions</source>
-        <translation type="unfinished"></translation>
+        <translation>aus {people} Personen, {sessions} Sitzungen</translation>
     </message>
     <message>
         <source>from {people} people, {sessions} sessions, {raters} raters</source>
-        <translation type="unfinished"></translation>
+        <translation>aus {people} Personen, {sessions} Sitzungen, {raters} Untersuchenden</translation>
     </message>
     <message>
         <source>from {people} people, {sessions} sessions, 1 rater</source>
-        <translation type="unfinished"></translation>
+        <translation>aus {people} Personen, {sessions} Sitzungen, 1 untersuchenden Person</translation>
     </message>
     <message>
         <source>Movement</source>
-        <translation type="unfinished"></translation>
+        <translation>Bewegung</translation>
     </message>
     <message>
         <source>SEM</source>
-        <translation type="unfinished"></translation>
+        <translation>SEM</translation>
     </message>
     <message>
         <source>Real change (MDC95), 95 % interval</source>
-        <translation type="unfinished"></translation>
+        <translation>Nachweisbare Veränderung (MDC95), 95-%-Intervall</translation>
     </message>
     <message>
         <source>Today</source>
-        <translation type="unfinished"></translation>
+        <translation>Heute</translation>
     </message>
     <message>
         <source>New limit</source>
-        <translation type="unfinished"></translation>
+        <translation>Neue Grenze</translation>
     </message>
     <message>
         <source>Grey = not yet usable. Reports then say whose limits they are, with date and number of people. A new camera, exercise or way of mounting needs its own study.</source>
-        <translation type="unfinished"></translation>
+        <translation>Grau = noch nicht brauchbar. Berichte sagen dann, wessen Grenzen es sind, mit Datum und Zahl der Personen. Eine neue Kamera, Übung oder Art des Klebens braucht eine eigene Untersuchung.</translation>
     </message>
 </context>
 <context>
     <name>Retesting</name>
     <message>
         <source>Use these limits for {exercise}, from {count} people?</source>
-        <translation type="unfinished"></translation>
+        <translation>Diese Grenzen für {exercise} verwenden, von {count} Personen?</translation>
     </message>
     <message>
         <source>Sessions stay as they are; reports already made keep their limits.</source>
-        <translation type="unfinished"></translation>
+        <translation>Sitzungen bleiben, wie sie sind; fertige Berichte behalten ihre Grenzen.</translation>
     </message>
     <message>
         <source>From now on progress and reports judge by them, and name date and number of people.</source>
-        <translation type="unfinished"></translation>
+        <translation>Von jetzt an urteilen Verlauf und Berichte danach und nennen Datum und Zahl der Personen.</translation>
     </message>
     <message>
         <source>Use these limits</source>
-        <translation type="unfinished"></translation>
+        <translation>Diese Grenzen verwenden</translation>
     </message>
     <message>
         <source>Leave it as it is</source>
-        <translation type="unfinished"></translation>
+        <translation>So lassen</translation>
     </message>
     <message>
         <source>Enter</source>
-        <translation type="unfinished"></translation>
+        <translation>Eingabe</translation>
     </message>
     <message>
         <source>Save table</source>
-        <translation type="unfinished"></translation>
+        <translation>Tabelle speichern</translation>
     </message>
 </context>
 <context>
     <name>ReviewScreen</name>
     <message>
         <source>All fingers</source>
-        <translation type="unfinished"></translation>
+        <translation>Alle Finger</translation>
     </message>
     <message>
         <source>Wrist</source>
-        <translation type="unfinished"></translation>
+        <translation>Handgelenk</translation>
     </message>
     <message>
         <source>Range of motion</source>
-        <translation type="unfinished"></translation>
+        <translation>Bewegungsumfang</translation>
     </message>
     <message>
         <source>Another set</source>
-        <translation type="unfinished"></translation>
+        <translation>Noch ein Durchgang</translation>
     </message>
     <message>
         <source>Do not count</source>
-        <translation type="unfinished"></translation>
+        <translation>Nicht zählen</translation>
     </message>
     <message>
         <source>The session stays, and is compared with none. Can be taken back.</source>
-        <translation type="unfinished"></translation>
+        <translation>Die Sitzung bleibt und wird mit keiner verglichen. Lässt sich zurücknehmen.</translation>
     </message>
     <message>
         <source>Export…</source>
-        <translation type="unfinished"></translation>
+        <translation>Exportieren…</translation>
     </message>
     <message>
         <source>Make report</source>
-        <translation type="unfinished"></translation>
+        <translation>Bericht erstellen</translation>
     </message>
     <message>
         <source>Put markers right…</source>
-        <translation type="unfinished"></translation>
+        <translation>Marker berichtigen…</translation>
     </message>
     <message>
         <source>A marker is wrong or missing here (Shift+F10)</source>
-        <translation type="unfinished"></translation>
+        <translation>Ein Marker ist hier falsch oder fehlt (Umschalt+F10)</translation>
     </message>
     <message>
         <source>Reading the session…</source>
-        <translation type="unfinished"></translation>
+        <translation>Sitzung wird gelesen…</translation>
     </message>
     <message>
         <source>Notes: {notes}</source>
-        <translation type="unfinished"></translation>
+        <translation>Notizen: {notes}</translation>
     </message>
     <message>
         <source>Pain (0–10): {pains}</source>
-        <translation type="unfinished"></translation>
+        <translation>Schmerz (0–10): {pains}</translation>
     </message>
     <message>
         <source>Let it count again</source>
-        <translation type="unfinished"></translation>
+        <translation>Wieder zählen lassen</translation>
     </message>
     <message>
         <source>Path of the wrist, with the hand’s axes</source>
-        <translation type="unfinished"></translation>
+        <translation>Weg des Handgelenks, mit den Achsen der Hand</translation>
     </message>
     <message>
         <source>Ways of the finger tips</source>
-        <translation type="unfinished"></translation>
+        <translation>Wege der Fingerspitzen</translation>
     </message>
     <message>
         <source>Ways of the joints: {finger}</source>
-        <translation type="unfinished"></translation>
+        <translation>Wege der Gelenke: {finger}</translation>
     </message>
     <message>
         <source>Repetition {number} of {count} · {time}</source>
-        <translation type="unfinished"></translation>
+        <translation>Wiederholung {number} von {count} · {time}</translation>
     </message>
     <message>
         <source>{count} markers hidden</source>
-        <translation type="unfinished"></translation>
+        <translation>{count} Marker verdeckt</translation>
     </message>
 </context>
 <context>
     <name>Scrubber</name>
     <message>
         <source>Time in the session</source>
-        <translation type="unfinished"></translation>
+        <translation>Zeit in der Sitzung</translation>
     </message>
 </context>
 <context>
     <name>SessionList</name>
     <message>
         <source>Sessions</source>
-        <translation type="unfinished"></translation>
+        <translation>Sitzungen</translation>
     </message>
 </context>
 <context>
     <name>SessionsScreen</name>
     <message>
         <source>No session yet.</source>
-        <translation type="unfinished"></translation>
+        <translation>Noch keine Sitzung.</translation>
     </message>
     <message>
         <source>Open in review</source>
-        <translation type="unfinished"></translation>
+        <translation>Auswertung öffnen</translation>
     </message>
     <message>
         <source>Enter</source>
-        <translation type="unfinished"></translation>
+        <translation>Eingabe</translation>
     </message>
     <message>
         <source>Compare in &amp;progress</source>
-        <translation type="unfinished"></translation>
+        <translation>Im &amp;Verlauf vergleichen</translation>
     </message>
     <message>
         <source>Compare with a &amp;reference…</source>
-        <translation type="unfinished"></translation>
+        <translation>Mit &amp;Referenz vergleichen…</translation>
     </message>
     <message>
         <source>&amp;Move to another patient…</source>
-        <translation type="unfinished"></translation>
+        <translation>Zu anderem &amp;Patienten…</translation>
     </message>
     <message>
         <source>Change the &amp;exercise…</source>
-        <translation type="unfinished"></translation>
+        <translation>Übung ä&amp;ndern…</translation>
     </message>
     <message>
         <source>Archive or &amp;delete…</source>
-        <translation type="unfinished"></translation>
+        <translation>Ar&amp;chivieren oder löschen…</translation>
     </message>
     <message>
         <source>Sessions of {name}</source>
-        <translation type="unfinished"></translation>
+        <translation>Sitzungen von {name}</translation>
     </message>
     <message>
         <source>Reading…</source>
-        <translation type="unfinished"></translation>
+        <translation>Wird gelesen…</translation>
     </message>
     <message>
         <source>&amp;Take back: let it count</source>
-        <translation type="unfinished"></translation>
+        <translation>Z&amp;urückholen: zählt wieder</translation>
     </message>
     <message>
         <source>&amp;Set aside…</source>
-        <translation type="unfinished"></translation>
+        <translation>&amp;Beiseitelegen…</translation>
     </message>
     <message>
         <source>It then counts in the other patient’s progress, and no more in that of {name}.</source>
-        <translation type="unfinished"></translation>
+        <translation>Sie zählt dann im Verlauf des anderen Patienten und nicht mehr in dem von {name}.</translation>
     </message>
     <message>
         <source>To whom does this session belong?</source>
-        <translation type="unfinished"></translation>
+        <translation>Zu wem gehört diese Sitzung?</translation>
     </message>
     <message>
         <source>Move it there</source>
-        <translation type="unfinished"></translation>
+        <translation>Dorthin verschieben</translation>
     </message>
     <message>
         <source>Which exercise was it?</source>
-        <translation type="unfinished"></translation>
+        <translation>Welche Übung war es?</translation>
     </message>
     <message>
         <source>Repetitions and figures are worked out anew. The recording itself is not changed.</source>
-        <translation type="unfinished"></translation>
+        <translation>Wiederholungen und Werte werden neu berechnet. Die Aufnahme selbst ändert sich nicht.</translation>
     </message>
     <message>
         <source>It was this one</source>
-        <translation type="unfinished"></translation>
+        <translation>Diese war es</translation>
     </message>
 </context>
 <context>
     <name>SetAsideSheet</name>
     <message>
         <source>Set this session aside?</source>
-        <translation type="unfinished"></translation>
+        <translation>Diese Sitzung beiseitelegen?</translation>
     </message>
     <message>
         <source>It stays in the list and can be opened, but counts nowhere. It can be taken back.</source>
-        <translation type="unfinished"></translation>
+        <translation>Sie bleibt in der Liste und lässt sich öffnen, zählt aber nirgends. Das lässt sich zurücknehmen.</translation>
     </message>
     <message>
         <source>wrong exercise</source>
-        <translation type="unfinished"></translation>
+        <translation>falsche Übung</translation>
     </message>
     <message>
         <source>trial</source>
-        <translation type="unfinished"></translation>
+        <translation>Probe</translation>
     </message>
     <message>
         <source>discs lost</source>
-        <translation type="unfinished"></translation>
+        <translation>Punkte verloren</translation>
     </message>
     <message>
         <source>pain</source>
-        <translation type="unfinished"></translation>
+        <translation>Schmerz</translation>
     </message>
     <message>
         <source>Another reason</source>
-        <translation type="unfinished"></translation>
+        <translation>Anderer Grund</translation>
     </message>
     <message>
         <source>Let it count</source>
-        <translation type="unfinished"></translation>
+        <translation>Zählen lassen</translation>
     </message>
     <message>
         <source>Esc</source>
-        <translation type="unfinished"></translation>
+        <translation>Esc</translation>
     </message>
 </context>
 <context>
     <name>SetSheet</name>
     <message>
         <source>Set</source>
-        <translation type="unfinished"></translation>
+        <translation>Folge</translation>
     </message>
     <message>
         <source>No names of patients</source>
-        <translation type="unfinished"></translation>
+        <translation>Keine Namen von Patienten</translation>
     </message>
     <message>
         <source>Name of the set</source>
-        <translation type="unfinished"></translation>
+        <translation>Name der Folge</translation>
     </message>
     <message>
         <source>Add an exercise</source>
-        <translation type="unfinished"></translation>
+        <translation>Übung hinzufügen</translation>
     </message>
     <message>
         <source>Delete this set</source>
-        <translation type="unfinished"></translation>
+        <translation>Diese Folge löschen</translation>
     </message>
     <message>
         <source>Keep the set</source>
-        <translation type="unfinished"></translation>
+        <translation>Folge behalten</translation>
     </message>
     <message>
         <source>Close</source>
-        <translation type="unfinished"></translation>
+        <translation>Schließen</translation>
     </message>
     <message>
         <source>Esc</source>
-        <translation type="unfinished"></translation>
+        <translation>Esc</translation>
     </message>
     <message>
         <source>Sets of exercises</source>
-        <translation type="unfinished"></translation>
+        <translation>Übungsfolgen</translation>
     </message>
     <message>
         <source>Exercises that run one after the other with the same markers. Each becomes a session of its own.</source>
-        <translation type="unfinished"></translation>
+        <translation>Übungen, die mit denselben Markern nacheinander laufen. Jede wird eine eigene Sitzung.</translation>
     </message>
     <message>
         <source>Exercise</source>
-        <translation type="unfinished"></translation>
+        <translation>Übung</translation>
     </message>
     <message>
         <source>How much</source>
-        <translation type="unfinished"></translation>
+        <translation>Wie viel</translation>
     </message>
     <message>
         <source>Rest after it</source>
-        <translation type="unfinished"></translation>
+        <translation>Pause danach</translation>
     </message>
     <message>
         <source>New set</source>
-        <translation type="unfinished"></translation>
+        <translation>Neue Folge</translation>
     </message>
     <message>
         <source>The set needs a name.</source>
-        <translation type="unfinished"></translation>
+        <translation>Die Folge braucht einen Namen.</translation>
     </message>
     <message>
         <source>The set needs an exercise.</source>
-        <translation type="unfinished"></translation>
+        <translation>Die Folge braucht eine Übung.</translation>
     </message>
     <message>
         <source>Another set has this name.</source>
-        <translation type="unfinished"></translation>
+        <translation>Eine andere Folge heißt schon so.</translation>
     </message>
     <message>
         <source>Delete “{name}”? Press again</source>
-        <translation type="unfinished"></translation>
+        <translation>„{name}“ löschen? Noch einmal drücken</translation>
     </message>
 </context>
 <context>
     <name>SettingUp</name>
     <message>
         <source>The camera is being opened.</source>
-        <translation type="unfinished"></translation>
+        <translation>Die Kamera wird geöffnet.</translation>
     </message>
     <message>
         <source>The recording is being opened.</source>
-        <translation type="unfinished"></translation>
+        <translation>Die Aufnahme wird geöffnet.</translation>
     </message>
     <message>
         <source>The simulated patient is drawn, once for each exercise: a minute, up to three on a busy computer.</source>
-        <translation type="unfinished"></translation>
+        <translation>Der simulierte Patient wird gezeichnet, einmal je Übung: eine Minute, bis zu drei auf einem ausgelasteten Computer.</translation>
     </message>
     <message>
         <source>Choose the source again</source>
-        <translation type="unfinished"></translation>
+        <translation>Quelle neu wählen</translation>
     </message>
     <message>
         <source>The depth of {name} lies {px} pixels beside its colours.</source>
-        <translation type="unfinished"></translation>
+        <translation>Die Tiefe von {name} liegt {px} Pixel neben den Farben.</translation>
     </message>
     <message>
         <source>The recording itself is not changed. It does not say that its depth was laid on its colours.</source>
-        <translation type="unfinished"></translation>
+        <translation>Die Aufnahme selbst ist nicht geändert. Sie sagt nicht, dass die Tiefe auf die Farben gelegt wurde.</translation>
     </message>
     <message>
         <source>Open it again with the depth moved onto the colours, then click the markers anew.</source>
-        <translation type="unfinished"></translation>
+        <translation>Öffnen Sie sie noch einmal, mit der Tiefe auf den Farben, und klicken Sie dann die Marker neu an.</translation>
     </message>
     <message>
         <source>Leave it as it is</source>
-        <translation type="unfinished"></translation>
+        <translation>So lassen</translation>
     </message>
     <message>
         <source>Open it again</source>
-        <translation type="unfinished"></translation>
+        <translation>Noch einmal öffnen</translation>
     </message>
     <message>
         <source>Enter</source>
-        <translation type="unfinished"></translation>
+        <translation>Eingabe</translation>
     </message>
 </context>
 <context>
     <name>SettingsScreen</name>
     <message>
         <source>Light</source>
-        <translation type="unfinished"></translation>
+        <translation>Hell</translation>
     </message>
     <message>
         <source>Dark</source>
-        <translation type="unfinished"></translation>
+        <translation>Dunkel</translation>
     </message>
     <message>
         <source>As the computer</source>
-        <translation type="unfinished"></translation>
+        <translation>Wie der Computer</translation>
     </message>
     <message>
         <source>Change…</source>
-        <translation type="unfinished"></translation>
+        <translation>Ändern…</translation>
     </message>
     <message>
         <source>Initials on reports</source>
-        <translation type="unfinished"></translation>
+        <translation>Kürzel auf Berichten</translation>
     </message>
     <message>
         <source>As in the papers: deviation first</source>
-        <translation type="unfinished"></translation>
+        <translation>Wie in den Arbeiten: Deviation zuerst</translation>
     </message>
     <message>
         <source>ISB: flexion first</source>
-        <translation type="unfinished"></translation>
+        <translation>ISB: Flexion zuerst</translation>
     </message>
     <message>
         <source>Off</source>
-        <translation type="unfinished"></translation>
+        <translation>Aus</translation>
     </message>
     <message>
         <source>Stream live values</source>
-        <translation type="unfinished"></translation>
+        <translation>Live-Werte senden</translation>
     </message>
     <message>
         <source>No sound</source>
-        <translation type="unfinished"></translation>
+        <translation>Kein Ton</translation>
     </message>
     <message>
         <source>One beep at the goal</source>
-        <translation type="unfinished"></translation>
+        <translation>Ein Ton am Ziel</translation>
     </message>
     <message>
         <source>none</source>
-        <translation type="unfinished"></translation>
+        <translation>keine</translation>
     </message>
     <message>
         <source>Agree within</source>
-        <translation type="unfinished"></translation>
+        <translation>Übereinstimmung auf</translation>
     </message>
     <message>
         <source>Done</source>
-        <translation type="unfinished"></translation>
+        <translation>Fertig</translation>
     </message>
     <message>
         <source>Esc</source>
-        <translation type="unfinished"></translation>
+        <translation>Esc</translation>
     </message>
     <message>
         <source>Looks</source>
-        <translation type="unfinished"></translation>
+        <translation>Aussehen</translation>
     </message>
     <message>
         <source>Colours</source>
-        <translation type="unfinished"></translation>
+        <translation>Farben</translation>
     </message>
     <message>
         <source>Text size</source>
-        <translation type="unfinished"></translation>
+        <translation>Textgröße</translation>
     </message>
     <message>
         <source>Data</source>
-        <translation type="unfinished"></translation>
+        <translation>Daten</translation>
     </message>
     <message>
         <source>Sessions and the list of patients. Private to you; nothing leaves this computer.</source>
-        <translation type="unfinished"></translation>
+        <translation>Sitzungen und die Liste der Patienten. Nur für Sie; nichts verlässt diesen Computer.</translation>
     </message>
     <message>
         <source>Order of the wrist’s angles in review, progress and reports. Session files keep the papers’ order; sessions in different orders are never compared.</source>
-        <translation type="unfinished"></translation>
+        <translation>Reihenfolge der Handgelenkwinkel in Auswertung, Verlauf und Berichten. Sitzungsdateien behalten die der Arbeiten; Sitzungen in verschiedener Reihenfolge werden nie verglichen.</translation>
     </message>
     <message>
         <source>Other programs</source>
-        <translation type="unfinished"></translation>
+        <translation>Andere Programme</translation>
     </message>
     <message>
         <source>While a hand is measured, its angles, places and events can go out over Lab Streaming Layer. Any computer in the same network can read them; no name and no picture is in them. From the next set-up on.</source>
-        <translation type="unfinished"></translation>
+        <translation>Während eine Hand gemessen wird, können ihre Winkel, Orte und Ereignisse über Lab Streaming Layer hinausgehen. Jeder Computer im selben Netz kann sie lesen; kein Name und kein Bild ist dabei. Gilt ab dem nächsten Aufbau.</translation>
     </message>
     <message>
         <source>The patient’s view</source>
-        <translation type="unfinished"></translation>
+        <translation>Die Patientenansicht</translation>
     </message>
     <message>
         <source>A second screen, or a window of its own, that shows the patient what to do. It opens from the screen one measures on; whether it speaks to a child or an adult is chosen with the exercise.</source>
-        <translation type="unfinished"></translation>
+        <translation>Ein zweiter Bildschirm oder ein eigenes Fenster, das der Person zeigt, was zu tun ist. Sie öffnet sich vom Messbildschirm aus; ob sie für ein Kind oder für Erwachsene spricht, wird mit der Übung gewählt.</translation>
     </message>
     <message>
         <source>Agreement</source>
-        <translation type="unfinished"></translation>
+        <translation>Übereinstimmung</translation>
     </message>
     <message>
         <source>The most that Carpus and another measurement may differ by and still stand for each other: what would not change your treatment. Set it before you compare; with none, nothing is judged.</source>
-        <translation type="unfinished"></translation>
+        <translation>Wie weit Carpus und eine andere Messung höchstens auseinanderliegen dürfen, um füreinander zu stehen: was Ihre Behandlung nicht ändern würde. Legen Sie es vor dem Vergleich fest; ohne Grenze wird nichts beurteilt.</translation>
     </message>
     <message>
         <source>Keys</source>
-        <translation type="unfinished"></translation>
+        <translation>Tasten</translation>
     </message>
     <message>
         <source>Click a key and press another one. While measuring only the space bar and function keys are safe.</source>
-        <translation type="unfinished"></translation>
+        <translation>Klicken Sie eine Taste an und drücken Sie eine andere. Beim Messen sind nur Leertaste und Funktionstasten sicher.</translation>
     </message>
     <message>
         <source>Usual keys again</source>
-        <translation type="unfinished"></translation>
+        <translation>Übliche Tasten wieder</translation>
     </message>
     <message>
         <source>About Carpus</source>
-        <translation type="unfinished"></translation>
+        <translation>Über Carpus</translation>
     </message>
     <message>
         <source>Version {version}, MIT licence.</source>
-        <translation type="unfinished"></translation>
+        <translation>Version {version}, MIT-Lizenz.</translation>
     </message>
     <message>
         <source>Carpus asks nobody whether there is a newer version, and sends nothing. To look yourself, compare this version with the newest one where you got Carpus from; its list of changes says what is new. Install it over this one: patients, sessions and settings stay. Make a back-up before.</source>
-        <translation type="unfinished"></translation>
+        <translation>Carpus fragt niemanden nach einer neueren Version und sendet nichts. Um selbst nachzusehen, vergleichen Sie diese Version mit der neuesten dort, woher Sie Carpus haben; die Liste der Änderungen sagt, was neu ist. Installieren Sie darüber: Patienten, Sitzungen und Einstellungen bleiben. Machen Sie vorher eine Sicherung.</translation>
     </message>
     <message>
         <source>Parts and their licences</source>
-        <translation type="unfinished"></translation>
+        <translation>Teile und ihre Lizenzen</translation>
     </message>
     <message>
         <source>Measure the clinic’s own limits…</source>
-        <translation type="unfinished"></translation>
+        <translation>Eigene Grenzen messen…</translation>
     </message>
     <message>
         <source>Settings</source>
-        <translation type="unfinished"></translation>
+        <translation>Einstellungen</translation>
     </message>
     <message>
         <source>Data folder</source>
-        <translation type="unfinished"></translation>
+        <translation>Datenordner</translation>
     </message>
     <message>
         <source>{key} already does: {action}.</source>
-        <translation type="unfinished"></translation>
+        <translation>{key} tut schon: {action}.</translation>
     </message>
 </context>
 <context>
     <name>SpotQuestion</name>
     <message>
         <source>Is this blue spot the {marker}?</source>
-        <translation type="unfinished"></translation>
+        <translation>Ist diese blaue Stelle: {marker}?</translation>
     </message>
     <message>
         <source>Yes</source>
-        <translation type="unfinished"></translation>
+        <translation>Ja</translation>
     </message>
     <message>
         <source>No</source>
-        <translation type="unfinished"></translation>
+        <translation>Nein</translation>
     </message>
     <message>
         <source>Which one is the {marker}?</source>
-        <translation type="unfinished"></translation>
+        <translation>Welche ist: {marker}?</translation>
     </message>
     <message>
         <source>Disc 1</source>
-        <translation type="unfinished"></translation>
+        <translation>Punkt 1</translation>
     </message>
     <message>
         <source>Spot 2</source>
-        <translation type="unfinished"></translation>
+        <translation>Stelle 2</translation>
     </message>
     <message>
         <source>Neither</source>
-        <translation type="unfinished"></translation>
+        <translation>Keine</translation>
     </message>
 </context>
 <context>
     <name>StartAngleSheet</name>
     <message>
         <source>The wrist cannot lie straight</source>
-        <translation type="unfinished"></translation>
+        <translation>Das Handgelenk kann nicht gerade liegen</translation>
     </message>
     <message>
         <source>Measure with a goniometer how far the wrist is from straight as it lies now. Carpus adds these angles to all it measures of the wrist and says so in the report. Bent fingers are fine as they are: zero of a finger joint is the straight finger, whatever the picture.</source>
-        <translation type="unfinished"></translation>
+        <translation>Messen Sie mit dem Winkelmesser, wie weit das Handgelenk jetzt von der geraden Lage abweicht. Carpus rechnet diese Winkel zu allem hinzu, was es am Handgelenk misst, und sagt es im Bericht. Gebeugte Finger sind in Ordnung: Null eines Fingergelenks ist der gerade Finger, wie auch immer das Bild.</translation>
     </message>
     <message>
         <source>It lies straight</source>
-        <translation type="unfinished"></translation>
+        <translation>Es liegt gerade</translation>
     </message>
     <message>
         <source>Use these angles</source>
-        <translation type="unfinished"></translation>
+        <translation>Diese Winkel verwenden</translation>
     </message>
 </context>
 <context>
     <name>StraightFingers</name>
     <message>
         <source>Do the fingers lie straight?</source>
-        <translation type="unfinished"></translation>
+        <translation>Liegen die Finger gerade?</translation>
     </message>
     <message>
         <source>{finger} bent</source>
-        <translation type="unfinished"></translation>
+        <translation>{finger} gebeugt</translation>
     </message>
     <message>
         <source>Click a finger that cannot lie straight (keys 1 to 5).</source>
-        <translation type="unfinished"></translation>
+        <translation>Klicken Sie einen Finger an, der nicht gerade liegen kann (Tasten 1 bis 5).</translation>
     </message>
     <message>
         <source>A bent finger is measured from its own rest, and less surely.</source>
-        <translation type="unfinished"></translation>
+        <translation>Ein gebeugter Finger wird von seiner eigenen Ruhelage aus gemessen, und weniger sicher.</translation>
     </message>
 </context>
 <context>
     <name>SwitchingEncryption</name>
     <message>
         <source>Too many tries. The next one in {seconds} s.</source>
-        <translation type="unfinished"></translation>
+        <translation>Zu viele Versuche. Der nächste in {seconds} s.</translation>
     </message>
     <message>
         <source>The PIN until now is another one.</source>
-        <translation type="unfinished"></translation>
+        <translation>Die bisherige PIN ist eine andere.</translation>
     </message>
 </context>
 <context>
     <name>Teller</name>
     <message>
         <source>Go on</source>
-        <translation type="unfinished"></translation>
+        <translation>Weiter</translation>
     </message>
     <message>
         <source>A session of {name} was cut short on {day} at {time}. It has been recovered.</source>
-        <translation type="unfinished"></translation>
+        <translation>Eine Sitzung von {name} brach am {day} um {time} ab. Sie ist wiederhergestellt.</translation>
     </message>
     <message>
         <source>All data up to {kept} are safe; at most the last second is missing.</source>
-        <translation type="unfinished"></translation>
+        <translation>Alle Daten bis {kept} sind sicher; höchstens die letzte Sekunde fehlt.</translation>
     </message>
     <message>
         <source>Review it now, or leave it for later: it stays in the patient&apos;s list.</source>
-        <translation type="unfinished"></translation>
+        <translation>Sehen Sie sie jetzt an, oder lassen Sie sie für später: Sie bleibt in der Liste.</translation>
     </message>
     <message>
         <source>Waiting for the camera … {seconds} s</source>
-        <translation type="unfinished"></translation>
+        <translation>Warten auf die Kamera … {seconds} s</translation>
     </message>
 </context>
 <context>
     <name>TopBar</name>
     <message>
         <source>Help (F1)</source>
-        <translation type="unfinished"></translation>
+        <translation>Hilfe (F1)</translation>
     </message>
     <message>
         <source>Settings (Ctrl+,)</source>
-        <translation type="unfinished"></translation>
+        <translation>Einstellungen (Strg+,)</translation>
     </message>
     <message>
         <source>Back from {name}</source>
-        <translation type="unfinished"></translation>
+        <translation>Zurück von {name}</translation>
     </message>
     <message>
         <source>After the recording</source>
-        <translation type="unfinished"></translation>
+        <translation>Nach der Aufnahme</translation>
     </message>
 </context>
 <context>
     <name>ValueField</name>
     <message>
         <source>A number from {least} to {most}, or empty</source>
-        <translation type="unfinished"></translation>
+        <translation>Eine Zahl von {least} bis {most}, oder leer</translation>
     </message>
     <message>
         <source>{value}? Usual is {low} to {high}</source>
-        <translation type="unfinished"></translation>
+        <translation>{value}? Üblich ist {low} bis {high}</translation>
     </message>
 </context>
 <context>
     <name>VerdictPanel</name>
     <message>
         <source>good</source>
-        <translation type="unfinished"></translation>
+        <translation>gut</translation>
     </message>
     <message>
         <source>doubtful</source>
-        <translation type="unfinished"></translation>
+        <translation>zweifelhaft</translation>
     </message>
     <message>
         <source>wrong</source>
-        <translation type="unfinished"></translation>
+        <translation>falsch</translation>
     </message>
     <message>
         <source>open</source>
-        <translation type="unfinished"></translation>
+        <translation>offen</translation>
     </message>
 </context>
 <context>
     <name>WayButton</name>
     <message>
         <source>{name}, you are here</source>
-        <translation type="unfinished"></translation>
+        <translation>{name}, hier sind Sie</translation>
     </message>
     <message>
         <source>{name}, done</source>
-        <translation type="unfinished"></translation>
+        <translation>{name}, erledigt</translation>
     </message>
 </context>
 <context>
     <name>WaysView</name>
     <message>
         <source>Ways in three planes</source>
-        <translation type="unfinished"></translation>
+        <translation>Wege in drei Ebenen</translation>
     </message>
 </context>
 <context>
     <name>Welcome</name>
     <message>
         <source>Screen</source>
-        <translation type="unfinished"></translation>
+        <translation>Bildschirm</translation>
     </message>
     <message>
         <source>{width} × {height} for windows</source>
-        <translation type="unfinished"></translation>
+        <translation>{width} × {height} für Fenster</translation>
     </message>
     <message>
         <source>Choose more pixels, or a smaller scale, in the display settings: {width} × {height} or more.</source>
-        <translation type="unfinished"></translation>
+        <translation>Wählen Sie in den Anzeigeeinstellungen mehr Pixel oder eine kleinere Skalierung: {width} × {height} oder mehr.</translation>
     </message>
     <message>
         <source>Install Carpus again: part of it is missing or damaged.</source>
-        <translation type="unfinished"></translation>
+        <translation>Installieren Sie Carpus neu: Ein Teil fehlt oder ist beschädigt.</translation>
     </message>
     <message>
         <source>Fonts</source>
-        <translation type="unfinished"></translation>
+        <translation>Schriften</translation>
     </message>
     <message>
         <source>the program’s own cannot be used</source>
-        <translation type="unfinished"></translation>
+        <translation>die eigene des Programms ist nicht nutzbar</translation>
     </message>
     <message>
         <source>Camera</source>
-        <translation type="unfinished"></translation>
+        <translation>Kamera</translation>
     </message>
     <message>
         <source>Camera driver</source>
-        <translation type="unfinished"></translation>
+        <translation>Kameratreiber</translation>
     </message>
     <message>
         <source>Camera rights</source>
-        <translation type="unfinished"></translation>
+        <translation>Kamerarechte</translation>
     </message>
     <message>
         <source>Data folder</source>
-        <translation type="unfinished"></translation>
+        <translation>Datenordner</translation>
     </message>
     <message>
         <source>Disk</source>
-        <translation type="unfinished"></translation>
+        <translation>Speicherplatz</translation>
     </message>
 </context>
 <context>
     <name>WelcomePanel</name>
     <message>
         <source>Another &amp;folder…</source>
-        <translation type="unfinished"></translation>
+        <translation>Anderer &amp;Ordner…</translation>
     </message>
     <message>
         <source>Close Carpus</source>
-        <translation type="unfinished"></translation>
+        <translation>Carpus schließen</translation>
     </message>
     <message>
         <source>&amp;Look again</source>
-        <translation type="unfinished"></translation>
+        <translation>&amp;Erneut prüfen</translation>
     </message>
     <message>
         <source>&amp;Guide me through a first session</source>
-        <translation type="unfinished"></translation>
+        <translation>Durch eine erste Sitzung &amp;führen</translation>
     </message>
     <message>
         <source>Not now</source>
-        <translation type="unfinished"></translation>
+        <translation>Jetzt nicht</translation>
     </message>
     <message>
         <source>Esc</source>
-        <translation type="unfinished"></translation>
+        <translation>Esc</translation>
     </message>
     <message>
         <source>Welcome to Carpus</source>
-        <translation type="unfinished"></translation>
+        <translation>Willkommen bei Carpus</translation>
     </message>
     <message>
         <source>Patients and sessions will lie here; nothing leaves this computer.</source>
-        <translation type="unfinished"></translation>
+        <translation>Patienten und Sitzungen liegen hier; nichts verlässt diesen Computer.</translation>
     </message>
     <message>
         <source>This computer is being looked at …</source>
-        <translation type="unfinished"></translation>
+        <translation>Dieser Computer wird geprüft …</translation>
     </message>
     <message>
         <source>This computer has everything that Carpus needs.</source>
-        <translation type="unfinished"></translation>
+        <translation>Dieser Computer hat alles, was Carpus braucht.</translation>
     </message>
     <message>
         <source>One thing is to be done; the practice patient needs none of it.</source>
-        <translation type="unfinished"></translation>
+        <translation>Eines ist zu tun; der Probepatient braucht es nicht.</translation>
     </message>
     <message>
         <source>{count} things are to be done; the practice patient needs none of them.</source>
-        <translation type="unfinished"></translation>
+        <translation>{count} Dinge sind zu tun; der Probepatient braucht nichts davon.</translation>
     </message>
     <message>
         <source>The folder counts from the next start on: close Carpus and open it again before you measure.</source>
-        <translation type="unfinished"></translation>
+        <translation>Der Ordner gilt ab dem nächsten Start: Schließen Sie Carpus und öffnen Sie es wieder, bevor Sie messen.</translation>
     </message>
 </context>
 <context>
     <name>ZoomCard</name>
     <message>
         <source>Zoom, copy and save</source>
-        <translation type="unfinished"></translation>
+        <translation>Vergrößern, kopieren, speichern</translation>
     </message>
     <message>
         <source>Show all</source>
-        <translation type="unfinished"></translation>
+        <translation>Alles zeigen</translation>
     </message>
     <message>
         <source>Zoom in</source>
-        <translation type="unfinished"></translation>
+        <translation>Vergrößern</translation>
     </message>
     <message>
         <source>Zoom out</source>
-        <translation type="unfinished"></translation>
+        <translation>Verkleinern</translation>
     </message>
     <message>
         <source>Copy picture</source>
-        <translation type="unfinished"></translation>
+        <translation>Bild kopieren</translation>
     </message>
     <message>
         <source>Save picture (PNG)…</source>
-        <translation type="unfinished"></translation>
+        <translation>Bild speichern (PNG)…</translation>
     </message>
     <message>
         <source>Save drawing (SVG)…</source>
-        <translation type="unfinished"></translation>
+        <translation>Zeichnung speichern (SVG)…</translation>
     </message>
     <message>
         <source>Save values (CSV)…</source>
-        <translation type="unfinished"></translation>
+        <translation>Werte speichern (CSV)…</translation>
     </message>
     <message>
         <source>Save</source>
-        <translation type="unfinished"></translation>
+        <translation>Speichern</translation>
     </message>
 </context>
 <context>
     <name>_Nobody</name>
     <message>
         <source>No patient “{name}”.</source>
-        <translation type="unfinished"></translation>
+        <translation>Kein Patient „{name}“.</translation>
     </message>
     <message>
         <source>Create “{name}”</source>
-        <translation type="unfinished"></translation>
+        <translation>„{name}“ anlegen</translation>
     </message>
     <message>
         <source>No patients yet. Add the first one, or try everything with the practice patient.</source>
-        <translation type="unfinished"></translation>
+        <translation>Noch keine Patienten. Legen Sie den ersten an, oder probieren Sie alles mit dem Probepatienten.</translation>
     </message>
 </context>
 <context>
     <name>self.shell</name>
     <message>
         <source>Folder of patients and sessions</source>
-        <translation type="unfinished"></translation>
+        <translation>Ordner der Patienten und Sitzungen</translation>
     </message>
 </context>
 <context>
     <name>sheet</name>
     <message>
         <source>Exercise</source>
-        <translation type="unfinished"></translation>
+        <translation>Übung</translation>
     </message>
     <message>
         <source>times</source>
-        <translation type="unfinished"></translation>
+        <translation>mal</translation>
     </message>
     <message>
         <source>seconds</source>
-        <translation type="unfinished"></translation>
+        <translation>Sekunden</translation>
     </message>
     <message>
         <source>Times or seconds</source>
-        <translation type="unfinished"></translation>
+        <translation>Mal oder Sekunden</translation>
     </message>
     <message>
         <source>How often or how long</source>
-        <translation type="unfinished"></translation>
+        <translation>Wie oft oder wie lange</translation>
     </message>
     <message>
         <source>none</source>
-        <translation type="unfinished"></translation>
+        <translation>keine</translation>
     </message>
     <message>
         <source>Rest after it</source>
-        <translation type="unfinished"></translation>
+        <translation>Pause danach</translation>
     </message>
     <message>
         <source>Earlier</source>
-        <translation type="unfinished"></translation>
+        <translation>Früher</translation>
     </message>
     <message>
         <source>Remove</source>
-        <translation type="unfinished"></translation>
+        <translation>Entfernen</translation>
     </message>
 </context>
 <context>
     <name>shell</name>
     <message>
         <source>Re&amp;view it</source>
-        <translation type="unfinished"></translation>
+        <translation>Zur Aus&amp;wertung</translation>
     </message>
     <message>
         <source>I have read it</source>
-        <translation type="unfinished"></translation>
+        <translation>Ich habe es gelesen</translation>
     </message>
 </context>
 </TS>
