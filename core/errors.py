@@ -159,6 +159,10 @@ class CameraLost(CarpusFault):
     """The camera was unplugged or sends no more pictures. Told when it happens, raised when it does not come back."""
 
 
+class OtherCamera(CameraLost):
+    """Another camera is plugged in than the one that is wanted. Told while that one is away; raised at the opening."""
+
+
 class CameraReturned(CarpusFault):
     """Told, never raised: the lost camera delivers again; ``detail`` is how long it was away."""
 

@@ -378,6 +378,11 @@ FAULTS: dict[type[CarpusFault], Words] = {
         _STORED,
         "Plug the camera in again; tracking and recording then go on by themselves.",
     ),
+    errors.OtherCamera: Words(
+        "Carpus waits for its camera: {subject}. Another one is there ({detail}).",
+        _STORED,
+        "Plug its own camera in again; what was begun then goes on by itself.",
+    ),
     errors.CameraReturned: Words(
         "The camera is back: {subject} (away for {detail}).",
         _STORED,

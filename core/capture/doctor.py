@@ -25,7 +25,7 @@ from carpus.core.capture.finding import Finding
 from carpus.core.capture.raw import MB_PER_MINUTE
 from carpus.core.capture.source import SourceInfo
 from carpus.core.capture.usb_devices import UsbCamera
-from carpus.core.errors import CameraBusy, CameraMissing, CameraPermission, CarpusFault
+from carpus.core.errors import CameraBusy, CameraMissing, CameraPermission, CarpusFault, OtherCamera
 from carpus.core.types import Frame
 
 PACKAGES = ("numpy", "scipy", "opencv-python-headless", "h5py", "PyYAML", "platformdirs", "threadpoolctl")
@@ -42,6 +42,7 @@ MEASURE_S = 3.0
 
 _REMEDIES: dict[type[CarpusFault], str] = {
     CameraMissing: "Plug the camera in.",
+    OtherCamera: "Plug in the camera named in the settings, or change the settings.",
     CameraBusy: "Close the other program that uses the camera.",
     CameraPermission: "Install the camera rights named above and plug the camera in again.",
 }

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
+from dataclasses import replace
 
 from carpus.core.camera import Camera
 from carpus.core.capture.notice import Notice, ignore
@@ -31,3 +32,8 @@ class OpenNI2Camera(ProcessCamera):
     ) -> None:
         plan = CameraPlan(uri, SIZE_PX, models=models)
         super().__init__(serve, plan, uri or "camera", sensor, camera=camera, patience_s=patience_s, notice=notice)
+
+    def plan_for(self, serial: str) -> object:
+        """The camera with this serial number."""
+        assert isinstance(self._plan, CameraPlan)
+        return replace(self._plan, serial=serial)

@@ -11,6 +11,7 @@ from carpus.core.capture.capture_messages import Opened
 from carpus.core.capture.capture_process import GaveUp
 from carpus.core.capture.openni2 import CallFailed, Context, Device, DeviceProperty, Stream, StreamProperty
 from carpus.core.capture.openni2_plans import CameraPlan, FilePlan
+from carpus.core.capture.unseen_camera import why_unlisted
 from carpus.core.capture.usb_devices import UsbCamera, usb_cameras
 from carpus.core.capture.video_mode import PixelFormat, Sensor, VideoMode
 from carpus.core.errors import (
@@ -96,14 +97,12 @@ def open_camera(library: Context, plan: CameraPlan) -> tuple[Device, Opened]:
     uri = plan.uri
     if uri is None:
         known = {(int(vendor, 16), int(product, 16)) for vendor, product in plan.models}
-        found = [each for each in library.devices() if (each.vendor_id, each.product_id) in known]
+        found = [each.uri for each in library.devices() if (each.vendor_id, each.product_id) in known]
         if not found:
-            raise _no_camera(usb_cameras(plan.models))
-        uri = found[0].uri
-    try:
-        device = library.open(uri)
-    except CallFailed as failure:
-        raise _why_not_opened(failure, usb_cameras(plan.models)) from failure
+            raise why_unlisted(usb_cameras(plan.models))
+    else:
+        found = [uri]
+    device = _wanted(library, found, plan)
     streams: dict[Sensor, Stream] = {}
     for sensor, wanted in ((Sensor.COLOR, PixelFormat.RGB888), (Sensor.DEPTH, PixelFormat.DEPTH_1_MM)):
         mode = choose_mode(device.modes(sensor), wanted, plan.size_px, plan.fps)
@@ -126,7 +125,7 @@ def open_camera(library: Context, plan: CameraPlan) -> tuple[Device, Opened]:
     info = device.info()
     by_usb = plan.models.get((f"{info.vendor_id:04x}", f"{info.product_id:04x}"))
     settings = {
-        "camera": by_usb or info.name or uri,
+        "camera": by_usb or info.name or info.uri,
         "vendor": info.vendor,
         "uri": info.uri,
         "serial": device.text(DeviceProperty.SERIAL_NUMBER),
@@ -147,6 +146,22 @@ def open_camera(library: Context, plan: CameraPlan) -> tuple[Device, Opened]:
     return device, Opened(modes, mirrored, view, {key: value for key, value in settings.items() if value})
 
 
+def _wanted(library: Context, uris: Sequence[str], plan: CameraPlan) -> Device:
+    """The first of these, or the one with the plan's serial number: only an open device tells it."""
+    others = []
+    for uri in uris:
+        try:
+            device = library.open(uri)
+        except CallFailed as failure:
+            raise _why_not_opened(failure, usb_cameras(plan.models)) from failure
+        serial = device.text(DeviceProperty.SERIAL_NUMBER)
+        if not plan.serial or serial == plan.serial:
+            return device
+        others.append(f"{device.info().name} {serial}".strip())
+        device.close()
+    raise why_unlisted((), others)
+
+
 def choose_mode(
     modes: Sequence[VideoMode], pixel_format: PixelFormat, size_px: tuple[int, int], fps: int
 ) -> VideoMode | None:
@@ -163,14 +178,6 @@ def choose_mode(
         if mode.pixel_format == pixel_format and mode.width_px <= width and mode.height_px <= height
     ]
     return max(fitting, key=lambda mode: (mode.width_px * mode.height_px, -abs(mode.fps - fps)), default=None)
-
-
-def _no_camera(seen: Sequence[UsbCamera]) -> GaveUp:
-    if not seen:
-        return GaveUp(CameraMissing, "")
-    if not seen[0].may_open:
-        return GaveUp(CameraPermission, str(seen[0].node))
-    return GaveUp(DriverFailed, f"{seen[0].name} is plugged in, but the driver does not see it")
 
 
 def _why_not_opened(failure: CallFailed, seen: Sequence[UsbCamera]) -> GaveUp:

@@ -25,10 +25,11 @@ class FilePlan:
 class CameraPlan:
     """Open a live camera: the first one of ``models`` (names by USB vendor and product), or the one at ``uri``.
 
-    ``size_px`` is the picture size to ask for.
+    ``size_px`` is the picture size to ask for; with ``serial`` the camera with this serial number and no other.
     """
 
     uri: str | None = None
     size_px: tuple[int, int] = (640, 480)
     fps: int = 30
     models: Mapping[tuple[str, str], str] = field(default_factory=dict)
+    serial: str = ""

@@ -28,6 +28,7 @@ from carpus.core.errors import (
     CarpusFault,
     DepthNotRegistered,
     DriverFailed,
+    OtherCamera,
     PicturesEnlarged,
 )
 from carpus.core.types import Frame
@@ -53,7 +54,8 @@ class ProcessCamera:
     ``subject`` names it in faults until it has told its name; ``sensor`` says what its depth is worth; ``camera`` are
     measured intrinsics, otherwise the driver's lens, or its field of view, is taken. When the camera is lost,
     ``notice`` hears :class:`CameraLost`, then :class:`CameraReturned`; it is raised when the camera stays away for
-    ``patience_s``. Frames that were missed meanwhile are counted in the next one.
+    ``patience_s``. Meanwhile another one may be plugged in: that is told (:class:`OtherCamera`) and waited on. Frames
+    that were missed are counted in the next one.
     """
 
     def __init__(
@@ -110,6 +112,10 @@ class ProcessCamera:
     def depth_sensor(self, opened: Opened) -> DepthSensor:
         """What the depth of the camera that was opened is worth."""
         return self._sensor
+
+    def plan_for(self, serial: str) -> object:
+        """The plan to open the camera with this serial number and no other; empty: it does not tell its number."""
+        return self._plan
 
     def frames(self) -> Iterator[Frame]:
         """Frames from now on, until :meth:`close`; what waited since the opening is thrown away."""
@@ -183,6 +189,8 @@ class ProcessCamera:
     def _wait_for_return(self, lost: CarpusFault) -> float | None:
         """Seconds the camera was away; None when closed meanwhile. Raises ``lost`` when patience ends."""
         start_s = time.monotonic()
+        other = ""
+        self._plan = self.plan_for(_serial(self._opened))
         while not self._closing.is_set():
             try:
                 with self._lock:
@@ -194,18 +202,28 @@ class ProcessCamera:
                     first = self._first_picture() if opened else None
                 if opened is None or first is None:
                     return None
-                if opened.modes != self._opened.modes or _serial(opened) != _serial(self._opened):
-                    raise CameraUnsuited(self._info.name, "another camera was plugged in")
+                self._check_same(opened)
                 self._opened = opened
                 away_s = time.monotonic() - self._last_frame_s
                 self._assembler.restart(_layout(opened), first.timestamp_us, round(away_s * 1e6))
                 self._relock_in = SETTLE_FRAMES if self._locked else 0
                 return time.monotonic() - start_s
-            except _PASSING:
+            except _PASSING as fault:
+                if isinstance(fault, OtherCamera) and fault.detail != other:
+                    other = fault.detail
+                    self._notice(OtherCamera(_named(self._opened), other))
                 if time.monotonic() - start_s > self._patience_s:
                     raise lost from None
                 self._closing.wait(RETRY_S)
         return None
+
+    def _check_same(self, opened: Opened) -> None:
+        """Raises what is to be mended where this is not the camera that went away, or not as it was."""
+        if _named(opened) != _named(self._opened):
+            raise OtherCamera(_named(self._opened), _named(opened))
+        if opened.modes != self._opened.modes:
+            shown = ", ".join(f"{sensor.name.lower()} {mode}" for sensor, mode in opened.modes.items())
+            raise OtherCamera(_named(self._opened), f"{_named(opened)}: {shown}")
 
     def _first_picture(self) -> Arrived | None:
         """The first picture after a restart, for its time only."""
@@ -234,6 +252,11 @@ class ProcessCamera:
         settings = {**opened.settings, "mirrored": "turned back" if turned else "no"}
         seen = replace(found, sensor=self.depth_sensor(opened))
         return SourceInfo(name, seen, True, None, float(opened.modes[Sensor.COLOR].fps), settings)
+
+
+def _named(opened: Opened) -> str:
+    """A camera by its name and serial number."""
+    return f"{opened.settings.get('camera', 'camera')} {_serial(opened)}".strip()
 
 
 def _serial(opened: Opened) -> str:

@@ -10,9 +10,10 @@ from typing import Any
 from carpus.core.capture.capture_messages import Lens
 from carpus.core.capture.capture_process import GaveUp
 from carpus.core.capture.realsense_plans import CameraPlan
+from carpus.core.capture.unseen_camera import why_unlisted
 from carpus.core.capture.usb_devices import usb_cameras
 from carpus.core.capture.video_mode import PixelFormat, Sensor, VideoMode
-from carpus.core.errors import CameraBusy, CameraMissing, CameraPermission, CameraUnsuited, DriverFailed, DriverMissing
+from carpus.core.errors import CameraUnsuited, DriverMissing
 
 PACKAGE = "pyrealsense2"
 DEPTH_SIZE_PX = (848, 480)
@@ -57,17 +58,12 @@ class Streams:
 
 def find_camera(rs: Any, context: Any, plan: CameraPlan) -> Any:
     """The device to open; raises :class:`GaveUp` with why there is none."""
-    for device in context.query_devices():
+    listed = list(context.query_devices())
+    for device in listed:
         if not plan.serial or said(rs, device, "serial_number") == plan.serial:
             return device
-    seen = usb_cameras(plan.models)
-    if not seen or plan.serial:
-        raise GaveUp(CameraMissing, plan.serial)
-    if not seen[0].may_open:
-        raise GaveUp(CameraPermission, str(seen[0].node))
-    if seen[0].is_claimed:
-        raise GaveUp(CameraBusy, seen[0].name)
-    raise GaveUp(DriverFailed, f"{seen[0].name} is plugged in, but the driver does not see it")
+    names = [f"{said(rs, device, 'name')} {said(rs, device, 'serial_number')}".strip() for device in listed]
+    raise why_unlisted(usb_cameras(plan.models), names)
 
 
 def said(rs: Any, device: Any, fact: str) -> str:

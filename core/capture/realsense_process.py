@@ -26,6 +26,8 @@ from carpus.core.capture.realsense_opening import (
     stored_streams,
 )
 from carpus.core.capture.realsense_plans import CameraPlan, FilePlan
+from carpus.core.capture.unseen_camera import why_not_opened
+from carpus.core.capture.usb_devices import usb_cameras
 from carpus.core.capture.video_mode import Sensor
 from carpus.core.errors import CameraLost, DriverFailed, RecordingDamaged, RecordingUnsupported
 
@@ -47,7 +49,10 @@ def serve(outlet: Outlet, plan: CameraPlan | FilePlan) -> None:
         else:
             _watch(rs, outlet, plan)
     except RuntimeError as failure:  # all that the library raises
-        raise GaveUp(DriverFailed, " ".join(str(failure).split())) from failure
+        reason = " ".join(str(failure).split())
+        if isinstance(plan, FilePlan):
+            raise GaveUp(DriverFailed, reason) from failure
+        raise why_not_opened(reason, usb_cameras(plan.models)) from failure
 
 
 def _watch(rs: Any, outlet: Outlet, plan: CameraPlan) -> None:

@@ -19,6 +19,7 @@ from carpus.core.capture.frame_assembly import Assembler, Layout, camera_of_view
 from carpus.core.capture.nearest_pairing import TOLERANCE_US, NearestPairing, Stamped
 from carpus.core.capture.openni2 import CallFailed, Picture
 from carpus.core.capture.openni2_process import agreed_size
+from carpus.core.capture.unseen_camera import why_unlisted
 from carpus.core.capture.usb_devices import UsbCamera, usb_cameras
 from carpus.core.capture.video_mode import PixelFormat, Sensor, VideoMode
 from carpus.core.capture.xtion import MODELS
@@ -268,7 +269,7 @@ def test_why_a_camera_could_not_be_opened(cameras: list[UsbCamera], reason: str,
     [([], CameraMissing), ([seen(may_open=False)], CameraPermission), ([seen()], DriverFailed)],
 )
 def test_why_the_driver_lists_no_camera(cameras: list[UsbCamera], fault: type[CarpusFault]) -> None:
-    assert openni2_opening._no_camera(cameras).fault is fault
+    assert why_unlisted(cameras).fault is fault
 
 
 def test_the_modes_of_an_xtion() -> None:

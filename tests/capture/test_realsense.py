@@ -21,13 +21,18 @@ from carpus.core.capture.doctor import opened_findings
 from carpus.core.capture.realsense import RealSenseCamera, driver_finding, further_findings
 from carpus.core.capture.realsense_recording import RealSenseRecording
 from carpus.core.capture.tum import TumFolder
+from carpus.core.capture.unseen_camera import why_not_opened, why_unlisted
+from carpus.core.capture.usb_devices import UsbCamera
 from carpus.core.errors import (
+    CameraBusy,
     CameraLost,
     CameraMissing,
+    CameraPermission,
     CameraReturned,
-    CameraUnsuited,
     CarpusFault,
+    DriverFailed,
     ExtraMissing,
+    OtherCamera,
     RecordingDamaged,
 )
 from carpus.core.words import one_sentence
@@ -147,13 +152,42 @@ def test_a_camera_streams_is_lost_and_comes_back(
     assert sum(frame.dropped_before for frame in rest) > 0
 
 
-def test_another_camera_of_the_kind_does_not_take_over(camera: RealSenseCamera, tmp_path: Path) -> None:
+def test_another_camera_of_the_kind_is_told_and_ours_waited_for(
+    camera: RealSenseCamera, told: list[CarpusFault], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("carpus.core.capture.process_camera.RETRY_S", 0.05)
     frames = camera.frames()
     next(frames)
     (tmp_path / "other").touch()
     (tmp_path / "crash").touch()
-    with pytest.raises(CameraUnsuited):
-        list(frames)
+
+    def put_back(fault: CarpusFault) -> None:
+        told.append(fault)
+        if isinstance(fault, OtherCamera):
+            (tmp_path / "other").unlink()
+
+    camera._notice = put_back
+    next(frames)
+    assert [type(fault) for fault in told] == [CameraLost, OtherCamera, CameraReturned]
+    assert one_sentence(told[1]).startswith(
+        "Carpus waits for its camera: Intel RealSense D435 815412070123. "
+        "Another one is there (Intel RealSense D435 815412070124)"
+    )
+
+
+def test_why_a_camera_named_by_its_serial_number_is_not_opened() -> None:
+    def seen(name: str, *, may_open: bool = True, is_claimed: bool = False) -> UsbCamera:
+        return UsbCamera(name, "8086", "0b07", Path("/dev/bus/usb/001/007"), 5000, may_open, is_claimed)
+
+    wanted, other = seen("D435"), "D435 815412070124"
+    assert why_unlisted([], []).fault is CameraMissing
+    assert why_unlisted([wanted], [other]).fault is OtherCamera
+    assert why_unlisted([wanted, seen("D435", may_open=False)], [other]).fault is CameraPermission
+    assert why_unlisted([wanted, seen("D435", is_claimed=True)], [other]).fault is CameraBusy
+    assert why_unlisted([wanted], []).fault is DriverFailed
+    assert why_not_opened("errno=16 Last Error: Device or resource busy", [wanted]).fault is CameraBusy
+    assert why_not_opened("failed to open interface, RS2_USB_STATUS_ACCESS", [wanted]).fault is CameraPermission
+    assert why_not_opened("hwmon command timed out", [seen("D435", is_claimed=True)]).fault is DriverFailed
 
 
 def test_exposure_and_white_balance_are_held_as_they_look(camera: RealSenseCamera) -> None:
