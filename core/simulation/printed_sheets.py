@@ -12,8 +12,9 @@ import numpy as np
 from carpus.core.camera import Camera
 from carpus.core.camera_calibration.sheet import Box, Disc, Sheet
 from carpus.core.simulation.appearance import appearance_of, linear
+from carpus.core.simulation.depth_kinds import depth_pictures
 from carpus.core.simulation.scene import Scene
-from carpus.core.simulation.sensor import ColorSensor, DepthSensor
+from carpus.core.simulation.sensor import ColorSensor
 from carpus.core.simulation.spec import RecordingSpec
 from carpus.core.simulation.trace import FloatImage
 from carpus.core.types import FloatArray, Frame
@@ -58,13 +59,13 @@ def _light(color: str) -> FloatArray:
 
 
 class Studio:
-    """A camera that looks at sheets; the noise is the simulator's."""
+    """A camera that looks at sheets; the noise is the simulator's, that of depth of the kind of the camera's sensor."""
 
     def __init__(self, camera: Camera = LENS, seed: int = 3, depth_scale_error: float = 0.01) -> None:
         self.camera = camera
         self.spec = RecordingSpec(seed=seed, depth_scale_error=depth_scale_error, light="normal")
         self._color = ColorSensor(self.spec, appearance_of(Scene(self.spec)))
-        self._depth = DepthSensor(self.spec, (camera.height_px, camera.width_px))
+        self._depth = depth_pictures(self.spec, camera)
         self._rays = {step: _rays(camera, step) for step in (1, FINER)}
 
     def frame(self, sheets: Sequence[Placed], index: int, time_s: float) -> Frame:
@@ -73,8 +74,10 @@ class Studio:
         height, width = self.camera.height_px, self.camera.width_px
         light = light.reshape(height, FINER, width, FINER, 3).mean(axis=(1, 3))
         _, depth_m = self._seen(sheets, 1)
-        rgb = self._color.expose(light.astype(np.float32), index)
-        return Frame(index, time_s, rgb, self._depth.measure(depth_m.astype(np.float32), index), 1.0 / 5000.0)
+        light = light.astype(np.float32)
+        rgb = self._color.expose(light, index)
+        depth = self._depth.measure(depth_m.astype(np.float32), index, light)
+        return Frame(index, time_s, rgb, depth, 1.0 / 5000.0)
 
     def _seen(self, sheets: Sequence[Placed], step: int) -> tuple[FloatImage, FloatImage]:
         rays = self._rays[step]
