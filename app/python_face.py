@@ -26,6 +26,7 @@ from carpus.core.calibration.clicks import read_clicks, write_clicks
 from carpus.core.calibration.naming import NamingSettings, propose_names
 from carpus.core.calibration.result import Clicks
 from carpus.core.camera import DEFAULT_CAMERA, Camera
+from carpus.core.check_card.trust import camera_of
 from carpus.core.detection.settings import DetectionSettings
 from carpus.core.encryption import keys
 from carpus.core.errors import CalibrationImpossible, RecordingEmpty, SettingsInvalid
@@ -128,7 +129,8 @@ class OpenedSession(Session):
     def measures(self) -> Sequence[Any]:
         """Every figure with its unit, as :class:`core.output.measures_table.MeasureRow`, of the repetitions that count:
         what a person left out or moved in the review is kept beside the file."""
-        return measure_rows(session_figures(self, read_choices(self.path)), self.path.stem)
+        figures = replace(session_figures(self, read_choices(self.path)), camera=camera_of(self))
+        return measure_rows(figures, self.path.stem)
 
     def provenance(self) -> Mapping[str, Any]:
         """Of what, by what and with what it was made."""

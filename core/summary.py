@@ -13,9 +13,9 @@ from carpus.core.camera import Camera
 from carpus.core.capture.camera_info import CAMERA_FILE
 from carpus.core.capture.source import SourceInfo, is_simulated
 from carpus.core.capture.tum import TumFolder
+from carpus.core.check_card.trust import camera_of
 from carpus.core.depth_sensor import ASSUMED, DepthSensor
 from carpus.core.hand.sites import WRIST_ANGLES
-from carpus.core.output.camera_said import camera_said
 from carpus.core.output.exercises import SIDES
 from carpus.core.output.range_rows import is_total
 from carpus.core.output.report_content import RepetitionChoices, session_figures
@@ -264,10 +264,11 @@ def _provenance(session: Session) -> list[str]:
     parameters = json.loads(session.header.parameters)
     parts = [parameters.get(name) if isinstance(parameters, dict) else None for name in ("provenance", "source")]
     said, source = (part if isinstance(part, dict) else {} for part in parts)
-    camera = camera_said(session.header.parameters)
+    camera = camera_of(session)
     calibrated = camera.calibrated and f"{camera.calibrated}, {camera.age_days:.0f} days before"
     facts = (
         ("Calibrated", calibrated or (camera.serial and "not with a board")),
+        ("Not sure", camera.not_sure and f"{camera.not_sure}: a check of this camera near this session was out"),
         ("Revision", said.get("revision")),
         ("Of", source.get("sha256") and f"a recording with SHA-256 {source['sha256']}"),
         ("Set", said.get("settings_sha256") and f"by settings with SHA-256 {said['settings_sha256']}"),

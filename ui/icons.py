@@ -98,3 +98,9 @@ def paint_mark(painter: QPainter, box: QRectF, color: QColor) -> None:
     painter.setBrush(color)
     painter.drawEllipse(wrist, 3.0, 3.0)
     painter.restore()
+
+
+def triangle(center: QPointF, radius: float) -> QPolygonF:
+    """A warning's shape, point up, about a place."""
+    corners = ((0.0, -radius), (0.9 * radius, 0.72 * radius), (-0.9 * radius, 0.72 * radius))
+    return QPolygonF([center + QPointF(x, y) for x, y in corners])

@@ -15,6 +15,7 @@ from carpus.core.calibration.result import Calibration, Clicks, Finding, Verdict
 from carpus.core.camera import Camera
 from carpus.core.hand.marker_protocol import MarkerProtocol
 from carpus.core.library.set_up import SetUp
+from carpus.core.output.camera_said import CameraSaid
 from carpus.core.output.report_content import RepetitionChoices, SessionFigures
 from carpus.core.pipeline.live_values import LiveCounters, LiveEvent, TrackedView
 from carpus.core.session.values import AngleOrder, Session
@@ -121,6 +122,8 @@ class SessionLine:
     warning: str = ""
     corrected: str = ""
     """That and since when markers were put right, in words; empty as measured."""
+    not_sure: str = ""
+    """That a check of the camera near it was out, in two or three words; empty where none was."""
 
 
 class SessionShelf(Protocol):
@@ -364,6 +367,10 @@ class SessionStore(Protocol):
 
     def results_of(self, session_id: str) -> Sequence[StoredResult]:
         """Every result of the recording of a session, the first one first; the last one counts."""
+        ...
+
+    def camera(self, session: Session) -> CameraSaid:
+        """What the session and the checks since say of its camera."""
         ...
 
     def choices(self, session_id: str) -> RepetitionChoices:

@@ -71,6 +71,7 @@ def run(arguments: argparse.Namespace) -> int:
 
 def _of(subject: str, places: list[Path], limits: ErrorLimits) -> list:  # type: ignore[type-arg]
     """Sessions of a patient that can be read, with their figures. Raises :class:`SessionUnreadable` for none."""
+    from carpus.core.check_card.trust import folder_with_checks, with_trust
     from carpus.core.library.library import read_choices
     from carpus.core.output.report_content import session_figures
     from carpus.core.session.reader import read_outline, read_session
@@ -85,7 +86,8 @@ def _of(subject: str, places: list[Path], limits: ErrorLimits) -> list:  # type:
                 said = read_outline(path).header.subject_id
                 known.append(said)
                 if subject == EVERYBODY or said.casefold() == subject.strip().casefold():
-                    out.append((path, session_figures(read_session(path), read_choices(path), limits)))
+                    figures = session_figures(read_session(path), read_choices(path), limits)
+                    out.append((path, with_trust(figures, folder_with_checks(path))))
             except CarpusFault as fault:
                 print(f"carpus: {one_sentence(fault)}", file=sys.stderr)
     if not out:

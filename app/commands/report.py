@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 import sys
+from dataclasses import replace
 from pathlib import Path
 
 from carpus import __version__
@@ -33,17 +34,22 @@ def run(arguments: argparse.Namespace) -> int:
     sessions = [in_order(read_session(path), order) for path in arguments.sessions]
     # Qt is loaded only now: a wrong file is told without it.
     from carpus.core.agreement.limits_file import read_limits
+    from carpus.core.check_card.trust import camera_of, folder_with_checks
     from carpus.core.library.library import read_choices
     from carpus.core.output.report_content import newest_results, session_figures
     from carpus.ui.report.pdf import ensure_application, write_progress_report, write_session_report
 
     choices = [read_choices(path) for path in arguments.sessions]
+    cameras = [camera_of(one, folder_with_checks(one.path) or settings.data_folder) for one in sessions]
     application = ensure_application()
     if len(sessions) == 1:
-        write_session_report(sessions[0], arguments.output, therapist=therapist, choices=choices[0])
+        write_session_report(sessions[0], arguments.output, therapist=therapist, choices=choices[0], camera=cameras[0])
     else:
         limits = read_limits(settings.data_folder)
-        figures = [session_figures(*one, limits) for one in zip(sessions, choices, strict=True)]
+        figures = [
+            replace(session_figures(session, chosen, limits), camera=camera)
+            for session, chosen, camera in zip(sessions, choices, cameras, strict=True)
+        ]
         for older in {one.session_id for one in figures} - {one.session_id for one in newest_results(figures)}:
             print(f"carpus: session {older} is left out: a newer result of its recording counts.", file=sys.stderr)
         write_progress_report(figures, arguments.output, therapist=therapist, software_version=__version__)

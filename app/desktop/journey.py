@@ -421,7 +421,7 @@ class Journey(QObject):
             return [words] if (words := session_words(self.care.standing)) else []
         figures = self.review.figures
         if self.place == "review" and self.review.shown and figures is not None:
-            return [words] if (words := unsure_words(*self.care.unsure(figures))) else []
+            return [words] if (words := unsure_words(figures.camera)) else []
         return []
 
     def _compare_listed(self, session_id: str) -> None:

@@ -20,6 +20,7 @@ from carpus.app.desktop.ways import Tell, Way
 from carpus.core.by_hand.table import COLUMNS, rows_of
 from carpus.core.by_hand.values import HandValue
 from carpus.core.errors import OutputNotWritable
+from carpus.core.output.camera_said import CameraSaid
 from carpus.core.output.report_content import Progress, RepetitionChoices, SessionFigures
 from carpus.core.session.values import Session
 from carpus.ui.background import Background
@@ -36,6 +37,8 @@ class Printable(Protocol):
     """What is stored of a patient, for paper and for other programs."""
 
     def session(self, session_id: str) -> Session: ...
+
+    def camera(self, session: Session) -> CameraSaid: ...
 
     def choices(self, session_id: str) -> RepetitionChoices: ...
 
@@ -97,14 +100,16 @@ class Printing(QObject):
         assert row is not None
 
         def gather() -> SessionReport:
+            session = stored.session(session_id)
             return session_report(
-                stored.session(session_id),
+                session,
                 choices=stored.choices(session_id),
                 history=stored.history(row.patient_id),
                 pseudonym=row.pseudonym,
                 dominance=row.dominance,
                 therapist=self._therapist(),
                 by_hand=stored.by_hand(row.patient_id),
+                camera=stored.camera(session),
             )
 
         def show(report: SessionReport) -> None:

@@ -11,6 +11,7 @@ from carpus.core.library.set_up import PRACTICE_PATIENT
 from carpus.core.output.report_content import SessionFigures
 from carpus.core.session.register import SessionEntry
 from carpus.ui import terms
+from carpus.ui.check_card.standing_words import unsure_name
 from carpus.ui.figures import figure_of
 from carpus.ui.ports import SessionLine
 from carpus.ui.report.further_rows import short_words
@@ -57,6 +58,7 @@ class StoredSessions:
             counted_words=repetition_words(figures),
             warning=" ".join(said),
             corrected=corrected_words(figures),
+            not_sure="" if line.of_practice else unsure_name(figures.camera),
         )
 
     def other_patients(self, patient_id: str) -> Sequence[tuple[str, str]]:

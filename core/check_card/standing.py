@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
 from dataclasses import dataclass
 from datetime import datetime
 from pathlib import Path
@@ -55,13 +54,3 @@ def standing_of(data_folder: Path, serial: str, now: datetime) -> Standing:
     return Standing(
         serial, age_days(calibrated, now), age_days(last.when, now), last, verdict_of(checks[:-1], last), later
     )
-
-
-def unsure_of(checks: Sequence[Check], recorded: datetime, calibrated: str) -> tuple[bool, bool]:
-    """Whether lengths and angles of a session are not sure: the first check after it, with the same calibration, or the
-    last one before it was out of its limits."""
-    alike = [one for one in checks if one.calibrated == calibrated]
-    before = [one for one in alike if datetime.fromisoformat(one.when) <= recorded][-1:]
-    after = [one for one in alike if datetime.fromisoformat(one.when) > recorded][:1]
-    near = [*before, *after]
-    return any(not one.lengths_hold for one in near), any(not one.angles_hold for one in near)

@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import NamedTuple
 
 from carpus.core.by_hand.values import HandValue, of_session
+from carpus.core.check_card.trust import camera_of
 from carpus.core.errors import CarpusFault, OutputNotWritable
 from carpus.core.formats.deidentify import Deidentification
 from carpus.core.formats.formats import FORMATS, Writer
@@ -121,7 +122,8 @@ def export_sessions(
 
 def _take(one: Wanted, nobody: Deidentification | None, names: set[str], version: str) -> Take:
     session, choices = one.read()
-    day = session.header.when.date()  # before anybody's days are moved
+    # Before anybody's days are moved.
+    day, camera = session.header.when.date(), camera_of(session)
     name = one.path.stem
     if nobody is not None:
         session = nobody.session(session)
@@ -134,7 +136,7 @@ def _take(one: Wanted, nobody: Deidentification | None, names: set[str], version
         name = f"{base}-{number}"
     names.add(name)
     said = provenance(session, version, deidentified=nobody is not None)
-    figures = session_figures(session, choices)
+    figures = replace(session_figures(session, choices), camera=camera)
     by_hand = of_session(one.by_hand, figures.side, day)
     if nobody is not None:  # day, place and initials are a person's own
         by_hand = tuple(replace(value, day=date.min, where="", by="", entered=None) for value in by_hand)

@@ -13,7 +13,7 @@ from carpus.core.output.measures_table import measure_rows
 
 _OF_THE_SESSION = (
     "session", "session_id", "recording_id", "subject_id", "recorded", "simulated", "hand", "protocol", "exercise",
-    "duration_s", "frames", "tracked_share", "repetitions",
+    "duration_s", "frames", "tracked_share", "repetitions", "camera_not_sure",
 )  # fmt: skip
 
 
@@ -57,5 +57,6 @@ def content(take: Take) -> dict[str, Any]:
         ],
         "entered_by_hand": [dict(zip(COLUMNS, row, strict=True)) for row in rows_of(take.by_hand)],
         "doubtful_at_calibration": [finding.kind for finding in figures.findings],
+        "camera_not_sure": figures.camera.not_sure,
         "provenance": take.provenance,
     }

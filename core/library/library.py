@@ -23,6 +23,7 @@ from carpus.core.capture.picture_file import read_color
 from carpus.core.capture.raw import SUFFIX as RAW_SUFFIX
 from carpus.core.capture.raw import RawRecording
 from carpus.core.capture.raw_pictures import decode_color
+from carpus.core.check_card.trust import camera_of, with_trust
 from carpus.core.encryption.content import PLACING, read_kept, write_encrypted
 from carpus.core.encryption.keys import folder_of, is_on, key_for
 from carpus.core.errors import (
@@ -43,6 +44,7 @@ from carpus.core.library.exercise_sets import begun, read_sets
 from carpus.core.library.set_up import PRACTICE_PATIENT, SetUp
 from carpus.core.measures.error_limits import DEFAULT_LIMITS
 from carpus.core.output.angle_order import in_order
+from carpus.core.output.camera_said import CameraSaid
 from carpus.core.output.exercises import exercise_named
 from carpus.core.output.goals import Goals
 from carpus.core.output.report_content import NAMES_DOUBTED, RepetitionChoices, SessionFigures, session_figures
@@ -435,14 +437,18 @@ class Library:
         _write_json(path, content)
 
     def figures(self, entry: SessionEntry) -> SessionFigures:
-        """Figures of a session with its choices; computed once."""
+        """Figures of a session with its choices, computed once, and with what is known of its camera by now."""
         choices, order = read_choices(entry.path), self.angle_order()
         known = self._figures.get(entry.path)
         if known is None or known[0] != choices or known[1].angle_order != order:
             session = in_order(_as_listed(read_session(entry.path), entry), order)
             known = (choices, session_figures(session, choices, self.error_limits))
             self._figures[entry.path] = known
-        return known[1]
+        return with_trust(known[1], self.folder)
+
+    def camera(self, session: Session) -> CameraSaid:
+        """What a session and the checks since say of its camera."""
+        return camera_of(session, self.folder)
 
     def limits_changed(self) -> None:
         """The clinic has measured its own error limits: from now on everything is judged by them."""

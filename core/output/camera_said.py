@@ -12,11 +12,20 @@ from carpus.core.provenance import said_in
 @dataclass(frozen=True, slots=True)
 class CameraSaid:
     """``serial`` number, empty where nobody knows which camera it was; ``calibrated`` when with a board (ISO 8601),
-    empty for not; ``age_days`` how old the calibration was when the hand moved, NaN without one."""
+    empty for not; ``age_days`` how old the calibration was when the hand moved, NaN without one. Not in the file but of
+    the camera's checks: whether ``lengths`` or ``angles`` are not sure, since a check near the session was out."""
 
     serial: str = ""
     calibrated: str = ""
     age_days: float = math.nan
+    lengths_not_sure: bool = False
+    angles_not_sure: bool = False
+
+    @property
+    def not_sure(self) -> str:
+        """``lengths``, ``angles`` or ``lengths, angles``, as tables say it; empty where nothing speaks against it."""
+        said = (("lengths", self.lengths_not_sure), ("angles", self.angles_not_sure))
+        return ", ".join(name for name, is_so in said if is_so)
 
 
 UNKNOWN_CAMERA = CameraSaid()
@@ -25,8 +34,9 @@ UNKNOWN_CAMERA = CameraSaid()
 def camera_said(parameters: str) -> CameraSaid:
     """What the parameters of a session say.
 
-    >>> camera_said('{"source": {"serial": "77", "calibrated": "2026-11-20T09:00+00:00", "calibration_age_days": "5"}}')
-    CameraSaid(serial='77', calibrated='2026-11-20T09:00+00:00', age_days=5.0)
+    >>> said = '{"source": {"serial": "77", "calibrated": "2026-11-20T09:00+00:00", "calibration_age_days": "5"}}'
+    >>> camera_said(said) == CameraSaid("77", "2026-11-20T09:00+00:00", 5.0)
+    True
     """
     source = said_in(parameters, "source")
     calibrated = str(source.get("calibrated") or "")

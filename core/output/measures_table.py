@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from carpus.core.hand.sites import WRIST_ANGLES
 from carpus.core.output.report_content import SessionFigures, Spread
@@ -15,7 +15,8 @@ class MeasureRow:
     """One figure of one session. ``measure`` and ``of``: the arc of flexion, the peak speed of the trained angle;
     ``mean``, ``sd`` between repetitions, ``best``, ``measurement_sd`` of one value, over ``count`` of them;
     ``at_least`` where the camera's view limits it; ``seen_share`` of the frames; ``inferred`` where an end joint that
-    no disc measures is part of it. Unknown is NaN."""
+    no disc measures is part of it. ``camera_not_sure``: ``lengths``, ``angles`` or both where a check of the camera
+    near the session was out. Unknown is NaN."""
 
     session: str
     session_id: str
@@ -41,11 +42,12 @@ class MeasureRow:
     at_least: bool
     seen_share: float
     inferred: bool
+    camera_not_sure: str = ""
 
 
 def measure_rows(figures: SessionFigures, session: str) -> tuple[MeasureRow, ...]:
     """All measures of a session whose file is called ``session``."""
-    return tuple(_rows(figures, session))
+    return tuple(replace(row, camera_not_sure=figures.camera.not_sure) for row in _rows(figures, session))
 
 
 def _rows(figures: SessionFigures, session: str) -> Iterator[MeasureRow]:

@@ -34,7 +34,8 @@ from carpus.core.check_card.chart import (
 )
 from carpus.core.check_card.measure import CardWatch, measure_card
 from carpus.core.check_card.reading import CardReading
-from carpus.core.check_card.standing import standing_of, unsure_of
+from carpus.core.check_card.standing import standing_of
+from carpus.core.check_card.trust import unsure_of
 from carpus.core.errors import CardMissing
 from carpus.core.simulation.card_scene import card_scene
 from carpus.core.simulation.printed_sheets import LENS, Studio
@@ -209,6 +210,12 @@ def test_where_a_camera_stands_and_which_sessions_are_not_sure(tmp_path: Path) -
     assert unsure_of(checks, NOW - timedelta(days=1), "x") == (False, False)
     assert unsure_of(checks, NOW + timedelta(days=1), "x") == (True, False)
     assert unsure_of(checks, NOW + timedelta(days=1), "another") == (False, False)
+    again = replace(checks[-1], when=(NOW + timedelta(days=4, minutes=2)).isoformat(), scale=1.0)
+    assert unsure_of([*checks, again], NOW + timedelta(days=1), "x") == (False, False), (
+        "checked once more, it was right"
+    )
+    later = replace(again, when=(NOW + timedelta(days=5)).isoformat())
+    assert unsure_of([*checks, later], NOW + timedelta(days=1), "x") == (True, False)
 
 
 @pytest.mark.usefixtures("qapp")

@@ -22,6 +22,7 @@ from carpus.core.calibration.result import Calibration, Clicks, Finding, Verdict
 from carpus.core.camera import Camera
 from carpus.core.hand.sites import WRIST_ANGLES, joint_angle_names
 from carpus.core.library.set_up import PRACTICE_PATIENT, SetUp
+from carpus.core.output.camera_said import CameraSaid, camera_said
 from carpus.core.output.exercises import Movement, exercise_named
 from carpus.core.output.report_content import (
     Comparison,
@@ -576,6 +577,9 @@ class FakeSessions:
 
     def keep_choices(self, session_id: str, choices: RepetitionChoices) -> None:
         self.kept[session_id] = choices
+
+    def camera(self, session: Session) -> CameraSaid:
+        return camera_said(session.header.parameters)
 
     def history(self, patient_id: str) -> list[SessionFigures]:
         return [session_figures(stored, self.choices(key)) for key, stored in self.sessions.items()]

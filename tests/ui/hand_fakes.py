@@ -14,6 +14,7 @@ import numpy as np
 from carpus.core.by_hand.values import HandValue
 from carpus.core.hand.hand21 import HAND21
 from carpus.core.hand.sites import joint_angle_names
+from carpus.core.output.camera_said import CameraSaid, camera_said
 from carpus.core.output.report_content import RepetitionChoices, SessionFigures, session_figures
 from carpus.core.session.values import Event, MarkerSeries, Motion, QualitySeries, Session, SessionHeader
 from carpus.core.simulation.recording import SimulatedPictures
@@ -160,6 +161,9 @@ class FakeHandSessions:
 
     def keep_choices(self, session_id: str, choices: RepetitionChoices) -> None:
         self.kept[session_id] = choices
+
+    def camera(self, session: Session) -> CameraSaid:
+        return camera_said(session.header.parameters)
 
     def history(self, patient_id: str) -> list[SessionFigures]:
         return [session_figures(stored, self.choices(key)) for key, stored in self.sessions.items()]

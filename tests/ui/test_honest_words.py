@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import json
 import math
 from collections.abc import Iterator
 from dataclasses import replace
 from datetime import timedelta
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -14,12 +16,16 @@ from PySide6.QtWidgets import QWidget
 from pytestqt.qtbot import QtBot
 
 from carpus.core import so3
+from carpus.core.check_card.chart import Check, add_check, chart_path
+from carpus.core.check_card.trust import camera_of, with_trust
 from carpus.core.hand.protocols import WRIST6
 from carpus.core.measures.repetitions import Uncounted
 from carpus.core.output.joint_content import joint_curves
+from carpus.core.output.measures_table import measure_rows
 from carpus.core.output.report_content import SessionFigures, Spread, progress, session_curves, session_figures
 from carpus.core.types import TrackedFrame
 from carpus.ui.background import Background
+from carpus.ui.check_card.standing_words import unsure_name
 from carpus.ui.controls.text import StateText, Text
 from carpus.ui.figures import spread_labels
 from carpus.ui.keys import Keys
@@ -28,13 +34,14 @@ from carpus.ui.plot.course import place_panels
 from carpus.ui.plot.history import History
 from carpus.ui.plot.session import HandPlot
 from carpus.ui.plot.style import screen_style
-from carpus.ui.ports import PatientCard, Preferences, ResultLine
+from carpus.ui.ports import PatientCard, Preferences, ResultLine, SessionLine
 from carpus.ui.progress.screen import ProgressScreen
-from carpus.ui.progress.words import before_after
+from carpus.ui.progress.words import before_after, doubt_words
 from carpus.ui.report.hand_rows import column_heads, limits_words
 from carpus.ui.report.pdf import session_report
 from carpus.ui.report.tables import repetition_words, table_rows
-from carpus.ui.report.words import method, other_lines
+from carpus.ui.report.words import method, other_lines, warnings
+from carpus.ui.sessions.listing import cells
 from carpus.ui.settings.limits import limit_lines
 from carpus.ui.settings.screen import SettingsScreen
 from carpus.ui.theme import Theme
@@ -67,6 +74,34 @@ def not_reaching(figures_deg: tuple[float, float] = (20.0, 60.0), **header: obje
     span = figures_deg[1] - figures_deg[0]
     angles[:, 1] = np.radians(figures_deg[0] + (angles[:, 1] - low) / (high - low) * span)
     return session_figures(replace(made, motion=replace(made.motion, angles_rad=angles)))
+
+
+# --- a camera that was out --------------------------------------------------------------------------------
+@pytest.mark.parametrize(
+    ("angle_deg", "scale", "not_sure"), [(0.5, 1.0, ""), (0.5, 1.02, "lengths"), (2.6, 1.0, "angles")]
+)
+def test_a_session_of_a_camera_that_was_out_says_so_everywhere(
+    tmp_path: Path, angle_deg: float, scale: float, not_sure: str
+) -> None:
+    after = (NOW + timedelta(days=2)).isoformat()
+    add_check(chart_path(tmp_path, "77"), Check(after, "77", angle_deg, 0.5, scale, (0.0,) * 6, (0.1,) * 6))
+    made = session(exercise="WRIST_FE")
+    source = {"source": {"serial": "77"}}
+    made = replace(made, header=replace(made.header, parameters=json.dumps(source)), path=tmp_path / "p" / "s.h5")
+    camera = camera_of(made)
+    assert camera.not_sure == not_sure
+    figures = session_figures(made)
+    assert with_trust(figures, tmp_path).camera == camera
+    assert with_trust(replace(figures, simulated=True), tmp_path).camera.not_sure == ""
+    figures = with_trust(figures, tmp_path)
+    lines = [words for words in warnings(figures) if "not sure" in words]
+    assert [words.split()[0].lower() for words in lines] == ([not_sure] if not_sure else [])
+    assert lines == [words for words in warnings(session_report(made, camera=camera).figures) if "not sure" in words]
+    course = progress([figures])
+    assert ("not sure" in doubt_words(course.points[0], course)) is bool(not_sure)
+    assert {row.camera_not_sure for row in measure_rows(figures, "s")} == {not_sure}
+    line = SessionLine("s", NOW, "WRIST_FE", "right", 60.0, True, not_sure=unsure_name(camera))
+    assert cells(line)[-1] == (f"{not_sure} not sure" if not_sure else "")
 
 
 # --- a recording counts once ------------------------------------------------------------------------------

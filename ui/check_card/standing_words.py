@@ -10,6 +10,7 @@ from carpus.ui.translate import tr
 
 if TYPE_CHECKING:  # a window loads nothing that reads files
     from carpus.core.check_card.standing import Standing
+    from carpus.core.output.camera_said import CameraSaid
 
 
 def bar_words(now: Standing) -> tuple[State, str] | None:
@@ -41,11 +42,20 @@ def session_words(now: Standing) -> str:
     ).format(angle=f"{last.angle_error_deg:.1f}")
 
 
-def unsure_words(lengths: bool, angles: bool) -> str:
+def unsure_words(camera: CameraSaid) -> str:
     """Over a session near which a check was out; empty where none was."""
-    if angles:
+    if camera.angles_not_sure:
         return tr("Angles not sure: a check of this camera near this session was out.")
-    return tr("Lengths not sure: a check of this camera near this session was out; angles hold.") if lengths else ""
+    if camera.lengths_not_sure:
+        return tr("Lengths not sure: a check of this camera near this session was out; angles hold.")
+    return ""
+
+
+def unsure_name(camera: CameraSaid) -> str:
+    """The same in a row of a list."""
+    if camera.angles_not_sure:
+        return tr("angles not sure")
+    return tr("lengths not sure") if camera.lengths_not_sure else ""
 
 
 def card_words(now: Standing) -> tuple[State, str]:

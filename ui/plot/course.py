@@ -20,6 +20,7 @@ from carpus.core.output.report_content import Progress, usual_deg
 from carpus.ui import numbers, terms
 from carpus.ui.figures import figure_of
 from carpus.ui.fonts import SEMIBOLD, font
+from carpus.ui.icons import triangle
 from carpus.ui.plot.axes import Panel, Scale
 from carpus.ui.plot.by_hand import Squares, noon_s, paint_square
 from carpus.ui.plot.marks import Across, EndLabels, Level, Mark, Scales
@@ -250,7 +251,11 @@ class Points:
                 painter.drawLine(QPointF(x, top), QPointF(x, bottom))
             painter.setPen(QPen(color, 2 * unit) if not is_fair else Qt.PenStyle.NoPen)
             painter.setBrush(style.color("surface") if not is_fair else color)
-            painter.drawEllipse(QPointF(x, middle), DOT_RADIUS * unit, DOT_RADIUS * unit)
+            reach = DOT_RADIUS * unit
+            if is_fair and self.progress.points[number].figures.camera.not_sure:
+                painter.drawPolygon(triangle(QPointF(x, middle), 1.6 * reach))
+            else:
+                painter.drawEllipse(QPointF(x, middle), reach, reach)
             if joint and row.limited:
                 paint_at_least(painter, x, top - 4 * unit, unit)
             if number == self.chosen:

@@ -10,6 +10,7 @@ from carpus.core.output.range_rows import is_total
 from carpus.core.output.report_content import Comparison, Progress, ProgressPoint
 from carpus.core.words import finding_words
 from carpus.ui import numbers, terms
+from carpus.ui.check_card.standing_words import unsure_words
 from carpus.ui.figures import figure_of
 from carpus.ui.translate import tr
 from carpus.ui.verdicts import difference, reason_words
@@ -122,10 +123,14 @@ def _day_of(point: ProgressPoint, progress: Progress) -> str:
 def doubt_words(point: ProgressPoint, progress: Progress) -> str:
     """What was doubtful about a session that is compared all the same; empty for nothing."""
     said = " ".join(finding_words(finding).headline for finding in point.figures.findings)
-    if not said or not point.fair:
+    unsure = unsure_words(point.figures.camera)
+    if not (said or unsure) or not point.fair:
         return ""
     day = _day_of(point, progress)
-    return tr("{day}: measured although doubtful. {findings}").format(day=day, findings=said)
+    if not said:
+        return tr("{day}: {warning}").format(day=day, warning=unsure)
+    words = tr("{day}: measured although doubtful. {findings}").format(day=day, findings=said)
+    return f"{words} {unsure}".rstrip()
 
 
 def unfair_words(point: ProgressPoint, progress: Progress) -> str:

@@ -14,6 +14,7 @@ from PySide6.QtGui import QGuiApplication, QPageLayout, QPageSize, QPainter, QPd
 from carpus.core.by_hand.values import HandValue, of_session
 from carpus.core.camera_calibration.sheet import Sheet
 from carpus.core.errors import DiskFull, OutputExists, OutputNotWritable
+from carpus.core.output.camera_said import CameraSaid
 from carpus.core.output.joint_content import joint_curves
 from carpus.core.output.motion_curves import motion_curves
 from carpus.core.output.report_content import (
@@ -63,12 +64,14 @@ def session_report(
     dominance: str = "unknown",
     therapist: str = "",
     by_hand: Sequence[HandValue] = (),
+    camera: CameraSaid | None = None,
 ) -> SessionReport:
     """What the page of a session says; ``history`` figures of the patient's other sessions, in any order, ``by_hand``
-    all that was ever measured by hand: what counts of the session's day and hand is told."""
+    all that was ever measured by hand: what counts of the session's day and hand is told; ``camera`` what its checks
+    say of it besides."""
     figures = session_figures(session, choices, limits_of(history))
     known = next((other for other in history if other.session_id == figures.session_id), figures)
-    figures = replace(figures, earlier_results=known.earlier_results)
+    figures = replace(figures, earlier_results=known.earlier_results, camera=camera or figures.camera)
     earlier = [other for other in history if other.when < figures.when]
     alike = [other for other in earlier if (other.exercise.id, other.side) == (figures.exercise.id, figures.side)]
     fair = [point.figures for point in progress(alike).points if point.fair]

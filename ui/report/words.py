@@ -9,6 +9,7 @@ from carpus.core.output.exercises import SIDES, STILL_RADIUS_MM
 from carpus.core.output.report_content import Comparison, SessionFigures, compare
 from carpus.core.words import finding_words
 from carpus.ui import numbers, terms
+from carpus.ui.check_card.standing_words import unsure_words
 from carpus.ui.report.tables import is_deficit, prints_spread, too_slow
 from carpus.ui.translate import tr
 from carpus.ui.verdicts import counted_once_words, limit_words, reason_words
@@ -132,7 +133,8 @@ def _sd_words(figures: SessionFigures) -> str:
 
 
 def warnings(figures: SessionFigures) -> list[str]:
-    """What must be read before any figure: that it is simulated, doubtful, cut short, or is not to count."""
+    """What must be read before any figure: that it is simulated, doubtful, cut short, is not to count, or was measured
+    with a camera that was out."""
     lines = []
     if figures.simulated:
         lines.append(tr("Simulated hand: nobody’s movement was measured."))
@@ -143,6 +145,8 @@ def warnings(figures: SessionFigures) -> list[str]:
         lines.append(tr("This session is marked as not counting."))
     if not figures.complete or figures.recovered:
         lines.append(tr("This recording was cut short and recovered."))
+    if said := unsure_words(figures.camera):
+        lines.append(said)
     return lines
 
 

@@ -12,6 +12,7 @@ from PySide6.QtCore import QEvent, QObject, Qt, QTimer, Signal
 from PySide6.QtGui import QColor, QPainter, QResizeEvent
 from PySide6.QtWidgets import QHBoxLayout, QScrollArea, QVBoxLayout, QWidget
 
+from carpus.core.output.camera_said import UNKNOWN_CAMERA, CameraSaid
 from carpus.core.output.exercises import FLEXION, SIDES
 from carpus.core.output.joint_content import JointCurves, joint_curves
 from carpus.core.output.motion_curves import MotionCurves, motion_curves
@@ -78,6 +79,7 @@ class Reviewed:
     session: Session
     choices: RepetitionChoices
     history: Sequence[SessionFigures]
+    camera: CameraSaid
     results: Sequence[StoredResult] = ()
 
 
@@ -101,6 +103,7 @@ class ReviewScreen(QWidget):
         self._session_id = ""
         self._choices = RepetitionChoices()
         self._history: Sequence[SessionFigures] = ()
+        self._camera = UNKNOWN_CAMERA
         self._curves: Curves | None = None
         self._joints: JointCurves | None = None
         self._motion: MotionCurves | None = None
@@ -286,7 +289,8 @@ class ReviewScreen(QWidget):
 
         def read() -> Reviewed:
             session, choices = store.session(session_id), store.choices(session_id)
-            return Reviewed(session, choices, store.history(patient_id), tuple(store.results_of(session_id)))
+            history, camera = store.history(patient_id), store.camera(session)
+            return Reviewed(session, choices, history, camera, tuple(store.results_of(session_id)))
 
         self._background.run(read, self._show, self.told.emit, self)
         self.setFocus(Qt.FocusReason.OtherFocusReason)
@@ -312,6 +316,7 @@ class ReviewScreen(QWidget):
         if session.header.session_id != self._session_id:
             return  # another one was asked for meanwhile
         self._session, self._choices, self._history = session, reviewed.choices, reviewed.history
+        self._camera = reviewed.camera
         self._curves = session_curves(session)
         self._joints = joint_curves(session)
         self._motion = motion_curves(session)
@@ -352,7 +357,8 @@ class ReviewScreen(QWidget):
 
     def _compute(self) -> None:
         if self._session is not None:
-            self.figures = session_figures(self._session, self._choices, limits_of(self._history))
+            figures = session_figures(self._session, self._choices, limits_of(self._history))
+            self.figures = replace(figures, camera=self._camera)
 
     def _refresh(self) -> None:
         figures, curves = self.figures, self._curves

@@ -10,11 +10,13 @@ from PySide6.QtWidgets import QFrame, QListView, QStyle, QStyledItemDelegate, QS
 
 from carpus.ui import numbers, terms
 from carpus.ui.fonts import MEDIUM, font
+from carpus.ui.icons import paint_state
 from carpus.ui.ports import SessionLine
 from carpus.ui.theme import CARD_RADIUS_PX, Theme
 from carpus.ui.translate import tr
 
 ROW_PX = 58
+SIGN_PX = 16
 COLUMNS = (0.03, 0.21, 0.48, 0.685, 0.775, 0.985)
 """Left edges as shares of the width: date, exercise and hand, main figure, counted, remark; the last is the end."""
 
@@ -34,7 +36,7 @@ def cells(line: SessionLine) -> tuple[str, str, str, str, str]:
     """The texts of a row; what is not known yet is empty."""
     day = f"{numbers.short_date(line.when)} {line.when:%H:%M}"
     what = f"{terms.exercise_name(line.exercise)}, {terms.side_name(line.side).lower()}"
-    return day, what, line.figure, line.counted, remark(line) or line.corrected.rstrip(".")
+    return day, what, line.figure, line.counted, remark(line) or line.not_sure or line.corrected.rstrip(".")
 
 
 class SessionModel(QAbstractListModel):
@@ -106,6 +108,12 @@ class RowPainter(QStyledItemDelegate):
             painter.setFont(face)
             painter.setPen(theme.color("text" if counts and number < 3 else "text2"))
             room = QRectF(edges[number], box.top(), edges[number + 1] - edges[number] - 8, box.height())
+            if number == 4 and line.not_sure and not remark(line):
+                size = theme.px(SIGN_PX)
+                at = QRectF(room.left(), room.center().y() - size / 2, size, size)
+                paint_state(painter, "warn", at, theme.color("warn"), theme.color("surface"))
+                painter.setPen(theme.color("warn"))
+                room.setLeft(at.right() + 6)
             shown = QFontMetricsF(face).elidedText(text, Qt.TextElideMode.ElideRight, room.width())
             painter.drawText(room, int(Qt.AlignmentFlag.AlignVCenter), shown)
         painter.restore()
