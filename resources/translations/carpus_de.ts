@@ -848,6 +848,14 @@
         <translation>Längen unsicher: Eine Prüfung dieser Kamera nahe dieser Sitzung war nicht in Ordnung; Winkel stimmen.</translation>
     </message>
     <message>
+        <source>angles not sure</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>lengths not sure</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
         <source>Not calibrated and not checked yet.</source>
         <translation>Noch nicht kalibriert und nicht geprüft.</translation>
     </message>
@@ -2370,6 +2378,10 @@
     <message>
         <source>{change}, error {limit}</source>
         <translation>{change}, Fehler {limit}</translation>
+    </message>
+    <message>
+        <source>{day}: {warning}</source>
+        <translation type="unfinished"></translation>
     </message>
     <message>
         <source>{day}: measured although doubtful. {findings}</source>

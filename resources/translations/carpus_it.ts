@@ -848,6 +848,14 @@
         <translation>Lunghezze non sicure: un controllo di questa telecamera vicino a questa seduta era fuori limite; gli angoli sono validi.</translation>
     </message>
     <message>
+        <source>angles not sure</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>lengths not sure</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
         <source>Not calibrated and not checked yet.</source>
         <translation>Non ancora calibrata né controllata.</translation>
     </message>
@@ -2370,6 +2378,10 @@
     <message>
         <source>{change}, error {limit}</source>
         <translation>{change}, errore {limit}</translation>
+    </message>
+    <message>
+        <source>{day}: {warning}</source>
+        <translation type="unfinished"></translation>
     </message>
     <message>
         <source>{day}: measured although doubtful. {findings}</source>
