@@ -22,6 +22,7 @@ import platformdirs
 from carpus.core.calibration.settings import CalibrationSettings
 from carpus.core.detection.settings import DetectionSettings
 from carpus.core.errors import CarpusFault, OutputNotWritable, SettingsInvalid
+from carpus.core.phrase import phrase
 from carpus.core.pipeline.live import LiveSettings
 from carpus.core.pipeline.track import TrackSettings
 from carpus.core.session.register import default_data_folder
@@ -205,7 +206,7 @@ def _own(path: Path) -> Values:
     try:
         own = _read(str(path), path.read_bytes()) if path.exists() else {}
     except OSError as cause:
-        raise SettingsInvalid(path, cause.strerror or "cannot be read") from cause
+        raise SettingsInvalid(path, cause.strerror or phrase("cannot be read")) from cause
     _filled(Settings, own, "", str(path))  # faults name the file they are in
     return own
 
@@ -278,7 +279,7 @@ def _read(name: str, data: bytes) -> Values:
     try:
         return tomllib.loads(data.decode("utf-8"))
     except RecursionError as cause:
-        raise SettingsInvalid(name, "not TOML: tables within tables without end") from cause
+        raise SettingsInvalid(name, phrase("not TOML: tables within tables without end")) from cause
     except ValueError as cause:  # TOML's own faults, text that is none, numbers without end
         raise SettingsInvalid(name, f"not TOML: {cause}"[:200]) from cause
 
@@ -299,7 +300,7 @@ def _filled(kind: type[T], values: Values, where: str, file: str) -> T:
     for name, value in values.items():
         place = f"{where}.{name}" if where else name
         if name not in known:
-            raise SettingsInvalid(place, f"there is no such setting, in {file}")
+            raise SettingsInvalid(place, phrase("there is no such setting, in {file}", file=file))
         found[name] = _value(hints[name], value, place, file)
     try:
         return kind(**found)
@@ -324,15 +325,20 @@ def _value(hint: Any, value: Any, place: str, file: str) -> Any:
         wanted = next(one for one in arguments if one is not type(None))
         return _value(wanted, value, place, file)
     if isinstance(value, str) and "\0" in value:
-        raise SettingsInvalid(place, f"a text with a character that is none, in {file}")
+        raise SettingsInvalid(place, phrase("a text with a character that is none, in {file}", file=file))
     if hint is Path and isinstance(value, str):
         return _path(value)
     if hint is float and isinstance(value, (int, float)) and not isinstance(value, bool):
         if not abs(value) < MOST_NUMBER:
-            raise SettingsInvalid(place, f"{str(value)[:20]} is not a possible number, in {file}")
+            raise SettingsInvalid(
+                place, phrase("{value} is not a possible number, in {file}", value=str(value)[:20], file=file)
+            )
         return float(value)
     if isinstance(hint, type) and type(value) is hint:
         return value
     names = {float: "a number", int: "a whole number", bool: "true or false", str: "a text"}
     wanted_words = " or ".join(map(str, arguments)) if origin is Literal else names.get(hint, "another kind of value")
-    raise SettingsInvalid(place, f"{value!r} is not {wanted_words}, in {file}")
+    raise SettingsInvalid(
+        place,
+        phrase("{value} is not {wanted_words}, in {file}", value=f"{value!r}", wanted_words=wanted_words, file=file),
+    )

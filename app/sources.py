@@ -9,6 +9,7 @@ from pathlib import Path
 from carpus.core.capture.notice import Notice, ignore
 from carpus.core.capture.source import FrameSource
 from carpus.core.errors import RecordingMissing, RecordingUnreadable
+from carpus.core.phrase import phrase
 
 COLOR_LIST, RECORDING_FILE = "rgb.txt", "recording.oni"
 REALSENSE_SUFFIXES = (".db3", ".bag")
@@ -107,4 +108,6 @@ def _opened(path: Path, how: _How) -> FrameSource:
     for is_it, opened in RECORDINGS:
         if is_it(path):
             return opened(path, how)
-    raise RecordingUnreadable(path, "neither a TUM folder, an .oni file, a RealSense recording nor a raw recording")
+    raise RecordingUnreadable(
+        path, phrase("neither a TUM folder, an .oni file, a RealSense recording nor a raw recording")
+    )

@@ -4,18 +4,21 @@ from __future__ import annotations
 
 from pathlib import Path
 
+from carpus.core.phrase import Phrase
+
 
 class CarpusFault(Exception):
     """Something the person at the desk must be told; carries facts, no prose.
 
     ``subject`` is the file, folder, device or marker concerned; ``detail`` the measured fact
-    (a number, a name, a line). Neither ever holds a patient's name.
+    (a number, a name, a line), a :class:`Phrase` where it says more. Neither ever holds a patient's name.
     """
 
     def __init__(self, subject: str | Path = "", detail: str = "") -> None:
         self.subject = str(subject)
         # A damaged file's own words may be no text; what is told must be storable and printable everywhere.
-        self.detail = str(detail).encode("utf-8", "backslashreplace").decode("utf-8")
+        storable = str(detail).encode("utf-8", "backslashreplace").decode("utf-8")
+        self.detail = detail if isinstance(detail, Phrase) and detail == storable else storable
         super().__init__(f"{type(self).__name__}: {self.subject} {self.detail}".strip())
 
 

@@ -24,25 +24,25 @@ def windows_sources() -> list[Path]:
     return sorted(path for part in ("ui", "app") for path in (ROOT / part).rglob("*.py"))
 
 
-def said_texts() -> list[str]:
-    """The templates of ``said("...")`` in core and app, sorted: their context is the empty one wherever they stand."""
+def phrase_texts() -> list[str]:
+    """The templates of ``phrase("...")`` in core and app, sorted; their context is always the empty one."""
     found = set()
     for part in ("core", "app"):
         for path in (ROOT / part).rglob("*.py"):
             source = path.read_text(encoding="utf-8")
-            if "said(" in source:
-                found |= {text for text, _ in said_calls(ast.parse(source))}
+            if "phrase(" in source:
+                found |= {text for text, _ in phrase_calls(ast.parse(source))}
     return sorted(found)
 
 
-def said_calls(tree: ast.AST) -> list[tuple[str, ast.Call]]:
-    """Calls of ``said`` with their templates; a call whose template is no literal cannot be translated and is none."""
+def phrase_calls(tree: ast.AST) -> list[tuple[str, ast.Call]]:
+    """Calls of ``phrase`` with their templates; without a literal there is nothing to translate."""
     return [
         (node.args[0].value, node)
         for node in ast.walk(tree)
         if isinstance(node, ast.Call)
         and isinstance(node.func, ast.Name)
-        and node.func.id == "said"
+        and node.func.id == "phrase"
         and node.args
         and isinstance(node.args[0], ast.Constant)
         and isinstance(node.args[0].value, str)
@@ -53,7 +53,7 @@ def update(kept: Path, language: str) -> None:
     """Let ``lupdate`` add what is new to one file, and mark what is gone."""
     with TemporaryDirectory() as folder:
         core = Path(folder) / "core_texts.py"
-        core.write_text("".join(f"tr({_literal(text)})\n" for text in said_texts()), encoding="utf-8")
+        core.write_text("".join(f"tr({_literal(text)})\n" for text in phrase_texts()), encoding="utf-8")
         sources = [str(path) for path in (*windows_sources(), core)]
         _run("lupdate", *sources, "-locations", "none", "-target-language", language,
              "-source-language", "en_GB",

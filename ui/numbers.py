@@ -58,6 +58,36 @@ def millimetres(value_mm: float) -> str:
     return f"{_whole(value_mm)}{NARROW_GAP}mm" if math.isfinite(value_mm) else UNKNOWN
 
 
+def fixed(value: float, decimals: int) -> str:
+    """``12.5`` with that many decimals, written as the person's language writes it; a dash when unknown.
+
+    >>> fixed(12.46, 1), fixed(float("nan"), 1), fixed(-0.04, 1)
+    ('12.5', '–', '0.0')
+    """
+    if not math.isfinite(value):
+        return UNKNOWN
+    return _in_the_language(f"{round(value, decimals) + 0.0:.{decimals}f}")
+
+
+def figures(value: float, count: int) -> str:
+    """``0.65`` with that many figures that mean something, none but them.
+
+    >>> figures(0.6512, 3), figures(12.0, 3)
+    ('0.651', '12')
+    """
+    return _in_the_language(f"{value:.{count}g}") if math.isfinite(value) else UNKNOWN
+
+
+def whole(value: int) -> str:
+    """``1,250``: thousands apart, as the person's language parts them."""
+    return language.locale().toString(value)
+
+
+def _in_the_language(plain: str) -> str:
+    """A number as Python writes it, with the language's decimal sign."""
+    return plain.replace(".", language.locale().decimalPoint())
+
+
 def clock(seconds: float) -> str:
     """``01:24``, hours only when there are some.
 
@@ -74,7 +104,7 @@ def clock(seconds: float) -> str:
 def clock_tenths(seconds: float) -> str:
     """``00:20.6``."""
     tenths = int(max(0.0, seconds) * 10 + 1e-6)
-    return f"{clock(tenths // 10)}.{tenths % 10}"
+    return f"{clock(tenths // 10)}{language.locale().decimalPoint()}{tenths % 10}"
 
 
 def short_date(when: date | datetime) -> str:

@@ -26,11 +26,11 @@ from carpus.core.durable import replace_file
 from carpus.core.errors import BoardMissing, BoardViewsAlike, CameraLost, CarpusFault
 from carpus.core.pipeline.channels import Newest
 from carpus.core.types import Frame
-from carpus.core.words import words_of
 from carpus.ui import numbers
 from carpus.ui.background import Background
 from carpus.ui.camera_calibration.screen import BoardScreen
 from carpus.ui.camera_calibration.values import BoardChoice, BoardProgress, BoardResult
+from carpus.ui.fault_words import fault_words
 from carpus.ui.report.calibration_page import write_calibration_page
 from carpus.ui.report.pdf import write_sheets
 
@@ -229,5 +229,5 @@ class Calibrating(QObject):
 
 def lost_words(fault: Exception | None) -> str:
     """A camera that is away, and what to do."""
-    words = words_of(fault if isinstance(fault, CarpusFault) else CameraLost())
+    words = fault_words(fault if isinstance(fault, CarpusFault) else CameraLost())
     return f"{words.happened} {words.do}"

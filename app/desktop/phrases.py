@@ -4,9 +4,11 @@ from __future__ import annotations
 
 from pathlib import PureWindowsPath
 
+from PySide6.QtCore import QObject
+
 from carpus.core.calibration.result import Finding
 from carpus.core.errors import CarpusFault
-from carpus.core.words import finding_words, words_of
+from carpus.ui.fault_words import fault_words, finding_words
 from carpus.ui.ports import Words
 
 MOST_LETTERS = 32
@@ -32,18 +34,18 @@ def _end_of_path(text: str) -> str:
     return f"…/{shortened(path.parent.name)}/{shortened(path.name)}"
 
 
-class WordTable:
+class WordTable(QObject):
     """Phrasebook of the windows; what is no known fault is a mistake of the program, and is said to be one."""
 
     def fault(self, fault: Exception) -> Words:
         """The three answers."""
         if isinstance(fault, CarpusFault):
-            words = words_of(type(fault)(_end_of_path(fault.subject), fault.detail))
+            words = fault_words(type(fault)(_end_of_path(fault.subject), fault.detail))
             return Words(words.happened, words.safe, words.do)
         return Words(
-            "Something happened that Carpus does not know.",
-            "Everything stored before is safe.",
-            "Go back and try again. If it comes back, start Carpus anew and report it.",
+            self.tr("Something happened that Carpus does not know."),
+            self.tr("Everything stored before is safe."),
+            self.tr("Go back and try again. If it comes back, start Carpus anew and report it."),
         )
 
     def finding(self, finding: Finding) -> Words:

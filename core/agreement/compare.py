@@ -18,6 +18,7 @@ from carpus.core.hand.sites import PALM_MARKERS, WRIST_ANGLES
 from carpus.core.measures.signals import Signal, low_pass
 from carpus.core.output.range_rows import best_motion
 from carpus.core.output.report_content import SessionFigures
+from carpus.core.phrase import phrase
 from carpus.core.session.values import Session
 from carpus.core.types import FloatArray, TrackStatus
 
@@ -108,7 +109,7 @@ def compare(
     :class:`Stopped` where ``watch`` says so.
     """
     if not len(session):
-        raise ReferenceUnsuited(reference.path, "the session holds no picture")
+        raise ReferenceUnsuited(reference.path, phrase("the session holds no picture"))
     motion = best_motion(session) if smoothed else session.motion
     time_s = session.timestamp_s - session.timestamp_s[0]
     use = np.asarray(session.status) == TrackStatus.TRACKED
@@ -130,15 +131,21 @@ def compare(
         not_used += [f"{name}: not in the session" for name in reference.angles_rad if name not in own]
         not_used += [f"{name}: not in the reference" for name in own if name not in reference.angles_rad]
         if not theirs:
-            raise ReferenceUnsuited(reference.path, "no angle of the session is in it")
+            raise ReferenceUnsuited(reference.path, phrase("no angle of the session is in it"))
         shift = _shift_of_angles(own, theirs, time_s, reference, session, most_shift_s, watch)
     else:
-        raise ReferenceUnsuited(reference.path, "no disc of the palm and no angle of the wrist or fingers is in it")
+        raise ReferenceUnsuited(
+            reference.path, phrase("no disc of the palm and no angle of the wrist or fingers is in it")
+        )
     if math.isnan(shift.match):
-        raise ReferenceUnsuited(reference.path, f"less than {LEAST_OVERLAP_S:g} s in common, or nothing moves")
+        raise ReferenceUnsuited(
+            reference.path,
+            phrase("less than {least_overlap_s} s in common, or nothing moves", least_overlap_s=f"{LEAST_OVERLAP_S:g}"),
+        )
     if not shift.match >= LEAST_MATCH:
         raise ReferenceUnsuited(
-            reference.path, f"the curves match by {shift.match:.2f} at best: is it the same movement?"
+            reference.path,
+            phrase("the curves match by {match} at best: is it the same movement?", match=f"{shift.match:.2f}"),
         )
     reference_s = _since_start(reference, session)
     at = time_s + shift.reference_later_s
@@ -153,7 +160,7 @@ def compare(
         other = other + 2.0 * math.pi * np.rint((mine - other) / (2.0 * math.pi))
         pairs.append(Pairs(name, time_s[both], mine, other, agreement(np.degrees(mine), np.degrees(other))))
     if not pairs:
-        raise ReferenceUnsuited(reference.path, "the two have no time in common")
+        raise ReferenceUnsuited(reference.path, phrase("the two have no time in common"))
     order = {name: k for k, name in enumerate(names)}
     pairs.sort(key=lambda one: order[one.name])
     overlap_s = max(float(one.time_s[-1] - one.time_s[0]) for one in pairs)
@@ -319,7 +326,8 @@ def _common(session: Session, reference: Reference) -> list[str]:
     if len(names) < 3:
         there = ", ".join(names) or "none"
         raise ReferenceUnsuited(
-            reference.path, f"three discs of the palm are needed, it has {there}; say which markers they are"
+            reference.path,
+            phrase("three discs of the palm are needed, it has {there}; say which markers they are", there=there),
         )
     return names
 
@@ -341,7 +349,7 @@ def _angles_of_points(
     both = np.isfinite(there).all(axis=(1, 2)) & np.isfinite(mine).all(axis=(1, 2))
     both &= np.asarray(session.status) == TrackStatus.TRACKED
     if both.sum() < FEWEST:
-        raise ReferenceUnsuited(reference.path, "the two have no time in common")
+        raise ReferenceUnsuited(reference.path, phrase("the two have no time in common"))
     turn, move = rigid(there[both].reshape(-1, 3), mine[both].reshape(-1, 3))
     off = there[both] @ turn.T + move - mine[both]
     known = np.isfinite(theirs).all(axis=(1, 2))
@@ -417,7 +425,7 @@ def _with_readings(
             figures_deg = agreement(np.degrees(mine_rad), np.degrees(theirs_rad), waveform=False)
             pairs.append(Pairs(name, t, mine_rad, theirs_rad, figures_deg))
     if not pairs:
-        raise ReferenceUnsuited(reference.path, not_used[-1] if not_used else "no reading can be used")
+        raise ReferenceUnsuited(reference.path, not_used[-1] if not_used else phrase("no reading can be used"))
     count = len(reference.readings)
     return Compared(reference.kind, tuple(pairs), None, None, count, left, math.nan, math.nan, tuple(not_used))
 

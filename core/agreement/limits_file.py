@@ -13,6 +13,7 @@ from typing import Any
 from carpus.core.errors import OutputNotWritable, SettingsInvalid
 from carpus.core.formats.new_output import new_json
 from carpus.core.measures.error_limits import ErrorLimits, MeasuredLimit, RetestStudy
+from carpus.core.phrase import phrase
 
 LIMITS_FILE, FORMAT, FORMAT_VERSION = "error_limits.json", "carpus-error-limits", 1
 
@@ -25,13 +26,13 @@ def read_limits(data_folder: Path) -> ErrorLimits:
     except FileNotFoundError:
         return ErrorLimits()
     except (OSError, ValueError, RecursionError) as cause:
-        raise SettingsInvalid(path, "it cannot be read as JSON; the usual limits hold") from cause
+        raise SettingsInvalid(path, phrase("it cannot be read as JSON; the usual limits hold")) from cause
     try:
         if content["format"] != FORMAT or content["format_version"] != FORMAT_VERSION:
             raise ValueError("another format")
         return ErrorLimits(tuple(_study(one) for one in content["studies"]))
     except (KeyError, TypeError, ValueError, AttributeError) as cause:
-        raise SettingsInvalid(path, "it does not hold limits; the usual ones hold") from cause
+        raise SettingsInvalid(path, phrase("it does not hold limits; the usual ones hold")) from cause
 
 
 def _study(said: dict[str, Any]) -> RetestStudy:

@@ -17,6 +17,7 @@ from carpus.core.formats.c3d_read import read_c3d
 from carpus.core.formats.opensim_read import Columns, read_mot, read_trc, text_of
 from carpus.core.hand.sites import SITES, WRIST_ANGLES, joint_angle_names
 from carpus.core.output.range_rows import best_motion
+from carpus.core.phrase import phrase
 from carpus.core.session.reader import read_session
 from carpus.core.types import FloatArray
 
@@ -91,7 +92,7 @@ def outline_of(path: Path) -> Outline:
         return Outline(path, "angles", tuple(values), {"time": "time"} | _found(values))
     if suffix in SESSION_FILES:
         return Outline(path, "session")
-    raise ReferenceUnreadable(path, f"no reader for {suffix or 'a file without an ending'}")
+    raise ReferenceUnreadable(path, phrase("no reader for {value}", value=suffix or "a file without an ending"))
 
 
 def _found(columns: Iterable[str]) -> dict[str, str]:
@@ -119,7 +120,7 @@ def read_reference(
         return _of_table(path, columns or {}, radians)
     if suffix in SESSION_FILES:
         return _of_session(path, smoothed)
-    raise ReferenceUnreadable(path, f"no reader for {suffix or 'a file without an ending'}")
+    raise ReferenceUnreadable(path, phrase("no reader for {value}", value=suffix or "a file without an ending"))
 
 
 def _of_session(path: Path, smoothed: bool) -> Reference:
@@ -142,7 +143,7 @@ def _of_points(path: Path, suffix: str, markers: Mapping[str, str]) -> Reference
         if wanted in there:
             points[name] = track.place_m[:, there[wanted]]
         elif name in markers:
-            raise ReferenceUnreadable(path, f"it has no marker {markers[name]}")
+            raise ReferenceUnreadable(path, phrase("it has no marker {markers}", markers=markers[name]))
     used = {_plain(markers.get(name, name)) for name in points}
     left = [name for name in track.names if _plain(name) not in used]
     unused = _left("markers", left, "none of the discs by their names")
@@ -160,7 +161,7 @@ def _of_angles(path: Path, kind: str, table: Columns, columns: Mapping[str, str]
     for name in ANGLE_NAMES:
         column, sign = _column(name, columns, table.values)
         if not column and name in columns:
-            raise ReferenceUnreadable(path, f"it has no column {columns[name].lstrip('-')}")
+            raise ReferenceUnreadable(path, phrase("it has no column {value}", value=columns[name].lstrip("-")))
         if column:
             used.add(column)
             values = sign * table.values[column]
@@ -195,7 +196,7 @@ def _rows_of(path: Path) -> tuple[list[dict[str, str]], list[str], dict[str, str
     text = text_of(path)
     lines = [line for line in text.splitlines() if line.strip() and not line.startswith("#")]
     if len(lines) < 2:
-        raise ReferenceUnreadable(path, "it holds no table")
+        raise ReferenceUnreadable(path, phrase("it holds no table"))
     separator = max("\t;,", key=lines[0].count)
     rows = list(csv.DictReader(io.StringIO("\n".join(lines)), delimiter=separator))
     head = [name for name in rows[0] if name]
@@ -216,11 +217,11 @@ def _of_table(path: Path, columns: Mapping[str, str], radians: bool | None) -> R
         return _of_readings(path, rows, low)
     time_name = columns.get("time") or _time_name(low)
     if time_name not in head:
-        raise ReferenceUnreadable(path, "it has no column of times; say which it is")
+        raise ReferenceUnreadable(path, phrase("it has no column of times; say which it is"))
     time_s = np.array([_number(row[time_name]) for row in rows])
     known = np.isfinite(time_s)
     if known.sum() < 2 or (np.diff(time_s[known]) <= 0.0).any():
-        raise ReferenceUnreadable(path, "its times do not rise")
+        raise ReferenceUnreadable(path, phrase("its times do not rise"))
     values = {}
     for name in head:
         if name != time_name:
@@ -239,7 +240,7 @@ def _of_readings(path: Path, rows: list[dict[str, str]], low: Mapping[str, str])
     )
     time_name = _time_name(low)
     if not value_name:
-        raise ReferenceUnreadable(path, "it has no column reading_deg")
+        raise ReferenceUnreadable(path, phrase("it has no column reading_deg"))
     readings, unused = [], []
     for k, row in enumerate(rows, start=2):
         said = (row.get(low.get("movement", ""), "") or row.get(low.get("angle", ""), "") or "").strip()
@@ -254,7 +255,7 @@ def _of_readings(path: Path, rows: list[dict[str, str]], low: Mapping[str, str])
         time_s = _number(row[time_name]) if time_name else math.nan
         readings.append(Reading(name, movement, sign * math.radians(value), time_s))
     if not readings:
-        raise ReferenceUnreadable(path, "it holds no reading")
+        raise ReferenceUnreadable(path, phrase("it holds no reading"))
     return Reference(path, "goniometer list", readings=tuple(readings), unused=tuple(unused))
 
 

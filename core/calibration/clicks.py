@@ -11,6 +11,7 @@ import numpy as np
 from carpus.core.calibration.result import ALL_STRAIGHT, Clicks
 from carpus.core.errors import ClickOutsidePicture, ClicksUnreadable, OutputExists, OutputNotWritable, ProtocolUnknown
 from carpus.core.hand.protocols import protocol_named
+from carpus.core.phrase import phrase
 from carpus.core.types import FloatArray, Side
 
 _MOST_BYTES = 1_000_000
@@ -58,7 +59,16 @@ def check_inside(clicks: Clicks, width_px: int, height_px: int) -> None:
     """Raise :class:`ClickOutsidePicture` for the first click outside; the picture begins half a pixel before 0."""
     for name, (u, v) in zip(clicks.protocol.markers, clicks.pixel.tolist(), strict=True):
         if not (-0.5 <= u < width_px - 0.5 and -0.5 <= v < height_px - 0.5):
-            raise ClickOutsidePicture(name, f"{u:g}, {v:g} in a picture of {width_px} x {height_px} pixels")
+            raise ClickOutsidePicture(
+                name,
+                phrase(
+                    "{u}, {v} in a picture of {width_px} x {height_px} pixels",
+                    u=f"{u:g}",
+                    v=f"{v:g}",
+                    width_px=width_px,
+                    height_px=height_px,
+                ),
+            )
 
 
 def _content(path: Path) -> dict[str, Any]:
@@ -66,22 +76,22 @@ def _content(path: Path) -> dict[str, Any]:
         with path.open("rb") as file:
             data = file.read(_MOST_BYTES + 1)
         if len(data) > _MOST_BYTES:
-            raise ClicksUnreadable(path, "much too long for clicks")
+            raise ClicksUnreadable(path, phrase("much too long for clicks"))
         content = json.loads(data.decode("utf-8-sig"), object_pairs_hook=_without_repetition)
     except FileNotFoundError as cause:
-        raise ClicksUnreadable(path, "there is no such file") from cause
+        raise ClicksUnreadable(path, phrase("there is no such file")) from cause
     except OSError as cause:
-        raise ClicksUnreadable(path, cause.strerror or "cannot be opened") from cause
+        raise ClicksUnreadable(path, cause.strerror or phrase("cannot be opened")) from cause
     except UnicodeDecodeError as cause:
-        raise ClicksUnreadable(path, "not a text file") from cause
+        raise ClicksUnreadable(path, phrase("not a text file")) from cause
     except json.JSONDecodeError as cause:
-        raise ClicksUnreadable(path, f"not JSON, line {cause.lineno}") from cause
+        raise ClicksUnreadable(path, phrase("not JSON, line {lineno}", lineno=cause.lineno)) from cause
     except _RepeatedError as cause:
-        raise ClicksUnreadable(path, f"{cause} is there twice") from cause
+        raise ClicksUnreadable(path, phrase("{cause} is there twice", cause=cause)) from cause
     except (ValueError, RecursionError) as cause:
-        raise ClicksUnreadable(path, "not JSON") from cause
+        raise ClicksUnreadable(path, phrase("not JSON")) from cause
     if not isinstance(content, dict):
-        raise ClicksUnreadable(path, "not an object with hand, protocol and markers")
+        raise ClicksUnreadable(path, phrase("not an object with hand, protocol and markers"))
     return content
 
 
@@ -103,7 +113,7 @@ def _side(path: Path, hand: Any) -> Side:
         return "right"
     if hand == "left":
         return "left"
-    raise ClicksUnreadable(path, f"hand is {json.dumps(hand)[:40]}, right or left expected")
+    raise ClicksUnreadable(path, phrase("hand is {json}, right or left expected", json=json.dumps(hand)[:40]))
 
 
 def _straight(path: Path, said: Any) -> tuple[bool, ...]:
@@ -111,13 +121,13 @@ def _straight(path: Path, said: Any) -> tuple[bool, ...]:
         return ()
     if isinstance(said, list) and len(said) == len(ALL_STRAIGHT) and all(isinstance(each, bool) for each in said):
         return tuple(said)
-    raise ClicksUnreadable(path, "straight_fingers is not five times true or false, thumb to little")
+    raise ClicksUnreadable(path, phrase("straight_fingers is not five times true or false, thumb to little"))
 
 
 def _pixels(path: Path, markers: Any, names: tuple[str, ...]) -> FloatArray:
     """Pixels (M, 2) in the order of the protocol."""
     if not isinstance(markers, dict):
-        raise ClicksUnreadable(path, "no markers")
+        raise ClicksUnreadable(path, phrase("no markers"))
     for problem, some in (("no click for", set(names) - set(markers)), ("unknown marker", set(markers) - set(names))):
         if some:
             raise ClicksUnreadable(path, f"{problem} {', '.join(sorted(some))[:200]}")
@@ -127,7 +137,9 @@ def _pixels(path: Path, markers: Any, names: tuple[str, ...]) -> FloatArray:
 def _pixel(path: Path, name: str, value: Any) -> tuple[float, float]:
     if isinstance(value, list) and len(value) == 2 and all(map(_is_number, value)):
         return float(value[0]), float(value[1])
-    raise ClicksUnreadable(path, f"{name} is {json.dumps(value)[:40]}, two pixels expected")
+    raise ClicksUnreadable(
+        path, phrase("{name} is {json}, two pixels expected", name=name, json=json.dumps(value)[:40])
+    )
 
 
 def _is_number(value: Any) -> bool:

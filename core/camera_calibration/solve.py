@@ -12,6 +12,7 @@ import numpy as np
 from carpus.core.camera import Camera
 from carpus.core.camera_calibration.views import View, judge
 from carpus.core.errors import BoardMissing, BoardUnfit, BoardViewsAlike
+from carpus.core.phrase import phrase
 from carpus.core.types import FloatArray
 
 GOOD_PX, FAIR_PX, MOST_PX = 0.3, 0.6, 1.2
@@ -52,7 +53,7 @@ def solve_intrinsics(views: Sequence[View], width_px: int, height_px: int, subje
     alike, :class:`BoardUnfit` where the corners are not those of a flat board.
     """
     if not views:
-        raise BoardMissing(subject, "in none of the pictures")
+        raise BoardMissing(subject, phrase("in none of the pictures"))
     used = list(range(len(views)))
     _require(views, width_px, height_px, subject)
     fit = _fitted([views[k] for k in used], width_px, height_px)
@@ -63,10 +64,17 @@ def solve_intrinsics(views: Sequence[View], width_px: int, height_px: int, subje
         used = kept
         fit = _fitted([views[k] for k in used], width_px, height_px)
     if fit.error_px > MOST_PX or not math.isfinite(fit.error_px):
-        raise BoardUnfit(subject, f"corners lie {fit.error_px:.1f} px off, at most {MOST_PX:g} are fair")
+        raise BoardUnfit(
+            subject,
+            phrase(
+                "corners lie {error_px} px off, at most {most_px} are fair",
+                error_px=f"{fit.error_px:.1f}",
+                most_px=f"{MOST_PX:g}",
+            ),
+        )
     if fit.focal_sd_px > MOST_FOCAL_SD * fit.camera.fx_px:
         share = 100.0 * fit.focal_sd_px / fit.camera.fx_px
-        raise BoardViewsAlike(subject, f"the focal length is known to {share:.1f} % only")
+        raise BoardViewsAlike(subject, phrase("the focal length is known to {share} % only", share=f"{share:.1f}"))
     return Intrinsics(fit.camera, fit.focal_sd_px, fit.middle_sd_px, fit.error_px, fit.turn, fit.shift_m, tuple(used))
 
 

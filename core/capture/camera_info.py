@@ -12,6 +12,7 @@ import yaml
 from carpus.core.camera import COEFFICIENTS, DEFAULT_CAMERA, Camera, DistortionModel
 from carpus.core.depth_sensor import ASSUMED, ASSUMED_SENSOR, DepthSensor, sensor_of
 from carpus.core.errors import CameraFileUnreadable, OutputExists, OutputNotWritable
+from carpus.core.phrase import phrase
 from carpus.core.types import SIMULATED
 
 CAMERA_FILE = "camera_info.yaml"
@@ -58,19 +59,19 @@ def read_camera_info(path: Path) -> CameraInfo:
         with path.open("rb") as file:
             data = file.read(_MOST_BYTES + 1)
         if len(data) > _MOST_BYTES:
-            raise CameraFileUnreadable(path, "much too long for a camera calibration")
+            raise CameraFileUnreadable(path, phrase("much too long for a camera calibration"))
         content = yaml.safe_load(data.decode("utf-8-sig"))
     except OSError as cause:
-        raise CameraFileUnreadable(path, cause.strerror or "cannot be opened") from cause
+        raise CameraFileUnreadable(path, cause.strerror or phrase("cannot be opened")) from cause
     except UnicodeDecodeError as cause:
-        raise CameraFileUnreadable(path, "not a text file") from cause
+        raise CameraFileUnreadable(path, phrase("not a text file")) from cause
     except yaml.YAMLError as cause:
         mark = getattr(cause, "problem_mark", None)
         raise CameraFileUnreadable(path, "not YAML" + (f", line {mark.line + 1}" if mark else "")) from cause
     except (ValueError, RecursionError) as cause:
-        raise CameraFileUnreadable(path, "not YAML") from cause
+        raise CameraFileUnreadable(path, phrase("not YAML")) from cause
     if not isinstance(content, dict):
-        raise CameraFileUnreadable(path, "not a camera calibration")
+        raise CameraFileUnreadable(path, phrase("not a camera calibration"))
     registered, mirrored, simulated = (_flag(path, content, key) for key in ("registered", "mirrored", SIMULATED))
     return CameraInfo(_camera(path, content), registered, mirrored, bool(simulated), _calibration(path, content))
 
@@ -141,20 +142,38 @@ def _camera(path: Path, content: dict[str, Any]) -> Camera:
     said = content.get("distortion_model", _USUAL_MODEL)
     model = next((known for known in COEFFICIENTS if known == said), None)
     if model is None:
-        raise CameraFileUnreadable(path, f"distortion_model {said}, {' or '.join(COEFFICIENTS)} expected")
+        raise CameraFileUnreadable(
+            path,
+            phrase(
+                "distortion_model {said}, {coefficients} expected", said=said, coefficients=" or ".join(COEFFICIENTS)
+            ),
+        )
     width, height = (_size(path, content, key) for key in ("image_width", "image_height"))
     k = _data(path, content, "camera_matrix")
     if len(k) != 9:
-        raise CameraFileUnreadable(path, f"camera_matrix has {len(k)} numbers, 9 expected")
+        raise CameraFileUnreadable(path, phrase("camera_matrix has {count} numbers, 9 expected", count=len(k)))
     fx, skew, cx, zero, fy, cy, *last = k
     if fx <= 0.0 or fy <= 0.0 or [skew, zero, *last] != [0.0, 0.0, 0.0, 0.0, 1.0]:
-        raise CameraFileUnreadable(path, "camera_matrix is not [fx, 0, cx, 0, fy, cy, 0, 0, 1]")
+        raise CameraFileUnreadable(path, phrase("camera_matrix is not [fx, 0, cx, 0, fy, cy, 0, 0, 1]"))
     if not all(_FOCAL_SHARE[0] <= f / width <= _FOCAL_SHARE[1] for f in (fx, fy)):
-        raise CameraFileUnreadable(path, f"fx {fx:g} and fy {fy:g} are no camera's with pictures {width} pixels wide")
+        raise CameraFileUnreadable(
+            path,
+            phrase(
+                "fx {fx} and fy {fy} are no camera's with pictures {width} pixels wide",
+                fx=f"{fx:g}",
+                fy=f"{fy:g}",
+                width=width,
+            ),
+        )
     distortion = _data(path, content, "distortion_coefficients") if "distortion_coefficients" in content else []
     wanted = COEFFICIENTS[model]
     if len(distortion) not in (0, 4, 5, wanted):
-        raise CameraFileUnreadable(path, f"distortion_coefficients has {len(distortion)} numbers, {wanted} expected")
+        raise CameraFileUnreadable(
+            path,
+            phrase(
+                "distortion_coefficients has {count} numbers, {wanted} expected", count=len(distortion), wanted=wanted
+            ),
+        )
     lens = (*distortion, *[0.0] * (wanted - len(distortion)))
     return Camera(fx, fy, cx, cy, width, height, lens, "file", _sensor(path, content), model)
 
@@ -183,16 +202,20 @@ def _calibration(path: Path, content: dict[str, Any]) -> StoredCalibration | Non
             int(said["pictures"]),
         )
     except (KeyError, TypeError, ValueError) as cause:
-        raise CameraFileUnreadable(path, f"{_CALIBRATION} is not as Carpus writes it") from cause
+        raise CameraFileUnreadable(
+            path, phrase("{calibration} is not as Carpus writes it", calibration=_CALIBRATION)
+        ) from cause
     if not (_SCALES[0] <= out.depth_scale <= _SCALES[1] and abs(out.depth_offset_m) <= _MOST_OFFSET_M):
-        raise CameraFileUnreadable(path, f"{_CALIBRATION} has depth that no camera reads")
+        raise CameraFileUnreadable(
+            path, phrase("{calibration} has depth that no camera reads", calibration=_CALIBRATION)
+        )
     return out
 
 
 def _size(path: Path, content: dict[str, Any], key: str) -> int:
     value = content.get(key)
     if isinstance(value, bool) or not isinstance(value, int) or value <= 0:
-        raise CameraFileUnreadable(path, f"{key} is not a number of pixels")
+        raise CameraFileUnreadable(path, phrase("{key} is not a number of pixels", key=key))
     return value
 
 
@@ -200,19 +223,19 @@ def _flag(path: Path, content: dict[str, Any], key: str) -> bool | None:
     value = content.get(key)
     if value is None or isinstance(value, bool):
         return value
-    raise CameraFileUnreadable(path, f"{key} is neither true nor false")
+    raise CameraFileUnreadable(path, phrase("{key} is neither true nor false", key=key))
 
 
 def _data(path: Path, content: dict[str, Any], key: str) -> list[float]:
     block = content.get(key)
     data = block.get("data") if isinstance(block, dict) else None
     if not isinstance(data, list):
-        raise CameraFileUnreadable(path, f"{key} has no data")
+        raise CameraFileUnreadable(path, phrase("{key} has no data", key=key))
     try:
         # YAML 1.1 takes 1e-05 for a word, so words are read as numbers too
         numbers = [float(value) for value in data if not isinstance(value, bool)]
     except (TypeError, ValueError) as cause:
-        raise CameraFileUnreadable(path, f"{key} holds something that is not a number") from cause
+        raise CameraFileUnreadable(path, phrase("{key} holds something that is not a number", key=key)) from cause
     if len(numbers) != len(data) or not all(math.isfinite(value) for value in numbers):
-        raise CameraFileUnreadable(path, f"{key} holds something that is not a number")
+        raise CameraFileUnreadable(path, phrase("{key} holds something that is not a number", key=key))
     return numbers

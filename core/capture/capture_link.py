@@ -17,6 +17,7 @@ from carpus.core.capture.capture_messages import Arrived, Command, Free, Opened,
 from carpus.core.capture.capture_process import Serve, run
 from carpus.core.capture.video_mode import Sensor, VideoMode
 from carpus.core.errors import DriverFailed
+from carpus.core.phrase import phrase
 
 SLOTS = 8
 START_S = 30.0
@@ -85,7 +86,7 @@ class CaptureProcess:
             except (EOFError, OSError) as cause:
                 raise DriverFailed(self._subject, self._death()) from cause
             if time.monotonic() > deadline:
-                raise DriverFailed(self._subject, f"no answer for {patience_s:g} s")
+                raise DriverFailed(self._subject, phrase("no answer for {patience_s} s", patience_s=f"{patience_s:g}"))
         return None
 
     def pixels(self, arrived: Arrived, mode: VideoMode) -> NDArray[Any]:

@@ -30,6 +30,7 @@ from carpus.core.errors import (
     RecordingUnsupported,
     TimesUnordered,
 )
+from carpus.core.phrase import phrase
 
 MAX_NODES = 16
 MAX_FIELDS_SIZE = 1 << 20
@@ -168,7 +169,7 @@ class _Walk:
     def contents(self) -> OniContents:
         head = self._file.read(oni.FILE_HEADER.size)
         if len(head) < oni.FILE_HEADER.size or head[:4] != oni.FILE_MAGIC:
-            raise RecordingUnreadable(self._path, "not an .oni file")
+            raise RecordingUnreadable(self._path, phrase("not an .oni file"))
         _, *version, self._greatest_us, self._max_node = oni.FILE_HEADER.unpack(head)
         if not oni.OLDEST_VERSION <= tuple(version) <= oni.FILE_VERSION:
             raise RecordingUnsupported(self._path, "format version " + ".".join(map(str, version)))
@@ -184,7 +185,7 @@ class _Walk:
         return self._result(".".join(map(str, version)))
 
     def _damaged(self, what: str, position: int) -> CarpusFault:
-        return RecordingDamaged(self._path, f"{what}, at byte {position}")
+        return RecordingDamaged(self._path, phrase("{what}, at byte {position}", what=what, position=position))
 
     def _records(self) -> Iterator[_Record]:
         """All records up to END; raises when the chain breaks."""
@@ -260,7 +261,8 @@ class _Walk:
             raise self._damaged("two streams of one name", record.position)
         if node.has_pictures and codec not in _CODECS[NodeType(kind)]:
             raise RecordingUnsupported(
-                self._path, f"codec {codec.decode('ascii', 'replace')} for {NodeType(kind).name}"
+                self._path,
+                phrase("codec {codec} for {name}", codec=codec.decode("ascii", "replace"), name=NodeType(kind).name),
             )
         if self._has_pictures:
             raise self._damaged("a stream that begins late", record.position)
@@ -280,7 +282,7 @@ class _Walk:
         if not whole:
             raise self._damaged(f"property {name} of the wrong size", record.position)
         if self._has_pictures and name in _FIXED and node.properties.get(name) != data:
-            raise RecordingUnsupported(self._path, f"{name} changes on the way")
+            raise RecordingUnsupported(self._path, phrase("{name} changes on the way", name=name))
         node.properties[name] = data
         if name == oni.PIXEL_FORMAT_2:
             node.pixel_format = int.from_bytes(data, "little")
@@ -303,7 +305,7 @@ class _Walk:
         if oni.CROPPING not in node.properties:
             raise self._damaged("no cropping property, so that no picture would come", record.position)
         if any(node.properties[oni.CROPPING][:4]):
-            raise RecordingUnsupported(self._path, "cropped pictures")
+            raise RecordingUnsupported(self._path, phrase("cropped pictures"))
         if node.codec == Codec.DEPTH_TABLE and oni.MAX_DEPTH not in node.properties:
             raise self._damaged("no greatest depth", record.position)
         if not node.pixel_format:
@@ -313,7 +315,9 @@ class _Walk:
                 NodeType.IR: PixelFormat.GRAY16,
             }[NodeType(node.kind)]
         if node.pixel_format not in _BYTES_PER_PIXEL:
-            raise RecordingUnsupported(self._path, f"pixel format {node.pixel_format}")
+            raise RecordingUnsupported(
+                self._path, phrase("pixel format {pixel_format}", pixel_format=node.pixel_format)
+            )
         needed = width * height * _BYTES_PER_PIXEL[PixelFormat(node.pixel_format)]
         for name in (oni.FRAME_SIZE, oni.OLD_FRAME_SIZE):
             told = int.from_bytes(node.properties.get(name, b""), "little")
@@ -345,7 +349,9 @@ class _Walk:
         if number > (node.frames or 0) or number <= (node.numbers[-1] if node.numbers else 0):
             raise self._damaged(f"picture number {number}", record.position)
         if node.times_us and time_us <= node.times_us[-1] and node.kind != NodeType.IR:
-            raise TimesUnordered(self._path, f"{NodeType(node.kind).name.lower()} picture {number}")
+            raise TimesUnordered(
+                self._path, phrase("{value} picture {number}", value=NodeType(node.kind).name.lower(), number=number)
+            )
         node.numbers.append(number)
         node.times_us.append(time_us)
         header = oni.OLD_RECORD_HEADER if self._is_old else oni.RECORD_HEADER
@@ -365,16 +371,18 @@ class _Walk:
         images = [node for node in self._nodes.values() if node.kind == NodeType.IMAGE]
         depths = [node for node in self._nodes.values() if node.kind == NodeType.DEPTH]
         if not images:
-            raise RecordingUnsupported(self._path, "no colour pictures")
+            raise RecordingUnsupported(self._path, phrase("no colour pictures"))
         if len(images) > 1 or len(depths) > 1:
-            raise RecordingUnsupported(self._path, "more than one camera")
+            raise RecordingUnsupported(self._path, phrase("more than one camera"))
         if not images[0].numbers:
             raise RecordingEmpty(self._path)
         if images[0].pixel_format != PixelFormat.RGB888:
-            raise RecordingUnsupported(self._path, f"colour as {PixelFormat(images[0].pixel_format).name}")
+            raise RecordingUnsupported(
+                self._path, phrase("colour as {name}", name=PixelFormat(images[0].pixel_format).name)
+            )
         depth = depths[0] if depths and depths[0].numbers else None
         if depth is not None and depth.pixel_format not in (PixelFormat.DEPTH_1_MM, PixelFormat.DEPTH_100_UM):
-            raise RecordingUnsupported(self._path, f"depth as {PixelFormat(depth.pixel_format).name}")
+            raise RecordingUnsupported(self._path, phrase("depth as {name}", name=PixelFormat(depth.pixel_format).name))
         color_stream = self._stream(images[0])
         return OniContents(self._path, self._identity, version, color_stream, self._stream(depth) if depth else None)
 

@@ -37,6 +37,7 @@ from carpus.core.errors import (
     RecordingUnsupported,
     RegistrationAssumed,
 )
+from carpus.core.phrase import phrase
 from carpus.core.types import SIMULATED, Frame
 
 WAITING_PICTURES = 64
@@ -131,7 +132,7 @@ class OniSource:
         if opened is None:
             return
         if dict(opened.modes) != modes:
-            raise DriverFailed(self._path, "the library sees other pictures than the file holds")
+            raise DriverFailed(self._path, phrase("the library sees other pictures than the file holds"))
         while True:
             with self._lock:
                 if process is not self._process:
@@ -170,7 +171,7 @@ class OniSource:
             if told:
                 detail = f"for pictures of {told.camera.width_px}x{told.camera.height_px}, these are {size}"
                 raise CameraFileUnreadable(sidecar_path(self._path), detail)
-            raise RecordingUnsupported(self._path, f"no intrinsics for pictures of {size}")
+            raise RecordingUnsupported(self._path, phrase("no intrinsics for pictures of {size}", size=size))
         settings = {"format": f".oni {contents.version}", "color": _stream_text(contents, "color")}
         if contents.depth is not None:
             settings["depth"] = _stream_text(contents, "depth")

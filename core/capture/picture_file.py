@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 
 from carpus.core.encryption.content import read_kept
 from carpus.core.errors import ContentDamaged, PictureDamaged
+from carpus.core.phrase import phrase
 from carpus.core.types import ByteImage, DepthImage
 
 _PNG_START = b"\x89PNG\r\n\x1a\n"
@@ -25,9 +26,9 @@ def read_color(path: Path) -> ByteImage:
     if data.startswith(_PNG_START):
         bits, color_type = data[24], data[25]
         if color_type in _GREY_TYPES:
-            raise PictureDamaged(path, "grey, a colour picture is expected")
+            raise PictureDamaged(path, phrase("grey, a colour picture is expected"))
         if bits > 8:
-            raise PictureDamaged(path, f"{bits} bits per colour, 8 are expected")
+            raise PictureDamaged(path, phrase("{bits} bits per colour, 8 are expected", bits=bits))
     return _decoded(path, data, cv2.IMREAD_COLOR_RGB)
 
 
@@ -35,9 +36,11 @@ def read_depth(path: Path) -> DepthImage:
     """Depth picture (H, W) uint16, read-only."""
     depth = _decoded(path, _checked_bytes(path), cv2.IMREAD_UNCHANGED)
     if depth.ndim != 2:
-        raise PictureDamaged(path, "in colour, a depth picture of 16 bits is expected")
+        raise PictureDamaged(path, phrase("in colour, a depth picture of 16 bits is expected"))
     if depth.dtype != np.uint16:
-        raise PictureDamaged(path, f"{8 * depth.dtype.itemsize} bits, a depth picture of 16 bits is expected")
+        raise PictureDamaged(
+            path, phrase("{value} bits, a depth picture of 16 bits is expected", value=8 * depth.dtype.itemsize)
+        )
     return depth
 
 
@@ -46,15 +49,15 @@ def _checked_bytes(path: Path) -> bytes:
     try:
         data = read_kept(path)
     except FileNotFoundError as cause:
-        raise PictureDamaged(path, "missing") from cause
+        raise PictureDamaged(path, phrase("missing")) from cause
     except OSError as cause:
-        raise PictureDamaged(path, cause.strerror or "cannot be opened") from cause
+        raise PictureDamaged(path, cause.strerror or phrase("cannot be opened")) from cause
     except ContentDamaged as cause:
         raise PictureDamaged(path, cause.detail) from cause
     if not data:
-        raise PictureDamaged(path, "empty file")
+        raise PictureDamaged(path, phrase("empty file"))
     if data.startswith(_PNG_START) and not _png_is_whole(data):
-        raise PictureDamaged(path, "cut off or altered")
+        raise PictureDamaged(path, phrase("cut off or altered"))
     return data
 
 
@@ -76,8 +79,8 @@ def _decoded(path: Path, data: bytes, flags: int) -> NDArray[Any]:
     try:
         picture = cv2.imdecode(np.frombuffer(data, np.uint8), flags)
     except cv2.error as cause:
-        raise PictureDamaged(path, "not a picture") from cause
+        raise PictureDamaged(path, phrase("not a picture")) from cause
     if picture is None:
-        raise PictureDamaged(path, "not a picture")
+        raise PictureDamaged(path, phrase("not a picture"))
     picture.setflags(write=False)
     return picture

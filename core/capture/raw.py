@@ -41,6 +41,7 @@ from carpus.core.errors import (
     RecordingMissing,
     RecordingUnreadable,
 )
+from carpus.core.phrase import phrase
 from carpus.core.private import copy_open_file, is_still_there, private
 from carpus.core.types import ByteImage, Frame
 
@@ -268,7 +269,7 @@ class RawRecording:
                 str(head.get("recorded", "")),
             )
         except (KeyError, TypeError, ValueError, AttributeError, OverflowError) as cause:
-            raise RecordingUnreadable(path, "its head is damaged") from cause
+            raise RecordingUnreadable(path, phrase("its head is damaged")) from cause
 
     @property
     def info(self) -> SourceInfo:
@@ -291,7 +292,9 @@ class RawRecording:
                 yield Frame(index, entry.timestamp_s, color, depth, self._depth_unit_m, entry.dropped_before + missing)
                 index, missing, last_s = index + 1, 0, entry.timestamp_s
         if lost:
-            self._notice(PicturesLost(self._path, f"{lost} of {len(self._entries)} frames"))
+            self._notice(
+                PicturesLost(self._path, phrase("{lost} of {count} frames", lost=lost, count=len(self._entries)))
+            )
 
     def color_at(self, timestamp_s: float) -> ByteImage | None:
         """The colour picture of that time, None when it was not stored or is damaged."""
@@ -334,10 +337,12 @@ def _index(path: Path, file: BinaryIO) -> tuple[Mapping[str, Any], list[_Entry],
     file.seek(0)
     start = file.read(_START.size)
     if len(start) < _START.size or not start.startswith(MAGIC):
-        raise RecordingUnreadable(path, "not a raw recording")
+        raise RecordingUnreadable(path, phrase("not a raw recording"))
     version = _START.unpack(start)[1]
     if version != VERSION:
-        raise RecordingUnreadable(path, f"format version {version}, this Carpus reads {VERSION}")
+        raise RecordingUnreadable(
+            path, phrase("format version {version}, this Carpus reads {newest}", version=version, newest=VERSION)
+        )
     head: Mapping[str, Any] = {}
     entries: list[_Entry] = []
     position = _START.size
@@ -362,9 +367,9 @@ def _json(path: Path, data: bytes) -> Mapping[str, Any]:
     try:
         content = json.loads(data)
     except (ValueError, RecursionError) as cause:
-        raise RecordingUnreadable(path, "its head is damaged") from cause
+        raise RecordingUnreadable(path, phrase("its head is damaged")) from cause
     if not isinstance(content, dict):
-        raise RecordingUnreadable(path, "its head is damaged")
+        raise RecordingUnreadable(path, phrase("its head is damaged"))
     return content
 
 

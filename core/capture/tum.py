@@ -28,6 +28,7 @@ from carpus.core.errors import (
     RecordingUnreadable,
     TimesUnordered,
 )
+from carpus.core.phrase import phrase
 from carpus.core.types import SIMULATED, FloatArray, Frame
 
 COLOR_LIST = "rgb.txt"
@@ -79,19 +80,25 @@ class TumFolder:
         if not folder.exists():
             raise RecordingMissing(folder)
         if not folder.is_dir():
-            raise RecordingUnreadable(folder, "not a folder")
+            raise RecordingUnreadable(folder, phrase("not a folder"))
         self._read_ahead = read_ahead
         self._folder, self._leave_out, self._notice = folder, leave_out_damaged, notice
         color, color_gone = _there(_read_list(folder / COLOR_LIST), leave_out_damaged)
         if not color:
-            raise RecordingEmpty(folder, f"no picture in {COLOR_LIST}")
+            raise RecordingEmpty(folder, phrase("no picture in {color_list}", color_list=COLOR_LIST))
         depth, depth_gone = _there(_depth_list(folder, need_depth), leave_out_damaged)
         if color_gone or depth_gone:
             notice(PicturesLost(folder, _counted(color_gone, depth_gone, "missing")))
         color_s = np.array([time_s for time_s, _ in color])
         partner = nearest_pairs(color_s, np.array([time_s for time_s, _ in depth]))
         if need_depth and not any(index is not None for index in partner):
-            raise DepthMissing(folder, f"no depth picture within {PAIRING_LIMIT_S * 1e3:.0f} ms of a colour picture")
+            raise DepthMissing(
+                folder,
+                phrase(
+                    "no depth picture within {pairing_limit_s} ms of a colour picture",
+                    pairing_limit_s=f"{PAIRING_LIMIT_S * 1000.0:.0f}",
+                ),
+            )
         self.stored = tuple(
             StoredFrame(time_s, path, None if index is None else depth[index][1], dropped)
             for (time_s, path), index, dropped in zip(color, partner, missing_before(color_s), strict=True)
@@ -174,7 +181,16 @@ class TumFolder:
     def _check_size(self, path: Path, shape: tuple[int, ...]) -> None:
         width, height = self._size
         if shape[:2] != (height, width):
-            raise PictureSizeChanged(path, f"{shape[1]} x {shape[0]} pixels, {width} x {height} before")
+            raise PictureSizeChanged(
+                path,
+                phrase(
+                    "{shape} x {shape2} pixels, {width} x {height} before",
+                    shape=shape[1],
+                    shape2=shape[0],
+                    width=width,
+                    height=height,
+                ),
+            )
 
 
 def nearest_pairs(color_s: FloatArray, depth_s: FloatArray) -> list[int | None]:
@@ -216,7 +232,9 @@ def _depth_list(folder: Path, need_depth: bool) -> list[_Entry]:
     path = folder / DEPTH_LIST
     depth = _read_list(path) if path.exists() else []
     if need_depth and not depth:
-        raise DepthMissing(folder, f"no picture in {DEPTH_LIST}" if path.exists() else f"no {DEPTH_LIST}")
+        raise DepthMissing(
+            folder, phrase("no picture in {depth_list}", depth_list=DEPTH_LIST) if path.exists() else f"no {DEPTH_LIST}"
+        )
     return depth
 
 
@@ -225,11 +243,11 @@ def _read_list(path: Path) -> list[_Entry]:
     try:
         text = path.read_text(encoding="utf-8-sig")
     except FileNotFoundError as cause:
-        raise RecordingUnreadable(path, "missing") from cause
+        raise RecordingUnreadable(path, phrase("missing")) from cause
     except OSError as cause:
-        raise RecordingUnreadable(path, cause.strerror or "cannot be opened") from cause
+        raise RecordingUnreadable(path, cause.strerror or phrase("cannot be opened")) from cause
     except UnicodeDecodeError as cause:
-        raise RecordingUnreadable(path, "not a text file") from cause
+        raise RecordingUnreadable(path, phrase("not a text file")) from cause
     entries: list[_Entry] = []
     for number, line in enumerate(text.splitlines(), start=1):
         content = line.strip()
@@ -237,7 +255,15 @@ def _read_list(path: Path) -> list[_Entry]:
             continue
         time_s, picture = _entry(path, number, content)
         if entries and time_s <= entries[-1][0]:
-            raise TimesUnordered(path, f"line {number}: {time_s:.6f} s after {entries[-1][0]:.6f} s")
+            raise TimesUnordered(
+                path,
+                phrase(
+                    "line {number}: {time_s} s after {earlier} s",
+                    number=number,
+                    time_s=f"{time_s:.6f}",
+                    earlier=f"{entries[-1][0]:.6f}",
+                ),
+            )
         entries.append((time_s, picture, f"{path.name} line {number}"))
     return entries
 
@@ -249,7 +275,7 @@ def _there(entries: list[_Entry], leave_out: bool) -> tuple[list[tuple[float, Pa
         if _is_file(picture):
             out.append((time_s, picture))
         elif not leave_out or not out:
-            raise PictureDamaged(picture, f"missing, {place}")
+            raise PictureDamaged(picture, phrase("missing, {place}", place=place))
     return out, len(entries) - len(out)
 
 
@@ -285,10 +311,17 @@ def _entry(path: Path, number: int, content: str) -> tuple[float, Path]:
     except ValueError:
         time_s = math.nan
     if not math.isfinite(time_s) or not names:
-        raise RecordingUnreadable(path, f"line {number} is not a time and a file name: {content[:60]!r}")
+        raise RecordingUnreadable(
+            path,
+            phrase(
+                "line {number} is not a time and a file name: {content}", number=number, content=f"{content[:60]!r}"
+            ),
+        )
     inside = PurePath(names[0])
     if inside.is_absolute() or ".." in inside.parts or "\0" in names[0]:
-        raise RecordingUnreadable(path, f"line {number} leads out of the folder: {content[:60]!r}")
+        raise RecordingUnreadable(
+            path, phrase("line {number} leads out of the folder: {content}", number=number, content=f"{content[:60]!r}")
+        )
     return time_s, path.parent / inside
 
 
@@ -298,13 +331,23 @@ def _camera(folder: Path, width_px: int, height_px: int) -> Camera:
     if not path.exists():
         camera = default_camera(width_px, height_px)
         if camera is None:
-            raise CameraFileUnreadable(path, f"missing, and pictures of {size} have no default camera")
+            raise CameraFileUnreadable(
+                path, phrase("missing, and pictures of {size} have no default camera", size=size)
+            )
         return camera
     info = read_camera_info(path)
     camera = info.camera
     if (camera.width_px, camera.height_px) != (width_px, height_px):
-        raise CameraFileUnreadable(path, f"for {camera.width_px} x {camera.height_px} pixels, pictures have {size}")
+        raise CameraFileUnreadable(
+            path,
+            phrase(
+                "for {width_px} x {height_px} pixels, pictures have {size}",
+                width_px=camera.width_px,
+                height_px=camera.height_px,
+                size=size,
+            ),
+        )
     if info.mirrored or info.registered is False:
         wrong = "mirrored: true" if info.mirrored else "registered: false"
-        raise CameraFileUnreadable(path, f"{wrong}, which a folder of pictures cannot be")
+        raise CameraFileUnreadable(path, phrase("{wrong}, which a folder of pictures cannot be", wrong=wrong))
     return camera

@@ -15,6 +15,7 @@ from carpus.core.check_card.card import disc_places_m, figures_of
 from carpus.core.check_card.reading import CHECK_S, CardReading
 from carpus.core.detection.settings import DetectionSettings
 from carpus.core.errors import CardMissing
+from carpus.core.phrase import phrase
 from carpus.core.types import Detections, FloatArray, Frame
 
 LOOK_EVERY_S = 0.25
@@ -80,7 +81,10 @@ class CardWatch:
     def reading(self, subject: str) -> CardReading:
         """What was measured. Raises :class:`CardMissing` where the six discs were seen in fewer than five pictures."""
         if len(self._places) < FEWEST_PICTURES:
-            raise CardMissing(subject, f"all six discs in {len(self._places)} of {self._looked} pictures")
+            raise CardMissing(
+                subject,
+                phrase("all six discs in {count} of {looked} pictures", count=len(self._places), looked=self._looked),
+            )
         each = np.array([figures_of(one) for one in self._places])
         middle = np.median(np.array(self._places), axis=0)
         ratio = _distances(middle) @ _distances(disc_places_m()) / np.sum(_distances(disc_places_m()) ** 2)

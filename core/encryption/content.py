@@ -21,6 +21,7 @@ from carpus.core.durable import sync_folder, write_fault
 from carpus.core.encryption.cipher import connect, is_encrypted, library, remove_database
 from carpus.core.encryption.keys import key_for
 from carpus.core.errors import CarpusFault, ContentDamaged, ContentUnequal
+from carpus.core.phrase import phrase
 from carpus.core.private import private
 
 BLOCK = 1 << 20
@@ -49,11 +50,16 @@ class EncryptedContent(io.RawIOBase):
         try:
             facts = dict(self._ask("SELECT name, value FROM fact"))
             if int(facts["version"]) > VERSION:
-                raise ContentDamaged(path, f"version {facts['version']}, this Carpus reads up to {VERSION}")
+                raise ContentDamaged(
+                    path,
+                    phrase(
+                        "version {version}, this Carpus reads up to {newest}", version=facts["version"], newest=VERSION
+                    ),
+                )
             self.size, self.sha256 = int(facts["size"]), str(facts["sha256"])
         except (KeyError, ValueError, TypeError) as cause:
             self._connection.close()
-            raise ContentDamaged(path, "its facts are not there") from cause
+            raise ContentDamaged(path, phrase("its facts are not there")) from cause
         except CarpusFault:
             self._connection.close()
             raise
@@ -95,7 +101,7 @@ class EncryptedContent(io.RawIOBase):
         rows = self._ask("SELECT bytes FROM content WHERE number = ?", (number,))
         wanted = min(BLOCK, self.size - number * BLOCK)
         if len(rows) != 1 or len(rows[0][0]) != wanted:
-            raise ContentDamaged(self._path, f"block {number} is not there")
+            raise ContentDamaged(self._path, phrase("block {number} is not there", number=number))
         self._held[number] = rows[0][0]
         if len(self._held) > BLOCKS_HELD:
             self._held.popitem(last=False)

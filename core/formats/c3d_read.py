@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 
 from carpus.core.errors import ReferenceUnreadable
+from carpus.core.phrase import phrase
 from carpus.core.types import FloatArray
 
 BLOCK = 512
@@ -33,14 +34,14 @@ def read_c3d(path: Path) -> PointTrack:
     """The points of a C3D file. Raises :class:`ReferenceUnreadable`."""
     try:
         if path.stat().st_size > MOST_BYTES:
-            raise ReferenceUnreadable(path, "larger than 2 GB")
+            raise ReferenceUnreadable(path, phrase("larger than 2 GB"))
         content = path.read_bytes()
     except OSError as cause:
         raise ReferenceUnreadable(path, cause.strerror or "") from cause
     try:
         return _points(content, path)
     except (ValueError, IndexError, KeyError, struct.error, OverflowError) as cause:
-        raise ReferenceUnreadable(path, "damaged, or no C3D") from cause
+        raise ReferenceUnreadable(path, phrase("damaged, or no C3D")) from cause
 
 
 def _points(content: bytes, path: Path) -> PointTrack:
@@ -49,7 +50,7 @@ def _points(content: bytes, path: Path) -> PointTrack:
     at = (content[0] - 1) * BLOCK
     processor = content[at + 3]
     if processor not in (INTEL, DEC, SGI):
-        raise ReferenceUnreadable(path, f"made by an unknown processor {processor}")
+        raise ReferenceUnreadable(path, phrase("made by an unknown processor {processor}", processor=processor))
     order = ">" if processor == SGI else "<"
     said = _parameters(content, at, order, processor == DEC)
     point = said["POINT"]
@@ -63,17 +64,17 @@ def _points(content: bytes, path: Path) -> PointTrack:
     word = 4 if is_float else 2
     row_bytes = (4 * used + analog) * word
     if not used or rate_hz <= 0.0 or not np.isfinite(rate_hz):
-        raise ReferenceUnreadable(path, "it holds no points, or says no rate")
+        raise ReferenceUnreadable(path, phrase("it holds no points, or says no rate"))
     there = (len(content) - begin * BLOCK) // row_bytes
     frames = min(_frames(said, last - first + 1), there)
     if frames < 1:
-        raise ReferenceUnreadable(path, "it holds no frame")
+        raise ReferenceUnreadable(path, phrase("it holds no frame"))
     raw = np.frombuffer(content, np.uint8, frames * row_bytes, begin * BLOCK).reshape(frames, row_bytes)
     values = _numbers(raw[:, : 4 * used * word], order, processor == DEC, is_float).reshape(frames, used, 4)
     place = values[..., :3] if is_float else values[..., :3] * np.float32(scale)
     unit = str(_one(point.get("UNITS", ["mm"]))).strip().lower() or "mm"
     if unit not in _METRES:
-        raise ReferenceUnreadable(path, f"its unit is {unit}")
+        raise ReferenceUnreadable(path, phrase("its unit is {unit}", unit=unit))
     known = values[..., 3] >= 0.0
     place_m = np.where(known[..., None], place.astype(np.float64) * _METRES[unit], np.nan)
     names = [str(name).strip() for k in ("", *map(str, range(2, 99))) for name in point.get(f"LABELS{k}", [])]

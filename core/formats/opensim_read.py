@@ -9,6 +9,7 @@ import numpy as np
 
 from carpus.core.errors import ReferenceUnreadable
 from carpus.core.formats.c3d_read import PointTrack
+from carpus.core.phrase import phrase
 from carpus.core.types import FloatArray
 
 MOST_BYTES = 1 << 30
@@ -34,12 +35,12 @@ def read_trc(path: Path) -> PointTrack:
     head = dict(zip(lines[1].split(tab), lines[2].split(tab), strict=False))
     unit = head.get("Units", "mm").strip().lower()
     if unit not in _METRES:
-        raise ReferenceUnreadable(path, f"its unit is {unit}")
+        raise ReferenceUnreadable(path, phrase("its unit is {unit}", unit=unit))
     names = [name.strip() for name in lines[3].split(tab)[2:] if name.strip()]
     rows = [line.split(tab) for line in lines[5:] if line.strip(f"{tab} ")]
     width = 2 + 3 * len(names)
     if not names or not rows:
-        raise ReferenceUnreadable(path, "it holds no points")
+        raise ReferenceUnreadable(path, phrase("it holds no points"))
     try:
         table = np.array([[_number(cell) for cell in (row + [""] * width)[:width]] for row in rows])
     except ValueError as cause:
@@ -53,7 +54,7 @@ def read_mot(path: Path) -> Columns:
     lines = text_of(path).splitlines()
     ends = [k for k, line in enumerate(lines) if line.strip(", ").lower() == "endheader"]
     if not ends or ends[0] + 1 >= len(lines):
-        raise ReferenceUnreadable(path, "no MOT: it has no end of its header")
+        raise ReferenceUnreadable(path, phrase("no MOT: it has no end of its header"))
     said = dict(line.lower().replace(" ", "").rstrip(",").split("=", 1) for line in lines[: ends[0]] if "=" in line)
     tab = "," if "," in lines[ends[0] + 1] else None  # None: any white space
     names = lines[ends[0] + 1].split(tab)
@@ -61,9 +62,9 @@ def read_mot(path: Path) -> Columns:
     try:
         table = np.array([[_number(cell) for cell in row] for row in rows])
     except ValueError as cause:
-        raise ReferenceUnreadable(path, "rows of different length, or no numbers") from cause
+        raise ReferenceUnreadable(path, phrase("rows of different length, or no numbers")) from cause
     if table.ndim != 2 or table.shape[1] != len(names) or names[0].lower() != "time":
-        raise ReferenceUnreadable(path, "its columns are not what its names say")
+        raise ReferenceUnreadable(path, phrase("its columns are not what its names say"))
     columns = {name: table[:, k] for k, name in enumerate(names) if k}
     told = said.get("indegrees")
     return Columns(_times(table[:, 0], path), columns, None if told is None else told.startswith("y"))
@@ -73,7 +74,7 @@ def text_of(path: Path) -> str:
     """A text file as people's programs write it. Raises :class:`ReferenceUnreadable`."""
     try:
         if path.stat().st_size > MOST_BYTES:
-            raise ReferenceUnreadable(path, "larger than 1 GB")
+            raise ReferenceUnreadable(path, phrase("larger than 1 GB"))
         return path.read_text(encoding="utf-8-sig", errors="replace")
     except OSError as cause:
         raise ReferenceUnreadable(path, cause.strerror or "") from cause
@@ -85,5 +86,5 @@ def _number(cell: str) -> float:
 
 def _times(time_s: FloatArray, path: Path) -> FloatArray:
     if not np.isfinite(time_s).all() or (np.diff(time_s) <= 0.0).any():
-        raise ReferenceUnreadable(path, "its times do not rise")
+        raise ReferenceUnreadable(path, phrase("its times do not rise"))
     return time_s

@@ -48,6 +48,7 @@ from carpus.core.output.camera_said import CameraSaid
 from carpus.core.output.exercises import exercise_named
 from carpus.core.output.goals import Goals
 from carpus.core.output.report_content import NAMES_DOUBTED, RepetitionChoices, SessionFigures, session_figures
+from carpus.core.phrase import phrase
 from carpus.core.safekeeping.audit import AuditLog, By, Deed, Fact, Kind
 from carpus.core.safekeeping.encryption import (
     Progress,
@@ -261,7 +262,7 @@ class Library:
         for register in (self.clinic, self._practice):
             with suppress(KeyError):
                 return register.session(session_id)
-        raise SessionUnreadable(session_id, "not in the list of patients")
+        raise SessionUnreadable(session_id, phrase("not in the list of patients"))
 
     def new_path(self, set_up: SetUp) -> Path:
         """A free path for a session that begins now."""
@@ -358,7 +359,7 @@ class Library:
         self.encrypting.wake()
         if len(apart) > MOST_TOLD:
             names = ", ".join(Path(fault.subject).name for fault in apart[:MOST_TOLD])
-            apart = [FilesSetApart(f"{names}, …", f"{len(apart)} files")]
+            apart = [FilesSetApart(f"{names}, …", phrase("{count} files", count=len(apart)))]
         return found, [*faults, *apart]
 
     # --- what is read of a session ------------------------------------------------------------------------
@@ -376,7 +377,7 @@ class Library:
             with suppress(KeyError):
                 register.session(session_id)
                 return register
-        raise SessionUnreadable(session_id, "not in the list of patients")
+        raise SessionUnreadable(session_id, phrase("not in the list of patients"))
 
     def files_of(self, session_id: str) -> Sequence[Path]:
         """The session's file and all that lies beside it under its name."""
@@ -656,7 +657,7 @@ def read_choices(path: Path) -> RepetitionChoices:
     except (
         OSError, ValueError, KeyError, TypeError, AttributeError, RecursionError, OverflowError, ContentDamaged
     ) as cause:  # fmt: skip
-        raise SessionUnreadable(path.with_suffix(CHOICES_SUFFIX), "what was left out cannot be read") from cause
+        raise SessionUnreadable(path.with_suffix(CHOICES_SUFFIX), phrase("what was left out cannot be read")) from cause
 
 
 def _write_json(path: Path, content: Any) -> None:

@@ -9,6 +9,7 @@ from carpus.core.errors import SessionUnreadable
 from carpus.core.library.corrections import Corrections
 from carpus.core.library.library import Library
 from carpus.core.library.set_up import PRACTICE_PATIENT
+from carpus.core.phrase import phrase
 from carpus.core.safekeeping import erasure
 from carpus.core.safekeeping.audit import AuditReading, read_audit
 from carpus.core.safekeeping.backup import log_was_cut
@@ -43,7 +44,7 @@ class Records:
         try:
             return erasure.plan_patient(self._library.clinic, patient_id)
         except KeyError:
-            raise SessionUnreadable(patient_id, "not in the list of patients") from None
+            raise SessionUnreadable(patient_id, phrase("not in the list of patients")) from None
 
     def erase(self, plan: ErasurePlan) -> Erased:
         """Do what a plan says. Raises what :func:`erasure.erase` does."""

@@ -9,6 +9,7 @@ from collections.abc import Callable
 from carpus.core import errors
 from carpus.core.encryption import keys
 from carpus.core.errors import CarpusFault, NotCorrected
+from carpus.core.phrase import phrase
 from carpus.core.pipeline.correcting_process import run
 from carpus.core.pipeline.correction import Task
 
@@ -40,7 +41,7 @@ def correct_beside(task: Task, progress: Callable[[int, int], None], stopping: t
                 raise _fault(*rest)
         return False
     except (EOFError, BrokenPipeError, ConnectionResetError):
-        raise NotCorrected(task.output.name, "its process ended") from None
+        raise NotCorrected(task.output.name, phrase("its process ended")) from None
     finally:
         link.close()
         process.kill()

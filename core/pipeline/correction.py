@@ -16,6 +16,7 @@ import numpy as np
 
 from carpus.core.calibration.calibrate import StillNoise
 from carpus.core.errors import NotCorrectable, OutputExists
+from carpus.core.phrase import phrase
 from carpus.core.pipeline.said_again import answers_in, notes_in
 from carpus.core.pipeline.told_settings import settings_told
 from carpus.core.pipeline.track import Progress, TrackSettings, from_neutral, learnt_from, learnt_in, parameters_json
@@ -49,9 +50,9 @@ def task_of(origin: Path, output: Path, corrections: Sequence[Correction], softw
     own filter."""
     session, table = read_session(origin), read_detections(origin)
     if not len(table.frame):
-        raise NotCorrectable(origin, "it stored no blue spots")
+        raise NotCorrectable(origin, phrase("it stored no blue spots"))
     if _settings(session).paper is not None:
-        raise NotCorrectable(origin, "it was tracked by the papers' own filter")
+        raise NotCorrectable(origin, phrase("it was tracked by the papers' own filter"))
     return Task(session, table, output, tuple(corrections), software_version, by)
 
 

@@ -13,6 +13,7 @@ from multiprocessing.connection import Connection
 import numpy as np
 
 from carpus.core.errors import NotLookedBack
+from carpus.core.phrase import phrase
 from carpus.core.pipeline.looking_back_process import run
 from carpus.core.pipeline.pieces import LAG_S, PIECE_S, Piece, TrackedHand
 from carpus.core.session.values import Motion
@@ -146,7 +147,7 @@ def _motion_at(pieces: Sequence[Piece], timestamp_s: Sequence[float]) -> Motion:
     known_s = np.concatenate([np.empty(0), *(piece.timestamp_s for piece in pieces)])
     missing = ~np.isin(timestamp_s, known_s)
     if missing.any():
-        raise NotLookedBack(detail=f"{np.count_nonzero(missing)} frames missing")
+        raise NotLookedBack(detail=phrase("{np} frames missing", np=np.count_nonzero(missing)))
     rows = np.searchsorted(known_s, timestamp_s)
     return Motion(
         **{

@@ -26,6 +26,7 @@ from carpus.core.dates import iso
 from carpus.core.errors import DiskFull, EndStalled, ExtraMissing, NotLookedBack, RecordingEmpty
 from carpus.core.library.beside import MARKERS_SUFFIX
 from carpus.core.library.set_up import SetUp
+from carpus.core.phrase import phrase
 from carpus.core.pipeline.around_hand import AroundHand, HandArea
 from carpus.core.pipeline.channels import ChannelFull, NeverDrop
 from carpus.core.pipeline.frame_walk import FrameWalk
@@ -309,7 +310,14 @@ class SourceMeasuring:
         path = self._places.new_path(self._set_up)
         free = shutil.disk_usage(path.parent).free
         if free < LEAST_FREE_BYTES:
-            raise DiskFull(path.parent, f"{free / 1e6:.0f} MB free, {LEAST_FREE_BYTES / 1e6:.0f} MB are needed")
+            raise DiskFull(
+                path.parent,
+                phrase(
+                    "{free} MB free, {least_free_bytes} MB are needed",
+                    free=f"{free / 1000000.0:.0f}",
+                    least_free_bytes=f"{LEAST_FREE_BYTES / 1000000.0:.0f}",
+                ),
+            )
         now = datetime.now().astimezone()
         recorded, identity = self._identity or (iso(now), str(uuid.uuid4()))
         header = new_header(

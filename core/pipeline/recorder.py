@@ -11,6 +11,7 @@ from pathlib import Path
 from typing import Generic, Protocol, TypeVar
 
 from carpus.core.errors import CarpusFault, DiskStalled, DiskTooSlow
+from carpus.core.phrase import phrase
 from carpus.core.pipeline.channels import ChannelClosed, ChannelFull, NeverDrop
 
 Item = TypeVar("Item")
@@ -138,7 +139,9 @@ class Recorder(Generic[SinkT, Item]):
             return False
         except ChannelFull:
             self._channel.close()
-            self._fail(DiskTooSlow(self._path or "", f"{self._channel.capacity} rows waiting"))
+            self._fail(
+                DiskTooSlow(self._path or "", phrase("{capacity} rows waiting", capacity=self._channel.capacity))
+            )
             return False
         return True
 

@@ -7,6 +7,7 @@ from collections.abc import Iterator
 from carpus.core.capture.raw_pictures import decode_color, decode_depth
 from carpus.core.capture.source import SourceInfo
 from carpus.core.errors import PictureDamaged
+from carpus.core.phrase import phrase
 from carpus.core.session.reader import raw_depth_unit_m, read_raw
 from carpus.core.session.values import Session
 from carpus.core.types import SIMULATED, Frame
@@ -35,7 +36,7 @@ class SessionPictures:
         for row, kept in enumerate(read_raw(session.path)):
             color = decode_color(kept.color)
             if color is None:
-                raise PictureDamaged(session.path, f"colour picture {row}")
+                raise PictureDamaged(session.path, phrase("colour picture {row}", row=row))
             depth = decode_depth(kept.depth) if kept.depth else None
             time_s, dropped = float(session.timestamp_s[row]), int(session.quality.dropped_before[row])
             yield Frame(row, time_s, color, depth, self._unit_m, max(dropped, 0))

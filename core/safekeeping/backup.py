@@ -29,6 +29,7 @@ from carpus.core.errors import (
     OutputExists,
     OutputNotWritable,
 )
+from carpus.core.phrase import phrase
 from carpus.core.private import private
 from carpus.core.safekeeping.audit import AuditReading, holds_chain, read_audit
 from carpus.core.session import heartbeat
@@ -157,12 +158,19 @@ def read_backup(path: Path) -> Backup:
         told = json.loads(path.read_text(encoding="utf-8"))
         version = told["format_version"]
         if told["format"] != FORMAT:
-            raise BackupUnreadable(path, "not a back-up")
+            raise BackupUnreadable(path, phrase("not a back-up"))
         if version > FORMAT_VERSION:
-            raise BackupUnreadable(path, f"version {version}, this Carpus reads up to {FORMAT_VERSION}")
+            raise BackupUnreadable(
+                path,
+                phrase(
+                    "version {version}, this Carpus reads up to {format_version}",
+                    version=version,
+                    format_version=FORMAT_VERSION,
+                ),
+            )
         files = tuple(Kept(str(p), str(h), int(size), int(ns)) for p, h, size, ns in told["files"])
         if not all(_is_inside(one.path) and len(one.sha256) == 64 and one.sha256.isalnum() for one in files):
-            raise BackupUnreadable(path, "paths that lead out of the folder")
+            raise BackupUnreadable(path, phrase("paths that lead out of the folder"))
         return Backup(
             path.stem,
             datetime.fromisoformat(told["made"]),
@@ -285,7 +293,7 @@ def put_in_place(restored: Path, data_folder: Path, now: datetime) -> Path:
 def _check_place(data_folder: Path, place: Path) -> None:
     data, there = data_folder.resolve(), place.resolve()
     if data == there or data in there.parents or there in data.parents:
-        raise BackupPlaceUnsuited(place, "in the data folder, or around it")
+        raise BackupPlaceUnsuited(place, phrase("in the data folder, or around it"))
 
 
 def _sources(data_folder: Path, settings_folder: Path | None) -> tuple[list[tuple[str, Path, int]], int]:

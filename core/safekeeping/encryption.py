@@ -23,6 +23,7 @@ from carpus.core.encryption import cipher, content, keys
 from carpus.core.encryption.cipher import is_encrypted, key_text, remove_database
 from carpus.core.errors import CarpusFault, EncryptionUnfinished, RegisterUnreadable
 from carpus.core.library.beside import CHOICES_SUFFIX, MARKERS_SUFFIX
+from carpus.core.phrase import phrase
 from carpus.core.session.disk import is_being_written
 from carpus.core.session.register import REGISTER_FILE
 
@@ -118,9 +119,9 @@ def check_alone(folder: Path) -> None:
                 with closing(cipher.connect(path, None)) as database:
                     database.execute("PRAGMA busy_timeout = 2000")
                     if database.execute("PRAGMA journal_mode = DELETE").fetchone()[0] != "delete":
-                        raise RegisterUnreadable(path, "another program has it open")
+                        raise RegisterUnreadable(path, phrase("another program has it open"))
             except sql.Error as cause:
-                raise RegisterUnreadable(path, f"another program has it open: {cause}") from cause
+                raise RegisterUnreadable(path, phrase("another program has it open: {cause}", cause=cause)) from cause
 
 
 def exchange_list(path: Path) -> None:
@@ -158,7 +159,7 @@ def _rewrite(path: Path, old: bytes | None, fresh: Path, new: bytes | None) -> N
     with closing(cipher.connect(path, old)) as database:
         database.execute("PRAGMA busy_timeout = 2000")
         if database.execute("PRAGMA journal_mode = DELETE").fetchone()[0] != "delete":
-            raise RegisterUnreadable(path, "another program has it open")
+            raise RegisterUnreadable(path, phrase("another program has it open"))
         database.execute("PRAGMA locking_mode = EXCLUSIVE")
         database.execute("BEGIN EXCLUSIVE")
         database.execute("COMMIT")
@@ -172,14 +173,14 @@ def _rewrite(path: Path, old: bytes | None, fresh: Path, new: bytes | None) -> N
             for one, other in (("main", "fresh"), ("fresh", "main")):
                 missing = f'SELECT * FROM {one}."{table}" EXCEPT SELECT * FROM {other}."{table}" LIMIT 1'
                 if database.execute(missing).fetchone():
-                    raise RegisterUnreadable(path, "what was written is not what was read")
+                    raise RegisterUnreadable(path, phrase("what was written is not what was read"))
         database.execute("DETACH DATABASE fresh")
     with closing(cipher.connect(fresh, new)) as written:
         is_whole = written.execute("PRAGMA integrity_check").fetchone()[0] == "ok"
         there = [str(name) for (name,) in written.execute("SELECT name FROM sqlite_master WHERE type = 'table'")]
         same_version = int(written.execute("PRAGMA user_version").fetchone()[0]) == version
         if not is_whole or not same_version or sorted(there) != sorted(tables):
-            raise RegisterUnreadable(path, "what was written cannot be read back")
+            raise RegisterUnreadable(path, phrase("what was written cannot be read back"))
     with fresh.open("r+b") as file:
         os.fsync(file.fileno())
 

@@ -16,6 +16,7 @@ from carpus.core.encryption import cipher
 from carpus.core.encryption.cipher import is_encrypted
 from carpus.core.encryption.keys import folder_of, is_on, key_for
 from carpus.core.errors import DiskFull, OutputNotWritable, RegisterDamaged, RegisterUnreadable
+from carpus.core.phrase import phrase
 
 
 class Database:
@@ -78,7 +79,7 @@ class Database:
         """Nothing is written into a file that another program has exchanged for another form of it."""
         with contextlib.suppress(OSError):
             if _identity(self._path) != self._file:
-                raise RegisterUnreadable(self._path, "another program has exchanged it")
+                raise RegisterUnreadable(self._path, phrase("another program has exchanged it"))
 
     def leave_no_trace(self) -> None:
         """Empty the write-ahead log, which keeps what was overwritten; another program may hold that up a little."""
@@ -99,7 +100,7 @@ class Database:
                 raise RegisterDamaged(self._path, str(cause)) from cause
             raise RegisterUnreadable(self._path, str(cause)) from cause
         except UnicodeDecodeError as cause:  # SQLite's own complaint quotes the damage
-            raise RegisterDamaged(self._path, "names in it are no text") from cause
+            raise RegisterDamaged(self._path, phrase("names in it are no text")) from cause
 
     def _prepare(self, migrations: Sequence[str]) -> int:
         """Bring the file up to date; its version before."""
@@ -109,10 +110,13 @@ class Database:
         connection.execute("PRAGMA foreign_keys = ON")
         connection.execute("PRAGMA secure_delete = ON")  # what is taken out is overwritten, not only forgotten
         if connection.execute("PRAGMA quick_check(1)").fetchone()[0] != "ok":
-            raise RegisterDamaged(self._path, "damaged")
+            raise RegisterDamaged(self._path, phrase("damaged"))
         version = int(connection.execute("PRAGMA user_version").fetchone()[0])
         if version > len(migrations):
-            raise RegisterUnreadable(self._path, f"version {version}, this Carpus reads up to {len(migrations)}")
+            raise RegisterUnreadable(
+                self._path,
+                phrase("version {version}, this Carpus reads up to {count}", version=version, count=len(migrations)),
+            )
         if 0 < version < len(migrations):
             self._copy_aside(version)
         for number, script in enumerate(migrations[version:], start=version + 1):

@@ -11,6 +11,7 @@ from pathlib import Path
 
 from carpus.core.durable import FULL, sync_folder, write_fault
 from carpus.core.errors import DiskFull, OutputExists
+from carpus.core.phrase import phrase
 
 if sys.platform != "win32":
     import fcntl
@@ -43,10 +44,12 @@ def reserve(descriptor: int, path: Path, begin: int, length: int) -> None:
             return
     except OSError as cause:
         if cause.errno in FULL:
-            raise DiskFull(path, f"no room for another {length / 1e6:.1f} MB") from cause
+            raise DiskFull(
+                path, phrase("no room for another {length} MB", length=f"{length / 1000000.0:.1f}")
+            ) from cause
         # this file system cannot reserve: ask how much is free instead
     if shutil.disk_usage(path.parent).free < length:
-        raise DiskFull(path, f"no room for another {length / 1e6:.1f} MB")
+        raise DiskFull(path, phrase("no room for another {length} MB", length=f"{length / 1000000.0:.1f}"))
 
 
 def is_being_written(path: Path) -> bool:

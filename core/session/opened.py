@@ -28,6 +28,7 @@ from carpus.core.errors import (
 )
 from carpus.core.hand.back_surface import BackSurface
 from carpus.core.hand.protocols import protocol_named
+from carpus.core.phrase import phrase
 from carpus.core.session import schema
 from carpus.core.session.plain_file import check_plain
 from carpus.core.session.plausible import LONGEST_S, check_header, check_values
@@ -134,7 +135,7 @@ def read_raw_color(path: Path, row: int) -> bytes:
 def open_session(path: Path) -> Iterator[h5py.File]:
     """The open file of a session that this version reads; whatever goes wrong inside is :class:`SessionUnreadable`."""
     if not path.is_file():
-        raise SessionUnreadable(path, "a folder" if path.is_dir() else "there is no such file")
+        raise SessionUnreadable(path, phrase("a folder") if path.is_dir() else phrase("there is no such file"))
     try:
         with contextlib.ExitStack() as held:
             source = held.enter_context(open_kept(path)) if is_encrypted(path) else path
@@ -143,26 +144,35 @@ def open_session(path: Path) -> Iterator[h5py.File]:
             _check_format(path, file)
             yield file
     except BlockingIOError as cause:
-        raise SessionUnreadable(path, "still being recorded") from cause
+        raise SessionUnreadable(path, phrase("still being recorded")) from cause
     except ContentDamaged as cause:
-        raise SessionUnreadable(path, f"damaged: {cause.detail}") from cause
+        raise SessionUnreadable(path, phrase("damaged: {detail}", detail=cause.detail)) from cause
     except CarpusFault:
         raise
     except KeyError as cause:
-        raise SessionUnreadable(path, f"damaged: {cause.args[0] if cause.args else ''}") from cause
+        raise SessionUnreadable(path, phrase("damaged: {value}", value=cause.args[0] if cause.args else "")) from cause
     except MemoryError as cause:
-        raise SessionUnreadable(path, "damaged: it asks for more memory than a session needs") from cause
+        raise SessionUnreadable(path, phrase("damaged: it asks for more memory than a session needs")) from cause
     except Exception as cause:  # a damaged file may make the library and the code above it raise anything
         known = h5py.is_hdf5(path) or is_encrypted(path)
-        raise SessionUnreadable(path, f"damaged: {cause}" if known else "not a session file") from cause
+        raise SessionUnreadable(
+            path, phrase("damaged: {cause}", cause=cause) if known else phrase("not a session file")
+        ) from cause
 
 
 def _check_format(path: Path, file: h5py.File) -> None:
     if file.attrs.get("format") != schema.FORMAT:
-        raise SessionUnreadable(path, "an HDF5 file, but not a session")
+        raise SessionUnreadable(path, phrase("an HDF5 file, but not a session"))
     version = _version(file)
     if not 1 <= version <= schema.FORMAT_VERSION:
-        raise SessionUnreadable(path, f"format version {version}, this Carpus reads up to {schema.FORMAT_VERSION}")
+        raise SessionUnreadable(
+            path,
+            phrase(
+                "format version {version}, this Carpus reads up to {format_version}",
+                version=version,
+                format_version=schema.FORMAT_VERSION,
+            ),
+        )
 
 
 def _version(file: h5py.File) -> int:
@@ -212,7 +222,7 @@ class _Source:
         times = self._file["/frames/timestamp"]
         duration_s = float(times[frames - 1] - times[0]) if frames else 0.0
         if not 0.0 <= duration_s <= LONGEST_S:
-            raise SessionUnreadable(self._path, "damaged: the times of its frames are no session's")
+            raise SessionUnreadable(self._path, phrase("damaged: the times of its frames are no session's"))
         return SessionOutline(
             header=self._header,
             frames=frames,
@@ -229,7 +239,7 @@ class _Source:
         )
         if field.path not in self._file:
             if not field.optional:
-                raise SessionUnreadable(self._path, f"no dataset {field.path}")
+                raise SessionUnreadable(self._path, phrase("no dataset {path}", path=field.path))
             return np.full(expected, field.fill, dtype=field.h5_dtype)
         dataset = self._file[field.path]
         if not self._complete and field.shape[0] in schema.GROWING_AXES and dataset.ndim == len(expected):
@@ -239,7 +249,15 @@ class _Source:
         kinds = {"f": "f", "u": "iu", "i": "iu", "t": "O"}[field.dtype[0]]
         if data.shape != expected or data.dtype.kind not in kinds:
             raise SessionUnreadable(
-                self._path, f"{field.path} is {data.dtype} {data.shape}, {field.dtype} {expected} expected"
+                self._path,
+                phrase(
+                    "{path} is {dtype} {shape}, {dtype2} {expected} expected",
+                    path=field.path,
+                    dtype=data.dtype,
+                    shape=data.shape,
+                    dtype2=field.dtype,
+                    expected=expected,
+                ),
             )
         array: NDArray[Any] = data.astype(field.h5_dtype, copy=False)
         array.setflags(write=False)
@@ -250,7 +268,10 @@ class _Source:
         ends = self.array(schema.RAW_ENDS[number])
         stream = schema.RAW_STREAMS[number]
         if len(ends) and (ends[0] < 0 or (np.diff(ends) < 0).any() or ends[-1] > self._file[stream.path].shape[0]):
-            raise SessionUnreadable(self._path, f"damaged: {schema.RAW_ENDS[number].path} does not fit {stream.path}")
+            raise SessionUnreadable(
+                self._path,
+                phrase("damaged: {path} does not fit {path2}", path=schema.RAW_ENDS[number].path, path2=stream.path),
+            )
         return ends
 
     def _sizes(self, field: Field) -> tuple[int, ...]:
@@ -265,19 +286,22 @@ class _Source:
         try:
             return self._file.attrs[name]
         except KeyError as cause:
-            raise SessionUnreadable(self._path, f"no attribute {name}") from cause
+            raise SessionUnreadable(self._path, phrase("no attribute {name}", name=name)) from cause
 
     def _read_header(self) -> SessionHeader:
         try:
             protocol = protocol_named(str(self._attribute("protocol")))
         except ProtocolUnknown as cause:
-            raise SessionUnreadable(self._path, f"marker protocol {cause.subject}") from cause
+            raise SessionUnreadable(self._path, phrase("marker protocol {subject}", subject=cause.subject)) from cause
         hand = str(self._attribute("hand"))
         if hand not in ("right", "left"):
-            raise SessionUnreadable(self._path, f"hand {hand!r}")
+            raise SessionUnreadable(self._path, phrase("hand {hand}", hand=f"{hand!r}"))
         joints = tuple(map(str, self._file["/joints"].attrs["names"])) if protocol.has_fingers else ()
         if protocol.has_fingers and joints not in (protocol.joint_names(False), protocol.joint_names(True)):
-            raise SessionUnreadable(self._path, f"{len(joints)} joint angles with other names than {protocol.name} has")
+            raise SessionUnreadable(
+                self._path,
+                phrase("{count} joint angles with other names than {name} has", count=len(joints), name=protocol.name),
+            )
         header = SessionHeader(
             session_id=str(self._attribute("session_id")),
             subject_id=str(self._attribute("subject_id")),
@@ -332,7 +356,9 @@ class _Source:
         lens = tuple(float(value) for value in said["distortion"])
         known = next((one for one, count in COEFFICIENTS.items() if one == model and count == len(lens)), None)
         if known is None:
-            raise SessionUnreadable(self._path, f"distortion {model} with {len(lens)} coefficients")
+            raise SessionUnreadable(
+                self._path, phrase("distortion {model} with {count} coefficients", model=model, count=len(lens))
+            )
         return Camera(
             fx_px=float(said["fx"]),
             fy_px=float(said["fy"]),
@@ -350,7 +376,7 @@ class _Source:
         try:
             return ASSUMED_SENSOR if said is None else sensor_of(json.loads(said))
         except ValueError as cause:
-            raise SessionUnreadable(self._path, f"damaged: depth sensor, {cause}") from cause
+            raise SessionUnreadable(self._path, phrase("damaged: depth sensor, {cause}", cause=cause)) from cause
 
     def _calibration(self) -> Calibration:
         arrays = {field.attribute: self.array(field) for field in schema.CALIBRATION_FIELDS}

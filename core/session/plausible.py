@@ -8,6 +8,7 @@ from pathlib import Path
 import numpy as np
 
 from carpus.core.errors import SessionUnreadable
+from carpus.core.phrase import phrase
 from carpus.core.session.values import Session, SessionHeader
 from carpus.core.types import FloatArray
 
@@ -36,11 +37,11 @@ def check_header(path: Path, header: SessionHeader, parameters: object) -> None:
     ):
         text: str = getattr(header, name)
         if len(text) > LONGEST_TEXT or not (text.isprintable() or name == "origin"):
-            raise SessionUnreadable(path, f"damaged: its {name} is no such thing")
+            raise SessionUnreadable(path, phrase("damaged: its {name} is no such thing", name=name))
     if not header.session_id.strip():
-        raise SessionUnreadable(path, "damaged: no session_id")
+        raise SessionUnreadable(path, phrase("damaged: no session_id"))
     if _depth(parameters) > DEEPEST_PARAMETERS or len(header.parameters) > LONGEST_PARAMETERS:
-        raise SessionUnreadable(path, "damaged: its parameters are no settings")
+        raise SessionUnreadable(path, phrase("damaged: its parameters are no settings"))
 
 
 def check_times(path: Path, timestamp_s: FloatArray) -> None:
@@ -48,19 +49,21 @@ def check_times(path: Path, timestamp_s: FloatArray) -> None:
     if not len(timestamp_s):
         return
     if not np.isfinite(timestamp_s).all() or np.abs(timestamp_s).max() > LATEST_S:
-        raise SessionUnreadable(path, "damaged: a frame has no possible time")
+        raise SessionUnreadable(path, phrase("damaged: a frame has no possible time"))
     wrong = np.flatnonzero(np.diff(timestamp_s) <= 0.0)
     if len(wrong):
-        raise SessionUnreadable(path, f"damaged: the time of frame {int(wrong[0]) + 1} is not after the one before")
+        raise SessionUnreadable(
+            path, phrase("damaged: the time of frame {number} is not after the one before", number=int(wrong[0]) + 1)
+        )
     if timestamp_s[-1] - timestamp_s[0] > LONGEST_S:
-        raise SessionUnreadable(path, "damaged: it claims to last longer than a day")
+        raise SessionUnreadable(path, phrase("damaged: it claims to last longer than a day"))
 
 
 def check_values(path: Path, session: Session) -> None:
     """Raise :class:`SessionUnreadable` for a number that no measurement gives; NaN stands for unknown everywhere."""
     check_times(path, session.timestamp_s)
     if len(session.status) and int(session.status.max()) >= STATUSES:
-        raise SessionUnreadable(path, "damaged: a frame has a status that there is not")
+        raise SessionUnreadable(path, phrase("damaged: a frame has a status that there is not"))
     limits: list[tuple[str, FloatArray, float]] = [
         ("a marker's position", session.markers.position_cam_m, LARGEST_PLACE_M),
         ("a calibrated position", session.calibration.marker_position_w0_m, LARGEST_PLACE_M),
@@ -79,19 +82,19 @@ def check_values(path: Path, session: Session) -> None:
     for what, values, limit in limits:
         # NaN compares as neither, so unknown values pass.
         if len(values) and bool((np.abs(values) > limit).any()):
-            raise SessionUnreadable(path, f"damaged: {what} is beyond all measure")
+            raise SessionUnreadable(path, phrase("damaged: {what} is beyond all measure", what=what))
     for motion in (session.motion, session.smoothed):
         if motion is not None and any(
             bool((values < 0.0).any()) for values in (motion.angles_sd_rad, motion.joint_angles_sd_rad)
         ):
-            raise SessionUnreadable(path, "damaged: a standard deviation is below zero")
+            raise SessionUnreadable(path, phrase("damaged: a standard deviation is below zero"))
     camera = session.camera
     if not all(map(math.isfinite, (camera.fx_px, camera.fy_px, camera.cx_px, camera.cy_px, *camera.distortion))):
-        raise SessionUnreadable(path, "damaged: the camera's figures are not known")
+        raise SessionUnreadable(path, phrase("damaged: the camera's figures are not known"))
     if min(camera.fx_px, camera.fy_px) <= 0.0 or not 1 <= min(camera.width_px, camera.height_px) <= 1 << 16:
-        raise SessionUnreadable(path, "damaged: the camera's figures are not a camera's")
+        raise SessionUnreadable(path, phrase("damaged: the camera's figures are not a camera's"))
     if not all(math.isfinite(event.time_s) for event in session.events):
-        raise SessionUnreadable(path, "damaged: an event has no time")
+        raise SessionUnreadable(path, phrase("damaged: an event has no time"))
 
 
 def _depth(value: object) -> int:

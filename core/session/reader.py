@@ -24,6 +24,7 @@ from carpus.core import errors
 from carpus.core.encryption.cipher import is_encrypted
 from carpus.core.encryption.keys import key_for
 from carpus.core.errors import CarpusFault, SessionUnreadable
+from carpus.core.phrase import phrase
 from carpus.core.session import reading_process
 from carpus.core.session.values import DetectionTable, RawPictures, Session, SessionOutline, Verified
 
@@ -110,15 +111,15 @@ class ReadingProcess:
             size = _size(path)
             if not link.poll(PATIENCE_S + size / BYTES_PER_S):
                 self._end()
-                raise SessionUnreadable(path, "damaged: reading it does not end")
+                raise SessionUnreadable(path, phrase("damaged: reading it does not end"))
             try:
                 said, value = _received(link)
             except (EOFError, OSError):
                 self._end()
-                raise SessionUnreadable(path, "damaged: it cannot be read to its end") from None
+                raise SessionUnreadable(path, phrase("damaged: it cannot be read to its end")) from None
             except Exception as cause:
                 self._end()
-                raise SessionUnreadable(path, "damaged: what was read of it makes no sense") from cause
+                raise SessionUnreadable(path, phrase("damaged: what was read of it makes no sense")) from cause
         if said == "done":
             return value
         kind = getattr(errors, said, SessionUnreadable)
@@ -176,7 +177,7 @@ def _ask(name: str, path: Path, *arguments: object) -> Any:
     except (OSError, ValueError):
         is_there = is_folder = False
     if not is_there:  # neither a folder nor a pipe is handed to HDF5, which would wait for the pipe
-        raise SessionUnreadable(path, "a folder" if is_folder else "there is no such file")
+        raise SessionUnreadable(path, phrase("a folder") if is_folder else phrase("there is no such file"))
     return READING.ask(name, path, *arguments)
 
 

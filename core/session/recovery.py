@@ -11,6 +11,7 @@ import h5py
 
 from carpus.core.durable import write_fault
 from carpus.core.errors import CarpusFault, RecordingMissing, SessionUnreadable
+from carpus.core.phrase import phrase
 from carpus.core.session import heartbeat, reader, schema
 from carpus.core.session.disk import allow_written_bytes, free_name, is_being_written, publish, target_of_part
 from carpus.core.session.opened import open_session, read_session
@@ -60,7 +61,7 @@ def recover_folder(folder: Path, now: datetime | None = None, given_up: Collecti
         except CarpusFault as fault:
             faults.append(fault)
         except OSError as cause:
-            faults.append(SessionUnreadable(part, cause.strerror or "cannot be opened"))
+            faults.append(SessionUnreadable(part, cause.strerror or phrase("cannot be opened")))
     return Recovery(tuple(recovered), tuple(busy), tuple(faults), tuple(empty))
 
 
@@ -69,7 +70,7 @@ def finish_part(part: Path, when: str) -> Path | None:
     stays, where it ended before the first frame was stored. Runs in the reading process."""
     own_name = target_of_part(part)
     if own_name is None:
-        raise SessionUnreadable(part, "not the part file of a session")
+        raise SessionUnreadable(part, phrase("not the part file of a session"))
     if own_name.exists() and own_name.samefile(
         part
     ):  # ended between the last two steps: only the old name is left over
@@ -107,7 +108,7 @@ def _finish(part: Path, when: str) -> None:
             file.attrs[ATTRIBUTE] = seal_of(file)
     except (OSError, RuntimeError, KeyError) as cause:
         if isinstance(cause, KeyError):
-            raise SessionUnreadable(part, f"damaged: {cause.args[0]}") from cause
+            raise SessionUnreadable(part, phrase("damaged: {what}", what=cause.args[0])) from cause
         raise write_fault(part, cause) from cause
 
 

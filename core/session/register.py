@@ -21,6 +21,7 @@ import platformdirs
 from carpus.core.by_hand import kept as by_hand
 from carpus.core.by_hand.values import HandValue
 from carpus.core.errors import CarpusFault, PseudonymTaken, SessionUnreadable
+from carpus.core.phrase import phrase
 from carpus.core.session import made_files, out_of_sight, seen_files
 from carpus.core.session.database import Database, make_private
 from carpus.core.session.pseudonyms import suggest_pseudonym
@@ -402,7 +403,7 @@ class PatientRegister:
             stored_path = self._stored_path(path)
             known_look = before.get(stored_path)
             if not seen_files.can_be_stored(stored_path):
-                faults.append(SessionUnreadable(ascii(path.name), "a name that is no text"))
+                faults.append(SessionUnreadable(ascii(path.name), phrase("a name that is no text")))
             elif (
                 known_look
                 and known_look.is_still(look)

@@ -28,6 +28,7 @@ from carpus.core.errors import (
     RecordingMoved,
     TimesUnordered,
 )
+from carpus.core.phrase import phrase
 from carpus.core.private import copy_open_file, is_still_there
 from carpus.core.session import schema
 from carpus.core.session.disk import allow_written_bytes, free_name, part_path, publish, reserve
@@ -182,7 +183,14 @@ class SessionWriter:
         """Take one frame; writes when a flush is due. Never drops: it raises :class:`DiskFull` instead."""
         self._check_open()
         if tracked.timestamp_s <= self._last_time_s:
-            raise TimesUnordered(self.path, f"{tracked.timestamp_s:.6f} s after {self._last_time_s:.6f} s")
+            raise TimesUnordered(
+                self.path,
+                phrase(
+                    "{timestamp_s} s after {last_time_s} s",
+                    timestamp_s=f"{tracked.timestamp_s:.6f}",
+                    last_time_s=f"{self._last_time_s:.6f}",
+                ),
+            )
         if (raw is not None) != (schema.RAW_ENDS[0].path in self._growing):
             raise ValueError("pictures come with every frame or with none")
         self._last_time_s = tracked.timestamp_s
@@ -294,7 +302,14 @@ class SessionWriter:
         self.path, self.part_path = path, part
         self._heart = Heartbeat(part, self._look)
         told, self._fallback = self._fallback.told, None  # one disaster at a time
-        told(RecordingMoved(path, "" if taken_along else f"the first {stored} rows stay in {lost_folder}"))
+        told(
+            RecordingMoved(
+                path,
+                ""
+                if taken_along
+                else phrase("the first {stored} rows stay in {lost_folder}", stored=stored, lost_folder=lost_folder),
+            )
+        )
 
     def go_on_elsewhere(self) -> Self:
         """A new file in the fallback's folder with what this one has not stored, for another thread while the one that
@@ -326,7 +341,12 @@ class SessionWriter:
         writer._rows, writer._raw, writer._events = rows, raw, events
         writer._count, writer._last_time_s = len(rows), self._last_time_s
         fallback.told(
-            RecordingMoved(writer.path, f"the first {stored} rows stay in {self.part_path.parent}" if stored else "")
+            RecordingMoved(
+                writer.path,
+                phrase("the first {stored} rows stay in {parent}", stored=stored, parent=self.part_path.parent)
+                if stored
+                else "",
+            )
         )
         return writer
 

@@ -7,9 +7,9 @@ from datetime import datetime
 
 from carpus.core.output.exercises import SIDES, STILL_RADIUS_MM
 from carpus.core.output.report_content import Comparison, SessionFigures, compare
-from carpus.core.words import finding_words
 from carpus.ui import numbers, terms
 from carpus.ui.check_card.standing_words import unsure_words
+from carpus.ui.fault_words import finding_words
 from carpus.ui.report.tables import is_deficit, prints_spread, too_slow
 from carpus.ui.translate import tr
 from carpus.ui.verdicts import counted_once_words, limit_words, reason_words
