@@ -365,7 +365,7 @@
     </message>
     <message>
         <source>no change beyond error</source>
-        <translation>keine Änderung über den Fehler hinaus</translation>
+        <translation>im Rahmen des Fehlers</translation>
     </message>
     <message>
         <source>improved</source>
@@ -805,7 +805,7 @@
     </message>
     <message>
         <source>the one of {day}</source>
-        <translation>der vom {day}</translation>
+        <translation>der Werte vom {day}</translation>
     </message>
     <message>
         <source>the maker’s values</source>
@@ -849,11 +849,11 @@
     </message>
     <message>
         <source>angles not sure</source>
-        <translation type="unfinished"></translation>
+        <translation>Winkel unsicher</translation>
     </message>
     <message>
         <source>lengths not sure</source>
-        <translation type="unfinished"></translation>
+        <translation>Längen unsicher</translation>
     </message>
     <message>
         <source>Not calibrated and not checked yet.</source>
@@ -1025,7 +1025,7 @@
     </message>
     <message>
         <source>Next check by {day}. {calibrated}</source>
-        <translation>Nächste Prüfung bis {day}. {calibrated}</translation>
+        <translation>Bis {day} wieder prüfen. {calibrated}</translation>
     </message>
     <message>
         <source>Lay the card flat under the camera, all of it in the picture, about 60 cm away.</source>
@@ -1489,7 +1489,7 @@
     </message>
     <message>
         <source>Which blue spot is the {marker}?</source>
-        <translation>Welche blaue Stelle ist: {marker}?</translation>
+        <translation>Wo ist: {marker}?</translation>
     </message>
     <message>
         <source>Waiting for the first picture</source>
@@ -1581,7 +1581,7 @@
     </message>
     <message>
         <source>Lay the forearm back where it was</source>
-        <translation>Unterarm dorthin zurücklegen, wo er war</translation>
+        <translation>Unterarm wieder zurücklegen</translation>
     </message>
     <message>
         <source>Another blue spot</source>
@@ -1665,11 +1665,11 @@
     </message>
     <message>
         <source>Take all names</source>
-        <translation>Alle Namen übernehmen</translation>
+        <translation>Alle übernehmen</translation>
     </message>
     <message>
         <source>Take {count} names</source>
-        <translation>{count} Namen übernehmen</translation>
+        <translation>{count} übernehmen</translation>
     </message>
     <message>
         <source>All {count} markers found</source>
@@ -1733,7 +1733,7 @@
     </message>
     <message>
         <source>with the names</source>
-        <translation>mit den Namen</translation>
+        <translation>mit Namen</translation>
     </message>
     <message>
         <source>after marker {number}</source>
@@ -1741,7 +1741,7 @@
     </message>
     <message>
         <source>{done} of {asked} found</source>
-        <translation>{done} von {asked} gefunden</translation>
+        <translation>{done} von {asked}</translation>
     </message>
     <message>
         <source>{done} of {asked}</source>
@@ -1753,7 +1753,7 @@
     </message>
     <message>
         <source>Camera tilt</source>
-        <translation>Kameraneigung</translation>
+        <translation>Neigung</translation>
     </message>
     <message>
         <source>Hand</source>
@@ -1777,7 +1777,7 @@
     </message>
     <message>
         <source>one doubted</source>
-        <translation>einer zweifelhaft</translation>
+        <translation>1 zweifelhaft</translation>
     </message>
     <message>
         <source>{count} not found</source>
@@ -2149,7 +2149,7 @@
     </message>
     <message>
         <source>was {angle}</source>
-        <translation>vorher {angle}</translation>
+        <translation>war {angle}</translation>
     </message>
     <message>
         <source>Angles: largest error of three</source>
@@ -2213,7 +2213,7 @@
     </message>
     <message>
         <source>Speed</source>
-        <translation>Geschwindigkeit</translation>
+        <translation>Tempo</translation>
     </message>
     <message>
         <source>α and γ are given where their sd stays below 30° ({share} of the time): near the neutral pose only β and α + γ are known.</source>
@@ -2321,7 +2321,7 @@
     </message>
     <message>
         <source>No change beyond measurement error since {day}.</source>
-        <translation>Keine Änderung über den Messfehler hinaus seit {day}.</translation>
+        <translation>Seit {day} keine Änderung über den Messfehler hinaus.</translation>
     </message>
     <message>
         <source>Not judged: the joints were hidden in part.</source>
@@ -2381,7 +2381,7 @@
     </message>
     <message>
         <source>{day}: {warning}</source>
-        <translation type="unfinished"></translation>
+        <translation>{day}: {warning}</translation>
     </message>
     <message>
         <source>{day}: measured although doubtful. {findings}</source>
@@ -2473,7 +2473,7 @@
     </message>
     <message>
         <source>Peak speed</source>
-        <translation>Spitzengeschwindigkeit</translation>
+        <translation>Spitzentempo</translation>
     </message>
     <message>
         <source>Peak reached after</source>
@@ -2625,15 +2625,15 @@
     </message>
     <message>
         <source>Bending over time</source>
-        <translation>Beugung über die Zeit</translation>
+        <translation>Beugung</translation>
     </message>
     <message>
         <source>Middle joint, of the thumb lift</source>
-        <translation>Mittelgelenk, beim Daumen Abheben</translation>
+        <translation>Mittelgelenk, Daumen: Abheben</translation>
     </message>
     <message>
         <source>not graded</source>
-        <translation>nicht bewertet</translation>
+        <translation>ohne Urteil</translation>
     </message>
     <message>
         <source>excellent</source>
@@ -2661,7 +2661,7 @@
     </message>
     <message>
         <source>Knuckle (MCP)</source>
-        <translation>Grundgelenk (MCP)</translation>
+        <translation>Grund (MCP)</translation>
     </message>
     <message>
         <source>Middle (PIP)</source>
@@ -2725,7 +2725,7 @@
     </message>
     <message>
         <source>Total active motion (TAM): the largest sum of a finger’s bending in one moment, all its joints seen.</source>
-        <translation>Aktive Gesamtbeweglichkeit (TAM): die größte Summe der Beugung eines Fingers in einem Moment, alle Gelenke gesehen.</translation>
+        <translation>Aktive Gesamtbeweglichkeit (TAM): größte Summe der Beugung eines Fingers in einem Moment, alle Gelenke gesehen.</translation>
     </message>
     <message>
         <source>No total active motion (TAM): no finger’s joints were all seen at once.</source>
@@ -2741,7 +2741,7 @@
     </message>
     <message>
         <source>Share of the other hand’s TAM, else of the usual 260° (thumb 140°): excellent from 100 %, good above 75 %, fair above 50 %, else poor (ASSH).</source>
-        <translation>Anteil an der TAM der anderen Hand, sonst an den üblichen 260° (Daumen 140°): sehr gut ab 100 %, gut über 75 %, mäßig über 50 %, sonst schlecht (ASSH).</translation>
+        <translation>Anteil an der TAM der anderen Hand, sonst an 260° (Daumen 140°): sehr gut ab 100 %, gut über 75 %, mäßig über 50 %, sonst schlecht (ASSH).</translation>
     </message>
     <message>
         <source>Middle joints</source>
@@ -2797,7 +2797,7 @@
     </message>
     <message>
         <source>bends {full}, lacks {missing}</source>
-        <translation>beugt {full}, es fehlen {missing}</translation>
+        <translation>beugt {full}, fehlen {missing}</translation>
     </message>
     <message>
         <source>TAM of all fingers</source>
@@ -2909,7 +2909,7 @@
     </message>
     <message>
         <source>Fair comparison</source>
-        <translation>Fairer Vergleich</translation>
+        <translation>Vergleichbarkeit</translation>
     </message>
     <message>
         <source>All sessions were set up alike.</source>
@@ -3045,11 +3045,11 @@
     </message>
     <message>
         <source>Best</source>
-        <translation>Bester</translation>
+        <translation>Bestwert</translation>
     </message>
     <message>
         <source>Usual (adults)</source>
-        <translation>Üblich (Erwachsene)</translation>
+        <translation>Üblich (Erw.)</translation>
     </message>
     <message>
         <source>{count} ways out and back; ranges over the whole recording</source>
@@ -3141,7 +3141,7 @@
     </message>
     <message>
         <source>No change beyond measurement error since {when}.</source>
-        <translation>Keine Änderung über den Messfehler hinaus seit {when}.</translation>
+        <translation>Seit {when} keine Änderung über den Messfehler hinaus.</translation>
     </message>
     <message>
         <source>{name} {size} better</source>
@@ -3301,7 +3301,7 @@
     </message>
     <message>
         <source>Peak speed, mean ± sd</source>
-        <translation>Spitzengeschwindigkeit, Mittel ± SD</translation>
+        <translation>Spitzentempo, Mittel ± SD</translation>
     </message>
     <message>
         <source>Smoothness (SPARC; 0 is smoothest)</source>
@@ -3906,6 +3906,1730 @@
     <message>
         <source>{difference}: beyond measurement error ({limit})</source>
         <translation>{difference}: über dem Messfehler ({limit})</translation>
+    </message>
+    <message>
+        <source>A click has no blue marker of its own: {subject}.</source>
+        <translation>Ein Klick trifft keinen eigenen blauen Marker: {subject}.</translation>
+    </message>
+    <message>
+        <source>A click lies outside the picture: {subject} ({detail}).</source>
+        <translation>Ein Klick liegt außerhalb des Bildes: {subject} ({detail}).</translation>
+    </message>
+    <message>
+        <source>A picture of the recording cannot be used: {subject} ({detail}).</source>
+        <translation>Ein Bild der Aufnahme ist nicht verwendbar: {subject} ({detail}).</translation>
+    </message>
+    <message>
+        <source>A session that was recorded while the folder of the sessions was away is there now: {subject}.</source>
+        <translation>Eine Sitzung, aufgenommen, während der Ordner der Sitzungen weg war, ist jetzt da: {subject}.</translation>
+    </message>
+    <message>
+        <source>A setting cannot be used: {subject} ({detail}).</source>
+        <translation>Eine Einstellung ist nicht verwendbar: {subject} ({detail}).</translation>
+    </message>
+    <message>
+        <source>All of it is safe on this computer.</source>
+        <translation>Alles ist sicher auf diesem Computer.</translation>
+    </message>
+    <message>
+        <source>All of it is safe.</source>
+        <translation>Alles davon ist sicher.</translation>
+    </message>
+    <message>
+        <source>All of it is stored as it was measured live.</source>
+        <translation>Alles ist gespeichert, wie es live gemessen wurde.</translation>
+    </message>
+    <message>
+        <source>All other files are as they were.</source>
+        <translation>Alle anderen Dateien sind, wie sie waren.</translation>
+    </message>
+    <message>
+        <source>All other pictures are used, and the gaps are marked.</source>
+        <translation>Alle anderen Bilder werden verwendet, und die Lücken sind gekennzeichnet.</translation>
+    </message>
+    <message>
+        <source>All sessions are safe; names and notes are missing. The damaged list is kept as {subject}.</source>
+        <translation>Alle Sitzungen sind sicher; Namen und Notizen fehlen. Die beschädigte Liste ist aufbewahrt: {subject}.</translation>
+    </message>
+    <message>
+        <source>An encrypted file cannot be read: {subject} ({detail}).</source>
+        <translation>Eine verschlüsselte Datei ist nicht lesbar: {subject} ({detail}).</translation>
+    </message>
+    <message>
+        <source>Another Carpus is using the patients of {subject}.</source>
+        <translation>Ein anderes Carpus verwendet diese Patienten: {subject}.</translation>
+    </message>
+    <message>
+        <source>Another blue spot fits the {markers} better.</source>
+        <translation>Eine andere blaue Stelle passt besser: {markers}.</translation>
+    </message>
+    <message>
+        <source>Another program is making {subject} at this moment.</source>
+        <translation>Ein anderes Programm erstellt das gerade: {subject}.</translation>
+    </message>
+    <message>
+        <source>Another program uses the camera ({detail}).</source>
+        <translation>Ein anderes Programm verwendet die Kamera ({detail}).</translation>
+    </message>
+    <message>
+        <source>Back up onto another disk now, and do not trust this one any more.</source>
+        <translation>Sichern Sie jetzt auf einen anderen Datenträger, und vertrauen Sie diesem nicht mehr.</translation>
+    </message>
+    <message>
+        <source>Back-ups cannot lie there: {subject} ({detail}).</source>
+        <translation>Sicherungen können dort nicht liegen: {subject} ({detail}).</translation>
+    </message>
+    <message>
+        <source>Bring it back from a back-up.</source>
+        <translation>Holen Sie sie aus einer Sicherung.</translation>
+    </message>
+    <message>
+        <source>Calibrate the camera again, or take the file away to use the usual values.</source>
+        <translation>Kalibrieren Sie die Kamera neu, oder entfernen Sie die Datei, um die üblichen Werte zu verwenden.</translation>
+    </message>
+    <message>
+        <source>Carpus cannot use the pictures of this recording: {subject} ({detail}).</source>
+        <translation>Carpus kann die Bilder dieser Aufnahme nicht verwenden: {subject} ({detail}).</translation>
+    </message>
+    <message>
+        <source>Carpus cannot write to {subject} ({detail}).</source>
+        <translation>Carpus kann hier nicht schreiben: {subject} ({detail}).</translation>
+    </message>
+    <message>
+        <source>Carpus could not look back at the session: {subject} ({detail}).</source>
+        <translation>Carpus konnte die Sitzung nicht nachrechnen: {subject} ({detail}).</translation>
+    </message>
+    <message>
+        <source>Carpus sees no camera ({detail}).</source>
+        <translation>Carpus sieht keine Kamera ({detail}).</translation>
+    </message>
+    <message>
+        <source>Carpus waits for its camera: {subject}. Another one is there ({detail}).</source>
+        <translation>Carpus wartet auf seine Kamera: {subject}. Eine andere ist da ({detail}).</translation>
+    </message>
+    <message>
+        <source>Check it by “carpus check-card --serial NUMBER” with the number printed on it.</source>
+        <translation>Prüfen Sie sie mit „carpus check-card --serial NUMMER“ und der aufgedruckten Nummer.</translation>
+    </message>
+    <message>
+        <source>Check that a disc was clicked there, and not another blue spot.</source>
+        <translation>Prüfen Sie, ob dort ein Punkt angeklickt wurde und nicht etwas anderes Blaues.</translation>
+    </message>
+    <message>
+        <source>Check that every marker is clicked under its own name.</source>
+        <translation>Prüfen Sie, ob jeder Marker unter seinem Namen angeklickt ist.</translation>
+    </message>
+    <message>
+        <source>Check that it is a session of this or an older Carpus, or take it from a backup.</source>
+        <translation>Prüfen Sie, ob es eine Sitzung dieses oder eines älteren Carpus ist, oder nehmen Sie sie aus einer Sicherung.</translation>
+    </message>
+    <message>
+        <source>Check that it is the same movement, and say which column or marker is which.</source>
+        <translation>Prüfen Sie, ob es dieselbe Bewegung ist, und sagen Sie, welche Spalte oder welcher Marker was ist.</translation>
+    </message>
+    <message>
+        <source>Check that the folder exists and that you may write there, or choose another one.</source>
+        <translation>Prüfen Sie, ob es den Ordner gibt und Sie dort schreiben dürfen, oder wählen Sie einen anderen.</translation>
+    </message>
+    <message>
+        <source>Check the address, or leave out --scheduler to use this machine.</source>
+        <translation>Prüfen Sie die Adresse, oder lassen Sie --scheduler weg, um diesen Computer zu verwenden.</translation>
+    </message>
+    <message>
+        <source>Check the name and the folder.</source>
+        <translation>Prüfen Sie Namen und Ordner.</translation>
+    </message>
+    <message>
+        <source>Check the patient, the side, and that every marker is clicked under its own name.</source>
+        <translation>Prüfen Sie Patient und Seite, und ob jeder Marker unter seinem Namen angeklickt ist.</translation>
+    </message>
+    <message>
+        <source>Check this computer’s disk, and back up.</source>
+        <translation>Prüfen Sie den Datenträger dieses Computers, und sichern Sie.</translation>
+    </message>
+    <message>
+        <source>Choose a folder on another disk.</source>
+        <translation>Wählen Sie einen Ordner auf einem anderen Datenträger.</translation>
+    </message>
+    <message>
+        <source>Choose another back-up, or bring Carpus up to date.</source>
+        <translation>Wählen Sie eine andere Sicherung, oder bringen Sie Carpus auf den neuesten Stand.</translation>
+    </message>
+    <message>
+        <source>Choose another name.</source>
+        <translation>Wählen Sie einen anderen Namen.</translation>
+    </message>
+    <message>
+        <source>Choose another recording, or record again.</source>
+        <translation>Wählen Sie eine andere Aufnahme, oder nehmen Sie neu auf.</translation>
+    </message>
+    <message>
+        <source>Choose the folder that holds the back-ups.</source>
+        <translation>Wählen Sie den Ordner mit den Sicherungen.</translation>
+    </message>
+    <message>
+        <source>Choose the other side, or click the markers again.</source>
+        <translation>Wählen Sie die andere Seite, oder klicken Sie die Marker neu an.</translation>
+    </message>
+    <message>
+        <source>Click all markers again, each under its own name.</source>
+        <translation>Klicken Sie alle Marker neu an, jeden unter seinem Namen.</translation>
+    </message>
+    <message>
+        <source>Click each of the two on its own marker.</source>
+        <translation>Klicken Sie jeden der beiden auf seinem eigenen Marker an.</translation>
+    </message>
+    <message>
+        <source>Click every marker again under its own name.</source>
+        <translation>Klicken Sie jeden Marker neu unter seinem Namen an.</translation>
+    </message>
+    <message>
+        <source>Click it again in its middle, and keep the hand still.</source>
+        <translation>Klicken Sie ihn neu in seiner Mitte an, und halten Sie die Hand ruhig.</translation>
+    </message>
+    <message>
+        <source>Click nearer to the marker, or check the light.</source>
+        <translation>Klicken Sie näher am Marker, oder prüfen Sie das Licht.</translation>
+    </message>
+    <message>
+        <source>Click the marker in the first picture of this recording.</source>
+        <translation>Klicken Sie den Marker im ersten Bild dieser Aufnahme an.</translation>
+    </message>
+    <message>
+        <source>Close other programs that have them open, or allow Carpus to write in their folder, and start it again.</source>
+        <translation>Schließen Sie andere Programme, die sie offen haben, oder erlauben Sie Carpus, in ihrem Ordner zu schreiben, und starten Sie es neu.</translation>
+    </message>
+    <message>
+        <source>Close the other program, then try again.</source>
+        <translation>Schließen Sie das andere Programm, und versuchen Sie es noch einmal.</translation>
+    </message>
+    <message>
+        <source>Connect the disk or the network again, or choose another folder.</source>
+        <translation>Verbinden Sie den Datenträger oder das Netz wieder, oder wählen Sie einen anderen Ordner.</translation>
+    </message>
+    <message>
+        <source>Copy the recording again from where it was made, or correct the list.</source>
+        <translation>Kopieren Sie die Aufnahme noch einmal von ihrem Ursprung, oder berichtigen Sie die Liste.</translation>
+    </message>
+    <message>
+        <source>Copy the recording again from where it was made.</source>
+        <translation>Kopieren Sie die Aufnahme noch einmal von ihrem Ursprung.</translation>
+    </message>
+    <message>
+        <source>Copy the recording again from where it was made; carpus track --leave-out-damaged goes on without it.</source>
+        <translation>Kopieren Sie die Aufnahme noch einmal von ihrem Ursprung; carpus track --leave-out-damaged macht ohne das Bild weiter.</translation>
+    </message>
+    <message>
+        <source>Copy the recording again if there are many.</source>
+        <translation>Kopieren Sie die Aufnahme noch einmal, wenn es viele sind.</translation>
+    </message>
+    <message>
+        <source>Correct the file, or click the markers again.</source>
+        <translation>Berichtigen Sie die Datei, oder klicken Sie die Marker neu an.</translation>
+    </message>
+    <message>
+        <source>Correct the setting, or take it out to use the usual value.</source>
+        <translation>Berichtigen Sie die Einstellung, oder entfernen Sie sie, um den üblichen Wert zu verwenden.</translation>
+    </message>
+    <message>
+        <source>Cover the spot with the question mark, or give it its name.</source>
+        <translation>Decken Sie die Stelle mit dem Fragezeichen ab, oder geben Sie ihr den Namen.</translation>
+    </message>
+    <message>
+        <source>Damaged pictures of the recording are left out: {subject} ({detail}).</source>
+        <translation>Beschädigte Bilder der Aufnahme sind ausgelassen: {subject} ({detail}).</translation>
+    </message>
+    <message>
+        <source>Depth and colour do not lie on each other at the {markers} ({value} {unit}, up to {limit} is good).</source>
+        <translation>Tiefe und Farbe decken sich hier nicht: {markers} ({value} {unit}, bis {limit} ist gut).</translation>
+    </message>
+    <message>
+        <source>Depth does not lie on colour in {subject}, so depths are less sure.</source>
+        <translation>Tiefe und Farbe decken sich nicht: {subject}; Tiefen sind darum weniger sicher.</translation>
+    </message>
+    <message>
+        <source>Everything recorded so far is stored on this computer.</source>
+        <translation>Alles bisher Aufgenommene ist auf diesem Computer gespeichert.</translation>
+    </message>
+    <message>
+        <source>Everything stored before is safe; at most the last second is missing.</source>
+        <translation>Alles vorher Gespeicherte ist sicher; höchstens die letzte Sekunde fehlt.</translation>
+    </message>
+    <message>
+        <source>Everything stored up to then is safe.</source>
+        <translation>Alles bis dahin Gespeicherte ist sicher.</translation>
+    </message>
+    <message>
+        <source>Everything that was recorded is stored there.</source>
+        <translation>Alles Aufgenommene ist dort gespeichert.</translation>
+    </message>
+    <message>
+        <source>Finish it with “carpus recover”, or wait until its recording has ended.</source>
+        <translation>Schließen Sie sie mit „carpus recover“ ab, oder warten Sie, bis ihre Aufnahme endet.</translation>
+    </message>
+    <message>
+        <source>Free some space, or choose another disk.</source>
+        <translation>Schaffen Sie Platz, oder wählen Sie einen anderen Datenträger.</translation>
+    </message>
+    <message>
+        <source>Give yourself access to it; “carpus doctor” says how.</source>
+        <translation>Geben Sie sich Zugriff; „carpus doctor“ sagt, wie.</translation>
+    </message>
+    <message>
+        <source>Glue the board onto something stiff and flat, give it light, and hold it still.</source>
+        <translation>Kleben Sie die Tafel auf etwas Steifes, Flaches, geben Sie Licht, und halten Sie sie still.</translation>
+    </message>
+    <message>
+        <source>Go on; connect the disk or the network again later, and Carpus brings the session home when it starts.</source>
+        <translation>Machen Sie weiter; verbinden Sie Datenträger oder Netz später wieder, dann holt Carpus die Sitzung beim Start zurück.</translation>
+    </message>
+    <message>
+        <source>Go on; the pause is marked in the session.</source>
+        <translation>Machen Sie weiter; die Pause ist in der Sitzung vermerkt.</translation>
+    </message>
+    <message>
+        <source>Go to the window that is open already, or choose another folder.</source>
+        <translation>Gehen Sie zum schon offenen Fenster, oder wählen Sie einen anderen Ordner.</translation>
+    </message>
+    <message>
+        <source>Install Carpus anew, with the Python package sqlcipher3.</source>
+        <translation>Installieren Sie Carpus neu, mit dem Python-Paket sqlcipher3.</translation>
+    </message>
+    <message>
+        <source>Install it with pip.</source>
+        <translation>Installieren Sie es mit pip.</translation>
+    </message>
+    <message>
+        <source>Install it; “carpus doctor” says what and how.</source>
+        <translation>Installieren Sie ihn; „carpus doctor“ sagt, was und wie.</translation>
+    </message>
+    <message>
+        <source>It can still be read; its seal does not fit what it holds now.</source>
+        <translation>Sie ist noch lesbar; ihr Siegel passt nicht zu ihrem jetzigen Inhalt.</translation>
+    </message>
+    <message>
+        <source>It is left to that program.</source>
+        <translation>Es bleibt diesem Programm überlassen.</translation>
+    </message>
+    <message>
+        <source>Keep the hand still and take the first picture again.</source>
+        <translation>Halten Sie die Hand ruhig, und nehmen Sie das erste Bild neu auf.</translation>
+    </message>
+    <message>
+        <source>Keep the hand still for half a second.</source>
+        <translation>Halten Sie die Hand eine halbe Sekunde ruhig.</translation>
+    </message>
+    <message>
+        <source>Lay it flat under the camera, all of it in the picture, about 60 cm away, in good light.</source>
+        <translation>Legen Sie sie flach unter die Kamera, ganz im Bild, etwa 60 cm entfernt, bei gutem Licht.</translation>
+    </message>
+    <message>
+        <source>Leave out the repetitions that should not count, or track the recording again with “carpus track”.</source>
+        <translation>Lassen Sie Wiederholungen aus, die nicht zählen sollen, oder verfolgen Sie die Aufnahme neu mit „carpus track“.</translation>
+    </message>
+    <message>
+        <source>Look at the disk or the network. If it stays silent, the recording goes on on this computer.</source>
+        <translation>Sehen Sie nach dem Datenträger oder dem Netz. Bleibt er stumm, läuft die Aufnahme auf diesem Computer weiter.</translation>
+    </message>
+    <message>
+        <source>Look at the lines on the picture, and give the marker its right name.</source>
+        <translation>Sehen Sie die Linien im Bild an, und geben Sie dem Marker seinen richtigen Namen.</translation>
+    </message>
+    <message>
+        <source>Measure each person twice, discs put on anew, within 14 days; 10 people are the least.</source>
+        <translation>Messen Sie jede Person zweimal, mit neu geklebten Punkten, innerhalb von 14 Tagen; 10 Personen sind das Mindeste.</translation>
+    </message>
+    <message>
+        <source>Move the camera further from the hand.</source>
+        <translation>Rücken Sie die Kamera weiter von der Hand weg.</translation>
+    </message>
+    <message>
+        <source>Move the hand a little, and keep sunlight and shine off the marker.</source>
+        <translation>Bewegen Sie die Hand ein wenig, und halten Sie Sonne und Glanz vom Marker fern.</translation>
+    </message>
+    <message>
+        <source>Move the hand a little, and keep sunlight and shine off the markers.</source>
+        <translation>Bewegen Sie die Hand ein wenig, und halten Sie Sonne und Glanz von den Markern fern.</translation>
+    </message>
+    <message>
+        <source>Name the folder that holds the sessions.</source>
+        <translation>Nennen Sie den Ordner mit den Sitzungen.</translation>
+    </message>
+    <message>
+        <source>No blue marker at the {markers}.</source>
+        <translation>Kein blauer Marker: {markers}.</translation>
+    </message>
+    <message>
+        <source>No hand has this shape: the {markers} does not lie where the other discs expect it.</source>
+        <translation>Keine Hand hat diese Form. Nicht dort, wo die anderen Punkte ihn erwarten: {markers}.</translation>
+    </message>
+    <message>
+        <source>Not all files could be deleted yet ({detail} left, such as {subject}).</source>
+        <translation>Noch nicht alle Dateien ließen sich löschen (übrig: {detail}, etwa {subject}).</translation>
+    </message>
+    <message>
+        <source>Not every file could be encrypted or decrypted: {subject}, {detail} in all.</source>
+        <translation>Nicht jede Datei ließ sich ver- oder entschlüsseln: {subject}, insgesamt {detail}.</translation>
+    </message>
+    <message>
+        <source>Nothing has been changed, and nothing is lost.</source>
+        <translation>Nichts ist geändert, und nichts ist verloren.</translation>
+    </message>
+    <message>
+        <source>Nothing has been changed.</source>
+        <translation>Nichts ist geändert.</translation>
+    </message>
+    <message>
+        <source>Nothing has been recorded, so nothing is lost.</source>
+        <translation>Nichts ist aufgenommen, also ist nichts verloren.</translation>
+    </message>
+    <message>
+        <source>Nothing in the reference can be compared: {subject} ({detail}).</source>
+        <translation>Nichts in der Referenz ist vergleichbar: {subject} ({detail}).</translation>
+    </message>
+    <message>
+        <source>Nothing is lost; everything stays hidden.</source>
+        <translation>Nichts ist verloren; alles bleibt verborgen.</translation>
+    </message>
+    <message>
+        <source>Nothing says whether depth lies on colour in {subject}; Carpus takes it so.</source>
+        <translation>Nichts sagt, ob sich Tiefe und Farbe decken: {subject}; Carpus nimmt es an.</translation>
+    </message>
+    <message>
+        <source>Nothing was kept; what was measured before stays.</source>
+        <translation>Nichts wurde aufbewahrt; früher Gemessenes bleibt.</translation>
+    </message>
+    <message>
+        <source>Once the disk answers, start Carpus again: it finishes the recording.</source>
+        <translation>Antwortet der Datenträger wieder, starten Sie Carpus neu: Es schließt die Aufnahme ab.</translation>
+    </message>
+    <message>
+        <source>Plug its own camera in again; what was begun then goes on by itself.</source>
+        <translation>Schließen Sie die eigene Kamera wieder an; das Begonnene geht dann von selbst weiter.</translation>
+    </message>
+    <message>
+        <source>Plug the camera in again; tracking and recording then go on by themselves.</source>
+        <translation>Schließen Sie die Kamera wieder an; Verfolgung und Aufnahme gehen dann von selbst weiter.</translation>
+    </message>
+    <message>
+        <source>Plug the camera straight into the computer.</source>
+        <translation>Schließen Sie die Kamera direkt am Computer an.</translation>
+    </message>
+    <message>
+        <source>Print it with carpus calibrate-camera --board, and hold all of it in the picture, in good light.</source>
+        <translation>Drucken Sie sie mit carpus calibrate-camera --board, und halten Sie sie ganz ins Bild, bei gutem Licht.</translation>
+    </message>
+    <message>
+        <source>Put the camera_info.yaml of the camera beside it.</source>
+        <translation>Legen Sie die camera_info.yaml der Kamera daneben.</translation>
+    </message>
+    <message>
+        <source>Put the list in the order of time with each time once, or record again.</source>
+        <translation>Ordnen Sie die Liste nach der Zeit, jede Zeit einmal, oder nehmen Sie neu auf.</translation>
+    </message>
+    <message>
+        <source>Record again with colour and depth of one size.</source>
+        <translation>Nehmen Sie neu auf, mit Farbe und Tiefe in gleicher Größe.</translation>
+    </message>
+    <message>
+        <source>Record to a disk inside this computer, and close other programs.</source>
+        <translation>Nehmen Sie auf einen Datenträger in diesem Computer auf, und schließen Sie andere Programme.</translation>
+    </message>
+    <message>
+        <source>Restore the list from a backup, or enter the names again.</source>
+        <translation>Stellen Sie die Liste aus einer Sicherung wieder her, oder tragen Sie die Namen neu ein.</translation>
+    </message>
+    <message>
+        <source>Review it as any other.</source>
+        <translation>Sehen Sie sie an wie jede andere.</translation>
+    </message>
+    <message>
+        <source>Run “carpus track” on the session to look back at it.</source>
+        <translation>Führen Sie „carpus track“ mit der Sitzung aus, um sie nachzurechnen.</translation>
+    </message>
+    <message>
+        <source>See to the disk or bring them back from a back-up; Carpus goes on with them at its next start.</source>
+        <translation>Sehen Sie nach dem Datenträger, oder holen Sie sie aus einer Sicherung; Carpus macht beim nächsten Start damit weiter.</translation>
+    </message>
+    <message>
+        <source>Set colour and depth to one size next time.</source>
+        <translation>Stellen Sie nächstes Mal Farbe und Tiefe auf gleiche Größe.</translation>
+    </message>
+    <message>
+        <source>Show the board in every part of the picture, tilted to all four sides, near and far, and hold it still.</source>
+        <translation>Zeigen Sie die Tafel überall im Bild, nach allen vier Seiten geneigt, nah und fern, und halten Sie sie still.</translation>
+    </message>
+    <message>
+        <source>Single exercises can be measured as ever. Put a copy of the file back, or make the sets anew.</source>
+        <translation>Einzelne Übungen lassen sich messen wie immer. Legen Sie eine Kopie der Datei zurück, oder legen Sie die Folgen neu an.</translation>
+    </message>
+    <message>
+        <source>Some pictures are smaller and have been enlarged: {subject} ({detail}).</source>
+        <translation>Einige Bilder sind kleiner und wurden vergrößert: {subject} ({detail}).</translation>
+    </message>
+    <message>
+        <source>Start Carpus again, or move the file away and let Carpus make a new list.</source>
+        <translation>Starten Sie Carpus neu, oder verschieben Sie die Datei, damit Carpus eine neue Liste erstellt.</translation>
+    </message>
+    <message>
+        <source>Start Carpus again, or take the list from a backup.</source>
+        <translation>Starten Sie Carpus neu, oder nehmen Sie die Liste aus einer Sicherung.</translation>
+    </message>
+    <message>
+        <source>Swap the two names, or click both markers again.</source>
+        <translation>Tauschen Sie die beiden Namen, oder klicken Sie beide Marker neu an.</translation>
+    </message>
+    <message>
+        <source>Switch on registration in the camera next time.</source>
+        <translation>Schalten Sie nächstes Mal die Deckung von Tiefe und Farbe in der Kamera ein.</translation>
+    </message>
+    <message>
+        <source>Switch on registration in the camera, or track without depth.</source>
+        <translation>Schalten Sie die Deckung von Tiefe und Farbe in der Kamera ein, oder verfolgen Sie ohne Tiefe.</translation>
+    </message>
+    <message>
+        <source>Take it from a backup, or do not rely on its figures.</source>
+        <translation>Nehmen Sie sie aus einer Sicherung, oder verlassen Sie sich nicht auf ihre Werte.</translation>
+    </message>
+    <message>
+        <source>Take the spot with the question mark, if it is the disc.</source>
+        <translation>Nehmen Sie die Stelle mit dem Fragezeichen, wenn sie der Punkt ist.</translation>
+    </message>
+    <message>
+        <source>Take them from a backup, or leave them; Carpus does not open them again.</source>
+        <translation>Nehmen Sie sie aus einer Sicherung, oder lassen Sie sie; Carpus öffnet sie nicht mehr.</translation>
+    </message>
+    <message>
+        <source>That file is untouched; Carpus never overwrites.</source>
+        <translation>Sie ist unberührt; Carpus überschreibt nie.</translation>
+    </message>
+    <message>
+        <source>The PIN cannot be checked: {subject} is missing on this computer ({detail}).</source>
+        <translation>Die PIN lässt sich nicht prüfen; auf diesem Computer fehlt: {subject} ({detail}).</translation>
+    </message>
+    <message>
+        <source>The back-up cannot be read: {subject} ({detail}).</source>
+        <translation>Die Sicherung ist nicht lesbar: {subject} ({detail}).</translation>
+    </message>
+    <message>
+        <source>The back-up is damaged: a content read back is not what was written ({subject}, {detail}).</source>
+        <translation>Die Sicherung ist beschädigt: Zurückgelesenes ist nicht das Geschriebene ({subject}, {detail}).</translation>
+    </message>
+    <message>
+        <source>The camera does not say its number: {subject}.</source>
+        <translation>Die Kamera nennt ihre Nummer nicht: {subject}.</translation>
+    </message>
+    <message>
+        <source>The camera is back: {subject} (away for {detail}).</source>
+        <translation>Die Kamera ist wieder da: {subject} (weg: {detail}).</translation>
+    </message>
+    <message>
+        <source>The camera is there, but you may not open it ({detail}).</source>
+        <translation>Die Kamera ist da, aber Sie dürfen sie nicht öffnen ({detail}).</translation>
+    </message>
+    <message>
+        <source>The camera measures no depth at a marker: {subject}.</source>
+        <translation>Die Kamera misst an einem Marker keine Tiefe: {subject}.</translation>
+    </message>
+    <message>
+        <source>The camera measures no depth at the {markers}.</source>
+        <translation>Die Kamera misst hier keine Tiefe: {markers}.</translation>
+    </message>
+    <message>
+        <source>The camera sends no more pictures: {subject} ({detail}).</source>
+        <translation>Die Kamera sendet keine Bilder mehr: {subject} ({detail}).</translation>
+    </message>
+    <message>
+        <source>The check card is not to be seen well enough: {subject} ({detail}).</source>
+        <translation>Die Prüfkarte ist nicht gut genug zu sehen: {subject} ({detail}).</translation>
+    </message>
+    <message>
+        <source>The clicked markers do not make a hand ({subject}).</source>
+        <translation>Die angeklickten Marker ergeben keine Hand ({subject}).</translation>
+    </message>
+    <message>
+        <source>The clicks cannot be read: {subject} ({detail}).</source>
+        <translation>Die Klicks sind nicht lesbar: {subject} ({detail}).</translation>
+    </message>
+    <message>
+        <source>The clicks for the {markers} are on one marker.</source>
+        <translation>Diese Klicks liegen auf einem einzigen Marker: {markers}.</translation>
+    </message>
+    <message>
+        <source>The corners do not fit a flat board: {subject} ({detail}).</source>
+        <translation>Die Ecken passen nicht zu einer flachen Tafel: {subject} ({detail}).</translation>
+    </message>
+    <message>
+        <source>The data on this computer are as they were.</source>
+        <translation>Die Daten auf diesem Computer sind, wie sie waren.</translation>
+    </message>
+    <message>
+        <source>The disk has no room left for {subject} ({detail}).</source>
+        <translation>Der Datenträger ist voll: {subject} ({detail}).</translation>
+    </message>
+    <message>
+        <source>The disk is too slow for the recording, so it has ended: {subject} ({detail}).</source>
+        <translation>Der Datenträger ist zu langsam, darum endete die Aufnahme: {subject} ({detail}).</translation>
+    </message>
+    <message>
+        <source>The disk of {subject} has not answered for {detail}.</source>
+        <translation>Der Datenträger antwortet nicht: {subject} (seit {detail}).</translation>
+    </message>
+    <message>
+        <source>The driver of the camera has stopped: {subject} ({detail}).</source>
+        <translation>Der Treiber der Kamera ist stehen geblieben: {subject} ({detail}).</translation>
+    </message>
+    <message>
+        <source>The driver of the camera is not on this computer, or cannot be loaded ({detail}).</source>
+        <translation>Der Treiber der Kamera fehlt auf diesem Computer oder lässt sich nicht laden ({detail}).</translation>
+    </message>
+    <message>
+        <source>The file is as it was.</source>
+        <translation>Die Datei ist, wie sie war.</translation>
+    </message>
+    <message>
+        <source>The file is untouched, and all other sessions are safe.</source>
+        <translation>Die Datei ist unberührt, und alle anderen Sitzungen sind sicher.</translation>
+    </message>
+    <message>
+        <source>The file of the camera cannot be used: {subject} ({detail}).</source>
+        <translation>Die Datei der Kamera ist nicht verwendbar: {subject} ({detail}).</translation>
+    </message>
+    <message>
+        <source>The folder of the recording is gone: {subject} ({detail}).</source>
+        <translation>Der Ordner der Aufnahme ist weg: {subject} ({detail}).</translation>
+    </message>
+    <message>
+        <source>The folder of the sessions is gone; the recording goes on in {subject} ({detail}).</source>
+        <translation>Der Ordner der Sitzungen ist weg; die Aufnahme läuft hier weiter: {subject} ({detail}).</translation>
+    </message>
+    <message>
+        <source>The hand is tilted {value}° to the camera (up to {limit}° is good).</source>
+        <translation>Die Hand ist um {value}° zur Kamera geneigt (bis {limit}° ist gut).</translation>
+    </message>
+    <message>
+        <source>The hand is {value} m from the camera ({limit} m or more is good).</source>
+        <translation>Die Hand ist {value} m von der Kamera entfernt ({limit} m oder mehr ist gut).</translation>
+    </message>
+    <message>
+        <source>The hand measures {value} mm ({limit} mm is the limit).</source>
+        <translation>Die Hand misst {value} mm ({limit} mm ist die Grenze).</translation>
+    </message>
+    <message>
+        <source>The hand measures {value} mm, and {limit} mm last time.</source>
+        <translation>Die Hand misst {value} mm, letztes Mal {limit} mm.</translation>
+    </message>
+    <message>
+        <source>The hand moved in the first half second.</source>
+        <translation>Die Hand bewegte sich in der ersten halben Sekunde.</translation>
+    </message>
+    <message>
+        <source>The hand was still for {value} pictures only ({limit} or more are good).</source>
+        <translation>Die Hand war nur über {value} Bilder ruhig ({limit} oder mehr sind gut).</translation>
+    </message>
+    <message>
+        <source>The list of patients cannot be opened: {subject} ({detail}).</source>
+        <translation>Die Liste der Patienten lässt sich nicht öffnen: {subject} ({detail}).</translation>
+    </message>
+    <message>
+        <source>The list of patients is damaged: {subject} ({detail}).</source>
+        <translation>Die Liste der Patienten ist beschädigt: {subject} ({detail}).</translation>
+    </message>
+    <message>
+        <source>The list of patients was damaged ({detail}), so Carpus has made a new one from the sessions.</source>
+        <translation>Die Liste der Patienten war beschädigt ({detail}); Carpus hat aus den Sitzungen eine neue erstellt.</translation>
+    </message>
+    <message>
+        <source>The marker of the {markers} is {value} mm off its place (up to {limit} mm is good).</source>
+        <translation>{markers}: Der Marker liegt {value} mm neben seinem Platz (bis {limit} mm ist gut).</translation>
+    </message>
+    <message>
+        <source>The markers of this session cannot be corrected: {subject} ({detail}).</source>
+        <translation>Die Marker dieser Sitzung lassen sich nicht berichtigen: {subject} ({detail}).</translation>
+    </message>
+    <message>
+        <source>The name {subject} belongs to another patient.</source>
+        <translation>Diesen Namen hat schon jemand anderes: {subject}.</translation>
+    </message>
+    <message>
+        <source>The names look shifted: the marker clicked as {first} is the {second}.</source>
+        <translation>Die Namen scheinen verschoben: Angeklickt ist „{first}“, der Marker ist aber „{second}“.</translation>
+    </message>
+    <message>
+        <source>The old result is unchanged.</source>
+        <translation>Das alte Ergebnis ist unverändert.</translation>
+    </message>
+    <message>
+        <source>The part of Carpus that encrypts is not installed here ({detail}).</source>
+        <translation>Der Teil von Carpus, der verschlüsselt, ist hier nicht installiert ({detail}).</translation>
+    </message>
+    <message>
+        <source>The pictures of the board are too few or too alike: {subject} ({detail}).</source>
+        <translation>Die Bilder der Tafel sind zu wenige oder zu ähnlich: {subject} ({detail}).</translation>
+    </message>
+    <message>
+        <source>The pictures of the recording differ in size: {subject} ({detail}).</source>
+        <translation>Die Bilder der Aufnahme sind verschieden groß: {subject} ({detail}).</translation>
+    </message>
+    <message>
+        <source>The printed board is not to be seen: {subject} ({detail}).</source>
+        <translation>Die gedruckte Tafel ist nicht zu sehen: {subject} ({detail}).</translation>
+    </message>
+    <message>
+        <source>The recording cannot be read: {subject} ({detail}).</source>
+        <translation>Die Aufnahme ist nicht lesbar: {subject} ({detail}).</translation>
+    </message>
+    <message>
+        <source>The recording could not be ended: the disk of {subject} does not answer.</source>
+        <translation>Die Aufnahme ließ sich nicht beenden, der Datenträger antwortet nicht: {subject}.</translation>
+    </message>
+    <message>
+        <source>The recording goes on; what came since waits in memory.</source>
+        <translation>Die Aufnahme läuft weiter; was seitdem kam, wartet im Speicher.</translation>
+    </message>
+    <message>
+        <source>The recording has no usable depth: {subject} ({detail}).</source>
+        <translation>Die Aufnahme hat keine brauchbare Tiefe: {subject} ({detail}).</translation>
+    </message>
+    <message>
+        <source>The recording holds no picture: {subject} ({detail}).</source>
+        <translation>Die Aufnahme enthält kein Bild: {subject} ({detail}).</translation>
+    </message>
+    <message>
+        <source>The recording is damaged: {subject} ({detail}).</source>
+        <translation>Die Aufnahme ist beschädigt: {subject} ({detail}).</translation>
+    </message>
+    <message>
+        <source>The reference cannot be read: {subject} ({detail}).</source>
+        <translation>Die Referenz ist nicht lesbar: {subject} ({detail}).</translation>
+    </message>
+    <message>
+        <source>The scheduler at {subject} does not answer ({detail}).</source>
+        <translation>Der Verteiler antwortet nicht: {subject} ({detail}).</translation>
+    </message>
+    <message>
+        <source>The session files are safe; the list can be made again from them, without the names.</source>
+        <translation>Die Sitzungsdateien sind sicher; die Liste lässt sich daraus neu erstellen, ohne die Namen.</translation>
+    </message>
+    <message>
+        <source>The session is unchanged, and its repetitions can be left out.</source>
+        <translation>Die Sitzung ist unverändert, und Wiederholungen lassen sich auslassen.</translation>
+    </message>
+    <message>
+        <source>The sets of exercises cannot be read: {subject} ({detail}).</source>
+        <translation>Die Übungsfolgen sind nicht lesbar: {subject} ({detail}).</translation>
+    </message>
+    <message>
+        <source>The times of the recording do not rise: {subject} ({detail}).</source>
+        <translation>Die Zeiten der Aufnahme steigen nicht an: {subject} ({detail}).</translation>
+    </message>
+    <message>
+        <source>The {markers} does not lie on the line of its finger.</source>
+        <translation>Nicht auf der Linie seines Fingers: {markers}.</translation>
+    </message>
+    <message>
+        <source>There is a file already at {subject}.</source>
+        <translation>Diese Datei gibt es schon: {subject}.</translation>
+    </message>
+    <message>
+        <source>There is no back-up in {subject}.</source>
+        <translation>Hier ist keine Sicherung: {subject}.</translation>
+    </message>
+    <message>
+        <source>There is no file of the camera with {subject}; Carpus uses {detail}, and lengths may be several per cent off.</source>
+        <translation>Zur Kamera von {subject} fehlt die Datei; Carpus verwendet {detail}, und Längen können einige Prozent daneben liegen.</translation>
+    </message>
+    <message>
+        <source>There is no folder {subject}.</source>
+        <translation>Diesen Ordner gibt es nicht: {subject}.</translation>
+    </message>
+    <message>
+        <source>There is no recording at {subject}.</source>
+        <translation>Hier gibt es keine Aufnahme: {subject}.</translation>
+    </message>
+    <message>
+        <source>There is no set of markers with the name {subject} ({detail}).</source>
+        <translation>Diesen Markersatz gibt es nicht: {subject} ({detail}).</translation>
+    </message>
+    <message>
+        <source>There is one more blue spot on the hand than there are names.</source>
+        <translation>Auf der Hand ist eine blaue Stelle mehr, als es Namen gibt.</translation>
+    </message>
+    <message>
+        <source>These are as they were, and the key is kept.</source>
+        <translation>Diese sind, wie sie waren, und der Schlüssel bleibt erhalten.</translation>
+    </message>
+    <message>
+        <source>These sessions make no test and retest: {subject} ({detail}).</source>
+        <translation>Diese Sitzungen ergeben keinen Wiederholungstest: {subject} ({detail}).</translation>
+    </message>
+    <message>
+        <source>They are in no list any more, and Carpus tries again whenever it starts.</source>
+        <translation>Sie stehen in keiner Liste mehr, und Carpus versucht es bei jedem Start wieder.</translation>
+    </message>
+    <message>
+        <source>They are untouched where they are, and all other sessions are safe.</source>
+        <translation>Sie liegen unberührt, wo sie sind, und alle anderen Sitzungen sind sicher.</translation>
+    </message>
+    <message>
+        <source>This camera does not give the pictures that Carpus needs: {subject} ({detail}).</source>
+        <translation>Diese Kamera liefert nicht die Bilder, die Carpus braucht: {subject} ({detail}).</translation>
+    </message>
+    <message>
+        <source>This is not the PIN of {subject}, and not its recovery code.</source>
+        <translation>Das ist weder die PIN noch der Wiederherstellungscode: {subject}.</translation>
+    </message>
+    <message>
+        <source>This looks like the other hand.</source>
+        <translation>Das sieht nach der anderen Hand aus.</translation>
+    </message>
+    <message>
+        <source>This needs carpus[{subject}] ({detail}), which is not installed.</source>
+        <translation>Dafür fehlt carpus[{subject}] ({detail}): Es ist nicht installiert.</translation>
+    </message>
+    <message>
+        <source>This session cannot be read: {subject} ({detail}).</source>
+        <translation>Diese Sitzung ist nicht lesbar: {subject} ({detail}).</translation>
+    </message>
+    <message>
+        <source>This session is not finished: {subject}.</source>
+        <translation>Diese Sitzung ist nicht abgeschlossen: {subject}.</translation>
+    </message>
+    <message>
+        <source>This session was changed after it was finished: {subject}.</source>
+        <translation>Diese Sitzung wurde nach ihrem Ende verändert: {subject}.</translation>
+    </message>
+    <message>
+        <source>Tracking again stopped: {subject} ({detail}).</source>
+        <translation>Das neue Verfolgen brach ab: {subject} ({detail}).</translation>
+    </message>
+    <message>
+        <source>Try again, or correct another picture too.</source>
+        <translation>Versuchen Sie es noch einmal, oder berichtigen Sie ein weiteres Bild.</translation>
+    </message>
+    <message>
+        <source>Try again; if the PIN is right, bring the key files (encryption…) back from a back-up.</source>
+        <translation>Versuchen Sie es noch einmal; stimmt die PIN, holen Sie die Schlüsseldateien (encryption…) aus einer Sicherung.</translation>
+    </message>
+    <message>
+        <source>Turn the back of the hand to the camera.</source>
+        <translation>Drehen Sie den Handrücken zur Kamera.</translation>
+    </message>
+    <message>
+        <source>Type the PIN when asked, or set CARPUS_PIN to it.</source>
+        <translation>Geben Sie die PIN ein, wenn danach gefragt wird, oder setzen Sie CARPUS_PIN.</translation>
+    </message>
+    <message>
+        <source>Unplug the camera, plug it in again and start once more.</source>
+        <translation>Ziehen Sie die Kamera ab, schließen Sie sie wieder an, und starten Sie noch einmal.</translation>
+    </message>
+    <message>
+        <source>Use C3D, TRC, MOT, a CSV table with its column map, or a session.</source>
+        <translation>Verwenden Sie C3D, TRC, MOT, eine CSV-Tabelle mit Spaltenzuordnung oder eine Sitzung.</translation>
+    </message>
+    <message>
+        <source>Use a camera with colour and depth, such as the Xtion.</source>
+        <translation>Verwenden Sie eine Kamera mit Farbe und Tiefe, etwa die Xtion.</translation>
+    </message>
+    <message>
+        <source>Use a recording of colour and depth.</source>
+        <translation>Verwenden Sie eine Aufnahme mit Farbe und Tiefe.</translation>
+    </message>
+    <message>
+        <source>Use a recording whose pictures all have one size.</source>
+        <translation>Verwenden Sie eine Aufnahme mit gleich großen Bildern.</translation>
+    </message>
+    <message>
+        <source>Use wrist6 or hand21.</source>
+        <translation>Verwenden Sie wrist6 oder hand21.</translation>
+    </message>
+    <message>
+        <source>Wait until it has ended, or choose another folder.</source>
+        <translation>Warten Sie, bis es fertig ist, oder wählen Sie einen anderen Ordner.</translation>
+    </message>
+    <message>
+        <source>What counts as a change stays as it is.</source>
+        <translation>Was als Änderung zählt, bleibt, wie es ist.</translation>
+    </message>
+    <message>
+        <source>What was recorded of it is there.</source>
+        <translation>Was von ihr aufgenommen wurde, ist da.</translation>
+    </message>
+    <message>
+        <source>What was stored before is safe.</source>
+        <translation>Was vorher gespeichert wurde, ist sicher.</translation>
+    </message>
+    <message>
+        <source>What was stored before it went is there when it comes back.</source>
+        <translation>Was vorher gespeichert wurde, ist da, wenn er wiederkommt.</translation>
+    </message>
+    <message>
+        <source>Whoever looks after this computer installs Carpus again, with all its parts.</source>
+        <translation>Wer diesen Computer betreut, installiert Carpus neu, mit allen Teilen.</translation>
+    </message>
+    <message>
+        <source>Write “registered: true” or “false” into its camera_info.yaml.</source>
+        <translation>Schreiben Sie „registered: true“ oder „false“ in die camera_info.yaml.</translation>
+    </message>
+    <message>
+        <source>a folder</source>
+        <translation>ein Ordner</translation>
+    </message>
+    <message>
+        <source>a name that is no text</source>
+        <translation>ein Name, der kein Text ist</translation>
+    </message>
+    <message>
+        <source>a text with a character that is none, in {file}</source>
+        <translation>ein Text mit einem ungültigen Zeichen, in {file}</translation>
+    </message>
+    <message>
+        <source>all six discs in {count} of {looked} pictures</source>
+        <translation>alle sechs Punkte in {count} von {looked} Bildern</translation>
+    </message>
+    <message>
+        <source>an HDF5 file, but not a session</source>
+        <translation>eine HDF5-Datei, aber keine Sitzung</translation>
+    </message>
+    <message>
+        <source>another program has exchanged it</source>
+        <translation>ein anderes Programm hat sie ausgetauscht</translation>
+    </message>
+    <message>
+        <source>another program has it open</source>
+        <translation>ein anderes Programm hat sie offen</translation>
+    </message>
+    <message>
+        <source>another program has it open: {cause}</source>
+        <translation>ein anderes Programm hat sie offen: {cause}</translation>
+    </message>
+    <message>
+        <source>block {number} is not there</source>
+        <translation>Block {number} fehlt</translation>
+    </message>
+    <message>
+        <source>camera_matrix has {count} numbers, 9 expected</source>
+        <translation>camera_matrix hat {count} Zahlen, erwartet sind 9</translation>
+    </message>
+    <message>
+        <source>camera_matrix is not [fx, 0, cx, 0, fy, cy, 0, 0, 1]</source>
+        <translation>camera_matrix ist nicht [fx, 0, cx, 0, fy, cy, 0, 0, 1]</translation>
+    </message>
+    <message>
+        <source>cannot be opened</source>
+        <translation>lässt sich nicht öffnen</translation>
+    </message>
+    <message>
+        <source>codec {codec} for {name}</source>
+        <translation>Codec {codec} für {name}</translation>
+    </message>
+    <message>
+        <source>colour as {name}</source>
+        <translation>Farbe als {name}</translation>
+    </message>
+    <message>
+        <source>colour picture {row}</source>
+        <translation>Farbbild {row}</translation>
+    </message>
+    <message>
+        <source>corners lie {error_px} px off, at most {most_px} are fair</source>
+        <translation>Ecken liegen {error_px} px daneben, höchstens {most_px} sind in Ordnung</translation>
+    </message>
+    <message>
+        <source>cropped pictures</source>
+        <translation>beschnittene Bilder</translation>
+    </message>
+    <message>
+        <source>cut off or altered</source>
+        <translation>abgeschnitten oder verändert</translation>
+    </message>
+    <message>
+        <source>damaged</source>
+        <translation>beschädigt</translation>
+    </message>
+    <message>
+        <source>damaged, or no C3D</source>
+        <translation>beschädigt, oder kein C3D</translation>
+    </message>
+    <message>
+        <source>damaged: a frame has a status that there is not</source>
+        <translation>beschädigt: ein Bild hat einen Zustand, den es nicht gibt</translation>
+    </message>
+    <message>
+        <source>damaged: a frame has no possible time</source>
+        <translation>beschädigt: ein Bild hat keine mögliche Zeit</translation>
+    </message>
+    <message>
+        <source>damaged: a standard deviation is below zero</source>
+        <translation>beschädigt: eine Standardabweichung ist unter null</translation>
+    </message>
+    <message>
+        <source>damaged: an event has no time</source>
+        <translation>beschädigt: ein Ereignis hat keine Zeit</translation>
+    </message>
+    <message>
+        <source>damaged: depth sensor, {cause}</source>
+        <translation>beschädigt: Tiefensensor, {cause}</translation>
+    </message>
+    <message>
+        <source>damaged: it asks for more memory than a session needs</source>
+        <translation>beschädigt: sie verlangt mehr Speicher, als eine Sitzung braucht</translation>
+    </message>
+    <message>
+        <source>damaged: it cannot be read to its end</source>
+        <translation>beschädigt: nicht bis zum Ende lesbar</translation>
+    </message>
+    <message>
+        <source>damaged: it claims to last longer than a day</source>
+        <translation>beschädigt: angeblich länger als ein Tag</translation>
+    </message>
+    <message>
+        <source>damaged: its parameters are no settings</source>
+        <translation>beschädigt: ihre Parameter sind keine Einstellungen</translation>
+    </message>
+    <message>
+        <source>damaged: its {name} is no such thing</source>
+        <translation>beschädigt: {name} ist nicht, was es sein soll</translation>
+    </message>
+    <message>
+        <source>damaged: no session_id</source>
+        <translation>beschädigt: keine session_id</translation>
+    </message>
+    <message>
+        <source>damaged: reading it does not end</source>
+        <translation>beschädigt: das Lesen endet nicht</translation>
+    </message>
+    <message>
+        <source>damaged: the camera&apos;s figures are not a camera&apos;s</source>
+        <translation>beschädigt: die Kamerawerte sind nicht die einer Kamera</translation>
+    </message>
+    <message>
+        <source>damaged: the camera&apos;s figures are not known</source>
+        <translation>beschädigt: die Kamerawerte sind unbekannt</translation>
+    </message>
+    <message>
+        <source>damaged: the time of frame {number} is not after the one before</source>
+        <translation>beschädigt: die Zeit von Bild {number} liegt nicht nach der vorigen</translation>
+    </message>
+    <message>
+        <source>damaged: the times of its frames are no session&apos;s</source>
+        <translation>beschädigt: die Zeiten der Bilder sind nicht die einer Sitzung</translation>
+    </message>
+    <message>
+        <source>damaged: what was read of it makes no sense</source>
+        <translation>beschädigt: das Gelesene ergibt keinen Sinn</translation>
+    </message>
+    <message>
+        <source>damaged: {cause}</source>
+        <translation>beschädigt: {cause}</translation>
+    </message>
+    <message>
+        <source>damaged: {detail}</source>
+        <translation>beschädigt: {detail}</translation>
+    </message>
+    <message>
+        <source>damaged: {path} does not fit {path2}</source>
+        <translation>beschädigt: {path} passt nicht zu {path2}</translation>
+    </message>
+    <message>
+        <source>damaged: {value}</source>
+        <translation>beschädigt: {value}</translation>
+    </message>
+    <message>
+        <source>damaged: {what}</source>
+        <translation>beschädigt: {what}</translation>
+    </message>
+    <message>
+        <source>damaged: {what} is beyond all measure</source>
+        <translation>beschädigt: {what} liegt außerhalb jedes Maßes</translation>
+    </message>
+    <message>
+        <source>depth as {name}</source>
+        <translation>Tiefe als {name}</translation>
+    </message>
+    <message>
+        <source>distortion {model} with {count} coefficients</source>
+        <translation>Verzeichnung {model} mit {count} Koeffizienten</translation>
+    </message>
+    <message>
+        <source>distortion_coefficients has {count} numbers, {wanted} expected</source>
+        <translation>distortion_coefficients hat {count} Zahlen, erwartet sind {wanted}</translation>
+    </message>
+    <message>
+        <source>distortion_model {said}, {coefficients} expected</source>
+        <translation>distortion_model {said}, erwartet ist {coefficients}</translation>
+    </message>
+    <message>
+        <source>empty file</source>
+        <translation>leere Datei</translation>
+    </message>
+    <message>
+        <source>for {width_px} x {height_px} pixels, pictures have {size}</source>
+        <translation>für {width_px} x {height_px} Pixel, die Bilder haben {size}</translation>
+    </message>
+    <message>
+        <source>format version {version}, this Carpus reads up to {format_version}</source>
+        <translation>Formatversion {version}, dieses Carpus liest bis {format_version}</translation>
+    </message>
+    <message>
+        <source>format version {version}, this Carpus reads {newest}</source>
+        <translation>Formatversion {version}, dieses Carpus liest {newest}</translation>
+    </message>
+    <message>
+        <source>fx {fx} and fy {fy} are no camera&apos;s with pictures {width} pixels wide</source>
+        <translation>fx {fx} und fy {fy} passen zu keiner Kamera mit {width} Pixel breiten Bildern</translation>
+    </message>
+    <message>
+        <source>grey, a colour picture is expected</source>
+        <translation>grau, erwartet ist ein Farbbild</translation>
+    </message>
+    <message>
+        <source>groups within groups without end at {place}</source>
+        <translation>endlos verschachtelte Gruppen bei {place}</translation>
+    </message>
+    <message>
+        <source>hand</source>
+        <translation>Hand</translation>
+    </message>
+    <message>
+        <source>hand is {json}, right or left expected</source>
+        <translation>hand ist {json}, erwartet ist right oder left</translation>
+    </message>
+    <message>
+        <source>hand {hand}</source>
+        <translation>Hand {hand}</translation>
+    </message>
+    <message>
+        <source>in colour, a depth picture of 16 bits is expected</source>
+        <translation>farbig, erwartet ist ein Tiefenbild mit 16 Bit</translation>
+    </message>
+    <message>
+        <source>in none of the pictures</source>
+        <translation>in keinem der Bilder</translation>
+    </message>
+    <message>
+        <source>in the data folder, or around it</source>
+        <translation>im Datenordner oder um ihn herum</translation>
+    </message>
+    <message>
+        <source>index finger</source>
+        <translation>Zeigefinger</translation>
+    </message>
+    <message>
+        <source>index finger end joint</source>
+        <translation>Zeigefinger-Endgelenk</translation>
+    </message>
+    <message>
+        <source>index finger middle joint</source>
+        <translation>Zeigefinger-Mittelgelenk</translation>
+    </message>
+    <message>
+        <source>index knuckle</source>
+        <translation>Zeigefinger-Grundgelenk</translation>
+    </message>
+    <message>
+        <source>index tip</source>
+        <translation>Zeigefingerspitze</translation>
+    </message>
+    <message>
+        <source>it cannot be read as JSON; the usual limits hold</source>
+        <translation>nicht als JSON lesbar; es gelten die üblichen Grenzen</translation>
+    </message>
+    <message>
+        <source>it claims more values than the file can hold</source>
+        <translation>es gibt mehr Werte an, als die Datei fasst</translation>
+    </message>
+    <message>
+        <source>it does not hold limits; the usual ones hold</source>
+        <translation>es enthält keine Grenzen; es gelten die üblichen</translation>
+    </message>
+    <message>
+        <source>it has no column of times; say which it is</source>
+        <translation>keine Spalte mit Zeiten; sagen Sie, welche es ist</translation>
+    </message>
+    <message>
+        <source>it has no column reading_deg</source>
+        <translation>keine Spalte reading_deg</translation>
+    </message>
+    <message>
+        <source>it has no column {value}</source>
+        <translation>keine Spalte {value}</translation>
+    </message>
+    <message>
+        <source>it has no marker {markers}</source>
+        <translation>kein Marker {markers}</translation>
+    </message>
+    <message>
+        <source>it holds no frame</source>
+        <translation>sie enthält kein Bild</translation>
+    </message>
+    <message>
+        <source>it holds no points</source>
+        <translation>sie enthält keine Punkte</translation>
+    </message>
+    <message>
+        <source>it holds no points, or says no rate</source>
+        <translation>sie enthält keine Punkte oder nennt keine Rate</translation>
+    </message>
+    <message>
+        <source>it holds no reading</source>
+        <translation>sie enthält keine Ablesung</translation>
+    </message>
+    <message>
+        <source>it holds no table</source>
+        <translation>sie enthält keine Tabelle</translation>
+    </message>
+    <message>
+        <source>it stored no blue spots</source>
+        <translation>sie hat keine blauen Stellen gespeichert</translation>
+    </message>
+    <message>
+        <source>it was tracked by the papers&apos; own filter</source>
+        <translation>sie wurde mit dem Filter der Arbeiten verfolgt</translation>
+    </message>
+    <message>
+        <source>its columns are not what its names say</source>
+        <translation>ihre Spalten sind nicht, was ihre Namen sagen</translation>
+    </message>
+    <message>
+        <source>its facts are not there</source>
+        <translation>ihre Angaben fehlen</translation>
+    </message>
+    <message>
+        <source>its head is damaged</source>
+        <translation>ihr Kopf ist beschädigt</translation>
+    </message>
+    <message>
+        <source>its process ended</source>
+        <translation>ihr Prozess ist beendet</translation>
+    </message>
+    <message>
+        <source>its times do not rise</source>
+        <translation>ihre Zeiten steigen nicht an</translation>
+    </message>
+    <message>
+        <source>its unit is {unit}</source>
+        <translation>ihre Einheit ist {unit}</translation>
+    </message>
+    <message>
+        <source>larger than 1 GB</source>
+        <translation>größer als 1 GB</translation>
+    </message>
+    <message>
+        <source>larger than 2 GB</source>
+        <translation>größer als 2 GB</translation>
+    </message>
+    <message>
+        <source>less than {least_overlap_s} s in common, or nothing moves</source>
+        <translation>weniger als {least_overlap_s} s gemeinsam, oder nichts bewegt sich</translation>
+    </message>
+    <message>
+        <source>line {number} is not a time and a file name: {content}</source>
+        <translation>Zeile {number} ist nicht Zeit und Dateiname: {content}</translation>
+    </message>
+    <message>
+        <source>line {number} leads out of the folder: {content}</source>
+        <translation>Zeile {number} führt aus dem Ordner hinaus: {content}</translation>
+    </message>
+    <message>
+        <source>line {number}: {time_s} s after {earlier} s</source>
+        <translation>Zeile {number}: {time_s} s nach {earlier} s</translation>
+    </message>
+    <message>
+        <source>little finger</source>
+        <translation>Kleinfinger</translation>
+    </message>
+    <message>
+        <source>little finger end joint</source>
+        <translation>Kleinfinger-Endgelenk</translation>
+    </message>
+    <message>
+        <source>little finger middle joint</source>
+        <translation>Kleinfinger-Mittelgelenk</translation>
+    </message>
+    <message>
+        <source>little knuckle</source>
+        <translation>Kleinfinger-Grundgelenk</translation>
+    </message>
+    <message>
+        <source>little tip</source>
+        <translation>Kleinfingerspitze</translation>
+    </message>
+    <message>
+        <source>made by an unknown processor {processor}</source>
+        <translation>von einem unbekannten Verfahren {processor} erstellt</translation>
+    </message>
+    <message>
+        <source>marker protocol {subject}</source>
+        <translation>Markersatz {subject}</translation>
+    </message>
+    <message>
+        <source>middle finger</source>
+        <translation>Mittelfinger</translation>
+    </message>
+    <message>
+        <source>middle finger end joint</source>
+        <translation>Mittelfinger-Endgelenk</translation>
+    </message>
+    <message>
+        <source>middle finger middle joint</source>
+        <translation>Mittelfinger-Mittelgelenk</translation>
+    </message>
+    <message>
+        <source>middle knuckle</source>
+        <translation>Mittelfinger-Grundgelenk</translation>
+    </message>
+    <message>
+        <source>middle tip</source>
+        <translation>Mittelfingerspitze</translation>
+    </message>
+    <message>
+        <source>missing, and pictures of {size} have no default camera</source>
+        <translation>fehlt, und für Bilder mit {size} gibt es keine übliche Kamera</translation>
+    </message>
+    <message>
+        <source>missing, {place}</source>
+        <translation>fehlt, {place}</translation>
+    </message>
+    <message>
+        <source>more than one camera</source>
+        <translation>mehr als eine Kamera</translation>
+    </message>
+    <message>
+        <source>more than {most_objects} parts</source>
+        <translation>mehr als {most_objects} Teile</translation>
+    </message>
+    <message>
+        <source>more than {most_objects} parts in {value}</source>
+        <translation>mehr als {most_objects} Teile in {value}</translation>
+    </message>
+    <message>
+        <source>much too long for a camera calibration</source>
+        <translation>viel zu lang für eine Kamerakalibrierung</translation>
+    </message>
+    <message>
+        <source>much too long for clicks</source>
+        <translation>viel zu lang für Klicks</translation>
+    </message>
+    <message>
+        <source>names in it are no text</source>
+        <translation>Namen darin sind kein Text</translation>
+    </message>
+    <message>
+        <source>neither a TUM folder, an .oni file, a RealSense recording nor a raw recording</source>
+        <translation>weder ein TUM-Ordner noch eine .oni-Datei, RealSense- oder Rohaufnahme</translation>
+    </message>
+    <message>
+        <source>no MOT: it has no end of its header</source>
+        <translation>kein MOT: Der Kopf hat kein Ende</translation>
+    </message>
+    <message>
+        <source>no angle of the session is in it</source>
+        <translation>kein Winkel der Sitzung ist darin</translation>
+    </message>
+    <message>
+        <source>no answer for {patience_s} s</source>
+        <translation>keine Antwort seit {patience_s} s</translation>
+    </message>
+    <message>
+        <source>no attribute {name}</source>
+        <translation>kein Attribut {name}</translation>
+    </message>
+    <message>
+        <source>no colour pictures</source>
+        <translation>keine Farbbilder</translation>
+    </message>
+    <message>
+        <source>no dataset {path}</source>
+        <translation>kein Datensatz {path}</translation>
+    </message>
+    <message>
+        <source>no depth picture within {pairing_limit_s} ms of a colour picture</source>
+        <translation>kein Tiefenbild innerhalb von {pairing_limit_s} ms um ein Farbbild</translation>
+    </message>
+    <message>
+        <source>no disc of the palm and no angle of the wrist or fingers is in it</source>
+        <translation>kein Punkt der Handfläche und kein Winkel von Handgelenk oder Fingern ist darin</translation>
+    </message>
+    <message>
+        <source>no intrinsics for pictures of {size}</source>
+        <translation>keine Kamerawerte für Bilder mit {size}</translation>
+    </message>
+    <message>
+        <source>no markers</source>
+        <translation>keine Marker</translation>
+    </message>
+    <message>
+        <source>no picture in {color_list}</source>
+        <translation>kein Bild in {color_list}</translation>
+    </message>
+    <message>
+        <source>no picture in {depth_list}</source>
+        <translation>kein Bild in {depth_list}</translation>
+    </message>
+    <message>
+        <source>no reader for {value}</source>
+        <translation>kein Leser für {value}</translation>
+    </message>
+    <message>
+        <source>no reading can be used</source>
+        <translation>keine Ablesung ist verwendbar</translation>
+    </message>
+    <message>
+        <source>no room for another {length} MB</source>
+        <translation>kein Platz für weitere {length} MB</translation>
+    </message>
+    <message>
+        <source>not JSON</source>
+        <translation>kein JSON</translation>
+    </message>
+    <message>
+        <source>not JSON, line {lineno}</source>
+        <translation>kein JSON, Zeile {lineno}</translation>
+    </message>
+    <message>
+        <source>not TOML: tables within tables without end</source>
+        <translation>kein TOML: endlos verschachtelte Tabellen</translation>
+    </message>
+    <message>
+        <source>not YAML</source>
+        <translation>kein YAML</translation>
+    </message>
+    <message>
+        <source>not a back-up</source>
+        <translation>keine Sicherung</translation>
+    </message>
+    <message>
+        <source>not a camera calibration</source>
+        <translation>keine Kamerakalibrierung</translation>
+    </message>
+    <message>
+        <source>not a folder</source>
+        <translation>kein Ordner</translation>
+    </message>
+    <message>
+        <source>not a picture</source>
+        <translation>kein Bild</translation>
+    </message>
+    <message>
+        <source>not a raw recording</source>
+        <translation>keine Rohaufnahme</translation>
+    </message>
+    <message>
+        <source>not a session file</source>
+        <translation>keine Sitzungsdatei</translation>
+    </message>
+    <message>
+        <source>not a text file</source>
+        <translation>keine Textdatei</translation>
+    </message>
+    <message>
+        <source>not an .oni file</source>
+        <translation>keine .oni-Datei</translation>
+    </message>
+    <message>
+        <source>not an object with hand, protocol and markers</source>
+        <translation>kein Objekt mit hand, protocol und markers</translation>
+    </message>
+    <message>
+        <source>not in the list of patients</source>
+        <translation>nicht in der Liste der Patienten</translation>
+    </message>
+    <message>
+        <source>not the part file of a session</source>
+        <translation>nicht die Teildatei einer Sitzung</translation>
+    </message>
+    <message>
+        <source>paths that lead out of the folder</source>
+        <translation>Pfade, die aus dem Ordner hinausführen</translation>
+    </message>
+    <message>
+        <source>pixel format {pixel_format}</source>
+        <translation>Pixelformat {pixel_format}</translation>
+    </message>
+    <message>
+        <source>ring finger</source>
+        <translation>Ringfinger</translation>
+    </message>
+    <message>
+        <source>ring finger end joint</source>
+        <translation>Ringfinger-Endgelenk</translation>
+    </message>
+    <message>
+        <source>ring finger middle joint</source>
+        <translation>Ringfinger-Mittelgelenk</translation>
+    </message>
+    <message>
+        <source>ring knuckle</source>
+        <translation>Ringfinger-Grundgelenk</translation>
+    </message>
+    <message>
+        <source>ring tip</source>
+        <translation>Ringfingerspitze</translation>
+    </message>
+    <message>
+        <source>rows of different length, or no numbers</source>
+        <translation>Zeilen verschiedener Länge, oder keine Zahlen</translation>
+    </message>
+    <message>
+        <source>still being recorded</source>
+        <translation>wird noch aufgenommen</translation>
+    </message>
+    <message>
+        <source>straight_fingers is not five times true or false, thumb to little</source>
+        <translation>straight_fingers ist nicht fünfmal true oder false, Daumen bis Kleinfinger</translation>
+    </message>
+    <message>
+        <source>the curves match by {match} at best: is it the same movement?</source>
+        <translation>die Kurven stimmen bestenfalls zu {match} überein: Ist es dieselbe Bewegung?</translation>
+    </message>
+    <message>
+        <source>the first {stored} rows stay in {lost_folder}</source>
+        <translation>die ersten {stored} Zeilen bleiben in {lost_folder}</translation>
+    </message>
+    <message>
+        <source>the first {stored} rows stay in {parent}</source>
+        <translation>die ersten {stored} Zeilen bleiben in {parent}</translation>
+    </message>
+    <message>
+        <source>the focal length is known to {share} % only</source>
+        <translation>die Brennweite ist nur auf {share} % bekannt</translation>
+    </message>
+    <message>
+        <source>the library sees other pictures than the file holds</source>
+        <translation>die Bibliothek sieht andere Bilder, als die Datei enthält</translation>
+    </message>
+    <message>
+        <source>the session holds no picture</source>
+        <translation>die Sitzung enthält kein Bild</translation>
+    </message>
+    <message>
+        <source>the two have no time in common</source>
+        <translation>die beiden haben keine gemeinsame Zeit</translation>
+    </message>
+    <message>
+        <source>there is no such file</source>
+        <translation>diese Datei gibt es nicht</translation>
+    </message>
+    <message>
+        <source>there is no such setting, in {file}</source>
+        <translation>diese Einstellung gibt es nicht, in {file}</translation>
+    </message>
+    <message>
+        <source>three discs of the palm are needed, it has {there}; say which markers they are</source>
+        <translation>drei Punkte der Handfläche werden gebraucht, da sind {there}; sagen Sie, welche Marker es sind</translation>
+    </message>
+    <message>
+        <source>thumb</source>
+        <translation>Daumen</translation>
+    </message>
+    <message>
+        <source>thumb base</source>
+        <translation>Daumensattelgelenk</translation>
+    </message>
+    <message>
+        <source>thumb end joint</source>
+        <translation>Daumen-Endgelenk</translation>
+    </message>
+    <message>
+        <source>thumb knuckle</source>
+        <translation>Daumen-Grundgelenk</translation>
+    </message>
+    <message>
+        <source>thumb tip</source>
+        <translation>Daumenspitze</translation>
+    </message>
+    <message>
+        <source>version {version}, this Carpus reads up to {count}</source>
+        <translation>Version {version}, dieses Carpus liest bis {count}</translation>
+    </message>
+    <message>
+        <source>version {version}, this Carpus reads up to {format_version}</source>
+        <translation>Version {version}, dieses Carpus liest bis {format_version}</translation>
+    </message>
+    <message>
+        <source>version {version}, this Carpus reads up to {newest}</source>
+        <translation>Version {version}, dieses Carpus liest bis {newest}</translation>
+    </message>
+    <message>
+        <source>what was left out cannot be read</source>
+        <translation>das Ausgelassene ist nicht lesbar</translation>
+    </message>
+    <message>
+        <source>what was written cannot be read back</source>
+        <translation>das Geschriebene ist nicht zurücklesbar</translation>
+    </message>
+    <message>
+        <source>what was written is not what was read</source>
+        <translation>Geschriebenes und Gelesenes sind nicht gleich</translation>
+    </message>
+    <message>
+        <source>wrist</source>
+        <translation>Handgelenk</translation>
+    </message>
+    <message>
+        <source>{bits} bits per colour, 8 are expected</source>
+        <translation>{bits} Bit je Farbe, erwartet sind 8</translation>
+    </message>
+    <message>
+        <source>{calibration} has depth that no camera reads</source>
+        <translation>{calibration} hat Tiefe, die keine Kamera liest</translation>
+    </message>
+    <message>
+        <source>{calibration} is not as Carpus writes it</source>
+        <translation>{calibration} ist nicht, wie Carpus es schreibt</translation>
+    </message>
+    <message>
+        <source>{capacity} rows waiting</source>
+        <translation>{capacity} Zeilen warten</translation>
+    </message>
+    <message>
+        <source>{cause} is there twice</source>
+        <translation>{cause} ist zweimal da</translation>
+    </message>
+    <message>
+        <source>{count} files</source>
+        <translation>{count} Dateien</translation>
+    </message>
+    <message>
+        <source>{count} joint angles with other names than {name} has</source>
+        <translation>{count} Gelenkwinkel mit anderen Namen als {name}</translation>
+    </message>
+    <message>
+        <source>{detail} among the sessions cannot be read and are set apart: {subject}.</source>
+        <translation>{detail} bei den Sitzungen: nicht lesbar und darum abgesondert: {subject}.</translation>
+    </message>
+    <message>
+        <source>{free} MB free, {least_free_bytes} MB are needed</source>
+        <translation>{free} MB frei, {least_free_bytes} MB werden gebraucht</translation>
+    </message>
+    <message>
+        <source>{inside} has two names</source>
+        <translation>{inside} hat zwei Namen</translation>
+    </message>
+    <message>
+        <source>{inside} is a group, values expected</source>
+        <translation>{inside} ist eine Gruppe, erwartet sind Werte</translation>
+    </message>
+    <message>
+        <source>{inside} is a type, values expected</source>
+        <translation>{inside} ist ein Typ, erwartet sind Werte</translation>
+    </message>
+    <message>
+        <source>{inside} points out of its place</source>
+        <translation>{inside} zeigt nach außerhalb</translation>
+    </message>
+    <message>
+        <source>{key} has no data</source>
+        <translation>{key} hat keine Daten</translation>
+    </message>
+    <message>
+        <source>{key} holds something that is not a number</source>
+        <translation>{key} enthält etwas, das keine Zahl ist</translation>
+    </message>
+    <message>
+        <source>{key} is neither true nor false</source>
+        <translation>{key} ist weder true noch false</translation>
+    </message>
+    <message>
+        <source>{key} is not a number of pixels</source>
+        <translation>{key} ist keine Zahl von Pixeln</translation>
+    </message>
+    <message>
+        <source>{lost} of {count} frames</source>
+        <translation>{lost} von {count} Bildern</translation>
+    </message>
+    <message>
+        <source>{markers} look swapped.</source>
+        <translation>{markers} scheinen vertauscht.</translation>
+    </message>
+    <message>
+        <source>{name} changes on the way</source>
+        <translation>{name} ändert sich unterwegs</translation>
+    </message>
+    <message>
+        <source>{name} is {json}, two pixels expected</source>
+        <translation>{name} ist {json}, erwartet sind zwei Pixel</translation>
+    </message>
+    <message>
+        <source>{np} frames missing</source>
+        <translation>{np} Bilder fehlen</translation>
+    </message>
+    <message>
+        <source>{one} and {other}</source>
+        <translation>{one} und {other}</translation>
+    </message>
+    <message>
+        <source>{path} claims {claimed} bytes, and {stored} are there</source>
+        <translation>{path} gibt {claimed} Byte an, da sind {stored}</translation>
+    </message>
+    <message>
+        <source>{path} has the shape {shape}, {count} axes expected</source>
+        <translation>{path} hat die Form {shape}, erwartet sind {count} Achsen</translation>
+    </message>
+    <message>
+        <source>{path} is of the type {dtype}, {dtype2} expected</source>
+        <translation>{path} ist vom Typ {dtype}, erwartet ist {dtype2}</translation>
+    </message>
+    <message>
+        <source>{path} is stored in pieces that are too large</source>
+        <translation>{path} ist in zu großen Stücken gespeichert</translation>
+    </message>
+    <message>
+        <source>{path} is {dtype} {shape}, {dtype2} {expected} expected</source>
+        <translation>{path} ist {dtype} {shape}, erwartet ist {dtype2} {expected}</translation>
+    </message>
+    <message>
+        <source>{place} is packed, which a session is not</source>
+        <translation>{place} ist gepackt, eine Sitzung ist das nicht</translation>
+    </message>
+    <message>
+        <source>{place} keeps its values in another file</source>
+        <translation>{place} hat seine Werte in einer anderen Datei</translation>
+    </message>
+    <message>
+        <source>{shape} x {shape2} pixels, {width} x {height} before</source>
+        <translation>{shape} x {shape2} Pixel, vorher {width} x {height}</translation>
+    </message>
+    <message>
+        <source>{subject} could not be exchanged: what was read back is not what was written.</source>
+        <translation>{subject} ließ sich nicht austauschen: Das Zurückgelesene ist nicht das Geschriebene.</translation>
+    </message>
+    <message>
+        <source>{subject} is encrypted, and its PIN has not been given.</source>
+        <translation>{subject} ist verschlüsselt, und die PIN dazu fehlt.</translation>
+    </message>
+    <message>
+        <source>{timestamp_s} s after {last_time_s} s</source>
+        <translation>{timestamp_s} s nach {last_time_s} s</translation>
+    </message>
+    <message>
+        <source>{u}, {v} in a picture of {width_px} x {height_px} pixels</source>
+        <translation>{u}, {v} in einem Bild mit {width_px} x {height_px} Pixeln</translation>
+    </message>
+    <message>
+        <source>{value} bits, a depth picture of 16 bits is expected</source>
+        <translation>{value} Bit, erwartet ist ein Tiefenbild mit 16 Bit</translation>
+    </message>
+    <message>
+        <source>{value} is not a possible number, in {file}</source>
+        <translation>{value} ist keine mögliche Zahl, in {file}</translation>
+    </message>
+    <message>
+        <source>{value} is not {wanted_words}, in {file}</source>
+        <translation>{value} ist nicht {wanted_words}, in {file}</translation>
+    </message>
+    <message>
+        <source>{value} picture {number}</source>
+        <translation>{value}, Bild {number}</translation>
+    </message>
+    <message>
+        <source>{what}, at byte {position}</source>
+        <translation>{what}, bei Byte {position}</translation>
+    </message>
+    <message>
+        <source>{wrong}, which a folder of pictures cannot be</source>
+        <translation>{wrong}, was ein Bilderordner nicht sein kann</translation>
     </message>
 </context>
 <context>
@@ -4535,7 +6259,7 @@
     </message>
     <message>
         <source>Leave the guide</source>
-        <translation>Rundgang verlassen</translation>
+        <translation>Verlassen</translation>
     </message>
     <message>
         <source>Esc</source>
@@ -5150,7 +6874,7 @@
     </message>
     <message>
         <source>Track again from {time}</source>
-        <translation>Ab {time} neu verfolgen</translation>
+        <translation>Neu ab {time}</translation>
     </message>
     <message>
         <source>Nothing changed yet</source>
@@ -5170,7 +6894,7 @@
     </message>
     <message>
         <source>Change the two names</source>
-        <translation>Die beiden Namen tauschen</translation>
+        <translation>Namen tauschen</translation>
     </message>
     <message>
         <source>“{marker}” cannot be there</source>
@@ -5387,7 +7111,7 @@ Die PIN wird bei jedem Start verlangt. Ohne sie und ohne den Wiederherstellungsc
     </message>
     <message>
         <source>This goes</source>
-        <translation>Das geht</translation>
+        <translation>Das wird gelöscht</translation>
     </message>
     <message>
         <source>This stays</source>
@@ -5451,7 +7175,7 @@ Die PIN wird bei jedem Start verlangt. Ohne sie und ohne den Wiederherstellungsc
     </message>
     <message>
         <source>The {made} that Carpus made from it go too.</source>
-        <translation>Auch daraus von Carpus erstellt: {made}.</translation>
+        <translation>Gelöscht wird auch, was Carpus daraus erstellt hat: {made}.</translation>
     </message>
     <message>
         <source> and </source>
@@ -5751,12 +7475,12 @@ von oben</translation>
     </message>
     <message>
         <source>hidden, predicted</source>
-        <translation>verdeckt, vorhergesagt</translation>
+        <translation>verdeckt</translation>
     </message>
     <message>
         <source>F2 next joint · F3 next finger
 Shift+F8 from the side</source>
-        <translation>F2 nächstes Gelenk · F3 nächster Finger
+        <translation>F2 Gelenk · F3 Finger
 Umschalt+F8 von der Seite</translation>
     </message>
 </context>
@@ -5862,7 +7586,7 @@ Umschalt+F8 von der Seite</translation>
     </message>
     <message>
         <source>Moving</source>
-        <translation>Bewegung</translation>
+        <translation>Tempo</translation>
     </message>
     <message>
         <source>no value</source>
@@ -6195,7 +7919,7 @@ Umschalt+F8 von der Seite</translation>
     </message>
     <message>
         <source>{now}, was {size} mm</source>
-        <translation>{now}, vorher {size} mm</translation>
+        <translation>{now}, war {size} mm</translation>
     </message>
 </context>
 <context>
@@ -6210,7 +7934,7 @@ Umschalt+F8 von der Seite</translation>
     </message>
     <message>
         <source>Take all names</source>
-        <translation>Alle Namen übernehmen</translation>
+        <translation>Alle übernehmen</translation>
     </message>
     <message>
         <source>Click all again</source>
@@ -6330,7 +8054,7 @@ Umschalt+F8 von der Seite</translation>
     </message>
     <message>
         <source>The hand lies flat and still, palm down. Fingers that stay bent are fine.</source>
-        <translation>Die Hand liegt flach und ruhig, Handfläche nach unten. Finger, die gebeugt bleiben, sind in Ordnung.</translation>
+        <translation>Hand flach und ruhig, Handfläche unten. Gebeugte Finger sind in Ordnung.</translation>
     </message>
     <message>
         <source>Looking for the markers…</source>
@@ -6781,7 +8505,7 @@ Umschalt+F8 von der Seite</translation>
     </message>
     <message>
         <source>&amp;Real name, if wanted (stays in this list, never in a session or report)</source>
-        <translation>&amp;Echter Name, falls gewünscht (bleibt in dieser Liste, nie in Sitzung oder Bericht)</translation>
+        <translation>&amp;Echter Name, falls gewünscht (nur in dieser Liste)</translation>
     </message>
     <message>
         <source>Affected hand</source>
@@ -7175,7 +8899,7 @@ Umschalt+F8 von der Seite</translation>
     </message>
     <message>
         <source>Peak speed</source>
-        <translation>Spitzengeschwindigkeit</translation>
+        <translation>Spitzentempo</translation>
     </message>
     <message>
         <source>error not yet known</source>
@@ -7187,7 +8911,7 @@ Umschalt+F8 von der Seite</translation>
     </message>
     <message>
         <source>Fair comparison</source>
-        <translation>Fairer Vergleich</translation>
+        <translation>Vergleichbarkeit</translation>
     </message>
     <message>
         <source>All sessions were set up alike.</source>
@@ -8493,6 +10217,21 @@ Umschalt+F8 von der Seite</translation>
     <message>
         <source>The folder counts from the next start on: close Carpus and open it again before you measure.</source>
         <translation>Der Ordner gilt ab dem nächsten Start: Schließen Sie Carpus und öffnen Sie es wieder, bevor Sie messen.</translation>
+    </message>
+</context>
+<context>
+    <name>WordTable</name>
+    <message>
+        <source>Something happened that Carpus does not know.</source>
+        <translation>Etwas ist geschehen, das Carpus nicht kennt.</translation>
+    </message>
+    <message>
+        <source>Everything stored before is safe.</source>
+        <translation>Alles vorher Gespeicherte ist sicher.</translation>
+    </message>
+    <message>
+        <source>Go back and try again. If it comes back, start Carpus anew and report it.</source>
+        <translation>Gehen Sie zurück und versuchen Sie es noch einmal. Kommt es wieder, starten Sie Carpus neu und melden Sie es.</translation>
     </message>
 </context>
 <context>
