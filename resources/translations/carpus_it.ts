@@ -93,7 +93,7 @@
     </message>
     <message>
         <source>{low} to {high}</source>
-        <translation>da {low} a {high}</translation>
+        <translation>{low} a {high}</translation>
     </message>
     <message>
         <source>not judged: no limit was set</source>
@@ -369,11 +369,11 @@
     </message>
     <message>
         <source>improved</source>
-        <translation>migliorato</translation>
+        <translation>miglioramento</translation>
     </message>
     <message>
         <source>worse</source>
-        <translation>peggiorato</translation>
+        <translation>peggioramento</translation>
     </message>
     <message>
         <source>{before} → {after} since {day}</source>
@@ -689,7 +689,7 @@
     </message>
     <message>
         <source>Lens bends lines by</source>
-        <translation>L’obiettivo curva le linee di</translation>
+        <translation>L’obiettivo curva di</translation>
     </message>
     <message>
         <source>not known</source>
@@ -725,7 +725,7 @@
     </message>
     <message>
         <source>Depth shift</source>
-        <translation>Spostamento della profondità</translation>
+        <translation>Profondità spostata di</translation>
     </message>
     <message>
         <source>none sure</source>
@@ -737,7 +737,7 @@
     </message>
     <message>
         <source>Board flat in depth</source>
-        <translation>Planarità della tavola in profondità</translation>
+        <translation>Tavola piana in profondità</translation>
     </message>
     <message>
         <source>good: within {most} mm</source>
@@ -849,11 +849,11 @@
     </message>
     <message>
         <source>angles not sure</source>
-        <translation type="unfinished"></translation>
+        <translation>angoli non sicuri</translation>
     </message>
     <message>
         <source>lengths not sure</source>
-        <translation type="unfinished"></translation>
+        <translation>lunghezze non sicure</translation>
     </message>
     <message>
         <source>Not calibrated and not checked yet.</source>
@@ -997,15 +997,15 @@
     </message>
     <message>
         <source>80 mm across</source>
-        <translation>80 mm in larghezza</translation>
+        <translation>largo 80 mm</translation>
     </message>
     <message>
         <source>120 mm along</source>
-        <translation>120 mm in lunghezza</translation>
+        <translation>lungo 120 mm</translation>
     </message>
     <message>
         <source>25 mm high</source>
-        <translation>25 mm in altezza</translation>
+        <translation>alto 25 mm</translation>
     </message>
     <message>
         <source>All about {share} % long: the depth, or a card not printed at 100 %; its ruler says which.</source>
@@ -1045,7 +1045,7 @@
     </message>
     <message>
         <source>Lift</source>
-        <translation>Sollevamento</translation>
+        <translation>Sollev.</translation>
     </message>
     <message>
         <source>Knuckle</source>
@@ -1053,11 +1053,11 @@
     </message>
     <message>
         <source>Middle joint</source>
-        <translation>Articolazione media</translation>
+        <translation>Artic. media</translation>
     </message>
     <message>
         <source>End joint</source>
-        <translation>Articolazione distale</translation>
+        <translation>Artic. distale</translation>
     </message>
     <message>
         <source>Spread</source>
@@ -1105,11 +1105,11 @@
     </message>
     <message>
         <source>in</source>
-        <translation>in dentro</translation>
+        <translation>dentro</translation>
     </message>
     <message>
         <source>out</source>
-        <translation>andata</translation>
+        <translation>fuori</translation>
     </message>
     <message>
         <source>Out {angle}</source>
@@ -1737,11 +1737,11 @@
     </message>
     <message>
         <source>after marker {number}</source>
-        <translation>dopo il marcatore {number}</translation>
+        <translation>dopo il n. {number}</translation>
     </message>
     <message>
         <source>{done} of {asked} found</source>
-        <translation>trovati {done} su {asked}</translation>
+        <translation>{done} su {asked}</translation>
     </message>
     <message>
         <source>{done} of {asked}</source>
@@ -1765,7 +1765,7 @@
     </message>
     <message>
         <source>Hand length</source>
-        <translation>Lunghezza mano</translation>
+        <translation>Lunghezza</translation>
     </message>
     <message>
         <source>{count} of {count}</source>
@@ -1809,7 +1809,7 @@
     </message>
     <message>
         <source>each within {size} mm</source>
-        <translation>ognuno entro {size} mm</translation>
+        <translation>max {size} mm</translation>
     </message>
     <message>
         <source>{distance} or more</source>
@@ -1821,7 +1821,7 @@
     </message>
     <message>
         <source>usual {low}–{high} mm</source>
-        <translation>di solito {low}–{high} mm</translation>
+        <translation>{low}–{high} mm</translation>
     </message>
     <message>
         <source>{minutes} min</source>
@@ -2201,7 +2201,7 @@
     </message>
     <message>
         <source>lift</source>
-        <translation>sollevamento</translation>
+        <translation>sollev.</translation>
     </message>
     <message>
         <source>{number} out</source>
@@ -2381,7 +2381,7 @@
     </message>
     <message>
         <source>{day}: {warning}</source>
-        <translation type="unfinished"></translation>
+        <translation>{day}: {warning}</translation>
     </message>
     <message>
         <source>{day}: measured although doubtful. {findings}</source>
@@ -2473,7 +2473,7 @@
     </message>
     <message>
         <source>Peak speed</source>
-        <translation>Velocità massima</translation>
+        <translation>Velocità max</translation>
     </message>
     <message>
         <source>Peak reached after</source>
@@ -2629,7 +2629,7 @@
     </message>
     <message>
         <source>Middle joint, of the thumb lift</source>
-        <translation>Articolazione media, del pollice il sollevamento</translation>
+        <translation>Artic. media (pollice: sollev.)</translation>
     </message>
     <message>
         <source>not graded</source>
@@ -2797,7 +2797,7 @@
     </message>
     <message>
         <source>bends {full}, lacks {missing}</source>
-        <translation>flette {full}, mancano {missing}</translation>
+        <translation>flette {full}, manca {missing}</translation>
     </message>
     <message>
         <source>TAM of all fingers</source>
@@ -3353,7 +3353,7 @@
     </message>
     <message>
         <source>{count} more make it usable.</source>
-        <translation>Con altre {count} diventa utilizzabile.</translation>
+        <translation>Ancora {count} per renderlo utilizzabile.</translation>
     </message>
     <message>
         <source>Until then progress and reports use the limits of before. {least} people are the least; 20 are better.</source>
@@ -3417,7 +3417,7 @@
     </message>
     <message>
         <source>{changed} of {count} statements change. Reports already made keep theirs.</source>
-        <translation>Cambiano {changed} giudizi su {count}. Le relazioni già fatte mantengono i loro.</translation>
+        <translation>Giudizi cambiati: {changed} su {count}. Le relazioni già fatte mantengono i loro.</translation>
     </message>
     <message>
         <source>{verdict}, as now</source>
@@ -3805,7 +3805,7 @@
     </message>
     <message>
         <source>no change</source>
-        <translation>invariato</translation>
+        <translation>stabile</translation>
     </message>
     <message>
         <source>the other hand</source>
@@ -3906,6 +3906,1730 @@
     <message>
         <source>{difference}: beyond measurement error ({limit})</source>
         <translation>{difference}: oltre l’errore di misura ({limit})</translation>
+    </message>
+    <message>
+        <source>A click has no blue marker of its own: {subject}.</source>
+        <translation>Un clic non ha un marcatore blu proprio: {subject}.</translation>
+    </message>
+    <message>
+        <source>A click lies outside the picture: {subject} ({detail}).</source>
+        <translation>Un clic è fuori dall’immagine: {subject} ({detail}).</translation>
+    </message>
+    <message>
+        <source>A picture of the recording cannot be used: {subject} ({detail}).</source>
+        <translation>Un’immagine della registrazione non si può usare: {subject} ({detail}).</translation>
+    </message>
+    <message>
+        <source>A session that was recorded while the folder of the sessions was away is there now: {subject}.</source>
+        <translation>Una seduta registrata mentre mancava la cartella delle sedute ora è al suo posto: {subject}.</translation>
+    </message>
+    <message>
+        <source>A setting cannot be used: {subject} ({detail}).</source>
+        <translation>Un’impostazione non si può usare: {subject} ({detail}).</translation>
+    </message>
+    <message>
+        <source>All of it is safe on this computer.</source>
+        <translation>È tutta al sicuro su questo computer.</translation>
+    </message>
+    <message>
+        <source>All of it is safe.</source>
+        <translation>È tutta al sicuro.</translation>
+    </message>
+    <message>
+        <source>All of it is stored as it was measured live.</source>
+        <translation>È salvata per intero, così come misurata dal vivo.</translation>
+    </message>
+    <message>
+        <source>All other files are as they were.</source>
+        <translation>Tutti gli altri file sono come prima.</translation>
+    </message>
+    <message>
+        <source>All other pictures are used, and the gaps are marked.</source>
+        <translation>Tutte le altre immagini sono usate, e i vuoti sono segnati.</translation>
+    </message>
+    <message>
+        <source>All sessions are safe; names and notes are missing. The damaged list is kept as {subject}.</source>
+        <translation>Tutte le sedute sono al sicuro; mancano nomi e note. L’elenco danneggiato è conservato come {subject}.</translation>
+    </message>
+    <message>
+        <source>An encrypted file cannot be read: {subject} ({detail}).</source>
+        <translation>Un file cifrato non si può leggere: {subject} ({detail}).</translation>
+    </message>
+    <message>
+        <source>Another Carpus is using the patients of {subject}.</source>
+        <translation>Un altro Carpus sta usando i pazienti di {subject}.</translation>
+    </message>
+    <message>
+        <source>Another blue spot fits the {markers} better.</source>
+        <translation>Un altro punto blu corrisponde meglio a: {markers}.</translation>
+    </message>
+    <message>
+        <source>Another program is making {subject} at this moment.</source>
+        <translation>In questo momento un altro programma sta creando {subject}.</translation>
+    </message>
+    <message>
+        <source>Another program uses the camera ({detail}).</source>
+        <translation>Un altro programma usa la telecamera ({detail}).</translation>
+    </message>
+    <message>
+        <source>Back up onto another disk now, and do not trust this one any more.</source>
+        <translation>Fare ora una copia su un altro disco, e non fidarsi più di questo.</translation>
+    </message>
+    <message>
+        <source>Back-ups cannot lie there: {subject} ({detail}).</source>
+        <translation>Le copie di sicurezza non possono stare lì: {subject} ({detail}).</translation>
+    </message>
+    <message>
+        <source>Bring it back from a back-up.</source>
+        <translation>Riportarlo da una copia di sicurezza.</translation>
+    </message>
+    <message>
+        <source>Calibrate the camera again, or take the file away to use the usual values.</source>
+        <translation>Calibrare di nuovo la telecamera, o togliere il file per usare i valori usuali.</translation>
+    </message>
+    <message>
+        <source>Carpus cannot use the pictures of this recording: {subject} ({detail}).</source>
+        <translation>Carpus non può usare le immagini di questa registrazione: {subject} ({detail}).</translation>
+    </message>
+    <message>
+        <source>Carpus cannot write to {subject} ({detail}).</source>
+        <translation>Carpus non può scrivere in {subject} ({detail}).</translation>
+    </message>
+    <message>
+        <source>Carpus could not look back at the session: {subject} ({detail}).</source>
+        <translation>Carpus non ha potuto ricalcolare la seduta a posteriori: {subject} ({detail}).</translation>
+    </message>
+    <message>
+        <source>Carpus sees no camera ({detail}).</source>
+        <translation>Carpus non vede nessuna telecamera ({detail}).</translation>
+    </message>
+    <message>
+        <source>Carpus waits for its camera: {subject}. Another one is there ({detail}).</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Check it by “carpus check-card --serial NUMBER” with the number printed on it.</source>
+        <translation>Controllarla con “carpus check-card --serial NUMERO”, con il numero stampato su di essa.</translation>
+    </message>
+    <message>
+        <source>Check that a disc was clicked there, and not another blue spot.</source>
+        <translation>Controllare che il clic sia su un dischetto, e non su un altro punto blu.</translation>
+    </message>
+    <message>
+        <source>Check that every marker is clicked under its own name.</source>
+        <translation>Controllare che ogni marcatore sia indicato con il suo nome.</translation>
+    </message>
+    <message>
+        <source>Check that it is a session of this or an older Carpus, or take it from a backup.</source>
+        <translation>Controllare che sia una seduta di questo Carpus o di uno precedente, o riprenderla da una copia di sicurezza.</translation>
+    </message>
+    <message>
+        <source>Check that it is the same movement, and say which column or marker is which.</source>
+        <translation>Controllare che sia lo stesso movimento, e dire quale colonna o marcatore è quale.</translation>
+    </message>
+    <message>
+        <source>Check that the folder exists and that you may write there, or choose another one.</source>
+        <translation>Controllare che la cartella esista e che vi si possa scrivere, o sceglierne un’altra.</translation>
+    </message>
+    <message>
+        <source>Check the address, or leave out --scheduler to use this machine.</source>
+        <translation>Controllare l’indirizzo, o togliere --scheduler per usare questo computer.</translation>
+    </message>
+    <message>
+        <source>Check the name and the folder.</source>
+        <translation>Controllare il nome e la cartella.</translation>
+    </message>
+    <message>
+        <source>Check the patient, the side, and that every marker is clicked under its own name.</source>
+        <translation>Controllare il paziente, il lato, e che ogni marcatore sia indicato con il suo nome.</translation>
+    </message>
+    <message>
+        <source>Check this computer’s disk, and back up.</source>
+        <translation>Controllare il disco di questo computer, e fare una copia di sicurezza.</translation>
+    </message>
+    <message>
+        <source>Choose a folder on another disk.</source>
+        <translation>Scegliere una cartella su un altro disco.</translation>
+    </message>
+    <message>
+        <source>Choose another back-up, or bring Carpus up to date.</source>
+        <translation>Scegliere un’altra copia, o aggiornare Carpus.</translation>
+    </message>
+    <message>
+        <source>Choose another name.</source>
+        <translation>Scegliere un altro nome.</translation>
+    </message>
+    <message>
+        <source>Choose another recording, or record again.</source>
+        <translation>Scegliere un’altra registrazione, o registrare di nuovo.</translation>
+    </message>
+    <message>
+        <source>Choose the folder that holds the back-ups.</source>
+        <translation>Scegliere la cartella che contiene le copie.</translation>
+    </message>
+    <message>
+        <source>Choose the other side, or click the markers again.</source>
+        <translation>Scegliere l’altro lato, o rifare i clic sui marcatori.</translation>
+    </message>
+    <message>
+        <source>Click all markers again, each under its own name.</source>
+        <translation>Rifare i clic su tutti i marcatori, ognuno con il suo nome.</translation>
+    </message>
+    <message>
+        <source>Click each of the two on its own marker.</source>
+        <translation>Fare clic su ognuno dei due nel suo marcatore.</translation>
+    </message>
+    <message>
+        <source>Click every marker again under its own name.</source>
+        <translation>Fare di nuovo clic su ogni marcatore con il suo nome.</translation>
+    </message>
+    <message>
+        <source>Click it again in its middle, and keep the hand still.</source>
+        <translation>Rifare il clic al suo centro, e tenere ferma la mano.</translation>
+    </message>
+    <message>
+        <source>Click nearer to the marker, or check the light.</source>
+        <translation>Fare clic più vicino al marcatore, o controllare la luce.</translation>
+    </message>
+    <message>
+        <source>Click the marker in the first picture of this recording.</source>
+        <translation>Fare clic sul marcatore nella prima immagine di questa registrazione.</translation>
+    </message>
+    <message>
+        <source>Close other programs that have them open, or allow Carpus to write in their folder, and start it again.</source>
+        <translation>Chiudere gli altri programmi che li tengono aperti, o permettere a Carpus di scrivere nella loro cartella, e riavviarlo.</translation>
+    </message>
+    <message>
+        <source>Close the other program, then try again.</source>
+        <translation>Chiudere l’altro programma, poi riprovare.</translation>
+    </message>
+    <message>
+        <source>Connect the disk or the network again, or choose another folder.</source>
+        <translation>Ricollegare il disco o la rete, o scegliere un’altra cartella.</translation>
+    </message>
+    <message>
+        <source>Copy the recording again from where it was made, or correct the list.</source>
+        <translation>Copiare di nuovo la registrazione dall’originale, o correggere l’elenco.</translation>
+    </message>
+    <message>
+        <source>Copy the recording again from where it was made.</source>
+        <translation>Copiare di nuovo la registrazione dall’originale.</translation>
+    </message>
+    <message>
+        <source>Copy the recording again from where it was made; carpus track --leave-out-damaged goes on without it.</source>
+        <translation>Copiare di nuovo la registrazione dall’originale; carpus track --leave-out-damaged prosegue senza.</translation>
+    </message>
+    <message>
+        <source>Copy the recording again if there are many.</source>
+        <translation>Se sono molte, copiare di nuovo la registrazione.</translation>
+    </message>
+    <message>
+        <source>Correct the file, or click the markers again.</source>
+        <translation>Correggere il file, o rifare i clic sui marcatori.</translation>
+    </message>
+    <message>
+        <source>Correct the setting, or take it out to use the usual value.</source>
+        <translation>Correggere l’impostazione, o toglierla per usare il valore usuale.</translation>
+    </message>
+    <message>
+        <source>Cover the spot with the question mark, or give it its name.</source>
+        <translation>Coprire il punto con il punto interrogativo, o dargli il suo nome.</translation>
+    </message>
+    <message>
+        <source>Damaged pictures of the recording are left out: {subject} ({detail}).</source>
+        <translation>Immagini danneggiate della registrazione escluse: {subject} ({detail}).</translation>
+    </message>
+    <message>
+        <source>Depth and colour do not lie on each other at the {markers} ({value} {unit}, up to {limit} is good).</source>
+        <translation>Profondità e colore non combaciano: {markers} ({value} {unit}, fino a {limit} è buono).</translation>
+    </message>
+    <message>
+        <source>Depth does not lie on colour in {subject}, so depths are less sure.</source>
+        <translation>In {subject} la profondità non combacia con il colore, quindi è meno sicura.</translation>
+    </message>
+    <message>
+        <source>Everything recorded so far is stored on this computer.</source>
+        <translation>Tutto ciò che è stato registrato finora è salvato su questo computer.</translation>
+    </message>
+    <message>
+        <source>Everything stored before is safe; at most the last second is missing.</source>
+        <translation>Tutto ciò che era già salvato è al sicuro; manca al massimo l’ultimo secondo.</translation>
+    </message>
+    <message>
+        <source>Everything stored up to then is safe.</source>
+        <translation>Tutto ciò che è stato salvato fino a quel momento è al sicuro.</translation>
+    </message>
+    <message>
+        <source>Everything that was recorded is stored there.</source>
+        <translation>Tutto ciò che è stato registrato è salvato lì.</translation>
+    </message>
+    <message>
+        <source>Finish it with “carpus recover”, or wait until its recording has ended.</source>
+        <translation>Concluderla con “carpus recover”, o attendere la fine della registrazione.</translation>
+    </message>
+    <message>
+        <source>Free some space, or choose another disk.</source>
+        <translation>Liberare spazio, o scegliere un altro disco.</translation>
+    </message>
+    <message>
+        <source>Give yourself access to it; “carpus doctor” says how.</source>
+        <translation>Concedere il permesso; “carpus doctor” dice come.</translation>
+    </message>
+    <message>
+        <source>Glue the board onto something stiff and flat, give it light, and hold it still.</source>
+        <translation>Incollare la tavola su qualcosa di rigido e piano, illuminarla e tenerla ferma.</translation>
+    </message>
+    <message>
+        <source>Go on; connect the disk or the network again later, and Carpus brings the session home when it starts.</source>
+        <translation>Continuare; ricollegare più tardi il disco o la rete, e all’avvio Carpus riporta la seduta al suo posto.</translation>
+    </message>
+    <message>
+        <source>Go on; the pause is marked in the session.</source>
+        <translation>Continuare; la pausa è segnata nella seduta.</translation>
+    </message>
+    <message>
+        <source>Go to the window that is open already, or choose another folder.</source>
+        <translation>Passare alla finestra già aperta, o scegliere un’altra cartella.</translation>
+    </message>
+    <message>
+        <source>Install Carpus anew, with the Python package sqlcipher3.</source>
+        <translation>Reinstallare Carpus, con il pacchetto Python sqlcipher3.</translation>
+    </message>
+    <message>
+        <source>Install it with pip.</source>
+        <translation>Installarlo con pip.</translation>
+    </message>
+    <message>
+        <source>Install it; “carpus doctor” says what and how.</source>
+        <translation>Installarlo; “carpus doctor” dice che cosa e come.</translation>
+    </message>
+    <message>
+        <source>It can still be read; its seal does not fit what it holds now.</source>
+        <translation>Si può ancora leggere; il suo sigillo non corrisponde a ciò che contiene ora.</translation>
+    </message>
+    <message>
+        <source>It is left to that program.</source>
+        <translation>È lasciato a quel programma.</translation>
+    </message>
+    <message>
+        <source>Keep the hand still and take the first picture again.</source>
+        <translation>Tenere ferma la mano e rifare la prima immagine.</translation>
+    </message>
+    <message>
+        <source>Keep the hand still for half a second.</source>
+        <translation>Tenere ferma la mano per mezzo secondo.</translation>
+    </message>
+    <message>
+        <source>Lay it flat under the camera, all of it in the picture, about 60 cm away, in good light.</source>
+        <translation>Metterlo piatto sotto la telecamera, tutto nell’immagine, a circa 60 cm, con buona luce.</translation>
+    </message>
+    <message>
+        <source>Leave out the repetitions that should not count, or track the recording again with “carpus track”.</source>
+        <translation>Escludere le ripetizioni che non devono contare, o rifare il tracciamento con “carpus track”.</translation>
+    </message>
+    <message>
+        <source>Look at the disk or the network. If it stays silent, the recording goes on on this computer.</source>
+        <translation>Guardare il disco o la rete. Se non risponde, la registrazione prosegue su questo computer.</translation>
+    </message>
+    <message>
+        <source>Look at the lines on the picture, and give the marker its right name.</source>
+        <translation>Guardare le linee nell’immagine, e dare al marcatore il nome giusto.</translation>
+    </message>
+    <message>
+        <source>Measure each person twice, discs put on anew, within 14 days; 10 people are the least.</source>
+        <translation>Misurare ogni persona due volte, rimettendo i dischetti, entro 14 giorni; servono almeno 10 persone.</translation>
+    </message>
+    <message>
+        <source>Move the camera further from the hand.</source>
+        <translation>Allontanare la telecamera dalla mano.</translation>
+    </message>
+    <message>
+        <source>Move the hand a little, and keep sunlight and shine off the marker.</source>
+        <translation>Spostare un poco la mano, e tenere sole e riflessi lontani dal marcatore.</translation>
+    </message>
+    <message>
+        <source>Move the hand a little, and keep sunlight and shine off the markers.</source>
+        <translation>Spostare un poco la mano, e tenere sole e riflessi lontani dai marcatori.</translation>
+    </message>
+    <message>
+        <source>Name the folder that holds the sessions.</source>
+        <translation>Indicare la cartella che contiene le sedute.</translation>
+    </message>
+    <message>
+        <source>No blue marker at the {markers}.</source>
+        <translation>Nessun marcatore blu in questo punto: {markers}.</translation>
+    </message>
+    <message>
+        <source>No hand has this shape: the {markers} does not lie where the other discs expect it.</source>
+        <translation>Nessuna mano ha questa forma: un dischetto non è dove lo vogliono gli altri ({markers}).</translation>
+    </message>
+    <message>
+        <source>Not all files could be deleted yet ({detail} left, such as {subject}).</source>
+        <translation>Non tutti i file si sono già potuti eliminare (restano {detail}, per esempio {subject}).</translation>
+    </message>
+    <message>
+        <source>Not every file could be encrypted or decrypted: {subject}, {detail} in all.</source>
+        <translation>Non tutti i file si sono potuti cifrare o decifrare: {subject}, in tutto {detail}.</translation>
+    </message>
+    <message>
+        <source>Nothing has been changed, and nothing is lost.</source>
+        <translation>Nulla è stato cambiato e nulla è perso.</translation>
+    </message>
+    <message>
+        <source>Nothing has been changed.</source>
+        <translation>Nulla è stato cambiato.</translation>
+    </message>
+    <message>
+        <source>Nothing has been recorded, so nothing is lost.</source>
+        <translation>Nulla è stato registrato, quindi nulla è perso.</translation>
+    </message>
+    <message>
+        <source>Nothing in the reference can be compared: {subject} ({detail}).</source>
+        <translation>Nel riferimento non c’è nulla di confrontabile: {subject} ({detail}).</translation>
+    </message>
+    <message>
+        <source>Nothing is lost; everything stays hidden.</source>
+        <translation>Nulla è perso; tutto resta nascosto.</translation>
+    </message>
+    <message>
+        <source>Nothing says whether depth lies on colour in {subject}; Carpus takes it so.</source>
+        <translation>Nulla dice se in {subject} la profondità combacia con il colore; Carpus lo suppone.</translation>
+    </message>
+    <message>
+        <source>Nothing was kept; what was measured before stays.</source>
+        <translation>Nulla è stato salvato; ciò che era misurato prima resta.</translation>
+    </message>
+    <message>
+        <source>Once the disk answers, start Carpus again: it finishes the recording.</source>
+        <translation>Quando il disco risponde, riavviare Carpus: conclude la registrazione.</translation>
+    </message>
+    <message>
+        <source>Plug its own camera in again; what was begun then goes on by itself.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Plug the camera in again; tracking and recording then go on by themselves.</source>
+        <translation>Ricollegare la telecamera; poi tracciamento e registrazione proseguono da soli.</translation>
+    </message>
+    <message>
+        <source>Plug the camera straight into the computer.</source>
+        <translation>Collegare la telecamera direttamente al computer.</translation>
+    </message>
+    <message>
+        <source>Print it with carpus calibrate-camera --board, and hold all of it in the picture, in good light.</source>
+        <translation>Stamparla con carpus calibrate-camera --board, e tenerla tutta nell’immagine, con buona luce.</translation>
+    </message>
+    <message>
+        <source>Put the camera_info.yaml of the camera beside it.</source>
+        <translation>Mettervi accanto il file camera_info.yaml della telecamera.</translation>
+    </message>
+    <message>
+        <source>Put the list in the order of time with each time once, or record again.</source>
+        <translation>Mettere l’elenco in ordine di tempo, ogni tempo una volta sola, o registrare di nuovo.</translation>
+    </message>
+    <message>
+        <source>Record again with colour and depth of one size.</source>
+        <translation>Registrare di nuovo con colore e profondità della stessa dimensione.</translation>
+    </message>
+    <message>
+        <source>Record to a disk inside this computer, and close other programs.</source>
+        <translation>Registrare su un disco interno di questo computer, e chiudere gli altri programmi.</translation>
+    </message>
+    <message>
+        <source>Restore the list from a backup, or enter the names again.</source>
+        <translation>Ripristinare l’elenco da una copia di sicurezza, o inserire di nuovo i nomi.</translation>
+    </message>
+    <message>
+        <source>Review it as any other.</source>
+        <translation>Rivederla come ogni altra.</translation>
+    </message>
+    <message>
+        <source>Run “carpus track” on the session to look back at it.</source>
+        <translation>Eseguire “carpus track” sulla seduta per ricalcolarla.</translation>
+    </message>
+    <message>
+        <source>See to the disk or bring them back from a back-up; Carpus goes on with them at its next start.</source>
+        <translation>Controllare il disco o riportarli da una copia di sicurezza; Carpus prosegue con loro al prossimo avvio.</translation>
+    </message>
+    <message>
+        <source>Set colour and depth to one size next time.</source>
+        <translation>La prossima volta impostare colore e profondità alla stessa dimensione.</translation>
+    </message>
+    <message>
+        <source>Show the board in every part of the picture, tilted to all four sides, near and far, and hold it still.</source>
+        <translation>Mostrare la tavola in ogni parte dell’immagine, inclinata sui quattro lati, vicina e lontana, e tenerla ferma.</translation>
+    </message>
+    <message>
+        <source>Single exercises can be measured as ever. Put a copy of the file back, or make the sets anew.</source>
+        <translation>I singoli esercizi si misurano come sempre. Rimettere una copia del file, o rifare le sequenze.</translation>
+    </message>
+    <message>
+        <source>Some pictures are smaller and have been enlarged: {subject} ({detail}).</source>
+        <translation>Alcune immagini sono più piccole e sono state ingrandite: {subject} ({detail}).</translation>
+    </message>
+    <message>
+        <source>Start Carpus again, or move the file away and let Carpus make a new list.</source>
+        <translation>Riavviare Carpus, o spostare il file e lasciare che Carpus crei un nuovo elenco.</translation>
+    </message>
+    <message>
+        <source>Start Carpus again, or take the list from a backup.</source>
+        <translation>Riavviare Carpus, o riprendere l’elenco da una copia di sicurezza.</translation>
+    </message>
+    <message>
+        <source>Swap the two names, or click both markers again.</source>
+        <translation>Scambiare i due nomi, o rifare i clic sui due marcatori.</translation>
+    </message>
+    <message>
+        <source>Switch on registration in the camera next time.</source>
+        <translation>La prossima volta attivare la registrazione profondità-colore della telecamera.</translation>
+    </message>
+    <message>
+        <source>Switch on registration in the camera, or track without depth.</source>
+        <translation>Attivare la registrazione profondità-colore della telecamera, o tracciare senza profondità.</translation>
+    </message>
+    <message>
+        <source>Take it from a backup, or do not rely on its figures.</source>
+        <translation>Riprenderla da una copia di sicurezza, o non fidarsi dei suoi valori.</translation>
+    </message>
+    <message>
+        <source>Take the spot with the question mark, if it is the disc.</source>
+        <translation>Prendere il punto con il punto interrogativo, se è il dischetto.</translation>
+    </message>
+    <message>
+        <source>Take them from a backup, or leave them; Carpus does not open them again.</source>
+        <translation>Riprenderli da una copia di sicurezza, o lasciarli; Carpus non li apre più.</translation>
+    </message>
+    <message>
+        <source>That file is untouched; Carpus never overwrites.</source>
+        <translation>Quel file non è stato toccato; Carpus non sovrascrive mai.</translation>
+    </message>
+    <message>
+        <source>The PIN cannot be checked: {subject} is missing on this computer ({detail}).</source>
+        <translation>Il PIN non si può verificare: su questo computer manca {subject} ({detail}).</translation>
+    </message>
+    <message>
+        <source>The back-up cannot be read: {subject} ({detail}).</source>
+        <translation>La copia di sicurezza non si può leggere: {subject} ({detail}).</translation>
+    </message>
+    <message>
+        <source>The back-up is damaged: a content read back is not what was written ({subject}, {detail}).</source>
+        <translation>La copia di sicurezza è danneggiata: un contenuto riletto non è quello scritto ({subject}, {detail}).</translation>
+    </message>
+    <message>
+        <source>The camera does not say its number: {subject}.</source>
+        <translation>La telecamera non comunica il suo numero: {subject}.</translation>
+    </message>
+    <message>
+        <source>The camera is back: {subject} (away for {detail}).</source>
+        <translation>La telecamera è tornata: {subject} (assente per {detail}).</translation>
+    </message>
+    <message>
+        <source>The camera is there, but you may not open it ({detail}).</source>
+        <translation>La telecamera c’è, ma manca il permesso di aprirla ({detail}).</translation>
+    </message>
+    <message>
+        <source>The camera measures no depth at a marker: {subject}.</source>
+        <translation>La telecamera non misura la profondità di un marcatore: {subject}.</translation>
+    </message>
+    <message>
+        <source>The camera measures no depth at the {markers}.</source>
+        <translation>La telecamera non misura la profondità di: {markers}.</translation>
+    </message>
+    <message>
+        <source>The camera sends no more pictures: {subject} ({detail}).</source>
+        <translation>La telecamera non manda più immagini: {subject} ({detail}).</translation>
+    </message>
+    <message>
+        <source>The check card is not to be seen well enough: {subject} ({detail}).</source>
+        <translation>Il cartoncino di controllo non si vede abbastanza bene: {subject} ({detail}).</translation>
+    </message>
+    <message>
+        <source>The clicked markers do not make a hand ({subject}).</source>
+        <translation>I marcatori indicati non formano una mano ({subject}).</translation>
+    </message>
+    <message>
+        <source>The clicks cannot be read: {subject} ({detail}).</source>
+        <translation>I clic non si possono leggere: {subject} ({detail}).</translation>
+    </message>
+    <message>
+        <source>The clicks for the {markers} are on one marker.</source>
+        <translation>I clic sono sullo stesso marcatore: {markers}.</translation>
+    </message>
+    <message>
+        <source>The corners do not fit a flat board: {subject} ({detail}).</source>
+        <translation>Gli angoli non corrispondono a una tavola piana: {subject} ({detail}).</translation>
+    </message>
+    <message>
+        <source>The data on this computer are as they were.</source>
+        <translation>I dati su questo computer sono com’erano.</translation>
+    </message>
+    <message>
+        <source>The disk has no room left for {subject} ({detail}).</source>
+        <translation>Il disco non ha più spazio per {subject} ({detail}).</translation>
+    </message>
+    <message>
+        <source>The disk is too slow for the recording, so it has ended: {subject} ({detail}).</source>
+        <translation>Il disco è troppo lento per la registrazione, che si è conclusa: {subject} ({detail}).</translation>
+    </message>
+    <message>
+        <source>The disk of {subject} has not answered for {detail}.</source>
+        <translation>Il disco di {subject} non risponde da {detail}.</translation>
+    </message>
+    <message>
+        <source>The driver of the camera has stopped: {subject} ({detail}).</source>
+        <translation>Il driver della telecamera si è fermato: {subject} ({detail}).</translation>
+    </message>
+    <message>
+        <source>The driver of the camera is not on this computer, or cannot be loaded ({detail}).</source>
+        <translation>Il driver della telecamera non è su questo computer, o non si può caricare ({detail}).</translation>
+    </message>
+    <message>
+        <source>The file is as it was.</source>
+        <translation>Il file è com’era.</translation>
+    </message>
+    <message>
+        <source>The file is untouched, and all other sessions are safe.</source>
+        <translation>Il file non è stato toccato, e tutte le altre sedute sono al sicuro.</translation>
+    </message>
+    <message>
+        <source>The file of the camera cannot be used: {subject} ({detail}).</source>
+        <translation>Il file della telecamera non si può usare: {subject} ({detail}).</translation>
+    </message>
+    <message>
+        <source>The folder of the recording is gone: {subject} ({detail}).</source>
+        <translation>La cartella della registrazione non c’è più: {subject} ({detail}).</translation>
+    </message>
+    <message>
+        <source>The folder of the sessions is gone; the recording goes on in {subject} ({detail}).</source>
+        <translation>La cartella delle sedute non c’è più; la registrazione prosegue in {subject} ({detail}).</translation>
+    </message>
+    <message>
+        <source>The hand is tilted {value}° to the camera (up to {limit}° is good).</source>
+        <translation>La mano è inclinata di {value}° rispetto alla telecamera (fino a {limit}° è buono).</translation>
+    </message>
+    <message>
+        <source>The hand is {value} m from the camera ({limit} m or more is good).</source>
+        <translation>La mano è a {value} m dalla telecamera ({limit} m o più è buono).</translation>
+    </message>
+    <message>
+        <source>The hand measures {value} mm ({limit} mm is the limit).</source>
+        <translation>La mano misura {value} mm (il limite è {limit} mm).</translation>
+    </message>
+    <message>
+        <source>The hand measures {value} mm, and {limit} mm last time.</source>
+        <translation>La mano misura {value} mm, l’ultima volta {limit} mm.</translation>
+    </message>
+    <message>
+        <source>The hand moved in the first half second.</source>
+        <translation>La mano si è mossa nel primo mezzo secondo.</translation>
+    </message>
+    <message>
+        <source>The hand was still for {value} pictures only ({limit} or more are good).</source>
+        <translation>La mano è stata ferma solo per {value} immagini ({limit} o più è buono).</translation>
+    </message>
+    <message>
+        <source>The list of patients cannot be opened: {subject} ({detail}).</source>
+        <translation>L’elenco dei pazienti non si può aprire: {subject} ({detail}).</translation>
+    </message>
+    <message>
+        <source>The list of patients is damaged: {subject} ({detail}).</source>
+        <translation>L’elenco dei pazienti è danneggiato: {subject} ({detail}).</translation>
+    </message>
+    <message>
+        <source>The list of patients was damaged ({detail}), so Carpus has made a new one from the sessions.</source>
+        <translation>L’elenco dei pazienti era danneggiato ({detail}), quindi Carpus ne ha creato uno nuovo dalle sedute.</translation>
+    </message>
+    <message>
+        <source>The marker of the {markers} is {value} mm off its place (up to {limit} mm is good).</source>
+        <translation>Marcatore a {value} mm dal suo posto: {markers} (fino a {limit} mm è buono).</translation>
+    </message>
+    <message>
+        <source>The markers of this session cannot be corrected: {subject} ({detail}).</source>
+        <translation>I marcatori di questa seduta non si possono correggere: {subject} ({detail}).</translation>
+    </message>
+    <message>
+        <source>The name {subject} belongs to another patient.</source>
+        <translation>Il nome {subject} appartiene a un altro paziente.</translation>
+    </message>
+    <message>
+        <source>The names look shifted: the marker clicked as {first} is the {second}.</source>
+        <translation>I nomi sembrano spostati: il marcatore indicato come {first} è in realtà {second}.</translation>
+    </message>
+    <message>
+        <source>The old result is unchanged.</source>
+        <translation>Il vecchio risultato non è cambiato.</translation>
+    </message>
+    <message>
+        <source>The part of Carpus that encrypts is not installed here ({detail}).</source>
+        <translation>La parte di Carpus che cifra non è installata qui ({detail}).</translation>
+    </message>
+    <message>
+        <source>The pictures of the board are too few or too alike: {subject} ({detail}).</source>
+        <translation>Le immagini della tavola sono troppo poche o troppo simili: {subject} ({detail}).</translation>
+    </message>
+    <message>
+        <source>The pictures of the recording differ in size: {subject} ({detail}).</source>
+        <translation>Le immagini della registrazione hanno dimensioni diverse: {subject} ({detail}).</translation>
+    </message>
+    <message>
+        <source>The printed board is not to be seen: {subject} ({detail}).</source>
+        <translation>La tavola stampata non si vede: {subject} ({detail}).</translation>
+    </message>
+    <message>
+        <source>The recording cannot be read: {subject} ({detail}).</source>
+        <translation>La registrazione non si può leggere: {subject} ({detail}).</translation>
+    </message>
+    <message>
+        <source>The recording could not be ended: the disk of {subject} does not answer.</source>
+        <translation>La registrazione non si è potuta concludere: il disco di {subject} non risponde.</translation>
+    </message>
+    <message>
+        <source>The recording goes on; what came since waits in memory.</source>
+        <translation>La registrazione prosegue; ciò che è arrivato da allora attende in memoria.</translation>
+    </message>
+    <message>
+        <source>The recording has no usable depth: {subject} ({detail}).</source>
+        <translation>La registrazione non ha una profondità utilizzabile: {subject} ({detail}).</translation>
+    </message>
+    <message>
+        <source>The recording holds no picture: {subject} ({detail}).</source>
+        <translation>La registrazione non contiene immagini: {subject} ({detail}).</translation>
+    </message>
+    <message>
+        <source>The recording is damaged: {subject} ({detail}).</source>
+        <translation>La registrazione è danneggiata: {subject} ({detail}).</translation>
+    </message>
+    <message>
+        <source>The reference cannot be read: {subject} ({detail}).</source>
+        <translation>Il riferimento non si può leggere: {subject} ({detail}).</translation>
+    </message>
+    <message>
+        <source>The scheduler at {subject} does not answer ({detail}).</source>
+        <translation>Lo scheduler in {subject} non risponde ({detail}).</translation>
+    </message>
+    <message>
+        <source>The session files are safe; the list can be made again from them, without the names.</source>
+        <translation>I file delle sedute sono al sicuro; l’elenco si può rifare da quelli, senza i nomi.</translation>
+    </message>
+    <message>
+        <source>The session is unchanged, and its repetitions can be left out.</source>
+        <translation>La seduta non è cambiata, e le sue ripetizioni si possono escludere.</translation>
+    </message>
+    <message>
+        <source>The sets of exercises cannot be read: {subject} ({detail}).</source>
+        <translation>Le sequenze di esercizi non si possono leggere: {subject} ({detail}).</translation>
+    </message>
+    <message>
+        <source>The times of the recording do not rise: {subject} ({detail}).</source>
+        <translation>I tempi della registrazione non sono crescenti: {subject} ({detail}).</translation>
+    </message>
+    <message>
+        <source>The {markers} does not lie on the line of its finger.</source>
+        <translation>Non è sulla linea del suo dito: {markers}.</translation>
+    </message>
+    <message>
+        <source>There is a file already at {subject}.</source>
+        <translation>C’è già un file in {subject}.</translation>
+    </message>
+    <message>
+        <source>There is no back-up in {subject}.</source>
+        <translation>Non c’è nessuna copia di sicurezza in {subject}.</translation>
+    </message>
+    <message>
+        <source>There is no file of the camera with {subject}; Carpus uses {detail}, and lengths may be several per cent off.</source>
+        <translation>Manca un file della telecamera per {subject}; Carpus usa {detail}, e le lunghezze possono sbagliare di qualche per cento.</translation>
+    </message>
+    <message>
+        <source>There is no folder {subject}.</source>
+        <translation>Non esiste la cartella {subject}.</translation>
+    </message>
+    <message>
+        <source>There is no recording at {subject}.</source>
+        <translation>Non c’è nessuna registrazione in {subject}.</translation>
+    </message>
+    <message>
+        <source>There is no set of markers with the name {subject} ({detail}).</source>
+        <translation>Non esiste un insieme di marcatori con il nome {subject} ({detail}).</translation>
+    </message>
+    <message>
+        <source>There is one more blue spot on the hand than there are names.</source>
+        <translation>Sulla mano c’è un punto blu in più rispetto ai nomi.</translation>
+    </message>
+    <message>
+        <source>These are as they were, and the key is kept.</source>
+        <translation>Questi sono com’erano, e la chiave è conservata.</translation>
+    </message>
+    <message>
+        <source>These sessions make no test and retest: {subject} ({detail}).</source>
+        <translation>Queste sedute non formano un test e retest: {subject} ({detail}).</translation>
+    </message>
+    <message>
+        <source>They are in no list any more, and Carpus tries again whenever it starts.</source>
+        <translation>Non sono più in nessun elenco, e Carpus riprova a ogni avvio.</translation>
+    </message>
+    <message>
+        <source>They are untouched where they are, and all other sessions are safe.</source>
+        <translation>Sono intatti dove si trovano, e tutte le altre sedute sono al sicuro.</translation>
+    </message>
+    <message>
+        <source>This camera does not give the pictures that Carpus needs: {subject} ({detail}).</source>
+        <translation>Questa telecamera non dà le immagini che servono a Carpus: {subject} ({detail}).</translation>
+    </message>
+    <message>
+        <source>This is not the PIN of {subject}, and not its recovery code.</source>
+        <translation>Questo non è il PIN di {subject}, né il suo codice di recupero.</translation>
+    </message>
+    <message>
+        <source>This looks like the other hand.</source>
+        <translation>Questa sembra l’altra mano.</translation>
+    </message>
+    <message>
+        <source>This needs carpus[{subject}] ({detail}), which is not installed.</source>
+        <translation>Per questo serve carpus[{subject}] ({detail}), che non è installato.</translation>
+    </message>
+    <message>
+        <source>This session cannot be read: {subject} ({detail}).</source>
+        <translation>Questa seduta non si può leggere: {subject} ({detail}).</translation>
+    </message>
+    <message>
+        <source>This session is not finished: {subject}.</source>
+        <translation>Questa seduta non è conclusa: {subject}.</translation>
+    </message>
+    <message>
+        <source>This session was changed after it was finished: {subject}.</source>
+        <translation>Questa seduta è stata modificata dopo la conclusione: {subject}.</translation>
+    </message>
+    <message>
+        <source>Tracking again stopped: {subject} ({detail}).</source>
+        <translation>Il nuovo tracciamento si è fermato: {subject} ({detail}).</translation>
+    </message>
+    <message>
+        <source>Try again, or correct another picture too.</source>
+        <translation>Riprovare, o correggere anche un’altra immagine.</translation>
+    </message>
+    <message>
+        <source>Try again; if the PIN is right, bring the key files (encryption…) back from a back-up.</source>
+        <translation>Riprovare; se il PIN è giusto, riportare i file della chiave (encryption…) da una copia di sicurezza.</translation>
+    </message>
+    <message>
+        <source>Turn the back of the hand to the camera.</source>
+        <translation>Girare il dorso della mano verso la telecamera.</translation>
+    </message>
+    <message>
+        <source>Type the PIN when asked, or set CARPUS_PIN to it.</source>
+        <translation>Scrivere il PIN quando viene chiesto, o metterlo in CARPUS_PIN.</translation>
+    </message>
+    <message>
+        <source>Unplug the camera, plug it in again and start once more.</source>
+        <translation>Scollegare la telecamera, ricollegarla e ricominciare.</translation>
+    </message>
+    <message>
+        <source>Use C3D, TRC, MOT, a CSV table with its column map, or a session.</source>
+        <translation>Usare C3D, TRC, MOT, una tabella CSV con le sue colonne indicate, o una seduta.</translation>
+    </message>
+    <message>
+        <source>Use a camera with colour and depth, such as the Xtion.</source>
+        <translation>Usare una telecamera con colore e profondità, come la Xtion.</translation>
+    </message>
+    <message>
+        <source>Use a recording of colour and depth.</source>
+        <translation>Usare una registrazione con colore e profondità.</translation>
+    </message>
+    <message>
+        <source>Use a recording whose pictures all have one size.</source>
+        <translation>Usare una registrazione con immagini tutte della stessa dimensione.</translation>
+    </message>
+    <message>
+        <source>Use wrist6 or hand21.</source>
+        <translation>Usare wrist6 o hand21.</translation>
+    </message>
+    <message>
+        <source>Wait until it has ended, or choose another folder.</source>
+        <translation>Attendere che abbia finito, o scegliere un’altra cartella.</translation>
+    </message>
+    <message>
+        <source>What counts as a change stays as it is.</source>
+        <translation>Ciò che vale come cambiamento resta com’è.</translation>
+    </message>
+    <message>
+        <source>What was recorded of it is there.</source>
+        <translation>Ciò che ne è stato registrato è presente.</translation>
+    </message>
+    <message>
+        <source>What was stored before is safe.</source>
+        <translation>Ciò che era già salvato è al sicuro.</translation>
+    </message>
+    <message>
+        <source>What was stored before it went is there when it comes back.</source>
+        <translation>Ciò che era stato salvato prima si ritrova quando la cartella torna.</translation>
+    </message>
+    <message>
+        <source>Whoever looks after this computer installs Carpus again, with all its parts.</source>
+        <translation>Chi si occupa di questo computer reinstalla Carpus, con tutte le sue parti.</translation>
+    </message>
+    <message>
+        <source>Write “registered: true” or “false” into its camera_info.yaml.</source>
+        <translation>Scrivere “registered: true” o “false” nel suo camera_info.yaml.</translation>
+    </message>
+    <message>
+        <source>a folder</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>a name that is no text</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>a text with a character that is none, in {file}</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>all six discs in {count} of {looked} pictures</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>an HDF5 file, but not a session</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>another program has exchanged it</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>another program has it open</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>another program has it open: {cause}</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>block {number} is not there</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>camera_matrix has {count} numbers, 9 expected</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>camera_matrix is not [fx, 0, cx, 0, fy, cy, 0, 0, 1]</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>cannot be opened</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>codec {codec} for {name}</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>colour as {name}</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>colour picture {row}</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>corners lie {error_px} px off, at most {most_px} are fair</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>cropped pictures</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>cut off or altered</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>damaged</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>damaged, or no C3D</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>damaged: a frame has a status that there is not</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>damaged: a frame has no possible time</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>damaged: a standard deviation is below zero</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>damaged: an event has no time</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>damaged: depth sensor, {cause}</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>damaged: it asks for more memory than a session needs</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>damaged: it cannot be read to its end</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>damaged: it claims to last longer than a day</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>damaged: its parameters are no settings</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>damaged: its {name} is no such thing</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>damaged: no session_id</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>damaged: reading it does not end</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>damaged: the camera&apos;s figures are not a camera&apos;s</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>damaged: the camera&apos;s figures are not known</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>damaged: the time of frame {number} is not after the one before</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>damaged: the times of its frames are no session&apos;s</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>damaged: what was read of it makes no sense</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>damaged: {cause}</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>damaged: {detail}</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>damaged: {path} does not fit {path2}</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>damaged: {value}</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>damaged: {what}</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>damaged: {what} is beyond all measure</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>depth as {name}</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>distortion {model} with {count} coefficients</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>distortion_coefficients has {count} numbers, {wanted} expected</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>distortion_model {said}, {coefficients} expected</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>empty file</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>for {width_px} x {height_px} pixels, pictures have {size}</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>format version {version}, this Carpus reads up to {format_version}</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>format version {version}, this Carpus reads {newest}</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>fx {fx} and fy {fy} are no camera&apos;s with pictures {width} pixels wide</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>grey, a colour picture is expected</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>groups within groups without end at {place}</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>hand</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>hand is {json}, right or left expected</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>hand {hand}</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>in colour, a depth picture of 16 bits is expected</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>in none of the pictures</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>in the data folder, or around it</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>index finger</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>index finger end joint</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>index finger middle joint</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>index knuckle</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>index tip</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>it cannot be read as JSON; the usual limits hold</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>it claims more values than the file can hold</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>it does not hold limits; the usual ones hold</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>it has no column of times; say which it is</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>it has no column reading_deg</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>it has no column {value}</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>it has no marker {markers}</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>it holds no frame</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>it holds no points</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>it holds no points, or says no rate</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>it holds no reading</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>it holds no table</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>it stored no blue spots</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>it was tracked by the papers&apos; own filter</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>its columns are not what its names say</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>its facts are not there</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>its head is damaged</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>its process ended</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>its times do not rise</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>its unit is {unit}</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>larger than 1 GB</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>larger than 2 GB</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>less than {least_overlap_s} s in common, or nothing moves</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>line {number} is not a time and a file name: {content}</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>line {number} leads out of the folder: {content}</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>line {number}: {time_s} s after {earlier} s</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>little finger</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>little finger end joint</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>little finger middle joint</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>little knuckle</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>little tip</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>made by an unknown processor {processor}</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>marker protocol {subject}</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>middle finger</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>middle finger end joint</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>middle finger middle joint</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>middle knuckle</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>middle tip</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>missing, and pictures of {size} have no default camera</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>missing, {place}</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>more than one camera</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>more than {most_objects} parts</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>more than {most_objects} parts in {value}</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>much too long for a camera calibration</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>much too long for clicks</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>names in it are no text</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>neither a TUM folder, an .oni file, a RealSense recording nor a raw recording</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>no MOT: it has no end of its header</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>no angle of the session is in it</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>no answer for {patience_s} s</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>no attribute {name}</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>no colour pictures</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>no dataset {path}</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>no depth picture within {pairing_limit_s} ms of a colour picture</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>no disc of the palm and no angle of the wrist or fingers is in it</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>no intrinsics for pictures of {size}</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>no markers</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>no picture in {color_list}</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>no picture in {depth_list}</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>no reader for {value}</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>no reading can be used</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>no room for another {length} MB</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>not JSON</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>not JSON, line {lineno}</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>not TOML: tables within tables without end</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>not YAML</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>not a back-up</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>not a camera calibration</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>not a folder</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>not a picture</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>not a raw recording</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>not a session file</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>not a text file</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>not an .oni file</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>not an object with hand, protocol and markers</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>not in the list of patients</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>not the part file of a session</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>paths that lead out of the folder</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>pixel format {pixel_format}</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>ring finger</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>ring finger end joint</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>ring finger middle joint</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>ring knuckle</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>ring tip</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>rows of different length, or no numbers</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>still being recorded</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>straight_fingers is not five times true or false, thumb to little</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>the curves match by {match} at best: is it the same movement?</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>the first {stored} rows stay in {lost_folder}</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>the first {stored} rows stay in {parent}</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>the focal length is known to {share} % only</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>the library sees other pictures than the file holds</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>the session holds no picture</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>the two have no time in common</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>there is no such file</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>there is no such setting, in {file}</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>three discs of the palm are needed, it has {there}; say which markers they are</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>thumb</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>thumb base</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>thumb end joint</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>thumb knuckle</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>thumb tip</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>version {version}, this Carpus reads up to {count}</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>version {version}, this Carpus reads up to {format_version}</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>version {version}, this Carpus reads up to {newest}</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>what was left out cannot be read</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>what was written cannot be read back</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>what was written is not what was read</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>wrist</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>{bits} bits per colour, 8 are expected</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>{calibration} has depth that no camera reads</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>{calibration} is not as Carpus writes it</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>{capacity} rows waiting</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>{cause} is there twice</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>{count} files</source>
+        <translation type="unfinished">{count} file</translation>
+    </message>
+    <message>
+        <source>{count} joint angles with other names than {name} has</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>{detail} among the sessions cannot be read and are set apart: {subject}.</source>
+        <translation>Fra le sedute, file illeggibili messi da parte ({detail}): {subject}.</translation>
+    </message>
+    <message>
+        <source>{free} MB free, {least_free_bytes} MB are needed</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>{inside} has two names</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>{inside} is a group, values expected</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>{inside} is a type, values expected</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>{inside} points out of its place</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>{key} has no data</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>{key} holds something that is not a number</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>{key} is neither true nor false</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>{key} is not a number of pixels</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>{lost} of {count} frames</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>{markers} look swapped.</source>
+        <translation>Sembrano scambiati: {markers}.</translation>
+    </message>
+    <message>
+        <source>{name} changes on the way</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>{name} is {json}, two pixels expected</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>{np} frames missing</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>{one} and {other}</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>{path} claims {claimed} bytes, and {stored} are there</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>{path} has the shape {shape}, {count} axes expected</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>{path} is of the type {dtype}, {dtype2} expected</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>{path} is stored in pieces that are too large</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>{path} is {dtype} {shape}, {dtype2} {expected} expected</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>{place} is packed, which a session is not</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>{place} keeps its values in another file</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>{shape} x {shape2} pixels, {width} x {height} before</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>{subject} could not be exchanged: what was read back is not what was written.</source>
+        <translation>Non si è potuto sostituire {subject}: ciò che è stato riletto non è ciò che è stato scritto.</translation>
+    </message>
+    <message>
+        <source>{subject} is encrypted, and its PIN has not been given.</source>
+        <translation>La cartella {subject} è cifrata, e il suo PIN non è stato dato.</translation>
+    </message>
+    <message>
+        <source>{timestamp_s} s after {last_time_s} s</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>{u}, {v} in a picture of {width_px} x {height_px} pixels</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>{value} bits, a depth picture of 16 bits is expected</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>{value} is not a possible number, in {file}</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>{value} is not {wanted_words}, in {file}</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>{value} picture {number}</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>{what}, at byte {position}</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>{wrong}, which a folder of pictures cannot be</source>
+        <translation type="unfinished"></translation>
     </message>
 </context>
 <context>
@@ -4531,7 +6255,7 @@
     <name>BubbleView</name>
     <message>
         <source>&amp;Next</source>
-        <translation>&amp;Avanti</translation>
+        <translation>A&amp;vanti</translation>
     </message>
     <message>
         <source>Leave the guide</source>
@@ -4801,7 +6525,7 @@
     </message>
     <message>
         <source>Print &amp;card…</source>
-        <translation>Stampa il &amp;cartoncino…</translation>
+        <translation>&amp;Stampa…</translation>
     </message>
     <message>
         <source>One page…</source>
@@ -5756,7 +7480,7 @@ dall’alto</translation>
     <message>
         <source>F2 next joint · F3 next finger
 Shift+F8 from the side</source>
-        <translation>F2 artic. seguente · F3 dito seguente
+        <translation>F2 articolazione · F3 dito
 Maiusc+F8 di lato</translation>
     </message>
 </context>
@@ -5776,7 +7500,7 @@ Maiusc+F8 di lato</translation>
     </message>
     <message>
         <source>Show me around</source>
-        <translation>Mostrami tutto</translation>
+        <translation>Visita guidata</translation>
     </message>
     <message>
         <source>Keys</source>
@@ -5862,7 +7586,7 @@ Maiusc+F8 di lato</translation>
     </message>
     <message>
         <source>Moving</source>
-        <translation>Movimento</translation>
+        <translation>Moto</translation>
     </message>
     <message>
         <source>no value</source>
@@ -6314,11 +8038,11 @@ Maiusc+F8 di lato</translation>
     </message>
     <message>
         <source>1 marker to go</source>
-        <translation>Manca 1 marcatore</translation>
+        <translation>manca 1 marcatore</translation>
     </message>
     <message>
         <source>{count} markers to go</source>
-        <translation>Mancano {count} marcatori</translation>
+        <translation>mancano {count} marcatori</translation>
     </message>
     <message>
         <source>Start measuring · {left}</source>
@@ -6702,7 +8426,7 @@ Maiusc+F8 di lato</translation>
     </message>
     <message>
         <source>Simulated: nothing counts</source>
-        <translation>Simulata: non conta nulla</translation>
+        <translation>Simulato: non conta nulla</translation>
     </message>
     <message>
         <source>Markers as on {day}</source>
@@ -7131,15 +8855,15 @@ Maiusc+F8 di lato</translation>
     <name>ProgressScreen</name>
     <message>
         <source>Progress report</source>
-        <translation>Relazione sull’andamento</translation>
+        <translation>Relazione andamento</translation>
     </message>
     <message>
         <source>Save picture…</source>
-        <translation>Salva il grafico…</translation>
+        <translation>Salva grafico…</translation>
     </message>
     <message>
         <source>Save table…</source>
-        <translation>Salva la tabella…</translation>
+        <translation>Salva tabella…</translation>
     </message>
     <message>
         <source>Values by &amp;hand…</source>
@@ -7175,7 +8899,7 @@ Maiusc+F8 di lato</translation>
     </message>
     <message>
         <source>Peak speed</source>
-        <translation>Velocità massima</translation>
+        <translation>Velocità max</translation>
     </message>
     <message>
         <source>error not yet known</source>
@@ -7516,7 +9240,7 @@ Maiusc+F8 di lato</translation>
     </message>
     <message>
         <source>{pages}, readable in grey. It carries the made-up name, never a real one.</source>
-        <translation>{pages}, leggibili in grigio. Porta il nome inventato, mai uno vero.</translation>
+        <translation>{pages}, adatta anche alla stampa in grigio. Porta il nome inventato, mai uno vero.</translation>
     </message>
     <message>
         <source>Not saved yet</source>
@@ -8444,7 +10168,7 @@ Maiusc+F8 di lato</translation>
     <name>WelcomePanel</name>
     <message>
         <source>Another &amp;folder…</source>
-        <translation>Un’altra &amp;cartella…</translation>
+        <translation>Un’altra cart&amp;ella…</translation>
     </message>
     <message>
         <source>Close Carpus</source>
@@ -8452,7 +10176,7 @@ Maiusc+F8 di lato</translation>
     </message>
     <message>
         <source>&amp;Look again</source>
-        <translation>&amp;Verifica di nuovo</translation>
+        <translation>Verifica di &amp;nuovo</translation>
     </message>
     <message>
         <source>&amp;Guide me through a first session</source>
@@ -8493,6 +10217,21 @@ Maiusc+F8 di lato</translation>
     <message>
         <source>The folder counts from the next start on: close Carpus and open it again before you measure.</source>
         <translation>La cartella vale dal prossimo avvio: chiudere Carpus e riaprirlo prima di misurare.</translation>
+    </message>
+</context>
+<context>
+    <name>WordTable</name>
+    <message>
+        <source>Something happened that Carpus does not know.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Everything stored before is safe.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Go back and try again. If it comes back, start Carpus anew and report it.</source>
+        <translation type="unfinished"></translation>
     </message>
 </context>
 <context>
