@@ -4005,7 +4005,7 @@
     </message>
     <message>
         <source>Carpus waits for its camera: {subject}. Another one is there ({detail}).</source>
-        <translation type="unfinished"></translation>
+        <translation>Carpus attende la sua telecamera: {subject}. Ce n’è un’altra ({detail}).</translation>
     </message>
     <message>
         <source>Check it by “carpus check-card --serial NUMBER” with the number printed on it.</source>
@@ -4305,7 +4305,7 @@
     </message>
     <message>
         <source>Plug its own camera in again; what was begun then goes on by itself.</source>
-        <translation type="unfinished"></translation>
+        <translation>Ricollegare la sua telecamera; ciò che era iniziato prosegue poi da solo.</translation>
     </message>
     <message>
         <source>Plug the camera in again; tracking and recording then go on by themselves.</source>
@@ -4773,727 +4773,727 @@
     </message>
     <message>
         <source>a folder</source>
-        <translation type="unfinished"></translation>
+        <translation>una cartella</translation>
     </message>
     <message>
         <source>a name that is no text</source>
-        <translation type="unfinished"></translation>
+        <translation>un nome che non è un testo</translation>
     </message>
     <message>
         <source>a text with a character that is none, in {file}</source>
-        <translation type="unfinished"></translation>
+        <translation>un testo con un carattere non valido, in {file}</translation>
     </message>
     <message>
         <source>all six discs in {count} of {looked} pictures</source>
-        <translation type="unfinished"></translation>
+        <translation>tutti i sei dischetti in {count} immagini su {looked}</translation>
     </message>
     <message>
         <source>an HDF5 file, but not a session</source>
-        <translation type="unfinished"></translation>
+        <translation>un file HDF5, ma non una seduta</translation>
     </message>
     <message>
         <source>another program has exchanged it</source>
-        <translation type="unfinished"></translation>
+        <translation>un altro programma lo ha sostituito</translation>
     </message>
     <message>
         <source>another program has it open</source>
-        <translation type="unfinished"></translation>
+        <translation>un altro programma lo tiene aperto</translation>
     </message>
     <message>
         <source>another program has it open: {cause}</source>
-        <translation type="unfinished"></translation>
+        <translation>un altro programma lo tiene aperto: {cause}</translation>
     </message>
     <message>
         <source>block {number} is not there</source>
-        <translation type="unfinished"></translation>
+        <translation>manca il blocco {number}</translation>
     </message>
     <message>
         <source>camera_matrix has {count} numbers, 9 expected</source>
-        <translation type="unfinished"></translation>
+        <translation>camera_matrix ha {count} numeri, attesi 9</translation>
     </message>
     <message>
         <source>camera_matrix is not [fx, 0, cx, 0, fy, cy, 0, 0, 1]</source>
-        <translation type="unfinished"></translation>
+        <translation>camera_matrix non è [fx, 0, cx, 0, fy, cy, 0, 0, 1]</translation>
     </message>
     <message>
         <source>cannot be opened</source>
-        <translation type="unfinished"></translation>
+        <translation>non si può aprire</translation>
     </message>
     <message>
         <source>codec {codec} for {name}</source>
-        <translation type="unfinished"></translation>
+        <translation>codec {codec} per {name}</translation>
     </message>
     <message>
         <source>colour as {name}</source>
-        <translation type="unfinished"></translation>
+        <translation>colore come {name}</translation>
     </message>
     <message>
         <source>colour picture {row}</source>
-        <translation type="unfinished"></translation>
+        <translation>immagine a colori {row}</translation>
     </message>
     <message>
         <source>corners lie {error_px} px off, at most {most_px} are fair</source>
-        <translation type="unfinished"></translation>
+        <translation>gli angoli sono a {error_px} px dal posto giusto, accettabili al massimo {most_px}</translation>
     </message>
     <message>
         <source>cropped pictures</source>
-        <translation type="unfinished"></translation>
+        <translation>immagini ritagliate</translation>
     </message>
     <message>
         <source>cut off or altered</source>
-        <translation type="unfinished"></translation>
+        <translation>troncato o alterato</translation>
     </message>
     <message>
         <source>damaged</source>
-        <translation type="unfinished"></translation>
+        <translation>danneggiato</translation>
     </message>
     <message>
         <source>damaged, or no C3D</source>
-        <translation type="unfinished"></translation>
+        <translation>danneggiato, o non un C3D</translation>
     </message>
     <message>
         <source>damaged: a frame has a status that there is not</source>
-        <translation type="unfinished"></translation>
+        <translation>danneggiato: un fotogramma ha uno stato che non esiste</translation>
     </message>
     <message>
         <source>damaged: a frame has no possible time</source>
-        <translation type="unfinished"></translation>
+        <translation>danneggiato: un fotogramma non ha un tempo possibile</translation>
     </message>
     <message>
         <source>damaged: a standard deviation is below zero</source>
-        <translation type="unfinished"></translation>
+        <translation>danneggiato: una deviazione standard è negativa</translation>
     </message>
     <message>
         <source>damaged: an event has no time</source>
-        <translation type="unfinished"></translation>
+        <translation>danneggiato: un evento non ha un tempo</translation>
     </message>
     <message>
         <source>damaged: depth sensor, {cause}</source>
-        <translation type="unfinished"></translation>
+        <translation>danneggiato: sensore di profondità, {cause}</translation>
     </message>
     <message>
         <source>damaged: it asks for more memory than a session needs</source>
-        <translation type="unfinished"></translation>
+        <translation>danneggiato: chiede più memoria di quanta ne serva a una seduta</translation>
     </message>
     <message>
         <source>damaged: it cannot be read to its end</source>
-        <translation type="unfinished"></translation>
+        <translation>danneggiato: non si può leggere fino alla fine</translation>
     </message>
     <message>
         <source>damaged: it claims to last longer than a day</source>
-        <translation type="unfinished"></translation>
+        <translation>danneggiato: dichiara di durare più di un giorno</translation>
     </message>
     <message>
         <source>damaged: its parameters are no settings</source>
-        <translation type="unfinished"></translation>
+        <translation>danneggiato: i suoi parametri non sono impostazioni</translation>
     </message>
     <message>
         <source>damaged: its {name} is no such thing</source>
-        <translation type="unfinished"></translation>
+        <translation>danneggiato: il suo {name} non è ciò che deve essere</translation>
     </message>
     <message>
         <source>damaged: no session_id</source>
-        <translation type="unfinished"></translation>
+        <translation>danneggiato: manca session_id</translation>
     </message>
     <message>
         <source>damaged: reading it does not end</source>
-        <translation type="unfinished"></translation>
+        <translation>danneggiato: la lettura non finisce mai</translation>
     </message>
     <message>
         <source>damaged: the camera&apos;s figures are not a camera&apos;s</source>
-        <translation type="unfinished"></translation>
+        <translation>danneggiato: i valori della telecamera non sono di una telecamera</translation>
     </message>
     <message>
         <source>damaged: the camera&apos;s figures are not known</source>
-        <translation type="unfinished"></translation>
+        <translation>danneggiato: i valori della telecamera non sono noti</translation>
     </message>
     <message>
         <source>damaged: the time of frame {number} is not after the one before</source>
-        <translation type="unfinished"></translation>
+        <translation>danneggiato: il tempo del fotogramma {number} non segue quello precedente</translation>
     </message>
     <message>
         <source>damaged: the times of its frames are no session&apos;s</source>
-        <translation type="unfinished"></translation>
+        <translation>danneggiato: i tempi dei fotogrammi non sono di una seduta</translation>
     </message>
     <message>
         <source>damaged: what was read of it makes no sense</source>
-        <translation type="unfinished"></translation>
+        <translation>danneggiato: ciò che se ne legge non ha senso</translation>
     </message>
     <message>
         <source>damaged: {cause}</source>
-        <translation type="unfinished"></translation>
+        <translation>danneggiato: {cause}</translation>
     </message>
     <message>
         <source>damaged: {detail}</source>
-        <translation type="unfinished"></translation>
+        <translation>danneggiato: {detail}</translation>
     </message>
     <message>
         <source>damaged: {path} does not fit {path2}</source>
-        <translation type="unfinished"></translation>
+        <translation>danneggiato: {path} non corrisponde a {path2}</translation>
     </message>
     <message>
         <source>damaged: {value}</source>
-        <translation type="unfinished"></translation>
+        <translation>danneggiato: {value}</translation>
     </message>
     <message>
         <source>damaged: {what}</source>
-        <translation type="unfinished"></translation>
+        <translation>danneggiato: {what}</translation>
     </message>
     <message>
         <source>damaged: {what} is beyond all measure</source>
-        <translation type="unfinished"></translation>
+        <translation>danneggiato: {what} è oltre ogni misura</translation>
     </message>
     <message>
         <source>depth as {name}</source>
-        <translation type="unfinished"></translation>
+        <translation>profondità come {name}</translation>
     </message>
     <message>
         <source>distortion {model} with {count} coefficients</source>
-        <translation type="unfinished"></translation>
+        <translation>distorsione {model} con {count} coefficienti</translation>
     </message>
     <message>
         <source>distortion_coefficients has {count} numbers, {wanted} expected</source>
-        <translation type="unfinished"></translation>
+        <translation>distortion_coefficients ha {count} numeri, attesi {wanted}</translation>
     </message>
     <message>
         <source>distortion_model {said}, {coefficients} expected</source>
-        <translation type="unfinished"></translation>
+        <translation>distortion_model {said}, attesi {coefficients}</translation>
     </message>
     <message>
         <source>empty file</source>
-        <translation type="unfinished"></translation>
+        <translation>file vuoto</translation>
     </message>
     <message>
         <source>for {width_px} x {height_px} pixels, pictures have {size}</source>
-        <translation type="unfinished"></translation>
+        <translation>per {width_px} x {height_px} pixel, le immagini hanno {size}</translation>
     </message>
     <message>
         <source>format version {version}, this Carpus reads up to {format_version}</source>
-        <translation type="unfinished"></translation>
+        <translation>versione del formato {version}, questo Carpus legge fino a {format_version}</translation>
     </message>
     <message>
         <source>format version {version}, this Carpus reads {newest}</source>
-        <translation type="unfinished"></translation>
+        <translation>versione del formato {version}, questo Carpus legge {newest}</translation>
     </message>
     <message>
         <source>fx {fx} and fy {fy} are no camera&apos;s with pictures {width} pixels wide</source>
-        <translation type="unfinished"></translation>
+        <translation>fx {fx} e fy {fy} non sono di una telecamera con immagini larghe {width} pixel</translation>
     </message>
     <message>
         <source>grey, a colour picture is expected</source>
-        <translation type="unfinished"></translation>
+        <translation>grigio, attesa un’immagine a colori</translation>
     </message>
     <message>
         <source>groups within groups without end at {place}</source>
-        <translation type="unfinished"></translation>
+        <translation>gruppi dentro gruppi senza fine in {place}</translation>
     </message>
     <message>
         <source>hand</source>
-        <translation type="unfinished"></translation>
+        <translation>mano</translation>
     </message>
     <message>
         <source>hand is {json}, right or left expected</source>
-        <translation type="unfinished"></translation>
+        <translation>hand è {json}, atteso right o left</translation>
     </message>
     <message>
         <source>hand {hand}</source>
-        <translation type="unfinished"></translation>
+        <translation>hand {hand}</translation>
     </message>
     <message>
         <source>in colour, a depth picture of 16 bits is expected</source>
-        <translation type="unfinished"></translation>
+        <translation>a colori, attesa un’immagine di profondità a 16 bit</translation>
     </message>
     <message>
         <source>in none of the pictures</source>
-        <translation type="unfinished"></translation>
+        <translation>in nessuna delle immagini</translation>
     </message>
     <message>
         <source>in the data folder, or around it</source>
-        <translation type="unfinished"></translation>
+        <translation>nella cartella dei dati, o intorno a essa</translation>
     </message>
     <message>
         <source>index finger</source>
-        <translation type="unfinished"></translation>
+        <translation>indice</translation>
     </message>
     <message>
         <source>index finger end joint</source>
-        <translation type="unfinished"></translation>
+        <translation>articolazione distale dell’indice</translation>
     </message>
     <message>
         <source>index finger middle joint</source>
-        <translation type="unfinished"></translation>
+        <translation>articolazione media dell’indice</translation>
     </message>
     <message>
         <source>index knuckle</source>
-        <translation type="unfinished"></translation>
+        <translation>nocca dell’indice</translation>
     </message>
     <message>
         <source>index tip</source>
-        <translation type="unfinished"></translation>
+        <translation>punta dell’indice</translation>
     </message>
     <message>
         <source>it cannot be read as JSON; the usual limits hold</source>
-        <translation type="unfinished"></translation>
+        <translation>non si può leggere come JSON; valgono i limiti usuali</translation>
     </message>
     <message>
         <source>it claims more values than the file can hold</source>
-        <translation type="unfinished"></translation>
+        <translation>dichiara più valori di quanti il file possa contenere</translation>
     </message>
     <message>
         <source>it does not hold limits; the usual ones hold</source>
-        <translation type="unfinished"></translation>
+        <translation>non contiene limiti; valgono quelli usuali</translation>
     </message>
     <message>
         <source>it has no column of times; say which it is</source>
-        <translation type="unfinished"></translation>
+        <translation>manca una colonna dei tempi; dire quale è</translation>
     </message>
     <message>
         <source>it has no column reading_deg</source>
-        <translation type="unfinished"></translation>
+        <translation>manca la colonna reading_deg</translation>
     </message>
     <message>
         <source>it has no column {value}</source>
-        <translation type="unfinished"></translation>
+        <translation>manca la colonna {value}</translation>
     </message>
     <message>
         <source>it has no marker {markers}</source>
-        <translation type="unfinished"></translation>
+        <translation>manca il marcatore {markers}</translation>
     </message>
     <message>
         <source>it holds no frame</source>
-        <translation type="unfinished"></translation>
+        <translation>non contiene fotogrammi</translation>
     </message>
     <message>
         <source>it holds no points</source>
-        <translation type="unfinished"></translation>
+        <translation>non contiene punti</translation>
     </message>
     <message>
         <source>it holds no points, or says no rate</source>
-        <translation type="unfinished"></translation>
+        <translation>non contiene punti, o non indica la frequenza</translation>
     </message>
     <message>
         <source>it holds no reading</source>
-        <translation type="unfinished"></translation>
+        <translation>non contiene letture</translation>
     </message>
     <message>
         <source>it holds no table</source>
-        <translation type="unfinished"></translation>
+        <translation>non contiene una tabella</translation>
     </message>
     <message>
         <source>it stored no blue spots</source>
-        <translation type="unfinished"></translation>
+        <translation>non ha salvato punti blu</translation>
     </message>
     <message>
         <source>it was tracked by the papers&apos; own filter</source>
-        <translation type="unfinished"></translation>
+        <translation>è stata tracciata con il filtro degli articoli</translation>
     </message>
     <message>
         <source>its columns are not what its names say</source>
-        <translation type="unfinished"></translation>
+        <translation>le sue colonne non sono ciò che dicono i nomi</translation>
     </message>
     <message>
         <source>its facts are not there</source>
-        <translation type="unfinished"></translation>
+        <translation>mancano i suoi dati di base</translation>
     </message>
     <message>
         <source>its head is damaged</source>
-        <translation type="unfinished"></translation>
+        <translation>la sua intestazione è danneggiata</translation>
     </message>
     <message>
         <source>its process ended</source>
-        <translation type="unfinished"></translation>
+        <translation>il suo processo è terminato</translation>
     </message>
     <message>
         <source>its times do not rise</source>
-        <translation type="unfinished"></translation>
+        <translation>i suoi tempi non sono crescenti</translation>
     </message>
     <message>
         <source>its unit is {unit}</source>
-        <translation type="unfinished"></translation>
+        <translation>la sua unità è {unit}</translation>
     </message>
     <message>
         <source>larger than 1 GB</source>
-        <translation type="unfinished"></translation>
+        <translation>più grande di 1 GB</translation>
     </message>
     <message>
         <source>larger than 2 GB</source>
-        <translation type="unfinished"></translation>
+        <translation>più grande di 2 GB</translation>
     </message>
     <message>
         <source>less than {least_overlap_s} s in common, or nothing moves</source>
-        <translation type="unfinished"></translation>
+        <translation>meno di {least_overlap_s} s in comune, o nulla si muove</translation>
     </message>
     <message>
         <source>line {number} is not a time and a file name: {content}</source>
-        <translation type="unfinished"></translation>
+        <translation>la riga {number} non è un tempo e un nome di file: {content}</translation>
     </message>
     <message>
         <source>line {number} leads out of the folder: {content}</source>
-        <translation type="unfinished"></translation>
+        <translation>la riga {number} porta fuori dalla cartella: {content}</translation>
     </message>
     <message>
         <source>line {number}: {time_s} s after {earlier} s</source>
-        <translation type="unfinished"></translation>
+        <translation>riga {number}: {time_s} s dopo {earlier} s</translation>
     </message>
     <message>
         <source>little finger</source>
-        <translation type="unfinished"></translation>
+        <translation>mignolo</translation>
     </message>
     <message>
         <source>little finger end joint</source>
-        <translation type="unfinished"></translation>
+        <translation>articolazione distale del mignolo</translation>
     </message>
     <message>
         <source>little finger middle joint</source>
-        <translation type="unfinished"></translation>
+        <translation>articolazione media del mignolo</translation>
     </message>
     <message>
         <source>little knuckle</source>
-        <translation type="unfinished"></translation>
+        <translation>nocca del mignolo</translation>
     </message>
     <message>
         <source>little tip</source>
-        <translation type="unfinished"></translation>
+        <translation>punta del mignolo</translation>
     </message>
     <message>
         <source>made by an unknown processor {processor}</source>
-        <translation type="unfinished"></translation>
+        <translation>fatto da un processore sconosciuto {processor}</translation>
     </message>
     <message>
         <source>marker protocol {subject}</source>
-        <translation type="unfinished"></translation>
+        <translation>protocollo di marcatori {subject}</translation>
     </message>
     <message>
         <source>middle finger</source>
-        <translation type="unfinished"></translation>
+        <translation>medio</translation>
     </message>
     <message>
         <source>middle finger end joint</source>
-        <translation type="unfinished"></translation>
+        <translation>articolazione distale del medio</translation>
     </message>
     <message>
         <source>middle finger middle joint</source>
-        <translation type="unfinished"></translation>
+        <translation>articolazione media del medio</translation>
     </message>
     <message>
         <source>middle knuckle</source>
-        <translation type="unfinished"></translation>
+        <translation>nocca del medio</translation>
     </message>
     <message>
         <source>middle tip</source>
-        <translation type="unfinished"></translation>
+        <translation>punta del medio</translation>
     </message>
     <message>
         <source>missing, and pictures of {size} have no default camera</source>
-        <translation type="unfinished"></translation>
+        <translation>manca, e immagini di {size} non hanno una telecamera predefinita</translation>
     </message>
     <message>
         <source>missing, {place}</source>
-        <translation type="unfinished"></translation>
+        <translation>manca, {place}</translation>
     </message>
     <message>
         <source>more than one camera</source>
-        <translation type="unfinished"></translation>
+        <translation>più di una telecamera</translation>
     </message>
     <message>
         <source>more than {most_objects} parts</source>
-        <translation type="unfinished"></translation>
+        <translation>più di {most_objects} parti</translation>
     </message>
     <message>
         <source>more than {most_objects} parts in {value}</source>
-        <translation type="unfinished"></translation>
+        <translation>più di {most_objects} parti in {value}</translation>
     </message>
     <message>
         <source>much too long for a camera calibration</source>
-        <translation type="unfinished"></translation>
+        <translation>troppo lungo per una calibrazione della telecamera</translation>
     </message>
     <message>
         <source>much too long for clicks</source>
-        <translation type="unfinished"></translation>
+        <translation>troppo lungo per dei clic</translation>
     </message>
     <message>
         <source>names in it are no text</source>
-        <translation type="unfinished"></translation>
+        <translation>contiene nomi che non sono testo</translation>
     </message>
     <message>
         <source>neither a TUM folder, an .oni file, a RealSense recording nor a raw recording</source>
-        <translation type="unfinished"></translation>
+        <translation>né una cartella TUM, né un file .oni, né una registrazione RealSense, né una registrazione grezza</translation>
     </message>
     <message>
         <source>no MOT: it has no end of its header</source>
-        <translation type="unfinished"></translation>
+        <translation>non è un MOT: manca la fine dell’intestazione</translation>
     </message>
     <message>
         <source>no angle of the session is in it</source>
-        <translation type="unfinished"></translation>
+        <translation>non contiene nessun angolo della seduta</translation>
     </message>
     <message>
         <source>no answer for {patience_s} s</source>
-        <translation type="unfinished"></translation>
+        <translation>nessuna risposta da {patience_s} s</translation>
     </message>
     <message>
         <source>no attribute {name}</source>
-        <translation type="unfinished"></translation>
+        <translation>manca l’attributo {name}</translation>
     </message>
     <message>
         <source>no colour pictures</source>
-        <translation type="unfinished"></translation>
+        <translation>nessuna immagine a colori</translation>
     </message>
     <message>
         <source>no dataset {path}</source>
-        <translation type="unfinished"></translation>
+        <translation>manca l’insieme di dati {path}</translation>
     </message>
     <message>
         <source>no depth picture within {pairing_limit_s} ms of a colour picture</source>
-        <translation type="unfinished"></translation>
+        <translation>nessuna immagine di profondità entro {pairing_limit_s} ms da una a colori</translation>
     </message>
     <message>
         <source>no disc of the palm and no angle of the wrist or fingers is in it</source>
-        <translation type="unfinished"></translation>
+        <translation>non contiene dischetti del palmo né angoli del polso o delle dita</translation>
     </message>
     <message>
         <source>no intrinsics for pictures of {size}</source>
-        <translation type="unfinished"></translation>
+        <translation>nessun valore interno della telecamera per immagini di {size}</translation>
     </message>
     <message>
         <source>no markers</source>
-        <translation type="unfinished"></translation>
+        <translation>nessun marcatore</translation>
     </message>
     <message>
         <source>no picture in {color_list}</source>
-        <translation type="unfinished"></translation>
+        <translation>nessuna immagine in {color_list}</translation>
     </message>
     <message>
         <source>no picture in {depth_list}</source>
-        <translation type="unfinished"></translation>
+        <translation>nessuna immagine in {depth_list}</translation>
     </message>
     <message>
         <source>no reader for {value}</source>
-        <translation type="unfinished"></translation>
+        <translation>nessun lettore per {value}</translation>
     </message>
     <message>
         <source>no reading can be used</source>
-        <translation type="unfinished"></translation>
+        <translation>nessuna lettura utilizzabile</translation>
     </message>
     <message>
         <source>no room for another {length} MB</source>
-        <translation type="unfinished"></translation>
+        <translation>non c’è spazio per altri {length} MB</translation>
     </message>
     <message>
         <source>not JSON</source>
-        <translation type="unfinished"></translation>
+        <translation>non JSON</translation>
     </message>
     <message>
         <source>not JSON, line {lineno}</source>
-        <translation type="unfinished"></translation>
+        <translation>non JSON, riga {lineno}</translation>
     </message>
     <message>
         <source>not TOML: tables within tables without end</source>
-        <translation type="unfinished"></translation>
+        <translation>non TOML: tabelle dentro tabelle senza fine</translation>
     </message>
     <message>
         <source>not YAML</source>
-        <translation type="unfinished"></translation>
+        <translation>non YAML</translation>
     </message>
     <message>
         <source>not a back-up</source>
-        <translation type="unfinished"></translation>
+        <translation>non una copia di sicurezza</translation>
     </message>
     <message>
         <source>not a camera calibration</source>
-        <translation type="unfinished"></translation>
+        <translation>non una calibrazione della telecamera</translation>
     </message>
     <message>
         <source>not a folder</source>
-        <translation type="unfinished"></translation>
+        <translation>non una cartella</translation>
     </message>
     <message>
         <source>not a picture</source>
-        <translation type="unfinished"></translation>
+        <translation>non un’immagine</translation>
     </message>
     <message>
         <source>not a raw recording</source>
-        <translation type="unfinished"></translation>
+        <translation>non una registrazione grezza</translation>
     </message>
     <message>
         <source>not a session file</source>
-        <translation type="unfinished"></translation>
+        <translation>non un file di seduta</translation>
     </message>
     <message>
         <source>not a text file</source>
-        <translation type="unfinished"></translation>
+        <translation>non un file di testo</translation>
     </message>
     <message>
         <source>not an .oni file</source>
-        <translation type="unfinished"></translation>
+        <translation>non un file .oni</translation>
     </message>
     <message>
         <source>not an object with hand, protocol and markers</source>
-        <translation type="unfinished"></translation>
+        <translation>non un oggetto con hand, protocol e markers</translation>
     </message>
     <message>
         <source>not in the list of patients</source>
-        <translation type="unfinished"></translation>
+        <translation>non nell’elenco dei pazienti</translation>
     </message>
     <message>
         <source>not the part file of a session</source>
-        <translation type="unfinished"></translation>
+        <translation>non il file parziale di una seduta</translation>
     </message>
     <message>
         <source>paths that lead out of the folder</source>
-        <translation type="unfinished"></translation>
+        <translation>percorsi che portano fuori dalla cartella</translation>
     </message>
     <message>
         <source>pixel format {pixel_format}</source>
-        <translation type="unfinished"></translation>
+        <translation>formato dei pixel {pixel_format}</translation>
     </message>
     <message>
         <source>ring finger</source>
-        <translation type="unfinished"></translation>
+        <translation>anulare</translation>
     </message>
     <message>
         <source>ring finger end joint</source>
-        <translation type="unfinished"></translation>
+        <translation>articolazione distale dell’anulare</translation>
     </message>
     <message>
         <source>ring finger middle joint</source>
-        <translation type="unfinished"></translation>
+        <translation>articolazione media dell’anulare</translation>
     </message>
     <message>
         <source>ring knuckle</source>
-        <translation type="unfinished"></translation>
+        <translation>nocca dell’anulare</translation>
     </message>
     <message>
         <source>ring tip</source>
-        <translation type="unfinished"></translation>
+        <translation>punta dell’anulare</translation>
     </message>
     <message>
         <source>rows of different length, or no numbers</source>
-        <translation type="unfinished"></translation>
+        <translation>righe di lunghezza diversa, o non numeri</translation>
     </message>
     <message>
         <source>still being recorded</source>
-        <translation type="unfinished"></translation>
+        <translation>ancora in registrazione</translation>
     </message>
     <message>
         <source>straight_fingers is not five times true or false, thumb to little</source>
-        <translation type="unfinished"></translation>
+        <translation>straight_fingers non è cinque volte true o false, dal pollice al mignolo</translation>
     </message>
     <message>
         <source>the curves match by {match} at best: is it the same movement?</source>
-        <translation type="unfinished"></translation>
+        <translation>le curve concordano al massimo per {match}: è lo stesso movimento?</translation>
     </message>
     <message>
         <source>the first {stored} rows stay in {lost_folder}</source>
-        <translation type="unfinished"></translation>
+        <translation>le prime {stored} righe restano in {lost_folder}</translation>
     </message>
     <message>
         <source>the first {stored} rows stay in {parent}</source>
-        <translation type="unfinished"></translation>
+        <translation>le prime {stored} righe restano in {parent}</translation>
     </message>
     <message>
         <source>the focal length is known to {share} % only</source>
-        <translation type="unfinished"></translation>
+        <translation>la distanza focale è nota solo al {share} %</translation>
     </message>
     <message>
         <source>the library sees other pictures than the file holds</source>
-        <translation type="unfinished"></translation>
+        <translation>la libreria vede immagini diverse da quelle del file</translation>
     </message>
     <message>
         <source>the session holds no picture</source>
-        <translation type="unfinished"></translation>
+        <translation>la seduta non contiene immagini</translation>
     </message>
     <message>
         <source>the two have no time in common</source>
-        <translation type="unfinished"></translation>
+        <translation>le due non hanno tempo in comune</translation>
     </message>
     <message>
         <source>there is no such file</source>
-        <translation type="unfinished"></translation>
+        <translation>quel file non esiste</translation>
     </message>
     <message>
         <source>there is no such setting, in {file}</source>
-        <translation type="unfinished"></translation>
+        <translation>quell’impostazione non esiste, in {file}</translation>
     </message>
     <message>
         <source>three discs of the palm are needed, it has {there}; say which markers they are</source>
-        <translation type="unfinished"></translation>
+        <translation>servono tre dischetti del palmo, ce ne sono {there}; dire quali marcatori sono</translation>
     </message>
     <message>
         <source>thumb</source>
-        <translation type="unfinished"></translation>
+        <translation>pollice</translation>
     </message>
     <message>
         <source>thumb base</source>
-        <translation type="unfinished"></translation>
+        <translation>base del pollice</translation>
     </message>
     <message>
         <source>thumb end joint</source>
-        <translation type="unfinished"></translation>
+        <translation>articolazione distale del pollice</translation>
     </message>
     <message>
         <source>thumb knuckle</source>
-        <translation type="unfinished"></translation>
+        <translation>nocca del pollice</translation>
     </message>
     <message>
         <source>thumb tip</source>
-        <translation type="unfinished"></translation>
+        <translation>punta del pollice</translation>
     </message>
     <message>
         <source>version {version}, this Carpus reads up to {count}</source>
-        <translation type="unfinished"></translation>
+        <translation>versione {version}, questo Carpus legge fino a {count}</translation>
     </message>
     <message>
         <source>version {version}, this Carpus reads up to {format_version}</source>
-        <translation type="unfinished"></translation>
+        <translation>versione {version}, questo Carpus legge fino a {format_version}</translation>
     </message>
     <message>
         <source>version {version}, this Carpus reads up to {newest}</source>
-        <translation type="unfinished"></translation>
+        <translation>versione {version}, questo Carpus legge fino a {newest}</translation>
     </message>
     <message>
         <source>what was left out cannot be read</source>
-        <translation type="unfinished"></translation>
+        <translation>ciò che è stato escluso non si può leggere</translation>
     </message>
     <message>
         <source>what was written cannot be read back</source>
-        <translation type="unfinished"></translation>
+        <translation>ciò che è stato scritto non si può rileggere</translation>
     </message>
     <message>
         <source>what was written is not what was read</source>
-        <translation type="unfinished"></translation>
+        <translation>ciò che è stato scritto non è ciò che è stato letto</translation>
     </message>
     <message>
         <source>wrist</source>
-        <translation type="unfinished"></translation>
+        <translation>polso</translation>
     </message>
     <message>
         <source>{bits} bits per colour, 8 are expected</source>
-        <translation type="unfinished"></translation>
+        <translation>{bits} bit per colore, attesi 8</translation>
     </message>
     <message>
         <source>{calibration} has depth that no camera reads</source>
-        <translation type="unfinished"></translation>
+        <translation>{calibration} ha una profondità che nessuna telecamera legge</translation>
     </message>
     <message>
         <source>{calibration} is not as Carpus writes it</source>
-        <translation type="unfinished"></translation>
+        <translation>{calibration} non è come la scrive Carpus</translation>
     </message>
     <message>
         <source>{capacity} rows waiting</source>
-        <translation type="unfinished"></translation>
+        <translation>{capacity} righe in attesa</translation>
     </message>
     <message>
         <source>{cause} is there twice</source>
-        <translation type="unfinished"></translation>
+        <translation>{cause} c’è due volte</translation>
     </message>
     <message>
         <source>{count} files</source>
-        <translation type="unfinished">{count} file</translation>
+        <translation>{count} file</translation>
     </message>
     <message>
         <source>{count} joint angles with other names than {name} has</source>
-        <translation type="unfinished"></translation>
+        <translation>{count} angoli articolari con nomi diversi da quelli di {name}</translation>
     </message>
     <message>
         <source>{detail} among the sessions cannot be read and are set apart: {subject}.</source>
@@ -5501,43 +5501,43 @@
     </message>
     <message>
         <source>{free} MB free, {least_free_bytes} MB are needed</source>
-        <translation type="unfinished"></translation>
+        <translation>{free} MB liberi, ne servono {least_free_bytes}</translation>
     </message>
     <message>
         <source>{inside} has two names</source>
-        <translation type="unfinished"></translation>
+        <translation>{inside} ha due nomi</translation>
     </message>
     <message>
         <source>{inside} is a group, values expected</source>
-        <translation type="unfinished"></translation>
+        <translation>{inside} è un gruppo, attesi valori</translation>
     </message>
     <message>
         <source>{inside} is a type, values expected</source>
-        <translation type="unfinished"></translation>
+        <translation>{inside} è un tipo, attesi valori</translation>
     </message>
     <message>
         <source>{inside} points out of its place</source>
-        <translation type="unfinished"></translation>
+        <translation>{inside} punta fuori dal suo posto</translation>
     </message>
     <message>
         <source>{key} has no data</source>
-        <translation type="unfinished"></translation>
+        <translation>{key} non ha dati</translation>
     </message>
     <message>
         <source>{key} holds something that is not a number</source>
-        <translation type="unfinished"></translation>
+        <translation>{key} contiene qualcosa che non è un numero</translation>
     </message>
     <message>
         <source>{key} is neither true nor false</source>
-        <translation type="unfinished"></translation>
+        <translation>{key} non è né vero né falso</translation>
     </message>
     <message>
         <source>{key} is not a number of pixels</source>
-        <translation type="unfinished"></translation>
+        <translation>{key} non è un numero di pixel</translation>
     </message>
     <message>
         <source>{lost} of {count} frames</source>
-        <translation type="unfinished"></translation>
+        <translation>{lost} fotogrammi su {count}</translation>
     </message>
     <message>
         <source>{markers} look swapped.</source>
@@ -5545,51 +5545,51 @@
     </message>
     <message>
         <source>{name} changes on the way</source>
-        <translation type="unfinished"></translation>
+        <translation>{name} cambia lungo il file</translation>
     </message>
     <message>
         <source>{name} is {json}, two pixels expected</source>
-        <translation type="unfinished"></translation>
+        <translation>{name} è {json}, attesi due pixel</translation>
     </message>
     <message>
         <source>{np} frames missing</source>
-        <translation type="unfinished"></translation>
+        <translation>mancano {np} fotogrammi</translation>
     </message>
     <message>
         <source>{one} and {other}</source>
-        <translation type="unfinished"></translation>
+        <translation>{one} e {other}</translation>
     </message>
     <message>
         <source>{path} claims {claimed} bytes, and {stored} are there</source>
-        <translation type="unfinished"></translation>
+        <translation>{path} dichiara {claimed} byte, ce ne sono {stored}</translation>
     </message>
     <message>
         <source>{path} has the shape {shape}, {count} axes expected</source>
-        <translation type="unfinished"></translation>
+        <translation>{path} ha la forma {shape}, attesi {count} assi</translation>
     </message>
     <message>
         <source>{path} is of the type {dtype}, {dtype2} expected</source>
-        <translation type="unfinished"></translation>
+        <translation>{path} è del tipo {dtype}, atteso {dtype2}</translation>
     </message>
     <message>
         <source>{path} is stored in pieces that are too large</source>
-        <translation type="unfinished"></translation>
+        <translation>{path} è salvato in pezzi troppo grandi</translation>
     </message>
     <message>
         <source>{path} is {dtype} {shape}, {dtype2} {expected} expected</source>
-        <translation type="unfinished"></translation>
+        <translation>{path} è {dtype} {shape}, atteso {dtype2} {expected}</translation>
     </message>
     <message>
         <source>{place} is packed, which a session is not</source>
-        <translation type="unfinished"></translation>
+        <translation>{place} è compresso, cosa che una seduta non è</translation>
     </message>
     <message>
         <source>{place} keeps its values in another file</source>
-        <translation type="unfinished"></translation>
+        <translation>{place} tiene i suoi valori in un altro file</translation>
     </message>
     <message>
         <source>{shape} x {shape2} pixels, {width} x {height} before</source>
-        <translation type="unfinished"></translation>
+        <translation>{shape} x {shape2} pixel, prima {width} x {height}</translation>
     </message>
     <message>
         <source>{subject} could not be exchanged: what was read back is not what was written.</source>
@@ -5601,35 +5601,35 @@
     </message>
     <message>
         <source>{timestamp_s} s after {last_time_s} s</source>
-        <translation type="unfinished"></translation>
+        <translation>{timestamp_s} s dopo {last_time_s} s</translation>
     </message>
     <message>
         <source>{u}, {v} in a picture of {width_px} x {height_px} pixels</source>
-        <translation type="unfinished"></translation>
+        <translation>{u}, {v} in un’immagine di {width_px} x {height_px} pixel</translation>
     </message>
     <message>
         <source>{value} bits, a depth picture of 16 bits is expected</source>
-        <translation type="unfinished"></translation>
+        <translation>{value} bit, attesa un’immagine di profondità a 16 bit</translation>
     </message>
     <message>
         <source>{value} is not a possible number, in {file}</source>
-        <translation type="unfinished"></translation>
+        <translation>{value} non è un numero possibile, in {file}</translation>
     </message>
     <message>
         <source>{value} is not {wanted_words}, in {file}</source>
-        <translation type="unfinished"></translation>
+        <translation>{value} non è {wanted_words}, in {file}</translation>
     </message>
     <message>
         <source>{value} picture {number}</source>
-        <translation type="unfinished"></translation>
+        <translation>{value}, immagine {number}</translation>
     </message>
     <message>
         <source>{what}, at byte {position}</source>
-        <translation type="unfinished"></translation>
+        <translation>{what}, al byte {position}</translation>
     </message>
     <message>
         <source>{wrong}, which a folder of pictures cannot be</source>
-        <translation type="unfinished"></translation>
+        <translation>{wrong}, cosa che una cartella di immagini non può essere</translation>
     </message>
 </context>
 <context>
@@ -10223,15 +10223,15 @@ Maiusc+F8 di lato</translation>
     <name>WordTable</name>
     <message>
         <source>Something happened that Carpus does not know.</source>
-        <translation type="unfinished"></translation>
+        <translation>È successo qualcosa che Carpus non conosce.</translation>
     </message>
     <message>
         <source>Everything stored before is safe.</source>
-        <translation type="unfinished"></translation>
+        <translation>Tutto ciò che era già salvato è al sicuro.</translation>
     </message>
     <message>
         <source>Go back and try again. If it comes back, start Carpus anew and report it.</source>
-        <translation type="unfinished"></translation>
+        <translation>Tornare indietro e riprovare. Se si ripete, riavviare Carpus e segnalarlo.</translation>
     </message>
 </context>
 <context>
