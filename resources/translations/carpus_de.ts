@@ -2529,27 +2529,27 @@
     </message>
     <message>
         <source>Bend together, {one}–{other} (r)</source>
-        <translation>Beugen gemeinsam, {one}–{other} (r)</translation>
+        <translation>Gleichlauf {one}–{other}</translation>
     </message>
     <message>
         <source>Lag of {other} after {one}</source>
-        <translation>{other} folgt {one} nach</translation>
+        <translation>Verzug {one}–{other}</translation>
     </message>
     <message>
         <source>Share of {one} that {other} moves</source>
-        <translation>Anteil von {one}, den {other} mitgeht</translation>
+        <translation>Mitgehen {one}–{other}</translation>
     </message>
     <message>
         <source>Widest span, {one}–{other}</source>
-        <translation>Größte Spanne, {one}–{other}</translation>
+        <translation>Spanne {one}–{other}</translation>
     </message>
     <message>
         <source>Nearest, {one}–{other}</source>
-        <translation>Geringster Abstand, {one}–{other}</translation>
+        <translation>Abstand {one}–{other}</translation>
     </message>
     <message>
         <source>Touches, {one}–{other}</source>
-        <translation>Berührungen, {one}–{other}</translation>
+        <translation>Berührungen {one}–{other}</translation>
     </message>
     <message>
         <source>too slow to judge</source>
@@ -3041,7 +3041,7 @@
     </message>
     <message>
         <source>Today, mean ± sd</source>
-        <translation>Heute, Mittel ± SD</translation>
+        <translation>Heute ± SD</translation>
     </message>
     <message>
         <source>Best</source>
@@ -3281,11 +3281,11 @@
     </message>
     <message>
         <source>{depth} under its disc (fit {residual})</source>
-        <translation>{depth} unter seinem Punkt (Passung {residual})</translation>
+        <translation>{depth} unter dem Punkt (Rest {residual})</translation>
     </message>
     <message>
         <source>Wrist turns about</source>
-        <translation>Drehpunkt des Handgelenks</translation>
+        <translation>Drehpunkt</translation>
     </message>
     <message>
         <source>{angle} at most (limit {limit})</source>
