@@ -17,7 +17,7 @@ from pathlib import Path
 from types import TracebackType
 
 import platformdirs
-from PySide6.QtCore import Qt
+from PySide6.QtCore import QEvent, QMetaObject, QObject, Qt, QTimer
 from PySide6.QtWidgets import QApplication
 
 from carpus import __version__
@@ -89,6 +89,11 @@ class Desktop:
     safe: Safe
     welcome: Welcome
     tour: Tour
+    keeper: PreferenceKeeper
+    anew: Callable[..., Desktop]
+    """Puts the application together again, with other settings, as this one (``of``)."""
+    from_system: tuple[QMetaObject.Connection, ...] = ()
+    """What the system tells, until this is closed."""
     _closed: bool = False
 
     def show(self) -> None:
@@ -102,6 +107,55 @@ class Desktop:
         # All that was built by now stays: the collector need not look through it again while frames come.
         gc.collect()
         gc.freeze()
+
+    def speak_anew(self) -> None:
+        """The language was changed: everything is put together again, at the same place, and this becomes it."""
+        application, settings, anew = self.application, self.keeper.settings, self.anew
+        place, now = self.journey.way.behind, self.journey.now
+        quits = application.quitOnLastWindowClosed()
+        application.setQuitOnLastWindowClosed(False)
+        self.close()
+        gc.unfreeze()
+        for widget in application.topLevelWidgets():  # screens never shown too: they would be styled with the new ones
+            widget.deleteLater()
+        application.sendPostedEvents(None, QEvent.Type.DeferredDelete.value)
+        gc.collect()
+        try:
+            anew(settings, of=self)
+        except CarpusFault as fault:  # the folder went away just now: told as at a start, and the next one meets it
+            chosen = ask_for_folder(application, settings, fault)
+            if chosen is not None:
+                with_kept_folder(settings, chosen)
+            application.exit(1)
+            return
+        self.journey.now.choice = now.choice
+        self.journey.show_patients()
+        self.journey.show_again_at(place, now)
+        put_in_place(self.shell, LastPlaces(self.library.folder).window())
+        self.shell.create()
+        self.safe.locking.look_again()
+        self.shell.show()
+        self.journey.settings_wanted.emit()
+        application.setQuitOnLastWindowClosed(quits)
+        gc.freeze()
+
+    def become(self, other: Desktop) -> Desktop:
+        """This with the parts of another one."""
+        self.__dict__ |= other.__dict__
+        return self
+
+    def why_no_other_language(self) -> str:
+        """One sentence where the window cannot be put together again now, else nothing."""
+        journey, safe = self.journey, self.safe
+        busy = (
+            journey.is_at_work
+            or safe.backing_up.is_at_work
+            or safe.encryption.is_at_work
+            or self.tour.is_on
+            or journey.teller.busy
+        )
+        words = self.shell.tr("The language can be changed when nothing is measured or worked on any more.")
+        return words if busy else ""
 
     def come_to_front(self) -> None:
         """Another start on the same data folder: this window is what was wanted."""
@@ -133,6 +187,8 @@ class Desktop:
         """Finish what runs and let go of everything; may be called twice."""
         if not self._closed:
             self._closed = True
+            for connection in self.from_system:
+                QObject.disconnect(connection)
             self.tour.end()
             self.welcome.end()
             self.safe.locking.end()
@@ -166,11 +222,12 @@ def compose(
     settings_folder: Path | None = None,
     today: date | None = None,
     told: Sequence[CarpusFault] = (),
+    of: Desktop | None = None,
 ) -> Desktop:
     """Put the application together. Raises what the data folder raises (:class:`RegisterUnreadable` and others).
 
     ``take`` renders the practice patient; ``speed`` plays what is stored faster than it was; ``told`` is told
-    on the first screen.
+    on the first screen; ``of`` is a closed one that becomes what is put together.
     """
     # Tracking must not wait 5 ms, Python's usual turn, while the window paints, nor the window for tracking.
     sys.setswitchinterval(SWITCH_S)
@@ -199,7 +256,7 @@ def compose(
     )
     keeper.screen.retest_wanted.connect(journey.show_retest)
     journey.retesting.in_force.connect(lambda: keeper.screen.show_limits(library.error_limits))
-    qt.styleHints().colorSchemeChanged.connect(lambda _: keeper.follow_system())
+    follows = qt.styleHints().colorSchemeChanged.connect(lambda _: keeper.follow_system())
     library.who = lambda: journey.settings.report.therapist
     library.angle_order = lambda: journey.settings.report.angle_order
     sources.streams = lambda: journey.settings.stream.on
@@ -213,9 +270,13 @@ def compose(
     keeper.screen.add_cards(camera_card)
     tour = Tour(journey)
     welcome = Welcome(journey, theme, tour, keeper, library)
-    desktop = Desktop(qt, shell, theme, journey, library, safe, welcome, tour)
+    again = partial(compose, qt, is_demo=is_demo, take=take, speed=speed, settings_folder=settings_folder, today=today)
+    ends = qt.commitDataRequest.connect(lambda _: shell.close_surely())
+    made = Desktop(qt, shell, theme, journey, library, safe, welcome, tour, keeper, again, (follows, ends))
+    desktop = made if of is None else of.become(made)
     shell.closing.connect(desktop.close)
-    qt.commitDataRequest.connect(lambda _: shell.close_surely())
+    keeper.language_chosen.connect(lambda: QTimer.singleShot(0, desktop.speak_anew))
+    keeper.keeps_language = desktop.why_no_other_language
     for found in recovered:
         words = journey.teller.recovered_words(found)
         place = journey.patients.notice_place
@@ -329,7 +390,7 @@ def end_on_signals(desktop: Desktop) -> None:
     Recordings are finished. Python hears of a signal when it next runs, at the latest when the journey looks for a
     camera.
     """
-    on_stop(desktop.shell.close_surely)
+    on_stop(lambda: desktop.shell.close_surely())
 
 
 class NobodysLines(logging.Formatter):

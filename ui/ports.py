@@ -436,3 +436,5 @@ class Preferences:
     agreement_limit_deg: float = 0.0
     patient_sound: bool = False
     """Whether the patient's view beeps where a goal is reached."""
+    language: str = "system"
+    """Of the window: a code of :data:`carpus.ui.language.LANGUAGES`, or the computer's."""

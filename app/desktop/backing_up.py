@@ -87,6 +87,11 @@ class BackingUp(QObject):
         self._clock.start()
         self.look_again()
 
+    @property
+    def is_at_work(self) -> bool:
+        """Whether something runs that ends with the window."""
+        return self._background.busy
+
     def end(self) -> None:
         """The window closes; a back-up that runs is waited for."""
         self._clock.stop()

@@ -90,6 +90,11 @@ class Comparing(QObject):
         screen.told.connect(tell.fault)
         self._stepped.connect(screen.bar.show_progress, Qt.ConnectionType.QueuedConnection)
 
+    @property
+    def is_at_work(self) -> bool:
+        """Whether something runs that ends with the window."""
+        return self._background.busy
+
     def show(self, session_id: str) -> None:
         """Compare a session; what it was compared with before is shown again."""
         if session_id != self._session_id or self._result is None:

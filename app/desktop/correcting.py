@@ -79,6 +79,11 @@ class Correcting(QObject):
         sheet.use_wanted.connect(self._use)
 
     @property
+    def is_at_work(self) -> bool:
+        """Whether something runs that ends with the window."""
+        return self._tracking.busy
+
+    @property
     def running(self) -> str:
         """Identity of the session that is being tracked again; empty for none."""
         return self._running

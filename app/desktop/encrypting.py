@@ -47,6 +47,11 @@ class SwitchingEncryption(QObject):
         library.encrypting.may_work = lambda: not is_recording()
         self._show()
 
+    @property
+    def is_at_work(self) -> bool:
+        """Whether something runs that ends with the window."""
+        return self._background.busy
+
     def end(self) -> None:
         """The window closes; what runs is waited for."""
         self._background.wait(END_MS)

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import shutil
 from collections.abc import Callable
+from contextlib import suppress
 from dataclasses import dataclass
 from datetime import date, datetime
 from pathlib import Path
@@ -30,7 +31,7 @@ from carpus.app.desktop.navigation import Navigator, Stop
 from carpus.app.desktop.now_open import NowOpen
 from carpus.app.desktop.opening import Opener
 from carpus.app.desktop.patient_view import PatientViewing
-from carpus.app.desktop.places import STEPS, Place
+from carpus.app.desktop.places import STEPS, TABS, Place
 from carpus.app.desktop.printing import Printing
 from carpus.app.desktop.retesting import Retesting
 from carpus.app.desktop.setting_up import SettingUp, SetUpScreens
@@ -500,6 +501,25 @@ class Journey(QObject):
             self.help.start_folder = self._places.folder("reports")
             self.help.show_page_of(self.place)
             self.way.aside("help")
+
+    @property
+    def is_at_work(self) -> bool:
+        """Whether something is measured, or worked on that would end with the window."""
+        measures = self.now.source is not None or self.calibrating.hand.is_open or self.checking.hand.is_open
+        return measures or self.correcting.is_at_work or self.comparing.is_at_work or self.background.busy
+
+    def show_again_at(self, place: Place, before: NowOpen) -> None:
+        """Where the person was before the window was put together again: the same patient and tab."""
+        if before.patient is None or not before.patient.patient_id or place not in TABS:
+            return
+        with suppress(CarpusFault):
+            if place == "progress":
+                self.viewing.open_progress(before.patient.patient_id)
+                self.now.session_id = before.session_id
+            elif place == "sessions" or not before.session_id:
+                self.viewing.open_sessions(before.patient.patient_id)
+            else:
+                self.viewing.open_review_of(before.patient.patient_id, before.session_id)
 
     def put_settings(self, screen: QWidget) -> None:
         """The settings screen, which is made where settings are kept."""

@@ -48,6 +48,11 @@ class Navigator(QObject):
         """Where the person is."""
         return self._place
 
+    @property
+    def behind(self) -> Place:
+        """Where the person is, or was before help or settings."""
+        return self._before_aside if self._place in ASIDE else self._place
+
     def put(self, place: Place, stop: Stop) -> None:
         """Enter a place into the table."""
         self._stops[place] = stop

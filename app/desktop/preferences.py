@@ -6,7 +6,7 @@ from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
 
-from PySide6.QtCore import QObject
+from PySide6.QtCore import QObject, Signal
 
 from carpus import __version__
 from carpus.app.desktop.journey import Journey
@@ -32,7 +32,10 @@ from carpus.ui.theme import Theme, ThemeName
 
 
 class PreferenceKeeper(QObject):
-    """Keeps the window's choices; keys and data folder count from the next start on."""
+    """Keeps the window's choices; keys and data folder count from the next start on. ``language_chosen``: the window
+    is to be put together again in another language."""
+
+    language_chosen = Signal()
 
     def __init__(
         self,
@@ -46,6 +49,8 @@ class PreferenceKeeper(QObject):
         super().__init__(journey)
         self._journey, self._theme, self._settings = journey, theme, settings
         self._folder, self._theme_of = folder, theme_of
+        self.keeps_language: Callable[[], str] = str
+        """Asked before the language changes: why it cannot now; empty where it can."""
         chosen = Preferences(
             settings.screen.theme,
             settings.screen.text_scale,
@@ -56,6 +61,7 @@ class PreferenceKeeper(QObject):
             settings.stream.on,
             settings.report.agreement_limit_deg,
             settings.patient.sound,
+            settings.screen.language,
         )
         self.screen = SettingsScreen(theme, chosen, __version__, measured)
         self._shown_folder = chosen.data_folder
@@ -67,12 +73,16 @@ class PreferenceKeeper(QObject):
 
     def take(self, chosen: Preferences) -> None:
         """Something was changed."""
+        other_language = chosen.language != self._settings.screen.language
+        if other_language and (why := self.keeps_language()):
+            self.screen.keep_language(self._settings.screen.language, why)
+            return
         recording = self._settings.recording
         if chosen.data_folder != self._shown_folder:
             recording = replace(recording, folder=chosen.data_folder)
         self._settings = replace(
             self._settings,
-            screen=ScreenSettings(chosen.theme, chosen.text_scale, chosen.keys),
+            screen=ScreenSettings(chosen.theme, chosen.text_scale, chosen.keys, chosen.language),
             recording=recording,
             report=ReportSettings(chosen.therapist, chosen.angle_order, chosen.agreement_limit_deg),
             stream=StreamSettings(chosen.stream),
@@ -86,6 +96,13 @@ class PreferenceKeeper(QObject):
             patient=self._settings.patient,
         )
         self._store()
+        if other_language:
+            self.language_chosen.emit()
+
+    @property
+    def settings(self) -> Settings:
+        """All that is chosen now."""
+        return self._settings
 
     @property
     def first_start_answered(self) -> bool:

@@ -26,6 +26,7 @@ from carpus.ui.controls.column import ScrolledColumn, scroll_area
 from carpus.ui.controls.field import Choices, DegreesField
 from carpus.ui.controls.text import REGULAR, SEMIBOLD, Text, heading
 from carpus.ui.keys import DEFAULT_KEYS, action_words
+from carpus.ui.language import LANGUAGES
 from carpus.ui.ports import Preferences
 from carpus.ui.settings.limits import limits_card
 from carpus.ui.theme import GAP_PX, MARGIN_PX, TEXT_SCALES, Theme
@@ -53,6 +54,11 @@ class SettingsScreen(QWidget):
         self.text_scale = Choices(
             theme, [(scale, f"{100 * scale:.0f} %") for scale in TEXT_SCALES], preferences.text_scale
         )
+        self.language = Choices(
+            theme, [*LANGUAGES.items(), ("system", self.tr("As the computer"))], preferences.language
+        )
+        self.language_note = Text(theme, "", 14, SEMIBOLD, "bad", wrap=True)
+        self.language_note.hide()
         self.folder = Text(theme, preferences.data_folder, 14)
         self.folder_button = Button(theme, self.tr("Change…"), height_px=40)
         self.therapist = QLineEdit(preferences.therapist)
@@ -89,6 +95,10 @@ class SettingsScreen(QWidget):
         looks.body.addSpacing(8)
         looks.body.addWidget(Text(theme, self.tr("Text size"), 14, REGULAR, "text2"))
         looks.body.addWidget(self.text_scale)
+        looks.body.addSpacing(8)
+        looks.body.addWidget(Text(theme, self.tr("Language"), 14, REGULAR, "text2"))
+        looks.body.addWidget(self.language)
+        looks.body.addWidget(self.language_note)
         data = self._card(self.tr("Data"))
         note = self.tr("Sessions and the list of patients. Private to you; nothing leaves this computer.")
         data.body.addWidget(Text(theme, note, 14, REGULAR, "text2", wrap=True))
@@ -200,6 +210,13 @@ class SettingsScreen(QWidget):
         card.body.addWidget(self.retest, 0, Qt.AlignmentFlag.AlignLeft)
         self._limits.body.addWidget(card)
 
+    def keep_language(self, code: str, why: str) -> None:
+        """The language cannot be changed now: the old one stays chosen, and why is said."""
+        self._preferences = replace(self._preferences, language=code)
+        self.language.choose(code)
+        self.language_note.setText(why)
+        self.language_note.show()
+
     def _fit_keys(self) -> None:
         for field in self.keys.values():
             field.setFixedWidth(self._theme.px(104))
@@ -217,6 +234,7 @@ class SettingsScreen(QWidget):
     def _connect(self) -> None:
         self.looks.chosen.connect(lambda value: self._change(replace(self._preferences, theme=value)))
         self.text_scale.chosen.connect(lambda value: self._change(replace(self._preferences, text_scale=value)))
+        self.language.chosen.connect(lambda value: self._change(replace(self._preferences, language=value)))
         self.angle_order.chosen.connect(lambda value: self._change(replace(self._preferences, angle_order=value)))
         self.stream.chosen.connect(lambda value: self._change(replace(self._preferences, stream=value)))
         self.patient_sound.chosen.connect(lambda value: self._change(replace(self._preferences, patient_sound=value)))

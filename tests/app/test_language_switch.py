@@ -1,0 +1,60 @@
+"""The language is changed while the program runs: everything is put together again, at the same place."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+from PySide6.QtWidgets import QApplication
+from pytestqt.qtbot import QtBot
+
+from carpus.app.compose import Desktop, application, compose
+from carpus.app.settings import RecordingSettings, ScreenSettings, Settings, load_settings
+from carpus.ui import language
+from carpus.ui.controls.text import Text
+from tests.journeys.conftest import let_go
+
+
+@pytest.fixture
+def desktop(qapp: QApplication, tmp_path: Path) -> Iterator[Desktop]:
+    settings = replace(
+        Settings(), screen=ScreenSettings("light", language="en"), recording=RecordingSettings(str(tmp_path / "data"))
+    )
+    opened = compose(application([]), settings, settings_folder=tmp_path / "settings")
+    opened.show()
+    yield opened
+    opened.close()
+    let_go(qapp)
+    language.speak("en")
+
+
+def texts(desktop: Desktop) -> set[str]:
+    return {text.text() for text in desktop.keeper.screen.findChildren(Text)}
+
+
+def test_another_language_at_the_same_place_and_none_while_something_is_at_work(
+    qtbot: QtBot, desktop: Desktop, tmp_path: Path
+) -> None:
+    at_work = [True]
+    desktop.keeper.keeps_language = lambda: "Not now." if at_work[0] else ""
+    desktop.journey.settings_wanted.emit()
+    german = desktop.keeper.screen.language.buttons()[list(language.LANGUAGES).index("de")]
+    german.click()
+    assert "Not now." in texts(desktop)
+    assert desktop.keeper.screen.language.value() == "en"
+    assert desktop.why_no_other_language() == ""
+    at_work[0] = False
+    old = desktop.journey
+    german.click()
+    qtbot.waitUntil(lambda: desktop.journey is not old, timeout=60_000)
+    assert desktop.journey.place == "settings"
+    assert "Einstellungen" in texts(desktop)
+    assert not desktop.closed
+    assert desktop.shell.isVisible()
+    assert load_settings(tmp_path / "settings").screen.language == "de"
+    desktop.journey.way.back()
+    assert desktop.journey.place == "patients"
+    desktop.shell.close_surely()
+    assert desktop.closed
