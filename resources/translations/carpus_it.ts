@@ -2521,7 +2521,7 @@
     </message>
     <message>
         <source>All fingers as one movement</source>
-        <translation>Tutte le dita come un solo movimento</translation>
+        <translation>Dita come un solo movimento</translation>
     </message>
     <message>
         <source>Tremor, 3 to 12 Hz (rms)</source>
@@ -2529,7 +2529,7 @@
     </message>
     <message>
         <source>Bend together, {one}–{other} (r)</source>
-        <translation>Flessione insieme, {one}–{other} (r)</translation>
+        <translation>Insieme, {one}–{other} (r)</translation>
     </message>
     <message>
         <source>Lag of {other} after {one}</source>
@@ -2537,7 +2537,7 @@
     </message>
     <message>
         <source>Share of {one} that {other} moves</source>
-        <translation>Quota di {one} seguita da {other}</translation>
+        <translation>Segue {one}: {other}</translation>
     </message>
     <message>
         <source>Widest span, {one}–{other}</source>
@@ -3281,7 +3281,7 @@
     </message>
     <message>
         <source>{depth} under its disc (fit {residual})</source>
-        <translation>{depth} sotto il dischetto (scarto {residual})</translation>
+        <translation>{depth} sotto (scarto {residual})</translation>
     </message>
     <message>
         <source>Wrist turns about</source>
@@ -9867,6 +9867,10 @@ Maiusc+F8 di lato</translation>
         <translation>Dimensione del testo</translation>
     </message>
     <message>
+        <source>Language</source>
+        <translation>Lingua</translation>
+    </message>
+    <message>
         <source>Data</source>
         <translation>Dati</translation>
     </message>
@@ -10293,6 +10297,10 @@ Maiusc+F8 di lato</translation>
     <message>
         <source>Folder of patients and sessions</source>
         <translation>Cartella di pazienti e sedute</translation>
+    </message>
+    <message>
+        <source>The language can be changed when nothing is measured or worked on any more.</source>
+        <translation>La lingua si può cambiare quando non è più in corso nessuna misura o elaborazione.</translation>
     </message>
 </context>
 <context>
