@@ -1593,7 +1593,7 @@
     </message>
     <message>
         <source>Thumb base</source>
-        <translation>Daumensattelgelenk</translation>
+        <translation>Sattelgelenk</translation>
     </message>
     <message>
         <source>{finger} knuckle</source>
@@ -1885,7 +1885,7 @@
     </message>
     <message>
         <source>There!</source>
-        <translation>Da!</translation>
+        <translation>Geschafft!</translation>
     </message>
     <message>
         <source>There. Hold it.</source>
@@ -1977,7 +1977,7 @@
     </message>
     <message>
         <source>Close</source>
-        <translation>Zu</translation>
+        <translation>Zur Faust</translation>
     </message>
     <message>
         <source>Bend your fingers to a hook</source>
@@ -1993,7 +1993,7 @@
     </message>
     <message>
         <source>Wide</source>
-        <translation>Weit</translation>
+        <translation>Finger weit</translation>
     </message>
     <message>
         <source>Open your thumb wide</source>
@@ -5425,7 +5425,7 @@
     </message>
     <message>
         <source>thumb base</source>
-        <translation>Daumensattelgelenk</translation>
+        <translation>Sattelgelenk</translation>
     </message>
     <message>
         <source>thumb end joint</source>
@@ -5860,11 +5860,11 @@
     </message>
     <message>
         <source>then read back and compared</source>
-        <translation>dann zurückgelesen und verglichen</translation>
+        <translation>dann verglichen</translation>
     </message>
     <message>
         <source>shows first what changes</source>
-        <translation>zeigt erst, was sich ändert</translation>
+        <translation>zeigt erst, was kommt</translation>
     </message>
     <message>
         <source>Change…</source>
@@ -7278,7 +7278,7 @@ Die PIN wird bei jedem Start verlangt. Ohne sie und ohne den Wiederherstellungsc
     </message>
     <message>
         <source>This set</source>
-        <translation>Diese Folge</translation>
+        <translation>Dieser Durchgang</translation>
     </message>
     <message>
         <source>Hand that is measured</source>
@@ -7567,7 +7567,7 @@ Umschalt+F8 von der Seite</translation>
     </message>
     <message>
         <source>Last session</source>
-        <translation>Letzte Sitzung</translation>
+        <translation>Zuletzt</translation>
     </message>
     <message>
         <source>Sessions</source>
@@ -8469,7 +8469,7 @@ Umschalt+F8 von der Seite</translation>
     <name>PatientForm</name>
     <message>
         <source>&amp;Another</source>
-        <translation>&amp;Weiterer</translation>
+        <translation>&amp;Anderer</translation>
     </message>
     <message>
         <source>Right</source>
@@ -9483,7 +9483,7 @@ Umschalt+F8 von der Seite</translation>
     </message>
     <message>
         <source>Another set</source>
-        <translation>Noch ein Durchgang</translation>
+        <translation>Neuer Durchgang</translation>
     </message>
     <message>
         <source>Do not count</source>
@@ -9499,7 +9499,7 @@ Umschalt+F8 von der Seite</translation>
     </message>
     <message>
         <source>Make report</source>
-        <translation>Bericht erstellen</translation>
+        <translation>Zum Bericht</translation>
     </message>
     <message>
         <source>Put markers right…</source>
@@ -9865,6 +9865,10 @@ Umschalt+F8 von der Seite</translation>
     <message>
         <source>Text size</source>
         <translation>Textgröße</translation>
+    </message>
+    <message>
+        <source>Language</source>
+        <translation>Sprache</translation>
     </message>
     <message>
         <source>Data</source>
@@ -10293,6 +10297,10 @@ Umschalt+F8 von der Seite</translation>
     <message>
         <source>Folder of patients and sessions</source>
         <translation>Ordner der Patienten und Sitzungen</translation>
+    </message>
+    <message>
+        <source>The language can be changed when nothing is measured or worked on any more.</source>
+        <translation>Die Sprache lässt sich ändern, wenn nichts mehr gemessen oder bearbeitet wird.</translation>
     </message>
 </context>
 <context>
