@@ -16,6 +16,7 @@ from PySide6.QtCore import QObject, Qt, Signal
 from PySide6.QtWidgets import QWidget
 
 from carpus.app.desktop.bar import Bar
+from carpus.app.desktop.beside import Beside
 from carpus.app.desktop.by_hand import ByHand
 from carpus.app.desktop.calibrating import Calibrating
 from carpus.app.desktop.camera_care import CameraCare
@@ -47,6 +48,7 @@ from carpus.core.library.library import Library, Recovered
 from carpus.core.library.set_up import PRACTICE_PATIENT, SetUp
 from carpus.ui.agreement.screen import AgreementScreen
 from carpus.ui.background import Background
+from carpus.ui.beside.screen import BesideScreen
 from carpus.ui.by_hand.screen import ByHandScreen
 from carpus.ui.camera_calibration.screen import BoardScreen
 from carpus.ui.check_card.screen import CardScreen
@@ -62,6 +64,7 @@ from carpus.ui.messages.strip import NoticeStrip
 from carpus.ui.patients.screen import PatientsScreen
 from carpus.ui.ports import PatientRow, PatientStore, Phrasebook
 from carpus.ui.progress.screen import ProgressScreen
+from carpus.ui.report.beside_page import BesideReport
 from carpus.ui.report.screen import ReportScreen
 from carpus.ui.retest.screen import RetestScreen
 from carpus.ui.review.screen import ReviewScreen
@@ -135,11 +138,12 @@ class Journey(QObject):
         self.markers = MarkersScreen(theme, keys, background, self._parts.phrasebook)
         self.live = LiveScreen(theme, keys, background)
         self.review = ReviewScreen(theme, keys, background, library)
-        self.sessions = SessionsScreen(theme, background, StoredSessions(library))
+        self.sessions = SessionsScreen(theme, background, StoredSessions(library), keys)
         self.progress = ProgressScreen(theme, keys, background, library)
         self.by_hand = ByHandScreen(theme, self._parts.today_is)
         self.report = ReportScreen(theme, keys, background)
         self.agreement = AgreementScreen(theme, keys)
+        self.beside_screen = BesideScreen(theme, keys, background, library)
         self.retest = RetestScreen(theme, keys)
         self.board = BoardScreen(theme, keys)
         self.card = CardScreen(theme, keys)
@@ -176,6 +180,10 @@ class Journey(QObject):
         self.comparing = Comparing(
             self._shell, self.agreement, self.way, tell, now, library, places,
             theme=theme, limit_deg=lambda: self.settings.report.agreement_limit_deg,
+        )  # fmt: skip
+        self.beside = Beside(
+            self._shell, self.beside_screen, self.way, tell, now, library, places, self.background,
+            theme=theme, therapist=lambda: self.settings.report.therapist,
         )  # fmt: skip
         self.retesting = Retesting(
             self._shell, self.retest, self.way, tell, library, places, self.background, theme=theme,
@@ -214,12 +222,13 @@ class Journey(QObject):
         put("review", Stop(self.review, first(self.review), self._to_patient, self.review.end))
         put("progress", Stop(self.progress, first(self.progress), self._to_session))
         put("by_hand", Stop(self.by_hand, self.by_hand.first, self.entering_by_hand.leave))
-        put("report", Stop(self.report, lambda: self.report.save_button, self._to_session))
+        put("report", Stop(self.report, lambda: self.report.save_button, self._up_from_report))
         put("correct", Stop(self.correct, first(self.correct), self._to_session, while_aside=True))
         put(
             "agreement",
             Stop(self.agreement, self.agreement.first, self._to_session, self.comparing.leave, while_aside=True),
         )
+        put("beside", Stop(self.beside_screen, first(self.beside_screen), self._up_from_beside, self.beside_screen.end))
         put("retest", Stop(self.retest, self.retest.first, self._to_patient))
         put("board", Stop(self.board, self.board.first, self._up_from_board, self.calibrating.leave, while_aside=True))
         put("card", Stop(self.card, self.card.first, self._up_from_card, self.checking.leave, while_aside=True))
@@ -273,6 +282,10 @@ class Journey(QObject):
         self.review.export.connect(self.printing.export)
         self.printing.formats.compare.connect(lambda: self.comparing.show(self.now.session_id))
         self.sessions.reference_wanted.connect(self._compare_listed)
+        self.sessions.pair_wanted.connect(self.beside.show)
+        self.review.beside.connect(self.beside.show)
+        self.beside.report_wanted.connect(self.printing.pair)
+        self.beside_screen.arrived.connect(self.bar.show)
         self.retesting.measure.connect(self.setting_up.start)
         self.review.again.connect(self._another_set)
         self.review.arrived.connect(self.bar.show)
@@ -346,6 +359,18 @@ class Journey(QObject):
             self.viewing.open_review(self.now.session_id)
         else:
             self._to_patient()
+
+    def _up_from_beside(self) -> None:
+        if self.beside.back_to == "review" or self.now.patient is None:
+            self._to_session()
+        else:
+            self.viewing.open_sessions(self.now.patient.patient_id)
+
+    def _up_from_report(self) -> None:
+        if isinstance(self.report.shown, BesideReport):
+            self.way.go("beside")
+        else:
+            self._to_session()
 
     def _to_progress(self) -> None:
         if self.now.patient is not None:

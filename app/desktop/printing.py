@@ -27,6 +27,7 @@ from carpus.ui.background import Background
 from carpus.ui.export.sheet import ExportSheet
 from carpus.ui.messages.stop_card import Answer
 from carpus.ui.ports import Words
+from carpus.ui.report.beside_page import BesideReport
 from carpus.ui.report.pdf import progress_report, session_report
 from carpus.ui.report.screen import ReportScreen
 from carpus.ui.report.session_page import SessionReport
@@ -135,6 +136,12 @@ class Printing(QObject):
             )
             self._screen.begin(report, self._places.folder("reports"))
             self._way.go("report")
+
+    def pair(self, report: BesideReport) -> None:
+        """Show the page of two sessions side by side."""
+        self._shown = [figures.session_id for figures in report.sessions]
+        self._screen.begin(report, self._places.folder("reports"))
+        self._way.go("report")
 
     def export(self, session_id: str) -> None:
         """Ask for the formats and a folder, and write them."""

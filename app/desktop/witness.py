@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -23,6 +23,7 @@ class Witness(QObject):
 
     def __init__(self, journey: Journey, library: Library) -> None:
         super().__init__(journey)
+        self._now_beside: Callable[[], Sequence[str]] = lambda: journey.beside_screen.ids
         self._now, self._library = journey.now, library
         self._seen = ("", "")
         self.log_lost.connect(journey.teller.fault)
@@ -30,6 +31,7 @@ class Witness(QObject):
         journey.way.arrived.connect(self._arrived)
         journey.printing.reported.connect(lambda path, sessions: self._made(path, "report", sessions))
         journey.printing.tabled.connect(lambda path, sessions: self._made(path, "export", sessions))
+        journey.beside.tabled.connect(lambda paths, sessions: library.made(paths, "export", sessions))
         journey.comparing.saved.connect(lambda paths, sessions: library.made(paths, "export", sessions))
         journey.agreement.chart.saved.connect(lambda path: self._made(path, "export", [self._now.session_id]))
         journey.review.curves.saved.connect(lambda path: self._made(path, "export", [self._now.session_id]))
@@ -39,6 +41,9 @@ class Witness(QObject):
         patient = self._now.patient
         if place == "review" and self._is_new(place, self._now.session_id):
             self._library.note_session("opened", self._now.session_id)
+        elif place == "beside":
+            for session_id in self._now_beside() if self._is_new(place, " ".join(self._now_beside())) else ():
+                self._library.note_session("opened", session_id)
         elif place == "progress" and patient is not None and self._is_new(place, patient.patient_id):
             self._library.note_patient("opened", patient.patient_id)
         elif place == "patients":

@@ -76,6 +76,8 @@ from carpus.core.types import ByteImage, Side
 
 PRACTICE_FOLDER = "practice"
 MOST_REPETITIONS = 999
+KEPT_PICTURES = 2
+"""Files of pictures that stay open: two sessions are looked at beside each other."""
 MOST_TOLD = 3
 """Files that are told one by one when the program starts; more are told together."""
 SET_UPS_FILE = "set_ups.json"
@@ -142,7 +144,7 @@ class Library:
         self._lock = threading.Lock()
         self._elsewhere: dict[str, SessionEntry] = {}
         self._figures: dict[Path, tuple[RepetitionChoices, SessionFigures]] = {}
-        self._pictures: KeptPictures | None = None
+        self._pictures: list[KeptPictures] = []
         self.angle_order: Callable[[], AngleOrder] = lambda: "zyx"
         """In which order the wrist's angles are read in the window; files keep the papers'."""
         for identity, late in (("", self.clinic.erased_late), ("practice", self._practice.erased_late)):
@@ -389,17 +391,19 @@ class Library:
         self._figures = {path: known for path, known in self._figures.items() if known[1].session_id != session_id}
 
     def forget_pictures(self) -> None:
-        """Let go of the file whose pictures were shown last."""
+        """Let go of the files whose pictures were shown last."""
         with self._lock:
-            self._pictures = None
+            self._pictures = []
 
     def picture(self, session_id: str, row: int) -> ByteImage | None:
         """The colour picture of a row where pictures were kept, in the session or beside it."""
         path = self._path_with_pictures(session_id)
         with self._lock:
-            if self._pictures is None or self._pictures.path != path:
-                self._pictures = KeptPictures(path)
-            return self._pictures.color(row)
+            kept = next((one for one in self._pictures if one.path == path), None)
+            if kept is None:
+                kept = KeptPictures(path)
+                self._pictures = [kept, *self._pictures][:KEPT_PICTURES]
+            return kept.color(row)
 
     def results_of(self, session_id: str) -> Sequence[SessionEntry]:
         """Every result of the recording of a session, the first one first."""
@@ -450,6 +454,10 @@ class Library:
     def camera(self, session: Session) -> CameraSaid:
         """What a session and the checks since say of its camera."""
         return camera_of(session, self.folder)
+
+    def figures_of(self, session_id: str) -> SessionFigures:
+        """As :meth:`figures`, by the session's identity."""
+        return self.figures(self.entry(session_id))
 
     def limits_changed(self) -> None:
         """The clinic has measured its own error limits: from now on everything is judged by them."""

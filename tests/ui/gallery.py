@@ -32,6 +32,7 @@ from carpus.core.words import finding_words
 from carpus.ui.agreement.reference_sheet import ColumnsSheet, ReferenceSheet
 from carpus.ui.agreement.screen import AgreementScreen
 from carpus.ui.background import Background
+from carpus.ui.beside.screen import BesideScreen
 from carpus.ui.by_hand.screen import ByHandScreen, HandRecord
 from carpus.ui.camera_calibration.screen import BoardScreen
 from carpus.ui.check_card.screen import CardScreen
@@ -57,6 +58,7 @@ from carpus.ui.records.list_sheets import LogSheet, RecordsSheet
 from carpus.ui.records.lock_sheet import LockSheet
 from carpus.ui.records.pin_sheet import PinSheet
 from carpus.ui.records.ports import ErasureFacts, ListedRecord, LoggedDeed
+from carpus.ui.report.beside_page import BesideReport
 from carpus.ui.report.pdf import progress_report, session_report
 from carpus.ui.report.screen import ReportScreen
 from carpus.ui.retest.people_sheet import PeopleSheet
@@ -87,6 +89,7 @@ from tests.ui.fakes import (
     picture,
     restated_statements,
     retest_plan,
+    session,
     set_up,
     with_other_spot,
 )
@@ -811,6 +814,54 @@ class Gallery:
         sheet.begin([(f"p{k}", f"P{k:02d}", k % 4) for k in range(1, 15)], ["p1", "p3"])
         self.settle()
 
+    def _beside(self, store: FakeSessions | FakeHandSessions, one: str, other: str) -> BesideScreen:
+        self.place(tab=1, camera="")
+        screen = BesideScreen(self.theme, self.keys, self.background, store)
+        self.show(screen)
+        screen.begin((one, other), "right")
+        self.settle()
+        assert screen.in_step is not None
+        screen.seek(screen.in_step.starts_s[3] + 1.0 if len(screen.in_step.starts_s) > 3 else 2.0)
+        self.settle()
+        screen.end()
+        return screen
+
+    def beside(self) -> BesideScreen:
+        """The healthy hand of the same day."""
+        store = FakeSessions()
+        store.kept["session-7"] = RepetitionChoices({6: "pain"})
+        left = session(NOW - timedelta(hours=1), 1.25, session_id="session-left", side="left")
+        store.sessions["session-left"] = left
+        return self._beside(store, "session-7", "session-left")
+
+    def beside_dates(self) -> None:
+        self._beside(self.sessions, "session-1", "session-7")
+
+    def beside_unfair(self) -> None:
+        self._beside(FakeSessions(pictures=False), "session-4", "session-left")
+
+    def beside_hand(self) -> None:
+        store = FakeHandSessions()
+        store.sessions["hand-left"] = hand_session(NOW - timedelta(hours=1), session_id="hand-left", side="left")
+        self._beside(store, "hand-3", "hand-left")
+
+    def beside_reading(self) -> None:
+        self.place(tab=1, camera="")
+        screen = BesideScreen(self.theme, self.keys, Background(), self.sessions)
+        screen._background.run = lambda *_: None  # type: ignore[method-assign]
+        self.show(screen)
+        screen.begin(("session-1", "session-7"))
+        self.settle()
+
+    def report_beside(self) -> None:
+        now = self.beside().shown
+        assert now is not None
+        self.place(tab=3, camera="")
+        screen = ReportScreen(self.theme, self.keys, self.background)
+        self.show(screen)
+        screen.begin(BesideReport(now, now.main_quantity, "Linden 42", "MK", "1.0.0"), "")
+        self.settle()
+
     def settings(self) -> None:
         self.place(where="")
         chosen = Preferences(
@@ -951,7 +1002,9 @@ class Gallery:
             "review_path", "review_speeds", "review_zyz", "review_hand_finger",
             "review_reach", "review_opposition", "review_finger_ways",
             "correct", "correct_spots", "agreement", "agreement_curves", "agreement_goniometer", "agreement_hand",
-            "agreement_running", "agreement_reference", "agreement_columns", "retest", "retest_empty", "retest_people",
+            "agreement_running", "agreement_reference", "agreement_columns",
+            "beside", "beside_dates", "beside_unfair", "beside_hand", "beside_reading", "report_beside",
+            "retest", "retest_empty", "retest_people",
             "correct_exchanged", "correct_results", "correct_results_hand", "correct_running",
             "progress", "progress_by_hand", "progress_hand", "by_hand", "report", "report_hand",
             "report_progress",

@@ -147,10 +147,13 @@ class FakeHandSessions:
     def session(self, session_id: str) -> Session:
         return self.sessions[session_id]
 
+    def figures_of(self, session_id: str) -> SessionFigures:
+        return session_figures(self.session(session_id), self.choices(session_id))
+
     def picture(self, session_id: str, row: int) -> ByteImage | None:
         if not self.pictures:
             return None
-        pictures = simulated_hand()
+        pictures = simulated_hand(side=self.sessions[session_id].header.hand)
         return pictures.sensed(row, pictures.clean(row))[0]
 
     def results_of(self, session_id: str) -> list[StoredResult]:

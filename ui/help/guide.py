@@ -21,7 +21,7 @@ PAGE_OF_PLACE = {
     "patients": "session", "exercise": "exercises", "camera": "camera", "markers": "calibration", "live": "measuring",
     "sessions": "sessions", "review": "figures", "progress": "figures", "report": "figures",
     "by_hand": "figures", "correct": "correct",
-    "agreement": "checking", "retest": "checking", "board": "cameracheck", "card": "cameracheck",
+    "agreement": "checking", "beside": "sessions", "retest": "checking", "board": "cameracheck", "card": "cameracheck",
     "settings": "data",
 }  # fmt: skip
 """What F1 opens on each screen."""

@@ -4,12 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
+from carpus.ui.report.beside_page import BesideReport, paint_beside_page
 from carpus.ui.report.motion_page import paint_motion_page
 from carpus.ui.report.page import Page
 from carpus.ui.report.progress_page import ProgressReport, paint_progress_page
 from carpus.ui.report.session_page import SessionReport, paint_session_page
 
-Report = SessionReport | ProgressReport
+Report = SessionReport | ProgressReport | BesideReport
 
 
 def pages_of(report: Report) -> list[Callable[[Page], None]]:
@@ -17,6 +18,8 @@ def pages_of(report: Report) -> list[Callable[[Page], None]]:
     paints: list[Callable[[Page], None]] = []
     if isinstance(report, ProgressReport):
         paints = [lambda page: paint_progress_page(page, report)]
+    elif isinstance(report, BesideReport):
+        paints = [lambda page: paint_beside_page(page, report)]
     else:
         paints = [lambda page: paint_session_page(page, report)]
         if report.motion is not None:

@@ -31,6 +31,7 @@ from carpus.core.output.report_content import (
 from carpus.core.provenance import said_in, with_revision
 from carpus.core.session.values import Session
 from carpus.ui.fonts import load_fonts
+from carpus.ui.report.beside_page import BesideReport
 from carpus.ui.report.hand_rows import followed_keys, followed_kinds
 from carpus.ui.report.page import Page
 from carpus.ui.report.pages import Report, pages_of
@@ -112,6 +113,11 @@ def write_progress_report(
     """Write the one-page report over sessions; faults as :func:`write_session_report`."""
     page = report if isinstance(report, ProgressReport) else progress_report(report, **context)  # type: ignore[arg-type]
     return _write(output_path, page, TITLE)
+
+
+def write_beside_report(report: BesideReport, output_path: Path) -> Path:
+    """Write the one page of two sessions side by side; faults as :func:`write_session_report`."""
+    return _write(output_path, report, TITLE)
 
 
 def progress_report(

@@ -15,9 +15,10 @@ from carpus.ui.controls.button import Button
 from carpus.ui.controls.card import Card
 from carpus.ui.controls.text import REGULAR, SEMIBOLD, StateText, Text
 from carpus.ui.keys import Keys, bind
+from carpus.ui.report.beside_page import BesideReport
 from carpus.ui.report.page import A4_PT, Page
 from carpus.ui.report.pages import Report, pages_of
-from carpus.ui.report.pdf import write_progress_report, write_session_report
+from carpus.ui.report.pdf import write_beside_report, write_progress_report, write_session_report
 from carpus.ui.report.session_page import SessionReport
 from carpus.ui.theme import GAP_PX, MARGIN_PX, Theme
 from carpus.ui.tour.bubble import BubbleView
@@ -95,6 +96,11 @@ class ReportScreen(QWidget):
         self._show_state("none", self.tr("Not saved yet"), "")
         self.save_button.setFocus(Qt.FocusReason.OtherFocusReason)
 
+    @property
+    def shown(self) -> Report | None:
+        """What is on the screen."""
+        return self._report
+
     def _show_state(self, state: str, words: str, where: str) -> None:
         self.state.show_state(state, words, icon="file-text", token="text")  # type: ignore[arg-type]
         self.where.setText(where)
@@ -136,6 +142,8 @@ def suggested_name(report: Report) -> str:
     """``Linden-42_2026-11-20_report.pdf``: the made-up name and the day."""
     if isinstance(report, SessionReport):
         when, kind = report.figures.when, "report"
+    elif isinstance(report, BesideReport):
+        when, kind = max(figures.when for figures in report.sessions), "side-by-side"
     else:
         when, kind = report.progress.points[-1].figures.when, "progress"
     return f"{report.pseudonym.replace(' ', '-')}_{when:%Y-%m-%d}_{kind}.pdf"
@@ -147,6 +155,8 @@ def _written(report: Report, target: Path, replace_asked: bool) -> Path:
     def write(place: Path) -> None:
         if isinstance(report, SessionReport):
             write_session_report(report, place)
+        elif isinstance(report, BesideReport):
+            write_beside_report(report, place)
         else:
             write_progress_report(report, place)
 

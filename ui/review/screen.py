@@ -9,7 +9,7 @@ from datetime import datetime, timedelta
 
 import numpy as np
 from PySide6.QtCore import QEvent, QObject, Qt, QTimer, Signal
-from PySide6.QtGui import QColor, QPainter, QResizeEvent
+from PySide6.QtGui import QPainter, QResizeEvent
 from PySide6.QtWidgets import QHBoxLayout, QScrollArea, QVBoxLayout, QWidget
 
 from carpus.core.output.camera_said import UNKNOWN_CAMERA, CameraSaid
@@ -26,6 +26,7 @@ from carpus.core.output.report_content import (
     session_curves,
     session_figures,
 )
+from carpus.core.output.side_by_side import partner_of
 from carpus.core.session.values import Session
 from carpus.core.types import ByteImage, FloatArray
 from carpus.ui import numbers, terms
@@ -39,7 +40,6 @@ from carpus.ui.controls.tooltip import plain_tooltip
 from carpus.ui.figures import FINGERS, figure_of
 from carpus.ui.keys import Keys, bind
 from carpus.ui.marker_words import finger_name
-from carpus.ui.picture.overlay import haloed
 from carpus.ui.picture.photo import paint_label
 from carpus.ui.picture.view import PictureView
 from carpus.ui.plot.motion import MotionKind, MotionPlot
@@ -57,9 +57,9 @@ from carpus.ui.review.hand_table import HandTable
 from carpus.ui.review.player import Player
 from carpus.ui.review.reason import ReasonSheet
 from carpus.ui.review.results import ResultChoice
-from carpus.ui.review.skeleton import modelled_px, paint_skeleton, paint_trails
+from carpus.ui.review.skeleton import modelled_px, paint_palm, paint_skeleton, paint_trails
 from carpus.ui.review.table import RangeTable
-from carpus.ui.theme import GAP_PX, MARGIN_PX, ON_PICTURE_LINE, Theme, is_tight
+from carpus.ui.theme import GAP_PX, MARGIN_PX, Theme, is_tight
 from carpus.ui.tour.bubble import LEAST_SCREEN_PX, BubbleView
 
 PLAY_EVERY_MS = 40
@@ -84,11 +84,12 @@ class Reviewed:
 
 
 class ReviewScreen(QWidget):
-    """``report`` and ``export`` carry the session's identity; ``told`` a fault; ``again`` asks for another set;
-    ``arrived`` when a session is on the screen; ``correct`` carries the session and the row whose markers are to be put
-    right, ``result`` another result of the same recording."""
+    """``report`` and ``export`` carry the session's identity, ``beside`` with it that of the session to be held against
+    it; ``told`` a fault; ``again`` asks for another set; ``arrived`` when a session is on the screen; ``correct``
+    carries the session and the row whose markers are to be put right, ``result`` another result of the recording."""
 
     report = Signal(str)
+    beside = Signal(str, str)
     export = Signal(str)
     again = Signal()
     correct = Signal(str, object, int)
@@ -103,6 +104,7 @@ class ReviewScreen(QWidget):
         self._session_id = ""
         self._choices = RepetitionChoices()
         self._history: Sequence[SessionFigures] = ()
+        self._partner: SessionFigures | None = None
         self._camera = UNKNOWN_CAMERA
         self._curves: Curves | None = None
         self._joints: JointCurves | None = None
@@ -133,6 +135,8 @@ class ReviewScreen(QWidget):
         self.count_button = Button(theme, self.tr("Do not count"), "quiet")
         self.count_button.setFocusPolicy(Qt.FocusPolicy.TabFocus)  # Space stays with the player after a click
         self.count_button.setToolTip(self.tr("The session stays, and is compared with none. Can be taken back."))
+        self.beside_button = Button(theme, self.tr("Side by side…"), "quiet")
+        self.beside_button.setFocusPolicy(Qt.FocusPolicy.TabFocus)
         self.export_button = Button(theme, self.tr("Export…"), hint="Ctrl+E")
         self.report_button = Button(
             theme, self.tr("Make report"), "primary", icon="file-text", hint="Ctrl+P", height_px=44
@@ -179,6 +183,7 @@ class ReviewScreen(QWidget):
         named.addWidget(self.count)
         head.addLayout(named, 1)
         head.addWidget(self.count_button)
+        head.addWidget(self.beside_button)
         head.addWidget(self.again_button)
         head.addWidget(self.export_button)
         head.addWidget(self.report_button)
@@ -214,6 +219,9 @@ class ReviewScreen(QWidget):
         tight = is_tight(self, self._theme)
         self.curves.show_single(tight)
         self.player.show_tight(tight)
+        self.report_button.set_face(self.report_button.text(), hint="" if tight else "Ctrl+P")
+        self.export_button.set_face(self.export_button.text(), hint="" if tight else "Ctrl+E")
+        self.again_button.set_face(self.again_button.text(), icon="" if tight else "plus")
         self.finger.buttons()[0].setVisible(not tight)
         if tight and self._joints is not None and self.figures is not None and self._finger == 0:
             self.finger.choose(figure_of(self.figures.exercise.joint).finger)  # five panels have no room
@@ -255,6 +263,7 @@ class ReviewScreen(QWidget):
         self.export_button.clicked.connect(lambda: self.export.emit(self._session_id))
         self.again_button.clicked.connect(self.again)
         self.count_button.clicked.connect(self.toggle_counted)
+        self.beside_button.clicked.connect(self._ask_beside)
         self.correct_button.clicked.connect(self.correct_here)
         self.results.chosen.connect(self.result)
         self.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
@@ -267,7 +276,7 @@ class ReviewScreen(QWidget):
             "edge_back": lambda: self.nudge_edge(-EDGE_STEP_S),
             "edge_on": lambda: self.nudge_edge(EDGE_STEP_S), "report": self.report_button.click,
             "export": self.export_button.click, "plot_in": self.curves.zoom_in, "plot_out": self.curves.zoom_out,
-            "plot_all": self.curves.show_all, "correct": self.correct_here,
+            "plot_all": self.curves.show_all, "correct": self.correct_here, "beside": self.beside_button.click,
         }  # fmt: skip
         for name, action in actions.items():
             bind(self, keys, name, action)
@@ -392,9 +401,26 @@ class ReviewScreen(QWidget):
             words.append(self.tr("Pain (0–10): {pains}").format(pains=pains))
         self.notes.setText("  ".join(words))
         self.notes.setVisible(bool(words))
+        self._show_partner(figures)
         counts = self.tr("Let it count again") if figures.not_counted else self.tr("Do not count")
         self.count_button.set_face(counts)
         self._fit()
+
+    def _show_partner(self, figures: SessionFigures) -> None:
+        """What the session is best held against; without one the button says so."""
+        self._partner = partner_of(self._history, figures)
+        self.beside_button.setEnabled(self._partner is not None)
+        words = self.tr("No other session of this exercise yet.")
+        if self._partner is not None:
+            words = self.tr("Beside the {hand} of {day} (B)").format(
+                hand=terms.hand_name(self._partner.side).lower(),
+                day=numbers.day_beside(self._partner.when, figures.when),
+            )
+        self.beside_button.setToolTip(words)
+
+    def _ask_beside(self) -> None:
+        if self._partner is not None:
+            self.beside.emit(self._session_id, self._partner.session_id)
 
     def _plot(self, curves: Curves, figures: SessionFigures) -> SessionPlot:
         """The curves that are chosen."""
@@ -594,18 +620,7 @@ class ReviewScreen(QWidget):
         if self._modelled_px is not None:
             self._paint_hand(painter, picture, spots, np.isfinite(measured[:, 0]))
             return
-        if np.isfinite(spots).all():
-            wrist = picture.to_screen(*map(float, spots[0]))
-            for u, v in spots[1:6]:
-                end = picture.to_screen(float(u), float(v))
-                haloed(painter, ON_PICTURE_LINE, 2.0, lambda end=end: painter.drawLine(wrist, end))  # type: ignore[misc]
-        for spot, seen in zip(spots, np.isfinite(measured[:, 0]), strict=True):
-            if np.isfinite(spot).all():
-                at = picture.to_screen(*map(float, spot))
-                haloed(painter, ON_PICTURE_LINE, 2.0, lambda at=at: painter.drawEllipse(at, 10, 10), dash=not seen)  # type: ignore[misc]
-                if seen:
-                    painter.setBrush(QColor(ON_PICTURE_LINE))
-                    painter.drawEllipse(at, 2.5, 2.5)
+        paint_palm(painter, picture, spots, np.isfinite(measured[:, 0]))
         self._paint_labels(painter, picture)
 
     def _paint_hand(self, painter: QPainter, picture: PictureView, spots: FloatArray, seen: np.ndarray) -> None:

@@ -26,6 +26,22 @@ def modelled_px(camera: Camera, position_cam_m: FloatArray) -> FloatArray:
     return out
 
 
+def paint_palm(painter: QPainter, picture: PictureView, spots: FloatArray, seen: np.ndarray) -> None:
+    """Lines from the wrist to the palm, and a ring about each disc; ``spots`` (M, 2) pixels, ``seen`` bool (M,)."""
+    if np.isfinite(spots).all():
+        wrist = picture.to_screen(*map(float, spots[0]))
+        for u, v in spots[1:6]:
+            end = picture.to_screen(float(u), float(v))
+            haloed(painter, ON_PICTURE_LINE, 2.0, lambda end=end: painter.drawLine(wrist, end))  # type: ignore[misc]
+    for spot, is_seen in zip(spots, seen, strict=True):
+        if np.isfinite(spot).all():
+            at = picture.to_screen(*map(float, spot))
+            haloed(painter, ON_PICTURE_LINE, 2.0, lambda at=at: painter.drawEllipse(at, 10, 10), dash=not is_seen)  # type: ignore[misc]
+            if is_seen:
+                painter.setBrush(QColor(ON_PICTURE_LINE))
+                painter.drawEllipse(at, 2.5, 2.5)
+
+
 def paint_skeleton(
     painter: QPainter,
     picture: PictureView,

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from PySide6.QtCore import QAbstractListModel, QModelIndex, QPersistentModelIndex, QRectF, QSize, Qt
-from PySide6.QtGui import QBrush, QFontMetricsF, QPainter, QPen
+from PySide6.QtCore import QAbstractListModel, QModelIndex, QPersistentModelIndex, QPointF, QRectF, QSize, Qt, Signal
+from PySide6.QtGui import QBrush, QFontMetricsF, QMouseEvent, QPainter, QPen, QPolygonF
 from PySide6.QtWidgets import QFrame, QListView, QStyle, QStyledItemDelegate, QStyleOptionViewItem
 
 from carpus.ui import numbers, terms
@@ -16,8 +16,10 @@ from carpus.ui.theme import CARD_RADIUS_PX, Theme
 from carpus.ui.translate import tr
 
 ROW_PX = 58
+TICK_PX, TICK_LEFT_PX = 20, 18
+MOST_TICKED = 2
 SIGN_PX = 16
-COLUMNS = (0.03, 0.21, 0.48, 0.685, 0.775, 0.985)
+COLUMNS = (0.075, 0.245, 0.495, 0.695, 0.78, 0.985)
 """Left edges as shares of the width: date, exercise and hand, main figure, counted, remark; the last is the end."""
 
 
@@ -45,12 +47,26 @@ class SessionModel(QAbstractListModel):
     def __init__(self) -> None:
         super().__init__()
         self.lines: tuple[SessionLine, ...] = ()
+        self.ticked: tuple[str, ...] = ()
+        """At most two, the one that was ticked first before the other."""
 
     def show_lines(self, lines: Sequence[SessionLine]) -> None:
         """Replace all rows."""
         self.beginResetModel()
         self.lines = tuple(lines)
+        there = [line.session_id for line in lines]
+        self.ticked = tuple(one for one in self.ticked if one in there)
         self.endResetModel()
+
+    def toggle(self, row: int) -> None:
+        """Tick a session, or take its tick away; with a third one the first gives way."""
+        session_id = self.lines[row].session_id
+        before = self.ticked
+        rest = tuple(one for one in before if one != session_id)
+        self.ticked = rest if session_id in before else (*rest, session_id)[-MOST_TICKED:]
+        for number, line in enumerate(self.lines):
+            if (line.session_id in before) != (line.session_id in self.ticked):
+                self.dataChanged.emit(self.index(number), self.index(number))
 
     def show_line(self, line: SessionLine) -> None:
         """Replace the row of one session, when its figures are known."""
@@ -71,7 +87,8 @@ class SessionModel(QAbstractListModel):
             return None
         line = self.lines[index.row()]
         if role in (Qt.ItemDataRole.DisplayRole, Qt.ItemDataRole.AccessibleTextRole):
-            return ", ".join(part for part in cells(line) if part)
+            ticked = tr("ticked") if line.session_id in self.ticked else ""
+            return ", ".join(part for part in (*cells(line), ticked) if part)
         return line if role == Qt.ItemDataRole.UserRole else None
 
 
@@ -102,6 +119,7 @@ class RowPainter(QStyledItemDelegate):
             painter.fillRect(box, QBrush(theme.color("line"), Qt.BrushStyle.BDiagPattern))
         painter.setPen(QPen(theme.color("line"), 1))
         painter.drawLine(int(box.left()) + 20, int(box.bottom()), int(box.right()) - 20, int(box.bottom()))
+        self._paint_tick(painter, box, ticked=line.session_id in self._model.ticked)
         edges = [box.left() + share * box.width() for share in COLUMNS]
         for number, text in enumerate(cells(line)):
             face = font((16 if number == 2 else 14) * theme.text_scale, MEDIUM)
@@ -118,9 +136,24 @@ class RowPainter(QStyledItemDelegate):
             painter.drawText(room, int(Qt.AlignmentFlag.AlignVCenter), shown)
         painter.restore()
 
+    def _paint_tick(self, painter: QPainter, box: QRectF, *, ticked: bool) -> None:
+        """A box that is filled and has a check where the session is ticked."""
+        theme, size = self._theme, self._theme.px(TICK_PX)
+        square = QRectF(box.left() + TICK_LEFT_PX, box.center().y() - size / 2, size, size)
+        painter.setRenderHint(QPainter.RenderHint.Antialiasing)
+        painter.setPen(QPen(theme.color("accent" if ticked else "border"), 1.5))
+        painter.setBrush(theme.color("accent" if ticked else "surface"))
+        painter.drawRoundedRect(square, 4, 4)
+        if ticked:
+            painter.setPen(QPen(theme.color("on_accent"), 2.0))
+            places = ((0.24, 0.52), (0.43, 0.72), (0.78, 0.30))
+            painter.drawPolyline(QPolygonF([square.topLeft() + QPointF(x * size, y * size) for x, y in places]))
+
 
 class SessionList(QListView):
-    """The rows on a rounded surface."""
+    """The rows on a rounded surface; ``ticks_changed`` when another session is ticked."""
+
+    ticks_changed = Signal()
 
     def __init__(self, theme: Theme) -> None:
         super().__init__()
@@ -136,6 +169,26 @@ class SessionList(QListView):
         self._theme = theme
         theme.changed.connect(self._take_theme)
         self._take_theme()
+
+    def tick_current(self) -> None:
+        """Tick the chosen session, or take its tick away."""
+        if self.currentIndex().isValid():
+            self.rows.toggle(self.currentIndex().row())
+            self.ticks_changed.emit()
+
+    def mousePressEvent(self, event: QMouseEvent) -> None:
+        super().mousePressEvent(event)
+        room = TICK_LEFT_PX + self._theme.px(TICK_PX) + 6
+        on_tick = event.button() == Qt.MouseButton.LeftButton and event.position().x() < room
+        if on_tick and self.indexAt(event.position().toPoint()).isValid():
+            self.tick_current()
+
+    def mouseDoubleClickEvent(self, event: QMouseEvent) -> None:
+        """Two quick clicks on a tick are two clicks, and open nothing."""
+        if event.position().x() < TICK_LEFT_PX + self._theme.px(TICK_PX) + 6:
+            self.mousePressEvent(event)
+        else:
+            super().mouseDoubleClickEvent(event)
 
     def _take_theme(self) -> None:
         tokens = self._theme.tokens

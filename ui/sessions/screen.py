@@ -14,6 +14,7 @@ from carpus.ui.controls.button import Button
 from carpus.ui.controls.card import Card
 from carpus.ui.controls.column import scroll_area
 from carpus.ui.controls.text import REGULAR, SEMIBOLD, Text, heading
+from carpus.ui.keys import Keys, bind
 from carpus.ui.ports import SessionLine, SessionShelf
 from carpus.ui.sessions.listing import SessionList, remark
 from carpus.ui.sessions.sheets import ChooseSheet, SetAsideSheet
@@ -22,17 +23,18 @@ from carpus.ui.theme import MARGIN_PX, Theme
 
 class SessionsScreen(QWidget):
     """``opened`` carries a session to be reviewed, ``progress`` one to be compared with, ``reference_wanted`` one to be
-    compared with another measurement, ``erase_wanted`` one to be archived or erased; ``told`` a fault; ``changed`` that
-    something of the patient's sessions is different now."""
+    compared with another measurement, ``pair_wanted`` two to be shown side by side, ``erase_wanted`` one to be archived
+    or erased; ``told`` a fault; ``changed`` that something of the patient's sessions is different now."""
 
     opened = Signal(str)
     progress = Signal(str)
     reference_wanted = Signal(str)
     erase_wanted = Signal(str)
+    pair_wanted = Signal(str, str)
     told = Signal(object)
     changed = Signal()
 
-    def __init__(self, theme: Theme, background: Background, shelf: SessionShelf) -> None:
+    def __init__(self, theme: Theme, background: Background, shelf: SessionShelf, keys: Keys | None = None) -> None:
         super().__init__()
         self._theme, self._background, self._shelf = theme, background, shelf
         self._patient_id = self._pseudonym = ""
@@ -45,6 +47,7 @@ class SessionsScreen(QWidget):
         self.facts = Text(theme, "", 14, REGULAR, "text2", wrap=True)
         self.remark = Text(theme, "", 14, SEMIBOLD, "warn", wrap=True)
         self.open_button = Button(theme, self.tr("Open in review"), "primary", hint=self.tr("Enter"))
+        self.pair_button = Button(theme, "", height_px=40)
         self.compare_button = Button(theme, self.tr("Compare in &progress"), height_px=40)
         self.reference_button = Button(theme, self.tr("Compare with a &reference…"), height_px=40)
         self.aside_button = Button(theme, "", height_px=40)
@@ -54,8 +57,9 @@ class SessionsScreen(QWidget):
         self.aside_sheet = SetAsideSheet(self, theme)
         self.move_sheet = ChooseSheet(self, theme)
         self.rename_sheet = ChooseSheet(self, theme)
+        self._pair_key = (keys or Keys())["compare_ticked"]
         self._lay_out()
-        self._connect()
+        self._connect(keys or Keys())
 
     def _lay_out(self) -> None:
         left = QVBoxLayout()
@@ -70,8 +74,8 @@ class SessionsScreen(QWidget):
             body.addWidget(widget)
         body.addStretch(1)
         for button in (
-            self.open_button, self.compare_button, self.reference_button, self.aside_button, self.move_button,
-            self.rename_button, self.erase_button,
+            self.open_button, self.pair_button, self.compare_button, self.reference_button, self.aside_button,
+            self.move_button, self.rename_button, self.erase_button,
         ):  # fmt: skip
             body.addWidget(button)
         self._right = scroll_area(self._card)
@@ -86,7 +90,11 @@ class SessionsScreen(QWidget):
     def _fit(self) -> None:
         self._right.setFixedWidth(self._theme.px(384))
 
-    def _connect(self) -> None:
+    def _connect(self, keys: Keys) -> None:
+        bind(self, keys, "compare_ticked", self.pair_button.click)
+        bind(self.list, keys, "tick", self.list.tick_current)
+        self.list.ticks_changed.connect(self._show_ticks)
+        self.pair_button.clicked.connect(self.compare_ticked)
         self.list.selectionModel().currentChanged.connect(lambda *_: self._show_chosen())
         self.list.doubleClicked.connect(lambda _: self.open_chosen())
         self.open_button.clicked.connect(self.open_chosen)
@@ -113,6 +121,7 @@ class SessionsScreen(QWidget):
         lines = self._shelf.lines(patient_id)
         self.title.setText(self.tr("Sessions of {name}").format(name=pseudonym))
         self.list.rows.show_lines(lines)
+        self._show_ticks()
         self.none.setVisible(not lines)
         self.list.setVisible(bool(lines))
         row = max(0, self.list.rows.find(choose))
@@ -131,6 +140,7 @@ class SessionsScreen(QWidget):
         if number == self._round:
             self.list.rows.show_line(line)
             self._show_chosen()
+            self._show_ticks()
 
     def chosen(self) -> SessionLine | None:
         """The session that the card is about."""
@@ -169,6 +179,22 @@ class SessionsScreen(QWidget):
         """Review the chosen session."""
         if self.open_button.isEnabled():
             self._emit_chosen(self.opened)
+
+    def compare_ticked(self) -> None:
+        """The two that are ticked side by side."""
+        ticked = self.list.rows.ticked
+        if len(ticked) == 2:
+            self.pair_wanted.emit(*ticked)
+
+    def _show_ticks(self) -> None:
+        """What can be done with the sessions that are ticked."""
+        lines = [line for line in self.list.rows.lines if line.session_id in self.list.rows.ticked]
+        words = {
+            0: self.tr("Tick two to compare them"), 1: self.tr("Tick one more to compare"),
+            2: self.tr("Compare the 2 ticked"),
+        }[len(lines)]  # fmt: skip
+        self.pair_button.setEnabled(len(lines) == 2 and not any(line.damaged for line in lines))
+        self.pair_button.set_face(words, hint=self._pair_key if len(lines) == 2 else "")
 
     def _emit_chosen(self, signal) -> None:  # type: ignore[no-untyped-def]
         line = self.chosen()

@@ -1,0 +1,133 @@
+"""In the real window: two sessions are ticked, shown side by side, played, written as tables and as a page."""
+
+from __future__ import annotations
+
+import csv
+import shutil
+from collections.abc import Iterator
+from datetime import UTC, date, datetime, timedelta
+from pathlib import Path
+
+import pytest
+from PySide6.QtCore import QLocale, Qt
+from PySide6.QtWidgets import QApplication, QFileDialog
+from pytestqt.qtbot import QtBot
+
+from carpus.app import compose
+from carpus.app.settings import RecordingSettings, ScreenSettings, Settings
+from carpus.core.library.library import Library
+from carpus.core.safekeeping.audit import read_audit
+from carpus.core.session.register import PatientEntry
+from tests.agreement.test_retest import written
+
+NOW = datetime(2026, 11, 20, 9, 0, tzinfo=UTC)
+EARLIER = NOW - timedelta(days=7)
+
+
+@pytest.fixture(scope="module")
+def recorded(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, Path]:
+    """Flexion to and fro by 45 degrees, and a week before by 30."""
+    folder = tmp_path_factory.mktemp("sessions")
+    return written(folder, 1, 1, NOW, 45.0), written(folder, 1, 2, EARLIER, 30.0)
+
+
+@pytest.fixture
+def desktop(qapp: QApplication, recorded: tuple[Path, Path], tmp_path: Path) -> Iterator[compose.Desktop]:
+    QLocale.setDefault(QLocale(QLocale.Language.English, QLocale.Country.UnitedKingdom))
+    library = Library(tmp_path / "data")
+    patient = library.clinic.add(PatientEntry("Linden 42", "right"))
+    for stored, when in zip(recorded, (NOW, EARLIER), strict=True):
+        path = library.clinic.new_session_path(patient, "WRIST_FE", "right", when)
+        shutil.copyfile(stored, path)
+        library.clinic.enter_session(path, patient)
+    library.close()
+    settings = Settings(screen=ScreenSettings("light"), recording=RecordingSettings(folder=str(tmp_path / "data")))
+    opened = compose.compose(qapp, settings, settings_folder=tmp_path / "settings", today=date(2026, 11, 20))
+    opened.show()
+    opened.journey.viewing.open_sessions(patient)
+    yield opened
+    opened.close()
+
+
+def test_from_two_ticks_to_tables_and_a_page_and_back(
+    qtbot: QtBot, desktop: compose.Desktop, monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    journey, screen = desktop.journey, desktop.journey.beside_screen
+    shown_list = journey.sessions.list
+    qtbot.waitUntil(lambda: all(line.figure for line in shown_list.rows.lines))
+    assert not journey.sessions.pair_button.isEnabled()
+    qtbot.keyClick(shown_list, Qt.Key.Key_Space)
+    qtbot.keyClick(shown_list, Qt.Key.Key_Down)
+    qtbot.keyClick(shown_list, Qt.Key.Key_Space)
+    assert "Compare the 2 ticked" in journey.sessions.pair_button.text()
+    qtbot.keyClick(shown_list, Qt.Key.Key_C)
+    assert journey.place == "beside"
+    qtbot.waitUntil(lambda: screen.shown is not None)
+    assert screen.answer.text() == "The whole arc has improved by 30° since 13 Nov."
+    assert [row.words for row in screen.table.rows][:3] == ["improved, beyond error"] * 3
+
+    assert screen.in_step is not None
+    start = screen.player_s
+    assert start == screen.in_step.starts_s[0]
+    for key, expected in ((Qt.Key.Key_BracketRight, screen.in_step.starts_s[1]), (Qt.Key.Key_BracketLeft, start)):
+        qtbot.keyClick(screen, key)
+        assert screen.player_s == pytest.approx(expected)
+    qtbot.keyClick(screen, Qt.Key.Key_Right)
+    assert screen.player_s > start
+    qtbot.keyClick(screen, Qt.Key.Key_Space)
+    playing_from = screen.player_s
+    qtbot.waitUntil(lambda: screen.player_s > playing_from)
+    qtbot.keyClick(screen, Qt.Key.Key_Space)
+    screen.player.step.setCurrentIndex(screen.player.step.findData("time"))
+    first_s, second_s = screen.in_step.at(screen.player_s)
+    assert first_s == pytest.approx(second_s, abs=1e-6) or second_s == screen.in_step.at(screen.in_step.end_s)[1]
+
+    monkeypatch.setattr(QFileDialog, "getSaveFileName", staticmethod(lambda *_: (str(tmp_path / "pair.csv"), "")))
+    qtbot.keyClick(screen, Qt.Key.Key_E, Qt.KeyboardModifier.ControlModifier)
+    qtbot.waitUntil(lambda: journey.teller.busy)
+    with (tmp_path / "pair.csv").open(encoding="utf-8") as file:
+        rows = list(csv.DictReader(file))
+    assert [row["movement"] for row in rows] == ["arc", "flexion", "extension"]
+    assert {row["verdict"] for row in rows} == {"improved"}
+    assert float(rows[0]["difference_deg"]) == pytest.approx(30.0, abs=1.0)
+    with (tmp_path / "pair-curves.csv").open(encoding="utf-8") as file:
+        curves = list(csv.DictReader(file))
+    assert len(curves) == 3 * 101
+    journey.teller.card.close_sheet()
+    qtbot.waitUntil(lambda: not journey.teller.busy)
+
+    screen.report_button.click()
+    assert journey.place == "report"
+    journey.report.save(str(tmp_path / "pair.pdf"))
+    qtbot.waitUntil(lambda: (tmp_path / "pair.pdf").exists())
+    assert (tmp_path / "pair.pdf").read_bytes().startswith(b"%PDF")
+    journey.way.back()
+    assert journey.place == "beside"
+    journey.way.back()
+    assert journey.place == "sessions"
+    assert len(journey.sessions.list.rows.ticked) == 2, "they stay ticked"
+    deeds = [entry.did for entry in read_audit(desktop.library.folder).entries]
+    assert [deeds.count(did) for did in ("opened", "exported", "reported")] == [2, 2, 2]
+
+
+def test_from_the_review_and_a_file_that_went_away(qtbot: QtBot, desktop: compose.Desktop) -> None:
+    journey, screen = desktop.journey, desktop.journey.beside_screen
+    newest, older = (line.session_id for line in journey.sessions.list.rows.lines)
+    journey.viewing.open_review(newest)
+    qtbot.waitUntil(lambda: journey.review.shown)
+    assert journey.review.beside_button.isEnabled()
+    qtbot.keyClick(journey.review, Qt.Key.Key_B)
+    assert journey.place == "beside"
+    qtbot.waitUntil(lambda: screen.shown is not None)
+    assert screen.ids == (newest, older)
+    journey.way.back()
+    assert journey.place == "review"
+    qtbot.waitUntil(lambda: journey.review.shown)
+    desktop.library.entry(older).path.unlink()
+    told: list[Exception] = []
+    screen.told.connect(told.append)
+    journey.beside.show(newest, older)
+    qtbot.waitUntil(lambda: len(told) == 1)
+    assert screen.shown is None
+    assert "could not be read" in screen.answer.text()
+    assert not screen.report_button.isEnabled()

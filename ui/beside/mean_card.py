@@ -1,0 +1,88 @@
+"""The card with the mean repetitions of both sessions."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from PySide6.QtCore import QRectF, QSize, Qt, Signal
+from PySide6.QtGui import QMouseEvent, QPainter, QPaintEvent
+from PySide6.QtWidgets import QComboBox, QHBoxLayout, QSizePolicy, QWidget
+
+from carpus.ui.controls.card import Card
+from carpus.ui.controls.text import SEMIBOLD, Text
+from carpus.ui.plot.beside import BesidePlot
+from carpus.ui.plot.style import screen_style
+from carpus.ui.theme import Theme
+
+
+class MeanCard(Card):
+    """``quantity`` chooses the angle; ``sought`` carries a share of the repetition that was pointed at."""
+
+    sought = Signal(float)
+
+    def __init__(self, theme: Theme) -> None:
+        super().__init__(theme, 0)
+        self.title = Text(theme, self.tr("Mean repetition, ± sd"), 14, SEMIBOLD)
+        self.quantity = QComboBox()
+        self.quantity.setAccessibleName(self.tr("Angle"))
+        self.quantity.setSizeAdjustPolicy(QComboBox.SizeAdjustPolicy.AdjustToContents)
+        self.quantity.setFocusPolicy(Qt.FocusPolicy.TabFocus)  # a click leaves Space and the arrows to the player
+        self.quantity.setSizePolicy(QSizePolicy.Policy.Maximum, QSizePolicy.Policy.Fixed)
+        self.curves = MeanCurves(theme)
+        head = QHBoxLayout()
+        head.setSpacing(12)
+        head.addWidget(self.title)
+        head.addStretch(1)
+        head.addWidget(self.quantity)
+        self.body.setContentsMargins(20, 8, 16, 10)
+        self.body.setSpacing(4)
+        self.body.addLayout(head)
+        self.body.addWidget(self.curves, 1)
+        self.curves.sought.connect(self.sought)
+
+
+class MeanCurves(QWidget):
+    """Paints one plot, or nothing."""
+
+    sought = Signal(float)
+
+    def __init__(self, theme: Theme) -> None:
+        super().__init__()
+        self._theme = theme
+        self._plot: BesidePlot | None = None
+        self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Expanding)
+        self.setAccessibleName(self.tr("Mean repetition of both sessions"))
+        theme.changed.connect(self.update)
+
+    @property
+    def plot(self) -> BesidePlot | None:
+        """What is shown."""
+        return self._plot
+
+    def show_plot(self, plot: BesidePlot | None) -> None:
+        """Draw another one."""
+        self._plot = plot
+        self.update()
+
+    def show_shares(self, shares: tuple[float, float]) -> None:
+        """Where the player is in the repetition of each."""
+        if self._plot is not None and shares != self._plot.shares:
+            self._plot = replace(self._plot, shares=shares)
+            self.update()
+
+    def sizeHint(self) -> QSize:
+        return QSize(540, 200)
+
+    def minimumSizeHint(self) -> QSize:
+        return QSize(self._theme.px(300), self._theme.px(130))
+
+    def mousePressEvent(self, event: QMouseEvent) -> None:
+        if self._plot is not None and event.button() == Qt.MouseButton.LeftButton:
+            panel = self._plot.panel(screen_style(self._theme), QRectF(self.rect()))
+            share = (event.position().x() - panel.box.left()) / max(panel.box.width(), 1.0)
+            if -0.02 <= share <= 1.02:
+                self.sought.emit(min(max(share, 0.0), 1.0))
+
+    def paintEvent(self, event: QPaintEvent) -> None:
+        if self._plot is not None:
+            self._plot.paint(QPainter(self), screen_style(self._theme), QRectF(self.rect()))

@@ -1,0 +1,123 @@
+"""What is shown of two sessions side by side: gathered once, for window, page and tables."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from carpus.core.output.mean_repetition import MeanRepetition, Quantity, SeenAngles, mean_repetition, seen_angles
+from carpus.core.output.range_rows import best_motion
+from carpus.core.output.report_content import FREE_ORDER, SessionFigures
+from carpus.core.output.side_by_side import SideBySide, side_by_side
+from carpus.core.session.values import Session
+from carpus.core.types import FloatArray
+from carpus.ui.beside.rows import BesideRow
+from carpus.ui.beside.words import facts_words, headline, heads, name_of, table_rows
+from carpus.ui.figures import figure_of
+from carpus.ui.plot.beside import BesidePlot
+from carpus.ui.report.hand_rows import followed_keys, followed_kinds
+
+
+@dataclass(frozen=True, slots=True)
+class Watched:
+    """One session that was opened, with its figures and what of its angles was seen."""
+
+    session: Session
+    figures: SessionFigures
+    seen: SeenAngles
+
+    @property
+    def sds_rad(self) -> FloatArray:
+        """Standard deviations of the wrist's angles (N, 3)."""
+        return best_motion(self.session).angles_sd_rad
+
+    @classmethod
+    def of(cls, session: Session, figures: SessionFigures) -> Watched:
+        """Work out what was seen."""
+        return cls(session, figures, seen_angles(session))
+
+
+@dataclass(frozen=True, slots=True)
+class Shown:
+    """``followed`` is what of the whole hand is looked at, empty for the wrist; ``quantities`` what curves there are;
+    ``means`` both mean repetitions of each."""
+
+    both: SideBySide
+    followed: str
+    quantities: tuple[Quantity, ...]
+    means: tuple[tuple[MeanRepetition, MeanRepetition], ...]
+
+    @property
+    def names(self) -> tuple[str, str]:
+        """What tells the two apart."""
+        first, second = self.both.first, self.both.second
+        return name_of(first, second), name_of(second, first)
+
+    @property
+    def head(self) -> tuple[str, str]:
+        """The answer, and the figures behind it."""
+        return headline(self.both)
+
+    @property
+    def facts(self) -> str:
+        """What was compared."""
+        return facts_words(self.both)
+
+    @property
+    def heads(self) -> tuple[str, ...]:
+        """Heads of the table."""
+        return heads(self.both)
+
+    @property
+    def rows(self) -> list[BesideRow]:
+        """The table."""
+        return table_rows(self.both, whole_hand=bool(self.followed))
+
+    def plot(self, quantity: Quantity) -> BesidePlot:
+        """The curves of one of the quantities."""
+        return BesidePlot(quantity, *self.means[self.quantities.index(quantity)], self.names)
+
+    @property
+    def main_quantity(self) -> Quantity:
+        """The curve that belongs to the answer."""
+        main = self.both.main
+        if main is not None and main.first.joint and (main.first.joint, -1) in self.quantities:
+            return main.first.joint, -1
+        if main is not None and ("", main.first.angle) in self.quantities:
+            return "", main.first.angle
+        return self.quantities[0]
+
+
+def kinds(first: Watched, second: Watched) -> list[tuple[str, str]]:
+    """What of the whole hand can be looked at, as value and words; nothing unless both are of fingers."""
+    return followed_kinds(first.figures) if first.figures.joint_rows and second.figures.joint_rows else []
+
+
+def shown(first: Watched, second: Watched, followed: str) -> Shown:
+    """All that is shown of two sessions."""
+    keys = followed_keys(followed)
+    both = side_by_side(first.figures, second.figures, keys)
+    quantities = tuple((key[0], -1) for key in keys) if keys else _angles(first.figures)
+    means = tuple((_mean(first, quantity), _mean(second, quantity)) for quantity in quantities)
+    return Shown(both, followed if keys else "", quantities, means)
+
+
+def _angles(figures: SessionFigures) -> tuple[Quantity, ...]:
+    """The wrist's angles, the trained one first."""
+    trained = figures.exercise.angle
+    order = FREE_ORDER if trained is None else (trained, *(angle for angle in FREE_ORDER if angle != trained))
+    return tuple(("", angle) for angle in order)
+
+
+def _mean(watched: Watched, quantity: Quantity) -> MeanRepetition:
+    return mean_repetition(watched.seen.time_s, watched.seen.of(quantity), watched.figures.repetitions)
+
+
+def sign_of(quantity: Quantity) -> float:
+    """From the angle in every file to the one that is spoken of."""
+    return figure_of(quantity[0]).sign if quantity[0] else 1.0
+
+
+def columns(rows: Sequence[BesideRow]) -> list[tuple[str, ...]]:
+    """The table's cells."""
+    return [(row.movement, row.first, row.second, row.difference, row.error, row.words) for row in rows]

@@ -1,0 +1,75 @@
+"""Two sessions side by side as tables for other programs: the differences, and the mean repetitions beside them."""
+
+from __future__ import annotations
+
+import csv
+import math
+from collections.abc import Iterable, Sequence
+from pathlib import Path
+
+from carpus.core.errors import OutputNotWritable
+from carpus.core.output.side_by_side import ComparedRange, SideBySide
+from carpus.ui.beside.shown import Shown
+from carpus.ui.beside.words import column_of
+
+CURVES = "-curves"
+HEAD = (
+    "movement", "angle", "first_session", "first_hand", "first_created", "first_exercise", "first_mean_deg",
+    "first_sd_deg", "first_n", "first_at_least", "second_session", "second_hand", "second_created", "second_exercise",
+    "second_mean_deg", "second_sd_deg", "second_n", "second_at_least", "difference_deg", "error_deg", "verdict",
+    "not_judged_for",
+)  # fmt: skip
+CURVES_HEAD = (
+    "angle", "share", "first_mean_deg", "first_sd_deg", "first_n", "second_mean_deg", "second_sd_deg", "second_n",
+)  # fmt: skip
+
+
+def write_tables(path: Path, shown: Shown, *, replaces: bool) -> list[Path]:
+    """Write the differences into ``path`` and the curves beside it; the files. ``replaces`` whether a person was asked
+    for the first; a second file that is there already is never replaced unless the first was. Raises
+    :class:`OutputNotWritable`."""
+    beside = path.with_name(f"{path.stem}{CURVES}{path.suffix}")
+    number = 2
+    while beside.exists() and not replaces:
+        beside = path.with_name(f"{path.stem}{CURVES}-{number}{path.suffix}")
+        number += 1
+    _write(path, HEAD, (_row(one, shown.both) for one in shown.both.ranges))
+    _write(beside, CURVES_HEAD, _curve_rows(shown))
+    return [path, beside]
+
+
+def _row(one: ComparedRange, both: SideBySide) -> Sequence[str]:
+    item = one.comparison
+    sides: list[str] = []
+    for figures, row in ((both.first, one.first), (both.second, one.second)):
+        sides += [figures.session_id, figures.side, figures.when.isoformat(), figures.exercise.id]
+        sides += [_decimal(row.mean_deg), _decimal(row.sd_deg), str(row.count), "yes" if row.limited else ""]
+    verdict = item.verdict
+    if both.relation == "hands" and one.beyond:
+        verdict = "less" if item.difference_deg < 0.0 else "more"  # type: ignore[assignment]
+    name = one.first.joint or column_of(("", one.first.angle))
+    return [
+        item.movement, name, *sides, _decimal(item.difference_deg), _decimal(item.limit_deg), verdict,
+        " ".join(item.reasons),
+    ]  # fmt: skip
+
+
+def _curve_rows(shown: Shown) -> Iterable[Sequence[str]]:
+    for quantity in shown.quantities:
+        for share, *rest in shown.plot(quantity).rows():
+            cells = [str(value) if isinstance(value, int) else _decimal(value) for value in rest]
+            yield [column_of(quantity), f"{share:.2f}", *cells]
+
+
+def _write(path: Path, head: Sequence[str], rows: Iterable[Sequence[str]]) -> None:
+    try:
+        with path.open("w", newline="", encoding="utf-8") as file:
+            table = csv.writer(file)
+            table.writerow(head)
+            table.writerows(rows)
+    except OSError as cause:
+        raise OutputNotWritable(path, cause.strerror or "") from cause
+
+
+def _decimal(value: float) -> str:
+    return f"{value:.1f}" if math.isfinite(value) else ""
