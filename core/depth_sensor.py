@@ -93,6 +93,11 @@ class DepthSensor:
         """Standard deviation (...) of the part that stays."""
         return self.stays.sd_m(depth_m)
 
+    def flat_stays_sd_m(self, depth_m: FloatArray) -> FloatArray:
+        """The same over a flat surface, from which a wide matching window takes nothing off."""
+        flat = NoiseLaw(0.0, self.stays.square_per_m) if self.kind == "active stereo" else self.stays
+        return flat.sd_m(depth_m)
+
     def with_focal(self, focal_px: float) -> DepthSensor:
         """The same pair of eyes with depth pictures of another focal length: its disparity is as sure as before, and
         its window as many of its own pixels wide. Other kinds stay as they are."""

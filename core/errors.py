@@ -322,9 +322,5 @@ class CardMissing(CarpusFault):
     """The check card, all six discs of it, was seen in too few pictures."""
 
 
-class CameraNameless(CarpusFault):
-    """A camera does not say its serial number, so nothing can be kept for it."""
-
-
 class PinUncheckable(CarpusFault):
     """The part that compares a PIN with what is kept of it (argon2) is not installed or cannot be loaded."""

@@ -346,11 +346,6 @@ FAULTS: dict[type[CarpusFault], Words] = {
         _UNTOUCHED,
         phrase("Lay it flat under the camera, all of it in the picture, about 60 cm away, in good light."),
     ),
-    errors.CameraNameless: Words(
-        phrase("The camera does not say its number: {subject}."),
-        phrase("Nothing was kept; what was measured before stays."),
-        phrase("Check it by “carpus check-card --serial NUMBER” with the number printed on it."),
-    ),
     errors.PinUncheckable: Words(
         phrase("The PIN cannot be checked: {subject} is missing on this computer ({detail})."),
         phrase("Nothing is lost; everything stays hidden."),

@@ -125,8 +125,10 @@ def _source(recording: Path | None) -> FrameSource:
         return open_recording(recording, need_depth=False, leave_out_damaged=True, notice=tell)
     from carpus.app.settings import load_settings
     from carpus.core.capture.cameras import open_camera
+    from carpus.core.capture.given_name import with_given_name
 
-    return open_camera(load_settings().camera.uri, notice=tell)
+    settings = load_settings()
+    return with_given_name(open_camera(settings.camera.uri, notice=tell), settings.data_folder)
 
 
 def _boards(arguments: argparse.Namespace) -> list[Board]:

@@ -122,8 +122,10 @@ def _source(recording: Path | None, data_folder: Path) -> FrameSource:
     from carpus.app.settings import load_settings
     from carpus.core.capture.calibrated import with_stored_calibration
     from carpus.core.capture.cameras import open_camera
+    from carpus.core.capture.given_name import with_given_name
 
-    return with_stored_calibration(open_camera(load_settings().camera.uri, notice=tell), data_folder)
+    live = with_given_name(open_camera(load_settings().camera.uri, notice=tell), data_folder)
+    return with_stored_calibration(live, data_folder)
 
 
 def _shown(source: FrameSource) -> Iterator[Frame]:

@@ -14,6 +14,7 @@ from carpus.app.commands.progress import bar, tell
 from carpus.app.settings import load_settings
 from carpus.core.capture.calibrated import with_stored_calibration
 from carpus.core.capture.cameras import CAMERAS, open_camera
+from carpus.core.capture.given_name import with_given_name
 from carpus.core.capture.identity import recorded_at
 from carpus.core.capture.raw import RawWriter
 from carpus.core.capture.raw_tum import TumWriter
@@ -63,7 +64,7 @@ def run(arguments: argparse.Namespace) -> int:
     else:
         settings = load_settings()
         wanted = settings.camera.uri if arguments.camera is None else arguments.camera
-        source = open_camera(wanted, notice=tell)
+        source = with_given_name(open_camera(wanted, notice=tell), settings.data_folder)
         print(f"Camera: {source.info.name}")
         if arguments.format == "tum":
             # A folder of pictures cannot say which camera it came from; a raw recording can, and stays as it came.

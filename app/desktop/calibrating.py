@@ -12,6 +12,7 @@ from PySide6.QtWidgets import QWidget
 
 from carpus.app.desktop.camera_at_hand import CameraAtHand, Look
 from carpus.app.desktop.last_places import LastPlaces
+from carpus.app.desktop.naming import Naming
 from carpus.app.desktop.ways import Tell, Way
 from carpus.core.camera_calibration.board import Board, board_sheet
 from carpus.core.camera_calibration.calibrate import calibrate_camera
@@ -72,6 +73,9 @@ class Calibrating(QObject):
         self._gathering: Gathering | None = None
         self._newest: Newest[BoardProgress] = Newest()
         self._working = False
+        self._naming = Naming(
+            self, screen.name_sheet, background, lambda: self.begin(self._choice), self.back, self._failed
+        )
         self.hand = CameraAtHand(self)
         self.hand.opened.connect(self._opened)
         self.hand.failed.connect(self._failed)
@@ -103,6 +107,7 @@ class Calibrating(QObject):
 
     def leave(self) -> None:
         """Let the camera go; what was taken and not kept is forgotten."""
+        self._naming.end()
         self.hand.close()
         self._gathering, self._working = None, False
 
@@ -138,7 +143,8 @@ class Calibrating(QObject):
         """Open the camera and look for the board."""
         self.leave()
         self._choice = choice
-        newest = self._newest = Newest()
+        newest, known = Newest[BoardProgress](), self._naming.begin()
+        self._newest = newest
         self._screen.show_showing(simulated=choice.practice)
 
         def looker(info: SourceInfo) -> Look:
@@ -148,7 +154,7 @@ class Calibrating(QObject):
             size_px = (info.camera.width_px, info.camera.height_px)
 
             def look(frame: Frame) -> None:
-                seen = gathering.look(frame)
+                seen = gathering.look(frame) if known.is_set() else None
                 if seen is None:
                     return
                 judgement = gathering.judgement
@@ -163,6 +169,7 @@ class Calibrating(QObject):
     def _opened(self, info: SourceInfo) -> None:
         self._info = info
         self._screen.showing.opened()
+        self._naming.opened(info, self._cameras.folder(practice=self._choice.practice))
 
     def _failed(self, fault: Exception) -> None:
         self.back()

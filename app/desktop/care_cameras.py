@@ -10,6 +10,7 @@ from carpus.core.camera_calibration.board import Board
 from carpus.core.capture.calibrated import with_stored_calibration
 from carpus.core.capture.camera_info import read_camera_info
 from carpus.core.capture.cameras import open_camera
+from carpus.core.capture.given_name import with_given_name
 from carpus.core.capture.notice import Notice
 from carpus.core.capture.source import FrameSource
 from carpus.core.check_card.ages import known_serials
@@ -33,11 +34,12 @@ class CareCameras:
 
     def for_board(self, board: Board, notice: Notice, *, practice: bool) -> FrameSource:
         """As the camera says itself, without what was calibrated before; ``notice`` hears when it is away."""
+        folder = self.folder(practice=practice)
         if practice:
             from carpus.core.simulation.practice_camera import board_camera
 
             return board_camera(board, self._speed)
-        return open_camera(self._settings.camera.uri, notice=notice)
+        return with_given_name(open_camera(self._settings.camera.uri, notice=notice), folder)
 
     def for_card(self, notice: Notice, *, practice: bool) -> FrameSource:
         """As a session would have it, with what was calibrated; ``notice`` hears when it is away."""
@@ -49,7 +51,7 @@ class CareCameras:
         named = self._settings.camera.intrinsics
         camera = read_camera_info(Path(named).expanduser()).camera if named else None
         live = open_camera(self._settings.camera.uri, camera=camera, notice=notice)
-        return with_stored_calibration(live, folder)
+        return with_stored_calibration(with_given_name(live, folder), folder)
 
     def serial(self, *, practice: bool) -> str:
         """The number of the camera that was met last; before, of the only one that anything is known of."""

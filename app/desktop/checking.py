@@ -14,6 +14,7 @@ from PySide6.QtWidgets import QWidget
 from carpus.app.desktop.calibrating import lost_words
 from carpus.app.desktop.camera_at_hand import CameraAtHand, Look
 from carpus.app.desktop.last_places import LastPlaces
+from carpus.app.desktop.naming import Naming
 from carpus.app.desktop.ways import Tell, Way
 from carpus.core.camera_calibration.sheet import PAPER_MM
 from carpus.core.capture.calibrated import SERIAL
@@ -25,7 +26,6 @@ from carpus.core.check_card.measure import CardWatch
 from carpus.core.check_card.standing import standing_of
 from carpus.core.dates import is_moment, iso
 from carpus.core.durable import replace_file
-from carpus.core.errors import CameraNameless
 from carpus.core.pipeline.channels import Newest
 from carpus.core.types import Frame
 from carpus.ui import numbers
@@ -86,8 +86,10 @@ class Checking(QObject):
         self._places, self._background, self._now, self._practice = places, background, now, is_demo
         self._newest: Newest[CardProgress] = Newest()
         self._measured: _Measured | None = None
+        self._asked = 0
+        self._naming = Naming(self, screen.name_sheet, background, self.begin, self.back, self._failed)
         self.hand = CameraAtHand(self)
-        self.hand.opened.connect(lambda _: screen.show_progress(None))
+        self.hand.opened.connect(self._opened)
         self.hand.failed.connect(self._failed)
         self.hand.pulled.connect(self._pulled)
         self.hand.lost.connect(lambda fault: screen.show_lost(lost_words(fault)))
@@ -113,6 +115,7 @@ class Checking(QObject):
 
     def leave(self) -> None:
         """Let the camera go; a check that has not ended is forgotten."""
+        self._naming.end()
         self.hand.close()
         self._measured = None
 
@@ -121,25 +124,29 @@ class Checking(QObject):
         self._read()
 
     def _read(self) -> None:
-        """Read the checks of the camera, which may wait for the disk."""
-        practice, now = self._practice, self._now()
-        folder, serial = self._cameras.folder(practice=practice), self._cameras.serial(practice=practice)
+        """Read which camera it is and its checks in the background: the disk may keep anybody waiting."""
+        practice, now, cameras = self._practice, self._now(), self._cameras
+        self._asked += 1
+        asked = self._asked
+
+        def read() -> CameraChecks:
+            serial = cameras.serial(practice=practice)
+            return checks_of(cameras.folder(practice=practice), serial, now, simulated=practice)
 
         def shown(checks: CameraChecks) -> None:
-            if practice == self._practice and not self._screen.is_measuring:
+            if asked == self._asked and not self._screen.is_measuring:
                 self._screen.show_checks(checks)
 
-        self._screen.show_checks(CameraChecks("", serial, simulated=practice))
-        self._background.run(
-            lambda: checks_of(folder, serial, now, simulated=practice), shown, self._tell.fault, self
-        )  # fmt: skip
+        self._screen.show_checks(CameraChecks("", "", simulated=practice))
+        self._background.run(read, shown, self._tell.fault, self)
 
     # --- a check ------------------------------------------------------------------------------------------
     def begin(self) -> None:
         """Open the camera and look at the card."""
         self.leave()
         newest = self._newest = Newest()
-        practice = self._practice
+        practice, known = self._practice, self._naming.begin()
+        self._asked += 1
         self._screen.begin_measuring()
 
         def looker(info: SourceInfo) -> Look:
@@ -147,13 +154,17 @@ class Checking(QObject):
             self._measured = _Measured(info, watch)
 
             def look(frame: Frame) -> None:
-                seen = None if watch.done else watch.look(frame)
+                seen = watch.look(frame) if known.is_set() and not watch.done else None
                 if seen is not None:
                     newest.put(CardProgress(seen.pixel, seen.blue, seen.seconds, seen.moved))
 
             return look
 
         self.hand.open(lambda notice: self._cameras.for_card(notice, practice=practice), looker)
+
+    def _opened(self, info: SourceInfo) -> None:
+        self._screen.show_progress(None)
+        self._naming.opened(info, self._cameras.folder(practice=self._practice))
 
     def _failed(self, fault: Exception) -> None:
         self.back()
@@ -177,8 +188,6 @@ class Checking(QObject):
 
         def keep() -> CameraChecks:
             reading = measured.watch.reading(info.name)
-            if not serial:
-                raise CameraNameless(info.name)
             check = check_of(reading, serial, iso(now), info.settings.get("calibrated", ""))
             add_check(chart_path(folder, serial), check)
             return checks_of(folder, serial, now, info.name, simulated=practice)

@@ -16,6 +16,7 @@ from carpus.core.calibration.result import Calibration
 from carpus.core.capture.calibrated import with_stored_calibration
 from carpus.core.capture.camera_info import read_camera_info
 from carpus.core.capture.cameras import name_to_open, open_camera
+from carpus.core.capture.given_name import with_given_name
 from carpus.core.capture.paced import PacedSource
 from carpus.core.capture.practice import PracticeSource
 from carpus.core.capture.source import FrameSource, is_simulated
@@ -83,7 +84,8 @@ class Sources:
         named = self._settings.camera.intrinsics
         camera = read_camera_info(Path(named).expanduser()).camera if named else None
         live = open_camera(self._settings.camera.uri, camera=camera, notice=lambda fault: heard[-1](fault))
-        source = with_stored_calibration(live, self._settings.data_folder)
+        folder = self._settings.data_folder
+        source = with_stored_calibration(with_given_name(live, folder), folder)
         session = self._session(source)
         heard.append(session.notice)
         for fault in told:

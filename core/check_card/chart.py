@@ -42,7 +42,8 @@ Verdict = Literal["right", "unusual", "out"]
 
 @dataclass(frozen=True, slots=True)
 class Check:
-    """One line of the file. ``calibrated`` names the calibration that was used, empty without one."""
+    """One line of the file. ``calibrated`` names the calibration that was used, empty without one; ``most_angle_deg``
+    and ``most_length_mm`` the limits of its camera's sensor."""
 
     when: str
     serial: str
@@ -52,6 +53,8 @@ class Check:
     measured: tuple[float, ...]
     sd: tuple[float, ...]
     calibrated: str = ""
+    most_angle_deg: float = MOST_ANGLE_DEG
+    most_length_mm: float = MOST_LENGTH_MM
 
     @property
     def values(self) -> tuple[float, float, float]:
@@ -60,13 +63,13 @@ class Check:
 
     @property
     def angles_hold(self) -> bool:
-        """Whether angles are within the fixed limit."""
-        return within_angles(self.angle_error_deg)
+        """Whether angles are within the limit."""
+        return within_angles(self.angle_error_deg, self.most_angle_deg)
 
     @property
     def lengths_hold(self) -> bool:
         """Whether lengths are."""
-        return within_lengths(self.length_error_mm, self.scale)
+        return within_lengths(self.length_error_mm, self.scale, self.most_length_mm)
 
 
 @dataclass(frozen=True, slots=True)
@@ -88,6 +91,8 @@ def check_of(reading: CardReading, serial: str, when: str, calibrated: str) -> C
         tuple(map(float, reading.measured)),
         tuple(map(float, reading.sd)),
         calibrated,
+        reading.most_angle_deg,
+        reading.most_length_mm,
     )
 
 
@@ -157,7 +162,7 @@ def verdict_of(earlier: Sequence[Check], check: Check) -> Verdict:
 def sentence_of(check: Check, verdict: Verdict) -> str:
     """What a check says, for people."""
     off = f"{check.angle_error_deg:.1f}° and {check.length_error_mm:.1f} mm off at most"
-    limits = f"the limits are {MOST_ANGLE_DEG:.1f}° and {MOST_LENGTH_MM:.1f} mm"
+    limits = f"the limits are {check.most_angle_deg:.1f}° and {check.most_length_mm:.1f} mm"
     if verdict == "right":
         return f"The camera measures right: {off}; {limits}."
     if verdict == "unusual":
@@ -178,11 +183,13 @@ def _check(line: str) -> Check | None:
         angle, length, scale = (float(content[name]) for name in ("angle_error_deg", "length_error_mm", "scale"))
         measured, sd = (tuple(map(float, content[name])) for name in ("measured", "sd"))
         when, serial, calibrated = (str(content[name]) for name in ("when", "serial", "calibrated"))
+        most = (content.get("most_angle_deg", MOST_ANGLE_DEG), content.get("most_length_mm", MOST_LENGTH_MM))
+        most_angle_deg, most_length_mm = map(float, most)
     except (ValueError, KeyError, TypeError):
         return None
-    if not is_moment(when) or not all(map(math.isfinite, (angle, length, scale))):
+    if not is_moment(when) or not all(map(math.isfinite, (angle, length, scale, most_angle_deg, most_length_mm))):
         return None
-    return Check(when, serial, angle, length, scale, measured, sd, calibrated)
+    return Check(when, serial, angle, length, scale, measured, sd, calibrated, most_angle_deg, most_length_mm)
 
 
 def _ends_a_line(path: Path) -> bool:

@@ -12,6 +12,7 @@ import numpy as np
 from carpus.core.calibration.candidates import CandidateSettings, marker_candidates
 from carpus.core.camera import Camera
 from carpus.core.check_card.card import disc_places_m, figures_of
+from carpus.core.check_card.limits import limits_for
 from carpus.core.check_card.reading import CHECK_S, CardReading
 from carpus.core.detection.settings import DetectionSettings
 from carpus.core.errors import CardMissing
@@ -90,7 +91,10 @@ class CardWatch:
         ratio = _distances(middle) @ _distances(disc_places_m()) / np.sum(_distances(disc_places_m()) ** 2)
         distance_m = float(np.linalg.norm(middle.mean(axis=0)))
         sd = each.std(axis=0, ddof=1)
-        return CardReading(figures_of(middle), sd, float(ratio), distance_m, len(self._places), self._looked)
+        return CardReading(
+            figures_of(middle), sd, float(ratio), distance_m, len(self._places), self._looked,
+            *limits_for(middle, self._camera),
+        )  # fmt: skip
 
 
 def measure_card(

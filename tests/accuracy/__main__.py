@@ -11,7 +11,7 @@ import time
 from collections.abc import Mapping, Sequence
 from typing import TypeVar
 
-from tests.accuracy import cameras, hand21_table, papers, readings_table, second
+from tests.accuracy import cameras, check_cards, hand21_table, papers, readings_table, second
 from tests.accuracy.hand21 import ROWS, HandScenario
 from tests.accuracy.jobs import all_runs, jobs_for
 from tests.accuracy.robustness import robustness_verdicts
@@ -61,7 +61,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
     if options.group in ("all", "papers"):
         print("", papers.report(options.only, seeds, options.processes, as_markdown=options.markdown), sep="\n")
     if options.group in ("all", "camera") and pictures:
-        print("", cameras.report(options.only, max(seeds // 2, 1), as_markdown=options.markdown), sep="\n")
+        for group in (cameras, check_cards):
+            print("", group.report(options.only, max(seeds // 2, 1), as_markdown=options.markdown), sep="\n")
     if judged:
         print()
         print(second.report(judged, pictures, options.processes, as_markdown=options.markdown))

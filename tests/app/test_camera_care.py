@@ -160,3 +160,39 @@ def test_the_top_bar_and_the_settings_say_that_the_camera_was_out(
     journey.checking.hand.lost.connect(told.append)
     heard[0](CameraLost("Xtion PRO LIVE", "unplugged"))
     qtbot.waitUntil(lambda: bool(told))
+
+
+def test_a_camera_without_a_number_is_asked_for_its_name_before_the_check(
+    qtbot: QtBot, desktop: Desktop, data: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    journey, card = desktop.journey, desktop.journey.card
+    monkeypatch.setattr(journey.watch, "_name", lambda: "Xtion PRO LIVE")
+    journey.watch.look()
+
+    def opened(_uri: str, *, camera: Camera | None = None, notice: Notice) -> FrameSource:
+        made = practice_camera.card_camera(20.0)
+        made.info = replace(made.info, name="Xtion", settings={})
+        return made
+
+    monkeypatch.setattr(care_cameras, "open_camera", opened)
+    journey.show_card()
+    card.check_button.click()
+    qtbot.waitUntil(card.name_sheet.isVisible)
+    assert not card.name_sheet.take.isEnabled()
+    press(qtbot, Qt.Key.Key_Escape)
+    assert not card.is_measuring, "not named, not measured"
+    card.check_button.click()
+    qtbot.waitUntil(card.name_sheet.isVisible)
+    assert card.progress is None
+    qtbot.keyClicks(card.name_sheet.line, "room 3")
+    press(qtbot, Qt.Key.Key_Return)
+    qtbot.waitUntil(lambda: card.checks.newest is not None, timeout=240_000)
+    assert [one.serial for one in read_checks(chart_path(data, "room 3"))] == ["room 3"]
+    card.check_button.click()
+    qtbot.waitUntil(card.name_sheet.isVisible)
+    assert card.name_sheet.line.text() == "room 3"
+    assert "room 3" in card.name_sheet.title.text()
+    press(qtbot, Qt.Key.Key_Return)
+    qtbot.waitUntil(lambda: card.progress is not None and card.progress.pixel is not None)
+    journey.checking.back()
+    desktop.close()

@@ -6,6 +6,7 @@ from PySide6.QtCore import Qt, Signal
 from PySide6.QtWidgets import QStackedWidget, QVBoxLayout, QWidget
 
 from carpus.ui.camera_calibration.begin import BoardBeginning
+from carpus.ui.camera_calibration.name_sheet import CameraNameSheet
 from carpus.ui.camera_calibration.result import BoardResultView
 from carpus.ui.camera_calibration.showing import BoardShowing
 from carpus.ui.camera_calibration.values import BoardResult
@@ -29,6 +30,7 @@ class BoardScreen(QWidget):
         whole = QVBoxLayout(self)
         whole.setContentsMargins(0, 0, 0, 0)
         whole.addWidget(self._parts)
+        self.name_sheet = CameraNameSheet(self, theme)
         bind(self, keys, "report", self._print)
 
     def _print(self) -> None:

@@ -8,6 +8,7 @@ from PySide6.QtWidgets import QBoxLayout, QGridLayout, QHBoxLayout, QStackedWidg
 
 from carpus.core.check_card.reading import CHECK_S
 from carpus.core.types import ByteImage
+from carpus.ui.camera_calibration.name_sheet import CameraNameSheet
 from carpus.ui.camera_calibration.overlay import paint_discs
 from carpus.ui.check_card.values import CameraChecks, CardProgress
 from carpus.ui.check_card.words import cause_words, check_day, figure_rows, headline, hint
@@ -73,6 +74,7 @@ class CardScreen(QWidget):
         whole = QVBoxLayout(self)
         whole.setContentsMargins(0, 0, 0, 0)
         whole.addWidget(self._parts)
+        self.name_sheet = CameraNameSheet(self, theme)
         self.camera.chosen.connect(lambda practice: self.camera_chosen.emit(bool(practice)))
         self.check_button.clicked.connect(self.check)
         self.print_button.clicked.connect(lambda: self.print_card.emit(str(self.paper.value())))

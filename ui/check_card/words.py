@@ -7,7 +7,7 @@ from datetime import datetime, timedelta
 
 from carpus.core.check_card.card import FIGURES
 from carpus.core.check_card.chart import OLD_DAYS, Check
-from carpus.core.check_card.reading import MOST_ANGLE_DEG, MOST_LENGTH_MM, MOST_SCALE
+from carpus.core.check_card.reading import MOST_SCALE
 from carpus.ui import numbers
 from carpus.ui.check_card.values import CameraChecks, CardProgress
 from carpus.ui.icons import State
@@ -27,7 +27,9 @@ def headline(now: CameraChecks) -> tuple[str, str]:
             tr("Print the card, lay it under the camera, and look at it for 30 seconds."),
         )
     day = check_day(last)
-    limits = tr("the limits are {angle}° and {length} mm").format(angle=MOST_ANGLE_DEG, length=MOST_LENGTH_MM)
+    limits = tr("the limits are {angle}° and {length} mm").format(
+        angle=f"{last.most_angle_deg:.1f}", length=f"{last.most_length_mm:.1f}"
+    )
     off = tr("{angle}° and {length} mm off at most").format(
         angle=f"{last.angle_error_deg:.1f}", length=f"{last.length_error_mm:.1f}"
     )
@@ -80,7 +82,7 @@ def figure_rows(check: Check) -> list[tuple[State, str, str, str]]:
     rows: list[tuple[State, str, str, str]] = []
     for figure, measured, sd in zip(FIGURES, check.measured, check.sd, strict=True):
         angle = figure.kind == "angle"
-        off, limit = abs(measured - figure.true), MOST_ANGLE_DEG if angle else MOST_LENGTH_MM
+        off, limit = abs(measured - figure.true), check.most_angle_deg if angle else check.most_length_mm
         unit = "°" if angle else f"{numbers.NARROW_GAP}mm"
         state: State = "bad" if off > limit else "warn" if off > _NEAR_SHARE * limit else "good"
         value = f"{measured:.1f}° ± {sd:.1f}°" if angle else f"{measured:.1f}{unit}"

@@ -12,7 +12,6 @@ from PySide6.QtCore import QPointF, QRectF, Qt
 from PySide6.QtGui import QFontMetricsF, QPainter, QPen, QPolygonF
 
 from carpus.core.check_card.chart import Check, Verdict, usual_of, verdict_of
-from carpus.core.check_card.reading import MOST_ANGLE_DEG, MOST_LENGTH_MM
 from carpus.ui import numbers
 from carpus.ui.icons import octagon
 from carpus.ui.plot.axes import Panel, Scale
@@ -62,8 +61,8 @@ def control_plots(checks: Sequence[Check]) -> list[ControlPlot]:
     cut = np.array([k > 0 and one.calibrated != shown[k - 1].calibrated for k, one in enumerate(shown)])
     when = [datetime.fromisoformat(one.when) for one in shown]
     kinds = (
-        (tr("Angles: largest error of three"), "°", MOST_ANGLE_DEG),
-        (tr("Lengths: largest error of three"), f"{numbers.NARROW_GAP}mm", MOST_LENGTH_MM),
+        (tr("Angles: largest error of three"), "°", shown[-1].most_angle_deg),
+        (tr("Lengths: largest error of three"), f"{numbers.NARROW_GAP}mm", shown[-1].most_length_mm),
     )
     return [
         ControlPlot(

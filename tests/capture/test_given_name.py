@@ -1,0 +1,55 @@
+"""A camera that does not tell its number goes by the name that a person gave to its kind."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+
+from carpus.core.camera import DEFAULT_CAMERA
+from carpus.core.capture.calibrated import SERIAL
+from carpus.core.capture.given_name import is_nameless, keep_name, with_given_name
+from carpus.core.capture.source import SourceInfo
+from carpus.core.errors import OutputNotWritable
+from carpus.core.types import Frame
+
+
+class Camera:
+    """A source without pictures."""
+
+    def __init__(self, name: str, **settings: str) -> None:
+        self.info = SourceInfo(name, DEFAULT_CAMERA, True, None, 30.0, settings)
+
+    def frames(self) -> Iterator[Frame]:
+        return iter(())
+
+    def close(self) -> None:
+        pass
+
+
+def test_only_a_camera_without_a_number_takes_the_name_of_its_kind(tmp_path: Path) -> None:
+    plain, numbered = Camera("Xtion"), Camera("Xtion", serial="77")
+    assert with_given_name(plain, tmp_path) is plain
+    keep_name(tmp_path, "Xtion", "  room\n3 ")
+    named = with_given_name(plain, tmp_path).info.settings
+    assert (named[SERIAL], is_nameless(named)) == ("room 3", True)
+    assert with_given_name(numbered, tmp_path) is numbered
+    assert not is_nameless(numbered.info.settings)
+    assert SERIAL not in with_given_name(Camera("Astra"), tmp_path).info.settings
+    keep_name(tmp_path, "Astra", "left")
+    assert with_given_name(plain, tmp_path).info.settings[SERIAL] == "room 3"
+
+
+@pytest.mark.parametrize("content", ["", "[1]", '{"Xtion": 3}', '{"Xtion": "\\n"}', "\x00"])
+def test_a_damaged_list_of_names_keeps_nobody_from_measuring(tmp_path: Path, content: str) -> None:
+    (tmp_path / "cameras").mkdir()
+    (tmp_path / "cameras" / "names.json").write_text(content)
+    plain = Camera("Xtion")
+    assert with_given_name(plain, tmp_path) is plain
+
+
+def test_a_folder_that_cannot_be_written_is_said(tmp_path: Path) -> None:
+    (tmp_path / "cameras").write_text("a file")
+    with pytest.raises(OutputNotWritable):
+        keep_name(tmp_path, "Xtion", "room 3")
