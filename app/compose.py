@@ -245,7 +245,6 @@ def compose(
         WordTable(),
         settings,
         is_demo,
-        today or date.today(),
         date.today if today is None else lambda: today,
         CareCameras(settings, speed),
     )
@@ -301,7 +300,7 @@ def _safekeeping(
     keeper: PreferenceKeeper,
     settings: Settings,
     folder: Path | None,
-    today: date,
+    today: Callable[[], date],
 ) -> Safe:
     """The flows about records, back-up and lock, and their cards among the settings."""
     records = Records(library)

@@ -29,7 +29,7 @@ class Erasing(QObject):
         stage: QWidget,
         theme: Theme,
         records: Records,
-        today: date,
+        today: Callable[[], date],
         years: Callable[[], int] = lambda: 0,
         last_backup: Callable[[], datetime | None] = lambda: None,
     ) -> None:
@@ -78,7 +78,7 @@ class Erasing(QObject):
                 last_backup=self._last_backup(),
                 kept_until=kept_until(last, years) if last is not None else None,
                 retention_years=years,
-                today=self._today,
+                today=self._today(),
             )
         )
 

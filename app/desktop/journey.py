@@ -88,8 +88,7 @@ class Parts:
     phrasebook: Phrasebook
     settings: Settings
     is_demo: bool
-    today: date
-    today_is: Callable[[], date]
+    today: Callable[[], date]
     """The day now: the program may stand open for days."""
     cameras: CareCameras
 
@@ -140,7 +139,7 @@ class Journey(QObject):
         self.review = ReviewScreen(theme, keys, background, library)
         self.sessions = SessionsScreen(theme, background, StoredSessions(library), keys)
         self.progress = ProgressScreen(theme, keys, background, library)
-        self.by_hand = ByHandScreen(theme, self._parts.today_is)
+        self.by_hand = ByHandScreen(theme, self._parts.today)
         self.report = ReportScreen(theme, keys, background)
         self.agreement = AgreementScreen(theme, keys)
         self.beside_screen = BesideScreen(theme, keys, background, library)
@@ -187,7 +186,7 @@ class Journey(QObject):
         )  # fmt: skip
         self.retesting = Retesting(
             self._shell, self.retest, self.way, tell, library, places, self.background, theme=theme,
-            today=lambda: self._parts.today,
+            today=self._parts.today,
         )  # fmt: skip
         cameras, is_demo = self._parts.cameras, self._parts.is_demo
         self.care = CameraCare(self, cameras, self.background, _now)

@@ -38,7 +38,7 @@ class RecordLists(QObject):
         erasing: Erasing,
         *,
         years: int,
-        today: date,
+        today: Callable[[], date],
         keep_years: Callable[[int], None],
     ) -> None:
         super().__init__(journey)
@@ -65,7 +65,7 @@ class RecordLists(QObject):
 
     def show_due(self) -> None:
         """Patients of whom nothing need be kept any more."""
-        self._run(lambda: self._records.due(self.years, self._today), self._show_due)
+        self._run(lambda: self._records.due(self.years, self._today()), self._show_due)
 
     def _show_due(self, found: list[Due]) -> None:
         words = self.tr("Nothing is due: no patient’s last session is so old.")

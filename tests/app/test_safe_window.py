@@ -253,7 +253,7 @@ def test_it_backs_up_by_itself_once_a_day_and_not_over_a_recording(
 def test_lists_of_records_and_the_log(qtbot: QtBot, opened: Open, data: Path) -> None:
     desktop = opened(replace(Settings(), records=RecordsSettings(10)))
     lists = desktop.safe.lists
-    lists._today = date(2040, 1, 1)
+    lists._today = lambda: date(2040, 1, 1)
     lists.card.due_button.click()
     qtbot.waitUntil(lists.sheet.isVisible)
     assert [button.accessibleName() for button in lists.sheet.buttons] == ["Archive Linden 42", "Erase… Linden 42"]

@@ -197,7 +197,7 @@ class Gallery:
 
     def patients(self) -> PatientsScreen:
         self.place(where="")
-        screen = PatientsScreen(self.theme, FakeStore(), TODAY)
+        screen = PatientsScreen(self.theme, FakeStore(), lambda: TODAY)
         screen.set_camera_ready(True)
         screen.refresh("linden")
         self.show(screen, screen.search)
@@ -205,7 +205,7 @@ class Gallery:
 
     def patients_empty(self) -> None:
         self.place(where="")
-        screen = PatientsScreen(self.theme, FakeStore([]), TODAY)
+        screen = PatientsScreen(self.theme, FakeStore([]), lambda: TODAY)
         screen.refresh()
         self.show(screen, screen.search)
 
@@ -217,7 +217,7 @@ class Gallery:
 
     def _welcome(self, checks: Sequence[Check], *, counts_later: bool = False) -> None:
         self.place(where="", camera="")
-        screen = PatientsScreen(self.theme, FakeStore([]), TODAY)
+        screen = PatientsScreen(self.theme, FakeStore([]), lambda: TODAY)
         panel = WelcomePanel(self.theme)
         panel.show_folder("/home/clinic/.local/share/carpus", counts_later=counts_later)
         panel.show_checks(checks)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from datetime import date, datetime
+from datetime import date, datetime, timedelta
 
 import pytest
 from PySide6.QtCore import QRectF, QSize, Qt
@@ -29,7 +29,7 @@ def store() -> FakeStore:
 
 @pytest.fixture
 def screen(qtbot: QtBot, theme: Theme, store: FakeStore) -> PatientsScreen:
-    screen = PatientsScreen(theme, store, TODAY)
+    screen = PatientsScreen(theme, store, lambda: TODAY)
     qtbot.addWidget(screen)
     screen.resize(1280, 744)
     screen.show()
@@ -217,3 +217,15 @@ def test_a_picture_keeps_its_shape_whole() -> None:
         assert room.contains(box)
         assert box.width() / box.height() == pytest.approx(300 / 280)
         assert box.width() == pytest.approx(room.width()) or box.height() == pytest.approx(room.height())
+
+
+def test_after_midnight_it_is_another_day_without_a_new_start(theme: Theme, store: FakeStore) -> None:
+    day = [TODAY]
+    screen = PatientsScreen(theme, store, lambda: day[0])
+    screen.refresh()
+    shown, row = screen.day.text(), screen.list.rows.index(0)
+    ago = row.data()
+    day[0] = TODAY + timedelta(days=1)
+    screen.look_at_day()
+    assert screen.day.text() != shown
+    assert row.data() != ago

@@ -85,7 +85,7 @@ def test_a_translation_made_by_qt_s_tools_reaches_widgets_and_functions(
     texts = language.texts_in(source.read_bytes())
     assert all(translator.translate(context, text) == said for (context, text), said in texts.items())
     language.learn("xx", lambda context, text: texts.get((context, text)), QLocale("de_CH"))
-    header, light = ListHeader(theme, PatientList(theme, date(2026, 11, 20))), LightView(theme)
+    header, light = ListHeader(theme, PatientList(theme, lambda: date(2026, 11, 20))), LightView(theme)
     assert header.tr("Patient") == "Patient"
     with language.speaking("xx"):
         assert terms.movement_name("flexion") == "¡Flexion"

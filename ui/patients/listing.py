@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from datetime import date
 
 from PySide6.QtCore import QAbstractListModel, QModelIndex, QPersistentModelIndex, QRectF, QSize, Qt
@@ -25,7 +25,7 @@ RIGHT_PAD_PX = 28
 class PatientModel(QAbstractListModel):
     """The rows as Qt's views and screen readers see them."""
 
-    def __init__(self, today: date) -> None:
+    def __init__(self, today: Callable[[], date]) -> None:
         super().__init__()
         self._rows: tuple[PatientRow, ...] = ()
         self.today = today
@@ -52,7 +52,7 @@ class PatientModel(QAbstractListModel):
             return None
         row = self._rows[index.row()]
         if role in (Qt.ItemDataRole.DisplayRole, Qt.ItemDataRole.AccessibleTextRole):
-            return ", ".join(part for part in cells(row, self.today) if part)
+            return ", ".join(part for part in cells(row, self.today()) if part)
         return row if role == Qt.ItemDataRole.UserRole else None
 
 
@@ -108,7 +108,7 @@ class RowPainter(QStyledItemDelegate):
 
     def _paint_cells(self, painter: QPainter, box: QRectF, row: PatientRow) -> None:
         scale = self._theme.text_scale
-        name, hand, exercise, when, ago, count = cells(row, self._model.today)
+        name, hand, exercise, when, ago, count = cells(row, self._model.today())
         edges = [box.left() + share * box.width() for share in COLUMNS]
         faces = (font(16 * scale, MEDIUM), font(14 * scale), font(14 * scale))
         for text, face, left, right in zip((name, hand, exercise), faces, edges[:3], edges[1:], strict=True):
@@ -162,7 +162,7 @@ class ListHeader(QWidget):
 class PatientList(QListView):
     """The rows on a rounded surface; the height follows the rows until the room ends, then it scrolls."""
 
-    def __init__(self, theme: Theme, today: date) -> None:
+    def __init__(self, theme: Theme, today: Callable[[], date]) -> None:
         super().__init__()
         self._theme = theme
         self.rows = PatientModel(today)

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import replace
 from datetime import date
 
-from PySide6.QtCore import QEvent, QModelIndex, QObject, Qt, Signal
+from PySide6.QtCore import QEvent, QModelIndex, QObject, Qt, QTimer, Signal
 from PySide6.QtGui import QKeyEvent
 from PySide6.QtWidgets import QHBoxLayout, QVBoxLayout, QWidget
 
@@ -23,6 +24,7 @@ from carpus.ui.theme import GAP_PX, MARGIN_PX, Theme
 from carpus.ui.welcome.panel import WelcomePanel
 
 LIST_WIDTH_PX = 824
+LOOK_AT_DAY_MS = 30_000
 LIST_KEYS = (Qt.Key.Key_Up, Qt.Key.Key_Down, Qt.Key.Key_PageUp, Qt.Key.Key_PageDown)
 
 
@@ -37,7 +39,8 @@ class PatientsScreen(QWidget):
     sessions = Signal(str)
     erase_wanted = Signal(str)
 
-    def __init__(self, theme: Theme, store: PatientStore, today: date) -> None:
+    def __init__(self, theme: Theme, store: PatientStore, today: Callable[[], date]) -> None:
+        """``today`` is asked each time: the program may stand open for days."""
         super().__init__()
         self._theme, self._store, self._today = theme, store, today
         self._rows: tuple[PatientRow, ...] = ()
@@ -47,6 +50,11 @@ class PatientsScreen(QWidget):
         self.list = PatientList(theme, today)
         self.header = ListHeader(theme, self.list)
         self.card = PatientCardView(theme)
+        self.day = Text(theme, "", 14, REGULAR, "text2")
+        self._day_timer = QTimer(self)
+        self._day_timer.setInterval(LOOK_AT_DAY_MS)
+        self._day_timer.timeout.connect(self.look_at_day)
+        self._day_timer.start()
         self.notice_place = QVBoxLayout()
         self.welcome: WelcomePanel | None = None
         self._nobody = _Nobody(theme)
@@ -54,15 +62,14 @@ class PatientsScreen(QWidget):
         self._changing = ""
         self._lay_out()
         self._connect()
+        self.look_at_day()
 
     def _lay_out(self) -> None:
         theme = self._theme
         title = QHBoxLayout()
         title.addWidget(heading(theme, self.tr("Patients")))
         title.addStretch(1)
-        title.addWidget(
-            Text(theme, numbers.long_date(self._today), 14, REGULAR, "text2"), 0, Qt.AlignmentFlag.AlignBottom
-        )
+        title.addWidget(self.day, 0, Qt.AlignmentFlag.AlignBottom)
         finding = QHBoxLayout()
         finding.setSpacing(GAP_PX)
         finding.addWidget(self.search, 1)
@@ -125,8 +132,16 @@ class PatientsScreen(QWidget):
         self.form.accepted.connect(self._store_entry)
         self.form.removal_wanted.connect(lambda: self.erase_wanted.emit(self._changing))
 
+    def look_at_day(self) -> None:
+        """After midnight another day stands here, and everything is a day longer ago."""
+        words = numbers.long_date(self._today())
+        if words != self.day.text():
+            self.day.setText(words)
+            self.list.viewport().update()
+
     def refresh(self, choose: str = "") -> None:
         """Read the register again and keep, or set, the choice."""
+        self.look_at_day()
         practice = PatientRow(PRACTICE_PATIENT, self.tr("Practice patient"), "right")
         self._rows = (*self._store.patients(), practice)
         self._filter(choose or self._chosen_id())
