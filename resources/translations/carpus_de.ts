@@ -360,12 +360,244 @@
         <translation>mehr ist besser</translation>
     </message>
     <message>
+        <source>{side}, {day}</source>
+        <translation>{side}, {day}</translation>
+    </message>
+    <message>
+        <source>{name}, affected</source>
+        <translation>{name}, betroffen</translation>
+    </message>
+    <message>
+        <source>{name}, healthy</source>
+        <translation>{name}, gesund</translation>
+    </message>
+    <message>
+        <source>{name} · mirrored</source>
+        <translation>{name} · gespiegelt</translation>
+    </message>
+    <message>
+        <source>Shown beside each other, not judged.</source>
+        <translation>Nebeneinander gezeigt, nicht beurteilt.</translation>
+    </message>
+    <message>
+        <source>Not judged: there is no movement that both have.</source>
+        <translation>Nicht beurteilt: Es gibt keine Bewegung, die beide haben.</translation>
+    </message>
+    <message>
+        <source>No difference beyond measurement error between right and left.</source>
+        <translation>Kein Unterschied zwischen rechts und links über den Messfehler hinaus.</translation>
+    </message>
+    <message>
+        <source>{movement}: {size} less on the right than on the left.</source>
+        <translation>{movement}: rechts {size} weniger als links.</translation>
+    </message>
+    <message>
+        <source>{movement}: {size} more on the right than on the left.</source>
+        <translation>{movement}: rechts {size} mehr als links.</translation>
+    </message>
+    <message>
+        <source>{movement}: {size} less on the left than on the right.</source>
+        <translation>{movement}: links {size} weniger als rechts.</translation>
+    </message>
+    <message>
+        <source>{movement}: {size} more on the left than on the right.</source>
+        <translation>{movement}: links {size} mehr als rechts.</translation>
+    </message>
+    <message>
+        <source>The right forearm turns {size} less than the left.</source>
+        <translation>Der rechte Unterarm dreht {size} weniger als der linke.</translation>
+    </message>
+    <message>
+        <source>The right forearm turns {size} more than the left.</source>
+        <translation>Der rechte Unterarm dreht {size} mehr als der linke.</translation>
+    </message>
+    <message>
+        <source>The left forearm turns {size} less than the right.</source>
+        <translation>Der linke Unterarm dreht {size} weniger als der rechte.</translation>
+    </message>
+    <message>
+        <source>The left forearm turns {size} more than the right.</source>
+        <translation>Der linke Unterarm dreht {size} mehr als der rechte.</translation>
+    </message>
+    <message>
+        <source>The right wrist moves {size} less than the left.</source>
+        <translation>Das rechte Handgelenk bewegt sich {size} weniger als das linke.</translation>
+    </message>
+    <message>
+        <source>The right wrist moves {size} more than the left.</source>
+        <translation>Das rechte Handgelenk bewegt sich {size} mehr als das linke.</translation>
+    </message>
+    <message>
+        <source>The left wrist moves {size} less than the right.</source>
+        <translation>Das linke Handgelenk bewegt sich {size} weniger als das rechte.</translation>
+    </message>
+    <message>
+        <source>The left wrist moves {size} more than the right.</source>
+        <translation>Das linke Handgelenk bewegt sich {size} mehr als das rechte.</translation>
+    </message>
+    <message>
+        <source>TAM differs between the hands in {count} of {all} fingers.</source>
+        <translation>Die TAM unterscheidet sich zwischen den Händen bei {count} von {all} Fingern.</translation>
+    </message>
+    <message>
+        <source>{count} of {all} ranges differ between the hands.</source>
+        <translation>{count} von {all} Umfängen unterscheiden sich zwischen den Händen.</translation>
+    </message>
+    <message>
+        <source>TAM is less on the right than on the left in {count} of {all} fingers.</source>
+        <translation>Die TAM ist bei {count} von {all} Fingern rechts kleiner als links.</translation>
+    </message>
+    <message>
+        <source>TAM is more on the right than on the left in {count} of {all} fingers.</source>
+        <translation>Die TAM ist bei {count} von {all} Fingern rechts größer als links.</translation>
+    </message>
+    <message>
+        <source>TAM is less on the left than on the right in {count} of {all} fingers.</source>
+        <translation>Die TAM ist bei {count} von {all} Fingern links kleiner als rechts.</translation>
+    </message>
+    <message>
+        <source>TAM is more on the left than on the right in {count} of {all} fingers.</source>
+        <translation>Die TAM ist bei {count} von {all} Fingern links größer als rechts.</translation>
+    </message>
+    <message>
+        <source>{count} of {all} ranges are less on the right than on the left.</source>
+        <translation>{count} von {all} Umfängen sind rechts kleiner als links.</translation>
+    </message>
+    <message>
+        <source>{count} of {all} ranges are more on the right than on the left.</source>
+        <translation>{count} von {all} Umfängen sind rechts größer als links.</translation>
+    </message>
+    <message>
+        <source>{count} of {all} ranges are less on the left than on the right.</source>
+        <translation>{count} von {all} Umfängen sind links kleiner als rechts.</translation>
+    </message>
+    <message>
+        <source>{count} of {all} ranges are more on the left than on the right.</source>
+        <translation>{count} von {all} Umfängen sind links größer als rechts.</translation>
+    </message>
+    <message>
+        <source>{movement} {first} against {second}: more than the measurement error of {limit}.</source>
+        <translation>{movement} {first} gegen {second}: mehr als der Messfehler von {limit}.</translation>
+    </message>
+    <message>
+        <source>{movement} {first} against {second}: within the measurement error of {limit}.</source>
+        <translation>{movement} {first} gegen {second}: im Messfehler von {limit}.</translation>
+    </message>
+    <message>
+        <source>{more} – {less}</source>
+        <translation>{more} – {less}</translation>
+    </message>
+    <message>
+        <source>Not a fair pair: {why}. Curves and figures are shown, nothing is judged.</source>
+        <translation>Nicht vergleichbar: {why}. Kurven und Werte werden gezeigt, beurteilt wird nichts.</translation>
+    </message>
+    <message>
+        <source>same exercise, same day, same set-up</source>
+        <translation>gleiche Übung, gleicher Tag, gleicher Aufbau</translation>
+    </message>
+    <message>
+        <source>same exercise, same set-up, 1 day apart</source>
+        <translation>gleiche Übung, gleicher Aufbau, 1 Tag Abstand</translation>
+    </message>
+    <message>
+        <source>same exercise, same set-up, {count} days apart</source>
+        <translation>gleiche Übung, gleicher Aufbau, {count} Tage Abstand</translation>
+    </message>
+    <message>
+        <source>{name}: {what}</source>
+        <translation>{name}: {what}</translation>
+    </message>
+    <message>
+        <source>{name}, mean ± sd</source>
+        <translation>{name}, Mittel ± SD</translation>
+    </message>
+    <message>
+        <source>Difference</source>
+        <translation>Unterschied</translation>
+    </message>
+    <message>
+        <source>Error</source>
+        <translation>Fehler</translation>
+    </message>
+    <message>
+        <source>at least {difference}</source>
+        <translation>mindestens {difference}</translation>
+    </message>
+    <message>
         <source>not judged</source>
         <translation>nicht beurteilt</translation>
     </message>
     <message>
         <source>no change beyond error</source>
         <translation>im Rahmen des Fehlers</translation>
+    </message>
+    <message>
+        <source>improved, just beyond error</source>
+        <translation>verbessert, knapp über Fehler</translation>
+    </message>
+    <message>
+        <source>worse, just beyond error</source>
+        <translation>schlechter, knapp über Fehler</translation>
+    </message>
+    <message>
+        <source>improved, beyond error</source>
+        <translation>verbessert, über Fehler</translation>
+    </message>
+    <message>
+        <source>worse, beyond error</source>
+        <translation>schlechter, über Fehler</translation>
+    </message>
+    <message>
+        <source>no difference beyond error</source>
+        <translation>kein Unterschied über Fehler</translation>
+    </message>
+    <message>
+        <source>less than the left, just beyond error</source>
+        <translation>weniger als links, knapp über Fehler</translation>
+    </message>
+    <message>
+        <source>less than the right, just beyond error</source>
+        <translation>weniger als rechts, knapp über Fehler</translation>
+    </message>
+    <message>
+        <source>more than the left, just beyond error</source>
+        <translation>mehr als links, knapp über Fehler</translation>
+    </message>
+    <message>
+        <source>more than the right, just beyond error</source>
+        <translation>mehr als rechts, knapp über Fehler</translation>
+    </message>
+    <message>
+        <source>less than the left, beyond error</source>
+        <translation>weniger als links, über Fehler</translation>
+    </message>
+    <message>
+        <source>less than the right, beyond error</source>
+        <translation>weniger als rechts, über Fehler</translation>
+    </message>
+    <message>
+        <source>more than the left, beyond error</source>
+        <translation>mehr als links, über Fehler</translation>
+    </message>
+    <message>
+        <source>more than the right, beyond error</source>
+        <translation>mehr als rechts, über Fehler</translation>
+    </message>
+    <message>
+        <source>The other hand is a comparison, not a norm: hands of one person differ by themselves.</source>
+        <translation>Die andere Hand ist ein Vergleich, keine Norm: Die Hände einer Person unterscheiden sich von selbst.</translation>
+    </message>
+    <message>
+        <source>part of the repetition</source>
+        <translation>Anteil der Wiederholung</translation>
+    </message>
+    <message>
+        <source>start of the repetition</source>
+        <translation>Beginn der Wiederholung</translation>
+    </message>
+    <message>
+        <source>time</source>
+        <translation>Zeit</translation>
     </message>
     <message>
         <source>improved</source>
@@ -1470,6 +1702,22 @@
     <message>
         <source>Next doubtful picture</source>
         <translation>Nächstes zweifelhaftes Bild</translation>
+    </message>
+    <message>
+        <source>Tick a session to be compared</source>
+        <translation>Sitzung zum Vergleichen ankreuzen</translation>
+    </message>
+    <message>
+        <source>Compare the two that are ticked</source>
+        <translation>Die beiden angekreuzten vergleichen</translation>
+    </message>
+    <message>
+        <source>Beside the other hand, or another day</source>
+        <translation>Neben der anderen Hand oder einem anderen Tag</translation>
+    </message>
+    <message>
+        <source>Mirror the left hand</source>
+        <translation>Linke Hand spiegeln</translation>
     </message>
     <message>
         <source>Look at the {marker}</source>
@@ -2888,6 +3136,34 @@
         <translation>Erstellt mit Carpus {version}</translation>
     </message>
     <message>
+        <source>Side by side</source>
+        <translation>Nebeneinander</translation>
+    </message>
+    <message>
+        <source>solid: {first}, band ± sd; dashed: {second}</source>
+        <translation>durchgezogen: {first}, Band ± SD; gestrichelt: {second}</translation>
+    </message>
+    <message>
+        <source>Mean repetition: {angle}</source>
+        <translation>Mittlere Wiederholung: {angle}</translation>
+    </message>
+    <message>
+        <source>Differences</source>
+        <translation>Unterschiede</translation>
+    </message>
+    <message>
+        <source>{hand}, {date}</source>
+        <translation>{hand}, {date}</translation>
+    </message>
+    <message>
+        <source>First, solid</source>
+        <translation>Erste, durchgezogen</translation>
+    </message>
+    <message>
+        <source>Second, dashed</source>
+        <translation>Zweite, gestrichelt</translation>
+    </message>
+    <message>
         <source>measured by Carpus {versions}</source>
         <translation>gemessen mit Carpus {versions}</translation>
     </message>
@@ -3438,6 +3714,10 @@
     <message>
         <source>cut short</source>
         <translation>abgebrochen</translation>
+    </message>
+    <message>
+        <source>ticked</source>
+        <translation>angekreuzt</translation>
     </message>
     <message>
         <source>What counts as a change</source>
@@ -4009,7 +4289,7 @@
     </message>
     <message>
         <source>Check it by “carpus check-card --serial NUMBER” with the number printed on it.</source>
-        <translation>Prüfen Sie sie mit „carpus check-card --serial NUMMER“ und der aufgedruckten Nummer.</translation>
+        <translation type="vanished">Prüfen Sie sie mit „carpus check-card --serial NUMMER“ und der aufgedruckten Nummer.</translation>
     </message>
     <message>
         <source>Check that a disc was clicked there, and not another blue spot.</source>
@@ -4297,7 +4577,7 @@
     </message>
     <message>
         <source>Nothing was kept; what was measured before stays.</source>
-        <translation>Nichts wurde aufbewahrt; früher Gemessenes bleibt.</translation>
+        <translation type="vanished">Nichts wurde aufbewahrt; früher Gemessenes bleibt.</translation>
     </message>
     <message>
         <source>Once the disk answers, start Carpus again: it finishes the recording.</source>
@@ -4417,7 +4697,7 @@
     </message>
     <message>
         <source>The camera does not say its number: {subject}.</source>
-        <translation>Die Kamera nennt ihre Nummer nicht: {subject}.</translation>
+        <translation type="vanished">Die Kamera nennt ihre Nummer nicht: {subject}.</translation>
     </message>
     <message>
         <source>The camera is back: {subject} (away for {detail}).</source>
@@ -5631,6 +5911,22 @@
         <source>{wrong}, which a folder of pictures cannot be</source>
         <translation>{wrong}, was ein Bilderordner nicht sein kann</translation>
     </message>
+    <message>
+        <source>No repetition was seen well enough.</source>
+        <translation>Keine Wiederholung war gut genug zu sehen.</translation>
+    </message>
+    <message>
+        <source>start</source>
+        <translation>Beginn</translation>
+    </message>
+    <message>
+        <source>half</source>
+        <translation>halb</translation>
+    </message>
+    <message>
+        <source>end</source>
+        <translation>Ende</translation>
+    </message>
 </context>
 <context>
     <name>AgreementChart</name>
@@ -6023,6 +6319,151 @@
     </message>
 </context>
 <context>
+    <name>Beside</name>
+    <message>
+        <source>With which session?</source>
+        <translation>Mit welcher Sitzung?</translation>
+    </message>
+    <message>
+        <source>{session} stays.</source>
+        <translation>{session} bleibt.</translation>
+    </message>
+    <message>
+        <source>The first one</source>
+        <translation>Die erste</translation>
+    </message>
+    <message>
+        <source>Compare</source>
+        <translation>Vergleichen</translation>
+    </message>
+    <message>
+        <source>Save tables</source>
+        <translation>Tabellen speichern</translation>
+    </message>
+    <message>
+        <source>{count} files were written.</source>
+        <translation>{count} Dateien sind geschrieben.</translation>
+    </message>
+    <message>
+        <source>Folder: {folder}</source>
+        <translation>Ordner: {folder}</translation>
+    </message>
+    <message>
+        <source>Files: {names}</source>
+        <translation>Dateien: {names}</translation>
+    </message>
+    <message>
+        <source>Open the folder</source>
+        <translation>Ordner öffnen</translation>
+    </message>
+    <message>
+        <source>Go on</source>
+        <translation>Weiter</translation>
+    </message>
+    <message>
+        <source>Enter</source>
+        <translation>Eingabe</translation>
+    </message>
+</context>
+<context>
+    <name>BesidePlayer</name>
+    <message>
+        <source>Previous picture (←)</source>
+        <translation>Voriges Bild (←)</translation>
+    </message>
+    <message>
+        <source>Play (Space)</source>
+        <translation>Abspielen (Leertaste)</translation>
+    </message>
+    <message>
+        <source>Next picture (→)</source>
+        <translation>Nächstes Bild (→)</translation>
+    </message>
+    <message>
+        <source>In step by</source>
+        <translation>Gleichschritt nach</translation>
+    </message>
+    <message>
+        <source>repetition</source>
+        <translation>Wiederholung</translation>
+    </message>
+    <message>
+        <source>Time in the session: {name}</source>
+        <translation>Zeit in der Sitzung: {name}</translation>
+    </message>
+    <message>
+        <source>Stop</source>
+        <translation>Stopp</translation>
+    </message>
+    <message>
+        <source>Play</source>
+        <translation>Abspielen</translation>
+    </message>
+    <message>
+        <source>{factor}× speed</source>
+        <translation>{factor}× Tempo</translation>
+    </message>
+</context>
+<context>
+    <name>BesideScreen</name>
+    <message>
+        <source>Compare with &amp;another…</source>
+        <translation>Mit &amp;anderer vergleichen…</translation>
+    </message>
+    <message>
+        <source>Report</source>
+        <translation>Bericht</translation>
+    </message>
+    <message>
+        <source>How far reading is</source>
+        <translation>Wie weit das Lesen ist</translation>
+    </message>
+    <message>
+        <source>Differences</source>
+        <translation>Unterschiede</translation>
+    </message>
+    <message>
+        <source>What is compared</source>
+        <translation>Was verglichen wird</translation>
+    </message>
+    <message>
+        <source>&amp;Mirror</source>
+        <translation>S&amp;piegeln</translation>
+    </message>
+    <message>
+        <source>Show the left hand as it would look as a right one</source>
+        <translation>Die linke Hand so zeigen, wie sie als rechte aussähe</translation>
+    </message>
+    <message>
+        <source>Export…</source>
+        <translation>Exportieren…</translation>
+    </message>
+    <message>
+        <source>&amp;Another…</source>
+        <translation>&amp;Andere…</translation>
+    </message>
+    <message>
+        <source>Reading both sessions…</source>
+        <translation>Beide Sitzungen werden gelesen…</translation>
+    </message>
+    <message>
+        <source>Reading the session…</source>
+        <translation>Sitzung wird gelesen…</translation>
+    </message>
+    <message>
+        <source>Nothing is compared: one of the two sessions could not be read.</source>
+        <translation>Nichts wird verglichen: Eine der beiden Sitzungen war nicht lesbar.</translation>
+    </message>
+    <message>
+        <source>Repetition {number}</source>
+        <translation>Wiederholung {number}</translation>
+    </message>
+    <message>
+        <source>not seen</source>
+        <translation>nicht gesehen</translation>
+    </message>
+</context>
+<context>
     <name>BoardBeginning</name>
     <message>
         <source>Chessboard</source>
@@ -6404,6 +6845,45 @@
     <message>
         <source>Cali&amp;brate the camera…</source>
         <translation>Kamera kali&amp;brieren…</translation>
+    </message>
+</context>
+<context>
+    <name>CameraNameSheet</name>
+    <message>
+        <source>Name of the camera</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Go on</source>
+        <translation>Weiter</translation>
+    </message>
+    <message>
+        <source>Enter</source>
+        <translation>Eingabe</translation>
+    </message>
+    <message>
+        <source>Stop</source>
+        <translation>Stopp</translation>
+    </message>
+    <message>
+        <source>Esc</source>
+        <translation>Esc</translation>
+    </message>
+    <message>
+        <source>Is this still the camera called “{name}”?</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>What is this camera called?</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>It does not tell its number. Give it a name and write that on it: calibrations and checks are kept under the name, and from now on every camera of this kind without a number is taken for this one.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>It does not tell its number. If it is another one, type that one’s name: calibrations and checks are kept under the name.</source>
+        <translation type="unfinished"></translation>
     </message>
 </context>
 <context>
@@ -8114,6 +8594,24 @@ Umschalt+F8 von der Seite</translation>
     </message>
 </context>
 <context>
+    <name>MeanCard</name>
+    <message>
+        <source>Mean repetition, ± sd</source>
+        <translation>Mittlere Wiederholung, ± SD</translation>
+    </message>
+    <message>
+        <source>Angle</source>
+        <translation>Winkel</translation>
+    </message>
+</context>
+<context>
+    <name>MeanCurves</name>
+    <message>
+        <source>Mean repetition of both sessions</source>
+        <translation>Mittlere Wiederholung beider Sitzungen</translation>
+    </message>
+</context>
+<context>
     <name>MeasureRow</name>
     <message>
         <source>where</source>
@@ -9494,6 +9992,10 @@ Umschalt+F8 von der Seite</translation>
         <translation>Die Sitzung bleibt und wird mit keiner verglichen. Lässt sich zurücknehmen.</translation>
     </message>
     <message>
+        <source>Side by side…</source>
+        <translation>Nebeneinander…</translation>
+    </message>
+    <message>
         <source>Export…</source>
         <translation>Exportieren…</translation>
     </message>
@@ -9524,6 +10026,14 @@ Umschalt+F8 von der Seite</translation>
     <message>
         <source>Let it count again</source>
         <translation>Wieder zählen lassen</translation>
+    </message>
+    <message>
+        <source>No other session of this exercise yet.</source>
+        <translation>Noch keine andere Sitzung dieser Übung.</translation>
+    </message>
+    <message>
+        <source>Beside the {hand} of {day} (B)</source>
+        <translation>Neben: {hand}, {day} (B)</translation>
     </message>
     <message>
         <source>Path of the wrist, with the hand’s axes</source>
@@ -9609,6 +10119,18 @@ Umschalt+F8 von der Seite</translation>
     <message>
         <source>&amp;Set aside…</source>
         <translation>&amp;Beiseitelegen…</translation>
+    </message>
+    <message>
+        <source>Tick two to compare them</source>
+        <translation>Zwei ankreuzen zum Vergleichen</translation>
+    </message>
+    <message>
+        <source>Tick one more to compare</source>
+        <translation>Noch eine ankreuzen</translation>
+    </message>
+    <message>
+        <source>Compare the 2 ticked</source>
+        <translation>Die 2 angekreuzten vergleichen</translation>
     </message>
     <message>
         <source>It then counts in the other patient’s progress, and no more in that of {name}.</source>
