@@ -6851,7 +6851,7 @@
     <name>CameraNameSheet</name>
     <message>
         <source>Name of the camera</source>
-        <translation type="unfinished"></translation>
+        <translation>Name der Kamera</translation>
     </message>
     <message>
         <source>Go on</source>
@@ -6871,19 +6871,19 @@
     </message>
     <message>
         <source>Is this still the camera called “{name}”?</source>
-        <translation type="unfinished"></translation>
+        <translation>Ist das noch die Kamera „{name}“?</translation>
     </message>
     <message>
         <source>What is this camera called?</source>
-        <translation type="unfinished"></translation>
+        <translation>Wie heißt diese Kamera?</translation>
     </message>
     <message>
         <source>It does not tell its number. Give it a name and write that on it: calibrations and checks are kept under the name, and from now on every camera of this kind without a number is taken for this one.</source>
-        <translation type="unfinished"></translation>
+        <translation>Sie nennt ihre Nummer nicht. Geben Sie ihr einen Namen, und schreiben Sie ihn darauf: Kalibrierungen und Prüfungen stehen unter diesem Namen, und von jetzt an gilt jede Kamera dieser Art ohne Nummer als diese.</translation>
     </message>
     <message>
         <source>It does not tell its number. If it is another one, type that one’s name: calibrations and checks are kept under the name.</source>
-        <translation type="unfinished"></translation>
+        <translation>Sie nennt ihre Nummer nicht. Ist es eine andere, geben Sie deren Namen ein: Kalibrierungen und Prüfungen stehen unter dem Namen.</translation>
     </message>
 </context>
 <context>
