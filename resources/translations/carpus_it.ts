@@ -360,12 +360,244 @@
         <translation>più è meglio</translation>
     </message>
     <message>
+        <source>{side}, {day}</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>{name}, affected</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>{name}, healthy</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>{name} · mirrored</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Shown beside each other, not judged.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Not judged: there is no movement that both have.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>No difference beyond measurement error between right and left.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>{movement}: {size} less on the right than on the left.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>{movement}: {size} more on the right than on the left.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>{movement}: {size} less on the left than on the right.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>{movement}: {size} more on the left than on the right.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>The right forearm turns {size} less than the left.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>The right forearm turns {size} more than the left.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>The left forearm turns {size} less than the right.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>The left forearm turns {size} more than the right.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>The right wrist moves {size} less than the left.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>The right wrist moves {size} more than the left.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>The left wrist moves {size} less than the right.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>The left wrist moves {size} more than the right.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>TAM differs between the hands in {count} of {all} fingers.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>{count} of {all} ranges differ between the hands.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>TAM is less on the right than on the left in {count} of {all} fingers.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>TAM is more on the right than on the left in {count} of {all} fingers.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>TAM is less on the left than on the right in {count} of {all} fingers.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>TAM is more on the left than on the right in {count} of {all} fingers.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>{count} of {all} ranges are less on the right than on the left.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>{count} of {all} ranges are more on the right than on the left.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>{count} of {all} ranges are less on the left than on the right.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>{count} of {all} ranges are more on the left than on the right.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>{movement} {first} against {second}: more than the measurement error of {limit}.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>{movement} {first} against {second}: within the measurement error of {limit}.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>{more} – {less}</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Not a fair pair: {why}. Curves and figures are shown, nothing is judged.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>same exercise, same day, same set-up</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>same exercise, same set-up, 1 day apart</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>same exercise, same set-up, {count} days apart</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>{name}: {what}</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>{name}, mean ± sd</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Difference</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Error</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>at least {difference}</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
         <source>not judged</source>
         <translation>non valutato</translation>
     </message>
     <message>
         <source>no change beyond error</source>
         <translation>nessun cambiamento oltre l’errore</translation>
+    </message>
+    <message>
+        <source>improved, just beyond error</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>worse, just beyond error</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>improved, beyond error</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>worse, beyond error</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>no difference beyond error</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>less than the left, just beyond error</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>less than the right, just beyond error</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>more than the left, just beyond error</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>more than the right, just beyond error</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>less than the left, beyond error</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>less than the right, beyond error</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>more than the left, beyond error</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>more than the right, beyond error</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>The other hand is a comparison, not a norm: hands of one person differ by themselves.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>part of the repetition</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>start of the repetition</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>time</source>
+        <translation type="unfinished"></translation>
     </message>
     <message>
         <source>improved</source>
@@ -1470,6 +1702,22 @@
     <message>
         <source>Next doubtful picture</source>
         <translation>Immagine dubbia seguente</translation>
+    </message>
+    <message>
+        <source>Tick a session to be compared</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Compare the two that are ticked</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Beside the other hand, or another day</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Mirror the left hand</source>
+        <translation type="unfinished"></translation>
     </message>
     <message>
         <source>Look at the {marker}</source>
@@ -2888,6 +3136,34 @@
         <translation>Prodotto da Carpus {version}</translation>
     </message>
     <message>
+        <source>Side by side</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>solid: {first}, band ± sd; dashed: {second}</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Mean repetition: {angle}</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Differences</source>
+        <translation type="unfinished">Differenze</translation>
+    </message>
+    <message>
+        <source>{hand}, {date}</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>First, solid</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Second, dashed</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
         <source>measured by Carpus {versions}</source>
         <translation>misurato da Carpus {versions}</translation>
     </message>
@@ -3438,6 +3714,10 @@
     <message>
         <source>cut short</source>
         <translation>interrotta</translation>
+    </message>
+    <message>
+        <source>ticked</source>
+        <translation type="unfinished"></translation>
     </message>
     <message>
         <source>What counts as a change</source>
@@ -4009,7 +4289,7 @@
     </message>
     <message>
         <source>Check it by “carpus check-card --serial NUMBER” with the number printed on it.</source>
-        <translation>Controllarla con “carpus check-card --serial NUMERO”, con il numero stampato su di essa.</translation>
+        <translation type="vanished">Controllarla con “carpus check-card --serial NUMERO”, con il numero stampato su di essa.</translation>
     </message>
     <message>
         <source>Check that a disc was clicked there, and not another blue spot.</source>
@@ -4297,7 +4577,7 @@
     </message>
     <message>
         <source>Nothing was kept; what was measured before stays.</source>
-        <translation>Nulla è stato salvato; ciò che era misurato prima resta.</translation>
+        <translation type="vanished">Nulla è stato salvato; ciò che era misurato prima resta.</translation>
     </message>
     <message>
         <source>Once the disk answers, start Carpus again: it finishes the recording.</source>
@@ -4417,7 +4697,7 @@
     </message>
     <message>
         <source>The camera does not say its number: {subject}.</source>
-        <translation>La telecamera non comunica il suo numero: {subject}.</translation>
+        <translation type="vanished">La telecamera non comunica il suo numero: {subject}.</translation>
     </message>
     <message>
         <source>The camera is back: {subject} (away for {detail}).</source>
@@ -5631,6 +5911,22 @@
         <source>{wrong}, which a folder of pictures cannot be</source>
         <translation>{wrong}, cosa che una cartella di immagini non può essere</translation>
     </message>
+    <message>
+        <source>No repetition was seen well enough.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>start</source>
+        <translation type="unfinished">inizia</translation>
+    </message>
+    <message>
+        <source>half</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>end</source>
+        <translation type="unfinished"></translation>
+    </message>
 </context>
 <context>
     <name>AgreementChart</name>
@@ -5864,7 +6160,7 @@
     </message>
     <message>
         <source>shows first what changes</source>
-        <translation>prima mostra che cosa cambia</translation>
+        <translation>mostra che cosa cambia</translation>
     </message>
     <message>
         <source>Change…</source>
@@ -6020,6 +6316,151 @@
     <message>
         <source>{time} of disk left</source>
         <translation>spazio per {time}</translation>
+    </message>
+</context>
+<context>
+    <name>Beside</name>
+    <message>
+        <source>With which session?</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>{session} stays.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>The first one</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Compare</source>
+        <translation type="unfinished">Confronta</translation>
+    </message>
+    <message>
+        <source>Save tables</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>{count} files were written.</source>
+        <translation type="unfinished">Sono stati scritti {count} file.</translation>
+    </message>
+    <message>
+        <source>Folder: {folder}</source>
+        <translation type="unfinished">Cartella: {folder}</translation>
+    </message>
+    <message>
+        <source>Files: {names}</source>
+        <translation type="unfinished">File: {names}</translation>
+    </message>
+    <message>
+        <source>Open the folder</source>
+        <translation type="unfinished">Apri la cartella</translation>
+    </message>
+    <message>
+        <source>Go on</source>
+        <translation type="unfinished">Continua</translation>
+    </message>
+    <message>
+        <source>Enter</source>
+        <translation type="unfinished">Invio</translation>
+    </message>
+</context>
+<context>
+    <name>BesidePlayer</name>
+    <message>
+        <source>Previous picture (←)</source>
+        <translation type="unfinished">Immagine precedente (←)</translation>
+    </message>
+    <message>
+        <source>Play (Space)</source>
+        <translation type="unfinished">Riproduci (Spazio)</translation>
+    </message>
+    <message>
+        <source>Next picture (→)</source>
+        <translation type="unfinished">Immagine seguente (→)</translation>
+    </message>
+    <message>
+        <source>In step by</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>repetition</source>
+        <translation type="unfinished">ripetizione</translation>
+    </message>
+    <message>
+        <source>Time in the session: {name}</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Stop</source>
+        <translation type="unfinished">Ferma</translation>
+    </message>
+    <message>
+        <source>Play</source>
+        <translation type="unfinished">Riproduci</translation>
+    </message>
+    <message>
+        <source>{factor}× speed</source>
+        <translation type="unfinished">velocità {factor}×</translation>
+    </message>
+</context>
+<context>
+    <name>BesideScreen</name>
+    <message>
+        <source>Compare with &amp;another…</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Report</source>
+        <translation type="unfinished">Relazione</translation>
+    </message>
+    <message>
+        <source>How far reading is</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Differences</source>
+        <translation type="unfinished">Differenze</translation>
+    </message>
+    <message>
+        <source>What is compared</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>&amp;Mirror</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Show the left hand as it would look as a right one</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Export…</source>
+        <translation type="unfinished">Esporta…</translation>
+    </message>
+    <message>
+        <source>&amp;Another…</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Reading both sessions…</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Reading the session…</source>
+        <translation type="unfinished">Lettura della seduta…</translation>
+    </message>
+    <message>
+        <source>Nothing is compared: one of the two sessions could not be read.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Repetition {number}</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>not seen</source>
+        <translation type="unfinished">non visto</translation>
     </message>
 </context>
 <context>
@@ -6404,6 +6845,45 @@
     <message>
         <source>Cali&amp;brate the camera…</source>
         <translation>Cali&amp;bra la telecamera…</translation>
+    </message>
+</context>
+<context>
+    <name>CameraNameSheet</name>
+    <message>
+        <source>Name of the camera</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Go on</source>
+        <translation type="unfinished">Continua</translation>
+    </message>
+    <message>
+        <source>Enter</source>
+        <translation type="unfinished">Invio</translation>
+    </message>
+    <message>
+        <source>Stop</source>
+        <translation type="unfinished">Ferma</translation>
+    </message>
+    <message>
+        <source>Esc</source>
+        <translation type="unfinished">Esc</translation>
+    </message>
+    <message>
+        <source>Is this still the camera called “{name}”?</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>What is this camera called?</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>It does not tell its number. Give it a name and write that on it: calibrations and checks are kept under the name, and from now on every camera of this kind without a number is taken for this one.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>It does not tell its number. If it is another one, type that one’s name: calibrations and checks are kept under the name.</source>
+        <translation type="unfinished"></translation>
     </message>
 </context>
 <context>
@@ -8114,6 +8594,24 @@ Maiusc+F8 di lato</translation>
     </message>
 </context>
 <context>
+    <name>MeanCard</name>
+    <message>
+        <source>Mean repetition, ± sd</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Angle</source>
+        <translation type="unfinished">Angolo</translation>
+    </message>
+</context>
+<context>
+    <name>MeanCurves</name>
+    <message>
+        <source>Mean repetition of both sessions</source>
+        <translation type="unfinished"></translation>
+    </message>
+</context>
+<context>
     <name>MeasureRow</name>
     <message>
         <source>where</source>
@@ -8305,7 +8803,7 @@ Maiusc+F8 di lato</translation>
     </message>
     <message>
         <source>Best today</source>
-        <translation>Migliore di oggi</translation>
+        <translation>Migliore oggi</translation>
     </message>
     <message>
         <source>Target {angle}</source>
@@ -8660,7 +9158,7 @@ Maiusc+F8 di lato</translation>
     </message>
     <message>
         <source>Hand area ×{scale}</source>
-        <translation>Area della mano ×{scale}</translation>
+        <translation>Mano ×{scale}</translation>
     </message>
     <message>
         <source>Whole picture</source>
@@ -9494,6 +9992,10 @@ Maiusc+F8 di lato</translation>
         <translation>La seduta resta, e non si confronta con nessuna. Si può annullare.</translation>
     </message>
     <message>
+        <source>Side by side…</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
         <source>Export…</source>
         <translation>Esporta…</translation>
     </message>
@@ -9524,6 +10026,14 @@ Maiusc+F8 di lato</translation>
     <message>
         <source>Let it count again</source>
         <translation>Conta di nuovo</translation>
+    </message>
+    <message>
+        <source>No other session of this exercise yet.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Beside the {hand} of {day} (B)</source>
+        <translation type="unfinished"></translation>
     </message>
     <message>
         <source>Path of the wrist, with the hand’s axes</source>
@@ -9609,6 +10119,18 @@ Maiusc+F8 di lato</translation>
     <message>
         <source>&amp;Set aside…</source>
         <translation>&amp;Metti da parte…</translation>
+    </message>
+    <message>
+        <source>Tick two to compare them</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Tick one more to compare</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Compare the 2 ticked</source>
+        <translation type="unfinished"></translation>
     </message>
     <message>
         <source>It then counts in the other patient’s progress, and no more in that of {name}.</source>
