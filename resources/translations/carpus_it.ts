@@ -361,167 +361,167 @@
     </message>
     <message>
         <source>{side}, {day}</source>
-        <translation type="unfinished"></translation>
+        <translation>{side}, {day}</translation>
     </message>
     <message>
         <source>{name}, affected</source>
-        <translation type="unfinished"></translation>
+        <translation>{name}, colpita</translation>
     </message>
     <message>
         <source>{name}, healthy</source>
-        <translation type="unfinished"></translation>
+        <translation>{name}, sana</translation>
     </message>
     <message>
         <source>{name} · mirrored</source>
-        <translation type="unfinished"></translation>
+        <translation>{name} · speculare</translation>
     </message>
     <message>
         <source>Shown beside each other, not judged.</source>
-        <translation type="unfinished"></translation>
+        <translation>Mostrate una accanto all’altra, non valutate.</translation>
     </message>
     <message>
         <source>Not judged: there is no movement that both have.</source>
-        <translation type="unfinished"></translation>
+        <translation>Non valutato: nessun movimento è presente in entrambe.</translation>
     </message>
     <message>
         <source>No difference beyond measurement error between right and left.</source>
-        <translation type="unfinished"></translation>
+        <translation>Nessuna differenza oltre l’errore di misura fra destra e sinistra.</translation>
     </message>
     <message>
         <source>{movement}: {size} less on the right than on the left.</source>
-        <translation type="unfinished"></translation>
+        <translation>{movement}: a destra {size} meno che a sinistra.</translation>
     </message>
     <message>
         <source>{movement}: {size} more on the right than on the left.</source>
-        <translation type="unfinished"></translation>
+        <translation>{movement}: a destra {size} più che a sinistra.</translation>
     </message>
     <message>
         <source>{movement}: {size} less on the left than on the right.</source>
-        <translation type="unfinished"></translation>
+        <translation>{movement}: a sinistra {size} meno che a destra.</translation>
     </message>
     <message>
         <source>{movement}: {size} more on the left than on the right.</source>
-        <translation type="unfinished"></translation>
+        <translation>{movement}: a sinistra {size} più che a destra.</translation>
     </message>
     <message>
         <source>The right forearm turns {size} less than the left.</source>
-        <translation type="unfinished"></translation>
+        <translation>L’avambraccio destro ruota {size} meno del sinistro.</translation>
     </message>
     <message>
         <source>The right forearm turns {size} more than the left.</source>
-        <translation type="unfinished"></translation>
+        <translation>L’avambraccio destro ruota {size} più del sinistro.</translation>
     </message>
     <message>
         <source>The left forearm turns {size} less than the right.</source>
-        <translation type="unfinished"></translation>
+        <translation>L’avambraccio sinistro ruota {size} meno del destro.</translation>
     </message>
     <message>
         <source>The left forearm turns {size} more than the right.</source>
-        <translation type="unfinished"></translation>
+        <translation>L’avambraccio sinistro ruota {size} più del destro.</translation>
     </message>
     <message>
         <source>The right wrist moves {size} less than the left.</source>
-        <translation type="unfinished"></translation>
+        <translation>Il polso destro si muove {size} meno del sinistro.</translation>
     </message>
     <message>
         <source>The right wrist moves {size} more than the left.</source>
-        <translation type="unfinished"></translation>
+        <translation>Il polso destro si muove {size} più del sinistro.</translation>
     </message>
     <message>
         <source>The left wrist moves {size} less than the right.</source>
-        <translation type="unfinished"></translation>
+        <translation>Il polso sinistro si muove {size} meno del destro.</translation>
     </message>
     <message>
         <source>The left wrist moves {size} more than the right.</source>
-        <translation type="unfinished"></translation>
+        <translation>Il polso sinistro si muove {size} più del destro.</translation>
     </message>
     <message>
         <source>TAM differs between the hands in {count} of {all} fingers.</source>
-        <translation type="unfinished"></translation>
+        <translation>TAM diverso fra le mani in {count} dita su {all}.</translation>
     </message>
     <message>
         <source>{count} of {all} ranges differ between the hands.</source>
-        <translation type="unfinished"></translation>
+        <translation>Fra le mani {count} escursioni su {all} sono diverse.</translation>
     </message>
     <message>
         <source>TAM is less on the right than on the left in {count} of {all} fingers.</source>
-        <translation type="unfinished"></translation>
+        <translation>TAM minore a destra che a sinistra in {count} dita su {all}.</translation>
     </message>
     <message>
         <source>TAM is more on the right than on the left in {count} of {all} fingers.</source>
-        <translation type="unfinished"></translation>
+        <translation>TAM maggiore a destra che a sinistra in {count} dita su {all}.</translation>
     </message>
     <message>
         <source>TAM is less on the left than on the right in {count} of {all} fingers.</source>
-        <translation type="unfinished"></translation>
+        <translation>TAM minore a sinistra che a destra in {count} dita su {all}.</translation>
     </message>
     <message>
         <source>TAM is more on the left than on the right in {count} of {all} fingers.</source>
-        <translation type="unfinished"></translation>
+        <translation>TAM maggiore a sinistra che a destra in {count} dita su {all}.</translation>
     </message>
     <message>
         <source>{count} of {all} ranges are less on the right than on the left.</source>
-        <translation type="unfinished"></translation>
+        <translation>A destra {count} escursioni su {all} sono minori che a sinistra.</translation>
     </message>
     <message>
         <source>{count} of {all} ranges are more on the right than on the left.</source>
-        <translation type="unfinished"></translation>
+        <translation>A destra {count} escursioni su {all} sono maggiori che a sinistra.</translation>
     </message>
     <message>
         <source>{count} of {all} ranges are less on the left than on the right.</source>
-        <translation type="unfinished"></translation>
+        <translation>A sinistra {count} escursioni su {all} sono minori che a destra.</translation>
     </message>
     <message>
         <source>{count} of {all} ranges are more on the left than on the right.</source>
-        <translation type="unfinished"></translation>
+        <translation>A sinistra {count} escursioni su {all} sono maggiori che a destra.</translation>
     </message>
     <message>
         <source>{movement} {first} against {second}: more than the measurement error of {limit}.</source>
-        <translation type="unfinished"></translation>
+        <translation>{movement} {first} contro {second}: più dell’errore di misura di {limit}.</translation>
     </message>
     <message>
         <source>{movement} {first} against {second}: within the measurement error of {limit}.</source>
-        <translation type="unfinished"></translation>
+        <translation>{movement} {first} contro {second}: entro l’errore di misura di {limit}.</translation>
     </message>
     <message>
         <source>{more} – {less}</source>
-        <translation type="unfinished"></translation>
+        <translation>{more} – {less}</translation>
     </message>
     <message>
         <source>Not a fair pair: {why}. Curves and figures are shown, nothing is judged.</source>
-        <translation type="unfinished"></translation>
+        <translation>Confronto non corretto: {why}. Curve e valori sono mostrati, nulla è valutato.</translation>
     </message>
     <message>
         <source>same exercise, same day, same set-up</source>
-        <translation type="unfinished"></translation>
+        <translation>stesso esercizio, stesso giorno, stessa preparazione</translation>
     </message>
     <message>
         <source>same exercise, same set-up, 1 day apart</source>
-        <translation type="unfinished"></translation>
+        <translation>stesso esercizio, stessa preparazione, a 1 giorno di distanza</translation>
     </message>
     <message>
         <source>same exercise, same set-up, {count} days apart</source>
-        <translation type="unfinished"></translation>
+        <translation>stesso esercizio, stessa preparazione, a {count} giorni di distanza</translation>
     </message>
     <message>
         <source>{name}: {what}</source>
-        <translation type="unfinished"></translation>
+        <translation>{name}: {what}</translation>
     </message>
     <message>
         <source>{name}, mean ± sd</source>
-        <translation type="unfinished"></translation>
+        <translation>{name}, media ± DS</translation>
     </message>
     <message>
         <source>Difference</source>
-        <translation type="unfinished"></translation>
+        <translation>Differenza</translation>
     </message>
     <message>
         <source>Error</source>
-        <translation type="unfinished"></translation>
+        <translation>Errore</translation>
     </message>
     <message>
         <source>at least {difference}</source>
-        <translation type="unfinished"></translation>
+        <translation>almeno {difference}</translation>
     </message>
     <message>
         <source>not judged</source>
@@ -533,71 +533,71 @@
     </message>
     <message>
         <source>improved, just beyond error</source>
-        <translation type="unfinished"></translation>
+        <translation>miglioramento, appena oltre l’errore</translation>
     </message>
     <message>
         <source>worse, just beyond error</source>
-        <translation type="unfinished"></translation>
+        <translation>peggioramento, appena oltre l’errore</translation>
     </message>
     <message>
         <source>improved, beyond error</source>
-        <translation type="unfinished"></translation>
+        <translation>miglioramento, oltre l’errore</translation>
     </message>
     <message>
         <source>worse, beyond error</source>
-        <translation type="unfinished"></translation>
+        <translation>peggioramento, oltre l’errore</translation>
     </message>
     <message>
         <source>no difference beyond error</source>
-        <translation type="unfinished"></translation>
+        <translation>nessuna differenza oltre l’errore</translation>
     </message>
     <message>
         <source>less than the left, just beyond error</source>
-        <translation type="unfinished"></translation>
+        <translation>meno della sinistra, appena oltre l’errore</translation>
     </message>
     <message>
         <source>less than the right, just beyond error</source>
-        <translation type="unfinished"></translation>
+        <translation>meno della destra, appena oltre l’errore</translation>
     </message>
     <message>
         <source>more than the left, just beyond error</source>
-        <translation type="unfinished"></translation>
+        <translation>più della sinistra, appena oltre l’errore</translation>
     </message>
     <message>
         <source>more than the right, just beyond error</source>
-        <translation type="unfinished"></translation>
+        <translation>più della destra, appena oltre l’errore</translation>
     </message>
     <message>
         <source>less than the left, beyond error</source>
-        <translation type="unfinished"></translation>
+        <translation>meno della sinistra, oltre l’errore</translation>
     </message>
     <message>
         <source>less than the right, beyond error</source>
-        <translation type="unfinished"></translation>
+        <translation>meno della destra, oltre l’errore</translation>
     </message>
     <message>
         <source>more than the left, beyond error</source>
-        <translation type="unfinished"></translation>
+        <translation>più della sinistra, oltre l’errore</translation>
     </message>
     <message>
         <source>more than the right, beyond error</source>
-        <translation type="unfinished"></translation>
+        <translation>più della destra, oltre l’errore</translation>
     </message>
     <message>
         <source>The other hand is a comparison, not a norm: hands of one person differ by themselves.</source>
-        <translation type="unfinished"></translation>
+        <translation>L’altra mano è un confronto, non una norma: le mani di una persona differiscono già di per sé.</translation>
     </message>
     <message>
         <source>part of the repetition</source>
-        <translation type="unfinished"></translation>
+        <translation>parte della ripetizione</translation>
     </message>
     <message>
         <source>start of the repetition</source>
-        <translation type="unfinished"></translation>
+        <translation>inizio della ripetizione</translation>
     </message>
     <message>
         <source>time</source>
-        <translation type="unfinished"></translation>
+        <translation>tempo</translation>
     </message>
     <message>
         <source>improved</source>
@@ -1705,19 +1705,19 @@
     </message>
     <message>
         <source>Tick a session to be compared</source>
-        <translation type="unfinished"></translation>
+        <translation>Seleziona una seduta da confrontare</translation>
     </message>
     <message>
         <source>Compare the two that are ticked</source>
-        <translation type="unfinished"></translation>
+        <translation>Confronta le due selezionate</translation>
     </message>
     <message>
         <source>Beside the other hand, or another day</source>
-        <translation type="unfinished"></translation>
+        <translation>Accanto all’altra mano, o a un altro giorno</translation>
     </message>
     <message>
         <source>Mirror the left hand</source>
-        <translation type="unfinished"></translation>
+        <translation>Specchia la mano sinistra</translation>
     </message>
     <message>
         <source>Look at the {marker}</source>
@@ -3137,31 +3137,31 @@
     </message>
     <message>
         <source>Side by side</source>
-        <translation type="unfinished"></translation>
+        <translation>Fianco a fianco</translation>
     </message>
     <message>
         <source>solid: {first}, band ± sd; dashed: {second}</source>
-        <translation type="unfinished"></translation>
+        <translation>continua: {first}, fascia ± DS; tratteggio: {second}</translation>
     </message>
     <message>
         <source>Mean repetition: {angle}</source>
-        <translation type="unfinished"></translation>
+        <translation>Ripetizione media: {angle}</translation>
     </message>
     <message>
         <source>Differences</source>
-        <translation type="unfinished">Differenze</translation>
+        <translation>Differenze</translation>
     </message>
     <message>
         <source>{hand}, {date}</source>
-        <translation type="unfinished"></translation>
+        <translation>{hand}, {date}</translation>
     </message>
     <message>
         <source>First, solid</source>
-        <translation type="unfinished"></translation>
+        <translation>Prima, linea continua</translation>
     </message>
     <message>
         <source>Second, dashed</source>
-        <translation type="unfinished"></translation>
+        <translation>Seconda, tratteggio</translation>
     </message>
     <message>
         <source>measured by Carpus {versions}</source>
@@ -3717,7 +3717,7 @@
     </message>
     <message>
         <source>ticked</source>
-        <translation type="unfinished"></translation>
+        <translation>selezionata</translation>
     </message>
     <message>
         <source>What counts as a change</source>
@@ -5913,19 +5913,19 @@
     </message>
     <message>
         <source>No repetition was seen well enough.</source>
-        <translation type="unfinished"></translation>
+        <translation>Nessuna ripetizione è stata vista abbastanza bene.</translation>
     </message>
     <message>
         <source>start</source>
-        <translation type="unfinished">inizia</translation>
+        <translation>inizio</translation>
     </message>
     <message>
         <source>half</source>
-        <translation type="unfinished"></translation>
+        <translation>metà</translation>
     </message>
     <message>
         <source>end</source>
-        <translation type="unfinished"></translation>
+        <translation>fine</translation>
     </message>
 </context>
 <context>
@@ -6322,145 +6322,145 @@
     <name>Beside</name>
     <message>
         <source>With which session?</source>
-        <translation type="unfinished"></translation>
+        <translation>Con quale seduta?</translation>
     </message>
     <message>
         <source>{session} stays.</source>
-        <translation type="unfinished"></translation>
+        <translation>{session} resta.</translation>
     </message>
     <message>
         <source>The first one</source>
-        <translation type="unfinished"></translation>
+        <translation>La prima</translation>
     </message>
     <message>
         <source>Compare</source>
-        <translation type="unfinished">Confronta</translation>
+        <translation>Confronta</translation>
     </message>
     <message>
         <source>Save tables</source>
-        <translation type="unfinished"></translation>
+        <translation>Salva le tabelle</translation>
     </message>
     <message>
         <source>{count} files were written.</source>
-        <translation type="unfinished">Sono stati scritti {count} file.</translation>
+        <translation>Sono stati scritti {count} file.</translation>
     </message>
     <message>
         <source>Folder: {folder}</source>
-        <translation type="unfinished">Cartella: {folder}</translation>
+        <translation>Cartella: {folder}</translation>
     </message>
     <message>
         <source>Files: {names}</source>
-        <translation type="unfinished">File: {names}</translation>
+        <translation>File: {names}</translation>
     </message>
     <message>
         <source>Open the folder</source>
-        <translation type="unfinished">Apri la cartella</translation>
+        <translation>Apri la cartella</translation>
     </message>
     <message>
         <source>Go on</source>
-        <translation type="unfinished">Continua</translation>
+        <translation>Continua</translation>
     </message>
     <message>
         <source>Enter</source>
-        <translation type="unfinished">Invio</translation>
+        <translation>Invio</translation>
     </message>
 </context>
 <context>
     <name>BesidePlayer</name>
     <message>
         <source>Previous picture (←)</source>
-        <translation type="unfinished">Immagine precedente (←)</translation>
+        <translation>Immagine precedente (←)</translation>
     </message>
     <message>
         <source>Play (Space)</source>
-        <translation type="unfinished">Riproduci (Spazio)</translation>
+        <translation>Riproduci (Spazio)</translation>
     </message>
     <message>
         <source>Next picture (→)</source>
-        <translation type="unfinished">Immagine seguente (→)</translation>
+        <translation>Immagine seguente (→)</translation>
     </message>
     <message>
         <source>In step by</source>
-        <translation type="unfinished"></translation>
+        <translation>Sincronizza su</translation>
     </message>
     <message>
         <source>repetition</source>
-        <translation type="unfinished">ripetizione</translation>
+        <translation>ripetizione</translation>
     </message>
     <message>
         <source>Time in the session: {name}</source>
-        <translation type="unfinished"></translation>
+        <translation>Tempo nella seduta: {name}</translation>
     </message>
     <message>
         <source>Stop</source>
-        <translation type="unfinished">Ferma</translation>
+        <translation>Ferma</translation>
     </message>
     <message>
         <source>Play</source>
-        <translation type="unfinished">Riproduci</translation>
+        <translation>Riproduci</translation>
     </message>
     <message>
         <source>{factor}× speed</source>
-        <translation type="unfinished">velocità {factor}×</translation>
+        <translation>velocità {factor}×</translation>
     </message>
 </context>
 <context>
     <name>BesideScreen</name>
     <message>
         <source>Compare with &amp;another…</source>
-        <translation type="unfinished"></translation>
+        <translation>Confronta con un’&amp;altra…</translation>
     </message>
     <message>
         <source>Report</source>
-        <translation type="unfinished">Relazione</translation>
+        <translation>Relazione</translation>
     </message>
     <message>
         <source>How far reading is</source>
-        <translation type="unfinished"></translation>
+        <translation>Avanzamento della lettura</translation>
     </message>
     <message>
         <source>Differences</source>
-        <translation type="unfinished">Differenze</translation>
+        <translation>Differenze</translation>
     </message>
     <message>
         <source>What is compared</source>
-        <translation type="unfinished"></translation>
+        <translation>Che cosa si confronta</translation>
     </message>
     <message>
         <source>&amp;Mirror</source>
-        <translation type="unfinished"></translation>
+        <translation>&amp;Specchia</translation>
     </message>
     <message>
         <source>Show the left hand as it would look as a right one</source>
-        <translation type="unfinished"></translation>
+        <translation>Mostra la mano sinistra come apparirebbe se fosse la destra</translation>
     </message>
     <message>
         <source>Export…</source>
-        <translation type="unfinished">Esporta…</translation>
+        <translation>Esporta…</translation>
     </message>
     <message>
         <source>&amp;Another…</source>
-        <translation type="unfinished"></translation>
+        <translation>Un’&amp;altra…</translation>
     </message>
     <message>
         <source>Reading both sessions…</source>
-        <translation type="unfinished"></translation>
+        <translation>Lettura delle due sedute…</translation>
     </message>
     <message>
         <source>Reading the session…</source>
-        <translation type="unfinished">Lettura della seduta…</translation>
+        <translation>Lettura della seduta…</translation>
     </message>
     <message>
         <source>Nothing is compared: one of the two sessions could not be read.</source>
-        <translation type="unfinished"></translation>
+        <translation>Nulla da confrontare: una delle due sedute non si è potuta leggere.</translation>
     </message>
     <message>
         <source>Repetition {number}</source>
-        <translation type="unfinished"></translation>
+        <translation>Ripetizione {number}</translation>
     </message>
     <message>
         <source>not seen</source>
-        <translation type="unfinished">non visto</translation>
+        <translation>non visto</translation>
     </message>
 </context>
 <context>
@@ -6851,39 +6851,39 @@
     <name>CameraNameSheet</name>
     <message>
         <source>Name of the camera</source>
-        <translation type="unfinished"></translation>
+        <translation>Nome della telecamera</translation>
     </message>
     <message>
         <source>Go on</source>
-        <translation type="unfinished">Continua</translation>
+        <translation>Continua</translation>
     </message>
     <message>
         <source>Enter</source>
-        <translation type="unfinished">Invio</translation>
+        <translation>Invio</translation>
     </message>
     <message>
         <source>Stop</source>
-        <translation type="unfinished">Ferma</translation>
+        <translation>Ferma</translation>
     </message>
     <message>
         <source>Esc</source>
-        <translation type="unfinished">Esc</translation>
+        <translation>Esc</translation>
     </message>
     <message>
         <source>Is this still the camera called “{name}”?</source>
-        <translation type="unfinished"></translation>
+        <translation>È ancora la telecamera chiamata “{name}”?</translation>
     </message>
     <message>
         <source>What is this camera called?</source>
-        <translation type="unfinished"></translation>
+        <translation>Come si chiama questa telecamera?</translation>
     </message>
     <message>
         <source>It does not tell its number. Give it a name and write that on it: calibrations and checks are kept under the name, and from now on every camera of this kind without a number is taken for this one.</source>
-        <translation type="unfinished"></translation>
+        <translation>Non comunica il suo numero. Darle un nome e scriverlo su di essa: calibrazioni e controlli si conservano sotto il nome, e d’ora in poi ogni telecamera di questo tipo senza numero è presa per questa.</translation>
     </message>
     <message>
         <source>It does not tell its number. If it is another one, type that one’s name: calibrations and checks are kept under the name.</source>
-        <translation type="unfinished"></translation>
+        <translation>Non comunica il suo numero. Se è un’altra, scrivere il nome di quella: calibrazioni e controlli si conservano sotto il nome.</translation>
     </message>
 </context>
 <context>
@@ -8597,18 +8597,18 @@ Maiusc+F8 di lato</translation>
     <name>MeanCard</name>
     <message>
         <source>Mean repetition, ± sd</source>
-        <translation type="unfinished"></translation>
+        <translation>Ripetizione media, ± DS</translation>
     </message>
     <message>
         <source>Angle</source>
-        <translation type="unfinished">Angolo</translation>
+        <translation>Angolo</translation>
     </message>
 </context>
 <context>
     <name>MeanCurves</name>
     <message>
         <source>Mean repetition of both sessions</source>
-        <translation type="unfinished"></translation>
+        <translation>Ripetizione media delle due sedute</translation>
     </message>
 </context>
 <context>
@@ -9993,7 +9993,7 @@ Maiusc+F8 di lato</translation>
     </message>
     <message>
         <source>Side by side…</source>
-        <translation type="unfinished"></translation>
+        <translation>Affianca…</translation>
     </message>
     <message>
         <source>Export…</source>
@@ -10029,11 +10029,11 @@ Maiusc+F8 di lato</translation>
     </message>
     <message>
         <source>No other session of this exercise yet.</source>
-        <translation type="unfinished"></translation>
+        <translation>Nessun’altra seduta di questo esercizio.</translation>
     </message>
     <message>
         <source>Beside the {hand} of {day} (B)</source>
-        <translation type="unfinished"></translation>
+        <translation>Accanto a: {hand}, {day} (B)</translation>
     </message>
     <message>
         <source>Path of the wrist, with the hand’s axes</source>
@@ -10122,15 +10122,15 @@ Maiusc+F8 di lato</translation>
     </message>
     <message>
         <source>Tick two to compare them</source>
-        <translation type="unfinished"></translation>
+        <translation>Selezionarne due da confrontare</translation>
     </message>
     <message>
         <source>Tick one more to compare</source>
-        <translation type="unfinished"></translation>
+        <translation>Selezionarne un’altra</translation>
     </message>
     <message>
         <source>Compare the 2 ticked</source>
-        <translation type="unfinished"></translation>
+        <translation>Confronta le 2 selezionate</translation>
     </message>
     <message>
         <source>It then counts in the other patient’s progress, and no more in that of {name}.</source>
