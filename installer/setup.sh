@@ -18,7 +18,7 @@ say() { printf 'setup: %s\n' "$*"; }
 fail() { printf 'setup: %s\n' "$@" >&2; exit 1; }
 
 # --- done before? -------------------------------------------------------------------------------
-mark() { { pwd; cat "$1" pyproject.toml installer/setup.sh; } | sha256sum | cut -d' ' -f1; }
+mark() { { pwd; cat "$1" requirements-alone.lock pyproject.toml installer/setup.sh; } | sha256sum | cut -d' ' -f1; }
 ready() { [ -x .venv/bin/carpus ] && [ "$(cat ".venv/.ready-for-$1" 2>/dev/null)" = "$(mark "$2")" ]; }
 if ready "$purpose" "$lock" || { [ "$purpose" = run ] && ready test requirements-dev.lock; }; then
     exit 0
@@ -114,6 +114,7 @@ fi
 rm -f .venv/.ready-for-*
 say "installing the packages of $lock"
 .venv/bin/python -m pip install --quiet --disable-pip-version-check -r "$lock"
+[ "$purpose" = run ] || .venv/bin/python -m pip install --quiet --disable-pip-version-check --no-deps -r requirements-alone.lock
 .venv/bin/python -m pip install --quiet --disable-pip-version-check --no-deps -e .
 mark "$lock" >".venv/.ready-for-$purpose"
 say "ready"

@@ -17,6 +17,7 @@ from carpus.core.capture.usb_devices import UsbCamera
 CAMERAS = {
     "xtion": "xtion",
     "realsense": "realsense",
+    "orbbec": "orbbec",
     "astra": "astra",
 }
 """Module by kind; the first is the usual one."""

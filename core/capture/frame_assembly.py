@@ -155,7 +155,7 @@ def camera_of_view(size_px: tuple[int, int], field_of_view_rad: tuple[float, flo
 
 def camera_of_lens(size_px: tuple[int, int], lens: Lens) -> Camera:
     """Intrinsics as the driver tells them, for pictures of ``size_px``; a model not known is taken as none."""
-    model: DistortionModel = "inverse_brown_conrady" if lens.model == "inverse_brown_conrady" else "plumb_bob"
+    model: DistortionModel = next((each for each in COEFFICIENTS if each == lens.model), "plumb_bob")
     known = lens.model == model and len(lens.coefficients) == COEFFICIENTS[model]
     return Camera(
         lens.fx_px,

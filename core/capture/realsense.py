@@ -3,27 +3,24 @@
 from __future__ import annotations
 
 import math
-import multiprocessing
 import sys
 from collections.abc import Callable, Mapping, Sequence
-from concurrent.futures import ProcessPoolExecutor
-from concurrent.futures.process import BrokenProcessPool
 from dataclasses import replace
-from importlib.metadata import PackageNotFoundError, version
 from importlib.util import find_spec
 from typing import Any
 
 from carpus.core.camera import Camera
 from carpus.core.capture.camera_kind import CameraKind
+from carpus.core.capture.camera_plan import CameraPlan
 from carpus.core.capture.capture_messages import Opened
 from carpus.core.capture.finding import Finding
+from carpus.core.capture.maker_library import library_finding
 from carpus.core.capture.notice import Notice, ignore
 from carpus.core.capture.process_camera import SIZE_PX, ProcessCamera
 from carpus.core.capture.realsense_opening import load_library
-from carpus.core.capture.realsense_plans import CameraPlan
 from carpus.core.capture.realsense_process import serve
 from carpus.core.depth_sensor import ASSUMED, D415, D435, D455, DepthSensor
-from carpus.core.errors import DriverMissing, ExtraMissing
+from carpus.core.errors import ExtraMissing
 
 EXTRA, PACKAGE = "realsense", "pyrealsense2"
 MODELS = {
@@ -95,34 +92,16 @@ def open_realsense(*, uri: str | None, camera: Camera | None, patience_s: float,
 
 def driver_finding(asks_version: bool = True, wanted: bool = True) -> Finding:
     """The maker's library, by its package; loaded, in a process of its own, only where a camera wants it."""
-    name = "RealSense driver"
-    try:
-        found = f"{PACKAGE} {version(PACKAGE)}"
-    except PackageNotFoundError:
-        if not wanted:
-            return Finding(name, "good", "not installed; only a RealSense and its recordings need it")
-    else:
-        trouble = _load_trouble() if asks_version and wanted else ""
-        if not trouble:
-            return Finding(name, "good", found)
-        return Finding(name, "bad", f"{found}, cannot be loaded: {trouble}", "Install it, and what it names, again.")
-    if getattr(sys, "frozen", False):
-        remedy = "The packed program has no driver for it: install Carpus with pip, as carpus[realsense]."
-    else:
-        remedy = f"Run: pip install {PACKAGE}"
-    return Finding(name, "bad", f"missing: {PACKAGE}", remedy)
-
-
-def _load_trouble() -> str:
-    """Why the library cannot be loaded; empty when it can."""
-    try:
-        with ProcessPoolExecutor(1, multiprocessing.get_context("spawn")) as other:
-            other.submit(load_library).result()
-    except DriverMissing as fault:
-        return fault.detail
-    except BrokenProcessPool:
-        return "it ends its process"
-    return ""
+    is_packed = getattr(sys, "frozen", False)
+    packed = "The packed program has no driver for it: install Carpus with pip, as carpus[realsense]."
+    return library_finding(
+        "RealSense driver",
+        PACKAGE,
+        load_library,
+        asks=asks_version and wanted,
+        unwanted="" if wanted else "not installed; only a RealSense and its recordings need it",
+        how=packed if is_packed else f"Run: pip install {PACKAGE}",
+    )
 
 
 def further_findings(settings: Mapping[str, str]) -> Sequence[Finding]:

@@ -6,11 +6,14 @@ import queue
 import threading
 import time
 from collections.abc import Callable
+from dataclasses import replace
 from typing import Any
 
-from carpus.core.capture.capture_messages import ExposureSet, Opened
+from carpus.core.capture.camera_plan import CameraPlan
+from carpus.core.capture.capture_messages import Opened
 from carpus.core.capture.capture_process import CAMERA_SILENCE_S, CAMERA_WARM_UP_S, WAIT_MS, GaveUp, Outlet
-from carpus.core.capture.color_hold import ColorHold, seen_colors
+from carpus.core.capture.color_hold import Step
+from carpus.core.capture.color_lock import ColorLock, Control
 from carpus.core.capture.realsense_opening import (
     Streams,
     camera_streams,
@@ -25,7 +28,7 @@ from carpus.core.capture.realsense_opening import (
     put_near,
     stored_streams,
 )
-from carpus.core.capture.realsense_plans import CameraPlan, FilePlan
+from carpus.core.capture.realsense_plans import FilePlan
 from carpus.core.capture.unseen_camera import why_not_opened
 from carpus.core.capture.usb_devices import usb_cameras
 from carpus.core.capture.video_mode import Sensor
@@ -77,7 +80,7 @@ def _watch(rs: Any, outlet: Outlet, plan: CameraPlan) -> None:
 
     _start(streams, take)
     pictures = _Pictures(rs, outlet, streams)
-    hold = _Exposure(rs, outlet, streams)
+    hold = ColorLock(outlet, _Controls(rs, streams))
     outlet.set_exposure = hold.set_automatic
     heard: dict[Sensor, float] = {}
     until = time.monotonic() + CAMERA_WARM_UP_S
@@ -95,7 +98,7 @@ def _watch(rs: Any, outlet: Outlet, plan: CameraPlan) -> None:
                 is_told = True
             pictures.pass_on(frame)
             if sensor == Sensor.COLOR:
-                hold.look(frame)
+                hold.look(memoryview(frame.get_data()).cast("B"))
         for sensor in streams.modes:
             if time.monotonic() > heard.get(sensor, until - CAMERA_SILENCE_S) + CAMERA_SILENCE_S:
                 raise GaveUp(CameraLost, f"no {sensor.name.lower()} pictures for {CAMERA_SILENCE_S:g} s")
@@ -235,48 +238,32 @@ def _turned(blue_first: memoryview) -> memoryview:
     return memoryview(out)
 
 
-class _Exposure:
-    """Holds exposure and white balance. The colour sensor does not tell what its automatics have chosen, so the hold
-    finds by the pictures what looks the same."""
+class _Controls:
+    """Exposure and white balance of the colour sensor."""
 
-    def __init__(self, rs: Any, outlet: Outlet, streams: Streams) -> None:
-        self._option, self._outlet = rs.option, outlet
+    def __init__(self, rs: Any, streams: Streams) -> None:
+        self._option = rs.option
         self._sensor = next(sensor for sensor, profiles in streams.opening if streams.color in profiles)
         self._longest = LIGHT_SHARE / streams.color.fps() / EXPOSURE_UNIT_S
-        self._hold: ColorHold | None = None
-        self._last: Any | None = None
 
-    def set_automatic(self, on: bool) -> bool | None:
-        """Follow the light, or begin to hold, which is reported when it is done."""
+    def follow(self, on: bool) -> tuple[bool, bool]:
         option, sensor = self._option, self._sensor
-        self._hold = None
-        balance = put(sensor, option.enable_auto_white_balance, int(on))
-        if on or self._last is None:
-            return put(sensor, option.enable_auto_exposure, int(on)) and balance
-        if not put(sensor, option.enable_auto_exposure, 0) or not sensor.supports(option.exposure):
-            return False
-        reach = sensor.get_option_range(option.exposure)
-        kelvin = sensor.get_option_range(option.white_balance) if sensor.supports(option.white_balance) else None
-        self._hold = ColorHold(
-            seen_colors(self._last),
-            float(sensor.get_option(option.exposure)),
-            (reach.min, min(reach.max, self._longest)),
-            float(sensor.get_option(option.white_balance)) if kelvin else 0.0,
-            (kelvin.min, kelvin.max) if kelvin else None,
-        )
-        return None
+        return put(sensor, option.enable_auto_exposure, int(on)), put(sensor, option.enable_auto_white_balance, int(on))
 
-    def look(self, frame: Any) -> None:
-        """One more colour picture."""
-        self._last = bytes(memoryview(frame.get_data()).cast("B")) if self._hold is None else self._last
-        if self._hold is None:
-            return
-        step = self._hold.step(seen_colors(memoryview(frame.get_data()).cast("B")))
-        if step is not None:
-            put_near(self._sensor, self._option.exposure, step.exposure)
-            if step.kelvin:
-                put_near(self._sensor, self._option.white_balance, step.kelvin)
-        if self._hold.is_over:
-            done = self._hold.is_like_before
-            self._hold = None
-            self._outlet.send(ExposureSet(True, done))
+    def exposure(self) -> Control | None:
+        found = self._control(self._option.exposure)
+        return None if found is None else replace(found, most=min(found.most, self._longest))
+
+    def balance(self) -> Control | None:
+        return self._control(self._option.white_balance)
+
+    def put(self, step: Step) -> None:
+        put_near(self._sensor, self._option.exposure, step.exposure)
+        if step.kelvin:
+            put_near(self._sensor, self._option.white_balance, step.kelvin)
+
+    def _control(self, option: Any) -> Control | None:
+        if not self._sensor.supports(option):
+            return None
+        reach = self._sensor.get_option_range(option)
+        return Control(float(self._sensor.get_option(option)), reach.min, reach.max)

@@ -31,6 +31,7 @@ def test_everything_is_examined_with_a_camera_that_always_is_there(tmp_path: Pat
         "Disk",
         "Driver",
         "RealSense driver",
+        "Orbbec driver",
         "Camera rights",
         "Camera",
         "Pictures",

@@ -6,6 +6,7 @@ import multiprocessing
 from collections.abc import Iterator
 from concurrent.futures import ProcessPoolExecutor
 from functools import partial
+from importlib.metadata import PackageNotFoundError
 from itertools import islice, pairwise
 from pathlib import Path
 
@@ -14,7 +15,7 @@ import pytest
 
 import carpus
 from carpus.app.sources import open_recording
-from carpus.core.capture import realsense
+from carpus.core.capture import maker_library, realsense
 from carpus.core.capture.cameras import open_camera
 from carpus.core.capture.color_hold import MOST_ROUNDS, ColorHold, SeenColors
 from carpus.core.capture.doctor import opened_findings
@@ -250,8 +251,8 @@ def test_what_the_doctor_says_of_it(monkeypatch: pytest.MonkeyPatch) -> None:
     assert {each.state for each in further_findings({"firmware": "5.16.0.1", "usb": "3.2"})} == {"good"}
 
     def missing(name: str) -> str:
-        raise realsense.PackageNotFoundError(name)
+        raise PackageNotFoundError(name)
 
-    monkeypatch.setattr(realsense, "version", missing)
+    monkeypatch.setattr(maker_library, "version", missing)
     assert (driver_finding(wanted=False).state, driver_finding(wanted=True).state) == ("good", "bad")
     assert driver_finding(wanted=True).remedy == "Run: pip install pyrealsense2"

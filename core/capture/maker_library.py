@@ -1,0 +1,43 @@
+"""A maker's library as `carpus doctor` sees it: whether it is installed, and whether it can be loaded."""
+
+from __future__ import annotations
+
+import multiprocessing
+from collections.abc import Callable
+from concurrent.futures import ProcessPoolExecutor
+from concurrent.futures.process import BrokenProcessPool
+from importlib.metadata import PackageNotFoundError, version
+
+from carpus.core.capture.finding import Finding
+from carpus.core.errors import DriverMissing
+
+
+def library_finding(
+    name: str, package: str, load: Callable[[], None], *, asks: bool, unwanted: str, how: str
+) -> Finding:
+    """The library by its package; loaded, in a process of its own, where ``asks``.
+
+    ``unwanted`` is said where it is missing and nothing needs it, empty where something does; ``how`` to install it.
+    """
+    try:
+        found = f"{package} {version(package)}"
+    except PackageNotFoundError:
+        if unwanted:
+            return Finding(name, "good", unwanted)
+        return Finding(name, "bad", f"missing: {package}", how)
+    trouble = _load_trouble(load) if asks else ""
+    if not trouble:
+        return Finding(name, "good", found)
+    return Finding(name, "bad", f"{found}, cannot be loaded: {trouble}", "Install it, and what it names, again.")
+
+
+def _load_trouble(load: Callable[[], None]) -> str:
+    """Why the library cannot be loaded; empty when it can."""
+    try:
+        with ProcessPoolExecutor(1, multiprocessing.get_context("spawn")) as other:
+            other.submit(load).result()
+    except DriverMissing as fault:
+        return fault.detail
+    except BrokenProcessPool:
+        return "it ends its process"
+    return ""

@@ -1,0 +1,136 @@
+"""Orbbec's newer cameras (Femto Bolt and Mega, Gemini 2 and 330, Astra 2), by the maker's library pyorbbecsdk2."""
+
+from __future__ import annotations
+
+import math
+import sys
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import replace
+from importlib.util import find_spec
+from typing import Any
+
+from carpus.core.camera import Camera
+from carpus.core.capture.camera_kind import CameraKind
+from carpus.core.capture.camera_plan import CameraPlan
+from carpus.core.capture.capture_messages import Opened
+from carpus.core.capture.finding import Finding
+from carpus.core.capture.maker_library import library_finding
+from carpus.core.capture.notice import Notice, ignore
+from carpus.core.capture.orbbec_opening import MODULE, PACKAGE, load_library
+from carpus.core.capture.orbbec_process import serve
+from carpus.core.capture.process_camera import SIZE_PX, ProcessCamera
+from carpus.core.depth_sensor import ASSUMED, AZURE_KINECT, D435, D455, DepthSensor
+from carpus.core.errors import DriverMissing
+
+INSTALL = f"pip install --no-deps {PACKAGE}"
+"""Its own requirements (an older NumPy, a second OpenCV, Open3D, a window library) are those of its examples. With them
+it would take the place of what Carpus runs on: for that reason there is no extra for it."""
+MODELS = {
+    ("2bc5", "0635"): "Orbbec Femto",
+    ("2bc5", "0638"): "Orbbec Femto W",
+    ("2bc5", "0669"): "Orbbec Femto Mega",
+    ("2bc5", "066b"): "Orbbec Femto Bolt",
+    ("2bc5", "0660"): "Orbbec Astra 2",
+    ("2bc5", "0670"): "Orbbec Gemini 2",
+    ("2bc5", "0671"): "Orbbec Gemini 2 XL",
+    ("2bc5", "0673"): "Orbbec Gemini 2 L",
+    ("2bc5", "0800"): "Orbbec Gemini 335",
+    ("2bc5", "0801"): "Orbbec Gemini 330",
+    ("2bc5", "0803"): "Orbbec Gemini 336",
+    ("2bc5", "0804"): "Orbbec Gemini 335L",
+    ("2bc5", "0805"): "Orbbec Gemini 330L",
+    ("2bc5", "0807"): "Orbbec Gemini 336L",
+    ("2bc5", "0808"): "Orbbec Gemini 215",
+    ("2bc5", "0809"): "Orbbec Gemini 210",
+}
+"""Product numbers as in the udev rules that come with the library."""
+_WIDE = ("330L", "335L", "336L", "GEMINI 2")
+"""Their eyes stand some 100 mm apart, those of the other Gemini cameras about 50 mm."""
+RULE = 'SUBSYSTEM=="usb", ATTR{idVendor}=="2bc5", MODE="0660", TAG+="uaccess"'
+RULE_FILE = "/etc/udev/rules.d/60-carpus-orbbec.rules"
+
+
+class OrbbecCamera(ProcessCamera):
+    """The first camera, or the one whose serial number ``uri`` is; ``context`` as for :class:`CameraPlan`.
+
+    The rest as for :class:`ProcessCamera`. Raises :class:`DriverMissing` without the library.
+    """
+
+    def __init__(
+        self,
+        *,
+        uri: str | None = None,
+        camera: Camera | None = None,
+        patience_s: float = math.inf,
+        notice: Notice = ignore,
+        context: Callable[[], Any] | None = None,
+    ) -> None:
+        if find_spec(MODULE) is None:
+            raise DriverMissing(PACKAGE, INSTALL)
+        plan = CameraPlan(uri or "", SIZE_PX, models=MODELS, context=context)
+        sensor = AZURE_KINECT
+        super().__init__(serve, plan, uri or "Orbbec", sensor, camera=camera, patience_s=patience_s, notice=notice)
+
+    def plan_for(self, serial: str) -> object:
+        """The camera with this serial number."""
+        assert isinstance(self._plan, CameraPlan)
+        return replace(self._plan, serial=serial)
+
+    def depth_sensor(self, opened: Opened) -> DepthSensor:
+        """By the camera's name, and how its depth pictures see."""
+        return sensor_named(opened.settings)
+
+
+def sensor_named(settings: Mapping[str, str]) -> DepthSensor:
+    """The depth sensor of a camera with these settings: a Femto's is the Azure Kinect's; two eyes and a projector are
+    assumed to be as sure as a RealSense's with eyes as far apart, for want of figures."""
+    name = settings.get("camera", "").upper()
+    if "FEMTO" in name:
+        return AZURE_KINECT
+    pair = D455 if any(model in name for model in _WIDE) else D435
+    focal_px = float(settings.get("depth_focal_px", "nan"))
+    return replace(pair.with_focal(focal_px) if focal_px > 0.0 else pair, origin=ASSUMED)
+
+
+def open_orbbec(*, uri: str | None, camera: Camera | None, patience_s: float, notice: Notice) -> OrbbecCamera:
+    """The first camera, or the one whose serial number ``uri`` is."""
+    return OrbbecCamera(uri=uri, camera=camera, patience_s=patience_s, notice=notice)
+
+
+def driver_finding(asks_version: bool = True, wanted: bool = True) -> Finding:
+    """The maker's library, by its package; loaded, in a process of its own, only where a camera wants it."""
+    is_packed = getattr(sys, "frozen", False)
+    packed = f"The packed program has no driver for it: install Carpus with pip, then run: {INSTALL}"
+    return library_finding(
+        "Orbbec driver",
+        PACKAGE,
+        load_library,
+        asks=asks_version and wanted,
+        unwanted="" if wanted else "not installed; only an Orbbec Femto, Gemini or Astra 2 needs it",
+        how=packed if is_packed else f"Run: {INSTALL}",
+    )
+
+
+def further_findings(settings: Mapping[str, str]) -> Sequence[Finding]:
+    """Firmware and port of an opened camera."""
+    findings = []
+    if settings.get("firmware"):
+        findings.append(Finding("Firmware", "good", settings["firmware"]))
+    usb = settings.get("usb", "")
+    if usb.startswith("2"):
+        findings.append(Finding("USB", "warning", f"USB {usb}", KIND.port))
+    elif usb:
+        findings.append(Finding("USB", "good", f"USB {usb}"))
+    return findings
+
+
+KIND = CameraKind(
+    title="Orbbec Femto, Gemini or Astra 2",
+    models=MODELS,
+    open=open_orbbec,
+    driver=driver_finding,
+    rights=f"As root, write into {RULE_FILE}: {RULE}. Run: udevadm control --reload. Then plug the camera in again.",
+    needed_mbit=5000,
+    port="Plug it into a USB 3 port, with a USB 3 cable and without a hub.",
+    further=further_findings,
+)

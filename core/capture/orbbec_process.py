@@ -1,0 +1,184 @@
+"""OrbbecSDK inside the capture process: hands on what a camera sends."""
+
+from __future__ import annotations
+
+import threading
+import time
+from dataclasses import replace
+from typing import Any
+
+import cv2
+
+from carpus.core.capture.camera_plan import CameraPlan
+from carpus.core.capture.capture_messages import Opened
+from carpus.core.capture.capture_process import CAMERA_SILENCE_S, CAMERA_WARM_UP_S, WAIT_MS, GaveUp, Outlet
+from carpus.core.capture.color_hold import Step
+from carpus.core.capture.color_lock import ColorLock, Control
+from carpus.core.capture.frame_assembly import camera_of_lens
+from carpus.core.capture.lens_bending import LensBending
+from carpus.core.capture.orbbec_opening import (
+    Streams,
+    choose_streams,
+    device_settings,
+    find_camera,
+    lens_of,
+    library,
+    prepare,
+    put,
+    whole_lens,
+)
+from carpus.core.capture.unseen_camera import why_not_opened
+from carpus.core.capture.usb_devices import usb_cameras
+from carpus.core.capture.video_mode import Sensor
+from carpus.core.errors import CameraLost
+
+LIGHT_SHARE = 0.9
+"""Of a picture's time the longest exposure: a longer one would slow the camera down."""
+EXPOSURE_UNIT_S = 1e-4
+"""Of the colour camera's exposure."""
+UNIT_DIGITS = 7
+
+
+def serve(outlet: Outlet, plan: CameraPlan) -> None:
+    """Serve a plan in the capture process."""
+    ob = library()
+    try:
+        _watch(ob, outlet, plan)
+    except (RuntimeError, ob.OBError) as failure:  # all that the library raises
+        raise why_not_opened(" ".join(str(failure).split()), usb_cameras(plan.models)) from failure
+
+
+def _watch(ob: Any, outlet: Outlet, plan: CameraPlan) -> None:
+    """The newest pictures, whenever there are any."""
+    context = plan.context() if plan.context is not None else ob.Context()
+    device = find_camera(ob, context, plan)
+    serial = device.get_device_info().get_serial_number()
+    gone = threading.Event()
+
+    def changed(removed: Any, _added: Any) -> None:
+        if serial in [removed.get_device_serial_number_by_index(each) for each in range(removed.get_count())]:
+            gone.set()
+
+    context.set_device_changed_callback(changed)
+    pipeline = ob.Pipeline(device)
+    streams = choose_streams(ob, pipeline, plan)
+    settings = device_settings(ob, device, streams) | prepare(ob, device)
+    config = ob.Config()
+    config.enable_stream(streams.color)
+    config.enable_stream(streams.depth)
+    # each picture as it comes: Carpus pairs them by their times, and counts what is missing
+    config.set_frame_aggregate_output_mode(ob.OBFrameAggregateOutputMode.ANY_SITUATION)
+    outlet.hold(context, device, pipeline, streams, config, changed)
+    pipeline.start(config)
+    pictures = _Pictures(ob, outlet, streams)
+    lock = ColorLock(outlet, _Controls(ob, device, streams))
+    outlet.set_exposure = lock.set_automatic
+    heard: dict[Sensor, float] = {}
+    until = time.monotonic() + CAMERA_WARM_UP_S
+    is_told = False
+    while not outlet.stopping:
+        outlet.obey(block=False)
+        if gone.is_set():
+            raise GaveUp(CameraLost, "unplugged")
+        both = pipeline.wait_for_frames(WAIT_MS)
+        color, depth = (None, None) if both is None else (both.get_color_frame(), both.get_depth_frame())
+        if depth is not None:
+            heard[Sensor.DEPTH] = time.monotonic()
+            if not is_told:  # a depth picture tells its unit, in millimetres
+                unit_m = round(float(depth.get_depth_scale()) * 1e-3, UNIT_DIGITS)
+                mirrored = dict.fromkeys(streams.modes, False)
+                outlet.send(Opened(streams.modes, mirrored, None, settings, lens_of(ob, streams), unit_m))
+                is_told = True
+            pictures.pass_depth(depth)
+        if color is not None:
+            heard[Sensor.COLOR] = time.monotonic()
+            picture = pictures.pass_color(color)
+            if picture is not None:
+                lock.look(picture)
+        for sensor in streams.modes:
+            if time.monotonic() > heard.get(sensor, until - CAMERA_SILENCE_S) + CAMERA_SILENCE_S:
+                raise GaveUp(CameraLost, f"no {sensor.name.lower()} pictures for {CAMERA_SILENCE_S:g} s")
+        outlet.stay_alive()
+    pipeline.stop()
+
+
+class _Pictures:
+    """Passes colour on, and depth, laid on colour by the library; both with the camera's own times."""
+
+    def __init__(self, ob: Any, outlet: Outlet, streams: Streams) -> None:
+        self._outlet, self._shrink = outlet, streams.shrink
+        self._is_jpeg = streams.color.get_format() == ob.OBFormat.MJPG
+        self._align = ob.AlignFilter(align_to_stream=ob.OBStreamType.COLOR_STREAM)
+        self._align.set_align_to_stream_profile(streams.color)
+        # the library lays depth on what an ideal lens would see. It can bend it too, but then takes good readings away
+        # beside missing ones, or all of them, by the model of the lens
+        self._align.set_config_value("TargetDistortion", 0.0)
+        self._bending = LensBending(camera_of_lens(*whole_lens(ob, streams.color)), streams.shrink)
+        outlet.hold(self)
+
+    def pass_color(self, frame: Any) -> memoryview | None:
+        """Hand a colour picture on; its bytes, None of one that arrived damaged: it is left out, and counted."""
+        width, height = frame.get_width(), frame.get_height()
+        picture = frame.get_data()
+        if self._is_jpeg:
+            picture = cv2.imdecode(picture, cv2.IMREAD_COLOR_RGB)
+        if picture is None or picture.size != height * width * 3:
+            return None
+        picture = picture.reshape(height, width, 3)
+        if self._shrink > 1:
+            smaller = (width // self._shrink, height // self._shrink)
+            picture = cv2.resize(picture, smaller, interpolation=cv2.INTER_AREA)
+        return self._put(Sensor.COLOR, frame, picture)
+
+    def pass_depth(self, frame: Any) -> None:
+        """Hand a depth picture on; one that cannot be laid on colour is left out, and its frame has none."""
+        laid = self._align.process(frame)
+        if laid is None:
+            return
+        laid = laid.as_depth_frame()
+        picture = laid.get_data().view("<u2").reshape(laid.get_height(), laid.get_width())
+        self._put(Sensor.DEPTH, frame, self._bending.bend(picture))
+
+    def _put(self, sensor: Sensor, frame: Any, picture: Any) -> memoryview:
+        pixels = memoryview(picture.tobytes())
+        self._outlet.put(sensor, int(frame.get_index()), int(frame.get_timestamp_us()), pixels)
+        return pixels
+
+
+class _Controls:
+    """Exposure and white balance of the colour camera."""
+
+    def __init__(self, ob: Any, device: Any, streams: Streams) -> None:
+        self._ob, self._device, self._prop = ob, device, ob.OBPropertyID
+        self._longest = LIGHT_SHARE / streams.color.get_fps() / EXPOSURE_UNIT_S
+
+    def follow(self, on: bool) -> tuple[bool, bool]:
+        exposure, balance = (
+            put(self._ob, self._device, each, int(on))
+            for each in (self._prop.OB_PROP_COLOR_AUTO_EXPOSURE_BOOL, self._prop.OB_PROP_COLOR_AUTO_WHITE_BALANCE_BOOL)
+        )
+        return exposure, balance
+
+    def exposure(self) -> Control | None:
+        found = self._control(self._prop.OB_PROP_COLOR_EXPOSURE_INT)
+        return None if found is None else replace(found, most=max(found.least, min(found.most, self._longest)))
+
+    def balance(self) -> Control | None:
+        return self._control(self._prop.OB_PROP_COLOR_WHITE_BALANCE_INT)
+
+    def put(self, step: Step) -> None:
+        self._put_near(self._prop.OB_PROP_COLOR_EXPOSURE_INT, step.exposure)
+        if step.kelvin:
+            self._put_near(self._prop.OB_PROP_COLOR_WHITE_BALANCE_INT, step.kelvin)
+
+    def _control(self, prop: Any) -> Control | None:
+        if not self._device.is_property_supported(prop, self._ob.OBPermissionType.PERMISSION_READ_WRITE):
+            return None
+        reach = self._device.get_int_property_range(prop)
+        return Control(float(self._device.get_int_property(prop)), float(reach.min), float(reach.max))
+
+    def _put_near(self, prop: Any, value: float) -> None:
+        reach = self._device.get_int_property_range(prop)
+        step = reach.step or 1
+        value = min(max(value, reach.min), reach.max)
+        put(self._ob, self._device, prop, reach.min + round((value - reach.min) / step) * step)

@@ -1,0 +1,283 @@
+"""Orbbec's newer cameras without a camera: the maker's own library with its player in place of the bus."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from functools import partial
+from importlib.metadata import PackageNotFoundError
+from itertools import islice, pairwise
+from pathlib import Path
+from types import SimpleNamespace
+from typing import Any
+
+import numpy as np
+import pytest
+
+from carpus.core.capture import maker_library, orbbec
+from carpus.core.capture.camera_plan import CameraPlan
+from carpus.core.capture.cameras import open_camera
+from carpus.core.capture.capture_process import GaveUp
+from carpus.core.capture.color_lock import ColorLock
+from carpus.core.capture.doctor import opened_findings, rules_finding
+from carpus.core.capture.orbbec import OrbbecCamera, driver_finding, sensor_named
+from carpus.core.capture.orbbec_opening import choose_streams, find_camera, library
+from carpus.core.capture.orbbec_process import _Controls
+from carpus.core.depth_sensor import AZURE_KINECT
+from carpus.core.errors import (
+    CameraBusy,
+    CameraLost,
+    CameraMissing,
+    CameraReturned,
+    CameraUnsuited,
+    CarpusFault,
+    DriverMissing,
+    OtherCamera,
+)
+from carpus.core.words import one_sentence
+from tests.capture import orbbec_stand_in
+from tests.capture.orbbec_stand_in import BENT, DEPTH_FX, EDGE_PX, NEAR_MM, SERIAL, SHIFT_MM, StandInList
+
+
+@pytest.fixture(scope="module")
+def bag(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    path = tmp_path_factory.mktemp("orbbec") / "plane.bag"
+    orbbec_stand_in.record(path)
+    return path
+
+
+@pytest.fixture
+def told() -> list[CarpusFault]:
+    return []
+
+
+@pytest.fixture
+def camera(
+    tmp_path: Path, bag: Path, told: list[CarpusFault], monkeypatch: pytest.MonkeyPatch
+) -> Iterator[OrbbecCamera]:
+    monkeypatch.chdir(tmp_path)
+    source = OrbbecCamera(notice=told.append, context=partial(orbbec_stand_in.plugged_in, tmp_path, bag))
+    yield source
+    source.close()
+    assert not (tmp_path / "Log").exists(), "the library keeps logs where the program was started"
+
+
+def test_a_camera_streams_is_lost_and_comes_back(
+    camera: OrbbecCamera, told: list[CarpusFault], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("carpus.core.capture.process_camera.RETRY_S", 0.05)
+    info = camera.info
+    lens = info.camera
+    assert (info.name, info.settings["serial"]) == ("Orbbec Femto Bolt(Playback)", SERIAL)
+    assert (info.settings["firmware"], info.settings["usb"], info.settings["shrunk"]) == (
+        "1.0.9",
+        "3.2",
+        "2 pixels to one",
+    )
+    assert info.sensor == AZURE_KINECT
+    assert (lens.width_px, lens.height_px, lens.fx_px, lens.cx_px) == (640, 480, 525.0, 319.5)
+    assert (lens.distortion_model, lens.origin) == ("rational_polynomial", "factory")
+    assert lens.distortion == pytest.approx(BENT)
+    frames = camera.frames()
+    first = list(islice(frames, 8))
+    depth_m = NEAR_MM / 1000.0
+    edge_m = (EDGE_PX - 0.5 - (320 - 1) / 2) / DEPTH_FX * depth_m + SHIFT_MM / 1000.0
+    for frame in first:
+        assert frame.color_rgb.shape == (480, 640, 3)
+        assert frame.depth_raw is not None
+        assert set(np.unique(frame.depth_raw)) == {0, NEAR_MM}
+        assert frame.depth_unit_m == 1e-3
+        for row in (90, 240, 400):
+            seen = lens.undistort(np.array([[np.argmax(frame.depth_raw[row] > 0) - 0.5, row]]))
+            assert lens.back_project(seen, np.array([depth_m]))[0, 0] == pytest.approx(edge_m, abs=2 * depth_m / 525.0)
+    for earlier, later in pairwise(first):
+        periods = (later.timestamp_s - earlier.timestamp_s) * 30.0
+        assert periods == pytest.approx(later.dropped_before + 1, abs=0.01)
+    (tmp_path / "unplugged").touch()
+
+    def plug_in_again(fault: CarpusFault) -> None:
+        told.append(fault)
+        (tmp_path / "unplugged").unlink(missing_ok=True)
+
+    camera._notice = plug_in_again
+    rest = []
+    for frame in frames:
+        rest.append(frame)
+        if told and isinstance(told[-1], CameraReturned):
+            break
+    assert [type(fault) for fault in told] == [CameraLost, CameraReturned]
+    assert told[0].detail == "unplugged"
+    times_s = [frame.timestamp_s for frame in [*first, *rest]]
+    assert all(later > earlier for earlier, later in pairwise(times_s))
+    assert sum(frame.dropped_before for frame in rest) > 0
+
+
+def test_the_doctor_opens_it(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    bag = tmp_path / "small.bag"
+    orbbec_stand_in.record(bag, small=True)
+    opened = partial(OrbbecCamera, context=partial(orbbec_stand_in.plugged_in, tmp_path, bag))
+    monkeypatch.setattr(orbbec, "OrbbecCamera", opened)
+    findings = {each.name: each for each in opened_findings("orbbec", 0.5)}
+    assert list(findings) == ["Pictures", "Registration", "Mirror", "Clock", "Firmware", "USB"]
+    assert findings["Registration"].found == "depth lies on colour, by the library"
+    assert (findings["Firmware"].state, findings["USB"].state) == ("good", "good")
+
+
+def test_what_the_doctor_says_of_it(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    assert driver_finding().state == "good"
+    assert orbbec.further_findings({"usb": "2.1"})[0].state == "warning"
+    (tmp_path / "60-carpus-orbbec.rules").write_text(orbbec.RULE + "\n")
+    assert rules_finding(orbbec.KIND, (tmp_path,)).state == "good"
+
+    def missing(name: str) -> str:
+        raise PackageNotFoundError(name)
+
+    monkeypatch.setattr(maker_library, "version", missing)
+    assert driver_finding(wanted=False).state == "good"
+    assert driver_finding().remedy == "Run: pip install --no-deps pyorbbecsdk2"
+    monkeypatch.setattr(orbbec, "find_spec", lambda _: None)
+    with pytest.raises(DriverMissing) as told:
+        open_camera(f"orbbec:{SERIAL}")
+    assert "pip install --no-deps pyorbbecsdk2" in one_sentence(told.value)
+
+
+def test_the_stand_ins_speak_as_the_library_does() -> None:
+    ob = library()
+    for stand_in, real in (
+        (StandInList, ob.DeviceList),
+        (orbbec_stand_in.StandInContext, ob.Context),
+        (FakeDevice, ob.Device),
+    ):
+        names = [name for name in vars(stand_in) if not name.startswith("_")]
+        assert [name for name in names if not hasattr(real, name)] == []
+    assert ob.Context().query_devices().get_count() == 0
+
+
+def test_the_camera_that_is_asked_for() -> None:
+    ob, state = library(), library().OBDeviceAccessState
+    free, held = state.OB_DEVICE_ACCESS_STATE_AVAILABLE, state.OB_DEVICE_ACCESS_STATE_EXCLUSIVE
+
+    def found(serials: str, wanted: str, as_it_is: Any = free) -> Any:
+        listed = StandInList({each: each for each in serials}, as_it_is)
+        return find_camera(ob, SimpleNamespace(query_devices=lambda: listed), CameraPlan(wanted))
+
+    assert found("ab", "") == "a"
+    assert found("ab", "b") == "b"
+    for serials, wanted, as_it_is, fault in (
+        ("", "", free, CameraMissing),
+        ("ab", "c", free, OtherCamera),
+        ("a", "", held, CameraBusy),
+    ):
+        with pytest.raises(GaveUp) as told:
+            found(serials, wanted, as_it_is)
+        assert told.value.fault is fault
+
+
+def test_the_streams_that_are_chosen() -> None:
+    ob = library()
+
+    def chosen(colors: list[tuple[int, int]], depths: list[tuple[int, int]]) -> tuple[int, int, int]:
+        def listed(sensor: Any) -> Any:
+            sizes, form = (
+                (colors, ob.OBFormat.RGB) if sensor == ob.OBSensorType.COLOR_SENSOR else (depths, ob.OBFormat.Y16)
+            )
+            return SimpleNamespace(
+                get_count=lambda: len(sizes),
+                get_stream_profile_by_index=lambda at: SimpleNamespace(
+                    as_video_stream_profile=lambda: Profile(*sizes[at], form)
+                ),
+            )
+
+        streams = choose_streams(ob, SimpleNamespace(get_stream_profile_list=listed), CameraPlan())
+        return streams.color.get_width(), streams.depth.get_width(), streams.shrink
+
+    gemini = [(1280, 720), (848, 480), (640, 480), (640, 360)]
+    assert chosen(gemini, [(1280, 800), (848, 480), (640, 480), (424, 240)]) == (640, 640, 1)
+    assert chosen([(3840, 2160), (1280, 960), (1280, 720)], [(1024, 1024), (640, 576), (320, 288)]) == (1280, 640, 2)
+    for colors, depths in (([(3840, 2160)], [(640, 576)]), (gemini, [])):
+        with pytest.raises(GaveUp) as told:
+            chosen(colors, depths)
+        assert told.value.fault is CameraUnsuited
+
+
+@pytest.mark.parametrize(
+    ("name", "kind", "origin"),
+    [
+        ("Orbbec Femto Mega", "time of flight", "stated"),
+        ("Orbbec Gemini 335", "active stereo", "assumed"),
+        ("Orbbec Gemini 335L", "active stereo", "assumed"),
+    ],
+)
+def test_what_its_depth_is_worth(name: str, kind: str, origin: str) -> None:
+    sensor = sensor_named({"camera": name, "depth_focal_px": "370.0"})
+    assert (sensor.kind, sensor.origin) == (kind, origin)
+    assert sensor.baseline_m == {"Orbbec Gemini 335": 0.050, "Orbbec Gemini 335L": 0.095}.get(name, 0.0)
+
+
+def test_exposure_and_white_balance_are_held_as_they_look() -> None:
+    ob, device, sent = library(), FakeDevice(), list[Any]()
+    streams = SimpleNamespace(color=Profile(640, 480, ob.OBFormat.RGB))
+    lock = ColorLock(SimpleNamespace(send=sent.append), _Controls(ob, device, streams))  # type: ignore[arg-type]
+    lock.look(device._picture())
+    before = np.frombuffer(device._picture(), np.uint8).reshape(-1, 3).mean(axis=0)
+    assert lock.set_automatic(False) is None
+    for _ in range(120):
+        lock.look(device._picture())
+    assert [each.done for each in sent] == [True]
+    after = np.frombuffer(device._picture(), np.uint8).reshape(-1, 3).mean(axis=0)
+    assert after == pytest.approx(before, rel=0.05)
+    assert lock.set_automatic(True)
+    device._lacks = "EXPOSURE"
+    assert lock.set_automatic(False) is False
+
+
+class Profile:
+    def __init__(self, width: int, height: int, form: Any) -> None:
+        self._size, self._form = (width, height), form
+
+    def get_width(self) -> int:
+        return self._size[0]
+
+    def get_height(self) -> int:
+        return self._size[1]
+
+    def get_fps(self) -> int:
+        return 30
+
+    def get_format(self) -> Any:
+        return self._form
+
+
+class FakeDevice:
+    """A colour camera whose automatics have chosen an exposure of 156 and 4600 kelvin, which nobody can read."""
+
+    def __init__(self) -> None:
+        self._set = {
+            "OB_PROP_COLOR_AUTO_EXPOSURE_BOOL": 1,
+            "OB_PROP_COLOR_AUTO_WHITE_BALANCE_BOOL": 1,
+            "OB_PROP_COLOR_EXPOSURE_INT": 50,
+            "OB_PROP_COLOR_WHITE_BALANCE_INT": 6000,
+        }
+        self._lacks = ""
+
+    def is_property_supported(self, prop: Any, _permission: Any) -> bool:
+        return prop.name in self._set and not (self._lacks and self._lacks in prop.name)
+
+    def set_bool_property(self, prop: Any, value: bool) -> None:
+        self._set[prop.name] = int(value)
+
+    def set_int_property(self, prop: Any, value: int) -> None:
+        self._set[prop.name] = value
+
+    def get_int_property(self, prop: Any) -> int:
+        return self._set[prop.name]
+
+    def get_int_property_range(self, prop: Any) -> Any:
+        low, high = (1, 10000) if "EXPOSURE" in prop.name else (2800, 6500)
+        return SimpleNamespace(min=low, max=high, step=1)
+
+    def _picture(self) -> bytes:
+        values = list(self._set.values())
+        exposure, kelvin = (156 if values[0] else values[2]), (4600 if values[1] else values[3])
+        warm = np.exp((kelvin - 4600) / 8000.0)
+        pixel = np.clip(np.array([80.0 * warm, 80.0, 80.0 / warm]) * exposure / 156.0, 0, 255)
+        return np.tile(pixel.astype(np.uint8), 4000).tobytes()
