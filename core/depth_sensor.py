@@ -98,13 +98,15 @@ class DepthSensor:
         flat = NoiseLaw(0.0, self.stays.square_per_m) if self.kind == "active stereo" else self.stays
         return flat.sd_m(depth_m)
 
-    def with_focal(self, focal_px: float) -> DepthSensor:
+    def with_focal(self, focal_px: float, color_focal_px: float = math.nan) -> DepthSensor:
         """The same pair of eyes with depth pictures of another focal length: its disparity is as sure as before, and
-        its window as many of its own pixels wide. Other kinds stay as they are."""
+        its window as many of its own pixels wide; ``color_focal_px`` of the colour picture that depth is laid on says
+        how many of colour's that are. Other kinds stay as they are."""
         if self.kind != "active stereo":
             return self
         made = _stereo(self.name, self.baseline_m, focal_px, self.nearest_m, self.farthest_m)
-        return replace(made, origin=self.origin)
+        larger = color_focal_px / _COLOR_FOCAL_PX if color_focal_px > 0.0 else 1.0
+        return replace(made, origin=self.origin, patch_px=max(made.patch_px * larger, 1.0))
 
     def as_mapping(self) -> dict[str, Any]:
         """All of it in plain values, as files carry it."""
@@ -183,7 +185,8 @@ def _stereo(name: str, baseline_m: float, focal_px: float, nearest_m: float, far
 
 _SUBPIXEL_PX, _SUBPIXEL_STAYS_PX = 0.08, 0.06
 _WINDOW_PX, _COLOR_FOCAL_PX = 9.0, 525.0
-"""Width of the matching window in the depth picture; focal length of the colour picture that depth is laid on."""
+"""Width of the matching window in the depth picture; focal length of the colour picture that depth is laid on, where
+nobody says it."""
 _RELIEF_M, _RELIEF_PATCH_PX = 0.0005, 11.0
 """What a window so wide takes off the height of knuckles, besides: it grows with the square of its width."""
 

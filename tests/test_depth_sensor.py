@@ -32,6 +32,9 @@ def test_the_laws_are_those_of_their_sources() -> None:
     halved = D435.with_focal(212.0)
     assert halved.reading_sd_m(Z_M) == pytest.approx(2.0 * D435.reading_sd_m(Z_M))
     assert halved.stays.square_per_m == pytest.approx(2.0 * D435.stays.square_per_m)
+    larger = D435.with_focal(424.0, 2.0 * 525.0)
+    assert (larger.reading, larger.stays) == (D435.reading, D435.stays), "the law is in depth's own geometry"
+    assert larger.patch_px == pytest.approx(2.0 * D435.patch_px)
     assert dataclasses.replace(D435, origin=ASSUMED).with_focal(212.0).origin == ASSUMED, "no source has stated it"
 
 

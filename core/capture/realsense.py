@@ -67,7 +67,7 @@ class RealSenseCamera(ProcessCamera):
 
     def depth_sensor(self, opened: Opened) -> DepthSensor:
         """By the camera's name, and how its depth pictures see."""
-        return sensor_named(opened.settings)
+        return sensor_named(opened.settings, math.nan if opened.lens is None else opened.lens.fx_px)
 
 
 def require_library() -> None:
@@ -76,13 +76,14 @@ def require_library() -> None:
         raise ExtraMissing(EXTRA, PACKAGE)
 
 
-def sensor_named(settings: Mapping[str, str]) -> DepthSensor:
-    """The depth sensor of a camera with these settings; assumed like a D435's where the name is not known."""
+def sensor_named(settings: Mapping[str, str], color_focal_px: float = math.nan) -> DepthSensor:
+    """The depth sensor of a camera with these settings; assumed like a D435's where the name is not known. Its noise is
+    in the geometry of its own depth pictures; only its window is counted in pixels of colour."""
     name = settings.get("camera", "").upper()
     known = next((sensor for model, sensor in SENSORS.items() if model in name), None)
     sensor = replace(D435, origin=ASSUMED) if known is None else known
     focal_px = float(settings.get("depth_focal_px", "nan"))
-    return sensor.with_focal(focal_px) if focal_px > 0.0 else sensor
+    return sensor.with_focal(focal_px, color_focal_px) if focal_px > 0.0 else sensor
 
 
 def open_realsense(*, uri: str | None, camera: Camera | None, patience_s: float, notice: Notice) -> RealSenseCamera:

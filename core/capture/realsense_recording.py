@@ -120,7 +120,7 @@ class RealSenseRecording:
         color = opened.modes[Sensor.COLOR]
         assert opened.lens is not None
         camera = camera_of_lens((color.width_px, color.height_px), opened.lens)
-        sensor = sensor_named(opened.settings)
+        sensor = sensor_named(opened.settings, camera.fx_px)
         settings = {"format": f"RealSense {self._path.suffix.lower()}", **opened.settings}
         has_depth = Sensor.DEPTH in opened.modes
         return SourceInfo(

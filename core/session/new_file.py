@@ -42,7 +42,7 @@ def write_header(file: h5py.File, header: SessionHeader, camera: Camera) -> None
     """The attributes of ``/`` and ``/camera``."""
     values = {
         "format": schema.FORMAT,
-        "format_version": schema.FORMAT_VERSION,
+        "format_version": version_for(camera),
         "protocol": header.protocol.name,
         "complete": False,
     }
@@ -52,6 +52,12 @@ def write_header(file: h5py.File, header: SessionHeader, camera: Camera) -> None
     told = asdict(camera) | {"sensor": json.dumps(camera.sensor.as_mapping(), sort_keys=True)}
     for name, value in zip(schema.CAMERA_ATTRIBUTES, told.values(), strict=True):
         group.attrs[name] = value
+
+
+def version_for(camera: Camera) -> int:
+    """Of the format: what an older Carpus would misread has a version that it refuses."""
+    is_inverse = camera.distortion_model == "inverse_brown_conrady" and camera.is_distorted
+    return schema.LENS_VERSION if is_inverse else schema.FORMAT_VERSION
 
 
 def write_calibration(file: h5py.File, layout: Layout, calibration: Calibration) -> None:

@@ -164,13 +164,13 @@ def _check_format(path: Path, file: h5py.File) -> None:
     if file.attrs.get("format") != schema.FORMAT:
         raise SessionUnreadable(path, phrase("an HDF5 file, but not a session"))
     version = _version(file)
-    if not 1 <= version <= schema.FORMAT_VERSION:
+    if not 1 <= version <= schema.NEWEST_VERSION:
         raise SessionUnreadable(
             path,
             phrase(
                 "format version {version}, this Carpus reads up to {format_version}",
                 version=version,
-                format_version=schema.FORMAT_VERSION,
+                format_version=schema.NEWEST_VERSION,
             ),
         )
 

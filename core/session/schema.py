@@ -19,12 +19,15 @@ from carpus.core.types import FINGER_READINGS, SURFACE_READINGS
 
 FORMAT = "carpus-session"
 FORMAT_VERSION = 2
+LENS_VERSION = 3
+"""Of a session whose lens an older Carpus would take for plumb_bob: it refuses the file. Nothing else differs."""
+NEWEST_VERSION = LENS_VERSION
 
 ZYZ_ANGLES = ("alpha", "beta", "gamma")
 
 ROOT_ATTRIBUTES = {
     "format": f"always {FORMAT}",
-    "format_version": f"{FORMAT_VERSION}",
+    "format_version": f"{FORMAT_VERSION}; {LENS_VERSION} with the distortion model inverse_brown_conrady",
     "session_id": "UUID of this session",
     "recording_id": "UUID of the recording, the same for every result of it; since version 2",
     "subject_id": "pseudonym of the patient",

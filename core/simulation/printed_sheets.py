@@ -67,17 +67,19 @@ class Studio:
         self._color = ColorSensor(self.spec, appearance_of(Scene(self.spec)))
         self._depth = depth_pictures(self.spec, camera)
         self._rays = {step: _rays(camera, step) for step in (1, FINER)}
+        self._drawn: tuple[Sequence[Placed], FloatImage, FloatImage] | None = None
 
     def frame(self, sheets: Sequence[Placed], index: int, time_s: float) -> Frame:
         """What the camera makes of the sheets, the nearest in front."""
-        light, _ = self._seen(sheets, FINER)
-        height, width = self.camera.height_px, self.camera.width_px
-        light = light.reshape(height, FINER, width, FINER, 3).mean(axis=(1, 3))
-        _, depth_m = self._seen(sheets, 1)
-        light = light.astype(np.float32)
+        if self._drawn is None or self._drawn[0] is not sheets:  # what lies still is drawn once
+            light, _ = self._seen(sheets, FINER)
+            height, width = self.camera.height_px, self.camera.width_px
+            light = light.reshape(height, FINER, width, FINER, 3).mean(axis=(1, 3))
+            _, depth_m = self._seen(sheets, 1)
+            self._drawn = (sheets, light.astype(np.float32), depth_m.astype(np.float32))
+        _, light, depth_m = self._drawn
         rgb = self._color.expose(light, index)
-        depth = self._depth.measure(depth_m.astype(np.float32), index, light)
-        return Frame(index, time_s, rgb, depth, 1.0 / 5000.0)
+        return Frame(index, time_s, rgb, self._depth.measure(depth_m, index, light), 1.0 / 5000.0)
 
     def _seen(self, sheets: Sequence[Placed], step: int) -> tuple[FloatImage, FloatImage]:
         rays = self._rays[step]

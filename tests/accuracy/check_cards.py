@@ -16,6 +16,8 @@ from carpus.core.simulation.printed_sheets import LENS, Studio
 from tests.accuracy.cameras import OFF_SHARE
 
 SEED = 7600
+FEWER = 10
+"""Of the wrong cameras' pictures one in so many is looked at: it is their scale that tells."""
 ROWS = {"card: structured light": "primesense", "card: active stereo, D435": "d435", "card: time of flight": "azure"}
 
 
@@ -34,9 +36,10 @@ def run_one(sensor: str, seed: int) -> CardRun:
     rng = np.random.default_rng([seed, 1])
     scene = card_scene(float(rng.uniform(0.55, 0.65)), float(rng.uniform(0.0, 8.0)), float(rng.uniform(-20.0, 20.0)))
     seen = [studio.frame(scene, k, LOOK_EVERY_S * k) for k in range(round(CHECK_S / LOOK_EVERY_S) + 1)]
-    right, longer, shorter = (
-        measure_card((replace(one, depth_unit_m=one.depth_unit_m * share) for one in seen), camera, sensor)
-        for share in (1.0, 1.0 + OFF_SHARE, 1.0 - OFF_SHARE)
+    right = measure_card(seen, camera, sensor)
+    longer, shorter = (
+        measure_card([replace(one, depth_unit_m=one.depth_unit_m * share) for one in seen[::FEWER]], camera, sensor)
+        for share in (1.0 + OFF_SHARE, 1.0 - OFF_SHARE)
     )
     return CardRun(right, (not longer.lengths_hold, not shorter.lengths_hold))
 

@@ -90,8 +90,8 @@ def test_an_old_session_is_read_value_by_value(tmp_path: Path, version: int, pro
 def test_a_newer_session_is_refused_with_a_sentence(tmp_path: Path) -> None:
     path = unpacked(f"v{schema.FORMAT_VERSION}-wrist6.h5", tmp_path)
     with h5py.File(path, "r+") as file:
-        file.attrs["format_version"] = schema.FORMAT_VERSION + 1
-    with pytest.raises(SessionUnreadable, match=f"format version {schema.FORMAT_VERSION + 1}, this Carpus reads up to"):
+        file.attrs["format_version"] = schema.NEWEST_VERSION + 1
+    with pytest.raises(SessionUnreadable, match=f"format version {schema.NEWEST_VERSION + 1}, this Carpus reads up to"):
         read_session(path)
 
 

@@ -53,9 +53,12 @@ def assert_same(left: object, right: object) -> None:
 @pytest.mark.parametrize("protocol", [WRIST6, HAND21], ids=lambda protocol: protocol.name)
 def test_what_was_written_is_read(tmp_path: Path, protocol: MarkerProtocol) -> None:
     frames = [make_frame(row, protocol) for row in range(N)]
-    session = read_session(write(tmp_path / "s.h5", protocol))
+    path = write(tmp_path / "s.h5", protocol)
+    session = read_session(path)
     assert session.header == make_header(protocol)
     assert session.camera == SEEN
+    with h5py.File(path, "r") as file:
+        assert file.attrs["format_version"] == 3, "an older Carpus must not take this lens for plumb_bob"
     assert_same(session.calibration, make_calibration(protocol))
     assert session.calibration.verdict.findings[0].markers == ("MCP2", "MCP3")
     assert_same(session.motion, motion_of(frames))
@@ -115,7 +118,7 @@ BAD: dict[str, tuple[Callable[[Path], object], str]] = {
     "empty": (lambda path: path.write_bytes(b""), "not a session"),
     "cut off": (cut, ""),
     "other HDF5": (lambda path: (path.unlink(), h5py.File(path, "w").close()), "not a session"),
-    "newer": (edit(lambda file: file.attrs.modify("format_version", 3)), "version 3"),
+    "newer": (edit(lambda file: file.attrs.modify("format_version", 4)), "version 4"),
     "no hand": (edit(lambda file: file.attrs.__delitem__("hand")), "hand"),
     "third hand": (edit(lambda file: file.attrs.__setitem__("hand", "middle")), "middle"),
     "other protocol": (edit(lambda file: file.attrs.__setitem__("protocol", "foot")), "foot"),
