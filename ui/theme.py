@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Literal, Protocol
 
@@ -97,11 +98,21 @@ class Theme(QObject):
         return LIGHT if self.name == "light" else DARK
 
     def choose(self, name: ThemeName | None = None, text_scale: float | None = None) -> None:
-        """Switch theme, text scale or both."""
+        """Switch theme, text scale or both; every widget is styled anew, so only where something changes."""
+        before = self.name, self.text_scale
         self.name = name or self.name
         self.text_scale = text_scale or self.text_scale
+        if (self.name, self.text_scale) == before:
+            return
         self.ground_changed.emit()
         self.changed.emit()
+
+    def follow(self, widget: QObject, take: Callable[[], None]) -> None:
+        """Do something for a widget now and after every change, until the widget is gone: a plain function that is
+        connected would be called for a widget that is no more."""
+        take()
+        connection = self.changed.connect(take)
+        widget.destroyed.connect(lambda: self.changed.disconnect(connection))
 
     def color(self, token: str, alpha: int = 255) -> QColor:
         """The colour of a token by name, such as ``theme.color("text2")``."""

@@ -14,7 +14,7 @@ from typing import TypeVar
 os.environ.setdefault("QT_QPA_PLATFORM", "offscreen")
 
 import numpy as np
-from PySide6.QtCore import QLocale
+from PySide6.QtCore import QEvent, QLocale
 from PySide6.QtWidgets import QApplication, QScrollArea, QWidget
 
 from carpus.app.desktop.phrases import WordTable
@@ -193,6 +193,7 @@ class Gallery:
             if old is not screen:  # every change of style would go through all that were ever shown
                 stage.removeWidget(old)
                 old.deleteLater()
+        self.application.sendPostedEvents(None, QEvent.Type.DeferredDelete)  # outside a running loop nobody does
         self.settle()
 
     def patients(self) -> PatientsScreen:

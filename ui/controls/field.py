@@ -66,9 +66,8 @@ def number_field(theme: Theme, most: int, suffix: str = "", nothing: str = "") -
     field.setRange(0, most)
     field.setSuffix(suffix)
     field.setSpecialValueText(nothing)
-    field.setFixedWidth(theme.px(110))
+    theme.follow(field, lambda: field.setFixedWidth(theme.px(110)))
     field.lineEdit().setTextMargins(10, 0, 10, 0)  # the style sheet's padding does not reach the text of a spin box
-    theme.changed.connect(lambda: field.setFixedWidth(theme.px(110)))
     return field
 
 

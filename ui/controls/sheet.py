@@ -28,6 +28,8 @@ def is_covered(window: QWidget) -> bool:
 
 
 _MOUSE = (QEvent.Type.MouseButtonPress, QEvent.Type.MouseButtonRelease, QEvent.Type.MouseButtonDblClick)
+_HELD = frozenset((QEvent.Type.ShortcutOverride, QEvent.Type.KeyPress, QEvent.Type.FocusIn, *_MOUSE))
+"""What a sheet keeps from the window below it: all other events of the whole program pass without being looked at."""
 
 
 class Sheet(QWidget):
@@ -141,9 +143,11 @@ class Sheet(QWidget):
         return True
 
     def eventFilter(self, watched: QObject, event: QEvent) -> bool:
-        if event.type() == QEvent.Type.Resize and watched is self.parentWidget():
-            self.setGeometry(host_of(self).rect())
         kind = event.type()
+        if kind == QEvent.Type.Resize and watched is self.parentWidget():
+            self.setGeometry(host_of(self).rect())
+        if kind not in _HELD:
+            return False
         if kind == QEvent.Type.ShortcutOverride:
             if self._rules(watched.window() if isinstance(watched, QWidget) else QApplication.activeWindow()):
                 event.accept()  # no shortcut of the window fires; the key itself goes to who has the keyboard

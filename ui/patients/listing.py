@@ -143,8 +143,7 @@ class ListHeader(QWidget):
         super().__init__()
         self._theme, self._rows = theme, rows
         rows.verticalScrollBar().rangeChanged.connect(lambda *_: self.update())
-        self.setFixedHeight(theme.px(28))
-        theme.changed.connect(lambda: self.setFixedHeight(theme.px(28)))
+        theme.follow(self, lambda: self.setFixedHeight(theme.px(28)))
 
     def paintEvent(self, event: QPaintEvent) -> None:
         painter = QPainter(self)

@@ -201,8 +201,7 @@ def _row(theme: Theme, name: str, *widgets: QWidget) -> QHBoxLayout:
     row = QHBoxLayout()
     row.setSpacing(16)
     label = Text(theme, name, 14, REGULAR, "text2")
-    label.setFixedWidth(theme.px(180))
-    theme.changed.connect(lambda: label.setFixedWidth(theme.px(180)))
+    theme.follow(label, lambda: label.setFixedWidth(theme.px(180)))
     row.addWidget(label)
     for number, widget in enumerate(widgets):
         row.addWidget(widget, 1 if number == 0 else 0)

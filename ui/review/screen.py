@@ -156,8 +156,7 @@ class ReviewScreen(QWidget):
         self._connect(keys)
         # At once, and again when every part has taken its new size.
         theme.changed.connect(self._fit)
-        theme.changed.connect(lambda: QTimer.singleShot(0, self, self._fit))
-        theme.changed.connect(lambda: QTimer.singleShot(0, self, self._place_button))
+        theme.changed.connect(self._fit_again)
         self._timer = QTimer(self)
         self._timer.setInterval(PLAY_EVERY_MS)
         self._timer.timeout.connect(self._play_on)
@@ -212,6 +211,10 @@ class ReviewScreen(QWidget):
 
     def resizeEvent(self, event: QResizeEvent) -> None:
         self._fit()
+
+    def _fit_again(self) -> None:
+        QTimer.singleShot(0, self, self._fit)
+        QTimer.singleShot(0, self, self._place_button)
 
     def _fit(self) -> None:
         """The table takes the rows it has; with large text it scrolls and the curves keep a panel."""
