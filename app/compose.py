@@ -57,6 +57,7 @@ from carpus.ui.settings.camera_card import CameraCard
 from carpus.ui.shell import Shell
 from carpus.ui.style import apply_style
 from carpus.ui.theme import Theme, ThemeName
+from carpus.ui.translate import tr
 from carpus.ui.window_place import place_of, put_in_place
 
 Take = Callable[[SetUp, Callable[[int, int], None]], tuple[FrameSource, float]]
@@ -154,8 +155,7 @@ class Desktop:
             or self.tour.is_on
             or journey.teller.busy
         )
-        words = self.shell.tr("The language can be changed when nothing is measured or worked on any more.")
-        return words if busy else ""
+        return not_now_words() if busy else ""
 
     def come_to_front(self) -> None:
         """Another start on the same data folder: this window is what was wanted."""
@@ -198,6 +198,11 @@ class Desktop:
             self.journey.close()
             self.shell.hide()
             self.library.close()
+
+
+def not_now_words() -> str:
+    """Why the language stays."""
+    return tr("The language can be changed when nothing is measured or worked on any more.")
 
 
 def application(arguments: list[str]) -> QApplication:
@@ -279,13 +284,13 @@ def compose(
     for found in recovered:
         words = journey.teller.recovered_words(found)
         place = journey.patients.notice_place
-        journey.teller.strip(place, words, shell.tr("Re&view it"), partial(journey.review_recovered, found))
+        journey.teller.strip(place, words, tr("Re&view it"), partial(journey.review_recovered, found))
     for fault in (*told, *faults):
         said = WordTable().fault(fault)
         journey.teller.strip(
             journey.patients.notice_place,
             Words(said.what, said.safe, said.todo),
-            shell.tr("I have read it"),
+            tr("I have read it"),
             lambda: None,
             icon="hard-drive",
         )

@@ -24,6 +24,36 @@ def windows_sources() -> list[Path]:
     return sorted(path for part in ("ui", "app") for path in (ROOT / part).rglob("*.py"))
 
 
+def hidden_texts() -> dict[str, set[str]]:
+    """Texts of ``tr`` inside an f-string, by class (empty outside of one): ``lupdate`` does not look there."""
+    found: dict[str, set[str]] = {}
+
+    def walk(node: ast.AST, owner: str, hidden: bool) -> None:
+        inside = hidden or isinstance(node, ast.JoinedStr)
+        owner = node.name if isinstance(node, ast.ClassDef) else owner
+        if inside and isinstance(node, ast.Call) and node.args and isinstance(node.args[0], ast.Constant):
+            if isinstance(node.func, ast.Name) and node.func.id == "tr":
+                found.setdefault("", set()).add(node.args[0].value)
+            elif isinstance(node.func, ast.Attribute) and node.func.attr == "tr":
+                found.setdefault(owner, set()).add(node.args[0].value)
+        for child in ast.iter_child_nodes(node):
+            walk(child, owner, inside)
+
+    for path in windows_sources():
+        walk(ast.parse(path.read_text(encoding="utf-8")), "", False)
+    return found
+
+
+def further_source() -> str:
+    """A source with all texts that ``lupdate`` does not find by itself."""
+    lines = [f"tr({_literal(text)})" for text in phrase_texts()]
+    for owner, texts in sorted(hidden_texts().items()):
+        indent = "        " if owner else ""
+        lines += [f"class {owner}:", "    def words(self):"] if owner else []
+        lines += [f"{indent}{'self.' if owner else ''}tr({_literal(text)})" for text in sorted(texts)]
+    return "\n".join([*lines, ""])
+
+
 def phrase_texts() -> list[str]:
     """The templates of ``phrase("...")`` in core and app, sorted; their context is always the empty one."""
     found = set()
@@ -53,7 +83,7 @@ def update(kept: Path, language: str) -> None:
     """Let ``lupdate`` add what is new to one file, and mark what is gone."""
     with TemporaryDirectory() as folder:
         core = Path(folder) / "core_texts.py"
-        core.write_text("".join(f"tr({_literal(text)})\n" for text in phrase_texts()), encoding="utf-8")
+        core.write_text(further_source(), encoding="utf-8")
         sources = [str(path) for path in (*windows_sources(), core)]
         _run("lupdate", *sources, "-locations", "none", "-target-language", language,
              "-source-language", "en_GB",

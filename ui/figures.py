@@ -11,8 +11,8 @@ from dataclasses import dataclass
 from typing import Literal
 
 from carpus.ui import numbers
-from carpus.ui.marker_words import finger_name
-from carpus.ui.translate import tr
+from carpus.ui.marker_words import finger_name, long_finger_name
+from carpus.ui.translate import inside, tr
 
 Row = Literal["knuckle", "middle", "end", "spread", "tam"]
 ROWS: tuple[Row, ...] = ("knuckle", "middle", "end", "spread")
@@ -101,10 +101,9 @@ def row_name(row: Row | Literal["lift"]) -> str:
 
 def _long_name(figure: Figure) -> str:
     name = figure.row_name
-    finger = tr("{finger} finger").format(finger=finger_name(str(figure.finger)))
     return tr("{finger}, {joint}").format(
-        finger=tr("Thumb") if figure.finger == 1 else finger,
-        joint=name if figure.row == "tam" else name[0].lower() + name[1:],
+        finger=long_finger_name(str(figure.finger)),
+        joint=name if figure.row == "tam" else inside(name),
     )
 
 

@@ -58,12 +58,21 @@ def bind(
     return shortcut
 
 
+def key_name(key: str) -> str:
+    """``Ctrl+P`` as the keys of the person's keyboard are named: ``Strg+P``. Words that are no key stay."""
+    names = {
+        "Ctrl": tr("Ctrl"), "Alt": tr("Alt"), "Shift": tr("Shift"), "Space": tr("Space"), "Enter": tr("Enter"),
+        "Return": tr("Enter"), "Backspace": tr("Backspace"), "Esc": tr("Esc"), "Tab": tr("Tab"),
+    }  # fmt: skip
+    return "+".join(names.get(part, part) for part in key.split("+")) if len(key) > 1 else key
+
+
 def action_words(name: str) -> str:
     """What a key does, for the help and the settings."""
     words = {
         "help": tr("Help"), "settings": tr("Settings"), "lock": tr("Lock"), "search": tr("Search for a patient"),
         "new_patient": tr("New patient"), "report": tr("Report"), "export": tr("Export"),
-        "back": tr("Back"), "record": tr("Record, and stop and review"), "note": tr("Note"),
+        "back": tr("Go back"), "record": tr("Record, and stop and review"), "note": tr("Note"),
         "pain": tr("Pain score"), "pause": tr("Pause and go on"),
         "overlay": tr("Hide or show the marks on the picture"),
         "whole_picture": tr("Whole picture or hand area"), "speeds": tr("Speeds or angles"),

@@ -2,24 +2,14 @@
 
 from __future__ import annotations
 
-from carpus.ui.translate import tr
+from carpus.core.words import marker_in_words
+from carpus.ui.translate import say, tr
 
 
 def marker_name(marker: str) -> str:
     """``Thumb base`` for CMC1."""
-    joint, finger = marker.rstrip("12345"), marker[-1]
-    if marker == "WRIST":
-        return tr("Wrist")
-    if marker == "CMC1":
-        return tr("Thumb base")
-    pattern = {
-        "MCP": tr("{finger} knuckle"),
-        "PIP": tr("{finger} middle joint"),
-        "DIP": tr("{finger} end joint"),
-        "IP": tr("{finger} end joint"),
-        "TIP": tr("{finger} tip"),
-    }.get(joint, marker)
-    return pattern.format(finger=finger_name(finger))
+    name = marker_in_words(marker, say)
+    return name[:1].upper() + name[1:]
 
 
 def finger_name(finger: str) -> str:
@@ -29,10 +19,17 @@ def finger_name(finger: str) -> str:
     )
 
 
+def long_finger_name(finger: str) -> str:
+    """``Ring finger`` for 4, ``Thumb`` for 1."""
+    return {
+        "1": tr("Thumb"), "2": tr("Index finger"), "3": tr("Middle finger"), "4": tr("Ring finger"),
+        "5": tr("Little finger"),
+    }.get(finger, finger)  # fmt: skip
+
+
 def click_instruction(marker: str) -> str:
     """``Click the ring knuckle``."""
-    name = marker_name(marker)
-    return tr("Click the {marker}").format(marker=name[0].lower() + name[1:])
+    return tr("Click the {marker}").format(marker=marker_in_words(marker, say))
 
 
 def marker_place(marker: str) -> str:

@@ -109,12 +109,12 @@ def clock_tenths(seconds: float) -> str:
 
 def short_date(when: date | datetime) -> str:
     """``Fri 13 Nov`` in the person's language."""
-    return language.locale().toString(_qdate(when), "ddd d MMM")
+    return language.locale().toString(_qdate(when), tr("ddd d MMM"))
 
 
 def day_month(when: date | datetime) -> str:
     """``13 Nov``."""
-    return language.locale().toString(_qdate(when), "d MMM")
+    return language.locale().toString(_qdate(when), tr("d MMM"))
 
 
 def day_beside(when: datetime, *others: datetime) -> str:
@@ -133,17 +133,17 @@ def room_left(minutes: float) -> str:
 
 def long_date(when: date | datetime) -> str:
     """``Friday 20 November 2026``."""
-    return language.locale().toString(_qdate(when), "dddd d MMMM yyyy")
+    return language.locale().toString(_qdate(when), tr("dddd d MMMM yyyy"))
 
 
 def day_of_year(when: date | datetime) -> str:
     """``20 Nov 2026``."""
-    return language.locale().toString(_qdate(when), "d MMM yyyy")
+    return language.locale().toString(_qdate(when), tr("d MMM yyyy"))
 
 
 def report_date(when: datetime) -> str:
     """``20 Nov 2026, 11:36``."""
-    return f"{language.locale().toString(_qdate(when), 'd MMM yyyy')}, {when:%H:%M}"
+    return f"{day_of_year(when)}, {when:%H:%M}"
 
 
 def days_ago(when: date | datetime, today: date) -> str:

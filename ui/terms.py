@@ -108,7 +108,14 @@ def movement_name(movement: str) -> str:
 
 def deficit_name(movement: str) -> str:
     """``Extension deficit``: what is missing to neutral."""
-    return tr("{movement} deficit").format(movement=movement_long_name(movement))
+    return {
+        "radial": tr("Radial deviation deficit"),
+        "ulnar": tr("Ulnar deviation deficit"),
+        "flexion": tr("Flexion deficit"),
+        "extension": tr("Extension deficit"),
+        "supination": tr("Supination deficit"),
+        "pronation": tr("Pronation deficit"),
+    }.get(movement, movement)
 
 
 def lacking(size: str) -> str:

@@ -12,6 +12,20 @@ def tr(text: str) -> str:
     return QCoreApplication.translate("", text)
 
 
+def inside(words: str) -> str:
+    """The words as they stand inside a sentence: with a small first letter where the language has it so. English and
+    Italian have it for all words, German for a few that its translation lists; abbreviations keep theirs.
+
+    >>> inside("Right hand"), inside("TAM"), inside("")
+    ('right hand', 'TAM', '')
+    """
+    small = tr("words that lose their capital inside a sentence: *").rpartition(": ")[2].split()
+    first = words.partition(" ")[0].rstrip(",.")
+    if words[1:2].isupper() or not ("*" in small or first in small):
+        return words
+    return words[:1].lower() + words[1:]
+
+
 def say(text: str) -> str:
     """A phrase of core in the person's language, its facts in their places; any other text as it is."""
     if not isinstance(text, Phrase):

@@ -26,7 +26,7 @@ from carpus.ui.correct.results_sheet import BothResults, ResultsSheet
 from carpus.ui.correct.screen import CorrectScreen
 from carpus.ui.marker_words import marker_name
 from carpus.ui.ports import StoredMoment
-from carpus.ui.translate import tr
+from carpus.ui.translate import inside, tr
 
 
 class Moments:
@@ -241,7 +241,7 @@ class Correcting(QObject):
 def whose(header: SessionHeader) -> str:
     """Whose session, from when and of what."""
     when = numbers.report_date(datetime.fromisoformat(header.recorded or header.created))
-    what = f"{terms.exercise_name(header.exercise)}, {terms.hand_name(header.hand).lower()}"
+    what = f"{terms.exercise_name(header.exercise)}, {inside(terms.hand_name(header.hand))}"
     return " · ".join((header.subject_id, when, what))
 
 

@@ -11,6 +11,17 @@ from carpus.ui.messages.stop_card import Answer, StopCard
 from carpus.ui.ports import Words
 from carpus.ui.shell import Shell
 from carpus.ui.theme import Theme
+from carpus.ui.translate import tr
+
+
+def answer_words() -> tuple[str, str]:
+    """End, or go on elsewhere."""
+    return tr("Close Carpus"), tr("Choose another folder")
+
+
+def folder_title() -> str:
+    """Over the choice of a folder."""
+    return tr("Folder of patients and sessions")
 
 
 class NoFolder:
@@ -37,15 +48,11 @@ class NoFolder:
         return self.chosen
 
     def _show(self) -> None:
-        tr = self.shell.tr
-        self.card.show_words(
-            self._words,
-            (Answer(tr("Close Carpus"), self.shell.close), Answer(tr("Choose another folder"), self._choose)),
-        )
+        end, other = answer_words()
+        self.card.show_words(self._words, (Answer(end, self.shell.close), Answer(other, self._choose)))
 
     def _choose(self) -> None:
-        title = self.shell.tr("Folder of patients and sessions")
-        named = QFileDialog.getExistingDirectory(self.shell, title, str(self._start))
+        named = QFileDialog.getExistingDirectory(self.shell, folder_title(), str(self._start))
         if not named:
             self._show()
             return

@@ -10,6 +10,7 @@ from carpus.core.agreement.verdict import Judgement, furthest, judged
 from carpus.ui import numbers
 from carpus.ui.figures import FIGURES, figure_of
 from carpus.ui.icons import State
+from carpus.ui.translate import inside as within
 from carpus.ui.translate import tr
 
 if TYPE_CHECKING:  # a window loads nothing that reads files
@@ -49,7 +50,7 @@ def ends(name: str) -> tuple[str, str]:
 
 def tenths(size_deg: float) -> str:
     """``0.6°`` without sign; a dash where it is not known."""
-    return f"{abs(size_deg):.1f}°" if math.isfinite(size_deg) else numbers.UNKNOWN
+    return f"{numbers.fixed(abs(size_deg), 1)}°" if math.isfinite(size_deg) else numbers.UNKNOWN
 
 
 def signed(value_deg: float, name: str) -> str:
@@ -83,7 +84,7 @@ def limits(figures: Agreement, name: str) -> str:
 
 def share(value: float) -> str:
     """``0.995`` of a coefficient; a dash where there is none."""
-    return f"{value:.3f}" if math.isfinite(value) else numbers.UNKNOWN
+    return numbers.fixed(value, 3) if math.isfinite(value) else numbers.UNKNOWN
 
 
 def judgement_words(pairs: Pairs, limit_deg: float, *, readings: bool) -> tuple[State, str]:
@@ -159,7 +160,7 @@ def _list(names: list[str], *, inside: bool = False) -> str:
     if len(names) > 3:
         return tr("{count} angles").format(count=len(names))
     said = [angle_name(name) for name in names]
-    said = [one[0].lower() + one[1:] if inside or number else one for number, one in enumerate(said)]
+    said = [within(one) if inside or number else one for number, one in enumerate(said)]
     return said[0] if len(said) == 1 else tr("{first} and {last}").format(first=", ".join(said[:-1]), last=said[-1])
 
 
@@ -173,13 +174,13 @@ def joined_rows(compared: Compared) -> list[tuple[State, str, str, str]]:
         by_ms = round(1e3 * abs(shift.reference_later_s))
         later = tr("reference later") if shift.reference_later_s >= 0.0 else tr("Carpus later")
         words = tr("{later}; curves match {match}") if by_ms else tr("curves match {match}")
-        words = words.format(later=later, match=f"{shift.match:.2f}")
+        words = words.format(later=later, match=numbers.fixed(shift.match, 2))
         value = f"{by_ms}{numbers.NARROW_GAP}ms" if by_ms else tr("none")
         rows.append(("good", tr("Time shift"), value, words))
     if alignment is None:
         rows.append(("open", tr("Alignment"), tr("none"), tr("angles compared as they are")))
     else:
-        words = tr("turned as one rigid body; {off} mm apart").format(off=f"{1e3 * alignment.residual_m:.1f}")
+        words = tr("turned as one rigid body; {off} mm apart").format(off=numbers.fixed(1e3 * alignment.residual_m, 1))
         rows.append(("good", tr("Alignment"), tenths(math.degrees(alignment.turn_rad)), words))
     if math.isfinite(compared.rate_hz):
         words = tr("of the reference; joined at Carpus’s pictures")

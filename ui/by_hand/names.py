@@ -8,7 +8,7 @@ from collections.abc import Iterable, Sequence
 from carpus.core.by_hand.measures import MEASURES, HandMeasure, measure_named
 from carpus.core.by_hand.values import HandChange, HandValue, Key, change_of, course_of
 from carpus.ui import numbers, terms
-from carpus.ui.marker_words import finger_name
+from carpus.ui.marker_words import long_finger_name
 from carpus.ui.translate import tr
 
 
@@ -28,7 +28,7 @@ def measure_name(measure: HandMeasure) -> str:
         return terms.movement_long_name(movement.lower())
     finger = int(joint[-1])
     row = {"MCP": tr("knuckle"), "PIP": tr("middle joint"), "DIP": tr("end joint"), "IP": tr("end joint")}[joint[:-1]]
-    name = tr("Thumb") if finger == 1 else tr("{finger} finger").format(finger=finger_name(str(finger)))
+    name = long_finger_name(str(finger))
     return tr("{finger}, {joint}, {movement}").format(
         finger=name, joint=row, movement=tr("straight") if movement == "EXTENSION" else tr("bent")
     )
@@ -42,7 +42,7 @@ def way_name(way: str) -> str:
 def unit_name(measure: HandMeasure) -> str:
     """The unit behind a number."""
     if measure.unit == "points":
-        return tr("of {most}").format(most=f"{measure.most:g}")
+        return tr("of {most}").format(most=numbers.figures(measure.most, 6))
     return {"deg": "°", "kg": "kg", "cm": "cm", "ml": "ml"}[measure.unit]
 
 
@@ -50,8 +50,8 @@ def value_words(measure: HandMeasure, value: float) -> str:
     """``45°``, ``5.3 kg``; nothing measured is a dash."""
     if not math.isfinite(value):
         return "–"
-    text = f"{value:.{measure.decimals}f}"
-    text = text.removesuffix(".0") if measure.unit == "points" else text
+    decimals = 0 if measure.unit == "points" and value == int(value) else measure.decimals
+    text = numbers.fixed(value, decimals)
     if measure.unit == "deg":
         return f"{text}°".replace("-", "−")
     return text if measure.unit == "points" else f"{text} {unit_name(measure)}"

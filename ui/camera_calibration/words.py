@@ -146,17 +146,17 @@ def headline(result: BoardResult) -> tuple[str, str]:
     error = made.intrinsics.error_px
     if error > FAIR_PX:
         return (
-            tr("Not good enough: lines land {error} px off.").format(error=f"{error:.1f}"),
+            tr("Not good enough: lines land {error} px off.").format(error=numbers.fixed(error, 1)),
             tr("Nothing is changed. Glue the board onto something flat and stiff, give it light, and take the pictures "
                "again."),
         )  # fmt: skip
     if made.depth is not None and not made.depth.is_registered:
-        apart = f"{float(np.hypot(*made.depth.apart_px)):.1f}"
+        apart = numbers.fixed(float(np.hypot(*made.depth.apart_px)), 1)
         return (
             tr("Depth lies {apart} px beside the colours.").format(apart=apart),
             tr("Nothing is changed. Switch the camera’s registration on: run “carpus doctor”, it says how."),
         )
-    land = tr("Lines land within {error} pixels of where they are.").format(error=f"{error:.2f}")
+    land = tr("Lines land within {error} pixels of where they are.").format(error=numbers.fixed(error, 2))
     return tr("The camera is calibrated. {depth}").format(depth=depth_words(made.depth)), tr(
         "{land} A hand of {hand} mm read {more} before; it is put right from now on."
     ).format(land=land, hand=f"{1e3 * HAND_LENGTH_M:.0f}", more=_more_mm(effect.length_more_mm))
@@ -170,14 +170,14 @@ def depth_words(depth: DepthCheck | None) -> str:
     if abs(share) < 0.05 and abs(shift) < 0.5:
         return tr("Depth reads right.")
     pattern = tr("Depth read {share} % too long.") if share > 0 else tr("Depth read {share} % too short.")
-    return pattern.format(share=f"{abs(share):.1f}")
+    return pattern.format(share=numbers.fixed(abs(share), 1))
 
 
 def _more_mm(value_mm: float) -> str:
     if abs(value_mm) < 0.05:
         return tr("right")
     pattern = tr("{size} mm too long") if value_mm > 0 else tr("{size} mm too short")
-    return pattern.format(size=f"{abs(value_mm):.1f}")
+    return pattern.format(size=numbers.fixed(abs(value_mm), 1))
 
 
 def result_rows(result: BoardResult) -> list[tuple[State, str, str, str, str]]:
@@ -193,17 +193,17 @@ def result_rows(result: BoardResult) -> list[tuple[State, str, str, str, str]]:
     focal = 0.5 * (now.fx_px / before.fx_px + now.fy_px / before.fy_px) - 1.0
     away = math.hypot(now.cx_px - before.cx_px, now.cy_px - before.cy_px)
     rows: list[tuple[State, str, str, str, str]] = [
-        ("good" if error <= FAIR_PX else "bad", tr("Lines land within"), f"{effect.before_px:.2f} px",
-         f"{error:.2f} px", land),
-        ("good", tr("Focal length"), f"{before.fx_px:.1f} px",
-         f"{now.fx_px:.1f} ± {made.intrinsics.focal_sd_px:.1f} px",
-         tr("{share} % off before").format(share=f"{100 * abs(focal):.1f}") if abs(focal) >= _FOCAL_SHARE
+        ("good" if error <= FAIR_PX else "bad", tr("Lines land within"), f"{numbers.fixed(effect.before_px, 2)} px",
+         f"{numbers.fixed(error, 2)} px", land),
+        ("good", tr("Focal length"), f"{numbers.fixed(before.fx_px, 1)} px",
+         f"{numbers.fixed(now.fx_px, 1)} ± {numbers.fixed(made.intrinsics.focal_sd_px, 1)} px",
+         tr("{share} % off before").format(share=numbers.fixed(100 * abs(focal), 1)) if abs(focal) >= _FOCAL_SHARE
          else tr("as before")),
-        ("good", tr("Middle of the picture"), f"{before.cx_px:.1f}, {before.cy_px:.1f}",
-         f"{now.cx_px:.1f}, {now.cy_px:.1f}",
+        ("good", tr("Middle of the picture"), f"{numbers.fixed(before.cx_px, 1)}, {numbers.fixed(before.cy_px, 1)}",
+         f"{numbers.fixed(now.cx_px, 1)}, {numbers.fixed(now.cy_px, 1)}",
          tr("{away} px to the side").format(away=f"{away:.0f}") if away >= _MIDDLE_PX else tr("as before")),
         ("good", tr("Lens bends lines by"), tr("not known") if not before.is_distorted else tr("known"),
-         tr("{bend} px at most").format(bend=f"{effect.bend_px:.1f}"), tr("put right")),
+         tr("{bend} px at most").format(bend=numbers.fixed(effect.bend_px, 1)), tr("put right")),
     ]  # fmt: skip
     unknown = tr("not known")
     if depth is None:
@@ -213,16 +213,16 @@ def result_rows(result: BoardResult) -> list[tuple[State, str, str, str, str]]:
     sure = math.isfinite(depth.offset_sd_m)
     apart = float(np.hypot(*depth.apart_px))
     rows += [
-        ("good", tr("Depth scale"), unknown, f"{_signed(share, 2)} ± {100 * depth.scale_sd:.2f} %",
+        ("good", tr("Depth scale"), unknown, f"{_signed(share, 2)} ± {numbers.fixed(100 * depth.scale_sd, 2)} %",
          tr("put right") if abs(share) >= 100 * _DEPTH_SHARE else tr("small; put right")),
         ("good", tr("Depth shift"), unknown,
-         f"{_signed(shift, 1)} ± {1e3 * depth.offset_sd_m:.1f} mm" if sure else tr("none sure"),
+         f"{_signed(shift, 1)} ± {numbers.fixed(1e3 * depth.offset_sd_m, 1)} mm" if sure else tr("none sure"),
          tr("put right") if sure else tr("within the scale’s error")),
         ("good" if 1e3 * depth.flat_m <= MOST_FLAT_MM else "warn", tr("Board flat in depth"), "",
-         f"{1e3 * depth.flat_m:.1f} mm", tr("good: within {most} mm").format(most=f"{MOST_FLAT_MM:.0f}")
+         f"{numbers.fixed(1e3 * depth.flat_m, 1)} mm", tr("good: within {most} mm").format(most=f"{MOST_FLAT_MM:.0f}")
          if 1e3 * depth.flat_m <= MOST_FLAT_MM else tr("noisy: keep 50 to 80 cm")),
         ("good" if depth.is_registered else "bad", tr("Colour on depth"), unknown,
-         tr("{apart} px apart").format(apart=f"{apart:.1f}"),
+         tr("{apart} px apart").format(apart=numbers.fixed(apart, 1)),
          tr("good: below {most} px").format(most=f"{MOST_APART_PX:.0f}") if depth.is_registered
          else tr("registration is off")),
     ]  # fmt: skip
@@ -245,7 +245,7 @@ def effect_rows(result: BoardResult) -> list[tuple[str, str]]:
     return [
         (
             tr("Wrist flexion of {angle}°, read before").format(angle=f"{FLEXION_DEG:.0f}"),
-            angle.format(size=f"{abs(effect.angle_more_deg):.1f}"),
+            angle.format(size=numbers.fixed(abs(effect.angle_more_deg), 1)),
         ),
         (
             tr("Hand of {length} mm, read before").format(length=f"{1e3 * HAND_LENGTH_M:.0f}"),

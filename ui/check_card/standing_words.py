@@ -5,8 +5,9 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING
 
+from carpus.ui import numbers
 from carpus.ui.icons import State
-from carpus.ui.translate import tr
+from carpus.ui.translate import inside, tr
 
 if TYPE_CHECKING:  # a window loads nothing that reads files
     from carpus.core.check_card.standing import Standing
@@ -36,10 +37,10 @@ def session_words(now: Standing) -> str:
             if share > 0
             else tr("This camera was out at its last check: lengths {share} % too short. Angles hold. Check once more.")
         )
-        return pattern.format(share=f"{abs(share):.1f}")
+        return pattern.format(share=numbers.fixed(abs(share), 1))
     return tr(
         "This camera was out at its last check: angles {angle}° off. Check it once more, or calibrate it."
-    ).format(angle=f"{last.angle_error_deg:.1f}")
+    ).format(angle=numbers.fixed(last.angle_error_deg, 1))
 
 
 def unsure_words(camera: CameraSaid) -> str:
@@ -73,7 +74,7 @@ def card_words(now: Standing) -> tuple[State, str]:
         checked = tr("Checked {ago}: {found}.").format(ago=_ago(now.checked_days), found=found)
         state = "bad" if now.is_out else "warn" if now.is_unusual or now.is_old or now.recalibrated else "good"
     words = tr("Camera {serial}: {calibrated} {checked}").format(
-        serial=now.serial, calibrated=calibrated[0].lower() + calibrated[1:], checked=checked
+        serial=now.serial, calibrated=inside(calibrated), checked=checked
     )
     if now.recalibrated:
         words += " " + tr("Check it again: it was calibrated since.")

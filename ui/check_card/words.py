@@ -31,7 +31,7 @@ def headline(now: CameraChecks) -> tuple[str, str]:
         angle=f"{last.most_angle_deg:.1f}", length=f"{last.most_length_mm:.1f}"
     )
     off = tr("{angle}° and {length} mm off at most").format(
-        angle=f"{last.angle_error_deg:.1f}", length=f"{last.length_error_mm:.1f}"
+        angle=numbers.fixed(last.angle_error_deg, 1), length=numbers.fixed(last.length_error_mm, 1)
     )
     basis = tr("Check of {day}: {off}; {limits}.").format(day=day, off=off, limits=limits)
     if now.recalibrated:
@@ -54,7 +54,7 @@ def _out_words(last: Check) -> str:
     if not last.lengths_hold and not last.angles_hold:
         return tr("The camera is out: lengths and angles are wrong.")
     if not last.angles_hold:
-        return tr("The camera is out: angles are {angle}° off.").format(angle=f"{last.angle_error_deg:.1f}")
+        return tr("The camera is out: angles are {angle}° off.").format(angle=numbers.fixed(last.angle_error_deg, 1))
     share = 100.0 * (last.scale - 1.0)
     pattern = (
         tr("The camera is out: lengths are {share} % too long.")
@@ -62,8 +62,10 @@ def _out_words(last: Check) -> str:
         else tr("The camera is out: lengths are {share} % too short.")
     )
     if abs(share) < _ONE_SHARE_PERCENT:
-        return tr("The camera is out: a length is {length} mm off.").format(length=f"{last.length_error_mm:.1f}")
-    return pattern.format(share=f"{abs(share):.1f}")
+        return tr("The camera is out: a length is {length} mm off.").format(
+            length=numbers.fixed(last.length_error_mm, 1)
+        )
+    return pattern.format(share=numbers.fixed(abs(share), 1))
 
 
 def out_next(last: Check) -> str:
@@ -85,11 +87,15 @@ def figure_rows(check: Check) -> list[tuple[State, str, str, str]]:
         off, limit = abs(measured - figure.true), check.most_angle_deg if angle else check.most_length_mm
         unit = "°" if angle else f"{numbers.NARROW_GAP}mm"
         state: State = "bad" if off > limit else "warn" if off > _NEAR_SHARE * limit else "good"
-        value = f"{measured:.1f}° ± {sd:.1f}°" if angle else f"{measured:.1f}{unit}"
-        rows.append((state, figure_name(figure.name), value, f"{off:.1f}{unit}"))
+        value = (
+            f"{numbers.fixed(measured, 1)}° ± {numbers.fixed(sd, 1)}°"
+            if angle
+            else f"{numbers.fixed(measured, 1)}{unit}"
+        )
+        rows.append((state, figure_name(figure.name), value, f"{numbers.fixed(off, 1)}{unit}"))
     share = 100.0 * (check.scale - 1.0)
     state = "bad" if abs(check.scale - 1.0) > MOST_SCALE else "good"
-    rows.append((state, tr("All distances"), "", f"{'−' if share < 0 else '+'}{abs(share):.1f} %"))
+    rows.append((state, tr("All distances"), "", f"{'−' if share < 0 else '+'}{numbers.fixed(abs(share), 1)} %"))
     return rows
 
 
@@ -117,7 +123,7 @@ def cause_words(now: CameraChecks) -> str:
             if share > 0
             else tr("All about {share} % short: the depth, or a card not printed at 100 %; its ruler says which.")
         )
-        return pattern.format(share=f"{abs(share):.1f}")
+        return pattern.format(share=numbers.fixed(abs(share), 1))
     due = datetime.fromisoformat(last.when) + timedelta(days=OLD_DAYS)
     calibrated = tr("Calibrated {day}.").format(day=now.calibrated) if now.calibrated else tr("Not calibrated yet.")
     return tr("Next check by {day}. {calibrated}").format(day=numbers.short_date(due), calibrated=calibrated)

@@ -10,6 +10,7 @@ from PySide6.QtWidgets import QPushButton, QSizePolicy
 
 from carpus.ui.fonts import MEDIUM, SEMIBOLD, font
 from carpus.ui.icons import paint_icon
+from carpus.ui.keys import key_name
 from carpus.ui.theme import CONTROL_RADIUS_PX, Theme
 
 Kind = Literal["primary", "plain", "quiet", "well"]
@@ -26,7 +27,7 @@ class Button(QPushButton):
         self, theme: Theme, text: str = "", kind: Kind = "plain", *, icon: str = "", hint: str = "", height_px: int = 0
     ) -> None:
         super().__init__(text)
-        self._theme, self._kind, self._icon, self._hint = theme, kind, icon, hint
+        self._theme, self._kind, self._icon, self._hint = theme, kind, icon, key_name(hint)
         self._height_px = height_px or HEIGHT_PX[kind]
         self.setCursor(Qt.CursorShape.PointingHandCursor)
         self.setSizePolicy(QSizePolicy.Policy.Minimum, QSizePolicy.Policy.Fixed)
@@ -37,7 +38,7 @@ class Button(QPushButton):
     def set_face(self, text: str, *, icon: str | None = None, hint: str | None = None) -> None:
         """Change text, icon and key hint together."""
         icon = self._icon if icon is None else icon
-        hint = self._hint if hint is None else hint
+        hint = self._hint if hint is None else key_name(hint)
         if (text, icon, hint) != (self.text(), self._icon, self._hint):
             self._icon, self._hint = icon, hint
             self.setText(text)

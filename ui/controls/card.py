@@ -9,6 +9,7 @@ from PySide6.QtGui import QFontMetricsF, QPainter, QPaintEvent, QPen
 from PySide6.QtWidgets import QSizePolicy, QVBoxLayout, QWidget
 
 from carpus.ui.fonts import MEDIUM, font
+from carpus.ui.keys import key_name
 from carpus.ui.theme import CARD_PADDING_PX, CARD_RADIUS_PX, Theme
 
 
@@ -86,7 +87,8 @@ class KeyCaps(QWidget):
 
     def __init__(self, theme: Theme, keys: Sequence[tuple[str, str]], gap_px: int = 16) -> None:
         super().__init__()
-        self._theme, self._keys, self._gap_px = theme, tuple(keys), gap_px
+        self._theme, self._gap_px = theme, gap_px
+        self._keys = tuple((key_name(cap), word) for cap, word in keys)
         self.setSizePolicy(QSizePolicy.Policy.Maximum, QSizePolicy.Policy.Fixed)
         theme.changed.connect(self.updateGeometry)
 

@@ -8,6 +8,7 @@ from PySide6.QtCore import QRectF, QSize, Qt, Signal
 from PySide6.QtGui import QKeyEvent, QPainter, QPaintEvent
 from PySide6.QtWidgets import QAbstractButton, QSizePolicy
 
+from carpus.ui import numbers
 from carpus.ui.controls.text import paint_status
 from carpus.ui.fonts import MEDIUM, REGULAR, SEMIBOLD, font
 from carpus.ui.icons import State
@@ -37,7 +38,7 @@ class MarkerRow(QAbstractButton):
         self, off_mm: float, was_mm: float, *, seen: bool, changed: bool, chosen: bool, far_mm: float
     ) -> None:
         """``off_mm`` from its place now, ``was_mm`` before a change; NaN where nobody knows."""
-        now = self.tr("{size} mm").format(size=f"{off_mm:.1f}") if math.isfinite(off_mm) else "–"
+        now = self.tr("{size} mm").format(size=numbers.fixed(off_mm, 1)) if math.isfinite(off_mm) else "–"
         if not seen:
             now = self.tr("hidden")
         if changed and math.isfinite(was_mm):

@@ -12,9 +12,9 @@ import numpy as np
 from carpus.core.camera import Camera
 from carpus.core.spot_answer import SpotAnswer
 from carpus.core.types import FloatArray, TrackedFrame, TrackStatus
+from carpus.core.words import marker_in_words
 from carpus.ui.live.light import AMBER_AFTER_S, Lamp
-from carpus.ui.marker_words import marker_name
-from carpus.ui.translate import tr
+from carpus.ui.translate import say, tr
 
 REACH_M = 0.03
 """A spot this near to where a marker is taken to be may be that marker."""
@@ -109,8 +109,7 @@ class SteadyDoubt:
 
 def lower_name(marker: str) -> str:
     """The marker's name within a sentence."""
-    name = marker_name(marker)
-    return name[0].lower() + name[1:]
+    return marker_in_words(marker, say)
 
 
 def doubt_lamp(doubt: Doubt) -> Lamp:

@@ -9,7 +9,7 @@ from carpus.core.types import TrackedFrame, TrackStatus
 from carpus.ui.live.light import Lamp
 from carpus.ui.marker_words import finger_name, hidden_remedy, marker_name
 from carpus.ui.plot.history import Seen
-from carpus.ui.translate import tr
+from carpus.ui.translate import inside, tr
 
 LEAST_PALM = 3
 _ENDS = ("PIP", "DIP", "TIP", "IP")
@@ -85,4 +85,4 @@ def _partly_words(poor: Sequence[str]) -> str:
 
 
 def _lower(words: str) -> str:
-    return words[:1].lower() + words[1:]
+    return inside(words)

@@ -33,6 +33,7 @@ from carpus.ui.live.light_view import LightView
 from carpus.ui.live.notes import NoteSheet, PainSheet
 from carpus.ui.live.number_card import NumberCard, Reading
 from carpus.ui.live.question import SpotQuestion, paint_question
+from carpus.ui.marker_words import long_finger_name
 from carpus.ui.picture import overlay, skeleton
 from carpus.ui.picture.view import HAND_ROOM, PALM_ROOM, PictureView
 from carpus.ui.plot.card import PlotCard
@@ -43,6 +44,7 @@ from carpus.ui.plot.path_view import PathView
 from carpus.ui.ports import Measuring
 from carpus.ui.theme import GAP_PX, MARGIN_PX, Theme, is_tight
 from carpus.ui.tour.bubble import LEAST_SCREEN_PX, BubbleView
+from carpus.ui.translate import inside
 
 LOOK_EVERY_MS = 8
 """So often the screen looks for a new picture: the curves are as old as this, not as the time between two drawings."""
@@ -714,7 +716,7 @@ class LiveScreen(QWidget):
         )
         figure = self.number.reading.figure
         if self._side_on and figure is not None:
-            name = self.tr("Side · {finger}").format(finger=figure.long_name.split(",")[0].lower())
+            name = self.tr("Side · {finger}").format(finger=inside(long_finger_name(str(figure.finger))))
             skeleton.paint_side(
                 painter,
                 self._theme,

@@ -4,10 +4,11 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from carpus.core.words import marker_in_words
 from carpus.ui.icons import State
 from carpus.ui.marker_words import click_instruction, marker_name
 from carpus.ui.markers.clicking import Clicking
-from carpus.ui.translate import tr
+from carpus.ui.translate import say, tr
 
 MOST_NAMED = 4
 """So many doubtful or missing markers are named one by one."""
@@ -42,8 +43,7 @@ def words_for(clicking: Clicking) -> ProposalWords:
         todo = tr(
             "Look at: {markers}. Enter says yes to the one that is asked; drag a name to another disc to change it."
         )
-        name = marker_name(doubtful[0])
-        title = tr("Is this the {marker}?").format(marker=name[0].lower() + name[1:])
+        title = tr("Is this the {marker}?").format(marker=marker_in_words(doubtful[0], say))
         return ProposalWords("warn", step, title, todo.format(markers=_list(doubtful)), tr("Yes, it is"))
     step = tr("{named} of {asked} markers found").format(named=asked - len(open_names), asked=asked)
     todo = tr("Not found: {markers}. Take the other names with Enter, then click these.")
@@ -53,8 +53,7 @@ def words_for(clicking: Clicking) -> ProposalWords:
 
 
 def _list(names: tuple[str, ...]) -> str:
-    words = [marker_name(name) for name in names]
-    words = [words[0], *(word[0].lower() + word[1:] for word in words[1:])]
+    words = [marker_name(names[0]), *(marker_in_words(name, say) for name in names[1:])]
     if len(words) > MOST_NAMED:
         return tr("{markers} and {count} more").format(
             markers=", ".join(words[:MOST_NAMED]), count=len(words) - MOST_NAMED

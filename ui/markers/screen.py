@@ -12,6 +12,7 @@ from PySide6.QtWidgets import QBoxLayout, QHBoxLayout, QVBoxLayout, QWidget
 
 from carpus.core.calibration.result import Finding
 from carpus.core.types import ByteImage, FloatArray
+from carpus.core.words import marker_in_words
 from carpus.ui import terms
 from carpus.ui.background import Background
 from carpus.ui.controls.button import Button
@@ -19,7 +20,7 @@ from carpus.ui.controls.card import KeyCaps
 from carpus.ui.controls.text import MEDIUM, REGULAR, StateText, Text, heading
 from carpus.ui.hand_drawing import HandDrawing, MarkerState
 from carpus.ui.keys import Keys, bind
-from carpus.ui.marker_words import click_instruction, marker_name, marker_place
+from carpus.ui.marker_words import click_instruction, marker_place
 from carpus.ui.markers import proposals
 from carpus.ui.markers.clicking import Clicking
 from carpus.ui.markers.last_picture import LastPicture
@@ -33,6 +34,7 @@ from carpus.ui.ports import Calibrator, Judged, Phrasebook, ProposedMarker
 from carpus.ui.theme import MARGIN_PX, Theme
 from carpus.ui.tour.bubble import LEAST_SCREEN_PX, BubbleView
 from carpus.ui.tour.order import Work
+from carpus.ui.translate import say
 
 PREVIEW_EVERY_MS = 60
 FEWEST_DISCS = 3
@@ -284,7 +286,7 @@ class MarkersScreen(QWidget):
             return
         taken = self.clicking.taken_by(found.pixel)
         if taken:
-            name = marker_name(taken).lower()
+            name = marker_in_words(taken, say)
             self.picture.no_marker_words = self.tr("Already the {name}").format(name=name)
             self.hint.setText(self.tr("This marker is the {name} already. Click another one.").format(name=name))
             self.picture.update()

@@ -10,6 +10,7 @@ import numpy as np
 from PySide6.QtWidgets import QGridLayout, QHBoxLayout
 
 from carpus.core.calibration.result import Finding, Verdict
+from carpus.ui import numbers
 from carpus.ui.controls.card import Card, Line
 from carpus.ui.controls.text import MEDIUM, REGULAR, SEMIBOLD, StateText, Text
 from carpus.ui.icons import State
@@ -75,7 +76,7 @@ def rows_of(verdict: Verdict, limits: VerdictLimits) -> list[Row]:
     elif any(fault.blocks for fault in marker_faults):
         markers = tr("{count} not found").format(count=len({name for fault in marker_faults for name in fault.markers}))
     elif math.isfinite(worst):
-        markers = tr("within {size} mm").format(size=f"{worst:.1f}")
+        markers = tr("within {size} mm").format(size=numbers.fixed(worst, 1))
     still = [kinds[kind] for kind in STILL_FINDINGS if kind in kinds]
     hand = tr("moved") if "moved" in kinds else tr("still, flat") if verdict.frames_used else UNKNOWN
     pictures = tr("for {count} pictures").format(count=verdict.frames_used) if verdict.frames_used else ""
@@ -180,7 +181,7 @@ def _state(finding: Finding | None, value: float) -> State:
 
 
 def _within(limits: VerdictLimits) -> str:
-    return tr("each within {size} mm").format(size=f"{limits.most_residual_mm:g}")
+    return tr("each within {size} mm").format(size=numbers.figures(limits.most_residual_mm, 6))
 
 
 def _distance(limits: VerdictLimits) -> str:

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from typing import Literal
 
 from carpus.ui.patient.guide import Scene
-from carpus.ui.translate import tr
+from carpus.ui.translate import inside, tr
 
 Audience = Literal["adult", "child"]
 FURTHER_FROM = 0.5
@@ -61,7 +61,7 @@ def rest_words(seconds: int) -> str:
 def then_words(exercise_id: str, scene: Scene, audience: Audience) -> str:
     """What comes after a rest."""
     task = _task(exercise_id, 1, audience == "child")
-    return tr("then: {task}").format(task=task[:1].lower() + task[1:]) if task else ""
+    return tr("then: {task}").format(task=inside(task)) if task else ""
 
 
 def _task(exercise_id: str, aim: int, child: bool) -> str:

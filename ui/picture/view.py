@@ -10,6 +10,7 @@ from PySide6.QtGui import QColor, QImage, QPainter, QPainterPath, QPaintEvent
 from PySide6.QtWidgets import QSizePolicy, QWidget
 
 from carpus.core.types import ByteImage, FloatArray
+from carpus.ui import numbers
 from carpus.ui.picture.convert import image_of
 from carpus.ui.picture.photo import paint_label
 from carpus.ui.theme import CARD_RADIUS_PX, Theme
@@ -150,5 +151,5 @@ class PictureView(QWidget):
 
     def paint_area_label(self, painter: QPainter) -> None:
         """``Hand area ×2.2`` or ``Whole picture`` in the corner."""
-        words = self.tr("Hand area ×{scale}").format(scale=f"{self._scale:.1f}")
+        words = self.tr("Hand area ×{scale}").format(scale=numbers.fixed(self._scale, 1))
         paint_label(painter, self._theme, self.tr("Whole picture") if self._whole else words, 12, 12)

@@ -43,7 +43,9 @@ class ControlPlot:
         top = max(_ROOM * self.limit, 1.1 * float(self.value.max(initial=0.0)))
         step = next(step for step in (0.5, 1.0, 2.0, 5.0, 10.0, 20.0, 50.0, 1e9) if top / step <= 5.0)
         ticks = tuple(float(one) for one in np.arange(0.0, top + 1e-9, step))
-        return Scale(0.0, top, ticks, tuple((one, f"{one:g}{self.unit}") for one in ticks), strong_ends=False)
+        return Scale(
+            0.0, top, ticks, tuple((one, f"{numbers.figures(one, 6)}{self.unit}") for one in ticks), strong_ends=False
+        )
 
     def panel(self, box: QRectF) -> Panel:
         """Checks one after the other, evenly."""
@@ -99,20 +101,20 @@ def paint_control_ground(painter: QPainter, style: PlotStyle, plot: ControlPlot,
     at = float(panel.y(plot.limit))
     painter.drawLine(QPointF(box.left(), at), QPointF(box.right(), at))
     last = float(plot.value[-1])
-    words = tr("newest {value}").format(value=f"{last:.1f}{plot.unit}")
+    words = tr("newest {value}").format(value=f"{numbers.fixed(last, 1)}{plot.unit}")
     token = {"right": "text", "unusual": "warn", "out": "bad"}[plot.verdict[-1]] if last > plot.limit else "text"
     _say(
         painter,
         style,
         panel,
         plot.limit,
-        tr("Limit {value}").format(value=f"{plot.limit:.1f}{plot.unit}"),
+        tr("Limit {value}").format(value=f"{numbers.fixed(plot.limit, 1)}{plot.unit}"),
         "bad",
         taken,
     )
     _say(painter, style, panel, last, words, token, taken)
     if math.isfinite(plot.usual):
-        words = tr("usual, up to {value}").format(value=f"{plot.usual:.1f}{plot.unit}")
+        words = tr("usual, up to {value}").format(value=f"{numbers.fixed(plot.usual, 1)}{plot.unit}")
         _say(painter, style, panel, plot.usual, words, "text2", taken)
     _paint_days(painter, style, plot, panel)
     for k in np.flatnonzero(plot.cut).tolist():

@@ -12,7 +12,8 @@ from carpus.ui import numbers, terms
 from carpus.ui.check_card.standing_words import unsure_words
 from carpus.ui.fault_words import finding_words
 from carpus.ui.figures import figure_of
-from carpus.ui.translate import tr
+from carpus.ui.marker_words import long_finger_name
+from carpus.ui.translate import inside, tr
 from carpus.ui.verdicts import difference, reason_words
 
 
@@ -65,8 +66,9 @@ def comparison_name(item: Comparison, among: Sequence[Comparison] = ()) -> str:
 
 def _subject(item: Comparison) -> str:
     if item.joint:
-        finger, joint = figure_of(item.joint).long_name.split(", ")
-        return tr("{joint} of the {finger}").format(joint=joint[0].upper() + joint[1:], finger=finger.lower())
+        figure = figure_of(item.joint)
+        finger = inside(long_finger_name(str(figure.finger)))
+        return tr("{joint} of the {finger}").format(joint=figure.row_name, finger=finger)
     return tr("The whole arc") if item.movement == "arc" else terms.movement_long_name(item.movement)
 
 

@@ -15,6 +15,7 @@ from carpus.ui.controls.text import REGULAR, SEMIBOLD, Text, paint_status
 from carpus.ui.icons import State, paint_icon
 from carpus.ui.records.ports import ErasureFacts
 from carpus.ui.theme import Theme
+from carpus.ui.translate import inside
 
 ICON_PX, COLUMN_PX = 26, 72
 
@@ -124,19 +125,18 @@ class EraseSheet(Sheet):
     def _about(self, facts: ErasureFacts) -> str:
         if facts.when is None:
             return facts.pseudonym
-        what = f"{terms.exercise_name(facts.exercise)}, {terms.hand_name(facts.side).lower()}"
+        what = f"{terms.exercise_name(facts.exercise)}, {inside(terms.hand_name(facts.side))}"
         return " · ".join((facts.pseudonym, numbers.report_date(facts.when), what))
 
     def _goes(self, facts: ErasureFacts) -> str:
         files = self.tr("1 file") if facts.files == 1 else self.tr("{count} files").format(count=facts.files)
-        size = f"{facts.size_mb:.0f}" if facts.size_mb >= 10 else f"{facts.size_mb:.1f}"
+        size = f"{facts.size_mb:.0f}" if facts.size_mb >= 10 else numbers.fixed(facts.size_mb, 1)
         if facts.when is None:
             what = self.tr(
-                "The patient’s entry, real name and notes, and {count} sessions with all angles, pictures and"
+                "The patient’s entry, real name and notes, and {count} sessions with all angles, pictures and notes "
+                "({files}, {size} MB)."
             )
-            words = (what + self.tr(" notes ({files}, {size} MB).")).format(
-                count=facts.sessions, files=files, size=size
-            )
+            words = what.format(count=facts.sessions, files=files, size=size)
         else:
             what = self.tr("Angles, pictures, notes and pain scores of this session ({files}, {size} MB).")
             words = what.format(files=files, size=size)
@@ -147,7 +147,7 @@ class EraseSheet(Sheet):
             made.append(self.tr("1 report") if facts.reports == 1 else self.tr("{n} reports").format(n=facts.reports))
         if made:
             words += " " + self.tr("The {made} that Carpus made from it go too.").format(
-                made=self.tr(" and ").join(made)
+                made=made[0] if len(made) == 1 else self.tr("{one} and {other}").format(one=made[0], other=made[1])
             )
         return words
 

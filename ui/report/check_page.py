@@ -9,6 +9,7 @@ from pathlib import Path
 
 from carpus.core.check_card.card import FIGURES
 from carpus.core.check_card.chart import USUAL_OF, Check, Verdict, sentence_of, verdict_of
+from carpus.ui import numbers
 from carpus.ui.fonts import MEDIUM, SEMIBOLD
 from carpus.ui.plot.control_chart import ControlMarks, ControlPlot, control_plots, paint_control_ground
 from carpus.ui.plot.marks import Scales
@@ -68,8 +69,8 @@ def _table(page: Page, check: Check, top: float) -> float:
         top += _ROW_PT
         unit = "°" if figure.kind == "angle" else " mm"
         page.text(figure.name, page.left, top, 10)
-        page.text_right(f"{figure.true:.1f}{unit}", columns[0], top, 10)
-        page.text_right(f"{measured:.1f} ± {sd:.1f}{unit}", columns[1], top, 10)
+        page.text_right(f"{numbers.fixed(figure.true, 1)}{unit}", columns[0], top, 10)
+        page.text_right(f"{numbers.fixed(measured, 1)} ± {numbers.fixed(sd, 1)}{unit}", columns[1], top, 10)
         page.text_right(f"{measured - figure.true:+.1f}{unit}".replace("-", "−"), columns[2], top, 10, SEMIBOLD)
     page.rule(top + 6)
     top += _ROW_PT
@@ -89,4 +90,4 @@ def _chart(page: Page, top: float, plot: ControlPlot) -> float:
 
 
 def _day(when: str) -> str:
-    return f"{datetime.fromisoformat(when):%d %b %Y %H:%M}"
+    return numbers.report_date(datetime.fromisoformat(when))

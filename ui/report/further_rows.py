@@ -10,7 +10,7 @@ from carpus.core.output.further_measures import FurtherMeasure
 from carpus.core.output.report_content import SessionFigures
 from carpus.ui import numbers
 from carpus.ui.marker_words import finger_name
-from carpus.ui.translate import tr
+from carpus.ui.translate import inside, tr
 
 FIRST = ("REACH_GRASP", "THUMB_OPP")
 """Exercises that are about these figures: they come before the ranges of the joints."""
@@ -66,7 +66,7 @@ def _last(item: FurtherMeasure | None) -> str:
 def measure_name(item: FurtherMeasure) -> str:
     """``Path length, out``; ``Thumb to ring finger, nearest``."""
     way = {
-        "reach": tr("out"), "return": tr("back"), "thumb across": tr("across"), "thumb back": tr("back"),
+        "reach": tr("way out"), "return": tr("way back"), "thumb across": tr("across"), "thumb back": tr("way back"),
     }.get(item.of)  # fmt: skip
     name = {
         "movement time": tr("Movement time"),
@@ -94,7 +94,7 @@ def measure_name(item: FurtherMeasure) -> str:
 
 
 def _of_two(item: FurtherMeasure) -> str:
-    one, other = (finger_name(part[3:4]).lower() for part in item.of.replace(", ", "-").split("-"))
+    one, other = (inside(finger_name(part[3:4])) for part in item.of.replace(", ", "-").split("-"))
     pattern = {
         "co-flexion": tr("Bend together, {one}–{other} (r)"),
         "lag": tr("Lag of {other} after {one}"),
@@ -131,7 +131,7 @@ def _value(item: FurtherMeasure, value: float) -> str:
     if item.name == "touches":
         return f"{value:.0f}"
     if item.name == "tremor 3-12 Hz":
-        return f"{value:.1f}°"
+        return f"{numbers.fixed(value, 1)}°"
     number = f"{value:.{decimals}f}".replace("-", "\N{MINUS SIGN}")
     unit = {"s": f"{gap}s", "mm/s": f"{gap}mm/s", "mm": f"{gap}mm", "deg": "°"}.get(item.unit, "")
     return f"{number}{unit}"

@@ -15,7 +15,7 @@ from carpus.ui import numbers
 from carpus.ui.figures import FINGERS, Figure, Row, figure_of, with_side
 from carpus.ui.marker_words import finger_name
 from carpus.ui.report.further_rows import main_words
-from carpus.ui.translate import tr
+from carpus.ui.translate import inside, tr
 from carpus.ui.verdicts import change_short, reason_words
 
 COLUMNS: tuple[Row, ...] = ("knuckle", "middle", "end", "spread", "tam")
@@ -148,7 +148,7 @@ def limits_words(figures: SessionFigures) -> str:
             elif found.limited and finger == 1 and row == "middle":
                 lifted.append(tr("lift of the thumb"))
             elif found.limited:
-                limited[row].append(finger_name(str(finger)).lower())
+                limited[row].append(inside(finger_name(str(finger))))
     parts = []
     for row, names in limited.items():
         if names:
@@ -207,7 +207,7 @@ def hand_summary(figures: SessionFigures, previous: SessionFigures | None, first
         known = row is not None and row.count
         words = _range_words(row, spread=False) if row is not None and known else tr("not seen")
         name = figure.row_name if trains_thumb(figures) else finger_name(str(figure.finger))
-        today.append(f"{name.lower()} {words}")
+        today.append(f"{inside(name)} {words}")
         bounds += bool(known and row is not None and row.limited)
     parts = [f"{main}."] if main else []
     parts.append(tr("{what}: {fingers}.").format(what=what, fingers=", ".join(today)))
@@ -239,7 +239,7 @@ def _since(figures: SessionFigures, before: SessionFigures, when: str) -> str:
         if item.at_least:
             size = tr("at least {size}").format(size=size)
         pattern = tr("{finger} {size} better") if item.verdict == "improved" else tr("{finger} {size} less")
-        words.append(pattern.format(finger=finger_name(item.joint[3:4]).lower(), size=size))
+        words.append(pattern.format(finger=inside(finger_name(item.joint[3:4])), size=size))
     limit = numbers.degrees(beyond[0].limit_deg)
     said = tr("Since {when}: {changes} (error {limit}).").format(when=when, changes=", ".join(words), limit=limit)
     return f"{said} {rest}".strip()

@@ -12,7 +12,7 @@ from carpus.ui.plot.course import paint_chart
 from carpus.ui.progress.words import before_after, change_line, comparison_name, doubt_words, headline, unfair_words
 from carpus.ui.report.page import A4_PT, MARGIN_PT, Page
 from carpus.ui.report.session_page import paint_head, paint_watermark, painted_on_nothing
-from carpus.ui.translate import tr
+from carpus.ui.translate import inside, tr
 from carpus.ui.verdicts import counted_once_words, limit_words, verdict_token, verdict_word
 
 CHART_HEIGHT_PT, LEAST_CHART_PT = 390.0, 180.0
@@ -39,7 +39,7 @@ def paint_progress_page(page: Page, report: ProgressReport) -> None:
     if any(point.figures.simulated for point in progress.points):
         paint_watermark(page)
     newest = progress.points[-1].figures
-    what = f"{terms.exercise_name(newest.exercise.id)}, {terms.hand_name(newest.side).lower()}"
+    what = f"{terms.exercise_name(newest.exercise.id)}, {inside(terms.hand_name(newest.side))}"
     y = paint_head(page, tr("Progress report"), report.pseudonym, what)
     first, last = progress.points[0].figures, newest
     pairs = [

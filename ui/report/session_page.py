@@ -26,7 +26,7 @@ from carpus.ui.report.page import A4_PT, MARGIN_PT, Page
 from carpus.ui.report.tables import TableRow, column_names, repetition_words, table_rows
 from carpus.ui.report.words import corrected_words, method, other_lines, quality_lines, summary, warnings
 from carpus.ui.theme import LIGHT
-from carpus.ui.translate import tr
+from carpus.ui.translate import inside, tr
 
 LOWEST_PT = A4_PT[1] - MARGIN_PT + 11
 """Lower edge of what a page may carry."""
@@ -130,19 +130,21 @@ def paint_head(page: Page, kind: str, pseudonym: str, what: str) -> float:
 def what_words(report: SessionReport) -> str:
     """Exercise and hand."""
     figures = report.figures
-    return f"{terms.exercise_name(figures.exercise.id)}, {terms.hand_name(figures.side).lower()}"
+    return f"{terms.exercise_name(figures.exercise.id)}, {inside(terms.hand_name(figures.side))}"
 
 
 def _paint_facts(page: Page, report: SessionReport, top: float) -> float:
     figures = report.figures
-    number = numbers.ordinal(report.session_number) + ", " if report.session_number else ""
+    session = tr("active")
+    if report.session_number:
+        session = tr("{ordinal}, active").format(ordinal=numbers.ordinal(report.session_number))
     handed = {"right": tr("right-handed"), "left": tr("left-handed"), "both": tr("both-handed")}.get(
         report.dominance, ""
     )
     pairs = [
         (tr("Date"), numbers.report_date(figures.when)),
-        (tr("Session"), number + tr("active")),
-        (tr("Hand"), ", ".join(part for part in (terms.side_name(figures.side).lower(), handed) if part)),
+        (tr("Session"), session),
+        (tr("Hand"), ", ".join(part for part in (inside(terms.side_name(figures.side)), handed) if part)),
         (tr("Length"), numbers.clock(figures.duration_s + 0.5)),
         (tr("Therapist"), report.therapist or numbers.UNKNOWN),
     ]
@@ -214,8 +216,8 @@ def _paint_bars(page: Page, report: SessionReport, top: float) -> float:
     angles = [figures.exercise.angle] if figures.exercise.angle is not None else [1, 0, 2]
     bars: list[tuple[str, SessionFigures, int, float, str]] = []
     for angle in angles:
-        suffix = "" if len(angles) == 1 else " " + {0: tr("side"), 1: tr("bending"), 2: tr("turning")}[angle]
-        bars.append((tr("Today") + suffix, figures, angle, 8.0, CURVE_TOKENS[angle]))
+        several = {0: tr("Today side"), 1: tr("Today bending"), 2: tr("Today turning")}
+        bars.append((tr("Today") if len(angles) == 1 else several[angle], figures, angle, 8.0, CURVE_TOKENS[angle]))
     if len(angles) == 1 and report.previous is not None:
         bars.append((numbers.day_beside(report.previous.when, figures.when), report.previous, angles[0], 6.0, "border"))
     if len(angles) == 1 and report.other_hand is not None:
@@ -352,7 +354,7 @@ def _paint_foot(page: Page, report: SessionReport, top: float) -> float:
         digest = f"{report.recording_digest[:4]}…{report.recording_digest[-4:]}"
         parts.append(tr("recording {digest}").format(digest=digest))
     if math.isfinite(residual):
-        parts.append(tr("calibrated to {size} mm").format(size=f"{residual:.1f}"))
+        parts.append(tr("calibrated to {size} mm").format(size=numbers.fixed(residual, 1)))
     parts.append(tr("smoothed") if figures.smoothed else tr("as measured live"))
     words = " · ".join(parts)
     size_pt = min(8.0, 7.9 * width / page.width_of(words, 8.0))

@@ -11,7 +11,7 @@ from carpus.ui import numbers, terms
 from carpus.ui.check_card.standing_words import unsure_words
 from carpus.ui.fault_words import finding_words
 from carpus.ui.report.tables import is_deficit, prints_spread, too_slow
-from carpus.ui.translate import tr
+from carpus.ui.translate import inside, tr
 from carpus.ui.verdicts import counted_once_words, limit_words, reason_words
 
 
@@ -20,7 +20,7 @@ def summary(figures: SessionFigures, previous: SessionFigures | None, first: Ses
     free = figures.exercise.angle is None
     rows = [row for row in figures.rows if row.movement == "arc" or not free][:3]
     today = ", ".join(
-        f"{terms.deficit_name(row.movement).lower()} {numbers.degrees(-row.mean_deg)}"
+        f"{inside(terms.deficit_name(row.movement))} {numbers.degrees(-row.mean_deg)}"
         if is_deficit(row)
         else f"{_name(row.movement, row.angle, figures)} {numbers.degrees(row.mean_deg)}"
         for row in rows
@@ -43,11 +43,11 @@ def summary(figures: SessionFigures, previous: SessionFigures | None, first: Ses
 def _name(movement: str, angle: int, figures: SessionFigures) -> str:
     if movement == "arc":
         return tr("whole arc") if figures.exercise.angle is not None else _arc_name(angle)
-    return terms.movement_long_name(movement).lower()
+    return inside(terms.movement_long_name(movement))
 
 
 def _arc_name(angle: int) -> str:
-    return terms.arc_name(angle).lower()
+    return inside(terms.arc_name(angle))
 
 
 def _since(changes: tuple[Comparison, ...], when: str) -> str:
@@ -60,7 +60,7 @@ def _since(changes: tuple[Comparison, ...], when: str) -> str:
         return tr("No change beyond measurement error since {when}.").format(when=when)
     words = []
     for item in beyond:
-        name = tr("whole arc") if item.movement == "arc" else terms.movement_long_name(item.movement).lower()
+        name = tr("whole arc") if item.movement == "arc" else inside(terms.movement_long_name(item.movement))
         size, limit = numbers.degrees(item.shown_difference_deg), numbers.degrees(item.limit_deg)
         pattern = tr("{name} {size} better") if item.verdict == "improved" else tr("{name} {size} less")
         words.append(pattern.format(name=name, size=size) + " " + tr("(error {limit})").format(limit=limit))
@@ -178,14 +178,14 @@ def target_words(figures: SessionFigures) -> str:
 def quality_lines(figures: SessionFigures) -> list[tuple[str, str, bool]]:
     """Name, value, and whether it is as it should be."""
     quality = figures.quality
-    measured = f"{100 * quality.measured_share:.1f}{numbers.NARROW_GAP}%"
+    measured = f"{numbers.fixed(100 * quality.measured_share, 1)}{numbers.NARROW_GAP}%"
     missed = tr("{share} of {frames}; {dropped} missed").format(
         share=measured, frames=f"{quality.frames:,}".replace(",", numbers.NARROW_GAP), dropped=quality.dropped
     )
     pattern = tr("{share} % of the time")
     if figures.joint_rows and figures.counted:
         pattern = tr("{share} % of the repetitions")
-    hidden = pattern.format(share=f"{100 * quality.hidden_share:.1f}")
+    hidden = pattern.format(share=numbers.fixed(100 * quality.hidden_share, 1))
     lines = [
         (tr("Pictures measured"), missed, quality.measured_share > 0.9),
         (tr("Markers hidden"), hidden, quality.hidden_share < 0.1),
@@ -203,7 +203,7 @@ def quality_lines(figures: SessionFigures) -> list[tuple[str, str, bool]]:
         if math.isfinite(quality.centre_residual_mm):
             words = tr("{depth} under its disc (fit {residual})").format(
                 depth=numbers.millimetres(-quality.centre_mm[2]),
-                residual=f"{quality.centre_residual_mm:.1f}{numbers.NARROW_GAP}mm",
+                residual=f"{numbers.fixed(quality.centre_residual_mm, 1)}{numbers.NARROW_GAP}mm",
             )
             lines.append((tr("Wrist turns about"), words, True))
     names = {0: tr("Side movement"), 1: tr("Up and down"), 2: tr("Turning")}
@@ -232,8 +232,12 @@ def other_lines(figures: SessionFigures) -> list[tuple[str, str]]:
     if figures.speed is not None and figures.speed.too_slow_to_be_smooth and not smooth.count:
         lines.append((tr("Smoothness (SPARC; 0 is smoothest)"), tr("too slow to judge")))
     if smooth.count:
-        spread = f"{numbers.NARROW_GAP}±{numbers.NARROW_GAP}{smooth.sd:.1f}" if math.isfinite(smooth.sd) else ""
-        value = f"{smooth.mean:.1f}".replace("-", "\N{MINUS SIGN}")
+        spread = (
+            f"{numbers.NARROW_GAP}±{numbers.NARROW_GAP}{numbers.fixed(smooth.sd, 1)}"
+            if math.isfinite(smooth.sd)
+            else ""
+        )
+        value = numbers.fixed(smooth.mean, 1).replace("-", "\N{MINUS SIGN}")
         lines.append((tr("Smoothness (SPARC; 0 is smoothest)"), f"{value}{spread}"))
     if targets := target_words(figures):
         lines.append((tr("Target"), targets))

@@ -15,7 +15,7 @@ from carpus.core.measures.error_limits import FEWEST_PEOPLE, ErrorLimits
 from carpus.ui import numbers, terms
 from carpus.ui.figures import figure_of
 from carpus.ui.icons import State
-from carpus.ui.translate import tr
+from carpus.ui.translate import inside, tr
 from carpus.ui.verdicts import reason_words, verdict_word
 
 
@@ -51,7 +51,7 @@ def mounting_words(mounting: Mounting) -> str:
 
 def person_words(person: Person) -> str:
     """Pseudonym, and the hand where one was measured."""
-    return person.pseudonym if person.side is None else f"{person.pseudonym}, {terms.side_name(person.side).lower()}"
+    return person.pseudonym if person.side is None else f"{person.pseudonym}, {inside(terms.side_name(person.side))}"
 
 
 def second_words(person: Person) -> str:
@@ -86,7 +86,7 @@ def figure_name(of: str, movement: str) -> str:
     if of in WRIST_ANGLES:
         return terms.arc_name(WRIST_ANGLES.index(of)) if movement == "arc" else terms.movement_name(movement)
     name = figure_of(of).long_name
-    return name if movement == "arc" else f"{name}, {terms.movement_name(movement).lower()}"
+    return name if movement == "arc" else f"{name}, {inside(terms.movement_name(movement))}"
 
 
 def limit_now_deg(plan: RetestPlan, of: str, movement: str, limits: ErrorLimits) -> float:
@@ -135,7 +135,7 @@ def statement_words(one: Restated) -> str:
     of = one.now.joint or WRIST_ANGLES[one.now.angle]
     name = figure_name(of, one.now.movement)
     days = f"{numbers.day_month(one.first)} → {numbers.day_month(one.last)}"
-    return f"{one.pseudonym}, {name[:1].lower() + name[1:]}, {days}"
+    return f"{one.pseudonym}, {inside(name)}, {days}"
 
 
 def verdict_change(one: Restated) -> str:
@@ -147,4 +147,4 @@ def verdict_change(one: Restated) -> str:
 
 def tenths(size_deg: float) -> str:
     """``6.6°``; a dash where it is not known."""
-    return f"{size_deg:.1f}°" if math.isfinite(size_deg) else numbers.UNKNOWN
+    return f"{numbers.fixed(size_deg, 1)}°" if math.isfinite(size_deg) else numbers.UNKNOWN

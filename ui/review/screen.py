@@ -61,6 +61,7 @@ from carpus.ui.review.skeleton import modelled_px, paint_palm, paint_skeleton, p
 from carpus.ui.review.table import RangeTable
 from carpus.ui.theme import GAP_PX, MARGIN_PX, Theme, is_tight
 from carpus.ui.tour.bubble import LEAST_SCREEN_PX, BubbleView
+from carpus.ui.translate import inside
 
 PLAY_EVERY_MS = 40
 WRIST = -1
@@ -448,7 +449,7 @@ class ReviewScreen(QWidget):
             return
         words = self.tr("Ways of the finger tips")
         if self._finger:
-            words = self.tr("Ways of the joints: {finger}").format(finger=finger_name(str(self._finger)).lower())
+            words = self.tr("Ways of the joints: {finger}").format(finger=inside(finger_name(str(self._finger))))
         self.ways.show_plot(finger_ways(self._motion, self._finger), words)
 
     @property

@@ -13,7 +13,7 @@ from carpus.ui.fonts import MEDIUM, font
 from carpus.ui.icons import paint_state
 from carpus.ui.ports import SessionLine
 from carpus.ui.theme import CARD_RADIUS_PX, Theme
-from carpus.ui.translate import tr
+from carpus.ui.translate import inside, tr
 
 ROW_PX = 58
 TICK_PX, TICK_LEFT_PX = 20, 18
@@ -37,7 +37,7 @@ def remark(line: SessionLine) -> str:
 def cells(line: SessionLine) -> tuple[str, str, str, str, str]:
     """The texts of a row; what is not known yet is empty."""
     day = f"{numbers.short_date(line.when)} {line.when:%H:%M}"
-    what = f"{terms.exercise_name(line.exercise)}, {terms.side_name(line.side).lower()}"
+    what = f"{terms.exercise_name(line.exercise)}, {inside(terms.side_name(line.side))}"
     return day, what, line.figure, line.counted, remark(line) or line.not_sure or line.corrected.rstrip(".")
 
 

@@ -15,7 +15,7 @@ from carpus.ui.controls.card import Card
 from carpus.ui.controls.text import MEDIUM, REGULAR, SEMIBOLD, Text
 from carpus.ui.figures import figure_of
 from carpus.ui.theme import Theme
-from carpus.ui.translate import tr
+from carpus.ui.translate import inside, tr
 from carpus.ui.verdicts import limit_words
 
 
@@ -75,7 +75,7 @@ def study_lines(study: RetestStudy) -> list[tuple[str, str, str]]:
         if limit.of in WRIST_ANGLES and arc:
             name = terms.arc_name(WRIST_ANGLES.index(limit.of))
         elif limit.of not in WRIST_ANGLES:
-            name = figure_of(limit.of).long_name + ("" if arc else f", {terms.movement_name(limit.movement).lower()}")
+            name = figure_of(limit.of).long_name + ("" if arc else f", {inside(terms.movement_name(limit.movement))}")
         low, high = limit.mdc95_interval_deg
         sem = tr("SEM {size}").format(size=_tenths(limit.sem_deg))
         change = f"{numbers.degrees(limit.limit_deg)} ({_tenths(low)} – {_tenths(high)})"
@@ -89,7 +89,7 @@ def study_lines(study: RetestStudy) -> list[tuple[str, str, str]]:
 
 
 def _tenths(size_deg: float) -> str:
-    return f"{size_deg:.1f}°" if math.isfinite(size_deg) else numbers.UNKNOWN
+    return f"{numbers.fixed(size_deg, 1)}°" if math.isfinite(size_deg) else numbers.UNKNOWN
 
 
 def limit_lines() -> list[tuple[str, str]]:

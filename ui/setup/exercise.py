@@ -28,7 +28,7 @@ from carpus.ui.setup.goal_words import proposal_words
 from carpus.ui.setup.option import Options
 from carpus.ui.setup.set_words import set_words
 from carpus.ui.theme import MARGIN_PX, Theme
-from carpus.ui.translate import tr
+from carpus.ui.translate import inside, tr
 
 MOST_REPETITIONS, MOST_TARGET_DEG = 50, 90
 
@@ -264,7 +264,7 @@ class ExerciseScreen(QWidget):
                 self.targets[number].setAccessibleName(words)
             elif exercise.angle is not None:
                 words = self.tr("Target, {movement}").format(
-                    movement=terms.movement_name(SIDES[exercise.angle][number]).lower()
+                    movement=inside(terms.movement_name(SIDES[exercise.angle][number]))
                 )
                 name.setText(words)
                 self.targets[number].setAccessibleName(words)
@@ -371,4 +371,4 @@ def _set_id(set_id: str) -> str:
 
 
 def _lower(words: str) -> str:
-    return words[:1].lower() + words[1:]
+    return inside(words)

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from carpus.core.output.exercises import SIDES, Exercise
 from carpus.core.output.goals import GoalProposal
 from carpus.ui import numbers, terms
-from carpus.ui.translate import tr
+from carpus.ui.translate import inside, tr
 
 
 def proposal_words(exercise: Exercise, proposed: Sequence[GoalProposal]) -> str:
@@ -33,4 +33,4 @@ def proposal_words(exercise: Exercise, proposed: Sequence[GoalProposal]) -> str:
 def _name(exercise: Exercise, one: GoalProposal) -> str:
     if exercise.angle is None:
         return ""
-    return terms.movement_name(SIDES[exercise.angle][0 if one.direction > 0 else 1]).lower()
+    return inside(terms.movement_name(SIDES[exercise.angle][0 if one.direction > 0 else 1]))

@@ -28,32 +28,43 @@ from carpus.ui.controls.field import Labelled, number_field
 from carpus.ui.controls.sheet import Sheet
 from carpus.ui.controls.text import SEMIBOLD, Text, caption
 from carpus.ui.theme import Theme
+from carpus.ui.translate import tr
 
 USUAL_SECONDS = 60
+
+
+def _words() -> dict[str, str]:
+    """What stands in and beside a row."""
+    return {
+        "exercise": tr("Exercise"), "times": tr("times"), "seconds": tr("seconds"), "unit": tr("Times or seconds"),
+        "count": tr("How often or how long"), "none": tr("none"), "rest": tr("Rest after it"),
+        "earlier": tr("Earlier"), "remove": tr("Remove"),
+    }  # fmt: skip
 
 
 class PartRow:
     """One exercise of the set: which, how often or how long, rest after it, earlier, away."""
 
-    def __init__(self, theme: Theme, sheet: SetSheet, discs: str, part: CoursePart) -> None:
+    def __init__(self, theme: Theme, discs: str, part: CoursePart) -> None:
+        words = _words()
         self.exercise = QComboBox()
         for one in exercises_of(protocol_named(discs)):
             self.exercise.addItem(terms.exercise_name(one.id), one.id)
         self.exercise.setCurrentIndex(max(0, self.exercise.findData(part.exercise.id)))
-        self.exercise.setAccessibleName(sheet.tr("Exercise"))
+        self.exercise.setAccessibleName(words["exercise"])
         self.count = number_field(theme, MOST_SECONDS)
         self.unit = QComboBox()
-        self.unit.addItem(sheet.tr("times"), False)
-        self.unit.addItem(sheet.tr("seconds"), True)
-        self.unit.setAccessibleName(sheet.tr("Times or seconds"))
+        self.unit.addItem(words["times"], False)
+        self.unit.addItem(words["seconds"], True)
+        self.unit.setAccessibleName(words["unit"])
         self.unit.setCurrentIndex(0 if part.repetitions else 1)
         self.count.setValue(part.repetitions or part.seconds)
-        self.count.setAccessibleName(sheet.tr("How often or how long"))
-        self.rest = number_field(theme, MOST_REST_S, " s", sheet.tr("none"))
+        self.count.setAccessibleName(words["count"])
+        self.rest = number_field(theme, MOST_REST_S, " s", words["none"])
         self.rest.setValue(part.rest_s)
-        self.rest.setAccessibleName(sheet.tr("Rest after it"))
-        self.earlier = Button(theme, sheet.tr("Earlier"), "plain", height_px=36)
-        self.remove = Button(theme, sheet.tr("Remove"), "plain", height_px=36)
+        self.rest.setAccessibleName(words["rest"])
+        self.earlier = Button(theme, words["earlier"], "plain", height_px=36)
+        self.remove = Button(theme, words["remove"], "plain", height_px=36)
         self.exercise.currentIndexChanged.connect(lambda _: self._keep_possible())
         self.unit.currentIndexChanged.connect(lambda _: self._keep_possible())
         self._keep_possible()
@@ -179,7 +190,7 @@ class SetSheet(Sheet):
                 self._grid.removeWidget(widget)
                 widget.hide()
                 widget.deleteLater()
-        self.rows = [PartRow(self._theme, self, self._discs, part) for part in parts]
+        self.rows = [PartRow(self._theme, self._discs, part) for part in parts]
         for number, row in enumerate(self.rows):
             for column, widget in enumerate(row.widgets):
                 self._grid.addWidget(widget, number + 1, column)
