@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
@@ -19,8 +20,10 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
+from carpus.ui.controls.button import Button
 from carpus.ui.controls.focus_ring import FocusRing
 from carpus.ui.controls.sheet import Sheet
+from carpus.ui.controls.text import ElidedText, Text
 
 ROOM_PX = 2.0
 """So much may lie outside or over another: the air that belongs to every letter."""
@@ -77,14 +80,34 @@ def painted_texts(window: QWidget) -> Iterator[list[Painted]]:
         QPainter.drawText = original  # type: ignore[method-assign]
 
 
-def complaints(window: QWidget) -> list[str]:
-    """Everything that is cut, overlaps or reaches outside, one line each."""
+def complaints(window: QWidget, *, may_elide: bool = False) -> list[str]:
+    """Everything that is cut, overlaps or reaches outside, one line each. ``may_elide``: texts and buttons may leave
+    out the end of what they say, which their tooltip says in whole."""
     with painted_texts(window) as painted:
         window.grab()
     top = _topmost(window)
     texts = [one for one in painted if _belongs(one.owner, top)]
     texts += [one for one in _labels(window) if _belongs(one.owner, top)]
-    return [*_cut(texts), *_overlapping(texts), *_crossing(window, top), *_outside(window, top), *_small(window, top)]
+    elided = [] if may_elide else _elided(texts)
+    return [
+        *elided,
+        *_cut(texts),
+        *_overlapping(texts),
+        *_crossing(window, top),
+        *_outside(window, top),
+        *_small(window, top, may_elide),
+    ]
+
+
+def shown_texts(window: QWidget) -> list[str]:
+    """Every text that is painted, or said by a tooltip or a name for those who do not see."""
+    with painted_texts(window) as painted:
+        window.grab()
+    texts = [one.text for one in (*painted, *_labels(window))]
+    for widget in window.findChildren(QWidget):
+        if widget.isVisible():
+            texts += [widget.toolTip(), widget.accessibleName(), widget.accessibleDescription()]
+    return [text for text in texts if re.search(r"[A-Za-z]{3}", text)]
 
 
 def _topmost(window: QWidget) -> QWidget | None:
@@ -101,7 +124,10 @@ def _labels(window: QWidget) -> list[Painted]:
     """Labels that Qt paints itself."""
     found = []
     for label in window.findChildren(QLabel):
-        if type(label).paintEvent is not QLabel.paintEvent or not label.isVisible() or not label.text().strip():
+        paints_itself = type(label).paintEvent not in (QLabel.paintEvent, Text.paintEvent)
+        if isinstance(label, Text) and label.shown_text != label.text():
+            continue  # elided, and found as it is painted
+        if paints_itself or not label.isVisible() or not label.text().strip():
             continue
         metrics, inside = QFontMetricsF(label.font()), QRectF(label.contentsRect())
         flags = label.alignment().value | (Qt.TextFlag.TextWordWrap.value if label.wordWrap() else 0)
@@ -129,6 +155,15 @@ def _cut(texts: list[Painted]) -> list[str]:
         if wide > ROOM_PX or high > 0.0:
             out.append(f"cut: {one.text!r} by {wide:.0f}x{max(high, 0.0):.0f} px in {_name(one.owner)}")
     return out
+
+
+def _elided(texts: list[Painted]) -> list[str]:
+    return [
+        f"cut: {one.owner.text()!r} to {one.text!r}"
+        for one in texts
+        if isinstance(one.owner, Text | Button) and not isinstance(one.owner, ElidedText)
+        if one.text.endswith("…") and one.text != one.owner.text()
+    ]  # fmt: skip
 
 
 def _overlapping(texts: list[Painted]) -> list[str]:
@@ -190,13 +225,15 @@ def _outside(window: QWidget, top: QWidget | None) -> list[str]:
     return out
 
 
-def _small(window: QWidget, top: QWidget | None) -> list[str]:
+def _small(window: QWidget, top: QWidget | None, may_elide: bool) -> list[str]:
     """Buttons and fields with less room than their words need."""
     out = []
     for widget in window.findChildren(QWidget):
         if not widget.isVisible() or not _belongs(widget, top):
             continue
         needed = 0.0
+        if isinstance(widget, Button) and may_elide:
+            continue
         if isinstance(widget, QAbstractButton) and widget.text():
             needed = widget.minimumSizeHint().width()
         elif isinstance(widget, QComboBox):

@@ -296,7 +296,7 @@ def test_enter_takes_all_proposed_names_and_enter_starts(qtbot: QtBot, screen: M
 def test_doubtful_names_are_said_in_words_and_one_click_settles_each(qtbot: QtBot, screen: MarkersScreen) -> None:
     calibrator = proposed(qtbot, screen, doubtful=("TIP4", "DIP4"))
     assert screen.clicking is not None
-    assert "Ring end joint, ring tip" in screen.place.text()
+    assert "Ring finger end joint, ring tip" in screen.place.text()
     markers = screen.clicking.order
     for name in ("DIP4", "TIP4"):
         spot = place_of(screen, calibrator.disc_px[markers.index(name)])

@@ -97,7 +97,7 @@ def test_a_translation_made_by_qt_s_tools_reaches_widgets_and_functions(
 def test_a_page_in_another_language_is_painted_in_a_thread_of_its_own_while_the_window_goes_on_in_its_own(
     qtbot: QtBot,
 ) -> None:
-    language.learn("xx", lambda context, text: f"¡{text}", QLocale("de_CH"))
+    language.learn("xx", lambda context, text: f"¡{text}" if text == "Cancel" else None, QLocale("de_CH"))
     background, said = Background(), []
     go_on = threading.Event()
 
@@ -110,7 +110,7 @@ def test_a_page_in_another_language_is_painted_in_a_thread_of_its_own_while_the_
     assert tr("Cancel") == "Cancel"
     go_on.set()
     qtbot.waitUntil(lambda: bool(said), timeout=20_000)
-    assert said == ["¡Cancel13. Nov.xx"] or said == ["¡Cancel13 Nov.xx"]
+    assert said == ["¡Cancel13 Nov.xx"]
 
 
 def test_the_window_speaks_what_is_chosen_with_qt_s_own_texts_and_dates(qtbot: QtBot) -> None:

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from typing import Literal
 
-from PySide6.QtCore import QPointF, QRectF, QSize, Qt
-from PySide6.QtGui import QColor, QFont, QFontMetricsF, QKeyEvent, QPainter, QPaintEvent, QPen
-from PySide6.QtWidgets import QPushButton, QSizePolicy
+from PySide6.QtCore import QEvent, QPointF, QRectF, QSize, Qt
+from PySide6.QtGui import QColor, QFont, QFontMetricsF, QHelpEvent, QKeyEvent, QPainter, QPaintEvent, QPen
+from PySide6.QtWidgets import QPushButton, QSizePolicy, QToolTip
 
 from carpus.ui.fonts import MEDIUM, SEMIBOLD, font
 from carpus.ui.icons import paint_icon
@@ -14,6 +14,7 @@ from carpus.ui.keys import key_name
 from carpus.ui.theme import CONTROL_RADIUS_PX, Theme
 
 Kind = Literal["primary", "plain", "quiet", "well"]
+LEAST_PAD_PX = 6
 HEIGHT_PX = {"primary": 52, "plain": 44, "quiet": 44, "well": 40}
 
 
@@ -56,8 +57,13 @@ class Button(QPushButton):
     def _hint_font(self) -> QFont:
         return font(12 * self._theme.text_scale, MEDIUM)
 
+    @property
+    def _words(self) -> str:
+        """The text without the sign of its key."""
+        return self.text().replace("&&", "\0").replace("&", "").replace("\0", "&")
+
     def _parts_px(self) -> tuple[float, float, float]:
-        shown = self.text().replace("&&", "\0").replace("&", "").replace("\0", "&")
+        shown = self._words
         text = QFontMetricsF(self._text_font()).horizontalAdvance(shown) if shown else 0.0
         icon = float(self._theme.px(18)) if self._icon else 0.0
         hint = QFontMetricsF(self._hint_font()).horizontalAdvance(self._hint) if self._hint else 0.0
@@ -70,7 +76,24 @@ class Button(QPushButton):
         return QSize(round(icon + text + hint + gaps + 2 * pad), self._theme.px(self._height_px))
 
     def minimumSizeHint(self) -> QSize:
-        return self.sizeHint()
+        """Without the key's name, which goes first where there is little room."""
+        hint = self._parts_px()[2]
+        return self.sizeHint() - QSize(round(hint + 12) if hint else 0, 0)
+
+    @property
+    def shown_text(self) -> str:
+        """What there is room for; a tooltip says the rest."""
+        icon, text, _ = self._parts_px()
+        room = self.width() - icon - (8 if icon and text else 0) - 2 * LEAST_PAD_PX
+        if text <= room:
+            return self.text()
+        return QFontMetricsF(self._text_font()).elidedText(self._words, Qt.TextElideMode.ElideRight, room)
+
+    def event(self, event: QEvent) -> bool:
+        if isinstance(event, QHelpEvent) and not self.toolTip() and self.shown_text != self.text():
+            QToolTip.showText(event.globalPos(), self._words, self)
+            return True
+        return super().event(event)
 
     def _colors(self) -> tuple[QColor, QColor, QColor | None, QColor]:
         """Body, text, outline, hint."""
@@ -109,7 +132,12 @@ class Button(QPushButton):
         painter.drawRoundedRect(box, CONTROL_RADIUS_PX, CONTROL_RADIUS_PX)
         icon, text, hint = self._parts_px()
         gap_icon, gap_hint = (8.0 if icon and text else 0.0), (12.0 if hint else 0.0)
-        left = max(8.0, (self.width() - icon - text - hint - gap_icon - gap_hint) / 2)
+        if icon + text + hint + gap_icon + gap_hint > self.width() - 2 * LEAST_PAD_PX:
+            hint = gap_hint = 0.0
+        words = self.shown_text
+        if words != self.text():
+            text = QFontMetricsF(self._text_font()).horizontalAdvance(words)
+        left = max(float(LEAST_PAD_PX), (self.width() - icon - text - hint - gap_icon - gap_hint) / 2)
         middle = self.height() / 2
         if self._icon:
             paint_icon(
@@ -122,8 +150,8 @@ class Button(QPushButton):
         painter.setFont(self._text_font())
         painter.setPen(text_color)
         flags = Qt.AlignmentFlag.AlignVCenter | Qt.AlignmentFlag.AlignLeft | Qt.TextFlag.TextShowMnemonic
-        painter.drawText(QRectF(left, 0, text + 4, self.height()), int(flags), self.text())
-        if self._hint:
+        painter.drawText(QRectF(left, 0, text + 4, self.height()), int(flags), words)
+        if hint:
             painter.setFont(self._hint_font())
             painter.setPen(hint_color)
             painter.drawText(

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from PySide6.QtCore import QRect, QRectF, QSize, Qt, Signal
-from PySide6.QtGui import QFont, QFontMetricsF, QPainter, QPaintEvent, QPalette, QShowEvent
-from PySide6.QtWidgets import QLabel, QSizePolicy, QWidget
+from PySide6.QtCore import QEvent, QRect, QRectF, QSize, Qt, Signal
+from PySide6.QtGui import QFont, QFontMetricsF, QHelpEvent, QPainter, QPaintEvent, QPalette, QShowEvent
+from PySide6.QtWidgets import QLabel, QSizePolicy, QToolTip, QWidget
 
 from carpus.ui.fonts import MEDIUM, REGULAR, SEMIBOLD, font
 from carpus.ui.icons import State, paint_icon, paint_state
@@ -56,6 +56,32 @@ class Text(QLabel):
     def heightForWidth(self, width: int) -> int:
         return super().heightForWidth(width) if self.text() or not self.wordWrap() else self._line_px()
 
+    @property
+    def shown_text(self) -> str:
+        """What there is room for of a single line; a tooltip says the rest."""
+        if self.wordWrap() or "\n" in self.text():
+            return self.text()
+        words = self.text().replace("&", "") if self.buddy() is not None else self.text()
+        room = self.contentsRect().width() + 2
+        if self.fontMetrics().horizontalAdvance(words) <= room:
+            return self.text()
+        return self.fontMetrics().elidedText(words, Qt.TextElideMode.ElideRight, room)
+
+    def paintEvent(self, event: QPaintEvent) -> None:
+        words = self.shown_text
+        if words == self.text():
+            super().paintEvent(event)
+            return
+        painter = QPainter(self)
+        painter.setPen(self.palette().color(QPalette.ColorRole.WindowText))
+        painter.drawText(self.contentsRect(), self.alignment().value, words)
+
+    def event(self, event: QEvent) -> bool:
+        if isinstance(event, QHelpEvent) and not self.toolTip() and self.shown_text != self.text():
+            QToolTip.showText(event.globalPos(), self.text(), self)
+            return True
+        return super().event(event)
+
     def _line_px(self) -> int:
         """Height of a line with something in it."""
         return self.fontMetrics().boundingRect(QRect(0, 0, 1000, 1000), 0, "x").height()
@@ -68,7 +94,7 @@ class Text(QLabel):
 
 
 class ElidedText(Text):
-    """One line that never asks for room: what does not fit is left out at its end, and told by the tooltip."""
+    """One line that never asks for room: what does not fit is left out at its end."""
 
     def __init__(
         self, theme: Theme, text: str = "", size_px: int = 14, weight: int = REGULAR, token: str = "text"

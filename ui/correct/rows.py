@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 
 from PySide6.QtCore import QRectF, QSize, Qt, Signal
-from PySide6.QtGui import QKeyEvent, QPainter, QPaintEvent
+from PySide6.QtGui import QFontMetricsF, QKeyEvent, QPainter, QPaintEvent
 from PySide6.QtWidgets import QAbstractButton, QSizePolicy
 
 from carpus.ui import numbers
@@ -47,6 +47,7 @@ class MarkerRow(QAbstractButton):
         self._value, self._chosen = now, chosen
         self._state = "warn" if far else "predicted" if changed else "partly" if not seen else "good"
         self.setAccessibleName(f"{self._name}, {now}")
+        self.setToolTip(f"{self._name}, {now}")
         self.update()
 
     def sizeHint(self) -> QSize:
@@ -77,7 +78,11 @@ class MarkerRow(QAbstractButton):
         inside = QRectF(size + 18, 0, self.width() - size - 26, self.height())
         painter.setPen(color("text"))
         painter.setFont(font(14 * scale, SEMIBOLD if self._chosen else MEDIUM))
-        painter.drawText(inside, int(Qt.AlignmentFlag.AlignVCenter | Qt.AlignmentFlag.AlignLeft), self._name)
+        value_px = QFontMetricsF(font(14 * scale, REGULAR)).horizontalAdvance(self._value)
+        name = QFontMetricsF(painter.font()).elidedText(
+            self._name, Qt.TextElideMode.ElideRight, inside.width() - value_px - 10
+        )
+        painter.drawText(inside, int(Qt.AlignmentFlag.AlignVCenter | Qt.AlignmentFlag.AlignLeft), name)
         painter.setPen(color("text2"))
         painter.setFont(font(14 * scale, REGULAR))
         painter.drawText(inside, int(Qt.AlignmentFlag.AlignVCenter | Qt.AlignmentFlag.AlignRight), self._value)

@@ -60,7 +60,7 @@ class HandMap(QWidget):
         painter = QPainter(self)
         painter.setRenderHint(QPainter.RenderHint.Antialiasing)
         frame = paint_card(painter, theme, QRectF(self.rect()))
-        words_left = self.width() - (WORDS_PX + 16) * scale
+        words_left = self.width() - max(WORDS_PX * scale, self._words_px()) - 16 * scale
         to = placement(QRectF(12, 8, words_left - 24, self.height() - 9), self._side)
         painter.setClipRect(frame)
         painter.setPen(QPen(theme.color("border"), 1.3))
@@ -70,6 +70,17 @@ class HandMap(QWidget):
         for name in self.seen or SITES:
             self._paint_disc(painter, to.map(QPointF(*PLACES[name])), self.seen.get(name, "hidden"), 7.0)
         self._paint_words(painter, words_left)
+
+    def _words_px(self) -> float:
+        """What the words beside the counts need, up to half of the map."""
+        metrics = QFontMetricsF(font(14 * self._theme.text_scale, REGULAR))
+        longest = max(metrics.horizontalAdvance(words) for _, words in self._counts())
+        return min(18 + 24 * self._theme.text_scale + 7 + longest + 4, 0.5 * self.width())
+
+    def _counts(self) -> tuple[tuple[Seen, str], ...]:
+        return (
+            ("seen", self.tr("seen")), ("partly", self.tr("partly seen")), ("hidden", self.tr("hidden, predicted")),
+        )  # fmt: skip
 
     def _paint_disc(self, painter: QPainter, at: QPointF, state: Seen, radius: float) -> None:
         color = self._theme.color
@@ -89,10 +100,7 @@ class HandMap(QWidget):
         y = 16.0
         painter.drawText(QPointF(left, y + QFontMetricsF(painter.font()).ascent()), self.tr("Markers"))
         y += 34 * scale
-        counts: tuple[tuple[Seen, str], ...] = (
-            ("seen", self.tr("seen")), ("partly", self.tr("partly seen")), ("hidden", self.tr("hidden, predicted")),
-        )  # fmt: skip
-        for state, words in counts:
+        for state, words in self._counts():
             self._paint_disc(painter, QPointF(left + 8, y + 9 * scale), state, 7.0)
             count = sum(one == state for one in self.seen.values())
             painter.setFont(font(14 * scale, SEMIBOLD))
@@ -110,10 +118,13 @@ class HandMap(QWidget):
         painter.setPen(theme.color("text"))
         keys = self.tr("F2 next joint · F3 next finger\nShift+F8 from the side")
         small = font(12 * scale, REGULAR)
+        keys_px = max(QFontMetricsF(small).horizontalAdvance(line) for line in keys.split("\n"))
         below = QFontMetricsF(small).height() * 2 + 12
         room = QRectF(left, y, self.width() - left - 14, self.height() - y - 8)
+        wrapped = QFontMetricsF(painter.font()).boundingRect(room, int(Qt.TextFlag.TextWordWrap), self.words())
         painter.drawText(room, int(Qt.TextFlag.TextWordWrap), self.words())
-        if self.height() - below > y + QFontMetricsF(painter.font()).height() * MOST_LINES:
+        lines_px = max(QFontMetricsF(painter.font()).height() * MOST_LINES, wrapped.height())
+        if self.height() - below > y + lines_px and keys_px <= self.width() - left - 8:
             painter.setFont(small)
             painter.setPen(theme.color("text2"))
             painter.drawText(QRectF(left, self.height() - below, self.width() - left - 8, below), 0, keys)

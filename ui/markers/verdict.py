@@ -12,7 +12,7 @@ from PySide6.QtWidgets import QGridLayout, QHBoxLayout
 from carpus.core.calibration.result import Finding, Verdict
 from carpus.ui import numbers
 from carpus.ui.controls.card import Card, Line
-from carpus.ui.controls.text import MEDIUM, REGULAR, SEMIBOLD, StateText, Text
+from carpus.ui.controls.text import MEDIUM, REGULAR, SEMIBOLD, ElidedText, StateText, Text
 from carpus.ui.icons import State
 from carpus.ui.numbers import NARROW_GAP, UNKNOWN
 from carpus.ui.ports import VerdictLimits
@@ -141,7 +141,7 @@ class VerdictPanel(Card):
         icon = StateText(self._theme, icon_px=16)
         cells = (
             icon, Text(self._theme, "", 14, REGULAR, "text2"), Text(self._theme, "", 14, SEMIBOLD),
-            Text(self._theme, "", 12, MEDIUM, "text2"),
+            ElidedText(self._theme, "", 12, MEDIUM, "text2"),
         )  # fmt: skip
         for column, cell in enumerate(cells):
             self._grid.addWidget(cell, place + 1, column)

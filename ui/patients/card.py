@@ -210,4 +210,5 @@ class _ResultRow(QWidget):
         row.addWidget(change, 1)
 
     def _fit(self) -> None:
-        self._name.setFixedWidth(self._theme.px(88))
+        needed = self._name.fontMetrics().horizontalAdvance(self._name.text()) + 4
+        self._name.setFixedWidth(max(self._theme.px(88), needed))

@@ -9,8 +9,7 @@ from dataclasses import dataclass
 from carpus.core.output.further_measures import FurtherMeasure
 from carpus.core.output.report_content import SessionFigures
 from carpus.ui import numbers
-from carpus.ui.marker_words import finger_name
-from carpus.ui.translate import inside, tr
+from carpus.ui.translate import tr
 
 FIRST = ("REACH_GRASP", "THUMB_OPP")
 """Exercises that are about these figures: they come before the ranges of the joints."""
@@ -66,7 +65,8 @@ def _last(item: FurtherMeasure | None) -> str:
 def measure_name(item: FurtherMeasure) -> str:
     """``Path length, out``; ``Thumb to ring finger, nearest``."""
     way = {
-        "reach": tr("way out"), "return": tr("way back"), "thumb across": tr("across"), "thumb back": tr("way back"),
+        "reach": tr("{name}, out"), "return": tr("{name}, back"), "thumb across": tr("{name}, across"),
+        "thumb back": tr("{name}, back"),
     }.get(item.of)  # fmt: skip
     name = {
         "movement time": tr("Movement time"),
@@ -87,14 +87,15 @@ def measure_name(item: FurtherMeasure) -> str:
         "tremor 3-12 Hz": tr("Tremor, 3 to 12 Hz (rms)"),
     }.get(item.name, "")
     if way is not None:
-        return f"{name}, {way}"
+        return way.format(name=name)
     if item.name in ("co-flexion", "lag", "enslaving", "tip span", "least distance", "touches"):
         return _of_two(item)
     return name or item.name
 
 
 def _of_two(item: FurtherMeasure) -> str:
-    one, other = (inside(finger_name(part[3:4])) for part in item.of.replace(", ", "-").split("-"))
+    short = {"1": tr("thumb"), "2": tr("index"), "3": tr("middle"), "4": tr("ring"), "5": tr("little")}
+    one, other = (short.get(part[3:4], part) for part in item.of.replace(", ", "-").split("-"))
     pattern = {
         "co-flexion": tr("Bend together, {one}–{other} (r)"),
         "lag": tr("Lag of {other} after {one}"),

@@ -1,0 +1,86 @@
+"""A language that nobody speaks: 40 % longer than English, with accents and brackets, to see where room is missing
+and what was never given to a translator. ``python -m tests.ui.pseudo [CODE] [WxH@SCALE] [STATE...]`` looks at every
+state of the gallery in it, or in a language that people do speak."""
+
+from __future__ import annotations
+
+import re
+import sys
+from collections.abc import Iterator
+from contextlib import contextmanager
+
+from PySide6.QtCore import QLocale
+
+from carpus.ui import language
+
+CODE = "xx"
+_PLACES = re.compile(r"(\{[^}]*\}|&.)")
+_ACCENTS = str.maketrans("aeiouAEIOUcnsz", "áéíóúÁÉÍÓÚçñšž")
+_NO_WORDS = re.compile(r"^(\W*|d+ .*MMM.*|d MMM)$|^words that lose")
+
+
+def pseudo(text: str) -> str:
+    """``[Čááncéél]`` for Cancel: every vowel twice, places and keys kept.
+
+    >>> pseudo("Keep {count} &pictures")
+    '[Kéééép {count} &pííçtúúréés]'
+    """
+    if _NO_WORDS.search(text):
+        return text
+    parts = _PLACES.split(text)
+    parts[::2] = [re.sub(r"([aeiouAEIOU])", lambda one: one[1] + one[1].lower(), part) for part in parts[::2]]
+    parts[::2] = [part.translate(_ACCENTS) for part in parts[::2]]
+    return f"[{''.join(parts)}]"
+
+
+def is_pseudo(text: str) -> bool:
+    """Whether a text on the screen came through the language."""
+    return "[" in text or "]" in text or any(letter in text for letter in "áéíóúçñšž")
+
+
+@contextmanager
+def spoken(code: str = CODE) -> Iterator[None]:
+    """The window speaks it meanwhile, with German numbers and dates."""
+    if code == CODE:
+        language.learn(CODE, lambda context, text: pseudo(text), QLocale("de_DE"))
+    before = QLocale()
+    language.speak(code)
+    try:
+        yield
+    finally:
+        language.speak("en")
+        QLocale.setDefault(before)
+
+
+def main() -> None:
+    """Look at every state, and print what is cut and what was not translated."""
+    from PySide6.QtWidgets import QApplication
+
+    from carpus.ui.fonts import load_fonts
+    from tests.ui.gallery import Gallery
+    from tests.ui.geometry import complaints, shown_texts
+
+    application = QApplication.instance() or QApplication(["carpus"])
+    assert isinstance(application, QApplication)
+    application.setStyle("Fusion")
+    load_fonts()
+    code = sys.argv[1] if len(sys.argv) > 1 else CODE
+    size_text, _, scale_text = (sys.argv[2] if len(sys.argv) > 2 else "1280x800@1.0").partition("@")
+    width, height = map(int, size_text.split("x"))
+    with spoken(code):
+        gallery = Gallery(application, "light", (width, height), float(scale_text))
+        for name, show in gallery.states().items():
+            if len(sys.argv) > 3 and name not in sys.argv[3:]:
+                continue
+            show()
+            gallery.settle()
+            for line in complaints(gallery.shell, may_elide=True):
+                print(f"{name}: {line}")
+            if code == CODE:
+                for text in sorted({text for text in shown_texts(gallery.shell) if not is_pseudo(text)}):
+                    print(f"{name}: plain: {text!r}")
+        gallery.close()
+
+
+if __name__ == "__main__":
+    main()
