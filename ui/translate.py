@@ -2,9 +2,14 @@
 
 from __future__ import annotations
 
+import re
+
 from PySide6.QtCore import QCoreApplication
 
 from carpus.core.phrase import Phrase
+from carpus.ui import language
+
+_DECIMAL = re.compile(r"[-+−]?\d+\.\d+")
 
 
 def tr(text: str) -> str:
@@ -33,4 +38,13 @@ def say(text: str) -> str:
     template = QCoreApplication.translate("", text.template)
     if not text.facts:
         return template
-    return template.format(**{name: say(fact) if isinstance(fact, str) else fact for name, fact in text.facts.items()})
+    return template.format(**{name: _fact(fact) for name, fact in text.facts.items()})
+
+
+def _fact(fact: object) -> object:
+    """A fact as it stands in the sentence: a phrase said, a number with the language's decimal sign."""
+    if isinstance(fact, Phrase):
+        return say(fact)
+    if isinstance(fact, str) and _DECIMAL.fullmatch(fact):
+        return fact.replace(".", language.locale().decimalPoint())
+    return fact

@@ -24,6 +24,7 @@ from carpus.core.check_card.reading import (
 )
 from carpus.core.dates import is_moment
 from carpus.core.errors import OutputNotWritable
+from carpus.core.phrase import Phrase, phrase
 from carpus.core.private import private
 
 SUFFIX = ".checks.jsonl"
@@ -159,22 +160,42 @@ def verdict_of(earlier: Sequence[Check], check: Check) -> Verdict:
     return "unusual" if drifts else "right"
 
 
-def sentence_of(check: Check, verdict: Verdict) -> str:
+def sentence_of(check: Check, verdict: Verdict) -> Phrase:
     """What a check says, for people."""
-    off = f"{check.angle_error_deg:.1f}° and {check.length_error_mm:.1f} mm off at most"
-    limits = f"the limits are {check.most_angle_deg:.1f}° and {check.most_length_mm:.1f} mm"
+    figures = {
+        "angle": f"{check.angle_error_deg:.1f}",
+        "length": f"{check.length_error_mm:.1f}",
+        "most_angle": f"{check.most_angle_deg:.1f}",
+        "most_length": f"{check.most_length_mm:.1f}",
+    }
     if verdict == "right":
-        return f"The camera measures right: {off}; {limits}."
+        return phrase(
+            "The camera measures right: {angle}° and {length} mm off at most; the limits are {most_angle}° and "
+            "{most_length} mm.",
+            **figures,
+        )
     if verdict == "unusual":
-        return f"The camera measures otherwise than usual: {off}; {limits}. Check once more."
-    said = []
-    if not check.lengths_hold:
-        share = 100.0 * (check.scale - 1.0)
-        said.append(f"all lengths are {abs(share):.1f} % too {'long' if share > 0 else 'short'}, the worst by "
-                    f"{check.length_error_mm:.1f} mm")  # fmt: skip
-    if not check.angles_hold:
-        said.append(f"angles are {check.angle_error_deg:.1f}° off")
-    return f"The camera is out: {'; '.join(said)} ({limits}, all lengths {100.0 * MOST_SCALE:.1f} %)."
+        return phrase(
+            "The camera measures otherwise than usual: {angle}° and {length} mm off at most; the limits are "
+            "{most_angle}° and {most_length} mm. Check once more.",
+            **figures,
+        )
+    angles = phrase("angles are {angle}° off", angle=figures["angle"])
+    share = 100.0 * (check.scale - 1.0)
+    off = {"share": f"{abs(share):.1f}", "length": figures["length"]}
+    lengths = phrase("all lengths are {share} % too short, the worst by {length} mm", **off)
+    if share > 0:
+        lengths = phrase("all lengths are {share} % too long, the worst by {length} mm", **off)
+    what = angles if check.lengths_hold else lengths
+    if not check.lengths_hold and not check.angles_hold:
+        what = phrase("{one}; {other}", one=lengths, other=angles)
+    return phrase(
+        "The camera is out: {what} (the limits are {most_angle}° and {most_length} mm, all lengths {most_share} %).",
+        what=what,
+        most_angle=figures["most_angle"],
+        most_length=figures["most_length"],
+        most_share=f"{100.0 * MOST_SCALE:.1f}",
+    )
 
 
 def _check(line: str) -> Check | None:

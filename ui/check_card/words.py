@@ -28,7 +28,7 @@ def headline(now: CameraChecks) -> tuple[str, str]:
         )
     day = check_day(last)
     limits = tr("the limits are {angle}° and {length} mm").format(
-        angle=f"{last.most_angle_deg:.1f}", length=f"{last.most_length_mm:.1f}"
+        angle=numbers.fixed(last.most_angle_deg, 1), length=numbers.fixed(last.most_length_mm, 1)
     )
     off = tr("{angle}° and {length} mm off at most").format(
         angle=numbers.fixed(last.angle_error_deg, 1), length=numbers.fixed(last.length_error_mm, 1)

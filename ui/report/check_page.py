@@ -10,11 +10,13 @@ from pathlib import Path
 from carpus.core.check_card.card import FIGURES
 from carpus.core.check_card.chart import USUAL_OF, Check, Verdict, sentence_of, verdict_of
 from carpus.ui import numbers
+from carpus.ui.check_card.words import figure_name
 from carpus.ui.fonts import MEDIUM, SEMIBOLD
 from carpus.ui.plot.control_chart import ControlMarks, ControlPlot, control_plots, paint_control_ground
 from carpus.ui.plot.marks import Scales
 from carpus.ui.report.page import Page
 from carpus.ui.report.pdf import write_page
+from carpus.ui.translate import say, tr
 
 TITLE = "Carpus camera check"
 _ROW_PT, _CHART_PT = 20.0, 140.0
@@ -40,42 +42,42 @@ def paint_check_page(page: Page, result: CheckResult) -> None:
     """Paint the page."""
     check, earlier = result.check, result.earlier
     verdict = verdict_of(earlier, check)
-    page.text(TITLE, page.left, 62, 15, SEMIBOLD)
+    page.text(tr("Carpus camera check"), page.left, 62, 15, SEMIBOLD)
     page.text_right(_day(check.when), page.right, 62, 10, MEDIUM)
-    lower = page.paragraph(sentence_of(check, verdict), page.left, 76, page.right - page.left, 12, SEMIBOLD,
+    lower = page.paragraph(say(sentence_of(check, verdict)), page.left, 76, page.right - page.left, 12, SEMIBOLD,
                            _TOKENS[verdict])  # fmt: skip
-    pairs = [("Camera", result.camera), *result.asides]
+    pairs = [(tr("Camera"), result.camera), *result.asides]
     page.facts(pairs, lower + 10, (0.0, *(0.46 + 0.54 * k / (len(pairs) - 1) for k in range(len(pairs) - 1))))
     top = _table(page, check, lower + 60)
     for plot in control_plots([*earlier, check]):
         top = _chart(page, top + 28, plot)
-    said = (
-        "Limits are fixed, wider only for a sensor that cannot do better. "
-        f"Usual: mean of the first {USUAL_OF} checks after a calibration, ± 3 sd. ± in the table is "
-        "the sd of one picture. All lengths off by one share: the depth, or a card that was not printed at 100 % (its "
-        "ruler says which). If it is out: check once more, then calibrate; still out: do not measure with it."
+    said = tr(
+        "Limits are fixed, wider only for a sensor that cannot do better. Usual: mean of the first {count} checks "
+        "after a calibration, ± 3 sd. ± in the table is the sd of one picture. All lengths off by one share: the "
+        "depth, or a card that was not printed at 100 % (its ruler says which). If it is out: check once more, then "
+        "calibrate; still out: do not measure with it."
     )
-    page.paragraph(said, page.left, top + 22, page.right - page.left, 8.5, token="text2")
+    page.paragraph(said.format(count=USUAL_OF), page.left, top + 22, page.right - page.left, 8.5, token="text2")
 
 
 def _table(page: Page, check: Check, top: float) -> float:
     """The six figures; returns the lower edge."""
     columns = (page.left + 250, page.left + 370, page.right)
-    page.text("On the card", page.left, top, 8.5, token="text2")
-    for name, right in zip(("True", "Measured", "Off by"), columns, strict=True):
+    page.text(tr("On the card"), page.left, top, 8.5, token="text2")
+    for name, right in zip((tr("True"), tr("Measured"), tr("Off by")), columns, strict=True):
         page.text_right(name, right, top, 8.5, token="text2")
     for figure, measured, sd in zip(FIGURES, check.measured, check.sd, strict=True):
         page.rule(top + 6)
         top += _ROW_PT
         unit = "°" if figure.kind == "angle" else " mm"
-        page.text(figure.name, page.left, top, 10)
+        page.text(figure_name(figure.name), page.left, top, 10)
         page.text_right(f"{numbers.fixed(figure.true, 1)}{unit}", columns[0], top, 10)
         page.text_right(f"{numbers.fixed(measured, 1)} ± {numbers.fixed(sd, 1)}{unit}", columns[1], top, 10)
-        page.text_right(f"{measured - figure.true:+.1f}{unit}".replace("-", "−"), columns[2], top, 10, SEMIBOLD)
+        page.text_right(f"{_signed(measured - figure.true, 1)}{unit}", columns[2], top, 10, SEMIBOLD)
     page.rule(top + 6)
     top += _ROW_PT
-    page.text("All distances together", page.left, top, 10)
-    page.text_right(f"{100.0 * (check.scale - 1.0):+.2f} %".replace("-", "−"), columns[2], top, 10, SEMIBOLD)
+    page.text(tr("All distances together"), page.left, top, 10)
+    page.text_right(f"{_signed(100.0 * (check.scale - 1.0), 2)} %", columns[2], top, 10, SEMIBOLD)
     return top
 
 
@@ -87,6 +89,10 @@ def _chart(page: Page, top: float, plot: ControlPlot) -> float:
     paint_control_ground(page.painter, page.style, plot, panel)
     ControlMarks(plot).paint(page.painter, page.style, panel)
     return top + 24 + _CHART_PT
+
+
+def _signed(value: float, decimals: int) -> str:
+    return f"{'−' if value < 0 else '+'}{numbers.fixed(abs(value), decimals)}"
 
 
 def _day(when: str) -> str:
