@@ -80,7 +80,7 @@ class BesidePlot:
         if not (self.first.known or self.second.known):
             painter.setFont(style.label)
             painter.setPen(style.color("text2"))
-            painter.drawText(panel.box, int(Qt.AlignmentFlag.AlignCenter), tr("No repetition was seen well enough."))
+            painter.drawText(panel.box, int(Qt.AlignmentFlag.AlignCenter), _nothing())
             return
         drawn = Drawn()
         painter.save()
@@ -150,6 +150,10 @@ def _value_at(mean: MeanRepetition, share: float) -> float:
     at = share * (len(values) - 1)
     low, high = math.floor(at), math.ceil(at)
     return float(values[low] + (at - low) * (values[high] - values[low])) if high > low else float(values[low])
+
+
+def _nothing() -> str:
+    return tr("No repetition was seen well enough.")
 
 
 def _ends() -> tuple[str, str, str]:

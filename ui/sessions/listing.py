@@ -87,7 +87,7 @@ class SessionModel(QAbstractListModel):
             return None
         line = self.lines[index.row()]
         if role in (Qt.ItemDataRole.DisplayRole, Qt.ItemDataRole.AccessibleTextRole):
-            ticked = tr("ticked") if line.session_id in self.ticked else ""
+            ticked = self.tr("ticked") if line.session_id in self.ticked else ""
             return ", ".join(part for part in (*cells(line), ticked) if part)
         return line if role == Qt.ItemDataRole.UserRole else None
 
