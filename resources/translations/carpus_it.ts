@@ -28,6 +28,10 @@
         <translation>Scegli un’altra cartella</translation>
     </message>
     <message>
+        <source>Folder of patients and sessions</source>
+        <translation>Cartella di pazienti e sedute</translation>
+    </message>
+    <message>
         <source>{name}, other sign</source>
         <translation>{name}, segno opposto</translation>
     </message>
@@ -1504,12 +1508,44 @@
         <translation>Indietro</translation>
     </message>
     <message>
+        <source>Ctrl</source>
+        <translation>Ctrl</translation>
+    </message>
+    <message>
+        <source>Alt</source>
+        <translation>Alt</translation>
+    </message>
+    <message>
+        <source>Shift</source>
+        <translation>Maiusc</translation>
+    </message>
+    <message>
+        <source>Space</source>
+        <translation>Spazio</translation>
+    </message>
+    <message>
+        <source>Backspace</source>
+        <translation>Backspace</translation>
+    </message>
+    <message>
+        <source>Esc</source>
+        <translation>Esc</translation>
+    </message>
+    <message>
+        <source>Tab</source>
+        <translation>Tab</translation>
+    </message>
+    <message>
         <source>Record, and stop and review</source>
         <translation>Registra, poi ferma e rivedi</translation>
     </message>
     <message>
         <source>Note</source>
         <translation>Nota</translation>
+    </message>
+    <message>
+        <source>Go back</source>
+        <translation>Indietro</translation>
     </message>
     <message>
         <source>Pain score</source>
@@ -1841,23 +1877,23 @@
     </message>
     <message>
         <source>Thumb base</source>
-        <translation>Base del pollice</translation>
+        <translation type="vanished">Base del pollice</translation>
     </message>
     <message>
         <source>{finger} knuckle</source>
-        <translation>Nocca {finger}</translation>
+        <translation type="vanished">Nocca {finger}</translation>
     </message>
     <message>
         <source>{finger} middle joint</source>
-        <translation>Artic. media {finger}</translation>
+        <translation type="vanished">Artic. media {finger}</translation>
     </message>
     <message>
         <source>{finger} end joint</source>
-        <translation>Artic. distale {finger}</translation>
+        <translation type="vanished">Artic. distale {finger}</translation>
     </message>
     <message>
         <source>{finger} tip</source>
-        <translation>Punta {finger}</translation>
+        <translation type="vanished">Punta {finger}</translation>
     </message>
     <message>
         <source>Index</source>
@@ -1873,6 +1909,22 @@
     </message>
     <message>
         <source>Little</source>
+        <translation>Mignolo</translation>
+    </message>
+    <message>
+        <source>Index finger</source>
+        <translation>Indice</translation>
+    </message>
+    <message>
+        <source>Middle finger</source>
+        <translation>Medio</translation>
+    </message>
+    <message>
+        <source>Ring finger</source>
+        <translation>Anulare</translation>
+    </message>
+    <message>
+        <source>Little finger</source>
         <translation>Mignolo</translation>
     </message>
     <message>
@@ -2072,6 +2124,14 @@
         <translation>{low}–{high} mm</translation>
     </message>
     <message>
+        <source>ddd d MMM</source>
+        <translation>ddd d MMM</translation>
+    </message>
+    <message>
+        <source>d MMM</source>
+        <translation>d MMM</translation>
+    </message>
+    <message>
         <source>{minutes} min</source>
         <translation>{minutes} min</translation>
     </message>
@@ -2082,6 +2142,14 @@
     <message>
         <source>{hours} h</source>
         <translation>{hours} h</translation>
+    </message>
+    <message>
+        <source>dddd d MMMM yyyy</source>
+        <translation>dddd d MMMM yyyy</translation>
+    </message>
+    <message>
+        <source>d MMM yyyy</source>
+        <translation>d MMM yyyy</translation>
     </message>
     <message>
         <source>{number}st</source>
@@ -2593,7 +2661,7 @@
     </message>
     <message>
         <source>The whole arc</source>
-        <translation>L’arco totale</translation>
+        <translation>Arco totale</translation>
     </message>
     <message>
         <source>From {before} to {after}: more than the measurement error of {limit}.</source>
@@ -2709,11 +2777,11 @@
     </message>
     <message>
         <source>back</source>
-        <translation>ritorno</translation>
+        <translation type="vanished">ritorno</translation>
     </message>
     <message>
         <source>across</source>
-        <translation>attraverso</translation>
+        <translation type="vanished">attraverso</translation>
     </message>
     <message>
         <source>Movement time</source>
@@ -2722,6 +2790,18 @@
     <message>
         <source>Peak speed</source>
         <translation>Velocità max</translation>
+    </message>
+    <message>
+        <source>{name}, out</source>
+        <translation>{name}, andata</translation>
+    </message>
+    <message>
+        <source>{name}, back</source>
+        <translation>{name}, ritorno</translation>
+    </message>
+    <message>
+        <source>{name}, across</source>
+        <translation>{name}, attraverso</translation>
     </message>
     <message>
         <source>Peak reached after</source>
@@ -2774,6 +2854,18 @@
     <message>
         <source>Tremor, 3 to 12 Hz (rms)</source>
         <translation>Tremore, da 3 a 12 Hz (rms)</translation>
+    </message>
+    <message>
+        <source>index</source>
+        <translation>indice</translation>
+    </message>
+    <message>
+        <source>ring</source>
+        <translation>anulare</translation>
+    </message>
+    <message>
+        <source>little</source>
+        <translation>mignolo</translation>
     </message>
     <message>
         <source>Bend together, {one}–{other} (r)</source>
@@ -3200,6 +3292,10 @@
         <translation>SIMULATA</translation>
     </message>
     <message>
+        <source>{ordinal}, active</source>
+        <translation>{ordinal}, attiva</translation>
+    </message>
+    <message>
         <source>right-handed</source>
         <translation>destrimane</translation>
     </message>
@@ -3244,16 +3340,28 @@
         <translation>Angoli nel tempo</translation>
     </message>
     <message>
+        <source>Today side</source>
+        <translation>Oggi, laterale</translation>
+    </message>
+    <message>
+        <source>Today bending</source>
+        <translation>Oggi, flessione</translation>
+    </message>
+    <message>
+        <source>Today turning</source>
+        <translation>Oggi, rotazione</translation>
+    </message>
+    <message>
         <source>side</source>
-        <translation>laterale</translation>
+        <translation type="vanished">laterale</translation>
     </message>
     <message>
         <source>bending</source>
-        <translation>flessione</translation>
+        <translation type="vanished">flessione</translation>
     </message>
     <message>
         <source>turning</source>
-        <translation>rotazione</translation>
+        <translation type="vanished">rotazione</translation>
     </message>
     <message>
         <source>Today</source>
@@ -3717,7 +3825,7 @@
     </message>
     <message>
         <source>ticked</source>
-        <translation>selezionata</translation>
+        <translation type="vanished">selezionata</translation>
     </message>
     <message>
         <source>What counts as a change</source>
@@ -3972,8 +4080,32 @@
         <translation>Pronazione</translation>
     </message>
     <message>
+        <source>Radial deviation deficit</source>
+        <translation>Deficit di deviazione radiale</translation>
+    </message>
+    <message>
+        <source>Ulnar deviation deficit</source>
+        <translation>Deficit di deviazione ulnare</translation>
+    </message>
+    <message>
+        <source>Flexion deficit</source>
+        <translation>Deficit di flessione</translation>
+    </message>
+    <message>
+        <source>Extension deficit</source>
+        <translation>Deficit di estensione</translation>
+    </message>
+    <message>
+        <source>Supination deficit</source>
+        <translation>Deficit di supinazione</translation>
+    </message>
+    <message>
+        <source>Pronation deficit</source>
+        <translation>Deficit di pronazione</translation>
+    </message>
+    <message>
         <source>{movement} deficit</source>
-        <translation>{movement}, deficit</translation>
+        <translation type="vanished">{movement}, deficit</translation>
     </message>
     <message>
         <source>lacks {angle}</source>
@@ -4704,6 +4836,10 @@
         <translation>La telecamera è tornata: {subject} (assente per {detail}).</translation>
     </message>
     <message>
+        <source>The camera is out: {what} (the limits are {most_angle}° and {most_length} mm, all lengths {most_share} %).</source>
+        <translation>Telecamera fuori limite: {what} (i limiti sono {most_angle}° e {most_length} mm, tutte le lunghezze {most_share} %).</translation>
+    </message>
+    <message>
         <source>The camera is there, but you may not open it ({detail}).</source>
         <translation>La telecamera c’è, ma manca il permesso di aprirla ({detail}).</translation>
     </message>
@@ -4714,6 +4850,14 @@
     <message>
         <source>The camera measures no depth at the {markers}.</source>
         <translation>La telecamera non misura la profondità di: {markers}.</translation>
+    </message>
+    <message>
+        <source>The camera measures otherwise than usual: {angle}° and {length} mm off at most; the limits are {most_angle}° and {most_length} mm. Check once more.</source>
+        <translation>La telecamera misura diversamente dal solito: scarto massimo {angle}° e {length} mm; i limiti sono {most_angle}° e {most_length} mm. Ripetere il controllo.</translation>
+    </message>
+    <message>
+        <source>The camera measures right: {angle}° and {length} mm off at most; the limits are {most_angle}° and {most_length} mm.</source>
+        <translation>La telecamera misura bene: scarto massimo {angle}° e {length} mm; i limiti sono {most_angle}° e {most_length} mm.</translation>
     </message>
     <message>
         <source>The camera sends no more pictures: {subject} ({detail}).</source>
@@ -5064,12 +5208,24 @@
         <translation>un testo con un carattere non valido, in {file}</translation>
     </message>
     <message>
+        <source>all lengths are {share} % too long, the worst by {length} mm</source>
+        <translation>tutte le lunghezze sono maggiori del {share} %, la peggiore di {length} mm</translation>
+    </message>
+    <message>
+        <source>all lengths are {share} % too short, the worst by {length} mm</source>
+        <translation>tutte le lunghezze sono minori del {share} %, la peggiore di {length} mm</translation>
+    </message>
+    <message>
         <source>all six discs in {count} of {looked} pictures</source>
         <translation>tutti i sei dischetti in {count} immagini su {looked}</translation>
     </message>
     <message>
         <source>an HDF5 file, but not a session</source>
         <translation>un file HDF5, ma non una seduta</translation>
+    </message>
+    <message>
+        <source>angles are {angle}° off</source>
+        <translation>gli angoli sono sbagliati di {angle}°</translation>
     </message>
     <message>
         <source>another program has exchanged it</source>
@@ -5700,6 +5856,18 @@
         <translation>servono tre dischetti del palmo, ce ne sono {there}; dire quali marcatori sono</translation>
     </message>
     <message>
+        <source>Hidden joints do not count.</source>
+        <translation>Le articolazioni nascoste non contano.</translation>
+    </message>
+    <message>
+        <source>Nothing is lost; sessions near this check say that they are not sure.</source>
+        <translation>Nulla è perso; le sedute vicine a questo controllo dicono di non essere sicure.</translation>
+    </message>
+    <message>
+        <source>± is the spread between repetitions.</source>
+        <translation>± è la dispersione fra ripetizioni.</translation>
+    </message>
+    <message>
         <source>thumb</source>
         <translation>pollice</translation>
     </message>
@@ -5840,6 +6008,10 @@
         <translation>{one} e {other}</translation>
     </message>
     <message>
+        <source>{one}; {other}</source>
+        <translation>{one}; {other}</translation>
+    </message>
+    <message>
         <source>{path} claims {claimed} bytes, and {stored} are there</source>
         <translation>{path} dichiara {claimed} byte, ce ne sono {stored}</translation>
     </message>
@@ -5926,6 +6098,82 @@
     <message>
         <source>end</source>
         <translation>fine</translation>
+    </message>
+    <message>
+        <source>The language can be changed when nothing is measured or worked on any more.</source>
+        <translation>La lingua si può cambiare quando non è più in corso nessuna misura o elaborazione.</translation>
+    </message>
+    <message>
+        <source>Re&amp;view it</source>
+        <translation>R&amp;ivedila</translation>
+    </message>
+    <message>
+        <source>I have read it</source>
+        <translation>L’ho letto</translation>
+    </message>
+    <message>
+        <source>Carpus camera check</source>
+        <translation>Controllo della telecamera di Carpus</translation>
+    </message>
+    <message>
+        <source>Limits are fixed, wider only for a sensor that cannot do better. Usual: mean of the first {count} checks after a calibration, ± 3 sd. ± in the table is the sd of one picture. All lengths off by one share: the depth, or a card that was not printed at 100 % (its ruler says which). If it is out: check once more, then calibrate; still out: do not measure with it.</source>
+        <translation>I limiti sono fissi, più ampi solo per un sensore che non può fare meglio. Usuale: media dei primi {count} controlli dopo una calibrazione, ± 3 DS. ± nella tabella è la DS di una sola immagine. Tutte le lunghezze sbagliate della stessa quota: la profondità, o un cartoncino non stampato al 100 % (lo dice il suo righello). Se è fuori limite: ripetere il controllo, poi calibrare; se lo è ancora: non misurare con questa telecamera.</translation>
+    </message>
+    <message>
+        <source>On the card</source>
+        <translation>Sul cartoncino</translation>
+    </message>
+    <message>
+        <source>True</source>
+        <translation>Vero</translation>
+    </message>
+    <message>
+        <source>Measured</source>
+        <translation>Misurato</translation>
+    </message>
+    <message>
+        <source>Off by</source>
+        <translation>Scarto</translation>
+    </message>
+    <message>
+        <source>All distances together</source>
+        <translation>Tutte le distanze insieme</translation>
+    </message>
+    <message>
+        <source>Exercise</source>
+        <translation>Esercizio</translation>
+    </message>
+    <message>
+        <source>times</source>
+        <translation>volte</translation>
+    </message>
+    <message>
+        <source>seconds</source>
+        <translation>secondi</translation>
+    </message>
+    <message>
+        <source>Times or seconds</source>
+        <translation>Volte o secondi</translation>
+    </message>
+    <message>
+        <source>How often or how long</source>
+        <translation>Quante volte o per quanto tempo</translation>
+    </message>
+    <message>
+        <source>Rest after it</source>
+        <translation>Pausa dopo</translation>
+    </message>
+    <message>
+        <source>Earlier</source>
+        <translation>Prima</translation>
+    </message>
+    <message>
+        <source>Remove</source>
+        <translation>Togli</translation>
+    </message>
+    <message>
+        <source>words that lose their capital inside a sentence: *</source>
+        <translation>parole che perdono la maiuscola dentro una frase: *</translation>
     </message>
 </context>
 <context>
@@ -6134,6 +6382,10 @@
     <message>
         <source>Enter</source>
         <translation>Invio</translation>
+    </message>
+    <message>
+        <source>The last back-up is of {day}.</source>
+        <translation>L’ultima copia è del {day}.</translation>
     </message>
 </context>
 <context>
@@ -7254,6 +7506,10 @@
         <source>Enter</source>
         <translation>Invio</translation>
     </message>
+    <message>
+        <source>same recording</source>
+        <translation>stessa registrazione</translation>
+    </message>
 </context>
 <context>
     <name>ControlCharts</name>
@@ -7626,12 +7882,20 @@ Il PIN viene chiesto a ogni avvio. Senza il PIN e senza il codice di recupero mo
         <translation>{count} file</translation>
     </message>
     <message>
+        <source>The patient’s entry, real name and notes, and {count} sessions with all angles, pictures and notes ({files}, {size} MB).</source>
+        <translation>La scheda del paziente, nome vero e note, e {count} sedute con tutti gli angoli, le immagini e le note ({files}, {size} MB).</translation>
+    </message>
+    <message>
+        <source>{one} and {other}</source>
+        <translation>{one} e {other}</translation>
+    </message>
+    <message>
         <source>The patient’s entry, real name and notes, and {count} sessions with all angles, pictures and</source>
-        <translation>La scheda del paziente, nome vero e note, e {count} sedute con tutti gli angoli, le immagini e</translation>
+        <translation type="vanished">La scheda del paziente, nome vero e note, e {count} sedute con tutti gli angoli, le immagini e</translation>
     </message>
     <message>
         <source> notes ({files}, {size} MB).</source>
-        <translation> le note ({files}, {size} MB).</translation>
+        <translation type="vanished"> le note ({files}, {size} MB).</translation>
     </message>
     <message>
         <source>Angles, pictures, notes and pain scores of this session ({files}, {size} MB).</source>
@@ -7659,7 +7923,7 @@ Il PIN viene chiesto a ogni avvio. Senza il PIN e senza il codice di recupero mo
     </message>
     <message>
         <source> and </source>
-        <translation> e </translation>
+        <translation type="vanished"> e </translation>
     </message>
     <message>
         <source>The other session.</source>
@@ -7700,6 +7964,10 @@ Il PIN viene chiesto a ogni avvio. Senza il PIN e senza il codice di recupero mo
     <message>
         <source>Your records must be kept until {day} {years}: erasing comes before that day.</source>
         <translation>La documentazione va conservata fino al {day} {years}: la cancellazione avviene prima di quel giorno.</translation>
+    </message>
+    <message>
+        <source>They had to be kept until {day} {years}.</source>
+        <translation>Andavano conservate fino al {day} {years}.</translation>
     </message>
 </context>
 <context>
@@ -10071,6 +10339,13 @@ Maiusc+F8 di lato</translation>
     </message>
 </context>
 <context>
+    <name>SessionModel</name>
+    <message>
+        <source>ticked</source>
+        <translation>selezionata</translation>
+    </message>
+</context>
+<context>
     <name>SessionsScreen</name>
     <message>
         <source>No session yet.</source>
@@ -10818,61 +11093,61 @@ Maiusc+F8 di lato</translation>
     <name>self.shell</name>
     <message>
         <source>Folder of patients and sessions</source>
-        <translation>Cartella di pazienti e sedute</translation>
+        <translation type="vanished">Cartella di pazienti e sedute</translation>
     </message>
     <message>
         <source>The language can be changed when nothing is measured or worked on any more.</source>
-        <translation>La lingua si può cambiare quando non è più in corso nessuna misura o elaborazione.</translation>
+        <translation type="vanished">La lingua si può cambiare quando non è più in corso nessuna misura o elaborazione.</translation>
     </message>
 </context>
 <context>
     <name>sheet</name>
     <message>
         <source>Exercise</source>
-        <translation>Esercizio</translation>
+        <translation type="vanished">Esercizio</translation>
     </message>
     <message>
         <source>times</source>
-        <translation>volte</translation>
+        <translation type="vanished">volte</translation>
     </message>
     <message>
         <source>seconds</source>
-        <translation>secondi</translation>
+        <translation type="vanished">secondi</translation>
     </message>
     <message>
         <source>Times or seconds</source>
-        <translation>Volte o secondi</translation>
+        <translation type="vanished">Volte o secondi</translation>
     </message>
     <message>
         <source>How often or how long</source>
-        <translation>Quante volte o per quanto tempo</translation>
+        <translation type="vanished">Quante volte o per quanto tempo</translation>
     </message>
     <message>
         <source>none</source>
-        <translation>nessuna</translation>
+        <translation type="vanished">nessuna</translation>
     </message>
     <message>
         <source>Rest after it</source>
-        <translation>Pausa dopo</translation>
+        <translation type="vanished">Pausa dopo</translation>
     </message>
     <message>
         <source>Earlier</source>
-        <translation>Prima</translation>
+        <translation type="vanished">Prima</translation>
     </message>
     <message>
         <source>Remove</source>
-        <translation>Togli</translation>
+        <translation type="vanished">Togli</translation>
     </message>
 </context>
 <context>
     <name>shell</name>
     <message>
         <source>Re&amp;view it</source>
-        <translation>Ri&amp;vedila</translation>
+        <translation type="vanished">Ri&amp;vedila</translation>
     </message>
     <message>
         <source>I have read it</source>
-        <translation>L’ho letto</translation>
+        <translation type="vanished">L’ho letto</translation>
     </message>
 </context>
 </TS>
