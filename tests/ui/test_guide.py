@@ -21,6 +21,7 @@ from carpus.ui.help import guide
 from carpus.ui.help.cards import write_cards
 from carpus.ui.help.screen import HelpScreen
 from carpus.ui.keys import Keys
+from carpus.ui.language import LANGUAGES, speaking
 from carpus.ui.theme import Theme
 
 GUIDE = Path(__file__).parents[2] / "resources" / "guide"
@@ -29,11 +30,29 @@ ASKED = ("discs", "camera", "calibration", "exercises", "figures", "limits", "tr
 
 
 def test_every_page_is_there_and_none_is_left_over() -> None:
-    assert {path.stem for path in (GUIDE / guide.LANGUAGE).glob("*.md")} == set(guide.PAGES)
+    assert {path.name for path in GUIDE.iterdir() if path.is_dir()} == {*LANGUAGES, "pictures"}
+    for code in LANGUAGES:
+        assert {path.stem for path in (GUIDE / code).glob("*.md")} == set(guide.PAGES)
     assert set(ASKED) <= set(guide.PAGES)
     for page in guide.PAGES:
         assert guide.title(page)
         assert set(guide.links(page)) <= set(guide.PAGES)
+
+
+def test_the_guide_in_each_language_has_the_same_parts() -> None:
+    parts = re.compile(r"^(?:#+|-|\d+\.) |\]\([\w.-]+\)", re.MULTILINE)
+    said: dict[str, set[str]] = {}
+    for code in LANGUAGES:
+        with speaking(code):
+            for page in guide.PAGES:
+                assert parts.findall(guide.source(page)) == parts.findall(_english(page)), (code, page)
+            said[code] = {guide.title(page) for page in guide.PAGES}
+    assert not said["en"] & said["de"]
+    assert not said["en"] & said["it"]
+
+
+def _english(page: str) -> str:
+    return (GUIDE / guide.FIRST_LANGUAGE / f"{page}.md").read_text("utf-8")
 
 
 def test_every_picture_is_there_and_none_is_left_over() -> None:

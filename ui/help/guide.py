@@ -7,10 +7,12 @@ import re
 from functools import lru_cache
 from importlib.resources import files
 
+from carpus.ui import language
 from carpus.ui.fonts import TEXT_FAMILY
 from carpus.ui.theme import Theme
 
-LANGUAGE = "en"
+FIRST_LANGUAGE = "en"
+"""The guide is written in it; it stands in for a language that has none."""
 PAGES = (
     "session", "discs", "camera", "cameracheck", "calibration", "exercises", "measuring", "patient", "figures",
     "limits", "correct", "sessions", "checking", "trouble", "data",
@@ -31,10 +33,17 @@ _PICTURE = re.compile(r"!\[(.*)\]\((.+)\)")
 _NUMBERED = re.compile(r"\d+\. ")
 
 
-@lru_cache(maxsize=len(PAGES))
 def source(page: str) -> str:
-    """A page as it was written, in a small part of Markdown: headings, paragraphs, lists, bold, links, pictures."""
-    return files("carpus.resources").joinpath("guide", LANGUAGE, f"{page}.md").read_text("utf-8")
+    """A page in the language that is spoken, as it was written, in a small part of Markdown: headings, paragraphs,
+    lists, bold, links, pictures."""
+    return _read(language.spoken(), page)
+
+
+@lru_cache(maxsize=len(language.LANGUAGES) * len(PAGES))
+def _read(code: str, page: str) -> str:
+    guides = files("carpus.resources") / "guide"
+    written = code if (guides / code).is_dir() else FIRST_LANGUAGE
+    return (guides / written / f"{page}.md").read_text("utf-8")
 
 
 def picture_path(name: str) -> str:
