@@ -51,7 +51,7 @@ def place_name(field: tuple[int, int]) -> str:
             (True, True): tr("bottom left"), (True, False): tr("bottom right"),
         } if low else {(True, True): tr("left"), (True, False): tr("right")}  # fmt: skip
         return corner[True, left]
-    return tr("top") if up else tr("bottom") if low else tr("middle")
+    return tr("top") if up else tr("bottom") if low else tr("centre")
 
 
 def step_words(step: Step) -> tuple[str, str]:

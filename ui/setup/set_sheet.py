@@ -37,7 +37,7 @@ def _words() -> dict[str, str]:
     """What stands in and beside a row."""
     return {
         "exercise": tr("Exercise"), "times": tr("times"), "seconds": tr("seconds"), "unit": tr("Times or seconds"),
-        "count": tr("How often or how long"), "none": tr("none"), "rest": tr("Rest after it"),
+        "count": tr("How often or how long"), "none": tr("no rest"), "rest": tr("Rest after it"),
         "earlier": tr("Earlier"), "remove": tr("Remove"),
     }  # fmt: skip
 
