@@ -669,6 +669,10 @@
     </message>
     <message>
         <source>middle</source>
+        <translation>medio</translation>
+    </message>
+    <message>
+        <source>centre</source>
         <translation>al centro</translation>
     </message>
     <message>
@@ -6164,6 +6168,10 @@
         <translation>Pausa dopo</translation>
     </message>
     <message>
+        <source>no rest</source>
+        <translation>nessuna</translation>
+    </message>
+    <message>
         <source>Earlier</source>
         <translation>Prima</translation>
     </message>
@@ -6294,7 +6302,7 @@
     </message>
     <message>
         <source>{low} to {high}</source>
-        <translation>da {low} a {high}</translation>
+        <translation>{low} a {high}</translation>
     </message>
 </context>
 <context>
@@ -6464,6 +6472,10 @@
     <message>
         <source>Check card</source>
         <translation>Cartoncino di controllo</translation>
+    </message>
+    <message>
+        <source>Practice patient</source>
+        <translation>Paziente di prova</translation>
     </message>
     <message>
         <source>Exercise</source>
