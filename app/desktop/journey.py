@@ -447,6 +447,10 @@ class Journey(QObject):
         figures = self.review.figures
         if self.place == "review" and self.review.shown and figures is not None:
             return [words] if (words := unsure_words(figures.camera)) else []
+        if self.place == "beside" and self.beside_screen.shown is not None and not self.now.is_practice:
+            both = self.beside_screen.shown.both
+            words = self.tr("Simulated hand: this is not a patient’s, and does not count.")
+            return [words] if both.first.simulated or both.second.simulated else []
         return []
 
     def _compare_listed(self, session_id: str) -> None:
@@ -534,6 +538,8 @@ class Journey(QObject):
 
     def show_again_at(self, place: Place, before: NowOpen) -> None:
         """Where the person was before the window was put together again: the same patient and tab."""
+        if place == "beside":
+            place = "sessions"  # from where both can be ticked again
         if before.patient is None or not before.patient.patient_id or place not in TABS:
             return
         with suppress(CarpusFault):

@@ -59,13 +59,15 @@ class ComparedRange:
 @dataclass(frozen=True, slots=True)
 class SideBySide:
     """The ``first`` session is the one in question, the ``second`` what it is held against: the healthy hand, or the
-    earlier date. ``reasons`` why nothing is judged; empty where the pair is fair."""
+    earlier date. ``alone`` what only one of the two has, with whether that is the first. ``reasons`` why nothing is
+    judged; empty where the pair is fair."""
 
     first: SessionFigures
     second: SessionFigures
     relation: Relation
     ranges: tuple[ComparedRange, ...]
     reasons: tuple[Unfairness, ...]
+    alone: tuple[tuple[RangeRow, bool], ...] = ()
 
     @property
     def fair(self) -> bool:
@@ -102,8 +104,8 @@ def side_by_side(first: SessionFigures, second: SessionFigures, keys: Sequence[R
     found = {item_key(item): item for item in compare_rows(alike, first, rows)}
     reverse = {}
     if relation == "hands":  # neither hand comes first: what is sure of the one way is sure of the other
-        others = [row for key in (row.key for row in rows) for row in _rows_of(alike, key)]
-        reverse = {item_key(item): item for item in compare_rows(first, alike, others)}
+        beside_them = [other for row in rows for other in _rows_of(alike, row.key)]
+        reverse = {item_key(item): item for item in compare_rows(first, alike, beside_them)}
     ranges = []
     for row in rows:
         item, beside = found.get(row.key), next(iter(_rows_of(alike, row.key)), None)
@@ -113,7 +115,11 @@ def side_by_side(first: SessionFigures, second: SessionFigures, keys: Sequence[R
         if item.verdict == "not_judged" and turned is not None and turned.verdict in ("improved", "worse"):
             item = replace(item, verdict="worse" if turned.verdict == "improved" else "improved", reasons=())
         ranges.append(ComparedRange(row, beside, item))
-    return SideBySide(first, second, relation, tuple(ranges), pair_reasons(first, second))
+    shared = {one.first.key for one in ranges}
+    others = [row for key in keys for row in second.joint_rows if row.key == key] if keys else list(second.rows)
+    alone = [(row, True) for row in rows if row.key not in shared]
+    alone += [(row, False) for row in others if row.key not in shared]
+    return SideBySide(first, second, relation, tuple(ranges), pair_reasons(first, second), tuple(alone))
 
 
 def item_key(item: Comparison) -> RowKey:

@@ -214,7 +214,9 @@ def test_an_unfair_pair_is_not_judged_and_says_why(figures: SessionFigures, left
     assert {one.comparison.verdict for one in both.ranges} == {"not_judged"}
     other = session_figures(session(exercise="WRIST_RU", motion="deviation", session_id="other"))
     assert "exercise" in side_by_side(figures, other).reasons
-    assert side_by_side(figures, other).main is None, "they have no movement in common"
+    apart = side_by_side(figures, other)
+    assert apart.main is None, "they have no movement in common"
+    assert len(apart.alone) == len(figures.rows) + len(other.rows), "what each has is shown all the same"
     few = session_figures(session(session_id="few"), RepetitionChoices(dict.fromkeys(range(7), "pain")))
     assert pair_reasons(figures, few) == pair_reasons(few, figures) == ("few_repetitions_after",)
     assert "angle_order" in pair_reasons(figures, replace(left, angle_order="isb"))

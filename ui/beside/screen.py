@@ -24,7 +24,7 @@ from carpus.ui.beside.picture import BesidePicture
 from carpus.ui.beside.player import BesidePlayer
 from carpus.ui.beside.shown import Shown, Watched, kinds, shown, sign_of
 from carpus.ui.beside.table import BesideTable
-from carpus.ui.beside.words import other_hand_words, picture_words, quantity_name, unfair_words
+from carpus.ui.beside.words import doubts, other_hand_words, picture_words, quantity_name, unfair_words
 from carpus.ui.controls.button import Button
 from carpus.ui.controls.card import Card
 from carpus.ui.controls.column import ScrolledColumn, scroll_area
@@ -39,6 +39,7 @@ from carpus.ui.verdicts import limit_words
 PLAY_EVERY_MS = 40
 NARROW_PX = 1180
 """Below it the pictures are smaller, and the curves have no room for their title."""
+NO_LIMIT_PX = 16_777_215
 TASKS = 4
 """Both are read, and of both the figures are worked out."""
 
@@ -104,6 +105,7 @@ class BesideScreen(QWidget):
         self._lay_out()
         self._connect(keys)
         theme.changed.connect(self._fit)
+        theme.changed.connect(self._fit_soon)
         self._timer = QTimer(self)
         self._timer.setInterval(PLAY_EVERY_MS)
         self._timer.timeout.connect(self._play_on)
@@ -132,7 +134,7 @@ class BesideScreen(QWidget):
             self._top.addWidget(picture, 324)
         self._top.addSpacing(GAP_PX - 12)
         self._top.addWidget(self.mean, 556)
-        title = QHBoxLayout()
+        title = self._title_row = QHBoxLayout()
         title.setSpacing(12)
         named = QVBoxLayout()
         named.setSpacing(0)
@@ -167,10 +169,15 @@ class BesideScreen(QWidget):
     def resizeEvent(self, event: QResizeEvent) -> None:
         self._fit()
 
+    def _fit_soon(self) -> None:
+        """Again when every part has taken its new size."""
+        QTimer.singleShot(0, self, self._fit)
+
     def _fit(self) -> None:
         """With large text smaller pictures and fewer words at the buttons."""
         tight = is_tight(self, self._theme)
         self.player.show_tight(tight)
+        self.basis.setVisible(bool(self.basis.text()) and not tight)  # the table says it too
         self.other_button.set_face(self.tr("&Another…") if tight else self.tr("Compare with &another…"))
         self.report_button.set_face(self.report_button.text(), hint="" if tight else "Ctrl+P")
         self.export_button.set_face(self.export_button.text(), hint="" if tight else "Ctrl+E")
@@ -180,9 +187,15 @@ class BesideScreen(QWidget):
         for picture in self.pictures:
             picture.setMinimumSize(round(least * 4 / 3), least)
         self._scroll.setMinimumHeight(self._theme.px(70))
-        host, width = self._host, self._scroll.width() - 16
-        needed = host.heightForWidth(width) if host.hasHeightForWidth() else host.sizeHint().height()
-        self._scroll.setMaximumHeight(max(needed + 4, self._theme.px(70)))
+        needed = self._host.sizeHint().height()
+        if self._host.hasHeightForWidth():
+            needed = self._host.heightForWidth(max(self._scroll.width() - 16, 1))
+        margins = self._card.body.contentsMargins()
+        around = self._title_row.sizeHint().height() + self._card.body.spacing() + margins.top() + margins.bottom()
+        self._card.setMaximumHeight(max(needed, self._theme.px(70)) + around + 4 if self._shown else NO_LIMIT_PX)
+        layout = self.layout()
+        assert isinstance(layout, QVBoxLayout)
+        layout.setStretchFactor(self._top, 2 if tight else 5)
 
     def _connect(self, keys: Keys) -> None:
         self.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
@@ -243,6 +256,16 @@ class BesideScreen(QWidget):
         self.answer.setText(self.tr("Reading both sessions…"))
         self.basis.setText("")
         self.bar.show_progress(0, TASKS)
+        self.table.show_rows((), ())
+        self.mean.curves.show_plot(None)
+        for words in (self.facts, self.limits, self.unfair):
+            words.setText("")
+        for box in (self.mean.quantity, self.followed):
+            box.blockSignals(True)
+            box.clear()
+            box.blockSignals(False)
+        self.followed.hide()
+        self.mirror_button.hide()
         for picture in self.pictures:
             picture.begin(None, self.tr("Reading the session…"))
         self._show_parts(reading=True)
@@ -298,12 +321,12 @@ class BesideScreen(QWidget):
     def _show_parts(self, *, reading: bool) -> None:
         ready = self._shown is not None
         self.bar.setVisible(reading)
-        for widget in (self.player, self._card, self.mean):
-            widget.setVisible(ready)
-        for picture in self.pictures:
-            picture.setVisible(ready or reading)
-        self.basis.setVisible(bool(self.basis.text()))
-        self._strip.setVisible(ready and self._shown is not None and not self._shown.both.fair)
+        for widget in (self.player, self._card, self.mean, *self.pictures):
+            widget.setVisible(ready or reading)  # everything has its place at once
+        for control in (self.player, self.mean.quantity, self.followed, self.mirror_button):
+            control.setEnabled(ready)
+        self._fit()
+        self._strip.setVisible(ready and bool(self.unfair.text()))
         for button in (self.report_button, self.export_button):
             button.setEnabled(ready)
         self.other_button.setEnabled(not reading)
@@ -353,9 +376,8 @@ class BesideScreen(QWidget):
         answer, basis = now.head
         self.answer.setText(answer)
         self.basis.setText(basis)
-        self.basis.setVisible(bool(basis))
-        self.unfair.setText(unfair_words(now.both))
-        self._strip.setVisible(not now.both.fair)
+        self.unfair.setText(unfair_words(now.both) or " ".join(doubts(now.both)))
+        self._strip.setVisible(bool(self.unfair.text()))
         self.facts.setText(now.facts)
         self.facts.setToolTip(plain_tooltip(now.facts))
         self.table.show_rows(now.heads, now.rows)
@@ -372,6 +394,7 @@ class BesideScreen(QWidget):
         box.blockSignals(False)
         self._show_plot()
         self._fit()
+        self._fit_soon()
 
     @property
     def quantity(self) -> Quantity:

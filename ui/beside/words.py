@@ -16,7 +16,7 @@ from carpus.ui.beside.rows import BesideRow
 from carpus.ui.figures import figure_of
 from carpus.ui.icons import State
 from carpus.ui.plot.style import CURVE_TOKENS
-from carpus.ui.progress.words import comparison_name
+from carpus.ui.progress.words import comparison_name, doubt_words
 from carpus.ui.progress.words import headline as progress_headline
 from carpus.ui.report.hand_rows import AT_LEAST
 from carpus.ui.report.tables import is_deficit, mean_words, repetition_words, too_slow, turned
@@ -28,6 +28,8 @@ def name_of(figures: SessionFigures, other: SessionFigures) -> str:
     """What tells one of the two from the other: the hand, or the day; both where both differ."""
     day = numbers.day_beside(figures.when, other.when)
     if figures.side == other.side:
+        if figures.when == other.when and figures.exercise.id != other.exercise.id:
+            return terms.exercise_name(figures.exercise.id)
         return day
     if figures.when.date() == other.when.date():
         return terms.side_name(figures.side)
@@ -51,14 +53,12 @@ def headline(both: SideBySide) -> tuple[str, str]:
     if main is None:
         return tr("Not judged: there is no movement that both have."), ""
     if both.relation == "dates":
-        points = (ProgressPoint(both.second, ()), ProgressPoint(both.first, ()))
-        answer, basis = progress_headline(Progress(points, tuple(one.comparison for one in both.ranges), None))
-        return answer, basis
+        return progress_headline(_as_progress(both))
     right = both.first.side == "right"
     beyond = [one for one in both.ranges if one.beyond]
     if not beyond and main.comparison.verdict == "not_judged":
         why = reason_words(main.comparison.reasons) or tr("not measured")
-        return tr("Not judged: {why}.").format(why=why), ""
+        return tr("Not judged: {why}.").format(why=why), tr("What is hidden does not count.")
     if not beyond:
         return tr("No difference beyond measurement error between right and left."), _basis(main)
     less = main.comparison.difference_deg < 0.0
@@ -159,6 +159,20 @@ def unfair_words(both: SideBySide) -> str:
     )
 
 
+def doubts(both: SideBySide) -> list[str]:
+    """What was doubtful about the sessions of a fair pair."""
+    if not both.fair:
+        return []
+    course = _as_progress(both)
+    return [words for point in course.points if (words := doubt_words(point, course))]
+
+
+def _as_progress(both: SideBySide) -> Progress:
+    """The pair as the progress shows two sessions."""
+    points = (ProgressPoint(both.second, ()), ProgressPoint(both.first, ()))
+    return Progress(points, tuple(one.comparison for one in both.ranges), None)
+
+
 def facts_words(both: SideBySide) -> str:
     """What was compared, and what is left out of it."""
     first, second = both.first, both.second
@@ -190,6 +204,7 @@ def heads(both: SideBySide) -> tuple[str, ...]:
 def table_rows(both: SideBySide, *, whole_hand: bool) -> list[BesideRow]:
     """The ranges, what should have stayed still, and the speed."""
     rows = [_range_row(one, both) for one in both.ranges]
+    rows += [_alone_row(row, both, is_first=is_first) for row, is_first in both.alone if row.count]
     if not whole_hand:
         rows += [row for angle in (0, 1, 2) if (row := _largest_row(angle, both)) is not None]
     if both.first.peak_speed.count or both.second.peak_speed.count or too_slow(both.first) or too_slow(both.second):
@@ -221,6 +236,19 @@ def _range_row(one: ComparedRange, both: SideBySide) -> BesideRow:
         said,
         numbers.degrees(item.limit_deg) if both.fair else numbers.UNKNOWN, words, item.verdict, token,
         "none" if item.verdict == "not_judged" else _state(one, both), one.beyond,
+    )  # fmt: skip
+
+
+def _alone_row(row: RangeRow, both: SideBySide, *, is_first: bool) -> BesideRow:
+    """What only one of the two has."""
+    many = row.movement == "arc" and not row.joint
+    name = terms.arc_name(row.angle) if many else terms.movement_name(row.movement)
+    cells = [value_words(row), numbers.UNKNOWN]
+    first, second = cells if is_first else cells[::-1]
+    words = tr("not judged: only one of the two has it") if both.fair else tr("not judged")
+    return BesideRow(
+        figure_of(row.joint).long_name if row.joint else name, first, second, numbers.UNKNOWN, numbers.UNKNOWN, words,
+        "not_judged", "" if row.joint or row.movement == "arc" else CURVE_TOKENS[row.angle],
     )  # fmt: skip
 
 

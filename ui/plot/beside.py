@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from PySide6.QtCore import QPointF, QRectF, Qt
@@ -14,8 +14,9 @@ from carpus.core.output.mean_repetition import MeanRepetition, Quantity
 from carpus.core.types import FloatArray
 from carpus.ui import numbers, terms
 from carpus.ui.figures import figure_of, with_side
-from carpus.ui.plot.axes import Panel, Scale, angle_scale
+from carpus.ui.plot.axes import Panel, Scale, angle_scale, hatch
 from carpus.ui.plot.marks import Scales, Times
+from carpus.ui.plot.polygon import runs
 from carpus.ui.plot.series import Drawn, Series, paint_series
 from carpus.ui.plot.style import PlotStyle
 from carpus.ui.translate import tr
@@ -85,11 +86,28 @@ class BesidePlot:
         drawn = Drawn()
         painter.save()
         painter.setClipRect(panel.box.adjusted(-1, -2, 1, 2), Qt.ClipOperation.IntersectClip)
-        paint_series(painter, style, panel, self._series(self.second, with_band=False), TOKENS[1], drawn)
-        paint_series(painter, style, panel, self._series(self.first, with_band=True), TOKENS[0], drawn)
+        self._paint_unseen(painter, style, panel)
+        for mean, token, with_band in ((self.second, TOKENS[1], False), (self.first, TOKENS[0], True)):
+            whole = self._series(mean, with_band=with_band)
+            for begin, past in whole.stretches():  # a gap of one is no gap of the other: it stays open, not hatched
+                sd = None if whole.sd is None else whole.sd[begin:past]
+                part = replace(
+                    whole, time_s=whole.time_s[begin:past], value=whole.value[begin:past], sd=sd,
+                    predicted=whole.predicted[begin:past],
+                )  # fmt: skip
+                paint_series(painter, style, panel, part, token, drawn)
         painter.restore()
         self._paint_names(painter, style, panel)
         self._paint_places(painter, style, panel)
+
+    def _paint_unseen(self, painter: QPainter, style: PlotStyle, panel: Panel) -> None:
+        """Hatched where neither was seen."""
+        neither = np.isnan(self.first.mean_deg) & np.isnan(self.second.mean_deg)
+        for start, stop in runs(neither):
+            left, right = (
+                float(panel.x(self.first.share[k])) for k in (max(start - 1, 0), min(stop, len(neither) - 1))
+            )
+            hatch(painter, style, QRectF(left, panel.box.top(), right - left, panel.box.height()))
 
     def _series(self, mean: MeanRepetition, *, with_band: bool) -> Series:
         sd = mean.sd_deg if with_band else None

@@ -10,14 +10,14 @@ from carpus.core.output.report_content import SessionFigures
 from carpus.ui import numbers, terms
 from carpus.ui.beside.rows import BesideRow
 from carpus.ui.beside.shown import Shown
-from carpus.ui.beside.words import other_hand_words, quantity_name, unfair_words
+from carpus.ui.beside.words import doubts, other_hand_words, quantity_name, unfair_words
 from carpus.ui.fonts import MEDIUM, REGULAR, SEMIBOLD
 from carpus.ui.report.page import A4_PT, MARGIN_PT, Page
 from carpus.ui.report.session_page import paint_head, paint_watermark, painted_on_nothing
 from carpus.ui.translate import tr
 from carpus.ui.verdicts import limit_words
 
-EDGES = (0.0, 0.215, 0.385, 0.635, 0.705, 0.73)
+EDGES = (0.0, 0.185, 0.335, 0.575, 0.635, 0.66)
 """Movement and both figures at their left, difference and error at their right, words at their left."""
 LEAST_CURVES_PT, MOST_CURVES_PT = 110.0, 210.0
 MOST_CURVES = 2
@@ -68,6 +68,8 @@ def _paint(page: Page, report: BesideReport) -> float:
         y = page.paragraph(basis, page.left, y + 1, width, 9.5, REGULAR, "text2")
     if words := unfair_words(shown.both):
         y = page.paragraph(words, page.left, y + 2, width, 9.5, SEMIBOLD, "warn")
+    for words in doubts(shown.both):
+        y = page.paragraph(words, page.left, y + 2, width, 9.0, REGULAR, "warn")
     chosen = _curves(report)
     height = MOST_CURVES_PT if len(chosen) == 1 else LEAST_CURVES_PT
     aside = tr("solid: {first}, band ± sd; dashed: {second}").format(first=shown.names[0], second=shown.names[1])

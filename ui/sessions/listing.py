@@ -19,7 +19,7 @@ ROW_PX = 58
 TICK_PX, TICK_LEFT_PX = 20, 18
 MOST_TICKED = 2
 SIGN_PX = 16
-COLUMNS = (0.075, 0.245, 0.495, 0.695, 0.78, 0.985)
+COLUMNS = (0.062, 0.224, 0.482, 0.688, 0.775, 0.985)
 """Left edges as shares of the width: date, exercise and hand, main figure, counted, remark; the last is the end."""
 
 
