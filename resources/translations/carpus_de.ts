@@ -28,6 +28,10 @@
         <translation>Anderen Ordner wählen</translation>
     </message>
     <message>
+        <source>Folder of patients and sessions</source>
+        <translation>Ordner der Patienten und Sitzungen</translation>
+    </message>
+    <message>
         <source>{name}, other sign</source>
         <translation>{name}, anderes Vorzeichen</translation>
     </message>
@@ -528,6 +532,10 @@
         <translation>nicht beurteilt</translation>
     </message>
     <message>
+        <source>not judged: only one of the two has it</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
         <source>no change beyond error</source>
         <translation>im Rahmen des Fehlers</translation>
     </message>
@@ -665,6 +673,10 @@
     </message>
     <message>
         <source>middle</source>
+        <translation>Mitte</translation>
+    </message>
+    <message>
+        <source>centre</source>
         <translation>Mitte</translation>
     </message>
     <message>
@@ -1504,12 +1516,44 @@
         <translation>Zurück</translation>
     </message>
     <message>
+        <source>Ctrl</source>
+        <translation>Strg</translation>
+    </message>
+    <message>
+        <source>Alt</source>
+        <translation>Alt</translation>
+    </message>
+    <message>
+        <source>Shift</source>
+        <translation>Umschalt</translation>
+    </message>
+    <message>
+        <source>Space</source>
+        <translation>Leertaste</translation>
+    </message>
+    <message>
+        <source>Backspace</source>
+        <translation>Rücktaste</translation>
+    </message>
+    <message>
+        <source>Esc</source>
+        <translation>Esc</translation>
+    </message>
+    <message>
+        <source>Tab</source>
+        <translation>Tab</translation>
+    </message>
+    <message>
         <source>Record, and stop and review</source>
         <translation>Aufnehmen; beenden und auswerten</translation>
     </message>
     <message>
         <source>Note</source>
         <translation>Notiz</translation>
+    </message>
+    <message>
+        <source>Go back</source>
+        <translation>Zurück</translation>
     </message>
     <message>
         <source>Pain score</source>
@@ -1841,23 +1885,23 @@
     </message>
     <message>
         <source>Thumb base</source>
-        <translation>Sattelgelenk</translation>
+        <translation type="vanished">Sattelgelenk</translation>
     </message>
     <message>
         <source>{finger} knuckle</source>
-        <translation>{finger}-Grundgelenk</translation>
+        <translation type="vanished">{finger}-Grundgelenk</translation>
     </message>
     <message>
         <source>{finger} middle joint</source>
-        <translation>{finger}-Mittelgelenk</translation>
+        <translation type="vanished">{finger}-Mittelgelenk</translation>
     </message>
     <message>
         <source>{finger} end joint</source>
-        <translation>{finger}-Endgelenk</translation>
+        <translation type="vanished">{finger}-Endgelenk</translation>
     </message>
     <message>
         <source>{finger} tip</source>
-        <translation>{finger}-Spitze</translation>
+        <translation type="vanished">{finger}-Spitze</translation>
     </message>
     <message>
         <source>Index</source>
@@ -1873,6 +1917,22 @@
     </message>
     <message>
         <source>Little</source>
+        <translation>Kleinfinger</translation>
+    </message>
+    <message>
+        <source>Index finger</source>
+        <translation>Zeigefinger</translation>
+    </message>
+    <message>
+        <source>Middle finger</source>
+        <translation>Mittelfinger</translation>
+    </message>
+    <message>
+        <source>Ring finger</source>
+        <translation>Ringfinger</translation>
+    </message>
+    <message>
+        <source>Little finger</source>
         <translation>Kleinfinger</translation>
     </message>
     <message>
@@ -2072,6 +2132,14 @@
         <translation>üblich {low}–{high} mm</translation>
     </message>
     <message>
+        <source>ddd d MMM</source>
+        <translation>ddd d. MMM</translation>
+    </message>
+    <message>
+        <source>d MMM</source>
+        <translation>d. MMM</translation>
+    </message>
+    <message>
         <source>{minutes} min</source>
         <translation>{minutes} min</translation>
     </message>
@@ -2082,6 +2150,14 @@
     <message>
         <source>{hours} h</source>
         <translation>{hours} h</translation>
+    </message>
+    <message>
+        <source>dddd d MMMM yyyy</source>
+        <translation>dddd, d. MMMM yyyy</translation>
+    </message>
+    <message>
+        <source>d MMM yyyy</source>
+        <translation>d. MMM yyyy</translation>
     </message>
     <message>
         <source>{number}st</source>
@@ -2709,11 +2785,11 @@
     </message>
     <message>
         <source>back</source>
-        <translation>zurück</translation>
+        <translation type="vanished">zurück</translation>
     </message>
     <message>
         <source>across</source>
-        <translation>quer</translation>
+        <translation type="vanished">quer</translation>
     </message>
     <message>
         <source>Movement time</source>
@@ -2722,6 +2798,18 @@
     <message>
         <source>Peak speed</source>
         <translation>Spitzentempo</translation>
+    </message>
+    <message>
+        <source>{name}, out</source>
+        <translation>{name}, hin</translation>
+    </message>
+    <message>
+        <source>{name}, back</source>
+        <translation>{name}, zurück</translation>
+    </message>
+    <message>
+        <source>{name}, across</source>
+        <translation>{name}, quer</translation>
     </message>
     <message>
         <source>Peak reached after</source>
@@ -2774,6 +2862,18 @@
     <message>
         <source>Tremor, 3 to 12 Hz (rms)</source>
         <translation>Tremor, 3 bis 12 Hz (rms)</translation>
+    </message>
+    <message>
+        <source>index</source>
+        <translation>Zeige</translation>
+    </message>
+    <message>
+        <source>ring</source>
+        <translation>Ring</translation>
+    </message>
+    <message>
+        <source>little</source>
+        <translation>Klein</translation>
     </message>
     <message>
         <source>Bend together, {one}–{other} (r)</source>
@@ -3200,6 +3300,10 @@
         <translation>SIMULIERT</translation>
     </message>
     <message>
+        <source>{ordinal}, active</source>
+        <translation>{ordinal}, aktiv</translation>
+    </message>
+    <message>
         <source>right-handed</source>
         <translation>rechtshändig</translation>
     </message>
@@ -3244,16 +3348,28 @@
         <translation>Winkel über die Zeit</translation>
     </message>
     <message>
+        <source>Today side</source>
+        <translation>Heute seitlich</translation>
+    </message>
+    <message>
+        <source>Today bending</source>
+        <translation>Heute Beugung</translation>
+    </message>
+    <message>
+        <source>Today turning</source>
+        <translation>Heute Drehung</translation>
+    </message>
+    <message>
         <source>side</source>
-        <translation>seitlich</translation>
+        <translation type="vanished">seitlich</translation>
     </message>
     <message>
         <source>bending</source>
-        <translation>Beugung</translation>
+        <translation type="vanished">Beugung</translation>
     </message>
     <message>
         <source>turning</source>
-        <translation>Drehung</translation>
+        <translation type="vanished">Drehung</translation>
     </message>
     <message>
         <source>Today</source>
@@ -3717,7 +3833,7 @@
     </message>
     <message>
         <source>ticked</source>
-        <translation>angekreuzt</translation>
+        <translation type="vanished">angekreuzt</translation>
     </message>
     <message>
         <source>What counts as a change</source>
@@ -3972,8 +4088,32 @@
         <translation>Pronation</translation>
     </message>
     <message>
+        <source>Radial deviation deficit</source>
+        <translation>Defizit Radialduktion</translation>
+    </message>
+    <message>
+        <source>Ulnar deviation deficit</source>
+        <translation>Defizit Ulnarduktion</translation>
+    </message>
+    <message>
+        <source>Flexion deficit</source>
+        <translation>Beugedefizit</translation>
+    </message>
+    <message>
+        <source>Extension deficit</source>
+        <translation>Streckdefizit</translation>
+    </message>
+    <message>
+        <source>Supination deficit</source>
+        <translation>Supinationsdefizit</translation>
+    </message>
+    <message>
+        <source>Pronation deficit</source>
+        <translation>Pronationsdefizit</translation>
+    </message>
+    <message>
         <source>{movement} deficit</source>
-        <translation>Defizit {movement}</translation>
+        <translation type="vanished">Defizit {movement}</translation>
     </message>
     <message>
         <source>lacks {angle}</source>
@@ -4704,6 +4844,10 @@
         <translation>Die Kamera ist wieder da: {subject} (weg: {detail}).</translation>
     </message>
     <message>
+        <source>The camera is out: {what} (the limits are {most_angle}° and {most_length} mm, all lengths {most_share} %).</source>
+        <translation>Die Kamera misst falsch: {what} (die Grenzen sind {most_angle}° und {most_length} mm, alle Längen {most_share} %).</translation>
+    </message>
+    <message>
         <source>The camera is there, but you may not open it ({detail}).</source>
         <translation>Die Kamera ist da, aber Sie dürfen sie nicht öffnen ({detail}).</translation>
     </message>
@@ -4714,6 +4858,14 @@
     <message>
         <source>The camera measures no depth at the {markers}.</source>
         <translation>Die Kamera misst hier keine Tiefe: {markers}.</translation>
+    </message>
+    <message>
+        <source>The camera measures otherwise than usual: {angle}° and {length} mm off at most; the limits are {most_angle}° and {most_length} mm. Check once more.</source>
+        <translation>Die Kamera misst anders als sonst: höchstens {angle}° und {length} mm Abweichung; die Grenzen sind {most_angle}° und {most_length} mm. Prüfen Sie noch einmal.</translation>
+    </message>
+    <message>
+        <source>The camera measures right: {angle}° and {length} mm off at most; the limits are {most_angle}° and {most_length} mm.</source>
+        <translation>Die Kamera misst richtig: höchstens {angle}° und {length} mm Abweichung; die Grenzen sind {most_angle}° und {most_length} mm.</translation>
     </message>
     <message>
         <source>The camera sends no more pictures: {subject} ({detail}).</source>
@@ -5064,12 +5216,24 @@
         <translation>ein Text mit einem ungültigen Zeichen, in {file}</translation>
     </message>
     <message>
+        <source>all lengths are {share} % too long, the worst by {length} mm</source>
+        <translation>alle Längen sind {share} % zu groß, die schlechteste um {length} mm</translation>
+    </message>
+    <message>
+        <source>all lengths are {share} % too short, the worst by {length} mm</source>
+        <translation>alle Längen sind {share} % zu klein, die schlechteste um {length} mm</translation>
+    </message>
+    <message>
         <source>all six discs in {count} of {looked} pictures</source>
         <translation>alle sechs Punkte in {count} von {looked} Bildern</translation>
     </message>
     <message>
         <source>an HDF5 file, but not a session</source>
         <translation>eine HDF5-Datei, aber keine Sitzung</translation>
+    </message>
+    <message>
+        <source>angles are {angle}° off</source>
+        <translation>Winkel sind {angle}° daneben</translation>
     </message>
     <message>
         <source>another program has exchanged it</source>
@@ -5700,6 +5864,18 @@
         <translation>drei Punkte der Handfläche werden gebraucht, da sind {there}; sagen Sie, welche Marker es sind</translation>
     </message>
     <message>
+        <source>Hidden joints do not count.</source>
+        <translation>Verdeckte Gelenke zählen nicht.</translation>
+    </message>
+    <message>
+        <source>Nothing is lost; sessions near this check say that they are not sure.</source>
+        <translation>Nichts ist verloren; Sitzungen nahe dieser Prüfung sagen, dass sie unsicher sind.</translation>
+    </message>
+    <message>
+        <source>± is the spread between repetitions.</source>
+        <translation>± ist die Streuung zwischen Wiederholungen.</translation>
+    </message>
+    <message>
         <source>thumb</source>
         <translation>Daumen</translation>
     </message>
@@ -5840,6 +6016,10 @@
         <translation>{one} und {other}</translation>
     </message>
     <message>
+        <source>{one}; {other}</source>
+        <translation>{one}; {other}</translation>
+    </message>
+    <message>
         <source>{path} claims {claimed} bytes, and {stored} are there</source>
         <translation>{path} gibt {claimed} Byte an, da sind {stored}</translation>
     </message>
@@ -5926,6 +6106,86 @@
     <message>
         <source>end</source>
         <translation>Ende</translation>
+    </message>
+    <message>
+        <source>The language can be changed when nothing is measured or worked on any more.</source>
+        <translation>Die Sprache lässt sich ändern, wenn nichts mehr gemessen oder bearbeitet wird.</translation>
+    </message>
+    <message>
+        <source>Re&amp;view it</source>
+        <translation>Zur Aus&amp;wertung</translation>
+    </message>
+    <message>
+        <source>I have read it</source>
+        <translation>Ich habe es gelesen</translation>
+    </message>
+    <message>
+        <source>Carpus camera check</source>
+        <translation>Kameraprüfung für Carpus</translation>
+    </message>
+    <message>
+        <source>Limits are fixed, wider only for a sensor that cannot do better. Usual: mean of the first {count} checks after a calibration, ± 3 sd. ± in the table is the sd of one picture. All lengths off by one share: the depth, or a card that was not printed at 100 % (its ruler says which). If it is out: check once more, then calibrate; still out: do not measure with it.</source>
+        <translation>Grenzen sind fest, weiter nur bei einem Sensor, der es nicht besser kann. Üblich: Mittel der ersten {count} Prüfungen nach einer Kalibrierung, ± 3 SD. ± in der Tabelle ist die SD eines Bildes. Alle Längen um denselben Anteil daneben: die Tiefe, oder eine Karte, die nicht mit 100 % gedruckt ist (ihr Lineal sagt, was davon). Misst sie falsch: noch einmal prüfen, dann kalibrieren; immer noch falsch: nicht mit ihr messen.</translation>
+    </message>
+    <message>
+        <source>On the card</source>
+        <translation>Auf der Karte</translation>
+    </message>
+    <message>
+        <source>True</source>
+        <translation>Sollwert</translation>
+    </message>
+    <message>
+        <source>Measured</source>
+        <translation>Gemessen</translation>
+    </message>
+    <message>
+        <source>Off by</source>
+        <translation>Abweichung</translation>
+    </message>
+    <message>
+        <source>All distances together</source>
+        <translation>Alle Abstände zusammen</translation>
+    </message>
+    <message>
+        <source>Exercise</source>
+        <translation>Übung</translation>
+    </message>
+    <message>
+        <source>times</source>
+        <translation>mal</translation>
+    </message>
+    <message>
+        <source>seconds</source>
+        <translation>Sekunden</translation>
+    </message>
+    <message>
+        <source>Times or seconds</source>
+        <translation>Mal oder Sekunden</translation>
+    </message>
+    <message>
+        <source>How often or how long</source>
+        <translation>Wie oft oder wie lange</translation>
+    </message>
+    <message>
+        <source>no rest</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Rest after it</source>
+        <translation>Pause danach</translation>
+    </message>
+    <message>
+        <source>Earlier</source>
+        <translation>Früher</translation>
+    </message>
+    <message>
+        <source>Remove</source>
+        <translation>Entfernen</translation>
+    </message>
+    <message>
+        <source>words that lose their capital inside a sentence: *</source>
+        <translation>Wörter, die im Satz klein werden: Rechte Linke Beide Rechts Links Radial Ulnar Nie Noch Kalibriert Geprüft Gerade Beugen Heben Schieben Drehen Schließen Spreizen Öffnen Nehmen Bewegen Strecken Kommen Berühren Runter Hoch Zum Zur Nach</translation>
     </message>
 </context>
 <context>
@@ -6135,6 +6395,10 @@
         <source>Enter</source>
         <translation>Eingabe</translation>
     </message>
+    <message>
+        <source>The last back-up is of {day}.</source>
+        <translation>Die letzte Sicherung ist vom {day}.</translation>
+    </message>
 </context>
 <context>
     <name>BackupCard</name>
@@ -6212,6 +6476,10 @@
     <message>
         <source>Check card</source>
         <translation>Prüfkarte</translation>
+    </message>
+    <message>
+        <source>Practice patient</source>
+        <translation>Probepatient</translation>
     </message>
     <message>
         <source>Exercise</source>
@@ -7254,6 +7522,10 @@
         <source>Enter</source>
         <translation>Eingabe</translation>
     </message>
+    <message>
+        <source>same recording</source>
+        <translation>dieselbe Aufnahme</translation>
+    </message>
 </context>
 <context>
     <name>ControlCharts</name>
@@ -7626,12 +7898,20 @@ Die PIN wird bei jedem Start verlangt. Ohne sie und ohne den Wiederherstellungsc
         <translation>{count} Dateien</translation>
     </message>
     <message>
+        <source>The patient’s entry, real name and notes, and {count} sessions with all angles, pictures and notes ({files}, {size} MB).</source>
+        <translation>Der Eintrag des Patienten, echter Name und Notizen, und {count} Sitzungen mit allen Winkeln, Bildern und Notizen ({files}, {size} MB).</translation>
+    </message>
+    <message>
+        <source>{one} and {other}</source>
+        <translation>{one} und {other}</translation>
+    </message>
+    <message>
         <source>The patient’s entry, real name and notes, and {count} sessions with all angles, pictures and</source>
-        <translation>Der Eintrag des Patienten, echter Name und Notizen, und {count} Sitzungen mit allen Winkeln, Bildern und</translation>
+        <translation type="vanished">Der Eintrag des Patienten, echter Name und Notizen, und {count} Sitzungen mit allen Winkeln, Bildern und</translation>
     </message>
     <message>
         <source> notes ({files}, {size} MB).</source>
-        <translation> Notizen ({files}, {size} MB).</translation>
+        <translation type="vanished"> Notizen ({files}, {size} MB).</translation>
     </message>
     <message>
         <source>Angles, pictures, notes and pain scores of this session ({files}, {size} MB).</source>
@@ -7659,7 +7939,7 @@ Die PIN wird bei jedem Start verlangt. Ohne sie und ohne den Wiederherstellungsc
     </message>
     <message>
         <source> and </source>
-        <translation> und </translation>
+        <translation type="vanished"> und </translation>
     </message>
     <message>
         <source>The other session.</source>
@@ -7700,6 +7980,10 @@ Die PIN wird bei jedem Start verlangt. Ohne sie und ohne den Wiederherstellungsc
     <message>
         <source>Your records must be kept until {day} {years}: erasing comes before that day.</source>
         <translation>Ihre Unterlagen sind bis {day} aufzubewahren {years}: Das Löschen käme vor diesem Tag.</translation>
+    </message>
+    <message>
+        <source>They had to be kept until {day} {years}.</source>
+        <translation>Sie waren bis {day} aufzubewahren {years}.</translation>
     </message>
 </context>
 <context>
@@ -8000,6 +8284,10 @@ Umschalt+F8 von der Seite</translation>
     <message>
         <source>Simulated camera: nothing here is of a real one.</source>
         <translation>Simulierte Kamera: Nichts hier kommt von einer echten.</translation>
+    </message>
+    <message>
+        <source>Simulated hand: this is not a patient’s, and does not count.</source>
+        <translation type="unfinished"></translation>
     </message>
 </context>
 <context>
@@ -10071,6 +10359,13 @@ Umschalt+F8 von der Seite</translation>
     </message>
 </context>
 <context>
+    <name>SessionModel</name>
+    <message>
+        <source>ticked</source>
+        <translation>angekreuzt</translation>
+    </message>
+</context>
+<context>
     <name>SessionsScreen</name>
     <message>
         <source>No session yet.</source>
@@ -10818,61 +11113,61 @@ Umschalt+F8 von der Seite</translation>
     <name>self.shell</name>
     <message>
         <source>Folder of patients and sessions</source>
-        <translation>Ordner der Patienten und Sitzungen</translation>
+        <translation type="vanished">Ordner der Patienten und Sitzungen</translation>
     </message>
     <message>
         <source>The language can be changed when nothing is measured or worked on any more.</source>
-        <translation>Die Sprache lässt sich ändern, wenn nichts mehr gemessen oder bearbeitet wird.</translation>
+        <translation type="vanished">Die Sprache lässt sich ändern, wenn nichts mehr gemessen oder bearbeitet wird.</translation>
     </message>
 </context>
 <context>
     <name>sheet</name>
     <message>
         <source>Exercise</source>
-        <translation>Übung</translation>
+        <translation type="vanished">Übung</translation>
     </message>
     <message>
         <source>times</source>
-        <translation>mal</translation>
+        <translation type="vanished">mal</translation>
     </message>
     <message>
         <source>seconds</source>
-        <translation>Sekunden</translation>
+        <translation type="vanished">Sekunden</translation>
     </message>
     <message>
         <source>Times or seconds</source>
-        <translation>Mal oder Sekunden</translation>
+        <translation type="vanished">Mal oder Sekunden</translation>
     </message>
     <message>
         <source>How often or how long</source>
-        <translation>Wie oft oder wie lange</translation>
+        <translation type="vanished">Wie oft oder wie lange</translation>
     </message>
     <message>
         <source>none</source>
-        <translation>keine</translation>
+        <translation type="vanished">keine</translation>
     </message>
     <message>
         <source>Rest after it</source>
-        <translation>Pause danach</translation>
+        <translation type="vanished">Pause danach</translation>
     </message>
     <message>
         <source>Earlier</source>
-        <translation>Früher</translation>
+        <translation type="vanished">Früher</translation>
     </message>
     <message>
         <source>Remove</source>
-        <translation>Entfernen</translation>
+        <translation type="vanished">Entfernen</translation>
     </message>
 </context>
 <context>
     <name>shell</name>
     <message>
         <source>Re&amp;view it</source>
-        <translation>Zur Aus&amp;wertung</translation>
+        <translation type="vanished">Zur Aus&amp;wertung</translation>
     </message>
     <message>
         <source>I have read it</source>
-        <translation>Ich habe es gelesen</translation>
+        <translation type="vanished">Ich habe es gelesen</translation>
     </message>
 </context>
 </TS>
