@@ -20,6 +20,7 @@ from carpus.ui.messages.strip import NoticeStrip
 from carpus.ui.ports import Preferences
 from carpus.ui.shell import LEAST_SIZE_PX
 from carpus.ui.theme import Theme
+from carpus.ui.translate import say
 from carpus.ui.welcome.panel import Check, WelcomePanel
 
 
@@ -95,7 +96,9 @@ class Welcome(QObject):
             "Camera": self.tr("Camera"), "Driver": self.tr("Camera driver"), "Camera rights": self.tr("Camera rights"),
             "Data folder": self.tr("Data folder"), "Disk": self.tr("Disk"), "Fonts": self.tr("Fonts"),
         }  # fmt: skip
-        return Check(names.get(finding.name, finding.name), finding.state, finding.found, finding.remedy)
+        return Check(
+            names.get(finding.name) or say(finding.name), finding.state, say(finding.found), say(finding.remedy)
+        )
 
     def _take_folder(self, chosen: Preferences) -> None:
         folder = Path(chosen.data_folder)

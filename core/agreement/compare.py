@@ -401,21 +401,32 @@ def _with_readings(
     left = 0
     for reading in reference.readings:
         if reading.angle not in own:
-            not_used.append(f"{reading.angle}: not in the session")
+            not_used.append(phrase("{angle}: not in the session", angle=reading.angle))
             continue
         if math.isfinite(reading.time_s):
             about = np.abs(time_s - reading.time_s) <= STILL_S
             values = own[reading.angle][about & np.isfinite(own[reading.angle])]
             if len(values) < FEWEST or float(np.ptp(values)) > 2.0 * STILL_RAD:
                 left += 1
-                not_used.append(f"{reading.angle} at {reading.time_s:g} s: the hand was not still, or not seen")
+                not_used.append(
+                    phrase(
+                        "{angle} at {time} s: the hand was not still, or not seen",
+                        angle=reading.angle,
+                        time=f"{reading.time_s:g}",
+                    )
+                )
                 continue
             mine = float(values.mean())
         else:
             mine = _range_end(figures, reading.angle, reading.movement)
             if not math.isfinite(mine):
                 left += 1
-                not_used.append(f"{reading.movement}: the session has no range that way, and the list names no time")
+                not_used.append(
+                    phrase(
+                        "{movement}: the session has no range that way, and the list names no time",
+                        movement=reading.movement,
+                    )
+                )
                 continue
         found.setdefault(reading.angle, []).append((reading.time_s, mine, reading.value_rad))
     pairs = []

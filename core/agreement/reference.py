@@ -115,7 +115,9 @@ def read_reference(
     if suffix in POINT_FILES:
         return _of_points(path, suffix, markers or {})
     if suffix in ANGLE_FILES:
-        return _of_angles(path, f"angles by {suffix[1:].upper()}", read_mot(path), columns or {}, radians)
+        return _of_angles(
+            path, phrase("angles by {format}", format=suffix[1:].upper()), read_mot(path), columns or {}, radians
+        )
     if suffix in TABLE_FILES:
         return _of_table(path, columns or {}, radians)
     if suffix in SESSION_FILES:
@@ -146,8 +148,10 @@ def _of_points(path: Path, suffix: str, markers: Mapping[str, str]) -> Reference
             raise ReferenceUnreadable(path, phrase("it has no marker {markers}", markers=markers[name]))
     used = {_plain(markers.get(name, name)) for name in points}
     left = [name for name in track.names if _plain(name) not in used]
-    unused = _left("markers", left, "none of the discs by their names")
-    return Reference(path, f"points by {suffix[1:].upper()}", track.time_s, points_m=points, unused=unused)
+    unused = _left(phrase("markers"), left, phrase("none of the discs by their names"))
+    return Reference(
+        path, phrase("points by {format}", format=suffix[1:].upper()), track.time_s, points_m=points, unused=unused
+    )
 
 
 def _plain(name: str) -> str:
@@ -167,14 +171,18 @@ def _of_angles(path: Path, kind: str, table: Columns, columns: Mapping[str, str]
             values = sign * table.values[column]
             found[name] = values if in_radians else np.radians(values)
     left = [name for name in table.values if name not in used]
-    return Reference(path, kind, table.time_s, found, unused=_left("columns", left, "no angles by their names"))
+    return Reference(
+        path, kind, table.time_s, found, unused=_left(phrase("columns"), left, phrase("no angles by their names"))
+    )
 
 
 def _left(what: str, names: Sequence[str], why: str) -> tuple[str, ...]:
     if not names:
         return ()
-    more = f" and {len(names) - 4} more" if len(names) > 4 else ""
-    return (f"{what} {', '.join(names[:4])}{more}: {why}",)
+    shown = phrase("{names}", names=", ".join(names[:4]))
+    if len(names) > 4:
+        shown = phrase("{names} and {count} more", names=shown, count=len(names) - 4)
+    return (phrase("{what} {names}: {why}", what=what, names=shown, why=why),)
 
 
 def _column(name: str, columns: Mapping[str, str], there: Iterable[str]) -> tuple[str, float]:
@@ -230,7 +238,7 @@ def _of_table(path: Path, columns: Mapping[str, str], radians: bool | None) -> R
                 values[name] = column
     if radians is None and any(name.lower().endswith("_rad") for name in values):
         radians = not any(name.lower().endswith("_deg") for name in values)
-    return _of_angles(path, "angles by table", Columns(time_s[known], values, None), columns, radians)
+    return _of_angles(path, phrase("angles by table"), Columns(time_s[known], values, None), columns, radians)
 
 
 def _of_readings(path: Path, rows: list[dict[str, str]], low: Mapping[str, str]) -> Reference:
@@ -256,7 +264,7 @@ def _of_readings(path: Path, rows: list[dict[str, str]], low: Mapping[str, str])
         readings.append(Reading(name, movement, sign * math.radians(value), time_s))
     if not readings:
         raise ReferenceUnreadable(path, phrase("it holds no reading"))
-    return Reference(path, "goniometer list", readings=tuple(readings), unused=tuple(unused))
+    return Reference(path, phrase("goniometer list"), readings=tuple(readings), unused=tuple(unused))
 
 
 def _number(text: str | None) -> float:

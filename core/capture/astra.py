@@ -14,6 +14,7 @@ from carpus.core.capture.finding import Finding
 from carpus.core.capture.notice import Notice
 from carpus.core.capture.openni2_camera import OpenNI2Camera
 from carpus.core.depth_sensor import PRIMESENSE
+from carpus.core.phrase import phrase
 
 MODELS = {
     ("2bc5", "0401"): "Orbbec Astra",
@@ -53,8 +54,10 @@ def driver_finding(asks_version: bool = True, wanted: bool = True) -> Finding | 
         if (folder / file).exists():
             return Finding(NAME, "good", f"{library.found}, {folder / file}")
     into = folders[0] if folders else Path("OpenNI2") / "Drivers"
-    remedy = f"Copy {file} from the folder OpenNI2/Drivers of Orbbec's OpenNI2 package into {into}."
-    return Finding(NAME, "bad", f"{library.found}, without the maker's driver", remedy)
+    remedy = phrase(
+        "Copy {file} from the folder OpenNI2/Drivers of Orbbec's OpenNI2 package into {into}.", file=file, into=into
+    )
+    return Finding(NAME, "bad", phrase("{found}, without the maker's driver", found=library.found), remedy)
 
 
 KIND = CameraKind(

@@ -26,6 +26,7 @@ from carpus.core.capture.raw import MB_PER_MINUTE
 from carpus.core.capture.source import SourceInfo
 from carpus.core.capture.usb_devices import UsbCamera
 from carpus.core.errors import CameraBusy, CameraMissing, CameraPermission, CarpusFault, OtherCamera
+from carpus.core.phrase import phrase
 from carpus.core.types import Frame
 
 PACKAGES = ("numpy", "scipy", "opencv-python-headless", "h5py", "PyYAML", "platformdirs", "threadpoolctl")
@@ -41,10 +42,10 @@ NEEDED_FPS = 20.0
 MEASURE_S = 3.0
 
 _REMEDIES: dict[type[CarpusFault], str] = {
-    CameraMissing: "Plug the camera in.",
-    OtherCamera: "Plug in the camera named in the settings, or change the settings.",
-    CameraBusy: "Close the other program that uses the camera.",
-    CameraPermission: "Install the camera rights named above and plug the camera in again.",
+    CameraMissing: phrase("Plug the camera in."),
+    OtherCamera: phrase("Plug in the camera named in the settings, or change the settings."),
+    CameraBusy: phrase("Close the other program that uses the camera."),
+    CameraPermission: phrase("Install the camera rights named above and plug the camera in again."),
 }
 
 
@@ -87,8 +88,10 @@ def python_finding(found: tuple[int, int, int]) -> Finding:
     """Python itself."""
     text = ".".join(map(str, found)) + f", {platform.system()} {platform.machine()}"
     if found < (3, 11, 0):
-        return Finding("Python", "bad", text, "Install Python 3.11 or newer and install Carpus with it.")
-    return Finding("Python", "good", text)
+        return Finding(
+            phrase("Python"), "bad", text, phrase("Install Python 3.11 or newer and install Carpus with it.")
+        )
+    return Finding(phrase("Python"), "good", text)
 
 
 def packages_finding(names: tuple[str, ...] = PACKAGES) -> Finding:
@@ -100,8 +103,10 @@ def packages_finding(names: tuple[str, ...] = PACKAGES) -> Finding:
         except PackageNotFoundError:
             missing.append(name)
     if missing:
-        return Finding("Packages", "bad", "missing: " + ", ".join(missing), "Run: pip install " + " ".join(missing))
-    return Finding("Packages", "good", ", ".join(known))
+        return Finding(
+            phrase("Packages"), "bad", "missing: " + ", ".join(missing), "Run: pip install " + " ".join(missing)
+        )
+    return Finding(phrase("Packages"), "good", ", ".join(known))
 
 
 def window_finding() -> Finding:
@@ -110,23 +115,31 @@ def window_finding() -> Finding:
         qt = version("PySide6-Essentials")
         version("pyqtgraph")
     except PackageNotFoundError as cause:
-        return Finding("Window", "warning", f"missing: {cause.name}", f"For the window, run: pip install {cause.name}")
+        return Finding(
+            phrase("Window"),
+            "warning",
+            phrase("missing: {name}", name=cause.name),
+            phrase("For the window, run: pip install {name}", name=cause.name),
+        )
     if tuple(int(part) for part in qt.split(".")[:2]) >= (6, 12) and sys.version_info < (3, 12):
-        remedy = 'This version stops the program on Python 3.11. Run: pip install "PySide6-Essentials<6.12"'
-        return Finding("Window", "bad", f"Qt {qt}", remedy)
+        remedy = phrase('This version stops the program on Python 3.11. Run: pip install "PySide6-Essentials<6.12"')
+        return Finding(phrase("Window"), "bad", f"Qt {qt}", remedy)
     if not sys.platform.startswith("linux"):
-        return Finding("Window", "good", f"Qt {qt}")
+        return Finding(phrase("Window"), "good", f"Qt {qt}")
     is_packed = getattr(sys, "frozen", False)
     wanted = PACKED_WITHOUT if is_packed else WINDOW_LIBRARIES
     missing = [name for name in wanted if ctypes.util.find_library(name) is None]
     if missing:
-        remedy = "Install the packages that bring these libraries."
-        remedy = remedy if is_packed else f"Run: installer/setup.sh run. Or: {remedy[0].lower()}{remedy[1:]}"
-        return Finding("Window", "warning", f"Qt {qt}; missing: " + ", ".join(f"lib{name}" for name in missing), remedy)
+        remedy = phrase("Install the packages that bring these libraries.")
+        if not is_packed:
+            remedy = phrase("Run: installer/setup.sh run. Or: install the packages that bring these libraries.")
+        return Finding(
+            phrase("Window"), "warning", f"Qt {qt}; missing: " + ", ".join(f"lib{name}" for name in missing), remedy
+        )
     if not (os.environ.get("DISPLAY") or os.environ.get("WAYLAND_DISPLAY") or os.environ.get("QT_QPA_PLATFORM")):
-        remedy = "Start the window from a desktop. The commands for files work without a screen."
-        return Finding("Window", "warning", f"Qt {qt}; no screen", remedy)
-    return Finding("Window", "good", f"Qt {qt}")
+        remedy = phrase("Start the window from a desktop. The commands for files work without a screen.")
+        return Finding(phrase("Window"), "warning", phrase("Qt {qt}; no screen", qt=qt), remedy)
+    return Finding(phrase("Window"), "good", f"Qt {qt}")
 
 
 def fonts_finding() -> Finding:
@@ -134,34 +147,51 @@ def fonts_finding() -> Finding:
     folder = files("carpus.resources").joinpath("fonts")
     faces = [each.name for each in folder.iterdir() if each.name.endswith(".otf")] if folder.is_dir() else []
     if not faces:
-        return Finding("Fonts", "bad", "none of the program's own", "Install Carpus again: part of it is missing.")
-    return Finding("Fonts", "good", f"{len(faces)} faces")
+        return Finding(
+            phrase("Fonts"),
+            "bad",
+            phrase("none of the program's own"),
+            phrase("Install Carpus again: part of it is missing."),
+        )
+    return Finding(phrase("Fonts"), "good", phrase("{count} faces", count=len(faces)))
 
 
 def data_folder_finding(folder: Path) -> Finding:
     """Whether recordings can be stored, and nobody else can read them."""
     there = _existing(folder)
     if not os.access(there, os.W_OK | os.X_OK) or not there.is_dir():
-        remedy = "Give yourself the right to write there, or choose another folder in the settings."
-        return Finding("Data folder", "bad", f"{folder}: {there} cannot be written to", remedy)
-    if not folder.exists():
-        return Finding("Data folder", "good", f"{folder}, made at the first recording")
-    if os.name == "posix" and folder.stat().st_mode & 0o077:
-        remedy = (
-            "Others on this computer can look into it. In its properties, take away every right of the group and of "
-            f"others; or run: chmod 700 '{folder}'"
+        remedy = phrase("Give yourself the right to write there, or choose another folder in the settings.")
+        return Finding(
+            phrase("Data folder"),
+            "bad",
+            phrase("{folder}: {there} cannot be written to", folder=folder, there=there),
+            remedy,
         )
-        return Finding("Data folder", "warning", str(folder), remedy)
-    return Finding("Data folder", "good", str(folder))
+    if not folder.exists():
+        return Finding(phrase("Data folder"), "good", phrase("{folder}, made at the first recording", folder=folder))
+    if os.name == "posix" and folder.stat().st_mode & 0o077:
+        remedy = phrase(
+            "Others on this computer can look into it. In its properties, take away every right of the group and of "
+            "others; or run: chmod 700 '{folder}'",
+            folder=folder,
+        )
+        return Finding(phrase("Data folder"), "warning", str(folder), remedy)
+    return Finding(phrase("Data folder"), "good", str(folder))
 
 
 def disk_finding(folder: Path, free_bytes: int) -> Finding:
     """Room for recordings."""
     minutes = free_bytes / (1e6 * MB_PER_MINUTE)
-    text = f"{free_bytes / 1e9:.1f} GB free, about {minutes:.0f} minutes with pictures"
+    text = phrase(
+        "{free} GB free, about {minutes} minutes with pictures",
+        free=f"{free_bytes / 1000000000.0:.1f}",
+        minutes=f"{minutes:.0f}",
+    )
     if free_bytes < LOW_DISK_BYTES:
-        return Finding("Disk", "warning", text, f"Free space on the disk of {_existing(folder)}.")
-    return Finding("Disk", "good", text)
+        return Finding(
+            phrase("Disk"), "warning", text, phrase("Free space on the disk of {folder}.", folder=_existing(folder))
+        )
+    return Finding(phrase("Disk"), "good", text)
 
 
 def drivers_findings(*, asks_version: bool) -> Iterator[Finding]:
@@ -186,37 +216,51 @@ def rights_findings(folders: tuple[Path, ...]) -> Iterator[Finding]:
 
 def rules_finding(kind: CameraKind, folders: tuple[Path, ...]) -> Finding:
     """Whether the system lets everybody open a camera of this kind."""
-    name = "Camera rights" if kind is _kinds()[0] else f"Camera rights, {kind.title}"
+    name = phrase("Camera rights") if kind is _kinds()[0] else phrase("Camera rights, {title}", title=kind.title)
     for folder in folders:
         for rules in sorted(folder.glob("*.rules")) if folder.is_dir() else []:
             text = rules.read_text(encoding="utf-8", errors="replace").lower()
             of_all = "idproduct" not in text and ("idvendor" in text or "id_vendor_id" in text)
             if any(vendor in text and (of_all or product in text) for vendor, product in kind.models):
                 return Finding(name, "good", str(rules))
-    return Finding(name, "warning", "no udev rules for the camera", kind.rights)
+    return Finding(name, "warning", phrase("no udev rules for the camera"), kind.rights)
 
 
 def camera_findings(plugged_in: list[tuple[CameraKind, UsbCamera]]) -> list[Finding]:
     """The cameras on the bus, before anything opens one."""
     if not plugged_in:
         remedy = "Plug the camera in, at best straight into the computer. " + _kinds()[0].port
-        return [Finding("Camera", "warning", "none plugged in", remedy)]
+        return [Finding(phrase("Camera"), "warning", phrase("none plugged in"), remedy)]
     return [camera_finding(kind, camera) for kind, camera in plugged_in]
 
 
 def camera_finding(kind: CameraKind, camera: UsbCamera) -> Finding:
     """One camera on the bus."""
-    text = f"{camera.name} ({camera.vendor}:{camera.product}) at {camera.node}, {camera.speed_mbit} Mbit/s"
+    text = phrase(
+        "{name} ({vendor}:{product}) at {node}, {speed_mbit} Mbit/s",
+        name=camera.name,
+        vendor=camera.vendor,
+        product=camera.product,
+        node=camera.node,
+        speed_mbit=camera.speed_mbit,
+    )
     if not camera.may_open:
-        remedy = f"You may not open {camera.node}. Install the camera rights named above and plug it in again."
-        return Finding("Camera", "bad", text, remedy)
+        remedy = phrase(
+            "You may not open {node}. Install the camera rights named above and plug it in again.", node=camera.node
+        )
+        return Finding(phrase("Camera"), "bad", text, remedy)
     if camera.is_claimed:
-        return Finding("Camera", "warning", f"{text}, in use", "Close the other program that uses the camera.")
+        return Finding(
+            phrase("Camera"),
+            "warning",
+            phrase("{text}, in use", text=text),
+            phrase("Close the other program that uses the camera."),
+        )
     if 0 < camera.speed_mbit < SLOWEST_MBIT:
-        return Finding("Camera", "bad", text, f"This port is too slow. {kind.port}")
+        return Finding(phrase("Camera"), "bad", text, phrase("This port is too slow. {port}", port=kind.port))
     if 0 < camera.speed_mbit < kind.needed_mbit:
-        return Finding("Camera", "warning", text, f"This port is slow for it. {kind.port}")
-    return Finding("Camera", "good", text)
+        return Finding(phrase("Camera"), "warning", text, phrase("This port is slow for it. {port}", port=kind.port))
+    return Finding(phrase("Camera"), "good", text)
 
 
 def opened_findings(uri: str, measure_s: float) -> list[Finding]:
@@ -226,7 +270,7 @@ def opened_findings(uri: str, measure_s: float) -> list[Finding]:
     try:
         source = open_camera(uri, patience_s=0.0)
     except CarpusFault as fault:
-        return [Finding("Pictures", "bad", _fault_text(fault), _open_remedy(fault))]
+        return [Finding(phrase("Pictures"), "bad", _fault_text(fault), _open_remedy(fault))]
     ending = threading.Timer(measure_s + 2.0, source.close)
     ending.start()
     start_s = time.monotonic()
@@ -237,7 +281,7 @@ def opened_findings(uri: str, measure_s: float) -> list[Finding]:
             if time.monotonic() - start_s > measure_s:
                 break
     except CarpusFault as fault:
-        return [Finding("Pictures", "bad", _fault_text(fault), _open_remedy(fault))]
+        return [Finding(phrase("Pictures"), "bad", _fault_text(fault), _open_remedy(fault))]
     finally:
         ending.cancel()
         source.close()
@@ -249,20 +293,33 @@ def opened_findings(uri: str, measure_s: float) -> list[Finding]:
 def frames_finding(frames: list[Frame]) -> Finding:
     """Rate, gaps and depth of some seconds of frames."""
     if len(frames) < 2:
-        remedy = "Plug the camera in again, into another port, without a hub."
-        return Finding("Pictures", "bad", f"{len(frames)} frames", remedy)
+        remedy = phrase("Plug the camera in again, into another port, without a hub.")
+        return Finding(phrase("Pictures"), "bad", phrase("{count} frames", count=len(frames)), remedy)
     gaps_s = np.array([later.timestamp_s - earlier.timestamp_s for earlier, later in pairwise(frames)])
     fps = 1.0 / float(gaps_s.mean())
     missing = sum(frame.dropped_before for frame in frames)
     with_depth = sum(frame.depth_raw is not None for frame in frames)
     height, width = frames[0].color_rgb.shape[:2]
-    text = f"{width}x{height}, {fps:.1f} fps, {missing} missing, depth in {with_depth} of {len(frames)}"
-    remedy = "Use another USB port, without a hub and without other cameras on it; end other heavy programs."
+    text = phrase(
+        "{width}x{height}, {fps} fps, {missing} missing, depth in {with_depth} of {count}",
+        width=width,
+        height=height,
+        fps=f"{fps:.1f}",
+        missing=missing,
+        with_depth=with_depth,
+        count=len(frames),
+    )
+    remedy = phrase("Use another USB port, without a hub and without other cameras on it; end other heavy programs.")
     if fps < NEEDED_FPS or with_depth < len(frames) // 2:
-        return Finding("Pictures", "bad", text, remedy)
+        return Finding(phrase("Pictures"), "bad", text, remedy)
     if fps < WANTED_FPS or missing:
-        return Finding("Pictures", "warning", text, remedy + " In a dark room the camera slows down: add light.")
-    return Finding("Pictures", "good", text)
+        return Finding(
+            phrase("Pictures"),
+            "warning",
+            text,
+            phrase("{remedy} In a dark room the camera slows down: add light.", remedy=remedy),
+        )
+    return Finding(phrase("Pictures"), "good", text)
 
 
 def standing_findings(info: SourceInfo, frames: list[Frame], arrived_s: list[float]) -> list[Finding]:
@@ -270,12 +327,14 @@ def standing_findings(info: SourceInfo, frames: list[Frame], arrived_s: list[flo
     settings, findings = info.settings, []
     registered = settings.get("registered", "")
     if registered == "no":
-        remedy = "This camera does not lay depth on colour by itself; depths will be read beside the markers."
-        findings.append(Finding("Registration", "warning", "depth does not lie on colour", remedy))
+        remedy = phrase("This camera does not lay depth on colour by itself; depths will be read beside the markers.")
+        findings.append(Finding(phrase("Registration"), "warning", phrase("depth does not lie on colour"), remedy))
     elif registered:
-        findings.append(Finding("Registration", "good", f"depth lies on colour, {registered}"))
+        findings.append(
+            Finding(phrase("Registration"), "good", phrase("depth lies on colour, {registered}", registered=registered))
+        )
     turned = settings.get("mirrored", "no") != "no"
-    findings.append(Finding("Mirror", "good", "on, turned back by Carpus" if turned else "off"))
+    findings.append(Finding(phrase("Mirror"), "good", phrase("on, turned back by Carpus") if turned else phrase("off")))
     if len(frames) > 1:
         own_s, here_s = frames[-1].timestamp_s - frames[0].timestamp_s, arrived_s[-1] - arrived_s[0]
         findings.append(clock_finding(own_s, here_s, settings.get("clock", "")))
@@ -284,14 +343,16 @@ def standing_findings(info: SourceInfo, frames: list[Frame], arrived_s: list[flo
 
 def clock_finding(own_s: float, here_s: float, whose: str) -> Finding:
     """The camera's times against the computer's over the same pictures. Pictures wait on their way, hence the room."""
-    text = f"{own_s:.2f} s while {here_s:.2f} s passed here"
+    text = phrase("{own_s} s while {here_s} s passed here", own_s=f"{own_s:.2f}", here_s=f"{here_s:.2f}")
     if whose == "computer":
-        remedy = "This camera does not tell when it took a picture; its times are those of arrival: speeds are rough."
-        return Finding("Clock", "warning", text, remedy)
+        remedy = phrase(
+            "This camera does not tell when it took a picture; its times are those of arrival: speeds are rough."
+        )
+        return Finding(phrase("Clock"), "warning", text, remedy)
     if abs(own_s - here_s) > CLOCK_SHARE * here_s + CLOCK_ROOM_S:
-        remedy = "Plug the camera in again; if it stays, times and speeds of this camera are not to be trusted."
-        return Finding("Clock", "warning", text, remedy)
-    return Finding("Clock", "good", text)
+        remedy = phrase("Plug the camera in again; if it stays, times and speeds of this camera are not to be trusted.")
+        return Finding(phrase("Clock"), "warning", text, remedy)
+    return Finding(phrase("Clock"), "good", text)
 
 
 def _kinds() -> list[CameraKind]:

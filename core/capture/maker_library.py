@@ -10,6 +10,7 @@ from importlib.metadata import PackageNotFoundError, version
 
 from carpus.core.capture.finding import Finding
 from carpus.core.errors import DriverMissing
+from carpus.core.phrase import phrase
 
 
 def library_finding(
@@ -24,11 +25,16 @@ def library_finding(
     except PackageNotFoundError:
         if unwanted:
             return Finding(name, "good", unwanted)
-        return Finding(name, "bad", f"missing: {package}", how)
+        return Finding(name, "bad", phrase("missing: {package}", package=package), how)
     trouble = _load_trouble(load) if asks else ""
     if not trouble:
         return Finding(name, "good", found)
-    return Finding(name, "bad", f"{found}, cannot be loaded: {trouble}", "Install it, and what it names, again.")
+    return Finding(
+        name,
+        "bad",
+        phrase("{found}, cannot be loaded: {trouble}", found=found, trouble=trouble),
+        phrase("Install it, and what it names, again."),
+    )
 
 
 def _load_trouble(load: Callable[[], None]) -> str:

@@ -10,6 +10,7 @@ from concurrent.futures.process import BrokenProcessPool
 from carpus.core.capture.finding import Finding
 from carpus.core.capture.openni2 import library_version, load_library
 from carpus.core.errors import DriverMissing
+from carpus.core.phrase import phrase
 
 
 def driver_finding(asks_version: bool = True, _wanted: bool = True) -> Finding:
@@ -18,17 +19,27 @@ def driver_finding(asks_version: bool = True, _wanted: bool = True) -> Finding:
         load_library()
     except DriverMissing as fault:
         remedy = (
-            "Run: sudo apt-get install libopenni2-0"
+            phrase("Run: sudo apt-get install libopenni2-0")
             if sys.platform.startswith("linux")
-            else "Install OpenNI2 from the camera's maker, then start Carpus again."
+            else phrase("Install OpenNI2 from the camera's maker, then start Carpus again.")
         )
         return Finding(
-            "Driver", "bad", fault.detail or "not found", f"Needed for live cameras and .oni files. {remedy}"
+            phrase("Driver"),
+            "bad",
+            fault.detail or "not found",
+            phrase("Needed for live cameras and .oni files. {remedy}", remedy=remedy),
         )
     if not asks_version:
-        return Finding("Driver", "good", "OpenNI2")
+        return Finding(phrase("Driver"), "good", phrase("OpenNI2"))
     try:
         with ProcessPoolExecutor(1, multiprocessing.get_context("spawn")) as other:
-            return Finding("Driver", "good", f"OpenNI2 {other.submit(library_version).result()}")
+            return Finding(
+                phrase("Driver"), "good", phrase("OpenNI2 {value}", value=other.submit(library_version).result())
+            )
     except BrokenProcessPool:
-        return Finding("Driver", "bad", "OpenNI2 ends when it is asked for its version", "Install it again.")
+        return Finding(
+            phrase("Driver"),
+            "bad",
+            phrase("OpenNI2 ends when it is asked for its version"),
+            phrase("Install it again."),
+        )

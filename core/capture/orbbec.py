@@ -21,6 +21,7 @@ from carpus.core.capture.orbbec_process import serve
 from carpus.core.capture.process_camera import SIZE_PX, ProcessCamera
 from carpus.core.depth_sensor import ASSUMED, AZURE_KINECT, D435, D455, DepthSensor
 from carpus.core.errors import DriverMissing
+from carpus.core.phrase import phrase
 
 INSTALL = f"pip install --no-deps {PACKAGE}"
 """Its own requirements (an older NumPy, a second OpenCV, Open3D, a window library) are those of its examples. With them
@@ -115,7 +116,7 @@ def further_findings(settings: Mapping[str, str]) -> Sequence[Finding]:
     """Firmware and port of an opened camera."""
     findings = []
     if settings.get("firmware"):
-        findings.append(Finding("Firmware", "good", settings["firmware"]))
+        findings.append(Finding(phrase("Firmware"), "good", settings["firmware"]))
     usb = settings.get("usb", "")
     if usb.startswith("2"):
         findings.append(Finding("USB", "warning", f"USB {usb}", KIND.port))

@@ -21,6 +21,7 @@ from carpus.core.capture.realsense_opening import load_library
 from carpus.core.capture.realsense_process import serve
 from carpus.core.depth_sensor import ASSUMED, D415, D435, D455, DepthSensor
 from carpus.core.errors import ExtraMissing
+from carpus.core.phrase import phrase
 
 EXTRA, PACKAGE = "realsense", "pyrealsense2"
 MODELS = {
@@ -110,10 +111,17 @@ def further_findings(settings: Mapping[str, str]) -> Sequence[Finding]:
     findings = []
     firmware, wanted = settings.get("firmware", ""), settings.get("firmware_wanted", "")
     if firmware and wanted and _numbers(firmware) < _numbers(wanted):
-        remedy = "Bring the firmware up to date with the maker's RealSense Viewer."
-        findings.append(Finding("Firmware", "warning", f"{firmware}, the library asks for {wanted}", remedy))
+        remedy = phrase("Bring the firmware up to date with the maker's RealSense Viewer.")
+        findings.append(
+            Finding(
+                phrase("Firmware"),
+                "warning",
+                phrase("{firmware}, the library asks for {wanted}", firmware=firmware, wanted=wanted),
+                remedy,
+            )
+        )
     elif firmware:
-        findings.append(Finding("Firmware", "good", firmware))
+        findings.append(Finding(phrase("Firmware"), "good", firmware))
     usb = settings.get("usb", "")
     if usb.startswith("2"):
         findings.append(Finding("USB", "warning", f"USB {usb}", KIND.port))

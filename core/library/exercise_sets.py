@@ -18,6 +18,7 @@ from carpus.core.hand.protocols import protocol_named, protocol_names
 from carpus.core.library.set_up import Course, CoursePart, SetUp
 from carpus.core.output.exercises import EXERCISES, exercise_named
 from carpus.core.output.goals import Goals
+from carpus.core.phrase import phrase
 
 SETS_FILE = "exercise_sets.json"
 MOST_PARTS = 8
@@ -44,11 +45,11 @@ class ExerciseSet:
 
 USUAL_SETS = (
     ExerciseSet(
-        "usual-wrist", "Wrist, all ways", "wrist6",
+        "usual-wrist", phrase("Wrist, all ways"), "wrist6",
         tuple(CoursePart(exercise_named(name), 10, 0, 30) for name in ("WRIST_FE", "WRIST_RU", "FOREARM_PS")),
     ),
     ExerciseSet(
-        "usual-hand", "Fist, hook, spread", "hand21",
+        "usual-hand", phrase("Fist, hook, spread"), "hand21",
         tuple(CoursePart(exercise_named(name), 10, 0, 30) for name in ("FIST_COMPOSITE", "FIST_HOOK", "FINGER_ABAD")),
     ),
 )  # fmt: skip

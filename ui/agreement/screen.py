@@ -20,6 +20,7 @@ from carpus.ui.keys import Keys, bind
 from carpus.ui.plot.agreement import AgreementPlot, View
 from carpus.ui.plot.agreement_view import AgreementChart
 from carpus.ui.theme import GAP_PX, MARGIN_PX, Theme, is_tight
+from carpus.ui.translate import say
 
 if TYPE_CHECKING:  # a window loads nothing that reads files
     from carpus.core.agreement.compare import Compared
@@ -174,7 +175,7 @@ class AgreementScreen(QWidget):
         """Show a result; ``limit_deg`` as it was set before, ``may_map`` whether columns or markers can be told."""
         compared = in_order(compared)
         self._compared, self._limit_deg = compared, limit_deg
-        self.facts.setText(f"{name} · {compared.kind}")
+        self.facts.setText(f"{name} · {say(compared.kind)}")
         self.facts.setToolTip(self.facts.text())
         sentence, basis = headline(compared, limit_deg)
         self.answer.setText(sentence)

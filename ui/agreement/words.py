@@ -11,7 +11,7 @@ from carpus.ui import numbers
 from carpus.ui.figures import FIGURES, figure_of
 from carpus.ui.icons import State
 from carpus.ui.translate import inside as within
-from carpus.ui.translate import tr
+from carpus.ui.translate import say, tr
 
 if TYPE_CHECKING:  # a window loads nothing that reads files
     from carpus.core.agreement.compare import Compared, Pairs
@@ -201,5 +201,5 @@ def left_words(compared: Compared) -> list[str]:
 
 
 def _reason(reason: str) -> str:
-    name, found, rest = reason.partition(": ")
-    return f"{angle_name(name)}: {rest}" if found else reason
+    name, found, rest = say(reason).partition(": ")
+    return f"{angle_name(name)}: {rest}" if found else say(reason)

@@ -28,7 +28,7 @@ from carpus.ui.setup.goal_words import proposal_words
 from carpus.ui.setup.option import Options
 from carpus.ui.setup.set_words import set_words
 from carpus.ui.theme import MARGIN_PX, Theme
-from carpus.ui.translate import inside, tr
+from carpus.ui.translate import inside, say, tr
 
 MOST_REPETITIONS, MOST_TARGET_DEG = 50, 90
 
@@ -359,7 +359,7 @@ def _rows(protocol: MarkerProtocol, sets: Sequence[ExerciseSet]) -> list[tuple[s
         (item.id, terms.exercise_name(item.id), terms.exercise_instruction(item.id)) for item in exercises_of(protocol)
     ]
     several = [
-        (_set_id(one.set_id), tr("Set: {name}").format(name=one.name), set_words(one))
+        (_set_id(one.set_id), tr("Set: {name}").format(name=say(one.name)), set_words(one))
         for one in sets
         if one.discs == protocol.name
     ]

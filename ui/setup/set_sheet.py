@@ -28,7 +28,7 @@ from carpus.ui.controls.field import Labelled, number_field
 from carpus.ui.controls.sheet import Sheet
 from carpus.ui.controls.text import SEMIBOLD, Text, caption
 from carpus.ui.theme import Theme
-from carpus.ui.translate import tr
+from carpus.ui.translate import say, tr
 
 USUAL_SECONDS = 60
 
@@ -167,7 +167,7 @@ class SetSheet(Sheet):
         self.which.blockSignals(True)
         self.which.clear()
         for one in self._own():
-            self.which.addItem(one.name, one.set_id)
+            self.which.addItem(say(one.name), one.set_id)
         self.which.addItem(self.tr("New set"), "")
         found = self.which.findData(chosen_id) if chosen_id else 0
         self.which.setCurrentIndex(max(found, 0))
@@ -181,7 +181,7 @@ class SetSheet(Sheet):
         self._sure = False
         self.delete.set_face(self.tr("Delete this set"))
         self.delete.setEnabled(known is not None)
-        self.name.setText(self._now.name)
+        self.name.setText(say(self._now.name))
         self._show_parts(self._now.parts)
 
     def _show_parts(self, parts: Sequence[CoursePart]) -> None:
@@ -256,7 +256,7 @@ class SetSheet(Sheet):
         assert self._now is not None
         if not self._sure:
             self._sure = True
-            self.delete.set_face(self.tr("Delete “{name}”? Press again").format(name=self._now.name))
+            self.delete.set_face(self.tr("Delete “{name}”? Press again").format(name=say(self._now.name)))
             return
         self._sets = [one for one in self._sets if one.set_id != self._now.set_id]
         self.kept.emit(tuple(self._sets), "")

@@ -5,7 +5,7 @@ from __future__ import annotations
 from carpus.core.library.exercise_sets import ExerciseSet
 from carpus.core.library.set_up import Course, CoursePart
 from carpus.ui import terms
-from carpus.ui.translate import tr
+from carpus.ui.translate import say, tr
 
 
 def part_words(part: CoursePart) -> str:
@@ -24,5 +24,5 @@ def set_words(one: ExerciseSet) -> str:
 def course_words(course: Course) -> str:
     """``Set “Wrist, all ways”, 2 of 3: Wrist side to side, 10 times``."""
     return tr("Set “{name}”, {number} of {count}: {part}").format(
-        name=course.name, number=course.number + 1, count=len(course.parts), part=part_words(course.part)
+        name=say(course.name), number=course.number + 1, count=len(course.parts), part=part_words(course.part)
     )
