@@ -13,7 +13,8 @@ from carpus.core.phrase import phrase
 
 COLOR_LIST, RECORDING_FILE = "rgb.txt", "recording.oni"
 REALSENSE_SUFFIXES = (".db3", ".bag")
-FILE_SUFFIXES = (".oni", ".carpusraw", *REALSENSE_SUFFIXES)
+KINECT_SUFFIX = ".mkv"
+FILE_SUFFIXES = (".oni", ".carpusraw", *REALSENSE_SUFFIXES, KINECT_SUFFIX)
 """What recordings that are one file are called; a raw recording is known whatever its name."""
 
 
@@ -26,7 +27,7 @@ def open_recording(
     data_folder: Path | None = None,
     notice: Notice = ignore,
 ) -> FrameSource:
-    """A TUM folder, an .oni file, a RealSense recording or a raw one as a source. The readers are loaded when needed.
+    """A folder or file of any kind in :data:`RECORDINGS` as a source. The readers are loaded when needed.
 
     ``registered``: whether depth lies on colour in an .oni file that does not say so itself, None when nobody knows.
     ``leave_out_damaged``: a missing or damaged picture of a folder is left out, counted and told, not a fault.
@@ -90,10 +91,21 @@ def _realsense(path: Path, _how: _How) -> FrameSource:
     return RealSenseRecording(path)
 
 
+def _is_kinect(path: Path) -> bool:
+    return path.suffix.lower() == KINECT_SUFFIX
+
+
+def _kinect(path: Path, how: _How) -> FrameSource:
+    from carpus.core.capture.kinect_recording import KinectRecording
+
+    return KinectRecording(path, notice=how.notice)
+
+
 RECORDINGS: tuple[tuple[Callable[[Path], bool], Callable[[Path, _How], FrameSource]], ...] = (
     (Path.is_dir, _tum_folder),
     (_is_oni, _oni),
     (_is_realsense, _realsense),
+    (_is_kinect, _kinect),
     (_is_raw, _raw),
 )
 """Every kind: whether a path is of it, and how it is opened; the first that is it counts."""
@@ -108,6 +120,4 @@ def _opened(path: Path, how: _How) -> FrameSource:
     for is_it, opened in RECORDINGS:
         if is_it(path):
             return opened(path, how)
-    raise RecordingUnreadable(
-        path, phrase("neither a TUM folder, an .oni file, a RealSense recording nor a raw recording")
-    )
+    raise RecordingUnreadable(path, phrase("no recording of a form that Carpus knows"))

@@ -16,7 +16,7 @@ ROOT = Path(__file__).parents[1]
 OWN = ("carpus",)
 PROGRAM = ("app", "core", "ui")
 """What runs at the user's; ``resources`` also keeps the scripts that made its files."""
-EXTRAS = ("cluster", "tables", "stream", "realsense")
+EXTRAS = ("cluster", "tables", "stream", "realsense", "mkv")
 """What is installed only when asked for; the code that needs it says so where it is missing."""
 BROUGHT_BY = {
     "argon2": "argon2-cffi",

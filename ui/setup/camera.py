@@ -18,6 +18,8 @@ from carpus.ui.setup.option import Options
 from carpus.ui.theme import MARGIN_PX, Theme
 from carpus.ui.tour.bubble import BubbleView
 
+PATTERNS = "*.oni *.db3 *.bag *.mkv *.carpusraw"
+
 
 class CameraScreen(QWidget):
     """``wanted`` carries the :class:`SourceChoice`; ``picked`` the path of a recording that was chosen."""
@@ -190,7 +192,7 @@ class CameraScreen(QWidget):
             self.wanted.emit(SourceChoice(kind, self._path if kind == "file" else ""))  # type: ignore[arg-type]
 
     def _ask_file(self) -> None:
-        kinds = self.tr("Recordings (*.oni *.db3 *.bag *.carpusraw);;All files (*)")
+        kinds = self.tr("Recordings ({patterns});;All files (*)").format(patterns=PATTERNS)
         start = str(Path(self._path).parent) if self._path else self.start_folder
         path, _ = QFileDialog.getOpenFileName(self, self.tr("Choose a recording"), start, kinds)
         if path:
