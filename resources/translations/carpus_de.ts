@@ -533,7 +533,7 @@
     </message>
     <message>
         <source>not judged: only one of the two has it</source>
-        <translation type="unfinished"></translation>
+        <translation>nicht beurteilt: nur eine von beiden hat es</translation>
     </message>
     <message>
         <source>no change beyond error</source>
@@ -673,7 +673,7 @@
     </message>
     <message>
         <source>middle</source>
-        <translation>Mitte</translation>
+        <translation>Mittel</translation>
     </message>
     <message>
         <source>centre</source>
@@ -4404,8 +4404,20 @@
         <translation>Holen Sie sie aus einer Sicherung.</translation>
     </message>
     <message>
+        <source>Bring the firmware up to date with the maker&apos;s RealSense Viewer.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
         <source>Calibrate the camera again, or take the file away to use the usual values.</source>
         <translation>Kalibrieren Sie die Kamera neu, oder entfernen Sie die Datei, um die üblichen Werte zu verwenden.</translation>
+    </message>
+    <message>
+        <source>Camera rights</source>
+        <translation>Kamerarechte</translation>
+    </message>
+    <message>
+        <source>Camera rights, {title}</source>
+        <translation type="unfinished"></translation>
     </message>
     <message>
         <source>Carpus cannot use the pictures of this recording: {subject} ({detail}).</source>
@@ -4516,8 +4528,16 @@
         <translation>Klicken Sie den Marker im ersten Bild dieser Aufnahme an.</translation>
     </message>
     <message>
+        <source>Clock</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
         <source>Close other programs that have them open, or allow Carpus to write in their folder, and start it again.</source>
         <translation>Schließen Sie andere Programme, die sie offen haben, oder erlauben Sie Carpus, in ihrem Ordner zu schreiben, und starten Sie es neu.</translation>
+    </message>
+    <message>
+        <source>Close the other program that uses the camera.</source>
+        <translation type="unfinished"></translation>
     </message>
     <message>
         <source>Close the other program, then try again.</source>
@@ -4544,6 +4564,10 @@
         <translation>Kopieren Sie die Aufnahme noch einmal, wenn es viele sind.</translation>
     </message>
     <message>
+        <source>Copy {file} from the folder OpenNI2/Drivers of Orbbec&apos;s OpenNI2 package into {into}.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
         <source>Correct the file, or click the markers again.</source>
         <translation>Berichtigen Sie die Datei, oder klicken Sie die Marker neu an.</translation>
     </message>
@@ -4560,12 +4584,24 @@
         <translation>Beschädigte Bilder der Aufnahme sind ausgelassen: {subject} ({detail}).</translation>
     </message>
     <message>
+        <source>Data folder</source>
+        <translation>Datenordner</translation>
+    </message>
+    <message>
         <source>Depth and colour do not lie on each other at the {markers} ({value} {unit}, up to {limit} is good).</source>
         <translation>Tiefe und Farbe decken sich hier nicht: {markers} ({value} {unit}, bis {limit} ist gut).</translation>
     </message>
     <message>
         <source>Depth does not lie on colour in {subject}, so depths are less sure.</source>
         <translation>Tiefe und Farbe decken sich nicht: {subject}; Tiefen sind darum weniger sicher.</translation>
+    </message>
+    <message>
+        <source>Disk</source>
+        <translation>Speicherplatz</translation>
+    </message>
+    <message>
+        <source>Driver</source>
+        <translation type="unfinished"></translation>
     </message>
     <message>
         <source>Everything recorded so far is stored on this computer.</source>
@@ -4588,12 +4624,36 @@
         <translation>Schließen Sie sie mit „carpus recover“ ab, oder warten Sie, bis ihre Aufnahme endet.</translation>
     </message>
     <message>
+        <source>Firmware</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Fist, hook, spread</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Fonts</source>
+        <translation>Schriften</translation>
+    </message>
+    <message>
+        <source>For the window, run: pip install {name}</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
         <source>Free some space, or choose another disk.</source>
         <translation>Schaffen Sie Platz, oder wählen Sie einen anderen Datenträger.</translation>
     </message>
     <message>
+        <source>Free space on the disk of {folder}.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
         <source>Give yourself access to it; “carpus doctor” says how.</source>
         <translation>Geben Sie sich Zugriff; „carpus doctor“ sagt, wie.</translation>
+    </message>
+    <message>
+        <source>Give yourself the right to write there, or choose another folder in the settings.</source>
+        <translation type="unfinished"></translation>
     </message>
     <message>
         <source>Glue the board onto something stiff and flat, give it light, and hold it still.</source>
@@ -4612,16 +4672,44 @@
         <translation>Gehen Sie zum schon offenen Fenster, oder wählen Sie einen anderen Ordner.</translation>
     </message>
     <message>
+        <source>Install Carpus again: part of it is missing.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
         <source>Install Carpus anew, with the Python package sqlcipher3.</source>
         <translation>Installieren Sie Carpus neu, mit dem Python-Paket sqlcipher3.</translation>
+    </message>
+    <message>
+        <source>Install OpenNI2 from the camera&apos;s maker, then start Carpus again.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Install Python 3.11 or newer and install Carpus with it.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Install it again.</source>
+        <translation type="unfinished"></translation>
     </message>
     <message>
         <source>Install it with pip.</source>
         <translation>Installieren Sie es mit pip.</translation>
     </message>
     <message>
+        <source>Install it, and what it names, again.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
         <source>Install it; “carpus doctor” says what and how.</source>
         <translation>Installieren Sie ihn; „carpus doctor“ sagt, was und wie.</translation>
+    </message>
+    <message>
+        <source>Install the camera rights named above and plug the camera in again.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Install the packages that bring these libraries.</source>
+        <translation type="unfinished"></translation>
     </message>
     <message>
         <source>It can still be read; its seal does not fit what it holds now.</source>
@@ -4660,6 +4748,10 @@
         <translation>Messen Sie jede Person zweimal, mit neu geklebten Punkten, innerhalb von 14 Tagen; 10 Personen sind das Mindeste.</translation>
     </message>
     <message>
+        <source>Mirror</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
         <source>Move the camera further from the hand.</source>
         <translation>Rücken Sie die Kamera weiter von der Hand weg.</translation>
     </message>
@@ -4674,6 +4766,10 @@
     <message>
         <source>Name the folder that holds the sessions.</source>
         <translation>Nennen Sie den Ordner mit den Sitzungen.</translation>
+    </message>
+    <message>
+        <source>Needed for live cameras and .oni files. {remedy}</source>
+        <translation type="unfinished"></translation>
     </message>
     <message>
         <source>No blue marker at the {markers}.</source>
@@ -4724,12 +4820,48 @@
         <translation>Antwortet der Datenträger wieder, starten Sie Carpus neu: Es schließt die Aufnahme ab.</translation>
     </message>
     <message>
+        <source>OpenNI2</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>OpenNI2 ends when it is asked for its version</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>OpenNI2 {value}</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Others on this computer can look into it. In its properties, take away every right of the group and of others; or run: chmod 700 &apos;{folder}&apos;</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Packages</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Plug in the camera named in the settings, or change the settings.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
         <source>Plug its own camera in again; what was begun then goes on by itself.</source>
         <translation>Schließen Sie die eigene Kamera wieder an; das Begonnene geht dann von selbst weiter.</translation>
     </message>
     <message>
+        <source>Plug the camera in again, into another port, without a hub.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Plug the camera in again; if it stays, times and speeds of this camera are not to be trusted.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
         <source>Plug the camera in again; tracking and recording then go on by themselves.</source>
         <translation>Schließen Sie die Kamera wieder an; Verfolgung und Aufnahme gehen dann von selbst weiter.</translation>
+    </message>
+    <message>
+        <source>Plug the camera in.</source>
+        <translation type="unfinished"></translation>
     </message>
     <message>
         <source>Plug the camera straight into the computer.</source>
@@ -4748,12 +4880,24 @@
         <translation>Ordnen Sie die Liste nach der Zeit, jede Zeit einmal, oder nehmen Sie neu auf.</translation>
     </message>
     <message>
+        <source>Python</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Qt {qt}; no screen</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
         <source>Record again with colour and depth of one size.</source>
         <translation>Nehmen Sie neu auf, mit Farbe und Tiefe in gleicher Größe.</translation>
     </message>
     <message>
         <source>Record to a disk inside this computer, and close other programs.</source>
         <translation>Nehmen Sie auf einen Datenträger in diesem Computer auf, und schließen Sie andere Programme.</translation>
+    </message>
+    <message>
+        <source>Registration</source>
+        <translation type="unfinished"></translation>
     </message>
     <message>
         <source>Restore the list from a backup, or enter the names again.</source>
@@ -4766,6 +4910,14 @@
     <message>
         <source>Run “carpus track” on the session to look back at it.</source>
         <translation>Führen Sie „carpus track“ mit der Sitzung aus, um sie nachzurechnen.</translation>
+    </message>
+    <message>
+        <source>Run: installer/setup.sh run. Or: install the packages that bring these libraries.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Run: sudo apt-get install libopenni2-0</source>
+        <translation type="unfinished"></translation>
     </message>
     <message>
         <source>See to the disk or bring them back from a back-up; Carpus goes on with them at its next start.</source>
@@ -4794,6 +4946,10 @@
     <message>
         <source>Start Carpus again, or take the list from a backup.</source>
         <translation>Starten Sie Carpus neu, oder nehmen Sie die Liste aus einer Sicherung.</translation>
+    </message>
+    <message>
+        <source>Start the window from a desktop. The commands for files work without a screen.</source>
+        <translation type="unfinished"></translation>
     </message>
     <message>
         <source>Swap the two names, or click both markers again.</source>
@@ -5108,6 +5264,14 @@
         <translation>Diese Kamera liefert nicht die Bilder, die Carpus braucht: {subject} ({detail}).</translation>
     </message>
     <message>
+        <source>This camera does not lay depth on colour by itself; depths will be read beside the markers.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>This camera does not tell when it took a picture; its times are those of arrival: speeds are rough.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
         <source>This is not the PIN of {subject}, and not its recovery code.</source>
         <translation>Das ist weder die PIN noch der Wiederherstellungscode: {subject}.</translation>
     </message>
@@ -5120,6 +5284,14 @@
         <translation>Dafür fehlt carpus[{subject}] ({detail}): Es ist nicht installiert.</translation>
     </message>
     <message>
+        <source>This port is slow for it. {port}</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>This port is too slow. {port}</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
         <source>This session cannot be read: {subject} ({detail}).</source>
         <translation>Diese Sitzung ist nicht lesbar: {subject} ({detail}).</translation>
     </message>
@@ -5130,6 +5302,10 @@
     <message>
         <source>This session was changed after it was finished: {subject}.</source>
         <translation>Diese Sitzung wurde nach ihrem Ende verändert: {subject}.</translation>
+    </message>
+    <message>
+        <source>This version stops the program on Python 3.11. Run: pip install &quot;PySide6-Essentials&lt;6.12&quot;</source>
+        <translation type="unfinished"></translation>
     </message>
     <message>
         <source>Tracking again stopped: {subject} ({detail}).</source>
@@ -5172,6 +5348,10 @@
         <translation>Verwenden Sie eine Aufnahme mit gleich großen Bildern.</translation>
     </message>
     <message>
+        <source>Use another USB port, without a hub and without other cameras on it; end other heavy programs.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
         <source>Use wrist6 or hand21.</source>
         <translation>Verwenden Sie wrist6 oder hand21.</translation>
     </message>
@@ -5200,8 +5380,20 @@
         <translation>Wer diesen Computer betreut, installiert Carpus neu, mit allen Teilen.</translation>
     </message>
     <message>
+        <source>Window</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Wrist, all ways</source>
+        <translation>Handgelenk, alle Richtungen</translation>
+    </message>
+    <message>
         <source>Write “registered: true” or “false” into its camera_info.yaml.</source>
         <translation>Schreiben Sie „registered: true“ oder „false“ in die camera_info.yaml.</translation>
+    </message>
+    <message>
+        <source>You may not open {node}. Install the camera rights named above and plug it in again.</source>
+        <translation type="unfinished"></translation>
     </message>
     <message>
         <source>a folder</source>
@@ -5234,6 +5426,14 @@
     <message>
         <source>angles are {angle}° off</source>
         <translation>Winkel sind {angle}° daneben</translation>
+    </message>
+    <message>
+        <source>angles by table</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>angles by {format}</source>
+        <translation type="unfinished"></translation>
     </message>
     <message>
         <source>another program has exchanged it</source>
@@ -5274,6 +5474,10 @@
     <message>
         <source>colour picture {row}</source>
         <translation>Farbbild {row}</translation>
+    </message>
+    <message>
+        <source>columns</source>
+        <translation type="unfinished"></translation>
     </message>
     <message>
         <source>corners lie {error_px} px off, at most {most_px} are fair</source>
@@ -5392,6 +5596,14 @@
         <translation>Tiefe als {name}</translation>
     </message>
     <message>
+        <source>depth does not lie on colour</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>depth lies on colour, {registered}</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
         <source>distortion {model} with {count} coefficients</source>
         <translation>Verzeichnung {model} mit {count} Koeffizienten</translation>
     </message>
@@ -5422,6 +5634,10 @@
     <message>
         <source>fx {fx} and fy {fy} are no camera&apos;s with pictures {width} pixels wide</source>
         <translation>fx {fx} und fy {fy} passen zu keiner Kamera mit {width} Pixel breiten Bildern</translation>
+    </message>
+    <message>
+        <source>goniometer list</source>
+        <translation type="unfinished"></translation>
     </message>
     <message>
         <source>grey, a colour picture is expected</source>
@@ -5608,6 +5824,10 @@
         <translation>Markersatz {subject}</translation>
     </message>
     <message>
+        <source>markers</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
         <source>middle finger</source>
         <translation>Mittelfinger</translation>
     </message>
@@ -5636,6 +5856,14 @@
         <translation>fehlt, {place}</translation>
     </message>
     <message>
+        <source>missing: {name}</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>missing: {package}</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
         <source>more than one camera</source>
         <translation>mehr als eine Kamera</translation>
     </message>
@@ -5661,7 +5889,7 @@
     </message>
     <message>
         <source>neither a TUM folder, an .oni file, a RealSense recording nor a raw recording</source>
-        <translation>weder ein TUM-Ordner noch eine .oni-Datei, RealSense- oder Rohaufnahme</translation>
+        <translation type="vanished">weder ein TUM-Ordner noch eine .oni-Datei, RealSense- oder Rohaufnahme</translation>
     </message>
     <message>
         <source>no MOT: it has no end of its header</source>
@@ -5670,6 +5898,10 @@
     <message>
         <source>no angle of the session is in it</source>
         <translation>kein Winkel der Sitzung ist darin</translation>
+    </message>
+    <message>
+        <source>no angles by their names</source>
+        <translation type="unfinished"></translation>
     </message>
     <message>
         <source>no answer for {patience_s} s</source>
@@ -5720,8 +5952,28 @@
         <translation>keine Ablesung ist verwendbar</translation>
     </message>
     <message>
+        <source>no recording of a form that Carpus knows</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
         <source>no room for another {length} MB</source>
         <translation>kein Platz für weitere {length} MB</translation>
+    </message>
+    <message>
+        <source>no udev rules for the camera</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>none of the discs by their names</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>none of the program&apos;s own</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>none plugged in</source>
+        <translation type="unfinished"></translation>
     </message>
     <message>
         <source>not JSON</source>
@@ -5784,12 +6036,24 @@
         <translation>nicht die Teildatei einer Sitzung</translation>
     </message>
     <message>
+        <source>off</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>on, turned back by Carpus</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
         <source>paths that lead out of the folder</source>
         <translation>Pfade, die aus dem Ordner hinausführen</translation>
     </message>
     <message>
         <source>pixel format {pixel_format}</source>
         <translation>Pixelformat {pixel_format}</translation>
+    </message>
+    <message>
+        <source>points by {format}</source>
+        <translation type="unfinished"></translation>
     </message>
     <message>
         <source>ring finger</source>
@@ -5862,6 +6126,82 @@
     <message>
         <source>three discs of the palm are needed, it has {there}; say which markers they are</source>
         <translation>drei Punkte der Handfläche werden gebraucht, da sind {there}; sagen Sie, welche Marker es sind</translation>
+    </message>
+    <message>
+        <source>{angle} at {time} s: the hand was not still, or not seen</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>{angle}: not in the session</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>{count} faces</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>{count} frames</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>{firmware}, the library asks for {wanted}</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>{folder}, made at the first recording</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>{folder}: {there} cannot be written to</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>{found}, cannot be loaded: {trouble}</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>{found}, without the maker&apos;s driver</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>{free} GB free, about {minutes} minutes with pictures</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>{movement}: the session has no range that way, and the list names no time</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>{names}</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>{names} and {count} more</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>{name} ({vendor}:{product}) at {node}, {speed_mbit} Mbit/s</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>{own_s} s while {here_s} s passed here</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>{remedy} In a dark room the camera slows down: add light.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>{text}, in use</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>{what} {names}: {why}</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>{width}x{height}, {fps} fps, {missing} missing, depth in {with_depth} of {count}</source>
+        <translation type="unfinished"></translation>
     </message>
     <message>
         <source>Hidden joints do not count.</source>
@@ -6169,7 +6509,7 @@
     </message>
     <message>
         <source>no rest</source>
-        <translation type="unfinished"></translation>
+        <translation>keine Pause</translation>
     </message>
     <message>
         <source>Rest after it</source>
@@ -7245,8 +7585,12 @@
         <translation>Wird geöffnet…</translation>
     </message>
     <message>
+        <source>Recordings ({patterns});;All files (*)</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
         <source>Recordings (*.oni *.db3 *.bag *.carpusraw);;All files (*)</source>
-        <translation>Aufnahmen (*.oni *.db3 *.bag *.carpusraw);;Alle Dateien (*)</translation>
+        <translation type="vanished">Aufnahmen (*.oni *.db3 *.bag *.carpusraw);;Alle Dateien (*)</translation>
     </message>
     <message>
         <source>Choose a recording</source>
@@ -8287,7 +8631,7 @@ Umschalt+F8 von der Seite</translation>
     </message>
     <message>
         <source>Simulated hand: this is not a patient’s, and does not count.</source>
-        <translation type="unfinished"></translation>
+        <translation>Simulierte Hand: Sie gehört keinem Patienten und zählt nicht.</translation>
     </message>
 </context>
 <context>
