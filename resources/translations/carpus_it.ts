@@ -532,6 +532,10 @@
         <translation>non valutato</translation>
     </message>
     <message>
+        <source>not judged: only one of the two has it</source>
+        <translation>non valutato: c’è solo in una delle due</translation>
+    </message>
+    <message>
         <source>no change beyond error</source>
         <translation>nessun cambiamento oltre l’errore</translation>
     </message>
@@ -4400,8 +4404,20 @@
         <translation>Riportarlo da una copia di sicurezza.</translation>
     </message>
     <message>
+        <source>Bring the firmware up to date with the maker&apos;s RealSense Viewer.</source>
+        <translation>Aggiornare il firmware con RealSense Viewer del produttore.</translation>
+    </message>
+    <message>
         <source>Calibrate the camera again, or take the file away to use the usual values.</source>
         <translation>Calibrare di nuovo la telecamera, o togliere il file per usare i valori usuali.</translation>
+    </message>
+    <message>
+        <source>Camera rights</source>
+        <translation>Permessi della telecamera</translation>
+    </message>
+    <message>
+        <source>Camera rights, {title}</source>
+        <translation>Permessi della telecamera, {title}</translation>
     </message>
     <message>
         <source>Carpus cannot use the pictures of this recording: {subject} ({detail}).</source>
@@ -4512,8 +4528,16 @@
         <translation>Fare clic sul marcatore nella prima immagine di questa registrazione.</translation>
     </message>
     <message>
+        <source>Clock</source>
+        <translation>Orologio</translation>
+    </message>
+    <message>
         <source>Close other programs that have them open, or allow Carpus to write in their folder, and start it again.</source>
         <translation>Chiudere gli altri programmi che li tengono aperti, o permettere a Carpus di scrivere nella loro cartella, e riavviarlo.</translation>
+    </message>
+    <message>
+        <source>Close the other program that uses the camera.</source>
+        <translation>Chiudere l’altro programma che usa la telecamera.</translation>
     </message>
     <message>
         <source>Close the other program, then try again.</source>
@@ -4540,6 +4564,10 @@
         <translation>Se sono molte, copiare di nuovo la registrazione.</translation>
     </message>
     <message>
+        <source>Copy {file} from the folder OpenNI2/Drivers of Orbbec&apos;s OpenNI2 package into {into}.</source>
+        <translation>Copiare {file} dalla cartella OpenNI2/Drivers del pacchetto OpenNI2 di Orbbec in {into}.</translation>
+    </message>
+    <message>
         <source>Correct the file, or click the markers again.</source>
         <translation>Correggere il file, o rifare i clic sui marcatori.</translation>
     </message>
@@ -4556,12 +4584,24 @@
         <translation>Immagini danneggiate della registrazione escluse: {subject} ({detail}).</translation>
     </message>
     <message>
+        <source>Data folder</source>
+        <translation>Cartella dei dati</translation>
+    </message>
+    <message>
         <source>Depth and colour do not lie on each other at the {markers} ({value} {unit}, up to {limit} is good).</source>
         <translation>Profondità e colore non combaciano: {markers} ({value} {unit}, fino a {limit} è buono).</translation>
     </message>
     <message>
         <source>Depth does not lie on colour in {subject}, so depths are less sure.</source>
         <translation>In {subject} la profondità non combacia con il colore, quindi è meno sicura.</translation>
+    </message>
+    <message>
+        <source>Disk</source>
+        <translation>Disco</translation>
+    </message>
+    <message>
+        <source>Driver</source>
+        <translation>Driver</translation>
     </message>
     <message>
         <source>Everything recorded so far is stored on this computer.</source>
@@ -4584,12 +4624,36 @@
         <translation>Concluderla con “carpus recover”, o attendere la fine della registrazione.</translation>
     </message>
     <message>
+        <source>Firmware</source>
+        <translation>Firmware</translation>
+    </message>
+    <message>
+        <source>Fist, hook, spread</source>
+        <translation>Pugno, uncino, divaricazione</translation>
+    </message>
+    <message>
+        <source>Fonts</source>
+        <translation>Caratteri</translation>
+    </message>
+    <message>
+        <source>For the window, run: pip install {name}</source>
+        <translation>Per la finestra, eseguire: pip install {name}</translation>
+    </message>
+    <message>
         <source>Free some space, or choose another disk.</source>
         <translation>Liberare spazio, o scegliere un altro disco.</translation>
     </message>
     <message>
+        <source>Free space on the disk of {folder}.</source>
+        <translation>Liberare spazio sul disco di {folder}.</translation>
+    </message>
+    <message>
         <source>Give yourself access to it; “carpus doctor” says how.</source>
         <translation>Concedere il permesso; “carpus doctor” dice come.</translation>
+    </message>
+    <message>
+        <source>Give yourself the right to write there, or choose another folder in the settings.</source>
+        <translation>Concedersi il diritto di scrivere lì, o scegliere un’altra cartella nelle impostazioni.</translation>
     </message>
     <message>
         <source>Glue the board onto something stiff and flat, give it light, and hold it still.</source>
@@ -4608,16 +4672,44 @@
         <translation>Passare alla finestra già aperta, o scegliere un’altra cartella.</translation>
     </message>
     <message>
+        <source>Install Carpus again: part of it is missing.</source>
+        <translation>Installare di nuovo Carpus: ne manca una parte.</translation>
+    </message>
+    <message>
         <source>Install Carpus anew, with the Python package sqlcipher3.</source>
         <translation>Reinstallare Carpus, con il pacchetto Python sqlcipher3.</translation>
+    </message>
+    <message>
+        <source>Install OpenNI2 from the camera&apos;s maker, then start Carpus again.</source>
+        <translation>Installare OpenNI2 del produttore della telecamera, poi riavviare Carpus.</translation>
+    </message>
+    <message>
+        <source>Install Python 3.11 or newer and install Carpus with it.</source>
+        <translation>Installare Python 3.11 o più recente e con esso Carpus.</translation>
+    </message>
+    <message>
+        <source>Install it again.</source>
+        <translation>Installarlo di nuovo.</translation>
     </message>
     <message>
         <source>Install it with pip.</source>
         <translation>Installarlo con pip.</translation>
     </message>
     <message>
+        <source>Install it, and what it names, again.</source>
+        <translation>Installarlo di nuovo, con ciò che nomina.</translation>
+    </message>
+    <message>
         <source>Install it; “carpus doctor” says what and how.</source>
         <translation>Installarlo; “carpus doctor” dice che cosa e come.</translation>
+    </message>
+    <message>
+        <source>Install the camera rights named above and plug the camera in again.</source>
+        <translation>Installare i permessi della telecamera nominati sopra e ricollegare la telecamera.</translation>
+    </message>
+    <message>
+        <source>Install the packages that bring these libraries.</source>
+        <translation>Installare i pacchetti che portano queste librerie.</translation>
     </message>
     <message>
         <source>It can still be read; its seal does not fit what it holds now.</source>
@@ -4656,6 +4748,10 @@
         <translation>Misurare ogni persona due volte, rimettendo i dischetti, entro 14 giorni; servono almeno 10 persone.</translation>
     </message>
     <message>
+        <source>Mirror</source>
+        <translation>Specchio</translation>
+    </message>
+    <message>
         <source>Move the camera further from the hand.</source>
         <translation>Allontanare la telecamera dalla mano.</translation>
     </message>
@@ -4670,6 +4766,10 @@
     <message>
         <source>Name the folder that holds the sessions.</source>
         <translation>Indicare la cartella che contiene le sedute.</translation>
+    </message>
+    <message>
+        <source>Needed for live cameras and .oni files. {remedy}</source>
+        <translation>Serve per le telecamere dal vivo e i file .oni. {remedy}</translation>
     </message>
     <message>
         <source>No blue marker at the {markers}.</source>
@@ -4720,12 +4820,48 @@
         <translation>Quando il disco risponde, riavviare Carpus: conclude la registrazione.</translation>
     </message>
     <message>
+        <source>OpenNI2</source>
+        <translation>OpenNI2</translation>
+    </message>
+    <message>
+        <source>OpenNI2 ends when it is asked for its version</source>
+        <translation>OpenNI2 si chiude quando si chiede la versione</translation>
+    </message>
+    <message>
+        <source>OpenNI2 {value}</source>
+        <translation>OpenNI2 {value}</translation>
+    </message>
+    <message>
+        <source>Others on this computer can look into it. In its properties, take away every right of the group and of others; or run: chmod 700 &apos;{folder}&apos;</source>
+        <translation>Altri su questo computer possono vedervi dentro. Nelle sue proprietà togliere ogni diritto al gruppo e agli altri; oppure eseguire: chmod 700 '{folder}'</translation>
+    </message>
+    <message>
+        <source>Packages</source>
+        <translation>Pacchetti</translation>
+    </message>
+    <message>
+        <source>Plug in the camera named in the settings, or change the settings.</source>
+        <translation>Collegare la telecamera nominata nelle impostazioni, o cambiare le impostazioni.</translation>
+    </message>
+    <message>
         <source>Plug its own camera in again; what was begun then goes on by itself.</source>
         <translation>Ricollegare la sua telecamera; ciò che era iniziato prosegue poi da solo.</translation>
     </message>
     <message>
+        <source>Plug the camera in again, into another port, without a hub.</source>
+        <translation>Ricollegare la telecamera, a un’altra porta, senza hub.</translation>
+    </message>
+    <message>
+        <source>Plug the camera in again; if it stays, times and speeds of this camera are not to be trusted.</source>
+        <translation>Ricollegare la telecamera; se resta così, tempi e velocità di questa telecamera non sono affidabili.</translation>
+    </message>
+    <message>
         <source>Plug the camera in again; tracking and recording then go on by themselves.</source>
         <translation>Ricollegare la telecamera; poi tracciamento e registrazione proseguono da soli.</translation>
+    </message>
+    <message>
+        <source>Plug the camera in.</source>
+        <translation>Collegare la telecamera.</translation>
     </message>
     <message>
         <source>Plug the camera straight into the computer.</source>
@@ -4744,12 +4880,24 @@
         <translation>Mettere l’elenco in ordine di tempo, ogni tempo una volta sola, o registrare di nuovo.</translation>
     </message>
     <message>
+        <source>Python</source>
+        <translation>Python</translation>
+    </message>
+    <message>
+        <source>Qt {qt}; no screen</source>
+        <translation>Qt {qt}; nessuno schermo</translation>
+    </message>
+    <message>
         <source>Record again with colour and depth of one size.</source>
         <translation>Registrare di nuovo con colore e profondità della stessa dimensione.</translation>
     </message>
     <message>
         <source>Record to a disk inside this computer, and close other programs.</source>
         <translation>Registrare su un disco interno di questo computer, e chiudere gli altri programmi.</translation>
+    </message>
+    <message>
+        <source>Registration</source>
+        <translation>Registrazione profondità-colore</translation>
     </message>
     <message>
         <source>Restore the list from a backup, or enter the names again.</source>
@@ -4762,6 +4910,14 @@
     <message>
         <source>Run “carpus track” on the session to look back at it.</source>
         <translation>Eseguire “carpus track” sulla seduta per ricalcolarla.</translation>
+    </message>
+    <message>
+        <source>Run: installer/setup.sh run. Or: install the packages that bring these libraries.</source>
+        <translation>Eseguire: installer/setup.sh run. Oppure: installare i pacchetti che portano queste librerie.</translation>
+    </message>
+    <message>
+        <source>Run: sudo apt-get install libopenni2-0</source>
+        <translation>Eseguire: sudo apt-get install libopenni2-0</translation>
     </message>
     <message>
         <source>See to the disk or bring them back from a back-up; Carpus goes on with them at its next start.</source>
@@ -4790,6 +4946,10 @@
     <message>
         <source>Start Carpus again, or take the list from a backup.</source>
         <translation>Riavviare Carpus, o riprendere l’elenco da una copia di sicurezza.</translation>
+    </message>
+    <message>
+        <source>Start the window from a desktop. The commands for files work without a screen.</source>
+        <translation>Avviare la finestra da un desktop. I comandi per i file funzionano senza schermo.</translation>
     </message>
     <message>
         <source>Swap the two names, or click both markers again.</source>
@@ -5104,6 +5264,14 @@
         <translation>Questa telecamera non dà le immagini che servono a Carpus: {subject} ({detail}).</translation>
     </message>
     <message>
+        <source>This camera does not lay depth on colour by itself; depths will be read beside the markers.</source>
+        <translation>Questa telecamera non sovrappone da sola la profondità al colore; le profondità si leggeranno accanto ai marcatori.</translation>
+    </message>
+    <message>
+        <source>This camera does not tell when it took a picture; its times are those of arrival: speeds are rough.</source>
+        <translation>Questa telecamera non dice quando ha scattato un’immagine; i suoi tempi sono quelli d’arrivo: le velocità sono approssimative.</translation>
+    </message>
+    <message>
         <source>This is not the PIN of {subject}, and not its recovery code.</source>
         <translation>Questo non è il PIN di {subject}, né il suo codice di recupero.</translation>
     </message>
@@ -5116,6 +5284,14 @@
         <translation>Per questo serve carpus[{subject}] ({detail}), che non è installato.</translation>
     </message>
     <message>
+        <source>This port is slow for it. {port}</source>
+        <translation>Questa porta è lenta per lei. {port}</translation>
+    </message>
+    <message>
+        <source>This port is too slow. {port}</source>
+        <translation>Questa porta è troppo lenta. {port}</translation>
+    </message>
+    <message>
         <source>This session cannot be read: {subject} ({detail}).</source>
         <translation>Questa seduta non si può leggere: {subject} ({detail}).</translation>
     </message>
@@ -5126,6 +5302,10 @@
     <message>
         <source>This session was changed after it was finished: {subject}.</source>
         <translation>Questa seduta è stata modificata dopo la conclusione: {subject}.</translation>
+    </message>
+    <message>
+        <source>This version stops the program on Python 3.11. Run: pip install &quot;PySide6-Essentials&lt;6.12&quot;</source>
+        <translation>Questa versione ferma il programma con Python 3.11. Eseguire: pip install "PySide6-Essentials&lt;6.12"</translation>
     </message>
     <message>
         <source>Tracking again stopped: {subject} ({detail}).</source>
@@ -5168,6 +5348,10 @@
         <translation>Usare una registrazione con immagini tutte della stessa dimensione.</translation>
     </message>
     <message>
+        <source>Use another USB port, without a hub and without other cameras on it; end other heavy programs.</source>
+        <translation>Usare un’altra porta USB, senza hub e senza altre telecamere; chiudere gli altri programmi pesanti.</translation>
+    </message>
+    <message>
         <source>Use wrist6 or hand21.</source>
         <translation>Usare wrist6 o hand21.</translation>
     </message>
@@ -5196,8 +5380,20 @@
         <translation>Chi si occupa di questo computer reinstalla Carpus, con tutte le sue parti.</translation>
     </message>
     <message>
+        <source>Window</source>
+        <translation>Finestra</translation>
+    </message>
+    <message>
+        <source>Wrist, all ways</source>
+        <translation>Polso, tutti i movimenti</translation>
+    </message>
+    <message>
         <source>Write “registered: true” or “false” into its camera_info.yaml.</source>
         <translation>Scrivere “registered: true” o “false” nel suo camera_info.yaml.</translation>
+    </message>
+    <message>
+        <source>You may not open {node}. Install the camera rights named above and plug it in again.</source>
+        <translation>Manca il permesso di aprire {node}. Installare i permessi della telecamera nominati sopra e ricollegarla.</translation>
     </message>
     <message>
         <source>a folder</source>
@@ -5230,6 +5426,14 @@
     <message>
         <source>angles are {angle}° off</source>
         <translation>gli angoli sono sbagliati di {angle}°</translation>
+    </message>
+    <message>
+        <source>angles by table</source>
+        <translation>angoli da tabella</translation>
+    </message>
+    <message>
+        <source>angles by {format}</source>
+        <translation>angoli da {format}</translation>
     </message>
     <message>
         <source>another program has exchanged it</source>
@@ -5270,6 +5474,10 @@
     <message>
         <source>colour picture {row}</source>
         <translation>immagine a colori {row}</translation>
+    </message>
+    <message>
+        <source>columns</source>
+        <translation>colonne</translation>
     </message>
     <message>
         <source>corners lie {error_px} px off, at most {most_px} are fair</source>
@@ -5388,6 +5596,14 @@
         <translation>profondità come {name}</translation>
     </message>
     <message>
+        <source>depth does not lie on colour</source>
+        <translation>la profondità non combacia con il colore</translation>
+    </message>
+    <message>
+        <source>depth lies on colour, {registered}</source>
+        <translation>la profondità combacia con il colore, {registered}</translation>
+    </message>
+    <message>
         <source>distortion {model} with {count} coefficients</source>
         <translation>distorsione {model} con {count} coefficienti</translation>
     </message>
@@ -5418,6 +5634,10 @@
     <message>
         <source>fx {fx} and fy {fy} are no camera&apos;s with pictures {width} pixels wide</source>
         <translation>fx {fx} e fy {fy} non sono di una telecamera con immagini larghe {width} pixel</translation>
+    </message>
+    <message>
+        <source>goniometer list</source>
+        <translation>elenco del goniometro</translation>
     </message>
     <message>
         <source>grey, a colour picture is expected</source>
@@ -5604,6 +5824,10 @@
         <translation>protocollo di marcatori {subject}</translation>
     </message>
     <message>
+        <source>markers</source>
+        <translation>marcatori</translation>
+    </message>
+    <message>
         <source>middle finger</source>
         <translation>medio</translation>
     </message>
@@ -5632,6 +5856,14 @@
         <translation>manca, {place}</translation>
     </message>
     <message>
+        <source>missing: {name}</source>
+        <translation>manca: {name}</translation>
+    </message>
+    <message>
+        <source>missing: {package}</source>
+        <translation>manca: {package}</translation>
+    </message>
+    <message>
         <source>more than one camera</source>
         <translation>più di una telecamera</translation>
     </message>
@@ -5657,7 +5889,7 @@
     </message>
     <message>
         <source>neither a TUM folder, an .oni file, a RealSense recording nor a raw recording</source>
-        <translation>né una cartella TUM, né un file .oni, né una registrazione RealSense, né una registrazione grezza</translation>
+        <translation type="vanished">né una cartella TUM, né un file .oni, né una registrazione RealSense, né una registrazione grezza</translation>
     </message>
     <message>
         <source>no MOT: it has no end of its header</source>
@@ -5666,6 +5898,10 @@
     <message>
         <source>no angle of the session is in it</source>
         <translation>non contiene nessun angolo della seduta</translation>
+    </message>
+    <message>
+        <source>no angles by their names</source>
+        <translation>nessun angolo con il suo nome</translation>
     </message>
     <message>
         <source>no answer for {patience_s} s</source>
@@ -5716,8 +5952,28 @@
         <translation>nessuna lettura utilizzabile</translation>
     </message>
     <message>
+        <source>no recording of a form that Carpus knows</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
         <source>no room for another {length} MB</source>
         <translation>non c’è spazio per altri {length} MB</translation>
+    </message>
+    <message>
+        <source>no udev rules for the camera</source>
+        <translation>nessuna regola udev per la telecamera</translation>
+    </message>
+    <message>
+        <source>none of the discs by their names</source>
+        <translation>nessuno dei dischetti con il suo nome</translation>
+    </message>
+    <message>
+        <source>none of the program&apos;s own</source>
+        <translation>nessuno di quelli del programma</translation>
+    </message>
+    <message>
+        <source>none plugged in</source>
+        <translation>nessuna collegata</translation>
     </message>
     <message>
         <source>not JSON</source>
@@ -5780,12 +6036,24 @@
         <translation>non il file parziale di una seduta</translation>
     </message>
     <message>
+        <source>off</source>
+        <translation>spento</translation>
+    </message>
+    <message>
+        <source>on, turned back by Carpus</source>
+        <translation>acceso, rigirato da Carpus</translation>
+    </message>
+    <message>
         <source>paths that lead out of the folder</source>
         <translation>percorsi che portano fuori dalla cartella</translation>
     </message>
     <message>
         <source>pixel format {pixel_format}</source>
         <translation>formato dei pixel {pixel_format}</translation>
+    </message>
+    <message>
+        <source>points by {format}</source>
+        <translation>punti da {format}</translation>
     </message>
     <message>
         <source>ring finger</source>
@@ -5858,6 +6126,82 @@
     <message>
         <source>three discs of the palm are needed, it has {there}; say which markers they are</source>
         <translation>servono tre dischetti del palmo, ce ne sono {there}; dire quali marcatori sono</translation>
+    </message>
+    <message>
+        <source>{angle} at {time} s: the hand was not still, or not seen</source>
+        <translation>{angle} a {time} s: la mano non era ferma, o non era vista</translation>
+    </message>
+    <message>
+        <source>{angle}: not in the session</source>
+        <translation>{angle}: non è nella seduta</translation>
+    </message>
+    <message>
+        <source>{count} faces</source>
+        <translation>{count} caratteri</translation>
+    </message>
+    <message>
+        <source>{count} frames</source>
+        <translation>{count} fotogrammi</translation>
+    </message>
+    <message>
+        <source>{firmware}, the library asks for {wanted}</source>
+        <translation>{firmware}, la libreria richiede {wanted}</translation>
+    </message>
+    <message>
+        <source>{folder}, made at the first recording</source>
+        <translation>{folder}, creata alla prima registrazione</translation>
+    </message>
+    <message>
+        <source>{folder}: {there} cannot be written to</source>
+        <translation>{folder}: in {there} non si può scrivere</translation>
+    </message>
+    <message>
+        <source>{found}, cannot be loaded: {trouble}</source>
+        <translation>{found}, non si può caricare: {trouble}</translation>
+    </message>
+    <message>
+        <source>{found}, without the maker&apos;s driver</source>
+        <translation>{found}, senza il driver del produttore</translation>
+    </message>
+    <message>
+        <source>{free} GB free, about {minutes} minutes with pictures</source>
+        <translation>{free} GB liberi, circa {minutes} minuti con immagini</translation>
+    </message>
+    <message>
+        <source>{movement}: the session has no range that way, and the list names no time</source>
+        <translation>{movement}: la seduta non ha escursione in quel verso, e l’elenco non indica il tempo</translation>
+    </message>
+    <message>
+        <source>{names}</source>
+        <translation>{names}</translation>
+    </message>
+    <message>
+        <source>{names} and {count} more</source>
+        <translation>{names} e altri {count}</translation>
+    </message>
+    <message>
+        <source>{name} ({vendor}:{product}) at {node}, {speed_mbit} Mbit/s</source>
+        <translation>{name} ({vendor}:{product}) in {node}, {speed_mbit} Mbit/s</translation>
+    </message>
+    <message>
+        <source>{own_s} s while {here_s} s passed here</source>
+        <translation>{own_s} s mentre qui passano {here_s} s</translation>
+    </message>
+    <message>
+        <source>{remedy} In a dark room the camera slows down: add light.</source>
+        <translation>{remedy} In una stanza buia la telecamera rallenta: aggiungere luce.</translation>
+    </message>
+    <message>
+        <source>{text}, in use</source>
+        <translation>{text}, in uso</translation>
+    </message>
+    <message>
+        <source>{what} {names}: {why}</source>
+        <translation>{what} {names}: {why}</translation>
+    </message>
+    <message>
+        <source>{width}x{height}, {fps} fps, {missing} missing, depth in {with_depth} of {count}</source>
+        <translation>{width}x{height}, {fps} fps, {missing} mancanti, profondità in {with_depth} su {count}</translation>
     </message>
     <message>
         <source>Hidden joints do not count.</source>
@@ -7241,8 +7585,12 @@
         <translation>Apertura…</translation>
     </message>
     <message>
+        <source>Recordings ({patterns});;All files (*)</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
         <source>Recordings (*.oni *.db3 *.bag *.carpusraw);;All files (*)</source>
-        <translation>Registrazioni (*.oni *.db3 *.bag *.carpusraw);;Tutti i file (*)</translation>
+        <translation type="vanished">Registrazioni (*.oni *.db3 *.bag *.carpusraw);;Tutti i file (*)</translation>
     </message>
     <message>
         <source>Choose a recording</source>
@@ -8280,6 +8628,10 @@ Maiusc+F8 di lato</translation>
     <message>
         <source>Simulated camera: nothing here is of a real one.</source>
         <translation>Telecamera simulata: qui non c’è nulla di una vera.</translation>
+    </message>
+    <message>
+        <source>Simulated hand: this is not a patient’s, and does not count.</source>
+        <translation>Mano simulata: non è di un paziente, e non conta.</translation>
     </message>
 </context>
 <context>
