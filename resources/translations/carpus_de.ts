@@ -1353,7 +1353,7 @@
     </message>
     <message>
         <source>out</source>
-        <translation>hin</translation>
+        <translation>außen</translation>
     </message>
     <message>
         <source>Out {angle}</source>
