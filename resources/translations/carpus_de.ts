@@ -4405,7 +4405,7 @@
     </message>
     <message>
         <source>Bring the firmware up to date with the maker&apos;s RealSense Viewer.</source>
-        <translation type="unfinished"></translation>
+        <translation>Bringen Sie die Firmware mit dem RealSense Viewer des Herstellers auf den neuesten Stand.</translation>
     </message>
     <message>
         <source>Calibrate the camera again, or take the file away to use the usual values.</source>
@@ -4417,7 +4417,7 @@
     </message>
     <message>
         <source>Camera rights, {title}</source>
-        <translation type="unfinished"></translation>
+        <translation>Kamerarechte, {title}</translation>
     </message>
     <message>
         <source>Carpus cannot use the pictures of this recording: {subject} ({detail}).</source>
@@ -4529,7 +4529,7 @@
     </message>
     <message>
         <source>Clock</source>
-        <translation type="unfinished"></translation>
+        <translation>Uhr</translation>
     </message>
     <message>
         <source>Close other programs that have them open, or allow Carpus to write in their folder, and start it again.</source>
@@ -4537,7 +4537,7 @@
     </message>
     <message>
         <source>Close the other program that uses the camera.</source>
-        <translation type="unfinished"></translation>
+        <translation>Schließen Sie das andere Programm, das die Kamera verwendet.</translation>
     </message>
     <message>
         <source>Close the other program, then try again.</source>
@@ -4565,7 +4565,7 @@
     </message>
     <message>
         <source>Copy {file} from the folder OpenNI2/Drivers of Orbbec&apos;s OpenNI2 package into {into}.</source>
-        <translation type="unfinished"></translation>
+        <translation>Kopieren Sie {file} aus dem Ordner OpenNI2/Drivers von Orbbecs OpenNI2-Paket nach {into}.</translation>
     </message>
     <message>
         <source>Correct the file, or click the markers again.</source>
@@ -4601,7 +4601,7 @@
     </message>
     <message>
         <source>Driver</source>
-        <translation type="unfinished"></translation>
+        <translation>Treiber</translation>
     </message>
     <message>
         <source>Everything recorded so far is stored on this computer.</source>
@@ -4625,11 +4625,11 @@
     </message>
     <message>
         <source>Firmware</source>
-        <translation type="unfinished"></translation>
+        <translation>Firmware</translation>
     </message>
     <message>
         <source>Fist, hook, spread</source>
-        <translation type="unfinished"></translation>
+        <translation>Faust, Haken, Spreizen</translation>
     </message>
     <message>
         <source>Fonts</source>
@@ -4637,7 +4637,7 @@
     </message>
     <message>
         <source>For the window, run: pip install {name}</source>
-        <translation type="unfinished"></translation>
+        <translation>Für das Fenster: pip install {name}</translation>
     </message>
     <message>
         <source>Free some space, or choose another disk.</source>
@@ -4645,7 +4645,7 @@
     </message>
     <message>
         <source>Free space on the disk of {folder}.</source>
-        <translation type="unfinished"></translation>
+        <translation>Schaffen Sie Platz auf dem Datenträger von {folder}.</translation>
     </message>
     <message>
         <source>Give yourself access to it; “carpus doctor” says how.</source>
@@ -4653,7 +4653,7 @@
     </message>
     <message>
         <source>Give yourself the right to write there, or choose another folder in the settings.</source>
-        <translation type="unfinished"></translation>
+        <translation>Geben Sie sich dort Schreibrecht, oder wählen Sie in den Einstellungen einen anderen Ordner.</translation>
     </message>
     <message>
         <source>Glue the board onto something stiff and flat, give it light, and hold it still.</source>
@@ -4673,7 +4673,7 @@
     </message>
     <message>
         <source>Install Carpus again: part of it is missing.</source>
-        <translation type="unfinished"></translation>
+        <translation>Installieren Sie Carpus neu: Ein Teil fehlt.</translation>
     </message>
     <message>
         <source>Install Carpus anew, with the Python package sqlcipher3.</source>
@@ -4681,15 +4681,15 @@
     </message>
     <message>
         <source>Install OpenNI2 from the camera&apos;s maker, then start Carpus again.</source>
-        <translation type="unfinished"></translation>
+        <translation>Installieren Sie OpenNI2 vom Hersteller der Kamera, und starten Sie Carpus neu.</translation>
     </message>
     <message>
         <source>Install Python 3.11 or newer and install Carpus with it.</source>
-        <translation type="unfinished"></translation>
+        <translation>Installieren Sie Python 3.11 oder neuer und damit Carpus.</translation>
     </message>
     <message>
         <source>Install it again.</source>
-        <translation type="unfinished"></translation>
+        <translation>Installieren Sie es neu.</translation>
     </message>
     <message>
         <source>Install it with pip.</source>
@@ -4697,7 +4697,7 @@
     </message>
     <message>
         <source>Install it, and what it names, again.</source>
-        <translation type="unfinished"></translation>
+        <translation>Installieren Sie es und das Genannte neu.</translation>
     </message>
     <message>
         <source>Install it; “carpus doctor” says what and how.</source>
@@ -4705,11 +4705,11 @@
     </message>
     <message>
         <source>Install the camera rights named above and plug the camera in again.</source>
-        <translation type="unfinished"></translation>
+        <translation>Installieren Sie die oben genannten Kamerarechte, und schließen Sie die Kamera neu an.</translation>
     </message>
     <message>
         <source>Install the packages that bring these libraries.</source>
-        <translation type="unfinished"></translation>
+        <translation>Installieren Sie die Pakete mit diesen Bibliotheken.</translation>
     </message>
     <message>
         <source>It can still be read; its seal does not fit what it holds now.</source>
@@ -4749,7 +4749,7 @@
     </message>
     <message>
         <source>Mirror</source>
-        <translation type="unfinished"></translation>
+        <translation>Spiegelung</translation>
     </message>
     <message>
         <source>Move the camera further from the hand.</source>
@@ -4769,7 +4769,7 @@
     </message>
     <message>
         <source>Needed for live cameras and .oni files. {remedy}</source>
-        <translation type="unfinished"></translation>
+        <translation>Nötig für Kameras und .oni-Dateien. {remedy}</translation>
     </message>
     <message>
         <source>No blue marker at the {markers}.</source>
@@ -4821,27 +4821,27 @@
     </message>
     <message>
         <source>OpenNI2</source>
-        <translation type="unfinished"></translation>
+        <translation>OpenNI2</translation>
     </message>
     <message>
         <source>OpenNI2 ends when it is asked for its version</source>
-        <translation type="unfinished"></translation>
+        <translation>OpenNI2 bricht ab, wenn es nach seiner Version gefragt wird</translation>
     </message>
     <message>
         <source>OpenNI2 {value}</source>
-        <translation type="unfinished"></translation>
+        <translation>OpenNI2 {value}</translation>
     </message>
     <message>
         <source>Others on this computer can look into it. In its properties, take away every right of the group and of others; or run: chmod 700 &apos;{folder}&apos;</source>
-        <translation type="unfinished"></translation>
+        <translation>Andere an diesem Computer können hineinsehen. Nehmen Sie in den Eigenschaften der Gruppe und anderen alle Rechte, oder: chmod 700 '{folder}'</translation>
     </message>
     <message>
         <source>Packages</source>
-        <translation type="unfinished"></translation>
+        <translation>Pakete</translation>
     </message>
     <message>
         <source>Plug in the camera named in the settings, or change the settings.</source>
-        <translation type="unfinished"></translation>
+        <translation>Schließen Sie die in den Einstellungen genannte Kamera an, oder ändern Sie die Einstellungen.</translation>
     </message>
     <message>
         <source>Plug its own camera in again; what was begun then goes on by itself.</source>
@@ -4849,11 +4849,11 @@
     </message>
     <message>
         <source>Plug the camera in again, into another port, without a hub.</source>
-        <translation type="unfinished"></translation>
+        <translation>Schließen Sie die Kamera neu an, an einem anderen Anschluss, ohne Verteiler.</translation>
     </message>
     <message>
         <source>Plug the camera in again; if it stays, times and speeds of this camera are not to be trusted.</source>
-        <translation type="unfinished"></translation>
+        <translation>Schließen Sie die Kamera neu an; bleibt es so, ist auf Zeiten und Geschwindigkeiten dieser Kamera kein Verlass.</translation>
     </message>
     <message>
         <source>Plug the camera in again; tracking and recording then go on by themselves.</source>
@@ -4861,7 +4861,7 @@
     </message>
     <message>
         <source>Plug the camera in.</source>
-        <translation type="unfinished"></translation>
+        <translation>Schließen Sie die Kamera an.</translation>
     </message>
     <message>
         <source>Plug the camera straight into the computer.</source>
@@ -4881,11 +4881,11 @@
     </message>
     <message>
         <source>Python</source>
-        <translation type="unfinished"></translation>
+        <translation>Python</translation>
     </message>
     <message>
         <source>Qt {qt}; no screen</source>
-        <translation type="unfinished"></translation>
+        <translation>Qt {qt}; kein Bildschirm</translation>
     </message>
     <message>
         <source>Record again with colour and depth of one size.</source>
@@ -4897,7 +4897,7 @@
     </message>
     <message>
         <source>Registration</source>
-        <translation type="unfinished"></translation>
+        <translation>Deckung von Tiefe und Farbe</translation>
     </message>
     <message>
         <source>Restore the list from a backup, or enter the names again.</source>
@@ -4913,11 +4913,11 @@
     </message>
     <message>
         <source>Run: installer/setup.sh run. Or: install the packages that bring these libraries.</source>
-        <translation type="unfinished"></translation>
+        <translation>Ausführen: installer/setup.sh run. Oder: Installieren Sie die Pakete mit diesen Bibliotheken.</translation>
     </message>
     <message>
         <source>Run: sudo apt-get install libopenni2-0</source>
-        <translation type="unfinished"></translation>
+        <translation>Ausführen: sudo apt-get install libopenni2-0</translation>
     </message>
     <message>
         <source>See to the disk or bring them back from a back-up; Carpus goes on with them at its next start.</source>
@@ -4949,7 +4949,7 @@
     </message>
     <message>
         <source>Start the window from a desktop. The commands for files work without a screen.</source>
-        <translation type="unfinished"></translation>
+        <translation>Starten Sie das Fenster aus einem Desktop. Die Befehle für Dateien gehen ohne Bildschirm.</translation>
     </message>
     <message>
         <source>Swap the two names, or click both markers again.</source>
@@ -5265,11 +5265,11 @@
     </message>
     <message>
         <source>This camera does not lay depth on colour by itself; depths will be read beside the markers.</source>
-        <translation type="unfinished"></translation>
+        <translation>Diese Kamera legt Tiefe nicht selbst auf Farbe; Tiefen werden neben den Markern gelesen.</translation>
     </message>
     <message>
         <source>This camera does not tell when it took a picture; its times are those of arrival: speeds are rough.</source>
-        <translation type="unfinished"></translation>
+        <translation>Diese Kamera sagt nicht, wann sie ein Bild aufnahm; ihre Zeiten sind die der Ankunft: Geschwindigkeiten sind grob.</translation>
     </message>
     <message>
         <source>This is not the PIN of {subject}, and not its recovery code.</source>
@@ -5285,11 +5285,11 @@
     </message>
     <message>
         <source>This port is slow for it. {port}</source>
-        <translation type="unfinished"></translation>
+        <translation>Dieser Anschluss ist langsam für sie. {port}</translation>
     </message>
     <message>
         <source>This port is too slow. {port}</source>
-        <translation type="unfinished"></translation>
+        <translation>Dieser Anschluss ist zu langsam. {port}</translation>
     </message>
     <message>
         <source>This session cannot be read: {subject} ({detail}).</source>
@@ -5305,7 +5305,7 @@
     </message>
     <message>
         <source>This version stops the program on Python 3.11. Run: pip install &quot;PySide6-Essentials&lt;6.12&quot;</source>
-        <translation type="unfinished"></translation>
+        <translation>Diese Version beendet das Programm unter Python 3.11. Ausführen: pip install "PySide6-Essentials&lt;6.12"</translation>
     </message>
     <message>
         <source>Tracking again stopped: {subject} ({detail}).</source>
@@ -5349,7 +5349,7 @@
     </message>
     <message>
         <source>Use another USB port, without a hub and without other cameras on it; end other heavy programs.</source>
-        <translation type="unfinished"></translation>
+        <translation>Nehmen Sie einen anderen USB-Anschluss, ohne Verteiler und ohne andere Kameras daran; beenden Sie andere aufwendige Programme.</translation>
     </message>
     <message>
         <source>Use wrist6 or hand21.</source>
@@ -5381,7 +5381,7 @@
     </message>
     <message>
         <source>Window</source>
-        <translation type="unfinished"></translation>
+        <translation>Fenster</translation>
     </message>
     <message>
         <source>Wrist, all ways</source>
@@ -5393,7 +5393,7 @@
     </message>
     <message>
         <source>You may not open {node}. Install the camera rights named above and plug it in again.</source>
-        <translation type="unfinished"></translation>
+        <translation>Sie dürfen {node} nicht öffnen. Installieren Sie die oben genannten Kamerarechte, und schließen Sie sie neu an.</translation>
     </message>
     <message>
         <source>a folder</source>
@@ -5429,11 +5429,11 @@
     </message>
     <message>
         <source>angles by table</source>
-        <translation type="unfinished"></translation>
+        <translation>Winkel aus Tabelle</translation>
     </message>
     <message>
         <source>angles by {format}</source>
-        <translation type="unfinished"></translation>
+        <translation>Winkel aus {format}</translation>
     </message>
     <message>
         <source>another program has exchanged it</source>
@@ -5477,7 +5477,7 @@
     </message>
     <message>
         <source>columns</source>
-        <translation type="unfinished"></translation>
+        <translation>Spalten</translation>
     </message>
     <message>
         <source>corners lie {error_px} px off, at most {most_px} are fair</source>
@@ -5597,11 +5597,11 @@
     </message>
     <message>
         <source>depth does not lie on colour</source>
-        <translation type="unfinished"></translation>
+        <translation>Tiefe und Farbe decken sich nicht</translation>
     </message>
     <message>
         <source>depth lies on colour, {registered}</source>
-        <translation type="unfinished"></translation>
+        <translation>Tiefe und Farbe decken sich, {registered}</translation>
     </message>
     <message>
         <source>distortion {model} with {count} coefficients</source>
@@ -5637,7 +5637,7 @@
     </message>
     <message>
         <source>goniometer list</source>
-        <translation type="unfinished"></translation>
+        <translation>Liste vom Winkelmesser</translation>
     </message>
     <message>
         <source>grey, a colour picture is expected</source>
@@ -5825,7 +5825,7 @@
     </message>
     <message>
         <source>markers</source>
-        <translation type="unfinished"></translation>
+        <translation>Marker</translation>
     </message>
     <message>
         <source>middle finger</source>
@@ -5857,11 +5857,11 @@
     </message>
     <message>
         <source>missing: {name}</source>
-        <translation type="unfinished"></translation>
+        <translation>fehlt: {name}</translation>
     </message>
     <message>
         <source>missing: {package}</source>
-        <translation type="unfinished"></translation>
+        <translation>fehlt: {package}</translation>
     </message>
     <message>
         <source>more than one camera</source>
@@ -5901,7 +5901,7 @@
     </message>
     <message>
         <source>no angles by their names</source>
-        <translation type="unfinished"></translation>
+        <translation>keine Winkel nach ihren Namen</translation>
     </message>
     <message>
         <source>no answer for {patience_s} s</source>
@@ -5953,7 +5953,7 @@
     </message>
     <message>
         <source>no recording of a form that Carpus knows</source>
-        <translation type="unfinished"></translation>
+        <translation>keine Aufnahme in einer Form, die Carpus kennt</translation>
     </message>
     <message>
         <source>no room for another {length} MB</source>
@@ -5961,19 +5961,19 @@
     </message>
     <message>
         <source>no udev rules for the camera</source>
-        <translation type="unfinished"></translation>
+        <translation>keine udev-Regeln für die Kamera</translation>
     </message>
     <message>
         <source>none of the discs by their names</source>
-        <translation type="unfinished"></translation>
+        <translation>keine der Punkte nach ihren Namen</translation>
     </message>
     <message>
         <source>none of the program&apos;s own</source>
-        <translation type="unfinished"></translation>
+        <translation>keine eigenen des Programms</translation>
     </message>
     <message>
         <source>none plugged in</source>
-        <translation type="unfinished"></translation>
+        <translation>keine angeschlossen</translation>
     </message>
     <message>
         <source>not JSON</source>
@@ -6037,11 +6037,11 @@
     </message>
     <message>
         <source>off</source>
-        <translation type="unfinished"></translation>
+        <translation>aus</translation>
     </message>
     <message>
         <source>on, turned back by Carpus</source>
-        <translation type="unfinished"></translation>
+        <translation>an, von Carpus zurückgedreht</translation>
     </message>
     <message>
         <source>paths that lead out of the folder</source>
@@ -6053,7 +6053,7 @@
     </message>
     <message>
         <source>points by {format}</source>
-        <translation type="unfinished"></translation>
+        <translation>Punkte aus {format}</translation>
     </message>
     <message>
         <source>ring finger</source>
@@ -6129,79 +6129,79 @@
     </message>
     <message>
         <source>{angle} at {time} s: the hand was not still, or not seen</source>
-        <translation type="unfinished"></translation>
+        <translation>{angle} bei {time} s: Die Hand war nicht ruhig oder nicht zu sehen</translation>
     </message>
     <message>
         <source>{angle}: not in the session</source>
-        <translation type="unfinished"></translation>
+        <translation>{angle}: nicht in der Sitzung</translation>
     </message>
     <message>
         <source>{count} faces</source>
-        <translation type="unfinished"></translation>
+        <translation>{count} Schnitte</translation>
     </message>
     <message>
         <source>{count} frames</source>
-        <translation type="unfinished"></translation>
+        <translation>{count} Bilder</translation>
     </message>
     <message>
         <source>{firmware}, the library asks for {wanted}</source>
-        <translation type="unfinished"></translation>
+        <translation>{firmware}, die Bibliothek verlangt {wanted}</translation>
     </message>
     <message>
         <source>{folder}, made at the first recording</source>
-        <translation type="unfinished"></translation>
+        <translation>{folder}, entsteht mit der ersten Aufnahme</translation>
     </message>
     <message>
         <source>{folder}: {there} cannot be written to</source>
-        <translation type="unfinished"></translation>
+        <translation>{folder}: in {there} lässt sich nicht schreiben</translation>
     </message>
     <message>
         <source>{found}, cannot be loaded: {trouble}</source>
-        <translation type="unfinished"></translation>
+        <translation>{found}, lässt sich nicht laden: {trouble}</translation>
     </message>
     <message>
         <source>{found}, without the maker&apos;s driver</source>
-        <translation type="unfinished"></translation>
+        <translation>{found}, ohne Treiber des Herstellers</translation>
     </message>
     <message>
         <source>{free} GB free, about {minutes} minutes with pictures</source>
-        <translation type="unfinished"></translation>
+        <translation>{free} GB frei, etwa {minutes} Minuten mit Bildern</translation>
     </message>
     <message>
         <source>{movement}: the session has no range that way, and the list names no time</source>
-        <translation type="unfinished"></translation>
+        <translation>{movement}: Die Sitzung hat dort keinen Umfang, und die Liste nennt keine Zeit</translation>
     </message>
     <message>
         <source>{names}</source>
-        <translation type="unfinished"></translation>
+        <translation>{names}</translation>
     </message>
     <message>
         <source>{names} and {count} more</source>
-        <translation type="unfinished"></translation>
+        <translation>{names} und {count} weitere</translation>
     </message>
     <message>
         <source>{name} ({vendor}:{product}) at {node}, {speed_mbit} Mbit/s</source>
-        <translation type="unfinished"></translation>
+        <translation>{name} ({vendor}:{product}) an {node}, {speed_mbit} Mbit/s</translation>
     </message>
     <message>
         <source>{own_s} s while {here_s} s passed here</source>
-        <translation type="unfinished"></translation>
+        <translation>{own_s} s, während hier {here_s} s vergingen</translation>
     </message>
     <message>
         <source>{remedy} In a dark room the camera slows down: add light.</source>
-        <translation type="unfinished"></translation>
+        <translation>{remedy} In einem dunklen Raum wird die Kamera langsamer: mehr Licht.</translation>
     </message>
     <message>
         <source>{text}, in use</source>
-        <translation type="unfinished"></translation>
+        <translation>{text}, in Gebrauch</translation>
     </message>
     <message>
         <source>{what} {names}: {why}</source>
-        <translation type="unfinished"></translation>
+        <translation>{what} {names}: {why}</translation>
     </message>
     <message>
         <source>{width}x{height}, {fps} fps, {missing} missing, depth in {with_depth} of {count}</source>
-        <translation type="unfinished"></translation>
+        <translation>{width}x{height}, {fps} Bilder/s, {missing} fehlen, Tiefe in {with_depth} von {count}</translation>
     </message>
     <message>
         <source>Hidden joints do not count.</source>
@@ -7586,7 +7586,7 @@
     </message>
     <message>
         <source>Recordings ({patterns});;All files (*)</source>
-        <translation type="unfinished"></translation>
+        <translation>Aufnahmen ({patterns});;Alle Dateien (*)</translation>
     </message>
     <message>
         <source>Recordings (*.oni *.db3 *.bag *.carpusraw);;All files (*)</source>
