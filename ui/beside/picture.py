@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import numpy as np
-from PySide6.QtGui import QPainter
+from PySide6.QtCore import Qt
+from PySide6.QtGui import QFontMetricsF, QPainter
 
 from carpus.core.session.values import Session
 from carpus.core.types import ByteImage, FloatArray
+from carpus.ui.fonts import SEMIBOLD, font
 from carpus.ui.picture.photo import label_size, paint_label
 from carpus.ui.picture.view import HAND_ROOM, PALM_ROOM, PictureView
 from carpus.ui.review.skeleton import modelled_px, paint_palm, paint_skeleton
@@ -95,6 +97,11 @@ class BesidePicture(PictureView):
         out[..., 0] = self._session.camera.width_px - 1.0 - out[..., 0]
         return out
 
+    def _fitting(self, words: str) -> str:
+        """As much of a label as there is room for; the accessible description has all of it."""
+        metrics = QFontMetricsF(font(12 * self._theme.text_scale, SEMIBOLD))
+        return metrics.elidedText(words, Qt.TextElideMode.ElideRight, self.width() - 2 * EDGE_PX - 12)
+
     def _paint_over(self, painter: QPainter, picture: PictureView) -> None:
         session = self._session
         if session is not None and 0 <= self.row < len(session):
@@ -108,7 +115,7 @@ class BesidePicture(PictureView):
                 paint_palm(painter, picture, spots, seen)
         theme = self._theme
         if self.name:
-            paint_label(painter, theme, self.name, EDGE_PX, EDGE_PX)
+            paint_label(painter, theme, self._fitting(self.name), EDGE_PX, EDGE_PX)
         bottom = self.height() - EDGE_PX - label_size(theme, "0").height()
         if self.repetition:
             paint_label(painter, theme, self.repetition, EDGE_PX, bottom)

@@ -8,6 +8,8 @@ from collections.abc import Iterable, Sequence
 from pathlib import Path
 
 from carpus.core.errors import OutputNotWritable
+from carpus.core.output.range_rows import RangeRow
+from carpus.core.output.report_content import SessionFigures
 from carpus.core.output.side_by_side import ComparedRange, SideBySide
 from carpus.ui.beside.shown import Shown
 from carpus.ui.beside.words import column_of
@@ -33,17 +35,16 @@ def write_tables(path: Path, shown: Shown, *, replaces: bool) -> list[Path]:
     while beside.exists() and not replaces:
         beside = path.with_name(f"{path.stem}{CURVES}-{number}{path.suffix}")
         number += 1
-    _write(path, HEAD, (_row(one, shown.both) for one in shown.both.ranges))
+    rows = [_row(one, shown.both) for one in shown.both.ranges]
+    rows += [_row_alone(row, shown.both, is_first=is_first) for row, is_first in shown.both.alone]
+    _write(path, HEAD, rows)
     _write(beside, CURVES_HEAD, _curve_rows(shown))
     return [path, beside]
 
 
 def _row(one: ComparedRange, both: SideBySide) -> Sequence[str]:
     item = one.comparison
-    sides: list[str] = []
-    for figures, row in ((both.first, one.first), (both.second, one.second)):
-        sides += [figures.session_id, figures.side, figures.when.isoformat(), figures.exercise.id]
-        sides += [_decimal(row.mean_deg), _decimal(row.sd_deg), str(row.count), "yes" if row.limited else ""]
+    sides = [*_side(both.first, one.first), *_side(both.second, one.second)]
     verdict = item.verdict
     if both.relation == "hands" and one.beyond:
         verdict = "less" if item.difference_deg < 0.0 else "more"  # type: ignore[assignment]
@@ -52,6 +53,21 @@ def _row(one: ComparedRange, both: SideBySide) -> Sequence[str]:
         item.movement, name, *sides, _decimal(item.difference_deg), _decimal(item.limit_deg), verdict,
         " ".join(item.reasons),
     ]  # fmt: skip
+
+
+def _row_alone(row: RangeRow, both: SideBySide, *, is_first: bool) -> Sequence[str]:
+    """What only one of the two has."""
+    sides = [*_side(both.first, row if is_first else None), *_side(both.second, None if is_first else row)]
+    name = row.joint or column_of(("", row.angle))
+    return [row.movement, name, *sides, "", "", "not_judged", " ".join(both.reasons or ("unknown",))]
+
+
+def _side(figures: SessionFigures, row: RangeRow | None) -> list[str]:
+    """The columns of one session; its figures are empty where it has none."""
+    who = [figures.session_id, figures.side, figures.when.isoformat(), figures.exercise.id]
+    if row is None:
+        return [*who, "", "", "", ""]
+    return [*who, _decimal(row.mean_deg), _decimal(row.sd_deg), str(row.count), "yes" if row.limited else ""]
 
 
 def _curve_rows(shown: Shown) -> Iterable[Sequence[str]]:
