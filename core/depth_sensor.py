@@ -98,6 +98,15 @@ class DepthSensor:
         flat = NoiseLaw(0.0, self.stays.square_per_m) if self.kind == "active stereo" else self.stays
         return flat.sd_m(depth_m)
 
+    def disc_stays_sd_m(self, depth_m: FloatArray, area_px: FloatArray) -> FloatArray:
+        """What stays of a flat disc's depth (...): its middle holds more than one place of a window's error, which is
+        alike over the window's width and gone beyond it."""
+        wide = np.sqrt(_CORE_SHARE * area_px) / self.patch_px
+        kept = np.where(
+            wide <= 1.0, 1.0 - wide / 3.0, (1.0 - 1.0 / (3.0 * np.maximum(wide, 1.0))) / np.maximum(wide, 1.0)
+        )
+        return np.asarray(self.flat_stays_sd_m(depth_m) * kept)
+
     def with_focal(self, focal_px: float, color_focal_px: float = math.nan) -> DepthSensor:
         """The same pair of eyes with depth pictures of another focal length: its disparity is as sure as before, and
         its window as many of its own pixels wide; ``color_focal_px`` of the colour picture that depth is laid on says

@@ -5,6 +5,7 @@ from __future__ import annotations
 import dataclasses
 import json
 
+import cv2
 import numpy as np
 import pytest
 
@@ -19,6 +20,7 @@ from carpus.core.depth_sensor import (
     DepthSensor,
     sensor_of,
 )
+from carpus.core.simulation.sensor import window_noise
 
 Z_M = np.array([0.5, 0.7, 1.2])
 
@@ -76,3 +78,13 @@ def test_every_sensor_goes_through_a_file(sensor: DepthSensor) -> None:
 def test_what_is_no_sensor_is_refused(wrong: dict[str, object]) -> None:
     with pytest.raises(ValueError, match="figures"):
         sensor_of(dataclasses.asdict(D435) | wrong)
+
+
+@pytest.mark.parametrize("core_px", [3, 7, 11, 21])
+def test_what_stays_of_a_disc_is_the_mean_of_a_windows_error_over_its_middle(core_px: int) -> None:
+    sensor = dataclasses.replace(D435, patch_px=11.0)
+    noise = window_noise(np.random.default_rng(5), (600, 600), 11)
+    found = float(np.std(cv2.blur(noise, (core_px, core_px))[40:-40, 40:-40]))
+    area_px = np.array(core_px**2 / 0.4)
+    stays = sensor.disc_stays_sd_m(np.array(0.7), area_px) / sensor.flat_stays_sd_m(np.array(0.7))
+    assert float(stays) == pytest.approx(found, rel=0.1)

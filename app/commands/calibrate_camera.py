@@ -82,6 +82,7 @@ def _calibrate(arguments: argparse.Namespace) -> int:
     from carpus.core.camera_calibration.gather import Gathering
     from carpus.core.camera_calibration.keep import keep_calibration, stored_of, write_calibration
     from carpus.core.capture.calibrated import SERIAL
+    from carpus.core.capture.given_name import is_nameless, keep_name
     from carpus.core.dates import is_moment
     from carpus.core.errors import OutputExists
 
@@ -109,7 +110,10 @@ def _calibrate(arguments: argparse.Namespace) -> int:
     if serial:
         from carpus.app.settings import load_settings
 
-        path = keep_calibration(load_settings().data_folder, made, stored)
+        folder = load_settings().data_folder
+        if arguments.recording is None and arguments.serial and is_nameless(info.settings):
+            keep_name(folder, info.name, serial)
+        path = keep_calibration(folder, made, stored)
         print(f"Kept for camera {serial}: {path}")
     elif arguments.output is None:
         print("carpus: nobody says which camera this was, so it is not kept; name it with --serial, or use --output.",

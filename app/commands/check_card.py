@@ -54,6 +54,7 @@ def run(arguments: argparse.Namespace) -> int:
 def _check(arguments: argparse.Namespace) -> int:
     from carpus.app.settings import load_settings
     from carpus.core.capture.calibrated import SERIAL
+    from carpus.core.capture.given_name import is_nameless, keep_name
     from carpus.core.check_card.card import FIGURES
     from carpus.core.check_card.chart import (
         add_check,
@@ -76,6 +77,8 @@ def _check(arguments: argparse.Namespace) -> int:
         source.close()
     when = info.recorded if is_moment(info.recorded) else iso(datetime.now().astimezone())
     serial = arguments.serial or info.settings.get(SERIAL, "")
+    if arguments.recording is None and arguments.serial and is_nameless(info.settings):
+        keep_name(data_folder, info.name, arguments.serial)
     check = check_of(reading, serial, when, info.settings.get("calibrated", ""))
     path = chart_path(data_folder, serial)
     kept = read_checks(path) if serial else []

@@ -86,7 +86,7 @@ class Checking(QObject):
         self._places, self._background, self._now, self._practice = places, background, now, is_demo
         self._newest: Newest[CardProgress] = Newest()
         self._measured: _Measured | None = None
-        self._asked = 0
+        self._asked, self._unread = 0, False
         self._naming = Naming(self, screen.name_sheet, background, self.begin, self.back, self._failed)
         self.hand = CameraAtHand(self)
         self.hand.opened.connect(self._opened)
@@ -112,6 +112,8 @@ class Checking(QObject):
         """From a check to the history."""
         self.leave()
         self._screen.show_checks(self._screen.checks)
+        if self._unread:
+            self._read()
 
     def leave(self) -> None:
         """Let the camera go; a check that has not ended is forgotten."""
@@ -127,7 +129,7 @@ class Checking(QObject):
         """Read which camera it is and its checks in the background: the disk may keep anybody waiting."""
         practice, now, cameras = self._practice, self._now(), self._cameras
         self._asked += 1
-        asked = self._asked
+        asked, self._unread = self._asked, True
 
         def read() -> CameraChecks:
             serial = cameras.serial(practice=practice)
@@ -135,6 +137,7 @@ class Checking(QObject):
 
         def shown(checks: CameraChecks) -> None:
             if asked == self._asked and not self._screen.is_measuring:
+                self._unread = False
                 self._screen.show_checks(checks)
 
         self._screen.show_checks(CameraChecks("", "", simulated=practice))
@@ -195,6 +198,7 @@ class Checking(QObject):
         def kept(checks: CameraChecks) -> None:
             if not practice:
                 self._cameras.met(serial)
+            self._unread = False
             self._screen.show_checks(checks)
             self.checked.emit()
 

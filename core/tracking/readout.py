@@ -2,7 +2,8 @@
 
 The filter tracks the discs as a body whose axes are those of W0 as calibrated. While the palm's shape is
 refined, the true axes of W follow from the better known discs; the readout turns the result into them.
-The covariance of an angle holds both the pose's and the calibration's part.
+The covariance of an angle holds both the pose's and the calibration's part, and of a sensor whose errors stay
+with the place the part that no number of pictures takes away: the filter counts each picture as news.
 """
 
 from __future__ import annotations
@@ -13,6 +14,7 @@ import numpy as np
 
 from carpus.core import so3
 from carpus.core.calibration.result import Calibration
+from carpus.core.camera import Camera
 from carpus.core.hand import clinical_angles
 from carpus.core.hand.wrist_frame import wrist_axes_sensitivity
 from carpus.core.tracking.hand_geometry import NO_CUP, JointMoment, PalmInBody
@@ -27,6 +29,8 @@ _AXES = np.arange(3)
 _DORSAL = np.array([0.0, 0.0, 1.0])
 _READ = slice(TURN.start, SHAPE.stop)
 _SHAPE_SIZE = SHAPE.stop - SHAPE.start
+_TILT_KNOWN = 1e-3
+"""Share of the best known direction below which depths tell nothing of a turn: about the line of sight."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -42,8 +46,15 @@ class ReadoutSettings:
 class Readout:
     """Reads beliefs of one calibrated palm; remembers only the axes of the last shape."""
 
-    def __init__(self, calibration: Calibration, settings: ReadoutSettings) -> None:
+    def __init__(
+        self, calibration: Calibration, settings: ReadoutSettings, camera: Camera, disc_radius_m: float
+    ) -> None:
         self._settings = settings
+        self._sensor = sensor = camera.sensor
+        self._disc_px_m = disc_radius_m * camera.fx_px
+        # Readings that do not average, and errors alike over the whole palm, are counted in full as they are.
+        self._has_stays = sensor.averages and sensor.stays_px == 0.0
+        self._calibration = calibration
         self._side = calibration.clicks.side
         self._disc_m = calibration.marker_position_w0_m
         self._start = clinical_angles.rotation_from_angles(calibration.start_angles_rad, self._side)
@@ -90,6 +101,8 @@ class Readout:
         # The turn of the axes enters before and after: R' = Exp(-a) R Exp(a).
         error[:, SHAPE.start - TURN.start :] = (_IDENTITY - rotation.T) @ sensitivity
         turn_covariance = error @ belief.covariance[_READ, _READ] @ error.T
+        if self._has_stays:
+            turn_covariance = turn_covariance + axes.T @ self._tilt_covariance(belief) @ axes
         shown = self._start @ rotation if self._has_start else rotation
         angles, by_turn, zyz = clinical_angles.read_one(shown, self._side)
         variance = np.vecdot(by_turn @ turn_covariance, by_turn)
@@ -109,6 +122,20 @@ class Readout:
             _NONE,
             _NOWHERE,
         )
+
+    def _tilt_covariance(self, belief: PalmBelief) -> FloatArray:
+        """Covariance (3, 3) of the palm's turn, in the body, by the error of its discs' depths that stays: they tell
+        how it is tilted to the camera, by their distances from the middle; pixels tell the rest."""
+        calibration = self._calibration
+        disc_w0_m = belief.position_m + (self._disc_m + belief.shape_m) @ belief.rotation_w2_w0.T
+        turned = calibration.rotation_w0_cam @ belief.rotation_w2_w0
+        disc_cam_m = disc_w0_m @ calibration.rotation_w0_cam.T + calibration.translation_w0_cam_m
+        middle = disc_cam_m.mean(axis=0)
+        arm_m = np.cross((disc_cam_m - middle) @ turned, (middle / np.linalg.norm(middle)) @ turned)
+        solved = np.linalg.pinv(arm_m.T @ arm_m, rcond=_TILT_KNOWN, hermitian=True) @ arm_m.T
+        depth_m = disc_cam_m[:, 2]
+        sd_m = self._sensor.disc_stays_sd_m(depth_m, np.pi * (self._disc_px_m / depth_m) ** 2)
+        return np.asarray((solved * sd_m**2) @ solved.T)
 
     def with_joints(self, moment: Moment, joints: JointMoment, belief: PalmBelief) -> Moment:
         """The moment of a belief with what is known of the fingers, whose bones stand on the fixed unit, not on the

@@ -144,7 +144,7 @@ class Tracker:
         self._shares = shape_shares(settings.shape_news)
         self._settled = settled_covariance(settings.tissue)
         self._resolution_px2 = float(camera.width_px * camera.height_px)
-        self._readout = Readout(calibration, settings.readout)
+        self._readout = Readout(calibration, settings.readout, camera, settings.marker_radius_m)
         self._doubt = DoubtWatch(len(self._protocol.markers), settings.doubt)
         self._recent_spots = RecentSpots(settings.said)
         self._answers: list[tuple[SpotAnswer, float]] = []
@@ -703,7 +703,7 @@ class Tracker:
     def smoothed(self) -> list[Moment]:
         """Every frame so far in the light of all the others; needs the history kept. Tracking may go on meanwhile."""
         beliefs = smoothed_palm(list(self.history), self._motion)
-        readout = Readout(self._calibration, self.settings.readout)
+        readout = Readout(self._calibration, self.settings.readout, self.view.camera, self.settings.marker_radius_m)
         lost = lost_moment(self._joint_count, len(self._protocol.markers))
         moments = [lost if belief is None else readout.moment(belief) for belief in beliefs]
         if self._fingers is None:

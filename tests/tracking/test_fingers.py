@@ -111,7 +111,7 @@ def weighed(place_m: float, off_px: tuple[float, float], own: FingerSettings) ->
     fingers = Fingers(hand.calibration, seen.truth.camera, settings)
     view = Tracker(hand.calibration, seen.truth.camera, settings).view
     belief = resting_belief(InitialSd(position_m=place_m, turn_rad=1e-4), 1e-8 * np.eye(18))
-    seat = seat_of(belief, view, Readout(palm_of(hand.calibration), ReadoutSettings()))
+    seat = seat_of(belief, view, Readout(palm_of(hand.calibration), ReadoutSettings(), view.camera, 6e-3))
     blobs, marker = seen.detections[0], seen.marker[0]
     pixel = blobs.pixel + np.column_stack((np.choose(marker % 2, off_px), np.zeros(marker.size)))
     found = measurable(replace(blobs, pixel=pixel), 5.0, settings, seen.truth.camera.sensor)
