@@ -26,7 +26,7 @@ MODELS = {
 """The Astra Pro is named, but its colour camera does not speak OpenNI2: opening it says so."""
 DRIVER_FILES = {"win32": "orbbec.dll", "darwin": "liborbbec.dylib"}
 DRIVER_FILE = "liborbbec.so"
-NAME = "Astra driver"
+NAME = phrase("Astra driver")
 
 
 def open_astra(*, uri: str | None, camera: Camera | None, patience_s: float, notice: Notice) -> OpenNI2Camera:
@@ -65,7 +65,7 @@ KIND = CameraKind(
     models=MODELS,
     open=open_astra,
     driver=driver_finding,
-    rights="Install the udev rules that come with Orbbec's OpenNI2 package, then plug the camera in again.",
+    rights=phrase("Install the udev rules that come with Orbbec's OpenNI2 package, then plug the camera in again."),
     needed_mbit=480,
-    port="It needs a USB 2 port.",
+    port=phrase("It needs a USB 2 port."),
 )

@@ -229,7 +229,7 @@ def rules_finding(kind: CameraKind, folders: tuple[Path, ...]) -> Finding:
 def camera_findings(plugged_in: list[tuple[CameraKind, UsbCamera]]) -> list[Finding]:
     """The cameras on the bus, before anything opens one."""
     if not plugged_in:
-        remedy = "Plug the camera in, at best straight into the computer. " + _kinds()[0].port
+        remedy = phrase("Plug the camera in, at best straight into the computer. {port}", port=_kinds()[0].port)
         return [Finding(phrase("Camera"), "warning", phrase("none plugged in"), remedy)]
     return [camera_finding(kind, camera) for kind, camera in plugged_in]
 

@@ -103,7 +103,7 @@ def driver_finding(asks_version: bool = True, wanted: bool = True) -> Finding:
     is_packed = getattr(sys, "frozen", False)
     packed = f"The packed program has no driver for it: install Carpus with pip, then run: {INSTALL}"
     return library_finding(
-        "Orbbec driver",
+        phrase("Orbbec driver"),
         PACKAGE,
         load_library,
         asks=asks_version and wanted,
@@ -130,8 +130,12 @@ KIND = CameraKind(
     models=MODELS,
     open=open_orbbec,
     driver=driver_finding,
-    rights=f"As root, write into {RULE_FILE}: {RULE}. Run: udevadm control --reload. Then plug the camera in again.",
+    rights=phrase(
+        "As root, write into {file}: {rule}. Run: udevadm control --reload. Then plug the camera in again.",
+        file=RULE_FILE,
+        rule=RULE,
+    ),
     needed_mbit=5000,
-    port="Plug it into a USB 3 port, with a USB 3 cable and without a hub.",
+    port=phrase("Plug it into a USB 3 port, with a USB 3 cable and without a hub."),
     further=further_findings,
 )

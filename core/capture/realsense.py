@@ -97,7 +97,7 @@ def driver_finding(asks_version: bool = True, wanted: bool = True) -> Finding:
     is_packed = getattr(sys, "frozen", False)
     packed = "The packed program has no driver for it: install Carpus with pip, as carpus[realsense]."
     return library_finding(
-        "RealSense driver",
+        phrase("RealSense driver"),
         PACKAGE,
         load_library,
         asks=asks_version and wanted,
@@ -139,8 +139,12 @@ KIND = CameraKind(
     models=MODELS,
     open=open_realsense,
     driver=driver_finding,
-    rights=f"As root, write into {RULE_FILE}: {RULE}. Run: udevadm control --reload. Then plug the camera in again.",
+    rights=phrase(
+        "As root, write into {file}: {rule}. Run: udevadm control --reload. Then plug the camera in again.",
+        file=RULE_FILE,
+        rule=RULE,
+    ),
     needed_mbit=5000,
-    port="Plug it into a USB 3 port, with a USB 3 cable and without a hub.",
+    port=phrase("Plug it into a USB 3 port, with a USB 3 cable and without a hub."),
     further=further_findings,
 )

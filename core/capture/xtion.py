@@ -8,6 +8,7 @@ from carpus.core.capture.notice import Notice
 from carpus.core.capture.openni2_camera import OpenNI2Camera
 from carpus.core.capture.openni2_driver import driver_finding
 from carpus.core.depth_sensor import PRIMESENSE
+from carpus.core.phrase import phrase
 
 MODELS = {
     ("1d27", "0500"): "PrimeSense Carmine",
@@ -27,7 +28,7 @@ KIND = CameraKind(
     models=MODELS,
     open=open_xtion,
     driver=driver_finding,
-    rights="Run: sudo apt-get install libopenni2-0, which brings them. Then plug the camera in again.",
+    rights=phrase("Run: sudo apt-get install libopenni2-0, which brings them. Then plug the camera in again."),
     needed_mbit=480,
-    port="It needs a USB 2 port; some USB 3 ports refuse cameras with old firmware.",
+    port=phrase("It needs a USB 2 port; some USB 3 ports refuse cameras with old firmware."),
 )
