@@ -4392,6 +4392,14 @@
         <translation>Un altro programma usa la telecamera ({detail}).</translation>
     </message>
     <message>
+        <source>As root, write into {file}: {rule}. Run: udevadm control --reload. Then plug the camera in again.</source>
+        <translation>Come root, scrivere in {file}: {rule}. Eseguire: udevadm control --reload. Poi ricollegare la telecamera.</translation>
+    </message>
+    <message>
+        <source>Astra driver</source>
+        <translation>Driver Astra</translation>
+    </message>
+    <message>
         <source>Back up onto another disk now, and do not trust this one any more.</source>
         <translation>Fare ora una copia su un altro disco, e non fidarsi più di questo.</translation>
     </message>
@@ -4712,12 +4720,24 @@
         <translation>Installare i pacchetti che portano queste librerie.</translation>
     </message>
     <message>
+        <source>Install the udev rules that come with Orbbec&apos;s OpenNI2 package, then plug the camera in again.</source>
+        <translation>Installare le regole udev del pacchetto OpenNI2 di Orbbec, poi ricollegare la telecamera.</translation>
+    </message>
+    <message>
         <source>It can still be read; its seal does not fit what it holds now.</source>
         <translation>Si può ancora leggere; il suo sigillo non corrisponde a ciò che contiene ora.</translation>
     </message>
     <message>
         <source>It is left to that program.</source>
         <translation>È lasciato a quel programma.</translation>
+    </message>
+    <message>
+        <source>It needs a USB 2 port.</source>
+        <translation>Richiede una porta USB 2.</translation>
+    </message>
+    <message>
+        <source>It needs a USB 2 port; some USB 3 ports refuse cameras with old firmware.</source>
+        <translation>Richiede una porta USB 2; alcune porte USB 3 rifiutano telecamere con firmware vecchio.</translation>
     </message>
     <message>
         <source>Keep the hand still and take the first picture again.</source>
@@ -4832,6 +4852,10 @@
         <translation>OpenNI2 {value}</translation>
     </message>
     <message>
+        <source>Orbbec driver</source>
+        <translation>Driver Orbbec</translation>
+    </message>
+    <message>
         <source>Others on this computer can look into it. In its properties, take away every right of the group and of others; or run: chmod 700 &apos;{folder}&apos;</source>
         <translation>Altri su questo computer possono vedervi dentro. Nelle sue proprietà togliere ogni diritto al gruppo e agli altri; oppure eseguire: chmod 700 '{folder}'</translation>
     </message>
@@ -4842,6 +4866,10 @@
     <message>
         <source>Plug in the camera named in the settings, or change the settings.</source>
         <translation>Collegare la telecamera nominata nelle impostazioni, o cambiare le impostazioni.</translation>
+    </message>
+    <message>
+        <source>Plug it into a USB 3 port, with a USB 3 cable and without a hub.</source>
+        <translation>Collegarla a una porta USB 3, con un cavo USB 3 e senza hub.</translation>
     </message>
     <message>
         <source>Plug its own camera in again; what was begun then goes on by itself.</source>
@@ -4858,6 +4886,10 @@
     <message>
         <source>Plug the camera in again; tracking and recording then go on by themselves.</source>
         <translation>Ricollegare la telecamera; poi tracciamento e registrazione proseguono da soli.</translation>
+    </message>
+    <message>
+        <source>Plug the camera in, at best straight into the computer. {port}</source>
+        <translation>Collegare la telecamera, meglio se direttamente al computer. {port}</translation>
     </message>
     <message>
         <source>Plug the camera in.</source>
@@ -4886,6 +4918,10 @@
     <message>
         <source>Qt {qt}; no screen</source>
         <translation>Qt {qt}; nessuno schermo</translation>
+    </message>
+    <message>
+        <source>RealSense driver</source>
+        <translation>Driver RealSense</translation>
     </message>
     <message>
         <source>Record again with colour and depth of one size.</source>
@@ -4918,6 +4954,10 @@
     <message>
         <source>Run: sudo apt-get install libopenni2-0</source>
         <translation>Eseguire: sudo apt-get install libopenni2-0</translation>
+    </message>
+    <message>
+        <source>Run: sudo apt-get install libopenni2-0, which brings them. Then plug the camera in again.</source>
+        <translation>Eseguire: sudo apt-get install libopenni2-0, che li porta. Poi ricollegare la telecamera.</translation>
     </message>
     <message>
         <source>See to the disk or bring them back from a back-up; Carpus goes on with them at its next start.</source>
@@ -5953,7 +5993,7 @@
     </message>
     <message>
         <source>no recording of a form that Carpus knows</source>
-        <translation type="unfinished"></translation>
+        <translation>nessuna registrazione in un formato noto a Carpus</translation>
     </message>
     <message>
         <source>no room for another {length} MB</source>
@@ -6137,7 +6177,7 @@
     </message>
     <message>
         <source>{count} faces</source>
-        <translation>{count} caratteri</translation>
+        <translation>{count} stili</translation>
     </message>
     <message>
         <source>{count} frames</source>
@@ -7586,7 +7626,7 @@
     </message>
     <message>
         <source>Recordings ({patterns});;All files (*)</source>
-        <translation type="unfinished"></translation>
+        <translation>Registrazioni ({patterns});;Tutti i file (*)</translation>
     </message>
     <message>
         <source>Recordings (*.oni *.db3 *.bag *.carpusraw);;All files (*)</source>
