@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import threading
 from collections.abc import Generator, Iterator
 from contextlib import closing
 from pathlib import Path
@@ -11,8 +10,8 @@ from typing import Literal
 import numpy as np
 
 from carpus.core.capture.camera_info import CameraInfo, read_camera_info
-from carpus.core.capture.capture_link import ANSWER_S, OPEN_FILE_S, CaptureProcess
-from carpus.core.capture.capture_messages import Arrived, Ended
+from carpus.core.capture.capture_link import OPEN_FILE_S
+from carpus.core.capture.file_player import WAITING_PICTURES, FilePlayer
 from carpus.core.capture.frame_assembly import (
     DEPTH_UNIT_M,
     Assembler,
@@ -40,9 +39,6 @@ from carpus.core.errors import (
 from carpus.core.phrase import phrase
 from carpus.core.types import SIMULATED, Frame
 
-WAITING_PICTURES = 64
-"""How far apart in the file colour and depth of one moment may lie."""
-
 
 class OniSource:
     """Frames of an .oni file, all of them, in order, as fast as they are read.
@@ -57,9 +53,14 @@ class OniSource:
         self._contents = check_recording(path)
         self._path = path
         self._notice = notice
-        self._closing = threading.Event()
-        self._lock = threading.Lock()
-        self._process: CaptureProcess | None = None
+        self._streams = {Sensor.COLOR: self._contents.color}
+        if self._contents.depth is not None:
+            self._streams[Sensor.DEPTH] = self._contents.depth
+        self._modes = {
+            sensor: VideoMode(stream.pixel_format, stream.width_px, stream.height_px, stream.fps)
+            for sensor, stream in self._streams.items()
+        }
+        self._player = FilePlayer(serve, path, max(stream.frame_bytes for stream in self._streams.values()))
         sidecar = sidecar_path(path)
         told = read_camera_info(sidecar) if sidecar.exists() else None
         self._layout = _layout(self._contents, told)
@@ -91,73 +92,28 @@ class OniSource:
                     raise
 
     def _walk(self, deadly: tuple[int, ...]) -> Generator[Frame]:
-        self._end()
-        if self._closing.is_set():
-            return
-        contents = self._contents
-        streams = {Sensor.COLOR: contents.color}
-        if contents.depth is not None:
-            streams[Sensor.DEPTH] = contents.depth
-        last_number = {sensor: int(stream.number[-1]) for sensor, stream in streams.items()}
+        contents, modes = self._contents, self._modes
+        last_number = {sensor: int(stream.number[-1]) for sensor, stream in self._streams.items()}
         plan = FilePlan(str(self._path.resolve()), contents.identity, last_number, deadly)
-        process = CaptureProcess(serve, plan, str(self._path), max(stream.frame_bytes for stream in streams.values()))
-        self._process = process
-        modes = {
-            sensor: VideoMode(stream.pixel_format, stream.width_px, stream.height_px, stream.fps)
-            for sensor, stream in streams.items()
-        }
-        try:
-            yield from self._play(process, modes)
-        finally:
-            with self._lock:
-                process.close(gently=False)
-
-    def close(self) -> None:
-        """End playback; may be called twice, and while another thread waits for a frame."""
-        self._closing.set()
-        self._end()
-
-    def _end(self) -> None:
-        with self._lock:
-            if self._process is not None:
-                self._process.close(gently=False)
-                self._process = None
-
-    def _play(self, process: CaptureProcess, modes: dict[Sensor, VideoMode]) -> Iterator[Frame]:
-        """Frames as they come."""
-        arrived = dict.fromkeys(modes, 0)
-        assembler = Assembler(self._layout, self._period_us, WAITING_PICTURES)
-        with self._lock:
-            opened = process.wait_open(self._closing, OPEN_FILE_S)
+        opened = self._player.open(plan, OPEN_FILE_S)
         if opened is None:
             return
         if dict(opened.modes) != modes:
-            raise DriverFailed(self._path, phrase("the library sees other pictures than the file holds"))
-        while True:
-            with self._lock:
-                if process is not self._process:
-                    return
-                report = process.report(self._closing, ANSWER_S)
-                if report is None:
-                    return
-                frames: list[Frame] = []
-                if isinstance(report, Arrived):
-                    arrived[report.sensor] += 1
-                    take = assembler.color if report.sensor == Sensor.COLOR else assembler.depth
-                    frames = take(report.timestamp_us, report.number, process.pixels(report, modes[report.sensor]))
-                    process.free(report)
-            if isinstance(report, Ended):
-                yield from assembler.finish()
-                self._tell_lost(arrived)
-                return
-            yield from frames
+            raise DriverFailed(self._path, "the library sees other pictures than the file holds")
+        assembler = Assembler(self._layout, self._period_us, WAITING_PICTURES)
+        if (yield from self._player.frames(assembler, modes)):
+            self._tell_lost()
 
-    def _tell_lost(self, arrived: dict[Sensor, int]) -> None:
-        streams = (("colour", Sensor.COLOR, self._contents.color), ("depth", Sensor.DEPTH, self._contents.depth))
+    def close(self) -> None:
+        """End playback; may be called twice, and while another thread waits for a frame."""
+        self._player.close()
+
+    def _tell_lost(self) -> None:
+        arrived, names = self._player.arrived, {Sensor.COLOR: "colour", Sensor.DEPTH: "depth"}
         counts = [
-            f"{len(stream) - arrived[sensor]} of {len(stream)} {name}"
-            for name, sensor, stream in streams
-            if stream is not None and arrived[sensor] < len(stream)
+            f"{len(stream) - arrived[sensor]} of {len(stream)} {names[sensor]}"
+            for sensor, stream in self._streams.items()
+            if arrived[sensor] < len(stream)
         ]
         if counts:
             self._notice(PicturesLost(self._path, ", ".join(counts)))

@@ -4,14 +4,13 @@ process of its own."""
 from __future__ import annotations
 
 import sqlite3
-import threading
 from collections.abc import Iterator
 from contextlib import closing
 from dataclasses import replace
 from pathlib import Path
 
-from carpus.core.capture.capture_link import ANSWER_S, CaptureProcess
-from carpus.core.capture.capture_messages import Arrived, Ended, Opened
+from carpus.core.capture.capture_messages import Opened
+from carpus.core.capture.file_player import WAITING_PICTURES, FilePlayer
 from carpus.core.capture.frame_assembly import Assembler, Layout, camera_of_lens
 from carpus.core.capture.realsense import require_library, sensor_named
 from carpus.core.capture.realsense_plans import FilePlan
@@ -25,8 +24,6 @@ LARGEST_BYTES = 1920 * 1080 * 3
 SLOTS = 4
 OPEN_S = 20.0
 """A long recording is indexed before its first picture comes."""
-WAITING_PICTURES = 64
-"""How far apart in the file colour and depth of one moment may lie."""
 
 
 class RealSenseRecording:
@@ -39,12 +36,9 @@ class RealSenseRecording:
     def __init__(self, path: Path) -> None:
         require_library()
         self._path = path
-        self._closing = threading.Event()
-        self._lock = threading.Lock()
         self._count = color_count(path)
-        self._process: CaptureProcess | None = None
-        self._ready: tuple[CaptureProcess, Opened] | None = None
-        opened = self._open()
+        self._player = FilePlayer(serve, path, LARGEST_BYTES, SLOTS)
+        opened = self._ready = self._open()
         assert opened is not None
         self._info = self._describe(opened)
 
@@ -55,66 +49,22 @@ class RealSenseRecording:
 
     def frames(self) -> Iterator[Frame]:
         """All frames from the first on; a walk under way ends when another begins."""
-        if self._ready is None and self._open() is None:
+        opened, self._ready = self._ready or self._open(), None
+        if opened is None:
             return
-        assert self._ready is not None
-        (process, opened), self._ready = self._ready, None
-        try:
-            yield from self._play(process, opened)
-        finally:
-            with self._lock:
-                process.close(gently=False)
+        color = opened.modes[Sensor.COLOR]
+        size_px = color.width_px, color.height_px
+        layout = Layout(size_px, size_px if Sensor.DEPTH in opened.modes else None, depth_unit_m=opened.depth_unit_m)
+        yield from self._player.frames(Assembler(layout, 1e6 / color.fps, WAITING_PICTURES), opened.modes)
 
     def close(self) -> None:
         """End playback; may be called twice, and while another thread waits for a frame."""
-        self._closing.set()
-        self._end()
+        self._ready = None
+        self._player.close()
 
     def _open(self) -> Opened | None:
         """Start the process anew; None when closed meanwhile."""
-        self._end()
-        if self._closing.is_set():
-            return None
-        plan = FilePlan(str(self._path.resolve()))
-        process = CaptureProcess(serve, plan, str(self._path), LARGEST_BYTES, SLOTS)
-        self._process = process
-        try:
-            with self._lock:
-                opened = process.wait_open(self._closing, OPEN_S)
-        except BaseException:
-            self._end()
-            raise
-        if opened is not None:
-            self._ready = process, opened
-        return opened
-
-    def _end(self) -> None:
-        with self._lock:
-            if self._process is not None:
-                self._process.close(gently=False)
-            self._process = self._ready = None
-
-    def _play(self, process: CaptureProcess, opened: Opened) -> Iterator[Frame]:
-        size = opened.modes[Sensor.COLOR].width_px, opened.modes[Sensor.COLOR].height_px
-        layout = Layout(size, size if Sensor.DEPTH in opened.modes else None, depth_unit_m=opened.depth_unit_m)
-        assembler = Assembler(layout, 1e6 / opened.modes[Sensor.COLOR].fps, WAITING_PICTURES)
-        while True:
-            with self._lock:
-                if process is not self._process:
-                    return
-                report = process.report(self._closing, ANSWER_S)
-                if report is None:
-                    return
-                frames: list[Frame] = []
-                if isinstance(report, Arrived):
-                    take = assembler.color if report.sensor == Sensor.COLOR else assembler.depth
-                    pixels = process.pixels(report, opened.modes[report.sensor])
-                    frames = take(report.timestamp_us, report.number, pixels)
-                    process.free(report)
-            if isinstance(report, Ended):
-                yield from assembler.finish()
-                return
-            yield from frames
+        return self._player.open(FilePlan(str(self._path.resolve())), OPEN_S)
 
     def _describe(self, opened: Opened) -> SourceInfo:
         color = opened.modes[Sensor.COLOR]

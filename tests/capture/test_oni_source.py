@@ -74,9 +74,9 @@ def assert_whole(frames: list[Frame], count: int) -> None:
 
 
 def processes_of(source: OniSource) -> int:
-    assert source._process is not None
-    assert source._process.pid is not None
-    return source._process.pid
+    assert source._player._process is not None
+    assert source._player._process.pid is not None
+    return source._player._process.pid
 
 
 def test_every_frame_in_order_again_and_again(tmp_path: Path) -> None:
@@ -301,7 +301,7 @@ def test_a_library_that_dies_or_hangs_is_a_fault(
     tmp_path: Path, blow: signal.Signals, detail: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     source = OniSource(write_sample(tmp_path / "a.oni", 60))
-    monkeypatch.setattr("carpus.core.capture.oni_source.ANSWER_S", 0.5)
+    monkeypatch.setattr("carpus.core.capture.file_player.ANSWER_S", 0.5)
     frames = source.frames()
     next(frames)
     os.kill(processes_of(source), blow)
@@ -383,7 +383,7 @@ if __name__ == "__main__":
     source = OniSource(Path(sys.argv[1]))
     frames = source.frames()
     next(frames)
-    print(source._process.pid, flush=True)
+    print(source._player._process.pid, flush=True)
     time.sleep(60)
 """
     script = tmp_path / "owner.py"
