@@ -142,7 +142,8 @@ class Journey(QObject):
         self.by_hand = ByHandScreen(theme, self._parts.today)
         self.report = ReportScreen(theme, keys, background)
         self.agreement = AgreementScreen(theme, keys)
-        self.beside_screen = BesideScreen(theme, keys, background, library)
+        self._beside_background = Background()  # its own: what the list still reads holds up no picture
+        self.beside_screen = BesideScreen(theme, keys, self._beside_background, library)
         self.retest = RetestScreen(theme, keys)
         self.board = BoardScreen(theme, keys)
         self.card = CardScreen(theme, keys)
@@ -567,5 +568,6 @@ class Journey(QObject):
         self.opener.close()
         self.calibrating.hand.wait()
         self.checking.hand.wait()
+        self._beside_background.wait()
         self.background.wait()
         self.measuring.finish(recording=recording)

@@ -74,7 +74,7 @@ class MeanCurves(QWidget):
         return QSize(540, 200)
 
     def minimumSizeHint(self) -> QSize:
-        return QSize(self._theme.px(300), self._theme.px(130))
+        return QSize(self._theme.px(300), self._theme.px(104))
 
     def mousePressEvent(self, event: QMouseEvent) -> None:
         if self._plot is not None and event.button() == Qt.MouseButton.LeftButton:

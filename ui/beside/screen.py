@@ -153,7 +153,8 @@ class BesideScreen(QWidget):
         below.addWidget(self.table)
         below.addWidget(self.limits)
         below.addStretch(1)
-        self._scroll = scroll_area(self._host)
+        self._scroll = scroll_area(self._host, Qt.FocusPolicy.TabFocus)  # so that keys scroll it
+        self._scroll.setAccessibleName(self.tr("Differences"))
         self._card.body.addWidget(self._scroll, 1)
         whole = QVBoxLayout(self)
         whole.setContentsMargins(MARGIN_PX, GAP_PX - 4, MARGIN_PX, GAP_PX)

@@ -316,7 +316,11 @@ def _speed_row(both: SideBySide) -> BesideRow:
     words = numbers.UNKNOWN
     if math.isfinite(off):
         size = numbers.speed(off)
-        words = (tr("{size} more") if off > 0 else tr("{size} less")).format(size=size)
+        words = (
+            tr("the same")
+            if size == numbers.speed(0.0)
+            else (tr("{size} more") if off > 0 else tr("{size} less")).format(size=size)
+        )
     return BesideRow(tr("Peak speed"), cells[0], cells[1], words, numbers.UNKNOWN, no_limit_words(both), "not_judged")
 
 
