@@ -67,6 +67,12 @@ def key_name(key: str) -> str:
     return "+".join(names.get(part, part) for part in key.split("+")) if len(key) > 1 else key
 
 
+def letter_key(text: str) -> str:
+    """``Alt+H`` of a button's text with a letter marked by &; empty without."""
+    at = text.replace("&&", "  ").find("&")
+    return f"Alt+{text[at + 1].upper()}" if 0 <= at < len(text) - 1 else ""
+
+
 def action_words(name: str) -> str:
     """What a key does, for the help and the settings."""
     words = {

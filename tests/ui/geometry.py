@@ -232,7 +232,7 @@ def _small(window: QWidget, top: QWidget | None, may_elide: bool) -> list[str]:
         if not widget.isVisible() or not _belongs(widget, top):
             continue
         needed = 0.0
-        if isinstance(widget, Button) and may_elide:
+        if isinstance(widget, Button | QComboBox) and may_elide:
             continue
         if isinstance(widget, QAbstractButton) and widget.text():
             needed = widget.minimumSizeHint().width()

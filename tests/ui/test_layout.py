@@ -6,6 +6,7 @@ Found by geometry: of the widgets, and of every text as it is painted.
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
 
 import pytest
@@ -13,9 +14,11 @@ from PySide6.QtCore import QLocale, QSize
 from PySide6.QtGui import QPainter, QPaintEvent
 from PySide6.QtWidgets import QApplication, QLabel, QWidget
 
+from carpus.ui import terms
 from carpus.ui.markers.screen import MarkersScreen
+from tests.ui import pseudo
 from tests.ui.gallery import Gallery
-from tests.ui.geometry import complaints
+from tests.ui.geometry import complaints, shown_texts
 
 USUAL = ((1280, 800), 1.0)
 SIZES = (((1280, 800), 1.5), ((1024, 700), 1.0))
@@ -54,6 +57,26 @@ STATES = (
     "board", "board_showing", "board_result", "board_poor", "card", "card_out", "card_none", "card_measuring",
 )  # fmt: skip
 
+FAKED = (
+    "Right hand",
+    "Left hand",
+    "Camera",
+    "Sessions",
+    "Review",
+    "Report",
+    "Progress",
+    "Measure",
+    "Markers",
+    "Exercise",
+    "30 pictures/s",
+    "212 min",
+    "Saved",
+    "Splint off",
+    "Flexion",
+    "No camera",
+)
+"""What the gallery's fakes say themselves."""
+
 PICTURES: dict[tuple[tuple[int, int], float], QSize] = {}
 """Size of the picture on the markers screen."""
 
@@ -85,6 +108,35 @@ def test_nothing_is_cut_and_nothing_overlaps(gallery: Gallery, state: str) -> No
     gallery.theme.choose(text_scale=1.0)
     gallery.shell.resize(1280, 800)
     assert not any(found.values()), found
+
+
+LONG = (
+    "patients", "exercise", "camera", "markers_ready", "live", "review", "progress", "settings", "sessions_list",
+    "by_hand",
+)  # fmt: skip
+"""Looked at in the lengthened language too; ``python -m tests.ui.pseudo`` looks at all."""
+OWN_WORDS = re.compile(
+    r"^(Carpus|MCP|PIP|DIP|CMC|TIP|TAM|PRWE|English|Deutsch|Italiano|~/.*)$|\.(c3d|csv|mot|trc)\b|"
+    r"\b[A-Z][a-z]+ \d\d\b|[a-z]\.? \d\d?:|Nov|Okt|2026"
+)
+"""Names, days and abbreviations, which are no language's."""
+
+
+def test_in_a_longer_language_nothing_is_cut_and_nothing_stays_english(qapp: QApplication) -> None:
+    """The texts of the gallery's own fakes stay English: what they say is listed in the gallery."""
+    own = set(FAKED)
+    with pseudo.spoken():
+        shown = Gallery(qapp, "light", (1280, 800))
+        found, english = {}, {}
+        for state in LONG:
+            shown.states()[state]()
+            shown.settle()
+            found[state] = complaints(shown.shell, may_elide=True)
+            plain = {one for one in shown_texts(shown.shell) if not pseudo.is_pseudo(one) and not OWN_WORDS.search(one)}
+            english[state] = {one for one in plain if one != terms.LEGAL_SENTENCE and not one.startswith(tuple(own))}
+        shown.close()
+    assert not any(found.values()), found
+    assert not any(english.values()), english
 
 
 def test_every_state_is_looked_at(gallery: Gallery) -> None:

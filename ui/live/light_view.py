@@ -58,8 +58,8 @@ class LightView(QWidget):
         paint_state(painter, "open" if self.lamp.rank == "idle" else self.lamp.rank, icon, color(body), color(sign))
         left = icon.right() + 18
         room = self.width() - left - 12
-        state_face = _fitting(self.lamp.state, 28 * scale, 28, SEMIBOLD, room)
-        remedy_face = _fitting(self.lamp.remedy, 20 * scale, 20, MEDIUM, room)
+        state_face = _fitting(self.lamp.state, 28 * scale, 22, SEMIBOLD, room)
+        remedy_face = _fitting(self.lamp.remedy, 20 * scale, 16, MEDIUM, room)
         state_width = QFontMetricsF(state_face).horizontalAdvance(self.lamp.state)
         remedy_width = QFontMetricsF(remedy_face).horizontalAdvance(self.lamp.remedy)
         beside = left + state_width + 18 + remedy_width <= self.width() - 12

@@ -9,7 +9,7 @@ from datetime import date, datetime, time
 
 import numpy as np
 from PySide6.QtCore import QPointF, QRectF
-from PySide6.QtGui import QFontMetricsF, QPainter, QPen, QPolygonF
+from PySide6.QtGui import QFont, QFontMetricsF, QPainter, QPen, QPolygonF
 
 from carpus.core.by_hand.measures import HandMeasure
 from carpus.core.by_hand.values import HandValue
@@ -162,6 +162,12 @@ def _paint_meaning(
     signs = [("square", tr("by hand, active") if ways > 1 else tr("by hand"))]
     signs += [("diamond", tr("by hand, passive"))] if has_passive else []
     signs += [("dot", tr("Carpus, mean"))] if has_ours else []
+    needed = sum(28 * unit + metrics.horizontalAdvance(words) for _, words in signs) + 8 * unit
+    if needed > box.width():  # longer words are smaller
+        face = QFont(style.end_label)
+        face.setPixelSize(max(1, int(face.pixelSize() * max(0.6, (box.width() - 28 * unit * len(signs)) / needed))))
+        painter.setFont(face)
+        metrics = QFontMetricsF(face)
     for sign, words in signs:
         at = QPointF(across, baseline - 0.36 * metrics.ascent())
         painter.setPen(QPen(style.color("curve_a" if sign == "dot" else "text"), 1.6 * unit))

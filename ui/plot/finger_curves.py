@@ -242,7 +242,11 @@ class FingerCurves(PlotCard):
         self._text(painter, self.tr("Last 10 s"), 20, 17 * scale, 12, REGULAR, "text2")
         for finger in FINGERS:
             bending, spreading = self.panels(finger)
-            self._text(painter, finger_name(str(finger)), bending.box.left(), 13 * scale, 16, SEMIBOLD, "text")
+            face = font(16 * scale, SEMIBOLD)
+            head = QFontMetricsF(face).elidedText(
+                finger_name(str(finger)), Qt.TextElideMode.ElideRight, bending.box.width() + 4
+            )
+            self._text(painter, head, bending.box.left(), 13 * scale, 16, SEMIBOLD, "text")
             for panel in (bending, spreading):
                 shown = panel if finger == 1 else replace(panel, scale=replace(panel.scale, labels=()))
                 if panel.box.height() > 0.0:

@@ -16,7 +16,7 @@ from carpus.ui.plot import axes
 from carpus.ui.plot.axes import Panel, Scale
 from carpus.ui.plot.card import PlotCard
 from carpus.ui.plot.history import SHOWN_S, History
-from carpus.ui.plot.marks import Curve, Curves, Dot, Hatch, Mark, Remark, Scales, StayWithin, Target, Times
+from carpus.ui.plot.marks import Curve, Curves, Dot, Hatch, Mark, Remark, Scales, StayWithin, Target, Times, fitted
 from carpus.ui.plot.style import CURVE_TOKENS, screen_style
 from carpus.ui.theme import Theme
 
@@ -212,6 +212,7 @@ class LiveCurves(PlotCard):
         middle = panel.box.center().y()
         painter.setFont(font(14 * scale, REGULAR))
         painter.setPen(theme.color("text2"))
+        painter.setFont(fitted(painter.font(), name, self.width() - left - 4))
         painter.drawText(QPointF(left, middle - 5 * scale), name)
         painter.setFont(font(20 * scale, SEMIBOLD))
         painter.setPen(theme.color("text"))

@@ -12,7 +12,8 @@ from dataclasses import dataclass
 from typing import Protocol
 
 from PySide6.QtCore import QPointF, QRectF, Qt
-from PySide6.QtGui import QFontMetricsF, QPainter, QPen
+from PySide6.QtGui import QFont, QFontMetricsF, QPainter, QPen
+from PySide6.QtWidgets import QWidget
 
 from carpus.core.output.report_content import ShownRepetition
 from carpus.ui.plot import axes
@@ -62,7 +63,27 @@ class Scales:
             painter.setPen(style.color("text" if strong else "text2"))
             right = panel.box.left() - 12 * style.unit
             box = QRectF(right - 300 * style.unit, middle - height / 2, 300 * style.unit, height)
+            if (
+                isinstance(painter.device(), QWidget) and right > 0.0
+            ):  # a word that is longer than its room gets smaller
+                painter.setFont(fitted(painter.font(), text, right - 2.0))
             painter.drawText(box, int(Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter), text)
+
+
+def fitted(face: QFont, text: str, room_px: float) -> QFont:
+    """The font, or one as small as half of it, with which a text has room."""
+    width = QFontMetricsF(face).horizontalAdvance(text)
+    if width <= room_px or width <= 0.0:
+        return face
+    smaller = QFont(face)
+    smaller.setPixelSize(max(int(face.pixelSize() * room_px / width), face.pixelSize() // 2, 1))
+    return smaller
+
+
+def room_at(painter: QPainter, left: float) -> float:
+    """What is left of a widget right of a place; all there may be elsewhere, as on paper."""
+    device = painter.device()
+    return device.width() - left - 3.0 if isinstance(device, QWidget) else math.inf
 
 
 @dataclass(frozen=True, slots=True)

@@ -12,7 +12,7 @@ from carpus.ui import numbers
 from carpus.ui.figures import with_side
 from carpus.ui.fonts import MEDIUM, REGULAR, SEMIBOLD, font
 from carpus.ui.plot.axes import Panel
-from carpus.ui.plot.marks import Dot
+from carpus.ui.plot.marks import Dot, fitted, room_at
 from carpus.ui.plot.session import HandPlot, SessionPlot, Value
 from carpus.ui.plot.style import PlotStyle
 
@@ -59,6 +59,7 @@ def _paint_named(painter: QPainter, style: PlotStyle, panel: Panel, value: Value
     left, middle = panel.box.right() + 14 * scale, panel.box.center().y()
     painter.setFont(font(14 * scale, REGULAR))
     painter.setPen(style.color("text2"))
+    painter.setFont(fitted(painter.font(), value.name, room_at(painter, left)))
     painter.drawText(QPointF(left, middle - 4 * scale), value.name)
     if not math.isfinite(value.value_deg):
         return

@@ -19,7 +19,7 @@ from carpus.ui.controls.button import Button
 from carpus.ui.controls.card import Card, Line
 from carpus.ui.controls.column import ScrolledColumn, scroll_area
 from carpus.ui.controls.text import MEDIUM, REGULAR, SEMIBOLD, StateText, Text, caption, heading
-from carpus.ui.keys import Keys, bind
+from carpus.ui.keys import Keys, bind, letter_key
 from carpus.ui.plot.course_view import ProgressChart
 from carpus.ui.ports import SessionStore
 from carpus.ui.progress.words import before_after, change_line, comparison_name, doubt_words, headline, unfair_words
@@ -27,6 +27,7 @@ from carpus.ui.report.hand_rows import followed_keys, followed_kinds
 from carpus.ui.theme import GAP_PX, MARGIN_PX, Theme, is_tight
 from carpus.ui.verdicts import counted_once_words, limit_words, verdict_token, verdict_word
 
+LEAST_LETTERS = 14
 FILTERS_PX = 1180
 """What the row above the sentence needs with everything in it."""
 
@@ -55,7 +56,8 @@ class ProgressScreen(QWidget):
         )
         self.picture_button = Button(theme, self.tr("Save picture…"), "plain")
         self.table_button = Button(theme, self.tr("Save table…"), "plain", hint="Ctrl+E")
-        self.by_hand_button = Button(theme, self.tr("Values by &hand…"), "plain", hint="Alt+H")
+        self.by_hand_button = Button(theme, self.tr("Values by &hand…"), "plain")
+        self.by_hand_button.set_face(self.by_hand_button.text(), hint=letter_key(self.by_hand_button.text()))
         self.answer = heading(theme, wrap=True)
         self.basis = Text(theme, "", 16, REGULAR, "text2", wrap=True)
         self.chart = ProgressChart(theme)
@@ -86,6 +88,7 @@ class ProgressScreen(QWidget):
         filters = QHBoxLayout()
         filters.setSpacing(12)
         self.exercise.setAccessibleName(self.tr("Exercise and hand"))
+        self.exercise.setMinimumContentsLength(LEAST_LETTERS)
         self.exercise.setSizeAdjustPolicy(QComboBox.SizeAdjustPolicy.AdjustToContents)
         filters.addWidget(self.exercise)
         self.followed.setAccessibleName(self.tr("What is followed"))

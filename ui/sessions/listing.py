@@ -132,7 +132,9 @@ class RowPainter(QStyledItemDelegate):
                 paint_state(painter, "warn", at, theme.color("warn"), theme.color("surface"))
                 painter.setPen(theme.color("warn"))
                 room.setLeft(at.right() + 6)
-            shown = QFontMetricsF(face).elidedText(text, Qt.TextElideMode.ElideRight, room.width())
+            # Of exercise and hand, and of a figure with its name, the end matters as much as the beginning.
+            where = Qt.TextElideMode.ElideMiddle if number in (1, 2) else Qt.TextElideMode.ElideRight
+            shown = QFontMetricsF(face).elidedText(text, where, room.width())
             painter.drawText(room, int(Qt.AlignmentFlag.AlignVCenter), shown)
         painter.restore()
 
