@@ -10,6 +10,7 @@ import cv2
 import numpy as np
 
 from carpus.core.camera_calibration.sheet import PAPER_MM, Box, Mark, Paper, Sheet, Text, ruler
+from carpus.core.phrase import phrase
 from carpus.core.types import FloatArray
 
 Pattern = Literal["chessboard", "charuco"]
@@ -49,8 +50,10 @@ class Board:
 
     def name(self) -> str:
         """As in a table."""
-        words = "chessboard" if self.pattern == "chessboard" else "ChArUco board"
-        return f"{words} {self.columns} x {self.rows}, squares of {self.square_m * 1e3:g} mm"
+        facts = {"columns": self.columns, "rows": self.rows, "size": f"{self.square_m * 1e3:g}"}
+        if self.pattern == "chessboard":
+            return phrase("chessboard {columns} x {rows}, squares of {size} mm", **facts)
+        return phrase("ChArUco board {columns} x {rows}, squares of {size} mm", **facts)
 
 
 CHESSBOARD = Board("chessboard", 10, 7, 0.025)
@@ -71,7 +74,15 @@ def board_sheet(board: Board, paper: Paper) -> Sheet:
     height_mm, width_mm = PAPER_MM[paper]
     marks = board_marks(board, *_placed(board, width_mm, height_mm))
     square = f"{board.square_m * 1e3:g} mm"
-    said = Text(f"Carpus camera board: {board.name()}. Glue it flat on a stiff board. Squares: {square}.", 25.0, 8.5)
+    said = Text(
+        phrase(
+            "Carpus camera board: {name}. Glue it flat on a stiff board. Squares: {square}.",
+            name=board.name(),
+            square=square,
+        ),
+        25.0,
+        8.5,
+    )
     return Sheet(width_mm, height_mm, (*marks, said, *ruler(25.0, height_mm - 11.0)))
 
 

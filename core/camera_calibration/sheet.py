@@ -5,6 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Literal
 
+from carpus.core.phrase import phrase
+
 Paper = Literal["a4", "letter"]
 PAPER_MM: dict[Paper, tuple[float, float]] = {"a4": (210.0, 297.0), "letter": (215.9, 279.4)}
 """Width and height, upright."""
@@ -71,6 +73,9 @@ def ruler(left_mm: float, top_mm: float) -> tuple[Mark, ...]:
     for k in range(11):
         x = left_mm + 10.0 * k
         marks.append(Line((x, top_mm), (x, top_mm + (4.0 if k % 5 == 0 else 2.5))))
-    words = ("This line is 100 mm long. If it is not,", "print again at 100 % (“actual size”).")
+    words = (
+        phrase("This line is 100 mm long. If it is not,"),
+        phrase("print again at 100 % (“actual size”)."),
+    )
     said = [Text(line, left_mm + RULER_MM + 4.0, top_mm + 1.4 + 3.6 * k, 8.0) for k, line in enumerate(words)]
     return (*marks, *said)

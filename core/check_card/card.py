@@ -12,6 +12,7 @@ from typing import Literal
 import numpy as np
 
 from carpus.core.camera_calibration.sheet import PAPER_MM, Disc, Line, Mark, Paper, Sheet, Text, ruler
+from carpus.core.phrase import phrase
 from carpus.core.types import FloatArray
 
 BLUE = "#2648A5"
@@ -103,12 +104,18 @@ def card_sheet(paper: Paper) -> Sheet:
     corners = [(left, top), (right, top), (right, bottom), (left, bottom)]
     foot = [Line(one, other, dashed=True) for one, other in zip(corners, corners[1:] + corners[:1], strict=True)]
     said = [
-        Text("Carpus check card", 20.0, 20.0, 14.0, bold=True),
-        Text("1. Print both pages at 100 % on plain white paper. Check the rulers: 100 mm.", 20.0, 28.0),
-        Text("2. Glue this page flat on stiff card. Fold the wedge and glue it onto the dashed field.", 20.0, 33.0),
-        Text("3. Lay it flat under the camera, about 60 cm away, and run the check for 30 seconds.", 20.0, 38.0),
-        Text("the wedge’s side with two discs here", left + 1.0, top + 5.0, 7.0),
-        Text("its side with one disc here", left + 4.0, bottom - 2.5, 7.0),
+        Text(phrase("Carpus check card"), 20.0, 20.0, 14.0, bold=True),
+        Text(phrase("1. Print both pages at 100 % on plain white paper. Check the rulers: 100 mm."), 20.0, 28.0),
+        Text(
+            phrase("2. Glue this page flat on stiff card. Fold the wedge and glue it onto the dashed field."),
+            20.0,
+            33.0,
+        ),
+        Text(
+            phrase("3. Lay it flat under the camera, about 60 cm away, and run the check for 30 seconds."), 20.0, 38.0
+        ),
+        Text(phrase("the wedge’s side with two discs here"), left + 1.0, top + 5.0, 7.0),
+        Text(phrase("its side with one disc here"), left + 4.0, bottom - 2.5, 7.0),
     ]
     return Sheet(width_mm, height_mm, (*discs, *foot, *said, *ruler(20.0, height_mm - 14.0)))
 
@@ -138,10 +145,10 @@ def wedge_sheet(paper: Paper) -> Sheet:
             Line((edge, folds[2]), (edge - outwards * 4.0, end)),
         ]
     said = [
-        Text("Wedge: cut along the lines, fold back along the dashes", 20.0, 16.0, 11.0, bold=True),
+        Text(phrase("Wedge: cut along the lines, fold back along the dashes"), 20.0, 16.0, 11.0, bold=True),
         Text("30°", left + 3.0, folds[0] - 3.0, 8.0),
         Text("30°", left + 3.0, folds[0] + 5.0, 8.0),
-        Text("foot: glue onto the card", left + 3.0, folds[1] + 0.5 * FOOT_MM, 8.0),
-        Text("glue under the low edge", left + 6.0, end - 3.0, 8.0),
+        Text(phrase("foot: glue onto the card"), left + 3.0, folds[1] + 0.5 * FOOT_MM, 8.0),
+        Text(phrase("glue under the low edge"), left + 6.0, end - 3.0, 8.0),
     ]
     return Sheet(width_mm, height_mm, (*marks, *said, *ruler(20.0, height_mm - 14.0)))

@@ -10,6 +10,7 @@ from PySide6.QtWidgets import QLineEdit
 
 from carpus.core.by_hand.measures import HandMeasure
 from carpus.core.by_hand.values import is_unusual
+from carpus.ui import numbers
 from carpus.ui.by_hand.names import unit_name, value_words
 from carpus.ui.fonts import MEDIUM, font
 from carpus.ui.theme import Theme
@@ -43,7 +44,7 @@ class ValueField(QLineEdit):
 
     def set_value(self, value: float) -> None:
         """Show a number; NaN empties the field."""
-        self.setText(f"{value:g}" if math.isfinite(value) else "")
+        self.setText(numbers.figures(value, 6) if math.isfinite(value) else "")
 
     @property
     def is_empty(self) -> bool:
@@ -57,7 +58,7 @@ class ValueField(QLineEdit):
         if self.is_empty or of.least <= value <= of.most:
             return ""
         pattern = self.tr("A number from {least} to {most}, or empty")
-        return pattern.format(least=f"{of.least:g}", most=value_words(of, of.most))
+        return pattern.format(least=numbers.figures(of.least, 6), most=value_words(of, of.most))
 
     @property
     def doubt(self) -> str:

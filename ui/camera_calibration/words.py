@@ -235,7 +235,7 @@ def result_rows(result: BoardResult) -> list[tuple[State, str, str, str, str]]:
 
 def _signed(value: float, digits: int) -> str:
     sign = "−" if value < 0 else "+"
-    return f"{sign}{abs(value):.{digits}f}"
+    return f"{sign}{numbers.fixed(abs(value), digits)}"
 
 
 def effect_rows(result: BoardResult) -> list[tuple[str, str]]:

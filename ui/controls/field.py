@@ -9,6 +9,7 @@ from PySide6.QtCore import QRectF, Qt, Signal
 from PySide6.QtGui import QKeyEvent, QPainter, QPaintEvent
 from PySide6.QtWidgets import QButtonGroup, QHBoxLayout, QLineEdit, QSpinBox, QVBoxLayout, QWidget
 
+from carpus.ui import numbers
 from carpus.ui.controls.button import Button
 from carpus.ui.controls.text import MEDIUM, Text
 from carpus.ui.fonts import font
@@ -100,7 +101,7 @@ class DegreesField(QLineEdit):
 
     def set_value(self, value_deg: float) -> None:
         """Show an angle; NaN empties the field."""
-        self.setText(f"{value_deg:g}°" if math.isfinite(value_deg) else "")
+        self.setText(f"{numbers.figures(value_deg, 6)}°" if math.isfinite(value_deg) else "")
 
     @property
     def problem(self) -> str:

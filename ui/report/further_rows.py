@@ -115,7 +115,7 @@ def value_words(item: FurtherMeasure) -> str:
     if not math.isfinite(item.sd) or item.unit in ("share", "deg"):
         return shown
     number, gap, unit = shown.partition(numbers.NARROW_GAP)
-    return f"{number}{numbers.NARROW_GAP}±{numbers.NARROW_GAP}{item.sd:.{_decimals(item)}f}{gap}{unit}"
+    return f"{number}{numbers.NARROW_GAP}±{numbers.NARROW_GAP}{numbers.fixed(item.sd, _decimals(item))}{gap}{unit}"
 
 
 def _decimals(item: FurtherMeasure) -> int:
@@ -133,7 +133,7 @@ def _value(item: FurtherMeasure, value: float) -> str:
         return f"{value:.0f}"
     if item.name == "tremor 3-12 Hz":
         return f"{numbers.fixed(value, 1)}°"
-    number = f"{value:.{decimals}f}".replace("-", "\N{MINUS SIGN}")
+    number = numbers.fixed(value, decimals).replace("-", "\N{MINUS SIGN}")
     unit = {"s": f"{gap}s", "mm/s": f"{gap}mm/s", "mm": f"{gap}mm", "deg": "°"}.get(item.unit, "")
     return f"{number}{unit}"
 

@@ -8,6 +8,7 @@ from PySide6.QtGui import QColor, QPainter, QPen
 from carpus.core.camera_calibration.sheet import Box, Disc, Line, Sheet, Text
 from carpus.ui.fonts import REGULAR, SEMIBOLD
 from carpus.ui.report.page import Page
+from carpus.ui.translate import say
 
 POINTS_PER_MM = 72.0 / 25.4
 _LINE_PT = 0.5
@@ -35,4 +36,7 @@ def paint_sheet(page: Page, sheet: Sheet) -> None:
             painter.drawLine(*ends)
         elif isinstance(mark, Text):
             place = mark.x_mm * POINTS_PER_MM, mark.y_mm * POINTS_PER_MM
-            page.text(mark.text, *place, mark.size_pt, SEMIBOLD if mark.bold else REGULAR)
+            weight, words = SEMIBOLD if mark.bold else REGULAR, say(mark.text)
+            room = (sheet.width_mm - mark.x_mm) * POINTS_PER_MM - 12.0
+            size = mark.size_pt * min(1.0, room / max(page.width_of(words, mark.size_pt, weight), 1.0))
+            page.text(words, *place, size, weight)
