@@ -1469,7 +1469,7 @@
     </message>
     <message>
         <source>camera, straight down</source>
-        <translation>Kamera, senkrecht nach unten</translation>
+        <translation>Kamera, nach unten</translation>
     </message>
     <message>
         <source>safety cord</source>
@@ -4996,6 +4996,70 @@
         <translation type="vanished">Die Kamera nennt ihre Nummer nicht: {subject}.</translation>
     </message>
     <message>
+        <source>1. Print both pages at 100 % on plain white paper. Check the rulers: 100 mm.</source>
+        <translation>1. Beide Seiten mit 100 % auf weißes Papier drucken. Lineale prüfen: 100 mm.</translation>
+    </message>
+    <message>
+        <source>2. Glue this page flat on stiff card. Fold the wedge and glue it onto the dashed field.</source>
+        <translation>2. Diese Seite flach auf Karton kleben. Keil falten, auf das gestrichelte Feld kleben.</translation>
+    </message>
+    <message>
+        <source>3. Lay it flat under the camera, about 60 cm away, and run the check for 30 seconds.</source>
+        <translation>3. Flach unter die Kamera legen, etwa 60 cm entfernt, und 30 Sekunden lang prüfen.</translation>
+    </message>
+    <message>
+        <source>As root, write into {file}: {rule}. Run: udevadm control --reload. Then plug the camera in again.</source>
+        <translation>Als root in {file} schreiben: {rule}. Ausführen: udevadm control --reload. Dann die Kamera neu anschließen.</translation>
+    </message>
+    <message>
+        <source>Astra driver</source>
+        <translation>Astra-Treiber</translation>
+    </message>
+    <message>
+        <source>Carpus camera board: {name}. Glue it flat on a stiff board. Squares: {square}.</source>
+        <translation>Kalibriertafel für Carpus: {name}. Flach auf eine steife Platte kleben. Felder: {square}.</translation>
+    </message>
+    <message>
+        <source>Carpus check card</source>
+        <translation>Prüfkarte für Carpus</translation>
+    </message>
+    <message>
+        <source>ChArUco board {columns} x {rows}, squares of {size} mm</source>
+        <translation>ChArUco-Tafel {columns} x {rows}, Felder von {size} mm</translation>
+    </message>
+    <message>
+        <source>Install the udev rules that come with Orbbec&apos;s OpenNI2 package, then plug the camera in again.</source>
+        <translation>Installieren Sie die udev-Regeln aus Orbbecs OpenNI2-Paket, und schließen Sie die Kamera neu an.</translation>
+    </message>
+    <message>
+        <source>It needs a USB 2 port.</source>
+        <translation>Sie braucht einen USB-2-Anschluss.</translation>
+    </message>
+    <message>
+        <source>It needs a USB 2 port; some USB 3 ports refuse cameras with old firmware.</source>
+        <translation>Sie braucht einen USB-2-Anschluss; manche USB-3-Anschlüsse lehnen Kameras mit alter Firmware ab.</translation>
+    </message>
+    <message>
+        <source>Orbbec driver</source>
+        <translation>Orbbec-Treiber</translation>
+    </message>
+    <message>
+        <source>Plug it into a USB 3 port, with a USB 3 cable and without a hub.</source>
+        <translation>Schließen Sie sie an einen USB-3-Anschluss an, mit USB-3-Kabel und ohne Verteiler.</translation>
+    </message>
+    <message>
+        <source>Plug the camera in, at best straight into the computer. {port}</source>
+        <translation>Schließen Sie die Kamera an, am besten direkt am Computer. {port}</translation>
+    </message>
+    <message>
+        <source>RealSense driver</source>
+        <translation>RealSense-Treiber</translation>
+    </message>
+    <message>
+        <source>Run: sudo apt-get install libopenni2-0, which brings them. Then plug the camera in again.</source>
+        <translation>Ausführen: sudo apt-get install libopenni2-0, das bringt sie mit. Dann die Kamera neu anschließen.</translation>
+    </message>
+    <message>
         <source>The camera is back: {subject} (away for {detail}).</source>
         <translation>Die Kamera ist wieder da: {subject} (weg: {detail}).</translation>
     </message>
@@ -5276,6 +5340,10 @@
         <translation>Das ist weder die PIN noch der Wiederherstellungscode: {subject}.</translation>
     </message>
     <message>
+        <source>This line is 100 mm long. If it is not,</source>
+        <translation>Diese Linie ist 100 mm lang. Wenn nicht,</translation>
+    </message>
+    <message>
         <source>This looks like the other hand.</source>
         <translation>Das sieht nach der anderen Hand aus.</translation>
     </message>
@@ -5358,6 +5426,10 @@
     <message>
         <source>Wait until it has ended, or choose another folder.</source>
         <translation>Warten Sie, bis es fertig ist, oder wählen Sie einen anderen Ordner.</translation>
+    </message>
+    <message>
+        <source>Wedge: cut along the lines, fold back along the dashes</source>
+        <translation>Keil: an den Linien schneiden, an den Strichen nach hinten falten</translation>
     </message>
     <message>
         <source>What counts as a change stays as it is.</source>
@@ -5462,6 +5534,10 @@
     <message>
         <source>cannot be opened</source>
         <translation>lässt sich nicht öffnen</translation>
+    </message>
+    <message>
+        <source>chessboard {columns} x {rows}, squares of {size} mm</source>
+        <translation>Schachbrett {columns} x {rows}, Felder von {size} mm</translation>
     </message>
     <message>
         <source>codec {codec} for {name}</source>
@@ -5620,6 +5696,10 @@
         <translation>leere Datei</translation>
     </message>
     <message>
+        <source>foot: glue onto the card</source>
+        <translation>Fuß: auf die Karte kleben</translation>
+    </message>
+    <message>
         <source>for {width_px} x {height_px} pixels, pictures have {size}</source>
         <translation>für {width_px} x {height_px} Pixel, die Bilder haben {size}</translation>
     </message>
@@ -5634,6 +5714,10 @@
     <message>
         <source>fx {fx} and fy {fy} are no camera&apos;s with pictures {width} pixels wide</source>
         <translation>fx {fx} und fy {fy} passen zu keiner Kamera mit {width} Pixel breiten Bildern</translation>
+    </message>
+    <message>
+        <source>glue under the low edge</source>
+        <translation>unter die untere Kante kleben</translation>
     </message>
     <message>
         <source>goniometer list</source>
@@ -5762,6 +5846,10 @@
     <message>
         <source>its process ended</source>
         <translation>ihr Prozess ist beendet</translation>
+    </message>
+    <message>
+        <source>its side with one disc here</source>
+        <translation>Seite mit einem Punkt hier</translation>
     </message>
     <message>
         <source>its times do not rise</source>
@@ -6056,6 +6144,10 @@
         <translation>Punkte aus {format}</translation>
     </message>
     <message>
+        <source>print again at 100 % (“actual size”).</source>
+        <translation>neu drucken mit 100 % („Originalgröße“).</translation>
+    </message>
+    <message>
         <source>ring finger</source>
         <translation>Ringfinger</translation>
     </message>
@@ -6105,7 +6197,7 @@
     </message>
     <message>
         <source>the library sees other pictures than the file holds</source>
-        <translation>die Bibliothek sieht andere Bilder, als die Datei enthält</translation>
+        <translation type="vanished">die Bibliothek sieht andere Bilder, als die Datei enthält</translation>
     </message>
     <message>
         <source>the session holds no picture</source>
@@ -6114,6 +6206,10 @@
     <message>
         <source>the two have no time in common</source>
         <translation>die beiden haben keine gemeinsame Zeit</translation>
+    </message>
+    <message>
+        <source>the wedge’s side with two discs here</source>
+        <translation>Keilseite mit zwei Punkten hier</translation>
     </message>
     <message>
         <source>there is no such file</source>
