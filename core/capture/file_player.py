@@ -34,7 +34,7 @@ class FilePlayer:
     def open(self, plan: object, open_s: float) -> Opened | None:
         """What the library found in the file, at most ``open_s`` after the process is up; None when closed meanwhile.
         Raises the fault that ended the process."""
-        self._end()
+        self.stop()
         if self._closing.is_set():
             return None
         process = CaptureProcess(self._serve, plan, str(self._path), self._slot_bytes, self._slots)
@@ -44,7 +44,7 @@ class FilePlayer:
             with self._lock:
                 opened = process.wait_open(self._closing, open_s)
         except BaseException:
-            self._end()
+            self.stop()
             raise
         return opened
 
@@ -80,9 +80,10 @@ class FilePlayer:
     def close(self) -> None:
         """End playback; may be called twice, and while another thread waits for a frame."""
         self._closing.set()
-        self._end()
+        self.stop()
 
-    def _end(self) -> None:
+    def stop(self) -> None:
+        """End the process that runs, and with it a walk under way; another may be opened."""
         with self._lock:
             if self._process is not None:
                 self._process.close(gently=False)

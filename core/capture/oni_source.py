@@ -99,6 +99,7 @@ class OniSource:
         if opened is None:
             return
         if dict(opened.modes) != modes:
+            self._player.stop()
             raise DriverFailed(self._path, "the library sees other pictures than the file holds")
         assembler = Assembler(self._layout, self._period_us, WAITING_PICTURES)
         if (yield from self._player.frames(assembler, modes)):

@@ -79,10 +79,10 @@ class OrbbecCamera(ProcessCamera):
 
     def depth_sensor(self, opened: Opened) -> DepthSensor:
         """By the camera's name, and how its depth pictures see."""
-        return sensor_named(opened.settings)
+        return sensor_named(opened.settings, math.nan if opened.lens is None else opened.lens.fx_px)
 
 
-def sensor_named(settings: Mapping[str, str]) -> DepthSensor:
+def sensor_named(settings: Mapping[str, str], color_focal_px: float = math.nan) -> DepthSensor:
     """The depth sensor of a camera with these settings: a Femto's is the Azure Kinect's; two eyes and a projector are
     assumed to be as sure as a RealSense's with eyes as far apart, for want of figures."""
     name = settings.get("camera", "").upper()
@@ -90,7 +90,7 @@ def sensor_named(settings: Mapping[str, str]) -> DepthSensor:
         return AZURE_KINECT
     pair = D455 if any(model in name for model in _WIDE) else D435
     focal_px = float(settings.get("depth_focal_px", "nan"))
-    return replace(pair.with_focal(focal_px) if focal_px > 0.0 else pair, origin=ASSUMED)
+    return replace(pair.with_focal(focal_px, color_focal_px) if focal_px > 0.0 else pair, origin=ASSUMED)
 
 
 def open_orbbec(*, uri: str | None, camera: Camera | None, patience_s: float, notice: Notice) -> OrbbecCamera:
@@ -101,14 +101,16 @@ def open_orbbec(*, uri: str | None, camera: Camera | None, patience_s: float, no
 def driver_finding(asks_version: bool = True, wanted: bool = True) -> Finding:
     """The maker's library, by its package; loaded, in a process of its own, only where a camera wants it."""
     is_packed = getattr(sys, "frozen", False)
-    packed = f"The packed program has no driver for it: install Carpus with pip, then run: {INSTALL}"
+    packed = phrase(
+        "The packed program has no driver for it: install Carpus with pip, then run: {command}", command=INSTALL
+    )
     return library_finding(
         phrase("Orbbec driver"),
         PACKAGE,
         load_library,
         asks=asks_version and wanted,
-        unwanted="" if wanted else "not installed; only an Orbbec Femto, Gemini or Astra 2 needs it",
-        how=packed if is_packed else f"Run: {INSTALL}",
+        unwanted="" if wanted else phrase("not installed; only an Orbbec Femto, Gemini or Astra 2 needs it"),
+        how=packed if is_packed else phrase("Run: {command}", command=INSTALL),
     )
 
 
