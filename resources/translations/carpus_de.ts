@@ -2000,8 +2000,8 @@
         <translation>{count} Namen sind zweifelhaft</translation>
     </message>
     <message>
-        <source>Look at: {markers}. Enter says yes to the one that is asked; drag a name to another disc to change it.</source>
-        <translation>Sehen Sie nach: {markers}. Die Eingabetaste bejaht die gestellte Frage; ziehen Sie einen Namen auf einen anderen Punkt, um ihn zu ändern.</translation>
+        <source>Look at: {markers}. Enter says yes; drag a name to another disc to change it.</source>
+        <translation>Sehen Sie nach: {markers}. Eingabe heißt ja; ziehen Sie einen Namen auf einen anderen Punkt, um ihn zu ändern.</translation>
     </message>
     <message>
         <source>Is this the {marker}?</source>

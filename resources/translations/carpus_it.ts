@@ -2000,8 +2000,8 @@
         <translation>{count} nomi sono dubbi</translation>
     </message>
     <message>
-        <source>Look at: {markers}. Enter says yes to the one that is asked; drag a name to another disc to change it.</source>
-        <translation>Guardare: {markers}. Invio dice sì a quello richiesto; per cambiare un nome, trascinarlo su un altro dischetto.</translation>
+        <source>Look at: {markers}. Enter says yes; drag a name to another disc to change it.</source>
+        <translation>Guardare: {markers}. Invio dice sì; per cambiare un nome, trascinarlo su un altro dischetto.</translation>
     </message>
     <message>
         <source>Is this the {marker}?</source>

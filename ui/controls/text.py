@@ -169,7 +169,8 @@ class StateText(QWidget):
         metrics = QFontMetricsF(self._font())
         icon = self._theme.px(self._icon_px) + (8 if self._text else 0) if self._has_icon() else 0
         width = int(icon + metrics.horizontalAdvance(self._text)) + (2 if self._text else 0)
-        self.setFixedSize(max(width, 1), int(max(icon, metrics.height(), 20)) + 4)
+        high = int(max(icon, metrics.height(), 20)) + 4 if self._text else icon + 2  # a sign alone needs no line
+        self.setFixedSize(max(width, 1), max(high, 1))
         self.setVisible(bool(self._text) or self._has_icon())
         self.update()
         self.resized.emit()

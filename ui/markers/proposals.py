@@ -40,9 +40,7 @@ def words_for(clicking: Clicking) -> ProposalWords:
             if len(doubtful) == 1
             else tr("{count} names are doubtful").format(count=len(doubtful))
         )
-        todo = tr(
-            "Look at: {markers}. Enter says yes to the one that is asked; drag a name to another disc to change it."
-        )
+        todo = tr("Look at: {markers}. Enter says yes; drag a name to another disc to change it.")
         title = tr("Is this the {marker}?").format(marker=marker_in_words(doubtful[0], say))
         return ProposalWords("warn", step, title, todo.format(markers=_list(doubtful)), tr("Yes, it is"))
     step = tr("{named} of {asked} markers found").format(named=asked - len(open_names), asked=asked)
