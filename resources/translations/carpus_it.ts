@@ -5036,6 +5036,34 @@
         <translation type="vanished">La telecamera non comunica il suo numero: {subject}.</translation>
     </message>
     <message>
+        <source>1. Print both pages at 100 % on plain white paper. Check the rulers: 100 mm.</source>
+        <translation>1. Stampare le due pagine al 100 % su carta bianca comune. Verificare i righelli: 100 mm.</translation>
+    </message>
+    <message>
+        <source>2. Glue this page flat on stiff card. Fold the wedge and glue it onto the dashed field.</source>
+        <translation>2. Incollare questa pagina su cartone rigido. Piegare il cuneo e incollarlo sul campo tratteggiato.</translation>
+    </message>
+    <message>
+        <source>3. Lay it flat under the camera, about 60 cm away, and run the check for 30 seconds.</source>
+        <translation>3. Metterlo piatto sotto la telecamera, a circa 60 cm, e avviare il controllo per 30 secondi.</translation>
+    </message>
+    <message>
+        <source>Carpus camera board: {name}. Glue it flat on a stiff board. Squares: {square}.</source>
+        <translation>Tavola di calibrazione Carpus: {name}. Incollarla ben piana su un supporto rigido. Quadrati: {square}.</translation>
+    </message>
+    <message>
+        <source>Carpus check card</source>
+        <translation>Cartoncino di controllo di Carpus</translation>
+    </message>
+    <message>
+        <source>ChArUco board {columns} x {rows}, squares of {size} mm</source>
+        <translation>tavola ChArUco {columns} x {rows}, quadrati di {size} mm</translation>
+    </message>
+    <message>
+        <source>Run: {command}</source>
+        <translation>Eseguire: {command}</translation>
+    </message>
+    <message>
         <source>The camera is back: {subject} (away for {detail}).</source>
         <translation>La telecamera è tornata: {subject} (assente per {detail}).</translation>
     </message>
@@ -5188,6 +5216,10 @@
         <translation>Il vecchio risultato non è cambiato.</translation>
     </message>
     <message>
+        <source>The packed program has no driver for it: install Carpus with pip, then run: {command}</source>
+        <translation>Il programma pronto non ha un driver per questa: installare Carpus con pip, poi eseguire: {command}</translation>
+    </message>
+    <message>
         <source>The part of Carpus that encrypts is not installed here ({detail}).</source>
         <translation>La parte di Carpus che cifra non è installata qui ({detail}).</translation>
     </message>
@@ -5316,6 +5348,10 @@
         <translation>Questo non è il PIN di {subject}, né il suo codice di recupero.</translation>
     </message>
     <message>
+        <source>This line is 100 mm long. If it is not,</source>
+        <translation>Questa linea è lunga 100 mm. Se no,</translation>
+    </message>
+    <message>
         <source>This looks like the other hand.</source>
         <translation>Questa sembra l’altra mano.</translation>
     </message>
@@ -5398,6 +5434,10 @@
     <message>
         <source>Wait until it has ended, or choose another folder.</source>
         <translation>Attendere che abbia finito, o scegliere un’altra cartella.</translation>
+    </message>
+    <message>
+        <source>Wedge: cut along the lines, fold back along the dashes</source>
+        <translation>Cuneo: tagliare lungo le linee, piegare lungo i tratteggi</translation>
     </message>
     <message>
         <source>What counts as a change stays as it is.</source>
@@ -5502,6 +5542,10 @@
     <message>
         <source>cannot be opened</source>
         <translation>non si può aprire</translation>
+    </message>
+    <message>
+        <source>chessboard {columns} x {rows}, squares of {size} mm</source>
+        <translation>scacchiera {columns} x {rows}, quadrati di {size} mm</translation>
     </message>
     <message>
         <source>codec {codec} for {name}</source>
@@ -5660,6 +5704,10 @@
         <translation>file vuoto</translation>
     </message>
     <message>
+        <source>foot: glue onto the card</source>
+        <translation>base: incollare sul cartoncino</translation>
+    </message>
+    <message>
         <source>for {width_px} x {height_px} pixels, pictures have {size}</source>
         <translation>per {width_px} x {height_px} pixel, le immagini hanno {size}</translation>
     </message>
@@ -5674,6 +5722,10 @@
     <message>
         <source>fx {fx} and fy {fy} are no camera&apos;s with pictures {width} pixels wide</source>
         <translation>fx {fx} e fy {fy} non sono di una telecamera con immagini larghe {width} pixel</translation>
+    </message>
+    <message>
+        <source>glue under the low edge</source>
+        <translation>incollare sotto il bordo basso</translation>
     </message>
     <message>
         <source>goniometer list</source>
@@ -5802,6 +5854,10 @@
     <message>
         <source>its process ended</source>
         <translation>il suo processo è terminato</translation>
+    </message>
+    <message>
+        <source>its side with one disc here</source>
+        <translation>qui il lato con un dischetto</translation>
     </message>
     <message>
         <source>its times do not rise</source>
@@ -6072,6 +6128,10 @@
         <translation>non nell’elenco dei pazienti</translation>
     </message>
     <message>
+        <source>not installed; only an Orbbec Femto, Gemini or Astra 2 needs it</source>
+        <translation>non installato; serve solo a una Orbbec Femto, Gemini o Astra 2</translation>
+    </message>
+    <message>
         <source>not the part file of a session</source>
         <translation>non il file parziale di una seduta</translation>
     </message>
@@ -6094,6 +6154,10 @@
     <message>
         <source>points by {format}</source>
         <translation>punti da {format}</translation>
+    </message>
+    <message>
+        <source>print again at 100 % (“actual size”).</source>
+        <translation>ristampare al 100 % (“dimensioni effettive”).</translation>
     </message>
     <message>
         <source>ring finger</source>
@@ -6145,7 +6209,7 @@
     </message>
     <message>
         <source>the library sees other pictures than the file holds</source>
-        <translation>la libreria vede immagini diverse da quelle del file</translation>
+        <translation type="vanished">la libreria vede immagini diverse da quelle del file</translation>
     </message>
     <message>
         <source>the session holds no picture</source>
@@ -6154,6 +6218,10 @@
     <message>
         <source>the two have no time in common</source>
         <translation>le due non hanno tempo in comune</translation>
+    </message>
+    <message>
+        <source>the wedge’s side with two discs here</source>
+        <translation>qui il lato del cuneo con due dischetti</translation>
     </message>
     <message>
         <source>there is no such file</source>
