@@ -4381,7 +4381,7 @@
     </message>
     <message>
         <source>Another blue spot fits the {markers} better.</source>
-        <translation>Eine andere blaue Stelle passt besser: {markers}.</translation>
+        <translation>{markers}: Eine andere blaue Stelle passt besser.</translation>
     </message>
     <message>
         <source>Another program is making {subject} at this moment.</source>
@@ -4777,7 +4777,7 @@
     </message>
     <message>
         <source>No hand has this shape: the {markers} does not lie where the other discs expect it.</source>
-        <translation>Keine Hand hat diese Form. Nicht dort, wo die anderen Punkte ihn erwarten: {markers}.</translation>
+        <translation>Keine Hand hat diese Form; nicht am erwarteten Platz: {markers}.</translation>
     </message>
     <message>
         <source>Not all files could be deleted yet ({detail} left, such as {subject}).</source>
@@ -5060,6 +5060,10 @@
         <translation>Ausführen: sudo apt-get install libopenni2-0, das bringt sie mit. Dann die Kamera neu anschließen.</translation>
     </message>
     <message>
+        <source>Run: {command}</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
         <source>The camera is back: {subject} (away for {detail}).</source>
         <translation>Die Kamera ist wieder da: {subject} (weg: {detail}).</translation>
     </message>
@@ -5212,6 +5216,10 @@
         <translation>Das alte Ergebnis ist unverändert.</translation>
     </message>
     <message>
+        <source>The packed program has no driver for it: install Carpus with pip, then run: {command}</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
         <source>The part of Carpus that encrypts is not installed here ({detail}).</source>
         <translation>Der Teil von Carpus, der verschlüsselt, ist hier nicht installiert ({detail}).</translation>
     </message>
@@ -5277,7 +5285,7 @@
     </message>
     <message>
         <source>The {markers} does not lie on the line of its finger.</source>
-        <translation>Nicht auf der Linie seines Fingers: {markers}.</translation>
+        <translation>{markers}: nicht auf der Linie des Fingers.</translation>
     </message>
     <message>
         <source>There is a file already at {subject}.</source>
@@ -6120,6 +6128,10 @@
         <translation>nicht in der Liste der Patienten</translation>
     </message>
     <message>
+        <source>not installed; only an Orbbec Femto, Gemini or Astra 2 needs it</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
         <source>not the part file of a session</source>
         <translation>nicht die Teildatei einer Sitzung</translation>
     </message>
@@ -6389,7 +6401,7 @@
     </message>
     <message>
         <source>{detail} among the sessions cannot be read and are set apart: {subject}.</source>
-        <translation>{detail} bei den Sitzungen: nicht lesbar und darum abgesondert: {subject}.</translation>
+        <translation>{detail} bei den Sitzungen nicht lesbar, darum abgesondert: {subject}.</translation>
     </message>
     <message>
         <source>{free} MB free, {least_free_bytes} MB are needed</source>
