@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import threading
 from collections.abc import Iterator
 from dataclasses import replace
 from datetime import datetime
@@ -144,7 +145,11 @@ def test_the_top_bar_and_the_settings_say_that_the_camera_was_out(
     card = desktop.shell.findChild(CameraCard)
     assert card is not None
     assert "out of its limits" in card._state.text()
+    disk, answers = care_cameras.known_serials, threading.Event()
+    monkeypatch.setattr(care_cameras, "known_serials", lambda folder: disk(folder) if answers.wait(600) else set())
     journey.show_card()
+    assert (journey.place, journey.card.checks.newest) == ("card", None), "a disk that hangs does not hold the window"
+    answers.set()
     qtbot.waitUntil(lambda: journey.card.checks.verdict == "out")
     assert journey.card.check_button.text() == "Check once more"
     heard: list[Notice] = []
