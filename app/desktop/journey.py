@@ -562,6 +562,7 @@ class Journey(QObject):
         self.patient_view.close()
         self.markers.end()
         self.review.end()
+        self.beside_screen.end()
         self.correcting.close()
         self.comparing.close()
         recording = self.measuring.let_go()

@@ -23,7 +23,7 @@ class Witness(QObject):
 
     def __init__(self, journey: Journey, library: Library) -> None:
         super().__init__(journey)
-        self._now_beside: Callable[[], Sequence[str]] = lambda: journey.beside_screen.ids
+        self._now_beside: Callable[[], Sequence[str]] = lambda: sorted(journey.beside_screen.ids)
         self._now, self._library = journey.now, library
         self._seen = ("", "")
         self.log_lost.connect(journey.teller.fault)

@@ -120,6 +120,13 @@ def test_from_the_review_and_a_file_that_went_away(qtbot: QtBot, desktop: compos
     assert journey.place == "beside"
     qtbot.waitUntil(lambda: screen.shown is not None)
     assert screen.ids == (newest, older)
+    qtbot.keyClick(desktop.shell, Qt.Key.Key_F1)
+    assert journey.place == "help"
+    journey.way.back()
+    assert journey.place == "beside", "as it was left"
+    assert screen.shown is not None
+    opened = [entry.did for entry in read_audit(desktop.library.folder).entries].count("opened")
+    assert opened == 3, "the review's one, and the two once"
     journey.way.back()
     assert journey.place == "review"
     qtbot.waitUntil(lambda: journey.review.shown)
