@@ -12,6 +12,7 @@ from carpus.core.output.report_content import RepetitionChoices, SessionFigures,
 from carpus.core.output.side_by_side import side_by_side
 from carpus.ui.background import Background
 from carpus.ui.beside.screen import BesideScreen
+from carpus.ui.beside.shown import Watched, kinds, shown
 from carpus.ui.beside.words import facts_words, headline, table_rows, unfair_words
 from carpus.ui.keys import Keys
 from carpus.ui.report.hand_rows import followed_keys
@@ -57,6 +58,18 @@ def test_fingers_are_counted_and_a_lower_bound_is_said_to_be_one() -> None:
     assert rows["Middle finger, TAM"].difference.startswith("at least")
     assert rows["Index finger, TAM"].words == "not judged: hidden in part"
     assert rows["Index finger, TAM"].difference == "–"
+
+
+def test_of_a_hook_all_middle_joints_come_first_and_what_nobody_measures_has_no_curve() -> None:
+    hooks = [hand_session(exercise="FIST_HOOK", motion="hook", session_id=key, side=key) for key in ("right", "left")]
+    first, second = (Watched.of(hook, session_figures(hook)) for hook in hooks)
+    offered = [value for value, _ in kinds(first, second)]
+    assert offered[:2] == ["middle", "1"]
+    now = shown(first, second, offered[0])
+    assert [one.first.joint for one in now.both.ranges] == [f"PIP{finger}_flexion" for finger in (2, 3, 4, 5)]
+    finger = shown(first, second, "3")
+    assert ("PIP3_flexion", -1) in finger.quantities
+    assert ("DIP3_flexion", -1) not in finger.quantities
 
 
 def test_an_unfair_pair_has_its_reason_once_and_no_judgement(right: SessionFigures, left: SessionFigures) -> None:

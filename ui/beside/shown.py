@@ -6,16 +6,19 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from carpus.core.output.mean_repetition import MeanRepetition, Quantity, SeenAngles, mean_repetition, seen_angles
-from carpus.core.output.range_rows import best_motion
+from carpus.core.output.range_rows import RowKey, best_motion
 from carpus.core.output.report_content import FREE_ORDER, SessionFigures
 from carpus.core.output.side_by_side import SideBySide, side_by_side
 from carpus.core.session.values import Session
 from carpus.core.types import FloatArray
 from carpus.ui.beside.rows import BesideRow
-from carpus.ui.beside.words import facts_words, headline, heads, name_of, table_rows
-from carpus.ui.figures import figure_of
+from carpus.ui.beside.words import facts_words, headline, heads, middle_words, name_of, table_rows
+from carpus.ui.figures import FINGERS, Figure, figure_of
 from carpus.ui.plot.beside import BesidePlot
-from carpus.ui.report.hand_rows import followed_keys, followed_kinds
+from carpus.ui.report.hand_rows import compared_row, followed_keys, followed_kinds, trains_thumb
+
+MIDDLE = "middle"
+"""The middle joints of all fingers."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -90,16 +93,30 @@ class Shown:
 
 def kinds(first: Watched, second: Watched) -> list[tuple[str, str]]:
     """What of the whole hand can be looked at, as value and words; nothing unless both are of fingers."""
-    return followed_kinds(first.figures) if first.figures.joint_rows and second.figures.joint_rows else []
+    if not (first.figures.joint_rows and second.figures.joint_rows):
+        return []
+    found = followed_kinds(first.figures)
+    if compared_row(first.figures) == "middle" and not trains_thumb(first.figures):
+        return [(MIDDLE, middle_words()), *found]  # no finger stands for the others
+    return found
+
+
+def _keys(followed: str) -> tuple[RowKey, ...]:
+    """What a choice of :func:`kinds` looks at."""
+    if followed == MIDDLE:
+        return tuple((Figure(finger, "middle").joint, "arc", -1) for finger in FINGERS[1:])
+    return followed_keys(followed)
 
 
 def shown(first: Watched, second: Watched, followed: str) -> Shown:
     """All that is shown of two sessions."""
-    keys = followed_keys(followed)
+    keys = _keys(followed)
     both = side_by_side(first.figures, second.figures, keys)
     quantities = tuple((key[0], -1) for key in keys) if keys else _angles(first.figures)
-    means = tuple((_mean(first, quantity), _mean(second, quantity)) for quantity in quantities)
-    return Shown(both, followed if keys else "", quantities, means)
+    means = {quantity: (_mean(first, quantity), _mean(second, quantity)) for quantity in quantities}
+    drawn = tuple(quantity for quantity in quantities if any(mean.known for mean in means[quantity]))
+    drawn = drawn or quantities[:1]
+    return Shown(both, followed if keys else "", drawn, tuple(means[quantity] for quantity in drawn))
 
 
 def _angles(figures: SessionFigures) -> tuple[Quantity, ...]:

@@ -329,6 +329,11 @@ def other_hand_words() -> str:
     return tr("The other hand is a comparison, not a norm: hands of one person differ by themselves.")
 
 
+def middle_words() -> str:
+    """Of all fingers what a hook trains."""
+    return tr("Middle joints of all fingers")
+
+
 def no_limit_words(both: SideBySide) -> str:
     """Why a figure without an error limit is not judged; of an unfair pair the strip says why."""
     return tr("not judged: no error limit is known") if both.fair else tr("not judged")
