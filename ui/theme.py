@@ -112,7 +112,7 @@ class Theme(QObject):
         connected would be called for a widget that is no more."""
         take()
         connection = self.changed.connect(take)
-        widget.destroyed.connect(lambda: self.changed.disconnect(connection))
+        widget.destroyed.connect(lambda: QObject.disconnect(connection))
 
     def color(self, token: str, alpha: int = 255) -> QColor:
         """The colour of a token by name, such as ``theme.color("text2")``."""
