@@ -271,7 +271,7 @@ def compose(
     journey.care.changed.connect(lambda: camera_card.show_standing(*card_words(journey.care.standing)))
     camera_card.show_standing(*card_words(journey.care.standing))
     safe = _safekeeping(shell, theme, journey, library, keeper, settings, settings_folder, parts.today)
-    keeper.screen.add_cards(camera_card)
+    keeper.screen.add_cards(journey.forms.card, camera_card)
     tour = Tour(journey)
     welcome = Welcome(journey, theme, tour, keeper, library)
     again = partial(compose, qt, is_demo=is_demo, take=take, speed=speed, settings_folder=settings_folder, today=today)

@@ -11,7 +11,9 @@ from carpus import __version__
 from carpus.app.commands.kept import made
 from carpus.app.settings import ANGLE_ORDERS, load_settings
 from carpus.core.errors import OutputExists
+from carpus.core.library.clinic_form import read_form
 from carpus.core.output.angle_order import in_order
+from carpus.core.output.report_form import PAPERS
 from carpus.core.session.reader import read_session
 
 
@@ -23,6 +25,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         choices=ANGLE_ORDERS,
         help="order of the wrist's angles: the papers' zyx, or isb (flexion first); as in the settings without it",
     )
+    parser.add_argument("--paper", choices=PAPERS, help="as chosen in the window without it")
+    parser.add_argument("--language", choices=("en", "de", "it"), default="", help="as the computer's without it")
 
 
 def run(arguments: argparse.Namespace) -> int:
@@ -32,6 +36,10 @@ def run(arguments: argparse.Namespace) -> int:
     chosen = settings.report
     order, therapist = arguments.angle_order or chosen.angle_order, chosen.therapist
     sessions = [in_order(read_session(path), order) for path in arguments.sessions]
+    form = read_form(settings.data_folder)
+    if arguments.paper:
+        form = replace(form, paper=arguments.paper)
+    look = {"form": form, "language": arguments.language}
     # Qt is loaded only now: a wrong file is told without it.
     from carpus.core.agreement.limits_file import read_limits
     from carpus.core.check_card.trust import camera_of, folder_with_checks
@@ -43,7 +51,9 @@ def run(arguments: argparse.Namespace) -> int:
     cameras = [camera_of(one, folder_with_checks(one.path) or settings.data_folder) for one in sessions]
     application = ensure_application()
     if len(sessions) == 1:
-        write_session_report(sessions[0], arguments.output, therapist=therapist, choices=choices[0], camera=cameras[0])
+        write_session_report(
+            sessions[0], arguments.output, therapist=therapist, choices=choices[0], camera=cameras[0], **look
+        )
     else:
         limits = read_limits(settings.data_folder)
         figures = [
@@ -52,7 +62,7 @@ def run(arguments: argparse.Namespace) -> int:
         ]
         for older in {one.session_id for one in figures} - {one.session_id for one in newest_results(figures)}:
             print(f"carpus: session {older} is left out: a newer result of its recording counts.", file=sys.stderr)
-        write_progress_report(figures, arguments.output, therapist=therapist, software_version=__version__)
+        write_progress_report(figures, arguments.output, therapist=therapist, software_version=__version__, **look)
     del application
     kept = [(path, one.header.session_id) for path, one in zip(arguments.sessions, sessions, strict=True)]
     made(kept, [arguments.output], "report")

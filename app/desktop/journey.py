@@ -34,6 +34,7 @@ from carpus.app.desktop.opening import Opener
 from carpus.app.desktop.patient_view import PatientViewing
 from carpus.app.desktop.places import STEPS, TABS, Place
 from carpus.app.desktop.printing import Printing
+from carpus.app.desktop.report_forms import ReportForms
 from carpus.app.desktop.retesting import Retesting
 from carpus.app.desktop.setting_up import SettingUp, SetUpScreens
 from carpus.app.desktop.shelf import StoredSessions
@@ -169,9 +170,10 @@ class Journey(QObject):
         self.course = CourseRun(self, self.live, self.patient_view, now)
         views = ViewScreens(self.sessions, self.review, self.progress)
         self.viewing = Viewing(self, views, self.way, tell, now, library, self._find_patient, places)
+        self.forms = ReportForms(self, theme, library.folder, tell.fault)
         self.printing = Printing(
             self._shell, self.report, self.way, tell, now, library, places, self.background,
-            theme=theme, therapist=lambda: self.settings.report.therapist,
+            theme=theme, therapist=lambda: self.settings.report.therapist, forms=self.forms,
         )  # fmt: skip
         self.entering_by_hand = ByHand(
             self, self.by_hand, self.way, tell, now, library, self.background,

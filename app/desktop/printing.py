@@ -5,6 +5,7 @@ from __future__ import annotations
 import csv
 import threading
 from collections.abc import Callable, Sequence
+from dataclasses import replace
 from itertools import chain, count
 from pathlib import Path
 from typing import Protocol
@@ -19,9 +20,10 @@ from carpus.app.desktop.now_open import NowOpen
 from carpus.app.desktop.ways import Tell, Way
 from carpus.core.by_hand.table import COLUMNS, rows_of
 from carpus.core.by_hand.values import HandValue
-from carpus.core.errors import OutputNotWritable
+from carpus.core.errors import CarpusFault, OutputNotWritable
 from carpus.core.output.camera_said import CameraSaid
 from carpus.core.output.report_content import Progress, RepetitionChoices, SessionFigures
+from carpus.core.output.report_form import ReportForm
 from carpus.core.session.values import Session
 from carpus.ui.background import Background
 from carpus.ui.export.sheet import ExportSheet
@@ -47,6 +49,10 @@ class Printable(Protocol):
 
     def by_hand(self, patient_id: str) -> Sequence[HandValue]: ...
 
+    def comment(self, session_id: str) -> str: ...
+
+    def keep_comment(self, session_id: str, text: str) -> None: ...
+
     def export(
         self,
         session_id: str,
@@ -57,6 +63,15 @@ class Printable(Protocol):
         deidentified: bool,
         software_version: str,
     ) -> Sequence[str]: ...
+
+
+class Forms(Protocol):
+    """The clinic's form of reports."""
+
+    @property
+    def form(self) -> ReportForm: ...
+
+    def keep(self, form: ReportForm) -> None: ...
 
 
 class Printing(QObject):
@@ -80,10 +95,12 @@ class Printing(QObject):
         *,
         theme: Theme,
         therapist: Callable[[], str],
+        forms: Forms,
     ) -> None:
         super().__init__(window)
         self._window, self._screen, self._way, self._tell, self._now = window, screen, way, tell, now
         self._stored, self._places, self._background, self._therapist = stored, places, background, therapist
+        self._forms = forms
         self._shown: Sequence[str] = ()
         self._stop = threading.Event()
         self._exported = ""
@@ -92,6 +109,8 @@ class Printing(QObject):
         self.formats.stop.connect(self._stop.set)
         self._stepped.connect(self.formats.progress, Qt.ConnectionType.QueuedConnection)
         screen.told.connect(tell.fault)
+        screen.panel.form_kept.connect(forms.keep)
+        screen.panel.comment_kept.connect(self._keep_comment)
         screen.saved.connect(lambda path: self.reported.emit(path, self._shown))
         screen.saved.connect(lambda path: places.keep("reports", str(Path(path).parent)))
 
@@ -111,6 +130,8 @@ class Printing(QObject):
                 therapist=self._therapist(),
                 by_hand=stored.by_hand(row.patient_id),
                 camera=stored.camera(session),
+                comment=stored.comment(session_id),
+                form=self._forms.form,
             )
 
         def show(report: SessionReport) -> None:
@@ -119,6 +140,12 @@ class Printing(QObject):
             self._way.go("report")
 
         self._background.run(gather, show, self._tell.fault)
+
+    def _keep_comment(self, session_id: str, text: str) -> None:
+        try:
+            self._stored.keep_comment(session_id, text)
+        except CarpusFault as fault:
+            self._tell.fault(fault)
 
     def course(self, sessions: Sequence[SessionFigures], followed: object, by_hand: Sequence[HandValue] = ()) -> None:
         """Make the report over sessions and show it; ``followed`` is what of the whole hand is on the screen,
@@ -133,6 +160,7 @@ class Printing(QObject):
                 what=followed if isinstance(followed, str) else None,
                 software_version=__version__,
                 by_hand=by_hand,
+                form=self._forms.form,
             )
             self._screen.begin(report, self._places.folder("reports"))
             self._way.go("report")
@@ -140,7 +168,7 @@ class Printing(QObject):
     def pair(self, report: BesideReport) -> None:
         """Show the page of two sessions side by side."""
         self._shown = [figures.session_id for figures in report.sessions]
-        self._screen.begin(report, self._places.folder("reports"))
+        self._screen.begin(replace(report, form=self._forms.form), self._places.folder("reports"))
         self._way.go("report")
 
     def export(self, session_id: str) -> None:

@@ -10,7 +10,7 @@ from collections import Counter
 from collections.abc import Callable, Iterable, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, replace
-from datetime import datetime
+from datetime import UTC, datetime
 from pathlib import Path
 from typing import Any
 
@@ -37,8 +37,9 @@ from carpus.core.errors import (
     SessionUnreadable,
 )
 from carpus.core.formats.export import Wanted, export_sessions
-from carpus.core.library.beside import CHOICES_SUFFIX, MARKERS_SUFFIX
+from carpus.core.library.beside import CHOICES_SUFFIX, COMMENTS_SUFFIX, MARKERS_SUFFIX
 from carpus.core.library.coming_home import bring_home, fallback_place
+from carpus.core.library.comments import MOST_CHARACTERS, Comment, latest, read_comments, stored_form
 from carpus.core.library.encrypting import Encrypting
 from carpus.core.library.exercise_sets import begun, read_sets
 from carpus.core.library.set_up import PRACTICE_PATIENT, SetUp
@@ -440,6 +441,24 @@ class Library:
             "not_counted_reason": choices.not_counted_reason,
         }
         _write_json(path, content)
+
+    def comments(self, session_id: str) -> Sequence[Comment]:
+        """All that the therapist wrote of a session, oldest first."""
+        return read_comments(self.entry(session_id).path)
+
+    def comment(self, session_id: str) -> str:
+        """What holds of it; empty where nothing was written."""
+        return latest(self.comments(session_id))
+
+    def keep_comment(self, session_id: str, text: str) -> None:
+        """Add a comment, which holds from now on; what was written before stays beside it."""
+        before = self.comments(session_id)
+        text = text.strip()[:MOST_CHARACTERS]
+        if text != latest(before):
+            self.note_session("changed", session_id)
+            now = datetime.now(UTC).replace(microsecond=0)
+            path = self.entry(session_id).path.with_suffix(COMMENTS_SUFFIX)
+            _write_json(path, stored_form([*before, Comment(text, self.who(), now)]))
 
     def figures(self, entry: SessionEntry) -> SessionFigures:
         """Figures of a session with its choices, computed once, and with what is known of its camera by now."""

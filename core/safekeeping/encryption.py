@@ -22,12 +22,12 @@ from carpus.core.durable import sync_folder, write_fault
 from carpus.core.encryption import cipher, content, keys
 from carpus.core.encryption.cipher import is_encrypted, key_text, remove_database
 from carpus.core.errors import CarpusFault, EncryptionUnfinished, RegisterUnreadable
-from carpus.core.library.beside import CHOICES_SUFFIX, MARKERS_SUFFIX
+from carpus.core.library.beside import CHOICES_SUFFIX, COMMENTS_SUFFIX, MARKERS_SUFFIX
 from carpus.core.phrase import phrase
 from carpus.core.session.disk import is_being_written
 from carpus.core.session.register import REGISTER_FILE
 
-ENDINGS = (".h5", RAW_SUFFIX, MARKERS_SUFFIX, CHOICES_SUFFIX)
+ENDINGS = (".h5", RAW_SUFFIX, MARKERS_SUFFIX, CHOICES_SUFFIX, COMMENTS_SUFFIX)
 
 Progress = Callable[[int, int], None]
 

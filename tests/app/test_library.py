@@ -149,6 +149,10 @@ def test_choices_lie_beside_the_session_and_a_damaged_file_of_them_is_told(libra
     session_id = store(library, set_up(PRACTICE_PATIENT, "Practice patient"))
     choices = RepetitionChoices({2: "pain", 0: ""}, {1: (3.5, 6.25)}, not_counted=True)
     library.keep_choices(session_id, choices)
+    for text in ("First.", "Second,\nwith a line.", "Second,\nwith a line.\n", ""):
+        library.keep_comment(session_id, text)
+    assert [one.text for one in library.comments(session_id)] == ["First.", "Second,\nwith a line.", ""]
+    assert library.comment(session_id) == ""
     assert library.choices(session_id) == choices
     beside = library.entry(session_id).path.with_suffix(CHOICES_SUFFIX)
     assert json.loads(beside.read_text())["edges_s"] == {"1": [3.5, 6.25]}

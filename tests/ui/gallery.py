@@ -26,6 +26,7 @@ from carpus.core.library.exercise_sets import USUAL_SETS
 from carpus.core.measures.error_limits import DEFAULT_LIMITS
 from carpus.core.output.joint_content import joint_curves
 from carpus.core.output.report_content import RepetitionChoices, session_curves, session_figures
+from carpus.core.output.report_form import Letterhead, ReportForm
 from carpus.core.session.values import Session
 from carpus.core.types import Side
 from carpus.core.words import finding_words
@@ -706,6 +707,17 @@ class Gallery:
         screen.begin(session_report(stored, choices=choices, history=self.sessions.history("linden")), "")
         self.settle()
 
+    def report_own(self) -> None:
+        """The clinic's letterhead on US Letter, a comment, a part left out."""
+        self.place(tab=3, camera="")
+        screen = ReportScreen(self.theme, self.keys, self.background)
+        self.show(screen)
+        head = Letterhead("Hand clinic at the river", ("12 Riverside Road", "Springfield"))
+        form = ReportForm(head, "letter", frozenset({"bars"}))
+        stored, history = self.sessions.session("session-7"), self.sessions.history("linden")
+        screen.begin(session_report(stored, history=history, form=form, comment="Splint at night.\nCome back."), "")
+        self.settle()
+
     def report_progress(self) -> None:
         self.place(tab=3, camera="")
         screen = ReportScreen(self.theme, self.keys, self.background)
@@ -1008,7 +1020,7 @@ class Gallery:
             "retest", "retest_empty", "retest_people",
             "correct_exchanged", "correct_results", "correct_results_hand", "correct_running",
             "progress", "progress_by_hand", "progress_hand", "by_hand", "report", "report_hand",
-            "report_progress",
+            "report_progress", "report_own",
             "settings", "settings_safe", "locked", "pin_change", "records_due", "records_log", "help",
             "patients_welcome", "patients_welcome_good", "patients_guided", "camera_guided",
             "markers_guided", "markers_ready_guided", "live_guided", "live_hand_guided", "review_guided",

@@ -13,6 +13,7 @@ from pytestqt.qtbot import QtBot
 
 from carpus.app.desktop.last_places import LastPlaces
 from carpus.app.desktop.printing import Printing
+from carpus.app.desktop.report_forms import ReportForms
 from carpus.core.formats.formats import FORMATS
 from carpus.ui.background import Background
 from carpus.ui.keys import Keys
@@ -68,7 +69,7 @@ def parts(
     monkeypatch.setattr(QFileDialog, "getExistingDirectory", lambda *_: str(tmp_path))
     printing = Printing(
         window, screen, None, told, None, stored, LastPlaces(tmp_path), background,  # type: ignore[arg-type]
-        theme=theme, therapist=lambda: "",
+        theme=theme, therapist=lambda: "", forms=ReportForms(window, theme, tmp_path, told.fault),
     )  # fmt: skip
     window.show()
     return printing, stored, told, background

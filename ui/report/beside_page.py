@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 from carpus.core.output.mean_repetition import Quantity
 from carpus.core.output.report_content import SessionFigures
+from carpus.core.output.report_form import USUAL_FORM, ReportForm
 from carpus.ui import numbers, terms
 from carpus.ui.beside.rows import BesideRow
 from carpus.ui.beside.shown import Shown
@@ -33,6 +34,9 @@ class BesideReport:
     therapist: str = ""
     made_by: str = ""
     """Version and revision of the program that makes the report."""
+    form: ReportForm = USUAL_FORM
+    language: str = ""
+    """The language it is painted in, by two letters; empty for the window's."""
 
     @property
     def sessions(self) -> tuple[SessionFigures, SessionFigures]:

@@ -214,14 +214,15 @@ def hand_summary(figures: SessionFigures, previous: SessionFigures | None, first
     if bounds:
         parts.append(tr("{sign}: the camera did not see the end of that movement.").format(sign=AT_LEAST))
     if previous is not None:
-        parts.append(_since(figures, previous, numbers.day_beside(previous.when, figures.when)))
+        parts.append(hand_since_words(figures, previous, numbers.day_beside(previous.when, figures.when)))
     if first is not None and (previous is None or first.session_id != previous.session_id):
         day = numbers.day_beside(first.when, figures.when)
-        parts.append(_since(figures, first, tr("the first session on {day}").format(day=day)))
+        parts.append(hand_since_words(figures, first, tr("the first session on {day}").format(day=day)))
     return " ".join(part for part in parts if part)
 
 
-def _since(figures: SessionFigures, before: SessionFigures, when: str) -> str:
+def hand_since_words(figures: SessionFigures, before: SessionFigures, when: str) -> str:
+    """What may be said of change of the fingers since a day."""
     keys = [figure.joint for figure in compared_figures(figures)]
     rows = [row for row in figures.joint_rows if row.joint in keys and row.movement == "arc"]
     changes = compare_rows(before, figures, rows)

@@ -24,6 +24,8 @@ class Page:
 
     painter: QPainter
     point: float
+    number: str = ""
+    """Which page of how many, in words, for its head; empty where that is not known."""
 
     def __post_init__(self) -> None:
         self.painter.setRenderHint(QPainter.RenderHint.Antialiasing)
@@ -90,6 +92,20 @@ class Page:
             self.painter.drawText(QPointF(left * self.point, (top_pt + size_pt) * self.point), line)
             top_pt += leading
         return top_pt
+
+    def lines(self, text: str, width: float, size_pt: float, weight: int = REGULAR) -> list[str]:
+        """A text as it is broken into lines of a width in points; a word that is wider than a line is broken too."""
+        metrics = QFontMetricsF(self.face(size_pt, weight))
+        found = []
+        for line in self._lines(text, metrics, width * self.point):
+            while len(line) > 1 and metrics.horizontalAdvance(line) > width * self.point:
+                fits = len(line) - 1
+                while fits > 1 and metrics.horizontalAdvance(line[:fits]) > width * self.point:
+                    fits -= 1
+                found.append(line[:fits])
+                line = line[fits:]
+            found.append(line)
+        return found
 
     def _lines(self, text: str, metrics: QFontMetricsF, width: float) -> list[str]:
         lines, line = [], ""

@@ -3,8 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from functools import partial
 
+from carpus.ui.language import speaking
 from carpus.ui.report.beside_page import BesideReport, paint_beside_page
+from carpus.ui.report.comment_page import comment_pages, paint_comment_page
+from carpus.ui.report.framed import paint_framed
 from carpus.ui.report.motion_page import paint_motion_page
 from carpus.ui.report.page import Page
 from carpus.ui.report.progress_page import ProgressReport, paint_progress_page
@@ -14,7 +18,8 @@ Report = SessionReport | ProgressReport | BesideReport
 
 
 def pages_of(report: Report) -> list[Callable[[Page], None]]:
-    """What paints each page; the painter is as it was when a page is done."""
+    """What paints each page, on the paper and in the language of the report; the painter is as it was when a page is
+    done."""
     paints: list[Callable[[Page], None]] = []
     if isinstance(report, ProgressReport):
         paints = [lambda page: paint_progress_page(page, report)]
@@ -22,15 +27,17 @@ def pages_of(report: Report) -> list[Callable[[Page], None]]:
         paints = [lambda page: paint_beside_page(page, report)]
     else:
         paints = [lambda page: paint_session_page(page, report)]
-        if report.motion is not None:
+        if report.motion is not None and report.form.has("motion"):
             paints.append(lambda page: paint_motion_page(page, report))
-    return [_kept(paint) for paint in paints]
+        paints += [
+            lambda page, lines=lines: paint_comment_page(page, report, lines)  # type: ignore[misc]
+            for lines in comment_pages(report)
+        ]
+    return [partial(_painted, report, number, len(paints), paint) for number, paint in enumerate(paints, start=1)]
 
 
-def _kept(paint: Callable[[Page], None]) -> Callable[[Page], None]:
-    def painted(page: Page) -> None:
-        page.painter.save()
-        paint(page)
-        page.painter.restore()
-
-    return painted
+def _painted(report: Report, number: int, count: int, paint: Callable[[Page], None], page: Page) -> None:
+    page.painter.save()
+    with speaking(report.language):
+        paint_framed(page, report.form, number, count, paint)
+    page.painter.restore()

@@ -28,6 +28,7 @@ from carpus.core.output.report_content import (
     session_curves,
     session_figures,
 )
+from carpus.core.output.report_form import PAPER_PT, ReportForm
 from carpus.core.provenance import said_in, with_revision
 from carpus.core.session.values import Session
 from carpus.ui.fonts import load_fonts
@@ -43,6 +44,7 @@ TITLE = "Carpus report"
 """What a viewer writes above its window and a mail program into its list: nobody's name."""
 RESOLUTION_DPI = 1200
 POINTS_PER_INCH = 72.0
+MM_PER_PT = 25.4 / POINTS_PER_INCH
 
 
 def ensure_application() -> QGuiApplication:
@@ -66,10 +68,13 @@ def session_report(
     therapist: str = "",
     by_hand: Sequence[HandValue] = (),
     camera: CameraSaid | None = None,
+    comment: str = "",
+    form: ReportForm | None = None,
+    language: str = "",
 ) -> SessionReport:
     """What the page of a session says; ``history`` figures of the patient's other sessions, in any order, ``by_hand``
     all that was ever measured by hand: what counts of the session's day and hand is told; ``camera`` what its checks
-    say of it besides."""
+    say of it besides; ``language`` of the page, empty for the window's."""
     figures = session_figures(session, choices, limits_of(history))
     known = next((other for other in history if other.session_id == figures.session_id), figures)
     figures = replace(figures, earlier_results=known.earlier_results, camera=camera or figures.camera)
@@ -95,6 +100,9 @@ def session_report(
         revision=str(made_by.get("revision") or ""),
         recording_digest=str(source.get("sha256") or ""),
         by_hand=of_session(by_hand, figures.side, figures.when.date()),
+        comment=comment,
+        form=form or ReportForm(),
+        language=language,
     )
 
 
@@ -128,6 +136,8 @@ def progress_report(
     what: str | None = None,
     software_version: str = "",
     by_hand: Sequence[HandValue] = (),
+    form: ReportForm | None = None,
+    language: str = "",
 ) -> ProgressReport:
     """The course of the newest session's exercise and hand; the other hand's last session beside it.
 
@@ -142,7 +152,8 @@ def progress_report(
     course = progress(alike, other_hand_of(sessions, newest), followed)
     made_by = with_revision(software_version) if software_version else newest.software_version
     course = replace(course, by_hand=tuple(by_hand))
-    return ProgressReport(course, pseudonym or newest.subject_id or "–", therapist, made_by)
+    name = pseudonym or newest.subject_id or "–"
+    return ProgressReport(course, name, therapist, made_by, form or ReportForm(), language)
 
 
 def write_page(output_path: Path, paint: Callable[[Page], None], title: str) -> Path:
@@ -161,7 +172,9 @@ def _painting(sheet: Sheet) -> Callable[[Page], None]:
 
 
 def _write(output_path: Path, report: Report, title: str) -> Path:
-    return _write_pages(output_path, [(None, paint) for paint in pages_of(report)], title)
+    width_pt, height_pt = PAPER_PT[report.form.paper]
+    paper = None if report.form.paper == "a4" else QSizeF(width_pt * MM_PER_PT, height_pt * MM_PER_PT)
+    return _write_pages(output_path, [(paper, paint) for paint in pages_of(report)], title)
 
 
 def _write_pages(output_path: Path, pages: Sequence[tuple[QSizeF | None, Callable[[Page], None]]], title: str) -> Path:

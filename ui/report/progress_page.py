@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from carpus.core.output.report_content import Progress
+from carpus.core.output.report_form import USUAL_FORM, ReportForm
 from carpus.ui import numbers, terms
 from carpus.ui.by_hand.names import change_words, changes, day_words, full_name, verdict_words
 from carpus.ui.fonts import MEDIUM, REGULAR, SEMIBOLD
@@ -31,6 +32,9 @@ class ProgressReport:
     therapist: str = ""
     made_by: str = ""
     """Version and revision of the program that makes the report."""
+    form: ReportForm = USUAL_FORM
+    language: str = ""
+    """The language it is painted in, by two letters; empty for the window's."""
 
 
 def paint_progress_page(page: Page, report: ProgressReport) -> None:

@@ -7,17 +7,22 @@ from pathlib import Path
 
 from PySide6.QtCore import QSize, Qt, QUrl, Signal
 from PySide6.QtGui import QColor, QDesktopServices, QPainter, QPaintEvent, QPixmap
+from PySide6.QtPrintSupport import QPrintDialog
 from PySide6.QtWidgets import QFileDialog, QHBoxLayout, QScrollArea, QSizePolicy, QVBoxLayout, QWidget
 
 from carpus.core.durable import replace_file
+from carpus.core.output.report_form import PAPER_PT
 from carpus.ui.background import Background
 from carpus.ui.controls.button import Button
 from carpus.ui.controls.card import Card
+from carpus.ui.controls.column import RING_PX, scrolled
 from carpus.ui.controls.text import REGULAR, SEMIBOLD, StateText, Text
 from carpus.ui.keys import Keys, bind
 from carpus.ui.report.beside_page import BesideReport
-from carpus.ui.report.page import A4_PT, Page
+from carpus.ui.report.page import Page
 from carpus.ui.report.pages import Report, pages_of
+from carpus.ui.report.panel import ReportPanel
+from carpus.ui.report.paper import print_on, printer_for
 from carpus.ui.report.pdf import write_beside_report, write_progress_report, write_session_report
 from carpus.ui.report.session_page import SessionReport
 from carpus.ui.theme import GAP_PX, MARGIN_PX, Theme
@@ -43,11 +48,15 @@ class ReportScreen(QWidget):
         self.save_button = Button(theme, self.tr("Save PDF…"), "primary", icon="download", hint="Ctrl+P")
         self.bubble = BubbleView(theme)
         self.open_button = Button(theme, self.tr("Open the PDF"), "plain")
+        self.print_button = Button(theme, self.tr("Print…"), "plain")
+        self.panel = ReportPanel(theme)
         self.state = StateText(theme, 16, SEMIBOLD, 20)
         self.where = Text(theme, "", 14, REGULAR, "text2", wrap=True)
         self._lay_out()
         self.save_button.clicked.connect(self.ask_and_save)
         self.open_button.clicked.connect(self._open)
+        self.print_button.clicked.connect(self.print_out)
+        self.panel.changed.connect(self._show_changed)
         self.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
         self.setProperty("shows_own_focus", True)
         bind(self, keys, "report", self.save_button.click)
@@ -64,23 +73,28 @@ class ReportScreen(QWidget):
         card.body.addWidget(self.where)
         card.body.addWidget(self.bubble)
         card.body.addWidget(self.save_button)
+        card.body.addWidget(self.print_button)
         card.body.addWidget(self.open_button)
-        card.body.addSpacing(8)
         self.pages = Text(self._theme, "", 14, REGULAR, "text2", wrap=True)
         card.body.addWidget(self.pages)
-        right = QVBoxLayout()
-        right.addWidget(card)
-        right.addStretch(1)
+        card.body.addSpacing(8)
+        card.body.addWidget(self.panel)
+        host = QVBoxLayout()
+        host.addWidget(card)
+        host.addStretch(1)
+        self._side = scrolled(host)
         columns = QHBoxLayout(self)
         columns.setContentsMargins(MARGIN_PX, GAP_PX, MARGIN_PX, 0)
         columns.setSpacing(GAP_PX)
         columns.addWidget(self._scroll, 1)
-        columns.addLayout(right)
+        columns.addWidget(self._side)
         self._theme.changed.connect(self._fit)
         self._fit()
 
     def _fit(self) -> None:
         self._card.setFixedWidth(self._theme.px(320))
+        bar = self._side.verticalScrollBar().sizeHint().width()
+        self._side.setFixedWidth(self._theme.px(320) + 2 * RING_PX + bar)
 
     # --- life ---------------------------------------------------------------------------------------------
     def begin(self, report: Report, folder: str) -> None:
@@ -88,13 +102,30 @@ class ReportScreen(QWidget):
         self._report, self._folder = report, folder
         self._name = suggested_name(report)
         self._saved_path = ""
-        self.page.show_report(report)
-        count = len(pages_of(report))
-        pages = self.tr("One page of A4") if count == 1 else self.tr("{count} pages of A4").format(count=count)
-        words = self.tr("{pages}, readable in grey. It carries the made-up name, never a real one.")
-        self.pages.setText(words.format(pages=pages))
+        self.panel.setVisible(isinstance(report, SessionReport))
+        if isinstance(report, SessionReport):
+            self.panel.begin(report)
+        self._show_pages(report)
         self._show_state("none", self.tr("Not saved yet"), "")
         self.save_button.setFocus(Qt.FocusReason.OtherFocusReason)
+
+    def _show_changed(self, report: Report) -> None:
+        """Other parts, or another comment."""
+        self._report = report
+        self._saved_path = ""
+        self._show_state("none", self.tr("Not saved yet"), "")
+        self._show_pages(report)
+
+    def _show_pages(self, report: Report) -> None:
+        self.page.show_report(report)
+        count = len(pages_of(report))
+        if report.form.paper == "letter":
+            pages = self.tr("One page of US Letter") if count == 1 else self.tr("{count} pages of US Letter")
+        else:
+            pages = self.tr("One page of A4") if count == 1 else self.tr("{count} pages of A4")
+        pages = pages.format(count=count)
+        words = self.tr("{pages}, readable in grey. It carries the made-up name, never a real one.")
+        self.pages.setText(words.format(pages=pages))
 
     @property
     def shown(self) -> Report | None:
@@ -114,8 +145,18 @@ class ReportScreen(QWidget):
         if path:
             self.save(path, replace_asked=True)
 
+    def print_out(self) -> None:
+        """Ask for a printer, then paint the same pages on its paper."""
+        self.panel.keep_comment()
+        if self._report is None:
+            return
+        printer = printer_for(self._report)
+        if QPrintDialog(printer, self).exec():
+            print_on(printer, self._report)
+
     def save(self, path: str, *, replace_asked: bool = False) -> None:
         """Write the PDF beside the window's thread. The file dialog has asked before something is replaced."""
+        self.panel.keep_comment()
         report = self._report
         if report is None:
             return
@@ -198,7 +239,8 @@ class PagePreview(QWidget):
 
     def heightForWidth(self, width: int) -> int:
         count = 1 if self._report is None else len(pages_of(self._report))
-        return count * (round(self._page_width(width) * A4_PT[1] / A4_PT[0]) + GAP_PX)
+        paper = PAPER_PT["a4" if self._report is None else self._report.form.paper]
+        return count * (round(self._page_width(width) * paper[1] / paper[0]) + GAP_PX)
 
     def sizeHint(self) -> QSize:
         return QSize(800, self.heightForWidth(max(self.width(), 400)))
@@ -213,7 +255,8 @@ class PagePreview(QWidget):
         if self._report is None:
             return
         if not self._still:
-            self._still = [self._paint_still(paint) for paint in pages_of(self._report)]
+            paper = PAPER_PT[self._report.form.paper]
+            self._still = [self._paint_still(paint, paper) for paint in pages_of(self._report)]
         painter = QPainter(self)
         top = 0
         for still in self._still:
@@ -224,14 +267,14 @@ class PagePreview(QWidget):
             painter.drawRect(left, top, round(page.width()) - 1, round(page.height()) - 1)
             top += round(page.height()) + GAP_PX
 
-    def _paint_still(self, paint: Callable[[Page], None]) -> QPixmap:
+    def _paint_still(self, paint: Callable[[Page], None], paper: tuple[float, float]) -> QPixmap:
         ratio = self.devicePixelRatioF()
         width = self._page_width(self.width())
-        height = width * A4_PT[1] / A4_PT[0]
+        height = width * paper[1] / paper[0]
         picture = QPixmap(round(width * ratio), round(height * ratio))
         picture.setDevicePixelRatio(ratio)
         picture.fill(QColor("#FFFFFF"))
         painter = QPainter(picture)
-        paint(Page(painter, width / A4_PT[0]))
+        paint(Page(painter, width / paper[0]))
         painter.end()
         return picture

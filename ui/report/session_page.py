@@ -14,6 +14,7 @@ from carpus.core.output.exercises import AXIS_TICK_DEG, SIDES
 from carpus.core.output.joint_content import JointCurves
 from carpus.core.output.motion_curves import MotionCurves
 from carpus.core.output.report_content import Curves, SessionFigures, compare_rows, usual_deg
+from carpus.core.output.report_form import USUAL_FORM, ReportForm
 from carpus.ui import numbers, terms
 from carpus.ui.by_hand.names import day_words
 from carpus.ui.fonts import MEDIUM, REGULAR, SEMIBOLD
@@ -28,6 +29,9 @@ from carpus.ui.report.words import corrected_words, method, other_lines, quality
 from carpus.ui.theme import LIGHT
 from carpus.ui.translate import inside, tr
 
+COMMENT_PT, COMMENT_LEADING_PT = 9.0, 12.5
+MOST_COMMENT_LINES = 6
+"""A longer comment has pages of its own."""
 LOWEST_PT = A4_PT[1] - MARGIN_PT + 11
 """Lower edge of what a page may carry."""
 
@@ -54,6 +58,11 @@ class SessionReport:
     recording_digest: str = ""
     by_hand: tuple[HandValue, ...] = ()
     """What was measured by hand of this hand and person on the day of the session."""
+    comment: str = ""
+    """The therapist's own words, several lines."""
+    form: ReportForm = USUAL_FORM
+    language: str = ""
+    """The language it is painted in, by two letters; empty for the window's."""
 
 
 def paint_session_page(page: Page, report: SessionReport) -> None:
@@ -73,20 +82,25 @@ def _paint_all(page: Page, report: SessionReport) -> float:
     said = (summary if report.joints is None else hand_summary)(report.figures, report.previous, report.first)
     y = page.paragraph(said, page.left, y + 5, page.right - page.left, 10.0, SEMIBOLD)
     if report.joints is None:
-        y = _paint_table(page, report, y + 7)
-        y = _paint_curves(page, report, y + 8)
-        y = _paint_bars(page, report, y + 8)
+        if report.form.has("table"):
+            y = _paint_table(page, report, y + 7)
+        if report.form.has("curves"):
+            y = _paint_curves(page, report, y + 8)
+        if report.form.has("bars"):
+            y = _paint_bars(page, report, y + 8)
     else:
-        y = paint_finger_table(page, report.figures, report.previous, report.other_hand, y + 7)
-        y = paint_wrist_line(page, report.figures, y + 7)
+        if report.form.has("table"):
+            y = paint_finger_table(page, report.figures, report.previous, report.other_hand, y + 7)
+            y = paint_wrist_line(page, report.figures, y + 7)
         below = painted_on_nothing(
             page,
-            lambda trial: _paint_foot(trial, report, _paint_by_hand(trial, report, _paint_boxes(trial, report, 9.0))),
+            lambda trial: _paint_foot(trial, report, _paint_told(trial, report, _paint_boxes(trial, report, 9.0))),
         )
         room = LOWEST_PT - 2 - y - 8 - below
-        y = paint_finger_curves(page, report.curves, report.joints, report.figures, y + 8, room)
+        if report.form.has("curves"):
+            y = paint_finger_curves(page, report.curves, report.joints, report.figures, y + 8, room)
     y = _paint_boxes(page, report, y + 9)
-    return _paint_foot(page, report, _paint_by_hand(page, report, y))
+    return _paint_foot(page, report, _paint_told(page, report, y))
 
 
 def painted_on_nothing(page: Page, paint: Callable[[Page], float]) -> float:
@@ -115,7 +129,8 @@ def paint_head(page: Page, kind: str, pseudonym: str, what: str) -> float:
     top = MARGIN_PT - 12
     paint_mark(page.painter, page.box(page.left, top, 15, 15), QColor(LIGHT.accent))
     page.text("Carpus", page.left + 20, top + 12, 11.5, SEMIBOLD)
-    page.text_right(kind, page.right, top + 12, 8.5, REGULAR, "text2")
+    aside = f"{kind} · {page.number}" if page.number else kind
+    page.text_right(aside, page.right, top + 12, 8.5, REGULAR, "text2")
     size, beside = 21.0, 14.0
     while size > 9.0 and page.width_of(pseudonym, size, SEMIBOLD) + 11 + page.width_of(what, beside) > (
         page.right - page.left
@@ -286,40 +301,83 @@ def _point(page: Page, x: float, y: float) -> QPointF:
 
 
 def _paint_boxes(page: Page, report: SessionReport, top: float) -> float:
+    """How sure the figures are beside speed, pain and notes, as far as they are wanted."""
     lines, others = quality_lines(report.figures), other_lines(report.figures)
+    good = all(fine for _, _, fine in lines) and not warnings(report.figures)
+    sure, other = report.form.has("quality") or not good, report.form.has("speed")  # doubts are never left out
+    if not (sure or other):
+        return top
     notes = "  ".join(f"“{text}”" for _, text in report.figures.notes[:3])
     gap, inside = 12.0, 11.0
     width = (page.right - page.left - gap) / 2
-    height = 24 + 13.5 * max(len(lines), len(others) + (2 if notes else 0)) + 6
-    for left in (page.left, page.left + width + gap):
+    rows = max(len(lines) * sure, (len(others) + (2 if notes else 0)) * other)
+    height = 24 + 13.5 * rows + 6
+    left = page.left
+    if sure:
         page.card(left, top, width, height)
-    page.text(tr("How sure are these figures?"), page.left + inside, top + 17, 10.0, SEMIBOLD)
-    good = all(fine for _, _, fine in lines) and not warnings(report.figures)
-    sign = page.box(page.left + width - inside - 12, top + 7, 12, 12)
-    state, token = ("good", "good") if good else ("warn", "warn")
-    paint_state(page.painter, state, sign, QColor(getattr(LIGHT, token)), QColor("#FFFFFF"))  # type: ignore[arg-type]
-    baseline = top + 33
-    for name, value, fine in lines:
-        page.text(name, page.left + inside, baseline, 8.5, REGULAR, "text2")
-        page.text_right(value, page.left + width - inside, baseline, 8.5, MEDIUM, "text" if fine else "warn")
-        baseline += 13.5
-    left = page.left + width + gap + inside
-    page.text(tr("Speed, pain, note"), left, top + 17, 10.0, SEMIBOLD)
-    baseline = top + 33
-    for name, value in others:
-        page.text(name, left, baseline, 8.5, REGULAR, "text2")
-        page.text_right(value, page.right - inside, baseline, 8.5, MEDIUM)
-        baseline += 13.5
-    if notes:
-        most = int(2 * (width - 2 * inside) / page.width_of("n", 8.5))
-        shown = notes if len(notes) <= most else notes[: most - 1] + "…"
-        page.paragraph(shown, left, baseline - 9, width - 2 * inside, 8.5)
+        page.text(tr("How sure are these figures?"), left + inside, top + 17, 10.0, SEMIBOLD)
+        sign = page.box(left + width - inside - 12, top + 7, 12, 12)
+        state, token = ("good", "good") if good else ("warn", "warn")
+        paint_state(page.painter, state, sign, QColor(getattr(LIGHT, token)), QColor("#FFFFFF"))  # type: ignore[arg-type]
+        baseline = top + 33
+        for name, value, fine in lines:
+            page.text(name, left + inside, baseline, 8.5, REGULAR, "text2")
+            page.text_right(value, left + width - inside, baseline, 8.5, MEDIUM, "text" if fine else "warn")
+            baseline += 13.5
+        left += width + gap
+    if other:
+        page.card(left, top, width, height)
+        page.text(tr("Speed, pain, note"), left + inside, top + 17, 10.0, SEMIBOLD)
+        baseline = top + 33
+        for name, value in others:
+            page.text(name, left + inside, baseline, 8.5, REGULAR, "text2")
+            page.text_right(value, left + width - inside, baseline, 8.5, MEDIUM)
+            baseline += 13.5
+        if notes:
+            most = int(2 * (width - 2 * inside) / page.width_of("n", 8.5))
+            shown = notes if len(notes) <= most else notes[: most - 1] + "…"
+            page.paragraph(shown, left + inside, baseline - 9, width - 2 * inside, 8.5)
     return top + height
+
+
+def _paint_told(page: Page, report: SessionReport, top: float) -> float:
+    """What persons add: values by hand and the comment; where the foot begins."""
+    return _paint_comment(page, report, _paint_by_hand(page, report, top))
+
+
+def comment_lines(page: Page, comment: str) -> list[str]:
+    """The comment as it is broken into lines."""
+    width = page.right - page.left
+    return [line for part in comment.splitlines() for line in page.lines(part, width, COMMENT_PT)]
+
+
+def is_short(page: Page, comment: str) -> bool:
+    """Whether the comment has room on the first page."""
+    return len(comment_lines(page, comment)) <= MOST_COMMENT_LINES
+
+
+def _paint_comment(page: Page, report: SessionReport, top: float) -> float:
+    """The comment, or where it is; where the foot begins."""
+    if not report.comment.strip():
+        return top
+    if not is_short(page, report.comment):
+        words = tr("The therapist’s comment is on the last page.")
+        return page.paragraph(words, page.left, top, page.right - page.left, 8.5, MEDIUM) + 5
+    page.text(tr("Comment of the therapist"), page.left, top + 9, 10.0, SEMIBOLD)
+    return paint_comment_lines(page, comment_lines(page, report.comment), top + 12) + 5
+
+
+def paint_comment_lines(page: Page, lines: Sequence[str], top: float) -> float:
+    """Lines that are broken already, as they are; returns the lower edge."""
+    for line in lines:
+        page.text(line, page.left, top + COMMENT_PT, COMMENT_PT)
+        top += COMMENT_LEADING_PT
+    return top
 
 
 def _paint_by_hand(page: Page, report: SessionReport, top: float) -> float:
     """What was entered by hand that day, in one paragraph; where the foot begins."""
-    if not report.by_hand:
+    if not report.by_hand or not report.form.has("by_hand"):
         return top + 10
     words = tr("Entered by hand, not measured by Carpus: {values}.").format(values=day_words(report.by_hand))
     return page.paragraph(words, page.left, top + 5, page.right - page.left, 8.5) + 5

@@ -29,10 +29,10 @@ def summary(figures: SessionFigures, previous: SessionFigures | None, first: Ses
         return tr("No range could be measured.")
     parts = [f"{today[0].upper()}{today[1:]}."]
     if previous is not None:
-        parts.append(_since(compare(previous, figures), numbers.day_beside(previous.when, figures.when)))
+        parts.append(since_words(compare(previous, figures), numbers.day_beside(previous.when, figures.when)))
     if first is not None and (previous is None or first.session_id != previous.session_id):
         parts.append(
-            _since(
+            since_words(
                 compare(first, figures),
                 tr("the first session on {day}").format(day=numbers.day_beside(first.when, figures.when)),
             )
@@ -50,7 +50,8 @@ def _arc_name(angle: int) -> str:
     return inside(terms.arc_name(angle))
 
 
-def _since(changes: tuple[Comparison, ...], when: str) -> str:
+def since_words(changes: tuple[Comparison, ...], when: str) -> str:
+    """What may be said of change since a day; empty without anything to compare."""
     beyond = [item for item in changes if item.verdict in ("improved", "worse")]
     judged = [item for item in changes if item.verdict != "not_judged"]
     if not judged:

@@ -1,0 +1,60 @@
+"""How a clinic's reports look: letterhead, paper, and the parts that are wanted."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import Literal, get_args
+
+Paper = Literal["a4", "letter"]
+PAPERS: tuple[Paper, ...] = get_args(Paper)
+PAPER_PT: dict[Paper, tuple[float, float]] = {"a4": (595.28, 841.89), "letter": (612.0, 792.0)}
+"""Width and height in points."""
+LETTER_COUNTRIES = ("US", "CA")
+"""Where Letter is the usual paper."""
+SECTIONS = ("table", "curves", "bars", "quality", "speed", "by_hand", "motion")
+"""Parts of a session's report that may be left out. Who and when, the sentences, warnings, method, legal sentence and
+origin always stay; so does ``quality`` where something is not as it should be."""
+MOST_SENTENCES, MOST_SENTENCE = 60, 300
+MOST_NAME, MOST_ADDRESS_LINES, MOST_ADDRESS = 60, 4, 80
+
+
+@dataclass(frozen=True, slots=True)
+class Letterhead:
+    """The clinic's name, lines of its address and its logo, a PNG; all may be empty."""
+
+    name: str = ""
+    address: tuple[str, ...] = ()
+    logo_png: bytes = b""
+
+    @property
+    def is_set(self) -> bool:
+        """Whether there is anything to print."""
+        return bool(self.name or self.address or self.logo_png)
+
+
+@dataclass(frozen=True, slots=True)
+class ReportForm:
+    """What a report is printed on and with. ``left_out``: of :data:`SECTIONS`; ``sentences`` the therapist's own,
+    to write comments with."""
+
+    letterhead: Letterhead = field(default_factory=Letterhead)
+    paper: Paper = "a4"
+    left_out: frozenset[str] = frozenset()
+    sentences: tuple[str, ...] = ()
+
+    def has(self, section: str) -> bool:
+        """Whether a part is wanted."""
+        return section not in self.left_out
+
+
+def usual_paper(country: str) -> Paper:
+    """The paper of a country by its two letters.
+
+    >>> usual_paper("US"), usual_paper("DE")
+    ('letter', 'a4')
+    """
+    return "letter" if country.upper() in LETTER_COUNTRIES else "a4"
+
+
+USUAL_FORM = ReportForm()
+"""No letterhead, A4, everything."""

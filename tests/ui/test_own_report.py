@@ -1,0 +1,138 @@
+"""The report as the clinic's own, read back by poppler: letterhead, paper, parts, comment, sentences."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+from PySide6.QtGui import QColor, QImage
+
+from carpus.core.errors import SettingsInvalid
+from carpus.core.library.clinic_form import LOGO_FILE, keep_form, read_form
+from carpus.core.output.report_form import PAPER_PT, PAPERS, SECTIONS, Letterhead, Paper, ReportForm
+from carpus.ui.background import Background
+from carpus.ui.keys import Keys
+from carpus.ui.report.logo import LogoRefused, logo_png
+from carpus.ui.report.pdf import session_report, write_session_report
+from carpus.ui.report.screen import ReportScreen
+from carpus.ui.report.sentences import filled
+from carpus.ui.report.session_page import SessionReport
+from carpus.ui.terms import LEGAL_SENTENCE
+from carpus.ui.theme import Theme
+from tests.ui.fakes import FakeSessions
+from tests.ui.test_report_pdf import tool, words_of
+
+LONG = "\n".join(f"Line {number} of what the therapist says." for number in range(120))
+
+
+def picture(path: Path, side: int = 200) -> Path:
+    image = QImage(3 * side, side, QImage.Format.Format_RGB32)
+    image.fill(QColor("#1560bd"))
+    image.save(str(path))
+    return path
+
+
+def report(**look: object) -> SessionReport:
+    store = FakeSessions()
+    return session_report(store.session("session-7"), history=store.history("linden"), **look)  # type: ignore[arg-type]
+
+
+@pytest.mark.parametrize("paper", PAPERS)
+def test_nothing_is_cut_on_either_paper_whatever_stands_on_it(paper: Paper, tmp_path: Path) -> None:
+    logo = logo_png(picture(tmp_path / "logo.png"))
+    head = Letterhead("W" * 60, ("12 Riverside Road", "Y" * 80, "Vienna", "Phone 12 34 56"), logo)
+    path = write_session_report(report(form=ReportForm(head, paper), comment=LONG), tmp_path / "x.pdf")
+    info = tool("pdfinfo", str(path))
+    width, height = PAPER_PT[paper]
+    found = re.search(r"Page size:\s+([\d.]+) x ([\d.]+)", info)
+    assert found is not None
+    assert (float(found[1]), float(found[2])) == pytest.approx((width, height), abs=1.0)
+    pages = int(re.search(r"Pages:\s+(\d+)", info)[1])  # type: ignore[index]
+    assert pages >= 4
+    boxes = tool("pdftotext", "-bbox", str(path), "-")
+    edges = {
+        name: [float(one) for one in re.findall(rf'{name}="([-\d.]+)"', boxes)]
+        for name in ("xMin", "xMax", "yMin", "yMax")
+    }
+    assert min(edges["xMin"]) >= 28.0
+    assert max(edges["xMax"]) <= width - 28.0
+    assert min(edges["yMin"]) >= 20.0
+    assert max(edges["yMax"]) <= height - 28.0
+    words = words_of(path)
+    assert words.count("12 Riverside Road") == words.count(LEGAL_SENTENCE) == pages
+    assert f"page {pages} of {pages}" in words
+    for number in range(120):
+        assert f"Line {number} of what" in words
+    assert tool("pdfimages", "-list", str(path)).count("image") >= 1
+
+
+def test_what_may_never_be_left_out_stays(tmp_path: Path) -> None:
+    made = report(form=ReportForm(left_out=frozenset(SECTIONS)))
+    doubtful = replace(made, figures=replace(made.figures, simulated=True))
+    words = words_of(write_session_report(doubtful, tmp_path / "x.pdf"))
+    for kept in (
+        LEGAL_SENTENCE,
+        "Simulated hand",
+        "How sure are these figures?",
+        "Method: 6 markers",
+        "known to about",
+        "Carpus 1",
+    ):
+        assert kept in words
+    for gone in ("Range of motion", "Angles over time", "Range today", "Speed, pain, note", "ZYZ angles"):
+        assert gone not in words
+
+
+def test_the_form_is_kept_with_its_logo_and_a_file_that_is_gone_is_said(tmp_path: Path) -> None:
+    assert read_form(tmp_path, "letter") == ReportForm(paper="letter")
+    logo = logo_png(picture(tmp_path / "own.jpg"))
+    form = ReportForm(Letterhead("Clinic", ("Here",), logo), "letter", frozenset({"bars"}), ("All {arc}.",))
+    keep_form(tmp_path, form)
+    (tmp_path / "own.jpg").unlink()
+    assert read_form(tmp_path) == form
+    (tmp_path / LOGO_FILE).unlink()
+    with pytest.raises(SettingsInvalid):
+        read_form(tmp_path)
+
+
+@pytest.mark.parametrize("content", [b"", b"no picture", b"<svg"])
+def test_a_file_that_is_no_logo_gets_one_sentence(content: bytes, tmp_path: Path) -> None:
+    for name in ("logo.png", "logo.svg"):
+        (tmp_path / name).write_bytes(content)
+        with pytest.raises(LogoRefused, match="Choose"):
+            logo_png(tmp_path / name)
+    with pytest.raises(LogoRefused, match="cannot be read"):
+        logo_png(tmp_path / "none.png")
+    with pytest.raises(LogoRefused, match="too small"):
+        logo_png(picture(tmp_path / "small.png", 8))
+
+
+def test_places_of_a_sentence_take_figures_with_their_spread_or_say_not_measured() -> None:
+    made = report()
+    assert re.fullmatch(
+        r"\d+° ± \d+° and not measured, {other}",
+        filled("{flexion} and {radial}, {other}", made).replace("\u202f", " ").replace("\xa0", " "),
+    )
+    assert "13 Nov" in filled("{change}", made)
+    assert filled("{change}", replace(made, previous=None)) == "not measured"
+
+
+def test_the_comment_beside_the_preview_is_told_once_it_is_written(theme: Theme) -> None:
+    screen = ReportScreen(theme, Keys({}), Background())
+    told: list[tuple[str, str]] = []
+    screen.panel.comment_kept.connect(lambda session, text: told.append((session, text)))
+    screen.begin(report(), "")
+    screen.panel.comment.setPlainText("Before.")
+    screen.panel.comment.moveCursor(screen.panel.comment.textCursor().MoveOperation.End)
+    screen.panel.sentence.setEditText("Flexion {radial}.")
+    screen.panel.insert.click()
+    screen.panel.keep_comment()
+    screen.panel.keep_comment()
+    assert [text for _, text in told] == ["Before. Flexion not measured."]
+    screen.panel.ticks["bars"].setChecked(False)
+    shown = screen.shown
+    assert isinstance(shown, SessionReport)
+    assert shown.comment == "Before. Flexion not measured."
+    assert shown.form.left_out == {"bars"}

@@ -1,0 +1,108 @@
+"""The clinic's letterhead and paper as a card of the settings."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+
+from PySide6.QtCore import Qt, Signal
+from PySide6.QtGui import QPixmap
+from PySide6.QtWidgets import QFileDialog, QHBoxLayout, QLabel, QLineEdit, QPlainTextEdit
+
+from carpus.core.output.report_form import MOST_ADDRESS, MOST_ADDRESS_LINES, MOST_NAME, ReportForm
+from carpus.ui.controls.button import Button
+from carpus.ui.controls.card import Card
+from carpus.ui.controls.field import Choices, Labelled
+from carpus.ui.controls.text import REGULAR, SEMIBOLD, Text
+from carpus.ui.report.logo import LogoRefused, logo_png
+from carpus.ui.theme import Theme
+
+ADDRESS_PX, LOGO_PX = 112, 56
+
+
+class ReportCard(Card):
+    """``changed`` carries the whole :class:`ReportForm`."""
+
+    changed = Signal(ReportForm)
+
+    def __init__(self, theme: Theme, form: ReportForm) -> None:
+        super().__init__(theme, 24)
+        self._theme, self._form = theme, form
+        self.body.addWidget(Text(theme, self.tr("Report"), 20, SEMIBOLD))
+        words = self.tr("Name, address and logo of the clinic stand above every page. Left empty, nothing is printed.")
+        self.body.addWidget(Text(theme, words, 14, REGULAR, "text2", wrap=True))
+        self.name = QLineEdit(form.letterhead.name)
+        self.name.setMaxLength(MOST_NAME)
+        self.address = QPlainTextEdit("\n".join(form.letterhead.address))
+        self.address.setTabChangesFocus(True)
+        theme.follow(self.address, lambda: self.address.setFixedHeight(theme.px(ADDRESS_PX)))
+        self.body.addWidget(Labelled(theme, self.tr("Name of the clinic"), self.name))
+        self.body.addWidget(Labelled(theme, self.tr("Address, up to four lines"), self.address))
+        row = QHBoxLayout()
+        row.setSpacing(12)
+        self.picture = QLabel()
+        self.picture.setAccessibleName(self.tr("Logo"))
+        self.choose = Button(theme, self.tr("Choose a logo…"), height_px=40)
+        self.remove = Button(theme, self.tr("Remove the logo"), "quiet", height_px=40)
+        row.addWidget(self.picture)
+        row.addWidget(self.choose)
+        row.addWidget(self.remove)
+        row.addStretch(1)
+        self.body.addLayout(row)
+        self.problem = Text(theme, "", 14, SEMIBOLD, "bad", wrap=True)
+        self.problem.hide()
+        self.body.addWidget(self.problem)
+        self.body.addWidget(Text(theme, self.tr("Paper"), 14, REGULAR, "text2"))
+        self.paper = Choices(theme, [("a4", "A4"), ("letter", self.tr("US Letter"))], form.paper)
+        self.body.addWidget(self.paper)
+        self.name.editingFinished.connect(self._take)
+        self.address.textChanged.connect(self._take)
+        self.choose.clicked.connect(self.ask_logo)
+        self.remove.clicked.connect(lambda: self._take_logo(b""))
+        self.paper.chosen.connect(lambda paper: self._change(replace(self._form, paper=paper)))
+        self._show_logo()
+
+    def show_form(self, form: ReportForm) -> None:
+        """It was changed elsewhere."""
+        self._form = form
+
+    def ask_logo(self) -> None:
+        """Ask for a picture and take it."""
+        kinds = self.tr("Pictures (*.png *.jpg *.jpeg *.svg)")
+        path, _ = QFileDialog.getOpenFileName(self, self.tr("Choose a logo"), "", kinds)
+        if path:
+            self.take_picture(Path(path))
+
+    def take_picture(self, path: Path) -> None:
+        """Take a picture as the logo, or say in one sentence why not."""
+        try:
+            found = logo_png(path)
+        except LogoRefused as refused:
+            self.problem.setText(str(refused))
+            self.problem.show()
+            return
+        self._take_logo(found)
+
+    def _take_logo(self, png: bytes) -> None:
+        self.problem.hide()
+        self._change(replace(self._form, letterhead=replace(self._form.letterhead, logo_png=png)))
+        self._show_logo()
+
+    def _show_logo(self) -> None:
+        logo = QPixmap()
+        logo.loadFromData(self._form.letterhead.logo_png)
+        self.picture.setVisible(not logo.isNull())
+        self.remove.setVisible(not logo.isNull())
+        if not logo.isNull():
+            mode = Qt.TransformationMode.SmoothTransformation
+            self.picture.setPixmap(logo.scaled(3 * LOGO_PX, LOGO_PX, Qt.AspectRatioMode.KeepAspectRatio, mode))
+
+    def _take(self) -> None:
+        lines = [line.strip()[:MOST_ADDRESS] for line in self.address.toPlainText().splitlines() if line.strip()]
+        head = replace(self._form.letterhead, name=self.name.text().strip(), address=tuple(lines[:MOST_ADDRESS_LINES]))
+        self._change(replace(self._form, letterhead=head))
+
+    def _change(self, form: ReportForm) -> None:
+        if form != self._form:
+            self._form = form
+            self.changed.emit(form)
