@@ -141,6 +141,11 @@ def day_of_year(when: date | datetime) -> str:
     return language.locale().toString(_qdate(when), tr("d MMM yyyy"))
 
 
+def day_format() -> str:
+    """How a day is typed and shown in a field, in Qt's letters."""
+    return tr("d MMM yyyy")
+
+
 def report_date(when: datetime) -> str:
     """``20 Nov 2026, 11:36``."""
     return f"{day_of_year(when)}, {when:%H:%M}"

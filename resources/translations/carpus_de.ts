@@ -596,6 +596,10 @@
         <translation>Die andere Hand ist ein Vergleich, keine Norm: Die Hände einer Person unterscheiden sich von selbst.</translation>
     </message>
     <message>
+        <source>Middle joints of all fingers</source>
+        <translation>Mittelgelenke aller Finger</translation>
+    </message>
+    <message>
         <source>part of the repetition</source>
         <translation>Anteil der Wiederholung</translation>
     </message>
@@ -4833,7 +4837,7 @@
     </message>
     <message>
         <source>Others on this computer can look into it. In its properties, take away every right of the group and of others; or run: chmod 700 &apos;{folder}&apos;</source>
-        <translation>Andere an diesem Computer können hineinsehen. Nehmen Sie in den Eigenschaften der Gruppe und anderen alle Rechte, oder: chmod 700 '{folder}'</translation>
+        <translation>Andere an diesem Computer können hineinsehen. Nehmen Sie in den Eigenschaften der Gruppe und anderen alle Rechte, oder: chmod 700 &apos;{folder}&apos;</translation>
     </message>
     <message>
         <source>Packages</source>
@@ -5061,7 +5065,7 @@
     </message>
     <message>
         <source>Run: {command}</source>
-        <translation type="unfinished"></translation>
+        <translation>Führen Sie aus: {command}</translation>
     </message>
     <message>
         <source>The camera is back: {subject} (away for {detail}).</source>
@@ -5217,7 +5221,7 @@
     </message>
     <message>
         <source>The packed program has no driver for it: install Carpus with pip, then run: {command}</source>
-        <translation type="unfinished"></translation>
+        <translation>Das gepackte Programm hat dafür keinen Treiber: Installieren Sie Carpus mit pip und führen Sie dann aus: {command}</translation>
     </message>
     <message>
         <source>The part of Carpus that encrypts is not installed here ({detail}).</source>
@@ -5381,7 +5385,7 @@
     </message>
     <message>
         <source>This version stops the program on Python 3.11. Run: pip install &quot;PySide6-Essentials&lt;6.12&quot;</source>
-        <translation>Diese Version beendet das Programm unter Python 3.11. Ausführen: pip install "PySide6-Essentials&lt;6.12"</translation>
+        <translation>Diese Version beendet das Programm unter Python 3.11. Ausführen: pip install &quot;PySide6-Essentials&lt;6.12&quot;</translation>
     </message>
     <message>
         <source>Tracking again stopped: {subject} ({detail}).</source>
@@ -6129,7 +6133,7 @@
     </message>
     <message>
         <source>not installed; only an Orbbec Femto, Gemini or Astra 2 needs it</source>
-        <translation type="unfinished"></translation>
+        <translation>nicht installiert; nur eine Orbbec Femto, Gemini oder Astra 2 braucht ihn</translation>
     </message>
     <message>
         <source>not the part file of a session</source>

@@ -58,7 +58,7 @@ class ByHandScreen(QWidget):
         self.basis = Text(theme, "", 16, REGULAR, "text2", wrap=True)
         self.day = QDateEdit(QDate(today.year, today.month, today.day))
         self.day.setCalendarPopup(True)
-        self.day.setDisplayFormat("d MMM yyyy")
+        self.day.setDisplayFormat(numbers.day_format())
         self.day.setMaximumDate(self.day.date())
         self.day.setAccessibleName(self.tr("Day of measuring"))
         self.hand = Choices(theme, [(side, terms.hand_name(side)) for side in ("right", "left")])
