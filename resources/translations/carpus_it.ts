@@ -3300,6 +3300,10 @@
         <translation>Relazione della seduta</translation>
     </message>
     <message>
+        <source>Comment of the therapist</source>
+        <translation>Commento del terapista</translation>
+    </message>
+    <message>
         <source>SIMULATED</source>
         <translation>SIMULATA</translation>
     </message>
@@ -3398,6 +3402,10 @@
     <message>
         <source>Speed, pain, note</source>
         <translation>Velocità, dolore, nota</translation>
+    </message>
+    <message>
+        <source>The therapist’s comment is on the last page.</source>
+        <translation>Il commento del terapista è nell’ultima pagina.</translation>
     </message>
     <message>
         <source>Entered by hand, not measured by Carpus: {values}.</source>
@@ -4861,7 +4869,7 @@
     </message>
     <message>
         <source>Others on this computer can look into it. In its properties, take away every right of the group and of others; or run: chmod 700 &apos;{folder}&apos;</source>
-        <translation>Altri su questo computer possono vedervi dentro. Nelle sue proprietà togliere ogni diritto al gruppo e agli altri; oppure eseguire: chmod 700 &apos;{folder}&apos;</translation>
+        <translation>Altri su questo computer possono vedervi dentro. Nelle sue proprietà togliere ogni diritto al gruppo e agli altri; oppure eseguire: chmod 700 '{folder}'</translation>
     </message>
     <message>
         <source>Packages</source>
@@ -5385,7 +5393,7 @@
     </message>
     <message>
         <source>This version stops the program on Python 3.11. Run: pip install &quot;PySide6-Essentials&lt;6.12&quot;</source>
-        <translation>Questa versione ferma il programma con Python 3.11. Eseguire: pip install &quot;PySide6-Essentials&lt;6.12&quot;</translation>
+        <translation>Questa versione ferma il programma con Python 3.11. Eseguire: pip install "PySide6-Essentials&lt;6.12"</translation>
     </message>
     <message>
         <source>Tracking again stopped: {subject} ({detail}).</source>
@@ -5988,6 +5996,14 @@
         <translation>contiene nomi che non sono testo</translation>
     </message>
     <message>
+        <source>the form of the reports cannot be read</source>
+        <translation>il modello delle relazioni non si può leggere</translation>
+    </message>
+    <message>
+        <source>the logo of the reports is gone; choose it again</source>
+        <translation>il logo delle relazioni non c’è più; sceglierlo di nuovo</translation>
+    </message>
+    <message>
         <source>neither a TUM folder, an .oni file, a RealSense recording nor a raw recording</source>
         <translation type="vanished">né una cartella TUM, né un file .oni, né una registrazione RealSense, né una registrazione grezza</translation>
     </message>
@@ -6194,6 +6210,10 @@
     <message>
         <source>straight_fingers is not five times true or false, thumb to little</source>
         <translation>straight_fingers non è cinque volte true o false, dal pollice al mignolo</translation>
+    </message>
+    <message>
+        <source>the comment cannot be read</source>
+        <translation>il commento non si può leggere</translation>
     </message>
     <message>
         <source>the curves match by {match} at best: is it the same movement?</source>
@@ -6638,6 +6658,42 @@
     <message>
         <source>words that lose their capital inside a sentence: *</source>
         <translation>parole che perdono la maiuscola dentro una frase: *</translation>
+    </message>
+    <message>
+        <source>page {number} of {count}</source>
+        <translation>pagina {number} di {count}</translation>
+    </message>
+    <message>
+        <source>This picture cannot be read. Choose a PNG, JPEG or SVG file.</source>
+        <translation>Questa immagine non si può leggere. Scegliere un file PNG, JPEG o SVG.</translation>
+    </message>
+    <message>
+        <source>This picture is larger than 8 MB. Choose a smaller one.</source>
+        <translation>Questa immagine supera 8 MB. Sceglierne una più piccola.</translation>
+    </message>
+    <message>
+        <source>This file is no picture that Carpus can read. Choose a PNG, JPEG or SVG file.</source>
+        <translation>Questo file non è un’immagine leggibile da Carpus. Scegliere un file PNG, JPEG o SVG.</translation>
+    </message>
+    <message>
+        <source>This picture is too small to print. Choose one of at least 32 pixels each way.</source>
+        <translation>Questa immagine è troppo piccola per la stampa. Sceglierne una di almeno 32 pixel per lato.</translation>
+    </message>
+    <message>
+        <source>Flexion {flexion}, extension {extension}.</source>
+        <translation>Flessione {flexion}, estensione {extension}.</translation>
+    </message>
+    <message>
+        <source>The whole arc is {arc}. {change}</source>
+        <translation>L’arco totale è {arc}. {change}</translation>
+    </message>
+    <message>
+        <source>Splint as before; exercises at home three times a day.</source>
+        <translation>Tutore come prima; esercizi a casa tre volte al giorno.</translation>
+    </message>
+    <message>
+        <source>Check again in two weeks.</source>
+        <translation>Controllo fra due settimane.</translation>
     </message>
 </context>
 <context>
@@ -10459,6 +10515,132 @@ Maiusc+F8 di lato</translation>
     </message>
 </context>
 <context>
+    <name>ReportCard</name>
+    <message>
+        <source>Report</source>
+        <translation>Relazione</translation>
+    </message>
+    <message>
+        <source>Name, address and logo of the clinic stand above every page. Left empty, nothing is printed.</source>
+        <translation>Nome, indirizzo e logo del centro stanno in testa a ogni pagina. Se vuoti, non si stampa nulla.</translation>
+    </message>
+    <message>
+        <source>Name of the clinic</source>
+        <translation>Nome del centro</translation>
+    </message>
+    <message>
+        <source>Address, up to four lines</source>
+        <translation>Indirizzo, fino a quattro righe</translation>
+    </message>
+    <message>
+        <source>Logo</source>
+        <translation>Logo</translation>
+    </message>
+    <message>
+        <source>Choose a logo…</source>
+        <translation>Scegli un logo…</translation>
+    </message>
+    <message>
+        <source>Remove the logo</source>
+        <translation>Togli il logo</translation>
+    </message>
+    <message>
+        <source>Paper</source>
+        <translation>Carta</translation>
+    </message>
+    <message>
+        <source>US Letter</source>
+        <translation>US Letter</translation>
+    </message>
+    <message>
+        <source>Pictures (*.png *.jpg *.jpeg *.svg)</source>
+        <translation>Immagini (*.png *.jpg *.jpeg *.svg)</translation>
+    </message>
+    <message>
+        <source>Choose a logo</source>
+        <translation>Scegliere un logo</translation>
+    </message>
+</context>
+<context>
+    <name>ReportPanel</name>
+    <message>
+        <source>Comment</source>
+        <translation>Commento</translation>
+    </message>
+    <message>
+        <source>Printed on the report and kept with the session. No names here, please.</source>
+        <translation>Stampato sulla relazione e conservato con la seduta. Niente nomi, per favore.</translation>
+    </message>
+    <message>
+        <source>Comment on the report</source>
+        <translation>Commento alla relazione</translation>
+    </message>
+    <message>
+        <source>Sentence to insert</source>
+        <translation>Frase da inserire</translation>
+    </message>
+    <message>
+        <source>Type part of a sentence</source>
+        <translation>Scrivere parte di una frase</translation>
+    </message>
+    <message>
+        <source>These places take the session’s figures: {places}</source>
+        <translation>Questi segnaposto prendono i valori della seduta: {places}</translation>
+    </message>
+    <message>
+        <source>Insert</source>
+        <translation>Inserisci</translation>
+    </message>
+    <message>
+        <source>Remember</source>
+        <translation>Ricorda</translation>
+    </message>
+    <message>
+        <source>Forget</source>
+        <translation>Dimentica</translation>
+    </message>
+    <message>
+        <source>Parts of the report</source>
+        <translation>Parti della relazione</translation>
+    </message>
+    <message>
+        <source>Table</source>
+        <translation>Tabella</translation>
+    </message>
+    <message>
+        <source>Curves and repetitions</source>
+        <translation>Curve e ripetizioni</translation>
+    </message>
+    <message>
+        <source>Range as bars</source>
+        <translation>Escursione a barre</translation>
+    </message>
+    <message>
+        <source>How sure the figures are</source>
+        <translation>Sicurezza dei valori</translation>
+    </message>
+    <message>
+        <source>Speed, pain, note</source>
+        <translation>Velocità, dolore, nota</translation>
+    </message>
+    <message>
+        <source>Entered by hand</source>
+        <translation>Inseriti a mano</translation>
+    </message>
+    <message>
+        <source>Page of movement</source>
+        <translation>Pagina del movimento</translation>
+    </message>
+    <message>
+        <source>Warnings, method and the legal sentence always stay.</source>
+        <translation>Avvisi, metodo e frase legale restano sempre.</translation>
+    </message>
+    <message>
+        <source>Use these parts for all reports</source>
+        <translation>Usa queste parti per tutte le relazioni</translation>
+    </message>
+</context>
+<context>
     <name>ReportScreen</name>
     <message>
         <source>Save PDF…</source>
@@ -10469,8 +10651,20 @@ Maiusc+F8 di lato</translation>
         <translation>Apri il PDF</translation>
     </message>
     <message>
+        <source>Print…</source>
+        <translation>Stampa…</translation>
+    </message>
+    <message>
         <source>Preview of the report</source>
         <translation>Anteprima della relazione</translation>
+    </message>
+    <message>
+        <source>One page of US Letter</source>
+        <translation>Una pagina US Letter</translation>
+    </message>
+    <message>
+        <source>{count} pages of US Letter</source>
+        <translation>{count} pagine US Letter</translation>
     </message>
     <message>
         <source>One page of A4</source>
