@@ -98,8 +98,8 @@ def test_from_two_ticks_to_tables_and_a_page_and_back(
 
     screen.report_button.click()
     assert journey.place == "report"
-    journey.report.save(str(tmp_path / "pair.pdf"))
-    qtbot.waitUntil(lambda: (tmp_path / "pair.pdf").exists())
+    with qtbot.waitSignal(journey.report.saved, timeout=60_000):
+        journey.report.save(str(tmp_path / "pair.pdf"))
     assert (tmp_path / "pair.pdf").read_bytes().startswith(b"%PDF")
     journey.way.back()
     assert journey.place == "beside"
