@@ -20,6 +20,7 @@ if TYPE_CHECKING:
 for _name in ("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS"):
     os.environ[_name] = "1"
 os.environ.setdefault("QT_QPA_PLATFORM", "offscreen")
+os.environ["LANGUAGE"] = "en_GB"  # the window speaks the computer's language; what is expected here is English
 
 # The same examples everywhere and each time, and no limit of time: a busy machine is no fault of the program.
 # `--hypothesis-profile=default` looks for new ones.
