@@ -513,7 +513,7 @@
     </message>
     <message>
         <source>{name}, mean ± sd</source>
-        <translation>{name}, media ± DS</translation>
+        <translation>{name}, ± DS</translation>
     </message>
     <message>
         <source>Difference</source>
@@ -10676,7 +10676,7 @@ Maiusc+F8 di lato</translation>
     </message>
     <message>
         <source>{pages}, readable in grey. It carries the made-up name, never a real one.</source>
-        <translation>{pages}, adatta anche alla stampa in grigio. Porta il nome inventato, mai uno vero.</translation>
+        <translation>{pages}; si legge anche in grigio. Porta il nome inventato, mai uno vero.</translation>
     </message>
     <message>
         <source>Not saved yet</source>
