@@ -3300,6 +3300,10 @@
         <translation>Sitzungsbericht</translation>
     </message>
     <message>
+        <source>Comment of the therapist</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
         <source>SIMULATED</source>
         <translation>SIMULIERT</translation>
     </message>
@@ -3398,6 +3402,10 @@
     <message>
         <source>Speed, pain, note</source>
         <translation>Geschwindigkeit, Schmerz, Notiz</translation>
+    </message>
+    <message>
+        <source>The therapist’s comment is on the last page.</source>
+        <translation type="unfinished"></translation>
     </message>
     <message>
         <source>Entered by hand, not measured by Carpus: {values}.</source>
@@ -4837,7 +4845,7 @@
     </message>
     <message>
         <source>Others on this computer can look into it. In its properties, take away every right of the group and of others; or run: chmod 700 &apos;{folder}&apos;</source>
-        <translation>Andere an diesem Computer können hineinsehen. Nehmen Sie in den Eigenschaften der Gruppe und anderen alle Rechte, oder: chmod 700 &apos;{folder}&apos;</translation>
+        <translation>Andere an diesem Computer können hineinsehen. Nehmen Sie in den Eigenschaften der Gruppe und anderen alle Rechte, oder: chmod 700 '{folder}'</translation>
     </message>
     <message>
         <source>Packages</source>
@@ -5065,7 +5073,7 @@
     </message>
     <message>
         <source>Run: {command}</source>
-        <translation>Führen Sie aus: {command}</translation>
+        <translation>Ausführen: {command}</translation>
     </message>
     <message>
         <source>The camera is back: {subject} (away for {detail}).</source>
@@ -5221,7 +5229,7 @@
     </message>
     <message>
         <source>The packed program has no driver for it: install Carpus with pip, then run: {command}</source>
-        <translation>Das gepackte Programm hat dafür keinen Treiber: Installieren Sie Carpus mit pip und führen Sie dann aus: {command}</translation>
+        <translation>Das fertige Paket hat keinen Treiber dafür: Installieren Sie Carpus mit pip, dann ausführen: {command}</translation>
     </message>
     <message>
         <source>The part of Carpus that encrypts is not installed here ({detail}).</source>
@@ -5385,7 +5393,7 @@
     </message>
     <message>
         <source>This version stops the program on Python 3.11. Run: pip install &quot;PySide6-Essentials&lt;6.12&quot;</source>
-        <translation>Diese Version beendet das Programm unter Python 3.11. Ausführen: pip install &quot;PySide6-Essentials&lt;6.12&quot;</translation>
+        <translation>Diese Version beendet das Programm unter Python 3.11. Ausführen: pip install "PySide6-Essentials&lt;6.12"</translation>
     </message>
     <message>
         <source>Tracking again stopped: {subject} ({detail}).</source>
@@ -5988,6 +5996,14 @@
         <translation>Namen darin sind kein Text</translation>
     </message>
     <message>
+        <source>the form of the reports cannot be read</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>the logo of the reports is gone; choose it again</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
         <source>neither a TUM folder, an .oni file, a RealSense recording nor a raw recording</source>
         <translation type="vanished">weder ein TUM-Ordner noch eine .oni-Datei, RealSense- oder Rohaufnahme</translation>
     </message>
@@ -6194,6 +6210,10 @@
     <message>
         <source>straight_fingers is not five times true or false, thumb to little</source>
         <translation>straight_fingers ist nicht fünfmal true oder false, Daumen bis Kleinfinger</translation>
+    </message>
+    <message>
+        <source>the comment cannot be read</source>
+        <translation type="unfinished"></translation>
     </message>
     <message>
         <source>the curves match by {match} at best: is it the same movement?</source>
@@ -6638,6 +6658,42 @@
     <message>
         <source>words that lose their capital inside a sentence: *</source>
         <translation>Wörter, die im Satz klein werden: Rechte Linke Beide Rechts Links Radial Ulnar Nie Noch Kalibriert Geprüft Gerade Beugen Heben Schieben Drehen Schließen Spreizen Öffnen Nehmen Bewegen Strecken Kommen Berühren Runter Hoch Zum Zur Nach</translation>
+    </message>
+    <message>
+        <source>page {number} of {count}</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>This picture cannot be read. Choose a PNG, JPEG or SVG file.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>This picture is larger than 8 MB. Choose a smaller one.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>This file is no picture that Carpus can read. Choose a PNG, JPEG or SVG file.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>This picture is too small to print. Choose one of at least 32 pixels each way.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Flexion {flexion}, extension {extension}.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>The whole arc is {arc}. {change}</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Splint as before; exercises at home three times a day.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Check again in two weeks.</source>
+        <translation type="unfinished"></translation>
     </message>
 </context>
 <context>
@@ -10459,6 +10515,132 @@ Umschalt+F8 von der Seite</translation>
     </message>
 </context>
 <context>
+    <name>ReportCard</name>
+    <message>
+        <source>Report</source>
+        <translation>Bericht</translation>
+    </message>
+    <message>
+        <source>Name, address and logo of the clinic stand above every page. Left empty, nothing is printed.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Name of the clinic</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Address, up to four lines</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Logo</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Choose a logo…</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Remove the logo</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Paper</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>US Letter</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Pictures (*.png *.jpg *.jpeg *.svg)</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Choose a logo</source>
+        <translation type="unfinished"></translation>
+    </message>
+</context>
+<context>
+    <name>ReportPanel</name>
+    <message>
+        <source>Comment</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Printed on the report and kept with the session. No names here, please.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Comment on the report</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Sentence to insert</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Type part of a sentence</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>These places take the session’s figures: {places}</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Insert</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Remember</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Forget</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Parts of the report</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Table</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Curves and repetitions</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Range as bars</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>How sure the figures are</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Speed, pain, note</source>
+        <translation>Geschwindigkeit, Schmerz, Notiz</translation>
+    </message>
+    <message>
+        <source>Entered by hand</source>
+        <translation>Von Hand eingetragen</translation>
+    </message>
+    <message>
+        <source>Page of movement</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Warnings, method and the legal sentence always stay.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Use these parts for all reports</source>
+        <translation type="unfinished"></translation>
+    </message>
+</context>
+<context>
     <name>ReportScreen</name>
     <message>
         <source>Save PDF…</source>
@@ -10469,8 +10651,20 @@ Umschalt+F8 von der Seite</translation>
         <translation>PDF öffnen</translation>
     </message>
     <message>
+        <source>Print…</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
         <source>Preview of the report</source>
         <translation>Vorschau des Berichts</translation>
+    </message>
+    <message>
+        <source>One page of US Letter</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>{count} pages of US Letter</source>
+        <translation type="unfinished"></translation>
     </message>
     <message>
         <source>One page of A4</source>
