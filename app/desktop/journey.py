@@ -174,6 +174,7 @@ class Journey(QObject):
         self.printing = Printing(
             self._shell, self.report, self.way, tell, now, library, places, self.background,
             theme=theme, therapist=lambda: self.settings.report.therapist, forms=self.forms,
+            today=self._parts.today,
         )  # fmt: skip
         self.entering_by_hand = ByHand(
             self, self.by_hand, self.way, tell, now, library, self.background,

@@ -6,9 +6,10 @@ import csv
 import threading
 from collections.abc import Callable, Sequence
 from dataclasses import replace
+from datetime import date
 from itertools import chain, count
 from pathlib import Path
-from typing import Protocol
+from typing import Protocol, TypeVar
 
 from PySide6.QtCore import QObject, Qt, QUrl, Signal
 from PySide6.QtGui import QDesktopServices
@@ -30,10 +31,14 @@ from carpus.ui.export.sheet import ExportSheet
 from carpus.ui.messages.stop_card import Answer
 from carpus.ui.ports import Words
 from carpus.ui.report.beside_page import BesideReport
+from carpus.ui.report.letter_page import LetterReport
+from carpus.ui.report.letter_sheet import LetterSheet
 from carpus.ui.report.pdf import progress_report, session_report
 from carpus.ui.report.screen import ReportScreen
 from carpus.ui.report.session_page import SessionReport
 from carpus.ui.theme import Theme
+
+T = TypeVar("T")
 
 
 class Printable(Protocol):
@@ -48,6 +53,10 @@ class Printable(Protocol):
     def history(self, patient_id: str) -> Sequence[SessionFigures]: ...
 
     def by_hand(self, patient_id: str) -> Sequence[HandValue]: ...
+
+    def recipients(self) -> Sequence[str]: ...
+
+    def remember_recipient(self, address: str) -> None: ...
 
     def comment(self, session_id: str) -> str: ...
 
@@ -96,12 +105,17 @@ class Printing(QObject):
         theme: Theme,
         therapist: Callable[[], str],
         forms: Forms,
+        today: Callable[[], date] = date.today,
     ) -> None:
         super().__init__(window)
         self._window, self._screen, self._way, self._tell, self._now = window, screen, way, tell, now
         self._stored, self._places, self._background, self._therapist = stored, places, background, therapist
-        self._forms = forms
+        self._forms, self._today = forms, today
         self._shown: Sequence[str] = ()
+        self._letter_of: SessionReport | None = None
+        self.letter = LetterSheet(window, theme)
+        self.letter.wanted.connect(self._write_letter)
+        screen.letter_wanted.connect(self._ask_letter)
         self._stop = threading.Event()
         self._exported = ""
         self.formats = ExportSheet(window, theme)
@@ -146,6 +160,32 @@ class Printing(QObject):
             self._stored.keep_comment(session_id, text)
         except CarpusFault as fault:
             self._tell.fault(fault)
+
+    def _ask_letter(self, report: SessionReport) -> None:
+        row = self._now.patient
+        if row is not None:
+            self._letter_of = report
+            known = self._listed(self._stored.recipients) or []
+            self.letter.begin(known, has_name=bool(row.name))
+
+    def _write_letter(self, recipient: str, language: str, named: bool) -> None:
+        """Show the letter; the real name goes no further than its page."""
+        row, report = self._now.patient, self._letter_of
+        if row is None or report is None:
+            return
+        if recipient:
+            self._listed(lambda: self._stored.remember_recipient(recipient))
+        name = row.name if named else ""
+        letter = LetterReport(report, recipient, self._today(), name, language)
+        self._screen.begin(letter, self._places.folder("reports"))
+
+    def _listed(self, ask: Callable[[], T]) -> T | None:
+        """What the list of addresses says; a fault of it is told."""
+        try:
+            return ask()
+        except CarpusFault as fault:
+            self._tell.fault(fault)
+            return None
 
     def course(self, sessions: Sequence[SessionFigures], followed: object, by_hand: Sequence[HandValue] = ()) -> None:
         """Make the report over sessions and show it; ``followed`` is what of the whole hand is on the screen,

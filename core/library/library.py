@@ -442,6 +442,14 @@ class Library:
         }
         _write_json(path, content)
 
+    def recipients(self) -> Sequence[str]:
+        """To whom letters were written, the last used first."""
+        return self.clinic.recipients()
+
+    def remember_recipient(self, address: str) -> None:
+        """Take down to whom a letter goes."""
+        self.clinic.remember_recipient(address)
+
     def comments(self, session_id: str) -> Sequence[Comment]:
         """All that the therapist wrote of a session, oldest first."""
         return read_comments(self.entry(session_id).path)

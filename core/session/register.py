@@ -22,7 +22,7 @@ from carpus.core.by_hand import kept as by_hand
 from carpus.core.by_hand.values import HandValue
 from carpus.core.errors import CarpusFault, PseudonymTaken, SessionUnreadable
 from carpus.core.phrase import phrase
-from carpus.core.session import made_files, out_of_sight, seen_files
+from carpus.core.session import made_files, out_of_sight, recipients, seen_files
 from carpus.core.session.database import Database, make_private
 from carpus.core.session.pseudonyms import suggest_pseudonym
 from carpus.core.session.reader import read_outline
@@ -75,6 +75,7 @@ MIGRATIONS = (
     "ALTER TABLE session ADD COLUMN simulated INTEGER NOT NULL DEFAULT 0; DELETE FROM seen",
     made_files.MIGRATION + out_of_sight.MIGRATION,
     by_hand.MIGRATION,
+    recipients.MIGRATION,
 )
 """One script for each version of the register, in order; ``PRAGMA user_version`` counts those that ran."""
 
@@ -88,6 +89,7 @@ TABLES = {
     "archived": "identity, since",
     "erasing": "path",
     "by_hand": by_hand.COLUMNS,
+    "recipient": recipients.COLUMNS,
 }
 """What every register has; one without it is damaged."""
 
@@ -310,6 +312,16 @@ class PatientRegister:
         with self.database.transaction() as database:
             rows = database.execute("SELECT identity, since FROM archived").fetchall()
         return {str(identity): datetime.fromisoformat(since) for identity, since in rows}
+
+    def recipients(self) -> list[str]:
+        """To whom letters were written, the last used first."""
+        with self.database.transaction() as database:
+            return recipients.known(database)
+
+    def remember_recipient(self, address: str) -> None:
+        """Take down to whom a letter goes."""
+        with self.database.transaction() as database:
+            recipients.remember(database, address)
 
     def remember_made(self, paths: Iterable[Path], kind: made_files.MadeKind, session_ids: Iterable[str]) -> None:
         """Take down files that were made from sessions of this register, for the day these are erased."""

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from dataclasses import replace
+from datetime import date
 from pathlib import Path
 
 import pytest
@@ -14,14 +15,17 @@ from carpus.core.library.clinic_form import LOGO_FILE, keep_form, read_form
 from carpus.core.output.report_form import PAPER_PT, PAPERS, SECTIONS, Letterhead, Paper, ReportForm
 from carpus.ui.background import Background
 from carpus.ui.keys import Keys
+from carpus.ui.language import LANGUAGES
+from carpus.ui.report.letter_page import LetterReport
 from carpus.ui.report.logo import LogoRefused, logo_png
-from carpus.ui.report.pdf import session_report, write_session_report
+from carpus.ui.report.pdf import session_report, write_letter, write_session_report
 from carpus.ui.report.screen import ReportScreen
 from carpus.ui.report.sentences import filled
 from carpus.ui.report.session_page import SessionReport
 from carpus.ui.terms import LEGAL_SENTENCE
 from carpus.ui.theme import Theme
 from tests.ui.fakes import FakeSessions
+from tests.ui.hand_fakes import FakeHandSessions
 from tests.ui.test_report_pdf import tool, words_of
 
 LONG = "\n".join(f"Line {number} of what the therapist says." for number in range(120))
@@ -117,6 +121,39 @@ def test_places_of_a_sentence_take_figures_with_their_spread_or_say_not_measured
     )
     assert "13 Nov" in filled("{change}", made)
     assert filled("{change}", replace(made, previous=None)) == "not measured"
+
+
+@pytest.mark.parametrize("language", LANGUAGES)
+@pytest.mark.parametrize("hand", [False, True])
+def test_a_letter_is_one_page_whatever_stands_in_it(language: str, hand: bool, tmp_path: Path) -> None:
+    store = FakeHandSessions() if hand else FakeSessions()
+    stored = store.session("hand-7" if hand else "session-7")
+    head = Letterhead("W" * 60, ("Y" * 80,) * 4, logo_png(picture(tmp_path / "logo.png")))
+    form = ReportForm(head, "letter")
+    made = session_report(stored, history=store.history("linden"), form=form, language=language, therapist="M. R.")
+    made = replace(made, figures=replace(made.figures, simulated=True, recovered=True, not_counted=True))
+    for comment in ("Short, and kept.", LONG):
+        letter = LetterReport(
+            replace(made, comment=comment), "\n".join(["D" * 80] * 6), date(2026, 11, 22), "Real Name", language
+        )
+        path = write_letter(letter, tmp_path / f"{len(comment)}.pdf")
+        assert re.search(r"Pages:\s+1\n", tool("pdfinfo", str(path)))
+        words = words_of(path)
+        assert f"Real Name ({made.pseudonym})" in words
+        assert f"Carpus {made.figures.software_version}" in words
+        assert ("Short, and kept." in words) == (comment != LONG)
+        assert "Line 3 of" not in words
+        boxes = tool("pdftotext", "-bbox", str(path), "-")
+        assert max(float(y) for y in re.findall(r'yMax="([\d.]+)"', boxes)) <= 792.0 - 28.0
+        assert max(float(x) for x in re.findall(r'xMax="([\d.]+)"', boxes)) <= 612.0 - 28.0
+
+
+def test_a_letter_names_nobody_unless_asked(tmp_path: Path) -> None:
+    made = report()
+    words = words_of(write_letter(LetterReport(made, "Dr A\nVienna", date(2026, 11, 22)), tmp_path / "x.pdf"))
+    assert f"camera: {made.pseudonym} Dear" in words
+    for kept in ("Dr A", "Vienna", "22 Nov 2026", "Whole arc", "± ", "first session on", LEGAL_SENTENCE[:60]):
+        assert kept in words
 
 
 def test_the_comment_beside_the_preview_is_told_once_it_is_written(theme: Theme) -> None:

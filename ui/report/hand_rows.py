@@ -205,7 +205,7 @@ def hand_summary(figures: SessionFigures, previous: SessionFigures | None, first
     for figure in shown:
         row = figures.row("arc", -1, figure.joint)
         known = row is not None and row.count
-        words = _range_words(row, spread=False) if row is not None and known else tr("not seen")
+        words = range_words(row, spread=False) if row is not None and known else tr("not seen")
         name = figure.row_name if trains_thumb(figures) else finger_name(str(figure.finger))
         today.append(f"{inside(name)} {words}")
         bounds += bool(known and row is not None and row.limited)
@@ -257,7 +257,7 @@ def cell_of(figures: SessionFigures, figure: Figure) -> FingerCell:
         return FingerCell(tr("not measured") if figure.row == "end" else numbers.UNKNOWN, joint=joint)
     if not row.count:
         return FingerCell(tr("not seen"), limited=True, joint=joint)
-    return FingerCell(_range_words(row), _ends(figures, figure), row.limited, joint)
+    return FingerCell(range_words(row), _ends(figures, figure), row.limited, joint)
 
 
 def _finger_row(
@@ -283,13 +283,14 @@ def _finger_row(
         finger_name(str(finger)),
         tuple(cell_of(figures, Figure(finger, row)) for row in COLUMNS),
         share,
-        _range_words(before, spread=False) if before is not None and before.count else "",
+        range_words(before, spread=False) if before is not None and before.count else "",
         change,
         verdict,
     )
 
 
-def _range_words(row: RangeRow, *, spread: bool = True) -> str:
+def range_words(row: RangeRow, *, spread: bool = True) -> str:
+    """``57° ± 2°``, or ``≥ 57°`` where the end of the movement was not seen."""
     sd = row.sd_deg if math.isfinite(row.sd_deg) else row.measurement_sd_deg
     if row.limited:  # a spread would be that of where the joint went out of sight
         return f"{AT_LEAST}{numbers.NARROW_GAP}{numbers.degrees(row.mean_deg)}"

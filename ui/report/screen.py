@@ -19,11 +19,12 @@ from carpus.ui.controls.column import RING_PX, scrolled
 from carpus.ui.controls.text import REGULAR, SEMIBOLD, StateText, Text
 from carpus.ui.keys import Keys, bind
 from carpus.ui.report.beside_page import BesideReport
+from carpus.ui.report.letter_page import LetterReport
 from carpus.ui.report.page import Page
 from carpus.ui.report.pages import Report, pages_of
 from carpus.ui.report.panel import ReportPanel
 from carpus.ui.report.paper import print_on, printer_for
-from carpus.ui.report.pdf import write_beside_report, write_progress_report, write_session_report
+from carpus.ui.report.pdf import write_beside_report, write_letter, write_progress_report, write_session_report
 from carpus.ui.report.session_page import SessionReport
 from carpus.ui.theme import GAP_PX, MARGIN_PX, Theme
 from carpus.ui.tour.bubble import BubbleView
@@ -32,9 +33,11 @@ WIDEST_PX = 980
 
 
 class ReportScreen(QWidget):
-    """Preview and saving. ``saved`` carries the path; ``told`` a fault."""
+    """Preview and saving. ``saved`` carries the path; ``letter_wanted`` the report that a letter is to be made of;
+    ``told`` a fault."""
 
     saved = Signal(str)
+    letter_wanted = Signal(object)
     told = Signal(object)
 
     def __init__(self, theme: Theme, keys: Keys, background: Background) -> None:
@@ -49,6 +52,8 @@ class ReportScreen(QWidget):
         self.bubble = BubbleView(theme)
         self.open_button = Button(theme, self.tr("Open the PDF"), "plain")
         self.print_button = Button(theme, self.tr("Print…"), "plain")
+        self.letter_button = Button(theme, self.tr("Letter to the doctor…"), "plain")
+        self.back_button = Button(theme, self.tr("Back to the report"), "quiet")
         self.panel = ReportPanel(theme)
         self.state = StateText(theme, 16, SEMIBOLD, 20)
         self.where = Text(theme, "", 14, REGULAR, "text2", wrap=True)
@@ -57,6 +62,8 @@ class ReportScreen(QWidget):
         self.open_button.clicked.connect(self._open)
         self.print_button.clicked.connect(self.print_out)
         self.panel.changed.connect(self._show_changed)
+        self.letter_button.clicked.connect(self._ask_letter)
+        self.back_button.clicked.connect(self._to_report)
         self.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
         self.setProperty("shows_own_focus", True)
         bind(self, keys, "report", self.save_button.click)
@@ -74,6 +81,8 @@ class ReportScreen(QWidget):
         card.body.addWidget(self.bubble)
         card.body.addWidget(self.save_button)
         card.body.addWidget(self.print_button)
+        card.body.addWidget(self.letter_button)
+        card.body.addWidget(self.back_button)
         card.body.addWidget(self.open_button)
         self.pages = Text(self._theme, "", 14, REGULAR, "text2", wrap=True)
         card.body.addWidget(self.pages)
@@ -103,6 +112,8 @@ class ReportScreen(QWidget):
         self._name = suggested_name(report)
         self._saved_path = ""
         self.panel.setVisible(isinstance(report, SessionReport))
+        self.letter_button.setVisible(isinstance(report, SessionReport))
+        self.back_button.setVisible(isinstance(report, LetterReport))
         if isinstance(report, SessionReport):
             self.panel.begin(report)
         self._show_pages(report)
@@ -125,6 +136,8 @@ class ReportScreen(QWidget):
             pages = self.tr("One page of A4") if count == 1 else self.tr("{count} pages of A4")
         pages = pages.format(count=count)
         words = self.tr("{pages}, readable in grey. It carries the made-up name, never a real one.")
+        if isinstance(report, LetterReport) and report.real_name:
+            words = self.tr("{pages}, readable in grey. It carries the patient’s real name: mind where you save it.")
         self.pages.setText(words.format(pages=pages))
 
     @property
@@ -144,6 +157,15 @@ class ReportScreen(QWidget):
         path, _ = QFileDialog.getSaveFileName(self, self.tr("Save report"), start, self.tr("PDF (*.pdf)"))
         if path:
             self.save(path, replace_asked=True)
+
+    def _ask_letter(self) -> None:
+        self.panel.keep_comment()
+        if isinstance(self._report, SessionReport):
+            self.letter_wanted.emit(self._report)
+
+    def _to_report(self) -> None:
+        if isinstance(self._report, LetterReport):
+            self.begin(self._report.report, self._folder)
 
     def print_out(self) -> None:
         """Ask for a printer, then paint the same pages on its paper."""
@@ -183,6 +205,8 @@ def suggested_name(report: Report) -> str:
     """``Linden-42_2026-11-20_report.pdf``: the made-up name and the day."""
     if isinstance(report, SessionReport):
         when, kind = report.figures.when, "report"
+    elif isinstance(report, LetterReport):
+        when, kind = report.report.figures.when, "letter"
     elif isinstance(report, BesideReport):
         when, kind = max(figures.when for figures in report.sessions), "side-by-side"
     else:
@@ -198,6 +222,8 @@ def _written(report: Report, target: Path, replace_asked: bool) -> Path:
             write_session_report(report, place)
         elif isinstance(report, BesideReport):
             write_beside_report(report, place)
+        elif isinstance(report, LetterReport):
+            write_letter(report, place)
         else:
             write_progress_report(report, place)
 

@@ -6,12 +6,12 @@ import re
 from collections.abc import Callable
 
 from carpus.core.output.report_content import SessionFigures, compare
-from carpus.ui import numbers
-from carpus.ui.report.hand_rows import hand_since_words
+from carpus.ui import numbers, terms
+from carpus.ui.report.hand_rows import hand_since_words, range_words
 from carpus.ui.report.session_page import SessionReport
-from carpus.ui.report.tables import mean_words
+from carpus.ui.report.tables import is_deficit, mean_words, prints_spread
 from carpus.ui.report.words import since_words
-from carpus.ui.translate import tr
+from carpus.ui.translate import inside, tr
 
 ANGLES = {"flexion": 1, "extension": 1, "radial": 0, "ulnar": 0, "supination": 2, "pronation": 2}
 PLACES = (*ANGLES, "arc", "change", "repetitions", "date")
@@ -47,7 +47,14 @@ def _value(place: str, report: SessionReport) -> str:
 
 def _row(figures: SessionFigures, movement: str, angle: int) -> str:
     row = next((one for one in figures.rows if one.movement == movement and one.angle == angle), None)
-    return mean_words(row) if row is not None and row.count else ""
+    if row is None or not row.count:
+        return ""
+    if row.limited:
+        return range_words(row)
+    if is_deficit(row):
+        sd_deg = row.sd_deg if prints_spread(row) else row.measurement_sd_deg
+        return f"{inside(terms.deficit_name(movement))} {numbers.with_spread(-row.mean_deg, sd_deg)}"
+    return mean_words(row)
 
 
 def _arc(figures: SessionFigures) -> str:

@@ -1,0 +1,210 @@
+"""The letter to the referring doctor: one page, whatever stands in it.
+
+Where it does not fit it is painted smaller, down to :data:`SMALLEST`. Then these go, in this order: the figures of the
+other hand and of last time, the change since the first session, the comment, in whose place stands where it is.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from datetime import date
+from functools import partial
+
+from carpus.core.output.report_content import compare
+from carpus.core.output.report_form import ReportForm
+from carpus.core.types import Side
+from carpus.ui import numbers, terms
+from carpus.ui.fonts import MEDIUM, REGULAR, SEMIBOLD
+from carpus.ui.marker_words import finger_name
+from carpus.ui.report.framed import BODY_FOOT_PT
+from carpus.ui.report.hand_rows import compared_figures, hand_since_words, range_words, trains_thumb
+from carpus.ui.report.page import A4_PT, MARGIN_PT, Page
+from carpus.ui.report.session_page import SessionReport, comment_lines, paint_watermark, painted_on_nothing
+from carpus.ui.report.tables import table_rows
+from carpus.ui.report.words import corrected_words, method, since_words, warnings
+from carpus.ui.translate import inside, tr
+
+SMALLEST = 0.82
+OMISSIONS = 3
+MOST_ADDRESS_LINES, MOST_ADDRESS = 6, 80
+SIZE_PT, LEADING_PT = 10.0, 14.5
+FOOT_PT = 84.0
+EDGES = (0.0, 0.30, 0.62, 0.84)
+
+
+@dataclass(frozen=True, slots=True)
+class LetterReport:
+    """All that is on the page: what the report has, to whom it goes and when. ``real_name`` is printed where it is not
+    empty, beside the made-up one."""
+
+    report: SessionReport
+    recipient: str
+    day: date
+    real_name: str = ""
+    language: str = ""
+
+    @property
+    def form(self) -> ReportForm:
+        """Letterhead and paper."""
+        return self.report.form
+
+    @property
+    def pseudonym(self) -> str:
+        """The made-up name."""
+        return self.report.pseudonym
+
+    @property
+    def side(self) -> Side:
+        """The hand."""
+        return self.report.figures.side
+
+
+def paint_letter_page(page: Page, letter: LetterReport) -> None:
+    """Paint everything on one page."""
+    if letter.report.figures.simulated:
+        paint_watermark(page)
+    room = BODY_FOOT_PT - FOOT_PT
+    share, omitted = 1.0, 0
+    for omitted in range(OMISSIONS + 1):
+        share = min(1.0, room / painted_on_nothing(page, partial(_paint, letter=letter, omitted=omitted)))
+        if share >= SMALLEST:
+            break
+    page.painter.save()
+    page.painter.translate(0.5 * (1.0 - share) * A4_PT[0] * page.point, 0.0)
+    page.painter.scale(share, share)
+    _paint(page, letter, omitted)
+    page.painter.restore()
+    _paint_foot(page, letter)
+
+
+def _paint(page: Page, letter: LetterReport, omitted: int) -> float:
+    """All but the foot, without what is omitted; returns the lower edge."""
+    report, figures = letter.report, letter.report.figures
+    width = page.right - page.left
+    y = MARGIN_PT
+    page.text_right(numbers.day_of_year(letter.day), page.right, y + SIZE_PT, SIZE_PT)
+    for line in address_lines(letter.recipient):
+        page.text(line, page.left, y + SIZE_PT, SIZE_PT)
+        y += LEADING_PT
+    y += 24
+    who = f"{letter.real_name} ({letter.pseudonym})" if letter.real_name else letter.pseudonym
+    subject = tr("Movement measured by camera: {who}").format(who=who)
+    y = _lines(page, subject, y, 12.0, SEMIBOLD) + 10
+    y = _lines(page, tr("Dear colleague,"), y) + 6
+    said = tr("On {day} we measured: {exercise}, {hand}. Repetitions that count: {count}.").format(
+        day=numbers.day_of_year(figures.when),
+        exercise=terms.exercise_name(figures.exercise.id),
+        hand=inside(terms.hand_name(figures.side)),
+        count=figures.counted,
+    )
+    y = _lines(page, said, y)
+    for words in [*warnings(figures), *filter(None, [corrected_words(figures)])]:
+        y = page.paragraph(words, page.left, y + 3, width, SIZE_PT, SEMIBOLD, "warn")
+    y = _paint_figures(page, report, y + 8, beside=omitted < 1)
+    for words in _changes(report, with_first=omitted < 2):
+        y = _lines(page, words, y + 4)
+    if report.comment.strip():
+        y += 6
+        if omitted < 3:
+            for line in comment_lines(page, report.comment):
+                page.text(line, page.left, y + SIZE_PT, 9.0)
+                y += 12.5
+        else:
+            y = _lines(page, tr("The comment is too long for this letter; it is in the report."), y, SIZE_PT, MEDIUM)
+    y = _lines(page, tr("Kind regards,"), y + 10) + 34
+    page.rule(y, page.left, page.left + 200)
+    signed = ", ".join(filter(None, [report.therapist, letter.form.letterhead.name]))
+    page.text(signed or tr("Signature"), page.left, y + 12, 9.0, REGULAR, "text2")
+    return y + 18
+
+
+def _paint_figures(page: Page, report: SessionReport, top: float, *, beside: bool) -> float:
+    """The main figures, with those of the other hand and of last time beside them."""
+    width = page.right - page.left
+    rows = figure_rows(report)
+    if not rows:
+        return _lines(page, tr("No range could be measured."), top)
+    heads = ["", tr("Mean ± sd"), "", ""]
+    if beside and report.other_hand is not None:
+        heads[2] = terms.hand_name(report.other_hand.side)
+    if beside and report.previous is not None:
+        heads[3] = numbers.day_beside(report.previous.when, report.figures.when)
+    baseline = top + SIZE_PT
+    for weight, cells in ((MEDIUM, heads), *((REGULAR, list(row)) for row in rows)):
+        for column, cell in enumerate(cells):
+            if column < 2 or heads[column]:
+                left = page.left + EDGES[column] * width
+                page.text(cell, left, baseline, 9.5, SEMIBOLD if column == 1 and weight == REGULAR else weight)
+        page.rule(baseline + 4.5)
+        baseline += 16.0
+    return baseline - 8.0
+
+
+def figure_rows(report: SessionReport) -> list[tuple[str, str, str, str]]:
+    """Name, mean with its spread, the other hand's and last time's; a figure that is not known is said to be so."""
+    figures = report.figures
+    if report.joints is None:
+        rows = [row for row in table_rows(figures, report.previous, report.other_hand) if row.best]
+        return [(row.movement, row.today, row.other_hand, row.last) for row in rows]
+    found = []
+    for figure in compared_figures(figures):
+        cells = []
+        for shown in (figures, report.other_hand, report.previous):
+            row = None if shown is None else shown.row("arc", -1, figure.joint)
+            cells.append(range_words(row) if row is not None and row.count else tr("not measured"))
+        name = figure.row_name if trains_thumb(figures) else f"{finger_name(str(figure.finger))}, {figure.row_name}"
+        found.append((name, cells[0], cells[1], cells[2]))
+    return found
+
+
+def _changes(report: SessionReport, *, with_first: bool) -> Sequence[str]:
+    """What may be said of change since last time and since the first session, beyond error only."""
+    figures = report.figures
+    before = []
+    if report.previous is not None:
+        before.append((report.previous, numbers.day_beside(report.previous.when, figures.when)))
+    first = report.first
+    if with_first and first is not None and (report.previous is None or first.session_id != report.previous.session_id):
+        day = numbers.day_beside(first.when, figures.when)
+        before.append((first, tr("the first session on {day}").format(day=day)))
+    if report.joints is None:
+        said = [since_words(compare(earlier, figures), when) for earlier, when in before]
+    else:
+        said = [hand_since_words(figures, earlier, when) for earlier, when in before]
+    return [words for words in said if words]
+
+
+def _paint_foot(page: Page, letter: LetterReport) -> None:
+    """How it was measured, in what it can be wrong, and by which program: never left out."""
+    report, figures = letter.report, letter.report.figures
+    width = page.right - page.left
+    made_by = f" ({report.revision[:7]})" if report.revision else ""
+    origin = f"Carpus {figures.software_version}{made_by} · " + tr("Session {id}").format(id=figures.session_id[:8])
+    parts = [(method(figures, report.markers, compared=True), REGULAR), (terms.LEGAL_SENTENCE, SEMIBOLD)]
+    parts.append((origin, REGULAR))
+    lines: list[tuple[str, int]] = []
+    size = 7.5
+    for words, weight in parts:
+        lines += [(line, weight) for line in page.lines(words, width, size, weight)]
+    leading = min(10.4, (FOOT_PT - 4.0) / len(lines))
+    size = min(size, leading / 1.15)
+    top = BODY_FOOT_PT - FOOT_PT + 4.0
+    page.rule(top - 3.0)
+    for line, weight in lines:
+        top += leading
+        page.text(line, page.left, top - 0.2 * leading, size, weight, "text2" if weight == REGULAR else "text")
+
+
+def address_lines(recipient: str) -> list[str]:
+    """The recipient as it is printed.
+
+    >>> address_lines(" Dr A \\n\\n Vienna")
+    ['Dr A', 'Vienna']
+    """
+    lines = [line.strip()[:MOST_ADDRESS] for line in recipient.splitlines()]
+    return [line for line in lines if line][:MOST_ADDRESS_LINES]
+
+
+def _lines(page: Page, words: str, top: float, size_pt: float = SIZE_PT, weight: int = REGULAR) -> float:
+    return page.paragraph(words, page.left, top, page.right - page.left, size_pt, weight)
