@@ -3301,7 +3301,7 @@
     </message>
     <message>
         <source>Comment of the therapist</source>
-        <translation type="unfinished"></translation>
+        <translation>Bemerkung der Therapie</translation>
     </message>
     <message>
         <source>SIMULATED</source>
@@ -3405,7 +3405,7 @@
     </message>
     <message>
         <source>The therapist’s comment is on the last page.</source>
-        <translation type="unfinished"></translation>
+        <translation>Die Bemerkung der Therapie steht auf der letzten Seite.</translation>
     </message>
     <message>
         <source>Entered by hand, not measured by Carpus: {values}.</source>
@@ -5997,11 +5997,11 @@
     </message>
     <message>
         <source>the form of the reports cannot be read</source>
-        <translation type="unfinished"></translation>
+        <translation>die Form der Berichte ist nicht lesbar</translation>
     </message>
     <message>
         <source>the logo of the reports is gone; choose it again</source>
-        <translation type="unfinished"></translation>
+        <translation>das Logo der Berichte ist weg; wählen Sie es neu</translation>
     </message>
     <message>
         <source>neither a TUM folder, an .oni file, a RealSense recording nor a raw recording</source>
@@ -6213,7 +6213,7 @@
     </message>
     <message>
         <source>the comment cannot be read</source>
-        <translation type="unfinished"></translation>
+        <translation>die Bemerkung ist nicht lesbar</translation>
     </message>
     <message>
         <source>the curves match by {match} at best: is it the same movement?</source>
@@ -6661,39 +6661,39 @@
     </message>
     <message>
         <source>page {number} of {count}</source>
-        <translation type="unfinished"></translation>
+        <translation>Seite {number} von {count}</translation>
     </message>
     <message>
         <source>This picture cannot be read. Choose a PNG, JPEG or SVG file.</source>
-        <translation type="unfinished"></translation>
+        <translation>Dieses Bild ist nicht lesbar. Wählen Sie eine PNG-, JPEG- oder SVG-Datei.</translation>
     </message>
     <message>
         <source>This picture is larger than 8 MB. Choose a smaller one.</source>
-        <translation type="unfinished"></translation>
+        <translation>Dieses Bild ist größer als 8 MB. Wählen Sie ein kleineres.</translation>
     </message>
     <message>
         <source>This file is no picture that Carpus can read. Choose a PNG, JPEG or SVG file.</source>
-        <translation type="unfinished"></translation>
+        <translation>Diese Datei ist kein Bild, das Carpus lesen kann. Wählen Sie eine PNG-, JPEG- oder SVG-Datei.</translation>
     </message>
     <message>
         <source>This picture is too small to print. Choose one of at least 32 pixels each way.</source>
-        <translation type="unfinished"></translation>
+        <translation>Dieses Bild ist zu klein zum Drucken. Wählen Sie eines mit mindestens 32 Pixeln je Richtung.</translation>
     </message>
     <message>
         <source>Flexion {flexion}, extension {extension}.</source>
-        <translation type="unfinished"></translation>
+        <translation>Flexion {flexion}, Extension {extension}.</translation>
     </message>
     <message>
         <source>The whole arc is {arc}. {change}</source>
-        <translation type="unfinished"></translation>
+        <translation>Der Gesamtumfang ist {arc}. {change}</translation>
     </message>
     <message>
         <source>Splint as before; exercises at home three times a day.</source>
-        <translation type="unfinished"></translation>
+        <translation>Schiene wie bisher; dreimal täglich zu Hause üben.</translation>
     </message>
     <message>
         <source>Check again in two weeks.</source>
-        <translation type="unfinished"></translation>
+        <translation>Kontrolle in zwei Wochen.</translation>
     </message>
 </context>
 <context>
@@ -10522,102 +10522,102 @@ Umschalt+F8 von der Seite</translation>
     </message>
     <message>
         <source>Name, address and logo of the clinic stand above every page. Left empty, nothing is printed.</source>
-        <translation type="unfinished"></translation>
+        <translation>Name, Anschrift und Logo der Einrichtung stehen über jeder Seite. Was leer bleibt, wird nicht gedruckt.</translation>
     </message>
     <message>
         <source>Name of the clinic</source>
-        <translation type="unfinished"></translation>
+        <translation>Name der Einrichtung</translation>
     </message>
     <message>
         <source>Address, up to four lines</source>
-        <translation type="unfinished"></translation>
+        <translation>Anschrift, bis zu vier Zeilen</translation>
     </message>
     <message>
         <source>Logo</source>
-        <translation type="unfinished"></translation>
+        <translation>Logo</translation>
     </message>
     <message>
         <source>Choose a logo…</source>
-        <translation type="unfinished"></translation>
+        <translation>Logo wählen…</translation>
     </message>
     <message>
         <source>Remove the logo</source>
-        <translation type="unfinished"></translation>
+        <translation>Logo entfernen</translation>
     </message>
     <message>
         <source>Paper</source>
-        <translation type="unfinished"></translation>
+        <translation>Papier</translation>
     </message>
     <message>
         <source>US Letter</source>
-        <translation type="unfinished"></translation>
+        <translation>US Letter</translation>
     </message>
     <message>
         <source>Pictures (*.png *.jpg *.jpeg *.svg)</source>
-        <translation type="unfinished"></translation>
+        <translation>Bilder (*.png *.jpg *.jpeg *.svg)</translation>
     </message>
     <message>
         <source>Choose a logo</source>
-        <translation type="unfinished"></translation>
+        <translation>Logo wählen</translation>
     </message>
 </context>
 <context>
     <name>ReportPanel</name>
     <message>
         <source>Comment</source>
-        <translation type="unfinished"></translation>
+        <translation>Bemerkung</translation>
     </message>
     <message>
         <source>Printed on the report and kept with the session. No names here, please.</source>
-        <translation type="unfinished"></translation>
+        <translation>Wird auf den Bericht gedruckt und mit der Sitzung aufbewahrt. Bitte keine Namen.</translation>
     </message>
     <message>
         <source>Comment on the report</source>
-        <translation type="unfinished"></translation>
+        <translation>Bemerkung im Bericht</translation>
     </message>
     <message>
         <source>Sentence to insert</source>
-        <translation type="unfinished"></translation>
+        <translation>Satz zum Einfügen</translation>
     </message>
     <message>
         <source>Type part of a sentence</source>
-        <translation type="unfinished"></translation>
+        <translation>Teil eines Satzes eingeben</translation>
     </message>
     <message>
         <source>These places take the session’s figures: {places}</source>
-        <translation type="unfinished"></translation>
+        <translation>Diese Stellen nehmen die Werte der Sitzung auf: {places}</translation>
     </message>
     <message>
         <source>Insert</source>
-        <translation type="unfinished"></translation>
+        <translation>Einfügen</translation>
     </message>
     <message>
         <source>Remember</source>
-        <translation type="unfinished"></translation>
+        <translation>Merken</translation>
     </message>
     <message>
         <source>Forget</source>
-        <translation type="unfinished"></translation>
+        <translation>Vergessen</translation>
     </message>
     <message>
         <source>Parts of the report</source>
-        <translation type="unfinished"></translation>
+        <translation>Teile des Berichts</translation>
     </message>
     <message>
         <source>Table</source>
-        <translation type="unfinished"></translation>
+        <translation>Tabelle</translation>
     </message>
     <message>
         <source>Curves and repetitions</source>
-        <translation type="unfinished"></translation>
+        <translation>Kurven und Wiederholungen</translation>
     </message>
     <message>
         <source>Range as bars</source>
-        <translation type="unfinished"></translation>
+        <translation>Umfang als Balken</translation>
     </message>
     <message>
         <source>How sure the figures are</source>
-        <translation type="unfinished"></translation>
+        <translation>Wie sicher die Werte sind</translation>
     </message>
     <message>
         <source>Speed, pain, note</source>
@@ -10629,15 +10629,15 @@ Umschalt+F8 von der Seite</translation>
     </message>
     <message>
         <source>Page of movement</source>
-        <translation type="unfinished"></translation>
+        <translation>Bewegungsseite</translation>
     </message>
     <message>
         <source>Warnings, method and the legal sentence always stay.</source>
-        <translation type="unfinished"></translation>
+        <translation>Warnungen, Verfahren und der rechtliche Satz bleiben immer.</translation>
     </message>
     <message>
         <source>Use these parts for all reports</source>
-        <translation type="unfinished"></translation>
+        <translation>Für alle Berichte so verwenden</translation>
     </message>
 </context>
 <context>
@@ -10652,7 +10652,7 @@ Umschalt+F8 von der Seite</translation>
     </message>
     <message>
         <source>Print…</source>
-        <translation type="unfinished"></translation>
+        <translation>Drucken…</translation>
     </message>
     <message>
         <source>Preview of the report</source>
@@ -10660,11 +10660,11 @@ Umschalt+F8 von der Seite</translation>
     </message>
     <message>
         <source>One page of US Letter</source>
-        <translation type="unfinished"></translation>
+        <translation>Eine Seite US Letter</translation>
     </message>
     <message>
         <source>{count} pages of US Letter</source>
-        <translation type="unfinished"></translation>
+        <translation>{count} Seiten US Letter</translation>
     </message>
     <message>
         <source>One page of A4</source>
