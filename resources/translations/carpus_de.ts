@@ -3412,6 +3412,34 @@
         <translation>Von Hand eingetragen, nicht von Carpus gemessen: {values}.</translation>
     </message>
     <message>
+        <source>Movement measured by camera: {who}</source>
+        <translation>Bewegungsmessung mit der Kamera: {who}</translation>
+    </message>
+    <message>
+        <source>Dear colleague,</source>
+        <translation>Sehr geehrte Damen und Herren,</translation>
+    </message>
+    <message>
+        <source>On {day} we measured: {exercise}, {hand}. Repetitions that count: {count}.</source>
+        <translation>am {day} haben wir gemessen: {exercise}, {hand}. Gezählte Wiederholungen: {count}.</translation>
+    </message>
+    <message>
+        <source>The comment is too long for this letter; it is in the report.</source>
+        <translation>Die Bemerkung ist für diesen Brief zu lang; sie steht im Bericht.</translation>
+    </message>
+    <message>
+        <source>Kind regards,</source>
+        <translation>Mit freundlichen Grüßen</translation>
+    </message>
+    <message>
+        <source>Signature</source>
+        <translation>Unterschrift</translation>
+    </message>
+    <message>
+        <source>Mean ± sd</source>
+        <translation>Mittel ± SD</translation>
+    </message>
+    <message>
         <source>Session {id}</source>
         <translation>Sitzung {id}</translation>
     </message>
@@ -8825,6 +8853,49 @@ Umschalt+F8 von der Seite</translation>
     </message>
 </context>
 <context>
+    <name>LetterSheet</name>
+    <message>
+        <source>Letter to the doctor</source>
+        <translation>Arztbrief</translation>
+    </message>
+    <message>
+        <source>One page, with the figures of this session and your comment. Addresses stay in your list.</source>
+        <translation>Eine Seite, mit den Werten dieser Sitzung und Ihrer Bemerkung. Anschriften bleiben in Ihrer Liste.</translation>
+    </message>
+    <message>
+        <source>Written to before</source>
+        <translation>Schon angeschrieben</translation>
+    </message>
+    <message>
+        <source>Name and address, up to {count} lines</source>
+        <translation>Name und Anschrift, bis zu {count} Zeilen</translation>
+    </message>
+    <message>
+        <source>Language of the letter</source>
+        <translation>Sprache des Briefs</translation>
+    </message>
+    <message>
+        <source>Print the patient’s real name</source>
+        <translation>Echten Namen drucken</translation>
+    </message>
+    <message>
+        <source>The name goes into this letter only. Anybody who gets the file can read it.</source>
+        <translation>Der Name steht nur in diesem Brief. Wer die Datei bekommt, kann ihn lesen.</translation>
+    </message>
+    <message>
+        <source>Cancel</source>
+        <translation>Abbrechen</translation>
+    </message>
+    <message>
+        <source>Esc</source>
+        <translation>Esc</translation>
+    </message>
+    <message>
+        <source>Show the letter</source>
+        <translation>Brief zeigen</translation>
+    </message>
+</context>
+<context>
     <name>LicencesWindow</name>
     <message>
         <source>Parts and their licences</source>
@@ -10655,6 +10726,14 @@ Umschalt+F8 von der Seite</translation>
         <translation>Drucken…</translation>
     </message>
     <message>
+        <source>Letter to the doctor…</source>
+        <translation>Arztbrief…</translation>
+    </message>
+    <message>
+        <source>Back to the report</source>
+        <translation>Zurück zum Bericht</translation>
+    </message>
+    <message>
         <source>Preview of the report</source>
         <translation>Vorschau des Berichts</translation>
     </message>
@@ -10681,6 +10760,10 @@ Umschalt+F8 von der Seite</translation>
     <message>
         <source>Not saved yet</source>
         <translation>Noch nicht gespeichert</translation>
+    </message>
+    <message>
+        <source>{pages}, readable in grey. It carries the patient’s real name: mind where you save it.</source>
+        <translation>{pages}, auch in Grau lesbar. Darauf steht der echte Name: Achten Sie darauf, wo Sie speichern.</translation>
     </message>
     <message>
         <source>Save report</source>
