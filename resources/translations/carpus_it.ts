@@ -3412,6 +3412,34 @@
         <translation>Inseriti a mano, non misurati da Carpus: {values}.</translation>
     </message>
     <message>
+        <source>Movement measured by camera: {who}</source>
+        <translation>Movimento misurato con la telecamera: {who}</translation>
+    </message>
+    <message>
+        <source>Dear colleague,</source>
+        <translation>Gentile collega,</translation>
+    </message>
+    <message>
+        <source>On {day} we measured: {exercise}, {hand}. Repetitions that count: {count}.</source>
+        <translation>In data {day} abbiamo misurato: {exercise}, {hand}. Ripetizioni valide: {count}.</translation>
+    </message>
+    <message>
+        <source>The comment is too long for this letter; it is in the report.</source>
+        <translation>Il commento è troppo lungo per questa lettera; si trova nella relazione.</translation>
+    </message>
+    <message>
+        <source>Kind regards,</source>
+        <translation>Cordiali saluti,</translation>
+    </message>
+    <message>
+        <source>Signature</source>
+        <translation>Firma</translation>
+    </message>
+    <message>
+        <source>Mean ± sd</source>
+        <translation>Media ± DS</translation>
+    </message>
+    <message>
         <source>Session {id}</source>
         <translation>Seduta {id}</translation>
     </message>
@@ -8825,6 +8853,49 @@ Maiusc+F8 di lato</translation>
     </message>
 </context>
 <context>
+    <name>LetterSheet</name>
+    <message>
+        <source>Letter to the doctor</source>
+        <translation>Lettera al medico</translation>
+    </message>
+    <message>
+        <source>One page, with the figures of this session and your comment. Addresses stay in your list.</source>
+        <translation>Una pagina, con i valori di questa seduta e il commento. Gli indirizzi restano nell’elenco.</translation>
+    </message>
+    <message>
+        <source>Written to before</source>
+        <translation>Già scritto a</translation>
+    </message>
+    <message>
+        <source>Name and address, up to {count} lines</source>
+        <translation>Nome e indirizzo, fino a {count} righe</translation>
+    </message>
+    <message>
+        <source>Language of the letter</source>
+        <translation>Lingua della lettera</translation>
+    </message>
+    <message>
+        <source>Print the patient’s real name</source>
+        <translation>Stampa il nome vero del paziente</translation>
+    </message>
+    <message>
+        <source>The name goes into this letter only. Anybody who gets the file can read it.</source>
+        <translation>Il nome entra solo in questa lettera. Chiunque riceva il file può leggerlo.</translation>
+    </message>
+    <message>
+        <source>Cancel</source>
+        <translation>Annulla</translation>
+    </message>
+    <message>
+        <source>Esc</source>
+        <translation>Esc</translation>
+    </message>
+    <message>
+        <source>Show the letter</source>
+        <translation>Mostra la lettera</translation>
+    </message>
+</context>
+<context>
     <name>LicencesWindow</name>
     <message>
         <source>Parts and their licences</source>
@@ -10655,6 +10726,14 @@ Maiusc+F8 di lato</translation>
         <translation>Stampa…</translation>
     </message>
     <message>
+        <source>Letter to the doctor…</source>
+        <translation>Lettera al medico…</translation>
+    </message>
+    <message>
+        <source>Back to the report</source>
+        <translation>Torna alla relazione</translation>
+    </message>
+    <message>
         <source>Preview of the report</source>
         <translation>Anteprima della relazione</translation>
     </message>
@@ -10681,6 +10760,10 @@ Maiusc+F8 di lato</translation>
     <message>
         <source>Not saved yet</source>
         <translation>Non ancora salvata</translation>
+    </message>
+    <message>
+        <source>{pages}, readable in grey. It carries the patient’s real name: mind where you save it.</source>
+        <translation>{pages}; si legge anche in grigio. Porta il nome vero del paziente: attenzione a dove si salva.</translation>
     </message>
     <message>
         <source>Save report</source>
