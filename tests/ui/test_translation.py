@@ -22,6 +22,7 @@ from carpus.ui.numbers import day_month
 from carpus.ui.patients.listing import ListHeader, PatientList
 from carpus.ui.theme import Theme
 from carpus.ui.translate import tr
+from installer import translations
 
 ROOT = Path(__file__).parents[2]
 SOURCES = sorted((ROOT / "ui").rglob("*.py"))
@@ -123,3 +124,23 @@ def test_the_window_speaks_what_is_chosen_with_qt_s_own_texts_and_dates(qtbot: Q
     assert QCoreApplication.translate("QPlatformTheme", "Cancel") == "Cancel"
     assert QLocale().toString(1.5, "f", 1) == "1.5"
     assert language.of_the_system() in language.LANGUAGES
+
+
+@pytest.mark.parametrize("code", [code for code in language.LANGUAGES if code != "en"])
+def test_every_text_is_translated_with_the_same_places_and_no_key_twice(code: str, tmp_path: Path) -> None:
+    """Looked up in a copy that Qt's tool has brought up to date with the sources, as ``make translations`` does."""
+    kept = ROOT / "resources" / "translations" / f"carpus_{code}.ts"
+    copy = tmp_path / kept.name
+    shutil.copy(kept, copy)
+    translations.update(copy, translations.LANGUAGES[code])
+    assert translations.missing(copy) == []
+    texts = language.texts_in(copy.read_bytes())
+    places = re.compile(r"\{[^}]*\}")
+    for (context, text), said in texts.items():
+        assert sorted(places.findall(text)) == sorted(places.findall(said)), (context, text, said)
+        assert ("&" in text.replace("&&", "")) == ("&" in said.replace("&&", "")), (context, text, said)
+    letters: dict[tuple[str, str], set[str]] = {}
+    for (context, text), said in texts.items():
+        if context and (found := re.search(r"(?<!&)&(\w)", said)):
+            letters.setdefault((context, found[1].lower()), set()).add(re.search(r"&(\w)", text)[1].lower())  # type: ignore[index]
+    assert not {key: own for key, own in letters.items() if len(own) > 1}, "two keys of a screen became one"
