@@ -2561,7 +2561,7 @@
     </message>
     <message>
         <source>Spreading</source>
-        <translation>Divaricazione</translation>
+        <translation>Abduzione</translation>
     </message>
     <message>
         <source>0° = palm down</source>
@@ -4897,7 +4897,7 @@
     </message>
     <message>
         <source>Others on this computer can look into it. In its properties, take away every right of the group and of others; or run: chmod 700 &apos;{folder}&apos;</source>
-        <translation>Altri su questo computer possono vedervi dentro. Nelle sue proprietà togliere ogni diritto al gruppo e agli altri; oppure eseguire: chmod 700 &apos;{folder}&apos;</translation>
+        <translation>Altri su questo computer possono vedervi dentro. Nelle sue proprietà togliere ogni diritto al gruppo e agli altri; oppure eseguire: chmod 700 '{folder}'</translation>
     </message>
     <message>
         <source>Packages</source>
@@ -5421,7 +5421,7 @@
     </message>
     <message>
         <source>This version stops the program on Python 3.11. Run: pip install &quot;PySide6-Essentials&lt;6.12&quot;</source>
-        <translation>Questa versione ferma il programma con Python 3.11. Eseguire: pip install &quot;PySide6-Essentials&lt;6.12&quot;</translation>
+        <translation>Questa versione ferma il programma con Python 3.11. Eseguire: pip install "PySide6-Essentials&lt;6.12"</translation>
     </message>
     <message>
         <source>Tracking again stopped: {subject} ({detail}).</source>
