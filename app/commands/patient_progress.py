@@ -51,12 +51,13 @@ def run(arguments: argparse.Namespace) -> int:
     rows = [row for one in figures for row in measure_rows(one, names[id(one)])]
     for path in arguments.output:
         if path.suffix.lower() == ".pdf":
+            from carpus.core.library.clinic_form import read_form
             from carpus.ui.report.pdf import ensure_application, write_progress_report
 
             application = ensure_application()
             write_progress_report(
                 figures, path, pseudonym=arguments.subject, therapist=settings.report.therapist,
-                software_version=__version__,
+                software_version=__version__, form=read_form(settings.data_folder),
             )  # fmt: skip
             del application
         else:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from contextlib import suppress
 from pathlib import Path
 
 from PySide6.QtCore import QLocale, QObject
@@ -26,6 +27,8 @@ class ReportForms(QObject):
         except CarpusFault as fault:
             told(fault)
             self.form = ReportForm(paper=usual)
+            with suppress(CarpusFault):  # only the logo is gone: name and address are not
+                self.form = read_form(folder, usual, with_logo=False)
         self.card = ReportCard(theme, self.form)
         self.card.changed.connect(self.keep)
 

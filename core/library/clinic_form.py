@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from contextlib import suppress
 from pathlib import Path
 
 from carpus.core.durable import replace_file
@@ -24,7 +25,7 @@ from carpus.core.phrase import phrase
 FORM_FILE, LOGO_FILE = "report_form.json", "report_logo.png"
 
 
-def read_form(folder: Path, usual: Paper = "a4") -> ReportForm:
+def read_form(folder: Path, usual: Paper = "a4", *, with_logo: bool = True) -> ReportForm:
     """The form of a data folder; where there is none, no letterhead and the ``usual`` paper.
 
     Raises :class:`SettingsInvalid` for a file that cannot be read.
@@ -33,7 +34,7 @@ def read_form(folder: Path, usual: Paper = "a4") -> ReportForm:
     try:
         stored = json.loads(path.read_text(encoding="utf-8"))
         paper = stored.get("paper", usual)
-        logo = (folder / LOGO_FILE).read_bytes() if stored.get("logo") is True else b""
+        logo = (folder / LOGO_FILE).read_bytes() if with_logo and stored.get("logo") is True else b""
         address = tuple(str(line)[:MOST_ADDRESS] for line in stored.get("address", []))[:MOST_ADDRESS_LINES]
         return ReportForm(
             Letterhead(str(stored.get("name", ""))[:MOST_NAME], address, logo),
@@ -52,7 +53,10 @@ def read_form(folder: Path, usual: Paper = "a4") -> ReportForm:
 
 
 def keep_form(folder: Path, form: ReportForm) -> None:
-    """Store it. Raises :class:`OutputNotWritable` or :class:`DiskFull`."""
+    """Store it; a file that could not be read is kept beside.
+
+    Raises :class:`OutputNotWritable` or :class:`DiskFull`.
+    """
     head = form.letterhead
     content = {
         "name": head.name,
@@ -64,7 +68,13 @@ def keep_form(folder: Path, form: ReportForm) -> None:
     }
     if head.logo_png:
         replace_file(folder / LOGO_FILE, lambda place: place.write_bytes(head.logo_png))
+    path = folder / FORM_FILE
+    try:
+        read_form(folder, with_logo=False)
+    except SettingsInvalid:
+        with suppress(OSError):
+            path.replace(path.with_suffix(".unusable.json"))
     text = json.dumps(content, indent=1, ensure_ascii=False)
-    replace_file(folder / FORM_FILE, lambda place: place.write_text(text, encoding="utf-8"))
+    replace_file(path, lambda place: place.write_text(text, encoding="utf-8"))
     if not head.logo_png:
         (folder / LOGO_FILE).unlink(missing_ok=True)

@@ -60,6 +60,8 @@ from carpus.ui.records.lock_sheet import LockSheet
 from carpus.ui.records.pin_sheet import PinSheet
 from carpus.ui.records.ports import ErasureFacts, ListedRecord, LoggedDeed
 from carpus.ui.report.beside_page import BesideReport
+from carpus.ui.report.letter_page import LetterReport
+from carpus.ui.report.letter_sheet import LetterSheet
 from carpus.ui.report.pdf import progress_report, session_report
 from carpus.ui.report.screen import ReportScreen
 from carpus.ui.retest.people_sheet import PeopleSheet
@@ -718,6 +720,21 @@ class Gallery:
         screen.begin(session_report(stored, history=history, form=form, comment="Splint at night.\nCome back."), "")
         self.settle()
 
+    def report_letter(self) -> None:
+        self.place(tab=3, camera="")
+        screen = ReportScreen(self.theme, self.keys, self.background)
+        self.show(screen)
+        made = session_report(self.sessions.session("session-7"), history=self.sessions.history("linden"))
+        screen.begin(LetterReport(made, "Dr Anna Doctor\nVienna", TODAY, "Maria Muster"), "")
+        self.settle()
+
+    def letter_sheet(self) -> None:
+        self.report_own()
+        sheet = self._over(LetterSheet(self.shell.stage, self.theme))
+        sheet.begin(["Dr Anna Doctor\nVienna"], has_name=True)
+        sheet.names.setChecked(True)
+        self.settle()
+
     def report_progress(self) -> None:
         self.place(tab=3, camera="")
         screen = ReportScreen(self.theme, self.keys, self.background)
@@ -1020,7 +1037,7 @@ class Gallery:
             "retest", "retest_empty", "retest_people",
             "correct_exchanged", "correct_results", "correct_results_hand", "correct_running",
             "progress", "progress_by_hand", "progress_hand", "by_hand", "report", "report_hand",
-            "report_progress", "report_own",
+            "report_progress", "report_own", "report_letter", "letter_sheet",
             "settings", "settings_safe", "locked", "pin_change", "records_due", "records_log", "help",
             "patients_welcome", "patients_welcome_good", "patients_guided", "camera_guided",
             "markers_guided", "markers_ready_guided", "live_guided", "live_hand_guided", "review_guided",

@@ -11,7 +11,7 @@ import pytest
 from PySide6.QtGui import QColor, QImage
 
 from carpus.core.errors import SettingsInvalid
-from carpus.core.library.clinic_form import LOGO_FILE, keep_form, read_form
+from carpus.core.library.clinic_form import FORM_FILE, LOGO_FILE, keep_form, read_form
 from carpus.core.output.report_form import PAPER_PT, PAPERS, SECTIONS, Letterhead, Paper, ReportForm
 from carpus.ui.background import Background
 from carpus.ui.keys import Keys
@@ -99,6 +99,13 @@ def test_the_form_is_kept_with_its_logo_and_a_file_that_is_gone_is_said(tmp_path
     (tmp_path / LOGO_FILE).unlink()
     with pytest.raises(SettingsInvalid):
         read_form(tmp_path)
+    assert read_form(tmp_path, with_logo=False).letterhead.name == "Clinic"
+    (tmp_path / FORM_FILE).write_text("[")
+    with pytest.raises(SettingsInvalid):
+        read_form(tmp_path)
+    keep_form(tmp_path, form)
+    assert read_form(tmp_path) == form
+    assert (tmp_path / FORM_FILE).with_suffix(".unusable.json").read_text() == "["
 
 
 @pytest.mark.parametrize("content", [b"", b"no picture", b"<svg"])
@@ -120,7 +127,7 @@ def test_places_of_a_sentence_take_figures_with_their_spread_or_say_not_measured
         filled("{flexion} and {radial}, {other}", made).replace("\u202f", " ").replace("\xa0", " "),
     )
     assert "13 Nov" in filled("{change}", made)
-    assert filled("{change}", replace(made, previous=None)) == "not measured"
+    assert filled("{change}", replace(made, previous=None)) == "Not measured."
 
 
 @pytest.mark.parametrize("language", LANGUAGES)

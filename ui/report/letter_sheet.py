@@ -16,7 +16,7 @@ from carpus.ui.language import LANGUAGES, spoken
 from carpus.ui.report.letter_page import MOST_ADDRESS_LINES, address_lines
 from carpus.ui.theme import Theme
 
-ADDRESS_PX = 130
+ADDRESS_PX = 84
 
 
 class LetterSheet(Sheet):
@@ -27,19 +27,25 @@ class LetterSheet(Sheet):
     def __init__(self, host: QWidget, theme: Theme) -> None:
         super().__init__(host, theme, 560)
         body = self.card.body
-        body.setSpacing(10)
+        body.setSpacing(8)
         body.addWidget(Text(theme, self.tr("Letter to the doctor"), 20, SEMIBOLD))
         words = self.tr("One page, with the figures of this session and your comment. Addresses stay in your list.")
         body.addWidget(Text(theme, words, 14, REGULAR, "text2", wrap=True))
         self.known = QComboBox()
         self.known.setSizeAdjustPolicy(QComboBox.SizeAdjustPolicy.AdjustToMinimumContentsLengthWithIcon)
-        self.known_row = Labelled(theme, self.tr("Written to before"), self.known)
-        body.addWidget(self.known_row)
+        self.known.setPlaceholderText(self.tr("Written to before"))
+        self.known.setAccessibleName(self.tr("Written to before"))
+        body.addWidget(self.known)
         self.recipient = QPlainTextEdit()
         self.recipient.setTabChangesFocus(True)
+        self.recipient.textChanged.connect(self._check)
         theme.follow(self.recipient, lambda: self.recipient.setFixedHeight(theme.px(ADDRESS_PX)))
         caption = self.tr("Name and address, up to {count} lines").format(count=MOST_ADDRESS_LINES)
         body.addWidget(Labelled(theme, caption, self.recipient))
+        words = self.tr("Name and address, up to {count} lines").format(count=MOST_ADDRESS_LINES)
+        self.too_long = Text(theme, words, 14, SEMIBOLD, "bad", wrap=True)
+        self.too_long.hide()
+        body.addWidget(self.too_long)
         body.addWidget(Text(theme, self.tr("Language of the letter"), 14, REGULAR, "text2"))
         self.language = Choices(theme, list(LANGUAGES.items()), "en")
         body.addWidget(self.language)
@@ -70,13 +76,17 @@ class LetterSheet(Sheet):
         self.known.clear()
         self.known.addItems([", ".join(address_lines(one)) for one in known])
         self.known.setCurrentIndex(-1)
-        self.known_row.setVisible(bool(known))
+        self.known.setVisible(bool(known))
         self.names.setChecked(False)
         self.names.setVisible(has_name)
         self.names_note.hide()
         self._language = self._language or spoken()
         self.language.choose(self._language)
         self.open(self.recipient)
+
+    def _check(self) -> None:
+        lines = [line for line in self.recipient.toPlainText().splitlines() if line.strip()]
+        self.too_long.setVisible(len(lines) > MOST_ADDRESS_LINES)
 
     def _take_language(self, code: object) -> None:
         self._language = str(code)

@@ -175,6 +175,8 @@ class ReportScreen(QWidget):
         printer = printer_for(self._report)
         if QPrintDialog(printer, self).exec():
             print_on(printer, self._report)
+            if printer.outputFileName():  # printed into a file, which goes with the session when that is erased
+                self._done(printer.outputFileName())
 
     def save(self, path: str, *, replace_asked: bool = False) -> None:
         """Write the PDF beside the window's thread. The file dialog has asked before something is replaced."""

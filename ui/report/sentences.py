@@ -64,8 +64,14 @@ def _arc(figures: SessionFigures) -> str:
 
 def _change(report: SessionReport) -> str:
     if report.previous is None:
-        return ""
+        return _sentence(tr("not measured"))
     day = numbers.day_beside(report.previous.when, report.figures.when)
     if report.joints is not None:
-        return hand_since_words(report.figures, report.previous, day)
-    return since_words(compare(report.previous, report.figures), day)
+        said = hand_since_words(report.figures, report.previous, day)
+    else:
+        said = since_words(compare(report.previous, report.figures), day)
+    return said or _sentence(tr("not measured"))
+
+
+def _sentence(words: str) -> str:
+    return f"{words[:1].upper()}{words[1:]}."

@@ -99,6 +99,9 @@ class ReportCard(Card):
 
     def _take(self) -> None:
         lines = [line.strip()[:MOST_ADDRESS] for line in self.address.toPlainText().splitlines() if line.strip()]
+        if len(lines) > MOST_ADDRESS_LINES:
+            self.problem.setText(self.tr("Address, up to four lines"))
+        self.problem.setVisible(len(lines) > MOST_ADDRESS_LINES)
         head = replace(self._form.letterhead, name=self.name.text().strip(), address=tuple(lines[:MOST_ADDRESS_LINES]))
         self._change(replace(self._form, letterhead=head))
 
