@@ -26,7 +26,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         help="order of the wrist's angles: the papers' zyx, or isb (flexion first); as in the settings without it",
     )
     parser.add_argument("--paper", choices=PAPERS, help="as chosen in the window without it")
-    parser.add_argument("--language", choices=("en", "de", "it"), default="", help="as the computer's without it")
+    parser.add_argument("--language", choices=("en", "de", "it"), default="", help="of the report; English without it")
 
 
 def run(arguments: argparse.Namespace) -> int:
@@ -43,6 +43,7 @@ def run(arguments: argparse.Namespace) -> int:
     # Qt is loaded only now: a wrong file is told without it.
     from carpus.core.agreement.limits_file import read_limits
     from carpus.core.check_card.trust import camera_of, folder_with_checks
+    from carpus.core.library.comments import latest, read_comments
     from carpus.core.library.library import read_choices
     from carpus.core.output.report_content import newest_results, session_figures
     from carpus.ui.report.pdf import ensure_application, write_progress_report, write_session_report
@@ -52,7 +53,13 @@ def run(arguments: argparse.Namespace) -> int:
     application = ensure_application()
     if len(sessions) == 1:
         write_session_report(
-            sessions[0], arguments.output, therapist=therapist, choices=choices[0], camera=cameras[0], **look
+            sessions[0],
+            arguments.output,
+            therapist=therapist,
+            choices=choices[0],
+            camera=cameras[0],
+            comment=latest(read_comments(arguments.sessions[0])),
+            **look,
         )
     else:
         limits = read_limits(settings.data_folder)

@@ -79,6 +79,21 @@ def test_one_session_makes_a_session_report(sessions: list[Path], tmp_path: Path
     assert "Session report" in page
 
 
+def test_the_comment_is_on_it_and_paper_and_language_are_chosen(sessions: list[Path], tmp_path: Path) -> None:
+    said = {"comments": [{"text": "Splint at night.", "by": "", "entered": "2026-11-02T10:00:00+00:00"}]}
+    sessions[0].with_suffix(".comments.json").write_text(json.dumps(said), encoding="utf-8")
+    out = tmp_path / "de.pdf"
+    done = carpus("report", sessions[0], "--output", out, "--paper", "letter", "--language", "de")
+    sessions[0].with_suffix(".comments.json").unlink()
+    assert (done.returncode, done.stderr) == (0, "")
+    page = words(out)
+    assert "Splint at night." in page
+    assert "Sitzungsbericht" in page
+    tool = shutil.which("pdfinfo")
+    assert tool is not None
+    assert "612 x 792" in subprocess.run([tool, str(out)], capture_output=True, text=True, check=True).stdout
+
+
 def test_what_was_left_out_in_the_review_is_left_out_everywhere(tmp_path: Path) -> None:
     path = tmp_path / "day.h5"
     calibration = replace(make_calibration(), rotation_w0_cam=np.diag([1.0, -1.0, -1.0]))

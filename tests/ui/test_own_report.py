@@ -8,7 +8,8 @@ from datetime import date
 from pathlib import Path
 
 import pytest
-from PySide6.QtGui import QColor, QImage
+from PySide6.QtGui import QColor, QImage, QPageSize
+from PySide6.QtPrintSupport import QPrinter
 
 from carpus.core.errors import SettingsInvalid
 from carpus.core.library.clinic_form import FORM_FILE, LOGO_FILE, keep_form, read_form
@@ -18,6 +19,7 @@ from carpus.ui.keys import Keys
 from carpus.ui.language import LANGUAGES
 from carpus.ui.report.letter_page import LetterReport
 from carpus.ui.report.logo import LogoRefused, logo_png
+from carpus.ui.report.paper import SIZES, print_on, printer_for
 from carpus.ui.report.pdf import session_report, write_letter, write_session_report
 from carpus.ui.report.screen import ReportScreen
 from carpus.ui.report.sentences import filled
@@ -70,6 +72,20 @@ def test_nothing_is_cut_on_either_paper_whatever_stands_on_it(paper: Paper, tmp_
     for number in range(120):
         assert f"Line {number} of what" in words
     assert tool("pdfimages", "-list", str(path)).count("image") >= 1
+
+
+@pytest.mark.parametrize("printed", PAPERS)
+def test_a_printer_with_other_paper_cuts_nothing(printed: Paper, tmp_path: Path) -> None:
+    made = report(form=ReportForm(paper="a4"), comment="Splint.")
+    printer = printer_for(made)
+    printer.setOutputFormat(QPrinter.OutputFormat.PdfFormat)
+    printer.setOutputFileName(str(tmp_path / "p.pdf"))
+    printer.setPageSize(QPageSize(SIZES[printed]))
+    print_on(printer, made)
+    assert re.search(r"Pages:\s+2\n", tool("pdfinfo", str(tmp_path / "p.pdf")))
+    boxes = tool("pdftotext", "-bbox", str(tmp_path / "p.pdf"), "-")
+    assert max(float(y) for y in re.findall(r'yMax="([\d.]+)"', boxes)) <= PAPER_PT[printed][1] - 25.0
+    assert "as measured live" in words_of(tmp_path / "p.pdf")
 
 
 def test_what_may_never_be_left_out_stays(tmp_path: Path) -> None:

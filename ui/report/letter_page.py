@@ -18,7 +18,7 @@ from carpus.ui import numbers, terms
 from carpus.ui.fonts import MEDIUM, REGULAR, SEMIBOLD
 from carpus.ui.marker_words import finger_name
 from carpus.ui.report.framed import BODY_FOOT_PT
-from carpus.ui.report.hand_rows import compared_figures, hand_since_words, range_words, trains_thumb
+from carpus.ui.report.hand_rows import AT_LEAST, compared_figures, hand_since_words, range_words, trains_thumb
 from carpus.ui.report.page import A4_PT, MARGIN_PT, Page
 from carpus.ui.report.session_page import SessionReport, comment_lines, paint_watermark, painted_on_nothing
 from carpus.ui.report.tables import table_rows
@@ -102,6 +102,9 @@ def _paint(page: Page, letter: LetterReport, omitted: int) -> float:
     for words in [*warnings(figures), *filter(None, [corrected_words(figures)])]:
         y = page.paragraph(words, page.left, y + 3, width, SIZE_PT, SEMIBOLD, "warn")
     y = _paint_figures(page, report, y + 8, beside=omitted < 1)
+    if any(cell.startswith(AT_LEAST) for row in figure_rows(report) for cell in row):
+        said = tr("{sign}: the camera did not see the end of that movement.").format(sign=AT_LEAST)
+        y = page.paragraph(said, page.left, y + 3, width, 8.5, REGULAR, "text2")
     for words in _changes(report, with_first=omitted < 2):
         y = _lines(page, words, y + 4)
     if report.comment.strip():

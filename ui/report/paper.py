@@ -6,6 +6,7 @@ from PySide6.QtCore import QMarginsF
 from PySide6.QtGui import QPageLayout, QPageSize, QPainter
 from PySide6.QtPrintSupport import QPrinter
 
+from carpus.core.output.report_form import PAPER_PT
 from carpus.ui.report.page import Page
 from carpus.ui.report.pages import Report, pages_of
 
@@ -28,10 +29,13 @@ def printer_for(report: Report) -> QPrinter:
 
 
 def print_on(printer: QPrinter, report: Report) -> None:
-    """Print the pages that were asked for."""
+    """Print the pages that were asked for, smaller where the printer has other paper than the report."""
     first = max(printer.fromPage(), 1)
     last = printer.toPage() or len(pages_of(report))
     printer.setFullPage(True)
+    there = printer.pageLayout().pageSize().size(QPageSize.Unit.Point)
+    width, height = PAPER_PT[report.form.paper]
+    share = min(1.0, there.width() / (width - 1.0), there.height() / (height - 1.0))
     painter = QPainter()
     if not painter.begin(printer):
         return
@@ -39,6 +43,7 @@ def print_on(printer: QPrinter, report: Report) -> None:
         for number, paint in enumerate(pages_of(report)[first - 1 : last]):
             if number:
                 printer.newPage()
-            paint(Page(painter, printer.resolution() / POINTS_PER_INCH))
+            point = printer.resolution() / POINTS_PER_INCH
+            paint(Page(painter, point * share))
     finally:
         painter.end()
