@@ -416,7 +416,7 @@ def test_a_kill_while_it_is_switched_loses_nothing(data: Path, tmp_path: Path, o
 
 
 def test_what_is_said_is_what_is_encrypted() -> None:
-    assert encryption.ENDINGS == (".h5", ".carpusraw", ".markers.jpg", ".choices.json")
+    assert encryption.ENDINGS == (".h5", ".carpusraw", ".markers.jpg", ".choices.json", ".comments.json")
 
 
 def test_a_file_that_cannot_be_decrypted_keeps_the_key_until_it_is_gone(data: Path) -> None:

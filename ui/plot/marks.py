@@ -11,9 +11,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Protocol
 
-from PySide6.QtCore import QPointF, QRectF, Qt
-from PySide6.QtGui import QFont, QFontMetricsF, QPainter, QPen
-from PySide6.QtWidgets import QWidget
+from PySide6.QtCore import QObject, QPointF, QRectF, Qt
+from PySide6.QtGui import QFont, QFontMetricsF, QPaintDevice, QPainter, QPen
 
 from carpus.core.output.report_content import ShownRepetition
 from carpus.ui.plot import axes
@@ -63,9 +62,7 @@ class Scales:
             painter.setPen(style.color("text" if strong else "text2"))
             right = panel.box.left() - 12 * style.unit
             box = QRectF(right - 300 * style.unit, middle - height / 2, 300 * style.unit, height)
-            if (
-                isinstance(painter.device(), QWidget) and right > 0.0
-            ):  # a word that is longer than its room gets smaller
+            if _is_widget(painter.device()) and right > 0.0:  # a word that is longer than its room gets smaller
                 painter.setFont(fitted(painter.font(), text, right - 2.0))
             painter.drawText(box, int(Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter), text)
 
@@ -83,7 +80,7 @@ def fitted(face: QFont, text: str, room_px: float) -> QFont:
 def room_at(painter: QPainter, left: float) -> float:
     """What is left of a widget right of a place; all there may be elsewhere, as on paper."""
     device = painter.device()
-    return device.width() - left - 3.0 if isinstance(device, QWidget) else math.inf
+    return device.width() - left - 3.0 if _is_widget(device) else math.inf
 
 
 @dataclass(frozen=True, slots=True)
@@ -382,3 +379,8 @@ def _note(painter: QPainter, style: PlotStyle, panel: Panel, bottom: float, text
     painter.setPen(style.color(token))
     descent = QFontMetricsF(style.end_label).descent()
     painter.drawText(QPointF(panel.box.left() + 6 * style.unit, bottom - descent - 1 * style.unit), text)
+
+
+def _is_widget(device: QPaintDevice) -> bool:
+    """Whether it is on the screen; printing needs no module of widgets for the question."""
+    return isinstance(device, QObject) and device.isWidgetType()
