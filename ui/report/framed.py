@@ -10,6 +10,7 @@ from PySide6.QtGui import QImage
 from carpus.core.output.report_form import PAPER_PT, Letterhead, ReportForm
 from carpus.ui.fonts import REGULAR, SEMIBOLD
 from carpus.ui.report.page import A4_PT, MARGIN_PT, Page
+from carpus.ui.report.session_page import painted_on_nothing
 from carpus.ui.translate import tr
 
 EDGE_PT = 28.35
@@ -24,12 +25,12 @@ NAME_PT, ADDRESS_PT, LEADING_PT = 11.5, 8.0, 10.5
 def paint_framed(page: Page, form: ReportForm, number: int, count: int, paint: Callable[[Page], None]) -> None:
     """Paint a page made for A4 on the form's paper, smaller where letterhead and paper leave it less room."""
     width, height = PAPER_PT[form.paper]
-    top = 0.0
     foot = height - EDGE_PT
     if form.letterhead.is_set:
-        top = _paint_letterhead(page, form.letterhead, width) + HEAD_GAP_PT
-        share = min(1.0, (foot - top) / (BODY_FOOT_PT - BODY_TOP_PT))
-        down = top - BODY_TOP_PT * share
+        tried = painted_on_nothing(page, lambda trial: _paint_letterhead(trial, form.letterhead, MARGIN_PT, width))
+        share = min(1.0, (foot - tried - HEAD_GAP_PT) / (BODY_FOOT_PT - BODY_TOP_PT))
+        edge = 0.5 * (width - share * A4_PT[0]) + share * MARGIN_PT  # one left edge for head and body
+        down = _paint_letterhead(page, form.letterhead, edge, width) + HEAD_GAP_PT - BODY_TOP_PT * share
     else:
         share = min(1.0, foot / BODY_FOOT_PT)
         down = 0.0
@@ -43,10 +44,10 @@ def paint_framed(page: Page, form: ReportForm, number: int, count: int, paint: C
     painter.restore()
 
 
-def _paint_letterhead(page: Page, head: Letterhead, width_pt: float) -> float:
+def _paint_letterhead(page: Page, head: Letterhead, edge_pt: float, width_pt: float) -> float:
     """Logo at the left, name and address beside it; returns the lower edge."""
-    left, top = MARGIN_PT, HEAD_TOP_PT
-    right = width_pt - MARGIN_PT
+    left, top = edge_pt, HEAD_TOP_PT
+    right = width_pt - edge_pt
     logo = QImage.fromData(head.logo_png) if head.logo_png else QImage()
     below = top
     if not logo.isNull():
@@ -63,7 +64,7 @@ def _paint_letterhead(page: Page, head: Letterhead, width_pt: float) -> float:
         baseline += LEADING_PT
         page.text(line, left, baseline, _fitting(page, line, right - left, ADDRESS_PT, REGULAR), REGULAR, "text2")
     below = max(below, baseline + 3.0) + 5.0
-    page.rule(below, MARGIN_PT, right)
+    page.rule(below, edge_pt, right)
     return below
 
 
