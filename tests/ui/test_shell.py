@@ -12,7 +12,7 @@ from PySide6.QtWidgets import QApplication, QPushButton, QWidget
 from pytestqt.qtbot import QtBot
 
 from carpus.ui.background import Background
-from carpus.ui.controls.text import Text
+from carpus.ui.controls.text import Text, heading
 from carpus.ui.fonts import DISPLAY_FAMILY, TEXT_FAMILY, font, load_fonts
 from carpus.ui.icons import octagon
 from carpus.ui.keys import DEFAULT_KEYS, Keys, action_words
@@ -106,6 +106,21 @@ def test_a_change_of_theme_and_scale_reaches_every_text(qtbot: QtBot, theme: The
     theme.choose("dark", 1.5)
     assert label.palette().windowText().color() == theme.color("text2") != light
     assert label.font().pixelSize() == round(1.5 * size)
+
+
+def test_a_title_has_room_for_the_dots_of_its_capitals(qtbot: QtBot, theme: Theme) -> None:
+    from PySide6.QtGui import QFontMetricsF
+
+    label = heading(theme, "Which exercise?")
+    qtbot.addWidget(label)
+    plain_px = label.sizeHint().height()
+    label.setText("Welche Übung?")
+    metrics = QFontMetricsF(label.font())
+    above_px = label.contentsMargins().top() + metrics.ascent()
+    assert above_px >= -metrics.tightBoundingRect(label.text()).top()
+    assert label.sizeHint().height() - label.contentsMargins().top() == plain_px
+    label.setText("Which exercise?")
+    assert label.sizeHint().height() == plain_px
 
 
 def test_a_message_gives_three_answers_and_its_buttons_act_by_key(qtbot: QtBot, theme: Theme, shell: Shell) -> None:

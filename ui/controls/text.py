@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import math
+
 from PySide6.QtCore import QEvent, QRect, QRectF, QSize, Qt, Signal
 from PySide6.QtGui import QFont, QFontMetricsF, QHelpEvent, QPainter, QPaintEvent, QPalette, QShowEvent
 from PySide6.QtWidgets import QLabel, QSizePolicy, QToolTip, QWidget
 
-from carpus.ui.fonts import MEDIUM, REGULAR, SEMIBOLD, font
+from carpus.ui.fonts import DISPLAY_FROM_PX, MEDIUM, REGULAR, SEMIBOLD, font
 from carpus.ui.icons import State, paint_icon, paint_state
 from carpus.ui.theme import Theme
 
@@ -40,6 +42,10 @@ class Text(QLabel):
         if token != self._token:
             self._token = token
             self._take_theme()
+
+    def setText(self, text: str) -> None:
+        super().setText(text)
+        self._leave_room()
 
     def showEvent(self, event: QShowEvent) -> None:
         # A label that was not on a screen yet when the colours changed is given its old ones back by the style sheet.
@@ -91,6 +97,17 @@ class Text(QLabel):
         palette = self.palette()
         palette.setColor(QPalette.ColorRole.WindowText, self._theme.color(self._token))
         self.setPalette(palette)
+        self._leave_room()
+
+    def _leave_room(self) -> None:
+        """The display cut's Ä, Ö, Ü and È rise above the line that the font asks for, and would be cut at the label's
+        edge."""
+        top_px = 0
+        if self.font().pixelSize() >= DISPLAY_FROM_PX and not self.text().isascii():
+            metrics = QFontMetricsF(self.font())
+            top_px = max(0, math.ceil(-metrics.tightBoundingRect(self.text()).top() - metrics.ascent()))
+        if top_px != self.contentsMargins().top():
+            self.setContentsMargins(0, top_px, 0, 0)
 
 
 class ElidedText(Text):
