@@ -98,6 +98,7 @@ NO_CHOICE = {
         "tracking/palm_state.PALM_DISCS",
         "tracking/ray_filter._ROLL",
     },
+    "about the line of sight depths tell nothing: a rank, which no figure hangs on": {"tracking/readout._TILT_KNOWN"},
     "half of a picture's weight now and half right after": {"tracking/disc_anew._TWICE"},
 }
 """Numbers of modules that are no setting, by the reason."""

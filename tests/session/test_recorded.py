@@ -113,7 +113,7 @@ def test_a_register_of_before_learns_of_recordings(tmp_path: Path) -> None:
     with contextlib.closing(sqlite3.connect(tmp_path / REGISTER_FILE)) as database:
         for column in ("recording_id", "recorded", "recorded_s", "simulated"):
             database.execute(f"ALTER TABLE session DROP COLUMN {column}")
-        for table in ("made", "archived", "erasing", "by_hand"):
+        for table in ("made", "archived", "erasing", "by_hand", "recipient"):
             database.execute(f"DROP TABLE {table}")
         database.execute("PRAGMA user_version = 2")
         database.commit()

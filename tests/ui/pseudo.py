@@ -20,10 +20,10 @@ _NO_WORDS = re.compile(r"^(\W*|d+ .*MMM.*|d MMM)$|^words that lose")
 
 
 def pseudo(text: str) -> str:
-    """``[Čááncéél]`` for Cancel: every vowel twice, places and keys kept.
+    """``[Cááñçéél]`` for Cancel: every vowel twice, places and keys kept.
 
     >>> pseudo("Keep {count} &pictures")
-    '[Kéééép {count} &pííçtúúréés]'
+    '[Kéééép {count} &pííçtúúrééš]'
     """
     if _NO_WORDS.search(text):
         return text
