@@ -9,25 +9,34 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from PySide6.QtGui import QFontMetricsF
+from PySide6.QtGui import QPainter, QPicture
+from PySide6.QtWidgets import QApplication
 
 from carpus.app.desktop.printing import write_table
 from carpus.core.output.joint_content import finger_keys
 from carpus.core.output.report_content import compare_rows, progress, session_figures
 from carpus.ui import numbers
 from carpus.ui.figures import Figure, with_side
-from carpus.ui.fonts import REGULAR, font
+from carpus.ui.language import speaking
 from carpus.ui.plot.course import axis_top_deg, panels_of
 from carpus.ui.progress.words import headline
-from carpus.ui.report.hand_part import EDGES, EDGES_ALONE, LEAST_SIZE_PT
-from carpus.ui.report.hand_rows import cell_of, finger_rows, followed_keys, followed_kinds, hand_summary, limits_words
+from carpus.ui.report.hand_part import CHANGE_COLUMN, GAP_PT, LEAST_SIZE_PT, column_edges, lines_of
+from carpus.ui.report.hand_rows import (
+    cell_of,
+    column_heads,
+    finger_rows,
+    followed_keys,
+    followed_kinds,
+    hand_summary,
+    limits_words,
+)
+from carpus.ui.report.page import Page
 from carpus.ui.report.pdf import progress_report, write_progress_report, write_session_report
+from carpus.ui.report.session_page import painted_on_nothing
 from carpus.ui.report.words import quality_lines
 from carpus.ui.terms import LEGAL_SENTENCE
 from tests.ui.hand_fakes import FakeHandSessions, hand_session, without_hidden
 from tests.ui.test_report_pdf import tool, words_of
-
-PAGE_WIDTH_PT = 510.0
 
 
 @pytest.fixture(scope="module")
@@ -54,9 +63,30 @@ def test_one_page_with_every_finger_its_total_and_the_limits_of_view_in_words(
     for head in ("(MCP)", "(PIP)", "(DIP)", "TAM", "Bending arc", "Limited by the camera’s view", "DIP not measured"):
         assert head in words
     assert LEGAL_SENTENCE in words
-    longest = QFontMetricsF(font(100, REGULAR)).horizontalAdvance("12° ulnar to 12° radial") * LEAST_SIZE_PT / 100
-    for edges in (EDGES, EDGES_ALONE):
-        assert longest < (edges[5] - edges[4]) * PAGE_WIDTH_PT, "runs into the total beside it"
+
+
+@pytest.mark.parametrize("code", ["en", "de", "it"])
+def test_no_cell_of_a_finger_runs_into_the_one_beside_it(
+    qapp: QApplication, store: FakeHandSessions, code: str
+) -> None:
+    first, last = (session_figures(store.session(key)) for key in ("hand-3", "hand-7"))
+    too_wide: list[str] = []
+
+    def look(page: Page) -> float:
+        for previous in (None, first):
+            heads, rows = column_heads(last, previous, first), finger_rows(last, previous, first)
+            edges = column_edges(page, heads, rows)
+            assert edges[-1] == pytest.approx(page.right - page.left)
+            for column, line in ((at, one) for row in rows for at, lines in enumerate(lines_of(row)) for one in lines):
+                room = edges[column + 1] - edges[column] - GAP_PT / 2
+                if line.text and column < CHANGE_COLUMN and page.width_of(line.text, LEAST_SIZE_PT, line.weight) > room:
+                    too_wide.append(line.text)
+        return 0.0
+
+    nowhere = QPicture()
+    with QPainter(nowhere) as painter, speaking(code):
+        painted_on_nothing(Page(painter, 1.0), look)
+    assert not too_wide
 
 
 @pytest.mark.parametrize(

@@ -2,6 +2,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from dataclasses import dataclass
+from itertools import accumulate
+
 from PySide6.QtCore import QPointF
 from PySide6.QtGui import QColor, QPen
 
@@ -17,12 +21,10 @@ from carpus.ui.terms import arc_name
 from carpus.ui.theme import LIGHT
 from carpus.ui.translate import tr
 
-EDGES = (0.0, 0.064, 0.166, 0.268, 0.356, 0.487, 0.626, 0.700, 0.790)
-"""Left edge of the finger, the five figures, the share, last time, change, as shares of the width."""
-EDGES_ALONE = (*(edge / EDGES[7] for edge in EDGES[:7]), 1.0, 1.0)
-"""The same where there is no last time to compare with."""
 ROW_PT, CURVES_PT, LEAST_CURVES_PT, BETWEEN_PT = 21.5, 176.0, 110.0, 6.0
-LEAST_SIZE_PT = 6.0
+LEAST_SIZE_PT, GAP_PT = 6.0, 6.0
+CHANGE_COLUMN, CHANGE_PT = 8, 92.0
+"""The change may take two lines: so wide at most, or as its head."""
 TITLE_PT, KEY_PT, KEY_GAP_PT = 11.5, 8.5, 22.0
 
 
@@ -32,55 +34,79 @@ def paint_finger_table(
     """One row for each finger, then in words what the camera's view limits."""
     page.title(tr("Range of motion of the fingers"), top + 11, repetition_words(figures))
     baseline = top + 25
-    edges = EDGES if previous is not None else EDGES_ALONE
-    for column, head in enumerate(column_heads(figures, previous, other), 1):
-        _fitted(page, edges, head, column, baseline, 8.0, MEDIUM, "text2")
+    heads, rows = column_heads(figures, previous, other), finger_rows(figures, previous, other)
+    edges = column_edges(page, heads, rows)
+    for column, head in enumerate(heads, 1):
+        _fitted(page, edges, column, Line(head, 8.0, MEDIUM, "text2"), baseline)
     y = baseline + 4.5
-    for row in finger_rows(figures, previous, other):
+    for row in rows:
         page.rule(y)
-        _paint_row(page, edges, row, y)
+        for column, lines in enumerate(lines_of(row)):
+            for number, line in enumerate(lines):
+                down = ROW_PT / 2 + 3 if len(lines) == 1 else (9.5, 18.5)[number]
+                _fitted(page, edges, column, line, y + down)
         y += ROW_PT
     page.rule(y)
     words = limits_words(figures)
     return page.paragraph(words, page.left, y + 2, page.right - page.left, 8.0) if words else y
 
 
-def _paint_row(page: Page, edges: tuple[float, ...], row: FingerRow, top: float) -> None:
-    middle = top + ROW_PT / 2 + 3
-    _fitted(page, edges, row.name, 0, middle, 9.0, MEDIUM)
-    for column, cell in enumerate(row.cells, 1):
-        if cell.small:
-            _fitted(page, edges, cell.shown, column, top + 9.5, 9.0, SEMIBOLD)
-            _fitted(page, edges, cell.small, column, top + 18.5, 7.5, REGULAR, "text2")
-        else:
-            _fitted(page, edges, cell.shown, column, middle, 8.5, REGULAR, "text2")
-    if row.share.small:
-        _fitted(page, edges, row.share.main, 6, top + 9.5, 9.0, SEMIBOLD)
-        _fitted(page, edges, row.share.small, 6, top + 18.5, 7.5, REGULAR, "text2")
-    _fitted(page, edges, row.last, 7, middle, 8.5)
-    _fitted(page, edges, row.change, 8, middle, 8.0, MEDIUM)
+@dataclass(frozen=True, slots=True)
+class Line:
+    """A line of a cell at the size it should have."""
+
+    text: str
+    size_pt: float
+    weight: int = REGULAR
+    token: str = "text"
 
 
-def _fitted(
-    page: Page,
-    edges: tuple[float, ...],
-    text: str,
-    column: int,
-    baseline: float,
-    size: float,
-    weight: int = REGULAR,
-    token: str = "text",
-) -> None:
+def lines_of(row: FingerRow) -> list[tuple[Line, ...]]:
+    """What stands in each column of a finger's row, one line or two."""
+    cells = [
+        (Line(cell.shown, 9.0, SEMIBOLD), Line(cell.small, 7.5, REGULAR, "text2"))
+        if cell.small
+        else (Line(cell.shown, 8.5, REGULAR, "text2"),)
+        for cell in row.cells
+    ]
+    share = (Line(row.share.main, 9.0, SEMIBOLD), Line(row.share.small, 7.5, REGULAR, "text2"))
+    return [
+        (Line(row.name, 9.0, MEDIUM),),
+        *cells,
+        share if row.share.small else (),
+        (Line(row.last, 8.5),),
+        (Line(row.change, 8.0, MEDIUM),),
+    ]
+
+
+def column_edges(page: Page, heads: Sequence[str], rows: Sequence[FingerRow]) -> tuple[float, ...]:
+    """Left edges of finger, five figures, share, last time and change in points after the page's left, and the right
+    one: as wide as the words of this language and these figures ask for, and closer in one measure where that is
+    more than the page has."""
+    columns: list[list[Line]] = [[], *([Line(head, 8.0, MEDIUM)] for head in heads)]
+    for row in rows:
+        for column, lines in enumerate(lines_of(row)):
+            columns[column].extend(lines)
+    asked = [
+        max((page.width_of(one.text, one.size_pt, one.weight) for one in lines if one.text), default=-GAP_PT) + GAP_PT
+        for lines in columns
+    ]
+    head = page.width_of(heads[-1], 8.0, MEDIUM) + GAP_PT
+    asked[CHANGE_COLUMN] = min(asked[CHANGE_COLUMN], max(CHANGE_PT, head))
+    share = (page.right - page.left) / sum(asked)
+    return tuple(accumulate((share * width for width in asked), initial=0.0))
+
+
+def _fitted(page: Page, edges: tuple[float, ...], column: int, line: Line, baseline: float) -> None:
     """A text in its column, smaller or on two lines where it is too long."""
-    width = page.right - page.left
-    room = ((edges[column + 1] if column + 1 < len(edges) else 1.0) - edges[column]) * width - 6
-    left = page.left + edges[column] * width
-    while size > LEAST_SIZE_PT and page.width_of(text, size, weight) > room:
-        if " " in text and column == len(EDGES) - 1 and size <= 7.0:
-            page.paragraph(text, left, baseline - 1.6 * size, room, LEAST_SIZE_PT + 0.5, weight, token)
+    room = edges[column + 1] - edges[column] - GAP_PT
+    left, size = page.left + edges[column], line.size_pt
+    while size > LEAST_SIZE_PT and page.width_of(line.text, size, line.weight) > room:
+        if " " in line.text and column == CHANGE_COLUMN and size <= 7.0:
+            page.paragraph(line.text, left, baseline - 1.6 * size, room, LEAST_SIZE_PT + 0.5, line.weight, line.token)
             return
         size -= 0.25
-    page.text(text, left, baseline, size, weight, token)
+    page.text(line.text, left, baseline, size, line.weight, line.token)
 
 
 def paint_wrist_line(page: Page, figures: SessionFigures, top: float) -> float:
