@@ -68,8 +68,7 @@ class Bar(QObject):
         own = {
             "retest": self.tr("Test and retest"), "board": self.tr("Camera calibration"), "card": self.tr("Check card")
         }  # fmt: skip
-        patient = self.tr("Practice patient") if self._now.is_practice else row.pseudonym if row is not None else ""
-        name = own.get(place, patient)
+        name = own.get(place, self._now.name)
         bar.show_place(name, " · ".join(words))
         if place in STEPS and place != "live":
             names = [self.tr("Exercise"), self.tr("Camera"), self.tr("Markers"), self.tr("Measure")]

@@ -77,8 +77,7 @@ class Beside(QObject):
         self._way.go("beside")
 
     def _print(self, now: Shown) -> None:
-        patient = self._now.patient
-        pseudonym = patient.pseudonym if patient is not None else now.both.first.subject_id
+        pseudonym = self._now.name or now.both.first.subject_id
         made_by = with_revision(__version__)
         self.report_wanted.emit(BesideReport(now, self._screen.quantity, pseudonym, self._therapist(), made_by))
 

@@ -8,6 +8,7 @@ from carpus.app.desktop.sources import OpenSource
 from carpus.core.library.set_up import PRACTICE_PATIENT, SetUp
 from carpus.ui.ports import PatientRow
 from carpus.ui.setup.choice import SourceChoice, SourceKind
+from carpus.ui.translate import tr
 
 
 @dataclass(slots=True, eq=False)
@@ -29,3 +30,10 @@ class NowOpen:
     def is_practice(self) -> bool:
         """Whether the practice patient is open."""
         return self.patient is not None and self.patient.patient_id == PRACTICE_PATIENT
+
+    @property
+    def name(self) -> str:
+        """What the patient is called: the practice patient in the person's language, however the folder has it."""
+        if self.is_practice:
+            return tr("Practice patient")
+        return self.patient.pseudonym if self.patient is not None else ""

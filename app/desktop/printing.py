@@ -130,7 +130,7 @@ class Printing(QObject):
 
     def session(self, session_id: str) -> None:
         """Make the report of a session and show it."""
-        row, stored = self._now.patient, self._stored
+        row, stored, name = self._now.patient, self._stored, self._now.name
         assert row is not None
 
         def gather() -> SessionReport:
@@ -139,7 +139,7 @@ class Printing(QObject):
                 session,
                 choices=stored.choices(session_id),
                 history=stored.history(row.patient_id),
-                pseudonym=row.pseudonym,
+                pseudonym=name,
                 dominance=row.dominance,
                 therapist=self._therapist(),
                 by_hand=stored.by_hand(row.patient_id),
@@ -195,7 +195,7 @@ class Printing(QObject):
             self._shown = [one.session_id for one in sessions]
             report = progress_report(
                 sessions,
-                pseudonym=row.pseudonym,
+                pseudonym=self._now.name,
                 therapist=self._therapist(),
                 what=followed if isinstance(followed, str) else None,
                 software_version=__version__,

@@ -4873,7 +4873,7 @@
     </message>
     <message>
         <source>Others on this computer can look into it. In its properties, take away every right of the group and of others; or run: chmod 700 &apos;{folder}&apos;</source>
-        <translation>Andere an diesem Computer können hineinsehen. Nehmen Sie in den Eigenschaften der Gruppe und anderen alle Rechte, oder: chmod 700 '{folder}'</translation>
+        <translation>Andere an diesem Computer können hineinsehen. Nehmen Sie in den Eigenschaften der Gruppe und anderen alle Rechte, oder: chmod 700 &apos;{folder}&apos;</translation>
     </message>
     <message>
         <source>Packages</source>
@@ -5421,7 +5421,7 @@
     </message>
     <message>
         <source>This version stops the program on Python 3.11. Run: pip install &quot;PySide6-Essentials&lt;6.12&quot;</source>
-        <translation>Diese Version beendet das Programm unter Python 3.11. Ausführen: pip install "PySide6-Essentials&lt;6.12"</translation>
+        <translation>Diese Version beendet das Programm unter Python 3.11. Ausführen: pip install &quot;PySide6-Essentials&lt;6.12&quot;</translation>
     </message>
     <message>
         <source>Tracking again stopped: {subject} ({detail}).</source>
@@ -6723,6 +6723,10 @@
         <source>Check again in two weeks.</source>
         <translation>Kontrolle in zwei Wochen.</translation>
     </message>
+    <message>
+        <source>Practice patient</source>
+        <translation>Probepatient</translation>
+    </message>
 </context>
 <context>
     <name>AgreementChart</name>
@@ -7015,7 +7019,7 @@
     </message>
     <message>
         <source>Practice patient</source>
-        <translation>Probepatient</translation>
+        <translation type="vanished">Probepatient</translation>
     </message>
     <message>
         <source>Exercise</source>

@@ -4897,7 +4897,7 @@
     </message>
     <message>
         <source>Others on this computer can look into it. In its properties, take away every right of the group and of others; or run: chmod 700 &apos;{folder}&apos;</source>
-        <translation>Altri su questo computer possono vedervi dentro. Nelle sue proprietà togliere ogni diritto al gruppo e agli altri; oppure eseguire: chmod 700 '{folder}'</translation>
+        <translation>Altri su questo computer possono vedervi dentro. Nelle sue proprietà togliere ogni diritto al gruppo e agli altri; oppure eseguire: chmod 700 &apos;{folder}&apos;</translation>
     </message>
     <message>
         <source>Packages</source>
@@ -5421,7 +5421,7 @@
     </message>
     <message>
         <source>This version stops the program on Python 3.11. Run: pip install &quot;PySide6-Essentials&lt;6.12&quot;</source>
-        <translation>Questa versione ferma il programma con Python 3.11. Eseguire: pip install "PySide6-Essentials&lt;6.12"</translation>
+        <translation>Questa versione ferma il programma con Python 3.11. Eseguire: pip install &quot;PySide6-Essentials&lt;6.12&quot;</translation>
     </message>
     <message>
         <source>Tracking again stopped: {subject} ({detail}).</source>
@@ -6723,6 +6723,10 @@
         <source>Check again in two weeks.</source>
         <translation>Controllo fra due settimane.</translation>
     </message>
+    <message>
+        <source>Practice patient</source>
+        <translation>Paziente di prova</translation>
+    </message>
 </context>
 <context>
     <name>AgreementChart</name>
@@ -7015,7 +7019,7 @@
     </message>
     <message>
         <source>Practice patient</source>
-        <translation>Paziente di prova</translation>
+        <translation type="vanished">Paziente di prova</translation>
     </message>
     <message>
         <source>Exercise</source>

@@ -117,6 +117,7 @@ class ReportScreen(QWidget):
         if isinstance(report, SessionReport):
             self.panel.begin(report)
         self._show_pages(report)
+        self._scroll.verticalScrollBar().setValue(0)
         self._show_state("none", self.tr("Not saved yet"), "")
         self.save_button.setFocus(Qt.FocusReason.OtherFocusReason)
 
