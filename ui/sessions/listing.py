@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from itertools import pairwise
 
 from PySide6.QtCore import QAbstractListModel, QModelIndex, QPersistentModelIndex, QPointF, QRectF, QSize, Qt, Signal
 from PySide6.QtGui import QBrush, QFontMetricsF, QMouseEvent, QPainter, QPen, QPolygonF
@@ -21,6 +22,9 @@ MOST_TICKED = 2
 SIGN_PX = 16
 COLUMNS = (0.062, 0.224, 0.482, 0.688, 0.775, 0.985)
 """Left edges as shares of the width: date, exercise and hand, main figure, counted, remark; the last is the end."""
+TWO_LINES_BELOW_PX, TWO_LINES = 720, (0.42, 0.84, 1.0)
+"""In a narrower list, text at 100 %, date, figure and what counted stand over exercise and remark: right edges as
+shares of what is right of the tick."""
 
 
 def remark(line: SessionLine) -> str:
@@ -120,12 +124,13 @@ class RowPainter(QStyledItemDelegate):
         painter.setPen(QPen(theme.color("line"), 1))
         painter.drawLine(int(box.left()) + 20, int(box.bottom()), int(box.right()) - 20, int(box.bottom()))
         self._paint_tick(painter, box, ticked=line.session_id in self._model.ticked)
-        edges = [box.left() + share * box.width() for share in COLUMNS]
-        for number, text in enumerate(cells(line)):
+        texts = cells(line)
+        rooms = _rooms(box, theme, remarked=bool(texts[4]))
+        for number, text in enumerate(texts):
             face = font((16 if number == 2 else 14) * theme.text_scale, MEDIUM)
             painter.setFont(face)
             painter.setPen(theme.color("text" if counts and number < 3 else "text2"))
-            room = QRectF(edges[number], box.top(), edges[number + 1] - edges[number] - 8, box.height())
+            room = rooms[number]
             if number == 4 and line.not_sure and not remark(line):
                 size = theme.px(SIGN_PX)
                 at = QRectF(room.left(), room.center().y() - size / 2, size, size)
@@ -150,6 +155,22 @@ class RowPainter(QStyledItemDelegate):
             painter.setPen(QPen(theme.color("on_accent"), 2.0))
             places = ((0.24, 0.52), (0.43, 0.72), (0.78, 0.30))
             painter.drawPolyline(QPolygonF([square.topLeft() + QPointF(x * size, y * size) for x, y in places]))
+
+
+def _rooms(box: QRectF, theme: Theme, *, remarked: bool) -> list[QRectF]:
+    """Where the texts of a row stand: beside each other, or on two lines."""
+    if box.width() >= TWO_LINES_BELOW_PX * theme.text_scale:
+        edges = [box.left() + share * box.width() for share in COLUMNS]
+        return [QRectF(left, box.top(), right - left - 8, box.height()) for left, right in pairwise(edges)]
+    left = box.left() + TICK_LEFT_PX + theme.px(TICK_PX) + 12
+    whole = box.left() + COLUMNS[-1] * box.width() - left
+    upper, lower, high = box.top() + 0.08 * box.height(), box.top() + 0.5 * box.height(), 0.42 * box.height()
+    day, figure, counted = (
+        QRectF(left + begin * whole, upper, (end - begin) * whole - 8, high)
+        for begin, end in pairwise((0.0, *TWO_LINES))
+    )
+    what = QRectF(left, lower, (0.66 if remarked else 1.0) * whole - 8, high)
+    return [day, what, figure, counted, QRectF(what.right() + 8, lower, whole - what.width() - 16, high)]
 
 
 class SessionList(QListView):
