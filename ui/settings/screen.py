@@ -153,7 +153,7 @@ class SettingsScreen(QWidget):
             field.setAccessibleName(action_words(name))
             field.editingFinished.connect(lambda name=name: self._take_key(name))
             column = 2 * (place // half)
-            grid.addWidget(Text(theme, action_words(name), 14), place % half, column)
+            grid.addWidget(Text(theme, action_words(name), 14, wrap=True), place % half, column)
             grid.addWidget(field, place % half, column + 1)
             self.keys[name] = field
         theme.changed.connect(self._fit_keys)
