@@ -119,7 +119,7 @@ class MarkersScreen(QWidget):
         self.although.hide()
         below.addLayout(buttons)
         left.addWidget(self._below)
-        right = QVBoxLayout()
+        right = self._right = QVBoxLayout()
         right.setSpacing(8)
         right.addSpacing(8)
         right.addWidget(self.step)
@@ -169,6 +169,11 @@ class MarkersScreen(QWidget):
         self.panel.show_close(crowded)
         if crowded:
             self.hand.setVisible(clicks)
+        elif clicks and self.height() > 0:
+            # A long name of a marker may take a line more than there is: the checks, not known yet, wait.
+            self._right.invalidate()
+            needed_px = self._right.minimumHeightForWidth(self._theme.px(376)) + 2 * (MARGIN_PX - 4) + guided_px
+            self.panel.setVisible(needed_px <= self.height())
 
     def resizeEvent(self, event: QResizeEvent) -> None:
         self._fit()
@@ -570,6 +575,7 @@ class MarkersScreen(QWidget):
             self.step.show_state("none", self.tr("Looking for the markers…"))
         elif clicking.proposed:
             self._show_proposals(clicking)
+        self._fit()  # by the words of this marker
 
     def _show_no_disc(self) -> None:
         """Nothing in the picture looks like blue paper: said at once, before anybody looks for what is not there."""
