@@ -2520,8 +2520,12 @@
         <translation>Mittel, ± SD zwischen Wiederholungen</translation>
     </message>
     <message>
+        <source>not compared</source>
+        <translation>nicht verglichen</translation>
+    </message>
+    <message>
         <source>other set-up: not compared</source>
-        <translation>anderer Aufbau: nicht verglichen</translation>
+        <translation type="vanished">anderer Aufbau: nicht verglichen</translation>
     </message>
     <message>
         <source>at least: hidden in part</source>

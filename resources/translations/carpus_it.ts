@@ -2520,8 +2520,12 @@
         <translation>media, ± DS fra ripetizioni</translation>
     </message>
     <message>
+        <source>not compared</source>
+        <translation>non confrontata</translation>
+    </message>
+    <message>
         <source>other set-up: not compared</source>
-        <translation>altra preparazione: non confrontata</translation>
+        <translation type="vanished">altra preparazione: non confrontata</translation>
     </message>
     <message>
         <source>at least: hidden in part</source>

@@ -349,7 +349,7 @@ def _paint_dates(painter: QPainter, style: PlotStyle, panel: Panel, top: float, 
 
 def _key_lines(style: PlotStyle, box: QRectF, progress: Progress) -> list[list[tuple[str, str]]]:
     """What the signs mean, sign and words, in as many lines as it needs."""
-    entries = [("dot", tr("mean, ± sd between repetitions")), ("ring", tr("other set-up: not compared"))]
+    entries = [("dot", tr("mean, ± sd between repetitions")), ("ring", tr("not compared"))]
     entries += [("arrow", tr("at least: hidden in part"))] if progress.keys else []
     if any(by_hand_of(progress, key) for key in panels_of(progress)):
         entries.append(("square", tr("by hand, active")))
