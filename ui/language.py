@@ -145,7 +145,9 @@ def _prepare(translator: _Translator, code: str) -> None:
         return
     own = QLocale.system()
     if code in _USUAL and own.language() == _USUAL[code].language():
-        translator.locales[code] = own
+        plain = QLocale(own.language(), own.territory())
+        # A computer may speak one language and name its days in another: nothing is mixed here.
+        translator.locales[code] = own if own.dayName(1) == plain.dayName(1) else plain
     if code != "en":
         translator.finds[code] = _find_in(texts_of(code), code)
 

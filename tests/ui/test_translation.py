@@ -126,6 +126,18 @@ def test_the_window_speaks_what_is_chosen_with_qt_s_own_texts_and_dates(qtbot: Q
     assert language.of_the_system() in language.LANGUAGES
 
 
+@pytest.mark.usefixtures("qapp")
+def test_days_are_named_in_the_language_where_the_computer_has_them_in_another(monkeypatch: pytest.MonkeyPatch) -> None:
+    mixed = type("Mixed", (QLocale,), {"dayName": lambda self, day: "Monday"})
+    monkeypatch.setattr(
+        language.QLocale, "system", lambda: mixed(QLocale.Language.Italian, QLocale.Country.Switzerland)
+    )
+    translator = language._Translator()
+    language._prepare(translator, "it")
+    assert translator.locales["it"].dayName(1) == "lunedì"
+    assert translator.locales["it"].territory() == QLocale.Country.Switzerland
+
+
 @pytest.mark.parametrize("code", [code for code in language.LANGUAGES if code != "en"])
 def test_every_text_is_translated_with_the_same_places_and_no_key_twice(code: str, tmp_path: Path) -> None:
     """Looked up in a copy that Qt's tool has brought up to date with the sources, as ``make translations`` does."""
