@@ -10,10 +10,10 @@ from PySide6.QtCore import QObject, Signal
 from PySide6.QtWidgets import QWidget
 
 from carpus import __version__
+from carpus.app.desktop.files_written import tell_written
 from carpus.app.desktop.last_places import LastPlaces
 from carpus.app.desktop.now_open import NowOpen
 from carpus.app.desktop.places import Place
-from carpus.app.desktop.printing import open_folder, shown
 from carpus.app.desktop.ways import Tell, Way
 from carpus.core.provenance import with_revision
 from carpus.core.session.register import SessionEntry
@@ -22,8 +22,6 @@ from carpus.ui.background import Background
 from carpus.ui.beside.screen import BesideScreen
 from carpus.ui.beside.shown import Shown
 from carpus.ui.beside.tables import write_tables
-from carpus.ui.messages.stop_card import Answer
-from carpus.ui.ports import Words
 from carpus.ui.report.beside_page import BesideReport
 from carpus.ui.sessions.sheets import ChooseSheet
 from carpus.ui.theme import Theme
@@ -117,19 +115,7 @@ class Beside(QObject):
 
     def _written(self, paths: Sequence[Path], sessions: Sequence[str]) -> None:
         self.tabled.emit(paths, sessions)
-        folder = str(paths[0].parent)
-        self._tell.ask(
-            Words(
-                self.tr("{count} files were written.").format(count=len(paths)),
-                self.tr("Folder: {folder}").format(folder=folder),
-                self.tr("Files: {names}").format(names=shown([path.name for path in paths])),
-            ),
-            (
-                Answer(self.tr("Open the folder"), lambda: open_folder(folder), "O"),
-                Answer(self.tr("Go on"), lambda: None, self.tr("Enter")),
-            ),
-            icon="download",
-        )
+        tell_written(self._tell, str(paths[0].parent), [path.name for path in paths])
 
 
 def _entry_words(entry: SessionEntry) -> str:

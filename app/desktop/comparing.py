@@ -11,9 +11,9 @@ from PySide6.QtCore import QObject, Qt, Signal
 from PySide6.QtWidgets import QFileDialog, QWidget
 
 from carpus import __version__
+from carpus.app.desktop.files_written import tell_written
 from carpus.app.desktop.last_places import LastPlaces
 from carpus.app.desktop.now_open import NowOpen
-from carpus.app.desktop.printing import open_folder, shown
 from carpus.app.desktop.ways import Tell, Way
 from carpus.core.agreement.compared_files import Result, compare_files, write_files
 from carpus.core.agreement.reference import (
@@ -33,8 +33,7 @@ from carpus.ui import numbers, terms
 from carpus.ui.agreement.reference_sheet import ColumnsSheet, ReferenceSheet, missing
 from carpus.ui.agreement.screen import AgreementScreen
 from carpus.ui.background import Background
-from carpus.ui.messages.stop_card import Answer
-from carpus.ui.ports import ReferenceChoice, Words
+from carpus.ui.ports import ReferenceChoice
 from carpus.ui.report.agreement_plot import write_plots
 from carpus.ui.theme import Theme
 
@@ -226,19 +225,8 @@ class Comparing(QObject):
             files = write_files(result, Path(folder), __version__)
             return [*files, *write_plots(result.compared, Path(folder), result.stem, limit_deg)]
 
-        self._background.run(write, lambda paths: self._written(folder, paths, sessions), self._tell.fault, self)
+        self._background.run(write, lambda paths: self._written(paths, sessions), self._tell.fault, self)
 
-    def _written(self, folder: str, paths: Sequence[Path], sessions: Sequence[str]) -> None:
+    def _written(self, paths: Sequence[Path], sessions: Sequence[str]) -> None:
         self.saved.emit(paths, sessions)
-        self._tell.ask(
-            Words(
-                self.tr("{count} files were written.").format(count=len(paths)),
-                self.tr("Folder: {folder}").format(folder=folder),
-                self.tr("Files: {names}").format(names=shown([path.name for path in paths])),
-            ),
-            (
-                Answer(self.tr("Open the folder"), lambda: open_folder(folder), "O"),
-                Answer(self.tr("Go on"), lambda: None, self.tr("Enter")),
-            ),
-            icon="download",
-        )
+        tell_written(self._tell, str(paths[0].parent), [path.name for path in paths])

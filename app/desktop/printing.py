@@ -11,11 +11,11 @@ from itertools import chain, count
 from pathlib import Path
 from typing import Protocol, TypeVar
 
-from PySide6.QtCore import QObject, Qt, QUrl, Signal
-from PySide6.QtGui import QDesktopServices
+from PySide6.QtCore import QObject, Qt, Signal
 from PySide6.QtWidgets import QFileDialog, QWidget
 
 from carpus import __version__
+from carpus.app.desktop.files_written import tell_written
 from carpus.app.desktop.last_places import LastPlaces
 from carpus.app.desktop.now_open import NowOpen
 from carpus.app.desktop.ways import Tell, Way
@@ -28,8 +28,6 @@ from carpus.core.output.report_form import ReportForm
 from carpus.core.session.values import Session
 from carpus.ui.background import Background
 from carpus.ui.export.sheet import ExportSheet
-from carpus.ui.messages.stop_card import Answer
-from carpus.ui.ports import Words
 from carpus.ui.report.beside_page import BesideReport
 from carpus.ui.report.letter_page import LetterReport
 from carpus.ui.report.letter_sheet import LetterSheet
@@ -235,7 +233,7 @@ class Printing(QObject):
         def written(names: Sequence[str]) -> None:
             self.formats.close_sheet()
             if names:
-                self._written(folder, names)
+                tell_written(self._tell, folder, names)
 
         def refused(fault: Exception) -> None:
             self.formats.close_sheet()
@@ -257,45 +255,7 @@ class Printing(QObject):
     def _tables_written(self, paths: Sequence[Path], sessions: Sequence[str]) -> None:
         for path in paths:
             self.tabled.emit(str(path), sessions)
-        self._written(str(paths[0].parent), [path.name for path in paths])
-
-    def _written(self, folder: str, names: Sequence[str]) -> None:
-        """Say what went where, and offer to open the folder."""
-        count = len(names)
-        what = self.tr("1 file was written.") if count == 1 else self.tr("{count} files were written.")
-        self._tell.ask(
-            Words(
-                what.format(count=count),
-                self.tr("Folder: {folder}").format(folder=folder),
-                self.tr("Files: {names}").format(names=shown(names)),
-            ),
-            (
-                Answer(self.tr("Open the folder"), lambda: open_folder(folder), "O"),
-                Answer(self.tr("Go on"), lambda: None, self.tr("Enter")),
-            ),
-            icon="download",
-        )
-
-
-MOST_NAMES = 3
-"""On the card; a data set has dozens, and each name may need two lines."""
-BREAK = "\u200b"
-"""Where a long name may go on in the next line; it takes no room."""
-
-
-def shown(names: Sequence[str]) -> str:
-    """Names for a card.
-
-    >>> shown(["a", "b"]), shown(list("abcdefgh"))
-    ('a, b', 'a, b, c, …')
-    """
-    listed = [name.replace("_", f"_{BREAK}").replace(".", f"{BREAK}.") for name in names[:MOST_NAMES]]
-    return ", ".join([*listed, *(["…"] if len(names) > MOST_NAMES else [])])
-
-
-def open_folder(folder: str) -> None:
-    """Show a folder in the system's own way."""
-    QDesktopServices.openUrl(QUrl.fromLocalFile(folder))
+        tell_written(self._tell, str(paths[0].parent), [path.name for path in paths])
 
 
 def write_table(path: Path, progress: Progress) -> None:

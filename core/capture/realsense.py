@@ -95,14 +95,17 @@ def open_realsense(*, uri: str | None, camera: Camera | None, patience_s: float,
 def driver_finding(asks_version: bool = True, wanted: bool = True) -> Finding:
     """The maker's library, by its package; loaded, in a process of its own, only where a camera wants it."""
     is_packed = getattr(sys, "frozen", False)
-    packed = "The packed program has no driver for it: install Carpus with pip, as carpus[realsense]."
+    install = f"pip install {PACKAGE}"
+    packed = phrase(
+        "The packed program has no driver for it: install Carpus with pip, then run: {command}", command=install
+    )
     return library_finding(
         phrase("RealSense driver"),
         PACKAGE,
         load_library,
         asks=asks_version and wanted,
-        unwanted="" if wanted else "not installed; only a RealSense and its recordings need it",
-        how=packed if is_packed else f"Run: pip install {PACKAGE}",
+        unwanted="" if wanted else phrase("not installed; only a RealSense and its recordings need it"),
+        how=packed if is_packed else phrase("Run: {command}", command=install),
     )
 
 

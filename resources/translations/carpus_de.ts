@@ -2032,8 +2032,32 @@
         <translation>Beide tauschen</translation>
     </message>
     <message>
+        <source>1 file was written.</source>
+        <translation>1 Datei ist geschrieben.</translation>
+    </message>
+    <message>
+        <source>{count} files were written.</source>
+        <translation>{count} Dateien sind geschrieben.</translation>
+    </message>
+    <message>
+        <source>Folder: {folder}</source>
+        <translation>Ordner: {folder}</translation>
+    </message>
+    <message>
+        <source>Files: {names}</source>
+        <translation>Dateien: {names}</translation>
+    </message>
+    <message>
+        <source>Open the folder</source>
+        <translation>Ordner öffnen</translation>
+    </message>
+    <message>
         <source>Enter</source>
         <translation>Eingabe</translation>
+    </message>
+    <message>
+        <source>Go on</source>
+        <translation>Weiter</translation>
     </message>
     <message>
         <source>Correct names</source>
@@ -6028,6 +6052,10 @@
         <translation>Namen darin sind kein Text</translation>
     </message>
     <message>
+        <source>not installed; only a RealSense and its recordings need it</source>
+        <translation>nicht installiert; nur eine RealSense und ihre Aufnahmen brauchen ihn</translation>
+    </message>
+    <message>
         <source>the form of the reports cannot be read</source>
         <translation>die Form der Berichte ist nicht lesbar</translation>
     </message>
@@ -7154,27 +7182,27 @@
     </message>
     <message>
         <source>{count} files were written.</source>
-        <translation>{count} Dateien sind geschrieben.</translation>
+        <translation type="vanished">{count} Dateien sind geschrieben.</translation>
     </message>
     <message>
         <source>Folder: {folder}</source>
-        <translation>Ordner: {folder}</translation>
+        <translation type="vanished">Ordner: {folder}</translation>
     </message>
     <message>
         <source>Files: {names}</source>
-        <translation>Dateien: {names}</translation>
+        <translation type="vanished">Dateien: {names}</translation>
     </message>
     <message>
         <source>Open the folder</source>
-        <translation>Ordner öffnen</translation>
+        <translation type="vanished">Ordner öffnen</translation>
     </message>
     <message>
         <source>Go on</source>
-        <translation>Weiter</translation>
+        <translation type="vanished">Weiter</translation>
     </message>
     <message>
         <source>Enter</source>
-        <translation>Eingabe</translation>
+        <translation type="vanished">Eingabe</translation>
     </message>
 </context>
 <context>
@@ -8048,27 +8076,27 @@
     </message>
     <message>
         <source>{count} files were written.</source>
-        <translation>{count} Dateien sind geschrieben.</translation>
+        <translation type="vanished">{count} Dateien sind geschrieben.</translation>
     </message>
     <message>
         <source>Folder: {folder}</source>
-        <translation>Ordner: {folder}</translation>
+        <translation type="vanished">Ordner: {folder}</translation>
     </message>
     <message>
         <source>Files: {names}</source>
-        <translation>Dateien: {names}</translation>
+        <translation type="vanished">Dateien: {names}</translation>
     </message>
     <message>
         <source>Open the folder</source>
-        <translation>Ordner öffnen</translation>
+        <translation type="vanished">Ordner öffnen</translation>
     </message>
     <message>
         <source>Go on</source>
-        <translation>Weiter</translation>
+        <translation type="vanished">Weiter</translation>
     </message>
     <message>
         <source>Enter</source>
-        <translation>Eingabe</translation>
+        <translation type="vanished">Eingabe</translation>
     </message>
     <message>
         <source>same recording</source>
@@ -10182,31 +10210,31 @@ Umschalt+F8 von der Seite</translation>
     </message>
     <message>
         <source>1 file was written.</source>
-        <translation>1 Datei ist geschrieben.</translation>
+        <translation type="vanished">1 Datei ist geschrieben.</translation>
     </message>
     <message>
         <source>{count} files were written.</source>
-        <translation>{count} Dateien sind geschrieben.</translation>
+        <translation type="vanished">{count} Dateien sind geschrieben.</translation>
     </message>
     <message>
         <source>Folder: {folder}</source>
-        <translation>Ordner: {folder}</translation>
+        <translation type="vanished">Ordner: {folder}</translation>
     </message>
     <message>
         <source>Files: {names}</source>
-        <translation>Dateien: {names}</translation>
+        <translation type="vanished">Dateien: {names}</translation>
     </message>
     <message>
         <source>Open the folder</source>
-        <translation>Ordner öffnen</translation>
+        <translation type="vanished">Ordner öffnen</translation>
     </message>
     <message>
         <source>Go on</source>
-        <translation>Weiter</translation>
+        <translation type="vanished">Weiter</translation>
     </message>
     <message>
         <source>Enter</source>
-        <translation>Eingabe</translation>
+        <translation type="vanished">Eingabe</translation>
     </message>
 </context>
 <context>

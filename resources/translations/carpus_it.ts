@@ -2032,8 +2032,32 @@
         <translation>Scambia i due</translation>
     </message>
     <message>
+        <source>1 file was written.</source>
+        <translation>È stato scritto 1 file.</translation>
+    </message>
+    <message>
+        <source>{count} files were written.</source>
+        <translation>Sono stati scritti {count} file.</translation>
+    </message>
+    <message>
+        <source>Folder: {folder}</source>
+        <translation>Cartella: {folder}</translation>
+    </message>
+    <message>
+        <source>Files: {names}</source>
+        <translation>File: {names}</translation>
+    </message>
+    <message>
+        <source>Open the folder</source>
+        <translation>Apri la cartella</translation>
+    </message>
+    <message>
         <source>Enter</source>
         <translation>Invio</translation>
+    </message>
+    <message>
+        <source>Go on</source>
+        <translation>Continua</translation>
     </message>
     <message>
         <source>Correct names</source>
@@ -6028,6 +6052,10 @@
         <translation>contiene nomi che non sono testo</translation>
     </message>
     <message>
+        <source>not installed; only a RealSense and its recordings need it</source>
+        <translation>non installato; serve solo a una RealSense e alle sue registrazioni</translation>
+    </message>
+    <message>
         <source>the form of the reports cannot be read</source>
         <translation>il modello delle relazioni non si può leggere</translation>
     </message>
@@ -7154,27 +7182,27 @@
     </message>
     <message>
         <source>{count} files were written.</source>
-        <translation>Sono stati scritti {count} file.</translation>
+        <translation type="vanished">Sono stati scritti {count} file.</translation>
     </message>
     <message>
         <source>Folder: {folder}</source>
-        <translation>Cartella: {folder}</translation>
+        <translation type="vanished">Cartella: {folder}</translation>
     </message>
     <message>
         <source>Files: {names}</source>
-        <translation>File: {names}</translation>
+        <translation type="vanished">File: {names}</translation>
     </message>
     <message>
         <source>Open the folder</source>
-        <translation>Apri la cartella</translation>
+        <translation type="vanished">Apri la cartella</translation>
     </message>
     <message>
         <source>Go on</source>
-        <translation>Continua</translation>
+        <translation type="vanished">Continua</translation>
     </message>
     <message>
         <source>Enter</source>
-        <translation>Invio</translation>
+        <translation type="vanished">Invio</translation>
     </message>
 </context>
 <context>
@@ -8048,27 +8076,27 @@
     </message>
     <message>
         <source>{count} files were written.</source>
-        <translation>Sono stati scritti {count} file.</translation>
+        <translation type="vanished">Sono stati scritti {count} file.</translation>
     </message>
     <message>
         <source>Folder: {folder}</source>
-        <translation>Cartella: {folder}</translation>
+        <translation type="vanished">Cartella: {folder}</translation>
     </message>
     <message>
         <source>Files: {names}</source>
-        <translation>File: {names}</translation>
+        <translation type="vanished">File: {names}</translation>
     </message>
     <message>
         <source>Open the folder</source>
-        <translation>Apri la cartella</translation>
+        <translation type="vanished">Apri la cartella</translation>
     </message>
     <message>
         <source>Go on</source>
-        <translation>Continua</translation>
+        <translation type="vanished">Continua</translation>
     </message>
     <message>
         <source>Enter</source>
-        <translation>Invio</translation>
+        <translation type="vanished">Invio</translation>
     </message>
     <message>
         <source>same recording</source>
@@ -10182,31 +10210,31 @@ Maiusc+F8 di lato</translation>
     </message>
     <message>
         <source>1 file was written.</source>
-        <translation>È stato scritto 1 file.</translation>
+        <translation type="vanished">È stato scritto 1 file.</translation>
     </message>
     <message>
         <source>{count} files were written.</source>
-        <translation>Sono stati scritti {count} file.</translation>
+        <translation type="vanished">Sono stati scritti {count} file.</translation>
     </message>
     <message>
         <source>Folder: {folder}</source>
-        <translation>Cartella: {folder}</translation>
+        <translation type="vanished">Cartella: {folder}</translation>
     </message>
     <message>
         <source>Files: {names}</source>
-        <translation>File: {names}</translation>
+        <translation type="vanished">File: {names}</translation>
     </message>
     <message>
         <source>Open the folder</source>
-        <translation>Apri la cartella</translation>
+        <translation type="vanished">Apri la cartella</translation>
     </message>
     <message>
         <source>Go on</source>
-        <translation>Continua</translation>
+        <translation type="vanished">Continua</translation>
     </message>
     <message>
         <source>Enter</source>
-        <translation>Invio</translation>
+        <translation type="vanished">Invio</translation>
     </message>
 </context>
 <context>
