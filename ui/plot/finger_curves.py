@@ -35,6 +35,7 @@ BENDING = Scale(-15.0, 115.0, (90.0, 45.0, 0.0), ((90.0, "90°"), (45.0, "45°")
 SPREADING = Scale(-32.0, 32.0, (20.0, 0.0, -20.0), ())
 BENDING_TOP_DEG_S, SPREADING_TOP_DEG_S = 400.0, 200.0
 BENDING_ROWS: tuple[Row, ...] = ("end", "middle", "knuckle")
+LEAST_TEXT_PX = 11
 SPREADING_ROWS: tuple[Row, ...] = ("spread",)
 ROOMY_FROM_PX, SPREADS_FROM_PX = 290, 160
 WEAK_SD_DEG = 10.0
@@ -255,22 +256,31 @@ class FingerCurves(PlotCard):
             if finger == self._figure.finger and self._has_target():
                 Target(self._target_deg).paint(painter, style, own)
         bending, spreading = self.panels(1)
+        room_px = self.column(1).left() - 28
         if bending.box.height() > 0.0:
             self._text(painter, self.tr("Bending"), 20, bending.box.top() - 4 * scale, 14, MEDIUM, "text")
         if spreading.box.height() > 0.0:
             above = 17 if self._spreads() else 4
-            self._text(painter, self.tr("Spreading"), 20, spreading.box.top() - above * scale, 14, MEDIUM, "text")
+            self._text(
+                painter, self.tr("Spreading"), 20, spreading.box.top() - above * scale, 14, MEDIUM, "text", room_px
+            )
         for number, row in enumerate(self._rows()):
             top = self.rows_top() + number * ROW_PX * scale
             painter.setPen(QPen(theme.color("line"), 1))
             painter.drawLine(QPointF(20, round(top) + 0.5), QPointF(self.width() - 14, round(top) + 0.5))
-            self._text(painter, row_name(row), 20, top + 7 * scale, 14, REGULAR, "text")
+            self._text(painter, row_name(row), 20, top + 7 * scale, 14, REGULAR, "text", room_px)
 
     def _has_target(self) -> bool:
         return math.isfinite(self._target_deg) and self._figure.row != "tam" and not self._speeds
 
-    def _text(self, painter: QPainter, text: str, left: float, top: float, size: int, weight: int, token: str) -> None:
-        painter.setFont(font(size * self._theme.text_scale, weight))
+    def _text(
+        self, painter: QPainter, text: str, left: float, top: float, size: int, weight: int, token: str,
+        room_px: float = math.inf,
+    ) -> None:  # fmt: skip
+        """Smaller where a language has a long word for it, down to what can be read."""
+        wide_px = QFontMetricsF(font(size * self._theme.text_scale, weight)).horizontalAdvance(text)
+        shown = max(LEAST_TEXT_PX, size * min(1.0, room_px / max(wide_px, 1.0)))
+        painter.setFont(font(shown * self._theme.text_scale, weight))
         painter.setPen(self._theme.color(token))
         painter.drawText(QPointF(left, top + QFontMetricsF(painter.font()).ascent()), text)
 
