@@ -49,7 +49,7 @@ STATES = (
     "beside_reading", "report_beside", "retest", "retest_empty", "retest_people",
     "correct_exchanged", "correct_results", "correct_results_hand", "correct_running",
     "progress", "progress_by_hand", "progress_hand", "by_hand", "report", "report_hand", "report_progress",
-    "report_own", "letter_sheet",
+    "report_own", "report_letter", "letter_sheet",
     "patient_view", "patient_view_goal", "patient_view_child", "patient_view_lost", "patient_view_rest",
     "exercise_sets", "exercise_goals", "live_large",
     "settings", "settings_safe", "locked", "pin_change", "records_due", "records_log", "help",
