@@ -91,7 +91,7 @@ def test_a_session_of_a_camera_that_was_out_says_so_everywhere(
     camera = camera_of(made)
     assert camera.not_sure == not_sure
     figures = session_figures(made)
-    assert with_trust(figures, tmp_path).camera == camera
+    assert repr(with_trust(figures, tmp_path).camera) == repr(camera)  # an unknown age is equal to nothing
     assert with_trust(replace(figures, simulated=True), tmp_path).camera.not_sure == ""
     figures = with_trust(figures, tmp_path)
     lines = [words for words in warnings(figures) if "not sure" in words]

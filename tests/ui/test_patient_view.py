@@ -126,5 +126,5 @@ def test_a_window_that_hears_nothing_more_shows_no_hand(qtbot: QtBot, theme: The
     window.view.begin(set_up())
     window.show_running(Scene("out", 1, 30.0, 60.0))
     assert window.view.words().task == "Bend your hand down"
-    qtbot.waitUntil(lambda: window.view.scene == Scene())
+    qtbot.waitUntil(lambda: window.view.scene.phase == Scene().phase)
     assert window.view.accessibleName() == "One moment."
