@@ -112,7 +112,8 @@ def _calibrate(arguments: argparse.Namespace) -> int:
 
         folder = load_settings().data_folder
         if arguments.recording is None and arguments.serial and is_nameless(info.settings):
-            keep_name(folder, info.name, serial)
+            serial = keep_name(folder, info.name, serial)
+            stored = replace(stored, serial=serial)
         path = keep_calibration(folder, made, stored)
         print(f"Kept for camera {serial}: {path}")
     elif arguments.output is None:

@@ -78,7 +78,7 @@ def _check(arguments: argparse.Namespace) -> int:
     when = info.recorded if is_moment(info.recorded) else iso(datetime.now().astimezone())
     serial = arguments.serial or info.settings.get(SERIAL, "")
     if arguments.recording is None and arguments.serial and is_nameless(info.settings):
-        keep_name(data_folder, info.name, arguments.serial)
+        serial = keep_name(data_folder, info.name, serial)
     check = check_of(reading, serial, when, info.settings.get("calibrated", ""))
     path = chart_path(data_folder, serial)
     kept = read_checks(path) if serial else []

@@ -53,8 +53,9 @@ class Naming(QObject):
             self._sheet.begin(self._now)
 
     def end(self) -> None:
-        """The camera was let go."""
+        """The camera was let go; a name that is still being kept opens it no more."""
         self._sheet.dismiss()
+        self._known = threading.Event()
 
     def _named(self, typed: str) -> None:
         name, kind, folder, known = tidy_name(typed), self._kind, self._folder, self._known
@@ -62,9 +63,9 @@ class Naming(QObject):
             self._known.set()
             return
 
-        def kept(_: object) -> None:
+        def kept(as_kept: str) -> None:
             if known is self._known:  # nobody has left meanwhile
-                self._said = name
+                self._said = as_kept if as_kept == name else ""  # another than was typed is shown before it is used
                 self._begin_again()
 
         self._background.run(lambda: keep_name(folder, kind, name), kept, self._failed, self)

@@ -10,6 +10,7 @@ from typing import Any
 import yaml
 
 from carpus.core.camera import COEFFICIENTS, DEFAULT_CAMERA, Camera, DistortionModel
+from carpus.core.dates import is_moment
 from carpus.core.depth_sensor import ASSUMED, ASSUMED_SENSOR, DepthSensor, sensor_of
 from carpus.core.errors import CameraFileUnreadable, OutputExists, OutputNotWritable
 from carpus.core.phrase import phrase
@@ -18,6 +19,7 @@ from carpus.core.types import SIMULATED
 CAMERA_FILE = "camera_info.yaml"
 _USUAL_MODEL: DistortionModel = "plumb_bob"
 _MOST_BYTES = 1_000_000
+_MOST_SIDE_PX = 100_000
 _SCALES, _MOST_OFFSET_M = (0.8, 1.25), 0.1
 _FOCAL_SHARE = (0.2, 10.0)
 """Focal length over the picture's width: beyond these a camera sees more than 136 or less than 6 degrees."""
@@ -201,7 +203,9 @@ def _calibration(path: Path, content: dict[str, Any]) -> StoredCalibration | Non
             float(said["error_px"]),
             int(said["pictures"]),
         )
-    except (KeyError, TypeError, ValueError) as cause:
+        if not is_moment(out.calibrated):
+            raise ValueError(out.calibrated)
+    except (KeyError, TypeError, ValueError, OverflowError) as cause:
         raise CameraFileUnreadable(
             path, phrase("{calibration} is not as Carpus writes it", calibration=_CALIBRATION)
         ) from cause
@@ -214,7 +218,7 @@ def _calibration(path: Path, content: dict[str, Any]) -> StoredCalibration | Non
 
 def _size(path: Path, content: dict[str, Any], key: str) -> int:
     value = content.get(key)
-    if isinstance(value, bool) or not isinstance(value, int) or value <= 0:
+    if isinstance(value, bool) or not isinstance(value, int) or not 0 < value <= _MOST_SIDE_PX:
         raise CameraFileUnreadable(path, phrase("{key} is not a number of pixels", key=key))
     return value
 

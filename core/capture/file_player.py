@@ -46,6 +46,8 @@ class FilePlayer:
         except BaseException:
             self.stop()
             raise
+        if opened is None:
+            self.stop()  # closed while the process was being made: that close did not see it
         return opened
 
     def frames(self, assembler: Assembler, modes: Mapping[Sensor, VideoMode]) -> Generator[Frame, None, bool]:

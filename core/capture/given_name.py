@@ -59,24 +59,31 @@ def tidy_name(typed: str) -> str:
     return " ".join("".join(letter if letter.isprintable() else " " for letter in typed).split())[:MOST_LETTERS].strip()
 
 
-def keep_name(data_folder: Path, kind: str, name: str) -> None:
-    """From now on cameras of a kind that do not tell their number are called so.
+def keep_name(data_folder: Path, kind: str, name: str) -> str:
+    """From now on cameras of a kind that do not tell their number are called so: the name as it is kept. A name
+    that another kind has gets the kind added, else one would be seen through the other's calibration.
 
     Raises :class:`OutputNotWritable` or :class:`DiskFull`.
     """
     path = data_folder / CAMERAS / _FILE
-    names = {**_names(data_folder), kind: tidy_name(name)}
+    others = {other: taken for other, taken in _names(data_folder).items() if other != kind}
+    kept = tidy_name(name)
+    if kept in others.values():
+        of_kind = f" ({tidy_name(kind)[: MOST_LETTERS // 2]})"
+        kept = tidy_name(kept[: MOST_LETTERS - len(of_kind)] + of_kind)
+    names = {**others, kind: kept}
     try:
         path.parent.mkdir(mode=0o700, parents=True, exist_ok=True)
     except OSError as cause:
         raise OutputNotWritable(path, cause.strerror or "") from cause
     replace_file(path, lambda part: part.write_text(json.dumps(names, ensure_ascii=False), encoding="utf-8"))
+    return kept
 
 
 def _names(data_folder: Path) -> dict[str, str]:
     try:
         known = json.loads((data_folder / CAMERAS / _FILE).read_text(encoding="utf-8"))
-    except (OSError, ValueError):
+    except (OSError, ValueError, RecursionError):
         return {}
     if not isinstance(known, dict):
         return {}

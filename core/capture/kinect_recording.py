@@ -122,13 +122,18 @@ class KinectRecording:
         import av
 
         try:
-            return av.open(str(self._path), "r", format="matroska")
+            return av.open(str(self._path), "r", format="matroska", metadata_errors="replace")
         except (av.error.FFmpegError, OSError) as cause:
             raise RecordingDamaged(self._path, cause.strerror or "") from cause
 
     def _track(self, container: InputContainer, name: str) -> Any:
-        for stream in container.streams.video:
-            if name in (stream.metadata.get("title"), stream.metadata.get("TITLE")):
+        tracks: list[Any] = list(container.streams.video)
+        for stream in tracks:
+            # without it nobody can decode the track
+            if stream.codec_context is not None and name in (
+                stream.metadata.get("title"),
+                stream.metadata.get("TITLE"),
+            ):
                 return stream
         raise RecordingUnsupported(self._path, f"no {'colour' if name == 'COLOR' else 'depth'} pictures in it")
 

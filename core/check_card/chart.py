@@ -206,7 +206,7 @@ def _check(line: str) -> Check | None:
         when, serial, calibrated = (str(content[name]) for name in ("when", "serial", "calibrated"))
         most = (content.get("most_angle_deg", MOST_ANGLE_DEG), content.get("most_length_mm", MOST_LENGTH_MM))
         most_angle_deg, most_length_mm = map(float, most)
-    except (ValueError, KeyError, TypeError):
+    except (ValueError, KeyError, TypeError, OverflowError, RecursionError):
         return None
     if not is_moment(when) or not all(map(math.isfinite, (angle, length, scale, most_angle_deg, most_length_mm))):
         return None

@@ -16,7 +16,8 @@ from carpus.core.output.report_content import SessionFigures
 from carpus.core.session.values import Session
 
 CHECKED_AGAIN = timedelta(hours=1)
-"""A check that is followed by another so soon was checked once more, as the program asks: the later one stands."""
+"""A check that is followed by another so soon was checked once more, as the program asks: the later one stands,
+unless it says the same. What was out twice was out, also where a third check was right."""
 
 
 def unsure_of(checks: Sequence[Check], recorded: datetime, calibrated: str) -> tuple[bool, bool]:
@@ -30,9 +31,15 @@ def unsure_of(checks: Sequence[Check], recorded: datetime, calibrated: str) -> t
 
 
 def _standing(checks: Sequence[Check]) -> list[Check]:
-    """Those that were not checked once more."""
+    """Those that were not checked once more with another result."""
     when = [datetime.fromisoformat(one.when) for one in checks]
-    return [one for k, one in enumerate(checks) if k + 1 == len(checks) or when[k + 1] - when[k] > CHECKED_AGAIN]
+    holds = [(one.lengths_hold, one.angles_hold) for one in checks]
+    last = len(checks) - 1
+    return [
+        one
+        for k, one in enumerate(checks)
+        if k == last or when[k + 1] - when[k] > CHECKED_AGAIN or holds[k + 1] == holds[k]
+    ]
 
 
 def with_checks(camera: CameraSaid, when: datetime, data_folder: Path | None) -> CameraSaid:

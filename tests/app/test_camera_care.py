@@ -188,6 +188,15 @@ def test_a_camera_without_a_number_is_asked_for_its_name_before_the_check(
     assert not card.is_measuring, "not named, not measured"
     card.check_button.click()
     qtbot.waitUntil(card.name_sheet.isVisible)
+    card.name_sheet.named.emit("left")
+    journey.checking.back()  # while the name is being kept
+    qtbot.waitUntil(
+        lambda: (data / "cameras" / "names.json").exists() and not desktop.journey.checking._background.busy
+    )
+    assert not card.is_measuring, "the camera is opened after everybody left"
+    (data / "cameras" / "names.json").unlink()
+    card.check_button.click()
+    qtbot.waitUntil(card.name_sheet.isVisible)
     assert card.progress is None
     qtbot.keyClicks(card.name_sheet.line, "room 3")
     press(qtbot, Qt.Key.Key_Return)

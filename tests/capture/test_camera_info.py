@@ -10,7 +10,7 @@ import pytest
 import yaml
 
 from carpus.core.camera import DEFAULT_CAMERA, Camera
-from carpus.core.capture.camera_info import default_camera, read_camera_info, write_camera_info
+from carpus.core.capture.camera_info import StoredCalibration, default_camera, read_camera_info, write_camera_info
 from carpus.core.depth_sensor import D435, PRIMESENSE
 from carpus.core.errors import CameraFileUnreadable, OutputExists, OutputNotWritable
 
@@ -65,6 +65,21 @@ def test_the_sensor_is_read_back_or_taken_for_a_primesense(tmp_path: Path) -> No
         named.write_text(ROS_FILE + f"depth_sensor: {wrong}\n")
         with pytest.raises(CameraFileUnreadable, match="depth_sensor"):
             read_camera_info(named)
+
+
+def test_a_damaged_calibration_is_told(tmp_path: Path) -> None:
+    path = tmp_path / "camera_info.yaml"
+    write_camera_info(path, CAMERA, calibration=StoredCalibration("77", "2026-11-20T09:00:00+00:00", pictures=12))
+    whole = path.read_text()
+    for old, new in (
+        ("2026-11-20", "2026-99-20"),
+        ("pictures: 12", "pictures: .inf"),
+        ("width: 640", f"width: {10**400}"),
+    ):
+        assert old in whole
+        path.write_text(whole.replace(old, new))
+        with pytest.raises(CameraFileUnreadable):
+            read_camera_info(path)
 
 
 def test_the_written_file_has_the_fields_of_ros(tmp_path: Path) -> None:

@@ -37,11 +37,12 @@ def test_only_a_camera_without_a_number_takes_the_name_of_its_kind(tmp_path: Pat
     assert with_given_name(numbered, tmp_path) is numbered
     assert not is_nameless(numbered.info.settings)
     assert SERIAL not in with_given_name(Camera("Astra"), tmp_path).info.settings
-    keep_name(tmp_path, "Astra", "left")
-    assert with_given_name(plain, tmp_path).info.settings[SERIAL] == "room 3"
+    assert keep_name(tmp_path, "Astra", "room\t 3") == "room 3 (Astra)"
+    of_both = [with_given_name(Camera(kind), tmp_path).info.settings[SERIAL] for kind in ("Xtion", "Astra")]
+    assert of_both == ["room 3", "room 3 (Astra)"], "one would be seen through the other's calibration"
 
 
-@pytest.mark.parametrize("content", ["", "[1]", '{"Xtion": 3}', '{"Xtion": "\\n"}', "\x00"])
+@pytest.mark.parametrize("content", ["", "[1]", '{"Xtion": 3}', '{"Xtion": "\\n"}', "\x00", "[" * 100_000])
 def test_a_damaged_list_of_names_keeps_nobody_from_measuring(tmp_path: Path, content: str) -> None:
     (tmp_path / "cameras").mkdir()
     (tmp_path / "cameras" / "names.json").write_text(content)

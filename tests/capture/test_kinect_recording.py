@@ -177,7 +177,8 @@ def test_damage_is_told(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None
     with pytest.raises(RecordingDamaged) as fault:
         list(open_recording(tmp_path / "half.mkv").frames())
     assert "of 60.0 s" in fault.value.detail
-    for content in (b"", b"no Matroska at all", whole[:60]):
+    unnamed, unknown = whole.replace(b"COLOR", b"C\xeaLOR"), whole.replace(b"MJPG", b"ZZZZ")
+    for content in (b"", b"no Matroska at all", whole[:60], unnamed, unknown):
         (tmp_path / "other.mkv").write_bytes(content)
         with pytest.raises((RecordingDamaged, RecordingUnsupported)):
             open_recording(tmp_path / "other.mkv")

@@ -165,7 +165,7 @@ def test_the_chart_survives_a_torn_line(tmp_path: Path) -> None:
     path = chart_path(tmp_path, "77")
     add_check(path, check(0))
     with path.open("ab") as file:
-        file.write(b'{"when": "2026-11-2')
+        file.write(b"[" * 100_000 + b'\n{"when": "2026-11-2')
     add_check(path, check(1))
     assert read_checks(path) == [check(0), check(1)]
     assert path.stat().st_mode & 0o077 == 0
@@ -216,6 +216,8 @@ def test_where_a_camera_stands_and_which_sessions_are_not_sure(tmp_path: Path) -
     )
     later = replace(again, when=(NOW + timedelta(days=5)).isoformat())
     assert unsure_of([*checks, later], NOW + timedelta(days=1), "x") == (True, False)
+    twice = replace(checks[-1], when=(NOW + timedelta(days=4, minutes=1)).isoformat())
+    assert unsure_of([*checks, twice, again], NOW + timedelta(days=1), "x") == (True, False), "out twice was out"
 
 
 @pytest.mark.usefixtures("qapp")
