@@ -16,7 +16,7 @@ import signal
 import threading
 import time
 from collections import Counter, deque
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from multiprocessing.connection import Connection
 from multiprocessing.shared_memory import SharedMemory
 from typing import Any
@@ -36,7 +36,7 @@ from carpus.core.capture.capture_messages import (
     Trouble,
 )
 from carpus.core.capture.video_mode import Sensor
-from carpus.core.errors import CarpusFault, DriverMissing
+from carpus.core.errors import CameraLost, CarpusFault, DriverMissing
 
 WAIT_MS = 200
 ALIVE_EVERY_S = 1.0
@@ -52,6 +52,23 @@ class GaveUp(Exception):
         super().__init__(detail)
         self.fault = fault
         self.detail = detail
+
+
+class Heard:
+    """When each picture sensor of a camera was last heard: it may warm up, then none may fall silent."""
+
+    def __init__(self, sensors: Iterable[Sensor]) -> None:
+        self._last_s = dict.fromkeys(sensors, time.monotonic() + CAMERA_WARM_UP_S - CAMERA_SILENCE_S)
+
+    def picture_of(self, sensor: Sensor) -> None:
+        """A picture came."""
+        self._last_s[sensor] = time.monotonic()
+
+    def check(self) -> None:
+        """Raises :class:`GaveUp` where one has been silent for too long."""
+        for sensor, last_s in self._last_s.items():
+            if time.monotonic() - last_s > CAMERA_SILENCE_S:
+                raise GaveUp(CameraLost, f"no {sensor.name.lower()} pictures for {CAMERA_SILENCE_S:g} s")
 
 
 class Outlet:

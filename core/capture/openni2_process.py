@@ -8,7 +8,7 @@ import time
 from collections.abc import Mapping
 
 from carpus.core.capture.capture_messages import Alive, Broken
-from carpus.core.capture.capture_process import CAMERA_SILENCE_S, CAMERA_WARM_UP_S, WAIT_MS, GaveUp, Outlet
+from carpus.core.capture.capture_process import WAIT_MS, GaveUp, Heard, Outlet
 from carpus.core.capture.openni2 import (
     CallFailed,
     Context,
@@ -128,7 +128,7 @@ class _Loop:
 
     def watch(self) -> None:
         """A camera: the newest picture of each stream, whenever there is one."""
-        heard = dict.fromkeys(self._modes, time.monotonic() + CAMERA_WARM_UP_S - CAMERA_SILENCE_S)
+        heard = Heard(self._modes)
         while not self._outlet.stopping:
             self._outlet.obey(block=False)
             if self._happened.gone.is_set():
@@ -138,10 +138,8 @@ class _Loop:
                 for stream in self._streams:
                     if self._library.wait([stream], 0) is not None:
                         self._take(stream)
-                        heard[stream.sensor] = time.monotonic()
-            for sensor, last in heard.items():
-                if time.monotonic() - last > CAMERA_SILENCE_S:
-                    raise GaveUp(CameraLost, f"no {sensor.name.lower()} pictures for {CAMERA_SILENCE_S:g} s")
+                        heard.picture_of(stream.sensor)
+            heard.check()
             self._outlet.stay_alive()
 
     def _take(self, stream: Stream) -> int:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import threading
-import time
 from dataclasses import replace
 from typing import Any
 
@@ -11,7 +10,7 @@ import cv2
 
 from carpus.core.capture.camera_plan import CameraPlan
 from carpus.core.capture.capture_messages import Opened
-from carpus.core.capture.capture_process import CAMERA_SILENCE_S, CAMERA_WARM_UP_S, WAIT_MS, GaveUp, Outlet
+from carpus.core.capture.capture_process import WAIT_MS, GaveUp, Heard, Outlet
 from carpus.core.capture.color_hold import Step
 from carpus.core.capture.color_lock import ColorLock, Control
 from carpus.core.capture.frame_assembly import camera_of_lens
@@ -73,8 +72,7 @@ def _watch(ob: Any, outlet: Outlet, plan: CameraPlan) -> None:
     pictures = _Pictures(ob, outlet, streams)
     lock = ColorLock(outlet, _Controls(ob, device, streams))
     outlet.set_exposure = lock.set_automatic
-    heard: dict[Sensor, float] = {}
-    until = time.monotonic() + CAMERA_WARM_UP_S
+    heard = Heard(streams.modes)
     is_told = False
     while not outlet.stopping:
         outlet.obey(block=False)
@@ -83,7 +81,7 @@ def _watch(ob: Any, outlet: Outlet, plan: CameraPlan) -> None:
         both = pipeline.wait_for_frames(WAIT_MS)
         color, depth = (None, None) if both is None else (both.get_color_frame(), both.get_depth_frame())
         if depth is not None:
-            heard[Sensor.DEPTH] = time.monotonic()
+            heard.picture_of(Sensor.DEPTH)
             if not is_told:  # a depth picture tells its unit, in millimetres
                 unit_m = round(float(depth.get_depth_scale()) * 1e-3, UNIT_DIGITS)
                 mirrored = dict.fromkeys(streams.modes, False)
@@ -91,13 +89,11 @@ def _watch(ob: Any, outlet: Outlet, plan: CameraPlan) -> None:
                 is_told = True
             pictures.pass_depth(depth)
         if color is not None:
-            heard[Sensor.COLOR] = time.monotonic()
+            heard.picture_of(Sensor.COLOR)
             picture = pictures.pass_color(color)
             if picture is not None:
                 lock.look(picture)
-        for sensor in streams.modes:
-            if time.monotonic() > heard.get(sensor, until - CAMERA_SILENCE_S) + CAMERA_SILENCE_S:
-                raise GaveUp(CameraLost, f"no {sensor.name.lower()} pictures for {CAMERA_SILENCE_S:g} s")
+        heard.check()
         outlet.stay_alive()
     pipeline.stop()
 

@@ -11,7 +11,7 @@ from typing import Any
 
 from carpus.core.capture.camera_plan import CameraPlan
 from carpus.core.capture.capture_messages import Opened
-from carpus.core.capture.capture_process import CAMERA_SILENCE_S, CAMERA_WARM_UP_S, WAIT_MS, GaveUp, Outlet
+from carpus.core.capture.capture_process import WAIT_MS, GaveUp, Heard, Outlet
 from carpus.core.capture.color_hold import Step
 from carpus.core.capture.color_lock import ColorLock, Control
 from carpus.core.capture.realsense_opening import (
@@ -82,8 +82,7 @@ def _watch(rs: Any, outlet: Outlet, plan: CameraPlan) -> None:
     pictures = _Pictures(rs, outlet, streams)
     hold = ColorLock(outlet, _Controls(rs, streams))
     outlet.set_exposure = hold.set_automatic
-    heard: dict[Sensor, float] = {}
-    until = time.monotonic() + CAMERA_WARM_UP_S
+    heard = Heard(streams.modes)
     is_told = False
     while not outlet.stopping:
         outlet.obey(block=False)
@@ -92,16 +91,14 @@ def _watch(rs: Any, outlet: Outlet, plan: CameraPlan) -> None:
         frame = _next(waiting, WAIT_MS / 1000.0)
         if frame is not None:
             sensor = _sensor_of(rs, frame)
-            heard[sensor] = time.monotonic()
+            heard.picture_of(sensor)
             if sensor == Sensor.COLOR and not is_told:
                 outlet.send(_opened(rs, streams, settings | {"clock": _clock(rs, frame)}))
                 is_told = True
             pictures.pass_on(frame)
             if sensor == Sensor.COLOR:
                 hold.look(memoryview(frame.get_data()).cast("B"))
-        for sensor in streams.modes:
-            if time.monotonic() > heard.get(sensor, until - CAMERA_SILENCE_S) + CAMERA_SILENCE_S:
-                raise GaveUp(CameraLost, f"no {sensor.name.lower()} pictures for {CAMERA_SILENCE_S:g} s")
+        heard.check()
         outlet.stay_alive()
     _stop(streams)
 
