@@ -7,7 +7,7 @@ export OMP_NUM_THREADS := 1
 
 PACKAGE_PY := $(or $(PYTHON),python3)
 
-.PHONY: run test lint pytest bench accuracy torture screenshots fresh package package-test windows-test release translations setup setup-test lock clean
+.PHONY: run test lint pytest bench accuracy validation torture screenshots fresh package package-test windows-test release docs translations setup setup-test lock clean
 
 run: setup                      ## the application on a simulated camera and patient
 	.venv/bin/carpus demo
@@ -17,11 +17,8 @@ test: lint pytest               ## everything that must hold before a change lan
 lint: setup-test                ## style, types, layers
 	$(PY) -m ruff check .
 	$(PY) -m ruff format --check .
-	@rm -rf build/lint && mkdir -p build/lint/carpus  # the package as it is when installed: what the tools look for
-	@ln -s ../../../carpus.py build/lint/carpus/__init__.py
-	@for part in app core ui resources; do ln -s ../../../$$part build/lint/carpus/$$part; done
-	cd build/lint && ../../$(PY) -m mypy --config-file ../../pyproject.toml
-	cd build/lint && ../../.venv/bin/lint-imports --no-cache --config ../../pyproject.toml
+	$(PY) -m mypy
+	.venv/bin/lint-imports --no-cache
 
 pytest: setup-test
 	$(PY) -m pytest -q -n auto --maxprocesses 4 --dist loadgroup
@@ -31,6 +28,9 @@ bench: setup-test               ## cost per frame and of the screen
 
 accuracy: setup-test            ## errors against simulated truth
 	$(PY) -m tests.accuracy
+
+validation: setup-test          ## resources/validation.md: accuracy, agreement, retest from fresh seeds (an hour; ARGUMENTS=--people 0: less)
+	$(PY) -m tests.validation $(ARGUMENTS)
 
 torture: setup-test             ## kills, damaged files, bad disks: what is lost and let in (an hour or two)
 	$(PY) -m tests.torture
@@ -50,6 +50,14 @@ package-test:                   ## the .deb in clean roots: install, start, meas
 windows-test:                   ## the Windows installer around a stand-in, its handling of files under Wine
 	installer/package/windows/try_under_wine.sh
 
+docs: build/docs-tools/ready    ## the documentation as a site, into build/site; a link that leads nowhere ends it
+	NO_MKDOCS_2_WARNING=1 build/docs-tools/bin/python installer/docs.py
+
+build/docs-tools/ready: requirements-docs.lock
+	$(PACKAGE_PY) -m venv --clear build/docs-tools
+	build/docs-tools/bin/python -m pip install --disable-pip-version-check --progress-bar off -q -r requirements-docs.lock
+	touch $@
+
 translations: setup-test        ## texts of the sources into resources/translations; says how many are missing
 	$(PY) installer/translations.py $(ARGUMENTS)
 
@@ -64,6 +72,10 @@ setup-test:
 
 lock:                           ## pin the newest versions that pyproject.toml allows
 	installer/lock.sh
+
+.PHONY: hashes
+hashes:                         ## the hashes of the pins that are there, after one was written by hand
+	installer/lock.sh hashes
 
 clean:                          ## all that was built here, except what `make run` recorded
 	rm -rf .venv build dist *.egg-info .pytest_cache .mypy_cache .ruff_cache .import_linter_cache .hypothesis

@@ -8,39 +8,42 @@ import os
 for _name in ("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS"):
     os.environ.setdefault(_name, "1")
 
-import argparse
 import sys
+import textwrap
 from collections.abc import Sequence
 from importlib import import_module
 from pathlib import Path
 from typing import NoReturn
 
 from carpus import __version__
-from carpus.app.asking_pin import ask_pin
+from carpus.app.command_line import CommandParser
 from carpus.app.commands import COMMANDS
 from carpus.app.standard_streams import flushed, open_closed, say
 from carpus.app.stop_signals import on_stop
-from carpus.core.encryption.keys import ask_with
 from carpus.core.errors import CarpusFault
+from carpus.core.purpose import PURPOSE
 
 EXIT_DONE, EXIT_COULD_NOT = 0, 1
 
 
-def parser(asked: Sequence[str]) -> argparse.ArgumentParser:
+def parser(asked: Sequence[str]) -> CommandParser:
     """The command line; only the command that is asked for brings its options."""
-    out = argparse.ArgumentParser(
+    out = CommandParser(
         prog="carpus",
-        description="Hand rehabilitation: tracks blue paper markers on a hand. Without a command: the desktop.",
+        description="Carpus follows blue paper discs on a hand with a depth camera, for hand rehabilitation.\n\n"
+        + "\n".join(f"  {word:<9} {meaning}" for word, meaning in PURPOSE)
+        + "\n\nWithout a command the desktop opens, which does all of it.",
         epilog="For research and education. Not a medical device.",
     )
     out.add_argument("--version", action="version", version=f"carpus {__version__}")
     subparsers = out.add_subparsers(dest="command", metavar="COMMAND")
     for name, words in COMMANDS.items():
-        sub = subparsers.add_parser(name, help=words, description=words)
+        sub = subparsers.add_parser(name, help=words, description=textwrap.fill(words, 100))
         if name == next((word for word in asked if not word.startswith("-")), None):
             command = import_module(f"carpus.app.commands.{name.replace('-', '_')}")
             command.add_arguments(sub)
-            sub.set_defaults(run=command.run)
+            sub.epilog = "\n\n".join(filter(None, (sub.epilog, "Example:\n" + textwrap.indent(command.EXAMPLE, "  "))))
+            sub.set_defaults(run=command.run, parser=sub)
     return out
 
 
@@ -52,7 +55,6 @@ def main(argv: Sequence[str] | None = None) -> int:
     os.umask(0o077)  # whatever is written is about a patient: for its owner only
     open_closed()
     on_stop(_interrupt)
-    ask_with(ask_pin)
     code = EXIT_DONE
     words: str | None = None
     usage: SystemExit | None = None
@@ -85,7 +87,10 @@ def _is_session_file(asked: Sequence[str]) -> bool:
 
 
 def _run(asked: Sequence[str]) -> int:
-    arguments = parser(asked).parse_args(asked)
+    top = parser(asked)
+    arguments, extra = top.parse_known_args(asked)
+    if extra:
+        getattr(arguments, "parser", top).refuse(extra)
     if arguments.command is None:
         from carpus.app.commands import desktop
 

@@ -23,7 +23,6 @@ from PySide6.QtWidgets import QApplication
 from carpus import __version__
 from carpus.app.desktop.backing_up import BackingUp
 from carpus.app.desktop.care_cameras import CareCameras
-from carpus.app.desktop.encrypting import AskPin, SwitchingEncryption
 from carpus.app.desktop.erasing import Erasing
 from carpus.app.desktop.journey import Journey, Parts
 from carpus.app.desktop.last_places import LastPlaces
@@ -31,23 +30,28 @@ from carpus.app.desktop.locking import Locking
 from carpus.app.desktop.no_folder import NoFolder
 from carpus.app.desktop.patients import PatientShelf
 from carpus.app.desktop.phrases import WordTable
-from carpus.app.desktop.practice import practice_take
+from carpus.app.desktop.practice import practice_beginning, practice_take
 from carpus.app.desktop.preferences import PreferenceKeeper
 from carpus.app.desktop.record_lists import RecordLists
 from carpus.app.desktop.sources import Sources
 from carpus.app.desktop.touring import Tour
 from carpus.app.desktop.welcoming import Welcome
 from carpus.app.desktop.witness import Witness
-from carpus.app.settings import DATA_VARIABLE, LockSettings, RecordsSettings, Settings, keep_preferences
+from carpus.app.settings import (
+    DATA_VARIABLE,
+    LockSettings,
+    Settings,
+    keep_preferences,
+    sessions_folder,
+)
 from carpus.app.settings import settings_folder as own_settings_folder
 from carpus.app.stop_signals import on_stop
 from carpus.core.capture.source import FrameSource
-from carpus.core.encryption import keys
 from carpus.core.errors import CarpusFault, OutputNotWritable
 from carpus.core.library.library import Library
 from carpus.core.library.records import Records
 from carpus.core.library.set_up import SetUp
-from carpus.core.session.database import make_private
+from carpus.core.private import make_private
 from carpus.ui import language
 from carpus.ui.check_card.standing_words import card_words
 from carpus.ui.fonts import load_fonts
@@ -75,7 +79,6 @@ class Safe:
     lists: RecordLists
     backing_up: BackingUp
     locking: Locking
-    encryption: SwitchingEncryption
 
 
 @dataclass(eq=False)
@@ -148,13 +151,7 @@ class Desktop:
     def why_no_other_language(self) -> str:
         """One sentence where the window cannot be put together again now, else nothing."""
         journey, safe = self.journey, self.safe
-        busy = (
-            journey.is_at_work
-            or safe.backing_up.is_at_work
-            or safe.encryption.is_at_work
-            or self.tour.is_on
-            or journey.teller.busy
-        )
+        busy = journey.is_at_work or safe.backing_up.is_at_work or self.tour.is_on or journey.teller.busy
         return not_now_words() if busy else ""
 
     def come_to_front(self) -> None:
@@ -193,7 +190,6 @@ class Desktop:
             self.welcome.end()
             self.safe.locking.end()
             self.safe.backing_up.end()
-            self.safe.encryption.end()
             LastPlaces(self.library.folder).keep_window(place_of(self.shell))
             self.journey.close()
             self.shell.hide()
@@ -237,12 +233,13 @@ def compose(
     # Tracking must not wait 5 ms, Python's usual turn, while the window paints, nor the window for tracking.
     sys.setswitchinterval(SWITCH_S)
     theme = _dressed(qt, settings)
-    library = Library(settings.data_folder)
+    library = Library(settings.data_folder, url=settings.records.url, sessions=sessions_folder(settings))
     library.who = lambda: settings.report.therapist
     library.angle_order = lambda: settings.report.angle_order
     LINES.names = library.pseudonyms
     recovered, faults = library.recover()
-    sources = Sources(settings, library, take, speed)
+    beginning = practice_beginning if take is practice_take else lambda _: None
+    sources = Sources(settings, library, take, speed, beginning)
     parts = Parts(
         library,
         PatientShelf(library),
@@ -314,7 +311,7 @@ def _safekeeping(
         return journey.live.recording_state != "off"
 
     backing_up = BackingUp(
-        journey, theme, library, settings.backup, folder or own_settings_folder(),
+        journey, shell.stage, theme, library, settings.backup, folder or own_settings_folder(),
         keep=lambda chosen: keeper.keep(backup=chosen), close_window=shell.close_surely, is_recording=is_recording,
     )  # fmt: skip
     erasing = Erasing(
@@ -323,18 +320,16 @@ def _safekeeping(
     )  # fmt: skip
     lists = RecordLists(
         journey, shell.stage, theme, records, erasing, years=settings.records.retention_years, today=today,
-        keep_years=lambda years: keeper.keep(records=RecordsSettings(years)),
+        keep_years=lambda years: keeper.keep(records=replace(settings.records, retention_years=years)),
     )  # fmt: skip
     locking = Locking(
         journey, shell, theme, library, WordTable(), key=Keys(settings.screen.keys)["lock"],
         minutes=settings.lock.after_min, is_busy=is_recording,
         keep_minutes=lambda minutes: keeper.keep(lock=LockSettings(minutes)),
     )  # fmt: skip
-    encryption = SwitchingEncryption(journey, shell, theme, library, is_recording=is_recording)
-    encryption.changed.connect(locking.look_again)
-    keeper.screen.add_cards(backing_up.card, locking.card, encryption.card, lists.card)
+    keeper.screen.add_cards(backing_up.card, locking.card, lists.card)
     backing_up.remind()
-    return Safe(erasing, lists, backing_up, locking, encryption)
+    return Safe(erasing, lists, backing_up, locking)
 
 
 def _dressed(qt: QApplication, settings: Settings) -> Theme:
@@ -349,16 +344,6 @@ def ask_for_folder(qt: QApplication, settings: Settings, fault: CarpusFault) -> 
     """Tell why the data folder cannot be used; the folder the person chose instead, None to end."""
     theme = _dressed(qt, settings)
     return NoFolder(theme, WordTable().fault(fault), Path.home()).ask()
-
-
-def ask_for_pin(qt: QApplication, settings: Settings) -> bool:
-    """Whether an encrypted data folder was opened by its PIN, which is asked for; True for one that is not encrypted.
-    False where the person closed the window."""
-    folder = settings.data_folder
-    if not keys.has_key(folder) or keys.known_key(folder) is not None:
-        return True
-    theme = _dressed(qt, settings)
-    return AskPin(theme, folder).ask()
 
 
 def with_kept_folder(settings: Settings, folder: Path, settings_folder: Path | None = None) -> Settings:

@@ -7,16 +7,18 @@ for frame in carpus.track("recording", "clicks.json"):
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import asdict, dataclass, fields, replace
 from itertools import chain
 from pathlib import Path
-from typing import Any
+from typing import Any, Literal, get_args
 
 import numpy as np
 
 from carpus import __version__
 from carpus.app.commands.kept import note, note_exported
+from carpus.app.of_file import read_choices
 from carpus.app.sources import open_recording
 from carpus.core.agreement.compare import MOST_SHIFT_S, Compared
 from carpus.core.agreement.compared_files import compare_files
@@ -28,29 +30,35 @@ from carpus.core.calibration.result import Clicks
 from carpus.core.camera import DEFAULT_CAMERA, Camera
 from carpus.core.check_card.trust import camera_of
 from carpus.core.detection.settings import DetectionSettings
-from carpus.core.encryption import keys
 from carpus.core.errors import CalibrationImpossible, RecordingEmpty, SettingsInvalid
-from carpus.core.formats.csv_tables import tables
+from carpus.core.formats.csv_tables import repetition_table, tables
 from carpus.core.formats.export import Exported, Wanted, export_sessions
 from carpus.core.formats.provenance import provenance
 from carpus.core.hand.protocols import protocol_named
-from carpus.core.library.library import read_choices
+from carpus.core.output.exercises import EXERCISES
 from carpus.core.output.measures_table import measure_rows
-from carpus.core.output.report_content import session_figures
-from carpus.core.pipeline.track import TrackSettings, build_walk, from_neutral, learnt_from
+from carpus.core.output.report_content import SessionFigures, session_figures
+from carpus.core.papers.settings import PaperSettings
+from carpus.core.pipeline.track import TrackSettings, from_neutral, learnt_from, track_recording, walk_of
 from carpus.core.session import reader
 from carpus.core.session.values import Session
 from carpus.core.simulation import recording
 from carpus.core.simulation.spec import RecordingSpec
 from carpus.core.simulation.truth import Truth
-from carpus.core.tracking.settings import TrackerSettings
-from carpus.core.types import BoolArray, FloatArray, Frame, Side, TrackStatus
+from carpus.core.tracking.settings import Profile, TrackerSettings
+from carpus.core.types import BoolArray, FloatArray, Frame, Side, TrackedFrame, TrackStatus
+
+FilterName = Literal["default", "paper"]
+Dip = Literal["coupled", "free"]
+_UNITS = {"_deg_s": "deg/s", "_mm_s": "mm/s", "_deg": "deg", "_mm": "mm", "_px": "px", "_s": "s"}
+"""By the end of a column's name."""
 
 
 @dataclass(frozen=True, slots=True)
 class Wrist:
     """The wrist of one picture, degrees: + radial, + flexion, + supination on both hands; ``*_sd_deg`` their standard
-    deviations. ``position_m`` (3,) and ``rotation_w2_w0`` (3, 3) of W2 in W0. NaN where the hand is lost."""
+    deviations. ``position_m`` (3,), ``rotation_w2_w0`` (3, 3) and ``velocity_m_s`` (3,) of W2 in W0;
+    ``angular_velocity_deg_s`` (3,) in W2, which the papers' filter has none of. NaN where the hand is lost."""
 
     deviation_deg: float
     flexion_deg: float
@@ -60,6 +68,8 @@ class Wrist:
     pronosupination_sd_deg: float
     position_m: FloatArray
     rotation_w2_w0: FloatArray
+    velocity_m_s: FloatArray
+    angular_velocity_deg_s: FloatArray
 
 
 @dataclass(frozen=True, slots=True)
@@ -67,8 +77,9 @@ class HandFrame:
     """One picture as tracked, without looking back.
 
     ``time_s`` as in the recording; ``status`` tracked, predicted, lost or doubtful; ``joint_names`` (J,) with
-    ``joint_angles_deg`` and ``joint_angles_sd_deg`` (J,), empty for six discs; ``marker_names`` (M,) with
-    ``marker_position_cam_m`` (M, 3) in camera axes and ``marker_measured`` (M,) whether each disc was seen.
+    ``joint_angles_deg``, ``joint_angles_sd_deg`` and ``joint_velocity_deg_s`` (J,), empty for six discs;
+    ``marker_names`` (M,) with ``marker_position_cam_m`` (M, 3) in camera axes and ``marker_measured`` (M,) whether each
+    disc was seen.
     """
 
     time_s: float
@@ -77,6 +88,7 @@ class HandFrame:
     joint_names: tuple[str, ...]
     joint_angles_deg: FloatArray
     joint_angles_sd_deg: FloatArray
+    joint_velocity_deg_s: FloatArray
     marker_names: tuple[str, ...]
     marker_position_cam_m: FloatArray
     marker_measured: BoolArray
@@ -115,41 +127,122 @@ class OpenedSession(Session):
     """A session with its tables, measures and provenance beside its arrays."""
 
     def tables(self) -> Mapping[str, Any]:
-        """``wrist``, ``joints``, ``markers``, ``events``, ``measures``: tidy, units in the names, NaN for unknown; as
-        pandas' data frames where that is installed, else as columns by name."""
-        found: dict[str, Any] = dict(tables(self))
-        rows = [asdict(row) for row in self.measures()]
+        """``wrist``, ``joints``, ``markers``, ``events``, ``repetitions``, ``measures``: tidy, NaN for unknown; as
+        pandas' data frames where that is installed, else as columns by name.
+
+        A data frame over time has the time after the first picture as its index (:class:`pandas.TimedeltaIndex`), and
+        ``attrs["units"]`` says the unit of every column that has one.
+        """
+        figures = self._figures()
+        found: dict[str, Any] = dict(tables(self)) | {"repetitions": repetition_table(self, figures)}
+        rows = [asdict(row) for row in measure_rows(figures, self.path.stem)]
         found["measures"] = {name: [row[name] for row in rows] for name in rows[0]} if rows else {}
         try:
             import pandas
         except ModuleNotFoundError:
             return found
-        return {name: pandas.DataFrame(columns) for name, columns in found.items()}
+        return {name: _framed(pandas, columns, self) for name, columns in found.items()}
 
     def measures(self) -> Sequence[Any]:
         """Every figure with its unit, as :class:`core.output.measures_table.MeasureRow`, of the repetitions that count:
         what a person left out or moved in the review is kept beside the file."""
-        figures = replace(session_figures(self, read_choices(self.path)), camera=camera_of(self))
-        return measure_rows(figures, self.path.stem)
+        return measure_rows(self._figures(), self.path.stem)
+
+    def _figures(self) -> SessionFigures:
+        return replace(session_figures(self, read_choices(self.path)), camera=camera_of(self))
 
     def provenance(self) -> Mapping[str, Any]:
         """Of what, by what and with what it was made."""
         return provenance(self, __version__)
 
 
-def track(path: str | Path, clicks: str | Path | ProposedClicks, **settings: Any) -> Iterator[HandFrame]:
+def track(
+    path: str | Path,
+    clicks: str | Path | ProposedClicks,
+    *,
+    filter: FilterName = "default",
+    dip: Dip = "coupled",
+    use_depth: bool = True,
+    profile: Profile = "standard",
+    **settings: Any,
+) -> Iterator[HandFrame]:
     """Track a stored recording picture by picture, as they come.
 
-    ``clicks`` is the file of first-frame clicks, or what :func:`propose_clicks` gave; ``settings`` are those of
-    :class:`core.tracking.settings.TrackerSettings`, for example ``dip="free"`` or ``profile="slow"``. Raises a
-    :class:`core.errors.CarpusFault` that says what is wrong with a file, ``SettingsInvalid`` for an unknown setting.
+    ``clicks`` is the file of first-frame clicks, or what :func:`propose_clicks` gave; ``filter="paper"`` is the papers'
+    method, as ``carpus track --filter paper``: colour alone, end joints coupled, angles in the hand paper's ZYX.
+    Further ``settings`` are those of :class:`core.tracking.settings.TrackerSettings`. Raises a
+    :class:`core.errors.CarpusFault` that says what is wrong with a file, and at once ``SettingsInvalid`` for a setting
+    that is unknown or has a value that it cannot have.
     """
-    unknown = sorted(set(settings) - set(TrackerSettings.__dataclass_fields__))
-    if unknown:
-        raise SettingsInvalid("carpus.track", ", ".join(unknown))
-    chosen = replace(TrackSettings(), tracker=replace(TrackerSettings(), **settings), smooth=False)
+    chosen = _chosen("carpus.track", filter, settings | {"dip": dip, "use_depth": use_depth, "profile": profile})
+    return _tracked(Path(path), clicks, replace(chosen, smooth=False))
+
+
+def write_session(
+    path: str | Path,
+    clicks: str | Path | ProposedClicks,
+    output: str | Path,
+    *,
+    subject_id: str = "",
+    exercise: str = "",
+    smooth: bool = True,
+    filter: FilterName = "default",
+    dip: Dip = "coupled",
+    use_depth: bool = True,
+    profile: Profile = "standard",
+    **settings: Any,
+) -> OpenedSession:
+    """Track a stored recording into a session file that is new, as ``carpus track`` does; the session, opened.
+
+    ``exercise`` by its id (``WRIST_FE``) has its repetitions counted; the rest as in :func:`track`.
+    """
+    where = "carpus.write_session"
+    _check(where, "smooth", smooth, True)
+    if exercise:
+        _check(where, "exercise", exercise, "", [known.id for known in EXERCISES])
+    chosen = _chosen(where, filter, settings | {"dip": dip, "use_depth": use_depth, "profile": profile})
     told = clicks.clicks() if isinstance(clicks, ProposedClicks) else read_clicks(Path(clicks))
-    source = open_recording(Path(path), need_depth=chosen.tracker.use_depth)
+    source = open_recording(Path(path), need_depth=chosen.paper is None and use_depth)
+    try:
+        track_recording(
+            source, told, Path(output), replace(chosen, smooth=smooth), software_version=__version__,
+            subject_id=subject_id, exercise=exercise, path=Path(path),
+        )  # fmt: skip
+    finally:
+        source.close()
+    return open_session(output)
+
+
+def _chosen(where: str, method: str, wanted: Mapping[str, Any]) -> TrackSettings:
+    """Checked settings. Raises :class:`SettingsInvalid` with one sentence."""
+    _check(where, "filter", method, "default", get_args(FilterName))
+    known = TrackerSettings()
+    choices = {"dip": get_args(Dip), "profile": get_args(Profile)}
+    for name, value in wanted.items():
+        if name not in TrackerSettings.__dataclass_fields__:
+            raise SettingsInvalid(where, f"it has no setting {name}")
+        _check(where, name, value, getattr(known, name), choices.get(name, ()))
+    if method == "paper":
+        if others := [name for name in wanted if name != "profile" and wanted[name] != getattr(known, name)]:
+            raise SettingsInvalid(where, f"the papers' filter knows no {others[0]}")
+        return TrackSettings(smooth=False, paper=PaperSettings.for_profile(wanted["profile"]))
+    return TrackSettings(tracker=replace(known, **wanted))
+
+
+def _check(where: str, name: str, value: object, usual: object, choices: Sequence[str] = ()) -> None:
+    """Raise :class:`SettingsInvalid` for a value of another kind than the usual one, or none of the choices."""
+    if choices and value not in choices:
+        allowed = " or ".join(repr(choice) for choice in choices)
+        raise SettingsInvalid(where, f"{name} is {value!r}, {allowed} expected")
+    number = isinstance(value, (int, float)) and not isinstance(value, bool) and math.isfinite(value)
+    fits = number if isinstance(usual, float) else isinstance(value, type(usual))
+    if not fits:
+        raise SettingsInvalid(where, f"{name} is {value!r}, such a value as {usual!r} expected")
+
+
+def _tracked(path: Path, clicks: str | Path | ProposedClicks, chosen: TrackSettings) -> Iterator[HandFrame]:
+    told = clicks.clicks() if isinstance(clicks, ProposedClicks) else read_clicks(Path(clicks))
+    source = open_recording(path, need_depth=chosen.paper is None and chosen.tracker.use_depth)
     try:
         frames = source.frames()
         opening: list[Frame] = []
@@ -157,37 +250,59 @@ def track(path: str | Path, clicks: str | Path | ProposedClicks, **settings: Any
             opening.append(frame)
             if frame.timestamp_s - opening[0].timestamp_s > chosen.calibration.still_s:
                 break
-        outcome = calibrate(told, opening, source.info.camera, chosen.calibration, chosen.detection)
+        camera = source.info.camera
+        outcome = calibrate(told, opening, camera, chosen.calibration, chosen.detection)
         ends_s = opening[outcome.capture_frames - 1].timestamp_s
-        learnt = learnt_from(outcome.noise, ends_s, chosen.tracker)
-        walk = build_walk(outcome, source.info.camera, chosen, learnt, keep_history=False)
-        names = told.protocol.joint_names(chosen.tracker.dip == "free")
+        walk = walk_of(outcome, camera, chosen, learnt_from(outcome.noise, ends_s, chosen.tracker))
+        names = told.protocol.joint_names(chosen.paper is None and chosen.tracker.dip == "free")
         for frame in from_neutral(chain(opening, frames), walk.tracker, ends_s, lambda each: each.timestamp_s):
-            found = walk(frame)
-            deviation, flexion, pronosupination = np.degrees(found.moment.angles_rad).tolist()
-            sd = np.degrees(found.moment.angles_sd_rad).tolist()
-            yield HandFrame(
-                found.timestamp_s,
-                TrackStatus(found.status).name.lower(),
-                Wrist(
-                    deviation,
-                    flexion,
-                    pronosupination,
-                    sd[0],
-                    sd[1],
-                    sd[2],
-                    found.moment.position_m,
-                    found.moment.rotation_w2_w0,
-                ),
-                tuple(names),
-                np.degrees(found.moment.joint_angles_rad),
-                np.degrees(found.moment.joint_angles_sd_rad),
-                told.protocol.markers,
-                found.marker_position_cam_m,
-                np.isfinite(found.marker_measured_px[:, 0]),
-            )
+            yield _hand_frame(walk(frame), names, told.protocol.markers)
     finally:
         source.close()
+
+
+def _hand_frame(found: TrackedFrame, joint_names: Sequence[str], markers: tuple[str, ...]) -> HandFrame:
+    moment = found.moment
+    deviation, flexion, pronosupination = np.degrees(moment.angles_rad).tolist()
+    deviation_sd, flexion_sd, pronosupination_sd = np.degrees(moment.angles_sd_rad).tolist()
+    return HandFrame(
+        found.timestamp_s,
+        TrackStatus(found.status).name.lower(),
+        Wrist(
+            deviation,
+            flexion,
+            pronosupination,
+            deviation_sd,
+            flexion_sd,
+            pronosupination_sd,
+            moment.position_m,
+            moment.rotation_w2_w0,
+            moment.velocity_m_s,
+            np.degrees(moment.angular_velocity_rad_s),
+        ),
+        tuple(joint_names),
+        np.degrees(moment.joint_angles_rad),
+        np.degrees(moment.joint_angles_sd_rad),
+        np.degrees(moment.joint_velocity_rad_s),
+        markers,
+        found.marker_position_cam_m,
+        np.isfinite(found.marker_measured_px[:, 0]),
+    )
+
+
+def _framed(pandas: Any, columns: Mapping[str, Any], session: Session) -> Any:
+    """A table as a data frame, with the time after the first picture as its index where it has times."""
+    frame = pandas.DataFrame(columns)
+    frame.attrs["units"] = {
+        name: unit
+        for name in frame.columns
+        if (unit := next((unit for end, unit in _UNITS.items() if name.endswith(end)), ""))
+    }
+    if "timestamp_s" in columns or "start_s" in columns:
+        first_s = session.timestamp_s[0] if len(session) else 0.0
+        after_s = columns["timestamp_s"] - first_s if "timestamp_s" in columns else columns["start_s"]
+        frame.index = pandas.to_timedelta(np.round(np.asarray(after_s, dtype=np.float64), 6), unit="s").rename("time")
+    return frame
 
 
 def open_session(path: str | Path) -> OpenedSession:
@@ -197,12 +312,6 @@ def open_session(path: str | Path) -> OpenedSession:
     session = reader.read_session(Path(path))
     note("opened", Path(path), session.header.session_id)
     return OpenedSession(**{field.name: getattr(session, field.name) for field in fields(Session)})
-
-
-def unlock(folder: str | Path, pin: str) -> None:
-    """Give the PIN (or recovery code) of an encrypted data folder, whose sessions can then be opened until this process
-    ends. Raises :class:`core.errors.KeyRefused`."""
-    keys.unlock(Path(folder), pin)
 
 
 def propose_clicks(
@@ -218,6 +327,7 @@ def propose_clicks(
     ``frame`` is a recording (its first picture counts), a :class:`Frame`, or a picture (H, W, 3) uint8 RGB with its
     ``depth`` (H, W) uint16 in ``depth_unit_m`` if there is one. Markers without a likely disc are left out.
     """
+    _check("carpus.propose_clicks", "hand", hand, "right", get_args(Side))
     markers = protocol_named(protocol)
     if isinstance(frame, (str, Path)):
         source = open_recording(Path(frame), need_depth=False)
@@ -276,11 +386,14 @@ def compare(
     """How far a session agrees with C3D, TRC, MOT, a CSV table or list of readings, or another session.
 
     ``columns`` angle (or ``time``) to column, a minus before it turns its sign; ``markers`` disc to marker. Of each of
-    ``pairs``: ``figures_deg`` with bias, limits, rmse, correlation, icc, cmc.
+    ``pairs``: ``figures_deg`` with bias, limits, rmse, correlation, icc, cmc. Readings without a time are compared with
+    the repetitions that count: what a person left out of them is left out here.
     """
+    _check("carpus.compare", "smoothed", smoothed, False)
+    _check("carpus.compare", "most_shift_s", most_shift_s, MOST_SHIFT_S)
     result = compare_files(
         Path(session), Path(reference), columns=columns, markers=markers, radians=radians, smoothed=smoothed,
-        most_shift_s=most_shift_s,
+        most_shift_s=most_shift_s, choices=read_choices(Path(session)),
     )  # fmt: skip
     return result.compared
 

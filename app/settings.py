@@ -25,7 +25,6 @@ from carpus.core.errors import CarpusFault, OutputNotWritable, SettingsInvalid
 from carpus.core.phrase import phrase
 from carpus.core.pipeline.live import LiveSettings
 from carpus.core.pipeline.track import TrackSettings
-from carpus.core.session.register import default_data_folder
 from carpus.core.session.values import ANGLE_ORDERS as ANGLE_ORDERS
 from carpus.core.session.values import AngleOrder
 from carpus.core.tracking.settings import TrackerSettings
@@ -101,13 +100,19 @@ class BackupSettings:
 
 @dataclass(frozen=True, slots=True)
 class RecordsSettings:
-    """``retention_years`` for which records must be kept, 0 for not set: laws differ."""
+    """``retention_years`` for which records must be kept, 0 for not set: laws differ. ``url`` of a clinic's PostgreSQL
+    (``postgresql://user@host/carpus``), empty for this computer alone; ``sessions`` a folder that all its computers
+    share, empty for the data folder's own."""
 
     retention_years: int = 0
+    url: str = ""
+    sessions: str = ""
 
     def __post_init__(self) -> None:
         if not 0 <= self.retention_years <= 100:
             raise ValueError(f"retention_years {self.retention_years} is not between 0 and 100")
+        if self.url and not self.url.startswith(("postgresql://", "postgres://")):
+            raise ValueError("url is not one of a PostgreSQL server, such as postgresql://user@host/carpus")
 
 
 @dataclass(frozen=True, slots=True)
@@ -171,6 +176,16 @@ class Settings:
         """Where patients and sessions are; ``CARPUS_DATA`` goes over the setting."""
         named = os.environ.get(DATA_VARIABLE) or self.recording.folder
         return _path(named) if named else default_data_folder()
+
+
+def default_data_folder() -> Path:
+    """Where patients and sessions belong on this system."""
+    return Path(platformdirs.user_data_dir("carpus", appauthor=False))
+
+
+def sessions_folder(settings: Settings) -> Path | None:
+    """The shared folder of the sessions; None for the data folder's own."""
+    return _path(settings.records.sessions) if settings.records.sessions else None
 
 
 def settings_folder() -> Path:

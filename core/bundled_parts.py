@@ -14,8 +14,6 @@ _LICENCE_NAMES = ("LICEN", "COPYING", "NOTICE", "AUTHORS")
 _FOLDERS = ("licences", "fonts", "icons")
 """Of the resources: what was packed with the program, the typeface, the icons."""
 _LONGEST_EXPRESSION = 80
-_UNSAID = {"sqlcipher3": "Zlib; in it SQLCipher (BSD-3-Clause) and OpenSSL (Apache-2.0)"}
-"""Of packages whose metadata names no licence."""
 PACKED_TEXTS = "licences.txt"
 """Beside the program, where it was packed with its own Python."""
 
@@ -80,10 +78,11 @@ def _licence(found: Distribution) -> str:
     said = next(iter((*(says("License-Expression") or ()), *(says("License") or ()))), "")
     if said and len(said) <= _LONGEST_EXPRESSION and "\n" not in said:
         return said
-    if _normal(found.metadata["Name"]) in _UNSAID:
-        return _UNSAID[_normal(found.metadata["Name"])]
     kinds = [line for line in says("Classifier") or () if line.startswith("License ::")]
-    return ", ".join(kind.rpartition(":: ")[2] for kind in kinds)
+    if kinds:
+        return ", ".join(kind.rpartition(":: ")[2] for kind in kinds)
+    title = next(_texts(found), "").strip().partition("\n")[0]  # as its text calls itself
+    return title if len(title) <= _LONGEST_EXPRESSION else ""
 
 
 def _texts(found: Distribution) -> Iterator[str]:

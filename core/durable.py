@@ -45,6 +45,7 @@ def replace_file(path: Path, write: Callable[[Path], object]) -> None:
     try:
         part.unlink(missing_ok=True)  # of a program that was killed
         write(part)
+        part.chmod(0o600)
         part.replace(path)
     except OSError as cause:
         raise write_fault(path, cause) from cause

@@ -130,8 +130,24 @@ class SettingsInvalid(CarpusFault):
     """A settings file has an unknown key or a value out of range."""
 
 
-class SetsUnreadable(CarpusFault):
-    """The file of the therapist's own sets of exercises cannot be read."""
+class ChangedMeanwhile(CarpusFault):
+    """Somebody else changed the same thing since it was read; ``subject`` is its table."""
+
+
+class ChangeRefused(CarpusFault):
+    """The clinic's server does not take a change that was made here; ``detail`` says why."""
+
+
+class PseudonymGiven(CarpusFault):
+    """A pseudonym was given twice while the server was away; the number ``detail`` was put behind the second one."""
+
+
+class ServerGone(CarpusFault):
+    """The clinic's server for records does not answer; what is changed waits for it."""
+
+
+class NameUnsuited(CarpusFault):
+    """A text cannot be a pseudonym or a name: it holds a sign that cannot be seen, or is too long."""
 
 
 class DriverMissing(CarpusFault):
@@ -140,6 +156,14 @@ class DriverMissing(CarpusFault):
 
 class DriverFailed(CarpusFault):
     """The library of a camera died or no longer answers; it ran in a process of its own."""
+
+
+class PracticeBeingDrawn(CarpusFault):
+    """The movement of the practice patient is not drawn yet."""
+
+
+class CameraUnknown(CarpusFault):
+    """No kind of camera has this name."""
 
 
 class CameraMissing(CarpusFault):
@@ -218,6 +242,10 @@ class RegisterUnreadable(CarpusFault):
     """The register of patients cannot be opened, is damaged, or was written by a newer Carpus."""
 
 
+class RegisterBusy(RegisterUnreadable):
+    """Another program, mostly the window of Carpus, holds the list of patients."""
+
+
 class RegisterDamaged(RegisterUnreadable):
     """The register's file is broken or not a register; reading it again does not help."""
 
@@ -258,28 +286,12 @@ class FolderInUse(CarpusFault):
     """Another Carpus has the data folder open and does not answer."""
 
 
-class EncryptionMissing(CarpusFault):
-    """The library that encrypts is not installed."""
+class SessionsMissing(CarpusFault):
+    """A folder holds no session."""
 
 
-class FolderLocked(CarpusFault):
-    """A file is encrypted, and its folder's PIN is not known here."""
-
-
-class KeyRefused(CarpusFault):
-    """Neither the PIN nor the recovery code of the folder's key, or its key files are damaged."""
-
-
-class ContentDamaged(CarpusFault):
-    """An encrypted file does not fit its check sums or its key."""
-
-
-class ContentUnequal(CarpusFault):
-    """What was written in place of a file is not what was in it; the file is as it was."""
-
-
-class EncryptionUnfinished(CarpusFault):
-    """Some files could not be encrypted or decrypted; ``subject`` names the first, ``detail`` counts them."""
+class PatientUnknown(CarpusFault):
+    """No patient has this pseudonym."""
 
 
 class PseudonymTaken(CarpusFault):
@@ -292,6 +304,22 @@ class ErasureUnfinished(CarpusFault):
 
 class BackupPlaceUnsuited(CarpusFault):
     """The folder for back-ups cannot be one."""
+
+
+class BackupIncomplete(CarpusFault):
+    """Told after a back-up: ``subject`` is missing or cannot be read, and so are ``detail`` files in all."""
+
+
+class PassphraseUnfit(CarpusFault):
+    """What was typed cannot seal a file: ``detail`` says why."""
+
+
+class SealRefused(CarpusFault):
+    """A sealed file does not open: another passphrase, or damaged."""
+
+
+class TooLargeToSeal(CarpusFault):
+    """More than can be sealed as one file; ``detail`` says how much."""
 
 
 class BackupUnequal(CarpusFault):

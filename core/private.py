@@ -2,13 +2,39 @@
 
 from __future__ import annotations
 
+import contextlib
 import os
 from pathlib import Path
 
+from carpus.core.errors import OutputNotWritable
+
 
 def private(name: str, flags: int) -> int:
-    """An opener for :func:`open`: a file that it makes can be read and written by its owner alone."""
-    return os.open(name, flags, 0o600)
+    """An opener for :func:`open`: a file that it opens to write can be read and written by its owner alone, whatever
+    the umask takes or gives."""
+    descriptor = os.open(name, flags, 0o600)
+    if flags & os.O_CREAT and hasattr(os, "fchmod"):
+        with contextlib.suppress(OSError):  # a disk without rights, or another's file that may be written
+            os.fchmod(descriptor, 0o600)
+    return descriptor
+
+
+def make_private(folder: Path) -> None:
+    """Make a folder that only its owner may enter. Raises :class:`OutputNotWritable`."""
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+        folder.chmod(0o700)
+    except OSError as cause:
+        raise OutputNotWritable(folder, cause.strerror or "") from cause
+
+
+def make_private_file(path: Path) -> None:
+    """An empty file for its owner only, unless it is there already. Raises :class:`OutputNotWritable`."""
+    try:
+        os.close(os.open(path, os.O_RDWR | os.O_CREAT, 0o600))
+        path.chmod(0o600)
+    except OSError as cause:
+        raise OutputNotWritable(path, cause.strerror or "") from cause
 
 
 def is_still_there(descriptor: int, path: Path) -> bool:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import math
 from collections import Counter
 from dataclasses import replace
 from pathlib import Path
@@ -53,6 +54,7 @@ def session_summary(session: Session, choices: RepetitionChoices | None = None) 
         *_frames(session.timestamp_s, np.maximum(quality.dropped_before, 0)),
         _line("Tracking", _shares(session)),
         *_ranges(session, choices),
+        *repetition_lines(session, choices),
         *_calibration(session),
         _line("Camera", camera_text(session.camera) + _calibrated(header.parameters)),
         _line("Sensor", sensor_text(session.camera.sensor)),
@@ -198,6 +200,24 @@ def range_lines(session: Session, choices: RepetitionChoices | None = None) -> l
         if of.counted:
             text += ", of 1 repetition" if of.counted == 1 else f", mean of {of.counted} repetitions"
         lines.append(f"  {name:<18} {text}" + (LIMITED if rows["arc"].limited else ""))
+    return lines
+
+
+def repetition_lines(session: Session, choices: RepetitionChoices | None = None) -> list[str]:
+    """One line for each repetition, as the review counts it; none where nothing is counted."""
+    lines = []
+    for number, one in enumerate(session_figures(session, choices).repetitions, 1):
+        if (row := one.row) is None:
+            continue
+        parts = [f"{row.start_s:.2f} to {row.end_s:.2f} s, arc {math.degrees(row.arc_rad):.1f} deg"]
+        if math.isfinite(row.peak_speed_rad_s):
+            parts.append(f"peak {math.degrees(row.peak_speed_rad_s):.0f} deg/s")
+        if math.isfinite(row.sparc):
+            parts.append(f"SPARC {row.sparc:.2f}")
+        if row.pauses > 0:
+            parts.append(f"{row.pauses:.0f} stops of {row.pause_s:.1f} s in all")
+        parts += [] if row.counted else [f"not counted: {row.reason}"]
+        lines.append(_line("Repetition" if number == 1 else "", f"{number}: {', '.join(parts)}"))
     return lines
 
 

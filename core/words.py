@@ -46,7 +46,7 @@ _STORED = phrase("Everything recorded so far is stored on this computer.")
 
 FAULTS: dict[type[CarpusFault], Words] = {
     errors.RecordingMissing: Words(
-        phrase("There is no recording at {subject}."),
+        phrase("There is no recording at {subject} ({detail})."),
         _UNTOUCHED,
         phrase("Check the name and the folder."),
     ),
@@ -121,9 +121,9 @@ FAULTS: dict[type[CarpusFault], Words] = {
         phrase("Choose another name."),
     ),
     errors.ExtraMissing: Words(
-        phrase("This needs carpus[{subject}] ({detail}), which is not installed."),
+        phrase("This needs the Python package {detail} (carpus[{subject}]), which is not installed."),
         _UNTOUCHED,
-        phrase("Install it with pip."),
+        phrase("Install it with the pip of Carpus’s own environment; in a checkout that is “.venv/bin/pip”."),
     ),
     errors.SchedulerUnreachable: Words(
         phrase("The scheduler at {subject} does not answer ({detail})."),
@@ -200,15 +200,42 @@ FAULTS: dict[type[CarpusFault], Words] = {
         _UNTOUCHED,
         phrase("Correct the setting, or take it out to use the usual value."),
     ),
-    errors.SetsUnreadable: Words(
-        phrase("The sets of exercises cannot be read: {subject} ({detail})."),
+    errors.ChangedMeanwhile: Words(
+        phrase("Somebody else has changed this meanwhile, so your change was not kept."),
+        phrase("What the other person entered is kept."),
+        phrase("Open it again, look at what stands there now, and enter your change once more."),
+    ),
+    errors.ChangeRefused: Words(
+        phrase("The clinic’s server {subject} does not take a change ({detail})."),
+        phrase("All other changes arrive; this computer shows what the server has."),
+        phrase("Enter the change once more, or ask whoever looks after the server."),
+    ),
+    errors.PseudonymGiven: Words(
+        phrase(
+            "The name {subject} was given twice while the server was away: the second patient has ({detail}) behind it."
+        ),
+        phrase("All sessions of both patients are kept apart."),
+        phrase("Change the name in the patient’s entry if another one is better."),
+    ),
+    errors.ServerGone: Words(
+        phrase("The clinic’s server for records does not answer: {subject} ({detail})."),
+        phrase("Measure as usual: patients are shown as last known, and what is new waits here and is delivered."),
+        phrase("Nothing need be done; if it lasts, ask whoever looks after the server."),
+    ),
+    errors.NameUnsuited: Words(
+        phrase("This cannot be a name: {detail} ({subject})."),
         _UNTOUCHED,
-        phrase("Single exercises can be measured as ever. Put a copy of the file back, or make the sets anew."),
+        phrase("Type the name by hand instead of pasting it."),
     ),
     errors.RegisterUnreadable: Words(
         phrase("The list of patients cannot be opened: {subject} ({detail})."),
         phrase("The session files are safe; the list can be made again from them, without the names."),
         phrase("Start Carpus again, or move the file away and let Carpus make a new list."),
+    ),
+    errors.RegisterBusy: Words(
+        phrase("The window of Carpus, or another program, has the list of patients open: {subject} ({detail})."),
+        phrase("Nothing has been changed, and nothing is lost."),
+        phrase("Close Carpus first, then try again."),
     ),
     errors.RegisterDamaged: Words(
         phrase("The list of patients is damaged: {subject} ({detail})."),
@@ -262,35 +289,15 @@ FAULTS: dict[type[CarpusFault], Words] = {
         phrase("Nothing has been changed."),
         phrase("Go to the window that is open already, or choose another folder."),
     ),
-    errors.EncryptionMissing: Words(
-        phrase("The part of Carpus that encrypts is not installed here ({detail})."),
+    errors.SessionsMissing: Words(
+        phrase("There is no session in {subject}."),
         phrase("Nothing has been changed."),
-        phrase("Install Carpus anew, with the Python package sqlcipher3."),
+        phrase("Measure one, or name the folder that holds the sessions."),
     ),
-    errors.FolderLocked: Words(
-        phrase("{subject} is encrypted, and its PIN has not been given."),
+    errors.PatientUnknown: Words(
+        phrase("There is no patient {subject} ({detail})."),
         phrase("Nothing has been changed."),
-        phrase("Type the PIN when asked, or set CARPUS_PIN to it."),
-    ),
-    errors.KeyRefused: Words(
-        phrase("This is not the PIN of {subject}, and not its recovery code."),
-        phrase("Nothing has been changed."),
-        phrase("Try again; if the PIN is right, bring the key files (encryption…) back from a back-up."),
-    ),
-    errors.ContentDamaged: Words(
-        phrase("An encrypted file cannot be read: {subject} ({detail})."),
-        phrase("All other files are as they were."),
-        phrase("Bring it back from a back-up."),
-    ),
-    errors.ContentUnequal: Words(
-        phrase("{subject} could not be exchanged: what was read back is not what was written."),
-        phrase("The file is as it was."),
-        phrase("Check this computer’s disk, and back up."),
-    ),
-    errors.EncryptionUnfinished: Words(
-        phrase("Not every file could be encrypted or decrypted: {subject}, {detail} in all."),
-        phrase("These are as they were, and the key is kept."),
-        phrase("See to the disk or bring them back from a back-up; Carpus goes on with them at its next start."),
+        phrase("Choose one of the patients that there are."),
     ),
     errors.PseudonymTaken: Words(
         phrase("The name {subject} belongs to another patient."),
@@ -308,6 +315,26 @@ FAULTS: dict[type[CarpusFault], Words] = {
         phrase("Back-ups cannot lie there: {subject} ({detail})."),
         _UNTOUCHED,
         phrase("Choose a folder on another disk."),
+    ),
+    errors.BackupIncomplete: Words(
+        phrase("The back-up lacks files: {subject} is missing or cannot be read; {detail} in all."),
+        phrase("Everything else is in it."),
+        phrase("Bring the folder of the sessions back or its disk, and back up again; or erase these sessions."),
+    ),
+    errors.PassphraseUnfit: Words(
+        phrase("This passphrase cannot be taken: {detail}."),
+        _UNTOUCHED,
+        phrase("Choose {count} signs or more, best four words.", count=10),
+    ),
+    errors.SealRefused: Words(
+        phrase("{subject} does not open: the passphrase is another one, or the file is damaged."),
+        _UNTOUCHED,
+        phrase("Type the passphrase again, capitals and blanks as they were."),
+    ),
+    errors.TooLargeToSeal: Words(
+        phrase("This is too much to be sealed as one file: {detail} GB."),
+        _UNTOUCHED,
+        phrase("Back up to a folder on an encrypted disk, or seal single sessions."),
     ),
     errors.BackupUnequal: Words(
         phrase("The back-up is damaged: a content read back is not what was written ({subject}, {detail})."),
@@ -360,6 +387,16 @@ FAULTS: dict[type[CarpusFault], Words] = {
         phrase("The driver of the camera has stopped: {subject} ({detail})."),
         _STORED,
         phrase("Unplug the camera, plug it in again and start once more."),
+    ),
+    errors.PracticeBeingDrawn: Words(
+        phrase("The movement of the simulated hand is still being drawn."),
+        phrase("The hand rests until then."),
+        phrase("Wait a moment; it moves by itself."),
+    ),
+    errors.CameraUnknown: Words(
+        phrase("No kind of camera is called {subject} ({detail})."),
+        _NOTHING_YET,
+        phrase("Choose the camera by one of these names, in the settings or with --camera."),
     ),
     errors.CameraMissing: Words(
         phrase("Carpus sees no camera ({detail})."),

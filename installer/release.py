@@ -28,10 +28,10 @@ class NotReleasableError(Exception):
 
 
 def version_of(text: str) -> str:
-    """Of ``carpus.py``, the one place where it stands."""
+    """Of ``carpus/__init__.py``, the one place where it stands."""
     found = re.search(r'^__version__ = "(.+)"', text, re.MULTILINE)
     if found is None:
-        raise NotReleasableError("carpus.py names no version")
+        raise NotReleasableError("carpus/__init__.py names no version")
     return found[1]
 
 
@@ -58,7 +58,7 @@ def check_tree(status: str, tags: str, version: str) -> None:
     if status.strip():
         raise NotReleasableError(f"something is not committed: {status.split()[1]}")
     if f"v{version}" in tags.split():
-        raise NotReleasableError(f"v{version} was released already: raise __version__ in carpus.py")
+        raise NotReleasableError(f"v{version} was released already: raise __version__ in carpus/__init__.py")
 
 
 def checksums(paths: list[Path]) -> str:
@@ -91,7 +91,7 @@ def try_installed(path: Path) -> None:
 
 def release(key: str, *, with_tests: bool) -> list[Path]:
     """All of it; the files."""
-    version = version_of((ROOT / "carpus.py").read_text(encoding="utf-8"))
+    version = version_of((ROOT / "carpus" / "__init__.py").read_text(encoding="utf-8"))
     changes_of((ROOT / "CHANGELOG.md").read_text(encoding="utf-8"), version)
     check_tree(asked("git", "status", "--porcelain"), asked("git", "tag"), version)
     if with_tests:

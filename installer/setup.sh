@@ -18,7 +18,7 @@ say() { printf 'setup: %s\n' "$*"; }
 fail() { printf 'setup: %s\n' "$@" >&2; exit 1; }
 
 # --- done before? -------------------------------------------------------------------------------
-mark() { { pwd; cat "$1" requirements-alone.lock pyproject.toml installer/setup.sh; } | sha256sum | cut -d' ' -f1; }
+mark() { { pwd; cat "$1" requirements-alone.lock requirements-build.lock installer/hashes.lock pyproject.toml installer/setup.sh; } | sha256sum | cut -d' ' -f1; }
 ready() { [ -x .venv/bin/carpus ] && [ "$(cat ".venv/.ready-for-$1" 2>/dev/null)" = "$(mark "$2")" ]; }
 if ready "$purpose" "$lock" || { [ "$purpose" = run ] && ready test requirements-dev.lock; }; then
     exit 0
@@ -65,6 +65,7 @@ programs=""
 pdftotext poppler-utils
 Xvfb xvfb
 xdotool xdotool
+age age
 desktop-file-validate desktop-file-utils
 update-mime-database shared-mime-info
 "
@@ -79,6 +80,19 @@ missing_packages() {
         [ -z "$name" ] || command -v "$name" >/dev/null || echo "$package"
     done <<<"$programs"
     "$python" -c 'import ensurepip, venv' 2>/dev/null || echo python3-venv
+    # The tests start a server of their own: its programs lie beside the path, and nothing of it need run.
+    [ "$purpose" = run ] || ls /usr/lib/postgresql/*/bin/initdb >/dev/null 2>&1 || command -v initdb >/dev/null || echo postgresql
+}
+
+# Long work moves: of what a tool says one line at a time, counted on a terminal, one now and then elsewhere.
+passing() {
+    local terminal=""
+    [ -t 1 ] && terminal=1
+    awk -v pattern="$1" -v name="$2" -v terminal="$terminal" '
+        $0 ~ pattern { count++
+            if (terminal) { printf "\rsetup: %s, step %d: %-60.60s", name, count, $0; fflush() }
+            else if (count % 25 == 1) { printf "setup: %s, step %d\n", name, count; fflush() } }
+        END { if (terminal && count) printf "\n" }'
 }
 
 as_root() { if [ "$(id -u)" = 0 ]; then "$@"; else sudo "$@"; fi; }
@@ -89,9 +103,13 @@ if [ -n "$missing" ]; then
         say "installing system packages by apt-get: $missing"
         export DEBIAN_FRONTEND=noninteractive
         as_root apt-get update -qq || say "the list of packages could not be renewed; going on with the old one"
+        case " $missing " in *" postgresql "*)
+            as_root mkdir -p /etc/postgresql-common/createcluster.d
+            echo "create_main_cluster = false" | as_root tee /etc/postgresql-common/createcluster.d/carpus.conf >/dev/null ;;
+        esac
         # shellcheck disable=SC2086  # a list of words
-        as_root env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends $missing >/dev/null \
-            || say "apt-get did not install everything"
+        as_root env DEBIAN_FRONTEND=noninteractive apt-get install -y -q --no-install-recommends $missing \
+            | passing "^(Get|Unpacking|Setting up)" "apt-get" || say "apt-get did not install everything"
         hash -r
         missing=$(missing_packages | sort -u | tr '\n' ' ')
     fi
@@ -112,9 +130,13 @@ if ! .venv/bin/python -c 'import sys; sys.exit(sys.version_info < (3, 11))' 2>/d
     "$python" -m venv --clear .venv
 fi
 rm -f .venv/.ready-for-*
-say "installing the packages of $lock"
-.venv/bin/python -m pip install --quiet --disable-pip-version-check -r "$lock"
-[ "$purpose" = run ] || .venv/bin/python -m pip install --quiet --disable-pip-version-check --no-deps -r requirements-alone.lock
-.venv/bin/python -m pip install --quiet --disable-pip-version-check --no-deps -e .
+install() { .venv/bin/python -m pip install --disable-pip-version-check --progress-bar off "$@" | passing "^(Collecting|Downloading|Installing)" pip; }
+# Each file must have a hash of installer/hashes.lock; what builds Carpus itself is among them.
+locks=("$lock" requirements-build.lock)
+[ "$purpose" = run ] || locks+=(requirements-alone.lock)
+installer/with_hashes.sh "${locks[@]}" >.venv/locked.txt || fail "nothing was installed."
+say "installing the packages of $lock ($(grep -c == .venv/locked.txt) of them, about a minute)"
+install --require-hashes --no-deps -r .venv/locked.txt
+.venv/bin/python -m pip install --quiet --disable-pip-version-check --no-deps --no-build-isolation -e .
 mark "$lock" >".venv/.ready-for-$purpose"
-say "ready"
+say "ready: .venv/bin/carpus starts it (. .venv/bin/activate, then: carpus)"

@@ -25,11 +25,11 @@ NO_CHOICE = {
         "tracking/ray_filter._FLOOR",
         "tracking/reacquire._LOOSE_M2",
         "tracking/shape_learning._FLOOR_M",
-        "tracking/tracker._NEAREST_M",
+        "tracking/hand_filter._NEAREST_M",
         "tracking/surface_fit._NO_NOISE",
     },
     "mathematics": {
-        "tracking/finger_naming._LOG_2_PI",
+        "tracking/digit_association._LOG_2_PI",
         "tracking/joint_limits._ROOT_2_OVER_PI",
         "tracking/joint_limits._ROOT_HALF",
         "tracking/joint_limits.RANGE_SD_RAD",  # of an even spread over the limits
@@ -79,7 +79,7 @@ NO_CHOICE = {
         "hand/anatomy_prior._DOWN",
         "hand/ray_fitting._DOWN",
         "tracking/finger_depth._DOWN",
-        "tracking/finger_naming._BENDS",
+        "tracking/digit_association._BENDS",
         "tracking/hand_geometry._DOWN",
         "tracking/hand_geometry._FINGER_PHASES",
         "tracking/hand_geometry._FINGER_TURNS",
@@ -99,6 +99,7 @@ NO_CHOICE = {
         "tracking/ray_filter._ROLL",
     },
     "about the line of sight depths tell nothing: a rank, which no figure hangs on": {"tracking/readout._TILT_KNOWN"},
+    "what is home keeps nothing: any time far below a frame's": {"tracking/soft_tissue._AT_ONCE_S"},
     "half of a picture's weight now and half right after": {"tracking/disc_anew._TWICE"},
 }
 """Numbers of modules that are no setting, by the reason."""

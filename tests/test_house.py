@@ -55,7 +55,8 @@ def declared(*extras: str) -> set[str]:
 
 def pinned(lock: str) -> dict[str, str]:
     lines = (ROOT / lock).read_text(encoding="utf-8").splitlines()
-    return dict(line.split("#")[0].strip().split("==") for line in lines if line.split("#")[0].strip())
+    pins = (line.split("#")[0].strip().split("==") for line in lines if line.split("#")[0].strip())
+    return {name.partition("[")[0]: version for name, version in pins}
 
 
 def test_every_import_is_declared_as_a_run_time_need() -> None:
@@ -88,7 +89,7 @@ def test_core_loads_no_window_and_no_command_line() -> None:
     names = [
         ".".join(("carpus", *path.relative_to(ROOT).with_suffix("").parts))
         for path in modules()
-        if path.is_relative_to(ROOT / "core")
+        if path.is_relative_to(ROOT / "core") and "migrations" not in path.parts  # which only Alembic runs
     ]
     program = "import importlib, sys\n" + "".join(f"importlib.import_module({name!r})\n" for name in names)
     program += "print(sorted({'PySide6', 'shiboken6', 'pyqtgraph'} & set(sys.modules)))"
@@ -101,7 +102,7 @@ def test_readme_tells_the_two_commands_and_contributing_has_the_map() -> None:
     assert LEGAL_SENTENCE in " ".join(text.replace("> ", "").split())
     assert "make run" in text
     assert "make test" in text
-    assert "## Limits" in text
+    assert "What the camera cannot see is reported" in " ".join(text.split())
     house = (ROOT / "CONTRIBUTING.md").read_text(encoding="utf-8")
     for package in sorted((ROOT / "core").iterdir()):
         if (package / "__init__.py").exists():

@@ -3,16 +3,23 @@
 from __future__ import annotations
 
 import os
+import re
+import shutil
 import subprocess
 import sys
+import sysconfig
 import tarfile
 import zipfile
+from email import message_from_string
 from pathlib import Path
 
 import pytest
 
+from carpus import __version__
+
 ROOT = Path(__file__).parents[1]
 PARTS = ("app", "core", "ui", "resources")
+FACE = {"carpus/__init__.py", "carpus/__main__.py", "carpus/py.typed"}
 REVISION = "carpus/resources/revision.txt"
 
 
@@ -47,19 +54,31 @@ def test_a_wheel_holds_the_program_and_nothing_beside_it(wheel: Path) -> None:
     program = {name for name in names if ".dist-info/" not in name}
     expected = parts_of_the_checkout()
     assert len(expected) > 300
-    assert program == expected | {"carpus/__init__.py", "carpus/__main__.py", "carpus/py.typed", REVISION}
+    assert program == expected | FACE | {REVISION}
 
 
-def test_a_source_archive_holds_all_that_a_wheel_is_built_of(tmp_path: Path) -> None:
-    """Also after ``make lint``, which links to the parts from another folder."""
+def test_a_source_archive_holds_all_that_a_wheel_is_built_of(wheel: Path, tmp_path: Path) -> None:
+    """The wheel that is built from it is the one that a checkout builds, though its parts are no links there."""
     build = f"from hatchling.build import build_sdist; print(build_sdist({str(tmp_path)!r}))"
     subprocess.run([sys.executable, "-c", build], cwd=ROOT, check=True, capture_output=True)
     (path,) = tmp_path.glob("*.tar.gz")
     with tarfile.open(path) as archive:
         names = {name.partition("/")[2] for name in archive.getnames()}
-    assert {f"carpus/{name}" for name in names} >= parts_of_the_checkout()
-    assert names >= {"carpus.py", "installer/wheel_layout.py", "requirements.lock"}
-    assert not [name for name in names if name.startswith(("build/", "dist/", ".venv/", ".ci/"))]
+        archive.extractall(tmp_path, filter="data")
+    assert names >= parts_of_the_checkout() | FACE | {"requirements.lock"}
+    assert not [name for name in names if name.startswith(("build/", "dist/", ".venv/", ".ci/", *PARTS))]
+    (unpacked,) = (folder for folder in tmp_path.iterdir() if folder.is_dir())
+    again = f"from hatchling.build import build_wheel; print(build_wheel({str(tmp_path)!r}))"
+    subprocess.run([sys.executable, "-c", again], cwd=unpacked, check=True, capture_output=True)
+    with zipfile.ZipFile(wheel) as first, zipfile.ZipFile(next(tmp_path.glob("*.whl"))) as second:
+        assert set(first.namelist()) == set(second.namelist())
+
+
+def test_the_parts_are_links_that_every_tool_follows() -> None:
+    for part in PARTS:
+        link = ROOT / "carpus" / part
+        assert link.is_symlink()
+        assert link.readlink() == Path("..") / part
 
 
 def carpus(installed: Path, folder: Path, *arguments: str) -> str:
@@ -100,3 +119,68 @@ def test_the_installed_program_runs_in_any_folder(installed: Path, tmp_path: Pat
     carpus(installed, tmp_path, "simulate", "--output", "r", "--seconds", "0.5", "--seed", "3")
     carpus(installed, tmp_path, "track", "r", "--calibration", "r/calibration.json", "--output", "s.h5")
     assert "\nFrames       15 " in carpus(installed, tmp_path, "info", "s.h5")
+
+
+def test_metadata_says_licences_extras_and_what_starts_it_and_no_address_that_nobody_has(wheel: Path) -> None:
+    with zipfile.ZipFile(wheel) as archive:
+        (folder,) = {name.partition("/")[0] for name in archive.namelist() if ".dist-info/" in name}
+        told = message_from_string(archive.read(f"{folder}/METADATA").decode())
+        scripts = archive.read(f"{folder}/entry_points.txt").decode()
+        names = set(archive.namelist())
+    assert told["License-Expression"] == "MIT AND OFL-1.1 AND ISC"
+    for path in told.get_all("License-File", []):
+        assert f"{folder}/licenses/{path}" in names
+    assert len(told.get_all("License-File", [])) == 3
+    assert set(told.get_all("Provides-Extra", [])) == {"cluster", "tables", "stream", "mkv", "realsense"}
+    assert "[console_scripts]\ncarpus =" in scripts
+    assert "[gui_scripts]\ncarpus-window =" in scripts
+    assert not [url for url in told.get_all("Project-URL", []) if "example" in url or "carpus" in url.lower()]
+    assert told["Author-email"] is None
+
+
+@pytest.fixture(scope="module")
+def empty(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A copy of the checkout as git has it, with no environment in it."""
+    folder = tmp_path_factory.mktemp("checkout") / "carpus"
+    listed = subprocess.run(["git", "ls-files", "-z"], cwd=ROOT, check=True, capture_output=True).stdout
+    for name in filter(None, listed.decode().split("\0")):
+        if not name.startswith(("tests/", "resources/guide/")) and (path := ROOT / name).exists():
+            (folder / name).parent.mkdir(parents=True, exist_ok=True)
+            shutil.copyfile(path, folder / name, follow_symlinks=False)
+    return folder
+
+
+def install_lines(*pages: str) -> list[str]:
+    """What the pages tell a person to type for installing, each line once."""
+    text = "\n".join((ROOT / page).read_text(encoding="utf-8") for page in pages)
+    found = re.findall(r"^(?:python3 -m venv \.venv && )?\.venv/bin/pip install .+$|`(pip install [^`]+)`", text, re.M)
+    whole = re.findall(r"^python3 -m venv \.venv && \.venv/bin/pip install .+$", text, re.M)
+    return list(dict.fromkeys([*whole, *filter(None, found)]))
+
+
+def test_install_lines_work_as_written(empty: Path) -> None:
+    """Each in an empty environment; what Carpus needs comes from where these tests have it, not from the net."""
+    lines = install_lines("README.md", "resources/camera.md")
+    assert any("venv" in line for line in lines)
+    assert any("[realsense]" in line for line in lines)
+    path = os.pathsep.join([f"{empty}/.venv/bin", str(Path(sys.executable).parent), os.environ["PATH"]])
+    pip = {"PIP_NO_DEPS": "1", "PIP_NO_INDEX": "1", "PIP_NO_BUILD_ISOLATION": "0", "PIP_DISABLE_PIP_VERSION_CHECK": "1"}
+    environment = os.environ | pip | {"PYTHONPATH": sysconfig.get_path("purelib"), "PATH": path}
+    for line in sorted(lines, key=lambda line: "venv" not in line):
+        if "pyorbbecsdk2" in line:
+            continue  # no line for Carpus itself
+        done = subprocess.run(
+            ["sh", "-c", line], cwd=empty, env=environment, capture_output=True, text=True, check=False
+        )
+        assert done.returncode == 0, (line, done.stderr)
+        assert "does not provide the extra" not in done.stdout + done.stderr, line
+    for name in ("carpus", "carpus-window"):
+        told = subprocess.run(
+            [empty / ".venv/bin" / name, "--version"],
+            cwd=empty,
+            env=environment,
+            capture_output=True,
+            text=True,
+            check=True,
+        )
+        assert told.stdout == f"carpus {__version__}\n"

@@ -123,6 +123,11 @@ def day_beside(when: datetime, *others: datetime) -> str:
     return f"{day_month(when)}, {when:%H:%M}" if same else day_month(when)
 
 
+def since(when: datetime, now: datetime) -> str:
+    """``13 Nov``, or ``15:29`` of the same day: short, for the head of a column."""
+    return f"{when:%H:%M}" if when.date() == now.date() else day_month(when)
+
+
 def room_left(minutes: float) -> str:
     """How long a disk takes recordings: ``8 min``, ``17 h``, ``more than 99 h``."""
     if minutes < 600.0:

@@ -140,6 +140,10 @@ class SessionShelf(Protocol):
         """Identity and pseudonym of everybody else."""
         ...
 
+    def archived(self, patient_id: str) -> int:
+        """How many sessions of the patient are in the archive."""
+        ...
+
     def set_aside(self, session_id: str, reason: str) -> None:
         """Let a session count nowhere, with the reason; with an empty one let it count again."""
         ...
@@ -149,11 +153,20 @@ class SessionShelf(Protocol):
     def rename_exercise(self, session_id: str, exercise: str) -> None: ...
 
 
+MOST_ROWS = 500
+"""Of patients that are shown at once; of more, searching finds the others."""
+
+
 class PatientStore(Protocol):
     """The register of patients. Names beyond the pseudonym live only behind this port."""
 
-    def patients(self) -> Sequence[PatientRow]:
-        """All rows, newest session first; without the practice patient."""
+    def patients(self, search: str = "") -> Sequence[PatientRow]:
+        """Rows of everybody in whom all words are found, newest session first, :data:`MOST_ROWS` at most; without the
+        practice patient."""
+        ...
+
+    def archived(self) -> Sequence[str]:
+        """Names in Carpus of the patients in the archive, last archived first."""
         ...
 
     def card(self, patient_id: str) -> PatientCard: ...
@@ -188,6 +201,10 @@ class LiveFeed(Protocol):
     def counters(self) -> LiveCounters: ...
 
     def add_event(self, kind: str, text: str = "") -> bool: ...
+
+    def tell(self, kind: str, at_s: float) -> None:
+        """To who listens on the network, not to the file."""
+        ...
 
     def pause_recording(self) -> None: ...
 
@@ -323,6 +340,10 @@ class Calibrator(Protocol):
 
     def discs_seen(self) -> int:
         """How many spots of the held picture look like discs of paper."""
+        ...
+
+    def discs_px(self) -> FloatArray:
+        """Places (D, 2) of all spots of the held picture that look like discs of paper."""
         ...
 
     def hand_area(self) -> FloatArray | None:

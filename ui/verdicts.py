@@ -15,12 +15,17 @@ def verdict_token(verdict: str) -> str:
     return {"improved": "good", "worse": "bad"}.get(verdict, "text2")
 
 
+def no_change_words() -> str:
+    """What is said everywhere where no change is beyond the error: never that there was none."""
+    return tr("no change proven")
+
+
 def verdict_word(verdict: str) -> str:
     """The verdict as the table says it."""
     return {
         "improved": tr("improved"),
         "worse": tr("worse"),
-        "no_change": tr("no change"),
+        "no_change": no_change_words(),
         "not_judged": tr("not judged"),
     }.get(verdict, "")
 
@@ -72,10 +77,10 @@ def limit_words(study: RetestStudy | None = None) -> str:
 
 
 def difference(change_deg: float) -> str:
-    """``23° more`` or ``3° less``; ``the same`` when it rounds to nothing."""
+    """``23° more`` or ``3° less``; ``0°`` when it rounds to nothing."""
     size = numbers.degrees(change_deg)
     if size == "0°":
-        return tr("the same")
+        return size
     return (tr("{size} more") if change_deg > 0 else tr("{size} less")).format(size=size)
 
 
@@ -84,7 +89,7 @@ def change_since_first(verdict: str, change_deg: float) -> str:
     if verdict in ("improved", "worse"):
         return tr("{difference} since the first").format(difference=difference(change_deg))
     if verdict == "no_change":
-        return tr("no change beyond error")
+        return no_change_words()
     return ""
 
 

@@ -1,24 +1,38 @@
-"""Tasks on this machine's cores, each in a process that may die without taking the others with it."""
+"""Tasks in processes of their own, here or on a cluster's worker: one that dies, hangs or grows takes nothing along.
+
+Not by :mod:`multiprocessing`: the workers of a cluster are often daemons, which it lets have no children, and those
+that track have some.
+"""
 
 from __future__ import annotations
 
-import multiprocessing
+import contextlib
 import os
+import pickle
+import queue
 import signal
+import subprocess
+import sys
 import threading
-from collections import Counter
+import time
 from collections.abc import Callable, Iterator, Sequence
-from concurrent.futures import Future, ProcessPoolExecutor, as_completed
-from concurrent.futures.process import BrokenProcessPool
-from pathlib import Path
-from typing import NoReturn
+from concurrent.futures import ThreadPoolExecutor, as_completed
+from typing import BinaryIO, NoReturn
 
-from carpus.app.batch.work import Outcome, Task, fault_of, work
-from carpus.core.encryption import keys
+from carpus.app.batch.work import Outcome, Task, clear_leftovers, fault_of, work
 
 Work = Callable[[Task], Outcome]
-_DEATHS = 2
+TRIES = 3
+"""Of what may pass: another run's file, a share that stutters, a process that died."""
+LIMIT_S = 120.0 * 60.0
 DIED = "the process that tracked it ended without a word (memory, or someone ended it); track it again"
+LATE = "it was not done after {minutes:g} minutes and was given up; look at the recording, or set a longer --time-limit"
+FROZEN_WORD = "--batch-process"
+"""How the packaged program, which has no Python, is told to be one of these processes."""
+_MOST_TASKS = 25
+"""Of one process, so that what a library forgets to free does not add up."""
+_GRACE_S = 15.0
+_ONE_THREAD = ("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS")
 
 
 def cores() -> int:
@@ -26,90 +40,162 @@ def cores() -> int:
     return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
 
 
-def outcomes(tasks: Sequence[Task], count: int, do: Work = work) -> Iterator[Outcome]:
-    """Outcomes as they come, of ``count`` processes at a time.
+def outcomes(tasks: Sequence[Task], count: int, do: Work = work, limit_s: float = LIMIT_S) -> Iterator[Outcome]:
+    """Outcomes as they come, of ``count`` processes at a time. What may pass is tried :data:`TRIES` times."""
+    children, pool = Children(), ThreadPoolExecutor(count, "batch")
 
-    When a process dies, all that it shared a pool with are done again, those that may have killed it alone: only what
-    ends its process twice when it has it for itself is a fault.
-    """
-    waiting, alone, deaths = list(tasks), list[Task](), Counter[str]()
-    while waiting or alone:
-        together = waiting or [alone.pop()]
-        begun: list[Task] = []
-        left = list(together)
-        for task, outcome in _pooled(together, min(count, len(together)), begun, do):
-            left.remove(task)
-            yield outcome
-        if waiting:
-            alone += [task for task in left if task in begun]
-            waiting = [task for task in left if task not in begun]
-            continue
-        for task in left:
-            deaths[task.place.name] += 1
-            if deaths[task.place.name] < _DEATHS:
-                alone.append(task)
-            else:
-                yield fault_of(task.place, DIED)
+    def tried(task: Task) -> Outcome:
+        outcome = children.outcome(task, limit_s, do)
+        for _ in range(TRIES - 1):
+            if not outcome.may_pass or children.ended:
+                break
+            outcome = children.outcome(task, limit_s, do)
+        return outcome
 
-
-def _pooled(tasks: Sequence[Task], count: int, begun: list[Task], do: Work) -> Iterator[tuple[Task, Outcome]]:
-    """Tasks done in one pool; of those that the death of one of its processes left, ``begun`` takes the ones that may
-    have been running then."""
-    pool = ProcessPoolExecutor(
-        count, mp_context=multiprocessing.get_context("spawn"), initializer=_begin, initargs=(keys.known(),)
-    )
-    broken: list[Task] = []
-    is_over = False
     try:
-        futures: dict[Future[Outcome], Task] = {pool.submit(_busy_with, do, task): task for task in tasks}
-        for future in as_completed(futures):
-            try:
-                outcome = future.result()
-            except BrokenProcessPool:
-                broken.append(futures[future])
-            else:
-                yield futures[future], outcome
-        is_over = True
-        # Which of them ran is not known; they are begun in the order in which they were given, some ahead of time.
-        begun += [task for task in tasks if task in broken][: 2 * count + 1]
+        for future in as_completed([pool.submit(tried, task) for task in tasks]):
+            yield future.result()
     finally:
-        if not is_over:
-            for process in tuple((pool._processes or {}).values()):
-                process.terminate()
-        pool.shutdown(wait=True, cancel_futures=True)
+        pool.shutdown(wait=False, cancel_futures=True)
+        children.end()
+        pool.shutdown(wait=True)
 
 
-_busy = False
+class Children:
+    """Processes that take one task after the other; for any number of threads."""
+
+    def __init__(self) -> None:
+        self._idle: list[_Child] = []
+        self._busy: set[_Child] = set()
+        self.ended = False
+
+    def outcome(self, task: Task, limit_s: float, do: Work = work) -> Outcome:
+        """One task done in an idle process, or in a new one; a process that died or took too long is a fault."""
+        try:
+            child = self._idle.pop()
+        except IndexError:
+            child = _Child()
+        self._busy.add(child)
+        if self.ended:
+            child.hang_up()
+        outcome = child.asked(task, do, limit_s)
+        self._busy.discard(child)
+        if outcome is not None and child.tasks < _MOST_TASKS and not self.ended:
+            self._idle.append(child)
+            return outcome
+        child.end()
+        if outcome is not None:
+            return outcome
+        with contextlib.suppress(OSError):
+            clear_leftovers(task.place.session)
+        if child.was_late:
+            return fault_of(task.place, LATE.format(minutes=limit_s / 60.0))
+        return fault_of(task.place, DIED, may_pass=True)
+
+    def end(self) -> None:
+        """All of them stop; what they are at is tidied."""
+        self.ended = True
+        all_of_them = [*self._idle, *self._busy]
+        for child in all_of_them:
+            child.hang_up()
+        for child in all_of_them:
+            child.end()
 
 
-def _begin(known: dict[Path, bytes]) -> None:
-    """In a new process: it stops when it is told to or its owner is gone, and tidies what it was at."""
-    for folder, key in known.items():
-        keys.remember(folder, key)
+class _Child:
+    """The owner's side of one process. It hears by the end of its input that its owner is gone."""
+
+    def __init__(self) -> None:
+        frozen = getattr(sys, "frozen", False)
+        words = [sys.executable, FROZEN_WORD] if frozen else [sys.executable, "-m", __name__]
+        self._process = subprocess.Popen(
+            words,
+            stdin=subprocess.PIPE,
+            stdout=subprocess.PIPE,
+            env=dict.fromkeys(_ONE_THREAD, "1") | dict(os.environ),
+            process_group=None if sys.platform == "win32" else 0,
+        )
+        assert self._process.stdin is not None
+        assert self._process.stdout is not None
+        self._to, self._from = self._process.stdin, self._process.stdout
+        self.tasks = 0
+        self.was_late = False
+
+    def asked(self, task: Task, do: Work, limit_s: float) -> Outcome | None:
+        """What came of a task; None where the process ended before it answered."""
+        self.tasks += 1
+        timer = threading.Timer(limit_s, self._give_up)
+        timer.daemon = True
+        timer.start()
+        try:
+            pickle.dump((do, task), self._to)
+            self._to.flush()
+            outcome: Outcome = pickle.load(self._from)
+        except (EOFError, OSError, ValueError, pickle.UnpicklingError):
+            return None
+        else:
+            return outcome
+        finally:
+            timer.cancel()
+
+    def _give_up(self) -> None:
+        self.was_late = True
+        self._kill()
+
+    def _kill(self) -> None:
+        """With what it began itself, which may be what hangs."""
+        with contextlib.suppress(OSError):
+            if sys.platform != "win32":
+                os.killpg(self._process.pid, signal.SIGKILL)
+        self._process.kill()
+
+    def hang_up(self) -> None:
+        with contextlib.suppress(OSError):
+            self._to.close()
+
+    def end(self) -> None:
+        self.hang_up()
+        try:
+            self._process.wait(_GRACE_S)
+        except subprocess.TimeoutExpired:
+            self._kill()
+            self._process.wait()
+        self._from.close()
+
+
+# --- in the process itself --------------------------------------------------------------------------------------
+def serve() -> NoReturn:
+    """Take tasks from the input and answer, until the owner hangs up."""
+    os.umask(0o077)  # whatever is written is about a patient: for its owner only
+    answers = os.fdopen(os.dup(1), "wb")
+    os.dup2(2, 1)  # what a library prints is no answer
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # the owner hears it and decides
-    signal.signal(signal.SIGTERM, _stop)
-    threading.Thread(target=_end_with_owner, daemon=True).start()
-
-
-def _busy_with(do: Work, task: Task) -> Outcome:
-    global _busy
-    _busy = True
-    try:
-        return do(task)
-    except KeyboardInterrupt:
-        os._exit(0)  # what it was at is tidied; no other task is begun
-    finally:
-        _busy = False
-
-
-def _stop(*_: object) -> NoReturn:
-    if _busy:
-        raise KeyboardInterrupt
+    signal.signal(signal.SIGTERM, _interrupt)
+    waiting: queue.SimpleQueue[tuple[Work, Task] | None] = queue.SimpleQueue()
+    threading.Thread(target=_listen, args=(sys.stdin.buffer, waiting), daemon=True).start()
+    with contextlib.suppress(KeyboardInterrupt, BrokenPipeError):
+        while (asked := waiting.get()) is not None:
+            do, task = asked
+            pickle.dump(do(task), answers)
+            answers.flush()
     os._exit(0)
 
 
-def _end_with_owner() -> None:
-    owner = multiprocessing.parent_process()
-    if owner is not None:
-        owner.join()
-        os._exit(1)
+def _listen(questions: BinaryIO, waiting: queue.SimpleQueue) -> None:  # type: ignore[type-arg]
+    with contextlib.suppress(EOFError, OSError, pickle.UnpicklingError):
+        while True:
+            waiting.put(pickle.load(questions))
+    waiting.put(None)
+    os.kill(os.getpid(), signal.SIGTERM)  # whatever is under way is tidied
+    time.sleep(_GRACE_S / 2.0)
+    os._exit(1)
+
+
+def _interrupt(*_: object) -> NoReturn:
+    raise KeyboardInterrupt
+
+
+if __name__ == "__main__":
+    from carpus.app.batch.processes import serve as serve_by_name
+
+    serve_by_name()  # not from __main__: what is pickled names its module

@@ -5,6 +5,8 @@ Runs in a process of its own, here or on another machine: what goes in and comes
 
 from __future__ import annotations
 
+import glob
+import time
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Literal
@@ -23,12 +25,14 @@ from carpus.core.output.measures_table import MeasureRow, measure_rows
 from carpus.core.output.report_content import session_figures
 from carpus.core.pipeline.told_settings import differences, settings_told
 from carpus.core.pipeline.track import TrackSettings, retrack_session, track_recording
+from carpus.core.session import heartbeat
 from carpus.core.session.disk import is_being_written, target_of_part
 from carpus.core.session.reader import read_session
 from carpus.core.types import TrackStatus
 from carpus.core.words import finding_sentence, one_sentence
 
 Result = Literal["tracked", "kept", "fault"]
+BUSY_S, BUSY_STEP_S = 600.0, 1.0
 _INTRINSICS = {"default": "the usual values of the Xtion", "driver": "the driver's field of view"}
 
 
@@ -41,6 +45,8 @@ class Task:
     subject_id: str = ""
     exercise: str = ""
     leave_out_damaged: bool = False
+    software_version: str = __version__
+    """Whoever tracks it has the same, or the numbers of one table would not be of one program."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -55,32 +61,37 @@ class Outcome:
     tracked: float = float("nan")
     lost: float = float("nan")
     measures: tuple[MeasureRow, ...] = ()
+    may_pass: bool = False
+    """Of a fault: whether it may be gone when tried again."""
 
 
 def work(task: Task) -> Outcome:
     """Do one task; whatever goes wrong is part of the outcome."""
+    if task.software_version != __version__:
+        return fault_of(task.place, f"the worker has Carpus {__version__}, and {task.software_version} was asked for")
     try:
         with threadpool_limits(1):  # the same numbers wherever it runs
             return _worked(task)
     except CarpusFault as fault:
-        return fault_of(task.place, one_sentence(fault))
+        return fault_of(task.place, one_sentence(fault), may_pass=isinstance(fault, OutputBusy))
     except OSError as cause:
-        return fault_of(task.place, f"the system refuses {cause.filename or ''} ({cause.strerror or cause})")
+        sentence = f"the system refuses {cause.filename or ''} ({cause.strerror or cause})"
+        return fault_of(task.place, sentence, may_pass=True)
     except Exception as cause:
         return fault_of(task.place, f"something unforeseen happened ({type(cause).__name__}: {cause})")
 
 
-def fault_of(place: Place, sentence: str) -> Outcome:
+def fault_of(place: Place, sentence: str, *, may_pass: bool = False) -> Outcome:
     """The outcome of a recording that could not be tracked."""
-    return Outcome(place, "fault", (sentence,))
+    return Outcome(place, "fault", (sentence,), may_pass=may_pass)
 
 
 def _worked(task: Task) -> Outcome:
     place, said = task.place, list[str]()
     result: Result = "kept"
+    _make_room(place.session)
     if not place.session.exists():
         result = "tracked"
-        _make_room(place.session)
         _tracked(task, said)
     session = read_session(place.session)
     told = settings_told(session.header.parameters)
@@ -104,11 +115,30 @@ def _make_room(session: Path) -> None:
         session.parent.mkdir(parents=True, exist_ok=True)
     except OSError as cause:
         raise OutputNotWritable(session.parent, cause.strerror or "") from cause
-    for part in session.parent.glob("*.part"):
-        if target_of_part(part) == session:
-            if is_being_written(part):
+    clear_leftovers(session)
+
+
+def clear_leftovers(session: Path) -> None:
+    """Take away what processes that died left of a session. What one that lives is writing is waited for, up to
+    :data:`BUSY_S`: another run of the same batch, or one that nobody waits for any more. Raises :class:`OutputBusy`."""
+    until_s = time.monotonic() + BUSY_S
+    left = session.parent.glob(f"{glob.escape(session.name)}.*.part*")
+    for part in {path.with_name(path.name.removesuffix(heartbeat.SUFFIX)) for path in left}:
+        if target_of_part(part) != session:
+            continue
+        while _is_busy(part):
+            if time.monotonic() > until_s:
                 raise OutputBusy(session)
-            part.unlink()
+            time.sleep(BUSY_STEP_S)
+        part.unlink(missing_ok=True)
+        heartbeat.remove(part)
+
+
+def _is_busy(part: Path) -> bool:
+    try:
+        return part in heartbeat.still_beating([part]) or is_being_written(part)
+    except FileNotFoundError:  # it became the session meanwhile, or only its heartbeat is left
+        return False
 
 
 def _tracked(task: Task, said: list[str]) -> None:

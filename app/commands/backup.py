@@ -8,22 +8,34 @@ from datetime import datetime
 from pathlib import Path
 
 from carpus import __version__
-from carpus.app.commands.kept import initials
-from carpus.app.commands.progress import bar, tell
+from carpus.app.asking import ask_passphrase
+from carpus.app.commands.kept import note_in
+from carpus.app.commands.progress import bar
 from carpus.app.settings import load_sound_settings, settings_folder
-from carpus.core.errors import BackupMissing, CarpusFault
-from carpus.core.safekeeping.audit import AuditLog
-from carpus.core.safekeeping.backup import back_up, backups, compare, thin_out
+from carpus.core.errors import BackupMissing, OutputExists
+
+EXAMPLE = """carpus backup /media/backup
+carpus backup /media/stick/carpus.tar.age --sealed
+carpus backup /media/backup --list"""
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("place", type=Path, metavar="FOLDER", help="for back-ups, on another disk; made if need be")
+    parser.add_argument(
+        "--sealed", action="store_true",
+        help="FOLDER is a new file, closed with a passphrase that is asked for (or the first line that comes in); "
+        "“age --decrypt FILE | tar --extract” opens it too",
+    )  # fmt: skip
     parser.add_argument("--data-folder", type=Path, metavar="FOLDER", help="patients and sessions (default: your own)")
     parser.add_argument("--list", action="store_true", help="only say which back-ups there are")
     parser.add_argument("--compare", action="store_true", help="only read the newest back-up and compare")
 
 
 def run(arguments: argparse.Namespace) -> int:
+    from carpus.core.records.backup import back_up, backups, compare, thin_out
+    from carpus.core.records.of_clinic import note_backup
+    from carpus.core.records.store import Store
+
     place: Path = arguments.place
     settings, _ = load_sound_settings()
     there = backups(place)
@@ -40,16 +52,34 @@ def run(arguments: argparse.Namespace) -> int:
         return 0
     folder: Path = arguments.data_folder or settings.data_folder
     os.nice(5) if hasattr(os, "nice") else None
+    if arguments.sealed:
+        return _sealed(folder, place)
     with bar("backing up", "byte") as progress:
         made = back_up(
             folder, place, software_version=__version__, settings_folder=settings_folder(), progress=progress
         )
     thin_out(place, settings.backup.keep, settings.backup.months, datetime.now().astimezone())
-    try:
-        AuditLog(folder, "command", initials).note("backed_up", "everything", sessions=made.sessions)
-    except CarpusFault as fault:
-        tell(fault)
+    with Store(folder) as store:
+        note_backup(store, made.made, str(place), made.sessions, made.size_bytes)
+    note_in(folder, "backed_up", "everything", sessions=made.sessions)
     print(f"{made.name}: {made.sessions} sessions, {made.size_bytes / 1e6:.1f} MB, read back and compared: all equal.")
     if made.running:
         print(f"Not in it: {made.running} recordings that are running.")
+    return 0
+
+
+def _sealed(folder: Path, path: Path) -> int:
+    from carpus.core.names import LEAST_OF_PASSPHRASE
+    from carpus.core.records.sealed import seal_backup
+
+    if path.exists():
+        raise OutputExists(path)
+    passphrase = ask_passphrase(least_signs=LEAST_OF_PASSPHRASE)
+    with bar("sealing", "byte") as progress:
+        made = seal_backup(
+            folder, path, passphrase, software_version=__version__, settings_folder=settings_folder(), progress=progress
+        )
+    note_in(folder, "backed_up", "everything", sessions=made.sessions, sealed=1)
+    print(f"{path}: {made.sessions} sessions, {made.size_bytes / 1e6:.1f} MB, opened again and compared: all equal.")
+    print("Without the passphrase nobody can open it, nor can we.")
     return 0

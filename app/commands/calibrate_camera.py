@@ -10,6 +10,7 @@ from datetime import datetime
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from carpus.app.command_line import number
 from carpus.app.commands.progress import bar, tell
 
 if TYPE_CHECKING:
@@ -17,16 +18,10 @@ if TYPE_CHECKING:
     from carpus.core.camera_calibration.gather import Gathering
     from carpus.core.capture.source import FrameSource
 
+EXAMPLE = """carpus calibrate-camera --board board.pdf
+carpus calibrate-camera"""
 PATTERNS = ("chessboard", "charuco")
 SQUARES_MM = (5.0, 200.0)
-
-
-def a_square_mm(text: str) -> float:
-    """The measured side of a square; anything no board has is wrong usage."""
-    value = float(text)
-    if not SQUARES_MM[0] <= value <= SQUARES_MM[1]:
-        raise argparse.ArgumentTypeError(f"{text} is not between {SQUARES_MM[0]:g} and {SQUARES_MM[1]:g} mm")
-    return value
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -37,19 +32,19 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         metavar="RECORDING",
         help="of the board held in many places (TUM folder, raw, .oni); without it, the live camera",
     )
-    parser.add_argument("--board", type=Path, metavar="PDF", help="write the board to print, and do nothing else")
+    parser.add_argument("--board", type=Path, metavar="BOARD.pdf", help="write the board to print, and do nothing else")
     parser.add_argument("--paper", choices=("a4", "letter"), default="a4", help="of the board to print")
     parser.add_argument(
         "--pattern", choices=PATTERNS, help="chessboard (reaches farther) or charuco (may be partly hidden)"
     )
     parser.add_argument(
         "--square-mm",
-        type=a_square_mm,
+        type=number(*SQUARES_MM, "mm"),
         metavar="MM",
         help="measured side of a square, where a print is not at 100 %%",
     )
-    parser.add_argument("--output", type=Path, metavar="camera_info.yaml", help="write the camera file here too")
-    parser.add_argument("--serial", metavar="NUMBER", help="which camera it was, where the recording does not say")
+    parser.add_argument("--output", type=Path, metavar="CAMERA.yaml", help="write the camera file here too")
+    parser.add_argument("--serial", metavar="SERIAL", help="which camera it was, where the recording does not say")
 
 
 def run(arguments: argparse.Namespace) -> int:

@@ -16,6 +16,9 @@ if TYPE_CHECKING:
     from carpus.core.capture.source import FrameSource
     from carpus.core.types import Frame
 
+EXAMPLE = """carpus check-card --card card.pdf
+carpus check-card"""
+
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
@@ -25,10 +28,10 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         metavar="RECORDING",
         help="of the card lying still (TUM folder, raw, .oni); without it, the live camera",
     )
-    parser.add_argument("--card", type=Path, metavar="PDF", help="write the card to print, and do nothing else")
+    parser.add_argument("--card", type=Path, metavar="CARD.pdf", help="write the card to print, and do nothing else")
     parser.add_argument("--paper", choices=("a4", "letter"), default="a4", help="of the card to print")
     parser.add_argument("--output", type=Path, metavar="RESULT.pdf", help="the result as one page; never overwritten")
-    parser.add_argument("--serial", metavar="NUMBER", help="which camera it was, where the recording does not say")
+    parser.add_argument("--serial", metavar="SERIAL", help="which camera it was, where the recording does not say")
 
 
 def run(arguments: argparse.Namespace) -> int:
@@ -114,7 +117,7 @@ def _check(arguments: argparse.Namespace) -> int:
         camera = f"{info.name} {serial}".strip()
         print(f"Result: {write_check_report(arguments.output, CheckResult(camera, check, earlier, asides))}")
         del application
-    return 0
+    return 1 if verdict == "out" else 0
 
 
 def _source(recording: Path | None, data_folder: Path) -> FrameSource:

@@ -3,12 +3,19 @@
 from __future__ import annotations
 
 import argparse
+import math
+import sys
 from collections.abc import Mapping
+from dataclasses import replace
 from pathlib import Path
 
 from carpus import __version__
+from carpus.app.command_line import number
 from carpus.core.agreement.compare import MOST_SHIFT_S
 from carpus.core.hand.sites import SITES
+from carpus.core.known_names import known_names
+
+EXAMPLE = "carpus compare session.h5 reference.c3d --output out/agreement"
 
 
 def mapping(text: str) -> dict[str, str]:
@@ -24,17 +31,25 @@ def marker_mapping(text: str) -> dict[str, str]:
     found = {name.upper(): value for name, value in mapping(text).items()}
     unknown = [name for name in found if name not in SITES]
     if unknown:
-        raise argparse.ArgumentTypeError(f"{', '.join(unknown)}: no such disc; they are {', '.join(SITES)}")
+        raise argparse.ArgumentTypeError(f"no disc is called “{unknown[0]}”; {known_names(unknown[0], SITES)}")
     return found
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    parser.add_argument("session", type=Path, metavar="SESSION.h5")
+    parser.add_argument("session", type=Path, nargs="?", metavar="SESSION.h5")
     parser.add_argument(
         "reference",
         type=Path,
+        nargs="?",
         metavar="REFERENCE",
         help="C3D, TRC, MOT, CSV table, CSV list of readings (angle or movement, reading_deg, time_s), or session",
+    )
+    parser.add_argument(
+        "--study",
+        type=Path,
+        metavar="TABLE.csv",
+        help="many people and sessions at once: a table with the columns person, session, reference, and where they "
+        "are needed columns, markers, unit, lag_s, drift_percent",
     )
     parser.add_argument("--output", type=Path, metavar="FOLDER", help="tables and plots; nothing in it is overwritten")
     parser.add_argument(
@@ -50,14 +65,37 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--unit", choices=("deg", "rad"), help="of the reference's angles, where it does not say")
     parser.add_argument("--smoothed", action="store_true", help="compare the smoother's results, not the filter's")
     parser.add_argument(
-        "--max-shift", type=float, default=MOST_SHIFT_S, metavar="S", help="furthest that the clocks are apart"
+        "--max-shift",
+        type=number(0.0, 3600.0, "seconds"),
+        default=MOST_SHIFT_S,
+        metavar="SECONDS",
+        help="furthest that the clocks are apart",
+    )
+    parser.add_argument(
+        "--lag",
+        type=number(-3600.0, 3600.0, "seconds"),
+        default=math.nan,
+        metavar="SECONDS",
+        help="how much later things happen on the reference's clock, where it is known: no shift is looked for",
+    )
+    parser.add_argument(
+        "--drift",
+        type=number(-10.0, 10.0, "percent"),
+        default=0.0,
+        metavar="PERCENT",
+        help="by how much the reference's clock runs fast, to be taken out",
     )
 
 
 def run(arguments: argparse.Namespace) -> int:
+    if arguments.study is not None:
+        return _study(arguments)
+    if arguments.reference is None:
+        print("carpus compare: a session and its reference are needed, or --study TABLE.csv.", file=sys.stderr)
+        return 2
+    from carpus.app.of_file import read_choices
     from carpus.core.agreement.compared_files import compare_files, write_files
     from carpus.core.agreement.tables import lines
-    from carpus.core.library.library import read_choices
 
     radians: bool | None = None if arguments.unit is None else arguments.unit == "rad"
     columns: Mapping[str, str] = arguments.columns
@@ -69,6 +107,8 @@ def run(arguments: argparse.Namespace) -> int:
         radians=radians,
         smoothed=arguments.smoothed,
         most_shift_s=arguments.max_shift,
+        lag_s=arguments.lag,
+        drift=0.01 * arguments.drift,
         choices=read_choices(arguments.session),
     )
     for line in lines(result.compared):
@@ -81,3 +121,34 @@ def run(arguments: argparse.Namespace) -> int:
         for path in write_plots(result.compared, arguments.output, result.stem):
             print(f"Written: {path}")
     return 0
+
+
+def _study(arguments: argparse.Namespace) -> int:
+    from carpus.app.commands.progress import bar
+    from carpus.app.of_file import read_choices
+    from carpus.core.agreement.study import read_table, study_lines, study_of, write_study
+
+    of_one: dict[str, object] = {"columns": {}, "markers": {}, "unit": None, "session": None}
+    given = [name for name, usual in of_one.items() if getattr(arguments, name) != usual]
+    if given or math.isfinite(arguments.lag) or arguments.drift:
+        print(
+            "carpus compare: in a study the table says session, columns, markers, unit, lag and drift.", file=sys.stderr
+        )
+        return 2
+    with bar("comparing", "session") as progress:
+        lines = read_table(arguments.study, mapping)
+        study = study_of(
+            arguments.study, lines, smoothed=arguments.smoothed, most_shift_s=arguments.max_shift,
+            choices_of=read_choices, progress=progress,
+        )  # fmt: skip
+    for line in study_lines(study):
+        print(line)
+    if arguments.output is not None:
+        from carpus.ui.report.agreement_plot import write_plots
+
+        files = write_study(study, arguments.output, __version__)
+        known = [one.pairs for one in study.angles if math.isfinite(one.pairs.figures_deg.bias)]
+        picture = replace(study.as_compared(), pairs=tuple(known))
+        for path in [*files, *(write_plots(picture, arguments.output, arguments.study.stem) if known else ())]:
+            print(f"Written: {path}")
+    return 1 if study.left_out else 0

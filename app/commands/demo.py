@@ -8,6 +8,9 @@ from pathlib import Path
 from carpus.app.commands import desktop
 from carpus.app.commands.progress import bar
 from carpus.app.settings import load_settings
+from carpus.core.private import make_private
+
+EXAMPLE = "carpus demo --data-folder out/practice"
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -25,6 +28,7 @@ def run(arguments: argparse.Namespace) -> int:
 
     compose.write_log()
     settings = compose.with_data_folder(load_settings(), arguments.data_folder)
+    make_private(settings.data_folder)
     with bar("the whole way") as progress:
         result = walk(settings, progress)
     print(f"Session: {result.session}")

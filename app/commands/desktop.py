@@ -8,12 +8,12 @@ import sys
 from datetime import datetime
 from pathlib import Path
 
-from carpus.app.commands.kept import initials
+from carpus.app.commands.kept import note_in
 from carpus.app.settings import load_sound_settings
 from carpus.core.errors import CarpusFault, FolderInUse
-from carpus.core.safekeeping.audit import AuditLog
-from carpus.core.safekeeping.backup import put_in_place
-from carpus.core.session.database import make_private
+from carpus.core.library.set_up import PRACTICE_PATIENT
+from carpus.core.private import make_private
+from carpus.core.records.staging import remove_left_behind
 from carpus.core.words import one_sentence
 
 
@@ -45,15 +45,13 @@ def open_window(data_folder: Path | None, *, is_demo: bool, session: Path | None
     desktop: compose.Desktop | None = None
     while desktop is None:
         try:
+            remove_left_behind(settings.data_folder)
             make_private(settings.data_folder)
             if not alone.take():
                 if alone.call_first(session):
                     print("carpus: it is open already, and has come to the front.", file=sys.stderr)
                     return 0
                 raise FolderInUse(settings.data_folder)
-            if not compose.ask_for_pin(qt, settings):
-                alone.let_go()
-                return 0
             desktop = compose.compose(qt, settings, is_demo=is_demo, told=told)
         except CarpusFault as fault:
             alone.let_go()
@@ -69,7 +67,7 @@ def open_window(data_folder: Path | None, *, is_demo: bool, session: Path | None
     try:
         desktop.show()
         if is_demo and not desktop.closed:
-            desktop.journey.prepare_practice()
+            desktop.journey.patients.refresh(PRACTICE_PATIENT)
         if session is not None and not desktop.closed:
             desktop.open_session(session)
         return 0 if desktop.closed else qt.exec()
@@ -83,5 +81,5 @@ def open_window(data_folder: Path | None, *, is_demo: bool, session: Path | None
         alone.let_go()
         restored = desktop.safe.backing_up.restored
         if restored is not None:
-            put_in_place(restored.staged, restored.data_folder, datetime.now())
-            AuditLog(restored.data_folder, "window", initials).note("restored", "everything")
+            restored.put_in_place(datetime.now())
+            note_in(restored.target, "restored", "everything")

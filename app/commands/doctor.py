@@ -8,18 +8,25 @@ from itertools import chain
 from pathlib import Path
 
 from carpus import __version__
+from carpus.app.command_line import CAMERA_HELP, camera_address
 from carpus.app.settings import Settings, load_settings
 from carpus.core.capture.doctor import examine
 from carpus.core.check_card.ages import camera_ages
 from carpus.core.errors import CarpusFault
 from carpus.core.words import one_sentence
 
+EXAMPLE = "carpus doctor --camera realsense"
 _MARK = {"good": "ok     ", "warning": "look   ", "bad": "missing"}
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--data-folder", type=Path, metavar="FOLDER", help="instead of the one in the settings")
-    parser.add_argument("--camera", metavar="KIND[:WHICH]", help="the one to open; else the first that is plugged in")
+    parser.add_argument(
+        "--camera",
+        type=camera_address,
+        metavar="KIND[:WHICH]",
+        help=f"the one to open: {CAMERA_HELP}; else the first that is plugged in",
+    )
     parser.add_argument(
         "--for-support", action="store_true", help="to send away: folders are left out; no patient is in it either way"
     )

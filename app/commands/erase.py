@@ -6,13 +6,18 @@ import argparse
 import sys
 from pathlib import Path
 
-from carpus.app.commands.kept import data_folder_of, initials
-from carpus.app.settings import load_sound_settings
-from carpus.core.errors import CarpusFault, FolderMissing, SessionUnreadable
+from carpus.app.commands.kept import initials
+from carpus.app.of_file import data_folder_of
+from carpus.app.settings import load_sound_settings, sessions_folder
+from carpus.core.errors import CarpusFault, FolderMissing, PatientUnknown, RecordingMissing
+from carpus.core.known_names import known_names
 from carpus.core.library.library import Library
 from carpus.core.library.records import Records
-from carpus.core.safekeeping.erasure import ErasurePlan
+from carpus.core.records.erasure import ErasurePlan
 from carpus.core.session.reader import read_outline
+
+EXAMPLE = """carpus erase "Fern 12"
+carpus erase "Fern 12" --for-good "Fern 12\""""
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -23,12 +28,17 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(arguments: argparse.Namespace) -> int:
     path = Path(arguments.what)
-    folder = data_folder_of(path) if path.is_file() else arguments.data_folder or load_sound_settings()[0].data_folder
+    settings, _ = load_sound_settings()
+    folder = data_folder_of(path) if path.is_file() else arguments.data_folder or settings.data_folder
     if folder is None:
-        raise SessionUnreadable(path, "not in a data folder of Carpus; an own file is deleted as any other")
+        print(f"carpus: {path} lies in no data folder, so Carpus keeps nothing else of it; delete the file itself.",
+              file=sys.stderr)  # fmt: skip
+        return 1
     if not folder.is_dir():
         raise FolderMissing(folder)
-    library = Library(folder, by="command")
+    library = Library(
+        folder, by="command", sessions=sessions_folder(settings) if folder == settings.data_folder else None
+    )
     library.who = initials
     faults: list[CarpusFault] = []
     library.log_fault = faults.append
@@ -43,12 +53,14 @@ def _erase(library: Library, what: str, path: Path, confirmed: str | None) -> in
     if path.is_file():
         plan = records.plan_session(read_outline(path).header.session_id)
     else:
-        known = {one.entry.pseudonym.casefold(): one.patient_id for one in library.clinic.patients(archived=True)}
-        if what.casefold() not in known:
-            print(f"carpus: there is no session file and no patient {what}.", file=sys.stderr)
-            return 1
-        plan = records.plan_patient(known[what.casefold()])
-    pseudonym = library.clinic.patient(plan.patient_id).entry.pseudonym if plan.patient_id else ""
+        patient_id = library.patients.called(what)
+        if not patient_id:
+            if path.suffix == ".h5":
+                raise RecordingMissing(path)
+            pseudonyms = [one.entry.pseudonym for one in library.patients.listed(archived=True)]
+            raise PatientUnknown(what, known_names(what, pseudonyms))
+        plan = records.plan_patient(patient_id)
+    pseudonym = plan.pseudonym
     _say(plan)
     if confirmed is None:
         print(f"Nothing has been deleted. To erase it, say --for-good “{pseudonym}”; the archive is the milder way.")
@@ -64,6 +76,6 @@ def _erase(library: Library, what: str, path: Path, confirmed: str | None) -> in
 def _say(plan: ErasurePlan) -> None:
     print(f"This goes: {plan.sessions} sessions, {len(plan.files)} files, {plan.size_bytes / 1e6:.1f} MB")
     for one in plan.made:
-        words = {"as_made": "goes too", "changed": "stays, it was changed", "not_found": "is not there any more"}
-        print(f"{one.kind} {one.path}: {words[one.state]}")
+        if one.state != "not_found":
+            print(f"This stays, delete it yourself: {one.kind} {one.path}")
     print("This stays: back-ups and files copied elsewhere; Carpus cannot reach them.")

@@ -4,15 +4,25 @@ from __future__ import annotations
 
 import argparse
 import sys
+from dataclasses import replace
 from pathlib import Path
+from tempfile import TemporaryDirectory
+from typing import TYPE_CHECKING
 
 from carpus import __version__
+from carpus.app.asking import ask_passphrase
 from carpus.app.commands.kept import note_exported
 from carpus.app.commands.progress import bar
-from carpus.core.errors import SessionUnreadable
+from carpus.core.errors import OutputExists, SessionsMissing
 from carpus.core.formats.formats import FORMATS
+from carpus.core.known_names import known_names
 from carpus.core.words import one_sentence
 
+if TYPE_CHECKING:
+    from carpus.core.formats.export import Exported
+
+EXAMPLE = """carpus export session.h5 --format csv,c3d --output out/export
+carpus export session.h5 --output out/export.tar.age --sealed"""
 ALL = "all"
 
 
@@ -21,7 +31,8 @@ def some_formats(text: str) -> tuple[str, ...]:
     names = tuple(dict.fromkeys(name.strip().lower() for name in text.split(",") if name.strip()))
     unknown = [name for name in names if name not in (*FORMATS, ALL)]
     if unknown or not names:
-        raise argparse.ArgumentTypeError(f"{text!r} is not made of {', '.join(FORMATS)} or {ALL}")
+        word = next(iter(unknown), text)
+        raise argparse.ArgumentTypeError(f"no format is called “{word}”; {known_names(word, (*FORMATS, ALL))}")
     return tuple(FORMATS) if ALL in names else names
 
 
@@ -36,6 +47,10 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     )
     parser.add_argument("--output", type=Path, required=True, metavar="FOLDER", help="files in it are not overwritten")
     parser.add_argument(
+        "--sealed", action="store_true",
+        help="FOLDER is one new file, closed with a passphrase that is asked for (or the first line that comes in)",
+    )  # fmt: skip
+    parser.add_argument(
         "--deidentified",
         action="store_true",
         help="new random names, days counted from each patient's first session, no texts, nothing of the device",
@@ -43,22 +58,11 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def run(arguments: argparse.Namespace) -> int:
-    from carpus.core.formats.export import Wanted, export_sessions
-    from carpus.core.library.library import read_choices
-
     paths = session_files(arguments.sessions)
-    with bar("exporting", "file") as progress:
-        done = export_sessions(
-            [Wanted.stored(path, read_choices) for path in paths],
-            arguments.output,
-            arguments.format,
-            software_version=__version__,
-            deidentified=arguments.deidentified,
-            progress=progress,
-        )
+    if arguments.sealed:
+        return _sealed(arguments, paths)
+    done = _exported(arguments, paths, arguments.output)
     note_exported(done, deidentified=arguments.deidentified)
-    for refused in done.refused:
-        print(f"carpus: {one_sentence(refused.fault)}", file=sys.stderr)
     for path in done.files if len(paths) == 1 else ():
         print(f"Written: {path}")
     count = len(done.files)
@@ -67,12 +71,49 @@ def run(arguments: argparse.Namespace) -> int:
     return 1 if done.refused else 0
 
 
+def _exported(arguments: argparse.Namespace, paths: list[Path], folder: Path) -> Exported:
+    """The files in a folder; what was refused is said."""
+    from carpus.app.of_file import read_choices
+    from carpus.core.formats.export import Wanted, export_sessions
+
+    with bar("exporting", "file") as progress:
+        done = export_sessions(
+            [Wanted.stored(path, read_choices) for path in paths],
+            folder,
+            arguments.format,
+            software_version=__version__,
+            deidentified=arguments.deidentified,
+            progress=progress,
+        )
+    for refused in done.refused:
+        print(f"carpus: {one_sentence(refused.fault)}", file=sys.stderr)
+    return done
+
+
+def _sealed(arguments: argparse.Namespace, paths: list[Path]) -> int:
+    from carpus.core.names import LEAST_OF_PASSPHRASE
+    from carpus.core.records.sealed import seal_files
+
+    output: Path = arguments.output
+    if output.exists():
+        raise OutputExists(output)
+    passphrase = ask_passphrase(least_signs=LEAST_OF_PASSPHRASE)
+    with TemporaryDirectory() as name:  # for its owner only, and gone in the end
+        done = _exported(arguments, paths, Path(name))
+        if done.files:
+            seal_files([(one.relative_to(name).as_posix(), one) for one in done.files], output, passphrase)
+            note_exported(replace(done, files=(output,), parts=dict.fromkeys(done.parts, (output,))),
+                          deidentified=arguments.deidentified)  # fmt: skip
+            print(f"Written: {output}, {len(done.files)} files. Without the passphrase nobody can open it.")
+    return 1 if done.refused or not done.files else 0
+
+
 def session_files(named: list[Path]) -> list[Path]:
-    """The sessions named, of folders all that lie in them; each once. Raises :class:`SessionUnreadable`."""
+    """The sessions named, of folders all that lie in them; each once. Raises :class:`SessionsMissing`."""
     out: list[Path] = []
     for path in named:
         found = sorted(path.rglob("*.h5")) if path.is_dir() else [path]
         if not found:
-            raise SessionUnreadable(path, "no session in this folder")
+            raise SessionsMissing(path)
         out += found
     return list(dict.fromkeys(out))

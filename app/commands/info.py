@@ -7,15 +7,19 @@ from pathlib import Path
 
 from carpus.app.commands.kept import note
 from carpus.app.commands.progress import tell
+from carpus.app.of_file import read_choices
 from carpus.core.capture.tum import TumFolder
 from carpus.core.errors import RecordingMissing
-from carpus.core.library.library import read_choices
 from carpus.core.session.reader import read_session
 from carpus.core.summary import recording_summary, session_summary, source_summary
 
+EXAMPLE = "carpus info session.h5"
+
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    parser.add_argument("file", type=Path, help="session (.h5), TUM folder, .oni file, RealSense or raw recording")
+    parser.add_argument(
+        "file", type=Path, metavar="FILE", help="session (.h5), TUM folder, .oni file, RealSense or raw recording"
+    )
     parser.add_argument("--json", action="store_true", help="of a session only its settings, as JSON")
 
 

@@ -8,17 +8,24 @@ import sys
 from pathlib import Path
 
 from carpus import __version__
-from carpus.core.errors import CarpusFault, FolderMissing, OutputExists, SessionUnreadable
+from carpus.core.errors import CarpusFault, FolderMissing, OutputExists, PatientUnknown, SessionsMissing
+from carpus.core.known_names import known_names
 from carpus.core.measures.error_limits import ErrorLimits
 from carpus.core.words import one_sentence
 
+EXAMPLE = """carpus progress "Fern 12"
+carpus progress all --output measures.csv"""
 EVERYBODY = "all"
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    parser.add_argument("subject", metavar="SUBJECT", help="the patient's pseudonym; all: of everybody, as a table")
+    parser.add_argument("subject", metavar="PSEUDONYM", help="the patient's pseudonym; all: of everybody, as a table")
     parser.add_argument(
-        "--sessions", type=Path, nargs="+", metavar="PATH", help="sessions, or folders of them; else the data folder's"
+        "--sessions",
+        type=Path,
+        nargs="+",
+        metavar="SESSION.h5",
+        help="sessions, or folders of them; else the data folder's",
     )
     parser.add_argument(
         "--output",
@@ -51,13 +58,13 @@ def run(arguments: argparse.Namespace) -> int:
     rows = [row for one in figures for row in measure_rows(one, names[id(one)])]
     for path in arguments.output:
         if path.suffix.lower() == ".pdf":
-            from carpus.core.library.clinic_form import read_form
+            from carpus.core.library.clinic_form import form_in
             from carpus.ui.report.pdf import ensure_application, write_progress_report
 
             application = ensure_application()
             write_progress_report(
                 figures, path, pseudonym=arguments.subject, therapist=settings.report.therapist,
-                software_version=__version__, form=read_form(settings.data_folder),
+                software_version=__version__, form=form_in(settings.data_folder),
             )  # fmt: skip
             del application
         else:
@@ -71,9 +78,10 @@ def run(arguments: argparse.Namespace) -> int:
 
 
 def _of(subject: str, places: list[Path], limits: ErrorLimits) -> list:  # type: ignore[type-arg]
-    """Sessions of a patient that can be read, with their figures. Raises :class:`SessionUnreadable` for none."""
+    """Sessions of a patient that can be read, with their figures. Raises :class:`PatientUnknown` or
+    :class:`SessionsMissing` for none."""
+    from carpus.app.of_file import read_choices
     from carpus.core.check_card.trust import folder_with_checks, with_trust
-    from carpus.core.library.library import read_choices
     from carpus.core.output.report_content import session_figures
     from carpus.core.session.reader import read_outline, read_session
 
@@ -92,6 +100,8 @@ def _of(subject: str, places: list[Path], limits: ErrorLimits) -> list:  # type:
             except CarpusFault as fault:
                 print(f"carpus: {one_sentence(fault)}", file=sys.stderr)
     if not out:
-        others = f"{len(known)} sessions of {len(set(known))} others" if known else "no session at all"
-        raise SessionUnreadable(places[0], f"no session of {subject}; {others}")
+        if subject == EVERYBODY:
+            raise SessionsMissing(places[0])
+        names = sorted({one for one in known if one})
+        raise PatientUnknown(subject, known_names(subject, names))
     return out

@@ -9,12 +9,12 @@ from contextlib import contextmanager
 
 from tqdm import tqdm
 
-from carpus.app.commands.patient_progress import add_arguments, run
+from carpus.app.commands.patient_progress import EXAMPLE, add_arguments, run
 from carpus.core.errors import CarpusFault
 from carpus.core.words import one_sentence
 
-__all__ = ["add_arguments", "bar", "run", "tell"]
-"""The module has the name of a command: `carpus progress` finds its own two here."""
+__all__ = ["EXAMPLE", "add_arguments", "bar", "run", "tell"]
+"""The module has the name of a command: `carpus progress` finds its own here."""
 
 SPEAK_EVERY_S = 10.0
 """Where stderr is no terminal a line as often says that the work goes on."""

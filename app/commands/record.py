@@ -4,16 +4,18 @@ from __future__ import annotations
 
 import argparse
 import contextlib
+import sys
 import time
 import uuid
 from dataclasses import replace
 from datetime import datetime
 from pathlib import Path
 
+from carpus.app.command_line import CAMERA_HELP, camera_address, number
 from carpus.app.commands.progress import bar, tell
 from carpus.app.settings import load_settings
 from carpus.core.capture.calibrated import with_stored_calibration
-from carpus.core.capture.cameras import CAMERAS, open_camera
+from carpus.core.capture.cameras import open_camera
 from carpus.core.capture.given_name import with_given_name
 from carpus.core.capture.identity import recorded_at
 from carpus.core.capture.raw import RawWriter
@@ -23,6 +25,7 @@ from carpus.core.errors import OutputExists
 from carpus.core.pipeline.recorder import Recorder
 from carpus.core.types import Frame
 
+EXAMPLE = "carpus record --output out/hand.carpusraw --seconds 30"
 LONGEST_S = 86400.0
 WAITING_FRAMES = 90
 """Three seconds of pictures may wait for a slow disk."""
@@ -30,31 +33,28 @@ WAITING_FRAMES = 90
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--output", type=Path, required=True, metavar="RECORDING", help="file (raw) or folder (tum)")
-    parser.add_argument("--seconds", type=a_duration_s, metavar="N", help="stop after this long; else with Ctrl+C")
-    parser.add_argument("--format", choices=("raw", "tum"), default="raw")
+    parser.add_argument(
+        "--seconds", type=number(0.1, LONGEST_S), metavar="SECONDS", help="stop after this long; else with Ctrl+C"
+    )
+    parser.add_argument("--format", choices=("raw", "tum"), default="raw", help="default: raw")
     parser.add_argument(
         "--lossless", action="store_true", help="colour without loss too (raw only; three times the size)"
     )
     parser.add_argument(
-        "--from", dest="origin", type=Path, metavar="FILE", help="play this recording as if it were the camera"
+        "--from", dest="origin", type=Path, metavar="RECORDING", help="play this recording as if it were the camera"
     )
     parser.add_argument(
         "--camera",
+        type=camera_address,
         metavar="KIND[:WHICH]",
-        help=f"one of several cameras ({', '.join(CAMERAS)}; WHICH: its serial number or OpenNI2's address); "
-        "else that of the settings, or the first that is plugged in",
+        help=f"one of several cameras: {CAMERA_HELP}; else that of the settings, or the first that is plugged in",
     )
 
 
-def a_duration_s(text: str) -> float:
-    """Seconds from 0 to a day; anything else is wrong usage."""
-    seconds = float(text)
-    if not 0.0 < seconds <= LONGEST_S:
-        raise argparse.ArgumentTypeError(f"{text} is not between 0 and {LONGEST_S:.0f} seconds")
-    return seconds
-
-
 def run(arguments: argparse.Namespace) -> int:
+    if arguments.lossless and arguments.format != "raw":
+        print("carpus record: --lossless is for --format raw; a TUM folder is without loss already.", file=sys.stderr)
+        return 2
     if arguments.output.exists():
         raise OutputExists(arguments.output)
     if arguments.origin is not None:

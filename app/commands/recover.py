@@ -12,9 +12,11 @@ from carpus.core.session.reader import read_outline
 from carpus.core.session.recovery import recover_folder
 from carpus.core.words import one_sentence
 
+EXAMPLE = "carpus recover sessions"
+
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    parser.add_argument("folder", type=Path, help="folder with sessions; nothing in it is deleted")
+    parser.add_argument("folder", type=Path, metavar="FOLDER", help="folder with sessions; nothing in it is deleted")
 
 
 def run(arguments: argparse.Namespace) -> int:

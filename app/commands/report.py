@@ -11,10 +11,11 @@ from carpus import __version__
 from carpus.app.commands.kept import made
 from carpus.app.settings import ANGLE_ORDERS, load_settings
 from carpus.core.errors import OutputExists
-from carpus.core.library.clinic_form import read_form
 from carpus.core.output.angle_order import in_order
 from carpus.core.output.report_form import PAPERS
 from carpus.core.session.reader import read_session
+
+EXAMPLE = "carpus report session.h5 --output report.pdf --language de"
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -36,15 +37,16 @@ def run(arguments: argparse.Namespace) -> int:
     chosen = settings.report
     order, therapist = arguments.angle_order or chosen.angle_order, chosen.therapist
     sessions = [in_order(read_session(path), order) for path in arguments.sessions]
-    form = read_form(settings.data_folder)
+    from carpus.core.library.clinic_form import form_in
+
+    form = form_in(settings.data_folder)
     if arguments.paper:
         form = replace(form, paper=arguments.paper)
     look = {"form": form, "language": arguments.language}
     # Qt is loaded only now: a wrong file is told without it.
+    from carpus.app.of_file import read_choices, read_comment
     from carpus.core.agreement.limits_file import read_limits
     from carpus.core.check_card.trust import camera_of, folder_with_checks
-    from carpus.core.library.comments import latest, read_comments
-    from carpus.core.library.library import read_choices
     from carpus.core.output.report_content import newest_results, session_figures
     from carpus.ui.report.pdf import ensure_application, write_progress_report, write_session_report
 
@@ -58,7 +60,7 @@ def run(arguments: argparse.Namespace) -> int:
             therapist=therapist,
             choices=choices[0],
             camera=cameras[0],
-            comment=latest(read_comments(arguments.sessions[0])),
+            comment=read_comment(arguments.sessions[0]),
             **look,
         )
     else:

@@ -3,28 +3,45 @@
 from __future__ import annotations
 
 import argparse
+import sys
+from datetime import datetime
 from pathlib import Path
+from typing import TYPE_CHECKING
 
-from carpus.app.commands.kept import initials
+from carpus.app.asking import ask_passphrase
+from carpus.app.commands.kept import note_in
 from carpus.app.commands.progress import bar
 from carpus.app.settings import settings_folder
 from carpus.core.errors import BackupMissing
-from carpus.core.safekeeping.audit import AuditLog
-from carpus.core.safekeeping.backup import backups, plan_restore, restore
+from carpus.core.known_names import known_names
+
+if TYPE_CHECKING:
+    from carpus.core.records.backup import Backup, Content
+
+EXAMPLE = """carpus restore /media/backup --into carpus-data
+carpus restore carpus.tar.age --into carpus-data"""
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    parser.add_argument("place", type=Path, metavar="FOLDER", help="that holds the back-ups")
-    parser.add_argument("--name", help="which back-up, as “carpus backup --list” says (default: the newest)")
+    parser.add_argument("place", type=Path, metavar="FOLDER", help="that holds the back-ups, or a sealed file")
+    parser.add_argument(
+        "--name", metavar="BACKUP", help="which back-up, as “carpus backup --list” says (default: the newest)"
+    )
     parser.add_argument("--into", type=Path, metavar="FOLDER", help="a data folder that is not there yet")
     parser.add_argument("--against", type=Path, metavar="FOLDER", help="only say what would differ from a data folder")
 
 
 def run(arguments: argparse.Namespace) -> int:
-    there = [one for one in backups(arguments.place) if arguments.name in (None, one.name)]
-    if not there:
-        raise BackupMissing(arguments.place, arguments.name or "")
-    backup = there[0]
+    if arguments.into is None and arguments.against is None:
+        print("carpus restore: say where to, with --into FOLDER, or what to compare with, --against FOLDER.",
+              file=sys.stderr)  # fmt: skip
+        return 2
+    from carpus.core.records.backup import plan_restore, restore
+
+    found = _chosen(arguments.place, arguments.name)
+    if found is None:
+        return 1
+    backup, content = found
     if arguments.against is not None:
         plan = plan_restore(backup, arguments.against)
         for words, paths in (("comes", plan.added), ("changes", plan.replaced), ("goes", plan.lost)):
@@ -32,13 +49,27 @@ def run(arguments: argparse.Namespace) -> int:
                 print(f"{words}: {path}")
         print(f"{len(plan.added)} sessions come, {len(plan.replaced)} change, {len(plan.lost)} go. Nothing was done.")
     if arguments.into is None:
-        if arguments.against is None:
-            print(
-                f"{backup.name}: {backup.sessions} sessions, {backup.size_bytes / 1e6:.1f} MB. Say where: --into FOLDER"
-            )
         return 0
     with bar("restoring", "byte") as progress:
-        restore(arguments.place, backup, arguments.into, settings_folder=settings_folder(), progress=progress)
-    AuditLog(arguments.into, "command", initials).note("restored", "everything", sessions=backup.sessions)
+        staged = restore(backup, content, arguments.into, settings_folder=settings_folder(), progress=progress)
+    staged.put_in_place(datetime.now())
+    note_in(arguments.into, "restored", "everything", sessions=backup.sessions)
     print(f"Restored: {backup.sessions} sessions of {backup.name} into {arguments.into}, each content checked.")
     return 0
+
+
+def _chosen(place: Path, name: str | None) -> tuple[Backup, Content] | None:
+    """A back-up and its contents; None for a name that none has, which is said."""
+    from carpus.core.records.backup import backups, content_of
+    from carpus.core.records.sealed import is_sealed, open_sealed
+
+    if is_sealed(place):
+        return open_sealed(place, ask_passphrase())
+    there = {one.name: one for one in backups(place)}
+    if not there:
+        raise BackupMissing(place)
+    name = name or next(iter(there))
+    if name not in there:
+        print(f"carpus: no back-up in {place} is called “{name}”; {known_names(name, there)}.", file=sys.stderr)
+        return None
+    return there[name], content_of(place)

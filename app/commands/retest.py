@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import argparse
 import csv
+import math
 import sys
 from collections import Counter
 from datetime import date
@@ -13,6 +14,7 @@ from pathlib import Path
 from carpus.core.errors import CarpusFault, FolderMissing, ReferenceUnreadable, StudyUnsuited
 from carpus.core.words import one_sentence
 
+EXAMPLE = "carpus retest sessions --output retest.csv"
 _WHY = {
     "once": "person measured once",
     "too_late": "more than 14 days after the first time",
@@ -29,11 +31,11 @@ _WHY = {
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
-        "sessions", type=Path, nargs="+", metavar="PATH",
+        "sessions", type=Path, nargs="+", metavar="SESSION.h5",
         help="sessions, or folders of them: each person (pseudonym) twice or more, discs put on anew in between",
     )  # fmt: skip
     parser.add_argument(
-        "--raters", type=Path, metavar="LIST.csv", help="who put the discs on: columns session (file name) and rater"
+        "--raters", type=Path, metavar="TABLE.csv", help="who put the discs on: columns session (file name) and rater"
     )
     parser.add_argument("--output", type=Path, metavar="TABLE.csv", help="all figures as a table, never overwritten")
     parser.add_argument(
@@ -60,12 +62,20 @@ def run(arguments: argparse.Namespace) -> int:
             print(f"  left out: {', '.join(f'{count} ({reason})' for reason, count in reasons.items())}")
         if one.found:
             print(
-                "  degrees                      n    SEM   MDC95 (95 % interval)    ICC(2,1) (interval)   last - first"
+                f"  {'degrees':26} {'n':>3}    SEM   MDC95 (95 % interval)    {'ICC(2,1) (interval)':20}   "
+                f"{'ICC(3,1) (interval)':20}   last - first   SEM of one rater"
             )
         for (of, movement), f in one.found.items():
             mdc = f"{f.mdc95:5.1f} ({f.mdc95_interval[0]:.1f} to {f.mdc95_interval[1]:.1f})"
-            icc = f"{f.icc:.2f} ({f.icc_interval[0]:.2f} to {f.icc_interval[1]:.2f})"
-            print(f"  {f'{of} {movement}':26} {f.people:3d}  {f.sem:5.2f}   {mdc:22}   {icc:20}  {f.step:6.2f}")
+            iccs = [
+                f"{icc:.2f} ({low:.2f} to {high:.2f})"
+                for icc, (low, high) in ((f.icc, f.icc_interval), (f.icc_3_1, f.icc_3_1_interval))
+            ]
+            own = f"{f.sem_same_rater:.2f}" if math.isfinite(f.sem_same_rater) else "-"
+            print(
+                f"  {f'{of} {movement}':26} {f.people:3d}  {f.sem:5.2f}   {mdc:22}   {iccs[0]:20}   {iccs[1]:20}   "
+                f"{f.step:12.2f}   {own}"
+            )
     if arguments.output is not None:
         print(f"Written: {write_study(found, arguments.output)}")
     usable = [one for one in found if one.people >= FEWEST_PEOPLE and not one.simulated]
@@ -84,7 +94,7 @@ def run(arguments: argparse.Namespace) -> int:
 
 def _read(places: list[Path], named: dict[str, str]) -> tuple[list, dict[str, str]]:  # type: ignore[type-arg]
     """Figures of all sessions that can be read, and their raters by session id."""
-    from carpus.core.library.library import read_choices
+    from carpus.app.of_file import read_choices
     from carpus.core.output.report_content import session_figures
     from carpus.core.session.reader import read_session
 

@@ -8,6 +8,8 @@ from pathlib import Path
 from carpus.app.commands import desktop
 from carpus.core.errors import SessionUnreadable
 
+EXAMPLE = "carpus review session.h5"
+
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("session", type=Path, metavar="SESSION.h5", help="a session of Carpus")

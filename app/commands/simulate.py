@@ -3,61 +3,88 @@
 from __future__ import annotations
 
 import argparse
+from collections.abc import Callable, Collection
 from dataclasses import fields
 from pathlib import Path
 from typing import Any
 
+from carpus.app.command_line import count, number
 from carpus.app.commands.progress import bar
 from carpus.core.depth_sensor import SENSORS
 from carpus.core.hand.protocols import protocol_names
+from carpus.core.known_names import known_names
 from carpus.core.simulation.motions import MOTIONS
-from carpus.core.simulation.spec import HABITS, WORN, RecordingSpec
+from carpus.core.simulation.spec import HABITS, NONE, WORN, RecordingSpec
 
 
 def number_or_drawn(text: str) -> float | None:
     """A number, or None for ``drawn``: each person's own."""
+    if text == "drawn":
+        return None
     try:
-        return None if text == "drawn" else float(text)
-    except ValueError:
-        raise argparse.ArgumentTypeError(f"a number or drawn, not {text}") from None
+        return number()(text)
+    except argparse.ArgumentTypeError as cause:
+        raise argparse.ArgumentTypeError(f"{cause}, and not “drawn”") from None
 
+
+_UNITS = {"mm": "MM", "deg": "DEGREES", "m": "METRES", "px": "PIXELS", "hz": "HZ", "share": "SHARE"}
+"""What stands for a value, by the last word of an option; N where none fits."""
+
+
+def joined(known: Collection[str]) -> Callable[[str], str]:
+    """Reads names with + between; an unknown one is wrong usage."""
+
+    def read(text: str) -> str:
+        for name in filter(None, text.split("+")):
+            if name not in known:
+                raise argparse.ArgumentTypeError(f"no “{name}” is known; {known_names(name, known)}")
+        return text
+
+    return read
+
+
+whole = count(-(2**31), 2**31 - 1)
+EXAMPLE = "carpus simulate --output out/demo --protocol wrist6"
 
 _OPTIONS: tuple[tuple[str, dict[str, Any]], ...] = (
     ("protocol", {"choices": protocol_names(), "help": "6 discs on the palm or 21 on the hand"}),
     ("motion", {"choices": tuple(sorted(MOTIONS)), "help": "the exercise"}),
-    ("hand", {"choices": ("right", "left")}),
-    ("seed", {"type": int, "help": "another seed is another patient, room and day"}),
-    ("seconds", {"type": float}),
-    ("fps", {"type": float, "help": "pictures a second"}),
-    ("speed-hz", {"type": float, "help": "repetitions a second"}),
-    ("range-share", {"type": float, "help": "share of the exercise's full range"}),
-    ("repetitions", {"type": int, "help": "stop moving after so many"}),
-    ("tremor-deg", {"type": float}),
+    ("hand", {"choices": ("right", "left"), "help": "which hand"}),
+    ("seed", {"type": whole, "help": "another seed is another patient, room and day"}),
+    ("seconds", {"type": number(), "metavar": "SECONDS", "help": "how long"}),
+    ("fps", {"type": number(), "help": "pictures a second"}),
+    ("speed-hz", {"type": number(), "help": "repetitions a second"}),
+    ("range-share", {"type": number(), "help": "share of the exercise's full range"}),
+    ("repetitions", {"type": whole, "help": "stop moving after so many"}),
+    ("tremor-deg", {"type": number(), "help": "how far the hand trembles"}),
     ("dip", {"choices": ("coupled", "free"), "help": "end joints bound to the middle joints, or free"}),
-    ("hand-length-mm", {"type": float, "help": "130 a child, 200 a tall man"}),
+    ("hand-length-mm", {"type": number(), "help": "130 a child, 200 a tall man"}),
     ("skin-glide-mm", {"type": number_or_drawn, "help": "how far skin glides over a knuckle bent by 90, or drawn"}),
     (
         "cupping",
         {"type": number_or_drawn, "help": "how far ring and little metacarpal flex in a grip, 0 to 1, or drawn"},
     ),
-    ("habit", {"help": f"with + between: {', '.join(HABITS)}"}),
+    (
+        "habit",
+        {"type": joined((NONE, *HABITS)), "metavar": "HABIT+...", "help": f"with + between: {', '.join(HABITS)}"},
+    ),
     ("anatomy", {"choices": ("usual", "wide"), "help": "wide: other disc heights, palms, discs stuck off"}),
-    ("worn", {"help": f"with + between: {', '.join(WORN)}"}),
-    ("pen-marks", {"type": int, "help": "blue dots of a pen on the skin"}),
-    ("skin-tone", {"type": int, "help": "0 light to 5 dark"}),
-    ("skin-movement-mm", {"type": float, "help": "how far the WRIST disc slides on the bone"}),
-    ("light", {"choices": ("drawn", "bright", "normal", "dim")}),
-    ("sleeve", {"choices": ("drawn", "none", "grey", "white", "blue", "jeans")}),
-    ("distance-m", {"type": float, "help": "camera to hand"}),
-    ("yaw-deg", {"type": float}),
-    ("tilt-deg", {"type": float}),
-    ("tilt-heading-deg", {"type": float, "help": "0: a side of the hand nearer, -90: its tips"}),
-    ("false-blobs", {"type": float, "help": "false blue blobs in each picture, on average"}),
-    ("hidden-share", {"type": float, "help": "share of the time each disc is covered"}),
-    ("dropped-share", {"type": float, "help": "share of the frames that is missing"}),
-    ("click-error-px", {"type": float}),
+    ("worn", {"type": joined((NONE, *WORN)), "metavar": "WORN+...", "help": f"with + between: {', '.join(WORN)}"}),
+    ("pen-marks", {"type": whole, "help": "blue dots of a pen on the skin"}),
+    ("skin-tone", {"type": whole, "help": "0 light to 5 dark"}),
+    ("skin-movement-mm", {"type": number(), "help": "how far the WRIST disc slides on the bone"}),
+    ("light", {"choices": ("drawn", "bright", "normal", "dim"), "help": "of the room"}),
+    ("sleeve", {"choices": ("drawn", "none", "grey", "white", "blue", "jeans"), "help": "of the clothes"}),
+    ("distance-m", {"type": number(), "help": "camera to hand"}),
+    ("yaw-deg", {"type": number(), "help": "how far the hand is turned in the picture"}),
+    ("tilt-deg", {"type": number(), "help": "how far the hand is tilted to the camera"}),
+    ("tilt-heading-deg", {"type": number(), "help": "0: a side of the hand nearer, -90: its tips"}),
+    ("false-blobs", {"type": number(), "help": "false blue blobs in each picture, on average"}),
+    ("hidden-share", {"type": number(), "help": "share of the time each disc is covered"}),
+    ("dropped-share", {"type": number(), "help": "share of the frames that is missing"}),
+    ("click-error-px", {"type": number(), "help": "how far clicks are off their discs"}),
     ("sensor", {"choices": tuple(SENSORS), "help": "whose depth it is"}),
-    ("depth-scale-error", {"type": float, "help": "largest scale error of the depth"}),
+    ("depth-scale-error", {"type": number(), "help": "largest scale error of the depth"}),
 )
 _SWITCHES = {
     "pain-limited": "strokes stop short",
@@ -69,13 +96,16 @@ _SWITCHES = {
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     defaults = {field.name: field.default for field in fields(RecordingSpec)}
-    parser.add_argument("--output", type=Path, required=True, metavar="FOLDER")
-    parser.add_argument("--format", choices=("tum", "oni"), default="tum")
+    parser.add_argument("--output", type=Path, required=True, metavar="FOLDER", help="made new, never overwritten")
+    parser.add_argument("--format", choices=("tum", "oni"), default="tum", help="default: tum, a folder of pictures")
     for name, options in _OPTIONS:
         default = defaults[name.replace("-", "_")]
         words = options.get("help", "")
         shown = f"{words} (default {default})".strip() if default is not None else words
-        parser.add_argument(f"--{name}", default=default, **{**options, "help": shown})
+        told = {**options, "help": shown}
+        if "choices" not in options:
+            told.setdefault("metavar", _UNITS.get(name.rpartition("-")[2], "N"))
+        parser.add_argument(f"--{name}", default=default, **told)
     for name, words in _SWITCHES.items():
         parser.add_argument(f"--{name}", action="store_true", help=words)
 

@@ -13,6 +13,7 @@ import numpy as np
 
 from carpus import __version__
 from carpus.app.batch.places import is_many
+from carpus.app.command_line import count, number
 from carpus.app.commands.kept import note
 from carpus.app.commands.progress import bar, tell
 from carpus.app.settings import load_settings
@@ -21,8 +22,9 @@ from carpus.core.calibration.result import Clicks, Verdict
 from carpus.core.capture.identity import Recorded
 from carpus.core.capture.paced import PacedSource
 from carpus.core.dates import iso
-from carpus.core.errors import IntrinsicsAssumed, RecordingMissing
+from carpus.core.errors import IntrinsicsAssumed, NameUnsuited, RecordingMissing
 from carpus.core.hand.marker_protocol import MarkerProtocol
+from carpus.core.names import name_of
 from carpus.core.output.exercises import EXERCISES
 from carpus.core.papers.settings import PaperSettings
 from carpus.core.pipeline.live import Listener
@@ -33,34 +35,22 @@ from carpus.core.summary import range_lines
 from carpus.core.tracking.settings import Profile
 from carpus.core.words import finding_sentence
 
+EXAMPLE = """carpus track out/demo --calibration out/demo/calibration.json --output out/demo.h5
+carpus track recordings --output sessions"""
 LARGEST_START_DEG = 120.0
 LISTENER_PATIENCE_S = 20.0
 EXERCISE_NAMES = tuple(exercise.id for exercise in EXERCISES)
 
 
-def an_angle_deg(text: str) -> float:
-    """Degrees that a wrist may have; anything else is wrong usage."""
-    angle = float(text)
-    if not abs(angle) <= LARGEST_START_DEG:
-        raise argparse.ArgumentTypeError(
-            f"{text} is not between -{LARGEST_START_DEG:g} and {LARGEST_START_DEG:g} degrees"
-        )
-    return angle
-
-
 def a_pseudonym(text: str) -> str:
     """A name that can stand in a list; anything else is wrong usage."""
-    name = text.strip()
-    if not name or not name.isprintable() or len(name) > 100:
+    try:
+        name = name_of(text)
+    except NameUnsuited:
+        name = ""
+    if not name:
         raise argparse.ArgumentTypeError("a pseudonym is a short line of text")
     return name
-
-
-def a_count(text: str) -> int:
-    """A number from 1 on; anything else is wrong usage."""
-    if not text.isdecimal() or not 1 <= int(text) <= 1000:
-        raise argparse.ArgumentTypeError(f"{text} is not a number from 1 to 1000")
-    return int(text)
 
 
 def a_moment(text: str) -> str:
@@ -76,6 +66,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "recording",
         type=Path,
         nargs="+",
+        metavar="RECORDING",
         help="TUM folder, .oni, RealSense or raw recording, or a session (.h5); several, or a folder that is searched "
         "for recordings, are tracked side by side into the folder --output, what is there already left as it is",
     )
@@ -94,14 +85,23 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         help="the file to write, never overwritten; of many recordings the folder for their sessions and tables",
     )
     parser.add_argument(
-        "--jobs", type=a_count, metavar="N", help="of many recordings so many at a time (default: one for each core)"
+        "--jobs",
+        type=count(1, 1000),
+        metavar="N",
+        help="of many recordings so many at a time (default: one for each core)",
     )
     parser.add_argument(
         "--table",
         type=Path,
-        metavar="FILE",
-        help="of many recordings: the measures of all sessions also as this .csv or .parquet, never overwritten "
-        "(Parquet needs carpus[tables])",
+        metavar="TABLE.csv",
+        help="of many recordings: the measures of all sessions also as this .csv or .parquet, written as they "
+        "come; only the table of an earlier run is replaced (Parquet needs carpus[tables])",
+    )
+    parser.add_argument(
+        "--time-limit",
+        type=number(0.1, 45000.0, "minutes"),
+        metavar="MINUTES",
+        help="of many recordings: one that takes longer is given up, and told (default: 120)",
     )
     parser.add_argument(
         "--scheduler",
@@ -112,7 +112,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--filter",
         choices=("default", "paper"),
-        help="the default filter, or both papers' method exactly as written, by colour alone and without looking back; "
+        help="the default filter, or both papers' method as written, by colour alone and without looking back, with "
+        "the hand paper's order of angles (ZYX) for both, as the wrist paper's ZYZ has no value at the neutral pose; "
         "a session's own unless given",
     )
     parser.add_argument(
@@ -123,7 +124,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--dip",
         choices=("coupled", "free"),
-        help="end joints bound to the middle joints (default), or free; a session's own unless given",
+        help="end joints at two thirds of the middle joints (default), or free; a session's own unless given",
     )
     parser.add_argument(
         "--discs",
@@ -144,7 +145,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     )
     parser.add_argument(
         "--start-angles",
-        type=an_angle_deg,
+        type=number(-LARGEST_START_DEG, LARGEST_START_DEG, "degrees"),
         nargs=3,
         metavar=("DEVIATION", "FLEXION", "SUPINATION"),
         help="degrees at the first frame, for a hand that cannot lie neutral; added to all angles and marked as given",
@@ -154,7 +155,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "--exercise",
         choices=EXERCISE_NAMES,
         default="",
-        metavar="NAME",
+        metavar="EXERCISE",
         help=f"stored in the session; one of {', '.join(EXERCISE_NAMES)}",
     )
     parser.add_argument(
@@ -170,7 +171,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "waits up to 20 s for a listener (needs carpus[stream])",
     )
     parser.epilog = (
-        "A session is tracked again with the settings it was tracked with, a recording with those of settings.toml, "
+        "A session is tracked again with the settings it was tracked with, a recording with those of settings.toml,\n"
         "unless an option says otherwise."
     )
 
@@ -233,9 +234,9 @@ def run(arguments: argparse.Namespace) -> int:
             print("carpus track: --stream is for one recording; leave it out.", file=sys.stderr)
             return 2
         return _many(named, arguments)
-    of_many = [name for name in ("jobs", "scheduler", "table") if getattr(arguments, name) is not None]
+    of_many = [name for name in ("jobs", "scheduler", "table", "time_limit") if getattr(arguments, name) is not None]
     if of_many:
-        print(f"carpus track: --{of_many[0]} is for many recordings; leave it out.", file=sys.stderr)
+        print(f"carpus track: --{of_many[0].replace('_', '-')} is for many recordings; leave it out.", file=sys.stderr)
         return 2
     arguments.recording = named[0]
     is_session = arguments.recording.suffix == ".h5" and arguments.recording.is_file()

@@ -7,15 +7,17 @@ import sys
 import time
 from collections import Counter
 from collections.abc import Callable, Iterator, Sequence
+from contextlib import ExitStack
+from dataclasses import replace
 from pathlib import Path
 
 from carpus.app.batch.places import SESSION_SUFFIX, Place, places
-from carpus.app.batch.processes import cores, outcomes
-from carpus.app.batch.tables import check_tables, fault_lines, write_tables
+from carpus.app.batch.processes import LIMIT_S, cores, outcomes
+from carpus.app.batch.tables import MEASURES_FILE, check_outcomes, fault_lines, write_outcomes
 from carpus.app.batch.work import Outcome, Task, fault_of
 from carpus.app.commands.progress import bar
 from carpus.core.errors import CarpusFault, OutputNotWritable, RecordingMissing
-from carpus.core.formats.measures_files import check_place, write_measures
+from carpus.core.formats.measures_files import check_place, measures_file
 from carpus.core.pipeline.told_settings import settings_told
 from carpus.core.pipeline.track import TrackSettings
 from carpus.core.session.reader import read_outline
@@ -50,9 +52,10 @@ def run_many(
     found = places(named, output.absolute())
     if not found:
         raise RecordingMissing(named[0], "no recording in this folder or in those in it")
-    check_tables(output)
-    if arguments.table is not None:
-        check_place(arguments.table)
+    check_outcomes(output)
+    tables = [output / MEASURES_FILE, *([] if arguments.table is None else [arguments.table])]
+    for table in tables:
+        check_place(table)
     done: list[Outcome] = []
     tasks: list[Task] = []
     for place in found:
@@ -65,24 +68,25 @@ def run_many(
     except OSError as cause:
         raise OutputNotWritable(output, cause.strerror or "") from cause
     begin_s = time.monotonic()
-    with bar("tracking", "recording") as progress:
+    with ExitStack() as open_tables, bar("tracking", "recording") as progress:
+        takers = [open_tables.enter_context(measures_file(table, replaces=True)) for table in tables]
         for outcome in _coming(tasks, arguments):
-            done.append(outcome)
+            for take in takers:
+                take(outcome.measures)
+            done.append(replace(outcome, measures=()))  # of thousands of sessions they would fill the memory
             progress(len(done), len(found))
     order = {place.session: number for number, place in enumerate(found)}
     done.sort(key=lambda each: order[each.place.session])
-    written = [*write_tables(done, output)]
-    if arguments.table is not None:
-        written.append(write_measures([row for each in done for row in each.measures], arguments.table))
-    return _told(done, written, time.monotonic() - begin_s)
+    return _told(done, [write_outcomes(done, output), *tables], time.monotonic() - begin_s)
 
 
 def _coming(tasks: Sequence[Task], arguments: argparse.Namespace) -> Iterator[Outcome]:
+    limit_s = LIMIT_S if arguments.time_limit is None else 60.0 * arguments.time_limit
     if arguments.scheduler is None:
-        return outcomes(tasks, arguments.jobs or cores())
+        return outcomes(tasks, arguments.jobs or cores(), limit_s=limit_s)
     from carpus.app.batch.cluster import outcomes_on
 
-    return outcomes_on(arguments.scheduler, tasks)
+    return outcomes_on(arguments.scheduler, tasks, limit_s)
 
 
 def _task(place: Place, arguments: argparse.Namespace, usual: TrackSettings, chosen: Chosen) -> Task:

@@ -5,14 +5,19 @@ from __future__ import annotations
 import argparse
 from pathlib import Path
 
-from carpus.app.commands.kept import data_folder_of, note
+from carpus.app.commands.kept import note
 from carpus.app.commands.progress import bar, tell
+from carpus.app.of_file import data_folder_of
 from carpus.core.errors import CarpusFault, PicturesLost, RecordingMissing
 from carpus.core.session.reader import read_outline, verify
 
+EXAMPLE = "carpus verify session.h5"
+
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    parser.add_argument("file", type=Path, help="session (.h5), TUM folder, .oni, RealSense, raw recording; only read")
+    parser.add_argument(
+        "file", type=Path, metavar="FILE", help="session (.h5), TUM folder, .oni, RealSense, raw recording; only read"
+    )
 
 
 def run(arguments: argparse.Namespace) -> int:

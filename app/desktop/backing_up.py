@@ -4,49 +4,45 @@ from __future__ import annotations
 
 import shutil
 from collections.abc import Callable
-from dataclasses import dataclass
 from datetime import datetime
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QObject, QTimer, Signal
-from PySide6.QtWidgets import QFileDialog
+from PySide6.QtWidgets import QFileDialog, QWidget
 
 from carpus import __version__
 from carpus.app.settings import BackupSettings
 from carpus.core.errors import BackupMissing
 from carpus.core.library.library import Library
-from carpus.core.safekeeping.backup import (
+from carpus.core.records.backup import (
     Backup,
-    LastBackup,
+    Content,
     RestorePlan,
     back_up,
     backups,
+    content_of,
     is_due,
-    last_backup,
     plan_restore,
     restore,
     thin_out,
 )
+from carpus.core.records.of_clinic import LastBackup, last_backup, note_backup
+from carpus.core.records.sealed import ENDING, open_sealed, seal_backup
+from carpus.core.records.staging import Staged
+from carpus.core.safekeeping.same_disk import on_same_disk
 from carpus.ui import numbers
 from carpus.ui.background import Background
 from carpus.ui.messages.stop_card import Answer
 from carpus.ui.ports import Words
 from carpus.ui.records.cards import BackupCard, BackupFacts
+from carpus.ui.records.passphrase_sheet import PassphraseSheet
 from carpus.ui.theme import Theme
 
 if TYPE_CHECKING:
     from carpus.app.desktop.journey import Journey
 
 LOOK_MS = 60_000
-
-
-@dataclass(frozen=True, slots=True)
-class Restored:
-    """A back-up that lies beside the data folder and takes its place when the window has closed."""
-
-    staged: Path
-    data_folder: Path
 
 
 class BackingUp(QObject):
@@ -57,6 +53,7 @@ class BackingUp(QObject):
     def __init__(
         self,
         journey: Journey,
+        host: QWidget,
         theme: Theme,
         library: Library,
         settings: BackupSettings,
@@ -74,10 +71,14 @@ class BackingUp(QObject):
         self._background = Background()  # its own: a back-up of gigabytes holds up nothing else
         self._running = False
         self.last: LastBackup | None = None
-        self.restored: Restored | None = None
+        self.restored: Staged | None = None
+        """A back-up that lies beside the data folder and takes its place when the window has closed."""
         self.card = BackupCard(theme, settings.hour)
         self.card.back_up.connect(self.back_up)
         self.card.restore.connect(self.ask_restore)
+        self.card.seal.connect(self.seal)
+        self.card.unseal.connect(self.ask_restore_sealed)
+        self.passphrase = PassphraseSheet(host, theme)
         self.card.place_wanted.connect(self._choose_place)
         self.card.hour_chosen.connect(lambda hour: self._change(BackupSettings(self._settings.folder, hour)))
         self.stepped.connect(self.card.show_progress)
@@ -99,8 +100,8 @@ class BackingUp(QObject):
 
     def look_again(self) -> None:
         """Work out how it stands, and show it."""
-        folder = self._library.folder
-        self._background.run(lambda: last_backup(folder), self._take_last, self._journey.teller.fault, self)
+        store = self._library.store
+        self._background.run(lambda: last_backup(store), self._take_last, self._journey.teller.fault, self)
 
     def _take_last(self, last: LastBackup | None) -> None:
         self.last = last
@@ -111,12 +112,12 @@ class BackingUp(QObject):
         or not there yet."""
         if self.last is None and not self._settings.folder:
             return False  # nobody has asked for back-ups; the settings say that there is none
-        sessions = sum(record.session_count for record in self._library.clinic.patients())
-        return sessions > 0 and is_due(self.last, self._settings.remind_days, self._now())
+        sessions = sum(record.session_count for record in self._library.patients.listed())
+        return sessions > 0 and is_due(self.last.made if self.last else None, self._settings.remind_days, self._now())
 
     def remind(self) -> None:
         """A strip above the patients, once at the start, where the last back-up is old."""
-        self.last = last_backup(self._library.folder)
+        self.last = last_backup(self._library.store)
         if not self.is_old():
             return
         facts = self._facts()
@@ -135,11 +136,8 @@ class BackingUp(QObject):
             self.back_up()
 
     def back_up(self) -> None:
-        """Now, beside whatever the window does."""
-        if not self._settings.folder:
-            self._choose_place()
-            return
-        if self._running:
+        """Now, beside whatever the window does. Without a folder it is asked for first, and then backed up to."""
+        if self._running or not (self._settings.folder or self._choose_place()):
             return
         self._running = True
         place, settings = Path(self._settings.folder), self._settings
@@ -157,6 +155,7 @@ class BackingUp(QObject):
             progress=self._step,
         )
         thin_out(place, settings.keep, settings.months, self._now())
+        note_backup(self._library.store, made.made, str(place), made.sessions, made.size_bytes)
         self._library.note("backed_up", sessions=made.sessions)
         return made
 
@@ -173,11 +172,13 @@ class BackingUp(QObject):
         self.card.show_progress(None)
         self._journey.teller.fault(fault)
 
-    def _choose_place(self) -> None:
+    def _choose_place(self) -> bool:
+        """Ask for the folder; whether one was chosen."""
         title = self.tr("Folder for back-ups, on another disk")
         folder = QFileDialog.getExistingDirectory(self.card.window(), title, self._settings.folder)
         if folder:
             self._change(BackupSettings(folder, self._settings.hour))
+        return bool(folder)
 
     def _change(self, settings: BackupSettings) -> None:
         self._settings = settings
@@ -195,23 +196,28 @@ class BackingUp(QObject):
             if there:
                 free = shutil.disk_usage(place).free / 1e9
                 place_words = self.tr("{free} GB free").format(free=f"{free:.0f}")
+                if on_same_disk(Path(place), self._library.folder):
+                    place_state, place_words = "warn", self.tr("on the same disk as the data")
         if last is None:
             headline, detail, more = self.tr("There is no back-up yet."), "", ""
-            old = True
+            old, beside = True, False
         else:
             days = (now.date() - last.made.astimezone(now.tzinfo).date()).days
             age = numbers.days_ago(last.made.astimezone(now.tzinfo), now.date())
             missing = {0: self.tr("Every session is in it."), 1: self.tr("1 session is not in it.")}
             rest = missing.get(last.missing, self.tr("{n} sessions are not in it.").format(n=last.missing))
-            old = is_due(last, self._settings.remind_days, now)
+            old = is_due(last.made, self._settings.remind_days, now)
+            beside = on_same_disk(Path(last.place), self._library.folder)
             first = self.tr("The last back-up is {days} days old.").format(days=days)
             headline = f"{first if days > 1 else self.tr('The last back-up is of {day}.').format(day=age)} {rest}"
             facts = self.tr("{when} · {n} sessions, {size} GB · read back and compared: all equal")
             size = numbers.fixed(last.size_bytes / 1e9, 2) if last.size_bytes < 1e10 else f"{last.size_bytes / 1e9:.0f}"
             detail = facts.format(when=numbers.report_date(last.made.astimezone()), n=last.sessions, size=size)
             more = self.tr("Reminder after {days} days.").format(days=self._settings.remind_days)
+            if beside:
+                more = self.tr("It lies on the disk that holds the data: if that disk breaks, both are lost.")
         return BackupFacts(
-            "warn" if old else "good",
+            "warn" if old or beside else "good",
             headline,
             detail,
             more,
@@ -228,51 +234,88 @@ class BackingUp(QObject):
         folder = QFileDialog.getExistingDirectory(self.card.window(), title, self._settings.folder)
         if folder:
             self._background.run(
-                lambda: self._plan(Path(folder)),
-                lambda found: self._ask(Path(folder), *found),
-                self._journey.teller.fault,
-                self,
+                lambda: self._plan(*_newest(Path(folder))), lambda found: self._ask(*found), self._failed, self
             )
 
-    def _plan(self, place: Path) -> tuple[Backup, RestorePlan]:
-        there = backups(place)
-        if not there:
-            raise BackupMissing(place)
-        return there[0], plan_restore(there[0], self._library.folder)
+    def ask_restore_sealed(self) -> None:
+        """The same of a sealed file."""
+        title = self.tr("Sealed back-up")
+        name, _ = QFileDialog.getOpenFileName(self.card.window(), title, "", self.tr("Sealed files (*.age)"))
+        if name:
+            self.passphrase.begin(
+                lambda typed: self._background.run(
+                    lambda: self._plan(*open_sealed(Path(name), typed)), lambda found: self._ask(*found), self._failed,
+                    self,
+                ),
+                seals=False,
+            )  # fmt: skip
 
-    def _ask(self, place: Path, backup: Backup, plan: RestorePlan) -> None:
+    def _plan(self, backup: Backup, content: Content) -> tuple[Backup, Content, RestorePlan]:
+        return backup, content, plan_restore(backup, self._library.folder)
+
+    def _ask(self, backup: Backup, content: Content, plan: RestorePlan) -> None:
         what = self.tr("Restore the back-up of {when}? {come} sessions come, {change} change, {go} go.")
         when = numbers.report_date(backup.made.astimezone())
         self._journey.teller.ask(
             Words(
                 what.format(when=when, come=len(plan.added), change=len(plan.replaced), go=len(plan.lost)),
-                self.tr("What is here now is backed up first, and its folder is kept beside the new one."),
+                self.tr("The folder of what is here now is kept beside the new one."),
                 self.tr("Carpus closes when it is done. Start it again then."),
             ),
             (
-                Answer(self.tr("Restore it"), lambda: self._restore(place, backup), "R"),
-                Answer(self.tr("Leave it as it is"), lambda: None, self.tr("Enter")),
+                Answer(self.tr("Restore it"), lambda: self._restore(backup, content), "R", risky=True),
+                Answer(self.tr("Leave it as it is"), lambda: None),
             ),
             icon="rotate-ccw",
         )
 
-    def _restore(self, place: Path, backup: Backup) -> None:
+    def _restore(self, backup: Backup, content: Content) -> None:
         if self._running:
             return
         self._running = True
         self.card.show_progress(0)
-        folder = self._library.folder
-        staged = folder.with_name(f"{folder.name}.restored-{self._now():%Y%m%d-%H%M%S}")
 
-        def work() -> Path:
-            back_up(folder, place, software_version=__version__, settings_folder=self._settings_folder)
-            restore(place, backup, staged, progress=self._step)
+        def work() -> Staged:
+            staged = restore(backup, content, self._library.folder, progress=self._step, replaces=True)
             self._library.note("restored", sessions=backup.sessions)
             return staged
 
-        def done(staged: Path) -> None:
+        def done(staged: Staged) -> None:
             self._running = False
-            self.restored = Restored(staged, folder)
+            self.restored = staged
             self._close_window()
 
         self._background.run(work, done, self._failed, self)
+
+    # --- as one file --------------------------------------------------------------------------------------
+    def seal(self) -> None:
+        """Everything as one file with a passphrase, to be carried away."""
+        if self._running:
+            return
+        name = f"carpus-{self._now():%Y-%m-%d}{ENDING}"
+        title = self.tr("Seal into one file")
+        chosen, _ = QFileDialog.getSaveFileName(self.card.window(), title, name, self.tr("Sealed files (*.age)"))
+        if chosen:
+            self.passphrase.begin(lambda typed: self._seal(Path(chosen), typed), seals=True)
+
+    def _seal(self, path: Path, passphrase: str) -> None:
+        self._running = True
+        self.card.show_progress(0)
+
+        def work() -> Backup:
+            path.unlink(missing_ok=True)  # the dialog has asked
+            made = seal_backup(
+                self._library.folder, path, passphrase, software_version=__version__,
+                settings_folder=self._settings_folder, progress=self._step,
+            )  # fmt: skip
+            self._library.note("backed_up", sessions=made.sessions, sealed=1)
+            return made
+
+        self._background.run(work, self._done, self._failed, self)
+
+
+def _newest(place: Path) -> tuple[Backup, Content]:
+    there = backups(place)
+    if not there:
+        raise BackupMissing(place)
+    return there[0], content_of(place)

@@ -16,7 +16,7 @@ from carpus.app.desktop.now_open import NowOpen
 from carpus.app.desktop.places import Place
 from carpus.app.desktop.ways import Tell, Way
 from carpus.core.provenance import with_revision
-from carpus.core.session.register import SessionEntry
+from carpus.core.records.values import SessionEntry
 from carpus.ui import numbers, terms
 from carpus.ui.background import Background
 from carpus.ui.beside.screen import BesideScreen

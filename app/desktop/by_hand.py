@@ -62,8 +62,8 @@ class ByHand(QObject):
                 self.tr("Save them, or let them go."),
             ),
             (
-                Answer(self.tr("Back to the form"), lambda: None, self.tr("Enter")),
-                Answer(self.tr("Let them go"), self._let_go, "L"),
+                Answer(self.tr("Let them go"), self._let_go, "L", risky=True),
+                Answer(self.tr("Back to the form"), lambda: None),
             ),
             icon="file-text",
         )
@@ -115,8 +115,8 @@ class ByHand(QObject):
                 self.tr("Look at the numbers once more before they are kept."),
             ),
             (
-                Answer(self.tr("Back to the form"), lambda: None, self.tr("Enter")),
-                Answer(self.tr("Keep as written"), lambda: self._save(values), "K"),
+                Answer(self.tr("Keep as written"), lambda: self._save(values), "K", risky=True),
+                Answer(self.tr("Back to the form"), lambda: None),
             ),
             icon="file-text",
         )

@@ -160,7 +160,7 @@ class Calibrating(QObject):
                 judgement = gathering.judgement
                 step = next_step(judgement, seen.found, size_px, asked)
                 target = target_outline(step, choice.board, info.camera)
-                newest.put(BoardProgress(seen, judgement, step, target, choice.board.corner_count, asked))
+                newest.put(BoardProgress(seen, judgement, step, target, choice.board.corner_count, asked, frame))
 
             return look
 
@@ -178,10 +178,10 @@ class Calibrating(QObject):
     def _pulled(self, frame: Frame) -> None:
         showing = self._screen.showing
         if not self._working:
-            showing.show_frame(frame.color_rgb)
             now = self._newest.look()
             if now is not None and now is not showing.progress:
                 showing.show_progress(now)
+            showing.show_frame(frame)
 
     # --- the result ---------------------------------------------------------------------------------------
     def _work_out(self) -> None:

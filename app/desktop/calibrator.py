@@ -113,6 +113,10 @@ class HandCalibrator:
         """How many spots of the held picture look like discs of paper."""
         return len(self._candidates)
 
+    def discs_px(self) -> FloatArray:
+        """Where they are (D, 2)."""
+        return self._candidates.pixel
+
     def hand_area(self) -> FloatArray | None:
         """Box of the blue discs: corners (2, 2); None when hardly any is seen."""
         if len(self._candidates) < len(self._protocol.palm):

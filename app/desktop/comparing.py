@@ -28,7 +28,7 @@ from carpus.core.agreement.watch import Stopped, Watch
 from carpus.core.hand.sites import PALM_MARKERS, WRIST_ANGLES
 from carpus.core.output.exercises import exercise_named
 from carpus.core.output.report_content import RepetitionChoices
-from carpus.core.session.register import SessionEntry
+from carpus.core.records.values import SessionEntry
 from carpus.ui import numbers, terms
 from carpus.ui.agreement.reference_sheet import ColumnsSheet, ReferenceSheet, missing
 from carpus.ui.agreement.screen import AgreementScreen

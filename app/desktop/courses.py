@@ -11,7 +11,8 @@ from carpus.app.desktop.now_open import NowOpen
 from carpus.app.desktop.patient_view import PatientViewing
 from carpus.app.desktop.ways import Tell
 from carpus.core.errors import CarpusFault
-from carpus.core.library.exercise_sets import USUAL_SETS, ExerciseSet, keep_sets, next_part, read_sets
+from carpus.core.library.exercise_sets import USUAL_SETS, ExerciseSet, next_part
+from carpus.core.library.kept_sets import keep_sets, read_sets
 from carpus.core.library.library import Library
 from carpus.core.library.set_up import SetUp
 from carpus.ui import numbers, terms
@@ -27,7 +28,7 @@ LINGER_S = 2.0
 
 
 class KeptSets(QObject):
-    """What the exercise screen offers; one file in the data folder."""
+    """What the exercise screen offers; kept in the store."""
 
     def __init__(self, host: QWidget, screen: ExerciseScreen, tell: Tell, library: Library, theme: Theme) -> None:
         super().__init__(host)
@@ -41,7 +42,7 @@ class KeptSets(QObject):
     def look(self) -> None:
         """Read them; where that cannot be done the usual ones are offered."""
         try:
-            self.sets = read_sets(self._library.folder)
+            self.sets = read_sets(self._library.store)
         except CarpusFault as fault:
             self.sets = USUAL_SETS
             self._tell.fault(fault)
@@ -53,9 +54,10 @@ class KeptSets(QObject):
 
     def _keep(self, sets: tuple[ExerciseSet, ...], chosen_id: str) -> None:
         try:
-            keep_sets(self._library.folder, sets)
+            keep_sets(self._library.store, sets, self.sets)
         except CarpusFault as fault:
             self._tell.fault(fault)
+            self.look()
             return
         self.sets = sets
         self._screen.show_sets(sets, chosen_id)

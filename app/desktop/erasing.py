@@ -10,8 +10,10 @@ from PySide6.QtCore import QObject
 from PySide6.QtWidgets import QWidget
 
 from carpus.core.library.records import Records
-from carpus.core.safekeeping.erasure import ErasurePlan
-from carpus.core.safekeeping.retention import kept_until
+from carpus.core.records.erasure import ErasurePlan
+from carpus.core.records.retention import kept_until
+from carpus.ui import numbers
+from carpus.ui.ports import Words
 from carpus.ui.records.erase_sheet import EraseSheet
 from carpus.ui.records.ports import ErasureFacts
 from carpus.ui.theme import Theme
@@ -60,20 +62,16 @@ class Erasing(QObject):
         last = max((entry.recorded for entry in plan.results), default=None)
         single = plan.kind == "session" and last is not None
         patient = self._journey.patient
-        name = self._records.names().get(plan.patient_id, "")
         self.sheet.begin(
             ErasureFacts(
-                pseudonym=patient.pseudonym if patient is not None and single else name,
+                pseudonym=patient.pseudonym if patient is not None and single else plan.pseudonym,
                 when=last if single else None,
                 exercise=plan.results[0].exercise if plan.results else "",
                 side=plan.results[0].hand if plan.results else "",
                 sessions=plan.sessions,
                 files=len(plan.files),
                 size_mb=plan.size_bytes / 1e6,
-                exports=sum(one.kind == "export" for one in plan.made_going),
-                reports=sum(one.kind == "report" for one in plan.made_going),
-                changed=sum(one.state == "changed" for one in plan.made),
-                not_found=sum(one.state == "not_found" for one in plan.made),
+                made=tuple(str(one.path) for one in plan.made if one.state != "not_found"),
                 others=plan.others,
                 last_backup=self._last_backup(),
                 kept_until=kept_until(last, years) if last is not None else None,
@@ -97,9 +95,43 @@ class Erasing(QObject):
         if plan is not None:
             single = plan.kind == "session"
             act = self._records.archive_session if single else self._records.archive_patient
-            self._journey.background.run(
-                lambda: act(plan.identity), lambda _: self._gone(single), self._journey.teller.fault, self
+
+            def done(_: object) -> None:
+                self._gone(single)
+                self._offer_undo(plan, plan.identity)
+
+            self._journey.background.run(lambda: act(plan.identity), done, self._journey.teller.fault, self)
+
+    def _offer_undo(self, plan: ErasurePlan, archived: str) -> None:
+        """What was archived is said where it was, and comes back by one press."""
+        journey = self._journey
+        if plan.kind == "session":
+            what = self.tr("The session of {day} is in the archive.").format(
+                day=numbers.report_date(plan.results[0].recorded)
             )
+            place = journey.sessions.notice_place
+        else:
+            what = self.tr("{name} is in the archive.").format(name=plan.pseudonym)
+            place = journey.patients.notice_place
+        words = Words(what, self.tr("Nothing is lost. It counts nowhere until it is brought back."), "")
+        strip = journey.teller.strip(
+            place, words, self.tr("&Undo"), lambda: self._bring_back(archived), icon="archive", later=self.tr("Close")
+        )
+        journey.way.leaving.connect(strip.later)  # elsewhere it is said no more; the archive has it
+
+    def _bring_back(self, identity: str) -> None:
+        self._journey.background.run(
+            lambda: self._records.bring_back(identity), lambda _: self.show_again(), self._journey.teller.fault, self
+        )
+
+    def show_again(self) -> None:
+        """The list that is shown, with what is in it now."""
+        journey = self._journey
+        journey.sessions.changed.emit()
+        if journey.place == "sessions" and journey.patient is not None:
+            journey.viewing.open_sessions(journey.patient.patient_id)
+        elif journey.place == "patients":
+            journey.patients.refresh()
 
     def _refused(self, single: bool, fault: Exception) -> None:
         """Some of it may be gone all the same."""

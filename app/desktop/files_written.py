@@ -40,7 +40,7 @@ def tell_written(tell: Tell, folder: str, names: Sequence[str]) -> None:
         ),
         (
             Answer(tr("Open the folder"), lambda: open_folder(folder), "O"),
-            Answer(tr("Go on"), lambda: None, tr("Enter")),
+            Answer(tr("Go on"), lambda: None),
         ),
         icon="download",
     )

@@ -46,7 +46,7 @@ from carpus.core.capture.calibrated import SERIAL
 from carpus.core.errors import CarpusFault
 from carpus.core.library.corrections import Corrections
 from carpus.core.library.library import Library, Recovered
-from carpus.core.library.set_up import PRACTICE_PATIENT, SetUp
+from carpus.core.library.set_up import SetUp
 from carpus.ui.agreement.screen import AgreementScreen
 from carpus.ui.background import Background
 from carpus.ui.beside.screen import BesideScreen
@@ -76,6 +76,8 @@ from carpus.ui.setup.exercise import ExerciseScreen
 from carpus.ui.shell import Shell
 from carpus.ui.theme import Theme
 
+MEASURING = ("camera", "markers", "live")
+"""Where an open camera or recording is measured with; behind the review it only waits for another set."""
 ALL_KEYS = ("help", "settings", "search", "new_patient", "back")
 
 
@@ -170,7 +172,7 @@ class Journey(QObject):
         self.course = CourseRun(self, self.live, self.patient_view, now)
         views = ViewScreens(self.sessions, self.review, self.progress)
         self.viewing = Viewing(self, views, self.way, tell, now, library, self._find_patient, places)
-        self.forms = ReportForms(self, theme, library.folder, tell.fault)
+        self.forms = ReportForms(self, theme, library.store, tell.fault)
         self.printing = Printing(
             self._shell, self.report, self.way, tell, now, library, places, self.background,
             theme=theme, therapist=lambda: self.settings.report.therapist, forms=self.forms,
@@ -213,15 +215,17 @@ class Journey(QObject):
     def _fill_table(self) -> None:
         """Every place: its screen, what has the keyboard first, where Back leads, what ends with it."""
         put, first, setting_up = self.way.put, self._first, self.setting_up
-        put("patients", Stop(self.patients, lambda: self.patients.search, self._up_from_patients))
+        up_from_patients = self._past_strips(self.patients, self._to_patient)
+        put("patients", Stop(self.patients, lambda: self.patients.search, up_from_patients))
         put("exercise", Stop(self.exercise, self.exercise.first, self._to_patient))
         put("camera", Stop(self.camera, self.camera.first, setting_up.up_from_camera))
         markers = Stop(
-            self.markers, lambda: self.markers.picture, setting_up.up_to_camera, self.markers.end, while_aside=True
+            self.markers, lambda: self.markers.picture, setting_up.up_from_markers, self.markers.end, while_aside=True
         )
         put("markers", markers)
         put("live", Stop(self.live, first(self.live), setting_up.up_to_camera))
-        put("sessions", Stop(self.sessions, self.sessions.first, self._to_patient))
+        up_from_sessions = self._past_strips(self.sessions, self._to_patient)
+        put("sessions", Stop(self.sessions, self.sessions.first, up_from_sessions))
         put("review", Stop(self.review, first(self.review), self._to_patient, self.review.end))
         put("progress", Stop(self.progress, first(self.progress), self._to_session))
         put("by_hand", Stop(self.by_hand, self.by_hand.first, self.entering_by_hand.leave))
@@ -350,12 +354,18 @@ class Journey(QObject):
     def _to_patient(self) -> None:
         self.show_patients(self.now.patient.patient_id if self.now.patient else "")
 
-    def _up_from_patients(self) -> None:
-        strips = self.patients.findChildren(NoticeStrip)
-        if strips:
-            strips[-1].later.emit()
-        else:
-            self._to_patient()
+    @staticmethod
+    def _past_strips(screen: QWidget, up: Callable[[], None]) -> Callable[[], None]:
+        """Esc closes what is told above a list before it leaves the list."""
+
+        def back() -> None:
+            strips = [strip for strip in screen.findChildren(NoticeStrip) if strip.isVisible()]
+            if strips:
+                strips[-1].later.emit()
+            else:
+                up()
+
+        return back
 
     def _to_session(self) -> None:
         if self.now.session_id:
@@ -494,18 +504,13 @@ class Journey(QObject):
             self.now.patient = PatientRow("", found.subject_id, found.side)
         self.viewing.open_review_of(found.patient_id, found.session_id)
 
-    def prepare_practice(self) -> None:
-        """Render the practice patient's usual exercise now, so that nobody waits for it later."""
-        self.setting_up.prepare_practice()
-        self.patients.refresh(PRACTICE_PATIENT)
-
     def _go_to_step(self, place: Place) -> None:
         if self.teller.busy:
             return
         if place == "exercise":
             self.setting_up.exercise_again()
         elif place == "camera":
-            self.setting_up.up_to_camera()
+            (self.setting_up.up_from_markers if self.place == "markers" else self.setting_up.up_to_camera)()
 
     def _take_key(self, name: str) -> None:
         actions: dict[str, Callable[[], None]] = {"back": self._escape, "help": self._open_guide}
@@ -537,7 +542,8 @@ class Journey(QObject):
     @property
     def is_at_work(self) -> bool:
         """Whether something is measured, or worked on that would end with the window."""
-        measures = self.now.source is not None or self.calibrating.hand.is_open or self.checking.hand.is_open
+        measures = self.now.source is not None and self.way.behind in MEASURING
+        measures |= self.calibrating.hand.is_open or self.checking.hand.is_open
         return measures or self.correcting.is_at_work or self.comparing.is_at_work or self.background.busy
 
     def show_again_at(self, place: Place, before: NowOpen) -> None:

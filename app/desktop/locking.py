@@ -10,10 +10,12 @@ from PySide6.QtCore import QObject
 from PySide6.QtGui import QKeySequence, QShortcut
 from PySide6.QtWidgets import QApplication
 
-from carpus.core.encryption import keys
+from carpus.core.capture.finding import Finding
+from carpus.core.disk_encryption import disk_encryption_finding, disk_state
 from carpus.core.errors import CarpusFault, PinUncheckable
 from carpus.core.library.library import Library
 from carpus.core.safekeeping.pin import Pin
+from carpus.ui.background import Background
 from carpus.ui.ports import Phrasebook
 from carpus.ui.records.cards import LockCard
 from carpus.ui.records.idle import Idle
@@ -21,6 +23,7 @@ from carpus.ui.records.lock_sheet import LockSheet
 from carpus.ui.records.pin_sheet import PinSheet
 from carpus.ui.shell import Shell
 from carpus.ui.theme import Theme
+from carpus.ui.translate import say
 
 if TYPE_CHECKING:
     from carpus.app.desktop.journey import Journey
@@ -57,6 +60,11 @@ class Locking(QObject):
         self.card.pin_wanted.connect(lambda: self.pin_sheet.begin(is_set=self.pin.is_set))
         self.card.minutes_chosen.connect(self._take_minutes)
         self.card.show_pin(is_set=self.pin.is_set)
+        self._background = Background()  # the system may take a second or two to answer
+        folder = library.folder
+        self._background.run(
+            lambda: disk_encryption_finding(disk_state(folder)), self._show_disk, journey.teller.fault, self
+        )
         self._hidden = (shell.bar, shell.sign, shell.stage)
         shortcut = QShortcut(QKeySequence(key), shell)
         shortcut.activated.connect(self.lock_by_key)
@@ -71,12 +79,15 @@ class Locking(QObject):
     def end(self) -> None:
         """The window closes."""
         self.idle.wait(0)
+        self._background.wait(WAIT_MS)
+
+    def _show_disk(self, finding: Finding) -> None:
+        self.card.show_disk("good" if finding.state == "good" else "warn", say(finding.found), say(finding.remedy))
 
     def lock_at_start(self) -> None:
-        """Where there is a PIN nothing is shown without it; called when the window is there. Where it was typed a
-        moment ago to open what is encrypted it is not asked for again."""
+        """Where there is a PIN nothing is shown without it; called when the window is there."""
         self.look_again()
-        if self.pin.is_set and not keys.has_key(self._library.folder):
+        if self.pin.is_set:
             self._lock(0)
 
     def lock_by_key(self) -> None:
@@ -121,7 +132,7 @@ class Locking(QObject):
             if not isinstance(fault, PinUncheckable):
                 self.sheet.pause(WAIT_MS // 1000)  # what cannot be counted is not tried without end
             return
-        if not tried.opened and not self._opens_files(typed):
+        if not tried.opened:
             self._library.note("pin_refused", left=tried.left)
             self.sheet.refuse(tried.left, round(tried.pause_s))
             return
@@ -136,17 +147,12 @@ class Locking(QObject):
         try:
             if self.pin.is_set:
                 tried = self.pin.try_it(old)
-                if not tried.opened and not self._opens_files(old):
+                if not tried.opened:
                     self._library.note("pin_refused", left=tried.left)
                     words = self.tr("The PIN until now is another one.")
                     wait = self.tr("Too many tries. The next one in {seconds} s.").format(seconds=round(tried.pause_s))
                     self.pin_sheet.say(wait if tried.pause_s else words)
                     return
-            if keys.has_key(self._library.folder):
-                if len(new) < keys.LEAST_SIGNS:
-                    self.pin_sheet.say(self.tr("It opens what is encrypted: ten signs or more, or decrypt it first."))
-                    return
-                keys.change_pin(self._library.folder, new)
             if new:
                 self.pin.set(new)
             else:
@@ -161,14 +167,9 @@ class Locking(QObject):
         self._restart()
 
     def look_again(self) -> None:
-        """There may be another PIN, or one that opens the files too."""
-        self.sheet.is_encrypted = keys.has_key(self._library.folder)
+        """There may be another PIN."""
         self.card.show_pin(is_set=self.pin.is_set)
         self._restart()
-
-    def _opens_files(self, typed: str) -> bool:
-        """The recovery code, where what is stored is encrypted."""
-        return keys.has_key(self._library.folder) and keys.opens(self._library.folder, typed)
 
     def _take_minutes(self, minutes: int) -> None:
         self._minutes = minutes

@@ -79,7 +79,7 @@ class MeasuringFlow(QObject):
             detail = self.tr("Recording paused by itself at {time}.").format(time=at)
             safe = self.tr("{time} and {count} full repetitions are stored.").format(time=at, count=live.repetitions)
         answer = (
-            Answer(self.tr("Stop and review"), live.stop, self.tr("Enter"))
+            Answer(self.tr("Stop and review"), live.stop)
             if recording
             else Answer(self.tr("Choose another source"), self._way.back)
         )
@@ -97,8 +97,8 @@ class MeasuringFlow(QObject):
         self._tell.fault(
             fault,
             (
-                Answer(self.tr("To the patients"), self.patients_wanted.emit, "P"),
-                Answer(self.tr("Go on measuring"), lambda: None, self.tr("Enter")),
+                Answer(self.tr("To the patients"), self.patients_wanted.emit, "P", risky=True),
+                Answer(self.tr("Go on measuring"), lambda: None),
             ),
         )
 
@@ -107,8 +107,8 @@ class MeasuringFlow(QObject):
         self._tell.ask(
             self._hasty_question(),
             (
-                Answer(self.tr("Stop and review"), self._live.stop, "S"),
-                Answer(self.tr("Go on measuring"), lambda: None, self.tr("Enter")),
+                Answer(self.tr("Stop and review"), self._live.stop, "S", risky=True),
+                Answer(self.tr("Go on measuring"), lambda: None),
             ),
         )
 
@@ -128,8 +128,8 @@ class MeasuringFlow(QObject):
             self._tell.ask(
                 self._closing_question(),
                 (
-                    Answer(self.tr("Stop, save and close"), self.close_wanted.emit, "S"),
-                    Answer(self.tr("Go on measuring"), lambda: None, self.tr("Enter")),
+                    Answer(self.tr("Stop, save and close"), self.close_wanted.emit, "S", risky=True),
+                    Answer(self.tr("Go on measuring"), lambda: None),
                 ),
             )
         return True

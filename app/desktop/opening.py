@@ -6,14 +6,10 @@ import threading
 
 from PySide6.QtCore import QObject, Signal
 
-from carpus.app.desktop.sources import OpenSource, Sources
+from carpus.app.desktop.sources import NobodyWaitsError, OpenSource, Sources
 from carpus.core.library.set_up import SetUp
 from carpus.ui.background import Background
 from carpus.ui.setup.choice import SourceChoice
-
-
-class _CancelledError(Exception):
-    """Ends a long opening from inside."""
 
 
 class Opener(QObject):
@@ -30,8 +26,6 @@ class Opener(QObject):
         self._ending = threading.Event()
         self._ready: list[OpenSource] = []
         self._number = 0
-        self._preparing: tuple[str, str] | None = None
-        self._not_wanted = threading.Event()
         self._last_percent = -1
 
     def open(self, choice: SourceChoice, set_up: SetUp) -> None:
@@ -39,26 +33,11 @@ class Opener(QObject):
         self._number += 1
         number = self._number
         self._last_percent = -1
-        if choice.kind != "practice" or self._preparing != _take_of(set_up):
-            self._not_wanted.set()  # nobody waits for what is prepared: it would only take twice as long
         self._background.run(
             lambda: self._ready.append(self._sources.open(choice, set_up, self._progress)),
             lambda _: self._take(number),
             lambda fault: self._fail(number, fault),
         )
-
-    def prepare(self, set_up: SetUp) -> None:
-        """Render the practice patient's take beforehand; its fault is a later opening's to tell. An opening of anything
-        else ends it: there is one bar, and it is of what one waits for."""
-        self._preparing = _take_of(set_up)
-        self._not_wanted.clear()
-
-        def progress(done: int, total: int) -> None:
-            if self._not_wanted.is_set():
-                raise _CancelledError
-            self._progress(done, total)
-
-        self._background.run(lambda: self._sources.prepare_practice(set_up, progress), lambda _: None, lambda _: None)
 
     def cancel(self) -> None:
         """Nobody waits any more: a source that still comes is closed."""
@@ -75,7 +54,7 @@ class Opener(QObject):
     def _progress(self, done: int, total: int) -> None:
         """Called from the background for every picture; the window hears of each percent."""
         if self._ending.is_set():
-            raise _CancelledError
+            raise NobodyWaitsError
         percent = 100 * done // max(total, 1)
         if percent != self._last_percent:
             self._last_percent = percent
@@ -89,10 +68,5 @@ class Opener(QObject):
             self._background.run(source.measuring.close, lambda _: None, lambda _: None)
 
     def _fail(self, number: int, fault: Exception) -> None:
-        if number == self._number and not isinstance(fault, _CancelledError):
+        if number == self._number and not isinstance(fault, NobodyWaitsError):
             self.failed.emit(fault)
-
-
-def _take_of(set_up: SetUp) -> tuple[str, str]:
-    """Which simulated take belongs to a set-up."""
-    return set_up.exercise.id, set_up.side

@@ -7,11 +7,12 @@ from dataclasses import replace
 
 from carpus.core.errors import SessionUnreadable
 from carpus.core.library.library import Library
+from carpus.core.library.records import Records
 from carpus.core.library.set_up import PRACTICE_PATIENT
 from carpus.core.output.report_content import SessionFigures, compare, compare_rows, unfair_reasons
-from carpus.core.session import register
-from carpus.core.session.register import PatientRecord
-from carpus.ui.ports import PatientCard, PatientEntry, PatientRow, ResultLine, SessionRow
+from carpus.core.records import values
+from carpus.core.records.values import PatientRecord
+from carpus.ui.ports import MOST_ROWS, PatientCard, PatientEntry, PatientRow, ResultLine, SessionRow
 from carpus.ui.report.further_rows import main_words
 from carpus.ui.report.hand_rows import compared_figures
 from carpus.ui.report.tables import repetition_words
@@ -26,16 +27,21 @@ class PatientShelf:
 
     def __init__(self, library: Library) -> None:
         self._library = library
+        self._shown: dict[str, int] = {}
 
-    def patients(self) -> Sequence[PatientRow]:
-        """All rows, newest session first."""
-        return [_row(record) for record in self._library.clinic.patients()]
+    def patients(self, search: str = "") -> Sequence[PatientRow]:
+        """The first rows, newest session first."""
+        return [_row(record) for record in self._library.patients.listed(search, most=MOST_ROWS)]
+
+    def archived(self) -> Sequence[str]:
+        """Who is in the archive."""
+        return [one.pseudonym for one in Records(self._library).archived() if one.recorded is None]
 
     def card(self, patient_id: str) -> PatientCard:
         """What the therapist must recall, of the last session against the first that compares."""
-        owner, key = self._library.of(patient_id)
-        record = owner.patient(key)
-        row = replace(_row(record), patient_id=patient_id)
+        record = self._library.patients.one(patient_id)
+        self._shown[patient_id] = record.version
+        row = _row(record)
         entries = self._library.sessions(patient_id)
         if not entries:
             return PatientCard(row)
@@ -64,28 +70,28 @@ class PatientShelf:
 
     def suggest_pseudonym(self) -> str:
         """A free name."""
-        return self._library.clinic.suggest_pseudonym()
+        return self._library.patients.suggest_pseudonym()
 
     def add(self, entry: PatientEntry) -> str:
         """Enter a new patient."""
-        patient_id = self._library.clinic.add(
-            register.PatientEntry(entry.pseudonym, entry.side, entry.dominance, note=entry.note, name=entry.name)
+        patient_id = self._library.patients.add(
+            values.PatientEntry(entry.pseudonym, entry.side, entry.dominance, note=entry.note, name=entry.name)
         )
         self._library.note_patient("added", patient_id)
         return patient_id
 
     def change(self, patient_id: str, entry: PatientEntry) -> None:
         """Change what a person wrote; what the form does not show stays."""
-        old = self._library.clinic.patient(patient_id).entry
+        record = self._library.patients.one(patient_id)
         new = replace(
-            old,
+            record.entry,
             pseudonym=entry.pseudonym,
             side=entry.side,
             dominance=entry.dominance,
             note=entry.note,
             name=entry.name,
         )
-        self._library.clinic.change(patient_id, new)
+        self._library.patients.change(patient_id, new, self._shown.pop(patient_id, record.version))
         self._library.note_patient("changed", patient_id)
 
     def _first_alike(self, patient_id: str, last: SessionFigures) -> SessionFigures | None:

@@ -1,4 +1,7 @@
-"""The practice patient: which simulated take belongs to a set-up, rendered once and kept in the user's cache."""
+"""The practice patient: which simulated take belongs to a set-up, drawn once and kept in the user's cache.
+
+Its still hand takes a second to draw and is there at once; the movement is drawn while a person looks and clicks.
+"""
 
 from __future__ import annotations
 
@@ -11,8 +14,9 @@ from carpus.core.capture.source import FrameSource
 from carpus.core.capture.tum import TumFolder
 from carpus.core.library.set_up import SetUp
 from carpus.core.output.exercises import DEVIATION, FLEXION, PRONOSUPINATION
+from carpus.core.simulation.first_pictures import FirstPictures
 from carpus.core.simulation.hand_motion import STILL_S
-from carpus.core.simulation.recording import cached_recording
+from carpus.core.simulation.recording import cached_recording, is_cached
 from carpus.core.simulation.spec import RecordingSpec
 
 _MOTION = {FLEXION: "flexion", DEVIATION: "deviation", PRONOSUPINATION: "pronosupination", None: "mixed"}
@@ -38,7 +42,7 @@ _TILT_DEG, _HAND_TILT_DEG = 4.0, {"right": 11.0, "left": 8.0}
 _READ_AHEAD = 8
 
 
-def practice_spec(set_up: SetUp, seconds: float | None = None) -> RecordingSpec:
+def practice_spec(set_up: SetUp) -> RecordingSpec:
     """A short take: three repetitions, now and then a hidden marker, a false blue spot."""
     exercise = set_up.exercise
     usual = RecordingSpec(
@@ -60,13 +64,17 @@ def practice_spec(set_up: SetUp, seconds: float | None = None) -> RecordingSpec:
         tilt_deg=_HAND_TILT_DEG[set_up.side] if set_up.protocol.has_fingers else _TILT_DEG,
         hidden_share=0.02,
     )
-    own = replace(usual, **_OTHERWISE.get(exercise.id, {}))
-    return own if seconds is None else replace(own, seconds=seconds)
+    return replace(usual, **_OTHERWISE.get(exercise.id, {}))
 
 
-def practice_take(
-    set_up: SetUp, progress: Callable[[int, int], None], seconds: float | None = None
-) -> tuple[FrameSource, float]:
+def practice_take(set_up: SetUp, progress: Callable[[int, int], None]) -> tuple[FrameSource, float]:
     """The take as a source, and how long it is still at its start."""
-    folder = cached_recording(practice_spec(set_up, seconds), progress, workers=os.cpu_count() or 1)
+    folder = cached_recording(practice_spec(set_up), progress, workers=os.cpu_count() or 1)
     return TumFolder(folder, read_ahead=_READ_AHEAD), STILL_S - 1.0 / _FPS
+
+
+def practice_beginning(set_up: SetUp) -> tuple[FrameSource, float] | None:
+    """The same hand in the same place, as long as it is still; None where the whole take was drawn before."""
+    if is_cached(practice_spec(set_up)):
+        return None
+    return FirstPictures(practice_spec(set_up), STILL_S), STILL_S - 1.0 / _FPS

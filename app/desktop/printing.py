@@ -22,9 +22,11 @@ from carpus.app.desktop.ways import Tell, Way
 from carpus.core.by_hand.table import COLUMNS, rows_of
 from carpus.core.by_hand.values import HandValue
 from carpus.core.errors import CarpusFault, OutputNotWritable
+from carpus.core.formats.new_output import plain_cell
 from carpus.core.output.camera_said import CameraSaid
 from carpus.core.output.report_content import Progress, RepetitionChoices, SessionFigures
 from carpus.core.output.report_form import ReportForm
+from carpus.core.private import private
 from carpus.core.session.values import Session
 from carpus.ui.background import Background
 from carpus.ui.export.sheet import ExportSheet
@@ -265,7 +267,7 @@ def write_table(path: Path, progress: Progress) -> None:
         "joint", "at_least",
     ]  # fmt: skip
     try:
-        with path.open("w", newline="", encoding="utf-8") as file:
+        with open(path, "w", newline="", encoding="utf-8", opener=private) as file:
             table = csv.writer(file)
             table.writerow(head)
             for point in progress.points:
@@ -296,21 +298,12 @@ def write_tables(path: Path, progress: Progress) -> list[Path]:
 def write_by_hand(path: Path, values: Sequence[HandValue]) -> None:
     """One line for each value that counts, as it was entered by hand: every try, and their mean in the unit named."""
     try:
-        with path.open("w", newline="", encoding="utf-8") as file:
+        with open(path, "w", newline="", encoding="utf-8", opener=private) as file:
             table = csv.writer(file)
             table.writerow(COLUMNS)
             table.writerows([plain_cell(text) for text in row] for row in rows_of(values))
     except OSError as cause:
         raise OutputNotWritable(path, cause.strerror or "") from cause
-
-
-def plain_cell(text: str) -> str:
-    """A text that a spreadsheet shows and does not calculate.
-
-    >>> plain_cell("=1+2"), plain_cell("fist")
-    ("'=1+2", 'fist')
-    """
-    return f"'{text}" if text[:1] in tuple("=+-@\t\r\n") and text else text
 
 
 def _decimal(value: float) -> str:

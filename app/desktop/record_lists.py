@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from datetime import date
 from typing import TYPE_CHECKING, TypeVar
 
@@ -11,8 +11,8 @@ from PySide6.QtWidgets import QWidget
 
 from carpus.app.desktop.erasing import Erasing
 from carpus.core.library.records import Archived, Records
-from carpus.core.safekeeping.audit import AuditEntry, AuditReading
-from carpus.core.safekeeping.retention import RETENTION_YEARS, Due
+from carpus.core.records.log import LoggedDeed as StoredDeed
+from carpus.core.records.retention import RETENTION_YEARS, Due
 from carpus.ui import numbers
 from carpus.ui.records.cards import RecordsCard
 from carpus.ui.records.list_sheets import LogSheet, RecordsSheet
@@ -24,6 +24,10 @@ if TYPE_CHECKING:
 
 
 T = TypeVar("T")
+
+
+def _everything(_: Archived) -> bool:
+    return True
 
 
 class RecordLists(QObject):
@@ -45,12 +49,17 @@ class RecordLists(QObject):
         self._journey, self._records, self._erasing = journey, records, erasing
         self.years, self._today, self._keep_years = years, today, keep_years
         self._sessions: dict[str, str] = {}
+        self._shown: Callable[[Archived], bool] = _everything
         self.card = RecordsCard(theme, years, RETENTION_YEARS)
         self.sheet = RecordsSheet(stage, theme)
         self.log_sheet = LogSheet(stage, theme)
         self.card.years_chosen.connect(self._take_years)
         self.card.due_wanted.connect(self.show_due)
-        self.card.archive_wanted.connect(self.show_archive)
+        self.card.archive_wanted.connect(lambda: self.show_archive())
+        journey.patients.archive_wanted.connect(lambda: self.show_archive(lambda one: one.recorded is None))
+        journey.sessions.archive_wanted.connect(
+            lambda whose: self.show_archive(lambda one: one.recorded is not None and one.patient_id == whose)
+        )
         self.card.log_wanted.connect(self.show_log)
         self.sheet.back_wanted.connect(self._bring_back)
         self.sheet.archive_wanted.connect(self._archive)
@@ -86,14 +95,16 @@ class RecordLists(QObject):
         ]
         self.sheet.begin(self.tr("What is due"), words.format(n=self.years), listed)
 
-    def show_archive(self) -> None:
-        """What can be brought back."""
+    def show_archive(self, shown: Callable[[Archived], bool] | None = None) -> None:
+        """What can be brought back; all of it, or what ``shown`` says."""
+        self._shown = shown or _everything
         self._run(self._records.archived, self._show_archive)
 
-    def _show_archive(self, found: list[Archived]) -> None:
+    def _show_archive(self, there: list[Archived]) -> None:
         listed = []
+        found = [one for one in there if self._shown(one)]
         for one in found:
-            what = self.tr("{n} sessions").format(n=one.sessions)
+            what = self.tr("1 session") if one.sessions == 1 else self.tr("{n} sessions").format(n=one.sessions)
             if one.recorded is not None:
                 what = self.tr("session of {day}").format(day=numbers.report_date(one.recorded))
             since = self.tr("archived on {day}").format(day=numbers.day_of_year(one.since))
@@ -103,7 +114,11 @@ class RecordLists(QObject):
         self.sheet.begin(self.tr("Archive"), words if found else self.tr("The archive is empty."), listed)
 
     def _bring_back(self, identity: str) -> None:
-        self._run(lambda: self._records.bring_back(identity), lambda _: self.show_archive())
+        def done(_: object) -> None:
+            self._erasing.show_again()
+            self.show_archive(self._shown)
+
+        self._run(lambda: self._records.bring_back(identity), done)
 
     def _archive(self, patient_id: str) -> None:
         self._run(lambda: self._records.archive_patient(patient_id), lambda _: self.show_due())
@@ -118,15 +133,14 @@ class RecordLists(QObject):
 
     def show_log(self) -> None:
         """Who did what and when."""
-        self._run(lambda: (self._records.audit(), self._records.names(), self._records.audit_was_cut()), self._show_log)
+        self._run(lambda: (self._records.log(), self._records.names()), self._show_log)
 
-    def _show_log(self, found: tuple[AuditReading, dict[str, str], bool]) -> None:
-        reading, names, was_cut = found
-        deeds = [self._deed(entry, names) for entry in reading.entries]
-        self.log_sheet.begin(deeds, reading.breaks or ((len(deeds) + 1,) if was_cut else ()))
+    def _show_log(self, found: tuple[Sequence[StoredDeed], dict[str, str]]) -> None:
+        entries, names = found
+        self.log_sheet.begin([self._deed(entry, names) for entry in entries])
 
-    def _deed(self, entry: AuditEntry, names: dict[str, str]) -> LoggedDeed:
-        of_whom = names.get(entry.identity, entry.identity[:8])
+    def _deed(self, entry: StoredDeed, names: dict[str, str]) -> LoggedDeed:
+        of_whom = names.get(entry.subject, entry.subject[:8])
         by = self.tr("by command") if entry.by == "command" else ""
         facts = ", ".join(f"{name} {value}" for name, value in entry.facts.items() if len(str(value)) < 20)
         detail = " · ".join(part for part in (facts, by) if part)
@@ -145,6 +159,5 @@ class RecordLists(QObject):
             "locked": self.tr("locked"), "unlocked": self.tr("unlocked"), "pin_refused": self.tr("PIN refused"),
             "pin_changed": self.tr("PIN changed"), "read_log": self.tr("log read"),
             "entered_by_hand": self.tr("values by hand entered"),
-            "encrypted": self.tr("encryption switched on"), "decrypted": self.tr("encryption switched off"),
         }  # fmt: skip
         return words.get(did, did)

@@ -137,8 +137,8 @@ class Retesting(QObject):
                 self.tr("From now on progress and reports judge by them, and name date and number of people."),
             ),
             (
-                Answer(self.tr("Use these limits"), self._use, "U"),
-                Answer(self.tr("Leave it as it is"), lambda: None, self.tr("Enter")),
+                Answer(self.tr("Use these limits"), self._use, "U", risky=True),
+                Answer(self.tr("Leave it as it is"), lambda: None),
             ),
             icon="check",
         )

@@ -21,7 +21,7 @@ from carpus.core.library.set_up import PRACTICE_PATIENT, SetUp
 from carpus.core.output.exercises import EXERCISES
 from carpus.core.output.goals import Goals
 from carpus.core.output.report_content import SessionFigures
-from carpus.core.session.register import SessionEntry
+from carpus.core.records.values import SessionEntry
 from carpus.core.types import ByteImage, Side
 from carpus.ui import numbers
 from carpus.ui.background import Background
@@ -155,9 +155,7 @@ class SettingUp(QObject):
         words = {
             "camera": self.tr("The camera is being opened."),
             "file": self.tr("The recording is being opened."),
-            "practice": self.tr(
-                "The simulated patient is drawn, once for each exercise: a minute, up to three on a busy computer."
-            ),
+            "practice": self.tr("The simulated patient is being drawn."),
         }[choice.kind]
         self._camera.show_opening(True, words)
         self._opener.open(choice, now.set_up)
@@ -206,7 +204,7 @@ class SettingUp(QObject):
             ),
             (
                 Answer(self.tr("Leave it as it is"), lambda: None),
-                Answer(self.tr("Open it again"), open_again, self.tr("Enter")),
+                Answer(self.tr("Open it again"), open_again),
             ),
         )
 
@@ -216,6 +214,23 @@ class SettingUp(QObject):
         self._opener.cancel()
         if self._now.patient is not None:
             self.choose_exercise(self._now.patient.patient_id)
+
+    def up_from_markers(self) -> None:
+        """Back to the camera; names that a person has given are not thrown away by one key."""
+        if not self._markers.has_names:
+            self.up_to_camera()
+            return
+        self._tell.ask(
+            Words(
+                self.tr("Leave the markers?"),
+                self.tr("The names given on this picture would be lost."),
+                self.tr("Stay here, or go back to the camera."),
+            ),
+            (
+                Answer(self.tr("Back to the camera"), self.up_to_camera, "B", risky=True),
+                Answer(self.tr("Stay here"), lambda: None),
+            ),
+        )
 
     def up_to_camera(self) -> None:
         """Back from the markers or the live screen."""
@@ -236,10 +251,6 @@ class SettingUp(QObject):
             self._markers.end()
             self.closing.emit()
             self._background.run(source.measuring.close, lambda _: None, self._tell.fault)
-
-    def prepare_practice(self) -> None:
-        """Render the practice patient's usual exercise now, so that nobody waits for it later."""
-        self._opener.prepare(practice_set_up(""))
 
 
 def practice_set_up(pseudonym: str) -> SetUp:

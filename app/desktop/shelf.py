@@ -7,15 +7,16 @@ from dataclasses import replace
 
 from carpus.core.errors import SessionUnreadable
 from carpus.core.library.library import Library
+from carpus.core.library.records import Records
 from carpus.core.library.set_up import PRACTICE_PATIENT
 from carpus.core.output.report_content import SessionFigures
-from carpus.core.session.register import SessionEntry
+from carpus.core.records.values import SessionEntry
 from carpus.ui import terms
 from carpus.ui.check_card.standing_words import unsure_name
 from carpus.ui.figures import figure_of
 from carpus.ui.ports import SessionLine
 from carpus.ui.report.further_rows import short_words
-from carpus.ui.report.hand_rows import compared_figures
+from carpus.ui.report.hand_rows import compared_figures, range_words
 from carpus.ui.report.tables import mean_words, repetition_words
 from carpus.ui.report.words import corrected_words, warnings
 
@@ -63,8 +64,13 @@ class StoredSessions:
 
     def other_patients(self, patient_id: str) -> Sequence[tuple[str, str]]:
         """Everybody else."""
-        rows = self._library.clinic.patients()
+        rows = self._library.patients.listed()
         return [(row.patient_id, row.entry.pseudonym) for row in rows if row.patient_id != patient_id]
+
+    def archived(self, patient_id: str) -> int:
+        """How many sessions of the patient are in the archive."""
+        found = Records(self._library).archived()
+        return sum(one.patient_id == patient_id and one.recorded is not None for one in found)
 
     def set_aside(self, session_id: str, reason: str) -> None:
         """Let it count nowhere, or again."""
@@ -73,13 +79,13 @@ class StoredSessions:
 
     def move(self, session_id: str, patient_id: str) -> None:
         """Give it to another patient."""
-        self._library.clinic.move_session(session_id, patient_id)
+        self._library.index.move(session_id, patient_id)
         self._library.note_session("moved", session_id, to=patient_id)
         self._library.forget_figures(session_id)
 
     def rename_exercise(self, session_id: str, exercise: str) -> None:
         """Say that it was another exercise."""
-        self._library.register_of(session_id).rename_exercise(session_id, exercise)
+        self._library.index.rename_exercise(session_id, exercise)
         self._library.note_session("renamed", session_id, exercise=exercise.lower())
         self._library.forget_figures(session_id)
 
@@ -90,10 +96,11 @@ def main_figure(figures: SessionFigures) -> str:
     if about:
         return about
     if figures.joint_rows:
-        for figure in compared_figures(figures):
+        trained = figure_of(figures.exercise.joint).finger
+        for figure in sorted(compared_figures(figures), key=lambda one: one.finger != trained):
             row = figures.row("arc", -1, figure.joint)
             if row is not None and row.count:
-                return f"{figure_of(figure.joint).short_name} {mean_words(row)}"
+                return f"{figure.long_name} {range_words(row)}"
         return ""
     rows = [row for row in figures.rows if row.movement != "arc" and row.count] or [*figures.rows]
     return f"{terms.movement_name(rows[0].movement)} {mean_words(rows[0])}" if rows else ""

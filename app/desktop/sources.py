@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import contextlib
-from collections.abc import Callable, Iterator, Sequence
+import threading
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from importlib import import_module
 from pathlib import Path
@@ -20,7 +21,7 @@ from carpus.core.capture.given_name import with_given_name
 from carpus.core.capture.paced import PacedSource
 from carpus.core.capture.practice import PracticeSource
 from carpus.core.capture.source import FrameSource, is_simulated
-from carpus.core.errors import CarpusFault, RecordingEmpty, RegistrationAssumed
+from carpus.core.errors import CarpusFault, PracticeBeingDrawn, RecordingEmpty, RegistrationAssumed
 from carpus.core.library.set_up import SetUp
 from carpus.core.pipeline.live import Listener, LiveSession
 from carpus.core.pipeline.measuring import SessionPlaces, SourceMeasuring
@@ -32,6 +33,10 @@ Progress = Callable[[int, int], None]
 """Called with pictures done and pictures in all."""
 RECENT_FRAMES = 16
 """Half a second: what the neutral pose is averaged over at most."""
+
+
+class NobodyWaitsError(Exception):
+    """Ends a long opening or drawing from inside."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -55,19 +60,16 @@ class Sources:
         places: SessionPlaces,
         practice_take: Callable[[SetUp, Progress], tuple[FrameSource, float]],
         speed: float = 1.0,
+        practice_beginning: Callable[[SetUp], tuple[FrameSource, float] | None] = lambda _: None,
     ) -> None:
         self._settings, self._places, self._practice_take, self._speed = settings, places, practice_take, speed
+        self._practice_beginning = practice_beginning
         self.streams: Callable[[], bool] = lambda: settings.stream.on
         """Whether live values go out to other programs; asked whenever tracking begins."""
 
     def camera_name(self) -> str | None:
         """Name of the camera that would be opened, empty where the system does not tell, None when none is there."""
         return name_to_open(self._settings.camera.uri)
-
-    def prepare_practice(self, set_up: SetUp, progress: Progress) -> None:
-        """Render the take of a set-up if it is not there yet."""
-        take, _ = self._practice_take(set_up, progress)
-        take.close()
 
     def open(self, choice: SourceChoice, set_up: SetUp, progress: Progress) -> OpenSource:
         """Open the chosen source; waits for camera, disk or renderer, so it is called in the background."""
@@ -95,24 +97,26 @@ class Sources:
         return self._live(session, source, set_up, on_begin=live.lock_exposure)
 
     def _practice(self, set_up: SetUp, progress: Progress) -> OpenSource:
+        """The still hand at once; what it does in each exercise is drawn beside it, in the order of the course."""
         course = set_up.course
-        exercises = {part.exercise.id: part.exercise for part in course.parts} if course is not None else {}
-        others = {
-            name: self._practice_take(replace(set_up, exercise=exercise), progress)[0]
-            for name, exercise in exercises.items()
-            if name != set_up.exercise.id
-        }
-        take, still_s = self._practice_take(set_up, progress)
-        takes = others | {set_up.exercise.id: take}
-        patient = PracticeSource(take, still_s, tuple(others.values()))
+        parts = [] if course is None else [part.exercise for part in course.parts]
+        set_ups = {one.id: replace(set_up, exercise=one) for one in (set_up.exercise, *parts)}
+        begun = self._practice_beginning(set_up)
+        take, still_s = begun or self._practice_take(set_up, progress)
+        patient = PracticeSource(take, still_s, begins_only=begun is not None)
         session = self._session(PacedSource(patient, self._speed))
+        drawn = {} if begun else {set_up.exercise.id: take}
+        drawing = TakesDrawn(patient, self._practice_take, set_ups, drawn, progress, session.notice)
+        drawing.start()
         session.start()
+
+        def let_go() -> None:
+            patient.let_go()
+            if not patient.can_move:
+                session.notice(PracticeBeingDrawn())
+
         return self._live(
-            session,
-            take,
-            set_up,
-            on_recording=patient.let_go,
-            on_chosen=lambda chosen: patient.play_next(takes[chosen.exercise.id]),
+            session, take, set_up, on_recording=let_go, on_chosen=lambda chosen: drawing.choose(chosen.exercise.id)
         )
 
     def _recording(self, choice: SourceChoice, set_up: SetUp) -> OpenSource:
@@ -198,6 +202,57 @@ class Sources:
             self._places.last_hand_length_mm(set_up, simulated=is_simulated(source.info)),
             self._places.last_straight_fingers(set_up),
         )
+
+
+class TakesDrawn:
+    """Draws the practice patient's takes one after the other, in a thread of its own that ends with the patient."""
+
+    def __init__(
+        self,
+        patient: PracticeSource,
+        draw: Callable[[SetUp, Progress], tuple[FrameSource, float]],
+        set_ups: Mapping[str, SetUp],
+        drawn: Mapping[str, FrameSource],
+        progress: Progress,
+        tell: Callable[[Exception], None],
+    ) -> None:
+        self._patient, self._draw, self._set_ups = patient, draw, set_ups
+        self._progress, self._tell = progress, tell
+        self._drawn = dict(drawn)
+        self._chosen = next(iter(set_ups))
+        self._turn = threading.Lock()
+
+    def start(self) -> None:
+        """Begin with what is not there yet."""
+        if len(self._drawn) < len(self._set_ups):
+            threading.Thread(target=self._run, name="practice takes", daemon=True).start()
+
+    def choose(self, exercise: str) -> None:
+        """The exercise that the patient does next, as soon as it is drawn."""
+        with self._turn:
+            self._chosen = exercise
+            self._patient.play_next(self._drawn.get(exercise))
+
+    def _run(self) -> None:
+        self._patient.shown.wait()  # the first picture before all others: drawing takes every core
+        try:
+            for name, set_up in self._set_ups.items():
+                if name in self._drawn:
+                    continue
+                take, _ = self._draw(set_up, self._on_the_way)
+                with self._turn:
+                    self._drawn[name] = take
+                    if name == self._chosen:
+                        self._patient.play_next(take)
+        except NobodyWaitsError:
+            return
+        except CarpusFault as fault:
+            self._tell(fault)
+
+    def _on_the_way(self, done: int, total: int) -> None:
+        if self._patient.is_closed:
+            raise NobodyWaitsError
+        self._progress(done, total)
 
 
 class LivePictures:

@@ -116,10 +116,17 @@ class Teller(QObject):
             self.card.close_sheet()
 
     def strip(
-        self, place: QVBoxLayout, words: Words, button: str, action: Callable[[], None], *, icon: str = "history"
+        self,
+        place: QVBoxLayout,
+        words: Words,
+        button: str,
+        action: Callable[[], None],
+        *,
+        icon: str = "history",
+        later: str = "",
     ) -> NoticeStrip:
-        """A strip that stays until it is answered."""
-        strip = NoticeStrip(self._theme, words, button, icon)
+        """A strip that stays until it is answered; ``later`` is what the other button says."""
+        strip = NoticeStrip(self._theme, words, button, icon, later)
         place.addWidget(strip)
 
         def gone() -> None:

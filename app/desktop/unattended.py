@@ -25,11 +25,10 @@ from carpus.app.desktop.practice import practice_spec
 from carpus.app.desktop.sources import RECENT_FRAMES
 from carpus.app.settings import FirstStartSettings, ScreenSettings, Settings
 from carpus.app.stop_signals import on_stop
-from carpus.core.calibration.clicks import read_clicks
 from carpus.core.errors import CalibrationImpossible
 from carpus.core.library.set_up import PRACTICE_PATIENT
 from carpus.core.output.report_content import SessionFigures
-from carpus.core.simulation.recording import CLICKS_FILE, cached_recording
+from carpus.core.simulation.recording import SimulatedPictures, clicks_of, is_cached
 from carpus.core.types import FloatArray
 from carpus.ui import numbers, terms
 from carpus.ui.figures import figure_of
@@ -162,9 +161,9 @@ def walk(settings: Settings, progress: Progress, *, repetitions: int = REPETITIO
         walker.until(lambda: desktop.journey.place == "markers", patience_s=1800.0)
         set_up = desktop.journey.set_up
         assert set_up is not None
-        folder = cached_recording(practice_spec(set_up))
         walker.take_picture()
-        walker.click_markers(read_clicks(folder / CLICKS_FILE).pixel)
+        walker.click_markers(clicks_of(SimulatedPictures(practice_spec(set_up)).truth).pixel)
+        walker.until(lambda: is_cached(practice_spec(set_up)), patience_s=1800.0)  # here nobody sees the hand rest
         session_id = walker.record(repetitions, lambda done: progress(done, repetitions))
         walker.tab("progress")
         walker.tab("review")

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 from PySide6.QtCore import QObject, Signal
 
 from carpus.core.library.library import Library
-from carpus.core.session.made_files import MadeKind
+from carpus.core.records.of_sessions import MadeKind
 
 if TYPE_CHECKING:
     from carpus.app.desktop.journey import Journey

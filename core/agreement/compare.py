@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
-from dataclasses import dataclass
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from carpus.core import so3
+from carpus.core.agreement.clocks import LEAST_OVERLAP_S, STEP_S, Curves, Shift, at_times, best_shift, with_drift
 from carpus.core.agreement.reference import Reference
 from carpus.core.agreement.statistics import FEWEST, Agreement, agreement
 from carpus.core.agreement.watch import UNWATCHED, Watch
@@ -22,22 +23,12 @@ from carpus.core.phrase import phrase
 from carpus.core.session.values import Session
 from carpus.core.types import FloatArray, TrackStatus
 
-STEP_S = 1.0 / 100.0
-"""Of the times on which a shift is looked for."""
-LEAST_OVERLAP_S, LEAST_SHARE = 1.0, 0.6
-"""What both must have in common, in seconds and of the shorter of the two: a short piece fits anywhere."""
 SAFE_OVERLAP_S = 5.0
 SAME_CLOCK_S, SAME_CLOCK_ALIKE = 0.5, 0.01
 """Two results of one recording are not further apart, and not apart for a match that is hardly better."""
 MOST_SHIFT_S = 10.0
-TOLD_EVERY = 50
-"""Shifts between two words on how far it is."""
 LEAST_MATCH = 0.5
 """Below this correlation no shift is believed: it is not the same movement."""
-ALIKE = 0.003
-"""Of shifts that match as well, as repetitions do, the smallest."""
-LONGEST_STEP_S = 0.12
-"""Between two readings of a reference that are interpolated."""
 SLOW_HZ = 5.0
 NEUTRAL_S = 0.5
 NEUTRAL_POSE, FIRST_IN_COMMON = "its neutral pose", "the session at the first moment in common"
@@ -46,15 +37,6 @@ SINCE_1970_S = 1e8
 """Times as large count from 1970: two that are near each other are of one clock."""
 STILL_RAD = math.radians(3.0)
 """A reading is compared with the half second about it, in which the angle stays within this."""
-
-
-@dataclass(frozen=True, slots=True)
-class Shift:
-    """``reference_later_s``: what happens at t in the session happens at t + this on the reference's clock, both
-    counted from their first picture; ``match`` the correlation there."""
-
-    reference_later_s: float
-    match: float
 
 
 @dataclass(frozen=True, slots=True)
@@ -81,7 +63,8 @@ class Pairs:
 
 @dataclass(frozen=True, slots=True)
 class Compared:
-    """``left_out`` pictures of ``pictures`` predicted, doubtful or lost; ``not_used`` each with its reason."""
+    """``left_out`` pictures of ``pictures`` predicted, doubtful or lost; ``not_used`` each with its reason; ``remarks``
+    what must be looked at before the figures are believed, of one angle where its name stands before it."""
 
     kind: str
     pairs: tuple[Pairs, ...]
@@ -92,6 +75,12 @@ class Compared:
     overlap_s: float
     rate_hz: float
     not_used: tuple[str, ...]
+    remarks: tuple[str, ...] = ()
+
+    def remarks_on(self, name: str) -> list[str]:
+        """What must be looked at before the figures of one angle are believed: its own remarks, and those of all."""
+        others = tuple(f"{pairs.name}: " for pairs in self.pairs if pairs.name != name)
+        return [remark for remark in self.remarks if not remark.startswith(others)]
 
 
 def compare(
@@ -100,13 +89,16 @@ def compare(
     *,
     smoothed: bool = False,
     most_shift_s: float = MOST_SHIFT_S,
+    lag_s: float = math.nan,
+    drift: float = 0.0,
     figures: SessionFigures | None = None,
     watch: Watch = UNWATCHED,
 ) -> Compared:
     """Agreement of a session with a reference: of the filter's result, or the smoother's.
 
-    ``figures`` of the session serve readings that name no time. Raises :class:`ReferenceUnsuited`, and
-    :class:`Stopped` where ``watch`` says so.
+    ``lag_s`` is taken for the shift where it is known, and not looked for; ``drift`` is the share by which the
+    reference's clock runs fast. ``figures`` of the session serve readings that name no time. Raises
+    :class:`ReferenceUnsuited`, and :class:`Stopped` where ``watch`` says so.
     """
     if not len(session):
         raise ReferenceUnsuited(reference.path, phrase("the session holds no picture"))
@@ -118,40 +110,25 @@ def compare(
     own = {name: np.where(use, values[:, k], np.nan) for k, name in enumerate(names)}
     if reference.readings:
         return _with_readings(session, reference, time_s, own, figures)
-    if reference.same_clock and _one_clock(reference, session):
-        most_shift_s = min(most_shift_s, SAME_CLOCK_S)
-    alignment = None
     not_used = list(reference.unused)
     if reference.points_m:
-        shift = _shift_of_points(session, reference, time_s, most_shift_s, watch)
-        theirs, alignment = _angles_of_points(session, reference, time_s, shift)
+        curves = _curves_of_points(session, reference, time_s)
         not_used += [f"{name}: fingers are not worked out from markers" for name in session.header.joint_names[:1]]
-    elif reference.angles_rad:
-        theirs = {name: angle for name, angle in reference.angles_rad.items() if name in own}
+    else:
+        curves = _curves_of_angles(session, reference, time_s, own)
         not_used += [f"{name}: not in the session" for name in reference.angles_rad if name not in own]
         not_used += [f"{name}: not in the reference" for name in own if name not in reference.angles_rad]
-        if not theirs:
-            raise ReferenceUnsuited(reference.path, phrase("no angle of the session is in it"))
-        shift = _shift_of_angles(own, theirs, time_s, reference, session, most_shift_s, watch)
-    else:
-        raise ReferenceUnsuited(
-            reference.path, phrase("no disc of the palm and no angle of the wrist or fingers is in it")
-        )
-    if math.isnan(shift.match):
-        raise ReferenceUnsuited(
-            reference.path,
-            phrase("less than {least_overlap_s} s in common, or nothing moves", least_overlap_s=f"{LEAST_OVERLAP_S:g}"),
-        )
-    if not shift.match >= LEAST_MATCH:
-        raise ReferenceUnsuited(
-            reference.path,
-            phrase("the curves match by {match} at best: is it the same movement?", match=f"{shift.match:.2f}"),
-        )
+    shift = _shift(curves, session, reference, most_shift_s, lag_s, drift, watch)
+    theirs: Mapping[str, FloatArray] = reference.angles_rad
+    alignment = None
+    if reference.points_m:
+        theirs, alignment = _angles_of_points(session, reference, time_s, shift)
     reference_s = _since_start(reference, session)
-    at = time_s + shift.reference_later_s
     pairs = []
-    for name, theirs_rad in theirs.items():
-        found = _at(at, reference_s, theirs_rad)
+    for name in names:
+        if name not in theirs:
+            continue
+        found = at_times(shift.reference_time_s(time_s), reference_s, theirs[name])
         both = np.isfinite(found) & np.isfinite(own[name])
         if both.sum() < FEWEST:
             not_used.append(f"{name}: fewer than {FEWEST} pictures in common")
@@ -161,16 +138,89 @@ def compare(
         pairs.append(Pairs(name, time_s[both], mine, other, agreement(np.degrees(mine), np.degrees(other))))
     if not pairs:
         raise ReferenceUnsuited(reference.path, phrase("the two have no time in common"))
-    order = {name: k for k, name in enumerate(names)}
-    pairs.sort(key=lambda one: order[one.name])
     overlap_s = max(float(one.time_s[-1] - one.time_s[0]) for one in pairs)
-    if overlap_s < SAFE_OVERLAP_S:
-        not_used.append(f"only {overlap_s:.1f} s are in common: a shift of the clocks is not sure")
     rate_hz = 1.0 / float(np.median(np.diff(reference_s))) if len(reference_s) > 1 else math.nan
-    left = int((~use).sum())
     return Compared(
-        reference.kind, tuple(pairs), shift, alignment, len(session), left, overlap_s, rate_hz, tuple(not_used)
-    )
+        reference.kind, tuple(pairs), shift, alignment, len(session), int((~use).sum()), overlap_s, rate_hz,
+        tuple(not_used), remarks_of(pairs, shift, overlap_s),
+    )  # fmt: skip
+
+
+def _shift(
+    curves: Curves,
+    session: Session,
+    reference: Reference,
+    most_shift_s: float,
+    lag_s: float,
+    drift: float,
+    watch: Watch,
+) -> Shift:
+    """As given, or the best there is, with the drift that is left."""
+    if math.isfinite(lag_s):
+        given = Shift(lag_s, math.nan, was_given=True, drift=drift)
+        return with_drift(curves, replace(given, match=curves.match(given)))
+    alike = 0.0
+    if _one_clock(reference, session):
+        alike = SAME_CLOCK_ALIKE if reference.angles_rad else 0.0
+        most_shift_s = min(most_shift_s, SAME_CLOCK_S) if reference.same_clock else most_shift_s
+    faster = replace(curves, time_s=curves.time_s * (1.0 + drift))
+    shift = replace(best_shift(faster, most_shift_s, alike, watch), drift=drift)
+    _check_match(reference, shift)
+    return with_drift(curves, shift)
+
+
+def _check_match(reference: Reference, shift: Shift) -> None:
+    if math.isnan(shift.match):
+        raise ReferenceUnsuited(
+            reference.path,
+            phrase("less than {least_overlap_s} s in common, or nothing moves", least_overlap_s=f"{LEAST_OVERLAP_S:g}"),
+        )
+    if not abs(shift.match) >= LEAST_MATCH:
+        raise ReferenceUnsuited(
+            reference.path,
+            phrase("the curves match by {match} at best: is it the same movement?", match=f"{shift.match:.2f}"),
+        )
+
+
+def remarks_of(pairs: Sequence[Pairs], shift: Shift | None, overlap_s: float = math.nan) -> tuple[str, ...]:
+    """What must be looked at before the figures are believed."""
+    out: list[str] = [
+        phrase(
+            "{angle}: runs against Carpus (r = {r}), so one of the two has the opposite sign or is of another movement",
+            angle=one.name,
+            r=f"{one.figures_deg.correlation:.3f}",
+        )
+        for one in pairs
+        if one.figures_deg.is_opposite
+    ]
+    if shift is None:
+        return tuple(out)
+    if overlap_s < SAFE_OVERLAP_S:
+        out.append(phrase("only {time} s are in common: the shift of the clocks is not sure", time=f"{overlap_s:.1f}"))
+    if shift.rivals:
+        others = ", ".join(f"{later_s:+.2f} s ({match:.3f})" for later_s, match in shift.rivals)
+        words = phrase(
+            "the shift is not sure: taken is {taken} s ({match}); as well or nearly match {others}",
+            taken=f"{shift.reference_later_s:+.2f}",
+            match=f"{shift.match:.3f}",
+            others=others,
+        )
+        out.append(words)
+    if shift.at_edge:
+        out.append(phrase("the best shift lies at the end of what was searched: it may be further"))
+    if math.isfinite(shift.drift_found):
+        percent, found_s = 100.0 * shift.drift_found, shift.drift_found * overlap_s
+        words = phrase(
+            "the clocks drift: the reference's runs {percent} % against Carpus's, {seconds} s over {length} s, and the "
+            "figures hold that error (lag {lag} s with drift {drift} %)",
+            percent=f"{percent:+.2f}",
+            seconds=f"{found_s:+.2f}",
+            length=f"{overlap_s:.0f}",
+            lag=f"{shift.lag_without_drift_s:+.3f}",
+            drift=f"{percent + 100.0 * shift.drift:+.2f}",
+        )
+        out.append(words)
+    return tuple(out)
 
 
 # --- time ------------------------------------------------------------------------------------------------------
@@ -190,48 +240,30 @@ def _one_clock(reference: Reference, session: Session) -> bool:
     return near and (reference.same_clock or first_s > SINCE_1970_S)
 
 
-def _at(wanted_s: FloatArray, time_s: FloatArray, values: FloatArray) -> FloatArray:
-    """``values`` (K, ...) at other times (N, ...), on the line between two known neighbours; NaN elsewhere."""
-    known = np.isfinite(values) if values.ndim == 1 else np.isfinite(values).all(axis=tuple(range(1, values.ndim)))
-    t, v = time_s[known], values[known]
-    if len(t) < 2:
-        return np.full((len(wanted_s), *values.shape[1:]), np.nan)
-    after = np.clip(np.searchsorted(t, wanted_s), 1, len(t) - 1)
-    before = after - 1
-    share = (wanted_s - t[before]) / (t[after] - t[before])
-    column = share.reshape(-1, *(1,) * (values.ndim - 1))
-    out = v[before] + column * (v[after] - v[before])
-    longest = max(LONGEST_STEP_S, 2.5 * float(np.median(np.diff(time_s))))
-    near = 0.25  # of a step: clocks waver
-    inside = (share >= -near) & (share <= 1.0 + near) & (t[after] - t[before] <= longest)
-    out[~inside] = np.nan
-    return np.asarray(out)
-
-
-def _shift_of_angles(
-    own: Mapping[str, FloatArray],
-    theirs: Mapping[str, FloatArray],
-    time_s: FloatArray,
-    reference: Reference,
-    session: Session,
-    most_s: float,
-    watch: Watch,
-) -> Shift:
-    names = [name for name in theirs if np.nanstd(own[name]) > 0.0] if theirs else []
+def _curves_of_angles(
+    session: Session, reference: Reference, time_s: FloatArray, own: Mapping[str, FloatArray]
+) -> Curves:
+    names = [name for name in reference.angles_rad if name in own]
+    if not names:
+        why = phrase("no disc of the palm and no angle of the wrist or fingers is in it")
+        if reference.angles_rad:
+            why = phrase("no angle of the session is in it")
+        raise ReferenceUnsuited(reference.path, why)
+    names = [name for name in names if np.nanstd(own[name]) > 0.0]
+    theirs_s = _since_start(reference, session)
     mine = np.column_stack([own[name] for name in names]) if names else np.empty((len(time_s), 0))
-    other = np.column_stack([theirs[name] for name in names]) if names else np.empty((len(reference.time_s), 0))
-    alike = SAME_CLOCK_ALIKE if _one_clock(reference, session) else 0.0
-    return best_shift(time_s, mine, _since_start(reference, session), other, most_s, alike, watch)
+    other = np.column_stack([reference.angles_rad[name] for name in names]) if names else np.empty((len(theirs_s), 0))
+    return Curves(time_s, mine, theirs_s, other, either_sign=True)
 
 
-def _shift_of_points(session: Session, reference: Reference, time_s: FloatArray, most_s: float, watch: Watch) -> Shift:
-    """By how fast each disc moves, which no turn and no shift of the axes changes."""
+def _curves_of_points(session: Session, reference: Reference, time_s: FloatArray) -> Curves:
+    """How fast each disc moves, which no turn and no shift of the axes changes."""
     names = _common(session, reference)
     markers = session.header.protocol.markers
-    reference_s = _since_start(reference, session)
+    theirs_s = _since_start(reference, session)
     mine = np.column_stack([_speed(time_s, session.markers.position_cam_m[:, markers.index(name)]) for name in names])
-    other = np.column_stack([_speed(reference_s, reference.points_m[name]) for name in names])
-    return best_shift(time_s, mine, reference_s, other, most_s, watch=watch)
+    other = np.column_stack([_speed(theirs_s, reference.points_m[name]) for name in names])
+    return Curves(time_s, mine, theirs_s, other)
 
 
 def _speed(time_s: FloatArray, place_m: FloatArray) -> FloatArray:
@@ -246,78 +278,6 @@ def _speed(time_s: FloatArray, place_m: FloatArray) -> FloatArray:
     out = np.interp(time_s, even_s, speed)
     out[~known] = np.nan
     return np.asarray(out)
-
-
-def best_shift(
-    time_s: FloatArray,
-    mine: FloatArray,
-    other_s: FloatArray,
-    other: FloatArray,
-    most_s: float,
-    alike: float = 0.0,
-    watch: Watch = UNWATCHED,
-) -> Shift:
-    """The shift at which signals (N, S) and (K, S) go together best, by cross-correlation over what they share; none
-    where without it the correlation is less by no more than ``alike``."""
-    if not mine.shape[1] or len(time_s) < 8 or len(other_s) < 8:
-        return Shift(0.0, math.nan)
-    even = np.arange(0.0, time_s[-1], STEP_S)
-    theirs_s = np.arange(other_s[0], other_s[-1], STEP_S)
-    a = np.column_stack([_at(even, time_s, mine[:, k]) for k in range(mine.shape[1])])
-    b = np.column_stack([_at(theirs_s, other_s, other[:, k]) for k in range(mine.shape[1])])
-    first = round(theirs_s[0] / STEP_S)
-    shorter_s = float(min(even[-1], theirs_s[-1] - theirs_s[0])) if len(even) and len(theirs_s) else 0.0
-    least = round(max(LEAST_OVERLAP_S, LEAST_SHARE * shorter_s) / STEP_S)
-    if shorter_s < LEAST_OVERLAP_S - 2.0 * STEP_S:
-        return Shift(0.0, math.nan)
-    least = min(least, len(a), len(b))
-    furthest = round(most_s / STEP_S)
-    spread = np.nanstd(a, axis=0) * np.nanstd(b, axis=0)
-    weight = np.where(np.isfinite(spread), spread, 0.0)
-    if not weight.sum() > 0.0:
-        return Shift(0.0, math.nan)
-    shifts = np.arange(-furthest, furthest + 1)
-    match = np.full(len(shifts), np.nan)
-    for k, shift in enumerate(shifts):
-        if not k % TOLD_EVERY:
-            watch.at(k / len(shifts))
-        begin_a, begin_b = max(0, first - shift), max(0, shift - first)
-        count = min(len(a) - begin_a, len(b) - begin_b)
-        if count >= least:
-            match[k] = _match(a[begin_a : begin_a + count], b[begin_b : begin_b + count], weight, least)
-    if not np.isfinite(match).any():
-        return Shift(0.0, math.nan)
-    best = float(np.nanmax(match))
-    if match[furthest] >= best - alike:
-        return Shift(0.0, float(match[furthest]))
-    near = np.flatnonzero(match >= best - ALIKE)
-    # Of one hill the top; of hills that are as high the nearest to nothing.
-    at = int(near[np.argmin(np.abs(shifts[near]))])
-    while 0 < at < len(match) - 1:
-        step = int(np.nanargmax(match[at - 1 : at + 2])) - 1 if np.isfinite(match[at - 1 : at + 2]).all() else 0
-        if not step:
-            break
-        at += step
-    fine = 0.0
-    if 0 < at < len(match) - 1 and np.isfinite(match[at - 1 : at + 2]).all():
-        left, top, right = match[at - 1 : at + 2]
-        bend = left - 2.0 * top + right
-        fine = float(0.5 * (left - right) / bend) if bend < 0.0 else 0.0
-    return Shift(float((shifts[at] + fine) * STEP_S), float(match[at]))
-
-
-def _match(a: FloatArray, b: FloatArray, weight: FloatArray, least: int) -> float:
-    total = used = 0.0
-    for k in range(a.shape[1]):
-        both = np.isfinite(a[:, k]) & np.isfinite(b[:, k])
-        if both.sum() < least:
-            continue
-        x, y = a[both, k] - a[both, k].mean(), b[both, k] - b[both, k].mean()
-        power = math.sqrt(float(x @ x) * float(y @ y))
-        if power > 0.0:
-            total += float(weight[k]) * float(x @ y) / power
-            used += float(weight[k])
-    return total / used if used else math.nan
 
 
 # --- space -----------------------------------------------------------------------------------------------------
@@ -345,7 +305,7 @@ def _angles_of_points(
     reference_s = _since_start(reference, session)
     theirs = np.stack([reference.points_m[name] for name in names], axis=1)
     mine = np.stack([session.markers.position_cam_m[:, markers.index(name)] for name in names], axis=1)
-    there = _at(time_s + shift.reference_later_s, reference_s, theirs)
+    there = at_times(shift.reference_time_s(time_s), reference_s, theirs)
     both = np.isfinite(there).all(axis=(1, 2)) & np.isfinite(mine).all(axis=(1, 2))
     both &= np.asarray(session.status) == TrackStatus.TRACKED
     if both.sum() < FEWEST:
@@ -356,12 +316,13 @@ def _angles_of_points(
     side = session.header.hand
     start = rotation_from_angles(np.nan_to_num(session.calibration.start_angles_rad), side)
     begin_s, zero = 0.0, NEUTRAL_POSE
-    if not (known & _within(reference_s - shift.reference_later_s, begin_s)).any():
+    own_s = (reference_s - shift.reference_later_s) / (1.0 + shift.drift)
+    if not (known & _within(own_s, begin_s)).any():
         # It began later: the zero is the session's own at the first moment that both have.
         begin_s, zero = float(time_s[both][0]), FIRST_IN_COMMON
         own = session.motion.rotation_w2_w0[both & _within(time_s, begin_s)]
         start = so3.mean_rotation(own, np.full(len(own), 1.0 / len(own)))
-    neutral = theirs[known & _within(reference_s - shift.reference_later_s, begin_s)].mean(axis=0)
+    neutral = theirs[known & _within(own_s, begin_s)].mean(axis=0)
     w0_in_reference = turn.T @ session.calibration.rotation_w0_cam
     rotation = np.full((len(theirs), 3, 3), np.nan)
     for k in np.flatnonzero(known):
@@ -438,7 +399,10 @@ def _with_readings(
     if not pairs:
         raise ReferenceUnsuited(reference.path, not_used[-1] if not_used else phrase("no reading can be used"))
     count = len(reference.readings)
-    return Compared(reference.kind, tuple(pairs), None, None, count, left, math.nan, math.nan, tuple(not_used))
+    return Compared(
+        reference.kind, tuple(pairs), None, None, count, left, math.nan, math.nan, tuple(not_used),
+        remarks_of(pairs, None),
+    )  # fmt: skip
 
 
 def _range_end(figures: SessionFigures | None, angle: str, movement: str) -> float:

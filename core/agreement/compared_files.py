@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
@@ -40,6 +41,8 @@ def compare_files(
     radians: bool | None = None,
     smoothed: bool = False,
     most_shift_s: float = MOST_SHIFT_S,
+    lag_s: float = math.nan,
+    drift: float = 0.0,
     choices: RepetitionChoices | None = None,
     watch: Watch = UNWATCHED,
 ) -> Result:
@@ -52,7 +55,10 @@ def compare_files(
     watch.at(0.0)
     reference = read_reference(reference_path, columns, markers, radians, smoothed)
     figures = session_figures(session, choices) if reference.readings else None
-    compared = compare(session, reference, smoothed=smoothed, most_shift_s=most_shift_s, figures=figures, watch=watch)
+    compared = compare(
+        session, reference, smoothed=smoothed, most_shift_s=most_shift_s, lag_s=lag_s, drift=drift, figures=figures,
+        watch=watch,
+    )  # fmt: skip
     watch.at(1.0)
     return Result(compared, session, reference_path)
 

@@ -14,7 +14,7 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.special import chdtri
 
-from carpus.core.agreement.statistics import Interval, icc_2_1
+from carpus.core.agreement.statistics import Interval, icc_2_1, icc_3_1
 from carpus.core.hand.sites import WRIST_ANGLES
 from carpus.core.measures.change import MDC95_FACTOR
 from carpus.core.measures.error_limits import MeasuredLimit, RetestStudy
@@ -28,14 +28,17 @@ _UNKNOWN: Interval = (math.nan, math.nan)
 
 @dataclass(frozen=True, slots=True)
 class Retest:
-    """``readings`` of ``people``, unit of the readings. ``icc`` ICC(2,1); ``sem`` with ``df`` degrees of freedom;
-    ``sem_same_rater`` of mountings by one rater alone, NaN where nobody measured twice; ``step`` mean of the last
-    mountings less that of the first. Intervals of 95 %."""
+    """``readings`` of ``people``, unit of the readings. ``icc`` ICC(2,1), ``icc_3_1`` ICC(3,1); ``sem`` with ``df``
+    degrees of freedom; ``sem_same_rater`` of mountings by one rater alone, NaN where fewer than two raters are known
+    (it would be ``sem`` again) or none measured twice; ``step`` mean of the last mountings less that of the first.
+    Intervals of 95 %."""
 
     people: int
     readings: int
     icc: float
     icc_interval: Interval
+    icc_3_1: float
+    icc_3_1_interval: Interval
     sem: float
     sem_interval: Interval
     df: float
@@ -62,7 +65,7 @@ def retest(readings: Sequence[Sequence[float]], raters: Sequence[Sequence[str]] 
     n, total = len(values), sum(map(len, values))
     if n < 2:
         nan = math.nan
-        return Retest(n, total, nan, _UNKNOWN, nan, _UNKNOWN, 0.0, nan, _UNKNOWN, nan, nan)
+        return Retest(n, total, nan, _UNKNOWN, nan, _UNKNOWN, nan, _UNKNOWN, 0.0, nan, _UNKNOWN, nan, nan)
     within = sum(float(((one - one.mean()) ** 2).sum()) for one in values)
     df = float(total - n)
     variance = within / df
@@ -71,11 +74,11 @@ def retest(readings: Sequence[Sequence[float]], raters: Sequence[Sequence[str]] 
         df = _freedom(np.array(values), df)
     sem = math.sqrt(variance)
     interval = (math.sqrt(df * variance / _chi2(df, 0.975)), math.sqrt(df * variance / _chi2(df, 0.025)))
-    icc, icc_interval = icc_2_1(np.array([one[:each] for one in values]))
+    table = np.array([one[:each] for one in values])
     mdc = (MDC95_FACTOR * interval[0], MDC95_FACTOR * interval[1])
     step = float(np.mean([one[-1] - one[0] for one in values]))
     return Retest(
-        n, total, icc, icc_interval, sem, interval, df, MDC95_FACTOR * sem, mdc, _same_rater(kept), step,
+        n, total, *icc_2_1(table), *icc_3_1(table), sem, interval, df, MDC95_FACTOR * sem, mdc, _same_rater(kept), step,
     )  # fmt: skip
 
 
@@ -97,11 +100,14 @@ def _chi2(df: float, share: float) -> float:
 
 
 def _same_rater(kept: Sequence[Sequence[tuple[float, str]]]) -> float:
+    if len({who for one in kept for _, who in one if who}) < 2:
+        return math.nan
     squares, df = 0.0, 0
     for one in kept:
         of = defaultdict(list)
         for value, who in one:
-            of[who].append(value)
+            if who:
+                of[who].append(value)
         for same in of.values():
             squares += float(((np.array(same) - np.mean(same)) ** 2).sum())
             df += len(same) - 1

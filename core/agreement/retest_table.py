@@ -10,7 +10,8 @@ from carpus.core.agreement.retest import StudyFigures
 from carpus.core.formats.new_output import new_table
 
 HEAD = (
-    "protocol", "exercise", "of", "movement", "people", "readings", "icc_2_1", "icc_low", "icc_high", "sem_deg",
+    "protocol", "exercise", "of", "movement", "people", "readings", "icc_2_1", "icc_2_1_low", "icc_2_1_high",
+    "icc_3_1", "icc_3_1_low", "icc_3_1_high", "sem_deg",
     "sem_low_deg", "sem_high_deg", "mdc95_deg", "mdc95_low_deg", "mdc95_high_deg",
     "sem_same_rater_deg", "last_less_first_deg",
 )  # fmt: skip
@@ -22,7 +23,8 @@ def write_study(studies: Sequence[StudyFigures], path: Path) -> Path:
     for one in studies:
         for (of, movement), f in one.found.items():
             values = (
-                f.icc, *f.icc_interval, f.sem, *f.sem_interval, f.mdc95, *f.mdc95_interval, f.sem_same_rater, f.step,
+                f.icc, *f.icc_interval, f.icc_3_1, *f.icc_3_1_interval, f.sem, *f.sem_interval, f.mdc95,
+                *f.mdc95_interval, f.sem_same_rater, f.step,
             )  # fmt: skip
             counts = (str(f.people), str(f.readings))
             rows.append((one.protocol, one.exercise, of, movement, *counts, *map(_cell, values)))

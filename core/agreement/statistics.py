@@ -1,19 +1,23 @@
-"""Agreement of paired readings: bias and limits (Bland and Altman 1999), ICC(2,1) (McGraw and Wong 1996), CMC (Kadaba
-1989, between two systems). Readings in the order of time, any unit; what is not known is left out in pairs."""
+"""Agreement of paired readings: bias and limits (Bland and Altman 1999; of several people Bland and Altman 2007, Zou
+2013), ICC(2,1) and ICC(3,1) (McGraw and Wong 1996; below nothing Lin 1989), CMC (Kadaba 1989, between two systems).
+Readings in the order of time, any unit; what is not known is left out in pairs."""
 
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
 
 import numpy as np
-from scipy.special import fdtri, stdtrit
+from scipy.special import chdtri, fdtri, stdtrit
 
 from carpus.core.types import FloatArray
 
 FEWEST = 3
 """Pairs below which nothing is said."""
 FEWEST_TO_JUDGE = 10
+OPPOSITE = -0.5
+"""Below this correlation the two measure the same with opposite signs, or not the same."""
 
 Interval = tuple[float, float]
 _UNKNOWN: Interval = (math.nan, math.nan)
@@ -24,8 +28,8 @@ class Agreement:
     """``measured`` less ``reference`` of ``count`` pairs, worth ``independent`` ones; intervals of 95 %.
 
     ``bias``, ``sd`` of the differences, ``limits`` bias ± 1.96 sd, each with its interval; ``rmse``; ``largest``
-    difference; ``correlation`` by Pearson; ``icc`` ICC(2,1), absolute agreement; ``cmc`` of the whole waveform, NaN for
-    single readings and where the two have nothing in common.
+    difference; ``correlation`` by Pearson; ``icc`` ICC(2,1), absolute agreement; ``icc_3_1`` ICC(3,1), consistency;
+    ``cmc`` of the whole waveform, NaN for single readings and where the two have nothing in common.
     """
 
     count: int
@@ -41,7 +45,14 @@ class Agreement:
     correlation: float
     icc: float
     icc_interval: Interval
+    icc_3_1: float
+    icc_3_1_interval: Interval
     cmc: float
+
+    @property
+    def is_opposite(self) -> bool:
+        """Whether one goes down where the other goes up."""
+        return self.correlation < OPPOSITE
 
 
 def agreement(measured: FloatArray, reference: FloatArray, waveform: bool = True) -> Agreement:
@@ -50,10 +61,7 @@ def agreement(measured: FloatArray, reference: FloatArray, waveform: bool = True
     a, b = measured[known], reference[known]
     n = len(a)
     if n < FEWEST:
-        nan = math.nan
-        return Agreement(
-            n, float(n), nan, _UNKNOWN, nan, _UNKNOWN, _UNKNOWN, _UNKNOWN, nan, nan, nan, nan, _UNKNOWN, nan
-        )
+        return replace(NOTHING, count=n, independent=float(n))
     difference = a - b
     bias, sd = float(difference.mean()), float(difference.std(ddof=1))
     worth = independent_count(difference) if waveform else float(n)
@@ -62,7 +70,7 @@ def agreement(measured: FloatArray, reference: FloatArray, waveform: bool = True
     half_limit = t * sd * math.sqrt(1.0 / worth + 1.96**2 / (2.0 * max(worth - 1.0, 1.0)))
     low, high = bias - 1.96 * sd, bias + 1.96 * sd
     both_vary = a.std() > 0.0 and b.std() > 0.0
-    icc, icc_interval = icc_2_1(np.column_stack((a, b)), worth)
+    both = np.column_stack((a, b))
     return Agreement(
         n,
         worth,
@@ -75,10 +83,77 @@ def agreement(measured: FloatArray, reference: FloatArray, waveform: bool = True
         float(np.sqrt(np.mean(difference**2))),
         float(np.abs(difference).max()),
         float(np.corrcoef(a, b)[0, 1]) if both_vary else math.nan,
-        icc,
-        icc_interval,
+        *icc_2_1(both, worth),
+        *icc_3_1(both, worth),
         cmc(a, b) if waveform else math.nan,
     )
+
+
+NOTHING = Agreement(
+    0, 0.0, math.nan, _UNKNOWN, math.nan, _UNKNOWN, _UNKNOWN, _UNKNOWN, math.nan, math.nan, math.nan,
+    math.nan, _UNKNOWN, math.nan, _UNKNOWN, math.nan,
+)  # fmt: skip
+"""Of too few pairs."""
+
+
+@dataclass(frozen=True, slots=True)
+class Between:
+    """What several people's differences are made of: ``sd_between`` people's means, ``sd_within`` one of them."""
+
+    people: int
+    sd_between: float
+    sd_within: float
+
+
+def agreement_of_people(
+    measured: Sequence[FloatArray], reference: Sequence[FloatArray], waveform: bool = True
+) -> tuple[Agreement, Between]:
+    """Of the pairs (N,) of each person, whose true value varies: every person counts alike, with however many pairs.
+
+    The variance of one difference is that between people and that within one (Bland and Altman 2007, section 3, with
+    people's means unweighted); intervals of the limits by recovering the variances of both (Zou 2013). Neighbours in
+    time count for less, as in :func:`agreement`. No ICC and no CMC: pairs of several people have none in common.
+    """
+    known = [np.isfinite(a) & np.isfinite(b) for a, b in zip(measured, reference, strict=True)]
+    pairs = [(a[k], b[k]) for a, b, k in zip(measured, reference, known, strict=True) if k.sum() >= FEWEST]
+    people, differences = len(pairs), [a - b for a, b in pairs]
+    count = sum(map(len, differences))
+    if people < FEWEST:
+        return replace(NOTHING, count=count, independent=math.nan), Between(people, math.nan, math.nan)
+    worth = np.array([independent_count(d) if waveform else float(len(d)) for d in differences])
+    means = np.array([d.mean() for d in differences])
+    # What is left about a person's mean is of fewer independent values than there are pictures.
+    own = np.array([d.var() for d in differences]) * worth / (worth - 1.0)
+    df = float(worth.sum() - people)
+    within = float(((worth - 1.0) * own).sum() / df)
+    of_means = float(means.var(ddof=1))
+    share = 1.0 - float((1.0 / worth).mean())
+    sd = math.sqrt(of_means + share * within)
+    bias, z = float(means.mean()), 1.96
+    t = float(stdtrit(people - 1.0, 0.975))
+
+    def aside(p: float) -> float:
+        """How far the variance may be off, to the side that a chi-square's ``p`` belongs to."""
+        parts = [(of_means, people - 1.0), (share * within, df)]
+        return math.sqrt(sum((v * (1.0 - d / float(chdtri(d, 1.0 - p)))) ** 2 for v, d in parts))
+
+    least, most = math.sqrt(max(sd**2 - aside(0.975), 0.0)), math.sqrt(sd**2 + aside(0.025))
+    mean_part = t**2 * of_means / people
+    inner = math.sqrt(mean_part + (z * (sd - least)) ** 2)
+    outer = math.sqrt(mean_part + (z * (most - sd)) ** 2)
+    half = math.sqrt(mean_part)
+    low, high = bias - z * sd, bias + z * sd
+    everything = np.concatenate(differences)
+    a, b = (np.concatenate(side) for side in zip(*pairs, strict=True))
+    found = replace(
+        NOTHING, count=count, independent=float(worth.sum()), bias=bias, bias_interval=(bias - half, bias + half),
+        sd=sd, limits=(low, high), lower_interval=(low - outer, low + inner),
+        upper_interval=(high - inner, high + outer),
+        rmse=float(np.sqrt(np.mean(everything**2))), largest=float(np.abs(everything).max()),
+        correlation=float(np.corrcoef(a, b)[0, 1]) if a.std() > 0.0 and b.std() > 0.0 else math.nan,
+    )  # fmt: skip
+    between = max(of_means - float((1.0 / worth).mean()) * within, 0.0)
+    return found, Between(people, math.sqrt(between), math.sqrt(within))
 
 
 def independent_count(values: FloatArray) -> float:
@@ -108,30 +183,90 @@ def icc_2_1(readings: FloatArray, worth: float | None = None) -> tuple[float, In
     (0.29, 0.02, 0.76)
     """
     n, k = readings.shape
-    grand = float(readings.mean())
-    rows, columns = readings.mean(axis=1), readings.mean(axis=0)
-    ms_rows = k * float(((rows - grand) ** 2).sum()) / (n - 1)
-    ms_columns = n * float(((columns - grand) ** 2).sum()) / (k - 1)
-    rest = readings - rows[:, None] - columns[None, :] + grand
-    ms_rest = float((rest**2).sum()) / ((n - 1) * (k - 1))
+    ms_rows, ms_columns, ms_rest = _mean_squares(readings)
     below = ms_rows + (k - 1) * ms_rest + k * (ms_columns - ms_rest) / n
     if below <= 0.0:
         return math.nan, _UNKNOWN
-    icc = (ms_rows - ms_rest) / below
+    icc = max((ms_rows - ms_rest) / below, _least_icc(k))
     m = n if worth is None else max(worth, 2.0)
     if ms_rest <= 0.0:
         return icc, (icc, icc) if ms_columns <= 0.0 else _UNKNOWN
     # The variance between raters is that of their means: with fewer independent subjects it is worth less.
     ratio = ms_columns / ms_rest * (m / n)
-    above = (m - 1) * (k - 1) * (k * icc * ratio + m * (1 + (k - 1) * icc) - k * icc) ** 2
-    under = (m - 1) * k**2 * icc**2 * ratio**2 + (m * (1 + (k - 1) * icc) - k * icc) ** 2
+    own = icc
+    if icc < 0.0:  # estimates of variances are below nothing: what follows from them would cross -1
+        if k == 2:
+            return icc, _within(icc, *_concordance_interval(readings, m), k)
+        ratio, own = max(ratio, 1.0), 0.0
+    above = (m - 1) * (k - 1) * (k * own * ratio + m * (1 + (k - 1) * own) - k * own) ** 2
+    under = (m - 1) * k**2 * own**2 * ratio**2 + (m * (1 + (k - 1) * own) - k * own) ** 2
     v = above / under if under > 0.0 else 1.0
     f_low, f_high = float(fdtri(m - 1, v, 0.975)), float(fdtri(v, m - 1, 0.975))
     ms_columns_m = ratio * ms_rest
     rows_part = k * ms_columns_m + (k * m - k - m) * ms_rest
     low = m * (ms_rows - f_low * ms_rest) / (f_low * rows_part + m * ms_rows)
     high = m * (f_high * ms_rows - ms_rest) / (rows_part + m * f_high * ms_rows)
-    return icc, (float(max(low, -1.0)), float(min(high, 1.0)))
+    return icc, _within(icc, low, high, k)
+
+
+def _concordance_interval(pairs: FloatArray, m: float) -> Interval:
+    """Of Lin's coefficient of two readings (N, 2), which is ICC(2,1) but for terms of 1/N."""
+    (a, b), t = pairs.T, float(stdtrit(max(m - 1.0, 1.0), 0.975))
+    product = float(a.std() * b.std())
+    r, u = float(np.corrcoef(a, b)[0, 1]), float((a.mean() - b.mean()) ** 2) / product
+    c = 2.0 * r * product / float(a.var() + b.var() + u * product)
+    if not (-1.0 < c < 0.0 and m > 2.0):
+        return _UNKNOWN
+    rest = 1.0 - c**2
+    variance = (1.0 - r**2) * c**2 / (rest * r**2) + 2.0 * c**3 * (1.0 - c) * u / (r * rest**2)
+    variance -= c**4 * u**2 / (2.0 * r**2 * rest**2)
+    half = t * math.sqrt(max(variance, 0.0) / (m - 2.0))
+    return math.tanh(math.atanh(c) - half), math.tanh(math.atanh(c) + half)
+
+
+def icc_3_1(readings: FloatArray, worth: float | None = None) -> tuple[float, Interval]:
+    """ICC(3,1), consistency of a single reading, as :func:`icc_2_1`: an offset between raters is no disagreement.
+
+    >>> example = np.array([[9, 2, 5, 8], [6, 1, 3, 2], [8, 4, 6, 8], [7, 1, 2, 6], [10, 5, 6, 9], [6, 2, 4, 7.0]])
+    >>> icc, (low, high) = icc_3_1(example)
+    >>> round(icc, 2), round(low, 2), round(high, 2)
+    (0.71, 0.34, 0.95)
+    """
+    n, k = readings.shape
+    ms_rows, _, ms_rest = _mean_squares(readings)
+    if ms_rows + (k - 1) * ms_rest <= 0.0:
+        return math.nan, _UNKNOWN
+    icc = (ms_rows - ms_rest) / (ms_rows + (k - 1) * ms_rest)
+    if ms_rest <= 0.0:
+        return icc, (icc, icc)
+    m = n if worth is None else max(worth, 2.0)
+    f, df, df_rest = ms_rows / ms_rest, m - 1.0, (m - 1.0) * (k - 1.0)
+    low, high = f / float(fdtri(df, df_rest, 0.975)), f * float(fdtri(df_rest, df, 0.975))
+    return icc, _within(icc, (low - 1) / (low + k - 1), (high - 1) / (high + k - 1), k)
+
+
+def _mean_squares(readings: FloatArray) -> tuple[float, float, float]:
+    """Of subjects, of raters, and of what is left."""
+    n, k = readings.shape
+    grand = float(readings.mean())
+    rows, columns = readings.mean(axis=1), readings.mean(axis=0)
+    rest = readings - rows[:, None] - columns[None, :] + grand
+    return (
+        k * float(((rows - grand) ** 2).sum()) / (n - 1),
+        n * float(((columns - grand) ** 2).sum()) / (k - 1),
+        float((rest**2).sum()) / ((n - 1) * (k - 1)),
+    )
+
+
+def _least_icc(raters: int) -> float:
+    return -1.0 / (raters - 1)
+
+
+def _within(icc: float, low: float, high: float, raters: int) -> Interval:
+    """Limits that lie where an ICC can, about it; unknown ones stay so."""
+    if not math.isfinite(low + high):
+        return _UNKNOWN
+    return max(min(low, icc), _least_icc(raters)), min(max(high, icc), 1.0)
 
 
 def cmc(a: FloatArray, b: FloatArray) -> float:

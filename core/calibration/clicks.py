@@ -12,6 +12,7 @@ from carpus.core.calibration.result import ALL_STRAIGHT, Clicks
 from carpus.core.errors import ClickOutsidePicture, ClicksUnreadable, OutputExists, OutputNotWritable, ProtocolUnknown
 from carpus.core.hand.protocols import protocol_named
 from carpus.core.phrase import phrase
+from carpus.core.private import private
 from carpus.core.types import FloatArray, Side
 
 _MOST_BYTES = 1_000_000
@@ -47,7 +48,7 @@ def write_clicks(path: Path, clicks: Clicks) -> None:
         content["straight_fingers"] = list(clicks.straight_fingers)
     text = json.dumps(content, indent=1)
     try:
-        with path.open("x", encoding="utf-8") as file:
+        with open(path, "x", encoding="utf-8", opener=private) as file:
             file.write(text + "\n")
     except FileExistsError as cause:
         raise OutputExists(path) from cause

@@ -16,6 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from carpus.core.assignment import linear_sum_assignment
+from carpus.core.calibration.palm_names import PalmNameSettings, names_fit
 from carpus.core.camera import Camera
 from carpus.core.hand.anatomy import anatomy_from_size
 from carpus.core.hand.kinematics import disc_centres
@@ -91,6 +92,10 @@ def propose_names(
         # Another hand that explains the blobs nearly as well: where it disagrees, nothing is sure.
         if other.cost < best.cost + 0.5:
             sure &= other.blob == best.blob
+    if not protocol.has_fingers and (best.blob >= 0).all():
+        # Six discs of the other hand, turned round, may lie within reach too: then a person looks at each name.
+        plan = np.stack((place[best.blob].real, place[best.blob].imag), axis=1)
+        sure &= names_fit(side, plan, PalmNameSettings())
     sure[list(fixed)] = True
     return NameProposal(best.blob, sure & (best.blob >= 0), best.misfit_m)
 

@@ -47,6 +47,14 @@ def shifted_names(side: Side, palm_plan: FloatArray, settings: PalmNameSettings)
     return tuple(PALM_MARKERS[i] for i in _ring_by_ring(right_name))
 
 
+def names_fit(side: Side, palm_plan: FloatArray, settings: PalmNameSettings) -> bool:
+    """Whether six names, given by nobody yet, lie where a palm of this hand has them, and not better on the other
+    hand. ``palm_plan`` as in :func:`shifted_names`."""
+    misfit = _misfits(average_palm(side), palm_plan)
+    other = _misfits(average_palm("left" if side == "right" else "right"), palm_plan)
+    return bool(misfit[0] < settings.good_misfit and misfit[0] == misfit.min() < other.min())
+
+
 @lru_cache(maxsize=2)
 def average_palm(side: Side) -> FloatArray:
     """The discs (6, 2) of the average palm in the order of ``PALM_MARKERS``, seen from the camera, y up, in metres."""

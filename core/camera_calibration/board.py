@@ -15,6 +15,8 @@ from carpus.core.types import FloatArray
 
 Pattern = Literal["chessboard", "charuco"]
 _DICTIONARY = cv2.aruco.DICT_4X4_50
+EDGE_MM = 12.0
+"""Nothing is printed nearer to the edge of the paper: many printers leave it white, and hands hold it there."""
 _CODE_CELLS = 6
 """Cells of a code along one side, its black border included."""
 
@@ -81,14 +83,15 @@ def board_sheet(board: Board, paper: Paper) -> Sheet:
             square=square,
         ),
         25.0,
-        8.5,
+        height_mm - EDGE_MM - 0.8,
+        8.0,
     )
-    return Sheet(width_mm, height_mm, (*marks, said, *ruler(25.0, height_mm - 11.0)))
+    return Sheet(width_mm, height_mm, (*marks, *ruler(25.0, height_mm - EDGE_MM - 8.5), said))
 
 
 def _placed(board: Board, width_mm: float, height_mm: float) -> tuple[float, float]:
     left = 0.5 * (width_mm - board.columns * board.square_m * 1e3)
-    return left, 0.5 * (height_mm - board.rows * board.square_m * 1e3) - 1.0
+    return left, EDGE_MM + 0.3 * (height_mm - PAPER_MM["a4"][0])
 
 
 def board_marks(board: Board, left_mm: float, top_mm: float) -> tuple[Mark, ...]:

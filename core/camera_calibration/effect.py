@@ -11,6 +11,7 @@ import numpy as np
 
 from carpus.core.camera import Camera
 from carpus.core.camera_calibration.calibrate import CameraCalibration
+from carpus.core.camera_calibration.find_board import FoundBoard
 from carpus.core.camera_calibration.solve import Intrinsics
 from carpus.core.camera_calibration.views import View
 from carpus.core.types import FloatArray
@@ -45,8 +46,13 @@ def effect_of(made: CameraCalibration, views: Sequence[View]) -> Effect:
 def _map(found: Intrinsics, views: Sequence[View]) -> FloatArray:
     camera = found.camera
     total, count = np.zeros((CELLS[1], CELLS[0], 2)), np.zeros((CELLS[1], CELLS[0], 1))
-    for k, turn, shift in zip(found.used, found.board_turn, found.board_shift_m, strict=True):
-        seen = views[k].found
+    poses = dict(zip(found.used, zip(found.board_turn, found.board_shift_m, strict=True), strict=True))
+    for k, view in enumerate(views):  # also what did not count in the end: the guidance has counted its corners
+        seen = view.found
+        pose = poses.get(k) or _pose(camera, seen)
+        if pose is None:
+            continue
+        turn, shift = pose
         at = _projected(camera, seen.board.corners_m[seen.corner], turn, shift)
         across = np.clip(seen.pixel[:, 0] * CELLS[0] / camera.width_px, 0, CELLS[0] - 1).astype(int)
         down = np.clip(seen.pixel[:, 1] * CELLS[1] / camera.height_px, 0, CELLS[1] - 1).astype(int)
@@ -55,14 +61,19 @@ def _map(found: Intrinsics, views: Sequence[View]) -> FloatArray:
     return np.where(count > 0, total / np.maximum(count, 1.0), np.nan)
 
 
+def _pose(camera: Camera, seen: FoundBoard) -> tuple[FloatArray, FloatArray] | None:
+    points = seen.board.corners_m[seen.corner]
+    there, turn, shift = cv2.solvePnP(points, camera.undistort(seen.pixel), camera.matrix, np.zeros(5))
+    return (np.asarray(turn, np.float64), np.asarray(shift, np.float64)) if there else None
+
+
 def _error_px(camera: Camera, found: Intrinsics, views: Sequence[View]) -> float:
     squares: list[FloatArray] = []
     for k in found.used:
         seen = views[k].found
-        points = seen.board.corners_m[seen.corner]
-        there, turn, shift = cv2.solvePnP(points, camera.undistort(seen.pixel), camera.matrix, np.zeros(5))
-        if there:
-            at = _projected(camera, points, np.asarray(turn, np.float64), np.asarray(shift, np.float64))
+        pose = _pose(camera, seen)
+        if pose is not None:
+            at = _projected(camera, seen.board.corners_m[seen.corner], *pose)
             squares.append(np.asarray(np.sum((seen.pixel - at) ** 2, axis=1)))
     return math.sqrt(float(np.concatenate(squares).mean())) if squares else math.nan
 

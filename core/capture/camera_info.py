@@ -14,6 +14,7 @@ from carpus.core.dates import is_moment
 from carpus.core.depth_sensor import ASSUMED, ASSUMED_SENSOR, DepthSensor, sensor_of
 from carpus.core.errors import CameraFileUnreadable, OutputExists, OutputNotWritable
 from carpus.core.phrase import phrase
+from carpus.core.private import private
 from carpus.core.types import SIMULATED
 
 CAMERA_FILE = "camera_info.yaml"
@@ -111,7 +112,7 @@ def write_camera_info(
         content[_CALIBRATION] = asdict(calibration)
     text = yaml.safe_dump(content, sort_keys=False, default_flow_style=None, width=120)
     try:
-        with path.open("x", encoding="utf-8") as file:
+        with open(path, "x", encoding="utf-8", opener=private) as file:
             file.write(text)
     except FileExistsError as cause:
         raise OutputExists(path) from cause

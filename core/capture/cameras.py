@@ -13,6 +13,8 @@ from carpus.core.camera import Camera
 from carpus.core.capture.camera_kind import CameraKind, LiveCamera
 from carpus.core.capture.notice import Notice, ignore
 from carpus.core.capture.usb_devices import UsbCamera
+from carpus.core.errors import CameraUnknown
+from carpus.core.known_names import known_names
 
 CAMERAS = {
     "xtion": "xtion",
@@ -27,6 +29,16 @@ def kind_of(uri: str) -> str:
     """Which kind a camera's address names before its first colon; the usual one where it names none."""
     named = uri.partition(":")[0]
     return named if named in CAMERAS else next(iter(CAMERAS))
+
+
+def check_address(uri: str) -> None:
+    """Raise :class:`CameraUnknown` where ``uri`` names a kind that there is not.
+
+    Without a kind it is OpenNI2's own address, ``1d27/0601@1/7``, which has a stroke, or empty.
+    """
+    named = uri.partition(":")[0]
+    if named and named not in CAMERAS and "/" not in uri:
+        raise CameraUnknown(named, known_names(named, CAMERAS))
 
 
 def camera_kind(name: str) -> CameraKind:
@@ -58,8 +70,10 @@ def open_camera(
 ) -> LiveCamera:
     """Open a camera by its address (``KIND``, or ``KIND:`` and what the kind calls it); empty: the first plugged in.
 
-    Raises the faults of its module; :class:`CameraLost` when it is away for more than ``patience_s``.
+    Raises :class:`CameraUnknown`, the faults of its module, and :class:`CameraLost` when it is away for more than
+    ``patience_s``.
     """
+    check_address(uri)
     name = kind_to_open(uri)
     named, _, which = uri.partition(":")
     place = which if named in CAMERAS else uri

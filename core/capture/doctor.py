@@ -20,14 +20,25 @@ from pathlib import Path
 import numpy as np
 
 from carpus.core.capture.camera_kind import CameraKind
-from carpus.core.capture.cameras import CAMERAS, camera_kind, kind_to_open, open_camera
+from carpus.core.capture.cameras import CAMERAS, camera_kind, kind_of, kind_to_open, open_camera
 from carpus.core.capture.finding import Finding
 from carpus.core.capture.raw import MB_PER_MINUTE
 from carpus.core.capture.source import SourceInfo
 from carpus.core.capture.usb_devices import UsbCamera
-from carpus.core.errors import CameraBusy, CameraMissing, CameraPermission, CarpusFault, OtherCamera
+from carpus.core.disk_encryption import disk_encryption_finding, disk_state
+from carpus.core.errors import (
+    CameraBusy,
+    CameraLost,
+    CameraMissing,
+    CameraPermission,
+    CarpusFault,
+    DriverMissing,
+    ExtraMissing,
+    OtherCamera,
+)
 from carpus.core.phrase import phrase
 from carpus.core.types import Frame
+from carpus.core.words import words_of
 
 PACKAGES = ("numpy", "scipy", "opencv-python-headless", "h5py", "PyYAML", "platformdirs", "threadpoolctl")
 WINDOW_LIBRARIES = ("GL", "EGL", "fontconfig", "dbus-1", "xkbcommon", "xcb-cursor")
@@ -46,7 +57,9 @@ _REMEDIES: dict[type[CarpusFault], str] = {
     OtherCamera: phrase("Plug in the camera named in the settings, or change the settings."),
     CameraBusy: phrase("Close the other program that uses the camera."),
     CameraPermission: phrase("Install the camera rights named above and plug the camera in again."),
+    CameraLost: phrase("Plug the camera in again, into another port, without a hub."),
 }
+"""Where the examination knows better than the words of every other place."""
 
 
 def examine(data_folder: Path, *, camera_uri: str | None = None, measure_s: float = MEASURE_S) -> Iterator[Finding]:
@@ -57,13 +70,15 @@ def examine(data_folder: Path, *, camera_uri: str | None = None, measure_s: floa
     yield fonts_finding()
     yield data_folder_finding(data_folder)
     yield disk_finding(data_folder, shutil.disk_usage(_existing(data_folder)).free)
+    yield disk_encryption_finding(disk_state(data_folder))
     on_linux = sys.platform.startswith("linux")
-    yield from drivers_findings(asks_version=True)
+    named = kind_of(camera_uri) if camera_uri else ""
+    yield from drivers_findings(asks_version=True, named=named)
     if on_linux:
-        yield from rights_findings(RULES_FOLDERS)
+        yield from rights_findings(RULES_FOLDERS, named=named)
     plugged_in = [(kind, camera) for kind in _kinds() for camera in kind.seen()]
     if on_linux:  # elsewhere only opening it tells
-        yield from camera_findings(plugged_in)
+        yield from camera_findings(plugged_in, named)
     if plugged_in or camera_uri or not on_linux:
         yield from opened_findings(camera_uri or "", measure_s)
 
@@ -194,10 +209,11 @@ def disk_finding(folder: Path, free_bytes: int) -> Finding:
     return Finding(phrase("Disk"), "good", text)
 
 
-def drivers_findings(*, asks_version: bool) -> Iterator[Finding]:
-    """The libraries of all kinds. What another kind lacks is no obstacle while one is plugged in that has all."""
+def drivers_findings(*, asks_version: bool, named: str = "") -> Iterator[Finding]:
+    """The libraries of all kinds, ``named`` the one that is asked for. What another kind lacks is no obstacle while one
+    is wanted that has all."""
     kinds = _kinds()
-    wanted = [bool(kind.seen()) for kind in kinds]
+    wanted = [bool(kind.seen()) or (named != "" and kind is camera_kind(named)) for kind in kinds]
     for kind, is_wanted in zip(kinds, wanted, strict=True):
         finding = kind.driver(asks_version, is_wanted)
         if finding is None:
@@ -207,16 +223,17 @@ def drivers_findings(*, asks_version: bool) -> Iterator[Finding]:
         yield finding
 
 
-def rights_findings(folders: tuple[Path, ...]) -> Iterator[Finding]:
-    """Whether the system lets everybody open the cameras: the usual kind, and what is plugged in of others."""
-    for number, kind in enumerate(_kinds()):
-        if number == 0 or kind.seen():
-            yield rules_finding(kind, folders)
+def rights_findings(folders: tuple[Path, ...], *, named: str = "") -> Iterator[Finding]:
+    """Whether the system lets everybody open the cameras: those plugged in and the kind ``named``, else the usual one;
+    each by its own rules, since a rule for one kind says nothing of another."""
+    asked = [kind for kind in _kinds() if kind.seen() or (named and kind is camera_kind(named))]
+    for kind in asked or _kinds()[:1]:
+        yield rules_finding(kind, folders)
 
 
 def rules_finding(kind: CameraKind, folders: tuple[Path, ...]) -> Finding:
     """Whether the system lets everybody open a camera of this kind."""
-    name = phrase("Camera rights") if kind is _kinds()[0] else phrase("Camera rights, {title}", title=kind.title)
+    name = phrase("Camera rights, {title}", title=kind.title)
     for folder in folders:
         for rules in sorted(folder.glob("*.rules")) if folder.is_dir() else []:
             text = rules.read_text(encoding="utf-8", errors="replace").lower()
@@ -226,10 +243,11 @@ def rules_finding(kind: CameraKind, folders: tuple[Path, ...]) -> Finding:
     return Finding(name, "warning", phrase("no udev rules for the camera"), kind.rights)
 
 
-def camera_findings(plugged_in: list[tuple[CameraKind, UsbCamera]]) -> list[Finding]:
-    """The cameras on the bus, before anything opens one."""
+def camera_findings(plugged_in: list[tuple[CameraKind, UsbCamera]], named: str = "") -> list[Finding]:
+    """The cameras on the bus, before anything opens one; ``named`` the kind that is asked for."""
     if not plugged_in:
-        remedy = phrase("Plug the camera in, at best straight into the computer. {port}", port=_kinds()[0].port)
+        port = camera_kind(named or kind_of("")).port
+        remedy = phrase("Plug the camera in, at best straight into the computer. {port}", port=port)
         return [Finding(phrase("Camera"), "warning", phrase("none plugged in"), remedy)]
     return [camera_finding(kind, camera) for kind, camera in plugged_in]
 
@@ -270,7 +288,7 @@ def opened_findings(uri: str, measure_s: float) -> list[Finding]:
     try:
         source = open_camera(uri, patience_s=0.0)
     except CarpusFault as fault:
-        return [Finding(phrase("Pictures"), "bad", _fault_text(fault), _open_remedy(fault))]
+        return [_not_opened(fault, uri)]
     ending = threading.Timer(measure_s + 2.0, source.close)
     ending.start()
     start_s = time.monotonic()
@@ -281,7 +299,7 @@ def opened_findings(uri: str, measure_s: float) -> list[Finding]:
             if time.monotonic() - start_s > measure_s:
                 break
     except CarpusFault as fault:
-        return [Finding(phrase("Pictures"), "bad", _fault_text(fault), _open_remedy(fault))]
+        return [_not_opened(fault, uri)]
     finally:
         ending.cancel()
         source.close()
@@ -359,12 +377,14 @@ def _kinds() -> list[CameraKind]:
     return [camera_kind(name) for name in CAMERAS]
 
 
-def _fault_text(fault: CarpusFault) -> str:
-    return f"{type(fault).__name__} {fault.detail}".strip()
-
-
-def _open_remedy(fault: CarpusFault) -> str:
-    return _REMEDIES.get(type(fault), "Plug the camera in again, into another port, without a hub.")
+def _not_opened(fault: CarpusFault, uri: str) -> Finding:
+    """Why no picture came, in words; a driver that is missing is told as its own finding tells it."""
+    words = words_of(fault)
+    remedy = _REMEDIES.get(type(fault), words.do)
+    if isinstance(fault, DriverMissing | ExtraMissing):
+        driver = camera_kind(kind_to_open(uri)).driver(False, True)
+        remedy = driver.remedy if driver is not None and driver.remedy else remedy
+    return Finding(phrase("Pictures"), "bad", words.happened, remedy)
 
 
 def _existing(folder: Path) -> Path:

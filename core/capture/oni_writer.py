@@ -20,6 +20,7 @@ from carpus.core.capture.oni_table_codec import encode_depth
 from carpus.core.capture.raw_pictures import encode_color
 from carpus.core.capture.video_mode import PixelFormat
 from carpus.core.errors import DiskFull, OutputExists, OutputNotWritable
+from carpus.core.private import private
 from carpus.core.types import ByteImage, DepthImage, Frame
 
 ColorCodec = Literal["jpeg", "raw"]
@@ -266,7 +267,7 @@ def sidecar_path(path: Path) -> Path:
 
 def _create(path: Path) -> BinaryIO:
     try:
-        return path.open("xb")
+        return open(path, "xb", opener=private)
     except FileExistsError as cause:
         raise OutputExists(path) from cause
     except OSError as cause:

@@ -23,7 +23,7 @@ from carpus.core.depth_sensor import ASSUMED, AZURE_KINECT, D435, D455, DepthSen
 from carpus.core.errors import DriverMissing
 from carpus.core.phrase import phrase
 
-INSTALL = f"pip install --no-deps {PACKAGE}"
+INSTALL = f"{sys.executable} -m pip install --no-deps {PACKAGE}"
 """Its own requirements (an older NumPy, a second OpenCV, Open3D, a window library) are those of its examples. With them
 it would take the place of what Carpus runs on: for that reason there is no extra for it."""
 MODELS = {
@@ -67,7 +67,7 @@ class OrbbecCamera(ProcessCamera):
         context: Callable[[], Any] | None = None,
     ) -> None:
         if find_spec(MODULE) is None:
-            raise DriverMissing(PACKAGE, INSTALL)
+            raise DriverMissing(PACKAGE, PACKAGE)
         plan = CameraPlan(uri or "", SIZE_PX, models=MODELS, context=context)
         sensor = AZURE_KINECT
         super().__init__(serve, plan, uri or "Orbbec", sensor, camera=camera, patience_s=patience_s, notice=notice)

@@ -11,8 +11,7 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from carpus.core.encryption.content import read_kept
-from carpus.core.errors import ContentDamaged, PictureDamaged
+from carpus.core.errors import PictureDamaged
 from carpus.core.phrase import phrase
 from carpus.core.types import ByteImage, DepthImage
 
@@ -47,13 +46,11 @@ def read_depth(path: Path) -> DepthImage:
 def _checked_bytes(path: Path) -> bytes:
     """The file's bytes; of a PNG every checksum is compared, for a decoder may fill a damaged rest with grey."""
     try:
-        data = read_kept(path)
+        data = path.read_bytes()
     except FileNotFoundError as cause:
         raise PictureDamaged(path, phrase("missing")) from cause
     except OSError as cause:
         raise PictureDamaged(path, cause.strerror or phrase("cannot be opened")) from cause
-    except ContentDamaged as cause:
-        raise PictureDamaged(path, cause.detail) from cause
     if not data:
         raise PictureDamaged(path, phrase("empty file"))
     if data.startswith(_PNG_START) and not _png_is_whole(data):

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import threading
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from dataclasses import replace
 from itertools import chain
 
@@ -18,13 +18,26 @@ class PracticeSource:
     backwards, until :meth:`let_go`. Then the take is played through once, and the hand rests until let go again.
     """
 
-    def __init__(self, take: FrameSource, still_s: float, others: Sequence[FrameSource] = ()) -> None:
-        """``others`` are further takes of the same hand, for :meth:`play_next`; closed with this."""
-        self._take, self._others = take, others
+    def __init__(self, take: FrameSource, still_s: float, *, begins_only: bool = False) -> None:
+        """``begins_only``: the take is the still hand alone, which goes on resting until :meth:`play_next`."""
+        self._take, self._played, self._begins_only = take, [take], begins_only
         self._still_s = still_s
         self._next: FrameSource | None = None
-        self._free = threading.Event()
-        self._closed = threading.Event()
+        self._free, self._closed, self._can_move = threading.Event(), threading.Event(), threading.Event()
+        self.shown = threading.Event()
+        """Set once every picture of the still hand has been given."""
+        if not begins_only:
+            self._can_move.set()
+
+    @property
+    def can_move(self) -> bool:
+        """Whether there are pictures of the movement that comes next."""
+        return self._can_move.is_set()
+
+    @property
+    def is_closed(self) -> bool:
+        """Whether nobody looks any more."""
+        return self._closed.is_set()
 
     @property
     def info(self) -> SourceInfo:
@@ -35,33 +48,40 @@ class PracticeSource:
         """The hand moves once from now on, or goes on if it moves already; may be called from another thread."""
         self._free.set()
 
-    def play_next(self, take: FrameSource) -> None:
-        """Another take of the same hand at the same place, from the next :meth:`let_go` on; from another thread."""
+    def play_next(self, take: FrameSource | None) -> None:
+        """Another take of the same hand at the same place, from the next :meth:`let_go` on, closed with this; None: it
+        is still to come, and the hand rests until then. May be called from another thread."""
         self._next = take
+        if take is None:
+            self._can_move.clear()
+            return
+        self._played.append(take)
+        self._can_move.set()
 
     def frames(self) -> Iterator[Frame]:
         """Frames until :meth:`close`."""
         take = self._take.frames()
-        still: list[Frame] = []
-        for first_moving in take:
-            if still and first_moving.timestamp_s - still[0].timestamp_s > self._still_s:
-                break
-            still.append(first_moving)
-        else:
-            first_moving = still[-1]
+        still = [next(take)]
         period_s = 1.0 / self._take.info.nominal_fps
         clock_s, index = still[0].timestamp_s - period_s, 0
+        rest, moving, last_s = self._recalled(take, still), take, clock_s
+        if not self._begins_only:
+            first_moving = still[0]
+            for first_moving in take:
+                if first_moving.timestamp_s - still[0].timestamp_s > self._still_s:
+                    break
+                still.append(first_moving)
+            rest, moving, last_s = _to_and_fro(still), chain([first_moving], take), first_moving.timestamp_s - period_s
+            self.shown.set()
 
         def timed(frame: Frame, step_s: float) -> Frame:
             nonlocal clock_s, index
             clock_s, index = clock_s + step_s, index + 1
             return replace(frame, index=index - 1, timestamp_s=clock_s)
 
-        rest, last_s = _to_and_fro(still), first_moving.timestamp_s - period_s
-        moving: Iterator[Frame] = chain([first_moving], take)
         playing = self._take
         while True:
-            while not self._free.is_set():
+            while not (self._free.is_set() and self._can_move.is_set() and self.shown.is_set()):
                 yield timed(replace(next(rest), dropped_before=0), period_s)
             following, self._next = self._next, None
             if following is not None:
@@ -77,11 +97,20 @@ class PracticeSource:
                 return
             moving, last_s = playing.frames(), still[0].timestamp_s - period_s
 
+    def _recalled(self, take: Iterator[Frame], still: list[Frame]) -> Iterator[Frame]:
+        """The still hand's pictures as they come, all kept in ``still``, then those to and fro."""
+        yield still[0]
+        for frame in take:
+            still.append(frame)
+            yield frame
+        self.shown.set()
+        yield from _to_and_fro(still)
+
     def close(self) -> None:
         """End; may be called twice and from another thread."""
-        self._closed.set()
-        self._free.set()
-        for take in (self._take, *self._others):
+        for event in (self._closed, self._free, self._can_move, self.shown):
+            event.set()
+        for take in self._played:
             take.close()
 
 

@@ -30,9 +30,7 @@ from carpus.core.capture.notice import Notice, ignore
 from carpus.core.capture.raw_pictures import decode_color, decode_depth, encode_color, encode_depth
 from carpus.core.capture.source import SourceInfo
 from carpus.core.depth_sensor import ASSUMED_SENSOR, sensor_of
-from carpus.core.encryption.content import open_kept
 from carpus.core.errors import (
-    ContentDamaged,
     DiskFull,
     OutputExists,
     OutputNotWritable,
@@ -241,12 +239,10 @@ class RawRecording:
         self._path = path
         self._notice = notice
         try:
-            with open_kept(path) as file:
+            with path.open("rb") as file:
                 head, self._entries, self.complete = _index(path, file)
         except OSError as cause:
             raise RecordingUnreadable(path, cause.strerror or "") from cause
-        except ContentDamaged as cause:
-            raise RecordingUnreadable(path, cause.detail) from cause
         if not self._entries:
             raise RecordingEmpty(path)
         self._times_s = np.array([entry.timestamp_s for entry in self._entries])
@@ -280,7 +276,7 @@ class RawRecording:
         """All frames from the first on; may be walked through again."""
         lost = missing = index = 0
         last_s = -math.inf
-        with open_kept(self._path) as file:
+        with self._path.open("rb") as file:
             for entry in self._entries:
                 pictures = _read(file, entry)
                 color = decode_color(pictures[: entry.color_size])
@@ -302,7 +298,7 @@ class RawRecording:
         if place == len(self._times_s) or self._times_s[place] > timestamp_s + 1e-6:
             return None
         entry = self._entries[place]
-        with open_kept(self._path) as file:
+        with self._path.open("rb") as file:
             return decode_color(_read(file, entry)[: entry.color_size])
 
     def close(self) -> None:
@@ -319,9 +315,9 @@ def was_closed(path: Path) -> bool:
 def is_raw_recording(path: Path) -> bool:
     """Whether a file begins like a raw recording."""
     try:
-        with open_kept(path) as file:
+        with path.open("rb") as file:
             return file.read(len(MAGIC)) == MAGIC
-    except (OSError, ContentDamaged):
+    except OSError:
         return False
 
 

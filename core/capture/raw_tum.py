@@ -23,6 +23,7 @@ from carpus.core.capture.tum import (
     SIMULATED_REMARK,
 )
 from carpus.core.errors import DiskFull, OutputExists, OutputNotWritable
+from carpus.core.private import private
 from carpus.core.types import DepthImage, Frame
 
 _FULL = (errno.ENOSPC, errno.EDQUOT, errno.EFBIG)
@@ -40,7 +41,7 @@ class TumWriter:
         try:
             for name, kind in ((COLOR_LIST, "rgb"), (DEPTH_LIST, "depth")):
                 (path / kind).mkdir(parents=True)
-                self._lists[kind] = (path / name).open("x", encoding="utf-8")
+                self._lists[kind] = open(path / name, "x", encoding="utf-8", opener=private)  # noqa: SIM115  # closed by close
                 remark = f"{SIMULATED_REMARK}\n" if is_simulated(info) else ""
                 remark += "".join(f"{name}{value}\n" for name, value in _said(info) if value)
                 self._lists[kind].write(f"# {kind} pictures of {info.name}\n{remark}# timestamp filename\n")
@@ -98,7 +99,8 @@ class TumWriter:
     def _store(self, kind: str, timestamp_s: float, data: bytes) -> None:
         name = f"{kind}/{timestamp_s:.6f}.png"
         try:
-            (self._path / name).write_bytes(data)
+            with open(self._path / name, "wb", opener=private) as file:
+                file.write(data)
             self._lists[kind].write(f"{timestamp_s:.6f} {name}\n")
             self._lists[kind].flush()
         except OSError as cause:

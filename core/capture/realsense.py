@@ -95,7 +95,7 @@ def open_realsense(*, uri: str | None, camera: Camera | None, patience_s: float,
 def driver_finding(asks_version: bool = True, wanted: bool = True) -> Finding:
     """The maker's library, by its package; loaded, in a process of its own, only where a camera wants it."""
     is_packed = getattr(sys, "frozen", False)
-    install = f"pip install {PACKAGE}"
+    install = f"{sys.executable} -m pip install {PACKAGE}"
     packed = phrase(
         "The packed program has no driver for it: install Carpus with pip, then run: {command}", command=install
     )

@@ -75,14 +75,14 @@ def finger_samples(frame: Frame, disc_px: FloatArray, settings: SamplingSettings
     u, v = np.arange(step * low[0], int(high[0]) + 1, step), np.arange(step * low[1], int(high[1]) + 1, step)
     if not u.size or not v.size:
         return None
-    raw = frame.depth_raw[v[:, None], u]
+    raw = frame.depth_raw[v[0] : v[-1] + 1 : step, u[0] : u[-1] + 1 : step]
     row, column = np.nonzero(raw)
-    near = np.ones(row.size, dtype=bool)
     if row.size > settings.most_finger:
-        # Too many: those nearest to a disc tell most.
-        apart = np.abs(u[column][:, None] - disc_px[:, 0]) + np.abs(v[row][:, None] - disc_px[:, 1])
-        near = apart.min(axis=1) <= np.partition(apart.min(axis=1), settings.most_finger - 1)[settings.most_finger - 1]
-    row, column = row[near][: settings.most_finger], column[near][: settings.most_finger]
+        # Too many: those nearest to a disc tell most. How near goes with the column and with the row.
+        along, down = np.abs(u - disc_px[:, :1]), np.abs(v - disc_px[:, 1:])
+        apart = (down[:, :, None] + along[:, None, :]).min(axis=0)[row, column]
+        near = apart <= np.partition(apart, settings.most_finger - 1)[settings.most_finger - 1]
+        row, column = row[near][: settings.most_finger], column[near][: settings.most_finger]
     if not row.size:
         return None
     depth = (raw[row, column] * frame.depth_unit_m).astype(np.float32).astype(np.float64)

@@ -7,6 +7,7 @@ in degrees; what is not known is ``n/a``. The pictures themselves are no part of
 from __future__ import annotations
 
 import hashlib
+import math
 import re
 from collections.abc import Sequence
 from datetime import datetime
@@ -79,12 +80,15 @@ def write(take: Take, folder: Path) -> list[Path]:
         new_json(place / f"{stem}_channels.json", _REFERENCE_FRAMES),
     ]
     start_s = float(session.timestamp_s[0]) if len(session) else 0.0
-    events = (
-        (number(e.time_s - start_s, 6), MISSING, _cell(e.kind), _cell(e.text))
-        for e in sorted(session.events, key=lambda e: e.time_s)
-    )
-    head = ("onset", "duration", "trial_type", "value")
-    out.append(new_table(place / f"{stem}_events.tsv", head, events, "\t"))
+    events = [(e.time_s - start_s, math.nan, e.kind, e.text, math.nan, math.nan, MISSING) for e in session.events]
+    events += [
+        (row.start_s, row.end_s - row.start_s, "repetition", str(n), row.peak_s, math.degrees(row.arc_rad),
+         "yes" if row.counted else f"no: {row.reason}")
+        for n, row in enumerate((one.row for one in take.figures.repetitions), 1) if row is not None
+    ]  # fmt: skip
+    lines = ([_event_cell(value) for value in event] for event in sorted(events, key=lambda event: event[0]))
+    head = ("onset", "duration", "trial_type", "value", "peak", "arc", "counted")
+    out.append(new_table(place / f"{stem}_events.tsv", head, lines, "\t"))
     out.append(new_json(place / f"{stem}_events.json", _EVENTS))
     scans = place.parent / f"{subject}_{day}_scans.tsv"
     line = f"motion/{stem}_motion.tsv\t{_moment(take)}\n"
@@ -226,6 +230,10 @@ def _cell(text: str) -> str:
     return " ".join(text.split()) or MISSING
 
 
+def _event_cell(value: float | str) -> str:
+    return _cell(value) if isinstance(value, str) else number(value, 6) or MISSING
+
+
 def _moment(take: Take) -> str:
     """When the hand moved, as BIDS writes it: the clock of the clinic, no zone."""
     recorded = take.session.header.recorded
@@ -277,8 +285,18 @@ _REFERENCE_FRAMES = {
 }  # fmt: skip
 _EVENTS = {
     "onset": {"Description": "after the first picture", "Units": "s"},
+    "duration": {
+        "Description": "of a repetition, from leaving its first turning place to reaching its last",
+        "Units": "s",
+    },
     "trial_type": {"Description": "kind of the event: repetition, note, pause, camera_lost, ..."},
-    "value": {"Description": "words that go with it"},
+    "value": {"Description": "words that go with it; of a repetition its number"},
+    "peak": {
+        "Description": "when a repetition was furthest on its way there, after the first picture",
+        "Units": "s",
+    },
+    "arc": {"Description": "of a repetition of the trained angle", "Units": "deg"},
+    "counted": {"Description": "whether a repetition counts, and if not why"},
 }
 _README = """Movements of hands, measured by Carpus
 ======================================

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import struct
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -102,7 +103,7 @@ def _parameters(content: bytes, at: int, order: str, dec: bool) -> dict[str, dic
     end = min(len(content), at + BLOCK * content[at + 2])
     groups: dict[int, str] = {}
     found: dict[int, dict[str, list[Any]]] = {}
-    here = at + 4
+    here, left = at + 4, end - at
     while here + 2 < end:
         length, number = struct.unpack_from("bb", content, here)
         length = abs(length)
@@ -114,7 +115,11 @@ def _parameters(content: bytes, at: int, order: str, dec: bool) -> dict[str, dic
         if number < 0:
             groups[-number] = name
         else:
-            found.setdefault(number, {})[name] = _values(content, here + 2, order, dec)
+            values, size = _values(content, here + 2, order, dec)
+            left -= size
+            if left < 0:  # values that lie over each other: a small file must not become a large one
+                raise ValueError("more values than the section holds")
+            found.setdefault(number, {})[name] = values
         if step <= 0:
             break
         here += step
@@ -124,21 +129,25 @@ def _parameters(content: bytes, at: int, order: str, dec: bool) -> dict[str, dic
     return out
 
 
-def _values(content: bytes, here: int, order: str, dec: bool) -> list[Any]:
+def _values(content: bytes, here: int, order: str, dec: bool) -> tuple[list[Any], int]:
+    """A parameter's values and how many bytes they take; ValueError where the file does not hold them."""
     kind, dimensions = struct.unpack_from("bB", content, here)
     shape = list(content[here + 2 : here + 2 + dimensions])
     here += 2 + dimensions
-    count = int(np.prod(shape)) if shape else 1
+    count = math.prod(shape)
+    size = count * abs(kind)
+    if here + size > len(content):
+        raise ValueError("values beyond the end")
     if kind == -1:
         data = content[here : here + count]
         width = shape[0] if shape else 1
         if len(shape) < 2:
-            return [data.decode("utf-8", "replace")]
-        return [data[k * width : (k + 1) * width].decode("utf-8", "replace") for k in range(count // max(width, 1))]
-    raw = np.frombuffer(content, np.uint8, count * abs(kind), here)
+            return [data.decode("utf-8", "replace")], size
+        return [data[k : k + width].decode("utf-8", "replace") for k in range(0, count, max(width, 1))], size
+    raw = np.frombuffer(content, np.uint8, size, here)
     if kind == 1:
-        return list(raw.tolist())
-    return list(_numbers(raw, order, dec, kind == 4).tolist())
+        return list(raw.tolist()), size
+    return list(_numbers(raw, order, dec, kind == 4).tolist()), size
 
 
 def _numbers(raw: np.ndarray, order: str, dec: bool, is_float: bool) -> np.ndarray:

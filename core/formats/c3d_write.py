@@ -18,7 +18,7 @@ import numpy as np
 
 from carpus.core.formats.even import EvenTimes
 from carpus.core.formats.new_output import new_bytes
-from carpus.core.formats.take import CAMERA_AXES, Take, joint_centres_cam_m, measured
+from carpus.core.formats.take import CAMERA_AXES, Take, joint_centres_cam_m, measured, repetition_events
 from carpus.core.session.values import Event, Session
 from carpus.core.types import FloatArray
 
@@ -158,11 +158,12 @@ def _groups(take: Take, even: EvenTimes, points: Points, data_block: int) -> Ite
     yield _text(6, "COMPANY", "Carpus")
     yield _text(6, "SOFTWARE", "Carpus")
     yield _text(6, "VERSION_LABEL", made_by["version"])
-    yield from _events(session, header.hand, even.start_s)
+    yield from _events((*session.events, *repetition_events(take)), header.hand, even.start_s)
     yield _group(8, "CARPUS", "of what, by what")
     said = {
         "FRAME": CAMERA_AXES,
         "RESIDUALS": "above 0 seen, 0 predicted or computed, -1 not known",
+        "ESTIMATE": "filter",
         "SAMPLING": "even, on the line between two pictures",
         "HAND": header.hand,
         "PROTOCOL": header.protocol.name,
@@ -184,8 +185,8 @@ def _groups(take: Take, even: EvenTimes, points: Points, data_block: int) -> Ite
     yield _end()
 
 
-def _events(session: Session, hand: str, start_s: float) -> Iterator[bytes]:
-    events = sorted(session.events, key=lambda event: event.time_s)
+def _events(happened: Sequence[Event], hand: str, start_s: float) -> Iterator[bytes]:
+    events = sorted(happened, key=lambda event: event.time_s)
     yield _group(7, "EVENT", "what happened")
     yield _integers(7, "USED", [min(len(events), 32767)])
     for place in range(0, len(events), MOST_IN_A_ROW):

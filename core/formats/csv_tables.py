@@ -1,8 +1,9 @@
 """CSV: tidy tables with a unit in each column's name, and a page that explains every column.
 
 ``NAME.wrist.csv`` one row a picture; ``NAME.joints.csv`` one row a picture and joint angle; ``NAME.markers.csv`` one
-row a picture and marker; ``NAME.events.csv``; ``NAME.measures.csv`` one row a figure; ``NAME.by-hand.csv`` where
-somebody measured by hand that day; ``NAME.csv.json``. What is not known is empty.
+row a picture and marker; ``NAME.events.csv``; ``NAME.repetitions.csv``; ``NAME.measures.csv`` one row a figure;
+``NAME.by-hand.csv`` where somebody measured by hand that day; ``NAME.csv.json``. Every column of an estimate says whose
+it is, ``filter_`` or ``smoother_``. What is not known is empty.
 """
 
 from __future__ import annotations
@@ -19,56 +20,87 @@ from carpus.core.by_hand.table import COLUMNS, rows_of
 from carpus.core.formats.new_output import new_json, new_table
 from carpus.core.formats.take import ANGLES_MEAN, CAMERA_AXES, W0_AXES, Take, measured, number
 from carpus.core.hand.sites import WRIST_ANGLES
-from carpus.core.output.measures_table import MeasureRow, measure_rows
+from carpus.core.output.measures_table import MEASURE_COLUMNS, MeasureRow, measure_rows, positive_of
 from carpus.core.output.motion_table import motion_columns
-from carpus.core.session.values import Session
+from carpus.core.output.repetition_rows import trained_name
+from carpus.core.output.report_content import SessionFigures
+from carpus.core.session.values import Motion, RepetitionRow, Session
 from carpus.core.types import TrackStatus
 
 STATUS = "tracked: at least 3 palm markers measured; predicted: fewer; lost: nothing known; doubtful: contradicted"
+ESTIMATES = (
+    "filter_: as it came, frame by frame; smoother_: with the whole recording known, missing where it did not run"
+)
 WRIST_COLUMNS = {
     "timestamp_s": "time of the picture as in the recording",
     "status": STATUS,
-    "deviation_deg flexion_deg pronosupination_deg": f"angles by the filter, as they came; {ANGLES_MEAN}",
+    "filter_... smoother_...": ESTIMATES,
+    "..._deviation_deg ..._flexion_deg ..._pronosupination_deg": ANGLES_MEAN,
     "..._sd_deg": "their standard deviations, calibration included",
-    "smoothed_...": "by the smoother, which knows the whole recording; missing where it did not run",
-    "position_..._mm velocity_..._mm_s": f"of the WRIST disc, {W0_AXES}; of the smoother where it ran",
-    "angular_velocity_..._deg_s": "of the hand, in its own axes W2; of the smoother where it ran",
-    "zyz_... zyz_..._sd_deg": "the wrist paper's ZYZ angles; empty where they mean nothing",
-    "isb_..._deg": "the same angles in the order of the ISB: flexion first, then deviation, then turning",
-    "joint_..._mm": f"centres of the joints and tips, {W0_AXES}; of the smoother where it ran",
+    "..._position_..._mm ..._velocity_..._mm_s": f"of the WRIST disc, {W0_AXES}",
+    "..._angular_velocity_..._deg_s": "of the hand, in its own axes W2",
+    "..._zyz_..._deg ..._zyz_..._sd_deg": "the wrist paper's ZYZ angles of the hand in W0, right-handed about its axes "
+    "on both hands, not clinical; empty where they mean nothing",
+    "..._isb_..._deg": "the same angles in the order of the ISB: flexion first, then deviation, then turning; signs as "
+    "above: + flexion, + radial, + supination (the ISB's own are + ulnar, + pronation)",
+    "..._joint_..._mm": f"centres of the joints and tips, {W0_AXES}",
 }
 JOINT_COLUMNS = {
     "timestamp_s": "time of the picture as in the recording",
     "status": STATUS,
     "joint": "name of the joint angle",
-    "angle_deg": f"by the filter, as it came; {ANGLES_MEAN}",
-    "sd_deg": "its standard deviation",
-    "velocity_deg_s": "rate of the angle by the filter",
+    "positive": "what a larger angle means; so in every column of the row",
+    "filter_angle_deg": "by the filter, as it came; 0 is the straight chain",
+    "filter_sd_deg": "its standard deviation",
+    "filter_velocity_deg_s": "rate of the angle by the filter",
     "measured_share": "share of direct measurement in the last second, 0 to 1",
-    "smoothed_angle_deg": "by the smoother; empty where it did not run",
-    "smoothed_sd_deg": "its standard deviation",
-    "smoothed_velocity_deg_s": "rate of the angle by the smoother",
+    "smoother_angle_deg": "by the smoother; empty where it did not run",
+    "smoother_sd_deg": "its standard deviation",
+    "smoother_velocity_deg_s": "rate of the angle by the smoother",
 }
 MARKER_COLUMNS = {
     "timestamp_s": "time of the picture as in the recording",
     "status": STATUS,
     "marker": "name of the paper disc",
     "measured": "1 where the disc was seen in this picture, else 0",
-    "x_mm": f"centre of the disc as the model has it, {CAMERA_AXES}; known for hidden discs too unless lost",
-    "y_mm": "as x_mm",
-    "z_mm": "as x_mm",
-    "u_px": "centre of the blob taken for it, to the right in the picture",
+    "filter_x_mm": f"centre of the disc by the filter, {CAMERA_AXES}; known for hidden discs too unless lost",
+    "filter_y_mm": "as filter_x_mm",
+    "filter_z_mm": "as filter_x_mm",
+    "u_px": "measured: centre of the blob taken for it, to the right in the picture",
     "v_px": "the same, downwards",
-    "depth_mm": "depth of that blob along the camera's z",
+    "depth_mm": "measured: depth of that blob along the camera's z",
     "doubted": "1 where what is seen contradicts what is stated of it, else 0",
-    "joint_x_mm": f"centre of the joint under the disc, or the tip, by the filter, {W0_AXES}",
-    "joint_y_mm": "as joint_x_mm",
-    "joint_z_mm": "as joint_x_mm",
+    "filter_joint_x_mm": f"centre of the joint under the disc, or the tip, by the filter, {W0_AXES}",
+    "filter_joint_y_mm": "as filter_joint_x_mm",
+    "filter_joint_z_mm": "as filter_joint_x_mm",
+}
+REPETITION_COLUMNS = {
+    "repetition": "number, from 1, as the review counts",
+    "angle": "name of the trained angle",
+    "positive": "what a larger angle means",
+    "estimate": "filter or smoother: of whose angle it was measured",
+    "start_s": "after the first picture: when it left its first turning place, or passed the middle of a motion to "
+    "both sides",
+    "peak_s": "when it was furthest on its way there, the middle of a hold",
+    "end_s": "when it reached its last turning place, or passed that middle again",
+    "angle_deg": "at the peak",
+    "arc_deg": "from its smallest angle to its largest, without what noise adds",
+    "arc_sd_deg": "standard deviation of the arc by the tracker",
+    "peak_speed_deg_s": "of its quickest stroke",
+    "peak_speed_sd_deg_s": "what noise leaves in it",
+    "movement_time_s": "of its strokes, pauses included, holds in the turning places not; empty where one of its "
+    "two is not known",
+    "sparc": "smoothness, mean of its strokes, pauses included; nearer to 0 is smoother",
+    "movement_units": "peaks of speed of all its strokes",
+    "pauses": "how often it stood still within a stroke",
+    "pause_time_s": "for how long in all",
+    "counted": "1 where it counts, else 0",
+    "reason": "why it does not: hidden, not seen well enough, or what a person wrote",
 }
 EVENT_COLUMNS = {
     "timestamp_s": "on the clock of the pictures",
     "since_start_s": "after the first picture",
-    "kind": "repetition, note, pause, camera_lost, ...",
+    "kind": "note, pain, pause, camera_lost, ...",
     "text": "words that go with it",
 }
 
@@ -81,8 +113,11 @@ Table = dict[str, Column]
 def write(take: Take, folder: Path) -> list[Path]:
     """Write the tables; the files written."""
     out = []
-    said = {"wrist": WRIST_COLUMNS, "joints": JOINT_COLUMNS, "markers": MARKER_COLUMNS, "events": EVENT_COLUMNS}
-    for name, table in tables(take.session).items():
+    said = {
+        "wrist": WRIST_COLUMNS, "joints": JOINT_COLUMNS, "markers": MARKER_COLUMNS, "events": EVENT_COLUMNS,
+        "repetitions": REPETITION_COLUMNS, "measures": MEASURE_COLUMNS,
+    }  # fmt: skip
+    for name, table in (tables(take.session) | {"repetitions": repetition_table(take.session, take.figures)}).items():
         out.append(new_table(folder / f"{take.name}.{name}.csv", list(table), _rows(table)))
     measures = (tuple(_cell(value) for value in astuple(row)) for row in measure_rows(take.figures, take.name))
     head = [field.name for field in fields(MeasureRow)]
@@ -94,7 +129,7 @@ def write(take: Take, folder: Path) -> list[Path]:
     content = {
         "provenance": take.provenance,
         "missing": "empty",
-        "tables": {path.name: said.get(path.name.split(".")[-2], _MEASURES_SAID) for path in out},
+        "tables": {path.name: said[path.name.split(".")[-2]] for path in out},
     }
     return [*out, new_json(folder / f"{take.name}.csv.json", content)]
 
@@ -109,29 +144,62 @@ def tables(session: Session) -> dict[str, Table]:
 
 def _wrist(session: Session) -> Table:
     out: Table = {"timestamp_s": session.timestamp_s, "status": _statuses(session)}
-    for motion, prefix in ((session.motion, ""), (session.smoothed, "smoothed_")):
+    for motion, estimate in ((session.motion, "filter"), (session.smoothed, "smoother")):
         if motion is not None:
             for values, suffix in ((motion.angles_rad, "deg"), (motion.angles_sd_rad, "sd_deg")):
                 for k, name in enumerate(WRIST_ANGLES):
-                    out[f"{prefix}{name}_{suffix}"] = np.degrees(values[:, k])
-    return out | {column.name: column.values for column in motion_columns(session)}
+                    out[f"{estimate}_{name}_{suffix}"] = np.degrees(values[:, k])
+            out |= {f"{estimate}_{column.name}": column.values for column in motion_columns(session, motion)}
+    return out
 
 
 def _joints(session: Session) -> Table:
-    names, motion, smoothed = session.header.joint_names, session.motion, session.smoothed
+    names, smoothed = session.header.joint_names, session.smoothed
     share = session.quality.measured_share
-    unknown = np.full_like(motion.joint_angles_rad, math.nan)
+    unknown = np.full_like(session.motion.joint_angles_rad, math.nan)
     out = _of_each(session, names) | {
         "joint": np.tile(np.array(names), len(session)),
-        "angle_deg": np.degrees(motion.joint_angles_rad),
-        "sd_deg": np.degrees(motion.joint_angles_sd_rad),
-        "velocity_deg_s": np.degrees(motion.joint_velocity_rad_s),
+        "positive": np.tile(np.array([positive_of(name) for name in names]), len(session)),
+        **_joint_columns("filter", session.motion),
         "measured_share": share if share.shape == unknown.shape else unknown,
-        "smoothed_angle_deg": np.degrees(smoothed.joint_angles_rad) if smoothed else unknown,
-        "smoothed_sd_deg": np.degrees(smoothed.joint_angles_sd_rad) if smoothed else unknown,
-        "smoothed_velocity_deg_s": np.degrees(smoothed.joint_velocity_rad_s) if smoothed else unknown,
+        **(_joint_columns("smoother", smoothed) if smoothed else dict.fromkeys(_SMOOTHER_JOINTS, unknown)),
     }
     return {name: values.ravel() for name, values in out.items()}
+
+
+_SMOOTHER_JOINTS = ("smoother_angle_deg", "smoother_sd_deg", "smoother_velocity_deg_s")
+
+
+def _joint_columns(estimate: str, motion: Motion) -> Table:
+    return {
+        f"{estimate}_angle_deg": np.degrees(motion.joint_angles_rad),
+        f"{estimate}_sd_deg": np.degrees(motion.joint_angles_sd_rad),
+        f"{estimate}_velocity_deg_s": np.degrees(motion.joint_velocity_rad_s),
+    }
+
+
+def repetition_table(session: Session, figures: SessionFigures) -> Table:
+    """The repetitions as they are shown, with a person's choices: one row each, degrees and seconds."""
+    rows = [one.row for one in figures.repetitions if one.row is not None]
+    angle = trained_name(session)
+    turned = {name: f"{name.removesuffix('_rad')}_deg" for name in ("angle_rad", "arc_rad", "arc_sd_rad")}
+    turned |= {f"peak_speed{part}_rad_s": f"peak_speed{part}_deg_s" for part in ("", "_sd")}
+    out: Table = {
+        "repetition": np.arange(1, len(rows) + 1),
+        "angle": np.array([angle] * len(rows), dtype=np.str_),
+        "positive": np.array([positive_of(angle)] * len(rows), dtype=np.str_),
+        "estimate": np.array(["smoother" if figures.smoothed else "filter"] * len(rows), dtype=np.str_),
+    }
+    for field in fields(RepetitionRow):
+        values = [getattr(row, field.name) for row in rows]
+        if field.name in turned:
+            out[turned[field.name]] = np.degrees(np.array(values, dtype=np.float64))
+        elif field.name == "counted":
+            out["counted"] = np.array(values, dtype=np.int64)
+        else:
+            name = "pause_time_s" if field.name == "pause_s" else field.name
+            out[name] = np.array(values, dtype=np.str_ if field.name == "reason" else np.float64)
+    return out
 
 
 def _markers(session: Session) -> Table:
@@ -142,12 +210,12 @@ def _markers(session: Session) -> Table:
     out = _of_each(session, names) | {
         "marker": np.tile(np.array(names), len(session)),
         "measured": measured(session).astype(np.int64),
-        **{f"{axis}_mm": 1e3 * markers.position_cam_m[..., k] for k, axis in enumerate("xyz")},
+        **{f"filter_{axis}_mm": 1e3 * markers.position_cam_m[..., k] for k, axis in enumerate("xyz")},
         "u_px": markers.measured_px[..., 0],
         "v_px": markers.measured_px[..., 1],
         "depth_mm": 1e3 * markers.measured_depth_m,
         "doubted": markers.doubted.astype(np.int64),
-        **{f"joint_{axis}_mm": 1e3 * joints[..., k] for k, axis in enumerate("xyz")},
+        **{f"filter_joint_{axis}_mm": 1e3 * joints[..., k] for k, axis in enumerate("xyz")},
     }
     return {name: values.ravel() for name, values in out.items()}
 
@@ -182,7 +250,7 @@ def _rows(table: Table) -> Iterator[tuple[str, ...]]:
         if values.dtype.kind == "f":
             digits = 6 if name in ("timestamp_s", "since_start_s") else 3
             return [number(value, digits) for value in values.tolist()]
-        return [plain_text(str(value)) for value in values.tolist()]
+        return [str(value) for value in values.tolist()]
 
     count = max((len(values) for values in table.values()), default=0)
     for begin in range(0, count, _AT_ONCE):
@@ -191,7 +259,6 @@ def _rows(table: Table) -> Iterator[tuple[str, ...]]:
 
 
 _AT_ONCE = 8192
-_MEASURES_SAID = {"": "one row a figure; mean, sd, best and measurement_sd in the unit of the row"}
 
 
 def _cell(value: Any) -> str:
@@ -200,13 +267,4 @@ def _cell(value: Any) -> str:
         return "yes" if value else "no"
     if isinstance(value, float):
         return f"{value:.6g}" if math.isfinite(value) else ""
-    return plain_text(str(value))
-
-
-def plain_text(text: str) -> str:
-    """A text that a spreadsheet shows and does not calculate.
-
-    >>> plain_text("=1+2"), plain_text("fist")
-    ("'=1+2", 'fist')
-    """
-    return f"'{text}" if text[:1] in tuple("=+-@\t\r\n") and text else text
+    return str(value)

@@ -47,6 +47,7 @@ class Deidentification:
                 for event in session.events
             ),
             recovered="",
+            repetitions=None,  # counted again where they are asked for
         )
 
     def name(self, header: SessionHeader) -> str:

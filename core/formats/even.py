@@ -15,6 +15,8 @@ NEAR_WHOLE = 0.01
 """A rate as near to a whole number is that number: cameras keep theirs, their time stamps waver."""
 LONGEST_STEP = 1.75
 """In steps of the rate: what lies between two rows that are further apart was not recorded."""
+OWN_STEP = 0.5
+"""In steps of the rate: a picture stands for the even time that is nearest to its own."""
 SAME_TIME = 1e-3
 """In steps of the rate: as near to a row, a time is that row's."""
 
@@ -96,6 +98,10 @@ def even_times(timestamp_s: FloatArray, rate_hz: float) -> EvenTimes:
         before, after = np.where(on_row, row, before), np.where(on_row, row, after)
     span = np.where(before == after, 1.0, place[after] - place[before])
     share = np.where(before == after, 0.0, (wanted - place[before]) / span)
-    gap = span > LONGEST_STEP
-    outside = (share < 0.0) | (share > 1.0)
-    return EvenTimes(start_s, rate_hz, np.where(gap & ~outside, -1, before), np.where(gap & ~outside, -1, after), share)
+    gap = (span > LONGEST_STEP) & (share >= 0.0) & (share <= 1.0)
+    # At the edges of a gap a time that is some row's own, up to how the stamps waver, has that row: it was recorded.
+    leaving, coming = gap & (share * span <= OWN_STEP), gap & ((1.0 - share) * span <= OWN_STEP)
+    after, before = np.where(leaving, before, after), np.where(coming, after, before)
+    missing = gap & ~leaving & ~coming
+    share = np.where(leaving | coming, 0.0, share)
+    return EvenTimes(start_s, rate_hz, np.where(missing, -1, before), np.where(missing, -1, after), share)

@@ -7,9 +7,13 @@ from pathlib import Path
 from typing import Any
 
 from carpus.core.by_hand.table import COLUMNS, rows_of
+from carpus.core.formats.csv_tables import repetition_table
 from carpus.core.formats.new_output import new_json
 from carpus.core.formats.take import ANGLES_MEAN, Take
+from carpus.core.output.exercises import SIDES, Movement
 from carpus.core.output.measures_table import measure_rows
+from carpus.core.output.norms import Norm, total_norm, wrist_norm
+from carpus.core.output.report_content import SessionFigures
 
 _OF_THE_SESSION = (
     "session", "session_id", "recording_id", "subject_id", "recorded", "simulated", "hand", "protocol", "exercise",
@@ -26,7 +30,7 @@ def content(take: Take) -> dict[str, Any]:
     """All of it as plain values; numbers that are not known are null in the file."""
     figures, header = take.figures, take.session.header
     rows = [asdict(row) for row in measure_rows(figures, take.name)]
-    quality = figures.quality
+    quality, columns = figures.quality, repetition_table(take.session, figures)
     return {
         "session": {
             "name": take.name,
@@ -48,9 +52,10 @@ def content(take: Take) -> dict[str, Any]:
         },
         "angles": ANGLES_MEAN,
         "measures": [{name: row[name] for name in row if name not in _OF_THE_SESSION} for row in rows],
+        "norms": norms_of(figures),
         "repetitions": [
-            {"start_s": one.start_s, "end_s": one.end_s, "counts": one.counts, "reason": one.reason}
-            for one in figures.repetitions
+            dict(zip(columns, row, strict=True))
+            for row in zip(*(values.tolist() for values in columns.values()), strict=True)
         ],
         "pain": [
             {"since_start_s": at, "score": score} for at, score in zip(figures.pain_s, figures.pain, strict=False)
@@ -60,3 +65,15 @@ def content(take: Take) -> dict[str, Any]:
         "camera_not_sure": figures.camera.not_sure,
         "provenance": take.provenance,
     }
+
+
+def norms_of(figures: SessionFigures) -> list[dict[str, Any]]:
+    """Usual values that stand beside figures of this session, each with its source, ages and sexes."""
+    angle = figures.exercise.angle
+    wrist: list[tuple[str, Norm | None]] = []
+    if angle is not None:
+        ways: tuple[Movement, ...] = ("arc", *SIDES[angle])
+        wrist = [(movement, wrist_norm(movement, angle, figures.exercise)) for movement in ways]
+    fingers = sorted({grade.finger for grade in figures.grades})
+    both = [*wrist, *((f"TAM{finger}", total_norm(finger, figures.exercise)) for finger in fingers)]
+    return [{"of": of} | asdict(norm) for of, norm in both if norm is not None]

@@ -2,27 +2,40 @@
 
 from __future__ import annotations
 
+import csv
+import io
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
 from dataclasses import astuple, fields
 from pathlib import Path
 from typing import Any
 
 from carpus.core.errors import ExtraMissing, OutputExists
-from carpus.core.formats.csv_tables import plain_text
-from carpus.core.formats.new_output import new_bytes, new_table
+from carpus.core.formats.new_output import new_bytes, plain_cell
 from carpus.core.output.measures_table import MeasureRow
 
 PARQUET = ".parquet"
+ROWS_AT_ONCE = 10_000
 HEAD = tuple(field.name for field in fields(MeasureRow))
 
 
 def check_place(path: Path) -> None:
-    """Raise now what :func:`write_measures` would raise of a place after hours of work."""
-    if path.exists():
+    """Raise now what :func:`measures_file` would raise of a place after hours of work: a table of measures is replaced,
+    anything else is somebody else's."""
+    parquet = _parquet()[1] if path.suffix.lower() == PARQUET else None
+    if not path.exists():
+        return
+    try:
+        if parquet is not None:
+            head = tuple(parquet.read_schema(path).names)
+        else:
+            with path.open(newline="", encoding="utf-8") as file:
+                head = tuple(next(csv.reader(file), ()))
+    except (OSError, ValueError, csv.Error) as cause:  # pyarrow's own are of these
+        raise OutputExists(path) from cause
+    if head != HEAD:
         raise OutputExists(path)
-    if path.suffix.lower() == PARQUET:
-        _parquet()
 
 
 def _parquet() -> tuple[Any, Any]:
@@ -34,27 +47,53 @@ def _parquet() -> tuple[Any, Any]:
     return pyarrow, parquet
 
 
-def write_measures(rows: Sequence[MeasureRow], path: Path) -> Path:
-    """Write the table by the ending of its name, ``.parquet`` or else CSV.
+@contextmanager
+def measures_file(path: Path, *, replaces: bool = False) -> Iterator[Callable[[Sequence[MeasureRow]], None]]:
+    """A table that takes rows as they come and holds few of them in memory, by the ending of its name ``.parquet`` or
+    else CSV; it has its name when all is written.
 
     Raises :class:`OutputExists`, :class:`OutputNotWritable`, or :class:`ExtraMissing` without pyarrow.
     """
     if path.suffix.lower() != PARQUET:
-        return new_table(path, HEAD, csv_rows(rows))
+        with new_bytes(path, replaces=replaces) as file:
+            text = io.TextIOWrapper(file, "utf-8", newline="")
+            table = csv.writer(text, lineterminator="\n")
+            table.writerow(HEAD)
+            yield lambda rows: table.writerows(csv_rows(rows))
+            text.detach()
+        return
     pyarrow, parquet = _parquet()
     by_kind = {"str": pyarrow.string(), "float": pyarrow.float64(), "int": pyarrow.int64(), "bool": pyarrow.bool_()}
     schema = pyarrow.schema([(field.name, by_kind[str(field.type)]) for field in fields(MeasureRow)])
-    columns = list(zip(*map(astuple, rows), strict=True)) or [()] * len(HEAD)
-    arrays = [pyarrow.array(values, kind.type) for values, kind in zip(columns, schema, strict=True)]
-    table = pyarrow.table(arrays, schema=schema)
-    with new_bytes(path) as file:
-        parquet.write_table(table, file)
+    waiting: list[MeasureRow] = []
+    with new_bytes(path, replaces=replaces) as file, parquet.ParquetWriter(file, schema) as writer:
+
+        def store() -> None:
+            columns = list(zip(*map(astuple, waiting), strict=True))
+            arrays = [pyarrow.array(values, kind.type) for values, kind in zip(columns, schema, strict=True)]
+            writer.write_table(pyarrow.table(arrays, schema=schema))
+            waiting.clear()
+
+        def take(rows: Sequence[MeasureRow]) -> None:
+            waiting.extend(rows)
+            if len(waiting) >= ROWS_AT_ONCE:
+                store()
+
+        yield take
+        if waiting:
+            store()
+
+
+def write_measures(rows: Sequence[MeasureRow], path: Path) -> Path:
+    """Write the whole table, as :func:`measures_file`."""
+    with measures_file(path) as take:
+        take(rows)
     return path
 
 
 def csv_rows(rows: Sequence[MeasureRow]) -> list[list[str]]:
     """Every row as texts: unknown is empty, numbers to six digits that count."""
-    return [[_cell(value) for value in astuple(row)] for row in rows]
+    return [[plain_cell(_cell(value)) for value in astuple(row)] for row in rows]
 
 
 def _cell(value: Any) -> str:
@@ -62,4 +101,4 @@ def _cell(value: Any) -> str:
         return "yes" if value else "no"
     if isinstance(value, float):
         return f"{value:.6g}" if math.isfinite(value) else ""
-    return plain_text(str(value))
+    return str(value)

@@ -14,6 +14,7 @@ import numpy as np
 from carpus.core.formats.new_output import new_bytes, new_json
 from carpus.core.formats.take import ANGLES_MEAN, Take
 from carpus.core.hand.sites import WRIST_ANGLES
+from carpus.core.output.measures_table import positive_of
 from carpus.core.session.values import Motion, Session
 
 
@@ -31,6 +32,8 @@ def write(take: Take, folder: Path) -> list[Path]:
     about = {
         "columns": columns(session),
         "angles": ANGLES_MEAN,
+        "positive": {column: positive_of(name) for column, name in zip(columns(session), _names(session), strict=True)},
+        "estimate": {path.name: "smoother" if path.name.endswith(".smoothed.mot") else "filter" for path in out},
         "sampling": f"even, {even.rate_hz:.6g} a second, on the line between two pictures; NaN across a gap",
         "time_zero_timestamp_s": even.start_s,
         "missing": "NaN",
@@ -42,8 +45,11 @@ def write(take: Take, folder: Path) -> list[Path]:
 def columns(session: Session) -> list[str]:
     """Names of the angles as OpenSim writes them, in file order."""
     side = session.header.hand[0]
-    wrist = [f"wrist_{name}_{side}" for name in WRIST_ANGLES]
-    return wrist + [f"{name.lower()}_{side}" for name in session.header.joint_names]
+    return [f"{'wrist_' if name in WRIST_ANGLES else ''}{name.lower()}_{side}" for name in _names(session)]
+
+
+def _names(session: Session) -> tuple[str, ...]:
+    return (*WRIST_ANGLES, *session.header.joint_names)
 
 
 def _lines(take: Take, motion: Motion, name: str) -> Iterator[str]:
@@ -56,7 +62,7 @@ def _lines(take: Take, motion: Motion, name: str) -> Iterator[str]:
     yield "inDegrees=yes"
     yield ""
     yield f"Carpus {take.provenance['made_by']['version']}, session {session.header.session_id}."
-    yield f"Angles: {ANGLES_MEAN}."
+    yield f"Angles by the {'filter' if motion is session.motion else 'smoother'}: {ANGLES_MEAN}."
     yield "The line with 'inDegrees' says that rotational values are in degrees."
     yield ""
     yield "endheader"

@@ -7,6 +7,7 @@ import errno
 import json
 import math
 import os
+import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from pathlib import Path
@@ -16,15 +17,17 @@ from carpus.core.errors import DiskFull, OutputExists, OutputNotWritable
 from carpus.core.private import private
 
 HALF = ".half"
+_CALCULATED = tuple("=+-@\t\r\n")
+_NUMBER = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?")
 
 
 @contextmanager
-def new_bytes(path: Path) -> Iterator[IO[bytes]]:
-    """A file to write, which gets its name only when all of it is written.
+def new_bytes(path: Path, *, replaces: bool = False) -> Iterator[IO[bytes]]:
+    """A file to write, which gets its name only when all of it is written; ``replaces`` the one that has it.
 
     Raises :class:`OutputExists`, :class:`OutputNotWritable` or :class:`DiskFull`; nothing half-done stays.
     """
-    if path.exists():
+    if path.exists() and not replaces:
         raise OutputExists(path)
     half = path.with_name(path.name + HALF)
     try:
@@ -33,7 +36,10 @@ def new_bytes(path: Path) -> Iterator[IO[bytes]]:
             half.unlink(missing_ok=True)  # of a run that was killed
             with open(half, "xb", opener=private) as file:
                 yield file
-            _named(half, path)
+            if replaces:
+                half.replace(path)
+            else:
+                _named(half, path)
         except FileExistsError as cause:
             raise OutputExists(path) from cause
         except OSError as cause:
@@ -55,14 +61,25 @@ def new_json(path: Path, content: Any) -> Path:
     return new_text(path, json.dumps(without_nan(content), indent=2, ensure_ascii=False) + "\n")
 
 
-def new_table(path: Path, head: Sequence[str], rows: Iterable[Iterable[str]], separator: str = ",") -> Path:
-    """Write a table row by row; ``head`` may be empty."""
-    with new_bytes(path) as file:
+def new_table(
+    path: Path, head: Sequence[str], rows: Iterable[Iterable[str]], separator: str = ",", *, replaces: bool = False
+) -> Path:
+    """Write a table row by row; ``head`` may be empty. No cell is calculated by a spreadsheet that opens it."""
+    with new_bytes(path, replaces=replaces) as file:
         table = csv.writer(_Encoded(file), delimiter=separator, lineterminator="\n")
         if head:
             table.writerow(head)
-        table.writerows(rows)
+        table.writerows([plain_cell(cell) for cell in row] for row in rows)
     return path
+
+
+def plain_cell(text: str) -> str:
+    """A cell that a spreadsheet shows and does not calculate; numbers are left as they are.
+
+    >>> plain_cell("=1+2"), plain_cell("fist"), plain_cell("-1.5e3")
+    ("'=1+2", 'fist', '-1.5e3')
+    """
+    return text if text[:1] not in _CALCULATED or not text or _NUMBER.fullmatch(text) else f"'{text}"
 
 
 def without_nan(value: Any) -> Any:

@@ -8,6 +8,7 @@ from pathlib import Path
 import numpy as np
 
 from carpus.core.formats.take import Take
+from carpus.core.output.repetition_rows import repetitions_of
 from carpus.core.session.reader import read_detections
 from carpus.core.session.values import Session, moments_of
 from carpus.core.session.writer import SessionWriter
@@ -27,6 +28,8 @@ def write(take: Take, folder: Path) -> list[Path]:
             writer.add_event(event.time_s, event.kind, event.text)
         if session.smoothed is not None and len(session):
             writer.write_smoothed(session.smoothed)
+        if len(session):
+            writer.write_repetitions(repetitions_of(session))
         writer.close()
     except BaseException:
         writer.discard()

@@ -10,8 +10,9 @@ import numpy as np
 
 from carpus.core.by_hand.values import HandValue
 from carpus.core.formats.even import EvenTimes, even_times, rate_of
+from carpus.core.output.repetition_rows import on_clock
 from carpus.core.output.report_content import SessionFigures
-from carpus.core.session.values import Session
+from carpus.core.session.values import Event, Session
 from carpus.core.types import FloatArray
 
 CAMERA_AXES = "axes of the colour camera: x right, y down in its picture, z forward"
@@ -59,6 +60,20 @@ def about(take: Take) -> About:
     return About(
         take.name, header.subject_id, header.hand, header.exercise, header.recorded, header.simulated, take.provenance
     )
+
+
+def repetition_events(take: Take) -> list[Event]:
+    """Start, peak and end of every repetition as shown, on the clock of the frames, for formats that know moments."""
+    if not len(take.session):
+        return []
+    start_s, out = float(take.session.timestamp_s[0]), []
+    for number, one in enumerate(take.figures.repetitions, 1):
+        if one.row is not None:
+            said = f"{number}" if one.row.counted else f"{number}, not counted: {one.row.reason}"
+            row = on_clock(one.row, start_s)
+            for kind, time_s in (("start", row.start_s), ("peak", row.peak_s), ("end", row.end_s)):
+                out.append(Event(time_s, f"repetition_{kind}", said))
+    return out
 
 
 def joint_centres_cam_m(session: Session) -> FloatArray:

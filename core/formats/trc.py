@@ -30,6 +30,7 @@ def write(take: Take, folder: Path) -> list[Path]:
     even = take.even
     about = {
         "units": "mm",
+        "estimate": "filter",
         "rotation_trc_from_camera": ROTATION_UP_CAM,
         "rotation_means": SAYS,
         "camera_axes": CAMERA_AXES,
@@ -55,4 +56,5 @@ def _lines(take: Take, name: str) -> Iterator[str]:
     for k, (time_s, row) in enumerate(
         zip(even.since_start_s.tolist(), place_mm.reshape(count, 3 * len(markers)), strict=True)
     ):
-        yield f"{k + 1}\t{time_s:.6f}\t" + "\t".join(number(value, 4) for value in row.tolist())
+        # A tab ends the row: OpenSim drops an empty cell that nothing follows, and then misses a column.
+        yield f"{k + 1}\t{time_s:.6f}\t" + "".join(f"{number(value, 4)}\t" for value in row.tolist())

@@ -62,6 +62,12 @@ class BackSurface:
         index = (node[:, 1] * (columns + 2) + node[:, 0]).astype(np.int64)
         return place[:, :4], self._plane.take(index, axis=0)
 
+    def places_m(self) -> FloatArray:
+        """The known nodes (N, 3) in W0."""
+        row, column = np.nonzero(np.isfinite(self.height_m))
+        across = self.origin_m + self.step_m * np.column_stack((column, row))
+        return np.column_stack((across, self.height_m[row, column]))
+
     def as_table(self) -> FloatArray:
         """All of it as rows (``TABLE_ROWS``, 5), NaN below: first origin x, y, step, rows and columns of the grid, then
         the middle, then every known node as row, column, height and slopes."""

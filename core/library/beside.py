@@ -4,7 +4,3 @@ from __future__ import annotations
 
 MARKERS_SUFFIX = ".markers.jpg"
 """The discs as they were stuck: the hand and nothing of the room."""
-COMMENTS_SUFFIX = ".comments.json"
-"""What a therapist wrote of it, all versions."""
-CHOICES_SUFFIX = ".choices.json"
-"""What a person left out or moved."""

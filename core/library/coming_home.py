@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import hashlib
-import re
 import shutil
+from collections.abc import Callable
 from pathlib import Path
 
 import platformdirs
@@ -13,11 +13,10 @@ from carpus.core.capture.raw import SUFFIX as RAW_SUFFIX
 from carpus.core.durable import sync_folder
 from carpus.core.errors import CarpusFault, OutputNotWritable, RecordingReturned
 from carpus.core.library.beside import MARKERS_SUFFIX
-from carpus.core.session.database import make_private
+from carpus.core.private import make_private
 from carpus.core.session.disk import free_name
 from carpus.core.session.reader import read_outline
 from carpus.core.session.recovery import recover_folder
-from carpus.core.session.register import SESSIONS_FOLDER
 
 
 def fallback_place(data_folder: Path) -> Path:
@@ -26,15 +25,16 @@ def fallback_place(data_folder: Path) -> Path:
     return Path(platformdirs.user_state_dir("carpus", appauthor=False)) / "recorded-elsewhere" / name
 
 
-def bring_home(data_folder: Path) -> list[CarpusFault]:
-    """Finish what was recorded elsewhere and move it among the sessions; tells of each, and of what could not be."""
+def bring_home(data_folder: Path, folder_of: Callable[[str], Path]) -> list[CarpusFault]:
+    """Finish what was recorded elsewhere and move it among the sessions, into the folder of each pseudonym; tells of
+    each, and of what could not be."""
     place = fallback_place(data_folder)
     if not place.is_dir():
         return []
     told = list(recover_folder(place).faults)
     for path in sorted(place.glob("*.h5")):
         try:
-            told.append(RecordingReturned(_home(path, data_folder / SESSIONS_FOLDER)))
+            told.append(RecordingReturned(_home(path, folder_of)))
         except CarpusFault as fault:
             told.append(fault)
         except OSError as cause:
@@ -42,9 +42,8 @@ def bring_home(data_folder: Path) -> list[CarpusFault]:
     return told
 
 
-def _home(path: Path, sessions: Path) -> Path:
-    subject = read_outline(path).header.subject_id
-    folder = sessions / (re.sub(r"\W+", "-", subject).strip("-") or "unknown")
+def _home(path: Path, folder_of: Callable[[str], Path]) -> Path:
+    folder = folder_of(read_outline(path).header.subject_id)
     make_private(folder)
     target = free_name(folder / path.name)
     for suffix in (RAW_SUFFIX, MARKERS_SUFFIX, ".h5"):  # the session last: what goes with it is there when it comes

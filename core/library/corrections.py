@@ -14,14 +14,15 @@ from carpus.core.errors import OutputNotWritable, SessionUnreadable
 from carpus.core.library.beside import MARKERS_SUFFIX
 from carpus.core.library.library import Library
 from carpus.core.output.range_rows import best_motion
-from carpus.core.session.database import make_private
+from carpus.core.private import make_private
+from carpus.core.records.erasure import TRIALS_FOLDER
+from carpus.core.records.values import SessionEntry
 from carpus.core.session.disk import free_name
 from carpus.core.session.reader import read_detections, read_outline, read_session
-from carpus.core.session.register import SessionEntry
 from carpus.core.session.values import DetectionTable, Session
 from carpus.core.types import ByteImage, FloatArray
 
-TRIALS_FOLDER, SESSION_SUFFIX = "corrections", ".h5"
+SESSION_SUFFIX = ".h5"
 
 
 @dataclass(frozen=True, slots=True)
@@ -68,7 +69,7 @@ class Corrections:
         for path in sorted(self._folder.glob(f"*{SESSION_SUFFIX}")):
             try:
                 header = read_outline(path).header
-                self._library.register_of(header.origin)
+                self._library.entry(header.origin)
             except SessionUnreadable:
                 with suppress(OSError):
                     path.unlink()
@@ -107,7 +108,6 @@ class Corrections:
     def use(self, session_id: str, trial: Path) -> str:
         """Take a new result into the patient's list, where it counts from now on; its identity. The old one stays."""
         library, entry = self._library, self._library.entry(session_id)
-        register = library.register_of(session_id)
         target = free_name(entry.path)
         try:
             trial.rename(target)
@@ -117,14 +117,13 @@ class Corrections:
                 target.with_suffix(MARKERS_SUFFIX).chmod(0o600)
         except OSError as cause:
             raise OutputNotWritable(target, cause.strerror or "") from cause
-        new = register.enter_session(target, register.patient_of(session_id))
+        new = library.index.enter(target, library.owner(session_id), entry.by)
         if new.exercise != entry.exercise:
-            register.rename_exercise(new.session_id, entry.exercise)
+            library.index.rename_exercise(new.session_id, entry.exercise)
         with suppress(SessionUnreadable):
             choices = library.choices(session_id)
             if choices.not_counted:  # the rest speaks of repetitions that are found anew
                 library.keep_choices(new.session_id, replace(choices, left_out={}, edges_s={}))
-        library.encrypting.wake()
         return new.session_id
 
     def drop(self, trial: Path) -> None:

@@ -1,4 +1,4 @@
-"""Erasing, archiving and what is due, of the whole data folder: what must know patients and practice patient alike."""
+"""Erasing, archiving, what is due and the log, of the whole data folder."""
 
 from __future__ import annotations
 
@@ -6,25 +6,25 @@ from dataclasses import dataclass
 from datetime import date, datetime
 
 from carpus.core.errors import SessionUnreadable
-from carpus.core.library.corrections import Corrections
 from carpus.core.library.library import Library
 from carpus.core.library.set_up import PRACTICE_PATIENT
 from carpus.core.phrase import phrase
-from carpus.core.safekeeping import erasure
-from carpus.core.safekeeping.audit import AuditReading, read_audit
-from carpus.core.safekeeping.backup import log_was_cut
-from carpus.core.safekeeping.erasure import Erased, ErasurePlan
-from carpus.core.safekeeping.retention import Due, due
+from carpus.core.records import erasure
+from carpus.core.records.erasure import ErasurePlan
+from carpus.core.records.log import LoggedDeed, fingerprint, read_log
+from carpus.core.records.retention import Due, due
 
 
 @dataclass(frozen=True, slots=True)
 class Archived:
-    """A patient or a session in the archive: ``identity`` brings it back; ``recorded`` None for a patient."""
+    """A patient or a session in the archive: ``identity`` brings it back; ``recorded`` None for a patient;
+    ``patient_id`` whose it is."""
 
     identity: str
     pseudonym: str
     since: datetime
     sessions: int
+    patient_id: str
     recorded: datetime | None = None
     session_id: str = ""
 
@@ -33,91 +33,79 @@ class Records:
     """Plans are made first and shown; what a plan says is what goes."""
 
     def __init__(self, library: Library) -> None:
-        self._library = library
+        self._library, self._store = library, library.store
 
     def plan_session(self, session_id: str) -> ErasurePlan:
         """What goes with a session. Raises :class:`SessionUnreadable` for one that is not there."""
-        return erasure.plan_session(self._library.register_of(session_id), session_id)
+        try:
+            return erasure.plan_session(self._store, session_id)
+        except KeyError:
+            raise SessionUnreadable(session_id, phrase("not in the list of patients")) from None
 
     def plan_patient(self, patient_id: str) -> ErasurePlan:
         """What goes with a patient. Raises :class:`SessionUnreadable` for one that is not there."""
         try:
-            return erasure.plan_patient(self._library.clinic, patient_id)
+            return erasure.plan_patient(self._store, patient_id)
         except KeyError:
             raise SessionUnreadable(patient_id, phrase("not in the list of patients")) from None
 
-    def erase(self, plan: ErasurePlan) -> Erased:
+    def erase(self, plan: ErasurePlan) -> int:
         """Do what a plan says. Raises what :func:`erasure.erase` does."""
-        library = self._library
-        register = library.register_of(plan.identity) if plan.kind == "session" else library.clinic
-        if plan.kind == "patient":
-            library.forget_set_up(plan.identity)
         for one in plan.results:
-            library.forget_figures(one.session_id)
-        library.forget_pictures()
-        try:
-            return erasure.erase(register, plan, library.audit)
-        finally:
-            Corrections(library).waiting()  # new results of what is gone go with it
+            self._library.forget_figures(one.session_id)
+        self._library.forget_pictures()
+        return erasure.erase(self._store, plan, self._library.log)
 
     def archive_session(self, session_id: str) -> None:
         """Out of every list and count."""
-        register = self._library.register_of(session_id)
-        register.archive(register.session(session_id).recording_id)
+        self._library.index.archive(session_id)
         self._library.note_session("archived", session_id)
 
     def archive_patient(self, patient_id: str) -> None:
         """Out of every list and count."""
-        self._library.clinic.archive(patient_id)
+        self._library.patients.archive(patient_id)
         self._library.note_patient("archived", patient_id)
 
     def bring_back(self, identity: str) -> None:
         """A patient or a session, by :attr:`Archived.identity`."""
-        self._library.clinic.bring_back(identity)
-        sessions = self._library.clinic.results_of_recording(identity)
-        if sessions:
-            self._library.note_session("brought_back", sessions[0].session_id)
-        else:
+        if identity in self._library.patients.archived():
+            self._library.patients.bring_back(identity)
             self._library.note_patient("brought_back", identity)
+        else:
+            self._library.index.bring_back(identity)
+            self._library.note_session("brought_back", identity)
 
     def archived(self) -> list[Archived]:
         """What can be brought back, last archived first."""
-        clinic = self._library.clinic
-        found = []
-        for identity, since in clinic.archived().items():
-            results = clinic.results_of_recording(identity)
-            try:
-                patient_id = clinic.owner(results[0].session_id) if results else identity
-                pseudonym = clinic.patient(patient_id).entry.pseudonym
-            except KeyError:
-                continue
-            recordings = {one.recording_id for one in (results or clinic.sessions(identity, archived=True))}
-            recorded = results[0].recorded if results else None
-            session_id = results[0].session_id if results else ""
-            found.append(Archived(identity, pseudonym, since, len(recordings), recorded, session_id))
+        library, found = self._library, []
+        for patient_id, since in library.patients.archived().items():
+            entries = library.index.of_patient(patient_id, archived=True)
+            pseudonym = library.patients.one(patient_id).entry.pseudonym
+            found.append(Archived(patient_id, pseudonym, since, len({one.recording_id for one in entries}), patient_id))
+        for entry, owner, since in library.index.archived():
+            if owner:
+                pseudonym, session_id = library.patients.one(owner).entry.pseudonym, entry.session_id
+                found.append(Archived(session_id, pseudonym, since, 1, owner, entry.recorded, session_id))
         return sorted(found, key=lambda one: one.since, reverse=True)
 
     def due(self, years: int, today: date) -> list[Due]:
         """Patients of whom nothing need be kept any more."""
-        return due(self._library.clinic, years, today)
+        return due(self._store, years, today)
 
-    def audit_was_cut(self) -> bool:
-        """Whether lines were taken off the end of the log that the last back-up knew."""
-        return log_was_cut(self._library.folder, read_audit(self._library.folder))
-
-    def audit(self) -> AuditReading:
+    def log(self) -> tuple[LoggedDeed, ...]:
         """The log of what was done; that it was read is in it too, after what is returned."""
-        reading = read_audit(self._library.folder)
+        found = read_log(self._store)
         self._library.note("read_log")
-        return reading
+        return found
 
     def names(self) -> dict[str, str]:
-        """Pseudonyms of the patients, and of those whose sessions there are, by identity: of who was erased there is
-        none."""
-        clinic = self._library.clinic
-        known = {record.patient_id: record.entry.pseudonym for record in clinic.patients(archived=True)}
-        for patient_id, pseudonym in [*known.items()]:
-            for entry in clinic.sessions(patient_id, archived=True):
-                known[entry.session_id] = f"{pseudonym}, {entry.recorded:%Y-%m-%d %H:%M}"
-        known[PRACTICE_PATIENT] = "practice"
+        """Pseudonyms of the patients, and of those whose sessions there are, by what stands for them in the log: of who
+        was erased there is none."""
+        known = {}
+        for record in self._library.patients.listed(archived=True):
+            pseudonym = record.entry.pseudonym
+            known[fingerprint(record.patient_id)] = pseudonym
+            for entry in self._library.index.of_patient(record.patient_id, archived=True):
+                known[fingerprint(entry.session_id)] = f"{pseudonym}, {entry.recorded:%Y-%m-%d %H:%M}"
+        known[fingerprint(PRACTICE_PATIENT)] = "practice"
         return known

@@ -2,21 +2,16 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Sequence
 from contextlib import suppress
 from datetime import date
-from pathlib import Path
 
 from carpus.core.agreement.limits_file import store_limits
 from carpus.core.agreement.restated import Restated, as_if_complete, restated
 from carpus.core.agreement.retest import StudyFigures
 from carpus.core.agreement.retest_plan import RetestPlan, plan_of
-from carpus.core.errors import CarpusFault, OutputNotWritable
+from carpus.core.errors import CarpusFault
 from carpus.core.library.library import Library
-from carpus.core.safekeeping.audit import read_audit
-
-PEOPLE_FILE = "retest_people.json"
 
 
 class RetestPeople:
@@ -24,34 +19,21 @@ class RetestPeople:
 
     def __init__(self, library: Library) -> None:
         self._library = library
-        self._path: Path = library.folder / PEOPLE_FILE
 
     def candidates(self) -> Sequence[tuple[str, str, int]]:
         """Everybody in the list of patients: identity, pseudonym, number of sessions."""
         return [
             (one.patient_id, one.entry.pseudonym, one.session_count)
-            for one in sorted(self._library.clinic.patients(), key=lambda one: one.entry.pseudonym.casefold())
+            for one in sorted(self._library.patients.listed(), key=lambda one: one.entry.pseudonym.casefold())
         ]
 
     def chosen(self) -> Sequence[str]:
-        """Identities of those who take part; somebody who is gone takes no part any more."""
-        known = {one.patient_id for one in self._library.clinic.patients()}
-        try:
-            stored = json.loads(self._path.read_text(encoding="utf-8"))["people"]
-            return [one for one in stored if one in known]
-        except (OSError, ValueError, KeyError, TypeError, RecursionError):
-            return []  # only a convenience: they are chosen again
+        """Identities of those who take part."""
+        return self._library.patients.taking_part()
 
     def choose(self, patient_ids: Sequence[str]) -> None:
-        """Let these take part from now on. Raises :class:`OutputNotWritable`."""
-        part = self._path.with_suffix(".new")
-        try:
-            part.unlink(missing_ok=True)
-            part.touch(mode=0o600)
-            part.write_text(json.dumps({"people": list(patient_ids)}), encoding="utf-8")
-            part.replace(self._path)
-        except OSError as cause:
-            raise OutputNotWritable(self._path, cause.strerror or "") from cause
+        """Let these take part from now on. Raises the faults of writing."""
+        self._library.patients.let_take_part(patient_ids)
 
     def exercises(self) -> Sequence[str]:
         """Those that were measured of anybody who takes part, most sessions first."""
@@ -93,14 +75,9 @@ class RetestPeople:
         return restated(pseudonym, figures, as_if_complete(study.study(date.min.isoformat())))
 
     def _raters(self) -> dict[str, str]:
-        """Initials of who recorded each session, as the log has them."""
-        with suppress(CarpusFault):
-            return {
-                entry.identity: entry.who
-                for entry in read_audit(self._library.folder).entries
-                if entry.did == "recorded" and entry.who
-            }
-        return {}
+        """Initials of who recorded each session."""
+        people = [entry for one in self.chosen() for entry in self._library.sessions(one)]
+        return {entry.session_id: entry.by for entry in people if entry.by}
 
     def store(self, study: StudyFigures, today: date) -> None:
         """Put the limits of a study into force, as ``carpus retest --store`` does. Raises the faults of writing."""

@@ -28,11 +28,15 @@ SPECTRUM_NOISE = 0.012
 HIGHEST_CUTOFF_HZ = 10.0
 CYCLES_PER_STROKE = 3.0
 """A low-pass below this many cycles in the time of a stroke takes more than 1 % off a minimum-jerk peak."""
+CYCLES_PER_PART = 2.0
+"""The spectrum of a sub-movement has fallen to nothing at so many cycles in its time."""
 LOWEST_OF_JERKS_HZ = 2.0
 """Sub-movements last half a second or less: with less of the spectrum a jerky movement would pass for a smooth one."""
 LOWEST_FOR_JERK_HZ = 4.0
 JERK_NOISE = 0.01
 _DRAWS = 64
+TURNING_IN_SDS = 4.0
+"""A hold, seen through noise, stays within so many of its standard deviations of its extreme."""
 DIP_IN_SDS = 4.0
 """Noise makes dips in a speed up to so many of its standard deviations."""
 
@@ -108,38 +112,51 @@ def cutoff_for_speed(noise: Noise, peak_speed: float, stroke_s: float) -> float:
     return float(next((hz for hz in tried if noise.speed_sd(hz) <= SPEED_ERROR_SHARE * peak_speed), lowest))
 
 
-def cutoff_for_smoothness(noise: Noise, arc: float, stroke_s: float) -> float:
-    """Cut-off (Hz) of the low-pass for SPARC; NaN where noise would be taken for jerk."""
-    lowest = max(CYCLES_PER_STROKE / stroke_s, LOWEST_OF_JERKS_HZ)
+def highest_cutoff_for_speed(noise: Noise, peak_speed: float) -> float:
+    """The highest cut-off (Hz) at which a stroke's speed can still be told from the noise; 0 where none is."""
+    tried = np.geomspace(HIGHEST_CUTOFF_HZ, 0.1, 80)
+    return float(next((hz for hz in tried if noise.speed_sd(hz) <= MOST_SPEED_ERROR_SHARE * peak_speed), 0.0))
+
+
+def cutoff_for_smoothness(noise: Noise, arc: float, stroke_s: float, part_s: float = math.inf) -> float:
+    """Cut-off (Hz) of the low-pass for SPARC of a stroke whose quickest part, if it has stops, takes ``part_s``; NaN
+    where noise would be taken for jerk: in a stroke with stops, with its long spectrum, twice as much is little."""
+    lowest = max(CYCLES_PER_STROKE / stroke_s, CYCLES_PER_PART / part_s, LOWEST_OF_JERKS_HZ)
     if lowest >= HIGHEST_CUTOFF_HZ:
         return lowest
     tried = np.geomspace(HIGHEST_CUTOFF_HZ, lowest, 40)
-    return float(next((hz for hz in tried if noise.spectrum_share(hz, stroke_s, arc) <= SPECTRUM_NOISE), math.nan))
+    most = SPECTRUM_NOISE * (2.0 if math.isfinite(part_s) else 1.0)
+    return float(next((hz for hz in tried if noise.spectrum_share(hz, stroke_s, arc) <= most), math.nan))
 
 
-def cutoff_for_jerk(noise: Noise, arc: float, stroke_s: float) -> float:
-    """Cut-off (Hz) below which noise has at most a small share of the least jerk (720 arc^2 / T^6) that such a stroke
-    can have; NaN where that leaves nothing to compare with published figures."""
-    lowest = max(CYCLES_PER_STROKE / stroke_s, LOWEST_FOR_JERK_HZ)
+def cutoff_for_jerk(noise: Noise, part_arc: float, part_s: float, stroke_s: float) -> float:
+    """Cut-off (Hz) below which noise has at most a small share of the least jerk (720 arc^2 / T^5) that a stroke with
+    such a quickest part can have; NaN where that leaves nothing to compare with published figures."""
+    lowest = max(CYCLES_PER_STROKE / part_s, LOWEST_FOR_JERK_HZ)
     if not noise.sd > 0.0:
         return max(HIGHEST_CUTOFF_HZ, lowest)
-    least = JERK_NOISE * 720.0 * arc**2 / stroke_s**6
+    least = JERK_NOISE * 720.0 * part_arc**2 / part_s**5 / max(stroke_s, part_s)
     plateau = 4.0 * noise.sd**2 / noise.correlation_s * (2.0 * math.pi) ** 4 / 5.0
     found = min(float((least / plateau) ** 0.2), max(HIGHEST_CUTOFF_HZ, lowest))
     return found if found >= lowest else math.nan
 
 
 def extreme(part: FloatArray, clean: FloatArray, noise: Noise, rate_hz: float, *, largest: bool) -> tuple[float, float]:
-    """Largest or smallest value (n,) of a part without what noise adds to it, and its standard deviation.
+    """Largest or smallest angle (n,) of a part without what noise adds to it, and its standard deviation.
 
-    The largest of noisy values lies too far out: by how much, drawn noise on the ``clean`` curve tells. Gaps are NaN.
+    The largest of noisy values lies too far out, the further the longer a hand holds: so it is the mean of the middle
+    half of the time in which the ``clean`` curve stays within the noise of its extreme. A hold is averaged, a quick
+    turn is as good as flat there. Gaps are NaN.
     """
     sign = 1.0 if largest else -1.0
-    known = np.isfinite(part) & np.isfinite(clean)
-    if not known.any():
-        known = np.isfinite(part)
-        clean = part
-    found = float(np.nanmax(sign * part))
-    drawn = np.where(known, sign * clean + noise.drawn(len(part), rate_hz), -np.inf).max(axis=1)
-    too_far = float(drawn.mean()) - float((sign * clean[known]).max())
-    return sign * (found - too_far), float(drawn.std())
+    curve = sign * np.where(np.isfinite(part) & np.isfinite(clean), clean, np.nan)
+    if not np.isfinite(curve).any():
+        curve = sign * part
+    top = int(np.nanargmax(curve))
+    with np.errstate(invalid="ignore"):
+        near = curve >= curve[top] - TURNING_IN_SDS * noise.sd
+    first = top - int(np.argmin(near[top::-1])) + 1 if not near[: top + 1].all() else 0
+    last = top + int(np.argmin(near[top:])) if not near[top:].all() else len(near)
+    quarter = (last - first) // 4
+    middle = part[first + quarter : last - quarter]
+    return float(middle.mean()), float(noise.drawn(len(middle), rate_hz).mean(axis=1).std())

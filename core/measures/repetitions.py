@@ -43,6 +43,11 @@ class Stroke:
     end_s: float
     rising: bool
 
+    @property
+    def toward(self) -> float:
+        """1 for a rising angle, else -1."""
+        return 1.0 if self.rising else -1.0
+
 
 @dataclass(frozen=True, slots=True)
 class Exercise:

@@ -1,5 +1,8 @@
 """Speed and timing of single strokes of an angle (clinical reference 5), smoothed as much as its noise asks for.
 
+A stroke is the way from leaving one turning place to reaching the next. Who stops on the way has not finished: pauses
+are part of the stroke, counted and timed, and its smoothness, time and mean speed are those of all of it.
+
 Never from the filter's own angular velocity noise: differentiate the smoothed angle (reference 4.5).
 """
 
@@ -12,29 +15,46 @@ import numpy as np
 
 from carpus.core.measures.noise import (
     DIP_IN_SDS,
+    HIGHEST_CUTOFF_HZ,
     LOWEST_OF_JERKS_HZ,
     Noise,
+    clean_cutoff_hz,
     cutoff_for_jerk,
     cutoff_for_smoothness,
     cutoff_for_speed,
+    extreme,
+    highest_cutoff_for_speed,
     moving_noise,
 )
 from carpus.core.measures.repetitions import LEAST_RANGE_RAD, Stroke
-from carpus.core.measures.signals import Signal, low_pass, rate_of_change
+from carpus.core.measures.signals import Signal, low_pass, rate_of_change, stretches
 from carpus.core.measures.smoothness import LEAST_PEAK_RAD_S, log_dimensionless_jerk, sparc, speed_peaks
 from carpus.core.types import FloatArray
 
 MOVING_SHARE = 0.05
 """Onset and offset are where the speed passes this share of the stroke's peak."""
+PLACE_SHARE = 0.05
+"""Within this share of the arc from its extreme an angle is still in its turning place: who creeps on there has
+arrived. Noise may need more."""
+STANDING_SHARE, LEAST_PAUSE_S = 0.10, 0.2
+"""Below this share of the peak for so long the hand stands still; who only turns from one sub-movement to the next is
+there for less."""
+_PAUSE_IN_SDS = 2.0
+"""Where noise alone passes that share, nobody knows whether the hand stood still."""
 _PEAK_RISE_SHARE = 0.10
-_EDGE_SHARE, _EDGES_TO_REST = 0.1, 1.65
+_EDGE_SHARE, _EDGES_TO_REST = 0.1, 1.74
 """Of a minimum-jerk movement the way between both edges takes 0.507 of the time, and that above 5 % of the peak speed
-0.836."""
+0.881."""
+_HALF_HEIGHT_SHARE, _PEAK_OVER_MEAN = 0.541, 1.875
+"""Of its time a minimum-jerk movement is above half of its peak speed, which is so many times its mean speed."""
+_SHORT_PART, _PART_IN_SDS = 0.6, 2.0
+"""A quickest part below this share of the whole way's time is a sub-movement, if it is so much above the noise."""
 
 
 @dataclass(frozen=True, slots=True)
 class StrokeMeasures:
-    """One stroke. Speeds in rad/s without sign; ``movement_time_s`` from onset to offset; smoothness dimensionless.
+    """One stroke. Speeds in rad/s without sign; ``movement_time_s`` from ``onset_s`` to ``offset_s``, pauses included;
+    ``pauses`` how often the hand stood still on the way and ``pause_s`` for how long in all; smoothness dimensionless.
 
     ``peak_speed_sd_rad_s`` what noise leaves in the peak speed. ``too_slow``: the noise is too large for this speed,
     which is then unknown, and ``too_slow_to_be_smooth`` for its smoothness.
@@ -47,9 +67,13 @@ class StrokeMeasures:
     movement_time_s: float = math.nan
     time_to_peak_share: float = math.nan
     peaks: float = math.nan
+    pauses: float = math.nan
+    pause_s: float = math.nan
     sparc: float = math.nan
     ldlj: float = math.nan
     peak_speed_sd_rad_s: float = math.nan
+    onset_s: float = math.nan
+    offset_s: float = math.nan
     too_slow: bool = False
     too_slow_to_be_smooth: bool = False
 
@@ -60,46 +84,68 @@ def measure_stroke(angle: Signal, stroke: Stroke, sd: Signal | None = None, *, s
     How much it is smoothed the noise decides. Everything but the arc is NaN when the arc is below 10 degrees or the
     stroke has a gap; movement time and what follows from it also when the speed does not fall below 5 % of its peak on
     both sides. Movement time counts from 5 % to 5 % of the peak; smoothness is that of the whole stroke, from where the
-    speed left zero, or its last minimum, to where it is back, as published figures have it.
+    speed left zero, or its last minimum, to where it is back, as published figures have it. Movement units are unknown
+    where none rises as they must (5 degrees a second).
     """
-    part = angle.between(stroke.start_s, stroke.end_s)
-    arc = float(np.nanmax(part.value) - np.nanmin(part.value)) if part.finite.any() else math.nan
-    if not arc >= LEAST_RANGE_RAD or not part.finite.all():
-        return StrokeMeasures(stroke, arc)
-    toward = 1.0 if stroke.rising else -1.0
+    part = low_pass(angle, HIGHEST_CUTOFF_HZ).between(stroke.start_s, stroke.end_s)
+    if not part.finite.all() or len(part.time_s) < 2:
+        return StrokeMeasures(stroke, float(np.ptp(part.value[part.finite])) if part.finite.any() else math.nan)
     duration_s = usual_duration_s(low_pass(angle).between(stroke.start_s, stroke.end_s).value, angle.rate_hz)
-    noise, for_speed = _noise_and_cutoff(angle, stroke, sd, arc, duration_s, smoothed=smoothed)
-    if math.isnan(for_speed):
-        return StrokeMeasures(stroke, arc, too_slow=True, too_slow_to_be_smooth=True)
-    moved = _moved(angle, stroke, toward, for_speed)
-    if moved is None and _cut_short(angle, stroke):
+    noise = _noise(angle, stroke, sd, duration_s, smoothed=smoothed)
+    arc = _arc(part, noise, duration_s)
+    if not arc >= LEAST_RANGE_RAD:
         return StrokeMeasures(stroke, arc)
+    pace = _pace(angle, stroke, noise, arc, duration_s)
+    if pace is None:
+        return StrokeMeasures(stroke, arc, too_slow=True, too_slow_to_be_smooth=True)
+    moved = _moved(angle, stroke, noise, pace.cutoff_hz)
     if moved is None:
-        # Never at rest on both sides: where the rough curve began and ended was noise, so the whole stroke decides.
-        noise, for_speed = _noise_and_cutoff(angle, stroke, sd, arc, stroke.end_s - stroke.start_s, smoothed=smoothed)
-        if math.isnan(for_speed):
-            return StrokeMeasures(stroke, arc, too_slow=True, too_slow_to_be_smooth=True)
-        velocity = toward * rate_of_change(low_pass(angle, for_speed).between(stroke.start_s, stroke.end_s)).value
-        return StrokeMeasures(stroke, arc, _top(np.abs(velocity)), peak_speed_sd_rad_s=noise.speed_sd(for_speed))
-    smooth = _moved(angle, stroke, toward, cutoff_for_smoothness(noise, arc, moved.duration_s))
-    jerk = _moved(angle, stroke, toward, cutoff_for_jerk(noise, arc, moved.duration_s))
-    least_rise = max(_PEAK_RISE_SHARE * moved.top, LEAST_PEAK_RAD_S)
-    dip = DIP_IN_SDS * noise.speed_sd(for_speed)
+        return _without_rest(angle, stroke, sd, arc, smoothed=smoothed)
+    sub_s = pace.part_s if pace.has_stops else math.inf
+    smooth = _moved(angle, stroke, noise, cutoff_for_smoothness(noise, arc, moved.duration_s, sub_s))
+    jerk = _moved(angle, stroke, noise, cutoff_for_jerk(noise, pace.part_arc, pace.part_s, moved.duration_s))
+    speed_sd = noise.speed_sd(pace.cutoff_hz)
+    told = pace.cutoff_hz >= LOWEST_OF_JERKS_HZ and _PAUSE_IN_SDS * speed_sd <= STANDING_SHARE * moved.peak
+    standing = moved.standing_s if told else None
     return StrokeMeasures(
         stroke=stroke,
         arc_rad=arc,
         peak_speed_rad_s=moved.peak,
-        mean_speed_rad_s=arc / moved.duration_s,
+        mean_speed_rad_s=moved.mean,
         movement_time_s=moved.duration_s,
         time_to_peak_share=moved.to_peak_share,
-        peaks=float(speed_peaks(moved.moving, angle.rate_hz, least_rise, least_dip=dip))
-        if for_speed >= LOWEST_OF_JERKS_HZ and dip <= least_rise
-        else math.nan,
+        peaks=_units(moved, angle.rate_hz, pace.cutoff_hz, speed_sd),
+        pauses=math.nan if standing is None else float(len(standing)),
+        pause_s=math.nan if standing is None else math.fsum(standing),
         sparc=math.nan if smooth is None else sparc(smooth.whole, angle.rate_hz, LEAST_PEAK_RAD_S),
         ldlj=math.nan if jerk is None else log_dimensionless_jerk(jerk.whole, angle.rate_hz, LEAST_PEAK_RAD_S),
-        peak_speed_sd_rad_s=noise.speed_sd(for_speed),
+        peak_speed_sd_rad_s=speed_sd,
+        onset_s=moved.onset_s,
+        offset_s=moved.offset_s,
         too_slow_to_be_smooth=smooth is None,
     )
+
+
+def _without_rest(angle: Signal, stroke: Stroke, sd: Signal | None, arc: float, *, smoothed: bool) -> StrokeMeasures:
+    """Of a stroke that was never at rest on both sides: its peak speed. Where the rough curve began and ended was
+    noise, so the whole stroke decides how much it is smoothed."""
+    if _cut_short(angle, stroke):
+        return StrokeMeasures(stroke, arc)
+    duration_s = stroke.end_s - stroke.start_s
+    noise = _noise(angle, stroke, sd, duration_s, smoothed=smoothed)
+    cutoff_hz = cutoff_for_speed(noise, _LEAST_PEAK * arc / duration_s, duration_s)
+    if math.isnan(cutoff_hz):
+        return StrokeMeasures(stroke, arc, too_slow=True, too_slow_to_be_smooth=True)
+    speed = _speed(angle, stroke, cutoff_hz)
+    return StrokeMeasures(stroke, arc, float(speed.max()), peak_speed_sd_rad_s=noise.speed_sd(cutoff_hz))
+
+
+def _units(moved: _Moved, rate_hz: float, cutoff_hz: float, speed_sd: float) -> float:
+    least_rise = max(_PEAK_RISE_SHARE * moved.peak, LEAST_PEAK_RAD_S)
+    dip = DIP_IN_SDS * speed_sd
+    if cutoff_hz < LOWEST_OF_JERKS_HZ or dip > least_rise:
+        return math.nan
+    return float(speed_peaks(moved.moving, rate_hz, least_rise, least_dip=dip)) or math.nan
 
 
 def usual_duration_s(way: FloatArray, rate_hz: float) -> float:
@@ -116,59 +162,159 @@ def _cut_short(angle: Signal, stroke: Stroke) -> bool:
     return any(angle.beside_gap(at, 1.5 / angle.rate_hz) for at in (stroke.start_s, stroke.end_s))
 
 
-def _noise_and_cutoff(
-    angle: Signal, stroke: Stroke, sd: Signal | None, arc: float, duration_s: float, *, smoothed: bool
-) -> tuple[Noise, float]:
-    """The noise around a stroke that took ``duration_s``, and the cut-off (Hz) for its speed, NaN when too slow."""
-    noise = Noise(0.0, 1.0)
-    if sd is not None:
-        around = (stroke.start_s - 0.5 * duration_s, stroke.end_s + 0.5 * duration_s)
-        noise = moving_noise(angle.between(*around), sd.between(*around), duration_s, smoothed=smoothed)
-    # Half as much again as the mean is the least that a movement from rest to rest has for a peak.
-    return noise, cutoff_for_speed(noise, 1.5 * arc / duration_s, duration_s)
+def _noise(angle: Signal, stroke: Stroke, sd: Signal | None, duration_s: float, *, smoothed: bool) -> Noise:
+    """The noise around a stroke whose movement takes ``duration_s``."""
+    if sd is None:
+        return Noise(0.0, 1.0)
+    around = (stroke.start_s - 0.5 * duration_s, stroke.end_s + 0.5 * duration_s)
+    return moving_noise(angle.between(*around), sd.between(*around), duration_s, smoothed=smoothed)
+
+
+def _arc(part: Signal, noise: Noise, duration_s: float) -> float:
+    """From one turning place to the other, without what noise adds to both."""
+    clean = low_pass(part, clean_cutoff_hz(duration_s)).value
+    high, low = (extreme(part.value, clean, noise, part.rate_hz, largest=end)[0] for end in (True, False))
+    return high - low
+
+
+_LEAST_PEAK = 1.5
+"""Half as much again as the mean is the least that a movement from rest to rest has for a peak."""
+
+
+@dataclass(frozen=True, slots=True)
+class _Pace:
+    """The cut-off for a stroke's speed, and duration and arc of its quickest part: all where it never stops."""
+
+    cutoff_hz: float
+    part_s: float
+    part_arc: float
+    has_stops: bool
+
+
+def _pace(angle: Signal, stroke: Stroke, noise: Noise, arc: float, duration_s: float) -> _Pace | None:
+    """None where the stroke is too slow to judge.
+
+    Of a stroke with stops the mean over all of it says little of its quickest part. Where more of the spectrum shows
+    such parts above the noise, they decide how much it is smoothed.
+    """
+    cutoff_hz = cutoff_for_speed(noise, _LEAST_PEAK * arc / duration_s, duration_s)
+    if math.isnan(cutoff_hz):
+        return None
+    smooth = _speed(angle, stroke, cutoff_hz)
+    most_hz = highest_cutoff_for_speed(noise, float(smooth.max()))
+    for closer_hz in (cutoff_hz, *np.geomspace(cutoff_hz, max(most_hz, cutoff_hz), 5)[1:].tolist()):
+        closer = _speed(angle, stroke, closer_hz)
+        top = float(closer.max())
+        part_s = _above_half_s(closer, angle.rate_hz) / _HALF_HEIGHT_SHARE if top > 0.0 else math.inf
+        added = noise.speed_sd(closer_hz) ** 2 - noise.speed_sd(cutoff_hz) ** 2
+        if part_s < _SHORT_PART * duration_s and np.mean((closer - smooth) ** 2) >= _PART_IN_SDS**2 * added:
+            part_hz = cutoff_for_speed(noise, top, part_s)
+            return (
+                None
+                if math.isnan(part_hz)
+                else _Pace(part_hz, part_s, min(top * part_s / _PEAK_OVER_MEAN, arc), has_stops=True)
+            )
+    return _Pace(cutoff_hz, duration_s, arc, has_stops=False)
+
+
+def _speed(angle: Signal, stroke: Stroke, cutoff_hz: float) -> FloatArray:
+    """Speed (n,) in the direction of a stroke without gaps."""
+    return stroke.toward * rate_of_change(low_pass(angle, cutoff_hz)).between(stroke.start_s, stroke.end_s).value
+
+
+def _above_half_s(speed: FloatArray, rate_hz: float) -> float:
+    """How long the speed stays above half of its peak, about the peak."""
+    at = int(np.argmax(speed))
+    high = speed >= 0.5 * speed[at]
+    about = next(part for part in stretches(high) if part.start <= at < part.stop)
+    return float(about.stop - about.start) / rate_hz
 
 
 @dataclass(frozen=True, slots=True)
 class _Moved:
-    """A stroke after a low-pass: speed above 5 % of the peak (``moving``), and from rest to rest (``whole``)."""
+    """A stroke after a low-pass: ``peak`` and ``mean`` speed, ``standing_s`` how long each pause takes; speeds from
+    onset to offset (``moving``), and from rest to rest (``whole``)."""
 
     peak: float
-    top: float
+    mean: float
     duration_s: float
     to_peak_share: float
+    standing_s: tuple[float, ...]
+    onset_s: float
+    offset_s: float
     moving: FloatArray
     whole: FloatArray
 
 
-def _moved(angle: Signal, stroke: Stroke, toward: float, cutoff_hz: float) -> _Moved | None:
+def _moved(angle: Signal, stroke: Stroke, noise: Noise, cutoff_hz: float) -> _Moved | None:
     """None where the speed does not fall below 5 % of its peak on both sides, and where no cut-off will do (NaN)."""
     if math.isnan(cutoff_hz):
         return None
-    velocity = toward * rate_of_change(low_pass(angle, cutoff_hz)).value
+    smooth = low_pass(angle, cutoff_hz)
+    velocity = stroke.toward * rate_of_change(smooth).value
     first, last = np.searchsorted(angle.time_s, (stroke.start_s - 1e-9, stroke.end_s + 0.25 / angle.rate_hz))
-    inside = velocity[first:last]
-    if not np.isfinite(inside).any():
+    inside = slice(int(first), int(last))
+    if not np.isfinite(velocity[inside]).all() or not (velocity[inside] > 0.0).any():
         return None
-    peak_at = int(first) + int(np.nanargmax(inside))
-    top = float(velocity[peak_at])
-    onset = _crossing(velocity, peak_at, -1, MOVING_SHARE * top)
-    offset = _crossing(velocity, peak_at, +1, MOVING_SHARE * top)
+    left, there = _between_places(stroke.toward * smooth.value[inside], noise)
+    peak_at = int(first) + left + int(np.argmax(velocity[inside][left : there + 1]))
+    level = MOVING_SHARE * float(velocity[peak_at])
+    onset = _edge(velocity, int(first) + left, peak_at, -1, level)
+    offset = _edge(velocity, int(first) + there, peak_at, +1, level)
     if not offset > onset:
         return None
     begin, end = math.ceil(onset), math.floor(offset)
+    at = np.concatenate(([onset], np.arange(begin, end + 1), [offset]))
+    speeds = np.concatenate(([level], velocity[begin : end + 1], [level]))
+    peak = float(speeds.max())
     from_rest, to_rest = _to_rest(velocity, begin, -1), _to_rest(velocity, end, +1)
     return _Moved(
-        peak=_top(np.abs(inside)),
-        top=top,
+        peak=peak,
+        mean=min(float(np.trapezoid(speeds, at)) / (offset - onset), peak),
         duration_s=(offset - onset) / angle.rate_hz,
         to_peak_share=(peak_at - onset) / (offset - onset),
+        standing_s=_standing_s(at / angle.rate_hz, np.abs(speeds), STANDING_SHARE * peak),
+        onset_s=float(angle.time_s[0]) + onset / angle.rate_hz,
+        offset_s=float(angle.time_s[0]) + offset / angle.rate_hz,
         moving=np.abs(velocity[begin : end + 1]),
         whole=np.abs(velocity[from_rest : to_rest + 1]),
     )
 
 
-def _top(speed: FloatArray) -> float:
-    return float(np.nanpercentile(speed, 99.0))
+def _between_places(way: FloatArray, noise: Noise) -> tuple[int, int]:
+    """The last sample of a rising way (n,) in its first turning place, and the first in the next one."""
+    low, high = float(way.min()), float(way.max())
+    near = min(max(PLACE_SHARE * (high - low), 3.0 * noise.sd), _EDGE_SHARE * (high - low))
+    there = int(np.argmax(way >= high - near))
+    before = np.flatnonzero(way[: there + 1] <= low + near)
+    return int(before[-1]) if len(before) else 0, there
+
+
+def _edge(velocity: FloatArray, place: int, peak_at: int, step: int, level: float) -> float:
+    """Where the speed is at the level on one side of a stroke, from the edge of the turning place outwards; who creeps
+    there has it further in."""
+    while velocity[place] < level and place != peak_at:
+        place -= step
+    return _crossing(velocity, place, step, level)
+
+
+def _standing_s(time_s: FloatArray, speed: FloatArray, level: float) -> tuple[float, ...]:
+    """How long each pause takes: the speed (n,) below a level for long enough, between two parts above it."""
+    out = []
+    for part in stretches(speed < level):
+        before, after = part.start - 1, part.stop
+        if before < 0 or after == len(speed):
+            continue  # it only begins or ends
+        down = time_s[before] + (time_s[before + 1] - time_s[before]) * _share(speed, before, level)
+        up = time_s[after - 1] + (time_s[after] - time_s[after - 1]) * _share(speed, after - 1, level)
+        if up - down >= LEAST_PAUSE_S:
+            out.append(float(up - down))
+    return tuple(out)
+
+
+def _share(speed: FloatArray, k: int, level: float) -> float:
+    """Share of the step from sample k to the next at which the speed passes a level."""
+    return float((level - speed[k]) / (speed[k + 1] - speed[k]))
 
 
 def _to_rest(velocity: FloatArray, sample: int, step: int) -> int:
@@ -179,9 +325,9 @@ def _to_rest(velocity: FloatArray, sample: int, step: int) -> int:
     return k
 
 
-def _crossing(velocity: FloatArray, peak_at: int, step: int, level: float) -> float:
-    """Fractional sample at which the speed, walked from its peak, first falls below a level; NaN if it never does."""
-    k = peak_at
+def _crossing(velocity: FloatArray, start: int, step: int, level: float) -> float:
+    """Fractional sample at which the speed, walked outwards, first falls below a level; NaN if it never does."""
+    k = start
     while 0 <= k + step < len(velocity) and math.isfinite(velocity[k + step]):
         if velocity[k + step] < level:
             return k + step * float((velocity[k] - level) / (velocity[k] - velocity[k + step]))

@@ -20,6 +20,7 @@ from carpus.core.measures.reach import Reach, distance_m, find_reaches
 from carpus.core.measures.signals import BoolArray, even_signal, stretches
 from carpus.core.measures.together import co_flexion, enslaving_share, synergy_share, tremor
 from carpus.core.output.exercises import Exercise
+from carpus.core.output.norms import total_norm
 from carpus.core.output.range_rows import RangeRow, best_motion, is_total
 from carpus.core.session.values import Motion, Session
 from carpus.core.types import FloatArray
@@ -251,14 +252,18 @@ def _in_the_hand(motion: Motion, joint: int) -> FloatArray:
     return np.asarray(np.einsum("nji,nj->ni", turned, motion.joint_position_m[:, joint] - motion.position_m))
 
 
-def graded_totals(rows: Sequence[RangeRow], other_hand: Sequence[RangeRow] = ()) -> tuple[GradedTotal, ...]:
-    """Share and grade of every finger's TAM, of the other hand's where that was seen whole, else of the usual one. A
-    lower bound is not graded."""
+def graded_totals(
+    rows: Sequence[RangeRow], exercise: Exercise, other_hand: Sequence[RangeRow] = ()
+) -> tuple[GradedTotal, ...]:
+    """Share and grade of every finger's TAM, of the other hand's where that was seen whole, else of the usual one in
+    the exercise that its source speaks of. A lower bound is not graded."""
     out = []
     beside = {row.joint: row.mean_deg for row in other_hand if row.movement == "arc" and row.count and not row.limited}
     for row in rows:
         if is_total(row.joint) and row.movement == "arc" and row.count:
             finger, own = int(row.joint[3:]), beside.get(row.joint, math.nan)
+            if not own > 0.0 and total_norm(finger, exercise) is None:
+                continue
             share = total_share(row.mean_deg, finger, own)
             grade = None if row.limited else total_grade(share)
             out.append(GradedTotal(finger, share, grade, of_other_hand=own > 0.0))

@@ -19,7 +19,6 @@ from carpus.core.measures.fingers import (
     total_active_motion,
     valid_joints,
 )
-from carpus.core.measures.grade import USUAL_TOTAL_DEG as USUAL_TOTAL_DEG
 from carpus.core.measures.repetitions import Repetition
 from carpus.core.output.exercises import Exercise
 from carpus.core.output.range_rows import RangeRow, RowKey, best_motion, range_row

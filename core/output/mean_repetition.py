@@ -13,9 +13,10 @@ import numpy as np
 from carpus.core.measures.fingers import DIP_PER_PIP
 from carpus.core.measures.motion_range import FEWEST_FOR_SPREAD
 from carpus.core.measures.signals import LONGEST_GAP_S
-from carpus.core.measures.validity import settled, valid_view, valid_wrist_angles
+from carpus.core.measures.validity import valid_wrist_angles
 from carpus.core.output.joint_content import JointCurves, bending_joints, joint_curves
 from carpus.core.output.range_rows import best_motion, is_total
+from carpus.core.output.repetition_rows import seen_well
 from carpus.core.output.report_content import ShownRepetition
 from carpus.core.session.values import Session
 from carpus.core.types import FloatArray
@@ -76,12 +77,8 @@ class SeenAngles:
 
 def seen_angles(session: Session) -> SeenAngles:
     """What of a session counts as seen, by the rules of its ranges."""
-    time_s = session.timestamp_s - session.timestamp_s[:1]
-    motion, palm = best_motion(session), list(session.header.protocol.palm)
-    view = valid_view(
-        session.status, session.markers.measured_px[:, palm], motion.rotation_w2_w0, session.calibration.rotation_w0_cam
-    )
-    valid = valid_wrist_angles(settled(view, time_s), motion.angles_rad, motion.angles_sd_rad)
+    time_s, motion = session.timestamp_s - session.timestamp_s[:1], best_motion(session)
+    valid = valid_wrist_angles(seen_well(session), motion.angles_rad, motion.angles_sd_rad)
     return SeenAngles(time_s, np.degrees(np.where(valid, motion.angles_rad, np.nan)), joint_curves(session))
 
 

@@ -7,12 +7,14 @@ from collections.abc import Iterator
 from dataclasses import dataclass, replace
 
 from carpus.core.hand.sites import WRIST_ANGLES
+from carpus.core.output.range_rows import RangeRow, is_total
 from carpus.core.output.report_content import SessionFigures, Spread
 
 
 @dataclass(frozen=True, slots=True)
 class MeasureRow:
     """One figure of one session. ``measure`` and ``of``: the arc of flexion, the peak speed of the trained angle;
+    ``positive`` what a larger figure means, the same in every column of the row; ``estimate`` filter or smoother;
     ``mean``, ``sd`` between repetitions, ``best``, ``measurement_sd`` of one value, over ``count`` of them;
     ``at_least`` where the camera's view limits it; ``seen_share`` of the frames; ``inferred`` where an end joint that
     no disc measures is part of it. ``camera_not_sure``: ``lengths``, ``angles`` or both where a check of the camera
@@ -43,11 +45,71 @@ class MeasureRow:
     seen_share: float
     inferred: bool
     camera_not_sure: str = ""
+    positive: str = ""
+    estimate: str = ""
 
 
 def measure_rows(figures: SessionFigures, session: str) -> tuple[MeasureRow, ...]:
     """All measures of a session whose file is called ``session``."""
-    return tuple(replace(row, camera_not_sure=figures.camera.not_sure) for row in _rows(figures, session))
+    unsure, estimate = figures.camera.not_sure, "smoother" if figures.smoothed else "filter"
+    return tuple(
+        replace(row, camera_not_sure=unsure, estimate=estimate, positive=_positive(row))
+        for row in _rows(figures, session)
+    )
+
+
+MEASURE_COLUMNS = {
+    "measure": "what was measured. Of the wrist flexion, extension, radial, ulnar, supination, pronation each count "
+    "in their own direction; below 0 neutral was not reached. Of a joint largest and smallest are angles with the sign "
+    "of the joint. arc is a size; speeds, times, units, pauses and smoothness are of single strokes, one way, where "
+    "the table of repetitions has both ways together; of a whole finger (TAM) total active motion, flexion and "
+    "extension deficit",
+    "of": "of which angle, joint, disc or finger",
+    "positive": "what a larger figure means, the same for mean, best and every column of the row",
+    "estimate": "filter or smoother: of whose angles; the smoother's where it ran",
+    "mean sd best measurement_sd": "in the unit of the row; sd between repetitions, measurement_sd of one value",
+    "count": "how many are in the mean",
+    "at_least": "yes where the camera's view limits it: a lower bound",
+    "seen_share": "share of the frames in which it was seen",
+    "inferred": "yes where an end joint that no disc measures is part of it",
+    "camera_not_sure": "lengths, angles or both where a check of the camera near the session was out",
+}
+
+_JOINT_MEASURES = {"flexion": "largest", "extension": "smallest"}
+_TOTAL_MEASURES = {"arc": "total active motion", "extension": "extension deficit"}
+
+
+def positive_of(angle: str) -> str:
+    """What a larger angle means, of the wrist or of a joint by its name in every file.
+
+    >>> positive_of("deviation"), positive_of("MCP2_abduction"), positive_of("CMC1_extension")
+    ('radial', 'to the thumb', 'thumb away from the index finger in the plane of the palm')
+    """
+    if angle in WRIST_ANGLES:
+        return ("radial", "flexed", "supinated")[WRIST_ANGLES.index(angle)]
+    if angle == "CMC1_extension":
+        return "thumb away from the index finger in the plane of the palm"
+    if angle == "CMC1_abduction":
+        return "thumb away from the palm"
+    joint, _, kind = angle.partition("_")
+    return {"flexion": "flexed", "abduction": "to the thumb" if joint[-1:] != "1" else "thumb abducted"}.get(kind, "")
+
+
+def _positive(row: MeasureRow) -> str:
+    if row.measure in ("largest", "smallest"):
+        return positive_of(row.of)
+    words = {
+        "flexion": "flexed", "extension": "extended", "radial": "radial", "ulnar": "ulnar", "supination": "supinated",
+        "pronation": "pronated", "extension deficit": "further from straight", "smoothness": "smoother",
+        "jerk": "smoother",
+    }  # fmt: skip
+    return words.get(row.measure, "more")
+
+
+def _measure(row: RangeRow) -> str:
+    if not row.joint:
+        return row.movement
+    return (_TOTAL_MEASURES if is_total(row.joint) else _JOINT_MEASURES).get(row.movement, row.movement)
 
 
 def _rows(figures: SessionFigures, session: str) -> Iterator[MeasureRow]:
@@ -59,7 +121,7 @@ def _rows(figures: SessionFigures, session: str) -> Iterator[MeasureRow]:
     )  # fmt: skip
     for row in (*figures.rows, *figures.joint_rows):
         yield MeasureRow(
-            *common, row.movement, row.joint or WRIST_ANGLES[row.angle], "deg", row.mean_deg, row.sd_deg, row.best_deg,
+            *common, _measure(row), row.joint or WRIST_ANGLES[row.angle], "deg", row.mean_deg, row.sd_deg, row.best_deg,
             row.measurement_sd_deg, row.count, row.limited, row.seen_share, row.inferred,
         )  # fmt: skip
     trained: tuple[tuple[str, str, Spread], ...] = (
@@ -68,7 +130,8 @@ def _rows(figures: SessionFigures, session: str) -> Iterator[MeasureRow]:
             () if figures.speed is None else (
                 ("mean speed", "deg/s", figures.speed.mean_speed), ("movement time", "s", figures.speed.movement_time),
                 ("time to peak", "share", figures.speed.time_to_peak), ("movement units", "1", figures.speed.peaks),
-                ("jerk", "LDLJ", figures.speed.ldlj),
+                ("jerk", "LDLJ", figures.speed.ldlj), ("pauses", "1", figures.speed.pauses),
+                ("pause time", "s", figures.speed.pause_time),
             )
         ),
     )  # fmt: skip

@@ -15,7 +15,7 @@ from carpus.core.hand.clinical_angles import isb_from_rotation, zyz_with_sd
 from carpus.core.hand.sites import WRIST_ANGLES
 from carpus.core.measures.forearm import rotation_in_place
 from carpus.core.output.range_rows import best_motion
-from carpus.core.session.values import Session
+from carpus.core.session.values import Motion, Session
 from carpus.core.types import FloatArray
 
 PLANES = (("XY", 0, 1), ("ZX", 2, 0), ("ZY", 2, 1))
@@ -30,9 +30,9 @@ class Column:
     values: FloatArray
 
 
-def motion_columns(session: Session) -> tuple[Column, ...]:
-    """Every curve of a session, of the smoother's result where there is one."""
-    return tuple(_columns(session))
+def motion_columns(session: Session, motion: Motion | None = None) -> tuple[Column, ...]:
+    """Every curve of a session by its filter or its smoother, ``motion``; without it the smoother's where it ran."""
+    return tuple(_columns(session, best_motion(session) if motion is None else motion))
 
 
 def hand_axes(session: Session) -> FloatArray:
@@ -41,8 +41,8 @@ def hand_axes(session: Session) -> FloatArray:
     return rotation_in_place(motion.rotation_w2_w0, motion.w0_turn_rad)
 
 
-def _columns(session: Session) -> Iterator[Column]:
-    motion, side = best_motion(session), session.header.hand
+def _columns(session: Session, motion: Motion) -> Iterator[Column]:
+    side = session.header.hand
     for axis, letter in enumerate("xyz"):
         yield Column(f"position_{letter}_mm", 1e3 * motion.position_m[:, axis])
     for axis, letter in enumerate("xyz"):

@@ -8,7 +8,7 @@ from __future__ import annotations
 import hashlib
 import math
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 from datetime import datetime
 from typing import Literal
 
@@ -24,10 +24,9 @@ from carpus.core.measures.forearm import WristCentre, rotation_in_place, wrist_c
 from carpus.core.measures.motion_range import FEWEST_FOR_SPREAD, LEAST_VALID_SHARE, MotionRange, motion_range
 from carpus.core.measures.noise import HIGHEST_CUTOFF_HZ
 from carpus.core.measures.repetitions import Exercise as FoundExercise
-from carpus.core.measures.repetitions import Repetition, Uncounted, find_repetitions, what_was_not_counted
+from carpus.core.measures.repetitions import Repetition, Uncounted, what_was_not_counted
 from carpus.core.measures.signals import Signal, even_signal, low_pass
-from carpus.core.measures.speed import StrokeMeasures, measure_stroke
-from carpus.core.measures.validity import settled, valid_view, valid_wrist_angles
+from carpus.core.measures.speed import StrokeMeasures
 from carpus.core.output.camera_said import UNKNOWN_CAMERA, CameraSaid, camera_said
 from carpus.core.output.exercises import SIDES, STILL_RADIUS_MM, Exercise, Movement, exercise_named
 from carpus.core.output.further_measures import (
@@ -39,8 +38,16 @@ from carpus.core.output.further_measures import (
 )
 from carpus.core.output.joint_content import joint_rows, joint_tracks
 from carpus.core.output.range_rows import RangeRow, RowKey, best_motion, is_total, range_row
+from carpus.core.output.repetition_rows import (
+    Measured,
+    measured_repetitions,
+    seen_well,
+    trained_angle,
+    wrist_signals,
+)
+from carpus.core.output.repetition_rows import RepetitionChoices as RepetitionChoices
 from carpus.core.session.corrected import CorrectedFrom, corrected_from
-from carpus.core.session.values import AngleOrder, Session
+from carpus.core.session.values import AngleOrder, RepetitionRow, Session
 from carpus.core.types import FloatArray, Side, TrackStatus
 
 Verdict = Literal["improved", "worse", "no_change", "not_judged"]
@@ -59,10 +66,6 @@ Unfairness = Literal[
 NAMES_DOUBTED = ("swapped", "shifted", "misnamed", "wrong_side", "other_length", "depth_off", "other_spot", "no_palm")
 """Findings at the calibration after which the angles may be something else: such a session never compares."""
 
-USUAL_ADULT_DEG: Mapping[Movement, tuple[float, float]] = {
-    "flexion": (60.0, 80.0), "extension": (60.0, 70.0), "radial": (20.0, 20.0), "ulnar": (30.0, 30.0),
-}  # fmt: skip
-"""AMA and AAOS values for adults (clinical reference 4.1). None for pro/supination: its zero here is palm down."""
 FREE_ORDER = (1, 0, 2)
 """Bending first where no angle is trained."""
 TREMOR_NOISE_RAD = math.radians(0.25)
@@ -75,23 +78,10 @@ LARGEST_START_ANGLE_STEP_DEG = 5.0
 
 
 @dataclass(frozen=True, slots=True)
-class RepetitionChoices:
-    """A person's corrections, by the number of the repetition as found (from 0).
-
-    ``left_out`` reasons in words; ``edges_s`` start and end in seconds after the first frame; ``not_counted``: the
-    whole session is shown, and compared with none.
-    """
-
-    left_out: Mapping[int, str] = field(default_factory=dict)
-    edges_s: Mapping[int, tuple[float, float]] = field(default_factory=dict)
-    not_counted: bool = False
-    not_counted_reason: str = ""
-
-
-@dataclass(frozen=True, slots=True)
 class ShownRepetition:
     """One repetition, seconds after the first frame. ``reason`` says why it is left out, empty when it counts.
 
+    From where it left one turning place to where it reached the last, as its ``row`` with all its measures says.
     ``too_hidden`` when too little of it was seen to be measured, whoever wants it counted.
     """
 
@@ -99,6 +89,7 @@ class ShownRepetition:
     end_s: float
     reason: str
     too_hidden: bool
+    row: RepetitionRow | None = None
 
     @property
     def counts(self) -> bool:
@@ -134,6 +125,8 @@ class SpeedFigures:
     time_to_peak: Spread
     peaks: Spread
     ldlj: Spread
+    pauses: Spread
+    pause_time: Spread
 
     @classmethod
     def of(cls, strokes: Sequence[StrokeMeasures]) -> SpeedFigures:
@@ -147,6 +140,8 @@ class SpeedFigures:
             _spread([stroke.time_to_peak_share for stroke in strokes], best=None),
             _spread([stroke.peaks for stroke in strokes], best=min),
             _spread([stroke.ldlj for stroke in strokes]),
+            _spread([stroke.pauses for stroke in strokes], best=min),
+            _spread([stroke.pause_s for stroke in strokes], best=min),
         )
 
 
@@ -361,32 +356,15 @@ def session_figures(
     exercise = exercise_named(session.header.exercise)
     motion, looked_back = best_motion(session), session.smoothed is not None
     curves = session_curves(session)
-    palm = list(session.header.protocol.palm)
-    view = valid_view(
-        session.status, session.markers.measured_px[:, palm], motion.rotation_w2_w0, session.calibration.rotation_w0_cam
-    )
-    view = settled(view, curves.time_s)
-    valid = valid_wrist_angles(view, motion.angles_rad, motion.angles_sd_rad)
+    view = seen_well(session)
+    signals = wrist_signals(session, view)
     centre = wrist_centre(motion.position_m, rotation_in_place(motion.rotation_w2_w0, motion.w0_turn_rad), view)
-    signals = [
-        even_signal(curves.time_s, np.column_stack((motion.angles_rad[:, k], motion.angles_sd_rad[:, k])), valid[:, k])
-        for k in range(3)
-    ]
-    found = FoundExercise((), ())
-    if exercise.angle is not None and len(signals[exercise.angle].time_s):
-        found = find_repetitions(signals[exercise.angle].column(0))
     tracks = joint_tracks(session)
-    trained = signals[exercise.angle].column(0) if exercise.angle is not None else None
-    trained_sd = signals[exercise.angle].column(1) if exercise.angle is not None else None
-    if exercise.joint in tracks and tracks[exercise.joint].known:
-        found = find_repetitions(tracks[exercise.joint].tracked)
-        trained, trained_sd = tracks[exercise.joint].seen, tracks[exercise.joint].seen_sd
-    repetitions = _shown(found.repetitions, choices)
-    counted = tuple(
-        Repetition(rep.start_s, rep.end_s, source.valid_share)
-        for rep, source in zip(repetitions, found.repetitions, strict=True)
-        if rep.counts
-    )
+    trained = trained_angle(exercise, signals, tracks, session)
+    found = trained.found if trained is not None else FoundExercise((), ())
+    measured = measured_repetitions(trained, choices) if trained is not None else ()
+    repetitions = _shown(measured, choices)
+    counted = tuple(one.window for one in measured if one.row.counted)
     angles: tuple[int, ...] = FREE_ORDER if exercise.angle is None else (exercise.angle,)
     if repetitions and not counted:
         angles = ()  # all were left out: nothing is measured, least of all the whole recording
@@ -394,8 +372,8 @@ def session_figures(
     shown_joints = () if repetitions and not counted else joint_rows(tracks, counted, exercise)
     shaken = held_tremor(session, 1 if exercise.angle is None else exercise.angle, TREMOR_NOISE_RAD)
     further = (*further_measures(session, exercise, tracks, view), *([shaken] if shaken is not None else []))
-    strokes = _strokes(trained, trained_sd, found, counted, looked_back)
-    uncounted = what_was_not_counted(trained, found) if trained is not None and len(trained.time_s) else None
+    strokes = [stroke for one in measured if one.row.counted for stroke in one.strokes]
+    uncounted = what_was_not_counted(trained.seen, found) if trained is not None else None
     verdict = session.calibration.verdict
     pains = [event for event in session.events if event.kind == "pain" and event.text.isdigit()]
     start_s = float(session.timestamp_s[0]) if len(session) else math.nan
@@ -421,12 +399,14 @@ def session_figures(
         ),
         smoothness=_spread([stroke.sparc for stroke in strokes]),
         speed=SpeedFigures.of(strokes),
-        uncounted="nothing_seen" if exercise.counts and trained is not None and not len(trained.time_s) else uncounted,
+        uncounted="nothing_seen" if exercise.counts and trained is None and _trains(exercise, tracks) else uncounted,
         unseen_s=sum(end - start for start, end in found.unseen_s),
         quality=Quality(
             frames=len(session),
             measured_share=float(np.mean(session.status == TrackStatus.TRACKED)) if len(session) else math.nan,
-            hidden_share=_hidden_share(session, curves.time_s, counted if tracks else ()),
+            hidden_share=_hidden_share(
+                session, curves.time_s, [one for one in repetitions if one.counts] if tracks else ()
+            ),
             dropped=int(np.maximum(session.quality.dropped_before, 0).sum()),
             forearm_mm=_forearm_mm(curves.time_s, centre),
             centre_mm=tuple((1e3 * centre.centre_w2_m).tolist()),
@@ -445,7 +425,7 @@ def session_figures(
         ),
         joint_rows=shown_joints,
         further=further,
-        grades=graded_totals(shown_joints),
+        grades=graded_totals(shown_joints, exercise),
         findings=verdict.findings,
         simulated=session.header.simulated,
         not_counted=choices.not_counted,
@@ -602,23 +582,22 @@ def _same_recording(one: SessionFigures, other: SessionFigures) -> bool:
     return bool(one.recording_id) and one.recording_id == other.recording_id
 
 
-def usual_deg(movement: Movement, angle: int) -> tuple[float, float] | None:
-    """Usual range of healthy adults: of one direction, or the sum of both for an arc."""
-    if movement != "arc":
-        return USUAL_ADULT_DEG.get(movement)
-    ends = [USUAL_ADULT_DEG.get(side) for side in SIDES[angle]]
-    if ends[0] is None or ends[1] is None:
-        return None
-    return ends[0][0] + ends[1][0], ends[0][1] + ends[1][1]
+def _shown(measured: Sequence[Measured], choices: RepetitionChoices) -> tuple[ShownRepetition, ...]:
+    return tuple(
+        ShownRepetition(
+            one.row.start_s,
+            one.row.end_s,
+            choices.left_out.get(number, ""),
+            one.window.valid_share < LEAST_VALID_SHARE,
+            one.row,
+        )
+        for number, one in enumerate(measured)
+    )
 
 
-def _shown(found: Sequence[Repetition], choices: RepetitionChoices) -> tuple[ShownRepetition, ...]:
-    out = []
-    for number, rep in enumerate(found):
-        start_s, end_s = choices.edges_s.get(number, (rep.start_s, rep.end_s))
-        reason = choices.left_out.get(number, "")
-        out.append(ShownRepetition(start_s, end_s, reason, rep.valid_share < LEAST_VALID_SHARE))
-    return tuple(out)
+def _trains(exercise: Exercise, tracks: Mapping[str, JointTrack]) -> bool:
+    """Whether the angle that an exercise trains is one of this session's."""
+    return exercise.angle is not None or exercise.joint in tracks
 
 
 def _rows(angle: int, signal: Signal, counted: tuple[Repetition, ...], looked_back: bool) -> list[RangeRow]:
@@ -639,24 +618,6 @@ def _rows(angle: int, signal: Signal, counted: tuple[Repetition, ...], looked_ba
     return [row for row in rows if row.count and (row.movement == "arc" or row.mean_deg > least)]
 
 
-def _strokes(
-    trained: Signal | None,
-    trained_sd: Signal | None,
-    found: FoundExercise,
-    counted: tuple[Repetition, ...],
-    looked_back: bool,
-) -> list[StrokeMeasures]:
-    """Measures of the strokes whose middle lies in a counted repetition."""
-    if trained is None or not counted:
-        return []
-    inside = [
-        stroke
-        for stroke in found.strokes
-        if any(rep.start_s <= 0.5 * (stroke.start_s + stroke.end_s) <= rep.end_s for rep in counted)
-    ]
-    return [measure_stroke(trained, stroke, trained_sd, smoothed=looked_back) for stroke in inside]
-
-
 def _spread(
     values: Sequence[float], sds: Sequence[float] = (), best: Callable[[Sequence[float]], float] | None = max
 ) -> Spread:
@@ -670,7 +631,7 @@ def _spread(
     return Spread(float(known.mean()), sd, the_best, len(known), measurement_sd)
 
 
-def _hidden_share(session: Session, time_s: FloatArray, within: Sequence[Repetition]) -> float:
+def _hidden_share(session: Session, time_s: FloatArray, within: Sequence[ShownRepetition]) -> float:
     """Share of all looks at markers in which one was hidden, within repetitions if any: rest hides none."""
     inside = np.ones(len(time_s), dtype=bool)
     if within:

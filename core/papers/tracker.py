@@ -74,7 +74,6 @@ class PaperTracker:
         timestamp_s: float,
         detections: Detections,
         dropped_before: int = 0,
-        expected: None = None,
     ) -> TrackedFrame:
         """Predict, name the blobs, correct; the frame's result."""
         row = self._weighed(index, timestamp_s, detections, dropped_before)

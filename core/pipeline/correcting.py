@@ -7,7 +7,6 @@ import threading
 from collections.abc import Callable
 
 from carpus.core import errors
-from carpus.core.encryption import keys
 from carpus.core.errors import CarpusFault, NotCorrected
 from carpus.core.phrase import phrase
 from carpus.core.pipeline.correcting_process import run
@@ -28,7 +27,7 @@ def correct_beside(task: Task, progress: Callable[[int, int], None], stopping: t
     try:
         process.start()
         theirs.close()
-        link.send((task, keys.known()))
+        link.send(task)
         while not stopping.is_set():
             if not link.poll(LOOK_EVERY_S):
                 continue

@@ -11,7 +11,6 @@ import signal
 from contextlib import suppress
 from multiprocessing.connection import Connection
 
-from carpus.core.encryption import keys
 from carpus.core.pipeline.looking_back_process import BLAS_THREADS, NICER
 
 TELL_EVERY = 15
@@ -41,8 +40,5 @@ def _serve(link: Connection) -> None:
         if done % TELL_EVERY == 0:
             link.send(("at", done, total or 0))
 
-    task, known = link.recv()
-    for folder, key in known.items():
-        keys.remember(folder, key)
-    correct(task, tell)
+    correct(link.recv(), tell)
     link.send(("done", "", "", ""))

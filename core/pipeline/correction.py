@@ -16,6 +16,7 @@ import numpy as np
 
 from carpus.core.calibration.calibrate import StillNoise
 from carpus.core.errors import NotCorrectable, OutputExists
+from carpus.core.output.repetition_rows import repetitions_of
 from carpus.core.phrase import phrase
 from carpus.core.pipeline.said_again import answers_in, notes_in
 from carpus.core.pipeline.told_settings import settings_told
@@ -75,6 +76,7 @@ def correct(task: Task, progress: Progress | None = None) -> None:
             writer.add_event(float(session.timestamp_s[correction.row]), CORRECTED, said_of(correction, task.by))
         if settings.smooth:
             writer.write_smoothed(motion_of(retracking.looked_back()))
+        writer.write_repetitions(repetitions_of(writer.read_back()))
         writer.close()
     except BaseException:
         writer.discard()  # the session it was made from is still there
@@ -202,7 +204,7 @@ class _Retracking:
         unseen_s = self._settings.tracker.lost_after_s + 1.0
         for back_s in (2.0 * unseen_s, 0.5 * unseen_s):
             tracker.step(-1, time_s - back_s, Detections.none())
-        tracker.forget()  # two empty pictures that nobody took
+        tracker.hand_over()  # two empty pictures that nobody took
 
 
 class _FalseSpot:

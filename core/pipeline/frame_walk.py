@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import Any, Generic, Protocol, TypeVar
+from typing import Generic, Protocol, TypeVar
 
 from carpus.core.detection.detector import Detector
 from carpus.core.detection.surface_samples import SamplingSettings, finger_samples, surface_samples
@@ -30,17 +30,14 @@ class Expected(Protocol):
     def finger_px(self) -> FloatArray: ...
 
 
-E = TypeVar("E", bound=Expected)
-
-
-class HandTracker(Protocol[E]):
+class HandTracker(Protocol):
     """Follows one calibrated hand through frames in order of time."""
 
     def begin_at_neutral(self, at_s: float | None = None) -> None:
         """Start (again) from the calibrated pose."""
         ...
 
-    def expect(self, timestamp_s: float) -> E | None:
+    def expect(self, timestamp_s: float) -> Expected | None:
         """Where to look at that time; None for the whole picture."""
         ...
 
@@ -54,13 +51,12 @@ class HandTracker(Protocol[E]):
         timestamp_s: float,
         detections: Detections,
         dropped_before: int = 0,
-        expected: E | None = None,
     ) -> TrackedFrame:
-        """The frame's result from its blobs, and from what was expected of it where that was asked for."""
+        """The frame's result from its blobs."""
         ...
 
 
-AnyTracker = TypeVar("AnyTracker", bound=HandTracker[Any])
+AnyTracker = TypeVar("AnyTracker", bound=HandTracker)
 
 
 class FrameWalk(Generic[AnyTracker]):
@@ -86,4 +82,4 @@ class FrameWalk(Generic[AnyTracker]):
                 surface=surface_samples(frame, expected.back_px, self.sampling),
                 fingers=finger_samples(frame, expected.finger_px, self.sampling),
             )
-        return self.tracker.step(frame.index, frame.timestamp_s, blobs, frame.dropped_before, expected)
+        return self.tracker.step(frame.index, frame.timestamp_s, blobs, frame.dropped_before)

@@ -329,6 +329,10 @@ class LiveSession:
         self._hear(lambda listener: listener.event(now_s, kind))
         return rows is not None and rows.put(_Note(now_s, kind, text))
 
+    def tell(self, kind: str, at_s: float) -> None:
+        """Says to who listens what is no event of the file: a repetition, which the finished file has in its table."""
+        self._hear(lambda listener: listener.event(at_s, kind))
+
     def stop_recording(self) -> Path:
         """Waits until all is stored and the files are closed; the session file's path.
 

@@ -17,7 +17,7 @@ from carpus.core.phrase import phrase
 from carpus.core.pipeline.looking_back_process import run
 from carpus.core.pipeline.pieces import LAG_S, PIECE_S, Piece, TrackedHand
 from carpus.core.session.values import Motion
-from carpus.core.tracking.tracker import KeptSteps
+from carpus.core.tracking.smoother_record import KeptSteps
 
 SEND_EVERY_S = 0.5
 FRAMES_AT_ONCE = 15

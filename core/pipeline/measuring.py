@@ -26,6 +26,7 @@ from carpus.core.dates import iso
 from carpus.core.errors import DiskFull, EndStalled, ExtraMissing, NotLookedBack, RecordingEmpty
 from carpus.core.library.beside import MARKERS_SUFFIX
 from carpus.core.library.set_up import SetUp
+from carpus.core.output.repetition_rows import repetitions_of
 from carpus.core.phrase import phrase
 from carpus.core.pipeline.around_hand import AroundHand, HandArea
 from carpus.core.pipeline.channels import ChannelFull, NeverDrop
@@ -38,7 +39,8 @@ from carpus.core.pipeline.track import Learnt, TrackSettings, build_walk, learnt
 from carpus.core.session.values import new_header
 from carpus.core.session.writer import Fallback, SessionWriter
 from carpus.core.spot_answer import SPOT_SAID, SpotAnswer
-from carpus.core.tracking.tracker import KeptSteps, Tracker
+from carpus.core.tracking.smoother_record import KeptSteps
+from carpus.core.tracking.tracker import Tracker
 from carpus.core.types import ByteImage, FloatArray, Frame, TrackedFrame
 from carpus.core.words import one_sentence
 
@@ -180,6 +182,7 @@ class SmoothedSession:
             except NotLookedBack as fault:
                 log.warning("%s", one_sentence(NotLookedBack(self.path, fault.detail)))
                 self._writer.add_event(self._times_s[-1], NOT_LOOKED_BACK, fault.detail)
+        self._writer.write_repetitions(repetitions_of(self._writer.read_back()))
         self._writer.close()
 
     def go_on_elsewhere(self) -> SmoothedSession:

@@ -12,7 +12,8 @@ from carpus.core.calibration.result import Calibration
 from carpus.core.camera import Camera
 from carpus.core.session.values import Motion, motion_of
 from carpus.core.tracking.settings import TrackerSettings
-from carpus.core.tracking.tracker import KeptSteps, Tracker
+from carpus.core.tracking.smoother_record import KeptSteps
+from carpus.core.tracking.tracker import Tracker
 from carpus.core.types import FloatArray
 
 PIECE_S, LAG_S = 8.0, 3.0
@@ -44,21 +45,21 @@ class PieceByPiece:
     """
 
     def __init__(self, hand: TrackedHand, piece_s: float = PIECE_S, lag_s: float = LAG_S) -> None:
-        self._tracker = Tracker(hand.calibration, hand.camera, hand.settings)
+        self._record = Tracker(hand.calibration, hand.camera, hand.settings).record
         self._piece_s, self._lag_s = piece_s, lag_s
 
     def take(self, kept: KeptSteps) -> Sequence[Piece]:
         """Take the steps of a frame; the piece that is due, if any."""
-        tracker = self._tracker
-        tracker.take_over(kept)
-        if not tracker.history:
+        record = self._record
+        record.take_over(kept)
+        if not record.history:
             return ()
-        newest_s = tracker.history[-1].timestamp_s
-        if newest_s - tracker.history[0].timestamp_s <= self._piece_s + self._lag_s:
+        newest_s = record.history[-1].timestamp_s
+        if newest_s - record.history[0].timestamp_s <= self._piece_s + self._lag_s:
             return ()
         until_s = newest_s - self._lag_s
         piece = self._looked_back(until_s)
-        tracker.forget(until_s)
+        record.forget(until_s)
         return piece
 
     def rest(self) -> Sequence[Piece]:
@@ -66,7 +67,7 @@ class PieceByPiece:
         return self._looked_back(math.inf)
 
     def _looked_back(self, until_s: float) -> Sequence[Piece]:
-        times_s = np.array([step.timestamp_s for step in self._tracker.history])
+        times_s = np.array([step.timestamp_s for step in self._record.history])
         count = int(np.searchsorted(times_s, until_s))
-        moments = self._tracker.smoothed()[:count]
+        moments = self._record.smoothed()[:count]
         return (Piece(times_s[:count], motion_of(moments)),) if moments else ()

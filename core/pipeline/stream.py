@@ -138,5 +138,5 @@ def library() -> Any:
     try:
         import pylsl
     except (ImportError, RuntimeError, OSError) as cause:
-        raise ExtraMissing("stream", str(cause).splitlines()[0]) from cause
+        raise ExtraMissing("stream", "pylsl") from cause
     return pylsl

@@ -23,6 +23,7 @@ from carpus.core.depth_sensor import ASSUMED
 from carpus.core.detection.detector import Detector
 from carpus.core.detection.settings import DetectionSettings
 from carpus.core.errors import DiskFull, OutputExists, RecordingEmpty
+from carpus.core.output.repetition_rows import repetitions_of
 from carpus.core.papers.neutral import as_written, by_the_discs
 from carpus.core.papers.settings import PaperSettings
 from carpus.core.papers.tracker import PaperTracker
@@ -31,6 +32,7 @@ from carpus.core.pipeline.live import Listener
 from carpus.core.pipeline.said_again import answers_in, notes_in
 from carpus.core.pipeline.session_source import SessionPictures
 from carpus.core.provenance import revision, sha256_of_file, sha256_of_recording, sha256_of_settings
+from carpus.core.session.plausible import check_calibration
 from carpus.core.session.reader import has_raw, read_detections, read_session
 from carpus.core.session.values import SET_UP, Event, Session, motion_of, new_header
 from carpus.core.session.writer import SessionWriter
@@ -47,8 +49,8 @@ Progress = Callable[[int, int | None], None]
 
 @dataclass(frozen=True, slots=True)
 class TrackSettings:
-    """Everything that decides how a recording becomes a session. With ``paper`` both papers' own filter tracks, which
-    knows nothing of ``tracker`` and does not look back."""
+    """Everything that decides how a recording becomes a session. With ``paper`` the papers' own filter tracks, both
+    papers' in ZYX; it knows nothing of ``tracker`` and does not look back."""
 
     detection: DetectionSettings = field(default_factory=DetectionSettings)
     calibration: CalibrationSettings = field(default_factory=CalibrationSettings)
@@ -147,6 +149,15 @@ def build_walk(
     return FrameWalk(detector, tracker, settings.detection.sampling)
 
 
+def walk_of(
+    outcome: CalibrationOutcome, camera: Camera, settings: TrackSettings, learnt: Learnt
+) -> FrameWalk[HandTracker]:
+    """As :func:`build_walk`, with the chosen filter, which may be the papers'."""
+    calibration = _calibrated(require_calibration(outcome), camera, settings.paper)
+    tracker, _ = _following(calibration, camera, settings, learnt)
+    return FrameWalk(Detector(outcome.appearance, camera, settings.detection), tracker, settings.detection.sampling)
+
+
 def _calibrated(calibration: Calibration, camera: Camera, paper: PaperSettings | None) -> Calibration:
     """The calibration as the chosen filter has it."""
     return calibration if paper is None else as_written(calibration, camera, paper.palm)
@@ -154,7 +165,7 @@ def _calibrated(calibration: Calibration, camera: Camera, paper: PaperSettings |
 
 def _following(
     calibration: Calibration, camera: Camera, settings: TrackSettings, learnt: Learnt
-) -> tuple[HandTracker[Any], Callable[[], list[Moment]] | None]:
+) -> tuple[HandTracker, Callable[[], list[Moment]] | None]:
     """The chosen filter, and how it looks back if it is to."""
     if settings.paper is not None:
         return PaperTracker(calibration, camera, settings.paper), None
@@ -167,7 +178,7 @@ _SOON_S = 0.25
 
 
 def from_neutral(
-    frames: Iterable[T], tracker: HandTracker[Any], neutral_ends_s: float, time_of: Callable[[T], float]
+    frames: Iterable[T], tracker: HandTracker, neutral_ends_s: float, time_of: Callable[[T], float]
 ) -> Iterator[T]:
     """The frames, the tracker set back to the neutral pose before the first that was not used to calibrate.
 
@@ -264,7 +275,7 @@ def track_recording(
     return _written(writer, tracked, look_back, outcome.verdict, source.info.frame_count, progress, notes)
 
 
-def _answer(tracker: HandTracker[Any], answers: Iterable[SpotAnswer]) -> None:
+def _answer(tracker: HandTracker, answers: Iterable[SpotAnswer]) -> None:
     """The papers' filter is as written: it hears nobody."""
     if isinstance(tracker, Tracker):
         for answer in answers:
@@ -311,6 +322,7 @@ def retrack_session(
     table = read_detections(origin)
     learnt = learnt_in(old.parameters) or learnt_from(StillNoise(), -np.inf, settings.tracker)
     calibration = session.calibration
+    check_calibration(origin, calibration)
     before = paper_as_tracked(old.parameters)
     if (before and before.palm) != (settings.paper and settings.paper.palm):
         calibration = _calibrated(by_the_discs(calibration) if before else calibration, session.camera, settings.paper)
@@ -381,6 +393,8 @@ def _written(
             writer.add_event(note.time_s, note.kind, note.text)
         if look_back is not None and done:  # of no frame there is nothing to look back at
             writer.write_smoothed(motion_of(look_back()))
+        if done:
+            writer.write_repetitions(repetitions_of(writer.read_back()))
         writer.close()
     except DiskFull:
         writer.abandon()

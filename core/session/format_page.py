@@ -29,7 +29,8 @@ are read, unpacked.
 
 def format_page() -> str:
     """Markdown text; kept in ``resources/session-format.md``."""
-    axes = ", ".join(f"{letter} {what}" for letter, what in (schema.GROWING_AXES | schema.NAMED_AXES).items())
+    letters = schema.GROWING_AXES | schema.LATER_AXES | schema.NAMED_AXES
+    axes = ", ".join(f"{letter} {what}" for letter, what in letters.items())
     parts = [_HEAD.format(axes=axes)]
     for title, attributes in (
         ("Attributes of `/`", schema.ROOT_ATTRIBUTES),
@@ -40,6 +41,14 @@ def format_page() -> str:
     rows = "".join(map(_row, (field for field in schema.ALL_FIELDS if field not in schema.SMOOTHED_FIELDS)))
     parts.append("## Datasets\n\n| path | shape | type | unit | meaning |\n|---|---|---|---|---|\n" + rows)
     parts.append(
+        "## Columns of `/repetitions`\n\n| column | type | unit | meaning |\n|---|---|---|---|\n"
+        + "".join(f"| `{c.name}` | {c.dtype} | {c.unit} | {c.description} |\n" for c in schema.REPETITION_COLUMNS)
+    )
+    parts.append(
+        f"`/repetitions` has the attributes `{schema.REPETITION_ANGLE}`, the angle that was trained (empty: none), "
+        "`column_units` and `column_descriptions`. A recovered session is without. What a person leaves out or moves "
+        "later is not in the file.\n"
+        "A longer text than fits goes on in the next rows of `/events`, which have the same time and kind.\n"
         "`/smoothed/wrist` and `/smoothed/joints` hold what `/wrist` and `/joints` hold, by the smoother; "
         "whole or not there.\n"
         "The event `not_looked_back` says why a live session is without.\n"

@@ -18,7 +18,7 @@ from carpus.core.session import schema
 from carpus.core.session.schema import Field, Layout
 from carpus.core.session.values import SessionHeader
 
-_CHUNK_ROWS = {"N": 1024, "D": 32768, "E": 256, "C": 1 << 23, "B": 1 << 23}
+_CHUNK_ROWS = {"N": 1024, "D": 32768, "E": 32, "C": 1 << 23, "B": 1 << 23}
 """Large: most flushes then fill chunks that are there already and leave HDF5's index alone. Up to 64 chunks the index
 of a dataset is one node, changed by one write; 64 x 1024 rows are 36 minutes at 30 frames a second."""
 
@@ -93,7 +93,7 @@ def create_growing(file: h5py.File, layout: Layout, raw_depth_unit_m: float | No
             shape=(0, *row),
             maxshape=(None, *row),
             chunks=(_SURFACE_ROWS if field in READINGS else _CHUNK_ROWS[str(field.shape[0])], *row),
-            fletcher32=field.dtype != "text",  # the seal alone guards texts, which lie outside their chunks
+            fletcher32=True,
             dtype=field.h5_dtype,
             fillvalue=None if field.dtype == "text" else field.fill,
             fill_time="never" if field in schema.RAW_STREAMS else "ifset",

@@ -16,11 +16,8 @@ from carpus.core.calibration.result import Calibration, Clicks, Finding, Verdict
 from carpus.core.camera import COEFFICIENTS, Camera
 from carpus.core.dates import iso, time_of_day
 from carpus.core.depth_sensor import ASSUMED_SENSOR, DepthSensor, sensor_of
-from carpus.core.encryption.cipher import is_encrypted
-from carpus.core.encryption.content import open_kept
 from carpus.core.errors import (
     CarpusFault,
-    ContentDamaged,
     ProtocolUnknown,
     SessionChanged,
     SessionUnfinished,
@@ -31,10 +28,10 @@ from carpus.core.hand.protocols import protocol_named
 from carpus.core.phrase import phrase
 from carpus.core.session import schema
 from carpus.core.session.plain_file import check_plain
-from carpus.core.session.plausible import LONGEST_S, check_header, check_values
+from carpus.core.session.plausible import LONGEST_S, check_blobs, check_header, check_values
 from carpus.core.session.rows import Rows, rows_of, whole_rows
 from carpus.core.session.schema import Field, Layout
-from carpus.core.session.seal import ATTRIBUTE, seal_of
+from carpus.core.session.seal import ATTRIBUTE, LONGEST_SEAL, seal_of
 from carpus.core.session.values import (
     DetectionTable,
     Event,
@@ -42,6 +39,8 @@ from carpus.core.session.values import (
     Motion,
     QualitySeries,
     RawPictures,
+    RepetitionRow,
+    Repetitions,
     Session,
     SessionHeader,
     SessionOutline,
@@ -59,6 +58,11 @@ def read_session(path: Path) -> Session:
         return _Source(path, file).session()
 
 
+def session_in(path: Path, file: h5py.File) -> Session:
+    """As :func:`read_session`, of a file that is open."""
+    return _Source(path, file).session()
+
+
 def read_outline(path: Path) -> SessionOutline:
     """Header, length and state of a session, without its data: quick enough for a whole folder."""
     with open_session(path) as file:
@@ -71,6 +75,7 @@ def read_detections(path: Path) -> DetectionTable:
         source = _Source(path, file)
         pixel, depth, depth_sd, area, similarity = (source.array(field) for field in schema.DETECTION_FIELDS)
         blobs = Detections(pixel, depth, depth_sd, area, similarity)
+        check_blobs(path, blobs)
         readings = (*schema.SURFACE_FIELDS, *schema.FINGER_FIELDS)
         kept = [source.array(field) if field.path in file else np.empty((0, 0)) for field in readings]
         return DetectionTable(source.array(schema.DETECTION_FRAME), blobs, (kept[0], kept[1]), (kept[2], kept[3]))
@@ -137,16 +142,12 @@ def open_session(path: Path) -> Iterator[h5py.File]:
     if not path.is_file():
         raise SessionUnreadable(path, phrase("a folder") if path.is_dir() else phrase("there is no such file"))
     try:
-        with contextlib.ExitStack() as held:
-            source = held.enter_context(open_kept(path)) if is_encrypted(path) else path
-            file = held.enter_context(h5py.File(source, "r"))
+        with h5py.File(path, "r") as file:
             check_plain(path, file)
             _check_format(path, file)
             yield file
     except BlockingIOError as cause:
         raise SessionUnreadable(path, phrase("still being recorded")) from cause
-    except ContentDamaged as cause:
-        raise SessionUnreadable(path, phrase("damaged: {detail}", detail=cause.detail)) from cause
     except CarpusFault:
         raise
     except KeyError as cause:
@@ -154,7 +155,7 @@ def open_session(path: Path) -> Iterator[h5py.File]:
     except MemoryError as cause:
         raise SessionUnreadable(path, phrase("damaged: it asks for more memory than a session needs")) from cause
     except Exception as cause:  # a damaged file may make the library and the code above it raise anything
-        known = h5py.is_hdf5(path) or is_encrypted(path)
+        known = h5py.is_hdf5(path)
         raise SessionUnreadable(
             path, phrase("damaged: {cause}", cause=cause) if known else phrase("not a session file")
         ) from cause
@@ -213,9 +214,29 @@ class _Source:
             smoothed=self._motion(schema.SMOOTHED_FIELDS) if "/smoothed" in self._file else None,
             complete=self._complete,
             recovered=str(self._file.attrs.get(schema.RECOVERED, "")),
+            repetitions=self._repetitions(),
         )
         check_values(self._path, session)
         return session
+
+    def _repetitions(self) -> Repetitions | None:
+        path = schema.REPETITIONS.path
+        if path not in self._file:
+            return None
+        table = self._file[path]
+        if table.dtype != schema.REPETITION_DTYPE or table.ndim != 1:
+            raise SessionUnreadable(self._path, phrase("damaged: {value}", value=path))
+        names = [column.attribute for column in schema.REPETITION_COLUMNS]
+        rows = (dict(zip(names, row, strict=True)) for row in table[()].tolist())
+        return Repetitions(
+            str(table.attrs[schema.REPETITION_ANGLE]),
+            tuple(
+                RepetitionRow(
+                    **row | {"counted": bool(row["counted"]), "reason": row["reason"].decode("utf-8", "replace")}
+                )
+                for row in rows
+            ),
+        )
 
     def outline(self) -> SessionOutline:
         frames = self._rows.frames
@@ -229,6 +250,8 @@ class _Source:
             duration_s=duration_s,
             complete=self._complete,
             recovered=str(self._file.attrs.get(schema.RECOVERED, "")),
+            seal=str(self._file.attrs.get(ATTRIBUTE, ""))[:LONGEST_SEAL],
+            size_bytes=self._path.stat().st_size,
         )
 
     def array(self, field: Field) -> NDArray[Any]:
@@ -246,7 +269,7 @@ class _Source:
             data = rows_of(dataset, expected[0])
         else:
             data = dataset[()]
-        kinds = {"f": "f", "u": "iu", "i": "iu", "t": "O"}[field.dtype[0]]
+        kinds = {"f": "f", "u": "iu", "i": "iu", "t": "SO"}[field.dtype[0]]
         if data.shape != expected or data.dtype.kind not in kinds:
             raise SessionUnreadable(
                 self._path,
@@ -259,7 +282,7 @@ class _Source:
                     expected=expected,
                 ),
             )
-        array: NDArray[Any] = data.astype(field.h5_dtype, copy=False)
+        array: NDArray[Any] = data if data.dtype.kind == "O" else data.astype(field.h5_dtype, copy=False)
         array.setflags(write=False)
         return array
 

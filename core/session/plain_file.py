@@ -22,7 +22,7 @@ MOST_OBJECTS = 400
 DEEPEST = 6
 _PLAIN_LAYOUTS = (h5py.h5d.COMPACT, h5py.h5d.CONTIGUOUS, h5py.h5d.CHUNKED)
 _PLAIN_FILTERS = (h5py.h5z.FILTER_FLETCHER32,)
-_KINDS = {"f": "f", "u": "iu", "i": "iu", "t": "O"}
+_KINDS = {"f": "f", "u": "iu", "i": "iu", "t": "SO", "r": "V"}
 _FIELDS = {field.path: field for field in schema.ALL_FIELDS}
 _ENDS_OF_RAW = {field.path for field in schema.RAW_STREAMS}
 

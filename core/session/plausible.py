@@ -7,10 +7,11 @@ from pathlib import Path
 
 import numpy as np
 
+from carpus.core.calibration.result import Calibration
 from carpus.core.errors import SessionUnreadable
 from carpus.core.phrase import phrase
 from carpus.core.session.values import Session, SessionHeader
-from carpus.core.types import FloatArray
+from carpus.core.types import Detections, FloatArray
 
 LONGEST_S = 86_400.0
 LATEST_S = 1e11
@@ -18,6 +19,9 @@ LATEST_S = 1e11
 LARGEST_ANGLE_RAD = 2.0 * math.pi
 LARGEST_PLACE_M = 100.0
 LARGEST_SD_RAD = 1e3
+LARGEST_PIXEL = float(1 << 16)
+NOT_A_TURN = 1e-3
+LARGEST_SPREAD_M2, LEAST_SPREAD_M2 = 1.0, 1e-9
 LONGEST_TEXT, LONGEST_PARAMETERS = 200, 1 << 20
 DEEPEST_PARAMETERS = 40
 STATUSES = 4
@@ -95,6 +99,30 @@ def check_values(path: Path, session: Session) -> None:
         raise SessionUnreadable(path, phrase("damaged: the camera's figures are not a camera's"))
     if not all(math.isfinite(event.time_s) for event in session.events):
         raise SessionUnreadable(path, phrase("damaged: an event has no time"))
+
+
+def check_calibration(path: Path, calibration: Calibration) -> None:
+    """Raise :class:`SessionUnreadable` for a calibration that no hand can be followed from."""
+    turn, spread = calibration.rotation_w0_cam, calibration.marker_covariance_w0_m2
+    known = (turn, calibration.translation_w0_cam_m, calibration.marker_position_w0_m, calibration.start_angles_rad)
+    good = all(np.isfinite(values).all() for values in known)
+    good = good and bool(np.abs(turn @ turn.T - np.eye(3)).max() < NOT_A_TURN and np.linalg.det(turn) > 0.0)
+    good = good and bool((np.abs(calibration.start_angles_rad) <= LARGEST_ANGLE_RAD).all())
+    if good and len(spread) and not np.isnan(spread).all():
+        good = bool(np.isfinite(spread).all() and np.abs(spread).max() <= LARGEST_SPREAD_M2)
+        good = good and float(np.linalg.eigvalsh(spread).min()) >= -LEAST_SPREAD_M2
+    if not good:
+        raise SessionUnreadable(path, phrase("damaged: its calibration is not one of a hand"))
+
+
+def check_blobs(path: Path, blobs: Detections) -> None:
+    """Raise :class:`SessionUnreadable` for a blob that no picture holds; a depth may be unknown."""
+    good = bool((np.abs(blobs.pixel) <= LARGEST_PIXEL).all())  # NaN is not
+    good = good and bool(np.isfinite(blobs.area_px).all() and np.isfinite(blobs.similarity).all())
+    for values, most in ((blobs.depth_m, LARGEST_PLACE_M), (blobs.depth_sd_m, LARGEST_PLACE_M)):
+        good = good and not bool(((values < 0.0) | (values > most)).any())
+    if not good:
+        raise SessionUnreadable(path, phrase("damaged: a blob is in no picture"))
 
 
 def _depth(value: object) -> int:

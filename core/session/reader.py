@@ -21,8 +21,6 @@ from pathlib import Path
 from typing import Any, cast
 
 from carpus.core import errors
-from carpus.core.encryption.cipher import is_encrypted
-from carpus.core.encryption.keys import key_for
 from carpus.core.errors import CarpusFault, SessionUnreadable
 from carpus.core.phrase import phrase
 from carpus.core.session import reading_process
@@ -98,9 +96,8 @@ class ReadingProcess:
 
     def ask(self, name: str, path: Path, *arguments: object) -> Any:
         """The answer to a question about a file. Raises the fault that came instead, or :class:`SessionUnreadable`."""
-        key = key_for(path) if is_encrypted(path) else None
         with self._lock:
-            question = (name, os.fspath(path), arguments, key)
+            question = (name, os.fspath(path), arguments)
             link = self._started()
             try:
                 link.send(question)

@@ -16,8 +16,6 @@ from multiprocessing.connection import Connection
 from pathlib import Path
 from typing import Any
 
-from carpus.core.encryption import keys
-
 CPU_S, BYTES_PER_CPU_S = 1.2, 20e6
 """A question may take so much of a processor's time, and a second more for so many bytes of the file."""
 MEMORY_BYTES, MEMORY_PER_BYTE = 700_000_000, 3
@@ -34,7 +32,7 @@ def cpu_limit_s(size_bytes: int) -> float:
 
 
 def run(link: Connection) -> None:
-    """Entry of the process: questions (name, path, arguments, key) come, answers go, until the owner is gone.
+    """Entry of the process: questions (name, path, arguments) come, answers go, until the owner is gone.
 
     An answer is sent as several messages: a count, the pickled answer, then the buffers of its arrays.
     """
@@ -45,10 +43,9 @@ def run(link: Connection) -> None:
     questions = _questions()
     while True:
         try:
-            name, path, arguments, key = link.recv()
+            name, path, arguments = link.recv()
         except (EOFError, OSError):
             return
-        keys.use_only(key)
         size = _size(path)
         _limit(size)
         answer = _answered(questions[name], Path(path), arguments)

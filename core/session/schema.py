@@ -71,11 +71,18 @@ NAMED_AXES = {"M": "markers", "J": "joint angles", "A": "wrist angles", "Z": "ZY
 """Axes whose entries have names."""
 GROWING_AXES = {"N": "frames", "D": "blobs of all frames", "E": "events", "C": "bytes of colour", "B": "bytes of depth"}
 """Axes that grow while a session runs; always the first of a dataset."""
+LATER_AXES = {"P": "repetitions"}
+"""Axes of what is counted when a session is finished."""
+
+
+TEXT_BYTES = 2048
+"""Of a text, within its chunk and so under its check sum; the writer lays a longer one into further rows."""
 
 
 @dataclass(frozen=True, slots=True)
 class Field:
-    """One dataset. ``shape`` holds numbers and axis letters; ``dtype`` f4, f8, u1, u2, i4, i8 or text.
+    """One dataset. ``shape`` holds numbers and axis letters; ``dtype`` f4, f8, u1, u2, i4, i8, text or rows (of a table
+    whose columns have names).
 
     ``attribute`` names the value in the object it is written from (a frame, blobs, an event, a calibration).
     ``fill`` stands where nothing was written; it is never a number that could be a measurement.
@@ -94,12 +101,25 @@ class Field:
 
     @property
     def h5_dtype(self) -> Any:
-        return h5py.string_dtype("utf-8") if self.dtype == "text" else np.dtype(self.dtype)
+        if self.dtype == "rows":
+            return REPETITION_DTYPE
+        return h5py.string_dtype("utf-8", TEXT_BYTES) if self.dtype == "text" else np.dtype(self.dtype)
 
     @property
     def named_axis(self) -> str:
         """The letter of the axis whose entries have names, or nothing."""
         return next((str(axis) for axis in self.shape if axis in NAMED_AXES), "")
+
+
+@dataclass(frozen=True, slots=True)
+class Column:
+    """One column of a table; ``attribute`` names the value in the object that a row is written from."""
+
+    name: str
+    attribute: str
+    dtype: str
+    unit: str
+    description: str
 
 
 @dataclass(frozen=True, slots=True)
@@ -181,7 +201,8 @@ MOTION_FIELDS = (
     Field("/joints/velocity", "joint_velocity_rad_s", "f8", ("N", "J"), "rad/s",
           "rate of the joint angles", fingers_only=True),
     Field("/joints/position", "joint_position_m", "f8", ("N", "M", 3), "m",
-          "joint centres and fingertips in W0", fingers_only=True),
+          "joint centres and fingertips in W0; a coupled end joint bends by two thirds of the middle one",
+          fingers_only=True),
 )
 """Written from a frame's moment and, under ``/smoothed``, from the smoother's."""
 
@@ -256,9 +277,33 @@ RAW_DEPTH_UNIT = "depth_unit_m"
 EVENT_FIELDS = (
     Field("/events/time", "time_s", "f8", ("E",), "s",
           "time of the event, on the clock of /frames/timestamp"),
-    Field("/events/kind", "kind", "text", ("E",), "", "repetition, note, pause, camera_lost, ..."),
+    Field("/events/kind", "kind", "text", ("E",), "", "note, pain, pause, camera_lost, ..."),
     Field("/events/text", "text", "text", ("E",), "", "words that go with it"),
 )
+REPETITION_COLUMNS = (
+    Column("start", "start_s", "f8", "s", "when it left its first turning place, or passed the middle "
+           "of a motion to both sides, on the clock of /frames/timestamp"),
+    Column("peak", "peak_s", "f8", "s", "when it was furthest on its way there, the middle of a hold"),
+    Column("end", "end_s", "f8", "s", "when it reached its last turning place, or passed that middle again"),
+    Column("angle", "angle_rad", "f8", "rad", "at the peak"),
+    Column("arc", "arc_rad", "f8", "rad", "from its smallest angle to its largest, without what noise adds"),
+    Column("arc_sd", "arc_sd_rad", "f8", "rad", "standard deviation of the arc by the tracker"),
+    Column("peak_speed", "peak_speed_rad_s", "f8", "rad/s", "of its quickest stroke"),
+    Column("peak_speed_sd", "peak_speed_sd_rad_s", "f8", "rad/s", "what noise leaves in the peak speed"),
+    Column("movement_time", "movement_time_s", "f8", "s", "of its strokes, each from 5 % to 5 % of its peak speed, "
+           "pauses included, holds in the turning places not; not known where one of its two is not"),
+    Column("sparc", "sparc", "f8", "1", "smoothness, mean of its strokes, pauses included"),
+    Column("movement_units", "movement_units", "f8", "1", "peaks of speed of all its strokes"),
+    Column("pauses", "pauses", "f8", "1", "how often it stood still within a stroke"),
+    Column("pause_time", "pause_s", "f8", "s", "for how long in all"),
+    Column("counted", "counted", "u1", "1", "1 where it counts, else 0"),
+    Column("reason", "reason", "S64", "", "why it does not count: hidden, not seen well enough; empty where it does"),
+)
+REPETITIONS = Field("/repetitions", "repetitions", "rows", ("P",), "of each column",
+                    "repetitions of the trained angle as counted when the session was finished", optional=True)
+REPETITION_ANGLE = "angle"
+"""Attribute of ``/repetitions``: name of the angle that was trained, empty where none is."""
+REPETITION_DTYPE = np.dtype([(column.name, column.dtype) for column in REPETITION_COLUMNS])
 # fmt: on
 
 SMOOTHED_FIELDS = tuple(
@@ -288,6 +333,7 @@ ALL_FIELDS = (
     *SURFACE_FIELDS,
     *FINGER_FIELDS,
     *EVENT_FIELDS,
+    REPETITIONS,
     *SMOOTHED_FIELDS,
     *RAW_STREAMS,
     *RAW_ENDS,

@@ -18,6 +18,7 @@ from carpus.core.calibration.result import Calibration
 from carpus.core.camera import Camera
 from carpus.core.dates import is_moment
 from carpus.core.hand.marker_protocol import MarkerProtocol
+from carpus.core.names import name_of
 from carpus.core.types import SIMULATED, BoolArray, Detections, FloatArray, Moment, Side, SurfaceSamples, TrackedFrame
 
 IntArray = NDArray[np.integer]
@@ -110,12 +111,13 @@ def new_header(
 ) -> SessionHeader:
     """A header for a session that begins now; ``now`` needs a zone, and is injectable as ``session_id`` is.
 
+    Raises :class:`NameUnsuited` for a pseudonym that cannot be one.
     Without ``recorded`` the hand moves now, without ``recording_id`` the session is a recording's first result.
     """
     created = (now or datetime.now().astimezone()).isoformat(timespec="seconds")
     return SessionHeader(
         session_id=str(session_id or uuid.uuid4()),
-        subject_id=subject_id.strip(),
+        subject_id=name_of(subject_id),
         created=created,
         hand=hand,
         protocol=protocol,
@@ -179,6 +181,41 @@ class Event:
 
 
 @dataclass(frozen=True, slots=True)
+class RepetitionRow:
+    """One repetition of the trained angle, there and back: seconds on the clock of the frames, rad, rad/s; NaN unknown.
+
+    From where it left one turning place to where it reached the last, pauses included, or from middle to middle of a
+    motion to both sides; ``peak_s`` when it was furthest on its way there, at ``angle_rad``. Its strokes are those that
+    end in it: ``peak_speed_rad_s`` of the quickest, ``sparc`` their mean, ``movement_units``, ``pauses``, ``pause_s``
+    and ``movement_time_s`` of both of them. ``reason`` why it does not count, empty where it does.
+    """
+
+    start_s: float
+    peak_s: float
+    end_s: float
+    angle_rad: float
+    arc_rad: float
+    arc_sd_rad: float
+    peak_speed_rad_s: float
+    peak_speed_sd_rad_s: float
+    movement_time_s: float
+    sparc: float
+    movement_units: float
+    pauses: float
+    pause_s: float
+    counted: bool
+    reason: str
+
+
+@dataclass(frozen=True, slots=True)
+class Repetitions:
+    """The repetitions of one session, of the angle that is called ``angle``; empty where none is trained."""
+
+    angle: str
+    rows: tuple[RepetitionRow, ...]
+
+
+@dataclass(frozen=True, slots=True)
 class RawPictures:
     """One frame's pictures as picture files: colour JPEG or PNG, depth 16-bit PNG; no bytes where there is none."""
 
@@ -227,13 +264,16 @@ def _readings(kept: tuple[NDArray[Any], NDArray[Any]], row: int) -> SurfaceSampl
 
 @dataclass(frozen=True, slots=True)
 class SessionOutline:
-    """What a list of sessions shows; ``complete`` and ``recovered`` as in :class:`Session`."""
+    """What a list of sessions shows; ``complete`` and ``recovered`` as in :class:`Session`; ``seal`` empty for one
+    that was cut short."""
 
     header: SessionHeader
     frames: int
     duration_s: float
     complete: bool
     recovered: str
+    seal: str = ""
+    size_bytes: int = 0
 
 
 @dataclass(frozen=True, slots=True)
@@ -271,6 +311,8 @@ class Session:
     smoothed: Motion | None
     complete: bool
     recovered: str
+    repetitions: Repetitions | None = None
+    """As counted when it was finished; None where nobody did, as in one that was recovered."""
     angle_order: AngleOrder = "zyx"
     """In which order the wrist's angles are read; in every file it is the papers'."""
 

@@ -42,9 +42,10 @@ from carpus.core.session.new_file import (
     write_calibration,
     write_header,
 )
+from carpus.core.session.opened import session_in
 from carpus.core.session.schema import Field, Layout
 from carpus.core.session.seal import ATTRIBUTE, Digests, seal_of
-from carpus.core.session.values import Event, Motion, RawPictures, SessionHeader
+from carpus.core.session.values import Event, Motion, RawPictures, Repetitions, Session, SessionHeader
 from carpus.core.types import SurfaceSamples, TrackedFrame
 
 FLUSH_EVERY_S = 0.5
@@ -203,7 +204,7 @@ class SessionWriter:
     def add_event(self, time_s: float, kind: str, text: str = "") -> None:
         """Note something that happened at a time of the recording."""
         self._check_open()
-        self._events.append(Event(time_s, kind, text))
+        self._events += [Event(time_s, kind, part) for part in _parts(text)]
         self._flush_when_due()
 
     def flush(self) -> None:
@@ -241,6 +242,26 @@ class SessionWriter:
             for group, names in self._layout.group_names().items():
                 if "/smoothed" + group in self._file:
                     self._file["/smoothed" + group].attrs["names"] = names
+
+    def read_back(self) -> Session:
+        """What is in the file so far, as :func:`core.session.reader.read_session` gives it."""
+        self.flush()
+        return session_in(self.part_path, self._file)
+
+    def write_repetitions(self, repetitions: Repetitions) -> None:
+        """Store what was counted, once all frames are there."""
+        self.flush()
+        rows = [
+            tuple(getattr(row, column.attribute) for column in schema.REPETITION_COLUMNS) for row in repetitions.rows
+        ]
+        rows = [(*row[:-1], row[-1].encode()[: schema.REPETITION_DTYPE["reason"].itemsize]) for row in rows]
+        data = np.array(rows, dtype=schema.REPETITION_DTYPE)
+        with self._writing(data.nbytes):
+            table = create_checked(self._file, schema.REPETITIONS.path, data)
+            describe(table, schema.REPETITIONS, self._layout)
+            for name in ("unit", "description"):
+                table.attrs[f"column_{name}s"] = [getattr(column, name) for column in schema.REPETITION_COLUMNS]
+            table.attrs[schema.REPETITION_ANGLE] = repetitions.angle
 
     def close(self) -> None:
         """Finish: mark the file complete and give it its name. Does nothing when closed, or after a fault."""
@@ -375,7 +396,7 @@ class SessionWriter:
         dataset = self._growing[field.path]
         step, *row = dataset.chunks
         new_chunks = -(-(dataset.shape[0] + len(data)) // step) - -(-dataset.shape[0] // step)
-        return int(new_chunks * step * np.prod(row) * dataset.dtype.itemsize) + _text_bytes(data)
+        return int(new_chunks * step * np.prod(row) * dataset.dtype.itemsize)
 
     def _synchronise(self) -> None:
         self._file.flush()
@@ -499,7 +520,7 @@ class SessionWriter:
         if not self._events:
             return []
         return [
-            (field, np.array([getattr(event, field.attribute) for event in self._events], dtype=field.h5_dtype))
+            (field, _cells(field, [getattr(event, field.attribute) for event in self._events]))
             for field in schema.EVENT_FIELDS
         ]
 
@@ -518,5 +539,17 @@ def _reading_rows(field: Field, readings: Sequence[SurfaceSamples | None]) -> An
     return out
 
 
-def _text_bytes(data: Any) -> int:
-    return sum(64 + 4 * len(text) for text in data) if data.dtype == object else 0
+def _cells(field: Field, values: Sequence[Any]) -> Any:
+    texts = [value.encode() if isinstance(value, str) else value for value in values]
+    return np.array(texts, dtype=field.h5_dtype)
+
+
+def _parts(text: str) -> Iterator[str]:
+    """A text in pieces that fit into a row, cut between letters."""
+    rest = text.encode("utf-8", "replace")
+    while True:
+        part = rest[: schema.TEXT_BYTES].decode("utf-8", "ignore")
+        yield part
+        rest = rest[len(part.encode()) :]
+        if not rest:
+            return

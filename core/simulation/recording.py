@@ -189,13 +189,22 @@ def truth_in(spec: RecordingSpec, folder: Path) -> Truth:
     return dataclasses.replace(truth_of(Scene(spec)), visible_share=read_visible_share(folder / TRUTH_FILE))
 
 
+def _cache() -> Path:
+    return Path(platformdirs.user_cache_dir("carpus", appauthor=False)) / "simulated"
+
+
+def is_cached(spec: RecordingSpec, cache: Path | None = None) -> bool:
+    """Whether the recording of a spec was rendered before."""
+    return ((_cache() if cache is None else cache) / spec.cache_key / TRUTH_FILE).exists()
+
+
 def cached_recording(
     spec: RecordingSpec, progress: Progress | None = None, cache: Path | None = None, workers: int = 1
 ) -> Path:
     """Folder with the recording of a spec, rendered only when the user's cache does not hold it yet."""
-    root = Path(platformdirs.user_cache_dir("carpus", appauthor=False)) / "simulated" if cache is None else cache
+    root = _cache() if cache is None else cache
     folder = root / spec.cache_key
-    if (folder / TRUTH_FILE).exists():
+    if is_cached(spec, root):
         return folder
     root.mkdir(parents=True, exist_ok=True)
     part = Path(tempfile.mkdtemp(prefix=f"{spec.cache_key}.", dir=root))

@@ -12,9 +12,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from carpus.core.tracking.kernel import Bank
-from carpus.core.tracking.naming import Measurable, correct
+from carpus.core.tracking.palm_association import Measurements, update
 from carpus.core.tracking.palm_state import SHAPE, SKIN, PalmBelief
-from carpus.core.tracking.palm_view import Forecast, View, forecast, recentred
+from carpus.core.tracking.palm_view import View, recentred
+from carpus.core.tracking.predicted_measurement import PredictedMeasurement, predicted_measurement
 from carpus.core.tracking.settings import TrackerSettings
 from carpus.core.tracking.soft_tissue import settled_covariance
 from carpus.core.types import BoolArray, FloatArray
@@ -24,11 +25,11 @@ _TWICE = 2.0
 
 
 def disc_anew(
-    ahead: Forecast, view: View, disc: int, blob: int, blobs: Measurable, settings: TrackerSettings
+    ahead: PredictedMeasurement, view: View, disc: int, blob: int, blobs: Measurements, settings: TrackerSettings
 ) -> tuple[PalmBelief, Bank, View]:
     """Belief and bank with the palm's ``disc`` (its row of 6) at a blob, and the view to go on with."""
     u_px, v_px, depth_m = blobs.value[blob]
-    depth_m = depth_m if np.isfinite(depth_m) else float(ahead.own_mean[disc, 2])
+    depth_m = depth_m if np.isfinite(depth_m) else float(ahead.mean[disc, 2])
     belief = ahead.nominal
     in_camera = view.camera.back_project(np.array([[u_px, v_px]]), np.array([depth_m]))[0]
     in_w0 = view.rotation_w0_cam.T @ (in_camera - view.translation_w0_cam_m)
@@ -50,11 +51,11 @@ def disc_anew(
     hidden = view.hidden.copy()
     hidden[disc, 3 * disc : 3 * disc + 3] = 0.0
     view = replace(view, hidden=hidden)
-    taken: NDArray[np.int64] = np.full(len(ahead.own_mean), -1, dtype=np.int64)
+    taken: NDArray[np.int64] = np.full(len(ahead.mean), -1, dtype=np.int64)
     taken[disc] = blob
     with_depth: BoolArray = (taken >= 0) & np.isfinite(blobs.value[blob, 2])
-    whole = forecast(belief, bank, view, settings.spread)
-    measured = correct(whole, blobs, taken, with_depth, np.full((taken.size, 3), _TWICE))
+    whole = predicted_measurement(belief, bank, view, settings.spread)
+    measured = update(whole, blobs, taken, with_depth, np.full((taken.size, 3), _TWICE))
     return *recentred(belief, measured.bank), view
 
 

@@ -36,7 +36,7 @@ from carpus.core.tracking.readout import Readout
 from carpus.core.tracking.settings import TrackerSettings
 from carpus.core.types import FloatArray
 
-_SLOT = np.arange(SLOTS)
+_SLOT, _DIP_OFF = np.arange(SLOTS), 3
 _NARROW2 = 1e-10
 
 
@@ -83,6 +83,7 @@ class FingerModel:
         self.direct_markers = direct_markers(protocol, dip_free)
         self.has_discs = np.array([digit in protocol.digits for digit in DIGITS])
         """(5,) rays that carry discs; the others are believed to be anywhere and are not told of."""
+        self._dip_free = dip_free
         self.markers = np.array(list(protocol.chains.values()))[:, 2:]
         """Rows (R, 3) of the moving discs of those rays."""
         self._sites = list(protocol.sites)
@@ -241,6 +242,14 @@ class FingerModel:
         flat = by_pose.reshape(RAYS, 9, 6)
         return np.asarray(flat @ seat.pose_covariance @ np.swapaxes(flat, 1, 2))
 
+    @staticmethod
+    def _coupled(palm: PalmInBody, state: FloatArray) -> FloatArray:
+        """Joint centres (5, 4, 3) with the end joints at two thirds of the middle ones, as the angles have them: by how
+        much an end joint strays is for the discs alone, and is no measurement of the joint."""
+        bound = state.copy()
+        bound[1:, _DIP_OFF] = 0.0
+        return ray_joints_m(palm.disc_m[1:], bound, ray_frames(bound))
+
     def read(self, mean: FloatArray, covariance: FloatArray, seat: Seat, line: RayForecast) -> JointMoment:
         """Joints of rays (5, n) with covariance (5, n, n) on that palm; ``line`` what the camera saw of them."""
         palm, state = seat.palm, mean[:, SEEN]
@@ -259,7 +268,7 @@ class FingerModel:
         chain = ray_joints_m(palm.disc_m[1:], state, frames)
         centre = np.empty((1 + RAYS * (DISCS + 1), 3))
         centre[0] = 0.0, 0.0, -self._wrist_depth_m
-        centre[1:] = chain.reshape(-1, 3)
+        centre[1:] = (chain if self._dip_free else self._coupled(palm, state)).reshape(-1, 3)
         if self.side == "left":
             centre[:, 1] *= -1.0
         disc = chain[:, 1:] + state[:, SLOTS + 8 :, None] * frames.normal

@@ -12,9 +12,9 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
+from carpus.core.tracking.digit_association import far_rays
 from carpus.core.tracking.finger_depth import KnuckleBends, with_bends
 from carpus.core.tracking.finger_model import FingerModel, Seat
-from carpus.core.tracking.finger_naming import far_rays
 from carpus.core.tracking.hand_geometry import RAYS, SHOWS, SLOTS, JointMoment
 from carpus.core.tracking.kernel import Bank, corrected, learning_shares
 from carpus.core.tracking.ray_filter import ANATOMY, RATES, RAY_SIZE, RayForecast, forecast, spread_points

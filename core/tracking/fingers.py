@@ -9,34 +9,32 @@ from numpy.typing import NDArray
 
 from carpus.core.calibration.result import Calibration
 from carpus.core.camera import Camera
+from carpus.core.tracking.adaptive_noise import adapted_factor
 from carpus.core.tracking.association import AssociationSettings
-from carpus.core.tracking.finger_depth import FLEXION, KnuckleBends, knuckle_bends, with_bends
-from carpus.core.tracking.finger_model import FingerModel, Seat, ray_view
-from carpus.core.tracking.finger_naming import (
-    FingerScene,
-    NamedFingers,
+from carpus.core.tracking.digit_association import (
+    DigitScene,
+    UpdatedDigits,
+    associate_digits,
     beyond_reach,
-    corrected_as_named,
     far_rays,
-    name_fingers,
     seen_chance,
     tilt_to,
     tilt_variance,
+    updated_as_associated,
     without,
 )
+from carpus.core.tracking.finger_depth import FLEXION, KnuckleBends, knuckle_bends, with_bends
+from carpus.core.tracking.finger_model import FingerModel, Seat
 from carpus.core.tracking.finger_settings import FingerSettings
 from carpus.core.tracking.finger_smoother import FingerStart, FingerStep
 from carpus.core.tracking.hand_geometry import DISCS, RAYS, SHOWS, SLOTS, JointMoment
-from carpus.core.tracking.joint_association import holds_together
+from carpus.core.tracking.joint_association import is_jointly_compatible
 from carpus.core.tracking.kernel import Bank
-from carpus.core.tracking.naming import Measurable
-from carpus.core.tracking.noise_watch import watched_factor
-from carpus.core.tracking.palm_state import PalmBelief
-from carpus.core.tracking.palm_view import View
+from carpus.core.tracking.palm_association import Measurements
+from carpus.core.tracking.predicted_measurement import PredictedDigits
 from carpus.core.tracking.ray_filter import SEEN, RayPoints, forecast, spread_points
 from carpus.core.tracking.ray_search import in_reach, search_rays
 from carpus.core.tracking.settings import TrackerSettings
-from carpus.core.tracking.unscented import weights_for
 from carpus.core.types import FloatArray, SurfaceSamples
 
 _UV = 3 * np.arange(DISCS)[:, None] + np.arange(2)
@@ -51,8 +49,8 @@ class FingerTrial:
     """
 
     seat: Seat
-    scene: FingerScene
-    named: NamedFingers
+    scene: DigitScene
+    named: UpdatedDigits
     disc_m2: FloatArray
     postures: dict[int, FloatArray]
     bends: KnuckleBends = field(default_factory=KnuckleBends.none)
@@ -82,23 +80,15 @@ class FingerTrial:
         """Its degrees of freedom."""
         return int(self.named.update.dof.sum())
 
-    def holds_together(self, rays: NDArray[np.int64], settings: AssociationSettings) -> bool:
+    def is_jointly_compatible(self, rays: NDArray[np.int64], settings: AssociationSettings) -> bool:
         """Whether what was measured of those rays is what was foreseen."""
         update = self.named.update
-        return all(holds_together(float(update.nis[ray]), int(update.dof[ray]), settings) for ray in rays)
+        return all(is_jointly_compatible(float(update.nis[ray]), int(update.dof[ray]), settings) for ray in rays)
 
     @property
     def blob(self) -> NDArray[np.int64]:
         """Blob (5, 3) taken for every disc or -1."""
         return self.named.names.taken
-
-
-@dataclass(frozen=True, slots=True)
-class RaysAhead:
-    """The rays as foreseen for one moment, and sigma points of them on the palm."""
-
-    beliefs: Bank
-    points: RayPoints
 
 
 class Fingers:
@@ -151,27 +141,19 @@ class Fingers:
         """What is believed of the rays; another object whenever anything of them has changed."""
         return self._beliefs
 
-    def ahead(self, dt_s: float) -> RaysAhead:
+    def ahead(self, dt_s: float) -> PredictedDigits:
         """The rays ``dt_s`` later, and their discs on the palm as it was known last."""
         beliefs = self.model.predicted(self._beliefs, self._unseen_s, dt_s)
         mean, covariance = beliefs.merged()
-        return RaysAhead(beliefs, spread_points(mean, covariance, self._palm.disc_m[1:], self._settings.spread))
-
-    def expected(self, ahead: RaysAhead, belief: PalmBelief, view: View) -> tuple[FloatArray, FloatArray, FloatArray]:
-        """Where to look: pixels (5, 3, 2) with covariance (5, 3, 2, 2) given the palm, and depths (5, 3)."""
-        points = ahead.points
-        image = ray_view(belief, view, self._palm).observe(points.disc_m)
-        count = points.unroot.shape[-1]
-        half = image[:, 1 : count + 1, :, :2] - image[:, count + 1 :, :, :2]
-        by_disc = half.transpose(0, 2, 3, 1) * (0.5 / weights_for(count, self._settings.spread).scale)
-        return image[:, 0, :, :2], by_disc @ np.swapaxes(by_disc, -1, -2), image[:, 0, :, 2]
+        points = spread_points(mean, covariance, self._palm.disc_m[1:], self._settings.spread)
+        return PredictedDigits(beliefs, points, self._palm)
 
     def weigh(
         self,
-        ahead: RaysAhead,
+        ahead: PredictedDigits,
         dt_s: float,
         seat: Seat,
-        blobs: Measurable,
+        blobs: Measurements,
         area_px: FloatArray,
         free: NDArray[np.bool_],
         samples: SurfaceSamples | None = None,
@@ -199,10 +181,10 @@ class Fingers:
 
     def _named(
         self,
-        ahead: RaysAhead,
+        ahead: PredictedDigits,
         dt_s: float,
         seat: Seat,
-        blobs: Measurable,
+        blobs: Measurements,
         area_px: FloatArray,
         free: NDArray[np.bool_],
     ) -> FingerTrial:
@@ -216,7 +198,7 @@ class Fingers:
         points = spread_points(*restarted.merged(), self._palm.disc_m[1:], self._settings.spread)
         other = self._pinned(restarted, self._tried(restarted, points, dt_s, seat, blobs, area_px, free))
         better = np.count_nonzero(other.blob[rays] >= 0) > np.count_nonzero(trial.blob[rays] >= 0)
-        believed = better and other.holds_together(rays, self._settings.association)
+        believed = better and other.is_jointly_compatible(rays, self._settings.association)
         return replace(other, postures=anew) if believed else trial
 
     def _found_far(self, beliefs: Bank, trial: FingerTrial) -> tuple[FingerTrial, NDArray[np.bool_]]:
@@ -228,7 +210,7 @@ class Fingers:
         pinned = self._pinned(beliefs, trial)
         wrong = far & beyond_reach(*pinned.named.update.bank.merged(), self._settings.fingers)
         names = self._settings.association
-        wrong |= far & np.array([not pinned.holds_together(np.array([ray]), names) for ray in range(RAYS)])
+        wrong |= far & np.array([not pinned.is_jointly_compatible(np.array([ray]), names) for ray in range(RAYS)])
         if not wrong.any():
             return pinned, wrong
         discs = np.repeat(wrong[:, None], DISCS, axis=1)
@@ -240,7 +222,7 @@ class Fingers:
             nearer = spread_points(*trial.named.update.bank.merged(), self._palm.disc_m[1:], self._settings.spread)
             line = forecast(nearer, trial.seat.view, self._settings.spread)
             scene = replace(trial.scene, line=line)
-            named = corrected_as_named(beliefs, scene, trial.named.names, self._settings)
+            named = updated_as_associated(beliefs, scene, trial.named.names, self._settings)
             trial = replace(trial, named=named)
         return trial
 
@@ -249,7 +231,7 @@ class Fingers:
         trial: FingerTrial,
         points: RayPoints,
         seat: Seat,
-        blobs: Measurable,
+        blobs: Measurements,
         free: NDArray[np.bool_],
         given_up: NDArray[np.bool_],
     ) -> dict[int, FloatArray]:
@@ -272,7 +254,7 @@ class Fingers:
         points: RayPoints,
         dt_s: float,
         seat: Seat,
-        blobs: Measurable,
+        blobs: Measurements,
         area_px: FloatArray,
         free: NDArray[np.bool_],
     ) -> FingerTrial:
@@ -283,7 +265,7 @@ class Fingers:
         shift = self.model.palm_part(line, seat)
         facing = np.maximum(np.cos(tilt), self._settings.fingers.least_facing)
         facing_m2 = facing * (seat.view.camera.fx_px / line.centre_m[..., 2]) ** 2
-        scene = FingerScene(
+        scene = DigitScene(
             points.covariance,
             line,
             line.spread + shift,
@@ -299,7 +281,7 @@ class Fingers:
             self.model.learning(seat),
             self.model.has_discs,
         )
-        named = name_fingers(beliefs, scene, self._settings)
+        named = associate_digits(beliefs, scene, self._settings)
         taken = named.names.taken
         disc_m2 = np.full((RAYS, DISCS), np.nan)
         if area_px.size:
@@ -326,8 +308,8 @@ class Fingers:
         self._missing = np.where(count < self._settings.fingers.search.least_discs, self._missing + 1, 0)
         residual, measured = (values.reshape(RAYS, DISCS, 3) for values in (named.update.residual, named.measured))
         factor = self._noise_factor.reshape(RAYS, DISCS, 3)
-        watched = watched_factor(factor, residual, np.isfinite(measured), dt_s, self._settings.noise)
-        self._noise_factor = watched.reshape(RAYS, 3 * DISCS)
+        adapted = adapted_factor(factor, residual, np.isfinite(measured), dt_s, self._settings.noise)
+        self._noise_factor = adapted.reshape(RAYS, 3 * DISCS)
         self._disc_m2 = learnt_sizes(self._disc_m2, trial.disc_m2, self._settings.fingers)
         kept, merged, misread = self.model.within_reach(named.update.bank, self._beliefs)
         self._missing[misread] = self._settings.fingers.patience_frames

@@ -25,7 +25,7 @@ def _most_nis(chance: float) -> tuple[float, ...]:
     return (np.inf, *(2.0 * gammaincinv(0.5 * np.arange(1, 200), chance)).tolist())
 
 
-def holds_together(nis: float, dof: int, settings: AssociationSettings) -> bool:
+def is_jointly_compatible(nis: float, dof: int, settings: AssociationSettings) -> bool:
     """Whether the innovations of all markers together are what the filter foresaw."""
     most = _most_nis(settings.consistent)
     return dof == 0 or nis <= most[min(dof, len(most) - 1)]

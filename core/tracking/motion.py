@@ -11,11 +11,12 @@ import math
 from dataclasses import dataclass, field
 
 import numpy as np
+from numpy.typing import NDArray
 
 from carpus.core import so3
-from carpus.core.tracking.kernel import Carrying
-from carpus.core.tracking.palm_state import MOVING, POSITION, RATE, SIZE, SOFT, TURN, VELOCITY, PalmBelief
-from carpus.core.tracking.soft_tissue import SoftTissue, keeping, settled_covariance
+from carpus.core.tracking.kernel import Carrying, switching
+from carpus.core.tracking.palm_state import MOVING, POSITION, RATE, SIZE, SKIN, SOFT, TURN, VELOCITY, PalmBelief
+from carpus.core.tracking.soft_tissue import CUP, HOME, STILL, TissueModes
 from carpus.core.types import FloatArray
 
 REFERENCE_DT_S = 1.0 / 30.0
@@ -43,7 +44,7 @@ class PalmStep(Carrying):
 
     def carries(self, belief: PalmBelief, dt_s: float) -> PalmBelief:
         """The nominal belief after the step, its covariance left as it is."""
-        value = self.kept * belief.value
+        value = belief.value.copy()
         value[POSITION] += belief.velocity_m_s * dt_s
         value[TURN] = 0.0
         return PalmBelief(belief.rotation_w2_w0 @ self.turned, value, belief.covariance)
@@ -51,29 +52,77 @@ class PalmStep(Carrying):
 
 @dataclass(frozen=True, slots=True)
 class PalmMotion:
-    """What pushes one palm: ``noise`` of its motion, whose root the modes multiply by ``scales`` (K,), and what its
-    soft tissue does. ``unseen_scale`` is the factor for turns that nothing in the picture shows: how briskly a hand
+    """What pushes one palm: ``noise`` of its motion, whose root the modes multiply by ``scales`` (M,), and what its
+    soft ``tissue`` does. Motions last ``dwell_s``. Resting tissue is combined with every motion; while it moves the
+    hand is taken to move calmly, ``moving_scale``: else a moving hand explains what tissue does, and the other way.
+    ``unseen_scale`` is the factor for turns that nothing in the picture shows: how briskly a hand
     moves is told by what is seen of it, and says nothing of these."""
 
     noise: MotionNoise
-    tissue: SoftTissue
+    tissue: TissueModes
     scales: FloatArray
     unseen_scale: float = 3.0
+    dwell_s: float = 0.5
+    moving_scale: float = 0.5
 
-    settled: FloatArray = field(init=False, repr=False, compare=False)
-    """Worked out once: what skin and relief alone scatter by when nothing was seen for long."""
+    scale_of: FloatArray = field(init=False, repr=False, compare=False)
+    tissue_of: NDArray[np.int64] = field(init=False, repr=False, compare=False)
+    """Of each of the K modes (K,), those at rest first: the factor on the motion's noise, and the tissue's mode."""
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "settled", settled_covariance(self.tissue)[SOFT, SOFT].copy())
+        resting, count = self.tissue.resting, self.tissue.count
+        scale = [*np.repeat(self.scales, resting), *(self.moving_scale for _ in range(resting, count))]
+        object.__setattr__(self, "scale_of", np.array(scale, dtype=np.float64))
+        tissue = [*np.tile(np.arange(resting), self.scales.size), *range(resting, count)]
+        object.__setattr__(self, "tissue_of", np.array(tissue))
+
+    @property
+    def modes(self) -> int:
+        return self.scale_of.size
+
+    def switch(self, rate_rad_s: FloatArray, dt_s: float) -> FloatArray:
+        """Probability (K, K) to go from row to column mode in ``dt_s``, of a hand that turns at ``rate_rad_s`` (3,)."""
+        tissue = self.tissue.switch(float(np.linalg.norm(rate_rad_s)), dt_s)
+        out: FloatArray = tissue[self.tissue_of[:, None], self.tissue_of]
+        motion, resting = switching(self.scales.size, self.dwell_s, dt_s), self.scales.size * self.tissue.resting
+        out[:resting, :resting] *= np.repeat(
+            np.repeat(motion, self.tissue.resting, axis=0), self.tissue.resting, axis=1
+        )
+        out[resting:, :resting] /= self.scales.size
+        return out
+
+    @property
+    def at_rest(self) -> FloatArray:
+        """Probability (K,) of the modes of a hand just calibrated."""
+        out: FloatArray = self.tissue.at_rest[self.tissue_of]
+        out[: self.scales.size * self.tissue.resting] /= self.scales.size
+        return out
+
+    def tissue_noise(self, went_over: FloatArray, dt_s: float) -> FloatArray:
+        """What pushes the tissue (r, r) in a step that went from row to column mode with these probabilities (K, K),
+        seen as one that keeps all it has: coming home is a push as well."""
+        tissue = self.tissue
+        joint = np.zeros((tissue.count, tissue.count))
+        np.add.at(joint, (self.tissue_of[:, None], self.tissue_of), went_over)
+        pushed = tissue.pushed(tissue.kept(dt_s))
+        if tissue.count == 1:
+            return np.asarray(pushed[0])
+        skin = slice(0, SKIN.stop - SKIN.start)
+        pushed[STILL, skin, skin] *= tissue.creep
+        pushed[HOME] = pushed[STILL]
+        came_home = float(joint[:, HOME].sum() - joint[HOME, HOME])
+        return np.asarray(np.tensordot(joint.sum(axis=0), pushed, 1) + came_home * tissue.settled[CUP])
 
 
 def palm_step(rate_rad_s: FloatArray, motion: PalmMotion, dt_s: float, unseen: FloatArray | None = None) -> PalmStep:
     """The step of ``dt_s`` of a palm that turns at ``rate_rad_s`` (3,); ``unseen`` (3, 3) projects on the turns in W2
     that nothing showed."""
-    noise, tissue, scales = motion.noise, motion.tissue, motion.scales
+    noise, tissue, scales = motion.noise, motion.tissue, motion.scale_of
     turn = rate_rad_s * dt_s
     turned, on_the_way = so3.exp(turn), so3.right_jacobian(turn)
-    kept = keeping(tissue, dt_s)
+    soft = tissue.kept(dt_s)
+    kept = np.ones((motion.modes, SIZE))
+    kept[:, SOFT] = soft[motion.tissue_of]
     moving = np.eye(MOVING.stop)
     moving.reshape(-1)[_BY_VELOCITY] = dt_s
     moving[TURN, TURN] = turned.T
@@ -98,8 +147,7 @@ def palm_step(rate_rad_s: FloatArray, motion: PalmMotion, dt_s: float, unseen: F
         by_mode[:, TURN, RATE] += more * (turning * dt_s**2 / 2.0) * along
         by_mode[:, RATE, TURN] = by_mode[:, TURN, RATE].transpose(0, 2, 1)
         by_mode[:, RATE, RATE] += more * (turning * dt_s) * unseen
-    lost = kept[SOFT]
-    settling = motion.settled * (1.0 - lost[:, None] * lost)
+    settling = tissue.pushed(soft)[motion.tissue_of]
     return PalmStep(moving, by_mode, kept, settling, turned)
 
 
@@ -128,8 +176,3 @@ def unseen_turns(places_m: FloatArray, narrow_m: float) -> FloatArray | None:
         return None
     line = np.array([axes[0, 0], axes[0, 1], 0.0])
     return np.outer(line, line)
-
-
-def mode_scale(probability: FloatArray, scales: FloatArray) -> float:
-    """The factor on the process noise that stands for all modes (K,) together."""
-    return math.sqrt(float(probability @ scales**2))

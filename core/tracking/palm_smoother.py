@@ -1,14 +1,18 @@
-"""Looking back at the palm, on the tangent space of the filter's state."""
+"""Looking back at the palm, on the tangent space of the filter's state.
+
+Which mode the hand was in at each step is told by what came after as well (Kim 1994); the step back is then one of all
+modes together. What the tissue has done stays in it: it is not taken to relax.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field
 
 import numpy as np
 
 from carpus.core.tracking.motion import PalmMotion, palm_step
-from carpus.core.tracking.palm_state import PalmBelief
+from carpus.core.tracking.palm_state import MOVING, SIZE, SOFT, PalmBelief
 from carpus.core.tracking.smoother import Passage, Smoother
 from carpus.core.types import FloatArray
 
@@ -17,13 +21,13 @@ from carpus.core.types import FloatArray
 class FilterStep:
     """One step of the filter: the corrected belief (None when lost), how it was predicted, when.
 
-    ``noise_scale`` of the process noise that led to it; ``linked`` False where the track began anew; ``unseen`` (3, 3)
+    ``probability`` (K,) of the modes after it; ``linked`` False where the track began anew; ``unseen`` (3, 3)
     turns that nothing had shown before the step.
     """
 
     timestamp_s: float
     belief: PalmBelief | None
-    noise_scale: float
+    probability: FloatArray
     linked: bool
     unseen: FloatArray | None = None
 
@@ -34,6 +38,22 @@ class PalmWalk:
 
     steps: Sequence[FilterStep]
     motion: PalmMotion
+
+    went_over: Sequence[FloatArray | None] = field(init=False, repr=False, compare=False)
+    """Probability (K, K) that each step went from row to column mode, in the light of all that came after."""
+
+    def __post_init__(self) -> None:
+        out: list[FloatArray | None] = [None] * len(self.steps)
+        later: FloatArray | None = None
+        for frame in range(len(self.steps) - 1, -1, -1):
+            now, dt_s = self.steps[frame], self.seconds_on(frame)
+            if now.belief is None or later is None or dt_s is None:
+                later = now.probability
+                continue
+            joint = now.probability[:, None] * self.motion.switch(now.belief.rate_rad_s, max(dt_s, 0.0))
+            joint *= later / np.maximum(joint.sum(axis=0), 1e-300)
+            out[frame], later = joint, joint.sum(axis=1)
+        object.__setattr__(self, "went_over", out)
 
     def __len__(self) -> int:
         return len(self.steps)
@@ -47,10 +67,15 @@ class PalmWalk:
 
     def passage(self, frame: int, now: PalmBelief, later: PalmBelief, dt_s: float) -> Passage:
         after = self.steps[frame + 1]
-        motion = replace(self.motion, scales=np.array([after.noise_scale]))
-        step = palm_step(now.rate_rad_s, motion, dt_s, after.unseen)
+        step = palm_step(now.rate_rad_s, self.motion, dt_s, after.unseen)
+        joint = self.went_over[frame]
+        assert joint is not None
+        forward, noise = np.eye(SIZE), np.zeros((SIZE, SIZE))
+        forward[MOVING, MOVING] = step.moving
+        noise[MOVING, MOVING] = np.tensordot(joint.sum(axis=0), step.driven, 1)
+        noise[SOFT, SOFT] = self.motion.tissue_noise(joint, dt_s)
         apart = step.carries(now, dt_s).error_to(later)
-        return Passage(now.covariance[None], step.forward[None], step.noise, apart[None], later.covariance[None])
+        return Passage(now.covariance[None], forward[None], noise[None], apart[None], later.covariance[None])
 
     def moved(self, now: PalmBelief, correction: FloatArray, covariance: FloatArray) -> PalmBelief:
         return now.moved(correction[0], covariance[0])

@@ -2,8 +2,9 @@
 
 The fixed unit of the hand is capitate, second and third metacarpal (clinical reference 10): the wrist's angles mean
 it. Each disc has a calibrated place on it that goes on being measured (``shape``) and may leave that place as the
-skin glides, the arch closes or a metacarpal flexes (``skin``), for a while. ``relief``: by how much the back of the
-hand as a surface has come to differ from the calibrated one, as a turn about X and Y and a height.
+skin glides, the arch closes or a metacarpal flexes (``skin``), for a while. So has the back of the hand as a surface:
+``back`` is what its calibration was wrong by, as a turn about X and Y and a height, ``relief`` by how much it has come
+to differ since. ``LEARNT``, shape and back, is the calibration's error: constant, and less with every motion.
 
 Symbols of the papers: T position, v velocity, R rotation, omega angular velocity, P covariance. Orientation stays a
 matrix; its error is a turn d in the moving frame, R_true = R Exp(d).
@@ -22,7 +23,9 @@ from carpus.core.types import FloatArray
 PALM_DISCS = 6
 POSITION, VELOCITY, TURN, RATE = slice(0, 3), slice(3, 6), slice(6, 9), slice(9, 12)
 SHAPE = slice(12, 12 + 3 * PALM_DISCS)
-SKIN = slice(SHAPE.stop, SHAPE.stop + 3 * PALM_DISCS)
+BACK = slice(SHAPE.stop, SHAPE.stop + 3)
+LEARNT = slice(SHAPE.start, BACK.stop)
+SKIN = slice(BACK.stop, BACK.stop + 3 * PALM_DISCS)
 RELIEF = slice(SKIN.stop, SKIN.stop + 3)
 SOFT = slice(SKIN.start, RELIEF.stop)
 MOVING = slice(0, 12)
@@ -92,8 +95,11 @@ class InitialSd:
     joint_rates_rad_s: float = 0.3
 
 
-def resting_belief(sd: InitialSd, shape_covariance: FloatArray) -> PalmBelief:
-    """A hand at rest at the neutral pose, its discs where they were calibrated: by definition none has moved yet."""
+def resting_belief(sd: InitialSd, learnt_covariance: FloatArray) -> PalmBelief:
+    """A hand at rest at the neutral pose, its discs where they were calibrated: by definition none has moved yet.
+
+    ``learnt_covariance`` (21, 21) of the calibration's error.
+    """
     covariance = np.zeros((SIZE, SIZE))
     for part, own in (
         (POSITION, sd.position_m),
@@ -102,7 +108,7 @@ def resting_belief(sd: InitialSd, shape_covariance: FloatArray) -> PalmBelief:
         (RATE, sd.rate_rad_s),
     ):
         covariance[part, part] = own**2 * np.eye(3)
-    covariance[SHAPE, SHAPE] = shape_covariance
+    covariance[LEARNT, LEARNT] = learnt_covariance
     covariance[SKIN, SKIN] = _HARDLY_M**2 * np.eye(SKIN.stop - SKIN.start)
     covariance[RELIEF, RELIEF] = _HARDLY_M**2 * np.eye(3)
     return PalmBelief(np.eye(3), np.zeros(SIZE), covariance)

@@ -118,44 +118,6 @@ def _by_camera_place(camera: Camera, image: FloatArray) -> FloatArray:
     return out
 
 
-@dataclass(frozen=True, slots=True)
-class Forecast:
-    """The palm as predicted, all modes as errors from ``nominal``, and what the camera should see of it.
-
-    ``bank`` (1, K, n), ``line`` of the measurement. ``own_mean`` (6, 3) and ``own_covariance`` (6, 3, 3) of each
-    marker's own measurement over all modes. ``shares`` of a correction that the numbers take.
-    """
-
-    nominal: PalmBelief
-    bank: Bank
-    line: Line
-    own_mean: FloatArray
-    own_covariance: FloatArray
-    shares: tuple[FloatArray, FloatArray] | None = None
-
-    def by_mode(self) -> tuple[FloatArray, FloatArray]:
-        """Of all markers together, without the measurement noise, in every mode: mean (K, 18) as in (10) and covariance
-        (K, 18, 18) as in (11)."""
-        slope = self.line.slope[0]
-        return self.line.value + self.bank.mean[0] @ slope.T, slope @ self.bank.covariance[
-            0
-        ] @ slope.T + self.line.error
-
-
-def forecast(
-    nominal: PalmBelief, bank: Bank, view: View, spread: Spread, shares: tuple[FloatArray, FloatArray] | None = None
-) -> Forecast:
-    """What to expect of a bank of errors about ``nominal``, whose covariance is that of the whole bank."""
-    line = sight(nominal, view, spread)
-    slope = line.slope[0]
-    mean = line.value[0] + slope @ (bank.probability[0] @ bank.mean[0])
-    # A line: what it makes of the whole bank's covariance is that of what it makes of the modes.
-    whole = slope @ nominal.covariance @ slope.T
-    whole += line.error[0]
-    own = whole.reshape(PALM_DISCS, 3, PALM_DISCS, 3)[_DISC, :, _DISC, :]
-    return Forecast(nominal, bank, line, mean.reshape(PALM_DISCS, 3), own, shares)
-
-
 def recentred(nominal: PalmBelief, bank: Bank) -> tuple[PalmBelief, Bank]:
     """The nominal belief moved to the bank's mean and given its covariance; the bank as errors from there."""
     mean, covariance = bank.merged()

@@ -6,16 +6,16 @@ from dataclasses import dataclass, field
 from typing import Literal
 
 from carpus.core.tracking.association import AssociationSettings
-from carpus.core.tracking.doubt import DoubtSettings
+from carpus.core.tracking.consistency import ConsistencySettings
 from carpus.core.tracking.finger_settings import FingerSettings
-from carpus.core.tracking.holding import HoldingSettings
 from carpus.core.tracking.motion import MotionNoise
+from carpus.core.tracking.operator_hints import SaidSettings
 from carpus.core.tracking.palm_state import InitialSd
 from carpus.core.tracking.reacquire import FindingSettings
 from carpus.core.tracking.readout import ReadoutSettings
-from carpus.core.tracking.said_spots import SaidSettings
 from carpus.core.tracking.soft_tissue import SoftTissue
 from carpus.core.tracking.surface_fit import SurfaceSettings
+from carpus.core.tracking.track_manager import HoldingSettings
 from carpus.core.tracking.unscented import Spread
 
 Profile = Literal["slow", "standard", "brisk"]
@@ -40,6 +40,7 @@ class MeasurementNoise:
     ``depth_ratio`` of the depths' scatter to that of a reading by the book, likewise measured, but no further off than
     ``depth_ratios``, as a still hand can lock to one step;
     ``depth_stays_m``: error of a disc's depth that stays over a recording (the matching window flattens knuckles);
+    ``depth_locks``: share of a reading's that stays as long as the hand is still, where depths are rounded to steps;
     ``outlier_sd``: a residual beyond this many sds is given the noise it shows, at most ``most_outliers`` in a
     frame; ``adapt_s``: over which time each marker's own noise is judged by its residuals; its variance rises to at
     most ``most_adapted`` times and falls to ``least_adapted``. ``shade_share``: how far the centre of a partly
@@ -60,6 +61,7 @@ class MeasurementNoise:
     least_adapted: float = 0.6
     depth_outlier: float = 1e-4
     depth_stays_m: float = 2.5e-4
+    depth_locks: float = 0.6
 
 
 @dataclass(frozen=True, slots=True)
@@ -70,8 +72,9 @@ class TrackerSettings:
     on the process noise, each kept for ``mode_dwell_s``; ``dip``: end joints bound to the middle joints or free. The
     palm goes on being measured while it moves:
     ``shape_hidden`` the share of a correction taken for a depth that stays wrong, ``shape_news`` the share of what a
-    frame says of it taken for new. ``tissue``: how skin and relief move; ``use_surface``: measure the back of the hand
-    by its depth, as ``surface`` says. ``unseen_scale``: the factor on the noise of turns that no disc shows.
+    frame says of it taken for new, of a hand that moves; ``shape_stale`` what is left of that while it is still.
+    ``tissue``: how skin and relief move; ``use_surface``: measure the back of the hand by its depth, as ``surface``
+    says. ``unseen_scale``: the factor on the noise of turns that no disc shows.
     ``said``: what becomes of what a person says of spots. ``readout`` of angles from what is believed.
     ``marker_radius_m`` of the paper discs; ``lost_after_s`` without three palm markers the hand is lost;
     ``rate_memory_s``: how long an unseen hand is taken to go on as it moved.
@@ -81,8 +84,9 @@ class TrackerSettings:
     profiles: Profiles = field(default_factory=Profiles)
     use_depth: bool = True
     dip: Literal["coupled", "free"] = "coupled"
-    shape_hidden: float = 0.5
-    shape_news: float = 0.1
+    shape_hidden: float = 0.3
+    shape_news: float = 0.2
+    shape_stale: float = 0.02
     mode_scales: tuple[float, ...] = (0.5, 4.0)
     mode_dwell_s: float = 0.5
     unseen_scale: float = 3.0
@@ -94,7 +98,7 @@ class TrackerSettings:
     tissue: SoftTissue = field(default_factory=SoftTissue)
     use_surface: bool = True
     surface: SurfaceSettings = field(default_factory=SurfaceSettings)
-    doubt: DoubtSettings = field(default_factory=DoubtSettings)
+    doubt: ConsistencySettings = field(default_factory=ConsistencySettings)
     holding: HoldingSettings = field(default_factory=HoldingSettings)
     finding: FindingSettings = field(default_factory=FindingSettings)
     said: SaidSettings = field(default_factory=SaidSettings)

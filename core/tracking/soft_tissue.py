@@ -1,26 +1,36 @@
-"""How skin and relief of the back of the hand leave their calibrated places, and come back.
+"""How skin and relief of the back of the hand leave their calibrated places, stay there, and come back.
 
-Every number relaxes towards zero and is pushed at random (an Ornstein-Uhlenbeck process): over ``lasts_s`` it may take
-any value of its scatter. What no picture tells of it stays uncertain, and widens the angles' standard deviation
-instead of turning the hand. Sizes from clinical reference 2 and 10: skin over knuckles glides 2 to 6 mm, mostly along
+Tissue rests most of the time, and moves as fingers, thumb or wrist do: what it does is a mode of the filter. *Home* it
+lies as calibrated; *still* what was displaced stays where it is; as it moves, a part of it is pushed at random (an
+Ornstein-Uhlenbeck process): knuckles *glide*, the arch *cups*, the skin of *thumb* or *wrist* is drawn along. What no
+picture tells of it stays uncertain, and widens the angles' standard deviation instead of turning the hand. Where only
+blobs are seen tissue cannot be told from bone, and all of it is pushed all the time.
+
+Sizes from clinical reference 2 and 10: skin over knuckles glides 2 to 6 mm, mostly along
 the ray; metacarpals 4 and 5 flex by 20 and 27 degrees at most, tied to each other; the wrist's and thumb's skin 2 to 5.
 """
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass
 from functools import lru_cache
 
 import numpy as np
 
-from carpus.core.tracking.palm_state import PALM_DISCS, RELIEF, SIZE, SKIN
+from carpus.core.tracking.palm_state import PALM_DISCS, RELIEF, SIZE, SKIN, SOFT
 from carpus.core.types import FloatArray
 
-_WRIST, _CMC1 = 0, 1
 LOOSE = np.array([4, 5])
 """MCP4 and MCP5, whose metacarpals flex."""
+HOME, STILL, GLIDE, CUP, THUMB, WRIST = range(6)
+"""Modes of the tissue: the first two are rest."""
+_MOVING = np.array([GLIDE, CUP, THUMB, WRIST])
+_WRIST_DISC, _CMC1 = 0, 1
 _KNUCKLES = range(2, 6)
+_SOFT = SOFT.stop - SOFT.start
+_RELIEF = slice(RELIEF.start - SOFT.start, _SOFT)
+_OF_WRIST, _OF_THUMB, _OF_KNUCKLES = slice(0, 3), slice(3, 6), slice(6, SKIN.stop - SKIN.start)
+_AT_ONCE_S = 1e-9
 
 
 @dataclass(frozen=True, slots=True)
@@ -30,7 +40,16 @@ class SoftTissue:
     ``knuckle_*`` of MCP2 and MCP3, common to neighbours by the share ``glides_together``; ``wrist_*`` and ``thumb_*``
     of WRIST and CMC1; ``cupping_m`` how far MCP4 and MCP5 sink as the arch closes, both together by the share
     ``cups_together``; besides, these glide by ``loose_along_m`` and ``loose_across_m``. ``lasts_s``: how long a
-    displacement lasts. ``relief_*``: turn about X and Y and height of the surface, and how long they last.
+    displacement lasts while tissue moves, ``rests_s`` while it rests, looking back
+    ``creeps_s``, since what the filter took for rest may have been a slow motion; home it is within ``home_m``.
+
+    Per second: resting tissue begins to move at ``leaving_per_s``, the wrist's the more the faster the hand turns, by
+    ``turning_rad_s``; a motion ends after ``dwell_s``, with the chance ``homing_share`` at home; what is displaced goes
+    home at ``homing_per_s``, and home ends without a motion at ``home_ends_per_s``. Just calibrated, each other
+    mode has the chance ``elsewhere_at_start``.
+
+    ``relief_*`` scatter of the surface's turn about X and Y and height, and how long that lasts: home it is what the
+    depth's errors make of it as they change with the place in the picture.
     """
 
     knuckle_along_m: float = 0.0020
@@ -46,16 +65,119 @@ class SoftTissue:
     loose_across_m: tuple[float, float] = (0.0008, 0.0012)
     cups_together: float = 0.9
     lasts_s: float = 1.5
-    relief_turn_rad: tuple[float, float] = (0.015, 0.009)
-    relief_up_m: float = 0.0004
-    relief_lasts_s: float = 4.0
+    rests_s: float = 1e4
+    creeps_s: float = 300.0
+    home_m: float = 1e-5
+    leaving_per_s: float = 0.05
+    turning_rad_s: float = 0.5
+    dwell_s: float = 0.5
+    homing_share: float = 0.1
+    homing_per_s: float = 0.3
+    home_ends_per_s: float = 0.01
+    elsewhere_at_start: float = 0.02
+    relief_home: tuple[float, float, float] = (0.010, 0.005, 0.00015)
+    relief_home_s: float = 1.0
+    relief_still: tuple[float, float, float] = (0.015, 0.009, 0.0004)
+    relief_still_s: float = 4.0
+    relief_moving: tuple[float, float, float] = (0.015, 0.012, 0.0008)
+
+
+@dataclass(frozen=True, slots=True)
+class TissueModes:
+    """What skin and relief (r numbers) may be doing, J modes, the first ``resting`` of them at rest: they settle at
+    ``settled`` (J, r, r), each number over ``lasts_s`` (J, r); ``rates`` (J, J) per second of going over from row to
+    column, that to the wrist's by how fast the hand turns, in ``turning_rad_s``; looking back, resting skin is pushed
+    ``creep`` times as much; ``elsewhere`` is the chance of each mode but home of tissue just calibrated."""
+
+    settled: FloatArray
+    lasts_s: FloatArray
+    rates: FloatArray
+    resting: int
+    turning_rad_s: float
+    creep: float = 1.0
+    elsewhere: float = 0.0
+
+    @property
+    def count(self) -> int:
+        return len(self.settled)
+
+    def kept(self, dt_s: float) -> FloatArray:
+        """Share (J, r) of each number that is left after ``dt_s``."""
+        return np.asarray(np.exp(-dt_s / self.lasts_s))
+
+    def pushed(self, kept: FloatArray) -> FloatArray:
+        """Noise (J, r, r) of a step that keeps so much."""
+        return np.asarray(self.settled * (1.0 - kept[:, :, None] * kept[:, None, :]))
+
+    def switch(self, turning_rad_s: float, dt_s: float) -> FloatArray:
+        """Probability (J, J) to go from row to column mode in ``dt_s``."""
+        rates = self.rates
+        if self.count > 1:
+            rates = rates.copy()
+            rates[: self.resting, WRIST] *= 0.2 + min(turning_rad_s / self.turning_rad_s, 3.0)
+        total = rates.sum(axis=1)
+        leave = -np.expm1(-total * dt_s)
+        out = rates * (leave / np.maximum(total, 1e-12))[:, None]
+        out.reshape(-1)[:: self.count + 1] = 1.0 - leave
+        return np.asarray(out)
+
+    @property
+    def at_rest(self) -> FloatArray:
+        """Probability (J,) of tissue just calibrated."""
+        out = np.full(self.count, self.elsewhere)
+        out[HOME] = 1.0 - self.elsewhere * (self.count - 1)
+        return out
+
+
+@lru_cache(maxsize=8)
+def always_pushed(tissue: SoftTissue) -> TissueModes:
+    """One mode, in which all of it moves."""
+    return TissueModes(
+        _scatter(tissue)[None], np.full((1, _SOFT), tissue.lasts_s), np.zeros((1, 1)), 1, tissue.turning_rad_s
+    )
+
+
+@lru_cache(maxsize=8)
+def resting_or_moving(tissue: SoftTissue) -> TissueModes:
+    """The six modes."""
+    settled = np.repeat(_scatter(tissue)[None], 6, axis=0)
+    lasts_s = np.full((6, _SOFT), tissue.rests_s)
+    settled[HOME] = tissue.home_m**2 * np.eye(_SOFT)
+    lasts_s[HOME] = _AT_ONCE_S
+    settled[GLIDE, : _RELIEF.start, : _RELIEF.start] -= _cupping(tissue)
+    for modes, numbers in (((GLIDE, CUP), _OF_KNUCKLES), ((THUMB,), _OF_THUMB), ((WRIST,), _OF_WRIST)):
+        lasts_s[list(modes), numbers] = tissue.lasts_s
+    lasts_s[_MOVING, _RELIEF] = tissue.lasts_s
+    at_rest = (tissue.relief_still, tissue.relief_still_s)
+    # The thumb's skin does not lie on the surface that is measured.
+    for mode, (sd, relief_s) in (
+        (HOME, (tissue.relief_home, tissue.relief_home_s)),
+        (STILL, at_rest),
+        (THUMB, at_rest),
+    ):
+        settled[mode, _RELIEF, _RELIEF] = np.diag(sd) ** 2
+        lasts_s[mode, _RELIEF] = relief_s
+    rates = np.zeros((6, 6))
+    rates[:GLIDE, _MOVING] = tissue.leaving_per_s / len(_MOVING)
+    rates[STILL, HOME], rates[HOME, STILL] = tissue.homing_per_s, tissue.home_ends_per_s
+    rates[_MOVING, STILL] = (1.0 - tissue.homing_share) / tissue.dwell_s
+    rates[_MOVING, HOME] = tissue.homing_share / tissue.dwell_s
+    creep = tissue.rests_s / tissue.creeps_s
+    return TissueModes(settled, lasts_s, rates, 2, tissue.turning_rad_s, creep, tissue.elsewhere_at_start)
 
 
 @lru_cache(maxsize=8)
 def settled_covariance(tissue: SoftTissue) -> FloatArray:
     """Covariance (n, n) that skin and relief have when nothing was seen for long; zero elsewhere."""
+    out = np.zeros((SIZE, SIZE))
+    out[SOFT, SOFT] = _scatter(tissue)
+    return out
+
+
+def _scatter(tissue: SoftTissue) -> FloatArray:
+    """Covariance (r, r) of skin and relief that may have moved in any way."""
     sd = np.zeros((PALM_DISCS, 3))
-    sd[_WRIST] = tissue.wrist_along_m, tissue.wrist_across_m, tissue.wrist_up_m
+    sd[_WRIST_DISC] = tissue.wrist_along_m, tissue.wrist_across_m, tissue.wrist_up_m
     sd[_CMC1] = tissue.thumb_m
     sd[2:] = tissue.knuckle_along_m, tissue.knuckle_across_m, tissue.knuckle_up_m
     sd[LOOSE, 0], sd[LOOSE, 1] = tissue.loose_along_m, tissue.loose_across_m
@@ -66,20 +188,15 @@ def settled_covariance(tissue: SoftTissue) -> FloatArray:
         for other in _KNUCKLES:
             if one != other:
                 own[one, 0, other, 0] = tissue.glides_together * sd[one, 0] * sd[other, 0]
-    down = np.array(tissue.cupping_m)
-    own[LOOSE[:, None], 2, LOOSE, 2] += np.outer(down, down) * (
-        tissue.cups_together + (1.0 - tissue.cups_together) * np.eye(2)
-    )
-    out = np.zeros((SIZE, SIZE))
-    out[SKIN, SKIN] = own.reshape(3 * PALM_DISCS, -1)
-    relief = np.arange(RELIEF.start, RELIEF.stop)
-    out[relief, relief] = np.array([*tissue.relief_turn_rad, tissue.relief_up_m]) ** 2
+    out = np.zeros((_SOFT, _SOFT))
+    out[: _RELIEF.start, : _RELIEF.start] = own.reshape(3 * PALM_DISCS, -1) + _cupping(tissue)
+    out[_RELIEF, _RELIEF] = np.diag(tissue.relief_moving) ** 2
     return out
 
 
-def keeping(tissue: SoftTissue, dt_s: float) -> FloatArray:
-    """Share (n,) of each number that is left after ``dt_s``: one but for skin and relief."""
-    out = np.ones(SIZE)
-    out[SKIN] = math.exp(-dt_s / tissue.lasts_s)
-    out[RELIEF] = math.exp(-dt_s / tissue.relief_lasts_s)
-    return out
+def _cupping(tissue: SoftTissue) -> FloatArray:
+    """Covariance (18, 18) of the discs' places by the closing arch alone."""
+    out = np.zeros((PALM_DISCS, 3, PALM_DISCS, 3))
+    together = tissue.cups_together + (1.0 - tissue.cups_together) * np.eye(2)
+    out[LOOSE[:, None], 2, LOOSE, 2] = np.outer(tissue.cupping_m, tissue.cupping_m) * together
+    return out.reshape(3 * PALM_DISCS, -1)

@@ -7,14 +7,14 @@ ride on the skin, mislead. It tells the turns about X and Y and the height; the 
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from carpus.core import so3
 from carpus.core.hand.back_surface import BackSurface
 from carpus.core.tracking.kernel import Bank, Line, corrected
-from carpus.core.tracking.palm_state import POSITION, RELIEF, SIZE, TURN, PalmBelief
+from carpus.core.tracking.palm_state import BACK, POSITION, RELIEF, SIZE, TURN, PalmBelief
 from carpus.core.tracking.palm_view import View
 from carpus.core.types import FloatArray, SurfaceSamples
 
@@ -31,7 +31,8 @@ class SurfaceSettings:
     two standard deviations), or all of it where the sensor has no such steps; ``reading_per_m`` is a reading's at
     least, over the depth squared.
     ``turn_sd_rad`` and ``up_sd_m`` that no number of readings takes away from one picture. Beyond ``most_nis`` it is
-    not this surface."""
+    not this surface. ``goes_on``: by how much more the error of one picture counts since the next has a part of it
+    again; ``stays``: share of it that comes again as long as the hand is still."""
 
     steps: int = 3
     huber_m: float = 0.003
@@ -42,6 +43,8 @@ class SurfaceSettings:
     turn_sd_rad: float = 0.004
     up_sd_m: float = 0.0002
     most_nis: float = 40.0
+    stays: float = 0.6
+    goes_on: float = 1.5
 
 
 @dataclass(frozen=True, slots=True)
@@ -103,7 +106,7 @@ def surface_measurement(
     scatter2 = max(spread2, reading_m**2)
     shared = 1.0 if sensor.averages else settings.shared
     together = _as_errors_go(weighed[:, near], samples.pixel[near], sensor.patch_px, shared)
-    covariance = scatter2 * (inverse @ together @ inverse)
+    covariance = settings.goes_on * scatter2 * (inverse @ together @ inverse)
     # What stays and changes slowly over the picture tilts and lifts the surface as a whole.
     up_m = float(sensor.stays_sd_m(np.array(depth_m))) if sensor.stays_px else 0.0
     turn_rad = up_m * view.camera.fx_px / (max(sensor.stays_px, 1.0) * depth_m)
@@ -117,13 +120,26 @@ def surface_measurement(
     out = np.zeros((3, SIZE))
     out[:, TURN] = by_turn
     out[:, POSITION] = by_shift @ belief.rotation_w2_w0.T
-    out[:, RELIEF] = np.eye(3)
-    value = by_shift @ shifted + by_turn @ turned
+    out[:, RELIEF] = out[:, BACK] = np.eye(3)
+    # What the belief's own relief explains of it is no error.
+    value = by_shift @ shifted + by_turn @ turned - belief.value[RELIEF] - belief.value[BACK]
     return SurfaceMeasurement(value, np.asarray(covariance, dtype=np.float64), out, count)
 
 
+def calibrated_covariance(surface: BackSurface, view: View, settings: SurfaceSettings) -> FloatArray:
+    """Covariance (3, 3) of the calibrated surface's own turn about X and Y and height: the share ``stays`` of one
+    picture's errors, since these come again in every picture of a still hand and no averaging removes them."""
+    node = surface.places_m()
+    in_camera = node @ view.rotation_w0_cam.T + view.translation_w0_cam_m
+    samples = SurfaceSamples(view.camera.project(in_camera), in_camera[:, 2])
+    neutral = PalmBelief(np.eye(3), np.zeros(SIZE), np.eye(SIZE))
+    bare = replace(settings, turn_sd_rad=0.0, up_sd_m=0.0, goes_on=1.0)
+    found = surface_measurement(neutral, samples, surface, view, bare)
+    return np.eye(3) if found is None else settings.stays**2 * found.covariance
+
+
 def levelled_bank(
-    bank: Bank, found: SurfaceMeasurement, shares: tuple[FloatArray, FloatArray], settings: SurfaceSettings
+    bank: Bank, found: SurfaceMeasurement, shares: tuple[FloatArray, FloatArray] | None, settings: SurfaceSettings
 ) -> Bank | None:
     """The palm's modes corrected by what the surface says, numbers taking their ``shares``; None where it is so far
     from what was believed that it is another surface."""

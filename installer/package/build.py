@@ -46,7 +46,8 @@ def run(*command: str | Path, **options: object) -> str:
 
 def version() -> str:
     """From the one place where it stands."""
-    found = re.search(r'^__version__ = "(.+)"', (ROOT / "carpus.py").read_text(encoding="utf-8"), re.MULTILINE)
+    face = (ROOT / "carpus" / "__init__.py").read_text(encoding="utf-8")
+    found = re.search(r'^__version__ = "(.+)"', face, re.MULTILINE)
     assert found is not None
     return found[1]
 

@@ -122,7 +122,7 @@ def with_one_blas_less(parts: Path) -> None:
 def strip(parts: Path) -> None:
     """Take debugging symbols out, except where it would spoil a library: the tools that put wheels together move the
     pieces of a file about, and what strip makes of it then may not load."""
-    folders = ("python3*/lib-dynload", "scipy", "numpy", "yaml", "h5py", "sqlcipher3")
+    folders = ("python3*/lib-dynload", "scipy", "numpy", "yaml", "h5py")
     libraries = [path for folder in folders for path in parts.glob(f"{folder}/**/*.so")]
     for library in (*parts.glob("libpython*.so*"), *libraries):
         stripped = library.with_name(library.name + ".stripped")

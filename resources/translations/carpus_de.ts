@@ -537,7 +537,7 @@
     </message>
     <message>
         <source>no change beyond error</source>
-        <translation>im Rahmen des Fehlers</translation>
+        <translation type="vanished">im Rahmen des Fehlers</translation>
     </message>
     <message>
         <source>improved, just beyond error</source>
@@ -1888,26 +1888,6 @@
         <translation>Handgelenk</translation>
     </message>
     <message>
-        <source>Thumb base</source>
-        <translation type="vanished">Sattelgelenk</translation>
-    </message>
-    <message>
-        <source>{finger} knuckle</source>
-        <translation type="vanished">{finger}-Grundgelenk</translation>
-    </message>
-    <message>
-        <source>{finger} middle joint</source>
-        <translation type="vanished">{finger}-Mittelgelenk</translation>
-    </message>
-    <message>
-        <source>{finger} end joint</source>
-        <translation type="vanished">{finger}-Endgelenk</translation>
-    </message>
-    <message>
-        <source>{finger} tip</source>
-        <translation type="vanished">{finger}-Spitze</translation>
-    </message>
-    <message>
         <source>Index</source>
         <translation>Zeigefinger</translation>
     </message>
@@ -1974,10 +1954,6 @@
     <message>
         <source>Turn the little-finger side up</source>
         <translation>Kleinfingerseite nach oben drehen</translation>
-    </message>
-    <message>
-        <source>Take all names</source>
-        <translation>Alle übernehmen</translation>
     </message>
     <message>
         <source>Take {count} names</source>
@@ -2548,10 +2524,6 @@
         <translation>nicht verglichen</translation>
     </message>
     <message>
-        <source>other set-up: not compared</source>
-        <translation type="vanished">anderer Aufbau: nicht verglichen</translation>
-    </message>
-    <message>
         <source>at least: hidden in part</source>
         <translation>mindestens: zum Teil verdeckt</translation>
     </message>
@@ -2677,7 +2649,7 @@
     </message>
     <message>
         <source>No change beyond measurement error since {day}.</source>
-        <translation>Seit {day} keine Änderung über den Messfehler hinaus.</translation>
+        <translation type="vanished">Seit {day} keine Änderung über den Messfehler hinaus.</translation>
     </message>
     <message>
         <source>Not judged: the joints were hidden in part.</source>
@@ -2721,7 +2693,7 @@
     </message>
     <message>
         <source>{name}: no change beyond measurement error.</source>
-        <translation>{name}: keine Änderung über den Messfehler hinaus.</translation>
+        <translation type="vanished">{name}: keine Änderung über den Messfehler hinaus.</translation>
     </message>
     <message>
         <source>hidden in part, or too few</source>
@@ -2814,14 +2786,6 @@
     <message>
         <source>flex.</source>
         <translation>Flex.</translation>
-    </message>
-    <message>
-        <source>back</source>
-        <translation type="vanished">zurück</translation>
-    </message>
-    <message>
-        <source>across</source>
-        <translation type="vanished">quer</translation>
     </message>
     <message>
         <source>Movement time</source>
@@ -3396,18 +3360,6 @@
         <translation>Heute Drehung</translation>
     </message>
     <message>
-        <source>side</source>
-        <translation type="vanished">seitlich</translation>
-    </message>
-    <message>
-        <source>bending</source>
-        <translation type="vanished">Beugung</translation>
-    </message>
-    <message>
-        <source>turning</source>
-        <translation type="vanished">Drehung</translation>
-    </message>
-    <message>
         <source>Today</source>
         <translation>Heute</translation>
     </message>
@@ -3601,7 +3553,7 @@
     </message>
     <message>
         <source>No change beyond measurement error since {when}.</source>
-        <translation>Seit {when} keine Änderung über den Messfehler hinaus.</translation>
+        <translation type="vanished">Seit {when} keine Änderung über den Messfehler hinaus.</translation>
     </message>
     <message>
         <source>{name} {size} better</source>
@@ -3900,10 +3852,6 @@
         <translation>abgebrochen</translation>
     </message>
     <message>
-        <source>ticked</source>
-        <translation type="vanished">angekreuzt</translation>
-    </message>
-    <message>
         <source>What counts as a change</source>
         <translation>Was als Änderung zählt</translation>
     </message>
@@ -4180,10 +4128,6 @@
         <translation>Pronationsdefizit</translation>
     </message>
     <message>
-        <source>{movement} deficit</source>
-        <translation type="vanished">Defizit {movement}</translation>
-    </message>
-    <message>
         <source>lacks {angle}</source>
         <translation>es fehlen {angle}</translation>
     </message>
@@ -4260,10 +4204,6 @@
         <translation>Nehmen Sie das Bild auf, wenn die Hand flach liegt und jeder Punkt zu sehen ist.</translation>
     </message>
     <message>
-        <source>Click the blue discs in the picture, each as it is asked for above.</source>
-        <translation>Klicken Sie die blauen Punkte im Bild an, jeden, wie oben gefragt.</translation>
-    </message>
-    <message>
         <source>Every disc has its name and every check is good: start here.</source>
         <translation>Jeder Punkt hat seinen Namen und jede Prüfung ist gut: Beginnen Sie hier.</translation>
     </message>
@@ -4293,7 +4233,7 @@
     </message>
     <message>
         <source>no change</source>
-        <translation>unverändert</translation>
+        <translation type="vanished">unverändert</translation>
     </message>
     <message>
         <source>the other hand</source>
@@ -4365,7 +4305,7 @@
     </message>
     <message>
         <source>the same</source>
-        <translation>gleich</translation>
+        <translation type="vanished">gleich</translation>
     </message>
     <message>
         <source>{size} more</source>
@@ -4428,20 +4368,12 @@
         <translation>Alles ist gespeichert, wie es live gemessen wurde.</translation>
     </message>
     <message>
-        <source>All other files are as they were.</source>
-        <translation>Alle anderen Dateien sind, wie sie waren.</translation>
-    </message>
-    <message>
         <source>All other pictures are used, and the gaps are marked.</source>
         <translation>Alle anderen Bilder werden verwendet, und die Lücken sind gekennzeichnet.</translation>
     </message>
     <message>
         <source>All sessions are safe; names and notes are missing. The damaged list is kept as {subject}.</source>
         <translation>Alle Sitzungen sind sicher; Namen und Notizen fehlen. Die beschädigte Liste ist aufbewahrt: {subject}.</translation>
-    </message>
-    <message>
-        <source>An encrypted file cannot be read: {subject} ({detail}).</source>
-        <translation>Eine verschlüsselte Datei ist nicht lesbar: {subject} ({detail}).</translation>
     </message>
     <message>
         <source>Another Carpus is using the patients of {subject}.</source>
@@ -4468,20 +4400,12 @@
         <translation>Sicherungen können dort nicht liegen: {subject} ({detail}).</translation>
     </message>
     <message>
-        <source>Bring it back from a back-up.</source>
-        <translation>Holen Sie sie aus einer Sicherung.</translation>
-    </message>
-    <message>
         <source>Bring the firmware up to date with the maker&apos;s RealSense Viewer.</source>
         <translation>Bringen Sie die Firmware mit dem RealSense Viewer des Herstellers auf den neuesten Stand.</translation>
     </message>
     <message>
         <source>Calibrate the camera again, or take the file away to use the usual values.</source>
         <translation>Kalibrieren Sie die Kamera neu, oder entfernen Sie die Datei, um die üblichen Werte zu verwenden.</translation>
-    </message>
-    <message>
-        <source>Camera rights</source>
-        <translation>Kamerarechte</translation>
     </message>
     <message>
         <source>Camera rights, {title}</source>
@@ -4506,10 +4430,6 @@
     <message>
         <source>Carpus waits for its camera: {subject}. Another one is there ({detail}).</source>
         <translation>Carpus wartet auf seine Kamera: {subject}. Eine andere ist da ({detail}).</translation>
-    </message>
-    <message>
-        <source>Check it by “carpus check-card --serial NUMBER” with the number printed on it.</source>
-        <translation type="vanished">Prüfen Sie sie mit „carpus check-card --serial NUMMER“ und der aufgedruckten Nummer.</translation>
     </message>
     <message>
         <source>Check that a disc was clicked there, and not another blue spot.</source>
@@ -4542,10 +4462,6 @@
     <message>
         <source>Check the patient, the side, and that every marker is clicked under its own name.</source>
         <translation>Prüfen Sie Patient und Seite, und ob jeder Marker unter seinem Namen angeklickt ist.</translation>
-    </message>
-    <message>
-        <source>Check this computer’s disk, and back up.</source>
-        <translation>Prüfen Sie den Datenträger dieses Computers, und sichern Sie.</translation>
     </message>
     <message>
         <source>Choose a folder on another disk.</source>
@@ -4744,10 +4660,6 @@
         <translation>Installieren Sie Carpus neu: Ein Teil fehlt.</translation>
     </message>
     <message>
-        <source>Install Carpus anew, with the Python package sqlcipher3.</source>
-        <translation>Installieren Sie Carpus neu, mit dem Python-Paket sqlcipher3.</translation>
-    </message>
-    <message>
         <source>Install OpenNI2 from the camera&apos;s maker, then start Carpus again.</source>
         <translation>Installieren Sie OpenNI2 vom Hersteller der Kamera, und starten Sie Carpus neu.</translation>
     </message>
@@ -4758,10 +4670,6 @@
     <message>
         <source>Install it again.</source>
         <translation>Installieren Sie es neu.</translation>
-    </message>
-    <message>
-        <source>Install it with pip.</source>
-        <translation>Installieren Sie es mit pip.</translation>
     </message>
     <message>
         <source>Install it, and what it names, again.</source>
@@ -4852,10 +4760,6 @@
         <translation>Noch nicht alle Dateien ließen sich löschen (übrig: {detail}, etwa {subject}).</translation>
     </message>
     <message>
-        <source>Not every file could be encrypted or decrypted: {subject}, {detail} in all.</source>
-        <translation>Nicht jede Datei ließ sich ver- oder entschlüsseln: {subject}, insgesamt {detail}.</translation>
-    </message>
-    <message>
         <source>Nothing has been changed, and nothing is lost.</source>
         <translation>Nichts ist geändert, und nichts ist verloren.</translation>
     </message>
@@ -4878,10 +4782,6 @@
     <message>
         <source>Nothing says whether depth lies on colour in {subject}; Carpus takes it so.</source>
         <translation>Nichts sagt, ob sich Tiefe und Farbe decken: {subject}; Carpus nimmt es an.</translation>
-    </message>
-    <message>
-        <source>Nothing was kept; what was measured before stays.</source>
-        <translation type="vanished">Nichts wurde aufbewahrt; früher Gemessenes bleibt.</translation>
     </message>
     <message>
         <source>Once the disk answers, start Carpus again: it finishes the recording.</source>
@@ -4988,10 +4888,6 @@
         <translation>Ausführen: sudo apt-get install libopenni2-0</translation>
     </message>
     <message>
-        <source>See to the disk or bring them back from a back-up; Carpus goes on with them at its next start.</source>
-        <translation>Sehen Sie nach dem Datenträger, oder holen Sie sie aus einer Sicherung; Carpus macht beim nächsten Start damit weiter.</translation>
-    </message>
-    <message>
         <source>Set colour and depth to one size next time.</source>
         <translation>Stellen Sie nächstes Mal Farbe und Tiefe auf gleiche Größe.</translation>
     </message>
@@ -5001,7 +4897,7 @@
     </message>
     <message>
         <source>Single exercises can be measured as ever. Put a copy of the file back, or make the sets anew.</source>
-        <translation>Einzelne Übungen lassen sich messen wie immer. Legen Sie eine Kopie der Datei zurück, oder legen Sie die Folgen neu an.</translation>
+        <translation type="vanished">Einzelne Übungen lassen sich messen wie immer. Legen Sie eine Kopie der Datei zurück, oder legen Sie die Folgen neu an.</translation>
     </message>
     <message>
         <source>Some pictures are smaller and have been enlarged: {subject} ({detail}).</source>
@@ -5058,10 +4954,6 @@
     <message>
         <source>The back-up is damaged: a content read back is not what was written ({subject}, {detail}).</source>
         <translation>Die Sicherung ist beschädigt: Zurückgelesenes ist nicht das Geschriebene ({subject}, {detail}).</translation>
-    </message>
-    <message>
-        <source>The camera does not say its number: {subject}.</source>
-        <translation type="vanished">Die Kamera nennt ihre Nummer nicht: {subject}.</translation>
     </message>
     <message>
         <source>1. Print both pages at 100 % on plain white paper. Check the rulers: 100 mm.</source>
@@ -5208,10 +5100,6 @@
         <translation>Der Treiber der Kamera fehlt auf diesem Computer oder lässt sich nicht laden ({detail}).</translation>
     </message>
     <message>
-        <source>The file is as it was.</source>
-        <translation>Die Datei ist, wie sie war.</translation>
-    </message>
-    <message>
         <source>The file is untouched, and all other sessions are safe.</source>
         <translation>Die Datei ist unberührt, und alle anderen Sitzungen sind sicher.</translation>
     </message>
@@ -5288,10 +5176,6 @@
         <translation>Das fertige Paket hat keinen Treiber dafür: Installieren Sie Carpus mit pip, dann ausführen: {command}</translation>
     </message>
     <message>
-        <source>The part of Carpus that encrypts is not installed here ({detail}).</source>
-        <translation>Der Teil von Carpus, der verschlüsselt, ist hier nicht installiert ({detail}).</translation>
-    </message>
-    <message>
         <source>The pictures of the board are too few or too alike: {subject} ({detail}).</source>
         <translation>Die Bilder der Tafel sind zu wenige oder zu ähnlich: {subject} ({detail}).</translation>
     </message>
@@ -5345,7 +5229,7 @@
     </message>
     <message>
         <source>The sets of exercises cannot be read: {subject} ({detail}).</source>
-        <translation>Die Übungsfolgen sind nicht lesbar: {subject} ({detail}).</translation>
+        <translation type="vanished">Die Übungsfolgen sind nicht lesbar: {subject} ({detail}).</translation>
     </message>
     <message>
         <source>The times of the recording do not rise: {subject} ({detail}).</source>
@@ -5372,20 +5256,12 @@
         <translation>Diesen Ordner gibt es nicht: {subject}.</translation>
     </message>
     <message>
-        <source>There is no recording at {subject}.</source>
-        <translation>Hier gibt es keine Aufnahme: {subject}.</translation>
-    </message>
-    <message>
         <source>There is no set of markers with the name {subject} ({detail}).</source>
         <translation>Diesen Markersatz gibt es nicht: {subject} ({detail}).</translation>
     </message>
     <message>
         <source>There is one more blue spot on the hand than there are names.</source>
         <translation>Auf der Hand ist eine blaue Stelle mehr, als es Namen gibt.</translation>
-    </message>
-    <message>
-        <source>These are as they were, and the key is kept.</source>
-        <translation>Diese sind, wie sie waren, und der Schlüssel bleibt erhalten.</translation>
     </message>
     <message>
         <source>These sessions make no test and retest: {subject} ({detail}).</source>
@@ -5412,20 +5288,12 @@
         <translation>Diese Kamera sagt nicht, wann sie ein Bild aufnahm; ihre Zeiten sind die der Ankunft: Geschwindigkeiten sind grob.</translation>
     </message>
     <message>
-        <source>This is not the PIN of {subject}, and not its recovery code.</source>
-        <translation>Das ist weder die PIN noch der Wiederherstellungscode: {subject}.</translation>
-    </message>
-    <message>
         <source>This line is 100 mm long. If it is not,</source>
         <translation>Diese Linie ist 100 mm lang. Wenn nicht,</translation>
     </message>
     <message>
         <source>This looks like the other hand.</source>
         <translation>Das sieht nach der anderen Hand aus.</translation>
-    </message>
-    <message>
-        <source>This needs carpus[{subject}] ({detail}), which is not installed.</source>
-        <translation>Dafür fehlt carpus[{subject}] ({detail}): Es ist nicht installiert.</translation>
     </message>
     <message>
         <source>This port is slow for it. {port}</source>
@@ -5460,16 +5328,8 @@
         <translation>Versuchen Sie es noch einmal, oder berichtigen Sie ein weiteres Bild.</translation>
     </message>
     <message>
-        <source>Try again; if the PIN is right, bring the key files (encryption…) back from a back-up.</source>
-        <translation>Versuchen Sie es noch einmal; stimmt die PIN, holen Sie die Schlüsseldateien (encryption…) aus einer Sicherung.</translation>
-    </message>
-    <message>
         <source>Turn the back of the hand to the camera.</source>
         <translation>Drehen Sie den Handrücken zur Kamera.</translation>
-    </message>
-    <message>
-        <source>Type the PIN when asked, or set CARPUS_PIN to it.</source>
-        <translation>Geben Sie die PIN ein, wenn danach gefragt wird, oder setzen Sie CARPUS_PIN.</translation>
     </message>
     <message>
         <source>Unplug the camera, plug it in again and start once more.</source>
@@ -5582,22 +5442,6 @@
     <message>
         <source>angles by {format}</source>
         <translation>Winkel aus {format}</translation>
-    </message>
-    <message>
-        <source>another program has exchanged it</source>
-        <translation>ein anderes Programm hat sie ausgetauscht</translation>
-    </message>
-    <message>
-        <source>another program has it open</source>
-        <translation>ein anderes Programm hat sie offen</translation>
-    </message>
-    <message>
-        <source>another program has it open: {cause}</source>
-        <translation>ein anderes Programm hat sie offen: {cause}</translation>
-    </message>
-    <message>
-        <source>block {number} is not there</source>
-        <translation>Block {number} fehlt</translation>
     </message>
     <message>
         <source>camera_matrix has {count} numbers, 9 expected</source>
@@ -5722,10 +5566,6 @@
     <message>
         <source>damaged: {cause}</source>
         <translation>beschädigt: {cause}</translation>
-    </message>
-    <message>
-        <source>damaged: {detail}</source>
-        <translation>beschädigt: {detail}</translation>
     </message>
     <message>
         <source>damaged: {path} does not fit {path2}</source>
@@ -5912,10 +5752,6 @@
         <translation>ihre Spalten sind nicht, was ihre Namen sagen</translation>
     </message>
     <message>
-        <source>its facts are not there</source>
-        <translation>ihre Angaben fehlen</translation>
-    </message>
-    <message>
         <source>its head is damaged</source>
         <translation>ihr Kopf ist beschädigt</translation>
     </message>
@@ -6049,7 +5885,7 @@
     </message>
     <message>
         <source>names in it are no text</source>
-        <translation>Namen darin sind kein Text</translation>
+        <translation type="vanished">Namen darin sind kein Text</translation>
     </message>
     <message>
         <source>not installed; only a RealSense and its recordings need it</source>
@@ -6057,15 +5893,11 @@
     </message>
     <message>
         <source>the form of the reports cannot be read</source>
-        <translation>die Form der Berichte ist nicht lesbar</translation>
+        <translation type="vanished">die Form der Berichte ist nicht lesbar</translation>
     </message>
     <message>
         <source>the logo of the reports is gone; choose it again</source>
-        <translation>das Logo der Berichte ist weg; wählen Sie es neu</translation>
-    </message>
-    <message>
-        <source>neither a TUM folder, an .oni file, a RealSense recording nor a raw recording</source>
-        <translation type="vanished">weder ein TUM-Ordner noch eine .oni-Datei, RealSense- oder Rohaufnahme</translation>
+        <translation type="vanished">das Logo der Berichte ist weg; wählen Sie es neu</translation>
     </message>
     <message>
         <source>no MOT: it has no end of its header</source>
@@ -6273,7 +6105,7 @@
     </message>
     <message>
         <source>the comment cannot be read</source>
-        <translation>die Bemerkung ist nicht lesbar</translation>
+        <translation type="vanished">die Bemerkung ist nicht lesbar</translation>
     </message>
     <message>
         <source>the curves match by {match} at best: is it the same movement?</source>
@@ -6290,10 +6122,6 @@
     <message>
         <source>the focal length is known to {share} % only</source>
         <translation>die Brennweite ist nur auf {share} % bekannt</translation>
-    </message>
-    <message>
-        <source>the library sees other pictures than the file holds</source>
-        <translation type="vanished">die Bibliothek sieht andere Bilder, als die Datei enthält</translation>
     </message>
     <message>
         <source>the session holds no picture</source>
@@ -6432,24 +6260,8 @@
         <translation>Version {version}, dieses Carpus liest bis {count}</translation>
     </message>
     <message>
-        <source>version {version}, this Carpus reads up to {format_version}</source>
-        <translation>Version {version}, dieses Carpus liest bis {format_version}</translation>
-    </message>
-    <message>
-        <source>version {version}, this Carpus reads up to {newest}</source>
-        <translation>Version {version}, dieses Carpus liest bis {newest}</translation>
-    </message>
-    <message>
         <source>what was left out cannot be read</source>
-        <translation>das Ausgelassene ist nicht lesbar</translation>
-    </message>
-    <message>
-        <source>what was written cannot be read back</source>
-        <translation>das Geschriebene ist nicht zurücklesbar</translation>
-    </message>
-    <message>
-        <source>what was written is not what was read</source>
-        <translation>Geschriebenes und Gelesenes sind nicht gleich</translation>
+        <translation type="vanished">das Ausgelassene ist nicht lesbar</translation>
     </message>
     <message>
         <source>wrist</source>
@@ -6584,14 +6396,6 @@
         <translation>{shape} x {shape2} Pixel, vorher {width} x {height}</translation>
     </message>
     <message>
-        <source>{subject} could not be exchanged: what was read back is not what was written.</source>
-        <translation>{subject} ließ sich nicht austauschen: Das Zurückgelesene ist nicht das Geschriebene.</translation>
-    </message>
-    <message>
-        <source>{subject} is encrypted, and its PIN has not been given.</source>
-        <translation>{subject} ist verschlüsselt, und die PIN dazu fehlt.</translation>
-    </message>
-    <message>
         <source>{timestamp_s} s after {last_time_s} s</source>
         <translation>{timestamp_s} s nach {last_time_s} s</translation>
     </message>
@@ -6724,16 +6528,8 @@
         <translation>Seite {number} von {count}</translation>
     </message>
     <message>
-        <source>This picture cannot be read. Choose a PNG, JPEG or SVG file.</source>
-        <translation>Dieses Bild ist nicht lesbar. Wählen Sie eine PNG-, JPEG- oder SVG-Datei.</translation>
-    </message>
-    <message>
         <source>This picture is larger than 8 MB. Choose a smaller one.</source>
         <translation>Dieses Bild ist größer als 8 MB. Wählen Sie ein kleineres.</translation>
-    </message>
-    <message>
-        <source>This file is no picture that Carpus can read. Choose a PNG, JPEG or SVG file.</source>
-        <translation>Diese Datei ist kein Bild, das Carpus lesen kann. Wählen Sie eine PNG-, JPEG- oder SVG-Datei.</translation>
     </message>
     <message>
         <source>This picture is too small to print. Choose one of at least 32 pixels each way.</source>
@@ -6758,6 +6554,374 @@
     <message>
         <source>Practice patient</source>
         <translation>Probepatient</translation>
+    </message>
+    <message>
+        <source>Choose one of the patients that there are.</source>
+        <translation>Wählen Sie einen der Patienten, die es gibt.</translation>
+    </message>
+    <message>
+        <source>Choose the camera by one of these names, in the settings or with --camera.</source>
+        <translation>Wählen Sie die Kamera mit einem dieser Namen, in den Einstellungen oder mit --camera.</translation>
+    </message>
+    <message>
+        <source>Close Carpus first, then try again.</source>
+        <translation>Schließen Sie erst Carpus, und versuchen Sie es dann noch einmal.</translation>
+    </message>
+    <message>
+        <source>Measure one, or name the folder that holds the sessions.</source>
+        <translation>Messen Sie eine, oder nennen Sie den Ordner mit den Sitzungen.</translation>
+    </message>
+    <message>
+        <source>No kind of camera is called {subject} ({detail}).</source>
+        <translation>Keine Art von Kamera heißt {subject} ({detail}).</translation>
+    </message>
+    <message>
+        <source>The window of Carpus, or another program, has the list of patients open: {subject} ({detail}).</source>
+        <translation>Das Fenster von Carpus oder ein anderes Programm hat die Patientenliste geöffnet: {subject} ({detail}).</translation>
+    </message>
+    <message>
+        <source>There is no patient {subject} ({detail}).</source>
+        <translation>Es gibt keinen Patienten {subject} ({detail}).</translation>
+    </message>
+    <message>
+        <source>There is no recording at {subject} ({detail}).</source>
+        <translation>Bei {subject} gibt es keine Aufnahme ({detail}).</translation>
+    </message>
+    <message>
+        <source>There is no session in {subject}.</source>
+        <translation>In {subject} gibt es keine Sitzung.</translation>
+    </message>
+    <message>
+        <source>did you mean “{meant}”? There are: {names}</source>
+        <translation>meinten Sie „{meant}“? Es gibt: {names}</translation>
+    </message>
+    <message>
+        <source>there are none yet</source>
+        <translation>es gibt noch keine</translation>
+    </message>
+    <message>
+        <source>there are: {names}</source>
+        <translation>es gibt: {names}</translation>
+    </message>
+    <message>
+        <source>Ask whoever looks after this computer. {how}</source>
+        <translation>Fragen Sie, wer diesen Computer betreut. {how}</translation>
+    </message>
+    <message>
+        <source>Disk encryption</source>
+        <translation>Verschlüsselung des Datenträgers</translation>
+    </message>
+    <message>
+        <source>Linux encrypts a disk when it is set up (LUKS): choose it when the system is installed, or move the data folder to a disk that was set up so. Keep its passphrase away from this computer.</source>
+        <translation>Linux verschlüsselt einen Datenträger beim Einrichten (LUKS): Wählen Sie es bei der Installation des Systems, oder legen Sie den Datenordner auf einen Datenträger, der so eingerichtet wurde. Bewahren Sie die Passphrase nicht an diesem Computer auf.</translation>
+    </message>
+    <message>
+        <source>Switch it on in Windows: Settings → Privacy and security → Device encryption, or BitLocker in the Control Panel. Keep the recovery key away from this computer.</source>
+        <translation>In Windows einschalten: Einstellungen → Datenschutz und Sicherheit → Geräteverschlüsselung, oder BitLocker in der Systemsteuerung. Bewahren Sie den Wiederherstellungsschlüssel nicht an diesem Computer auf.</translation>
+    </message>
+    <message>
+        <source>Switch it on: System Settings → Privacy and Security → FileVault. Keep the recovery key away from this computer.</source>
+        <translation>Einschalten: Systemeinstellungen → Datenschutz und Sicherheit → FileVault. Bewahren Sie den Wiederherstellungsschlüssel nicht an diesem Computer auf.</translation>
+    </message>
+    <message>
+        <source>The disk of the data folder is encrypted by the system.</source>
+        <translation>Der Datenträger des Datenordners ist vom System verschlüsselt.</translation>
+    </message>
+    <message>
+        <source>The disk of the data folder is not encrypted.</source>
+        <translation>Der Datenträger des Datenordners ist nicht verschlüsselt.</translation>
+    </message>
+    <message>
+        <source>Whether the disk of the data folder is encrypted is not known.</source>
+        <translation>Ob der Datenträger des Datenordners verschlüsselt ist, ist nicht bekannt.</translation>
+    </message>
+    <message>
+        <source>damaged: a blob is in no picture</source>
+        <translation>beschädigt: Ein Fleck liegt in keinem Bild</translation>
+    </message>
+    <message>
+        <source>damaged: its calibration is not one of a hand</source>
+        <translation>beschädigt: Ihre Kalibrierung ist nicht die einer Hand</translation>
+    </message>
+    <message>
+        <source>This picture cannot be read. Choose a PNG or JPEG file.</source>
+        <translation>Dieses Bild kann nicht gelesen werden. Wählen Sie eine PNG- oder JPEG-Datei.</translation>
+    </message>
+    <message>
+        <source>This file is no picture that Carpus can read. Choose a PNG or JPEG file.</source>
+        <translation>Diese Datei ist kein Bild, das Carpus lesen kann. Wählen Sie eine PNG- oder JPEG-Datei.</translation>
+    </message>
+    <message>
+        <source>The hand rests until then.</source>
+        <translation>Bis dahin ruht die Hand.</translation>
+    </message>
+    <message>
+        <source>The movement of the simulated hand is still being drawn.</source>
+        <translation>Die Bewegung der simulierten Hand wird noch gezeichnet.</translation>
+    </message>
+    <message>
+        <source>Wait a moment; it moves by itself.</source>
+        <translation>Warten Sie einen Moment; sie bewegt sich von selbst.</translation>
+    </message>
+    <message>
+        <source>Names are right</source>
+        <translation>Namen stimmen</translation>
+    </message>
+    <message>
+        <source>Drag a name to another disc to change it.</source>
+        <translation>Zum Ändern einen Namen auf einen anderen Punkt ziehen.</translation>
+    </message>
+    <message>
+        <source>Look whether every name is on its disc, then press Enter; click the discs that are asked for above.</source>
+        <translation>Schauen Sie, ob jeder Name auf seinem Punkt liegt, dann Eingabe; klicken Sie die Punkte an, nach denen oben gefragt wird.</translation>
+    </message>
+    <message>
+        <source>This needs the Python package {detail} (carpus[{subject}]), which is not installed.</source>
+        <translation>Dafür braucht es das Python-Paket {detail} (carpus[{subject}]); es ist nicht installiert.</translation>
+    </message>
+    <message>
+        <source>Measure</source>
+        <translation>Messen</translation>
+    </message>
+    <message>
+        <source>Progress</source>
+        <translation>Verlauf</translation>
+    </message>
+    <message>
+        <source>Review</source>
+        <translation>Auswertung</translation>
+    </message>
+    <message>
+        <source>a session or the progress as a PDF in English, German or Italian</source>
+        <translation>eine Sitzung oder der Verlauf als PDF auf Englisch, Deutsch oder Italienisch</translation>
+    </message>
+    <message>
+        <source>a session: picture, curves, repetitions, corrected where need be</source>
+        <translation>eine Sitzung: Bild, Kurven, Wiederholungen, korrigiert wo nötig</translation>
+    </message>
+    <message>
+        <source>how wrist and fingers move, live, every angle with how sure it is</source>
+        <translation>wie sich Handgelenk und Finger bewegen, live, jeder Winkel mit seiner Unsicherheit</translation>
+    </message>
+    <message>
+        <source>of a patient from session to session, beyond measurement error or not</source>
+        <translation>eines Patienten von Sitzung zu Sitzung, über den Messfehler hinaus oder nicht</translation>
+    </message>
+    <message>
+        <source>to open formats: CSV, JSON, C3D, TRC, MOT, BIDS</source>
+        <translation>in offene Formate: CSV, JSON, C3D, TRC, MOT, BIDS</translation>
+    </message>
+    <message>
+        <source>runs the other way: opposite sign?</source>
+        <translation>läuft entgegengesetzt: Vorzeichen vertauscht?</translation>
+    </message>
+    <message>
+        <source>{angles}: the reference runs the other way.</source>
+        <translation>{angles}: die Referenz läuft entgegengesetzt.</translation>
+    </message>
+    <message>
+        <source>One of the two has the opposite sign, or they are not of one movement. Turn it and compare again.</source>
+        <translation>Eines von beiden hat das entgegengesetzte Vorzeichen, oder es ist nicht dieselbe Bewegung. Vorzeichen umkehren und erneut vergleichen.</translation>
+    </message>
+    <message>
+        <source>{count} pairs, {kind}</source>
+        <translation>{count} Paare, {kind}</translation>
+    </message>
+    <message>
+        <source>AMA Guides; AAOS 1965 (goniometer)</source>
+        <translation>AMA Guides; AAOS 1965 (Goniometer)</translation>
+    </message>
+    <message>
+        <source>ASSH, sum of active bending in a fist</source>
+        <translation>ASSH, Summe der aktiven Beugung in der Faust</translation>
+    </message>
+    <message>
+        <source>Usual: {source}; {ages}, {sexes}; not for children or old age.</source>
+        <translation>Üblich: {source}; {ages}, {sexes}; nicht für Kinder und hohes Alter.</translation>
+    </message>
+    <message>
+        <source>a study&apos;s table has the columns person, session and reference</source>
+        <translation>die Tabelle einer Studie hat die Spalten person, session und reference</translation>
+    </message>
+    <message>
+        <source>adults, ages not told</source>
+        <translation>Erwachsene, Alter nicht angegeben</translation>
+    </message>
+    <message>
+        <source>it cannot be read as a table: {why}</source>
+        <translation>sie lässt sich nicht als Tabelle lesen: {why}</translation>
+    </message>
+    <message>
+        <source>only {time} s are in common: the shift of the clocks is not sure</source>
+        <translation>nur {time} s sind gemeinsam: die Verschiebung der Uhren ist nicht sicher</translation>
+    </message>
+    <message>
+        <source>the best shift lies at the end of what was searched: it may be further</source>
+        <translation>die beste Verschiebung liegt am Rand des Abgesuchten: sie kann weiter weg liegen</translation>
+    </message>
+    <message>
+        <source>the clocks drift: the reference&apos;s runs {percent} % against Carpus&apos;s, {seconds} s over {length} s, and the figures hold that error (lag {lag} s with drift {drift} %)</source>
+        <translation>die Uhren laufen auseinander: die der Referenz um {percent} % gegen die von Carpus, {seconds} s in {length} s, und die Werte enthalten diesen Fehler (Verschiebung {lag} s mit Drift {drift} %)</translation>
+    </message>
+    <message>
+        <source>the shift is not sure: taken is {taken} s ({match}); as well or nearly match {others}</source>
+        <translation>die Verschiebung ist nicht sicher: genommen wird {taken} s ({match}); gleich gut oder fast so gut passen {others}</translation>
+    </message>
+    <message>
+        <source>women and men together</source>
+        <translation>Frauen und Männer zusammen</translation>
+    </message>
+    <message>
+        <source>{angle}: runs against Carpus (r = {r}), so one of the two has the opposite sign or is of another movement</source>
+        <translation>{angle}: läuft Carpus entgegen (r = {r}), also hat eines von beiden das entgegengesetzte Vorzeichen oder zeigt eine andere Bewegung</translation>
+    </message>
+    <message>
+        <source>{people} people are too few for figures of all: three are needed</source>
+        <translation>{people} Personen sind zu wenige für Werte aller: drei sind nötig</translation>
+    </message>
+    <message>
+        <source>{people} people, {sessions} sessions, {kinds}</source>
+        <translation>{people} Personen, {sessions} Sitzungen, {kinds}</translation>
+    </message>
+    <message>
+        <source>Open it again, look at what stands there now, and enter your change once more.</source>
+        <translation>Öffnen Sie es noch einmal, sehen Sie nach, was jetzt dort steht, und geben Sie Ihre Änderung erneut ein.</translation>
+    </message>
+    <message>
+        <source>Somebody else has changed this meanwhile, so your change was not kept.</source>
+        <translation>Jemand anderes hat dies inzwischen geändert; Ihre Änderung wurde darum nicht gespeichert.</translation>
+    </message>
+    <message>
+        <source>This cannot be a name: {detail} ({subject}).</source>
+        <translation>Das kann kein Name sein: {detail} ({subject}).</translation>
+    </message>
+    <message>
+        <source>Type the name by hand instead of pasting it.</source>
+        <translation>Tippen Sie den Namen ein, statt ihn einzufügen.</translation>
+    </message>
+    <message>
+        <source>What the other person entered is kept.</source>
+        <translation>Was die andere Person eingegeben hat, bleibt erhalten.</translation>
+    </message>
+    <message>
+        <source>it holds a sign that cannot be seen</source>
+        <translation>er enthält ein unsichtbares Zeichen</translation>
+    </message>
+    <message>
+        <source>more than {count} signs</source>
+        <translation>mehr als {count} Zeichen</translation>
+    </message>
+    <message>
+        <source>not in the folder of the sessions</source>
+        <translation>nicht im Ordner der Sitzungen</translation>
+    </message>
+    <message>
+        <source>Enter the change once more, or ask whoever looks after the server.</source>
+        <translation>Geben Sie die Änderung noch einmal ein oder fragen Sie, wer den Server betreut.</translation>
+    </message>
+    <message>
+        <source>Measure as usual: patients are shown as last known, and what is new waits here and is delivered.</source>
+        <translation>Messen Sie wie gewohnt: Patienten werden gezeigt wie zuletzt bekannt; Neues wartet hier und wird nachgeliefert.</translation>
+    </message>
+    <message>
+        <source>Nothing need be done; if it lasts, ask whoever looks after the server.</source>
+        <translation>Es ist nichts zu tun; dauert es an, fragen Sie, wer den Server betreut.</translation>
+    </message>
+    <message>
+        <source>All other changes arrive; this computer shows what the server has.</source>
+        <translation>Alle anderen Änderungen kommen an; dieser Computer zeigt, was der Server hat.</translation>
+    </message>
+    <message>
+        <source>All sessions of both patients are kept apart.</source>
+        <translation>Alle Sitzungen beider Patienten bleiben getrennt.</translation>
+    </message>
+    <message>
+        <source>Change the name in the patient’s entry if another one is better.</source>
+        <translation>Ändern Sie den Namen im Eintrag, wenn ein anderer besser ist.</translation>
+    </message>
+    <message>
+        <source>The clinic’s server for records does not answer: {subject} ({detail}).</source>
+        <translation>Der Server der Klinik für Patientendaten antwortet nicht: {subject} ({detail}).</translation>
+    </message>
+    <message>
+        <source>The clinic’s server {subject} does not take a change ({detail}).</source>
+        <translation>Der Server der Klinik {subject} nimmt eine Änderung nicht an ({detail}).</translation>
+    </message>
+    <message>
+        <source>The name {subject} was given twice while the server was away: the second patient has ({detail}) behind it.</source>
+        <translation>Der Name {subject} wurde zweimal vergeben, während der Server fehlte: Beim zweiten steht jetzt ({detail}) dahinter.</translation>
+    </message>
+    <message>
+        <source>{count} per stroke, {seconds} s in all</source>
+        <translation>{count} je Bewegung, zusammen {seconds} s</translation>
+    </message>
+    <message>
+        <source>Stops on the way, mean</source>
+        <translation>Halte unterwegs, Mittel</translation>
+    </message>
+    <message>
+        <source>Choose {count} signs or more, best four words.</source>
+        <translation>Wählen Sie mindestens {count} Zeichen, am besten vier Wörter.</translation>
+    </message>
+    <message>
+        <source>Everything else is in it.</source>
+        <translation>Alles andere ist darin.</translation>
+    </message>
+    <message>
+        <source>Back up to a folder on an encrypted disk, or seal single sessions.</source>
+        <translation>Sichern Sie in einen Ordner auf einem verschlüsselten Datenträger, oder versiegeln Sie einzelne Sitzungen.</translation>
+    </message>
+    <message>
+        <source>Bring the folder of the sessions back or its disk, and back up again; or erase these sessions.</source>
+        <translation>Bringen Sie den Ordner der Sitzungen oder seinen Datenträger zurück und sichern Sie erneut; oder löschen Sie diese Sitzungen.</translation>
+    </message>
+    <message>
+        <source>The back-up lacks files: {subject} is missing or cannot be read; {detail} in all.</source>
+        <translation>Der Sicherung fehlen Dateien: {subject} ist nicht da oder nicht lesbar; {detail} insgesamt.</translation>
+    </message>
+    <message>
+        <source>This is too much to be sealed as one file: {detail} GB.</source>
+        <translation>Das ist zu viel, um es als eine Datei zu versiegeln: {detail} GB.</translation>
+    </message>
+    <message>
+        <source>This passphrase cannot be taken: {detail}.</source>
+        <translation>Diese Passphrase geht nicht: {detail}.</translation>
+    </message>
+    <message>
+        <source>Type the passphrase again, capitals and blanks as they were.</source>
+        <translation>Geben Sie die Passphrase noch einmal ein, mit Großbuchstaben und Leerzeichen wie zuvor.</translation>
+    </message>
+    <message>
+        <source>the two are not the same</source>
+        <translation>die beiden sind nicht gleich</translation>
+    </message>
+    <message>
+        <source>too few signs</source>
+        <translation>zu wenige Zeichen</translation>
+    </message>
+    <message>
+        <source>{subject} does not open: the passphrase is another one, or the file is damaged.</source>
+        <translation>{subject} lässt sich nicht öffnen: Die Passphrase ist eine andere, oder die Datei ist beschädigt.</translation>
+    </message>
+    <message>
+        <source>No change proven since {day}.</source>
+        <translation>Seit {day} keine Änderung nachgewiesen.</translation>
+    </message>
+    <message>
+        <source>{name}: no change proven.</source>
+        <translation>{name}: keine Änderung nachgewiesen.</translation>
+    </message>
+    <message>
+        <source>No change proven since {when}.</source>
+        <translation>Seit {when} keine Änderung nachgewiesen.</translation>
+    </message>
+    <message>
+        <source>no change proven</source>
+        <translation>keine Änderung nachgewiesen</translation>
+    </message>
+    <message>
+        <source>Install it with the pip of Carpus’s own environment; in a checkout that is “.venv/bin/pip”.</source>
+        <translation>Installieren Sie es mit dem pip der eigenen Umgebung von Carpus; in einem Checkout ist das „.venv/bin/pip“.</translation>
     </message>
 </context>
 <context>
@@ -6844,6 +7008,10 @@
     <message>
         <source>Not used</source>
         <translation>Nicht verwendet</translation>
+    </message>
+    <message>
+        <source>Look at this first</source>
+        <translation>Zuerst ansehen</translation>
     </message>
 </context>
 <context>
@@ -6948,10 +7116,6 @@
         <translation>Sicherung vom {when} wiederherstellen? {come} Sitzungen kommen, {change} ändern sich, {go} gehen.</translation>
     </message>
     <message>
-        <source>What is here now is backed up first, and its folder is kept beside the new one.</source>
-        <translation>Was jetzt hier ist, wird zuerst gesichert, und sein Ordner bleibt neben dem neuen.</translation>
-    </message>
-    <message>
         <source>Carpus closes when it is done. Start it again then.</source>
         <translation>Carpus schließt sich danach. Starten Sie es dann neu.</translation>
     </message>
@@ -6964,12 +7128,32 @@
         <translation>So lassen</translation>
     </message>
     <message>
-        <source>Enter</source>
-        <translation>Eingabe</translation>
+        <source>The last back-up is of {day}.</source>
+        <translation>Letzte Sicherung: {day}.</translation>
     </message>
     <message>
-        <source>The last back-up is of {day}.</source>
-        <translation>Die letzte Sicherung ist vom {day}.</translation>
+        <source>on the same disk as the data</source>
+        <translation>auf derselben Platte wie die Daten</translation>
+    </message>
+    <message>
+        <source>It lies on the disk that holds the data: if that disk breaks, both are lost.</source>
+        <translation>Sie liegt auf der Platte mit den Daten: Geht diese kaputt, ist beides verloren.</translation>
+    </message>
+    <message>
+        <source>Sealed back-up</source>
+        <translation>Versiegelte Sicherung</translation>
+    </message>
+    <message>
+        <source>Sealed files (*.age)</source>
+        <translation>Versiegelte Dateien (*.age)</translation>
+    </message>
+    <message>
+        <source>The folder of what is here now is kept beside the new one.</source>
+        <translation>Der Ordner mit dem, was jetzt hier ist, bleibt neben dem neuen erhalten.</translation>
+    </message>
+    <message>
+        <source>Seal into one file</source>
+        <translation>In eine Datei versiegeln</translation>
     </message>
 </context>
 <context>
@@ -7034,6 +7218,18 @@
         <source>{percent} %</source>
         <translation>{percent} %</translation>
     </message>
+    <message>
+        <source>&amp;Seal into one file…</source>
+        <translation>In eine Datei &amp;versiegeln…</translation>
+    </message>
+    <message>
+        <source>Back from a sealed file…</source>
+        <translation>Aus versiegelter Datei zurück…</translation>
+    </message>
+    <message>
+        <source>closed with a passphrase, to carry away or send</source>
+        <translation>mit einer Passphrase verschlossen, zum Mitnehmen oder Verschicken</translation>
+    </message>
 </context>
 <context>
     <name>Bar</name>
@@ -7048,10 +7244,6 @@
     <message>
         <source>Check card</source>
         <translation>Prüfkarte</translation>
-    </message>
-    <message>
-        <source>Practice patient</source>
-        <translation type="vanished">Probepatient</translation>
     </message>
     <message>
         <source>Exercise</source>
@@ -7179,30 +7371,6 @@
     <message>
         <source>Save tables</source>
         <translation>Tabellen speichern</translation>
-    </message>
-    <message>
-        <source>{count} files were written.</source>
-        <translation type="vanished">{count} Dateien sind geschrieben.</translation>
-    </message>
-    <message>
-        <source>Folder: {folder}</source>
-        <translation type="vanished">Ordner: {folder}</translation>
-    </message>
-    <message>
-        <source>Files: {names}</source>
-        <translation type="vanished">Dateien: {names}</translation>
-    </message>
-    <message>
-        <source>Open the folder</source>
-        <translation type="vanished">Ordner öffnen</translation>
-    </message>
-    <message>
-        <source>Go on</source>
-        <translation type="vanished">Weiter</translation>
-    </message>
-    <message>
-        <source>Enter</source>
-        <translation type="vanished">Eingabe</translation>
     </message>
 </context>
 <context>
@@ -7334,10 +7502,6 @@
         <translation>Beginnen</translation>
     </message>
     <message>
-        <source>Enter</source>
-        <translation>Eingabe</translation>
-    </message>
-    <message>
         <source>Five minutes: how the lens sees, how far off the depth is, and whether depth lies on colour. Do it once for each camera, after a knock, and when the check card says so.</source>
         <translation>Fünf Minuten: wie das Objektiv sieht, wie weit die Tiefe daneben liegt und ob Tiefe und Farbe sich decken. Einmal je Kamera, nach einem Stoß, und wenn die Prüfkarte es sagt.</translation>
     </message>
@@ -7395,10 +7559,6 @@
     <message>
         <source>Use this calibration</source>
         <translation>Diese Kalibrierung verwenden</translation>
-    </message>
-    <message>
-        <source>Enter</source>
-        <translation>Eingabe</translation>
     </message>
     <message>
         <source>Where lines land, enlarged 50 times</source>
@@ -7578,10 +7738,6 @@
         <translation>Zurück zum Formular</translation>
     </message>
     <message>
-        <source>Enter</source>
-        <translation>Eingabe</translation>
-    </message>
-    <message>
         <source>Let them go</source>
         <translation>Fallen lassen</translation>
     </message>
@@ -7698,10 +7854,6 @@
         <translation>Weiter</translation>
     </message>
     <message>
-        <source>Enter</source>
-        <translation>Eingabe</translation>
-    </message>
-    <message>
         <source>Stop</source>
         <translation>Stopp</translation>
     </message>
@@ -7755,10 +7907,6 @@
     <message>
         <source>Progress</source>
         <translation>Fortschritt</translation>
-    </message>
-    <message>
-        <source>Enter</source>
-        <translation>Eingabe</translation>
     </message>
     <message>
         <source>Where do the pictures come from?</source>
@@ -7821,10 +7969,6 @@
         <translation>Aufnahmen ({patterns});;Alle Dateien (*)</translation>
     </message>
     <message>
-        <source>Recordings (*.oni *.db3 *.bag *.carpusraw);;All files (*)</source>
-        <translation type="vanished">Aufnahmen (*.oni *.db3 *.bag *.carpusraw);;Alle Dateien (*)</translation>
-    </message>
-    <message>
         <source>Choose a recording</source>
         <translation>Aufnahme wählen</translation>
     </message>
@@ -7842,10 +7986,6 @@
     <message>
         <source>Simulated camera</source>
         <translation>Simulierte Kamera</translation>
-    </message>
-    <message>
-        <source>Enter</source>
-        <translation>Eingabe</translation>
     </message>
     <message>
         <source>Print &amp;card…</source>
@@ -7996,10 +8136,6 @@
         <source>Leave it as it is</source>
         <translation>So lassen</translation>
     </message>
-    <message>
-        <source>Esc</source>
-        <translation>Esc</translation>
-    </message>
 </context>
 <context>
     <name>ColumnsSheet</name>
@@ -8026,10 +8162,6 @@
     <message>
         <source>Compare</source>
         <translation>Vergleichen</translation>
-    </message>
-    <message>
-        <source>Enter</source>
-        <translation>Eingabe</translation>
     </message>
     <message>
         <source>Which marker is which?</source>
@@ -8075,30 +8207,6 @@
         <translation>Tabellen und Bilder in einen Ordner speichern</translation>
     </message>
     <message>
-        <source>{count} files were written.</source>
-        <translation type="vanished">{count} Dateien sind geschrieben.</translation>
-    </message>
-    <message>
-        <source>Folder: {folder}</source>
-        <translation type="vanished">Ordner: {folder}</translation>
-    </message>
-    <message>
-        <source>Files: {names}</source>
-        <translation type="vanished">Dateien: {names}</translation>
-    </message>
-    <message>
-        <source>Open the folder</source>
-        <translation type="vanished">Ordner öffnen</translation>
-    </message>
-    <message>
-        <source>Go on</source>
-        <translation type="vanished">Weiter</translation>
-    </message>
-    <message>
-        <source>Enter</source>
-        <translation type="vanished">Eingabe</translation>
-    </message>
-    <message>
         <source>same recording</source>
         <translation>dieselbe Aufnahme</translation>
     </message>
@@ -8127,10 +8235,6 @@
     <message>
         <source>Track again from here</source>
         <translation>Ab hier neu verfolgen</translation>
-    </message>
-    <message>
-        <source>Enter</source>
-        <translation>Eingabe</translation>
     </message>
     <message>
         <source>Cancel</source>
@@ -8294,128 +8398,6 @@
     </message>
 </context>
 <context>
-    <name>EncryptSheet</name>
-    <message>
-        <source>&amp;PIN until now</source>
-        <translation>&amp;Bisherige PIN</translation>
-    </message>
-    <message>
-        <source>&amp;New PIN, ten signs or more; four words are good</source>
-        <translation>&amp;Neue PIN, mindestens zehn Zeichen; vier Wörter sind gut</translation>
-    </message>
-    <message>
-        <source>The same &amp;again</source>
-        <translation>Dieselbe no&amp;ch einmal</translation>
-    </message>
-    <message>
-        <source>Enter</source>
-        <translation>Eingabe</translation>
-    </message>
-    <message>
-        <source>Cancel</source>
-        <translation>Abbrechen</translation>
-    </message>
-    <message>
-        <source>Encrypt what is stored</source>
-        <translation>Gespeichertes verschlüsseln</translation>
-    </message>
-    <message>
-        <source>Protects patients, sessions, pictures and new back-ups from whoever takes the computer or a disk. Does not protect: a recording until it is stored, names of files (pseudonym, exercise, date), the log, exports, back-ups made before, and everything while Carpus is open.
-
-The PIN is asked for at every start. Without it and without the recovery code that is shown next, the data are lost for good, and nobody can help. Make a back-up first.</source>
-        <translation>Schützt Patienten, Sitzungen, Bilder und neue Sicherungen vor allen, die den Computer oder einen Datenträger mitnehmen. Schützt nicht: eine Aufnahme, bis sie gespeichert ist, Dateinamen (Pseudonym, Übung, Datum), das Protokoll, Exporte, ältere Sicherungen und alles, solange Carpus offen ist.
-
-Die PIN wird bei jedem Start verlangt. Ohne sie und ohne den Wiederherstellungscode, der als Nächstes gezeigt wird, sind die Daten für immer verloren, und niemand kann helfen. Machen Sie zuerst eine Sicherung.</translation>
-    </message>
-    <message>
-        <source>Encrypt</source>
-        <translation>Verschlüsseln</translation>
-    </message>
-    <message>
-        <source>Make it readable again</source>
-        <translation>Wieder lesbar machen</translation>
-    </message>
-    <message>
-        <source>Every file is decrypted. From then on whoever has the disk can read it.</source>
-        <translation>Jede Datei wird entschlüsselt. Von da an kann sie lesen, wer den Datenträger hat.</translation>
-    </message>
-    <message>
-        <source>Decrypt</source>
-        <translation>Entschlüsseln</translation>
-    </message>
-    <message>
-        <source>Encrypting, {percent} %</source>
-        <translation>Wird verschlüsselt, {percent} %</translation>
-    </message>
-    <message>
-        <source>Decrypting, {percent} %</source>
-        <translation>Wird entschlüsselt, {percent} %</translation>
-    </message>
-    <message>
-        <source>Everything that is stored is encrypted.</source>
-        <translation>Alles Gespeicherte ist verschlüsselt.</translation>
-    </message>
-    <message>
-        <source>Recovery code: it opens everything when the PIN is forgotten. Write it down now and keep it away from this computer; it is not shown again.</source>
-        <translation>Wiederherstellungscode: Er öffnet alles, wenn die PIN vergessen ist. Schreiben Sie ihn jetzt auf, und verwahren Sie ihn fern von diesem Computer; er wird nicht noch einmal gezeigt.</translation>
-    </message>
-    <message>
-        <source>I have written it down</source>
-        <translation>Ich habe ihn aufgeschrieben</translation>
-    </message>
-    <message>
-        <source>Files can be carried away and tried: ten signs or more.</source>
-        <translation>Dateien kann man mitnehmen und durchprobieren: mindestens zehn Zeichen.</translation>
-    </message>
-    <message>
-        <source>The two are not the same.</source>
-        <translation>Die beiden sind nicht gleich.</translation>
-    </message>
-</context>
-<context>
-    <name>EncryptionCard</name>
-    <message>
-        <source>Encryption</source>
-        <translation>Verschlüsselung</translation>
-    </message>
-    <message>
-        <source>Not everything is readable again yet</source>
-        <translation>Noch nicht alles ist wieder lesbar</translation>
-    </message>
-    <message>
-        <source>Some files are still encrypted. The PIN stays until they are not.</source>
-        <translation>Einige Dateien sind noch verschlüsselt. So lange bleibt die PIN.</translation>
-    </message>
-    <message>
-        <source>Try again…</source>
-        <translation>Erneut versuchen…</translation>
-    </message>
-    <message>
-        <source>Encrypted on the disk</source>
-        <translation>Auf dem Datenträger verschlüsselt</translation>
-    </message>
-    <message>
-        <source>Patients, sessions and pictures can only be read with the PIN, also from back-ups made since. Not protected: a recording until it is stored, names of files (pseudonym, exercise, date), the log, exports and reports, and everything while Carpus is open. PIN and recovery code lost, the data are lost for good.</source>
-        <translation>Patienten, Sitzungen und Bilder sind nur mit der PIN lesbar, auch aus seitdem gemachten Sicherungen. Nicht geschützt: eine Aufnahme, bis sie gespeichert ist, Dateinamen (Pseudonym, Übung, Datum), das Protokoll, Exporte und Berichte, und alles, solange Carpus offen ist. Sind PIN und Wiederherstellungscode verloren, sind die Daten für immer verloren.</translation>
-    </message>
-    <message>
-        <source>Make it readable again…</source>
-        <translation>Wieder lesbar machen…</translation>
-    </message>
-    <message>
-        <source>Off: files are readable</source>
-        <translation>Aus: Dateien sind lesbar</translation>
-    </message>
-    <message>
-        <source>Whoever has this computer’s account or its disk can read patients and sessions. Encryption makes them readable with a PIN only, which must be typed at every start.</source>
-        <translation>Wer das Konto dieses Computers oder seinen Datenträger hat, kann Patienten und Sitzungen lesen. Verschlüsselung macht sie nur mit einer PIN lesbar, die bei jedem Start einzugeben ist.</translation>
-    </message>
-    <message>
-        <source>Encrypt…</source>
-        <translation>Verschlüsseln…</translation>
-    </message>
-</context>
-<context>
     <name>EraseSheet</name>
     <message>
         <source>Erase for good</source>
@@ -8432,10 +8414,6 @@ Die PIN wird bei jedem Start verlangt. Ohne sie und ohne den Wiederherstellungsc
     <message>
         <source>Archive instead</source>
         <translation>Lieber archivieren</translation>
-    </message>
-    <message>
-        <source>Enter</source>
-        <translation>Eingabe</translation>
     </message>
     <message>
         <source>This goes</source>
@@ -8478,16 +8456,12 @@ Die PIN wird bei jedem Start verlangt. Ohne sie und ohne den Wiederherstellungsc
         <translation>Der Eintrag des Patienten, echter Name und Notizen, und {count} Sitzungen mit allen Winkeln, Bildern und Notizen ({files}, {size} MB).</translation>
     </message>
     <message>
+        <source>The patient’s entry, real name and notes, and 1 session with all angles, pictures and notes ({files}, {size} MB).</source>
+        <translation>Der Eintrag des Patienten mit echtem Namen und Notizen und 1 Sitzung mit allen Winkeln, Bildern und Notizen ({files}, {size} MB).</translation>
+    </message>
+    <message>
         <source>{one} and {other}</source>
-        <translation>{one} und {other}</translation>
-    </message>
-    <message>
-        <source>The patient’s entry, real name and notes, and {count} sessions with all angles, pictures and</source>
-        <translation type="vanished">Der Eintrag des Patienten, echter Name und Notizen, und {count} Sitzungen mit allen Winkeln, Bildern und</translation>
-    </message>
-    <message>
-        <source> notes ({files}, {size} MB).</source>
-        <translation type="vanished"> Notizen ({files}, {size} MB).</translation>
+        <translation type="vanished">{one} und {other}</translation>
     </message>
     <message>
         <source>Angles, pictures, notes and pain scores of this session ({files}, {size} MB).</source>
@@ -8495,27 +8469,23 @@ Die PIN wird bei jedem Start verlangt. Ohne sie und ohne den Wiederherstellungsc
     </message>
     <message>
         <source>1 export</source>
-        <translation>1 Export</translation>
+        <translation type="vanished">1 Export</translation>
     </message>
     <message>
         <source>{n} exports</source>
-        <translation>{n} Exporte</translation>
+        <translation type="vanished">{n} Exporte</translation>
     </message>
     <message>
         <source>1 report</source>
-        <translation>1 Bericht</translation>
+        <translation type="vanished">1 Bericht</translation>
     </message>
     <message>
         <source>{n} reports</source>
-        <translation>{n} Berichte</translation>
+        <translation type="vanished">{n} Berichte</translation>
     </message>
     <message>
         <source>The {made} that Carpus made from it go too.</source>
-        <translation>Gelöscht wird auch, was Carpus daraus erstellt hat: {made}.</translation>
-    </message>
-    <message>
-        <source> and </source>
-        <translation type="vanished"> und </translation>
+        <translation type="vanished">Gelöscht wird auch, was Carpus daraus erstellt hat: {made}.</translation>
     </message>
     <message>
         <source>The other session.</source>
@@ -8535,11 +8505,11 @@ Die PIN wird bei jedem Start verlangt. Ohne sie und ohne den Wiederherstellungsc
     </message>
     <message>
         <source>Exports and reports that were changed since: {n}.</source>
-        <translation>Seitdem geänderte Exporte und Berichte: {n}.</translation>
+        <translation type="vanished">Seitdem geänderte Exporte und Berichte: {n}.</translation>
     </message>
     <message>
         <source>Exports and reports that are not where Carpus put them: {n}, look for them yourself.</source>
-        <translation>Exporte und Berichte, die nicht mehr liegen, wo Carpus sie abgelegt hat: {n}; suchen Sie sie selbst.</translation>
+        <translation type="vanished">Exporte und Berichte, die nicht mehr liegen, wo Carpus sie abgelegt hat: {n}; suchen Sie sie selbst.</translation>
     </message>
     <message>
         <source>The log keeps that it was erased, no name.</source>
@@ -8560,6 +8530,33 @@ Die PIN wird bei jedem Start verlangt. Ohne sie und ohne den Wiederherstellungsc
     <message>
         <source>They had to be kept until {day} {years}.</source>
         <translation>Sie waren bis {day} aufzubewahren {years}.</translation>
+    </message>
+    <message>
+        <source>Reports and exports saved elsewhere, delete them yourself ({n}): {path}</source>
+        <translation>Anderswo gespeicherte Berichte und Exporte, bitte selbst löschen ({n}): {path}</translation>
+    </message>
+</context>
+<context>
+    <name>Erasing</name>
+    <message>
+        <source>The session of {day} is in the archive.</source>
+        <translation>Die Sitzung vom {day} ist im Archiv.</translation>
+    </message>
+    <message>
+        <source>{name} is in the archive.</source>
+        <translation>{name} ist im Archiv.</translation>
+    </message>
+    <message>
+        <source>Nothing is lost. It counts nowhere until it is brought back.</source>
+        <translation>Nichts ist verloren. Es zählt nirgends, bis es zurückgeholt wird.</translation>
+    </message>
+    <message>
+        <source>&amp;Undo</source>
+        <translation>&amp;Rückgängig</translation>
+    </message>
+    <message>
+        <source>Close</source>
+        <translation>Schließen</translation>
     </message>
 </context>
 <context>
@@ -8607,10 +8604,6 @@ Die PIN wird bei jedem Start verlangt. Ohne sie und ohne den Wiederherstellungsc
     <message>
         <source>Next: the camera</source>
         <translation>Weiter: Kamera</translation>
-    </message>
-    <message>
-        <source>Enter</source>
-        <translation>Eingabe</translation>
     </message>
     <message>
         <source>Which exercise?</source>
@@ -8706,10 +8699,6 @@ Die PIN wird bei jedem Start verlangt. Ohne sie und ohne den Wiederherstellungsc
     <message>
         <source>Choose the folder…</source>
         <translation>Ordner wählen…</translation>
-    </message>
-    <message>
-        <source>Enter</source>
-        <translation>Eingabe</translation>
     </message>
     <message>
         <source>Compare with a &amp;reference…</source>
@@ -9102,8 +9091,8 @@ Umschalt+F8 von der Seite</translation>
         <translation>Sperre</translation>
     </message>
     <message>
-        <source>A PIN hides names and pictures from those who pass by. Alone it protects no file: for that there is encryption, below, and that of the computer’s own disk.</source>
-        <translation>Eine PIN verbirgt Namen und Bilder vor Vorbeigehenden. Allein schützt sie keine Datei: Dafür gibt es die Verschlüsselung unten und die des Datenträgers im Computer.</translation>
+        <source>A PIN hides names and pictures from those who pass by. It protects no file: whoever has this computer’s account or disk reads them without it.</source>
+        <translation>Eine PIN verbirgt Namen und Bilder vor denen, die vorbeigehen. Sie schützt keine Datei: Wer das Konto oder den Datenträger dieses Computers hat, liest sie ohne PIN.</translation>
     </message>
     <message>
         <source>After 5 min</source>
@@ -9157,10 +9146,6 @@ Umschalt+F8 von der Seite</translation>
         <translation>Entsperren</translation>
     </message>
     <message>
-        <source>Enter</source>
-        <translation>Eingabe</translation>
-    </message>
-    <message>
         <source>Nothing is lost. The open session is stored.</source>
         <translation>Nichts ist verloren. Die offene Sitzung ist gespeichert.</translation>
     </message>
@@ -9171,10 +9156,6 @@ Umschalt+F8 von der Seite</translation>
     <message>
         <source>Names, pictures and figures are hidden.</source>
         <translation>Namen, Bilder und Werte sind verborgen.</translation>
-    </message>
-    <message>
-        <source>What is stored here is encrypted.</source>
-        <translation>Was hier gespeichert ist, ist verschlüsselt.</translation>
     </message>
     <message>
         <source>Locked by itself at {time}, after {minutes} minutes without a key.</source>
@@ -9201,10 +9182,6 @@ Umschalt+F8 von der Seite</translation>
         <translation>PIN vergessen? F1 sagt, was zu tun ist.</translation>
     </message>
     <message>
-        <source>Type the recovery code instead, which was shown when the encryption was switched on. Without PIN and code nobody can read what is stored.</source>
-        <translation>Geben Sie stattdessen den Wiederherstellungscode ein, der beim Einschalten der Verschlüsselung gezeigt wurde. Ohne PIN und Code kann niemand das Gespeicherte lesen.</translation>
-    </message>
-    <message>
         <source>Whoever looks after this computer takes the file pin.json out of the data folder and starts Carpus again: nothing is lost. A PIN hides; it does not protect the files.</source>
         <translation>Wer diesen Computer betreut, nimmt die Datei pin.json aus dem Datenordner und startet Carpus neu: Nichts ist verloren. Eine PIN verbirgt; sie schützt die Dateien nicht.</translation>
     </message>
@@ -9219,10 +9196,6 @@ Umschalt+F8 von der Seite</translation>
         <source>Too many tries. The next one in {seconds} s.</source>
         <translation>Zu viele Versuche. Der nächste in {seconds} s.</translation>
     </message>
-    <message>
-        <source>It opens what is encrypted: ten signs or more, or decrypt it first.</source>
-        <translation>Sie öffnet Verschlüsseltes: mindestens zehn Zeichen, oder entschlüsseln Sie zuerst.</translation>
-    </message>
 </context>
 <context>
     <name>LogSheet</name>
@@ -9232,7 +9205,7 @@ Umschalt+F8 von der Seite</translation>
     </message>
     <message>
         <source>Only ever added to. In the file patients and sessions are numbers: names are put to them here, as long as they are in the list.</source>
-        <translation>Es wird nur ergänzt. In der Datei sind Patienten und Sitzungen Nummern: Namen stehen nur hier dabei, solange sie in der Liste sind.</translation>
+        <translation type="vanished">Es wird nur ergänzt. In der Datei sind Patienten und Sitzungen Nummern: Namen stehen nur hier dabei, solange sie in der Liste sind.</translation>
     </message>
     <message>
         <source>When</source>
@@ -9259,16 +9232,20 @@ Umschalt+F8 von der Seite</translation>
         <translation>Fertig</translation>
     </message>
     <message>
-        <source>Esc</source>
-        <translation>Esc</translation>
-    </message>
-    <message>
         <source>The log was changed at or before line {line}.</source>
-        <translation>Das Protokoll wurde in oder vor Zeile {line} geändert.</translation>
+        <translation type="vanished">Das Protokoll wurde in oder vor Zeile {line} geändert.</translation>
     </message>
     <message>
         <source>Whole: {n} lines, none changed.</source>
-        <translation>Vollständig: {n} Zeilen, keine geändert.</translation>
+        <translation type="vanished">Vollständig: {n} Zeilen, keine geändert.</translation>
+    </message>
+    <message>
+        <source>Only ever added to, which protects against mistakes, not against the owner of the computer: a back-up kept elsewhere shows a later change. Names are put to it here, as long as they are in the list.</source>
+        <translation>Es wird nur angefügt. Das schützt vor Versehen, nicht vor dem Eigentümer des Computers: Eine anderswo aufbewahrte Sicherung zeigt eine spätere Änderung. Namen stehen nur hier dabei, solange sie in der Liste sind.</translation>
+    </message>
+    <message>
+        <source>Log: {n} lines</source>
+        <translation>Protokoll: {n} Zeilen</translation>
     </message>
 </context>
 <context>
@@ -9320,10 +9297,6 @@ Umschalt+F8 von der Seite</translation>
         <translation>Trotz &amp;Zweifel starten</translation>
     </message>
     <message>
-        <source>Take all names</source>
-        <translation>Alle übernehmen</translation>
-    </message>
-    <message>
         <source>Click all again</source>
         <translation>Alle neu anklicken</translation>
     </message>
@@ -9332,16 +9305,8 @@ Umschalt+F8 von der Seite</translation>
         <translation>Neues Bild</translation>
     </message>
     <message>
-        <source>Space</source>
-        <translation>Leertaste</translation>
-    </message>
-    <message>
         <source>accept</source>
         <translation>annehmen</translation>
-    </message>
-    <message>
-        <source>Backspace</source>
-        <translation>Rücktaste</translation>
     </message>
     <message>
         <source>undo</source>
@@ -9354,10 +9319,6 @@ Umschalt+F8 von der Seite</translation>
     <message>
         <source>zoom</source>
         <translation>vergrößern</translation>
-    </message>
-    <message>
-        <source>Tab</source>
-        <translation>Tab</translation>
     </message>
     <message>
         <source>next marker</source>
@@ -9460,10 +9421,6 @@ Umschalt+F8 von der Seite</translation>
         <translation>Sind die Punkte aufgeklebt, und liegt die Hand unter der Kamera? Mehr Licht hilft; dunkelblauer Stoff ist kein Punkt.</translation>
     </message>
     <message>
-        <source>Enter</source>
-        <translation>Eingabe</translation>
-    </message>
-    <message>
         <source>Click by hand</source>
         <translation>Von Hand anklicken</translation>
     </message>
@@ -9498,6 +9455,14 @@ Umschalt+F8 von der Seite</translation>
     <message>
         <source>The names stay as they are until you change one.</source>
         <translation>Die Namen bleiben, bis Sie einen ändern.</translation>
+    </message>
+    <message>
+        <source>go on</source>
+        <translation>weiter</translation>
+    </message>
+    <message>
+        <source>All names are right</source>
+        <translation>Alle Namen stimmen</translation>
     </message>
 </context>
 <context>
@@ -9564,10 +9529,6 @@ Umschalt+F8 von der Seite</translation>
         <translation>Beenden und auswerten</translation>
     </message>
     <message>
-        <source>Enter</source>
-        <translation>Eingabe</translation>
-    </message>
-    <message>
         <source>Choose another source</source>
         <translation>Andere Quelle wählen</translation>
     </message>
@@ -9621,10 +9582,6 @@ Umschalt+F8 von der Seite</translation>
     <message>
         <source>Keep note</source>
         <translation>Notiz behalten</translation>
-    </message>
-    <message>
-        <source>Enter</source>
-        <translation>Eingabe</translation>
     </message>
     <message>
         <source>Close</source>
@@ -9698,7 +9655,7 @@ Umschalt+F8 von der Seite</translation>
     </message>
     <message>
         <source>Repetition</source>
-        <translation>Wiederholung</translation>
+        <translation type="vanished">Wiederholung</translation>
     </message>
     <message>
         <source>of {asked}</source>
@@ -9716,6 +9673,10 @@ Umschalt+F8 von der Seite</translation>
         <source>Target {angle}</source>
         <translation>Ziel {angle}</translation>
     </message>
+    <message>
+        <source>Repetitions</source>
+        <translation>Wiederholungen</translation>
+    </message>
 </context>
 <context>
     <name>PainSheet</name>
@@ -9731,9 +9692,60 @@ Umschalt+F8 von der Seite</translation>
         <source>Close</source>
         <translation>Schließen</translation>
     </message>
+</context>
+<context>
+    <name>PassphraseSheet</name>
+    <message>
+        <source>The same &amp;again</source>
+        <translation>&amp;Noch einmal</translation>
+    </message>
+    <message>
+        <source>Enter</source>
+        <translation>Eingabe</translation>
+    </message>
+    <message>
+        <source>Cancel</source>
+        <translation>Abbrechen</translation>
+    </message>
     <message>
         <source>Esc</source>
         <translation>Esc</translation>
+    </message>
+    <message>
+        <source>&amp;Passphrase</source>
+        <translation>&amp;Passphrase</translation>
+    </message>
+    <message>
+        <source>Seal into one file</source>
+        <translation>In eine Datei versiegeln</translation>
+    </message>
+    <message>
+        <source>Open the sealed file</source>
+        <translation>Versiegelte Datei öffnen</translation>
+    </message>
+    <message>
+        <source>Seal it</source>
+        <translation>Versiegeln</translation>
+    </message>
+    <message>
+        <source>Open it</source>
+        <translation>Öffnen</translation>
+    </message>
+    <message>
+        <source>Ten signs or more, best four words. Write it down: without it nobody can open the file.</source>
+        <translation>Mindestens zehn Zeichen, am besten vier Wörter. Schreiben Sie sie auf: Ohne sie kann niemand die Datei öffnen.</translation>
+    </message>
+    <message>
+        <source>As it was typed when the file was sealed.</source>
+        <translation>So, wie sie beim Versiegeln eingegeben wurde.</translation>
+    </message>
+    <message>
+        <source>A passphrase has ten signs or more.</source>
+        <translation>Eine Passphrase hat mindestens zehn Zeichen.</translation>
+    </message>
+    <message>
+        <source>The two are not the same.</source>
+        <translation>Die beiden sind nicht gleich.</translation>
     </message>
 </context>
 <context>
@@ -9804,10 +9816,6 @@ Umschalt+F8 von der Seite</translation>
     <message>
         <source>Start session, same set-up</source>
         <translation>Sitzung starten, gleicher Aufbau</translation>
-    </message>
-    <message>
-        <source>Enter</source>
-        <translation>Eingabe</translation>
     </message>
     <message>
         <source>&amp;Edit…</source>
@@ -9889,10 +9897,6 @@ Umschalt+F8 von der Seite</translation>
         <translation>Unbekannt</translation>
     </message>
     <message>
-        <source>Enter</source>
-        <translation>Eingabe</translation>
-    </message>
-    <message>
         <source>Close without saving</source>
         <translation>Schließen ohne Speichern</translation>
     </message>
@@ -9943,6 +9947,14 @@ Umschalt+F8 von der Seite</translation>
     <message>
         <source>Keep changes</source>
         <translation>Änderungen behalten</translation>
+    </message>
+    <message>
+        <source>Which hand is affected?</source>
+        <translation>Welche Hand ist betroffen?</translation>
+    </message>
+    <message>
+        <source>Which hand writes?</source>
+        <translation>Welche Hand schreibt?</translation>
     </message>
     <message>
         <source>A name has up to {count} letters: what goes beyond is not taken.</source>
@@ -10017,6 +10029,10 @@ Umschalt+F8 von der Seite</translation>
         <source>Practice patient</source>
         <translation>Probepatient</translation>
     </message>
+    <message>
+        <source>In the archi&amp;ve: {names}</source>
+        <translation>Im Archi&amp;v: {names}</translation>
+    </message>
 </context>
 <context>
     <name>PeopleSheet</name>
@@ -10039,10 +10055,6 @@ Umschalt+F8 von der Seite</translation>
     <message>
         <source>These take part</source>
         <translation>Diese nehmen teil</translation>
-    </message>
-    <message>
-        <source>Enter</source>
-        <translation>Eingabe</translation>
     </message>
     <message>
         <source>1 session</source>
@@ -10081,10 +10093,6 @@ Umschalt+F8 von der Seite</translation>
     <message>
         <source>Keep this PIN</source>
         <translation>Diese PIN behalten</translation>
-    </message>
-    <message>
-        <source>Enter</source>
-        <translation>Eingabe</translation>
     </message>
     <message>
         <source>&amp;Take the PIN away</source>
@@ -10208,34 +10216,6 @@ Umschalt+F8 von der Seite</translation>
         <source>Save table</source>
         <translation>Tabelle speichern</translation>
     </message>
-    <message>
-        <source>1 file was written.</source>
-        <translation type="vanished">1 Datei ist geschrieben.</translation>
-    </message>
-    <message>
-        <source>{count} files were written.</source>
-        <translation type="vanished">{count} Dateien sind geschrieben.</translation>
-    </message>
-    <message>
-        <source>Folder: {folder}</source>
-        <translation type="vanished">Ordner: {folder}</translation>
-    </message>
-    <message>
-        <source>Files: {names}</source>
-        <translation type="vanished">Dateien: {names}</translation>
-    </message>
-    <message>
-        <source>Open the folder</source>
-        <translation type="vanished">Ordner öffnen</translation>
-    </message>
-    <message>
-        <source>Go on</source>
-        <translation type="vanished">Weiter</translation>
-    </message>
-    <message>
-        <source>Enter</source>
-        <translation type="vanished">Eingabe</translation>
-    </message>
 </context>
 <context>
     <name>ProgressChart</name>
@@ -10358,12 +10338,12 @@ Umschalt+F8 von der Seite</translation>
         <translation>Doch behalten</translation>
     </message>
     <message>
-        <source>Esc</source>
-        <translation>Esc</translation>
-    </message>
-    <message>
         <source>Leave repetition {number} out?</source>
         <translation>Wiederholung {number} auslassen?</translation>
+    </message>
+    <message>
+        <source>Leave it out</source>
+        <translation>Auslassen</translation>
     </message>
 </context>
 <context>
@@ -10517,12 +10497,8 @@ Umschalt+F8 von der Seite</translation>
         <translation>Werte von Hand eingetragen</translation>
     </message>
     <message>
-        <source>encryption switched on</source>
-        <translation>Verschlüsselung eingeschaltet</translation>
-    </message>
-    <message>
-        <source>encryption switched off</source>
-        <translation>Verschlüsselung ausgeschaltet</translation>
+        <source>1 session</source>
+        <translation>1 Sitzung</translation>
     </message>
 </context>
 <context>
@@ -10572,10 +10548,6 @@ Umschalt+F8 von der Seite</translation>
     <message>
         <source>Done</source>
         <translation>Fertig</translation>
-    </message>
-    <message>
-        <source>Esc</source>
-        <translation>Esc</translation>
     </message>
     <message>
         <source>Bring back</source>
@@ -10660,12 +10632,12 @@ Umschalt+F8 von der Seite</translation>
         <translation>US Letter</translation>
     </message>
     <message>
-        <source>Pictures (*.png *.jpg *.jpeg *.svg)</source>
-        <translation>Bilder (*.png *.jpg *.jpeg *.svg)</translation>
-    </message>
-    <message>
         <source>Choose a logo</source>
         <translation>Logo wählen</translation>
+    </message>
+    <message>
+        <source>Pictures (*.png *.jpg *.jpeg)</source>
+        <translation>Bilder (*.png *.jpg *.jpeg)</translation>
     </message>
 </context>
 <context>
@@ -10852,10 +10824,6 @@ Umschalt+F8 von der Seite</translation>
         <translation>&amp;Neues verwenden</translation>
     </message>
     <message>
-        <source>Esc</source>
-        <translation>Esc</translation>
-    </message>
-    <message>
         <source>Tracking again: {percent} %</source>
         <translation>Wird neu verfolgt: {percent} %</translation>
     </message>
@@ -11014,10 +10982,6 @@ Umschalt+F8 von der Seite</translation>
         <translation>So lassen</translation>
     </message>
     <message>
-        <source>Enter</source>
-        <translation>Eingabe</translation>
-    </message>
-    <message>
         <source>Save table</source>
         <translation>Tabelle speichern</translation>
     </message>
@@ -11145,10 +11109,6 @@ Umschalt+F8 von der Seite</translation>
         <translation>Auswertung öffnen</translation>
     </message>
     <message>
-        <source>Enter</source>
-        <translation>Eingabe</translation>
-    </message>
-    <message>
         <source>Compare in &amp;progress</source>
         <translation>Im &amp;Verlauf vergleichen</translation>
     </message>
@@ -11220,6 +11180,10 @@ Umschalt+F8 von der Seite</translation>
         <source>It was this one</source>
         <translation>Diese war es</translation>
     </message>
+    <message>
+        <source>In the archi&amp;ve: {n}</source>
+        <translation>&amp;Im Archiv: {n}</translation>
+    </message>
 </context>
 <context>
     <name>SetAsideSheet</name>
@@ -11256,8 +11220,8 @@ Umschalt+F8 von der Seite</translation>
         <translation>Zählen lassen</translation>
     </message>
     <message>
-        <source>Esc</source>
-        <translation>Esc</translation>
+        <source>Set it aside</source>
+        <translation>Beiseitelegen</translation>
     </message>
 </context>
 <context>
@@ -11346,10 +11310,6 @@ Umschalt+F8 von der Seite</translation>
         <translation>Die Aufnahme wird geöffnet.</translation>
     </message>
     <message>
-        <source>The simulated patient is drawn, once for each exercise: a minute, up to three on a busy computer.</source>
-        <translation>Der simulierte Patient wird gezeichnet, einmal je Übung: eine Minute, bis zu drei auf einem ausgelasteten Computer.</translation>
-    </message>
-    <message>
         <source>Choose the source again</source>
         <translation>Quelle neu wählen</translation>
     </message>
@@ -11374,8 +11334,28 @@ Umschalt+F8 von der Seite</translation>
         <translation>Noch einmal öffnen</translation>
     </message>
     <message>
-        <source>Enter</source>
-        <translation>Eingabe</translation>
+        <source>Leave the markers?</source>
+        <translation>Die Marker verlassen?</translation>
+    </message>
+    <message>
+        <source>The names given on this picture would be lost.</source>
+        <translation>Die Namen, die auf diesem Bild vergeben sind, gingen verloren.</translation>
+    </message>
+    <message>
+        <source>Stay here, or go back to the camera.</source>
+        <translation>Hier bleiben oder zurück zur Kamera.</translation>
+    </message>
+    <message>
+        <source>Back to the camera</source>
+        <translation>Zurück zur Kamera</translation>
+    </message>
+    <message>
+        <source>Stay here</source>
+        <translation>Hier bleiben</translation>
+    </message>
+    <message>
+        <source>The simulated patient is being drawn.</source>
+        <translation>Der simulierte Patient wird gezeichnet.</translation>
     </message>
 </context>
 <context>
@@ -11604,17 +11584,6 @@ Umschalt+F8 von der Seite</translation>
     <message>
         <source>A bent finger is measured from its own rest, and less surely.</source>
         <translation>Ein gebeugter Finger wird von seiner eigenen Ruhelage aus gemessen, und weniger sicher.</translation>
-    </message>
-</context>
-<context>
-    <name>SwitchingEncryption</name>
-    <message>
-        <source>Too many tries. The next one in {seconds} s.</source>
-        <translation>Zu viele Versuche. Der nächste in {seconds} s.</translation>
-    </message>
-    <message>
-        <source>The PIN until now is another one.</source>
-        <translation>Die bisherige PIN ist eine andere.</translation>
     </message>
 </context>
 <context>
@@ -11876,67 +11845,6 @@ Umschalt+F8 von der Seite</translation>
     <message>
         <source>No patients yet. Add the first one, or try everything with the practice patient.</source>
         <translation>Noch keine Patienten. Legen Sie den ersten an, oder probieren Sie alles mit dem Probepatienten.</translation>
-    </message>
-</context>
-<context>
-    <name>self.shell</name>
-    <message>
-        <source>Folder of patients and sessions</source>
-        <translation type="vanished">Ordner der Patienten und Sitzungen</translation>
-    </message>
-    <message>
-        <source>The language can be changed when nothing is measured or worked on any more.</source>
-        <translation type="vanished">Die Sprache lässt sich ändern, wenn nichts mehr gemessen oder bearbeitet wird.</translation>
-    </message>
-</context>
-<context>
-    <name>sheet</name>
-    <message>
-        <source>Exercise</source>
-        <translation type="vanished">Übung</translation>
-    </message>
-    <message>
-        <source>times</source>
-        <translation type="vanished">mal</translation>
-    </message>
-    <message>
-        <source>seconds</source>
-        <translation type="vanished">Sekunden</translation>
-    </message>
-    <message>
-        <source>Times or seconds</source>
-        <translation type="vanished">Mal oder Sekunden</translation>
-    </message>
-    <message>
-        <source>How often or how long</source>
-        <translation type="vanished">Wie oft oder wie lange</translation>
-    </message>
-    <message>
-        <source>none</source>
-        <translation type="vanished">keine</translation>
-    </message>
-    <message>
-        <source>Rest after it</source>
-        <translation type="vanished">Pause danach</translation>
-    </message>
-    <message>
-        <source>Earlier</source>
-        <translation type="vanished">Früher</translation>
-    </message>
-    <message>
-        <source>Remove</source>
-        <translation type="vanished">Entfernen</translation>
-    </message>
-</context>
-<context>
-    <name>shell</name>
-    <message>
-        <source>Re&amp;view it</source>
-        <translation type="vanished">Zur Aus&amp;wertung</translation>
-    </message>
-    <message>
-        <source>I have read it</source>
-        <translation type="vanished">Ich habe es gelesen</translation>
     </message>
 </context>
 </TS>

@@ -537,7 +537,7 @@
     </message>
     <message>
         <source>no change beyond error</source>
-        <translation>nessun cambiamento oltre l’errore</translation>
+        <translation type="vanished">nessun cambiamento oltre l’errore</translation>
     </message>
     <message>
         <source>improved, just beyond error</source>
@@ -1888,26 +1888,6 @@
         <translation>Polso</translation>
     </message>
     <message>
-        <source>Thumb base</source>
-        <translation type="vanished">Base del pollice</translation>
-    </message>
-    <message>
-        <source>{finger} knuckle</source>
-        <translation type="vanished">Nocca {finger}</translation>
-    </message>
-    <message>
-        <source>{finger} middle joint</source>
-        <translation type="vanished">Artic. media {finger}</translation>
-    </message>
-    <message>
-        <source>{finger} end joint</source>
-        <translation type="vanished">Artic. distale {finger}</translation>
-    </message>
-    <message>
-        <source>{finger} tip</source>
-        <translation type="vanished">Punta {finger}</translation>
-    </message>
-    <message>
         <source>Index</source>
         <translation>Indice</translation>
     </message>
@@ -1974,10 +1954,6 @@
     <message>
         <source>Turn the little-finger side up</source>
         <translation>Girare in su il lato del mignolo</translation>
-    </message>
-    <message>
-        <source>Take all names</source>
-        <translation>Accetta tutti i nomi</translation>
     </message>
     <message>
         <source>Take {count} names</source>
@@ -2548,10 +2524,6 @@
         <translation>non confrontata</translation>
     </message>
     <message>
-        <source>other set-up: not compared</source>
-        <translation type="vanished">altra preparazione: non confrontata</translation>
-    </message>
-    <message>
         <source>at least: hidden in part</source>
         <translation>almeno: in parte nascosto</translation>
     </message>
@@ -2677,7 +2649,7 @@
     </message>
     <message>
         <source>No change beyond measurement error since {day}.</source>
-        <translation>Nessun cambiamento oltre l’errore di misura rispetto a {day}.</translation>
+        <translation type="vanished">Nessun cambiamento oltre l’errore di misura rispetto a {day}.</translation>
     </message>
     <message>
         <source>Not judged: the joints were hidden in part.</source>
@@ -2721,7 +2693,7 @@
     </message>
     <message>
         <source>{name}: no change beyond measurement error.</source>
-        <translation>{name}: nessun cambiamento oltre l’errore di misura.</translation>
+        <translation type="vanished">{name}: nessun cambiamento oltre l’errore di misura.</translation>
     </message>
     <message>
         <source>hidden in part, or too few</source>
@@ -2814,14 +2786,6 @@
     <message>
         <source>flex.</source>
         <translation>fless.</translation>
-    </message>
-    <message>
-        <source>back</source>
-        <translation type="vanished">ritorno</translation>
-    </message>
-    <message>
-        <source>across</source>
-        <translation type="vanished">attraverso</translation>
     </message>
     <message>
         <source>Movement time</source>
@@ -3396,18 +3360,6 @@
         <translation>Oggi, rotazione</translation>
     </message>
     <message>
-        <source>side</source>
-        <translation type="vanished">laterale</translation>
-    </message>
-    <message>
-        <source>bending</source>
-        <translation type="vanished">flessione</translation>
-    </message>
-    <message>
-        <source>turning</source>
-        <translation type="vanished">rotazione</translation>
-    </message>
-    <message>
         <source>Today</source>
         <translation>Oggi</translation>
     </message>
@@ -3601,7 +3553,7 @@
     </message>
     <message>
         <source>No change beyond measurement error since {when}.</source>
-        <translation>Confronto con {when}: nessun cambiamento oltre l’errore di misura.</translation>
+        <translation type="vanished">Confronto con {when}: nessun cambiamento oltre l’errore di misura.</translation>
     </message>
     <message>
         <source>{name} {size} better</source>
@@ -3900,10 +3852,6 @@
         <translation>interrotta</translation>
     </message>
     <message>
-        <source>ticked</source>
-        <translation type="vanished">selezionata</translation>
-    </message>
-    <message>
         <source>What counts as a change</source>
         <translation>Che cosa vale come cambiamento</translation>
     </message>
@@ -4180,10 +4128,6 @@
         <translation>Deficit di pronazione</translation>
     </message>
     <message>
-        <source>{movement} deficit</source>
-        <translation type="vanished">{movement}, deficit</translation>
-    </message>
-    <message>
         <source>lacks {angle}</source>
         <translation>mancano {angle}</translation>
     </message>
@@ -4260,10 +4204,6 @@
         <translation>Scattare l’immagine quando la mano è piatta e si vedono tutti i dischetti.</translation>
     </message>
     <message>
-        <source>Click the blue discs in the picture, each as it is asked for above.</source>
-        <translation>Fare clic sui dischetti blu nell’immagine, nell’ordine chiesto sopra.</translation>
-    </message>
-    <message>
         <source>Every disc has its name and every check is good: start here.</source>
         <translation>Ogni dischetto ha il suo nome e ogni controllo è buono: iniziare qui.</translation>
     </message>
@@ -4293,7 +4233,7 @@
     </message>
     <message>
         <source>no change</source>
-        <translation>stabile</translation>
+        <translation type="vanished">stabile</translation>
     </message>
     <message>
         <source>the other hand</source>
@@ -4365,7 +4305,7 @@
     </message>
     <message>
         <source>the same</source>
-        <translation>uguale</translation>
+        <translation type="vanished">uguale</translation>
     </message>
     <message>
         <source>{size} more</source>
@@ -4428,20 +4368,12 @@
         <translation>È salvata per intero, così come misurata dal vivo.</translation>
     </message>
     <message>
-        <source>All other files are as they were.</source>
-        <translation>Tutti gli altri file sono come prima.</translation>
-    </message>
-    <message>
         <source>All other pictures are used, and the gaps are marked.</source>
         <translation>Tutte le altre immagini sono usate, e i vuoti sono segnati.</translation>
     </message>
     <message>
         <source>All sessions are safe; names and notes are missing. The damaged list is kept as {subject}.</source>
         <translation>Tutte le sedute sono al sicuro; mancano nomi e note. L’elenco danneggiato è conservato come {subject}.</translation>
-    </message>
-    <message>
-        <source>An encrypted file cannot be read: {subject} ({detail}).</source>
-        <translation>Un file cifrato non si può leggere: {subject} ({detail}).</translation>
     </message>
     <message>
         <source>Another Carpus is using the patients of {subject}.</source>
@@ -4476,20 +4408,12 @@
         <translation>Le copie di sicurezza non possono stare lì: {subject} ({detail}).</translation>
     </message>
     <message>
-        <source>Bring it back from a back-up.</source>
-        <translation>Riportarlo da una copia di sicurezza.</translation>
-    </message>
-    <message>
         <source>Bring the firmware up to date with the maker&apos;s RealSense Viewer.</source>
         <translation>Aggiornare il firmware con RealSense Viewer del produttore.</translation>
     </message>
     <message>
         <source>Calibrate the camera again, or take the file away to use the usual values.</source>
         <translation>Calibrare di nuovo la telecamera, o togliere il file per usare i valori usuali.</translation>
-    </message>
-    <message>
-        <source>Camera rights</source>
-        <translation>Permessi della telecamera</translation>
     </message>
     <message>
         <source>Camera rights, {title}</source>
@@ -4514,10 +4438,6 @@
     <message>
         <source>Carpus waits for its camera: {subject}. Another one is there ({detail}).</source>
         <translation>Carpus attende la sua telecamera: {subject}. Ce n’è un’altra ({detail}).</translation>
-    </message>
-    <message>
-        <source>Check it by “carpus check-card --serial NUMBER” with the number printed on it.</source>
-        <translation type="vanished">Controllarla con “carpus check-card --serial NUMERO”, con il numero stampato su di essa.</translation>
     </message>
     <message>
         <source>Check that a disc was clicked there, and not another blue spot.</source>
@@ -4550,10 +4470,6 @@
     <message>
         <source>Check the patient, the side, and that every marker is clicked under its own name.</source>
         <translation>Controllare il paziente, il lato, e che ogni marcatore sia indicato con il suo nome.</translation>
-    </message>
-    <message>
-        <source>Check this computer’s disk, and back up.</source>
-        <translation>Controllare il disco di questo computer, e fare una copia di sicurezza.</translation>
     </message>
     <message>
         <source>Choose a folder on another disk.</source>
@@ -4752,10 +4668,6 @@
         <translation>Installare di nuovo Carpus: ne manca una parte.</translation>
     </message>
     <message>
-        <source>Install Carpus anew, with the Python package sqlcipher3.</source>
-        <translation>Reinstallare Carpus, con il pacchetto Python sqlcipher3.</translation>
-    </message>
-    <message>
         <source>Install OpenNI2 from the camera&apos;s maker, then start Carpus again.</source>
         <translation>Installare OpenNI2 del produttore della telecamera, poi riavviare Carpus.</translation>
     </message>
@@ -4766,10 +4678,6 @@
     <message>
         <source>Install it again.</source>
         <translation>Installarlo di nuovo.</translation>
-    </message>
-    <message>
-        <source>Install it with pip.</source>
-        <translation>Installarlo con pip.</translation>
     </message>
     <message>
         <source>Install it, and what it names, again.</source>
@@ -4872,10 +4780,6 @@
         <translation>Non tutti i file si sono già potuti eliminare (restano {detail}, per esempio {subject}).</translation>
     </message>
     <message>
-        <source>Not every file could be encrypted or decrypted: {subject}, {detail} in all.</source>
-        <translation>Non tutti i file si sono potuti cifrare o decifrare: {subject}, in tutto {detail}.</translation>
-    </message>
-    <message>
         <source>Nothing has been changed, and nothing is lost.</source>
         <translation>Nulla è stato cambiato e nulla è perso.</translation>
     </message>
@@ -4898,10 +4802,6 @@
     <message>
         <source>Nothing says whether depth lies on colour in {subject}; Carpus takes it so.</source>
         <translation>Nulla dice se in {subject} la profondità combacia con il colore; Carpus lo suppone.</translation>
-    </message>
-    <message>
-        <source>Nothing was kept; what was measured before stays.</source>
-        <translation type="vanished">Nulla è stato salvato; ciò che era misurato prima resta.</translation>
     </message>
     <message>
         <source>Once the disk answers, start Carpus again: it finishes the recording.</source>
@@ -5028,10 +4928,6 @@
         <translation>Eseguire: sudo apt-get install libopenni2-0, che li porta. Poi ricollegare la telecamera.</translation>
     </message>
     <message>
-        <source>See to the disk or bring them back from a back-up; Carpus goes on with them at its next start.</source>
-        <translation>Controllare il disco o riportarli da una copia di sicurezza; Carpus prosegue con loro al prossimo avvio.</translation>
-    </message>
-    <message>
         <source>Set colour and depth to one size next time.</source>
         <translation>La prossima volta impostare colore e profondità alla stessa dimensione.</translation>
     </message>
@@ -5041,7 +4937,7 @@
     </message>
     <message>
         <source>Single exercises can be measured as ever. Put a copy of the file back, or make the sets anew.</source>
-        <translation>I singoli esercizi si misurano come sempre. Rimettere una copia del file, o rifare le sequenze.</translation>
+        <translation type="vanished">I singoli esercizi si misurano come sempre. Rimettere una copia del file, o rifare le sequenze.</translation>
     </message>
     <message>
         <source>Some pictures are smaller and have been enlarged: {subject} ({detail}).</source>
@@ -5098,10 +4994,6 @@
     <message>
         <source>The back-up is damaged: a content read back is not what was written ({subject}, {detail}).</source>
         <translation>La copia di sicurezza è danneggiata: un contenuto riletto non è quello scritto ({subject}, {detail}).</translation>
-    </message>
-    <message>
-        <source>The camera does not say its number: {subject}.</source>
-        <translation type="vanished">La telecamera non comunica il suo numero: {subject}.</translation>
     </message>
     <message>
         <source>1. Print both pages at 100 % on plain white paper. Check the rulers: 100 mm.</source>
@@ -5208,10 +5100,6 @@
         <translation>Il driver della telecamera non è su questo computer, o non si può caricare ({detail}).</translation>
     </message>
     <message>
-        <source>The file is as it was.</source>
-        <translation>Il file è com’era.</translation>
-    </message>
-    <message>
         <source>The file is untouched, and all other sessions are safe.</source>
         <translation>Il file non è stato toccato, e tutte le altre sedute sono al sicuro.</translation>
     </message>
@@ -5288,10 +5176,6 @@
         <translation>Il programma pronto non ha un driver per questa: installare Carpus con pip, poi eseguire: {command}</translation>
     </message>
     <message>
-        <source>The part of Carpus that encrypts is not installed here ({detail}).</source>
-        <translation>La parte di Carpus che cifra non è installata qui ({detail}).</translation>
-    </message>
-    <message>
         <source>The pictures of the board are too few or too alike: {subject} ({detail}).</source>
         <translation>Le immagini della tavola sono troppo poche o troppo simili: {subject} ({detail}).</translation>
     </message>
@@ -5345,7 +5229,7 @@
     </message>
     <message>
         <source>The sets of exercises cannot be read: {subject} ({detail}).</source>
-        <translation>Le sequenze di esercizi non si possono leggere: {subject} ({detail}).</translation>
+        <translation type="vanished">Le sequenze di esercizi non si possono leggere: {subject} ({detail}).</translation>
     </message>
     <message>
         <source>The times of the recording do not rise: {subject} ({detail}).</source>
@@ -5372,20 +5256,12 @@
         <translation>Non esiste la cartella {subject}.</translation>
     </message>
     <message>
-        <source>There is no recording at {subject}.</source>
-        <translation>Non c’è nessuna registrazione in {subject}.</translation>
-    </message>
-    <message>
         <source>There is no set of markers with the name {subject} ({detail}).</source>
         <translation>Non esiste un insieme di marcatori con il nome {subject} ({detail}).</translation>
     </message>
     <message>
         <source>There is one more blue spot on the hand than there are names.</source>
         <translation>Sulla mano c’è un punto blu in più rispetto ai nomi.</translation>
-    </message>
-    <message>
-        <source>These are as they were, and the key is kept.</source>
-        <translation>Questi sono com’erano, e la chiave è conservata.</translation>
     </message>
     <message>
         <source>These sessions make no test and retest: {subject} ({detail}).</source>
@@ -5412,20 +5288,12 @@
         <translation>Questa telecamera non dice quando ha scattato un’immagine; i suoi tempi sono quelli d’arrivo: le velocità sono approssimative.</translation>
     </message>
     <message>
-        <source>This is not the PIN of {subject}, and not its recovery code.</source>
-        <translation>Questo non è il PIN di {subject}, né il suo codice di recupero.</translation>
-    </message>
-    <message>
         <source>This line is 100 mm long. If it is not,</source>
         <translation>Questa linea è lunga 100 mm. Se no,</translation>
     </message>
     <message>
         <source>This looks like the other hand.</source>
         <translation>Questa sembra l’altra mano.</translation>
-    </message>
-    <message>
-        <source>This needs carpus[{subject}] ({detail}), which is not installed.</source>
-        <translation>Per questo serve carpus[{subject}] ({detail}), che non è installato.</translation>
     </message>
     <message>
         <source>This port is slow for it. {port}</source>
@@ -5460,16 +5328,8 @@
         <translation>Riprovare, o correggere anche un’altra immagine.</translation>
     </message>
     <message>
-        <source>Try again; if the PIN is right, bring the key files (encryption…) back from a back-up.</source>
-        <translation>Riprovare; se il PIN è giusto, riportare i file della chiave (encryption…) da una copia di sicurezza.</translation>
-    </message>
-    <message>
         <source>Turn the back of the hand to the camera.</source>
         <translation>Girare il dorso della mano verso la telecamera.</translation>
-    </message>
-    <message>
-        <source>Type the PIN when asked, or set CARPUS_PIN to it.</source>
-        <translation>Scrivere il PIN quando viene chiesto, o metterlo in CARPUS_PIN.</translation>
     </message>
     <message>
         <source>Unplug the camera, plug it in again and start once more.</source>
@@ -5582,22 +5442,6 @@
     <message>
         <source>angles by {format}</source>
         <translation>angoli da {format}</translation>
-    </message>
-    <message>
-        <source>another program has exchanged it</source>
-        <translation>un altro programma lo ha sostituito</translation>
-    </message>
-    <message>
-        <source>another program has it open</source>
-        <translation>un altro programma lo tiene aperto</translation>
-    </message>
-    <message>
-        <source>another program has it open: {cause}</source>
-        <translation>un altro programma lo tiene aperto: {cause}</translation>
-    </message>
-    <message>
-        <source>block {number} is not there</source>
-        <translation>manca il blocco {number}</translation>
     </message>
     <message>
         <source>camera_matrix has {count} numbers, 9 expected</source>
@@ -5722,10 +5566,6 @@
     <message>
         <source>damaged: {cause}</source>
         <translation>danneggiato: {cause}</translation>
-    </message>
-    <message>
-        <source>damaged: {detail}</source>
-        <translation>danneggiato: {detail}</translation>
     </message>
     <message>
         <source>damaged: {path} does not fit {path2}</source>
@@ -5912,10 +5752,6 @@
         <translation>le sue colonne non sono ciò che dicono i nomi</translation>
     </message>
     <message>
-        <source>its facts are not there</source>
-        <translation>mancano i suoi dati di base</translation>
-    </message>
-    <message>
         <source>its head is damaged</source>
         <translation>la sua intestazione è danneggiata</translation>
     </message>
@@ -6049,7 +5885,7 @@
     </message>
     <message>
         <source>names in it are no text</source>
-        <translation>contiene nomi che non sono testo</translation>
+        <translation type="vanished">contiene nomi che non sono testo</translation>
     </message>
     <message>
         <source>not installed; only a RealSense and its recordings need it</source>
@@ -6057,15 +5893,11 @@
     </message>
     <message>
         <source>the form of the reports cannot be read</source>
-        <translation>il modello delle relazioni non si può leggere</translation>
+        <translation type="vanished">il modello delle relazioni non si può leggere</translation>
     </message>
     <message>
         <source>the logo of the reports is gone; choose it again</source>
-        <translation>il logo delle relazioni non c’è più; sceglierlo di nuovo</translation>
-    </message>
-    <message>
-        <source>neither a TUM folder, an .oni file, a RealSense recording nor a raw recording</source>
-        <translation type="vanished">né una cartella TUM, né un file .oni, né una registrazione RealSense, né una registrazione grezza</translation>
+        <translation type="vanished">il logo delle relazioni non c’è più; sceglierlo di nuovo</translation>
     </message>
     <message>
         <source>no MOT: it has no end of its header</source>
@@ -6273,7 +6105,7 @@
     </message>
     <message>
         <source>the comment cannot be read</source>
-        <translation>il commento non si può leggere</translation>
+        <translation type="vanished">il commento non si può leggere</translation>
     </message>
     <message>
         <source>the curves match by {match} at best: is it the same movement?</source>
@@ -6290,10 +6122,6 @@
     <message>
         <source>the focal length is known to {share} % only</source>
         <translation>la distanza focale è nota solo al {share} %</translation>
-    </message>
-    <message>
-        <source>the library sees other pictures than the file holds</source>
-        <translation type="vanished">la libreria vede immagini diverse da quelle del file</translation>
     </message>
     <message>
         <source>the session holds no picture</source>
@@ -6432,24 +6260,8 @@
         <translation>versione {version}, questo Carpus legge fino a {count}</translation>
     </message>
     <message>
-        <source>version {version}, this Carpus reads up to {format_version}</source>
-        <translation>versione {version}, questo Carpus legge fino a {format_version}</translation>
-    </message>
-    <message>
-        <source>version {version}, this Carpus reads up to {newest}</source>
-        <translation>versione {version}, questo Carpus legge fino a {newest}</translation>
-    </message>
-    <message>
         <source>what was left out cannot be read</source>
-        <translation>ciò che è stato escluso non si può leggere</translation>
-    </message>
-    <message>
-        <source>what was written cannot be read back</source>
-        <translation>ciò che è stato scritto non si può rileggere</translation>
-    </message>
-    <message>
-        <source>what was written is not what was read</source>
-        <translation>ciò che è stato scritto non è ciò che è stato letto</translation>
+        <translation type="vanished">ciò che è stato escluso non si può leggere</translation>
     </message>
     <message>
         <source>wrist</source>
@@ -6584,14 +6396,6 @@
         <translation>{shape} x {shape2} pixel, prima {width} x {height}</translation>
     </message>
     <message>
-        <source>{subject} could not be exchanged: what was read back is not what was written.</source>
-        <translation>Non si è potuto sostituire {subject}: ciò che è stato riletto non è ciò che è stato scritto.</translation>
-    </message>
-    <message>
-        <source>{subject} is encrypted, and its PIN has not been given.</source>
-        <translation>La cartella {subject} è cifrata, e il suo PIN non è stato dato.</translation>
-    </message>
-    <message>
         <source>{timestamp_s} s after {last_time_s} s</source>
         <translation>{timestamp_s} s dopo {last_time_s} s</translation>
     </message>
@@ -6724,16 +6528,8 @@
         <translation>pagina {number} di {count}</translation>
     </message>
     <message>
-        <source>This picture cannot be read. Choose a PNG, JPEG or SVG file.</source>
-        <translation>Questa immagine non si può leggere. Scegliere un file PNG, JPEG o SVG.</translation>
-    </message>
-    <message>
         <source>This picture is larger than 8 MB. Choose a smaller one.</source>
         <translation>Questa immagine supera 8 MB. Sceglierne una più piccola.</translation>
-    </message>
-    <message>
-        <source>This file is no picture that Carpus can read. Choose a PNG, JPEG or SVG file.</source>
-        <translation>Questo file non è un’immagine leggibile da Carpus. Scegliere un file PNG, JPEG o SVG.</translation>
     </message>
     <message>
         <source>This picture is too small to print. Choose one of at least 32 pixels each way.</source>
@@ -6758,6 +6554,374 @@
     <message>
         <source>Practice patient</source>
         <translation>Paziente di prova</translation>
+    </message>
+    <message>
+        <source>Choose one of the patients that there are.</source>
+        <translation>Scegliere uno dei pazienti che ci sono.</translation>
+    </message>
+    <message>
+        <source>Choose the camera by one of these names, in the settings or with --camera.</source>
+        <translation>Scegliere la telecamera con uno di questi nomi, nelle impostazioni o con --camera.</translation>
+    </message>
+    <message>
+        <source>Close Carpus first, then try again.</source>
+        <translation>Chiudere prima Carpus, poi riprovare.</translation>
+    </message>
+    <message>
+        <source>Measure one, or name the folder that holds the sessions.</source>
+        <translation>Misurarne una, oppure indicare la cartella che contiene le sedute.</translation>
+    </message>
+    <message>
+        <source>No kind of camera is called {subject} ({detail}).</source>
+        <translation>Nessun tipo di telecamera si chiama {subject} ({detail}).</translation>
+    </message>
+    <message>
+        <source>The window of Carpus, or another program, has the list of patients open: {subject} ({detail}).</source>
+        <translation>La finestra di Carpus, o un altro programma, tiene aperto l&apos;elenco dei pazienti: {subject} ({detail}).</translation>
+    </message>
+    <message>
+        <source>There is no patient {subject} ({detail}).</source>
+        <translation>Non c&apos;è nessun paziente {subject} ({detail}).</translation>
+    </message>
+    <message>
+        <source>There is no recording at {subject} ({detail}).</source>
+        <translation>Non c&apos;è nessuna registrazione in {subject} ({detail}).</translation>
+    </message>
+    <message>
+        <source>There is no session in {subject}.</source>
+        <translation>In {subject} non c&apos;è nessuna seduta.</translation>
+    </message>
+    <message>
+        <source>did you mean “{meant}”? There are: {names}</source>
+        <translation>si intendeva “{meant}”? Ci sono: {names}</translation>
+    </message>
+    <message>
+        <source>there are none yet</source>
+        <translation>non ce ne sono ancora</translation>
+    </message>
+    <message>
+        <source>there are: {names}</source>
+        <translation>ci sono: {names}</translation>
+    </message>
+    <message>
+        <source>Ask whoever looks after this computer. {how}</source>
+        <translation>Chieda a chi si occupa di questo computer. {how}</translation>
+    </message>
+    <message>
+        <source>Disk encryption</source>
+        <translation>Cifratura del disco</translation>
+    </message>
+    <message>
+        <source>Linux encrypts a disk when it is set up (LUKS): choose it when the system is installed, or move the data folder to a disk that was set up so. Keep its passphrase away from this computer.</source>
+        <translation>Linux cifra un disco quando viene preparato (LUKS): lo scelga all’installazione del sistema, o sposti la cartella dei dati su un disco preparato così. Conservi la passphrase lontano da questo computer.</translation>
+    </message>
+    <message>
+        <source>Switch it on in Windows: Settings → Privacy and security → Device encryption, or BitLocker in the Control Panel. Keep the recovery key away from this computer.</source>
+        <translation>Si attiva in Windows: Impostazioni → Privacy e sicurezza → Crittografia del dispositivo, o BitLocker nel Pannello di controllo. Conservi la chiave di ripristino lontano da questo computer.</translation>
+    </message>
+    <message>
+        <source>Switch it on: System Settings → Privacy and Security → FileVault. Keep the recovery key away from this computer.</source>
+        <translation>Si attiva in Impostazioni di Sistema → Privacy e sicurezza → FileVault. Conservi la chiave di recupero lontano da questo computer.</translation>
+    </message>
+    <message>
+        <source>The disk of the data folder is encrypted by the system.</source>
+        <translation>Il disco della cartella dei dati è cifrato dal sistema.</translation>
+    </message>
+    <message>
+        <source>The disk of the data folder is not encrypted.</source>
+        <translation>Il disco della cartella dei dati non è cifrato.</translation>
+    </message>
+    <message>
+        <source>Whether the disk of the data folder is encrypted is not known.</source>
+        <translation>Non si sa se il disco della cartella dei dati sia cifrato.</translation>
+    </message>
+    <message>
+        <source>damaged: a blob is in no picture</source>
+        <translation>danneggiata: una macchia non è in alcuna immagine</translation>
+    </message>
+    <message>
+        <source>damaged: its calibration is not one of a hand</source>
+        <translation>danneggiata: la sua calibrazione non è quella di una mano</translation>
+    </message>
+    <message>
+        <source>This picture cannot be read. Choose a PNG or JPEG file.</source>
+        <translation>Questa immagine non si può leggere. Scelga un file PNG o JPEG.</translation>
+    </message>
+    <message>
+        <source>This file is no picture that Carpus can read. Choose a PNG or JPEG file.</source>
+        <translation>Questo file non è un’immagine che Carpus sappia leggere. Scelga un file PNG o JPEG.</translation>
+    </message>
+    <message>
+        <source>The hand rests until then.</source>
+        <translation>Fino ad allora la mano riposa.</translation>
+    </message>
+    <message>
+        <source>The movement of the simulated hand is still being drawn.</source>
+        <translation>Il movimento della mano simulata viene ancora disegnato.</translation>
+    </message>
+    <message>
+        <source>Wait a moment; it moves by itself.</source>
+        <translation>Attendere un momento; si muove da sola.</translation>
+    </message>
+    <message>
+        <source>Names are right</source>
+        <translation>I nomi sono giusti</translation>
+    </message>
+    <message>
+        <source>Drag a name to another disc to change it.</source>
+        <translation>Per cambiare, trascinare un nome su un altro dischetto.</translation>
+    </message>
+    <message>
+        <source>Look whether every name is on its disc, then press Enter; click the discs that are asked for above.</source>
+        <translation>Guardare se ogni nome è sul suo dischetto, poi Invio; fare clic sui dischetti richiesti sopra.</translation>
+    </message>
+    <message>
+        <source>Install it with the pip of Carpus’s own environment; in a checkout that is “.venv/bin/pip”.</source>
+        <translation>Installarlo con il pip dell’ambiente proprio di Carpus; in un checkout è “.venv/bin/pip”.</translation>
+    </message>
+    <message>
+        <source>This needs the Python package {detail} (carpus[{subject}]), which is not installed.</source>
+        <translation>Serve il pacchetto Python {detail} (carpus[{subject}]), che non è installato.</translation>
+    </message>
+    <message>
+        <source>Measure</source>
+        <translation>Misura</translation>
+    </message>
+    <message>
+        <source>Progress</source>
+        <translation>Progressi</translation>
+    </message>
+    <message>
+        <source>Review</source>
+        <translation>Revisione</translation>
+    </message>
+    <message>
+        <source>a session or the progress as a PDF in English, German or Italian</source>
+        <translation>una seduta o i progressi in PDF in inglese, tedesco o italiano</translation>
+    </message>
+    <message>
+        <source>a session: picture, curves, repetitions, corrected where need be</source>
+        <translation>una seduta: immagine, curve, ripetizioni, corrette dove serve</translation>
+    </message>
+    <message>
+        <source>how wrist and fingers move, live, every angle with how sure it is</source>
+        <translation>come si muovono polso e dita, dal vivo, ogni angolo con la sua incertezza</translation>
+    </message>
+    <message>
+        <source>of a patient from session to session, beyond measurement error or not</source>
+        <translation>di un paziente da una seduta all&apos;altra, oltre l&apos;errore di misura o no</translation>
+    </message>
+    <message>
+        <source>to open formats: CSV, JSON, C3D, TRC, MOT, BIDS</source>
+        <translation>in formati aperti: CSV, JSON, C3D, TRC, MOT, BIDS</translation>
+    </message>
+    <message>
+        <source>runs the other way: opposite sign?</source>
+        <translation>va al contrario: segno opposto?</translation>
+    </message>
+    <message>
+        <source>{angles}: the reference runs the other way.</source>
+        <translation>{angles}: il riferimento va al contrario.</translation>
+    </message>
+    <message>
+        <source>One of the two has the opposite sign, or they are not of one movement. Turn it and compare again.</source>
+        <translation>Uno dei due ha il segno opposto, o non è lo stesso movimento. Invertire il segno e confrontare di nuovo.</translation>
+    </message>
+    <message>
+        <source>{count} pairs, {kind}</source>
+        <translation>{count} coppie, {kind}</translation>
+    </message>
+    <message>
+        <source>AMA Guides; AAOS 1965 (goniometer)</source>
+        <translation>AMA Guides; AAOS 1965 (goniometro)</translation>
+    </message>
+    <message>
+        <source>ASSH, sum of active bending in a fist</source>
+        <translation>ASSH, somma della flessione attiva nel pugno</translation>
+    </message>
+    <message>
+        <source>Usual: {source}; {ages}, {sexes}; not for children or old age.</source>
+        <translation>Usuale: {source}; {ages}, {sexes}; non per bambini e anziani.</translation>
+    </message>
+    <message>
+        <source>a study&apos;s table has the columns person, session and reference</source>
+        <translation>la tabella di uno studio ha le colonne person, session e reference</translation>
+    </message>
+    <message>
+        <source>adults, ages not told</source>
+        <translation>adulti, età non indicata</translation>
+    </message>
+    <message>
+        <source>it cannot be read as a table: {why}</source>
+        <translation>non si legge come tabella: {why}</translation>
+    </message>
+    <message>
+        <source>only {time} s are in common: the shift of the clocks is not sure</source>
+        <translation>solo {time} s in comune: lo sfasamento degli orologi non è sicuro</translation>
+    </message>
+    <message>
+        <source>the best shift lies at the end of what was searched: it may be further</source>
+        <translation>lo sfasamento migliore è al limite della ricerca: può essere oltre</translation>
+    </message>
+    <message>
+        <source>the clocks drift: the reference&apos;s runs {percent} % against Carpus&apos;s, {seconds} s over {length} s, and the figures hold that error (lag {lag} s with drift {drift} %)</source>
+        <translation>gli orologi si allontanano: quello del riferimento di {percent} % rispetto a Carpus, {seconds} s in {length} s, e i valori contengono questo errore (sfasamento {lag} s con deriva {drift} %)</translation>
+    </message>
+    <message>
+        <source>the shift is not sure: taken is {taken} s ({match}); as well or nearly match {others}</source>
+        <translation>lo sfasamento non è sicuro: è preso {taken} s ({match}); altrettanto o quasi corrispondono {others}</translation>
+    </message>
+    <message>
+        <source>women and men together</source>
+        <translation>donne e uomini insieme</translation>
+    </message>
+    <message>
+        <source>{angle}: runs against Carpus (r = {r}), so one of the two has the opposite sign or is of another movement</source>
+        <translation>{angle}: va contro Carpus (r = {r}), quindi uno dei due ha il segno opposto o è un altro movimento</translation>
+    </message>
+    <message>
+        <source>{people} people are too few for figures of all: three are needed</source>
+        <translation>{people} persone sono troppo poche per valori di tutti: ne servono tre</translation>
+    </message>
+    <message>
+        <source>{people} people, {sessions} sessions, {kinds}</source>
+        <translation>{people} persone, {sessions} sedute, {kinds}</translation>
+    </message>
+    <message>
+        <source>Open it again, look at what stands there now, and enter your change once more.</source>
+        <translation>Riaprilo, guarda che cosa c’è scritto ora e inserisci di nuovo la tua modifica.</translation>
+    </message>
+    <message>
+        <source>Somebody else has changed this meanwhile, so your change was not kept.</source>
+        <translation>Qualcun altro l’ha modificato nel frattempo, perciò la tua modifica non è stata salvata.</translation>
+    </message>
+    <message>
+        <source>This cannot be a name: {detail} ({subject}).</source>
+        <translation>Questo non può essere un nome: {detail} ({subject}).</translation>
+    </message>
+    <message>
+        <source>Type the name by hand instead of pasting it.</source>
+        <translation>Scrivi il nome a mano invece di incollarlo.</translation>
+    </message>
+    <message>
+        <source>What the other person entered is kept.</source>
+        <translation>Ciò che ha inserito l’altra persona resta.</translation>
+    </message>
+    <message>
+        <source>it holds a sign that cannot be seen</source>
+        <translation>contiene un segno invisibile</translation>
+    </message>
+    <message>
+        <source>more than {count} signs</source>
+        <translation>più di {count} segni</translation>
+    </message>
+    <message>
+        <source>not in the folder of the sessions</source>
+        <translation>non nella cartella delle sessioni</translation>
+    </message>
+    <message>
+        <source>Enter the change once more, or ask whoever looks after the server.</source>
+        <translation>Inserisci di nuovo la modifica o chiedi a chi cura il server.</translation>
+    </message>
+    <message>
+        <source>Measure as usual: patients are shown as last known, and what is new waits here and is delivered.</source>
+        <translation>Misura come al solito: i pazienti sono mostrati come conosciuti per ultimo; ciò che è nuovo attende qui e viene consegnato.</translation>
+    </message>
+    <message>
+        <source>Nothing need be done; if it lasts, ask whoever looks after the server.</source>
+        <translation>Non occorre fare nulla; se continua, chiedi a chi cura il server.</translation>
+    </message>
+    <message>
+        <source>All other changes arrive; this computer shows what the server has.</source>
+        <translation>Tutte le altre modifiche arrivano; questo computer mostra ciò che ha il server.</translation>
+    </message>
+    <message>
+        <source>All sessions of both patients are kept apart.</source>
+        <translation>Tutte le sessioni dei due pazienti restano separate.</translation>
+    </message>
+    <message>
+        <source>Change the name in the patient’s entry if another one is better.</source>
+        <translation>Cambia il nome nella scheda del paziente, se un altro è migliore.</translation>
+    </message>
+    <message>
+        <source>The clinic’s server for records does not answer: {subject} ({detail}).</source>
+        <translation>Il server della clinica per i dati dei pazienti non risponde: {subject} ({detail}).</translation>
+    </message>
+    <message>
+        <source>The clinic’s server {subject} does not take a change ({detail}).</source>
+        <translation>Il server della clinica {subject} non accetta una modifica ({detail}).</translation>
+    </message>
+    <message>
+        <source>The name {subject} was given twice while the server was away: the second patient has ({detail}) behind it.</source>
+        <translation>Il nome {subject} è stato dato due volte mentre il server mancava: il secondo ha ora ({detail}) dopo il nome.</translation>
+    </message>
+    <message>
+        <source>{count} per stroke, {seconds} s in all</source>
+        <translation>{count} per movimento, {seconds} s in tutto</translation>
+    </message>
+    <message>
+        <source>Stops on the way, mean</source>
+        <translation>Soste durante il movimento, media</translation>
+    </message>
+    <message>
+        <source>Choose {count} signs or more, best four words.</source>
+        <translation>Scelga almeno {count} segni, meglio quattro parole.</translation>
+    </message>
+    <message>
+        <source>Everything else is in it.</source>
+        <translation>Tutto il resto c’è.</translation>
+    </message>
+    <message>
+        <source>Back up to a folder on an encrypted disk, or seal single sessions.</source>
+        <translation>Faccia la copia in una cartella su un disco cifrato, o sigilli singole sessioni.</translation>
+    </message>
+    <message>
+        <source>Bring the folder of the sessions back or its disk, and back up again; or erase these sessions.</source>
+        <translation>Riporti la cartella delle sessioni o il suo disco, e rifaccia la copia; o cancelli queste sessioni.</translation>
+    </message>
+    <message>
+        <source>The back-up lacks files: {subject} is missing or cannot be read; {detail} in all.</source>
+        <translation>Alla copia di sicurezza mancano file: {subject} non c’è o non si può leggere; {detail} in tutto.</translation>
+    </message>
+    <message>
+        <source>This is too much to be sealed as one file: {detail} GB.</source>
+        <translation>È troppo per essere sigillato in un solo file: {detail} GB.</translation>
+    </message>
+    <message>
+        <source>This passphrase cannot be taken: {detail}.</source>
+        <translation>Questa passphrase non va bene: {detail}.</translation>
+    </message>
+    <message>
+        <source>Type the passphrase again, capitals and blanks as they were.</source>
+        <translation>Scriva di nuovo la passphrase, con maiuscole e spazi com’erano.</translation>
+    </message>
+    <message>
+        <source>the two are not the same</source>
+        <translation>le due non sono uguali</translation>
+    </message>
+    <message>
+        <source>too few signs</source>
+        <translation>troppo pochi segni</translation>
+    </message>
+    <message>
+        <source>{subject} does not open: the passphrase is another one, or the file is damaged.</source>
+        <translation>{subject} non si apre: la passphrase è un’altra, o il file è danneggiato.</translation>
+    </message>
+    <message>
+        <source>No change proven since {day}.</source>
+        <translation>Nessun cambiamento dimostrato rispetto a {day}.</translation>
+    </message>
+    <message>
+        <source>{name}: no change proven.</source>
+        <translation>{name}: nessun cambiamento dimostrato.</translation>
+    </message>
+    <message>
+        <source>No change proven since {when}.</source>
+        <translation>Confronto con {when}: nessun cambiamento dimostrato.</translation>
+    </message>
+    <message>
+        <source>no change proven</source>
+        <translation>nessun cambiamento dimostrato</translation>
     </message>
 </context>
 <context>
@@ -6844,6 +7008,10 @@
     <message>
         <source>Not used</source>
         <translation>Non usate</translation>
+    </message>
+    <message>
+        <source>Look at this first</source>
+        <translation>Da guardare per primo</translation>
     </message>
 </context>
 <context>
@@ -6948,10 +7116,6 @@
         <translation>Ripristinare la copia del {when}? Sedute aggiunte: {come}, cambiate: {change}, tolte: {go}.</translation>
     </message>
     <message>
-        <source>What is here now is backed up first, and its folder is kept beside the new one.</source>
-        <translation>Prima si fa una copia di ciò che c’è ora; la sua cartella resta accanto a quella nuova.</translation>
-    </message>
-    <message>
         <source>Carpus closes when it is done. Start it again then.</source>
         <translation>Alla fine Carpus si chiude. Poi avviarlo di nuovo.</translation>
     </message>
@@ -6964,12 +7128,32 @@
         <translation>Lascia così</translation>
     </message>
     <message>
-        <source>Enter</source>
-        <translation>Invio</translation>
-    </message>
-    <message>
         <source>The last back-up is of {day}.</source>
         <translation>L’ultima copia è del {day}.</translation>
+    </message>
+    <message>
+        <source>on the same disk as the data</source>
+        <translation>sullo stesso disco dei dati</translation>
+    </message>
+    <message>
+        <source>It lies on the disk that holds the data: if that disk breaks, both are lost.</source>
+        <translation>Si trova sul disco che contiene i dati: se si rompe, si perdono entrambi.</translation>
+    </message>
+    <message>
+        <source>Sealed back-up</source>
+        <translation>Copia sigillata</translation>
+    </message>
+    <message>
+        <source>Sealed files (*.age)</source>
+        <translation>File sigillati (*.age)</translation>
+    </message>
+    <message>
+        <source>The folder of what is here now is kept beside the new one.</source>
+        <translation>La cartella con ciò che c’è ora resta accanto a quella nuova.</translation>
+    </message>
+    <message>
+        <source>Seal into one file</source>
+        <translation>Sigillare in un solo file</translation>
     </message>
 </context>
 <context>
@@ -7034,6 +7218,18 @@
         <source>{percent} %</source>
         <translation>{percent} %</translation>
     </message>
+    <message>
+        <source>&amp;Seal into one file…</source>
+        <translation>&amp;Sigillare in un solo file…</translation>
+    </message>
+    <message>
+        <source>Back from a sealed file…</source>
+        <translation>Ripristino da un file sigillato…</translation>
+    </message>
+    <message>
+        <source>closed with a passphrase, to carry away or send</source>
+        <translation>chiuso con una passphrase, da portare via o inviare</translation>
+    </message>
 </context>
 <context>
     <name>Bar</name>
@@ -7048,10 +7244,6 @@
     <message>
         <source>Check card</source>
         <translation>Cartoncino di controllo</translation>
-    </message>
-    <message>
-        <source>Practice patient</source>
-        <translation type="vanished">Paziente di prova</translation>
     </message>
     <message>
         <source>Exercise</source>
@@ -7179,30 +7371,6 @@
     <message>
         <source>Save tables</source>
         <translation>Salva le tabelle</translation>
-    </message>
-    <message>
-        <source>{count} files were written.</source>
-        <translation type="vanished">Sono stati scritti {count} file.</translation>
-    </message>
-    <message>
-        <source>Folder: {folder}</source>
-        <translation type="vanished">Cartella: {folder}</translation>
-    </message>
-    <message>
-        <source>Files: {names}</source>
-        <translation type="vanished">File: {names}</translation>
-    </message>
-    <message>
-        <source>Open the folder</source>
-        <translation type="vanished">Apri la cartella</translation>
-    </message>
-    <message>
-        <source>Go on</source>
-        <translation type="vanished">Continua</translation>
-    </message>
-    <message>
-        <source>Enter</source>
-        <translation type="vanished">Invio</translation>
     </message>
 </context>
 <context>
@@ -7334,10 +7502,6 @@
         <translation>Inizia</translation>
     </message>
     <message>
-        <source>Enter</source>
-        <translation>Invio</translation>
-    </message>
-    <message>
         <source>Five minutes: how the lens sees, how far off the depth is, and whether depth lies on colour. Do it once for each camera, after a knock, and when the check card says so.</source>
         <translation>Cinque minuti: come vede l’obiettivo, di quanto sbaglia la profondità, e se la profondità combacia con il colore. Farlo una volta per ogni telecamera, dopo un urto e quando lo dice il cartoncino di controllo.</translation>
     </message>
@@ -7395,10 +7559,6 @@
     <message>
         <source>Use this calibration</source>
         <translation>Usa questa calibrazione</translation>
-    </message>
-    <message>
-        <source>Enter</source>
-        <translation>Invio</translation>
     </message>
     <message>
         <source>Where lines land, enlarged 50 times</source>
@@ -7578,10 +7738,6 @@
         <translation>Torna al modulo</translation>
     </message>
     <message>
-        <source>Enter</source>
-        <translation>Invio</translation>
-    </message>
-    <message>
         <source>Let them go</source>
         <translation>Non salvare</translation>
     </message>
@@ -7698,10 +7854,6 @@
         <translation>Continua</translation>
     </message>
     <message>
-        <source>Enter</source>
-        <translation>Invio</translation>
-    </message>
-    <message>
         <source>Stop</source>
         <translation>Ferma</translation>
     </message>
@@ -7755,10 +7907,6 @@
     <message>
         <source>Progress</source>
         <translation>Avanzamento</translation>
-    </message>
-    <message>
-        <source>Enter</source>
-        <translation>Invio</translation>
     </message>
     <message>
         <source>Where do the pictures come from?</source>
@@ -7821,10 +7969,6 @@
         <translation>Registrazioni ({patterns});;Tutti i file (*)</translation>
     </message>
     <message>
-        <source>Recordings (*.oni *.db3 *.bag *.carpusraw);;All files (*)</source>
-        <translation type="vanished">Registrazioni (*.oni *.db3 *.bag *.carpusraw);;Tutti i file (*)</translation>
-    </message>
-    <message>
         <source>Choose a recording</source>
         <translation>Scegliere una registrazione</translation>
     </message>
@@ -7842,10 +7986,6 @@
     <message>
         <source>Simulated camera</source>
         <translation>Telecamera simulata</translation>
-    </message>
-    <message>
-        <source>Enter</source>
-        <translation>Invio</translation>
     </message>
     <message>
         <source>Print &amp;card…</source>
@@ -7996,10 +8136,6 @@
         <source>Leave it as it is</source>
         <translation>Lascia così</translation>
     </message>
-    <message>
-        <source>Esc</source>
-        <translation>Esc</translation>
-    </message>
 </context>
 <context>
     <name>ColumnsSheet</name>
@@ -8026,10 +8162,6 @@
     <message>
         <source>Compare</source>
         <translation>Confronta</translation>
-    </message>
-    <message>
-        <source>Enter</source>
-        <translation>Invio</translation>
     </message>
     <message>
         <source>Which marker is which?</source>
@@ -8075,30 +8207,6 @@
         <translation>Salva tabelle e grafici in una cartella</translation>
     </message>
     <message>
-        <source>{count} files were written.</source>
-        <translation type="vanished">Sono stati scritti {count} file.</translation>
-    </message>
-    <message>
-        <source>Folder: {folder}</source>
-        <translation type="vanished">Cartella: {folder}</translation>
-    </message>
-    <message>
-        <source>Files: {names}</source>
-        <translation type="vanished">File: {names}</translation>
-    </message>
-    <message>
-        <source>Open the folder</source>
-        <translation type="vanished">Apri la cartella</translation>
-    </message>
-    <message>
-        <source>Go on</source>
-        <translation type="vanished">Continua</translation>
-    </message>
-    <message>
-        <source>Enter</source>
-        <translation type="vanished">Invio</translation>
-    </message>
-    <message>
         <source>same recording</source>
         <translation>stessa registrazione</translation>
     </message>
@@ -8127,10 +8235,6 @@
     <message>
         <source>Track again from here</source>
         <translation>Rifai da qui</translation>
-    </message>
-    <message>
-        <source>Enter</source>
-        <translation>Invio</translation>
     </message>
     <message>
         <source>Cancel</source>
@@ -8294,128 +8398,6 @@
     </message>
 </context>
 <context>
-    <name>EncryptSheet</name>
-    <message>
-        <source>&amp;PIN until now</source>
-        <translation>&amp;PIN attuale</translation>
-    </message>
-    <message>
-        <source>&amp;New PIN, ten signs or more; four words are good</source>
-        <translation>&amp;Nuovo PIN, dieci segni o più; vanno bene quattro parole</translation>
-    </message>
-    <message>
-        <source>The same &amp;again</source>
-        <translation>&amp;Di nuovo lo stesso</translation>
-    </message>
-    <message>
-        <source>Enter</source>
-        <translation>Invio</translation>
-    </message>
-    <message>
-        <source>Cancel</source>
-        <translation>Annulla</translation>
-    </message>
-    <message>
-        <source>Encrypt what is stored</source>
-        <translation>Cifrare ciò che è salvato</translation>
-    </message>
-    <message>
-        <source>Protects patients, sessions, pictures and new back-ups from whoever takes the computer or a disk. Does not protect: a recording until it is stored, names of files (pseudonym, exercise, date), the log, exports, back-ups made before, and everything while Carpus is open.
-
-The PIN is asked for at every start. Without it and without the recovery code that is shown next, the data are lost for good, and nobody can help. Make a back-up first.</source>
-        <translation>Protegge pazienti, sedute, immagini e le nuove copie di sicurezza da chi prende il computer o un disco. Non protegge: una registrazione finché non è salvata, i nomi dei file (pseudonimo, esercizio, data), il registro, le esportazioni, le copie fatte prima e tutto ciò che c’è mentre Carpus è aperto.
-
-Il PIN viene chiesto a ogni avvio. Senza il PIN e senza il codice di recupero mostrato tra poco, i dati sono persi per sempre e nessuno può aiutare. Prima fare una copia di sicurezza.</translation>
-    </message>
-    <message>
-        <source>Encrypt</source>
-        <translation>Cifra</translation>
-    </message>
-    <message>
-        <source>Make it readable again</source>
-        <translation>Rendere di nuovo leggibile</translation>
-    </message>
-    <message>
-        <source>Every file is decrypted. From then on whoever has the disk can read it.</source>
-        <translation>Ogni file viene decifrato. Da quel momento chi ha il disco può leggerlo.</translation>
-    </message>
-    <message>
-        <source>Decrypt</source>
-        <translation>Decifra</translation>
-    </message>
-    <message>
-        <source>Encrypting, {percent} %</source>
-        <translation>Cifratura, {percent} %</translation>
-    </message>
-    <message>
-        <source>Decrypting, {percent} %</source>
-        <translation>Decifratura, {percent} %</translation>
-    </message>
-    <message>
-        <source>Everything that is stored is encrypted.</source>
-        <translation>Tutto ciò che è salvato è cifrato.</translation>
-    </message>
-    <message>
-        <source>Recovery code: it opens everything when the PIN is forgotten. Write it down now and keep it away from this computer; it is not shown again.</source>
-        <translation>Codice di recupero: apre tutto se si dimentica il PIN. Scriverlo ora e tenerlo lontano da questo computer; non viene più mostrato.</translation>
-    </message>
-    <message>
-        <source>I have written it down</source>
-        <translation>L’ho scritto</translation>
-    </message>
-    <message>
-        <source>Files can be carried away and tried: ten signs or more.</source>
-        <translation>I file si possono portare via per provare i PIN: dieci segni o più.</translation>
-    </message>
-    <message>
-        <source>The two are not the same.</source>
-        <translation>I due non sono uguali.</translation>
-    </message>
-</context>
-<context>
-    <name>EncryptionCard</name>
-    <message>
-        <source>Encryption</source>
-        <translation>Cifratura</translation>
-    </message>
-    <message>
-        <source>Not everything is readable again yet</source>
-        <translation>Non tutto è già di nuovo leggibile</translation>
-    </message>
-    <message>
-        <source>Some files are still encrypted. The PIN stays until they are not.</source>
-        <translation>Alcuni file sono ancora cifrati. Il PIN resta finché lo sono.</translation>
-    </message>
-    <message>
-        <source>Try again…</source>
-        <translation>Riprova…</translation>
-    </message>
-    <message>
-        <source>Encrypted on the disk</source>
-        <translation>Cifrati sul disco</translation>
-    </message>
-    <message>
-        <source>Patients, sessions and pictures can only be read with the PIN, also from back-ups made since. Not protected: a recording until it is stored, names of files (pseudonym, exercise, date), the log, exports and reports, and everything while Carpus is open. PIN and recovery code lost, the data are lost for good.</source>
-        <translation>Pazienti, sedute e immagini si leggono solo con il PIN, anche dalle copie fatte da allora. Non protetti: una registrazione finché non è salvata, i nomi dei file (pseudonimo, esercizio, data), il registro, esportazioni e relazioni, e tutto ciò che c’è mentre Carpus è aperto. Persi PIN e codice di recupero, i dati sono persi per sempre.</translation>
-    </message>
-    <message>
-        <source>Make it readable again…</source>
-        <translation>Rendi di nuovo leggibile…</translation>
-    </message>
-    <message>
-        <source>Off: files are readable</source>
-        <translation>Spenta: i file sono leggibili</translation>
-    </message>
-    <message>
-        <source>Whoever has this computer’s account or its disk can read patients and sessions. Encryption makes them readable with a PIN only, which must be typed at every start.</source>
-        <translation>Chi ha l’account o il disco di questo computer può leggere pazienti e sedute. Con la cifratura si leggono solo con un PIN, da scrivere a ogni avvio.</translation>
-    </message>
-    <message>
-        <source>Encrypt…</source>
-        <translation>Cifra…</translation>
-    </message>
-</context>
-<context>
     <name>EraseSheet</name>
     <message>
         <source>Erase for good</source>
@@ -8432,10 +8414,6 @@ Il PIN viene chiesto a ogni avvio. Senza il PIN e senza il codice di recupero mo
     <message>
         <source>Archive instead</source>
         <translation>Archivia invece</translation>
-    </message>
-    <message>
-        <source>Enter</source>
-        <translation>Invio</translation>
     </message>
     <message>
         <source>This goes</source>
@@ -8478,16 +8456,12 @@ Il PIN viene chiesto a ogni avvio. Senza il PIN e senza il codice di recupero mo
         <translation>La scheda del paziente, nome vero e note, e {count} sedute con tutti gli angoli, le immagini e le note ({files}, {size} MB).</translation>
     </message>
     <message>
+        <source>The patient’s entry, real name and notes, and 1 session with all angles, pictures and notes ({files}, {size} MB).</source>
+        <translation>La scheda del paziente con nome vero e note, e 1 seduta con tutti gli angoli, le immagini e le note ({files}, {size} MB).</translation>
+    </message>
+    <message>
         <source>{one} and {other}</source>
-        <translation>{one} e {other}</translation>
-    </message>
-    <message>
-        <source>The patient’s entry, real name and notes, and {count} sessions with all angles, pictures and</source>
-        <translation type="vanished">La scheda del paziente, nome vero e note, e {count} sedute con tutti gli angoli, le immagini e</translation>
-    </message>
-    <message>
-        <source> notes ({files}, {size} MB).</source>
-        <translation type="vanished"> le note ({files}, {size} MB).</translation>
+        <translation type="vanished">{one} e {other}</translation>
     </message>
     <message>
         <source>Angles, pictures, notes and pain scores of this session ({files}, {size} MB).</source>
@@ -8495,27 +8469,23 @@ Il PIN viene chiesto a ogni avvio. Senza il PIN e senza il codice di recupero mo
     </message>
     <message>
         <source>1 export</source>
-        <translation>1 esportazione</translation>
+        <translation type="vanished">1 esportazione</translation>
     </message>
     <message>
         <source>{n} exports</source>
-        <translation>{n} esportazioni</translation>
+        <translation type="vanished">{n} esportazioni</translation>
     </message>
     <message>
         <source>1 report</source>
-        <translation>1 relazione</translation>
+        <translation type="vanished">1 relazione</translation>
     </message>
     <message>
         <source>{n} reports</source>
-        <translation>{n} relazioni</translation>
+        <translation type="vanished">{n} relazioni</translation>
     </message>
     <message>
         <source>The {made} that Carpus made from it go too.</source>
-        <translation>Va via anche ciò che Carpus ne ha creato: {made}.</translation>
-    </message>
-    <message>
-        <source> and </source>
-        <translation type="vanished"> e </translation>
+        <translation type="vanished">Va via anche ciò che Carpus ne ha creato: {made}.</translation>
     </message>
     <message>
         <source>The other session.</source>
@@ -8535,11 +8505,11 @@ Il PIN viene chiesto a ogni avvio. Senza il PIN e senza il codice di recupero mo
     </message>
     <message>
         <source>Exports and reports that were changed since: {n}.</source>
-        <translation>Esportazioni e relazioni modificate nel frattempo: {n}.</translation>
+        <translation type="vanished">Esportazioni e relazioni modificate nel frattempo: {n}.</translation>
     </message>
     <message>
         <source>Exports and reports that are not where Carpus put them: {n}, look for them yourself.</source>
-        <translation>Esportazioni e relazioni che non sono dove Carpus le ha messe: {n}; vanno cercate a mano.</translation>
+        <translation type="vanished">Esportazioni e relazioni che non sono dove Carpus le ha messe: {n}; vanno cercate a mano.</translation>
     </message>
     <message>
         <source>The log keeps that it was erased, no name.</source>
@@ -8560,6 +8530,33 @@ Il PIN viene chiesto a ogni avvio. Senza il PIN e senza il codice di recupero mo
     <message>
         <source>They had to be kept until {day} {years}.</source>
         <translation>Andavano conservate fino al {day} {years}.</translation>
+    </message>
+    <message>
+        <source>Reports and exports saved elsewhere, delete them yourself ({n}): {path}</source>
+        <translation>Rapporti ed esportazioni salvati altrove, da cancellare a mano ({n}): {path}</translation>
+    </message>
+</context>
+<context>
+    <name>Erasing</name>
+    <message>
+        <source>The session of {day} is in the archive.</source>
+        <translation>La seduta del {day} è nell’archivio.</translation>
+    </message>
+    <message>
+        <source>{name} is in the archive.</source>
+        <translation>{name} è nell’archivio.</translation>
+    </message>
+    <message>
+        <source>Nothing is lost. It counts nowhere until it is brought back.</source>
+        <translation>Niente è perduto. Non conta da nessuna parte finché non viene ripreso.</translation>
+    </message>
+    <message>
+        <source>&amp;Undo</source>
+        <translation>&amp;Annulla</translation>
+    </message>
+    <message>
+        <source>Close</source>
+        <translation>Chiudi</translation>
     </message>
 </context>
 <context>
@@ -8607,10 +8604,6 @@ Il PIN viene chiesto a ogni avvio. Senza il PIN e senza il codice di recupero mo
     <message>
         <source>Next: the camera</source>
         <translation>Avanti: la telecamera</translation>
-    </message>
-    <message>
-        <source>Enter</source>
-        <translation>Invio</translation>
     </message>
     <message>
         <source>Which exercise?</source>
@@ -8706,10 +8699,6 @@ Il PIN viene chiesto a ogni avvio. Senza il PIN e senza il codice di recupero mo
     <message>
         <source>Choose the folder…</source>
         <translation>Scegli la cartella…</translation>
-    </message>
-    <message>
-        <source>Enter</source>
-        <translation>Invio</translation>
     </message>
     <message>
         <source>Compare with a &amp;reference…</source>
@@ -9102,8 +9091,8 @@ Maiusc+F8 di lato</translation>
         <translation>Blocco</translation>
     </message>
     <message>
-        <source>A PIN hides names and pictures from those who pass by. Alone it protects no file: for that there is encryption, below, and that of the computer’s own disk.</source>
-        <translation>Un PIN nasconde nomi e immagini a chi passa. Da solo non protegge nessun file: per questo ci sono la cifratura, sotto, e quella del disco del computer.</translation>
+        <source>A PIN hides names and pictures from those who pass by. It protects no file: whoever has this computer’s account or disk reads them without it.</source>
+        <translation>Un PIN nasconde nomi e immagini a chi passa. Non protegge alcun file: chi ha l’account o il disco di questo computer li legge senza PIN.</translation>
     </message>
     <message>
         <source>After 5 min</source>
@@ -9157,10 +9146,6 @@ Maiusc+F8 di lato</translation>
         <translation>Sblocca</translation>
     </message>
     <message>
-        <source>Enter</source>
-        <translation>Invio</translation>
-    </message>
-    <message>
         <source>Nothing is lost. The open session is stored.</source>
         <translation>Nulla è perso. La seduta aperta è salvata.</translation>
     </message>
@@ -9171,10 +9156,6 @@ Maiusc+F8 di lato</translation>
     <message>
         <source>Names, pictures and figures are hidden.</source>
         <translation>Nomi, immagini e valori sono nascosti.</translation>
-    </message>
-    <message>
-        <source>What is stored here is encrypted.</source>
-        <translation>Ciò che è salvato qui è cifrato.</translation>
     </message>
     <message>
         <source>Locked by itself at {time}, after {minutes} minutes without a key.</source>
@@ -9201,10 +9182,6 @@ Maiusc+F8 di lato</translation>
         <translation>PIN dimenticato? F1 dice che cosa si può fare.</translation>
     </message>
     <message>
-        <source>Type the recovery code instead, which was shown when the encryption was switched on. Without PIN and code nobody can read what is stored.</source>
-        <translation>Scrivere invece il codice di recupero, mostrato quando è stata attivata la cifratura. Senza PIN e codice nessuno può leggere ciò che è salvato.</translation>
-    </message>
-    <message>
         <source>Whoever looks after this computer takes the file pin.json out of the data folder and starts Carpus again: nothing is lost. A PIN hides; it does not protect the files.</source>
         <translation>Chi si occupa di questo computer toglie il file pin.json dalla cartella dei dati e riavvia Carpus: nulla è perso. Un PIN nasconde; non protegge i file.</translation>
     </message>
@@ -9219,10 +9196,6 @@ Maiusc+F8 di lato</translation>
         <source>Too many tries. The next one in {seconds} s.</source>
         <translation>Troppi tentativi. Il prossimo fra {seconds} s.</translation>
     </message>
-    <message>
-        <source>It opens what is encrypted: ten signs or more, or decrypt it first.</source>
-        <translation>Apre ciò che è cifrato: dieci segni o più, oppure prima decifrare.</translation>
-    </message>
 </context>
 <context>
     <name>LogSheet</name>
@@ -9232,7 +9205,7 @@ Maiusc+F8 di lato</translation>
     </message>
     <message>
         <source>Only ever added to. In the file patients and sessions are numbers: names are put to them here, as long as they are in the list.</source>
-        <translation>Si può solo aggiungere. Nel file pazienti e sedute sono numeri: qui si mostrano i nomi, finché sono nell’elenco.</translation>
+        <translation type="vanished">Si può solo aggiungere. Nel file pazienti e sedute sono numeri: qui si mostrano i nomi, finché sono nell’elenco.</translation>
     </message>
     <message>
         <source>When</source>
@@ -9259,16 +9232,20 @@ Maiusc+F8 di lato</translation>
         <translation>Fine</translation>
     </message>
     <message>
-        <source>Esc</source>
-        <translation>Esc</translation>
-    </message>
-    <message>
         <source>The log was changed at or before line {line}.</source>
-        <translation>Il registro è stato modificato alla riga {line} o prima.</translation>
+        <translation type="vanished">Il registro è stato modificato alla riga {line} o prima.</translation>
     </message>
     <message>
         <source>Whole: {n} lines, none changed.</source>
-        <translation>Integro: {n} righe, nessuna modificata.</translation>
+        <translation type="vanished">Integro: {n} righe, nessuna modificata.</translation>
+    </message>
+    <message>
+        <source>Only ever added to, which protects against mistakes, not against the owner of the computer: a back-up kept elsewhere shows a later change. Names are put to it here, as long as they are in the list.</source>
+        <translation>Si può solo aggiungere. Questo protegge dagli errori, non dal proprietario del computer: una copia di sicurezza tenuta altrove mostra una modifica successiva. I nomi compaiono solo qui, finché sono nell’elenco.</translation>
+    </message>
+    <message>
+        <source>Log: {n} lines</source>
+        <translation>Registro: {n} righe</translation>
     </message>
 </context>
 <context>
@@ -9320,10 +9297,6 @@ Maiusc+F8 di lato</translation>
         <translation>Inizia benché &amp;dubbio</translation>
     </message>
     <message>
-        <source>Take all names</source>
-        <translation>Accetta tutti i nomi</translation>
-    </message>
-    <message>
         <source>Click all again</source>
         <translation>Rifai tutti i clic</translation>
     </message>
@@ -9332,16 +9305,8 @@ Maiusc+F8 di lato</translation>
         <translation>Nuova immagine</translation>
     </message>
     <message>
-        <source>Space</source>
-        <translation>Spazio</translation>
-    </message>
-    <message>
         <source>accept</source>
         <translation>accetta</translation>
-    </message>
-    <message>
-        <source>Backspace</source>
-        <translation>Backspace</translation>
     </message>
     <message>
         <source>undo</source>
@@ -9354,10 +9319,6 @@ Maiusc+F8 di lato</translation>
     <message>
         <source>zoom</source>
         <translation>zoom</translation>
-    </message>
-    <message>
-        <source>Tab</source>
-        <translation>Tab</translation>
     </message>
     <message>
         <source>next marker</source>
@@ -9460,10 +9421,6 @@ Maiusc+F8 di lato</translation>
         <translation>I dischetti ci sono, e la mano è sotto la telecamera? Più luce aiuta; una stoffa blu scuro non è un dischetto.</translation>
     </message>
     <message>
-        <source>Enter</source>
-        <translation>Invio</translation>
-    </message>
-    <message>
         <source>Click by hand</source>
         <translation>Clic a mano</translation>
     </message>
@@ -9498,6 +9455,14 @@ Maiusc+F8 di lato</translation>
     <message>
         <source>The names stay as they are until you change one.</source>
         <translation>I nomi restano così finché non se ne cambia uno.</translation>
+    </message>
+    <message>
+        <source>go on</source>
+        <translation>avanti</translation>
+    </message>
+    <message>
+        <source>All names are right</source>
+        <translation>Tutti i nomi sono giusti</translation>
     </message>
 </context>
 <context>
@@ -9564,10 +9529,6 @@ Maiusc+F8 di lato</translation>
         <translation>Ferma e rivedi</translation>
     </message>
     <message>
-        <source>Enter</source>
-        <translation>Invio</translation>
-    </message>
-    <message>
         <source>Choose another source</source>
         <translation>Scegli un’altra sorgente</translation>
     </message>
@@ -9621,10 +9582,6 @@ Maiusc+F8 di lato</translation>
     <message>
         <source>Keep note</source>
         <translation>Salva la nota</translation>
-    </message>
-    <message>
-        <source>Enter</source>
-        <translation>Invio</translation>
     </message>
     <message>
         <source>Close</source>
@@ -9698,7 +9655,7 @@ Maiusc+F8 di lato</translation>
     </message>
     <message>
         <source>Repetition</source>
-        <translation>Ripetizione</translation>
+        <translation type="vanished">Ripetizione</translation>
     </message>
     <message>
         <source>of {asked}</source>
@@ -9716,6 +9673,10 @@ Maiusc+F8 di lato</translation>
         <source>Target {angle}</source>
         <translation>Obiettivo {angle}</translation>
     </message>
+    <message>
+        <source>Repetitions</source>
+        <translation>Ripetizioni</translation>
+    </message>
 </context>
 <context>
     <name>PainSheet</name>
@@ -9731,9 +9692,60 @@ Maiusc+F8 di lato</translation>
         <source>Close</source>
         <translation>Chiudi</translation>
     </message>
+</context>
+<context>
+    <name>PassphraseSheet</name>
+    <message>
+        <source>The same &amp;again</source>
+        <translation>&amp;Ancora una volta</translation>
+    </message>
+    <message>
+        <source>Enter</source>
+        <translation>Invio</translation>
+    </message>
+    <message>
+        <source>Cancel</source>
+        <translation>Annulla</translation>
+    </message>
     <message>
         <source>Esc</source>
         <translation>Esc</translation>
+    </message>
+    <message>
+        <source>&amp;Passphrase</source>
+        <translation>&amp;Passphrase</translation>
+    </message>
+    <message>
+        <source>Seal into one file</source>
+        <translation>Sigillare in un solo file</translation>
+    </message>
+    <message>
+        <source>Open the sealed file</source>
+        <translation>Aprire il file sigillato</translation>
+    </message>
+    <message>
+        <source>Seal it</source>
+        <translation>Sigilla</translation>
+    </message>
+    <message>
+        <source>Open it</source>
+        <translation>Apri</translation>
+    </message>
+    <message>
+        <source>Ten signs or more, best four words. Write it down: without it nobody can open the file.</source>
+        <translation>Almeno dieci segni, meglio quattro parole. La annoti: senza nessuno può aprire il file.</translation>
+    </message>
+    <message>
+        <source>As it was typed when the file was sealed.</source>
+        <translation>Com’è stata scritta quando il file è stato sigillato.</translation>
+    </message>
+    <message>
+        <source>A passphrase has ten signs or more.</source>
+        <translation>Una passphrase ha almeno dieci segni.</translation>
+    </message>
+    <message>
+        <source>The two are not the same.</source>
+        <translation>Le due non sono uguali.</translation>
     </message>
 </context>
 <context>
@@ -9804,10 +9816,6 @@ Maiusc+F8 di lato</translation>
     <message>
         <source>Start session, same set-up</source>
         <translation>Inizia seduta, stessa preparazione</translation>
-    </message>
-    <message>
-        <source>Enter</source>
-        <translation>Invio</translation>
     </message>
     <message>
         <source>&amp;Edit…</source>
@@ -9889,10 +9897,6 @@ Maiusc+F8 di lato</translation>
         <translation>Non nota</translation>
     </message>
     <message>
-        <source>Enter</source>
-        <translation>Invio</translation>
-    </message>
-    <message>
         <source>Close without saving</source>
         <translation>Chiudi senza salvare</translation>
     </message>
@@ -9943,6 +9947,14 @@ Maiusc+F8 di lato</translation>
     <message>
         <source>Keep changes</source>
         <translation>Salva le modifiche</translation>
+    </message>
+    <message>
+        <source>Which hand is affected?</source>
+        <translation>Quale mano è colpita?</translation>
+    </message>
+    <message>
+        <source>Which hand writes?</source>
+        <translation>Con quale mano scrive?</translation>
     </message>
     <message>
         <source>A name has up to {count} letters: what goes beyond is not taken.</source>
@@ -10017,6 +10029,10 @@ Maiusc+F8 di lato</translation>
         <source>Practice patient</source>
         <translation>Paziente di prova</translation>
     </message>
+    <message>
+        <source>In the archi&amp;ve: {names}</source>
+        <translation>Nell’archi&amp;vio: {names}</translation>
+    </message>
 </context>
 <context>
     <name>PeopleSheet</name>
@@ -10039,10 +10055,6 @@ Maiusc+F8 di lato</translation>
     <message>
         <source>These take part</source>
         <translation>Partecipano questi</translation>
-    </message>
-    <message>
-        <source>Enter</source>
-        <translation>Invio</translation>
     </message>
     <message>
         <source>1 session</source>
@@ -10081,10 +10093,6 @@ Maiusc+F8 di lato</translation>
     <message>
         <source>Keep this PIN</source>
         <translation>Salva questo PIN</translation>
-    </message>
-    <message>
-        <source>Enter</source>
-        <translation>Invio</translation>
     </message>
     <message>
         <source>&amp;Take the PIN away</source>
@@ -10208,34 +10216,6 @@ Maiusc+F8 di lato</translation>
         <source>Save table</source>
         <translation>Salva la tabella</translation>
     </message>
-    <message>
-        <source>1 file was written.</source>
-        <translation type="vanished">È stato scritto 1 file.</translation>
-    </message>
-    <message>
-        <source>{count} files were written.</source>
-        <translation type="vanished">Sono stati scritti {count} file.</translation>
-    </message>
-    <message>
-        <source>Folder: {folder}</source>
-        <translation type="vanished">Cartella: {folder}</translation>
-    </message>
-    <message>
-        <source>Files: {names}</source>
-        <translation type="vanished">File: {names}</translation>
-    </message>
-    <message>
-        <source>Open the folder</source>
-        <translation type="vanished">Apri la cartella</translation>
-    </message>
-    <message>
-        <source>Go on</source>
-        <translation type="vanished">Continua</translation>
-    </message>
-    <message>
-        <source>Enter</source>
-        <translation type="vanished">Invio</translation>
-    </message>
 </context>
 <context>
     <name>ProgressChart</name>
@@ -10358,12 +10338,12 @@ Maiusc+F8 di lato</translation>
         <translation>Tienila</translation>
     </message>
     <message>
-        <source>Esc</source>
-        <translation>Esc</translation>
-    </message>
-    <message>
         <source>Leave repetition {number} out?</source>
         <translation>Escludere la ripetizione {number}?</translation>
+    </message>
+    <message>
+        <source>Leave it out</source>
+        <translation>Escludi</translation>
     </message>
 </context>
 <context>
@@ -10517,12 +10497,8 @@ Maiusc+F8 di lato</translation>
         <translation>valori a mano inseriti</translation>
     </message>
     <message>
-        <source>encryption switched on</source>
-        <translation>cifratura attivata</translation>
-    </message>
-    <message>
-        <source>encryption switched off</source>
-        <translation>cifratura disattivata</translation>
+        <source>1 session</source>
+        <translation>1 seduta</translation>
     </message>
 </context>
 <context>
@@ -10572,10 +10548,6 @@ Maiusc+F8 di lato</translation>
     <message>
         <source>Done</source>
         <translation>Fine</translation>
-    </message>
-    <message>
-        <source>Esc</source>
-        <translation>Esc</translation>
     </message>
     <message>
         <source>Bring back</source>
@@ -10660,12 +10632,12 @@ Maiusc+F8 di lato</translation>
         <translation>US Letter</translation>
     </message>
     <message>
-        <source>Pictures (*.png *.jpg *.jpeg *.svg)</source>
-        <translation>Immagini (*.png *.jpg *.jpeg *.svg)</translation>
-    </message>
-    <message>
         <source>Choose a logo</source>
         <translation>Scegliere un logo</translation>
+    </message>
+    <message>
+        <source>Pictures (*.png *.jpg *.jpeg)</source>
+        <translation>Immagini (*.png *.jpg *.jpeg)</translation>
     </message>
 </context>
 <context>
@@ -10852,10 +10824,6 @@ Maiusc+F8 di lato</translation>
         <translation>&amp;Usa il nuovo risultato</translation>
     </message>
     <message>
-        <source>Esc</source>
-        <translation>Esc</translation>
-    </message>
-    <message>
         <source>Tracking again: {percent} %</source>
         <translation>Nuovo tracciamento: {percent} %</translation>
     </message>
@@ -11014,10 +10982,6 @@ Maiusc+F8 di lato</translation>
         <translation>Lascia così</translation>
     </message>
     <message>
-        <source>Enter</source>
-        <translation>Invio</translation>
-    </message>
-    <message>
         <source>Save table</source>
         <translation>Salva la tabella</translation>
     </message>
@@ -11145,10 +11109,6 @@ Maiusc+F8 di lato</translation>
         <translation>Apri nella revisione</translation>
     </message>
     <message>
-        <source>Enter</source>
-        <translation>Invio</translation>
-    </message>
-    <message>
         <source>Compare in &amp;progress</source>
         <translation>Confronta nell’&amp;andamento</translation>
     </message>
@@ -11220,6 +11180,10 @@ Maiusc+F8 di lato</translation>
         <source>It was this one</source>
         <translation>Era questo</translation>
     </message>
+    <message>
+        <source>In the archi&amp;ve: {n}</source>
+        <translation>Nell’archi&amp;vio: {n}</translation>
+    </message>
 </context>
 <context>
     <name>SetAsideSheet</name>
@@ -11256,8 +11220,8 @@ Maiusc+F8 di lato</translation>
         <translation>Lasciala contare</translation>
     </message>
     <message>
-        <source>Esc</source>
-        <translation>Esc</translation>
+        <source>Set it aside</source>
+        <translation>Metti da parte</translation>
     </message>
 </context>
 <context>
@@ -11346,10 +11310,6 @@ Maiusc+F8 di lato</translation>
         <translation>Apertura della registrazione.</translation>
     </message>
     <message>
-        <source>The simulated patient is drawn, once for each exercise: a minute, up to three on a busy computer.</source>
-        <translation>Il paziente simulato viene disegnato, una volta per esercizio: un minuto, fino a tre su un computer occupato.</translation>
-    </message>
-    <message>
         <source>Choose the source again</source>
         <translation>Scegli di nuovo la sorgente</translation>
     </message>
@@ -11374,8 +11334,28 @@ Maiusc+F8 di lato</translation>
         <translation>Riapri</translation>
     </message>
     <message>
-        <source>Enter</source>
-        <translation>Invio</translation>
+        <source>Leave the markers?</source>
+        <translation>Lasciare i marcatori?</translation>
+    </message>
+    <message>
+        <source>The names given on this picture would be lost.</source>
+        <translation>I nomi dati su questa immagine andrebbero perduti.</translation>
+    </message>
+    <message>
+        <source>Stay here, or go back to the camera.</source>
+        <translation>Restare qui, o tornare alla telecamera.</translation>
+    </message>
+    <message>
+        <source>Back to the camera</source>
+        <translation>Torna alla telecamera</translation>
+    </message>
+    <message>
+        <source>Stay here</source>
+        <translation>Resta qui</translation>
+    </message>
+    <message>
+        <source>The simulated patient is being drawn.</source>
+        <translation>Il paziente simulato viene disegnato.</translation>
     </message>
 </context>
 <context>
@@ -11604,17 +11584,6 @@ Maiusc+F8 di lato</translation>
     <message>
         <source>A bent finger is measured from its own rest, and less surely.</source>
         <translation>Un dito piegato si misura dalla sua posizione di riposo, con meno sicurezza.</translation>
-    </message>
-</context>
-<context>
-    <name>SwitchingEncryption</name>
-    <message>
-        <source>Too many tries. The next one in {seconds} s.</source>
-        <translation>Troppi tentativi. Il prossimo fra {seconds} s.</translation>
-    </message>
-    <message>
-        <source>The PIN until now is another one.</source>
-        <translation>Il PIN attuale è un altro.</translation>
     </message>
 </context>
 <context>
@@ -11876,67 +11845,6 @@ Maiusc+F8 di lato</translation>
     <message>
         <source>No patients yet. Add the first one, or try everything with the practice patient.</source>
         <translation>Ancora nessun paziente. Aggiungere il primo, o provare tutto con il paziente di prova.</translation>
-    </message>
-</context>
-<context>
-    <name>self.shell</name>
-    <message>
-        <source>Folder of patients and sessions</source>
-        <translation type="vanished">Cartella di pazienti e sedute</translation>
-    </message>
-    <message>
-        <source>The language can be changed when nothing is measured or worked on any more.</source>
-        <translation type="vanished">La lingua si può cambiare quando non è più in corso nessuna misura o elaborazione.</translation>
-    </message>
-</context>
-<context>
-    <name>sheet</name>
-    <message>
-        <source>Exercise</source>
-        <translation type="vanished">Esercizio</translation>
-    </message>
-    <message>
-        <source>times</source>
-        <translation type="vanished">volte</translation>
-    </message>
-    <message>
-        <source>seconds</source>
-        <translation type="vanished">secondi</translation>
-    </message>
-    <message>
-        <source>Times or seconds</source>
-        <translation type="vanished">Volte o secondi</translation>
-    </message>
-    <message>
-        <source>How often or how long</source>
-        <translation type="vanished">Quante volte o per quanto tempo</translation>
-    </message>
-    <message>
-        <source>none</source>
-        <translation type="vanished">nessuna</translation>
-    </message>
-    <message>
-        <source>Rest after it</source>
-        <translation type="vanished">Pausa dopo</translation>
-    </message>
-    <message>
-        <source>Earlier</source>
-        <translation type="vanished">Prima</translation>
-    </message>
-    <message>
-        <source>Remove</source>
-        <translation type="vanished">Togli</translation>
-    </message>
-</context>
-<context>
-    <name>shell</name>
-    <message>
-        <source>Re&amp;view it</source>
-        <translation type="vanished">Ri&amp;vedila</translation>
-    </message>
-    <message>
-        <source>I have read it</source>
-        <translation type="vanished">L’ho letto</translation>
     </message>
 </context>
 </TS>

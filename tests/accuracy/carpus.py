@@ -60,8 +60,8 @@ def run_on_blobs(
     times = truth.timestamp_s
     begin = time.process_time()
     for i in from_neutral(range(len(times)), tracker, neutral_ends_s, lambda row: float(times[row])):
-        expected, dropped = tracker.expect(float(times[i])), int(truth.dropped_before[i])
-        frames.append(tracker.step(i, float(times[i]), sequence.detections[i], dropped, expected))
+        dropped = int(truth.dropped_before[i])
+        frames.append(tracker.step(i, float(times[i]), sequence.detections[i], dropped))
     ms = 1e3 * (time.process_time() - begin) / len(times)
     scored = scored_frames(truth, neutral_ends_s)
     status = np.array([frame.status for frame in frames])

@@ -171,8 +171,8 @@ def run_on_blobs(row: HandScenario, spec: RecordingSpec) -> HandRun:
     frames: list[TrackedFrame] = []
     begin = time.process_time()
     for i in from_neutral(range(len(times)), tracker, neutral_ends_s, lambda row: float(times[row])):
-        expected, dropped = tracker.expect(float(times[i])), int(truth.dropped_before[i])
-        frames.append(tracker.step(i, float(times[i]), sequence.detections[i], dropped, expected))
+        dropped = int(truth.dropped_before[i])
+        frames.append(tracker.step(i, float(times[i]), sequence.detections[i], dropped))
     ms = 1e3 * (time.process_time() - begin) / len(times)
     measured_px = np.array([frame.marker_measured_px for frame in frames])
     disc_m = np.array([frame.marker_position_cam_m for frame in frames])

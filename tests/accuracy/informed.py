@@ -14,13 +14,15 @@ import numpy as np
 
 from carpus.core.hand import clinical_angles
 from carpus.core.simulation.measurements import MeasurementSequence
-from carpus.core.tracking.kernel import Bank, mixed, predicted, switching
-from carpus.core.tracking.motion import PalmMotion, mode_scale, palm_step, slowing
-from carpus.core.tracking.naming import Measurable, correct
+from carpus.core.tracking.kernel import Bank, carried, mixed
+from carpus.core.tracking.motion import PalmMotion, palm_step, slowing
+from carpus.core.tracking.palm_association import Measurements, update
 from carpus.core.tracking.palm_smoother import FilterStep, smoothed_palm
 from carpus.core.tracking.palm_state import SIZE, TURN, PalmBelief, resting_belief
-from carpus.core.tracking.palm_view import View, forecast, recentred
+from carpus.core.tracking.palm_view import View, recentred
+from carpus.core.tracking.predicted_measurement import predicted_measurement
 from carpus.core.tracking.settings import TrackerSettings
+from carpus.core.tracking.soft_tissue import always_pushed
 from carpus.core.types import FloatArray, Side, TrackStatus
 from tests.accuracy.runs import INFORMED, Estimate, Mode, Run, degrees_between
 from tests.accuracy.scenarios import Scenario
@@ -49,8 +51,8 @@ def informed_run(
         np.zeros((6, 18)),
     )
     scales = np.array(settings.mode_scales)
-    motion = PalmMotion(settings.motion_noise, RIGID.tissue, scales)
-    belief = resting_belief(settings.initial, 1e-14 * np.eye(18))
+    motion = PalmMotion(settings.motion_noise, always_pushed(RIGID.tissue), scales)
+    belief = resting_belief(settings.initial, 1e-14 * np.eye(21))
     bank = Bank.alike(np.zeros((1, SIZE)), belief.covariance[None], scales.size)
     steps: list[FilterStep] = []
     beliefs: list[PalmBelief] = []
@@ -60,19 +62,18 @@ def informed_run(
     for i, seen in enumerate(measured):
         dt_s = float(times[i] - times[i - 1]) if i else 1e-6
         step = palm_step(belief.rate_rad_s, motion, dt_s)
-        start = mixed(bank, switching(scales.size, settings.mode_dwell_s, dt_s))
-        bank = predicted(start, step.forward[None], step.noise[None])
+        bank = carried(mixed(bank, motion.switch(belief.rate_rad_s, dt_s)), step, belief.value)
         ahead_of = replace(step.carries(belief, dt_s), covariance=bank.merged()[1][0])
-        ahead = forecast(ahead_of, bank, view, settings.spread)
+        ahead = predicted_measurement(ahead_of, bank, view, settings.spread)
         names = np.where(np.isfinite(seen[:, 0]), np.arange(len(seen)), -1)
-        blobs = Measurable(seen, np.broadcast_to(variance, seen.shape))
-        belief, bank = recentred(ahead_of, correct(ahead, blobs, names, np.isfinite(seen[:, 2]), as_stated).bank)
+        blobs = Measurements(seen, np.broadcast_to(variance, seen.shape))
+        belief, bank = recentred(ahead_of, update(ahead, blobs, names, np.isfinite(seen[:, 2]), as_stated).bank)
         if np.count_nonzero(names >= 0) < LEAST_DISCS:
             kept = slowing(float(np.exp(-dt_s / settings.rate_memory_s)))
             belief = replace(belief, value=belief.value * kept, covariance=belief.covariance * np.outer(kept, kept))
             bank = Bank(bank.mean * kept, bank.covariance * np.outer(kept, kept), bank.probability)
         beliefs.append(belief)
-        steps.append(FilterStep(float(times[i]), belief, mode_scale(bank.probability[0], scales), True))
+        steps.append(FilterStep(float(times[i]), belief, bank.probability[0], True))
     ms = 1e3 * (time.process_time() - begin) / len(times)
     scored = scored_frames(truth, begin_s)
     smoothed = [belief for belief in smoothed_palm(steps, motion) if belief is not None]

@@ -15,7 +15,7 @@ from carpus.core.simulation.measurements import measurement_sequence
 from tests.accuracy.carpus import run_on_blobs, run_on_pictures
 from tests.accuracy.informed import informed_run
 from tests.accuracy.runs import UNTROUBLED, Mode, Run
-from tests.accuracy.scenarios import Scenario
+from tests.accuracy.scenarios import REPORT_SEEDS, Scenario
 from tests.accuracy.sequences import without_false
 from tests.accuracy.simplest import simplest_run
 
@@ -49,16 +49,16 @@ def done(job: Job) -> list[Run]:
         return [carpus, simplest, informed_run(job.scenario, sequence, begin_s, job.mode)]
 
 
-def jobs_for(scenarios: Sequence[Scenario], seeds: int, pictures: int) -> list[Job]:
-    """``seeds`` recordings of every row and ``pictures`` rendered ones where it wants them, these first: they take
-    longest."""
+def jobs_for(scenarios: Sequence[Scenario], seeds: int, pictures: int, first: int = REPORT_SEEDS) -> list[Job]:
+    """``seeds`` recordings of every row, seeds from ``first`` on, and ``pictures`` rendered ones where it wants them,
+    these first: they take longest."""
     out = [
         Job(scenario, seed, "pictures")
         for scenario in scenarios
         if scenario.pictures
-        for seed in scenario.seeds(pictures)[:pictures]
+        for seed in scenario.seeds(pictures, first)[:pictures]
     ]
-    return out + [Job(scenario, seed, "blobs") for scenario in scenarios for seed in scenario.seeds(seeds)]
+    return out + [Job(scenario, seed, "blobs") for scenario in scenarios for seed in scenario.seeds(seeds, first)]
 
 
 def all_runs(jobs: Sequence[Job], processes: int) -> list[Run]:

@@ -15,6 +15,7 @@ from carpus.app.__main__ import main
 from carpus.core import so3
 from carpus.core.agreement.compare import compare
 from carpus.core.agreement.reference import Reading, Reference, read_reference
+from carpus.core.agreement.tables import lines
 from carpus.core.errors import ReferenceUnreadable, ReferenceUnsuited
 from carpus.core.formats import c3d_write, mot, trc
 from carpus.core.formats.c3d_read import read_c3d
@@ -75,6 +76,30 @@ def test_a_shift_and_an_offset_are_found(session: Session, shift_s: float) -> No
     assert flexion.bias == pytest.approx(3.0, abs=0.05)
     assert flexion.sd < 0.5
     assert flexion.correlation > 0.999
+
+
+def test_a_turned_sign_is_said_and_not_shifted_away(session: Session) -> None:
+    right = other(session, 0.0)
+    turned = replace(right, angles_rad=dict(right.angles_rad) | {"flexion": -right.angles_rad["flexion"]})
+    found = compare(session, turned)
+    assert found.shift is not None
+    assert found.shift.reference_later_s == pytest.approx(0.0, abs=0.01)
+    flexion = next(one for one in found.pairs if one.name == "flexion").figures_deg
+    assert flexion.correlation < -0.99
+    assert flexion.icc < 0.0, "not flattered"
+    assert any(remark.startswith("flexion: ") and "opposite sign" in remark for remark in found.remarks)
+    assert "opposite sign" in lines(found)[0]
+    assert [remark for remark in found.remarks_on("flexion") if "opposite" in remark]
+    assert not [remark for remark in found.remarks_on("deviation") if "opposite" in remark]
+    assert not any("opposite" in remark for remark in compare(session, right).remarks)
+
+
+def test_a_lag_that_is_known_is_taken(session: Session) -> None:
+    found = compare(session, other(session, 0.0), lag_s=0.4)
+    assert found.shift is not None
+    assert found.shift.was_given
+    assert found.shift.reference_later_s == 0.4
+    assert next(one for one in found.pairs if one.name == "flexion").figures_deg.sd > 5.0
 
 
 def test_the_session_agrees_with_its_own_exports(session: Session, tmp_path: Path) -> None:

@@ -29,8 +29,8 @@ from carpus.core.errors import SettingsInvalid
 from carpus.core.library.library import Library
 from carpus.core.measures.error_limits import ErrorLimits, MeasuredLimit, RetestStudy
 from carpus.core.output.report_content import SessionFigures, compare, session_figures
+from carpus.core.records.values import PatientEntry
 from carpus.core.session.reader import read_session
-from carpus.core.session.register import PatientEntry
 from carpus.core.session.values import new_header
 from carpus.core.session.writer import SessionWriter
 from carpus.core.types import TrackStatus
@@ -83,6 +83,14 @@ def test_raters_who_differ_are_in_the_error_and_apart_from_it() -> None:
     found = retest(values, names)
     assert found.sem_same_rater == pytest.approx(1.5, abs=0.1)
     assert found.sem > 2.4
+
+
+def test_without_raters_nothing_is_said_of_one() -> None:
+    values = [[60.0, 62.0, 61.0], [71.0, 70.0, 73.0], [55.0, 58.0, 54.0]]
+    assert math.isnan(retest(values).sem_same_rater), "it would be the overall SEM under another name"
+    assert math.isnan(retest(values, [["MK"] * 3] * 3).sem_same_rater)
+    mixed = [["MK", "MK", ""], ["JS", "JS", "MK"], ["", "", ""]]
+    assert retest(values, mixed).sem_same_rater == pytest.approx(math.sqrt((2.0 + 0.5) / 2))
 
 
 def test_people_measured_once_and_unknown_values_take_no_part() -> None:
@@ -277,19 +285,17 @@ def test_the_study_in_the_window_from_people_to_limits_in_force(
 ) -> None:
     library = Library(tmp_path / "data")
     for person in range(1, 13):
-        patient = library.clinic.add(PatientEntry(f"P{person:02d}", "right"))
+        patient = library.patients.add(PatientEntry(f"P{person:02d}", "right"))
         for stored in sorted(folder.glob(f"P{person:02d}-*.h5")):
-            path = library.clinic.new_session_path(patient, "WRIST_FE", "right", FIRST)
+            path = library.index.new_path(patient, "Linden 42", "WRIST_FE", "right", FIRST)
             shutil.copyfile(stored, path)
-            entry = library.clinic.enter_session(path, patient)
-            library.who = lambda stored=stored: "JS" if stored.stem.endswith("2") else "MK"  # type: ignore[misc]
-            library.note_session("recorded", entry.session_id)
-    otter = library.clinic.add(PatientEntry("Otter 29", "right"))
+            library.index.enter(path, patient, "JS" if stored.stem.endswith("2") else "MK")
+    otter = library.patients.add(PatientEntry("Otter 29", "right"))
     for day, reach_deg in ((0, 40.0), (9, 46.0)):
         when = FIRST + timedelta(days=day)
-        path = library.clinic.new_session_path(otter, "WRIST_FE", "right", when)
+        path = library.index.new_path(otter, "Linden 42", "WRIST_FE", "right", when)
         written(tmp_path, 29, day, when, reach_deg).rename(path)
-        library.clinic.enter_session(path, otter)
+        library.index.enter(path, otter)
     library.close()
     settings = Settings(screen=ScreenSettings("light"), recording=RecordingSettings(folder=str(tmp_path / "data")))
     today = (FIRST + timedelta(days=12)).date()
@@ -326,7 +332,7 @@ def test_the_study_in_the_window_from_people_to_limits_in_force(
         assert read_limits(tmp_path / "data").studies == ()
         qtbot.waitUntil(lambda: "3 of 3 statements change" in words_of(screen))
         assert "Otter 29, flexion, 2 Nov → 11 Nov" in words_of(screen)
-        assert words_of(screen).count("no change → improved") == 3
+        assert words_of(screen).count("no change proven → improved") == 3
         screen.use_button.click()
         qtbot.waitUntil(lambda: journey.teller.busy)
         (use,) = [one for one in desktop.shell.findChildren(Button) if one.text() == "Use these limits"]

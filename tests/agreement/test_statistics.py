@@ -8,8 +8,16 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from scipy import stats
 
-from carpus.core.agreement.statistics import agreement, cmc, icc_2_1, independent_count
+from carpus.core.agreement.statistics import (
+    agreement,
+    agreement_of_people,
+    cmc,
+    icc_2_1,
+    icc_3_1,
+    independent_count,
+)
 
 
 def test_known_differences_give_known_figures() -> None:
@@ -67,3 +75,89 @@ def test_waveforms_that_have_nothing_in_common_have_no_cmc() -> None:
     x = np.linspace(0, 20, 500)
     assert math.isnan(cmc(np.sin(x), -np.sin(x)))
     assert cmc(np.sin(x), np.sin(x) + 0.01) > 0.99
+
+
+@pytest.mark.parametrize("raters", [2, 4])
+def test_consistency_is_what_a_table_of_variances_gives(raters: int) -> None:
+    """ICC(3,1) and its interval by the two-way table, written out (McGraw and Wong 1996, table 7)."""
+    rng = np.random.default_rng(raters)
+    table = rng.normal(0.0, 3.0, (12, 1)) + rng.normal(0.0, 1.0, (12, raters)) + np.arange(raters)
+    n, k = table.shape
+    total = ((table - table.mean()) ** 2).sum()
+    of_rows = k * ((table.mean(axis=1) - table.mean()) ** 2).sum()
+    of_columns = n * ((table.mean(axis=0) - table.mean()) ** 2).sum()
+    rest = (total - of_rows - of_columns) / ((n - 1) * (k - 1))
+    f = of_rows / (n - 1) / rest
+    low = f / stats.f.ppf(0.975, n - 1, (n - 1) * (k - 1))
+    high = f * stats.f.ppf(0.975, (n - 1) * (k - 1), n - 1)
+    icc, interval = icc_3_1(table)
+    assert icc == pytest.approx((f - 1) / (f + k - 1))
+    assert interval == pytest.approx(((low - 1) / (low + k - 1), (high - 1) / (high + k - 1)))
+    assert icc_3_1(table + 10.0 * np.arange(raters))[0] == pytest.approx(icc), "an offset is no disagreement"
+
+
+@pytest.mark.parametrize("correlation", [-0.995, -0.9, -0.5, -0.1])
+def test_the_interval_of_a_negative_icc_lies_about_it_and_holds_the_true_one(correlation: float) -> None:
+    rng = np.random.default_rng(3)
+    held = [0, 0]
+    for _ in range(200):
+        pairs = rng.multivariate_normal([0.0, 0.0], [[1.0, correlation], [correlation, 1.0]], 40)
+        for number, of in enumerate((icc_2_1, icc_3_1)):
+            icc, (low, high) = of(pairs)
+            assert -1.0 <= low <= icc <= high <= 1.0
+            held[number] += low <= correlation <= high
+    # Lin's own approximation holds less near -1, where nothing is judged any more.
+    assert held[0] >= (180 if correlation > -0.95 else 160)
+    assert held[1] >= 180
+
+
+def test_curves_that_run_against_each_other_are_called_so() -> None:
+    wave = 30.0 * np.sin(np.linspace(0.0, 60.0, 1800))
+    noise = np.random.default_rng(1).normal(0.0, 2.0, 1800)
+    turned = agreement(-wave + noise, wave)
+    assert turned.correlation < -0.99
+    assert turned.is_opposite
+    low, high = turned.icc_interval
+    assert -1.0 <= low <= turned.icc <= high <= 1.0
+    assert not agreement(wave + noise, wave).is_opposite
+
+
+def test_people_whose_true_value_varies_have_both_variances_in_their_limits() -> None:
+    """Against Bland and Altman's analysis of variance (2007, section 3), by hand, for as many pairs of each."""
+    rng = np.random.default_rng(8)
+    people, each = 12, 5
+    difference = 2.0 + rng.normal(0.0, 1.5, (people, 1)) + rng.normal(0.0, 1.0, (people, each))
+    truth = rng.normal(60.0, 10.0, (people, each))
+    found, between = agreement_of_people(list(truth + difference), list(truth), waveform=False)
+    of_people = each * difference.mean(axis=1).var(ddof=1)
+    within = difference.var(axis=1, ddof=1).mean()
+    sd = math.sqrt(within + (of_people - within) / each)
+    assert found.bias == pytest.approx(difference.mean())
+    assert found.sd == pytest.approx(sd)
+    assert found.limits == pytest.approx((found.bias - 1.96 * sd, found.bias + 1.96 * sd))
+    assert between.sd_within == pytest.approx(math.sqrt(within))
+    assert between.sd_between == pytest.approx(math.sqrt((of_people - within) / each))
+    # Taking the pairs for independent ones is too sure of the mean.
+    pooled = agreement((truth + difference).ravel(), truth.ravel(), waveform=False)
+    assert np.ptp(found.bias_interval) > 1.5 * np.ptp(pooled.bias_interval)
+
+
+def test_intervals_of_peoples_limits_hold_the_truth_as_often_as_they_say() -> None:
+    rng = np.random.default_rng(5)
+    held = [0, 0, 0]
+    true = 1.96 * math.hypot(1.5, 1.0)
+    for _ in range(300):
+        truth = [rng.normal(60.0, 10.0, int(rng.integers(3, 12))) for _ in range(10)]
+        theirs = [one + rng.normal(0.0, 1.5) + rng.normal(0.0, 1.0, len(one)) for one in truth]
+        found, _ = agreement_of_people(theirs, truth, waveform=False)
+        held[0] += found.bias_interval[0] <= 0.0 <= found.bias_interval[1]
+        held[1] += found.lower_interval[0] <= -true <= found.lower_interval[1]
+        held[2] += found.upper_interval[0] <= true <= found.upper_interval[1]
+    assert all(275 <= one <= 297 for one in held), held
+
+
+def test_few_people_say_nothing() -> None:
+    one = np.arange(5.0)
+    found, between = agreement_of_people([one, one + 1.0], [one, one])
+    assert math.isnan(found.bias)
+    assert between.people == 2

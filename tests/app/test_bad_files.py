@@ -15,9 +15,12 @@ import pytest
 from carpus.core.errors import CarpusFault, FilesSetApart, RegisterSetAside, SessionUnreadable
 from carpus.core.library import library as library_module
 from carpus.core.library.library import Library
-from carpus.core.session import register as register_module
-from carpus.core.session.register import REGISTER_FILE, PatientEntry, PatientRegister
+from carpus.core.records import session_list
+from carpus.core.records.database import STORE_FILE
+from carpus.core.records.seen_files import remembered
+from carpus.core.records.values import PatientEntry
 from carpus.core.session.writer import SessionWriter
+from tests.records.samples import opened as opened_store
 from tests.session.samples import CAMERA, make_calibration, make_frame, make_header
 
 
@@ -66,7 +69,7 @@ def started(folder: Path) -> tuple[list[str], list[CarpusFault]]:
     library = Library(folder)
     try:
         faults = list(library.recover()[1])
-        return [record.entry.pseudonym for record in library.clinic.patients()], faults
+        return [record.entry.pseudonym for record in library.patients.listed()], faults
     finally:
         library.close()
 
@@ -98,8 +101,8 @@ def test_a_file_set_apart_is_read_again_when_it_has_changed(tmp_path: Path) -> N
     assert len(started(tmp_path)[1]) == 1
     path.write_bytes(good)
     assert started(tmp_path) == (["Linden 42"], [])
-    with PatientRegister(tmp_path) as register:
-        assert register.set_apart() == []
+    with opened_store(tmp_path) as house:
+        assert [one.reason for one in remembered(house.store).values()] == [""]
 
 
 def test_unchanged_files_are_not_opened_again(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -107,8 +110,8 @@ def test_unchanged_files_are_not_opened_again(tmp_path: Path, monkeypatch: pytes
         stored(tmp_path / "sessions" / f"{number}.h5")
     started(tmp_path)
     opened: list[Path] = []
-    real = register_module.read_outline
-    monkeypatch.setattr(register_module, "read_outline", lambda path: (opened.append(path), real(path))[1])
+    real = session_list.read_outline
+    monkeypatch.setattr(session_list, "read_outline", lambda path: (opened.append(path), real(path))[1])
     stored(tmp_path / "sessions" / "new.h5")
     started(tmp_path)
     assert [path.name for path in opened] == ["new.h5"]
@@ -116,20 +119,19 @@ def test_unchanged_files_are_not_opened_again(tmp_path: Path, monkeypatch: pytes
 
 def test_a_copied_session_counts_once(tmp_path: Path) -> None:
     first = stored(tmp_path / "sessions" / "b.h5")
-    with PatientRegister(tmp_path) as register:
-        (patient,) = register.patients()
+    with opened_store(tmp_path) as house:
+        house.files.take_in()
+        (patient,) = house.patients.listed()
         shutil.copy(first, tmp_path / "sessions" / "a.h5")
-        assert register.is_behind()
-        register.rebuild_from_sessions()
-        assert [entry.path.name for entry in register.sessions(patient.patient_id)] == ["b.h5"]
-        assert register.patient(patient.patient_id).session_count == 1
-        assert [path.name for path, _ in register.set_apart()] == ["a.h5"]
-        assert not register.is_behind()
+        assert house.files.take_in().sessions == 0
+        assert [entry.path.name for entry in house.index.of_patient(patient.patient_id)] == ["b.h5"]
+        assert house.patients.one(patient.patient_id).session_count == 1
+        assert [path.name for path in house.files.copies_of("b.h5")] == ["a.h5"]
         first.unlink()
-        register.rebuild_from_sessions()
-        assert [entry.path.name for entry in register.sessions(patient.patient_id)] == ["a.h5"]
-    with PatientRegister(tmp_path) as register:
-        assert register.patient(patient.patient_id).session_count == 1
+        house.files.take_in()
+        assert [entry.path.name for entry in house.index.of_patient(patient.patient_id)] == ["a.h5"]
+    with opened_store(tmp_path) as house:
+        assert house.patients.one(patient.patient_id).session_count == 1
 
 
 def test_names_that_are_no_text_and_links(tmp_path: Path) -> None:
@@ -195,9 +197,8 @@ def misname(path: Path) -> None:
         rows("DROP TABLE session"),
         rows("ALTER TABLE patient RENAME COLUMN note TO remark"),
         rows("UPDATE session SET created = 'yesterday'"),
-        rows("UPDATE session SET frames = x'00'"),
         rows("UPDATE patient SET pseudonym = ' '"),
-        rows("UPDATE patient SET age_band = 'old', side = 7, note = x'ff'"),
+        rows("UPDATE patient SET age_band = 'old', side = '7'"),
     ],
 )
 def test_a_damaged_register_does_not_keep_the_program_from_starting(
@@ -205,25 +206,25 @@ def test_a_damaged_register_does_not_keep_the_program_from_starting(
 ) -> None:
     stored(tmp_path / "sessions" / "s.h5")
     started(tmp_path)
-    damage(tmp_path / REGISTER_FILE)
+    damage(tmp_path / STORE_FILE)
     patients, faults = started(tmp_path)
     assert len(patients) == 1
     for fault in faults:
         assert isinstance(fault, RegisterSetAside)
         assert Path(fault.subject).exists()
-    with PatientRegister(tmp_path) as register:
-        (patient,) = register.patients()
+    with opened_store(tmp_path) as house:
+        (patient,) = house.patients.listed()
         assert patient.session_count == 1
-        assert len(register.sessions(patient.patient_id)) == 1
+        assert len(house.index.of_patient(patient.patient_id)) == 1
     assert started(tmp_path) == (patients, [])
 
 
 def test_a_name_that_is_removed_is_nowhere(tmp_path: Path) -> None:
-    with PatientRegister(tmp_path) as register:
-        key = register.add(PatientEntry("Linden 42", "right", name="Wilhelmina Featherstone", note="a note"))
+    with opened_store(tmp_path) as house:
+        key = house.patients.add(PatientEntry("Linden 42", "right", name="Wilhelmina Featherstone", note="a note"))
         for number in range(50):
-            register.change(key, PatientEntry("Linden 42", "right", name=f"Wilhelmina Featherstone {number}"))
-        register.change(key, PatientEntry("Linden 42", "right"))
+            house.patients.change(key, PatientEntry("Linden 42", "right", name=f"Wilhelmina Featherstone {number}"))
+        house.patients.change(key, PatientEntry("Linden 42", "right"))
         found = [path.name for path in tmp_path.iterdir() if path.is_file() and b"Featherstone" in path.read_bytes()]
         assert found == []
 

@@ -16,8 +16,8 @@ from pytestqt.qtbot import QtBot
 from carpus.app import compose
 from carpus.app.settings import RecordingSettings, ScreenSettings, Settings
 from carpus.core.library.library import Library
-from carpus.core.safekeeping.audit import read_audit
-from carpus.core.session.register import PatientEntry
+from carpus.core.records.log import read_log
+from carpus.core.records.values import PatientEntry
 from tests.agreement.test_retest import written
 
 NOW = datetime(2026, 11, 20, 9, 0, tzinfo=UTC)
@@ -35,11 +35,11 @@ def recorded(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, Path]:
 def desktop(qapp: QApplication, recorded: tuple[Path, Path], tmp_path: Path) -> Iterator[compose.Desktop]:
     QLocale.setDefault(QLocale(QLocale.Language.English, QLocale.Country.UnitedKingdom))
     library = Library(tmp_path / "data")
-    patient = library.clinic.add(PatientEntry("Linden 42", "right"))
+    patient = library.patients.add(PatientEntry("Linden 42", "right"))
     for stored, when in zip(recorded, (NOW, EARLIER), strict=True):
-        path = library.clinic.new_session_path(patient, "WRIST_FE", "right", when)
+        path = library.index.new_path(patient, "Linden 42", "WRIST_FE", "right", when)
         shutil.copyfile(stored, path)
-        library.clinic.enter_session(path, patient)
+        library.index.enter(path, patient)
     library.close()
     settings = Settings(screen=ScreenSettings("light"), recording=RecordingSettings(folder=str(tmp_path / "data")))
     opened = compose.compose(qapp, settings, settings_folder=tmp_path / "settings", today=date(2026, 11, 20))
@@ -106,7 +106,7 @@ def test_from_two_ticks_to_tables_and_a_page_and_back(
     journey.way.back()
     assert journey.place == "sessions"
     assert len(journey.sessions.list.rows.ticked) == 2, "they stay ticked"
-    deeds = [entry.did for entry in read_audit(desktop.library.folder).entries]
+    deeds = [entry.did for entry in read_log(desktop.library.store)]
     assert [deeds.count(did) for did in ("opened", "exported", "reported")] == [2, 2, 2]
 
 
@@ -125,7 +125,7 @@ def test_from_the_review_and_a_file_that_went_away(qtbot: QtBot, desktop: compos
     journey.way.back()
     assert journey.place == "beside", "as it was left"
     assert screen.shown is not None
-    opened = [entry.did for entry in read_audit(desktop.library.folder).entries].count("opened")
+    opened = [entry.did for entry in read_log(desktop.library.store)].count("opened")
     assert opened == 3, "the review's one, and the two once"
     journey.way.back()
     assert journey.place == "review"

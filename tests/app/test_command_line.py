@@ -262,7 +262,7 @@ def test_a_list_is_written_last(recording: Path) -> None:
     )
 
 
-@pytest.mark.parametrize("option", ["--seconds=inf", "--seconds=-1", "--fps=inf", "--tremor-deg=nan", "--distance-m=0"])
+@pytest.mark.parametrize("option", ["--seconds=inf", "--seconds=-1", "--fps=inf", "--tremor-deg=inf", "--distance-m=0"])
 def test_a_simulation_beyond_all_limits_is_refused(
     option: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
@@ -278,7 +278,7 @@ def test_a_simulated_person_is_drawn_or_given(tmp_path: Path, capsys: pytest.Cap
     assert (spec.skin_glide_mm, spec.cupping, spec.habits) == (None, 0.5, ("grip", "rolling_forearm"))
     with pytest.raises(SystemExit):
         main([*words, "--skin-glide-mm=much"])
-    assert "a number or drawn, not much" in capsys.readouterr().err
+    assert "“much” is no number, and not “drawn”" in capsys.readouterr().err
 
 
 def test_the_folder_of_a_rendered_oni_file_opens_it(recording: Path, tmp_path: Path) -> None:
@@ -308,7 +308,7 @@ def test_info_says_that_a_raw_recording_was_cut_short(
 def test_the_unattended_way_can_be_stopped(number: signal.Signals, tmp_path: Path) -> None:
     words = (*COMMAND, "demo", "--unattended", "--data-folder", str(tmp_path / "data"))
     with subprocess.Popen(words, cwd=ROOT, stderr=PIPE, text=True, preexec_fn=hear_all) as process:
-        while not (tmp_path / "data" / "patients.sqlite3").exists():
+        while not (tmp_path / "data" / "records.sqlite3").exists():
             assert process.poll() is None
             time.sleep(0.02)
         time.sleep(0.5)

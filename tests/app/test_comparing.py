@@ -21,9 +21,9 @@ from carpus.core.agreement.compared_files import compare_files
 from carpus.core.agreement.reference import outline_of
 from carpus.core.agreement.watch import Stopped, Watch
 from carpus.core.library.library import Library
-from carpus.core.safekeeping.audit import read_audit
+from carpus.core.records.log import read_log
+from carpus.core.records.values import PatientEntry
 from carpus.core.session.reader import read_session
-from carpus.core.session.register import PatientEntry
 from tests.agreement.test_retest import written
 
 NOW = datetime(2026, 11, 20, 9, 0, tzinfo=UTC)
@@ -64,11 +64,11 @@ def desktop(
 ) -> Iterator[compose.Desktop]:
     QLocale.setDefault(QLocale(QLocale.Language.English, QLocale.Country.UnitedKingdom))
     library = Library(tmp_path / "data")
-    patient = library.clinic.add(PatientEntry("Linden 42", "right"))
+    patient = library.patients.add(PatientEntry("Linden 42", "right"))
     for stored, when in ((recorded, NOW), (earlier, NOW - timedelta(days=1))):
-        path = library.clinic.new_session_path(patient, "WRIST_FE", "right", when)
+        path = library.index.new_path(patient, "Linden 42", "WRIST_FE", "right", when)
         shutil.copyfile(stored, path)
-        library.clinic.enter_session(path, patient)
+        library.index.enter(path, patient)
     library.close()
     settings = Settings(
         screen=ScreenSettings("light"), recording=RecordingSettings(folder=str(tmp_path / "data")),
@@ -131,7 +131,7 @@ def test_from_the_review_to_saved_tables(
     ]  # fmt: skip
     said = json.loads(next(tmp_path.glob("*.agreement.json")).read_text(encoding="utf-8"))
     assert said["angles"][0]["bias_deg"] == pytest.approx(pairs.figures_deg.bias)
-    exported = [entry for entry in read_audit(desktop.library.folder).entries if entry.did == "exported"]
+    exported = [entry for entry in read_log(desktop.library.store) if entry.did == "exported"]
     assert [entry.facts["files"] for entry in exported] == [5]
 
 

@@ -23,7 +23,7 @@ from carpus.core.library.library import Library
 from carpus.core.library.records import Records
 from carpus.core.output.report_content import RepetitionChoices
 from carpus.core.pipeline.correction import Task, correct, task_of
-from carpus.core.session.register import PatientEntry
+from carpus.core.records.values import PatientEntry
 from carpus.ui.background import Background
 from carpus.ui.correct.results_sheet import ResultsSheet
 from carpus.ui.correct.screen import CorrectScreen
@@ -40,11 +40,11 @@ def library(tmp_path: Path) -> Iterator[Library]:
 
 
 def entered(library: Library, stored: Stored) -> tuple[str, str]:  # noqa: F811
-    patient = library.clinic.add(PatientEntry("Linden 42", "right"))
+    patient = library.patients.add(PatientEntry("Linden 42", "right"))
     when = datetime(2026, 11, 20, 11, 36).astimezone()
-    path = library.clinic.new_session_path(patient, "WRIST_FE", "right", when)
+    path = library.index.new_path(patient, "Linden 42", "WRIST_FE", "right", when)
     shutil.copyfile(stored.path, path)
-    return patient, library.clinic.enter_session(path, patient).session_id
+    return patient, library.index.enter(path, patient).session_id
 
 
 def made(corrections: Corrections, session_id: str, stored: Stored) -> Path:  # noqa: F811
@@ -163,7 +163,7 @@ def test_a_wanted_result_counts_and_the_old_one_stays(library: Library, stored: 
     old = library.entry(session_id).path
     old.with_suffix(MARKERS_SUFFIX).write_bytes(b"picture")
     library.keep_choices(session_id, RepetitionChoices({0: "pain"}, not_counted=True, not_counted_reason="discs lost"))
-    library.clinic.rename_exercise(session_id, "WRIST_RUD")
+    library.index.rename_exercise(session_id, "WRIST_RUD")
     time.sleep(1.1)  # files say the second in which they were made, and nobody corrects within one
     new = corrections.use(session_id, made(corrections, session_id, stored))
     assert [entry.session_id for entry in library.sessions(patient)] == [new]

@@ -15,7 +15,7 @@ from carpus.core.errors import RecordingMoved, RecordingReturned
 from carpus.core.library.coming_home import bring_home, fallback_place
 from carpus.core.library.library import Library
 from carpus.core.pipeline.live import LiveSession
-from carpus.core.session.register import PatientEntry
+from carpus.core.records.values import PatientEntry
 from carpus.core.session.writer import Fallback, SessionWriter
 from carpus.core.types import Frame
 from tests.pipeline.live_fakes import HeldSource
@@ -51,8 +51,8 @@ def test_it_is_told_within_a_second_and_the_session_comes_home(tmp_path: Path) -
     """From the live session's own events to the next start of the program."""
     data = tmp_path / "data"
     library = Library(data)
-    key = library.clinic.add(PatientEntry("Linden 42", "left"))
-    path = library.clinic.new_session_path(key, "wrist flexion", "left", CREATED)
+    key = library.patients.add(PatientEntry("Linden 42", "left"))
+    path = library.index.new_path(key, "Linden 42", "wrist flexion", "left", CREATED)
     source = HeldSource()
     source.let(10_000)
     with LiveSession(source) as live:
@@ -88,4 +88,4 @@ def test_it_is_told_within_a_second_and_the_session_comes_home(tmp_path: Path) -
 
 
 def test_nothing_to_bring_home(tmp_path: Path) -> None:
-    assert bring_home(tmp_path) == []
+    assert bring_home(tmp_path, lambda _: tmp_path) == []

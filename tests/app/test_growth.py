@@ -83,7 +83,7 @@ if __name__ == "__main__":
 def copy(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """The program with one more file, and one line changed where protocols are registered, with its import."""
     folder = tmp_path_factory.mktemp("grown")
-    shutil.copy(ROOT / "carpus.py", folder)
+    shutil.copytree(ROOT / "carpus", folder / "carpus", symlinks=True)
     (folder / "core").mkdir()
     for part in ("app", "ui", "resources"):
         (folder / part).symlink_to(ROOT / part)

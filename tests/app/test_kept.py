@@ -15,14 +15,18 @@ import carpus
 from carpus.app.__main__ import main
 from carpus.app.desktop.patients import PatientShelf
 from carpus.app.desktop.shelf import StoredSessions
+from carpus.app.of_file import read_choices, read_comment
+from carpus.app.settings import settings_folder
+from carpus.core.errors import OutputNotWritable
 from carpus.core.library.library import Library
 from carpus.core.library.records import Records
 from carpus.core.library.set_up import PRACTICE_PATIENT
 from carpus.core.output.report_content import RepetitionChoices
-from carpus.core.safekeeping.audit import AUDIT_FILE, read_audit
+from carpus.core.records.log import read_log
+from carpus.core.records.store import Store
 from carpus.ui.ports import PatientEntry
 from tests.app.test_library import set_up, store
-from tests.safekeeping.samples import traces
+from tests.records.samples import traces
 
 ROOT = Path(__file__).parents[2]
 
@@ -36,9 +40,8 @@ def library(tmp_path: Path) -> Iterator[Library]:
 
 
 def deeds(folder: Path) -> list[tuple[str, str, str]]:
-    reading = read_audit(folder)
-    assert reading.is_whole
-    return [(entry.did, entry.by, entry.who) for entry in reading.entries]
+    with Store(folder) as opened:
+        return [(entry.did, entry.by, entry.who) for entry in read_log(opened)]
 
 
 def test_what_the_window_does_is_logged_without_names(library: Library, tmp_path: Path) -> None:
@@ -67,15 +70,14 @@ def test_what_the_window_does_is_logged_without_names(library: Library, tmp_path
         "brought_back", "archived", "brought_back",
     ]  # fmt: skip
     assert {(by, who) for _, by, who in deeds(library.folder)} == {("window", "AB")}
-    content = (library.folder / AUDIT_FILE).read_text()
-    assert not any(word in content for word in ("Linden", "Erika", "pain", "note"))
+    content = repr(read_log(library.store))
+    assert not any(word in content for word in ("Linden", "Erika", "pain", "a note", linden, session))
     plan = records.plan_patient(linden)
-    assert {one.path.parent for one in plan.made_going} == {out}
+    assert {one.path.parent for one in plan.made} == {out}
     assert library.last_set_up(linden) is not None
     records.erase(plan)
-    assert list(out.iterdir()) == []
-    assert traces(library.folder, "Linden", "Erika", linden) == [AUDIT_FILE]
-    assert b"Linden" not in (library.folder / AUDIT_FILE).read_bytes()
+    assert list(out.iterdir()) != [], "no file outside of the data folder is touched"
+    assert traces(library.folder, "Linden", "Erika", linden, session) == []
 
 
 def test_commands_are_logged_where_the_session_is_kept(
@@ -98,24 +100,19 @@ def test_commands_are_logged_where_the_session_is_kept(
     commands = [(did, by) for did, by, _ in deeds(library.folder) if by == "command"]
     assert commands == [("opened", "command"), ("opened", "command"), ("exported", "command"), ("reported", "command")]
     capsys.readouterr()
-    assert main(["audit", "--data-folder", str(library.folder)]) == 0
-    said = capsys.readouterr().out
-    assert "6 lines, whole." in said
+    assert main(["log", "--data-folder", str(library.folder)]) == 0
+    assert "6 lines." in capsys.readouterr().out
     assert main(["erase", path]) == 0
     said = capsys.readouterr().out
-    assert f"report {out / 'r.pdf'}: goes too" in said
+    assert f"This stays, delete it yourself: report {out / 'r.pdf'}" in said
     assert Path(path).exists()
     assert main(["erase", path, "--for-good", "Heron 17"]) == 1
     assert Path(path).exists()
     assert main(["erase", path, "--for-good", "linden 42"]) == 0
     assert not Path(path).exists()
-    assert list(out.iterdir()) == []
+    assert (out / "r.pdf").exists()
     assert library.sessions(linden) == []
     assert main(["erase", str(elsewhere)]) == 1
-    log = library.folder / AUDIT_FILE
-    log.write_bytes(log.read_bytes().replace(b'"did": "exported"', b'"did": "opened"'))
-    assert main(["audit", "--data-folder", str(library.folder)]) == 1
-    assert "was changed at or before line" in capsys.readouterr().err
 
 
 def test_programs_are_logged_as_commands_are(library: Library, tmp_path: Path) -> None:
@@ -136,17 +133,22 @@ def test_programs_are_logged_as_commands_are(library: Library, tmp_path: Path) -
         ("exported", "command"),
         ("exported", "command"),
     ]
-    assert traces(library.folder / AUDIT_FILE, "Linden") == []
     plan = Records(library).plan_session(session)
-    assert {one.path.parent for one in plan.made} == {tmp_path / "out"}, "what was made goes with the session"
+    assert {one.path.parent for one in plan.made} == {tmp_path / "out"}, "what was made is named"
 
 
-def test_a_log_that_cannot_be_written_is_told_and_stops_nothing_else(library: Library) -> None:
+def test_a_log_that_cannot_be_written_is_told_and_stops_nothing_else(
+    library: Library, monkeypatch: pytest.MonkeyPatch
+) -> None:
     told: list[Exception] = []
     library.log_fault = told.append
-    (library.folder / AUDIT_FILE).mkdir()
+
+    def full(*_: object, **__: object) -> None:
+        raise OutputNotWritable(library.folder)
+
+    monkeypatch.setattr(library.log, "note", full)
     linden = PatientShelf(library).add(PatientEntry("Linden 42", "right", "right"))
-    assert library.clinic.patient(linden).entry.pseudonym == "Linden 42"
+    assert library.patients.one(linden).entry.pseudonym == "Linden 42"
     assert [type(one).__name__ for one in told] == ["OutputNotWritable"]
 
 
@@ -169,7 +171,29 @@ def test_a_back_up_by_command_comes_back_elsewhere(
     assert main(["restore", place, "--into", str(tmp_path / "new")]) == 1
     restored = Library(tmp_path / "new")
     try:
-        assert [len(restored.sessions(one.patient_id)) for one in restored.clinic.patients()] == [1]
+        assert [len(restored.sessions(one.patient_id)) for one in restored.patients.listed()] == [1]
     finally:
         restored.close()
     assert [did for did, _, _ in deeds(tmp_path / "new")] == ["added", "recorded", "restored"]
+
+
+def test_commands_find_what_was_written_of_a_file_on_the_clinic_s_share(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    data, share = tmp_path / "data", tmp_path / "share"
+    monkeypatch.setenv("CARPUS_DATA", str(data))
+    settings = settings_folder() / "settings.toml"
+    settings.parent.mkdir(parents=True, exist_ok=True)
+    settings.write_text(f'[records]\nsessions = "{share}"\n')
+    library = Library(data, sessions=share)
+    linden = PatientShelf(library).add(PatientEntry("Linden 42", "right", "right"))
+    session = store(library, set_up(linden, "Linden 42"))
+    library.keep_comment(session, "Less swelling.")
+    library.keep_choices(session, RepetitionChoices({0: "pain"}))
+    path = library.entry(session).path
+    library.close()
+    assert path.is_relative_to(share)
+    assert read_comment(path) == "Less swelling."
+    assert read_choices(path).left_out == {0: "pain"}
+    assert main(["erase", str(path), "--for-good", "Linden 42"]) == 0
+    assert not path.exists()

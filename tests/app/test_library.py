@@ -18,14 +18,12 @@ from carpus.app.desktop.patients import PatientShelf
 from carpus.app.desktop.shelf import StoredSessions
 from carpus.core.calibration.result import Finding
 from carpus.core.errors import OutputExists, SessionUnreadable
-from carpus.core.library.beside import CHOICES_SUFFIX
 from carpus.core.library.library import Library
 from carpus.core.library.records import Records
 from carpus.core.library.set_up import PRACTICE_PATIENT, SetUp
 from carpus.core.output.exercises import exercise_named
 from carpus.core.output.report_content import RepetitionChoices
 from carpus.core.session.reader import read_session
-from carpus.core.session.register import MIGRATIONS
 from carpus.core.session.values import new_header
 from carpus.core.session.writer import SessionWriter
 from carpus.ui.ports import PatientEntry
@@ -120,18 +118,6 @@ def test_a_simulated_session_of_a_patient_counts_nowhere_and_hides_no_real_resul
     assert sorted(entry.simulated for entry in library.sessions(linden)) == [False, True, True]
 
 
-def test_an_index_of_an_earlier_carpus_learns_what_was_simulated(library: Library) -> None:
-    linden = PatientShelf(library).add(PatientEntry("Linden 42", "right", "right"))
-    store(library, set_up(linden, "Linden 42"), parameters=json.dumps({"source": {"simulated": "yes"}}))
-    with library.clinic.database.transaction() as database:
-        database.execute("UPDATE session SET simulated = 0")
-        for step in MIGRATIONS[3].split(";")[1:]:
-            database.execute(step)
-    assert library.clinic.is_behind()
-    library.recover()
-    assert [entry.simulated for entry in library.sessions(linden)] == [True]
-
-
 def test_the_last_set_up_comes_back_with_its_targets(library: Library) -> None:
     linden = PatientShelf(library).add(PatientEntry("Linden 42", "right", "right"))
     assert library.last_set_up(linden) is None
@@ -145,7 +131,7 @@ def test_the_last_set_up_comes_back_with_its_targets(library: Library) -> None:
     )  # fmt: skip
 
 
-def test_choices_lie_beside_the_session_and_a_damaged_file_of_them_is_told(library: Library) -> None:
+def test_choices_and_comments_are_kept_in_the_store(library: Library) -> None:
     session_id = store(library, set_up(PRACTICE_PATIENT, "Practice patient"))
     choices = RepetitionChoices({2: "pain", 0: ""}, {1: (3.5, 6.25)}, not_counted=True)
     library.keep_choices(session_id, choices)
@@ -154,12 +140,7 @@ def test_choices_lie_beside_the_session_and_a_damaged_file_of_them_is_told(libra
     assert [one.text for one in library.comments(session_id)] == ["First.", "Second,\nwith a line.", ""]
     assert library.comment(session_id) == ""
     assert library.choices(session_id) == choices
-    beside = library.entry(session_id).path.with_suffix(CHOICES_SUFFIX)
-    assert json.loads(beside.read_text())["edges_s"] == {"1": [3.5, 6.25]}
-    assert beside.stat().st_mode & 0o077 == 0
-    beside.write_text("{")
-    with pytest.raises(SessionUnreadable):
-        library.choices(session_id)
+    assert not list(library.folder.rglob("*.json")), "nothing that is typed lies beside a session"
 
 
 def test_a_session_copied_into_the_folder_is_taken_in_at_the_next_start(library: Library, tmp_path: Path) -> None:
@@ -167,11 +148,11 @@ def test_a_session_copied_into_the_folder_is_taken_in_at_the_next_start(library:
     path = library.entry(store(library, set_up(linden, "Linden 42"))).path
     other = Library(tmp_path / "other")
     assert other.recover() == ([], [])
-    shutil.copy(path, other.clinic.sessions_folder / path.name)
+    shutil.copy(path, other.store.sessions_folder / path.name)
     other.close()
     again = Library(tmp_path / "other")
     again.recover()
-    (record,) = again.clinic.patients()
+    (record,) = again.patients.listed()
     assert (record.entry.pseudonym, record.session_count) == ("Linden 42", 1)
     again.close()
 
@@ -185,8 +166,8 @@ def test_the_exported_table_holds_the_angles_and_is_never_overwritten(library: L
     assert len(rows) == len(session)
     for row, angles, time_s in zip(rows, session.motion.angles_rad, session.timestamp_s, strict=True):
         assert float(row["timestamp_s"]) == pytest.approx(time_s, abs=1e-6)
-        for column, angle in zip(("deviation_deg", "flexion_deg", "pronosupination_deg"), angles, strict=True):
-            known = float(row[column]) if row[column] else np.nan
+        for column, angle in zip(("deviation", "flexion", "pronosupination"), angles, strict=True):
+            known = float(row[f"filter_{column}_deg"]) if row[f"filter_{column}_deg"] else np.nan
             np.testing.assert_allclose(known, np.degrees(angle), atol=6e-4)
     with pytest.raises(OutputExists):
         library.export(session_id, str(tmp_path))
@@ -217,13 +198,12 @@ def test_a_session_is_moved_renamed_set_aside_and_deleted_with_all_its_files(lib
     records = Records(library)
     plan = records.plan_session(one)
     assert {file.name for file in plan.files} == {
-        path.name, path.with_suffix(CHOICES_SUFFIX).name, path.with_suffix(".markers.jpg").name,
+        path.name, path.with_suffix(".markers.jpg").name,
     }  # fmt: skip
     records.erase(plan)
     assert stored.lines(heron) == []
     assert list(path.parent.glob(f"{path.stem}.*")) == []
     assert len(library.session(two)) == 40
-    assert not library.clinic.is_behind()
     with pytest.raises(SessionUnreadable):
         records.plan_session(one)
 
@@ -240,6 +220,6 @@ def test_another_order_of_the_angles_is_read_everywhere_but_in_files(library: Li
     assert [figures.angle_order for figures in library.history(patient_id)] == ["isb"]
     library.export(session_id, str(tmp_path))
     with next(tmp_path.rglob("*.wrist.csv")).open(encoding="utf-8") as file:
-        first = next(row for row in csv.DictReader(file) if row["flexion_deg"])
+        first = next(row for row in csv.DictReader(file) if row["filter_flexion_deg"])
     row = int(np.flatnonzero(np.isfinite(plain.motion.angles_rad[:, 1]))[0])
-    assert float(first["flexion_deg"]) == pytest.approx(math.degrees(plain.motion.angles_rad[row, 1]), abs=1e-3)
+    assert float(first["filter_flexion_deg"]) == pytest.approx(math.degrees(plain.motion.angles_rad[row, 1]), abs=1e-3)

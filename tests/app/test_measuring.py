@@ -135,7 +135,7 @@ def test_the_walk_keeps_no_steps() -> None:
     for frame in frames():
         walk.keep = kept.append if frame.index in (3, 4) else None
         walk(frame)
-        assert not walk._walk.tracker.history
+        assert not walk._walk.tracker.record.history
     assert [[step.timestamp_s for step in steps.steps] for steps in kept] == [[10.0 + 3 * DT_S], [10.0 + 4 * DT_S]]
 
 

@@ -1,78 +1,109 @@
-"""Opening a source: what is prepared beforehand gives way to what a person waits for, and there is one bar."""
+"""Opening the practice patient: its still hand at once, its movement drawn beside it and played once it is there."""
 
 from __future__ import annotations
 
 import threading
-from collections.abc import Callable
 from dataclasses import replace
-from types import SimpleNamespace
 from typing import Any
 
-from pytestqt.qtbot import QtBot
+import numpy as np
+import pytest
 
-from carpus.app.desktop.opening import Opener
+from carpus.app.desktop import practice
+from carpus.app.desktop.practice import practice_beginning, practice_spec
+from carpus.app.desktop.sources import NobodyWaitsError, Progress, TakesDrawn
+from carpus.core.capture.practice import PracticeSource
+from carpus.core.capture.source import is_simulated
+from carpus.core.errors import CarpusFault, DiskFull
 from carpus.core.library.set_up import SetUp
 from carpus.core.output.exercises import exercise_named
-from carpus.ui.setup.choice import SourceChoice
+from carpus.core.simulation.recording import SimulatedPictures
+from tests.capture.test_practice import Take
 from tests.ui.fakes import set_up
 
-
-class SlowSources:
-    """Renders when told; an opening of the take that was rendered is there at once."""
-
-    def __init__(self) -> None:
-        self.begun = threading.Event()
-        self.go_on = threading.Event()
-        self.prepared = 0
-
-    def prepare_practice(self, _: SetUp, progress: Callable[[int, int], None]) -> None:
-        for done in range(100):
-            progress(done, 1000)
-            self.begun.set()
-            self.go_on.wait(5.0)
-            self.prepared = done
-
-    def open(self, choice: SourceChoice, set_up: SetUp, progress: Callable[[int, int], None]) -> Any:
-        progress(7, 10)
-        return SimpleNamespace(name=choice.kind)
+FIRST, SECOND = (replace(set_up("FIST_COMPOSITE"), exercise=exercise_named(name)) for name in ("WRIST_FE", "WRIST_RU"))
+SET_UPS = {"WRIST_FE": FIRST, "WRIST_RU": SECOND}
 
 
-def begun(qtbot: QtBot) -> tuple[Opener, SlowSources, list[int]]:
-    sources = SlowSources()
-    opener = Opener(sources)  # type: ignore[arg-type]
-    seen: list[int] = []
-    opener.progressed.connect(lambda done, total: seen.append(round(1000 * done / total)))
-    opener.prepare(set_up("FIST_COMPOSITE"))
-    assert sources.begun.wait(5.0)
-    qtbot.waitUntil(lambda: seen == [0])
-    return opener, sources, seen
+class Drawn:
+    """Draws when told; what was told meanwhile."""
+
+    def __init__(self, fault: CarpusFault | None = None) -> None:
+        self.go_on, self.begun, self.ended = threading.Semaphore(0), threading.Event(), threading.Event()
+        self.fault, self.told, self.asked = fault, list[Any](), list[str]()
+        self.patient = PracticeSource(Take(), 0.55, begins_only=True)
+        self.takes = TakesDrawn(self.patient, self._draw, SET_UPS, {}, lambda *_: None, self.told.append)
+        self.takes.start()
+        assert not self.begun.wait(0.05), "the still hand is shown first: drawing takes every core"
+        self.patient.shown.set()
+        assert self.begun.wait(5.0)
+
+    def _draw(self, one: SetUp, progress: Progress) -> tuple[Take, float]:
+        self.begun.set()
+        self.asked.append(one.exercise.id)
+        assert self.go_on.acquire(timeout=5.0)
+        if self.fault is not None:
+            self.ended.set()
+            raise self.fault
+        try:
+            progress(1, 2)
+        except NobodyWaitsError:
+            self.ended.set()
+            raise
+        return Take(), 0.55
 
 
-def test_opening_something_else_ends_the_preparation_and_the_bar_is_its_own(qtbot: QtBot) -> None:
-    opener, sources, seen = begun(qtbot)
-    with qtbot.waitSignal(opener.opened):
-        opener.open(SourceChoice("camera"), set_up("FIST_COMPOSITE"))
-        seen.clear()
-        sources.go_on.set()
-    assert sources.prepared == 0
-    assert seen == [700]
+def until(condition: Any) -> None:
+    waiting = threading.Event()
+    for _ in range(1000):
+        if condition():
+            return
+        waiting.wait(0.005)
+    raise AssertionError("waited in vain")
 
 
-def test_opening_what_is_prepared_waits_for_it(qtbot: QtBot) -> None:
-    opener, sources, _ = begun(qtbot)
-    with qtbot.waitSignal(opener.opened):
-        opener.open(SourceChoice("practice"), set_up("FIST_COMPOSITE"))
-        sources.go_on.set()
-    assert sources.prepared == 99
+def test_a_movement_is_played_as_soon_as_it_is_drawn_and_the_next_one_after_it() -> None:
+    drawn = Drawn()
+    assert not drawn.patient.can_move
+    drawn.go_on.release()
+    until(lambda: drawn.patient.can_move)
+    drawn.takes.choose("WRIST_RU")
+    assert not drawn.patient.can_move, "the second is not drawn yet"
+    drawn.go_on.release()
+    until(lambda: drawn.patient.can_move)
+    assert drawn.asked == ["WRIST_FE", "WRIST_RU"]
 
 
-def test_another_exercise_or_hand_is_another_take(qtbot: QtBot) -> None:
-    for other in (
-        replace(set_up("FIST_COMPOSITE"), exercise=exercise_named("FIST_HOOK")),
-        replace(set_up("FIST_COMPOSITE"), side="left" if set_up("FIST_COMPOSITE").side == "right" else "right"),
-    ):
-        opener, sources, _ = begun(qtbot)
-        with qtbot.waitSignal(opener.opened):
-            opener.open(SourceChoice("practice"), other)
-            sources.go_on.set()
-        assert sources.prepared == 0
+def test_a_drawing_ends_when_nobody_looks_any_more() -> None:
+    drawn = Drawn()
+    drawn.patient.close()
+    drawn.go_on.release()
+    assert drawn.ended.wait(5.0)
+    until(lambda: "practice takes" not in [one.name for one in threading.enumerate()])
+    assert drawn.asked == ["WRIST_FE"]
+
+
+def test_what_goes_wrong_with_a_drawing_is_told() -> None:
+    drawn = Drawn(DiskFull("cache"))
+    drawn.go_on.release()
+    until(lambda: drawn.told)
+    assert isinstance(drawn.told[0], DiskFull)
+
+
+def test_the_beginning_is_what_the_whole_take_begins_with_and_a_dozen_pictures(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A second of drawing, not a minute: the first live picture waits for nothing else."""
+    whole = SimulatedPictures(practice_spec(FIRST))
+    begun = practice_beginning(FIRST)
+    assert begun is not None
+    source, still_s = begun
+    frames = list(source.frames())
+    assert len(frames) <= 12 < len(whole)
+    assert is_simulated(source.info)
+    assert source.info.camera == whole.truth.camera
+    for i, frame in ((0, frames[0]), (len(frames) - 1, frames[-1])):
+        color, depth = whole.sensed(i, whole.clean(i))
+        np.testing.assert_array_equal(frame.color_rgb, color)
+        np.testing.assert_array_equal(frame.depth_raw, depth)
+    assert frames[-1].timestamp_s - frames[0].timestamp_s == pytest.approx(still_s, abs=1.0 / 15.0)
+    monkeypatch.setattr(practice, "is_cached", lambda _: True)
+    assert practice_beginning(FIRST) is None, "nothing to draw: the whole take is there"

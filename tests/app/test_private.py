@@ -11,14 +11,14 @@ from pathlib import Path
 import pytest
 
 from carpus.app import compose
-from carpus.app.desktop.printing import plain_cell
 from carpus.app.settings import load_sound_settings
 from carpus.core.camera import Camera
 from carpus.core.capture.raw import RawWriter
 from carpus.core.capture.source import SourceInfo
 from carpus.core.errors import RecordingUnreadable, SettingsInvalid
+from carpus.core.formats.new_output import new_table, plain_cell
 from carpus.core.library.library import Library
-from carpus.core.session.register import PatientEntry
+from carpus.core.records.values import PatientEntry
 from carpus.core.session.values import new_header
 from carpus.core.session.writer import SessionWriter
 from carpus.ui.controls.tooltip import plain_tooltip
@@ -64,7 +64,7 @@ def test_what_a_command_writes_is_for_its_owner(tmp_path: Path) -> None:
 
 def test_the_log_names_nobody(tmp_path: Path, own_folders: Path) -> None:
     library = Library(tmp_path)
-    library.clinic.add(PatientEntry("Linden Birke", "right", name="Ada Miller"))
+    library.patients.add(PatientEntry("Linden Birke", "right", name="Ada Miller"))
     lines = compose.NobodysLines()
     lines.names = library.pseudonyms
     try:
@@ -93,6 +93,53 @@ def test_a_tooltip_shows_tags_and_does_not_follow_them() -> None:
 @pytest.mark.parametrize("start", list("=+-@\t\r"))
 def test_a_text_of_a_table_is_not_calculated(start: str) -> None:
     assert plain_cell(f"{start}cmd|' /C calc'!A0").startswith("'")
+
+
+@pytest.mark.parametrize("text", ["-1.5", "+2", "-.5e-3", "n/a", "'=x", "", "2026-11-13"])
+def test_numbers_and_plain_words_of_a_table_stay_as_they_are(text: str) -> None:
+    assert plain_cell(text) == text
+
+
+@pytest.mark.parametrize("separator", [",", "\t"])
+def test_no_table_that_is_written_calculates(tmp_path: Path, separator: str) -> None:
+    path = new_table(tmp_path / "t.tsv", ("a", "b", "c"), [("=1+2", "-3.5", "@SUM(A1)"), ("-2+3", "+", "x")], separator)
+    assert [line.split(separator) for line in path.read_text().splitlines()[1:]] == [
+        ["'=1+2", "-3.5", "'@SUM(A1)"], ["'-2+3", "'+", "x"],
+    ]  # fmt: skip
+
+
+WRITES = """
+import os, sys
+from pathlib import Path
+os.umask(int(sys.argv[2], 8))
+from carpus.core.calibration.result import Clicks
+from carpus.core.calibration.clicks import write_clicks
+from carpus.core.camera import Camera
+from carpus.core.capture.camera_info import write_camera_info
+from carpus.core.capture.oni_writer import _create
+from carpus.core.capture.raw_tum import TumWriter
+from carpus.core.capture.source import SourceInfo
+from carpus.core.durable import replace_file
+from carpus.core.formats.new_output import new_text
+from carpus.core.hand.wrist6 import WRIST6
+import numpy as np
+folder, camera = Path(sys.argv[1]), Camera(500, 500, 320, 240)
+write_clicks(folder / "clicks.json", Clicks("right", WRIST6, np.zeros((6, 2))))
+write_camera_info(folder / "camera.yaml", camera)
+_create(folder / "r.oni").close()
+replace_file(folder / "replaced", lambda part: part.write_text("x"))
+new_text(folder / "new.txt", "x")
+if sys.argv[2] != "277":  # which takes the folders that it makes from their owner
+    TumWriter(folder / "tum", SourceInfo("x", camera, True, None, 30.0, {})).abandon()
+"""
+
+
+@pytest.mark.parametrize("umask", ["000", "022", "277"])
+def test_whatever_the_umask_files_are_for_their_owner(tmp_path: Path, umask: str) -> None:
+    subprocess.run([sys.executable, "-c", WRITES, str(tmp_path), umask], cwd=ROOT, check=True, capture_output=True)
+    written = [path for path in tmp_path.rglob("*") if path.is_file()]
+    assert len(written) >= 5
+    assert {path.name: oct(mode(path)) for path in written if mode(path) != 0o600} == {}
 
 
 @pytest.mark.parametrize("name", ["/etc/hostname", "../../secret.png", "rgb/../../x.png", "rgb/a\0b.png"])
@@ -130,46 +177,6 @@ def test_a_home_that_nobody_has(tmp_path: Path) -> None:
     settings, faults = load_sound_settings(tmp_path)
     assert faults == []
     assert settings.data_folder == Path("~nobody-at-all/x")
-
-
-@pytest.mark.parametrize(
-    "content",
-    [
-        '{"left_out": {}, "edges_s": {"0": [1, Infinity]}}',
-        '{"left_out": ' + "[" * 5000,
-        '{"left_out": 3, "edges_s": {}}',
-        '{"left_out": {}, "edges_s": {"0": [5, 1]}}',
-        "[]",
-    ],
-)
-def test_choices_that_make_no_sense(tmp_path: Path, content: str) -> None:
-    from carpus.core.errors import SessionUnreadable
-    from carpus.core.library.library import read_choices
-
-    (tmp_path / "s.choices.json").write_text(content)
-    with pytest.raises(SessionUnreadable):
-        read_choices(tmp_path / "s.h5")
-
-
-@pytest.mark.parametrize(
-    ("name", "value"), [("repetitions", -1), ("repetitions", 1e999), ("target_positive_deg", float("inf"))]
-)
-def test_a_set_up_that_makes_no_sense_is_asked_for(tmp_path: Path, name: str, value: float) -> None:
-    import json
-
-    library = Library(tmp_path)
-    try:
-        key = library.clinic.add(PatientEntry("Linden 42", "right"))
-        good = {
-            "side": "right", "exercise": "wrist_flexion", "repetitions": 5, "target_positive_deg": 30.0,
-            "target_negative_deg": None, "keep_pictures": False,
-        }  # fmt: skip
-        (tmp_path / "set_ups.json").write_text(json.dumps({key: good}))
-        assert library.last_set_up(key) is not None
-        (tmp_path / "set_ups.json").write_text(json.dumps({key: good | {name: value}}))
-        assert library.last_set_up(key) is None
-    finally:
-        library.close()
 
 
 def test_targets_of_a_file_have_limits() -> None:

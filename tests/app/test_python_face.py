@@ -21,8 +21,8 @@ ROOT = Path(__file__).parents[2]
 @pytest.fixture(scope="module")
 def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
     out = tmp_path_factory.mktemp("face") / "recording"
-    truth = carpus.simulate(out, motion="flexion", seconds=2.0, seed=4)
-    assert len(truth.time_s) == 60
+    truth = carpus.simulate(out, motion="flexion", seconds=2.5, speed_hz=1.2, range_share=0.6, seed=4)
+    assert len(truth.time_s) == 75
     return out
 
 
@@ -49,6 +49,77 @@ def test_an_unknown_setting_is_named(folder: Path) -> None:
         _ = carpus.no_such_thing  # type: ignore[attr-defined]
 
 
+@pytest.mark.parametrize(
+    ("wrong", "said"),
+    [
+        ({"dip": "fre"}, "dip is 'fre', 'coupled' or 'free' expected"),
+        ({"use_depth": "no"}, "use_depth is 'no', such a value as True expected"),
+        ({"profile": "brsk"}, "profile is 'brsk', 'slow' or 'standard' or 'brisk' expected"),
+        ({"filter": "papers"}, "filter is 'papers', 'default' or 'paper' expected"),
+        ({"lost_after_s": "long"}, "lost_after_s is 'long'"),
+        ({"filter": "paper", "dip": "free"}, "the papers' filter knows no dip"),
+    ],
+)
+def test_a_wrong_choice_is_one_sentence_and_at_once(folder: Path, wrong: dict[str, object], said: str) -> None:
+    for call in (
+        lambda: carpus.track(folder, folder / "calibration.json", **wrong),  # type: ignore[arg-type]
+        lambda: carpus.write_session(folder, folder / "calibration.json", folder.parent / "no.h5", **wrong),  # type: ignore[arg-type]
+    ):
+        with pytest.raises(SettingsInvalid, match=re.escape(said)):
+            call()
+    assert not (folder.parent / "no.h5").exists()
+
+
+def test_a_hand_an_exercise_and_a_choice_of_a_comparison_that_are_none_are_refused(folder: Path) -> None:
+    clicks, truth = folder / "calibration.json", folder / "truth.h5"
+    with pytest.raises(SettingsInvalid, match="exercise is 'WRIST_XX', 'WRIST_FE' or"):
+        carpus.write_session(folder, clicks, folder.parent / "no.h5", exercise="WRIST_XX")
+    with pytest.raises(SettingsInvalid, match="smoothed is 'no'"):
+        carpus.compare(truth, truth, smoothed="no")  # type: ignore[arg-type]
+    with pytest.raises(SettingsInvalid, match="hand is 'middle', 'right' or 'left' expected"):
+        carpus.propose_clicks(folder, hand="middle")  # type: ignore[arg-type]
+
+
+def test_the_package_lists_its_functions() -> None:
+    program = "import sys, carpus; print(*dir(carpus)); print('numpy' in sys.modules)"
+    listed, loaded = subprocess.run(
+        [sys.executable, "-c", program], cwd=ROOT, capture_output=True, text=True, check=True
+    ).stdout.splitlines()
+    assert {"track", "write_session", "open_session", "simulate", "propose_clicks", "export", "compare"} <= set(
+        listed.split()
+    )
+    assert loaded == "False", "listing them loads nothing"
+
+
+def test_the_papers_filter_in_python_is_that_of_the_command(folder: Path, tmp_path: Path) -> None:
+    frames = list(carpus.track(folder, folder / "calibration.json", filter="paper"))
+    session = carpus.write_session(folder, folder / "calibration.json", tmp_path / "paper.h5", filter="paper")
+    assert [frame.wrist.flexion_deg for frame in frames] == np.degrees(session.motion.angles_rad[:, 1]).tolist()
+    assert json.loads(session.header.parameters)["settings"]["paper"] is not None
+    assert np.isnan(frames[-1].wrist.angular_velocity_deg_s).all(), "white noise in the papers' model"
+
+
+def test_a_session_is_written_with_velocities_and_repetitions(folder: Path, tmp_path: Path) -> None:
+    clicks = folder / "calibration.json"
+    session = carpus.write_session(folder, clicks, tmp_path / "s.h5", exercise="WRIST_FE", subject_id="P-1")
+    assert session.smoothed is not None
+    frames = list(carpus.track(folder, clicks))
+    assert np.array([frame.wrist.velocity_m_s for frame in frames]) == pytest.approx(session.motion.velocity_m_s)
+    turning = np.array([frame.wrist.angular_velocity_deg_s for frame in frames])
+    assert np.radians(turning) == pytest.approx(session.motion.angular_velocity_rad_s)
+    tables = session.tables()
+    assert session.repetitions is not None
+    assert len(tables["repetitions"]) == len(session.repetitions.rows) >= 1
+    wrist, repetitions = tables["wrist"], tables["repetitions"]
+    assert wrist.index.name == "time"
+    assert wrist.index.total_seconds()[-1] == pytest.approx(session.timestamp_s[-1] - session.timestamp_s[0], abs=1e-5)
+    assert wrist.attrs["units"]["filter_flexion_deg"] == "deg"
+    assert wrist.attrs["units"]["smoother_velocity_x_mm_s"] == "mm/s"
+    assert len(wrist["filter_flexion_deg"].resample("500ms").mean()) == 5
+    assert repetitions.index.total_seconds().tolist() == pytest.approx(repetitions["start_s"].tolist(), abs=1e-5)
+    assert repetitions.attrs["units"]["peak_speed_deg_s"] == "deg/s"
+
+
 def test_a_session_opens_and_nothing_of_the_window_is_loaded(folder: Path) -> None:
     program = (
         "import sys, carpus\n"
@@ -59,7 +130,7 @@ def test_a_session_opens_and_nothing_of_the_window_is_loaded(folder: Path) -> No
     script = folder.parent / "read.py"
     script.write_text(program, encoding="utf-8")
     done = subprocess.run([sys.executable, str(script)], cwd=ROOT, capture_output=True, text=True, check=True)
-    assert done.stdout.split() == ["60", "right", "False"]
+    assert done.stdout.split() == ["75", "right", "False"]
 
 
 @pytest.mark.parametrize("protocol", ["wrist6", "hand21"])
@@ -83,8 +154,8 @@ def test_the_discs_are_proposed_and_can_be_tracked_with(protocol: str, tmp_path:
 def test_tables_measures_and_provenance_of_a_session(folder: Path) -> None:
     session = carpus.open_session(folder / "truth.h5")
     tables = session.tables()
-    assert set(tables) == {"wrist", "markers", "events", "measures"}
-    assert np.allclose(tables["wrist"]["flexion_deg"], np.degrees(session.motion.angles_rad[:, 1]))
+    assert set(tables) == {"wrist", "markers", "events", "repetitions", "measures"}
+    assert np.allclose(tables["wrist"]["filter_flexion_deg"], np.degrees(session.motion.angles_rad[:, 1]))
     assert len(tables["markers"]["marker"]) == 6 * len(session)
     assert {row.unit for row in session.measures()} >= {"deg"}
     assert session.provenance()["of"]["recording_id"] == session.header.recording_id

@@ -16,10 +16,14 @@ import numpy as np
 import pytest
 
 from carpus.app import python_face
+from carpus.core.output.report_content import RepetitionChoices
+from carpus.core.records.of_sessions import add_comment, keep_choices
+from carpus.core.session.reader import read_outline
 from carpus.core.session.values import new_header
 from carpus.core.session.writer import SessionWriter
 from carpus.core.types import TrackedFrame, TrackStatus
 from tests.moments import with_moment
+from tests.records.samples import opened
 from tests.session.samples import CAMERA, make_calibration, make_frame
 
 ROOT = Path(__file__).parents[2]
@@ -80,11 +84,13 @@ def test_one_session_makes_a_session_report(sessions: list[Path], tmp_path: Path
 
 
 def test_the_comment_is_on_it_and_paper_and_language_are_chosen(sessions: list[Path], tmp_path: Path) -> None:
-    said = {"comments": [{"text": "Splint at night.", "by": "", "entered": "2026-11-02T10:00:00+00:00"}]}
-    sessions[0].with_suffix(".comments.json").write_text(json.dumps(said), encoding="utf-8")
+    path = tmp_path / "data" / "sessions" / "day.h5"
+    with opened(tmp_path / "data") as house:
+        shutil.copy(sessions[0], path)
+        house.files.take_in()
+        add_comment(house.store, read_outline(path).header.session_id, "Splint at night.", "")
     out = tmp_path / "de.pdf"
-    done = carpus("report", sessions[0], "--output", out, "--paper", "letter", "--language", "de")
-    sessions[0].with_suffix(".comments.json").unlink()
+    done = carpus("report", path, "--output", out, "--paper", "letter", "--language", "de")
     assert (done.returncode, done.stderr) == (0, "")
     page = words(out)
     assert "Splint at night." in page
@@ -95,7 +101,8 @@ def test_the_comment_is_on_it_and_paper_and_language_are_chosen(sessions: list[P
 
 
 def test_what_was_left_out_in_the_review_is_left_out_everywhere(tmp_path: Path) -> None:
-    path = tmp_path / "day.h5"
+    path = tmp_path / "data" / "sessions" / "day.h5"
+    path.parent.mkdir(parents=True)
     calibration = replace(make_calibration(), rotation_w0_cam=np.diag([1.0, -1.0, -1.0]))
     header = new_header(
         hand="right", protocol=calibration.clicks.protocol, software_version="0", exercise="WRIST_FE",
@@ -107,8 +114,9 @@ def test_what_was_left_out_in_the_review_is_left_out_everywhere(tmp_path: Path) 
             there = with_moment(frame(row), **still)
             writer.append(replace(there, status=TrackStatus.TRACKED, dropped_before=0))
     whole = {row.measure: row.count for row in python_face.open_session(path).measures()}
-    choices = {"left_out": {"0": "pain", "1": "pain"}, "edges_s": {}, "not_counted": False}
-    path.with_suffix(".choices.json").write_text(json.dumps(choices), encoding="utf-8")
+    with opened(tmp_path / "data") as house:
+        house.files.take_in()
+        keep_choices(house.store, header.session_id, RepetitionChoices({0: "pain", 1: "pain"}), 0)
     assert carpus("report", path, "--output", tmp_path / "day.pdf").returncode == 0
     left = whole["arc"] - 2
     assert f"mean of {left} repetitions; number 1 left out: pain" in words(tmp_path / "day.pdf")
@@ -117,7 +125,7 @@ def test_what_was_left_out_in_the_review_is_left_out_everywhere(tmp_path: Path) 
     (made,) = (tmp_path / "out").rglob("*.measures.json")
     content = json.loads(made.read_text(encoding="utf-8"))
     assert next(row["count"] for row in content["measures"] if row["measure"] == "arc") == left
-    assert [one["reason"] for one in content["repetitions"] if not one["counts"]] == ["pain", "pain"]
+    assert [one["reason"] for one in content["repetitions"] if not one["counted"]] == ["pain", "pain"]
     nobody = carpus("export", path, "--format", "json", "--deidentified", "--output", tmp_path / "nobody")
     assert nobody.returncode == 0
     (made,) = (tmp_path / "nobody").rglob("*.measures.json")

@@ -1,18 +1,22 @@
-"""A real scheduler with two workers: the same numbers as on one machine, also when a worker is killed on the way."""
+"""A real scheduler with workers as people start them: the same numbers as on one machine, also when a worker or the
+client is killed on the way."""
 
 from __future__ import annotations
 
 import csv
+import os
 import signal
 import subprocess
 import sys
 import time
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 import pytest
+from distributed import Client
+from pyarrow import parquet
 from tqdm import tqdm
 
 from carpus.app.__main__ import main
@@ -28,12 +32,13 @@ from carpus.core.simulation.spec import RecordingSpec
 
 ROOT = Path(__file__).parents[2]
 COUNT = 4
-
-
-@dataclass(frozen=True)
-class Cluster:
-    address: str
-    workers: list[subprocess.Popen[bytes]]
+LOCAL = """
+from distributed import LocalCluster
+if __name__ == "__main__":
+    with LocalCluster(n_workers=1, dashboard_address=":0") as cluster:
+        print(cluster.scheduler_address, flush=True)
+        __import__('sys').stdin.read()
+"""
 
 
 @pytest.fixture(autouse=True)
@@ -41,28 +46,29 @@ def _quiet_bars(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(tqdm, "monitor_interval", 0)  # the bars' own thread would outlive the test
 
 
-@pytest.fixture
-def cluster(tmp_path: Path) -> Iterator[Cluster]:
-    at = tmp_path / "scheduler.json"
-    here = ("--host", "127.0.0.1")
+@pytest.fixture(scope="module")
+def address(tmp_path_factory: pytest.TempPathFactory) -> Iterator[str]:
+    """A scheduler and two workers as people start them: each has its nanny, and is a daemon."""
+    folder = tmp_path_factory.mktemp("cluster")
+    at = folder / "scheduler.json"
 
     def begin(kind: str, *options: str) -> subprocess.Popen[bytes]:
-        words = (sys.executable, "-m", f"distributed.cli.dask_{kind}", "--scheduler-file", str(at), *here, *options)
-        return subprocess.Popen(words, cwd=tmp_path, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        here = ("--scheduler-file", str(at), "--host", "127.0.0.1")
+        words = (sys.executable, "-m", f"distributed.cli.dask_{kind}", *here, *options)
+        return subprocess.Popen(words, cwd=folder, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
 
     begun = [begin("scheduler", "--port", "0", "--no-dashboard", "--no-show")]
     try:
-        begun += [begin("worker", "--nthreads", "1", "--no-nanny", "--no-dashboard") for _ in range(2)]
-        from distributed import Client
-
+        begun.append(begin("worker", "--nworkers", "2", "--nthreads", "1", "--no-dashboard"))
         with Client(scheduler_file=str(at), timeout="120s", set_as_default=False) as client:
             client.wait_for_workers(2, timeout=120)
-            address = client.scheduler.address
-        yield Cluster(address, begun[1:])
+            address: str = client.scheduler.address
+        yield address
     finally:
         for process in reversed(begun):
-            process.kill()
-            process.wait()
+            process.terminate()  # the nannies end their workers
+        for process in begun:
+            process.wait(60)
 
 
 @pytest.fixture(scope="module")
@@ -78,26 +84,63 @@ def told(folder: Path) -> dict[str, str]:
         return {row["session"]: row["outcome"] for row in csv.DictReader(file)}
 
 
-def test_a_worker_that_is_killed_costs_nothing(cluster: Cluster, recordings: Path, tmp_path: Path) -> None:
+def test_a_worker_that_is_killed_costs_nothing(address: str, recordings: Path, tmp_path: Path) -> None:
     out = tmp_path / "far"
     tasks = [Task(place, TrackSettings(smooth=False)) for place in places([recordings], out)]
-    coming = outcomes_on(cluster.address, tasks)
+    with Client(address, set_as_default=False) as client:
+        processes = client.run(os.getpid)
+    coming = outcomes_on(address, tasks)
     found: list[Outcome] = [next(coming)]
-    cluster.workers[0].send_signal(signal.SIGKILL)
+    os.kill(next(iter(processes.values())), signal.SIGKILL)
     found += coming
-    assert cluster.workers[1].poll() is None
     assert sorted(each.place.name for each in found) == [f"r{seed}.h5" for seed in range(COUNT)]
-    assert {each.result for each in found} <= {"tracked", "kept"}
+    assert {each.result for each in found} <= {"tracked", "kept"}, [each.said for each in found]
+    assert {path.suffix for path in out.iterdir()} == {".h5"}, "nothing half-done is left"
 
     # The same by the command, which finds all done; and the same numbers as here.
     words = ["track", str(recordings), "--no-smooth"]
-    assert main([*words, "--output", str(out), "--scheduler", cluster.address]) == 0
+    assert main([*words, "--output", str(out), "--scheduler", address]) == 0
     assert set(told(out).values()) == {"kept"}
     assert main([*words, "--output", str(tmp_path / "near"), "--jobs", "2"]) == 0
     for seed in range(COUNT):
         far, near = (read_session(folder / f"r{seed}.h5").motion for folder in (out, tmp_path / "near"))
         assert np.array_equal(far.angles_rad, near.angles_rad, equal_nan=True)
         assert np.array_equal(far.angles_sd_rad, near.angles_sd_rad, equal_nan=True)
+
+
+def test_a_client_that_is_killed_begins_again(address: str, recordings: Path, tmp_path: Path) -> None:
+    out, table = tmp_path / "out", tmp_path / "all.parquet"
+    words = ["track", str(recordings), "--no-smooth", "--output", str(out), "--table", str(table)]
+    words += ["--scheduler", address]
+    client = subprocess.Popen([sys.executable, "-m", "carpus", *words], stderr=subprocess.DEVNULL)
+    until = time.monotonic() + 120.0
+    while not list(out.glob("*.part")) and time.monotonic() < until:
+        time.sleep(0.01)
+    client.kill()
+    client.wait()
+    assert not table.exists()
+    assert main(words) == 0
+    assert set(told(out)) == {f"r{seed}.h5" for seed in range(COUNT)}
+    assert set(told(out).values()) <= {"tracked", "kept"}
+    assert set(parquet.read_table(table).column("session").to_pylist()) == set(told(out))
+    assert {path.suffix for path in out.iterdir()} == {".h5", ".csv"}
+    assert [path.name for path in tmp_path.iterdir() if path.is_file()] == [table.name]
+    assert main(words) == 0, "and once more"
+
+
+def test_a_cluster_made_in_python_tracks(recordings: Path, tmp_path: Path) -> None:
+    """Dask's own default: workers in processes, several threads each."""
+    place = places([recordings / "r0"], tmp_path)[0]
+    broken = replace(place, clicks=recordings / "none.json", session=tmp_path / "none.h5", name="none.h5")
+    tasks = [Task(each, TrackSettings(smooth=False)) for each in (place, broken)]
+    begun = subprocess.Popen([sys.executable, "-c", LOCAL], stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
+    assert begun.stdout is not None
+    address = begun.stdout.readline().strip()
+    found = {each.place.name: each for each in outcomes_on(address, tasks)}
+    begun.communicate("", 60)
+    assert found["r0.h5"].result == "tracked"
+    assert found["none.h5"].result == "fault"
+    assert "none.json" in found["none.h5"].said[0]
 
 
 def test_a_scheduler_that_is_not_there_is_told(

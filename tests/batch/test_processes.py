@@ -2,21 +2,35 @@
 
 from __future__ import annotations
 
-import multiprocessing
+import os
+import threading
 import time
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
 
+from carpus.app.batch import work
 from carpus.app.batch.places import Place
 from carpus.app.batch.processes import DIED, cores, outcomes
 from carpus.app.batch.work import Task
+from carpus.core.errors import OutputBusy
 from carpus.core.pipeline.track import TrackSettings
+from carpus.core.session.disk import part_path
+from carpus.core.session.heartbeat import Heartbeat
 from tests.batch.deadly import deadly
 
 
 def task(folder: Path, name: str, kind: str = "") -> Task:
     return Task(Place(folder / name, None, folder / f"{name}.h5", f"{name}.h5"), TrackSettings(), kind)
+
+
+def _children() -> list[int]:
+    """Processes of a batch that this one began and that live."""
+    own = f"/proc/{os.getpid()}/task"
+    told = " ".join((thread / "children").read_text() for thread in Path(own).iterdir())
+    lines = {number: Path(f"/proc/{number}/cmdline") for number in map(int, told.split())}
+    return [number for number, line in lines.items() if line.exists() and b"app.batch.processes" in line.read_bytes()]
 
 
 def test_only_what_kills_its_process_is_a_fault(tmp_path: Path) -> None:
@@ -30,8 +44,49 @@ def test_only_what_kills_its_process_is_a_fault(tmp_path: Path) -> None:
     assert found["r1.h5"].said == (DIED,)
 
 
+def test_what_hangs_is_given_up_and_tidied(tmp_path: Path) -> None:
+    begin = time.monotonic()
+    (outcome,) = outcomes([task(tmp_path, "r0", "hangs")], 2, deadly, limit_s=6.0)
+    assert time.monotonic() - begin < 50.0
+    assert "0.1 minutes" in outcome.said[0]
+    assert not list(tmp_path.iterdir()), "half session and heartbeat are gone"
+
+
+def test_only_what_may_pass_is_tried_again(tmp_path: Path) -> None:
+    tasks = [task(tmp_path, "r0", "stutters"), task(tmp_path, "r1", "refuses")]
+    found = {outcome.place.name: outcome.result for outcome in outcomes(tasks, 2, deadly)}
+    assert found == {"r0.h5": "tracked", "r1.h5": "fault"}
+    assert [(tmp_path / f"r{k}.tries").read_text() for k in (0, 1)] == ["xx", "x"]
+
+
+def test_what_another_run_is_writing_is_waited_for(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(work, "BUSY_STEP_S", 0.01)
+    session = tmp_path / "r0.h5"
+    part = part_path(session, "0123abcd")
+    part.write_bytes(b"half")
+    heart = Heartbeat(part)  # of this process, which lives
+    other = part_path(tmp_path / "r01.h5", "0123abcd")
+    other.write_bytes(b"half")
+    monkeypatch.setattr(work, "BUSY_S", 0.1)
+    with pytest.raises(OutputBusy):
+        work.clear_leftovers(session)
+    assert part.exists()
+    monkeypatch.setattr(work, "BUSY_S", 60.0)
+    threading.Timer(0.3, heart.end).start()
+    work.clear_leftovers(session)
+    assert [path.name for path in tmp_path.iterdir()] == [other.name], "only its own"
+    heart.path.write_text("{}")  # a heartbeat alone, of a process that was killed as it ended
+    work.clear_leftovers(session)
+    assert [path.name for path in tmp_path.iterdir()] == [other.name]
+
+
+def test_a_worker_with_another_version_tracks_nothing(tmp_path: Path) -> None:
+    outcome = work.work(replace(task(tmp_path, "r0"), software_version="0.0.1"))
+    assert outcome.result == "fault"
+    assert "0.0.1" in outcome.said[0]
+
+
 def test_who_stops_looking_leaves_no_process_behind(tmp_path: Path) -> None:
-    others = set(multiprocessing.active_children())  # such as the one that reads files for the tests before
     tasks = [task(tmp_path, "quick"), *(task(tmp_path, f"r{i}", "waits") for i in range(3))]
     coming = outcomes(tasks, 2, deadly)
     assert next(coming).place.name == "quick.h5"
@@ -42,7 +97,7 @@ def test_who_stops_looking_leaves_no_process_behind(tmp_path: Path) -> None:
     coming.close()  # type: ignore[attr-defined]
     assert time.monotonic() - begin < 20.0
     assert not list(tmp_path.glob("r*.h5")), "what was under way was tidied"
-    assert set(multiprocessing.active_children()) <= others
+    assert not _children()
 
 
 def test_there_is_a_core() -> None:

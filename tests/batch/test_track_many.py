@@ -3,16 +3,21 @@
 from __future__ import annotations
 
 import csv
+import math
 import shutil
+from dataclasses import fields
 from pathlib import Path
 
 import numpy as np
+import pyarrow
 import pytest
 from pyarrow import parquet
 from tqdm import tqdm
 
 from carpus.app.__main__ import main
 from carpus.app.batch.tables import MEASURES_FILE, OUTCOMES_FILE
+from carpus.core.formats import measures_files
+from carpus.core.output.measures_table import MeasureRow
 from carpus.core.output.report_content import session_figures
 from carpus.core.session.reader import read_session
 from carpus.core.simulation.recording import CLICKS_FILE, simulate
@@ -152,8 +157,29 @@ def test_the_measures_of_all_sessions_are_one_table(
         (row["session"], row["measure"], row["of"]) for row in rows(out / MEASURES_FILE)
     ]
     assert {row["session"] for row in read} == {"anna/first.h5", "second.h5"}
-    capsys.readouterr()
-    assert main([*words, str(table)]) == 1, "nothing is overwritten"
-    assert "all.parquet" in capsys.readouterr().err
+    assert main([*words, str(table)]) == 0, "begun again with the same table"
+    assert parquet.read_table(table).num_rows == len(read)
     assert main([*words, str(tmp_path / "all.csv")]) == 0, "what was tracked before is in it too"
     assert len(rows(tmp_path / "all.csv")) == len(read)
+
+    # What is no table of measures is somebody else's.
+    capsys.readouterr()
+    parquet.write_table(pyarrow.table({"mine": [1]}), table)
+    (tmp_path / "all.csv").write_text("mine\n1\n")
+    for name in ("all.parquet", "all.csv"):
+        before = (tmp_path / name).read_bytes()
+        assert main([*words, str(tmp_path / name)]) == 1
+        assert name in capsys.readouterr().err
+        assert (tmp_path / name).read_bytes() == before
+
+
+def test_a_table_holds_few_rows_in_memory(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(measures_files, "ROWS_AT_ONCE", 5)
+    kinds = {"str": "", "float": math.nan, "int": 0, "bool": False}
+    row = MeasureRow(**{field.name: kinds[str(field.type)] for field in fields(MeasureRow)})  # type: ignore[arg-type]
+    with measures_files.measures_file(tmp_path / "t.parquet") as take:
+        for _ in range(4):
+            take([row] * 3)
+        assert (tmp_path / "t.parquet.half").exists(), "written as it comes"
+    told = parquet.ParquetFile(tmp_path / "t.parquet").metadata
+    assert (told.num_rows, told.num_row_groups) == (12, 2), "a group of six each"

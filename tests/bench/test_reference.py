@@ -7,7 +7,7 @@ import pytest
 
 from carpus.core.detection.surface_samples import SamplingSettings
 from carpus.core.pipeline.frame_walk import FrameWalk
-from carpus.core.tracking import naming
+from carpus.core.tracking import palm_association
 from carpus.core.tracking.settings import TrackerSettings
 from carpus.core.tracking.tracker import Tracker
 from carpus.core.types import Detections, Frame
@@ -42,12 +42,12 @@ def test_the_spy_measures_the_parts_of_a_frame_and_leaves_no_trace() -> None:
             return object()
 
     walk = FrameWalk(Blobs(), Tracker(calibration(), CAMERA, TrackerSettings()), SamplingSettings())  # type: ignore[arg-type]
-    true = naming.corrected
+    true = palm_association.corrected
     with spied(walk) as spy:
         for index in range(5):
             walk(Frame(index, index / 30.0, np.zeros((1, 1, 3), np.uint8), None, 1e-3))
-        assert naming.corrected is not true
-    assert naming.corrected is true
+        assert palm_association.corrected is not true
+    assert palm_association.corrected is true
     assert spy.calls("narrow") == 5
     assert spy.calls("update") >= 5
     assert spy.calls("names") >= 5

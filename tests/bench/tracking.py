@@ -17,7 +17,7 @@ from carpus.core.pipeline.frame_walk import FrameWalk
 from carpus.core.pipeline.track import TrackSettings, build_walk, learnt_from
 from carpus.core.simulation.recording import CLICKS_FILE, cached_recording
 from carpus.core.simulation.spec import RecordingSpec
-from carpus.core.tracking import naming, tracker
+from carpus.core.tracking import hand_filter, palm_association
 from carpus.core.types import Frame, TrackStatus
 from tests.bench import reference
 from tests.bench.timing import HEAD, Spy, Times, line
@@ -123,18 +123,18 @@ class spied:  # noqa: N801  (read as a word)
         spy = self._spy
         whole_picture = lambda _, region=None: int(region is None)  # noqa: E731
         spy.watch(self._walk.detector, "detect", "narrow", "wide", choose=whole_picture)
-        spy.watch(naming.association, "log_odds", "names")
-        spy.watch(naming.association, "resolve", "names")
-        spy.watch(naming, "associate_jointly", "joint")
-        spy.watch(naming, "corrected", "update")
-        spy.watch(tracker, "levelled_bank", "update")
-        spy.watch(tracker, "recentred", "update")
+        spy.watch(palm_association.association, "log_odds", "names")
+        spy.watch(palm_association.association, "resolve", "names")
+        spy.watch(palm_association, "associate_jointly", "joint")
+        spy.watch(palm_association, "corrected", "update")
+        spy.watch(hand_filter, "levelled_bank", "update")
+        spy.watch(hand_filter, "recentred", "update")
         for name in ("palm_step", "mixed", "carried"):
-            spy.watch(tracker, name, "predict")
-        spy.watch(tracker, "forecast", "forecast")
-        spy.watch(tracker, "surface_measurement", "surface")
+            spy.watch(hand_filter, name, "predict")
+        spy.watch(hand_filter, "predicted_measurement", "forecast")
+        spy.watch(hand_filter, "surface_measurement", "surface")
         spy.watch(frame_walk, "surface_samples", "surface")
-        spy.watch(tracker, "find_palm", "find")
+        spy.watch(hand_filter, "find_palm", "find")
         return spy
 
     def __exit__(self, *_: object) -> None:

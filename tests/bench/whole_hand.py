@@ -11,7 +11,7 @@ from carpus.core.pipeline import frame_walk
 from carpus.core.pipeline.frame_walk import FrameWalk
 from carpus.core.simulation.recording import cached_recording
 from carpus.core.simulation.spec import RecordingSpec
-from carpus.core.tracking import finger_naming, naming, tracker
+from carpus.core.tracking import digit_association, hand_filter, palm_association
 from carpus.core.types import Frame
 from tests.bench.timing import HEAD, Spy, line
 from tests.bench.tracking import Costs, beside_the_plain, frames_of, walk_of, whole_frames
@@ -40,11 +40,11 @@ def measure(folder: Path, costs: Costs, rounds: int) -> None:
         walk, ends_s = walk_of(folder, frames)
         spy = Spy()
         spy.watch(walk.detector, "detect", "detect")
-        spy.watch(naming.association, "log_odds", "names")
-        spy.watch(naming.association, "resolve", "names")
-        spy.watch(naming, "associate_jointly", "names")
-        spy.watch(finger_naming, "_ray_jointly", "names")
-        spy.watch(tracker, "surface_measurement", "surface")
+        spy.watch(palm_association.association, "log_odds", "names")
+        spy.watch(palm_association.association, "resolve", "names")
+        spy.watch(palm_association, "associate_jointly", "names")
+        spy.watch(digit_association, "_ray_jointly", "names")
+        spy.watch(hand_filter, "surface_measurement", "surface")
         spy.watch(frame_walk, "surface_samples", "surface")
         try:
             for (frame, step_ms), whole in zip(beside_the_plain(frames, ends_s), whole_ms, strict=True):

@@ -72,6 +72,9 @@ def test_the_six_discs_of_the_palm(seed: int) -> None:
     blobs, marker = hand(seed, "left", "wrist6", false_blobs=2.0)
     proposal = propose_names(blobs, DEFAULT_CAMERA, "left", WRIST6, SETTINGS)
     assert np.array_equal(proposal.blob, blob_of(marker, 6))
+    assert proposal.is_sure.all(), "six right names are confirmed at once"
+    other = propose_names(blobs, DEFAULT_CAMERA, "right", WRIST6, SETTINGS)
+    assert not (other.is_complete and other.is_sure.any()), "the other hand's names are looked at one by one"
 
 
 def test_the_other_side_does_not_fit() -> None:

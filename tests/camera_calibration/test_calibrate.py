@@ -9,13 +9,13 @@ import numpy as np
 import pytest
 
 from carpus.core.camera import DEFAULT_CAMERA
-from carpus.core.camera_calibration.board import BOARDS, CHARUCO, CHESSBOARD, Board, board_sheet
+from carpus.core.camera_calibration.board import BOARDS, CHARUCO, CHESSBOARD, EDGE_MM, Board, board_sheet
 from carpus.core.camera_calibration.calibrate import CameraCalibration, calibrate_camera, calibration_lines
 from carpus.core.camera_calibration.effect import HAND_LENGTH_M, effect_of
 from carpus.core.camera_calibration.find_board import LEAST_CORNERS, FoundBoard, find_board
 from carpus.core.camera_calibration.gather import Gathering
 from carpus.core.camera_calibration.guidance import ASKED_VIEWS, Step, next_step, target_outline
-from carpus.core.camera_calibration.sheet import PAPER_MM, Box, Paper
+from carpus.core.camera_calibration.sheet import PAPER_MM, Box, Line, Paper, Text
 from carpus.core.camera_calibration.views import FEWEST_VIEWS, SIDES, View, is_new, judge, view_of
 from carpus.core.errors import BoardMissing, BoardUnfit, BoardViewsAlike
 from carpus.core.simulation.practice_camera import BOARD_DISTANCES_M, DIFFERENT
@@ -170,6 +170,19 @@ def test_a_picture_that_is_not_kept_says_why(shown: list[Frame]) -> None:
     assert len(gathering.views) == 1
 
 
+def test_the_map_has_every_corner_that_the_guidance_counted(made: CameraCalibration, gathered: Gathering) -> None:
+    """Also of pictures that were left out of the fit in the end."""
+    fit = made.intrinsics
+    few = replace(fit, used=fit.used[:2], board_turn=fit.board_turn[:2], board_shift_m=fit.board_shift_m[:2])
+    effect = effect_of(replace(made, intrinsics=few), gathered.views)
+    pixel = np.concatenate([view.found.pixel for view in gathered.views])
+    across = (pixel[:, 0] * 13 / made.before.width_px).astype(int).clip(0, 12)
+    down = (pixel[:, 1] * 9 / made.before.height_px).astype(int).clip(0, 8)
+    there = np.zeros((9, 13), dtype=bool)
+    there[down, across] = True
+    np.testing.assert_array_equal(np.isfinite(effect.map_px).all(axis=-1), there)
+
+
 def test_the_effect_on_a_hand_is_told(made: CameraCalibration, gathered: Gathering, studio: Studio) -> None:
     effect = effect_of(made, gathered.views)
     assert np.nanmax(np.abs(effect.map_px)) < 0.5
@@ -221,11 +234,21 @@ def test_a_moving_board_is_not_kept(studio: Studio) -> None:
 def test_the_board_fits_the_paper_with_a_white_border(board: Board, paper: Paper) -> None:
     sheet = board_sheet(board, paper)
     boxes = [mark for mark in sheet.marks if isinstance(mark, Box)]
-    border = 0.3 * board.square_m * 1e3
-    assert min(box.left_mm for box in boxes) > border
-    assert min(box.top_mm for box in boxes) > border
-    assert max(box.left_mm + box.width_mm for box in boxes) < sheet.width_mm - border
-    assert max(box.top_mm + box.height_mm for box in boxes) < sheet.height_mm - border - 4.0
+    foot_mm = max(box.top_mm + box.height_mm for box in boxes)
+    assert min(box.left_mm for box in boxes) >= EDGE_MM
+    assert min(box.top_mm for box in boxes) >= EDGE_MM
+    assert max(box.left_mm + box.width_mm for box in boxes) <= sheet.width_mm - EDGE_MM
+    for mark in sheet.marks:  # ruler and words: beside the board, not on it, and where every printer prints
+        if isinstance(mark, Line):
+            (left, top), (right, bottom) = mark.from_mm, mark.to_mm
+        elif isinstance(mark, Text):
+            em_mm = mark.size_pt * 0.3528
+            left, right = mark.x_mm, mark.x_mm + 0.6 * em_mm * len(mark.text)
+            top, bottom = mark.y_mm - 0.75 * em_mm, mark.y_mm + 0.25 * em_mm
+        else:
+            continue
+        assert foot_mm + 1.0 < top <= bottom <= sheet.height_mm - EDGE_MM
+        assert EDGE_MM <= left <= right <= sheet.width_mm - EDGE_MM
 
 
 @pytest.mark.parametrize("board", BOARDS.values(), ids=list(BOARDS))

@@ -21,7 +21,8 @@ from carpus.core.types import Frame
 
 
 def test_everything_is_examined_with_a_camera_that_always_is_there(tmp_path: Path) -> None:
-    findings = {finding.name: finding for finding in examine(tmp_path / "data", camera_uri="Dummy", measure_s=0.5)}
+    found = examine(tmp_path / "data", camera_uri="xtion:Dummy", measure_s=0.5)
+    findings = {finding.name: finding for finding in found}
     assert list(findings) == [
         "Python",
         "Packages",
@@ -29,17 +30,18 @@ def test_everything_is_examined_with_a_camera_that_always_is_there(tmp_path: Pat
         "Fonts",
         "Data folder",
         "Disk",
+        "Disk encryption",
         "Driver",
         "RealSense driver",
         "Orbbec driver",
-        "Camera rights",
+        "Camera rights, Asus Xtion",
         "Camera",
         "Pictures",
         "Registration",
         "Mirror",
         "Clock",
     ]
-    for name in ("Python", "Packages", "Fonts", "Data folder", "Driver", "Camera rights"):
+    for name in ("Python", "Packages", "Fonts", "Data folder", "Driver", "Camera rights, Asus Xtion"):
         assert findings[name].state == "good", findings[name]
     assert "OpenNI2 2.2" in findings["Driver"].found
     assert "320x240" in findings["Pictures"].found

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import sys
 from collections.abc import Iterator
 from functools import partial
 from importlib.metadata import PackageNotFoundError
@@ -133,11 +134,11 @@ def test_what_the_doctor_says_of_it(tmp_path: Path, monkeypatch: pytest.MonkeyPa
 
     monkeypatch.setattr(maker_library, "version", missing)
     assert driver_finding(wanted=False).state == "good"
-    assert driver_finding().remedy == "Run: pip install --no-deps pyorbbecsdk2"
+    assert driver_finding().remedy == f"Run: {sys.executable} -m pip install --no-deps pyorbbecsdk2"
     monkeypatch.setattr(orbbec, "find_spec", lambda _: None)
     with pytest.raises(DriverMissing) as told:
         open_camera(f"orbbec:{SERIAL}")
-    assert "pip install --no-deps pyorbbecsdk2" in one_sentence(told.value)
+    assert "(pyorbbecsdk2); install it; “carpus doctor” says what and how" in one_sentence(told.value)
 
 
 def test_the_stand_ins_speak_as_the_library_does() -> None:

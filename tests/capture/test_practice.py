@@ -68,7 +68,7 @@ def test_after_the_take_the_hand_rests_until_let_go_again_and_times_rise_all_the
 def test_another_take_of_the_same_hand_is_played_from_the_next_time_on() -> None:
     take = Take()
     other = Take()
-    source = PracticeSource(take, 0.55, (other,))
+    source = PracticeSource(take, 0.55)
     source.let_go()
     walk = source.frames()
     list(islice(walk, TOTAL - STILL + 3))
@@ -90,3 +90,25 @@ def test_closing_ends_it_and_gives_the_take_back() -> None:
     assert list(frames) == []
     assert take.closed
     assert source.info.frame_count is None
+
+
+def test_the_hand_rests_until_its_movement_is_there() -> None:
+    beginning, whole = Take(), Take()
+    beginning.frames = lambda: islice(Take().frames(), STILL)  # type: ignore[method-assign]
+    source = PracticeSource(beginning, 0.55, begins_only=True)
+    walk = source.frames()
+    source.let_go()
+    assert numbers(list(islice(walk, STILL))) == list(range(STILL)), "each as soon as it is there"
+    assert not source.can_move
+    assert set(numbers(list(islice(walk, 30)))) <= set(range(STILL)), "nothing to show yet"
+    source.play_next(whole)
+    assert source.can_move
+    moving = list(islice(walk, TOTAL))
+    assert numbers(moving) == list(range(TOTAL))
+    source.play_next(None)
+    source.let_go()
+    assert set(numbers(list(islice(walk, 30)))) <= set(range(STILL)), "the next one is not drawn either"
+    source.close()
+    assert whole.closed
+    assert beginning.closed
+    assert list(walk) == []

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import multiprocessing
+import sys
 from collections.abc import Iterator
 from concurrent.futures import ProcessPoolExecutor
 from functools import partial
@@ -255,4 +256,4 @@ def test_what_the_doctor_says_of_it(monkeypatch: pytest.MonkeyPatch) -> None:
 
     monkeypatch.setattr(maker_library, "version", missing)
     assert (driver_finding(wanted=False).state, driver_finding(wanted=True).state) == ("good", "bad")
-    assert driver_finding(wanted=True).remedy == "Run: pip install pyrealsense2"
+    assert driver_finding(wanted=True).remedy == f"Run: {sys.executable} -m pip install pyrealsense2"

@@ -10,11 +10,13 @@ import numpy as np
 from carpus.core.formats.provenance import provenance
 from carpus.core.formats.take import Take
 from carpus.core.hand.protocols import HAND21, WRIST6, MarkerProtocol
+from carpus.core.output.repetition_rows import repetitions_of
 from carpus.core.output.report_content import session_figures
 from carpus.core.session.reader import read_session
 from carpus.core.session.values import Session
 from carpus.core.session.writer import SessionWriter
 from carpus.core.types import TrackStatus
+from tests.measures.ways import way
 from tests.moments import with_moment
 from tests.session.samples import CAMERA, make_calibration, make_frame, make_header, time_of
 
@@ -48,6 +50,38 @@ def stored(
             writer.append(replace(frame, marker_position_cam_m=place, dropped_before=0))
         writer.add_event(time_of(3), "repetition", "1")
         writer.add_event(time_of(7), "note", "Mrs Miller, pain")
+    return path
+
+
+def stopping(folder: Path) -> Path:
+    """Three repetitions of a wrist that stops for 0.6 s on its way up, 25 + 25 degrees, and comes back at once."""
+    folder.mkdir(parents=True, exist_ok=True)
+    path, calibration = folder / "stopping.h5", make_calibration(WRIST6)
+    up, hold = way([(25.0, 0.8), (0.0, 0.6), (25.0, 0.8)]), np.ones(30)
+    one = np.concatenate((0.0 * hold, up, 50.0 * hold, 50.0 - way([(50.0, 1.0)])))
+    angle = np.radians(np.concatenate((np.tile(one, 3), 0.0 * hold)))
+    header = replace(make_header(WRIST6), exercise="WRIST_FE")
+    facing = calibration.rotation_w0_cam.T @ np.diag([1.0, -1.0, -1.0])
+    with SessionWriter.create(path, header, CAMERA, calibration) as writer:
+        for row, flexion in enumerate(angle.tolist()):
+            frame = with_moment(
+                make_frame(row, WRIST6),
+                angles_rad=np.array([0.05, flexion, 0.1]),
+                angles_sd_rad=np.radians([0.3, 0.2, 0.4]),
+                rotation_w2_w0=facing,
+            )
+            place = np.abs(frame.marker_position_cam_m) * 0.1 + (0.0, 0.0, 0.6)
+            measured = (
+                frame.marker_measured_px if np.isfinite(frame.marker_measured_px).all() else np.full((6, 2), 99.0)
+            )
+            writer.append(
+                replace(
+                    frame, marker_position_cam_m=place, marker_measured_px=measured, dropped_before=0,
+                    status=TrackStatus.TRACKED,
+                )
+            )  # fmt: skip
+        writer.add_event(time_of(7), "note", "stops on the way")
+        writer.write_repetitions(repetitions_of(writer.read_back()))
     return path
 
 

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import struct
+import tracemalloc
 from dataclasses import replace
 from pathlib import Path
 
@@ -10,11 +12,13 @@ import ezc3d
 import numpy as np
 import pytest
 
+from carpus.core.errors import ReferenceUnreadable
 from carpus.core.formats import c3d_write
+from carpus.core.formats.c3d_read import read_c3d
 from carpus.core.formats.take import Take, joint_centres_cam_m
 from carpus.core.session.reader import read_session
 from carpus.core.types import TrackStatus
-from tests.formats.takes import hand_take, stored, take_of, wrist_take
+from tests.formats.takes import hand_take, stopping, stored, take_of, wrist_take
 
 pytestmark = pytest.mark.filterwarnings("ignore:No analog data found in file")
 
@@ -70,6 +74,21 @@ def test_a_second_reader_finds_the_same(tmp_path: Path) -> None:
     assert event["LABELS"]["value"] == ["repetition", "note"]
     assert event["CONTEXTS"]["value"] == ["Left", "Left"]
     assert event["TIMES"]["value"][1] == pytest.approx([3 / 30, 7 / 30], abs=1e-5)
+
+
+def test_repetitions_are_events(tmp_path: Path) -> None:
+    take = take_of(read_session(stopping(tmp_path)))
+    (path,) = c3d_write.write(take, tmp_path / "out")
+    event = ezc3d.c3d(str(path))["parameters"]["EVENT"]
+    said = list(zip(event["LABELS"]["value"], event["DESCRIPTIONS"]["value"], event["TIMES"]["value"][1], strict=True))
+    wanted = []
+    for number, one in enumerate(take.figures.repetitions, 1):
+        assert one.row is not None
+        for kind in ("start", "peak", "end"):
+            time_s = getattr(one.row, f"{kind}_s") + take.session.timestamp_s[0] - take.even.start_s
+            wanted.append((f"repetition_{kind}", str(number), pytest.approx(time_s, abs=1e-4)))
+    assert [row for row in said if row[0] != "note"] == wanted
+    assert len(wanted) == 9
 
 
 def test_an_hour_keeps_its_last_frame(tmp_path: Path) -> None:
@@ -128,3 +147,35 @@ def test_a_dropped_frame_keeps_the_time_of_the_rest(tmp_path: Path) -> None:
     assert (len(points), rate) == (len(session), 30.0)
     assert (points[10:12, :, 3] == -1).all()
     assert np.allclose(points[12, :, :3], 1e3 * session.markers.position_cam_m[12], atol=1e-3)
+
+
+def c3d_with(parameters: bytes) -> bytes:
+    """A C3D whose section of parameters holds these bytes and no more."""
+    blocks = -(-(4 + len(parameters)) // 512)
+    head = bytes((2, 0x50)).ljust(512, b"\0")
+    return (head + bytes((1, 0x50, blocks, 84)) + parameters).ljust(512 * (blocks + 1), b"\0")
+
+
+@pytest.mark.parametrize(
+    "parameters",
+    [
+        # 16 million texts without a sign in them, of three bytes that say so
+        bytes((1, 1)) + b"A" + struct.pack("<h", 0) + struct.pack("<bB", -1, 4) + bytes((1, 255, 255, 255)),
+        # 4000 parameters whose values are the same 65 kB
+        b"".join(
+            bytes((1, 1)) + b"A" + struct.pack("<h", 6) + struct.pack("<bB", 1, 2) + bytes((255, 60))
+            for _ in range(4000)
+        ),
+    ],
+)
+def test_a_small_file_does_not_become_a_large_one(parameters: bytes, tmp_path: Path) -> None:
+    path = tmp_path / "bomb.c3d"
+    path.write_bytes(c3d_with(parameters))
+    tracemalloc.start()
+    try:
+        with pytest.raises(ReferenceUnreadable, match="damaged"):
+            read_c3d(path)
+        peak_bytes = tracemalloc.get_traced_memory()[1]
+    finally:
+        tracemalloc.stop()
+    assert peak_bytes < 40 * path.stat().st_size + 1_000_000

@@ -38,6 +38,18 @@ def test_a_gap_stays_empty_and_the_time_goes_on() -> None:
     assert even.nearest[3:6].tolist() == [-1, -1, -1]
 
 
+@given(st.integers(0, 2**32 - 1), st.sets(st.integers(1, 58), min_size=1, max_size=8))
+def test_dropped_pictures_empty_their_own_rows_and_no_others(seed: int, dropped: set[int]) -> None:
+    kept = np.array([row for row in range(60) if row not in dropped])
+    times = 100.0 + kept / 30.0 + np.random.default_rng(seed).uniform(-0.004, 0.004, len(kept))
+    even = even_times(times, 30.0)
+    out = even.of(7.0 * times)
+    assert set(np.flatnonzero(np.isnan(out)).tolist()) == dropped
+    wanted = 7.0 * (even.start_s + even.since_start_s)
+    assert np.nanmax(np.abs(out - wanted)) < 7.0 * 0.009, "no further off than two stamps waver"
+    assert {even.nearest[row] for row in dropped} == {-1}
+
+
 def test_a_slow_camera_is_resampled_in_its_own_time() -> None:
     times = np.arange(300) / 29.5
     even = even_times(times, 30.0)

@@ -16,8 +16,9 @@ from carpus.core.formats import bids_motion, csv_tables, json_measures, mot, trc
 from carpus.core.formats.export import Wanted, export_sessions
 from carpus.core.hand.hand21 import HAND21
 from carpus.core.hand.sites import WRIST_ANGLES
+from carpus.core.session.reader import read_session
 from carpus.core.types import TrackStatus
-from tests.formats.takes import hand_take, stored, take_of, wrist_take
+from tests.formats.takes import hand_take, stopping, stored, take_of, wrist_take
 from tests.ui.fakes import session as flexing
 
 
@@ -34,14 +35,16 @@ def test_the_wrist_is_one_row_a_picture(tmp_path: Path) -> None:
     take = wrist_take(tmp_path)
     written = csv_tables.write(take, tmp_path / "out")
     assert {path.name for path in written} == {
-        "one.wrist.csv", "one.markers.csv", "one.events.csv", "one.measures.csv", "one.csv.json",
+        "one.wrist.csv", "one.markers.csv", "one.events.csv", "one.repetitions.csv", "one.measures.csv", "one.csv.json",
     }  # fmt: skip
     rows, motion = rows_of(tmp_path / "out" / "one.wrist.csv"), take.session.motion
     assert len(rows) == len(take.session)
     for k, name in enumerate(WRIST_ANGLES):
-        assert np.allclose(numbers(rows, f"{name}_deg"), np.degrees(motion.angles_rad[:, k]), atol=6e-4, equal_nan=True)
+        assert np.allclose(
+            numbers(rows, f"filter_{name}_deg"), np.degrees(motion.angles_rad[:, k]), atol=6e-4, equal_nan=True
+        )
         sd = np.degrees(motion.angles_sd_rad[:, k])
-        assert np.allclose(numbers(rows, f"{name}_sd_deg"), sd, atol=6e-4, equal_nan=True)
+        assert np.allclose(numbers(rows, f"filter_{name}_sd_deg"), sd, atol=6e-4, equal_nan=True)
     assert [row["status"] for row in rows] == [TrackStatus(s).name.lower() for s in take.session.status]
     lost = [row for row in rows if row["status"] == "lost"]
     assert {lost[0][name] for name in lost[0] if name not in ("timestamp_s", "status")} == {""}
@@ -58,17 +61,23 @@ def test_joints_and_markers_are_one_row_each(tmp_path: Path) -> None:
     names = session.header.joint_names
     assert len(joints) == len(session) * len(names)
     assert [row["joint"] for row in joints[: len(names)]] == list(names)
-    angle = numbers(joints, "angle_deg").reshape(len(session), len(names))
+    angle = numbers(joints, "filter_angle_deg").reshape(len(session), len(names))
     assert np.allclose(angle, np.degrees(session.motion.joint_angles_rad), atol=6e-4, equal_nan=True)
-    rate = numbers(joints, "velocity_deg_s").reshape(angle.shape)
+    rate = numbers(joints, "filter_velocity_deg_s").reshape(angle.shape)
     assert np.allclose(rate, np.degrees(session.motion.joint_velocity_rad_s), atol=6e-4, equal_nan=True)
     markers = rows_of(tmp_path / "out" / "one.markers.csv")
     assert len(markers) == len(session) * 21
-    place = np.column_stack([numbers(markers, f"{axis}_mm") for axis in "xyz"]).reshape(len(session), 21, 3)
+    place = np.column_stack([numbers(markers, f"filter_{axis}_mm") for axis in "xyz"]).reshape(len(session), 21, 3)
     assert np.allclose(place, 1e3 * session.markers.position_cam_m, atol=6e-4, equal_nan=True)
     about = json.loads((tmp_path / "out" / "one.csv.json").read_text(encoding="utf-8"))
     assert set(about["tables"]["one.markers.csv"]) == set(markers[0])
     assert set(about["tables"]["one.joints.csv"]) == set(joints[0])
+
+
+def opensim_cells(line: str) -> list[str]:
+    """As OpenSim 4.6 takes a row apart: what comes before each tab, and what is left if there is anything."""
+    *cells, rest = line.split("\t")
+    return [*cells, rest] if rest else cells
 
 
 def test_trc_is_as_opensim_writes_it(tmp_path: Path) -> None:
@@ -82,8 +91,9 @@ def test_trc_is_as_opensim_writes_it(tmp_path: Path) -> None:
     assert lines[3].split("\t")[2::3] == list(markers)
     assert lines[4].split("\t")[2:] == [f"{axis}{m}" for m in range(1, 7) for axis in "XYZ"]
     assert lines[5] == ""
-    cells = [line.split("\t") for line in lines[6:-1]]
+    cells = [opensim_cells(line) for line in lines[6:-1]]
     assert {len(row) for row in cells} == {2 + 3 * 6}
+    assert any(not cell for row in cells for cell in row), "one in five is lost: empty cells"
     assert [row[0] for row in cells] == [str(k + 1) for k in range(len(cells))]
     assert np.allclose([float(row[1]) for row in cells], np.arange(len(cells)) / 30.0, atol=1e-6)
     place = np.array([[float(cell) if cell else np.nan for cell in row[2:]] for row in cells]).reshape(-1, 6, 3)
@@ -163,3 +173,52 @@ def test_bids_columns_are_what_channels_say(tmp_path: Path) -> None:
     found = np.array([np.nan if cell == "n/a" else float(cell) for cell in column])
     assert np.allclose(found, wanted, atol=1e-5, equal_nan=True)
     assert [float(row[0]) for row in table] == pytest.approx(np.arange(len(table)) / 30.0, abs=2e-6)
+
+
+def test_every_column_says_whose_estimate_it_is_and_every_row_has_one_sign(tmp_path: Path) -> None:
+    for take, name in ((take_of(flexing()), "wrist"), (hand_take(tmp_path), "hand")):
+        out = tmp_path / name
+        csv_tables.write(take, out)
+        said = json.loads((out / "one.csv.json").read_text(encoding="utf-8"))["tables"]
+        assert all(text for table in said.values() for text in table.values())
+        estimates = {"filter", "smoother"} if take.session.smoothed is not None else {"filter"}
+        head = list(rows_of(out / "one.wrist.csv")[0])
+        assert {column.split("_")[0] for column in head[2:]} == estimates
+        assert {
+            f"{one}_{part}" for one in estimates for part in ("flexion_deg", "zyz_beta_deg", "isb_flexion_deg")
+        } < set(head)
+        assert len(set(head)) == len(head)
+        for row in rows_of(out / "one.measures.csv"):
+            assert row["positive"]
+            assert row["estimate"] in estimates
+            joint = row["of"][:3] in ("CMC", "MCP", "PIP", "DIP", "IP1")
+            assert not (joint and row["measure"] in ("flexion", "extension")), "of a joint: largest and smallest"
+    rows = {(row["measure"], row["of"]): row for row in rows_of(out / "one.measures.csv")}
+    assert rows["largest", "MCP2_flexion"]["positive"] == rows["smallest", "MCP2_flexion"]["positive"] == "flexed"
+    assert "index finger" in rows["smallest", "CMC1_extension"]["positive"]
+
+
+def test_repetitions_are_in_every_format_that_can_say_them(tmp_path: Path) -> None:
+    take = take_of(read_session(stopping(tmp_path)), "stops")
+    figures = take.figures
+    for module in (csv_tables, json_measures, bids_motion):
+        module.write(take, tmp_path / "out")
+    table = rows_of(tmp_path / "out" / "stops.repetitions.csv")
+    content = json.loads((tmp_path / "out" / "stops.measures.json").read_text(encoding="utf-8"))
+    assert len(table) == len(content["repetitions"]) == len(figures.repetitions) == 3
+    for row, told, shown in zip(table, content["repetitions"], figures.repetitions, strict=True):
+        assert shown.row is not None
+        assert (row["angle"], row["positive"], row["estimate"], row["counted"]) == ("flexion", "flexed", "filter", "1")
+        for name in ("start_s", "peak_s", "end_s", "movement_time_s", "sparc", "pauses", "movement_units"):
+            assert float(row[name]) == pytest.approx(getattr(shown.row, name), abs=6e-4)
+            assert told[name] == pytest.approx(getattr(shown.row, name))
+        assert float(row["arc_deg"]) == pytest.approx(50.0, abs=0.2)
+        assert (row["pauses"], float(row["pause_time_s"])) == ("1.000", pytest.approx(0.74, abs=0.05))
+        assert float(row["sparc"]) == pytest.approx(0.5 * (-3.62 - 1.40), abs=0.1)
+    (events,) = (tmp_path / "out").rglob("*_events.tsv")
+    with events.open(encoding="utf-8") as file:
+        lines = [line for line in csv.DictReader(file, delimiter="\t") if line["trial_type"] == "repetition"]
+    for line, row in zip(lines, table, strict=True):
+        assert float(line["onset"]) == pytest.approx(float(row["start_s"]), abs=1e-3)
+        assert float(line["duration"]) == pytest.approx(float(row["end_s"]) - float(row["start_s"]), abs=1e-3)
+        assert (float(line["peak"]), line["counted"]) == (pytest.approx(float(row["peak_s"]), abs=1e-3), "yes")

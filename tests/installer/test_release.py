@@ -30,7 +30,7 @@ def release() -> ModuleType:
 
 
 def test_the_version_is_that_of_the_program(release: ModuleType) -> None:
-    assert release.version_of((ROOT / "carpus.py").read_text(encoding="utf-8")) == __version__
+    assert release.version_of((ROOT / "carpus" / "__init__.py").read_text(encoding="utf-8")) == __version__
 
 
 def test_a_changelog_of_this_version_is_taken(release: ModuleType) -> None:

@@ -14,7 +14,7 @@ from carpus.app.settings import load_settings
 from carpus.core.capture import openni2_driver
 from carpus.core.capture.doctor import examine_at_start
 from carpus.core.errors import OutputNotWritable
-from carpus.core.session.register import PatientEntry
+from carpus.core.records.values import PatientEntry
 from tests.journeys.conftest import Open
 from tests.journeys.test_journey import at, click, click_discs, still_hand
 
@@ -99,8 +99,8 @@ def test_escape_leaves_the_guide_and_not_the_screen(qtbot: QtBot, open_desktop: 
 
 def test_it_is_for_the_practice_patient_unless_it_was_asked_for(qtbot: QtBot, open_desktop: Open) -> None:
     desktop = open_desktop()
-    desktop.library.clinic.add(_somebody())
-    (somebody,) = desktop.library.clinic.patients()
+    desktop.library.patients.add(_somebody())
+    (somebody,) = desktop.library.patients.listed()
     desktop.tour.begin(asked_for=False)
     desktop.journey.now.patient = desktop.journey.patients._store.card(somebody.patient_id).row
     desktop.journey.way.go("camera")
@@ -112,7 +112,7 @@ def test_it_is_for_the_practice_patient_unless_it_was_asked_for(qtbot: QtBot, op
 
 def test_with_a_patient_in_the_list_it_is_no_first_start(open_desktop: Open) -> None:
     first = open_desktop()
-    first.library.clinic.add(_somebody())
+    first.library.patients.add(_somebody())
     first.close()
     again = open_desktop()
     assert again.welcome.panel is None

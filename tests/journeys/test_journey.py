@@ -27,8 +27,8 @@ from carpus.core.capture.tum import TumFolder
 from carpus.core.errors import CameraLost, CameraMissing, CameraReturned, DiskFull
 from carpus.core.library.set_up import PRACTICE_PATIENT
 from carpus.core.pipeline import measuring
+from carpus.core.records.values import PatientEntry
 from carpus.core.session.reader import read_session
-from carpus.core.session.register import PatientEntry
 from carpus.core.session.writer import SessionWriter
 from carpus.core.simulation.oni import in_millimetres
 from carpus.ui.messages.strip import NoticeStrip
@@ -110,6 +110,8 @@ def test_the_whole_journey_by_mouse(
     desktop = open_desktop()
     journey = desktop.journey
     click(qtbot, journey.patients.new_button)
+    for chips in (journey.patients.form.side, journey.patients.form.dominance):
+        click(qtbot, chips.buttons()[0])
     click(qtbot, journey.patients.form.save)
     name = journey.patients.list.rows.row(0).pseudonym
     wait(qtbot, lambda: journey.patients.card.start_button.isVisible())
@@ -137,7 +139,7 @@ def test_the_whole_journey_by_mouse(
     assert desktop.shell.sign.isVisible()
     assert any("imulated" in line for line in journey.bar.sign_lines())
     check_file(path, name)
-    assert path.is_relative_to(desktop.library.clinic.sessions_folder)
+    assert path.is_relative_to(desktop.library.store.sessions_folder)
     assert desktop.shell.bar.pill.state == "off"
     click(qtbot, desktop.shell.bar.way()[2])
     at(qtbot, desktop, "progress")
@@ -226,7 +228,7 @@ def test_the_whole_journey_by_keyboard(
     at(qtbot, desktop, "review")
     press(Qt.Key.Key_Escape)
     at(qtbot, desktop, "patients")
-    assert desktop.library.clinic.patients() == []  # practice never counts
+    assert desktop.library.patients.listed() == []  # practice never counts
 
 
 def test_a_recording_is_measured_from_its_first_picture_to_its_last(
@@ -466,9 +468,9 @@ def test_a_recording_does_not_begin_on_a_full_disk(
 def test_a_session_rescued_later_is_in_the_list_as_soon_as_the_list_is_shown(open_desktop: Open) -> None:
     desktop = open_desktop()
     journey, library = desktop.journey, desktop.library
-    linden = library.clinic.add(PatientEntry("Linden 42", "right"))
+    linden = library.patients.add(PatientEntry("Linden 42", "right"))
     journey.show_patients()
-    folder = library.clinic.sessions_folder / "Linden-42"
+    folder = library.store.sessions_folder / "Linden-42"
     folder.mkdir()
     writer = SessionWriter.create(folder / "cut.h5", make_header(), CAMERA, make_calibration())
     for row in range(60):
@@ -508,7 +510,7 @@ def test_the_simulated_camera_is_the_practice_patient_s_and_nobody_else_s(
         journey.now.choice = SourceChoice("practice")
     to_live(qtbot, desktop, take)
     journey.show_patients()
-    linden = desktop.library.clinic.add(PatientEntry("Linden 42", "right"))
+    linden = desktop.library.patients.add(PatientEntry("Linden 42", "right"))
     for _ in range(2):
         journey.setting_up.choose_exercise(linden)
         click(qtbot, journey.exercise.primary)
@@ -523,7 +525,7 @@ def test_the_simulated_camera_is_the_practice_patient_s_and_nobody_else_s(
 
 def test_an_interrupted_session_is_told_at_the_next_start_and_can_be_reviewed(qtbot: QtBot, open_desktop: Open) -> None:
     first = open_desktop()
-    folder = first.library.clinic.sessions_folder / "Heron"
+    folder = first.library.store.sessions_folder / "Heron"
     first.close()
     folder.mkdir()
     writer = SessionWriter.create(folder / "cut.h5", make_header(), CAMERA, make_calibration())

@@ -96,7 +96,7 @@ def test_the_window_opens_on_the_folder_that_was_chosen_instead(
     assert desktop.open_window(None, is_demo=False) == 0
     assert asked == ["OutputNotWritable"]
     assert "blocked" in capsys.readouterr().err
-    assert (good / "patients.sqlite3").exists()
+    assert (good / "records.sqlite3").exists()
     assert load_settings().data_folder == good, "also from the next start on"
     let_go(qapp)
 

@@ -131,10 +131,11 @@ def looked_back_as_tracking_it_again(path: Path, again: Path) -> None:
     assert not live.events
     assert live.smoothed is not None
     assert offline.smoothed is not None
-    for name in ("angles", "joint_angles"):
+    for name, most in (("angles", 0.5), ("joint_angles", 0.15)):
         sd_rad = getattr(offline.smoothed, f"{name}_sd_rad")
         apart = np.abs(getattr(live.smoothed, f"{name}_rad") - getattr(offline.smoothed, f"{name}_rad")) / sd_rad
         assert np.isfinite(apart).mean() > 0.95
-        # Live, a second more was seen before the recording; the anatomy is known a little better.
-        assert np.nanmedian(apart) < 0.15
+        # Live, a second more was seen before the recording: the anatomy, and how far the calibrated back of the hand is
+        # off, are known a little better; the latter is a part of every angle of the wrist and of its sd.
+        assert np.nanmedian(apart) < most
         assert np.nanmax(apart) < 1.0

@@ -31,15 +31,22 @@ class Tracked:
 
 @lru_cache(maxsize=16)
 def tracked(
-    motion: str, seconds: float, speed_hz: float, seed: int = 1, share: float = 1.0, discs: str = "wrist6"
+    motion: str,
+    seconds: float,
+    speed_hz: float,
+    seed: int = 1,
+    share: float = 1.0,
+    discs: str = "wrist6",
+    stops: bool = False,
 ) -> Tracked:
-    """Track simulated measurements as a recording is tracked."""
+    """Track simulated measurements as a recording is tracked; with ``stops`` of a patient who moves in pieces."""
     spec = RecordingSpec(
         seed=seed,
         motion=motion,
         seconds=seconds,
         speed_hz=speed_hz,
         range_share=share,
+        pain_limited=stops,
         protocol=discs,  # type: ignore[arg-type]
     )
     sequence = measurement_sequence(spec)

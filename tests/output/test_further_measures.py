@@ -83,7 +83,7 @@ def test_a_fist_has_graded_totals_and_fingers_that_move_together() -> None:
         assert grade.share == row.mean_deg / (140.0 if grade.finger == 1 else 260.0)
         assert (grade.grade is None) == row.limited
     other = session_figures(hand_session(exercise="FIST_COMPOSITE", motion="fist", share=0.6, hides_beyond_deg=999.0))
-    beside = graded_totals(figures.joint_rows, other.joint_rows)
+    beside = graded_totals(figures.joint_rows, figures.exercise, other.joint_rows)
     assert all(grade.of_other_hand for grade in beside)
     assert all(grade.share > 1.0 for grade in beside if grade.finger > 1), "of a hand that bends less"
     assert named(figures, "co-flexion", "PIP2_flexion, PIP3_flexion").mean > 0.5

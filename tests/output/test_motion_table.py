@@ -46,5 +46,6 @@ def test_the_curves_are_exported(tmp_path: Path) -> None:
     with written[0].open(encoding="utf-8") as file:
         rows = list(csv.DictReader(file))
     assert len(rows) == len(made)
-    assert {"position_x_mm", "zyz_beta_sd_deg", "isb_flexion_deg", "angular_velocity_z_deg_s"} <= rows[0].keys()
-    assert float(rows[10]["position_x_mm"]) == round(1e3 * float(made.motion.position_m[10, 0]), 3)
+    for name in ("position_x_mm", "zyz_beta_sd_deg", "isb_flexion_deg", "angular_velocity_z_deg_s"):
+        assert f"filter_{name}" in rows[0]
+    assert float(rows[10]["filter_position_x_mm"]) == round(1e3 * float(made.motion.position_m[10, 0]), 3)

@@ -329,12 +329,13 @@ def test_a_listener_hears_frames_and_events_and_cannot_end_the_measuring() -> No
         live.listen(heard)
         deliver_tracked(live, source, 3)
         wait_until(lambda: len(heard.frames) == 3)
-        live.add_event("repetition", "1")
+        live.add_event("note", "1")
+        live.tell("repetition", 99.5)
         live.listen(breaking)
         deliver_tracked(live, source, 4)
         assert live.tracking
     assert heard.frames == [0, 1, 2]
-    assert heard.events == [(pytest.approx(100 + 2 / 30), "repetition")]
+    assert heard.events == [(pytest.approx(100 + 2 / 30), "note"), (99.5, "repetition")]
     assert breaking.frames == [3]
     assert live.drain_events() == []
 

@@ -26,7 +26,8 @@ from carpus.core.session.values import Motion, motion_of
 from carpus.core.simulation.measurements import MeasurementSequence, measurement_sequence
 from carpus.core.simulation.spec import RecordingSpec
 from carpus.core.tracking.settings import TrackerSettings
-from carpus.core.tracking.tracker import KeptSteps, Tracker
+from carpus.core.tracking.smoother_record import KeptSteps
+from carpus.core.tracking.tracker import Tracker
 from tests.accuracy.carpus import measured_hand
 from tests.pipeline.live_fakes import wait_until
 
@@ -125,7 +126,7 @@ def test_steps_handed_over_one_by_one_are_looked_back_at_as_where_they_were_made
     def begin_recording(tracker: Tracker) -> None:
         count[0] += 1
         if count[0] <= BEGIN:
-            tracker.forget()
+            tracker.hand_over()
 
     there = live_tracker(begin_recording)
     whole = PieceByPiece(tracked_hand(), 1e6, 1e6)

@@ -19,7 +19,7 @@ from carpus.core.calibration.settings import CalibrationSettings
 from carpus.core.capture.raw_pictures import encode_color, encode_depth
 from carpus.core.capture.source import SourceInfo
 from carpus.core.capture.tum import DEPTH_UNIT_M, TumFolder
-from carpus.core.errors import ClickOnNoMarker, OutputExists, PictureDamaged, RecordingEmpty
+from carpus.core.errors import ClickOnNoMarker, OutputExists, PictureDamaged, RecordingEmpty, SessionUnreadable
 from carpus.core.pipeline.track import TrackReport, TrackSettings, from_neutral, retrack_session, track_recording
 from carpus.core.session.reader import read_session
 from carpus.core.session.values import RawPictures
@@ -319,3 +319,27 @@ def test_a_session_without_a_row_can_be_tracked_again(made: Made, tmp_path: Path
     again = tmp_path / "again.h5"
     retrack_session(empty, again, TrackSettings(), software_version="test")
     assert len(read_session(again)) == 0
+
+
+@pytest.mark.parametrize(
+    ("place", "value"),
+    [
+        ("/calibration/rotation", np.nan), ("/calibration/rotation", 1e9), ("/calibration/translation", np.nan),
+        ("/calibration/marker_position", np.nan), ("/calibration/marker_covariance", -1.0),
+        ("/calibration/marker_covariance", np.inf), ("/calibration/start_angles", np.inf),
+        ("/detections/pixel", np.nan), ("/detections/depth_sd", -1e300), ("/detections/depth", -1.0),
+        ("/detections/area", np.nan), ("/detections/similarity", np.inf),
+    ],
+)  # fmt: skip
+def test_a_session_whose_calibration_or_blobs_make_no_sense_is_refused(
+    place: str, value: float, made: Made, tmp_path: Path
+) -> None:
+    damaged = tmp_path / "damaged.h5"
+    shutil.copy(made.session, damaged)
+    with h5py.File(damaged, "r+") as file:
+        values = file[place][...]
+        values.flat[values.size // 2] = value
+        file[place][...] = values
+    with pytest.raises(SessionUnreadable, match="damaged"):
+        retrack_session(damaged, tmp_path / "again.h5", TrackSettings(), software_version=VERSION)
+    assert not list(tmp_path.glob("again*"))

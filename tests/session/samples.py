@@ -42,6 +42,7 @@ def make_calibration(protocol: MarkerProtocol = WRIST6) -> Calibration:
     rng = np.random.default_rng(5)
     m = len(protocol.markers)
     rotation, _ = np.linalg.qr(rng.normal(size=(3, 3)))
+    spread = 0.003 * rng.normal(size=(m, 3, 3))
     verdict = Verdict(
         residual_mm=rng.uniform(0.1, 1.0, m),
         hand_length_mm=183.0,
@@ -53,9 +54,9 @@ def make_calibration(protocol: MarkerProtocol = WRIST6) -> Calibration:
     return Calibration(
         clicks=Clicks("left", protocol, rng.uniform(100, 400, (m, 2)), (True, True, False, True, True)),
         marker_position_w0_m=rng.normal(size=(m, 3)),
-        rotation_w0_cam=rotation,
+        rotation_w0_cam=rotation * np.linalg.det(rotation),  # a turn, no mirror
         translation_w0_cam_m=rng.normal(size=3),
-        marker_covariance_w0_m2=rng.normal(size=(m, 3, 3)),
+        marker_covariance_w0_m2=spread @ spread.transpose(0, 2, 1),
         start_angles_rad=np.array([0.1, 0.2, 0.3]),
         verdict=verdict,
     )

@@ -6,19 +6,16 @@ A new format version adds its own files here, written by the program of that ver
 from __future__ import annotations
 
 import lzma
-import sqlite3
-from contextlib import closing
 from pathlib import Path
 
 import h5py
 import numpy as np
 import pytest
 
-from carpus.core.errors import RegisterUnreadable, SessionUnreadable
+from carpus.core.errors import SessionUnreadable
 from carpus.core.hand.protocols import HAND21, WRIST6, MarkerProtocol
 from carpus.core.session import schema
 from carpus.core.session.reader import read_detections, read_raw, read_session, verify
-from carpus.core.session.register import MIGRATIONS, REGISTER_FILE, PatientRegister
 from carpus.core.session.values import RawPictures
 from tests.session.samples import CAMERA, time_of
 
@@ -93,28 +90,6 @@ def test_a_newer_session_is_refused_with_a_sentence(tmp_path: Path) -> None:
         file.attrs["format_version"] = schema.NEWEST_VERSION + 1
     with pytest.raises(SessionUnreadable, match=f"format version {schema.NEWEST_VERSION + 1}, this Carpus reads up to"):
         read_session(path)
-
-
-def test_the_first_register_is_migrated_and_a_copy_kept(tmp_path: Path) -> None:
-    unpacked("v1-patients.sqlite3", tmp_path).rename(tmp_path / REGISTER_FILE)
-    (tmp_path / "sessions" / "Linden-42").mkdir(parents=True)
-    unpacked("v1-wrist6.h5", tmp_path).rename(tmp_path / "sessions" / "Linden-42" / "s.h5")
-    with PatientRegister(tmp_path) as register:
-        first, second = register.patients()
-        assert (first.entry.pseudonym, first.entry.name, first.entry.note) == ("Linden 42", "A Name", "a note")
-        assert (first.entry.dominance, first.entry.age_band, first.session_count) == ("right", "40-49", 1)
-        assert second.entry.pseudonym == "Heron 17"
-    copy = tmp_path / "patients.version1.sqlite3"
-    assert copy.stat().st_mode & 0o777 == 0o600
-    with closing(sqlite3.connect(copy)) as database:
-        assert database.execute("PRAGMA user_version").fetchone() == (1,)
-        assert database.execute("SELECT COUNT(*) FROM patient").fetchone() == (2,)
-    with closing(sqlite3.connect(tmp_path / REGISTER_FILE)) as database:
-        assert database.execute("PRAGMA user_version").fetchone() == (len(MIGRATIONS),)
-        database.execute(f"PRAGMA user_version = {len(MIGRATIONS) + 1}")
-        database.commit()
-    with pytest.raises(RegisterUnreadable, match=f"version {len(MIGRATIONS) + 1}, this Carpus reads up to"):
-        PatientRegister(tmp_path)
 
 
 def test_readings_on_the_back_of_the_hand_are_read_value_by_value(tmp_path: Path) -> None:

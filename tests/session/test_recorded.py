@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import contextlib
-import sqlite3
 import uuid
 from datetime import UTC, datetime, timedelta
 from pathlib import Path
@@ -13,10 +11,11 @@ import pytest
 
 from carpus.core.dates import iso, time_of_day
 from carpus.core.hand.protocols import WRIST6
+from carpus.core.records.values import PatientEntry, newest_results
 from carpus.core.session.reader import read_outline, read_session
-from carpus.core.session.register import REGISTER_FILE, PatientEntry, PatientRegister, newest_results
 from carpus.core.session.values import new_header
 from carpus.core.session.writer import SessionWriter
+from tests.records.samples import opened
 from tests.session.samples import CAMERA, make_calibration, make_frame, time_of
 
 MOVED = datetime(2023, 4, 5, 14, 30, tzinfo=UTC)
@@ -88,36 +87,19 @@ def test_a_camera_s_own_clock_is_no_date() -> None:
 
 
 def test_a_recording_counts_once_by_its_newest_result(tmp_path: Path) -> None:
-    with PatientRegister(tmp_path) as register:
-        patient = register.add(PatientEntry("Linden 42", "right"))
+    with opened(tmp_path) as house:
+        patient = house.patients.add(PatientEntry("Linden 42", "right"))
         recording = str(uuid.uuid4())
-        folder = register.sessions_folder / "Linden-42"
+        folder = house.store.sessions_folder / "Linden-42"
         for number, tracked in enumerate((TRACKED, TRACKED + timedelta(days=9), TRACKED + timedelta(days=2))):
-            register.enter_session(write(folder / f"{number}.h5", tracked, recording=recording), patient)
+            house.index.enter(write(folder / f"{number}.h5", tracked, recording=recording), patient)
         other = write(folder / "other.h5", TRACKED - timedelta(days=400), MOVED + timedelta(days=7))
-        register.enter_session(other, patient)
-        record = register.patient(patient)
+        house.index.enter(other, patient)
+        record = house.patients.one(patient)
         assert (record.session_count, record.result_count) == (2, 4)
         assert record.last_session == MOVED + timedelta(days=7), "the last movement, not the last tracking"
-        kept = newest_results(register.sessions(patient))
+        kept = newest_results(house.index.of_patient(patient))
         assert [entry.path.name for entry in kept] == ["other.h5", "1.h5"]
         assert [entry.recorded for entry in kept] == [MOVED + timedelta(days=7), MOVED]
-        register.rebuild_from_sessions()
-        assert register.patient(patient).session_count == 2
-
-
-def test_a_register_of_before_learns_of_recordings(tmp_path: Path) -> None:
-    with PatientRegister(tmp_path) as register:
-        patient = register.add(PatientEntry("Linden 42", "right"))
-        register.enter_session(write(register.sessions_folder / "s.h5"), patient)
-    with contextlib.closing(sqlite3.connect(tmp_path / REGISTER_FILE)) as database:
-        for column in ("recording_id", "recorded", "recorded_s", "simulated"):
-            database.execute(f"ALTER TABLE session DROP COLUMN {column}")
-        for table in ("made", "archived", "erasing", "by_hand", "recipient"):
-            database.execute(f"DROP TABLE {table}")
-        database.execute("PRAGMA user_version = 2")
-        database.commit()
-    with PatientRegister(tmp_path) as register:
-        (record,) = register.patients()
-        assert record.last_session == MOVED
-        assert record.session_count == 1
+        house.files.take_in()
+        assert house.patients.one(patient).session_count == 2

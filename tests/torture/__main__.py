@@ -19,7 +19,7 @@ for _name in ("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS"):
     os.environ.setdefault(_name, "1")
 os.environ.setdefault("QT_QPA_PLATFORM", "offscreen")
 
-from tests.torture import kills, mutations  # noqa: E402
+from tests.torture import backup_kills, kills, mutations, store_kills, two_programs  # noqa: E402
 from tests.torture.readers import Outcome, Reader  # noqa: E402
 
 MOST_S, MOST_BYTES = 2.0, 1_000_000_000
@@ -35,8 +35,9 @@ library.close()
 begin = time.monotonic()
 library = Library(Path(sys.argv[1]))
 again = library.recover()[1]
-apart = len(library.clinic.set_apart())
-patients = len(library.clinic.patients())
+from carpus.core.records.seen_files import remembered
+apart = sum(bool(one.reason) for one in remembered(library.store).values())
+patients = len(library.patients.listed())
 library.close()
 print(f"{first:.2f} {time.monotonic() - begin:.2f} {len(faults)} {len(again)} {apart} {patients}")
 """
@@ -94,7 +95,7 @@ def start_line(count: int, folder: Path) -> str:
         for number in range(count):
             mutations.mutated(kind, original, number, data / "sessions" / kind)
     register = mutations.sound("register", folder / "register")
-    shutil.copy(mutations.mutated("register", register, 0, folder), data / "patients.sqlite3")
+    shutil.copy(mutations.mutated("register", register, 0, folder), data / "records.sqlite3")
     command = [sys.executable, "-c", START, str(data)]
     done = subprocess.run(command, cwd=kills.ROOT, capture_output=True, text=True, check=False, timeout=7200)
     assert done.returncode == 0, done.stderr
@@ -133,12 +134,15 @@ def live_lines(minutes: float, folder: Path) -> Iterator[str]:
 
 def main() -> int:
     parser = argparse.ArgumentParser(prog="python -m tests.torture", description=__doc__)
-    parser.add_argument("parts", nargs="*", help="kills, mutations, start, live; the first three when none is named")
+    parser.add_argument("parts", nargs="*", help="kills, backups, records, two, mutations, start; or live")
     parser.add_argument("--kills", type=int, default=17, help="of each of six kinds")
+    parser.add_argument("--backup-kills", type=int, default=100, help="of each of three kinds")
+    parser.add_argument("--record-kills", type=int, default=100, help="of each of four kinds")
     parser.add_argument("--files", type=int, default=2000, help="damaged files of each of eight kinds")
-    parser.add_argument("--minutes", type=float, default=60.0, help="of the live part")
+    parser.add_argument("--minutes", type=float, default=30.0, help="of two programs; of the live part twice that")
+    parser.add_argument("--changes", type=int, default=10_000, help="of the two programs")
     told = parser.parse_args()
-    parts = told.parts or ["kills", "mutations", "start"]
+    parts = told.parts or ["kills", "backups", "records", "two", "mutations", "start"]
     print(f"{platform.platform()}, Python {platform.python_version()}, {os.cpu_count()} processors", flush=True)
     print(f"load at the start {os.getloadavg()[0]:.1f}", flush=True)
     wrong: list[Outcome] = []
@@ -147,6 +151,14 @@ def main() -> int:
         if "kills" in parts:
             for line in kill_lines(told.kills, folder):
                 print(line, flush=True)
+        if "backups" in parts:
+            for kind in backup_kills.KINDS:
+                print(backup_kills.line(kind, told.backup_kills, folder / kind), flush=True)
+        if "records" in parts:
+            for kind in store_kills.KINDS:
+                print(store_kills.line(kind, told.record_kills, folder / kind), flush=True)
+        if "two" in parts:
+            print(two_programs.line(told.changes, 60.0 * told.minutes, 10.0, folder / "two"), flush=True)
         if "mutations" in parts:
             for kind in mutations.KINDS:
                 outcomes = read_mutations(kind, told.files, folder / kind)
@@ -156,7 +168,7 @@ def main() -> int:
         if "start" in parts:
             print(start_line(told.files, folder / "start"), flush=True)
         if "live" in parts:
-            for line in live_lines(told.minutes, folder / "live"):
+            for line in live_lines(2.0 * told.minutes, folder / "live"):
                 print(line, flush=True)
     for one in wrong:
         print(f"WRONG: {one}")

@@ -18,12 +18,14 @@ from carpus.core.capture.raw import RawWriter
 from carpus.core.capture.raw_tum import TumWriter
 from carpus.core.capture.source import SourceInfo
 from carpus.core.hand.protocols import WRIST6
-from carpus.core.session.register import REGISTER_FILE, PatientEntry, PatientRegister
+from carpus.core.records.database import STORE_FILE
+from carpus.core.records.values import PatientEntry
 from carpus.core.session.values import RawPictures
 from carpus.core.session.writer import SessionWriter
 from carpus.core.types import Frame
 from tests.capture.oni_samples import CAMERA as SMALL
 from tests.capture.oni_samples import color_picture, depth_picture, write_sample
+from tests.records.samples import opened
 from tests.session.samples import CAMERA, CREATED, make_calibration, make_frame, make_header, time_of
 
 KINDS = ("session", "part", "raw", "tum", "clicks", "settings", "register", "oni")
@@ -78,14 +80,14 @@ def sound(kind: str, folder: Path) -> Path:
         (folder / "settings.toml").write_text("\n".join((*lines, "[live]", "rows_waiting = 900", "")))
         return folder / "settings.toml"
     if kind == "register":
-        with PatientRegister(folder / "data") as register:
-            key = register.add(PatientEntry("Linden 42", "left", name="A Name", note="a note"))
-            path = register.new_session_path(key, "wrist flexion", "left", CREATED)
+        with opened(folder / "data") as house:
+            key = house.patients.add(PatientEntry("Linden 42", "left", name="A Name", note="a note"))
+            path = house.index.new_path(key, "Linden 42", "wrist flexion", "left", CREATED)
             with SessionWriter.create(path, make_header(), CAMERA, make_calibration()) as writer:
                 writer.append(make_frame(0))
                 writer.append(make_frame(1))
-            register.enter_session(path, key)
-        return folder / "data" / REGISTER_FILE
+            house.index.enter(path, key)
+        return folder / "data" / STORE_FILE
     return write_sample(folder / "r.oni")
 
 

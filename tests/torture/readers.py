@@ -145,11 +145,13 @@ def _read(kind: str, path: Path) -> None:
 
         data = path.parent / f"{path.stem} data"
         data.mkdir(exist_ok=True)
-        (data / "patients.sqlite3").write_bytes(path.read_bytes())
+        (data / "records.sqlite3").write_bytes(path.read_bytes())
         library = Library(data)
         try:
+            if library.store.told:
+                raise library.store.told[0]
             library.recover()
-            for record in library.clinic.patients():
-                library.clinic.sessions(record.patient_id)
+            for record in library.patients.listed():
+                library.index.of_patient(record.patient_id)
         finally:
             library.close()

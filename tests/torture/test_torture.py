@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from tests.torture import kills, mutations
+from tests.torture import backup_kills, kills, mutations, store_kills, two_programs
 from tests.torture.__main__ import MOST_BYTES, mutation_line, read_mutations, start_line
 
 FILES = {"session": 24, "part": 24, "register": 16}
@@ -20,6 +20,16 @@ def test_a_kill_loses_a_second_at_most(tmp_path: Path, kind: str) -> None:
     assert done.lost_s <= kills.MOST_LOST_S
 
 
+@pytest.mark.parametrize("kind", backup_kills.KINDS)
+def test_a_killed_back_up_or_restore_leaves_nothing_half(tmp_path: Path, kind: str) -> None:
+    assert backup_kills.line(kind, 5, tmp_path / "kills")
+
+
+@pytest.mark.parametrize("kind", store_kills.KINDS)
+def test_a_killed_change_of_the_store_is_there_whole_or_not_at_all(tmp_path: Path, kind: str) -> None:
+    assert store_kills.line(kind, 2, tmp_path / "kills")
+
+
 @pytest.mark.parametrize("kind", mutations.KINDS)
 def test_damaged_files_are_told(tmp_path: Path, kind: str) -> None:
     """No traceback, no reader that dies or stays, no gigabyte; times are measured where nothing else runs."""
@@ -30,3 +40,7 @@ def test_damaged_files_are_told(tmp_path: Path, kind: str) -> None:
 
 def test_the_program_starts_with_all_of_them_in_its_folder(tmp_path: Path) -> None:
     assert "set apart" in start_line(16, tmp_path)
+
+
+def test_two_programs_on_one_server_that_fails(tmp_path: Path) -> None:
+    assert two_programs.line(80, 4.0, 0.6, tmp_path / "clinic")

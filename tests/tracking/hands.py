@@ -42,9 +42,10 @@ RIGID = replace(
     tissue=SoftTissue(
         **dict.fromkeys(
             ("knuckle_along_m", "knuckle_across_m", "knuckle_up_m", "wrist_along_m", "wrist_across_m", "wrist_up_m",
-             "thumb_m", "relief_up_m"), _NONE_M
+             "thumb_m"), _NONE_M
         ),
-        **dict.fromkeys(("cupping_m", "loose_along_m", "loose_across_m", "relief_turn_rad"), (_NONE_M, _NONE_M)),
+        **dict.fromkeys(("cupping_m", "loose_along_m", "loose_across_m"), (_NONE_M, _NONE_M)),
+        **dict.fromkeys(("relief_home", "relief_still", "relief_moving"), (_NONE_M, _NONE_M, _NONE_M)),
     ),
 )  # fmt: skip
 """The discs of this file's hand move as one body; told so, the filter is to be as sure as that allows."""

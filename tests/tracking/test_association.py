@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from scipy.stats import chi2, multivariate_normal
 
 from carpus.core.tracking.association import IMPOSSIBLE, AssociationSettings, log_odds, posterior, resolve
-from carpus.core.tracking.joint_association import associate_jointly, holds_together
+from carpus.core.tracking.joint_association import associate_jointly, is_jointly_compatible
 from carpus.core.types import FloatArray
 
 RES_PX2 = 640.0 * 480.0
@@ -238,8 +238,8 @@ def test_blobs_of_strange_depth_are_named_by_their_pixels() -> None:
 
 
 def test_the_whole_is_doubted_when_chance_would_hardly_make_it() -> None:
-    assert holds_together(float("nan"), 0, SETTINGS)
+    assert is_jointly_compatible(float("nan"), 0, SETTINGS)
     for dof in (1, 6, 18, 63):
         limit = chi2.isf(5e-4, dof)
-        assert holds_together(0.999 * limit, dof, SETTINGS)
-        assert not holds_together(1.001 * limit, dof, SETTINGS)
+        assert is_jointly_compatible(0.999 * limit, dof, SETTINGS)
+        assert not is_jointly_compatible(1.001 * limit, dof, SETTINGS)

@@ -51,7 +51,7 @@ def consistency(motion: Motion, settings: TrackerSettings, noise: float = 1.0) -
                 depth_sd_m=noise * DEPTH_SD_M,
             )
             frame = tracker.step(i, i * DT_S, found)
-            belief = tracker.history[-1].belief
+            belief = tracker.record.history[-1].belief
             if i < SETTLED or belief is None:
                 continue
             if frame.nis_dof:

@@ -8,7 +8,7 @@ import numpy as np
 
 from carpus.core.calibration.result import Calibration
 from carpus.core.spot_answer import SpotAnswer
-from carpus.core.tracking.doubt import DoubtSettings, DoubtWatch, passed_over
+from carpus.core.tracking.consistency import ConsistencySettings, ConsistencyTest, passed_over
 from carpus.core.tracking.settings import TrackerSettings
 from carpus.core.tracking.tracker import Tracker
 from carpus.core.types import TrackedFrame
@@ -19,7 +19,7 @@ NONE = np.zeros(3, dtype=bool)
 
 
 def test_a_disc_passed_over_for_long_is_doubted_by_name() -> None:
-    watch = DoubtWatch(3, DoubtSettings(unused_s=0.3))
+    watch = ConsistencyTest(3, ConsistencySettings(unused_s=0.3))
     over = np.array([False, True, False])
     said = [watch.watch(DT_S, over, 10.0, 10, 0) for _ in range(12)]
     assert not any(doubt.is_any for doubt in said[:9])
@@ -29,7 +29,7 @@ def test_a_disc_passed_over_for_long_is_doubted_by_name() -> None:
 
 
 def test_innovations_outside_their_bounds_widen_what_is_stated() -> None:
-    watch = DoubtWatch(3, DoubtSettings())
+    watch = ConsistencyTest(3, ConsistencySettings())
     one = watch.watch(DT_S, NONE, 200.0, 10, 2)
     assert not one.is_any or one.widens < 3.0, "one surprise is not enough"
     for _ in range(30):
@@ -41,7 +41,7 @@ def test_innovations_outside_their_bounds_widen_what_is_stated() -> None:
 
 
 def test_nothing_measured_is_no_contradiction() -> None:
-    watch = DoubtWatch(3, DoubtSettings())
+    watch = ConsistencyTest(3, ConsistencySettings())
     for _ in range(60):
         doubt = watch.watch(DT_S, NONE, float("nan"), 0, 0)
     assert not doubt.is_any
@@ -49,7 +49,7 @@ def test_nothing_measured_is_no_contradiction() -> None:
 
 def test_only_a_free_blob_at_the_place_and_depth_is_passed_over() -> None:
     disc_px, depth = np.array([[100.0, 100.0], [200.0, 100.0]]), np.array([0.7, 0.7])
-    settings = DoubtSettings()
+    settings = ConsistencySettings()
 
     def over(taken: list[int], blob_px: list[list[float]], blob_m: list[float]) -> list[bool]:
         return passed_over(

@@ -16,7 +16,8 @@ from carpus.core.tracking.finger_model import seat_of
 from carpus.core.tracking.finger_settings import FingerSettings
 from carpus.core.tracking.fingers import Fingers, FingerTrial
 from carpus.core.tracking.geometry import palm_of
-from carpus.core.tracking.naming import measurable
+from carpus.core.tracking.hand_filter import HandFilter
+from carpus.core.tracking.palm_association import measurements_of
 from carpus.core.tracking.palm_state import InitialSd, resting_belief
 from carpus.core.tracking.ray_filter import ANATOMY
 from carpus.core.tracking.readout import Readout, ReadoutSettings
@@ -109,12 +110,12 @@ def weighed(place_m: float, off_px: tuple[float, float], own: FingerSettings) ->
     assert hand.calibration is not None
     settings = TrackerSettings(fingers=own)
     fingers = Fingers(hand.calibration, seen.truth.camera, settings)
-    view = Tracker(hand.calibration, seen.truth.camera, settings).view
-    belief = resting_belief(InitialSd(position_m=place_m, turn_rad=1e-4), 1e-8 * np.eye(18))
+    view = HandFilter(hand.calibration, seen.truth.camera, settings).view
+    belief = resting_belief(InitialSd(position_m=place_m, turn_rad=1e-4), 1e-8 * np.eye(21))
     seat = seat_of(belief, view, Readout(palm_of(hand.calibration), ReadoutSettings(), view.camera, 6e-3))
     blobs, marker = seen.detections[0], seen.marker[0]
     pixel = blobs.pixel + np.column_stack((np.choose(marker % 2, off_px), np.zeros(marker.size)))
-    found = measurable(replace(blobs, pixel=pixel), 5.0, settings, seen.truth.camera.sensor)
+    found = measurements_of(replace(blobs, pixel=pixel), 5.0, settings, seen.truth.camera.sensor)
     trial = fingers.weigh(fingers.ahead(0.0), 0.0, seat, found, blobs.area_px, ~np.isin(marker, HAND21.palm))
     return trial, trial.named.update.bank.merged()[0] - fingers.model.at_neutral().merged()[0]
 

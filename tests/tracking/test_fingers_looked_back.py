@@ -42,17 +42,17 @@ def looked_back(*, in_pieces: bool) -> tuple[FloatArray, FloatArray, FloatArray]
     rows: dict[float, tuple[FloatArray, FloatArray]] = {}
 
     def take(until_s: float) -> None:
-        steps = list(tracker.history)
+        steps = list(tracker.record.history)
         for step, moment in zip(steps, tracker.smoothed(), strict=True):
             if RECORDED_S <= step.timestamp_s - blobs.truth.timestamp_s[0] < until_s:
                 rows.setdefault(step.timestamp_s, (moment.joint_angles_rad, moment.joint_angles_sd_rad))
-        tracker.forget(blobs.truth.timestamp_s[0] + until_s)
+        tracker.record.forget(blobs.truth.timestamp_s[0] + until_s)
 
     due_s = RECORDED_S + PIECE_S + LAG_S
     every = range(len(times))
     for i in from_neutral(every, tracker, neutral_ends_s, lambda row: float(blobs.truth.timestamp_s[row])):
         if times[i] < RECORDED_S and in_pieces:
-            tracker.forget()
+            tracker.hand_over()
         tracker.expect(float(blobs.truth.timestamp_s[i]))
         tracker.step(i, float(blobs.truth.timestamp_s[i]), blobs.detections[i])
         if in_pieces and times[i] >= due_s:
@@ -82,9 +82,28 @@ def test_what_is_forgotten_leaves_no_steps_of_the_fingers_behind() -> None:
     assert hand.calibration is not None
     tracker = Tracker(hand.calibration, blobs.truth.camera, TrackerSettings())
     for i in range(40):
-        tracker.forget()
+        tracker.hand_over()
         tracker.step(i, float(blobs.truth.timestamp_s[i]), blobs.detections[i])
-    assert len(tracker.history) == len(tracker._finger_history) == 1
+    assert len(tracker.record.history) == len(tracker.record.finger_history) == 1
+
+
+def test_a_piece_goes_on_from_where_the_one_before_was_forgotten() -> None:
+    blobs = sequence()
+    hand, _ = measured_hand(blobs, CalibrationSettings())
+    assert hand.calibration is not None
+    tracker, times_s = Tracker(hand.calibration, blobs.truth.camera, TrackerSettings()), blobs.truth.timestamp_s
+    for i in range(6):
+        tracker.step(i, float(times_s[i]), blobs.detections[i])
+    assert len(tracker.smoothed()) == 6
+    tracker.record.forget(float(times_s[4]))
+    kept = tracker.record.hand_over(None)
+    assert [step.timestamp_s for step in kept.steps] == times_s[4:6].tolist()
+    assert len(kept.fingers) == 2
+    assert kept.finger_start is not None
+    assert kept.finger_start.timestamp_s == times_s[3]
+    assert not kept.finger_start.is_lost
+    tracker.record.take_over(kept)
+    assert len(tracker.smoothed()) == 2
 
 
 def test_past_a_ray_found_anew_only_its_anatomy_is_carried_back_and_past_a_break_nothing() -> None:
@@ -95,9 +114,10 @@ def test_past_a_ray_found_anew_only_its_anatomy_is_carried_back_and_past_a_break
     for i in range(3):
         tracker.step(i, float(blobs.truth.timestamp_s[i]), blobs.detections[i])
     tracker.smoothed()
-    found = tracker._looked_back
+    found = tracker.record.looked_back
     assert found is not None
-    assert tracker._fingers is not None
+    fingers = tracker._filter.fingers
+    assert fingers is not None
     first, middle, last = found.filtered
     assert first is not None
     assert middle is not None
@@ -109,7 +129,7 @@ def test_past_a_ray_found_anew_only_its_anatomy_is_carried_back_and_past_a_break
         mean = last.mean.copy()
         mean[ray, :SLOTS] += moved_rad
         mean[ray, ANATOMY.start] += longer_m
-        walk = FingerWalk(tracker._fingers.model, found.steps, [first, second, replace(last, mean=mean)])
+        walk = FingerWalk(fingers.model, found.steps, [first, second, replace(last, mean=mean)])
         belief = dict(Smoother(walk).backwards())[0]
         assert belief is not None
         return belief.mean[ray], belief.covariance[ray]
@@ -123,7 +143,7 @@ def test_past_a_ray_found_anew_only_its_anatomy_is_carried_back_and_past_a_break
     assert (np.diagonal(through[1])[ANATOMY] <= np.diagonal(alone[1])[ANATOMY] * (1.0 + 1e-9)).all()
     flexed = replace(middle, mean=middle.mean.copy(), anew=anew.anew)
     flexed.mean[ray, joints] += 0.2
-    held = [dict(Smoother(FingerWalk(tracker._fingers.model, found.steps, [first, two, None])).backwards())[0]
+    held = [dict(Smoother(FingerWalk(fingers.model, found.steps, [first, two, None])).backwards())[0]
             for two in (anew, flexed)]  # fmt: skip
     assert held[0] is not None
     assert held[1] is not None

@@ -65,17 +65,26 @@ def test_prediction_is_f_p_f_plus_q(seed: int) -> None:
 def test_a_step_by_what_mixes_of_it_is_the_whole_step() -> None:
     rng = np.random.default_rng(3)
     mixing, settling = 3, 2
-    kept = np.r_[np.ones(mixing), rng.uniform(0.5, 1.0, STATES - mixing)]
+    kept = np.ones((MODES, STATES))
+    kept[:, STATES - settling :] = rng.uniform(0.0, 1.0, (MODES, settling))
     step = Carrying(
-        rng.normal(size=(mixing, mixing)), positive(rng, MODES, size=mixing), kept, positive(rng, size=settling)
+        rng.normal(size=(mixing, mixing)), positive(rng, MODES, size=mixing), kept, positive(rng, MODES, size=settling)
     )
+    nominal = np.r_[np.zeros(STATES - settling), rng.normal(size=settling)]
     bank = Bank(
         rng.normal(size=(1, MODES, STATES)), positive(rng, 1, MODES, size=STATES), np.full((1, MODES), 1.0 / MODES)
     )
-    found, whole = carried(bank, step), predicted(bank, step.forward[None], step.noise[None])
-    assert np.allclose(found.mean, whole.mean, atol=1e-12)
-    assert np.allclose(found.covariance, whole.covariance, atol=1e-12)
-    assert np.array_equal(step.noise[0, :mixing, mixing:], np.zeros((mixing, STATES - mixing)))
+    found = carried(bank, step, nominal)
+    for mode in range(MODES):
+        forward, noise = np.diag(kept[mode]), np.zeros((STATES, STATES))
+        forward[:mixing, :mixing] = step.moving
+        noise[:mixing, :mixing] = step.driven[mode]
+        noise[STATES - settling :, STATES - settling :] = step.settling[mode]
+        own = Bank(bank.mean[:, [mode]], bank.covariance[:, [mode]], np.ones((1, 1)))
+        whole = predicted(own, forward[None], noise[None, None])
+        # What a mode does not keep of the nominal's last numbers, which stay, is its error.
+        assert np.allclose(found.mean[0, mode], whole.mean[0, 0] + (kept[mode] - 1.0) * nominal, atol=1e-12)
+        assert np.allclose(found.covariance[0, mode], whole.covariance[0, 0], atol=1e-12)
 
 
 @pytest.mark.parametrize("seed", range(4))

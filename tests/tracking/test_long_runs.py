@@ -54,7 +54,7 @@ def test_covariance_stays_one_whatever_comes_in(name: str) -> None:
     statuses = []
     for i, (time_s, found) in enumerate(trouble(len(name), 240)):
         frame = tracker.step(i, time_s, found)
-        belief = tracker.history[-1].belief
+        belief = tracker.record.history[-1].belief
         statuses.append(frame.status)
         assert (belief is None) == (frame.status is TrackStatus.LOST)
         if belief is None:
@@ -84,7 +84,7 @@ def test_the_very_same_picture_for_a_minute_is_no_trouble() -> None:
     found = blobs(Pose(np.array([5.0, 20.0, -10.0])), np.random.default_rng(0))
     for i in range(900):
         frame = tracker.step(i, i * DT_S, found)
-    belief = tracker.history[-1].belief
+    belief = tracker.record.history[-1].belief
     assert belief is not None
     assert is_covariance(belief.covariance)
     assert frame.status is TrackStatus.TRACKED

@@ -9,7 +9,7 @@ import pytest
 from filterpy.kalman import MerweScaledSigmaPoints, UnscentedKalmanFilter
 
 from carpus.core import so3
-from carpus.core.tracking.kernel import Bank
+from carpus.core.tracking.kernel import Bank, carried
 from carpus.core.tracking.motion import MotionNoise, PalmMotion, palm_step, slowing, slowing_unseen, unseen_turns
 from carpus.core.tracking.palm_smoother import FilterStep, PalmWalk, smoothed_palm
 from carpus.core.tracking.palm_state import (
@@ -21,6 +21,7 @@ from carpus.core.tracking.palm_state import (
     SHAPE,
     SIZE,
     SKIN,
+    SOFT,
     TURN,
     VELOCITY,
     InitialSd,
@@ -28,12 +29,21 @@ from carpus.core.tracking.palm_state import (
     resting_belief,
 )
 from carpus.core.tracking.palm_view import View, recentred, sight
-from carpus.core.tracking.soft_tissue import SoftTissue, keeping, settled_covariance
+from carpus.core.tracking.soft_tissue import (
+    CUP,
+    HOME,
+    STILL,
+    SoftTissue,
+    always_pushed,
+    resting_or_moving,
+    settled_covariance,
+)
 from carpus.core.tracking.unscented import Spread
 from carpus.core.types import FloatArray
 from tests.tracking.hands import CAMERA, FROM_ABOVE, MIDDLE_M, RIGHT_PALM_M
 
-MOTION = PalmMotion(MotionNoise(), SoftTissue(), np.array([0.5, 4.0]))
+MOTION = PalmMotion(MotionNoise(), always_pushed(SoftTissue()), np.array([0.5, 4.0]))
+RESTING = PalmMotion(MotionNoise(), resting_or_moving(SoftTissue()), np.array([0.5, 4.0]))
 NO_HIDDEN = np.zeros((6, 18))
 VIEW = View(CAMERA, FROM_ABOVE, MIDDLE_M, RIGHT_PALM_M, NO_HIDDEN)
 
@@ -52,8 +62,8 @@ def moving(seed: int = 0) -> PalmBelief:
 
 
 def coasting(belief: PalmBelief, dt_s: float) -> PalmBelief:
-    """The motion written out: constant velocities, skin and relief relaxing."""
-    value = belief.value * keeping(SoftTissue(), dt_s)
+    """The motion written out: constant velocities; what skin and relief do is the modes'."""
+    value = belief.value.copy()
     value[TURN] = 0.0
     value[POSITION] = belief.position_m + dt_s * belief.velocity_m_s
     return PalmBelief(belief.rotation_w2_w0 @ so3.exp(dt_s * belief.rate_rad_s), value, belief.covariance)
@@ -71,33 +81,36 @@ def test_a_steps_transition_is_the_derivative_of_the_motion(dt_s: float) -> None
     found = palm_step(belief.rate_rad_s, MOTION, dt_s)
     after = found.carries(belief, dt_s)
     assert np.allclose(after.error_to(coasting(belief, dt_s)), 0.0, atol=1e-12)
+    forward = np.eye(SIZE)
+    forward[MOVING, MOVING] = found.moving
     for i in range(SIZE):
         error = np.zeros(SIZE)
         error[i] = step
         ahead, back = (
             after.error_to(coasting(belief.moved(sign * error, belief.covariance), dt_s)) for sign in (1.0, -1.0)
         )
-        assert np.allclose(found.forward[:, i], (ahead - back) / (2.0 * step), atol=1e-6), i
+        assert np.allclose(forward[:, i], (ahead - back) / (2.0 * step), atol=1e-6), i
 
 
 def test_a_second_brings_the_same_uncertainty_at_any_frame_rate() -> None:
     """White acceleration has a density: it matters not into how many steps the time is cut."""
-    start = resting_belief(InitialSd(), 1e-6 * np.eye(18)).covariance
+    start = resting_belief(InitialSd(), 1e-6 * np.eye(21)).covariance
     ends = []
     for steps in (1, 10, 200):
-        found = palm_step(np.zeros(3), MOTION, 1.0 / steps)
-        now = start
+        found = palm_step(np.zeros(3), RESTING, 1.0 / steps)
+        bank = Bank.alike(np.zeros((1, SIZE)), start[None], RESTING.modes)
         for _ in range(steps):
-            now = found.forward @ now @ found.forward.T + found.noise[0]
-        ends.append(now)
+            bank = carried(bank, found, np.zeros(SIZE))
+        ends.append(bank.covariance)
     assert np.allclose(ends[0], ends[2], rtol=1e-6, atol=1e-12)
     assert np.allclose(ends[1], ends[2], rtol=1e-6, atol=1e-12)
 
 
 def test_modes_scale_the_motion_and_leave_the_tissue() -> None:
-    calm, lively = palm_step(np.zeros(3), MOTION, 1.0 / 30.0).noise
-    assert np.allclose(lively[MOVING, MOVING], 64.0 * calm[MOVING, MOVING])
-    assert np.array_equal(lively[SKIN, SKIN], calm[SKIN, SKIN])
+    found = palm_step(np.zeros(3), MOTION, 1.0 / 30.0)
+    calm, lively = found.driven
+    assert np.allclose(lively, 64.0 * calm)
+    assert np.array_equal(*found.settling)
 
 
 def test_soft_tissue_settles_at_its_scatter_and_forgets() -> None:
@@ -105,13 +118,62 @@ def test_soft_tissue_settles_at_its_scatter_and_forgets() -> None:
     tissue = np.r_[SKIN, RELIEF]
     assert np.linalg.eigvalsh(settled[np.ix_(tissue, tissue)]).min() > 0.0
     found = palm_step(np.zeros(3), MOTION, 0.1)
-    now = np.zeros((SIZE, SIZE))
+    bank = Bank.alike(np.zeros((1, SIZE)), np.zeros((1, SIZE, SIZE)), 2)
     for _ in range(600):
-        now = found.forward @ now @ found.forward.T + found.noise[0]
+        bank = carried(bank, found, np.zeros(SIZE))
+    now = bank.covariance[0, 0]
     assert np.allclose(now[np.ix_(tissue, tissue)], settled[np.ix_(tissue, tissue)], rtol=1e-3, atol=1e-12)
     sd_mm = 1e3 * np.sqrt(np.diag(settled[SKIN, SKIN])).reshape(6, 3)
     assert sd_mm[5, 2] > sd_mm[4, 2] > 2.0 * sd_mm[3, 2], "the little knuckle sinks most, the middle one hardly"
     assert (sd_mm[2:, 0] > sd_mm[2:, 1]).all(), "skin glides along the ray more than across"
+
+
+def modes_after(seconds: float, mode: int) -> Bank:
+    """All modes after so long in one, the hand at rest, its skin displaced by a millimetre."""
+    nominal = np.zeros(SIZE)
+    nominal[SKIN] = 0.001
+    bank = Bank.alike(np.zeros((1, SIZE)), 1e-12 * np.eye(SIZE)[None], RESTING.modes)
+    for _ in range(round(30 * seconds)):
+        bank = carried(bank, palm_step(np.zeros(3), RESTING, 1.0 / 30.0), nominal)
+    own = [int(np.flatnonzero(RESTING.tissue_of == mode)[0])]
+    return Bank(bank.mean[:, own] + nominal, bank.covariance[:, own], np.ones((1, 1)))
+
+
+def test_tissue_at_rest_keeps_what_is_displaced_at_home_it_has_none_and_moving_it_goes_anywhere() -> None:
+    home, still, cup = (modes_after(2.0, mode) for mode in (HOME, STILL, CUP))
+    sd_m = [np.sqrt(np.diagonal(bank.covariance[0, 0])[SKIN]) for bank in (home, still, cup)]
+    assert home.mean[0, 0, SKIN] == pytest.approx(0.0, abs=1e-9)
+    assert still.mean[0, 0, SKIN] == pytest.approx(0.001, rel=1e-3)
+    assert sd_m[0].max() < 2e-5
+    assert sd_m[1].max() < 2e-4, "it does not creep away: else slow noise of the depths becomes skin"
+    assert sd_m[2][6:].reshape(4, 3)[2:, 2].min() > 2e-3, "a closing arch takes ring and little knuckle down"
+    assert sd_m[2][:6].max() < 2e-4, "and leaves wrist and thumb"
+
+
+def test_rest_is_seldom_left_and_motions_are_short() -> None:
+    switch = RESTING.switch(np.zeros(3), 1.0 / 30.0)
+    assert switch.sum(axis=1) == pytest.approx(1.0)
+    assert switch.min() >= 0.0
+    moves = RESTING.tissue_of > STILL
+    assert switch[~moves][:, moves].sum(axis=1).max() < 0.005
+    assert switch[moves][:, ~moves].sum(axis=1).min() > 0.05
+    assert RESTING.at_rest.sum() == pytest.approx(1.0)
+    assert RESTING.at_rest[RESTING.tissue_of == HOME].sum() > 0.8
+
+
+def test_what_came_after_tells_when_tissue_moved() -> None:
+    """Named by the last frame alone: the frame before cannot have been the arch's unless it is likely to stay so."""
+    cup = int(np.flatnonzero(RESTING.tissue_of == CUP)[0])
+    sure = np.full(RESTING.modes, 1e-6)
+    sure[cup] = 1.0 - 1e-6 * (RESTING.modes - 1)
+    vague = np.full(RESTING.modes, 1.0 / RESTING.modes)
+    steps = [FilterStep(k / 30.0, moving(0), sure if k == 9 else vague, k > 0) for k in range(10)]
+    went = PalmWalk(steps, RESTING).went_over
+    assert went[9] is None
+    now = [float(joint.sum(axis=0)[cup]) for joint in went if joint is not None]
+    assert now[8] == pytest.approx(1.0, abs=1e-4)
+    assert now == sorted(now), "the longer before, the less is told"
+    assert all(joint.sum() == pytest.approx(1.0) for joint in went if joint is not None)
 
 
 def test_the_line_of_sight_is_the_picture_and_its_slope() -> None:
@@ -185,7 +247,11 @@ def test_looking_back_draws_a_straight_line_through_a_gap() -> None:
         value[RATE] = [0.0, 1.0, 0.0]
         angle = 0.1 * k if k in (0, 10) else 0.1 * k + 0.05
         rotation = so3.exp(np.array([0.0, angle, 0.0]))
-        steps.append(FilterStep(0.1 * k, PalmBelief(rotation, value, sharp if k in (0, 10) else wide), 1.0, k > 0))
+        steps.append(
+            FilterStep(
+                0.1 * k, PalmBelief(rotation, value, sharp if k in (0, 10) else wide), np.array([1.0, 0.0]), k > 0
+            )
+        )
     found = smoothed_palm(steps, MOTION)
     middle = found[5]
     assert middle is not None
@@ -196,7 +262,7 @@ def test_looking_back_draws_a_straight_line_through_a_gap() -> None:
 
 
 def test_looking_back_does_not_reach_over_a_new_beginning() -> None:
-    steps = [FilterStep(0.1 * k, moving(k), 1.0, k not in (0, 2)) for k in range(4)]
+    steps = [FilterStep(0.1 * k, moving(k), np.full(2, 0.5), k not in (0, 2)) for k in range(4)]
     found = smoothed_palm(steps, MOTION)
     assert found[0] is not steps[0].belief
     assert found[1] is steps[1].belief
@@ -211,14 +277,16 @@ def test_looking_back_does_not_reach_over_a_new_beginning() -> None:
 def test_looking_back_goes_by_the_step_that_was_made() -> None:
     """Its noise, the turns that nothing showed, the rate that it began with."""
     now, unseen = moving(1), np.diag([1.0, 0.0, 0.0])
-    made = palm_step(now.rate_rad_s, replace(MOTION, scales=np.array([2.0])), 0.1, unseen)
+    made = palm_step(now.rate_rad_s, MOTION, 0.1, unseen)
     later = made.carries(now, 0.1).moved(0.01 * np.ones(SIZE), moving(2).covariance)
-    steps = [FilterStep(0.0, now, 1.0, False), FilterStep(0.1, later, 2.0, True, unseen)]
+    calm, lively = np.array([1.0, 0.0]), np.array([0.0, 1.0])
+    steps = [FilterStep(0.0, now, calm, False), FilterStep(0.1, later, lively, True, unseen)]
     walk = PalmWalk(steps, MOTION)
     assert walk.seconds_on(0) == pytest.approx(0.1)
     passage = walk.passage(0, now, later, 0.1)
-    assert np.array_equal(passage.forward[0], made.forward)
-    assert np.array_equal(passage.noise, made.noise)
+    assert np.array_equal(passage.forward[0, MOVING, MOVING], made.moving)
+    assert np.allclose(passage.noise[0, MOVING, MOVING], made.driven[1])
+    assert np.allclose(passage.noise[0, SOFT, SOFT], made.settling[1])
     assert np.allclose(passage.apart, 0.01, atol=1e-12)
 
 
@@ -242,8 +310,8 @@ def test_knuckles_alone_do_not_show_the_turn_about_their_line_and_a_wrist_beside
 
 def test_an_unseen_turn_is_pushed_as_a_hand_may_move_in_every_mode_and_no_other_is() -> None:
     unseen = np.diag([1.0, 0.0, 0.0])
-    usual = palm_step(np.zeros(3), MOTION, 1.0 / 30.0).noise
-    found = palm_step(np.zeros(3), MOTION, 1.0 / 30.0, unseen).noise
+    usual = palm_step(np.zeros(3), MOTION, 1.0 / 30.0).driven
+    found = palm_step(np.zeros(3), MOTION, 1.0 / 30.0, unseen).driven
     loud = (MOTION.unseen_scale / MOTION.scales) ** 2
     for mode in range(len(MOTION.scales)):
         grown = np.diag(found[mode]) / np.where(np.diag(usual[mode]) > 0.0, np.diag(usual[mode]), 1.0)

@@ -29,7 +29,7 @@ def angles_sd_deg(sensor: DepthSensor) -> FloatArray:
         start_angles_rad=np.zeros(3),
     )
     camera = replace(DEFAULT_CAMERA, sensor=sensor)
-    sure = replace(resting_belief(InitialSd(), 1e-12 * np.eye(18)))
+    sure = replace(resting_belief(InitialSd(), 1e-12 * np.eye(21)))
     sure = replace(sure, covariance=1e-12 * np.eye(len(sure.covariance)))
     moment = Readout(calibration, ReadoutSettings(), camera, RADIUS_M).moment(sure)
     return np.degrees(moment.angles_sd_rad)

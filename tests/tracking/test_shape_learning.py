@@ -7,10 +7,18 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from carpus.core.tracking.palm_state import SHAPE, SIZE, PalmBelief
+from carpus.core.depth_sensor import D435, PRIMESENSE
+from carpus.core.tracking.hand_filter import HandFilter
+from carpus.core.tracking.palm_state import LEARNT, SHAPE, SIZE, PalmBelief
 from carpus.core.tracking.palm_view import sight
 from carpus.core.tracking.settings import TrackerSettings
-from carpus.core.tracking.shape_learning import along_rays, hidden_by_calibration, shape_covariance, shape_shares
+from carpus.core.tracking.shape_learning import (
+    along_rays,
+    fresh_share,
+    hidden_by_calibration,
+    shape_covariance,
+    shape_shares,
+)
 from carpus.core.tracking.tracker import Tracker
 from carpus.core.tracking.unscented import Spread
 from tests.tracking.hands import CAMERA, DT_S, FROM_ABOVE, MIDDLE_M, RIGHT_PALM_M, Pose, blobs, calibration
@@ -19,15 +27,27 @@ from tests.tracking.hands import CAMERA, DT_S, FROM_ABOVE, MIDDLE_M, RIGHT_PALM_
 @pytest.mark.parametrize("news", [0.1, 1.0])
 def test_shape_takes_its_share_of_the_information(news: float) -> None:
     mean, covariance = shape_shares(news)
-    moving = np.delete(np.arange(SIZE), np.arange(SHAPE.start, SHAPE.stop))
+    moving = np.delete(np.arange(SIZE), np.arange(LEARNT.start, LEARNT.stop))
     assert (mean[moving] == 1.0).all()
-    assert mean[SHAPE] == pytest.approx(1.0 - np.sqrt(1.0 - news))
-    assert covariance[SHAPE, SHAPE] == pytest.approx(news)
+    assert mean[LEARNT] == pytest.approx(1.0 - np.sqrt(1.0 - news))
+    assert covariance[LEARNT, LEARNT] == pytest.approx(news)
     assert (covariance[moving] == 1.0).all()
 
 
+def test_a_still_hand_tells_nothing_new_of_its_shape_and_a_moving_one_does() -> None:
+    disc_m = RIGHT_PALM_M @ FROM_ABOVE.T + MIDDLE_M
+    assert fresh_share(disc_m, disc_m, CAMERA) == 0.0
+    per_px_m = MIDDLE_M[2] / CAMERA.fx_px
+    shares = [fresh_share(disc_m, disc_m + [moved_px * per_px_m, 0.0, 0.0], CAMERA) for moved_px in (0.5, 4.5, 20.0)]
+    assert shares == sorted(shares)
+    assert shares[0] < 0.15
+    assert shares[2] > 0.95
+    step_m = float(CAMERA.sensor.reading_sd_m(MIDDLE_M[2]))
+    assert fresh_share(disc_m, disc_m + [0.0, 0.0, 2.0 * step_m], CAMERA) > 0.8
+
+
 def test_errors_along_the_rays_move_no_pixel() -> None:
-    found = along_rays(calibration(), 3e-4)
+    found = along_rays(calibration(), np.full(6, 3e-4))
     for disc, covariance in zip(RIGHT_PALM_M, found, strict=True):
         spread, axes = np.linalg.eigh(covariance)
         assert spread[:2] == pytest.approx(0.0, abs=1e-15)
@@ -40,7 +60,7 @@ def test_errors_along_the_rays_move_no_pixel() -> None:
 @pytest.mark.parametrize("share", [0.0, 0.5, 1.0])
 def test_calibration_hides_its_share_of_a_depth_that_stays_wrong(share: float) -> None:
     """A disc believed 1 mm further away is expected that much further, less what its depth goes on being wrong."""
-    tracker = Tracker(calibration(), CAMERA, TrackerSettings(shape_hidden=share))
+    view = HandFilter(calibration(), CAMERA, TrackerSettings(shape_hidden=share)).view
     further = np.zeros((6, 3))
     further[3] = FROM_ABOVE.T @ np.array([0.0, 0.0, 0.001])
     seen = []
@@ -48,20 +68,24 @@ def test_calibration_hides_its_share_of_a_depth_that_stays_wrong(share: float) -
         value = np.zeros(SIZE)
         value[SHAPE] = shape.ravel()
         belief = PalmBelief(np.eye(3), value, 1e-12 * np.eye(SIZE))
-        seen.append(sight(belief, tracker.view, Spread()).value.reshape(6, 3))
+        seen.append(sight(belief, view, Spread()).value.reshape(6, 3))
     change = seen[0] - seen[1]
     assert change[:, 2] == pytest.approx([0.0, 0.0, 0.0, (1.0 - share) * 0.001, 0.0, 0.0], abs=1e-9)
-    assert np.array_equal(hidden_by_calibration(calibration(), share), tracker.view.hidden)
+    assert np.array_equal(hidden_by_calibration(calibration(), share), view.hidden)
 
 
 def test_a_calibrated_place_is_as_sure_as_it_was_measured_and_less_along_its_ray() -> None:
     measured, stays_m = calibration(sd_m=4e-4), 3e-4
-    found = shape_covariance(measured, stays_m)
+    noise = replace(TrackerSettings().noise, depth_stays_m=stays_m)
+    found = shape_covariance(measured, D435, noise)
+    locked = shape_covariance(measured, PRIMESENSE, noise) - found
     for disc, place in enumerate(RIGHT_PALM_M @ FROM_ABOVE.T + MIDDLE_M):
         own = slice(3 * disc, 3 * disc + 3)
         ray = FROM_ABOVE.T @ (place / np.linalg.norm(place))
         along = stays_m * np.linalg.norm(place) / place[2]
         assert ray @ found[own, own] @ ray == pytest.approx(4e-4**2 + along**2, rel=1e-2)
+        rounded = noise.depth_locks * float(PRIMESENSE.reading_sd_m(place[2])) * np.linalg.norm(place) / place[2]
+        assert ray @ locked[own, own] @ ray == pytest.approx(rounded**2), "depths that are rounded stay so"
         across = np.cross(ray, [1.0, 0.0, 0.0])
         assert across @ found[own, own] @ across / (across @ across) == pytest.approx(4e-4**2, rel=1e-2)
         assert not np.delete(found[own], np.arange(own.start, own.stop), axis=1).any()

@@ -12,10 +12,16 @@ from carpus.core import so3
 from carpus.core.depth_sensor import AZURE_KINECT, D435, PRIMESENSE, DepthSensor
 from carpus.core.hand.back_surface import BackSurface, BackSurfaceSettings, back_surface_from
 from carpus.core.tracking.kernel import Bank
-from carpus.core.tracking.palm_state import POSITION, RELIEF, SIZE, TURN, PalmBelief
-from carpus.core.tracking.palm_view import View
+from carpus.core.tracking.palm_state import BACK, POSITION, RELIEF, SIZE, TURN, PalmBelief
+from carpus.core.tracking.palm_view import View, recentred
 from carpus.core.tracking.shape_learning import shape_shares
-from carpus.core.tracking.surface_fit import SurfaceMeasurement, SurfaceSettings, levelled_bank, surface_measurement
+from carpus.core.tracking.surface_fit import (
+    SurfaceMeasurement,
+    SurfaceSettings,
+    calibrated_covariance,
+    levelled_bank,
+    surface_measurement,
+)
 from carpus.core.types import FloatArray, SurfaceSamples
 from tests.tracking.hands import CAMERA, FROM_ABOVE, MIDDLE_M, RIGHT_PALM_M
 
@@ -67,10 +73,43 @@ def test_a_wrong_pose_is_measured_as_wrong_as_it_is(surface: BackSurface, seed: 
     believed = belief_at(rotation @ so3.exp(turn), position + shift)
     found = surface_measurement(believed, place_on(rotation, position), surface, VIEW, SurfaceSettings())
     assert found is not None
-    assert np.array_equal(found.slope[:, RELIEF], np.eye(3)), "what the relief has changed is read as well"
+    for part in (BACK, RELIEF):
+        assert np.array_equal(found.slope[:, part], np.eye(3)), "what calibration was wrong by, or relief has changed"
     error = believed.error_to(belief_at(rotation, position))
     assert found.value == pytest.approx(found.slope @ error, abs=6e-4)
     assert abs(found.value[0]) > 1e-3 or abs(turn[0]) < 2e-3
+
+
+@pytest.mark.parametrize("sign", [-1.0, 1.0])
+def test_a_back_that_stays_deformed_does_not_go_on_turning_the_hand(surface: BackSurface, sign: float) -> None:
+    """Ten seconds of a back of the hand 1.2 degrees off its calibrated shape: pose and relief share what was seen as
+    their prior uncertainties say, once."""
+    off_rad, turn_sd, relief_sd = sign * np.radians(1.2), 0.004, 0.012
+    seen = thinned(place_on(so3.exp(np.array([0.0, off_rad, 0.0])), np.zeros(3)))
+    belief = belief_at(np.eye(3), np.zeros(3))
+    covariance = 1e-10 * np.eye(SIZE)
+    covariance[TURN, TURN], covariance[RELIEF, RELIEF] = turn_sd**2 * np.eye(3), relief_sd**2 * np.eye(3)
+    bank = Bank.alike(np.zeros((1, SIZE)), covariance[None], 2)
+    for _ in range(300):
+        found = surface_measurement(belief, seen, surface, VIEW, SurfaceSettings())
+        assert found is not None
+        levelled = levelled_bank(bank, found, shape_shares(0.1), SurfaceSettings())
+        assert levelled is not None
+        belief, bank = recentred(belief, levelled)
+    turned, relief = so3.log(belief.rotation_w2_w0)[1], belief.value[RELIEF][1]
+    assert turned + relief == pytest.approx(off_rad, rel=0.02)
+    assert turned / (turned + relief) == pytest.approx(turn_sd**2 / (turn_sd**2 + relief_sd**2), abs=0.02)
+
+
+def test_a_calibrated_back_is_as_unsure_as_a_part_of_one_picture(surface: BackSurface) -> None:
+    settings = SurfaceSettings()
+    found = calibrated_covariance(surface, VIEW, settings)
+    one = fitted(surface, thinned(place_on(np.eye(3), np.zeros(3))), replace(settings, turn_sd_rad=0.0, up_sd_m=0.0))
+    ratio = np.diag(found) / (np.diag(one.covariance) / settings.goes_on)
+    assert (ratio < 2.0 * settings.stays**2).all()
+    assert (ratio > 0.5 * settings.stays**2).all()
+    further = replace(VIEW, translation_w0_cam_m=1.3 * MIDDLE_M)
+    assert (np.diag(calibrated_covariance(surface, further, settings)) > 2.0 * np.diag(found)).all()
 
 
 def thinned(samples: SurfaceSamples, most: int = 800) -> SurfaceSamples:
@@ -83,7 +122,7 @@ def thinned(samples: SurfaceSamples, most: int = 800) -> SurfaceSamples:
 def test_depth_noise_scatters_as_stated(surface: BackSurface, shared: float) -> None:
     """With errors that are each pixel's own, or shared by those of one matching window, the stated covariance is that
     of the scatter."""
-    settings = SurfaceSettings(shared=shared, turn_sd_rad=0.0, up_sd_m=0.0, reading_per_m=0.0014)
+    settings = SurfaceSettings(shared=shared, turn_sd_rad=0.0, up_sd_m=0.0, goes_on=1.0, reading_per_m=0.0014)
     rng, here = np.random.default_rng(0), belief_at(np.eye(3), np.zeros(3))
     clean = thinned(place_on(np.eye(3), np.zeros(3)))
     sd_m = 0.0014 * float(np.median(clean.depth_m)) ** 2

@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from carpus.core.tracking.doubt import DoubtSettings
+from carpus.core.tracking.consistency import ConsistencySettings
 from carpus.core.tracking.palm_state import SHAPE
 from carpus.core.tracking.settings import TrackerSettings
 from carpus.core.tracking.tracker import Tracker
@@ -54,20 +54,22 @@ def statuses(frames: list[TrackedFrame]) -> list[TrackStatus]:
     return [frame.status for frame in frames]
 
 
-def test_a_step_needs_no_expectation_and_takes_none_of_another_moment() -> None:
-    """What was expected spares work and decides nothing."""
+def test_a_step_needs_no_prediction_and_takes_none_of_another_moment() -> None:
+    """What was predicted before a picture came spares work and decides nothing."""
     walk = seen(swing(1, 30.0, 1.0), 12)
     bare, asked, misled = (Tracker(calibration(), CAMERA, RIGID) for _ in range(3))
-    old = misled.expect(0.0)
     for k, (time_s, found) in enumerate(walk):
         frames = (
             bare.step(k, time_s, found),
-            asked.step(k, time_s, found, expected=asked.expect(time_s)),
-            misled.step(k, time_s, found, expected=old),
+            _asked_for(asked, time_s).step(k, time_s, found),
+            _asked_for(misled, time_s + 0.2).step(k, time_s, found),
         )
         assert all(np.array_equal(frames[0].moment.angles_rad, frame.moment.angles_rad) for frame in frames)
-    assert old is not None
-    assert old.foreseen.timestamp_s == 0.0
+
+
+def _asked_for(tracker: Tracker, time_s: float) -> Tracker:
+    assert tracker.expect(time_s) is not None
+    return tracker
 
 
 def still(_time_s: float) -> Pose:
@@ -406,22 +408,11 @@ def test_prediction_says_where_to_look() -> None:
     assert outside == 0
 
 
-def test_asking_ahead_does_not_change_the_result() -> None:
-    frames = seen(swing(1, 30.0, 0.5), 40)
-    asked = Tracker(calibration(), CAMERA, TrackerSettings())
-    answers = []
-    for k, (t, found) in enumerate(frames):
-        asked.expect(t)
-        asked.expect(t)
-        answers.append(asked.step(k, t, found))
-    assert np.array_equal(angles_deg(answers), angles_deg(track(frames)))
-
-
 def test_beginning_again_forgets_the_old_stretch() -> None:
     """After the still capture the tracker starts anew: nothing of before is counted twice."""
 
     def knows_of_shape(tracker: Tracker, step: int) -> float:
-        belief = tracker.history[step].belief
+        belief = tracker.record.history[step].belief
         assert belief is not None
         return float(np.trace(belief.covariance[SHAPE, SHAPE]))
 
@@ -440,7 +431,7 @@ def test_beginning_again_forgets_the_old_stretch() -> None:
 def test_without_history_nothing_is_kept() -> None:
     tracker = Tracker(calibration(), CAMERA, TrackerSettings(), keep_history=False)
     track(seen(still, 10), tracker=tracker)
-    assert tracker.history == []
+    assert tracker.record.history == []
 
 
 def test_smoothed_is_nearer_to_the_truth_than_filtered() -> None:
@@ -538,7 +529,7 @@ def lost_and_found(shown_after: int) -> list[TrackStatus]:
 def test_what_is_doubted_is_stated_so_much_less_surely_and_nothing_else_changes() -> None:
     frames = [(t, blobs(Pose(), np.random.default_rng(i), pixel_sd_px=0.6)) for i, t in enumerate(times(20))]
     sure, doubted = (
-        track(frames, replace(TrackerSettings(), doubt=DoubtSettings(most_nis=most)))[-1] for most in (1e9, 0.0)
+        track(frames, replace(TrackerSettings(), doubt=ConsistencySettings(most_nis=most)))[-1] for most in (1e9, 0.0)
     )
     assert (sure.status, doubted.status) == (TrackStatus.TRACKED, TrackStatus.DOUBTFUL)
     assert np.array_equal(sure.moment.angles_rad, doubted.moment.angles_rad)

@@ -39,7 +39,7 @@ def board_progress() -> tuple[Frame, BoardProgress]:
     assert look is not None
     step = next_step(judgement, look.found)
     target = target_outline(step, CHESSBOARD, DEFAULT_CAMERA)
-    return frames[-1], BoardProgress(look, judgement, step, target, CHESSBOARD.corner_count, 30)
+    return frames[-1], BoardProgress(look, judgement, step, target, CHESSBOARD.corner_count, 30, frames[-1])
 
 
 def board_result(*, poor: bool = False) -> BoardResult:

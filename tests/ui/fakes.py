@@ -12,7 +12,8 @@ from typing import Any
 
 import numpy as np
 
-from carpus.core.agreement.compare import Alignment, Compared, Pairs, Shift
+from carpus.core.agreement.clocks import Shift
+from carpus.core.agreement.compare import Alignment, Compared, Pairs
 from carpus.core.agreement.restated import Restated
 from carpus.core.agreement.retest import Retest, StudyFigures
 from carpus.core.agreement.retest_plan import Mounting, Person, RetestPlan
@@ -37,6 +38,7 @@ from carpus.core.simulation.spec import RecordingSpec
 from carpus.core.spot_answer import SpotAnswer
 from carpus.core.types import ByteImage, Detections, Frame, Moment, TrackedFrame, TrackStatus
 from carpus.ui.ports import (
+    MOST_ROWS,
     FoundMarker,
     Judged,
     PatientCard,
@@ -220,6 +222,7 @@ class FakeFeed:
         self.first_recorded = 0
         self.events: list[LiveEvent] = []
         self.noted: list[tuple[str, str]] = []
+        self.told: list[tuple[str, float]] = []
         self.picture_number: int | None = None
 
     @property
@@ -272,6 +275,9 @@ class FakeFeed:
     def add_event(self, kind: str, text: str = "") -> bool:
         self.noted.append((kind, text))
         return self.recording
+
+    def tell(self, kind: str, at_s: float) -> None:
+        self.told.append((kind, at_s))
 
     def pause_recording(self) -> None:
         self.paused = True
@@ -412,9 +418,14 @@ class FakeStore:
     def __init__(self, rows: Sequence[PatientRow] | None = None) -> None:
         self.rows = list(_rows() if rows is None else rows)
         self.added: list[PatientEntry] = []
+        self.in_archive: list[str] = []
 
-    def patients(self) -> list[PatientRow]:
-        return list(self.rows)
+    def patients(self, search: str = "") -> list[PatientRow]:
+        words = search.casefold().split()
+        return [one for one in self.rows if all(word in one.pseudonym.casefold() for word in words)][:MOST_ROWS]
+
+    def archived(self) -> list[str]:
+        return list(self.in_archive)
 
     def card(self, patient_id: str) -> PatientCard:
         if patient_id == PRACTICE_PATIENT:
@@ -458,7 +469,8 @@ class FakeCalibrator:
         self.limits = VerdictLimits(0.6, 15.0, 4.0, (110.0, 225.0))
         self.findings: tuple[Finding, ...] = ()
         self.doubtful: tuple[str, ...] = ()
-        self.not_found: tuple[str, ...] = ()
+        self.not_found: tuple[str, ...] = self.protocol.markers if protocol == "wrist6" else ()
+        """Not proposed: of six discs a test asks for proposals."""
         self.begun: Calibration | None = None
         self.judged: list[Clicks] = []
         self.angles: list[np.ndarray] = []
@@ -477,6 +489,9 @@ class FakeCalibrator:
 
     def discs_seen(self) -> int:
         return 6
+
+    def discs_px(self) -> np.ndarray:
+        return self.disc_px
 
     def hand_area(self) -> np.ndarray:
         return np.array([self.disc_px.min(axis=0), self.disc_px.max(axis=0)])
@@ -635,6 +650,9 @@ class FakeShelf:
     def other_patients(self, patient_id: str) -> list[tuple[str, str]]:
         return [("heron", "Heron 17"), ("alder", "Alder 51")]
 
+    def archived(self, patient_id: str) -> int:
+        return 0
+
     def files_of(self, session_id: str) -> list[tuple[str, int]]:
         return [("a.h5", 2_000_000), ("a.choices.json", 300)]
 
@@ -734,7 +752,7 @@ def retest_plan(people: int = 9) -> RetestPlan:
     }  # fmt: skip
     found = {
         key: Retest(
-            people, 2 * people, 0.9, (0.7, 0.97), sem, (0.7 * sem, 1.6 * sem), people - 1.0, mdc,
+            people, 2 * people, 0.9, (0.7, 0.97), 0.92, (0.74, 0.98), sem, (0.7 * sem, 1.6 * sem), people - 1.0, mdc,
             (0.7 * mdc, 1.6 * mdc), math.nan, 0.2,
         )
         for key, (sem, mdc) in ends.items()

@@ -115,7 +115,7 @@ RECOVERED = Words(
 
 
 ERASED_SESSION = ErasureFacts(
-    "Linden 42", datetime(2026, 10, 9, 9, 51), "WRIST_FE", "right", 1, 4, 38.2, 2, 1, 0, 0, 8,
+    "Linden 42", datetime(2026, 10, 9, 9, 51), "WRIST_FE", "right", 1, 4, 38.2, ("/home/clinic/Reports/L.pdf",), 8,
     datetime(2026, 11, 15, 18, 4), date(2036, 10, 9), 10, TODAY,
 )  # fmt: skip
 OLD_BACKUP = BackupFacts(
@@ -764,8 +764,9 @@ class Gallery:
     def patient_erase(self) -> None:
         self.patients()
         patient = replace(
-            ERASED_SESSION, when=None, sessions=9, files=31, size_mb=412.0, exports=4, reports=0, changed=2,
-            not_found=1, others=0, last_backup=None, kept_until=date(2026, 10, 9),
+            ERASED_SESSION, when=None, sessions=9, files=31, size_mb=412.0, others=0,
+            made=("/home/clinic/Reports/L.pdf", "/home/clinic/Reports/L.csv"),
+            last_backup=None, kept_until=date(2026, 10, 9),
         )  # fmt: skip
         self._over(EraseSheet(self.shell.stage, self.theme)).begin(patient)
         self.settle()
@@ -947,7 +948,7 @@ class Gallery:
                 1,
             )
         ]
-        self._over(LogSheet(self.shell.stage, self.theme)).begin(deeds, ())
+        self._over(LogSheet(self.shell.stage, self.theme)).begin(deeds)
         self.settle()
 
     def _board(self) -> BoardScreen:
@@ -970,8 +971,8 @@ class Gallery:
         screen.show_showing(simulated=False)
         screen.showing.opened()
         frame, progress = board_progress()
-        screen.showing.show_frame(frame.color_rgb)
         screen.showing.show_progress(progress)
+        screen.showing.show_frame(frame)
         self.settle()
 
     def board_result(self) -> None:

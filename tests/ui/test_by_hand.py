@@ -17,8 +17,8 @@ from carpus.app.desktop.printing import write_tables
 from carpus.core.by_hand.values import HandValue, counted
 from carpus.core.library.library import Library
 from carpus.core.output.report_content import progress
-from carpus.core.safekeeping.audit import read_audit
-from carpus.core.session.register import PatientEntry
+from carpus.core.records.log import read_log
+from carpus.core.records.values import PatientEntry
 from carpus.ui.background import Background
 from carpus.ui.by_hand.screen import ByHandScreen, HandRecord
 from carpus.ui.ports import PatientRow
@@ -128,7 +128,7 @@ class Told:
 
     def ask(self, question: object, answers: list[object], **_: object) -> None:
         self.asked.append(question.what)  # type: ignore[attr-defined]
-        answers[1].action()  # type: ignore[attr-defined]
+        answers[0].action()  # type: ignore[attr-defined]
 
     def fault(self, fault: Exception) -> None:
         raise fault
@@ -154,7 +154,7 @@ def library(tmp_path: Path) -> Iterator[Library]:
 def test_what_is_saved_is_in_the_register_and_in_the_log(
     screen: ByHandScreen, library: Library, background: Background, qtbot: QtBot
 ) -> None:
-    patient = library.clinic.add(PatientEntry("Linden 42", "left"))
+    patient = library.patients.add(PatientEntry("Linden 42", "left"))
     told, now, left = Told(), NowOpen(choice=SourceChoice("camera")), []
     now.patient = PatientRow(patient, "Linden 42", "left")
     owner = QObject()
@@ -186,7 +186,7 @@ def test_what_is_saved_is_in_the_register_and_in_the_log(
     flow.leave()
     assert left == [1]
     typed(screen, "FLEXION", "70")
-    heron = library.clinic.add(PatientEntry("Heron 17", "right"))
+    heron = library.patients.add(PatientEntry("Heron 17", "right"))
     for person, name, written in ((heron, "Heron 17", ""), (patient, "Linden 42", "70")):
         now.patient = PatientRow(person, name, "left")
         flow.show()
@@ -194,7 +194,7 @@ def test_what_is_saved_is_in_the_register_and_in_the_log(
         assert screen.form.rows["FLEXION"].fields[0][1].text() == written, name
     flow.leave()
     assert told.asked[1:] == ["Leave without saving?"]
-    assert [entry.did for entry in read_audit(library.folder).entries] == ["entered_by_hand"] * 2
+    assert [entry.did for entry in read_log(library.store)] == ["entered_by_hand"] * 2
 
 
 def test_reports_and_table_tell_them_as_entered_by_hand(tmp_path: Path) -> None:

@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import replace
 from datetime import timedelta
 
 import pytest
 from PySide6.QtCore import QPointF, Qt
 from pytestqt.qtbot import QtBot
 
+from carpus.core.by_hand.values import HandValue
 from carpus.core.output.report_content import progress
 from carpus.ui.plot import course
 from carpus.ui.plot.course_view import ProgressChart
@@ -109,3 +111,21 @@ def test_the_table_has_a_row_for_each_point_that_is_shown(chart: ProgressChart) 
     for _ in range(6):
         chart.zoom_in()
     assert 0 < len(list(chart.table()[1])) < len(rows)
+
+
+@pytest.mark.parametrize(("apart", "said"), [(timedelta(minutes=5), 1), (timedelta(days=20), 2)])
+def test_figures_of_two_sessions_never_stand_on_each_other(
+    chart: ProgressChart, store: FakeSessions, monkeypatch: pytest.MonkeyPatch, apart: timedelta, said: int
+) -> None:
+    alike = [figures for figures in store.history("linden") if figures.side == "right"]
+    first, second = sorted(alike, key=lambda figures: figures.when)[:2]
+    by_hand = HandValue("FLEXION", "active", "right", first.when.date() + timedelta(days=30), (45.0,))
+    two = progress([first, replace(second, when=first.when + apart)])
+    said_at: list[float] = []
+    monkeypatch.setattr(course.Points, "_paint_value", lambda *given: said_at.append(given[4]))
+    chart.show_progress(replace(two, by_hand=(by_hand,)))
+    chart.grab()
+    panels = len(chart.panels())
+    assert panels
+    assert len(set(said_at)) == said
+    assert len(said_at) % (said * panels) == 0

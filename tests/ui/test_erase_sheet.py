@@ -35,10 +35,22 @@ def done(sheet: EraseSheet) -> list[str]:
 
 
 def test_enter_archives(qtbot: QtBot, sheet: EraseSheet) -> None:
-    assert sheet.window().focusWidget() is sheet.instead
     qtbot.keyClick(sheet.instead, Qt.Key.Key_Return)
     assert done(sheet) == ["archive"]
     assert not sheet.isVisible()
+
+
+def test_the_name_typed_as_asked_presses_nothing(qtbot: QtBot, sheet: EraseSheet) -> None:
+    """Keys go to whatever has the keyboard, as a person's do: the space of the name is a letter."""
+    for letter in "Linden 42":
+        focused = sheet.window().focusWidget()
+        assert focused is sheet.line
+        qtbot.keyClicks(focused, letter)
+    assert done(sheet) == []
+    assert sheet.isVisible()
+    assert sheet.for_good.isEnabled()
+    qtbot.keyClick(sheet.line, Qt.Key.Key_Return)
+    assert done(sheet) == ["archive"], "Enter is what the button that bears it says"
 
 
 def test_only_the_pseudonym_lets_it_be_erased_and_never_enter(qtbot: QtBot, sheet: EraseSheet) -> None:
@@ -47,11 +59,9 @@ def test_only_the_pseudonym_lets_it_be_erased_and_never_enter(qtbot: QtBot, shee
     assert not sheet.for_good.isEnabled()
     qtbot.keyClicks(sheet.line, "2")
     assert sheet.for_good.isEnabled()
-    for widget in (sheet.line, sheet.for_good):
-        widget.setFocus()
-        qtbot.keyClick(widget, Qt.Key.Key_Return)
-        assert done(sheet) == []
-        assert sheet.isVisible()
+    sheet.for_good.setFocus()
+    qtbot.keyClick(sheet.for_good, Qt.Key.Key_Return)
+    assert done(sheet) == []
     sheet.for_good.click()
     assert done(sheet) == ["erase"]
     sheet.begin(ERASED_SESSION)
@@ -66,16 +76,17 @@ def test_esc_does_nothing(qtbot: QtBot, sheet: EraseSheet) -> None:
 
 def test_it_says_what_goes_what_stays_and_what_comes_too_early(sheet: EraseSheet) -> None:
     assert "4 files, 38 MB" in sheet.goes.text()
-    assert "2 exports and 1 report" in sheet.goes.text()
+    assert "delete them yourself (1): /home/clinic/Reports/L.pdf" in sheet.stays.text()
     assert "The other 8 sessions." in sheet.stays.text()
     assert "15 Nov" in sheet.stays.text()
     assert "before that day" in sheet.ends.text()
-    sheet.begin(replace(ERASED_SESSION, kept_until=date(2026, 11, 19), exports=0, reports=0, changed=1, not_found=2))
+    sheet.begin(replace(ERASED_SESSION, kept_until=date(2026, 11, 19), made=tuple(map(str, range(5)))))
     assert "before that day" not in sheet.ends.text()
-    assert "export" not in sheet.goes.text()
-    assert "changed since: 1." in sheet.stays.text()
-    assert "not where Carpus put them: 2" in sheet.stays.text()
+    assert "(5): 0, 1, 2, …" in sheet.stays.text()
     sheet.begin(replace(ERASED_SESSION, when=None, kept_until=None, sessions=9, files=31))
     assert "9 sessions" in sheet.goes.text()
+    sheet.begin(replace(ERASED_SESSION, when=None, kept_until=None, sessions=1, files=31))
+    assert "1 session with" in sheet.goes.text()
+    sheet.begin(replace(ERASED_SESSION, when=None, kept_until=None, sessions=9, files=31))
     assert "real name" in sheet.goes.text()
     assert sheet.ends.text() == "Nobody can bring it back."

@@ -71,3 +71,16 @@ def test_of_a_patient_with_two_hands_affected_one_must_be_chosen(qtbot: QtBot, s
     qtbot.mouseClick(screen.side.buttons()[1], Qt.MouseButton.LeftButton)
     assert screen.primary.isEnabled()
     assert screen.set_up().side == "left"
+
+
+def test_enter_goes_on_from_every_field_and_after_the_targets_were_taken(qtbot: QtBot, screen: ExerciseScreen) -> None:
+    sent: list[object] = []
+    screen.ready.connect(sent.append)
+    screen.accept.show()
+    qtbot.mouseClick(screen.accept, Qt.MouseButton.LeftButton)
+    assert screen.window().focusWidget() is screen.primary, "where Enter stands"
+    for field in (screen.primary, screen.targets[0], screen.repetitions, screen.side.buttons()[0]):
+        before = len(sent)
+        field.setFocus()
+        qtbot.keyClick(field, Qt.Key.Key_Return)
+        assert len(sent) == before + 1, field

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import math
 from dataclasses import replace
 from pathlib import Path
@@ -10,24 +9,27 @@ from types import SimpleNamespace
 
 import pytest
 from pytestqt.qtbot import QtBot
+from sqlalchemy import update
 
 from carpus.app.desktop.courses import LINGER_S, CourseRun
 from carpus.app.desktop.patient_view import PatientViewing
-from carpus.core.errors import SetsUnreadable
+from carpus.core.errors import ChangedMeanwhile
 from carpus.core.library.exercise_sets import (
-    SETS_FILE,
     USUAL_SETS,
     ExerciseSet,
     begun,
-    keep_sets,
     next_part,
-    read_sets,
 )
+from carpus.core.library.kept_sets import keep_sets, read_sets
 from carpus.core.library.library import Library
 from carpus.core.library.set_up import CoursePart
+from carpus.core.library.set_ups import keep_set_up
 from carpus.core.output.exercises import exercise_named
 from carpus.core.output.report_content import progress, session_figures
-from carpus.core.session.register import PatientEntry
+from carpus.core.records.changes import dropped
+from carpus.core.records.schema import EXERCISE_SET, PATIENT
+from carpus.core.records.store import Store
+from carpus.core.records.values import PatientEntry
 from carpus.ui.background import Background
 from carpus.ui.keys import Keys
 from carpus.ui.live.glance import Glance
@@ -47,62 +49,56 @@ OWN = ExerciseSet(
 )
 
 
-def test_sets_are_read_as_they_were_kept_and_a_damaged_file_is_told_and_kept_beside(tmp_path: Path) -> None:
-    assert read_sets(tmp_path) == USUAL_SETS
-    keep_sets(tmp_path, (*USUAL_SETS, OWN))
-    assert read_sets(tmp_path) == (*USUAL_SETS, OWN)
-    path = tmp_path / SETS_FILE
-    stored = json.loads(path.read_text(encoding="utf-8"))
-    for damage in (
-        {"discs": "wrist7"},
-        {"parts": []},
-        {"parts": [{"exercise": "FIST_HOOK", "repetitions": 3, "seconds": 0, "rest_s": 0}]},
-        {"parts": [{"exercise": "FREE", "repetitions": 3, "seconds": 0, "rest_s": 0}]},
-        {"parts": [{"exercise": "WRIST_FE", "repetitions": 10**9, "seconds": 0, "rest_s": 0}]},
-        {"parts": [{"exercise": "WRIST_FE", "repetitions": math.inf, "seconds": 0, "rest_s": 0}]},
-    ):
-        path.write_text(json.dumps({"sets": [stored["sets"][0] | damage]}), encoding="utf-8")
-        with pytest.raises(SetsUnreadable):
-            read_sets(tmp_path)
-    path.write_text("[", encoding="utf-8")
-    keep_sets(tmp_path, (OWN,))
-    assert read_sets(tmp_path) == (OWN,)
-    assert (tmp_path / "exercise_sets.unusable.json").read_text(encoding="utf-8") == "["
+def test_sets_are_read_as_they_were_kept_and_a_second_person_s_change_is_told(tmp_path: Path) -> None:
+    with Store(tmp_path) as store:
+        assert read_sets(store) == USUAL_SETS
+        keep_sets(store, (*USUAL_SETS, OWN), USUAL_SETS)
+        assert read_sets(store) == (*USUAL_SETS, OWN)
+        longer = replace(OWN, name="Longer")
+        keep_sets(store, (*USUAL_SETS, longer), (*USUAL_SETS, OWN))
+        with pytest.raises(ChangedMeanwhile):
+            keep_sets(store, (*USUAL_SETS, replace(OWN, name="Mine")), (*USUAL_SETS, OWN))
+        other = replace(OWN, set_id="other")
+        keep_sets(store, (*USUAL_SETS, longer, other), (*USUAL_SETS, longer))
+        keep_sets(store, (longer,), (*USUAL_SETS, longer))
+        assert set(read_sets(store)) == {longer, other}, "what somebody else added stays"
+        store.own(update(EXERCISE_SET).where(EXERCISE_SET.c.id == "other").values(discs="wrist7"))
+        assert read_sets(store) == (longer,)
 
 
 def test_the_next_session_begins_with_the_set_of_the_last_one(tmp_path: Path) -> None:
     library = Library(tmp_path)
-    patient = library.clinic.add(PatientEntry("Heron 3", "left"))
-    keep_sets(tmp_path, (OWN,))
+    patient = library.patients.add(PatientEntry("Heron 3", "left"))
+    keep_sets(library.store, (OWN,), USUAL_SETS)
     first = begun(OWN, replace(set_up(), patient_id=patient, pseudonym="Heron 3", side="left", for_child=True), {})
     second = next_part(first)
     assert second is not None
     assert next_part(second) is None
-    library._keep_set_up(second)
+    keep_set_up(library.store, second)
     again = library.last_set_up(patient)
     assert again is not None
     assert again.course is not None
     assert first.course is not None
     assert (again.exercise.id, again.repetitions, again.for_child) == ("WRIST_FE", 2, True)
     assert again.course.run_id != first.course.run_id
-    keep_sets(tmp_path, USUAL_SETS)
+    keep_sets(library.store, USUAL_SETS, (OWN,))
     assert library.last_set_up(patient).course is None  # type: ignore[union-attr]
     library.close()
 
 
 def test_goals_are_kept_for_each_exercise_and_hand_and_go_into_sets(tmp_path: Path) -> None:
     library = Library(tmp_path)
-    patient = library.clinic.add(PatientEntry("Heron 3", "left"))
+    patient = library.patients.add(PatientEntry("Heron 3", "left"))
     one = replace(set_up(target_deg=50.0), patient_id=patient, pseudonym="Heron 3")
-    library._keep_set_up(one)
-    library._keep_set_up(replace(one, exercise=exercise_named("FREE"), side="left"))
-    library._keep_set_up(replace(one, exercise=exercise_named("WRIST_RU"), target_negative_deg=-20.0))
+    keep_set_up(library.store, one)
+    keep_set_up(library.store, replace(one, exercise=exercise_named("FREE"), side="left"))
+    keep_set_up(library.store, replace(one, exercise=exercise_named("WRIST_RU"), target_negative_deg=-20.0))
     goals = library.goals(patient)
     assert {key: value[0] for key, value in goals.items()} == {("WRIST_FE", "right"): 50.0, ("WRIST_RU", "right"): 50.0}
     assert goals["WRIST_RU", "right"][1] == -20.0
     assert begun(OWN, one, goals).target_positive_deg == 50.0
     assert math.isnan(begun(OWN, replace(one, side="left"), goals).target_positive_deg)
-    library.forget_set_up(patient)
+    library.store.do([dropped(PATIENT, patient)])
     assert library.goals(patient) == {}
     library.close()
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import threading
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
 
 import pytest
@@ -15,6 +15,7 @@ from carpus.app.desktop.last_places import LastPlaces
 from carpus.app.desktop.printing import Printing
 from carpus.app.desktop.report_forms import ReportForms
 from carpus.core.formats.formats import FORMATS
+from carpus.core.records.store import Store
 from carpus.ui.background import Background
 from carpus.ui.keys import Keys
 from carpus.ui.report.screen import ReportScreen
@@ -59,7 +60,7 @@ class Stored:
 @pytest.fixture
 def parts(
     qtbot: QtBot, theme: Theme, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> tuple[Printing, Stored, Told, Background]:
+) -> Iterator[tuple[Printing, Stored, Told, Background]]:
     window = QWidget()
     qtbot.addWidget(window)
     window.resize(1280, 800)
@@ -67,12 +68,14 @@ def parts(
     screen = ReportScreen(theme, Keys({}), background)
     qtbot.addWidget(screen)
     monkeypatch.setattr(QFileDialog, "getExistingDirectory", lambda *_: str(tmp_path))
+    store = Store(tmp_path)
     printing = Printing(
         window, screen, None, told, None, stored, LastPlaces(tmp_path), background,  # type: ignore[arg-type]
-        theme=theme, therapist=lambda: "", forms=ReportForms(window, theme, tmp_path, told.fault),
+        theme=theme, therapist=lambda: "", forms=ReportForms(window, theme, store, told.fault),
     )  # fmt: skip
     window.show()
-    return printing, stored, told, background
+    yield printing, stored, told, background
+    store.close()
 
 
 def test_every_format_is_offered_and_what_is_ticked_is_written(qtbot: QtBot, parts: tuple) -> None:  # type: ignore[type-arg]

@@ -124,6 +124,9 @@ def test_repetitions_and_best_are_counted_from_recorded_frames_only(qtbot: QtBot
     run(screen, feed, 24.0)
     assert screen._count is not None
     assert screen._count.count() in (3, 4)
+    assert 1 <= len(feed.told) <= screen._count.repetitions, "each that is counted is told to the network, at its end"
+    assert {kind for kind, _ in feed.told} == {"repetition"}
+    assert all(screen._count._times[0] < at_s <= screen._count._times[-1] for _, at_s in feed.told)
     recorded = np.degrees(
         [
             f.moment.angles_rad[1]

@@ -332,6 +332,42 @@ def test_a_marker_that_was_not_found_is_asked_for(qtbot: QtBot, screen: MarkersS
     np.testing.assert_allclose(calibrator.judged[-1].pixel, calibrator.disc_px)
 
 
+def test_six_discs_are_proposed_as_twenty_one_are_and_one_enter_takes_them(qtbot: QtBot, screen: MarkersScreen) -> None:
+    calibrator = FakeCalibrator()
+    calibrator.not_found = ()
+    screen.begin(calibrator)
+    qtbot.waitUntil(lambda: screen.clicking is not None and len(screen.clicking.proposed) == 6)
+    assert screen.primary.text() == "Names are right"
+    assert screen.primary.shown_key == "Enter"
+    qtbot.keyClick(screen.picture, Qt.Key.Key_Return)
+    wait_for_verdict(qtbot, screen)
+    np.testing.assert_allclose(calibrator.judged[-1].pixel, calibrator.disc_px)
+    assert screen.primary.text() == "Start measuring"
+
+
+@pytest.mark.parametrize("scale", [1.0, 1.5])
+@pytest.mark.parametrize("named", [0, 1, 3, 6])
+def test_no_name_covers_a_disc_that_is_to_be_clicked(
+    qtbot: QtBot, screen: MarkersScreen, theme: Theme, named: int, scale: float
+) -> None:
+    theme.choose(text_scale=scale)
+    calibrator = FakeCalibrator()
+    screen.begin(calibrator)
+    picture = screen.picture
+    qtbot.waitUntil(lambda: picture.width() > 400)
+    discs = [picture.to_screen(*map(float, pixel)) for pixel in calibrator.disc_px]
+    assert screen.clicking is not None
+    rings = []
+    for name, pixel, at in zip(calibrator.protocol.markers[:named], calibrator.disc_px, discs, strict=False):
+        screen.clicking.pixel[name], screen.clicking.widths_px[name] = pixel, 10.0
+        rings.append((name, at, 13.0))
+    plates = picture.name_plates(rings, "")
+    assert [one.name for one in plates] == list(calibrator.protocol.markers[:named]), "every name has its place"
+    for one in plates:
+        assert not any(one.plate.adjusted(-8, -8, 8, 8).contains(at) for at in discs), one.name
+        assert not any(one.plate.intersects(other.plate) for other in plates if other is not one)
+
+
 def test_all_markers_can_still_be_clicked_by_hand(qtbot: QtBot, screen: MarkersScreen) -> None:
     calibrator = proposed(qtbot, screen)
     qtbot.mouseClick(screen.second, Qt.MouseButton.LeftButton)
@@ -381,14 +417,14 @@ def test_two_fingers_named_for_each_other_change_places_by_one_key(qtbot: QtBot,
 def test_enter_never_takes_a_doubtful_name_unseen(qtbot: QtBot, screen: MarkersScreen) -> None:
     calibrator = proposed(qtbot, screen, doubtful=("TIP4", "DIP4"))
     assert screen.clicking is not None
-    assert screen.primary.text() != "Take all names"
+    assert screen.primary.text() != "Names are right"
     for name in ("DIP4", "TIP4"):
         at = calibrator.disc_px[screen.clicking.order.index(name)]
         np.testing.assert_allclose(screen.picture.cursor_px, at)  # in the loupe
         qtbot.keyClick(screen.picture, Qt.Key.Key_Return)
         np.testing.assert_allclose(screen.clicking.pixel[name], at)
         assert len(screen.clicking.pixel) <= 2
-    assert screen.primary.text() == "Take all names"
+    assert screen.primary.text() == "Names are right"
     assert not screen.take_rest.isVisible()
 
 
@@ -476,3 +512,13 @@ def test_a_wrist_is_not_asked_for_its_fingers(qtbot: QtBot, screen: MarkersScree
     click_all(qtbot, screen, calibrator)
     wait_for_verdict(qtbot, screen)
     assert not screen.straight.isVisible()
+
+
+def test_only_what_a_person_named_is_missed(qtbot: QtBot, screen: MarkersScreen) -> None:
+    calibrator = FakeCalibrator()
+    calibrator.not_found = ()
+    screen.begin(calibrator)
+    qtbot.waitUntil(lambda: screen.clicking is not None and len(screen.clicking.proposed) == 6)
+    assert not screen.has_names, "proposals come back by themselves"
+    qtbot.keyClick(screen.picture, Qt.Key.Key_Return)
+    assert screen.has_names

@@ -11,9 +11,10 @@ import pytest
 from PySide6.QtGui import QColor, QImage, QPageSize
 from PySide6.QtPrintSupport import QPrinter
 
-from carpus.core.errors import SettingsInvalid
-from carpus.core.library.clinic_form import FORM_FILE, LOGO_FILE, keep_form, read_form
+from carpus.core.errors import ChangedMeanwhile
+from carpus.core.library.clinic_form import form_in, keep_form, read_form
 from carpus.core.output.report_form import PAPER_PT, PAPERS, SECTIONS, Letterhead, Paper, ReportForm
+from carpus.core.records.store import Store
 from carpus.ui.background import Background
 from carpus.ui.keys import Keys
 from carpus.ui.language import LANGUAGES
@@ -105,23 +106,20 @@ def test_what_may_never_be_left_out_stays(tmp_path: Path) -> None:
         assert gone not in words
 
 
-def test_the_form_is_kept_with_its_logo_and_a_file_that_is_gone_is_said(tmp_path: Path) -> None:
-    assert read_form(tmp_path, "letter") == ReportForm(paper="letter")
-    logo = logo_png(picture(tmp_path / "own.jpg"))
-    form = ReportForm(Letterhead("Clinic", ("Here",), logo), "letter", frozenset({"bars"}), ("All {arc}.",))
-    keep_form(tmp_path, form)
-    (tmp_path / "own.jpg").unlink()
-    assert read_form(tmp_path) == form
-    (tmp_path / LOGO_FILE).unlink()
-    with pytest.raises(SettingsInvalid):
-        read_form(tmp_path)
-    assert read_form(tmp_path, with_logo=False).letterhead.name == "Clinic"
-    (tmp_path / FORM_FILE).write_text("[")
-    with pytest.raises(SettingsInvalid):
-        read_form(tmp_path)
-    keep_form(tmp_path, form)
-    assert read_form(tmp_path) == form
-    assert (tmp_path / FORM_FILE).with_suffix(".unusable.json").read_text() == "["
+def test_the_form_is_kept_with_its_logo_and_a_second_person_s_change_is_told(tmp_path: Path) -> None:
+    with Store(tmp_path) as store:
+        usual = ReportForm(paper="letter")
+        assert read_form(store, "letter") == usual
+        logo = logo_png(picture(tmp_path / "own.jpg"))
+        form = ReportForm(Letterhead("Clinic", ("Here",), logo), "letter", frozenset({"bars"}), ("All {arc}.",))
+        keep_form(store, form, usual)
+        (tmp_path / "own.jpg").unlink()
+        assert read_form(store) == form
+        with pytest.raises(ChangedMeanwhile):
+            keep_form(store, usual, usual)
+        keep_form(store, usual, form)
+    assert form_in(tmp_path) == usual
+    assert form_in(tmp_path / "nowhere") == ReportForm()
 
 
 @pytest.mark.parametrize("content", [b"", b"no picture", b"<svg"])
@@ -134,6 +132,20 @@ def test_a_file_that_is_no_logo_gets_one_sentence(content: bytes, tmp_path: Path
         logo_png(tmp_path / "none.png")
     with pytest.raises(LogoRefused, match="too small"):
         logo_png(picture(tmp_path / "small.png", 8))
+
+
+def test_a_drawing_and_a_picture_of_too_many_pixels_are_no_logos(tmp_path: Path) -> None:
+    drawing = b'<svg xmlns="http://www.w3.org/2000/svg" width="200" height="200"><rect width="99" height="99"/></svg>'
+    for name in ("logo.svg", "logo.png"):
+        (tmp_path / name).write_bytes(drawing)
+        with pytest.raises(LogoRefused, match="PNG or JPEG"):
+            logo_png(tmp_path / name)
+    large = QImage(7900, 7900, QImage.Format.Format_Mono)
+    large.fill(0)
+    assert large.save(str(tmp_path / "large.png"))
+    assert (tmp_path / "large.png").stat().st_size < 100_000
+    with pytest.raises(LogoRefused, match="PNG or JPEG"):
+        logo_png(tmp_path / "large.png")
 
 
 def test_places_of_a_sentence_take_figures_with_their_spread_or_say_not_measured() -> None:

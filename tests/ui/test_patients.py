@@ -15,6 +15,7 @@ from carpus.ui.numbers import clock, clock_tenths, days_ago, degrees, ordinal, r
 from carpus.ui.patients.listing import cells
 from carpus.ui.patients.screen import PatientsScreen
 from carpus.ui.picture.photo import fitted
+from carpus.ui.ports import MOST_ROWS
 from carpus.ui.terms import LEGAL_SENTENCE
 from carpus.ui.theme import Theme
 from tests.ui.fakes import FakeStore
@@ -81,6 +82,7 @@ def test_a_name_that_is_not_there_can_be_created_with_enter(
     assert screen.form.isVisible()
     assert screen.form.name.text() == "Fir 12"
     screen.form.side.buttons()[1].click()
+    screen.form.dominance.buttons()[0].click()
     qtbot.keyClick(screen.form.name, Qt.Key.Key_Return)
     assert (store.added[0].pseudonym, store.added[0].side) == ("Fir 12", "left")
     assert screen.list.rows.row(screen.list.currentIndex().row()).pseudonym == "Fir 12"
@@ -89,6 +91,8 @@ def test_a_name_that_is_not_there_can_be_created_with_enter(
 
 def test_a_taken_name_is_refused_in_the_form_itself(qtbot: QtBot, screen: PatientsScreen, store: FakeStore) -> None:
     screen.new_patient("  heron 17 ")
+    screen.form.side.buttons()[0].click()
+    screen.form.dominance.buttons()[0].click()
     qtbot.keyClick(screen.form.name, Qt.Key.Key_Return)
     assert screen.form.isVisible()
     assert not store.added
@@ -229,3 +233,13 @@ def test_after_midnight_it_is_another_day_without_a_new_start(theme: Theme, stor
     screen.look_at_day()
     assert screen.day.text() != shown
     assert row.data() != ago
+
+
+def test_of_very_many_patients_the_first_are_shown_and_searching_finds_the_others(
+    screen: PatientsScreen, store: FakeStore
+) -> None:
+    store.rows = [replace(store.rows[0], patient_id=str(n), pseudonym=f"Oak {n}") for n in range(MOST_ROWS + 200)]
+    screen.refresh()
+    assert screen.list.rows.rowCount() == MOST_ROWS + 1
+    screen.search.setText(f"oak {MOST_ROWS + 150}")
+    assert [screen.list.rows.row(0).pseudonym] == [f"Oak {MOST_ROWS + 150}"]

@@ -3,10 +3,13 @@
 from __future__ import annotations
 
 import pytest
-from PySide6.QtCore import Qt
+from PySide6.QtCore import QRectF, Qt
+from PySide6.QtGui import QFontMetricsF
 from pytestqt.qtbot import QtBot
 
 from carpus.ui.background import Background
+from carpus.ui.fonts import MEDIUM, font
+from carpus.ui.sessions import listing
 from carpus.ui.sessions.listing import cells
 from carpus.ui.sessions.screen import SessionsScreen
 from carpus.ui.theme import Theme
@@ -98,3 +101,10 @@ def test_a_patient_without_a_session_is_told_so(qtbot: QtBot, theme: Theme) -> N
     screen.begin("fir", "Fir 12")
     assert screen.none.isVisible()
     assert not screen.open_button.isVisible()
+
+
+def test_day_hour_and_remark_have_room_in_a_small_window(theme: Theme, qtbot: QtBot) -> None:
+    rooms = listing._rooms(QRectF(0, 0, 846, listing.ROW_PX), theme, remarked=True)
+    metrics = QFontMetricsF(font(14, MEDIUM))
+    for number, text in ((0, "Wed 28 Sep 08:48"), (3, "10 / 10"), (4, "simulated, does not count")):
+        assert metrics.elidedText(text, Qt.TextElideMode.ElideRight, rooms[number].width()) == text

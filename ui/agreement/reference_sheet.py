@@ -62,6 +62,7 @@ class ReferenceSheet(Sheet):
         close.clicked.connect(self.close_sheet)
         self.file_button.clicked.connect(self._take_file)
         self.session_button.clicked.connect(self._take_session)
+        self.set_default(self.file_button)
 
     def begin(self, sessions: Sequence[tuple[str, str]]) -> None:
         """Ask; ``sessions`` are identity and words of those there are besides."""
@@ -70,7 +71,7 @@ class ReferenceSheet(Sheet):
             self.box.addItem(words, identity)
         for widget in (self._other, self.session_button):
             widget.setVisible(bool(sessions))
-        self.open(self.file_button)
+        self.open()
 
     def _take_file(self) -> None:
         self.close_sheet()
@@ -103,7 +104,7 @@ class ColumnsSheet(Sheet):
         self._outline: Outline | None = None
         self._choice = ReferenceChoice("")
         close = Button(theme, self.tr("Cancel"), "plain", hint=self.tr("Esc"), height_px=44)
-        self.take = Button(theme, self.tr("Compare"), "primary", hint=self.tr("Enter"), height_px=44)
+        self.take = Button(theme, self.tr("Compare"), "primary", height_px=44)
         body = self.card.body
         for widget in (self.title, self.words, self._scroll, self.unit, self.problem):
             body.addWidget(widget)
@@ -115,7 +116,7 @@ class ColumnsSheet(Sheet):
         body.addLayout(row)
         close.clicked.connect(self.close_sheet)
         self.take.clicked.connect(self._take)
-        self.unit.accepted.connect(self._take)
+        self.set_default(self.take)
 
     def begin(self, outline: Outline, ours: Sequence[str], choice: ReferenceChoice) -> None:
         """Ask for every one of ``ours``; what its names tell, or was said before, is chosen already."""
@@ -160,7 +161,6 @@ class ColumnsSheet(Sheet):
             self.boxes[name] = box
             if not points and name != "time":
                 sign = Tick(self._theme, self.tr("other sign"))
-                sign.accepted.connect(self._take)
                 sign.toggled.connect(lambda _, sign=sign, words=words: _name_sign(sign, words))
                 sign.setChecked(chosen.startswith("-"))
                 _name_sign(sign, words)

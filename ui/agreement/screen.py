@@ -9,7 +9,7 @@ from PySide6.QtGui import QResizeEvent
 from PySide6.QtWidgets import QBoxLayout, QComboBox, QGridLayout, QHBoxLayout, QVBoxLayout, QWidget
 
 from carpus.ui.agreement.table import AgreementTable
-from carpus.ui.agreement.words import angle_name, headline, in_order, joined_rows, left_words, most_moved
+from carpus.ui.agreement.words import angle_name, headline, in_order, joined_rows, left_words, most_moved, remark_words
 from carpus.ui.controls.button import Button
 from carpus.ui.controls.card import Card, Line
 from carpus.ui.controls.column import ScrolledColumn, scroll_area
@@ -244,6 +244,12 @@ class AgreementScreen(QWidget):
             if (widget := item.widget()) is not None:
                 widget.hide()
                 widget.deleteLater()
+        remarks = remark_words(compared)
+        if remarks:
+            body.addWidget(Text(theme, self.tr("Look at this first"), 16, SEMIBOLD, wrap=True))
+            for words in remarks:
+                body.addWidget(Text(theme, words, 14, REGULAR, "warn", wrap=True))
+            body.addWidget(Line(theme))
         body.addWidget(Text(theme, self.tr("How they were brought together"), 16, SEMIBOLD, wrap=True))
         for state, thing, value, small in joined_rows(compared):
             body.addWidget(Line(theme))

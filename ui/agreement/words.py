@@ -90,6 +90,8 @@ def share(value: float) -> str:
 def judgement_words(pairs: Pairs, limit_deg: float, *, readings: bool) -> tuple[State, str]:
     """Sign and words of one angle."""
     figures = pairs.figures_deg
+    if figures.is_opposite:
+        return "bad", tr("runs the other way: opposite sign?")
     found: Judgement = judged(figures, limit_deg)
     limit, apart = numbers.degrees(limit_deg), numbers.degrees(math.ceil(furthest(figures) - 1e-9))
     if found == "not_judged":
@@ -105,6 +107,12 @@ def judgement_words(pairs: Pairs, limit_deg: float, *, readings: bool) -> tuple[
 
 def headline(compared: Compared, limit_deg: float) -> tuple[str, str]:
     """The sentence, and what it rests on."""
+    turned = [pairs.name for pairs in compared.pairs if pairs.figures_deg.is_opposite]
+    if turned:
+        sentence = tr("{angles}: the reference runs the other way.").format(angles=_list(turned))
+        return sentence, tr(
+            "One of the two has the opposite sign, or they are not of one movement. Turn it and compare again."
+        )
     found = {pairs.name: judged(pairs.figures_deg, limit_deg) for pairs in compared.pairs}
     agree = [name for name, one in found.items() if one == "agree"]
     apart = [name for name, one in found.items() if one == "apart"]
@@ -176,7 +184,8 @@ def joined_rows(compared: Compared) -> list[tuple[State, str, str, str]]:
         words = tr("{later}; curves match {match}") if by_ms else tr("curves match {match}")
         words = words.format(later=later, match=numbers.fixed(shift.match, 2))
         value = f"{by_ms}{numbers.NARROW_GAP}ms" if by_ms else tr("none")
-        rows.append(("good", tr("Time shift"), value, words))
+        is_sure = not (shift.rivals or shift.at_edge or math.isfinite(shift.drift_found))
+        rows.append(("good" if is_sure else "warn", tr("Time shift"), value, words))
     if alignment is None:
         rows.append(("open", tr("Alignment"), tr("none"), tr("angles compared as they are")))
     else:
@@ -189,6 +198,12 @@ def joined_rows(compared: Compared) -> list[tuple[State, str, str, str]]:
     count = tr("{left} of {all}").format(left=compared.left_out, all=compared.pictures)
     rows.append(("warn" if compared.left_out else "good", tr("Left out"), count, what))
     return rows
+
+
+def remark_words(compared: Compared, name: str = "") -> list[str]:
+    """What must be looked at before the figures are believed, of one angle or of all."""
+    said = [_reason(remark) for remark in (compared.remarks_on(name) if name else compared.remarks)]
+    return [f"{words[:1].upper()}{words[1:]}." for words in said]
 
 
 def left_words(compared: Compared) -> list[str]:

@@ -8,9 +8,11 @@ from collections.abc import Iterable, Sequence
 from pathlib import Path
 
 from carpus.core.errors import OutputNotWritable
+from carpus.core.formats.new_output import plain_cell
 from carpus.core.output.range_rows import RangeRow
 from carpus.core.output.report_content import SessionFigures
 from carpus.core.output.side_by_side import ComparedRange, SideBySide
+from carpus.core.private import private
 from carpus.ui.beside.shown import Shown
 from carpus.ui.beside.words import column_of
 
@@ -79,10 +81,10 @@ def _curve_rows(shown: Shown) -> Iterable[Sequence[str]]:
 
 def _write(path: Path, head: Sequence[str], rows: Iterable[Sequence[str]]) -> None:
     try:
-        with path.open("w", newline="", encoding="utf-8") as file:
+        with open(path, "w", newline="", encoding="utf-8", opener=private) as file:
             table = csv.writer(file)
             table.writerow(head)
-            table.writerows(rows)
+            table.writerows([plain_cell(cell) for cell in row] for row in rows)
     except OSError as cause:
         raise OutputNotWritable(path, cause.strerror or "") from cause
 

@@ -21,7 +21,7 @@ from carpus.ui.progress.words import headline as progress_headline
 from carpus.ui.report.hand_rows import AT_LEAST
 from carpus.ui.report.tables import is_deficit, mean_words, repetition_words, too_slow, turned
 from carpus.ui.translate import tr
-from carpus.ui.verdicts import difference, reason_words
+from carpus.ui.verdicts import difference, no_change_words, reason_words
 
 
 def name_of(figures: SessionFigures, other: SessionFigures) -> str:
@@ -268,7 +268,7 @@ def _judgement(one: ComparedRange, both: SideBySide) -> str:
         return tr("not judged: {why}").format(why=reason_words(item.reasons) or tr("not measured"))
     if both.relation == "dates":
         if not one.beyond:
-            return tr("no change beyond error")
+            return no_change_words()
         if one.just_beyond:
             return tr("improved, just beyond error") if item.verdict == "improved" else tr("worse, just beyond error")
         return tr("improved, beyond error") if item.verdict == "improved" else tr("worse, beyond error")
@@ -317,7 +317,7 @@ def _speed_row(both: SideBySide) -> BesideRow:
     if math.isfinite(off):
         size = numbers.speed(off)
         words = (
-            tr("the same")
+            size
             if size == numbers.speed(0.0)
             else (tr("{size} more") if off > 0 else tr("{size} less")).format(size=size)
         )

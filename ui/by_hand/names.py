@@ -10,6 +10,7 @@ from carpus.core.by_hand.values import HandChange, HandValue, Key, change_of, co
 from carpus.ui import numbers, terms
 from carpus.ui.marker_words import long_finger_name
 from carpus.ui.translate import tr
+from carpus.ui.verdicts import no_change_words
 
 
 def measure_name(measure: HandMeasure) -> str:
@@ -79,7 +80,7 @@ def verdict_words(change: HandChange) -> tuple[str, str]:
     if change.verdict == "not_judged":
         return "none", tr("not judged")
     if change.verdict == "within_error":
-        return "none", tr("no change beyond error")
+        return "none", no_change_words()
     return ("good", tr("improved")) if change.verdict == "improved" else ("bad", tr("worse"))
 
 

@@ -13,6 +13,7 @@ from carpus.ui.camera_calibration.values import BoardChoice
 from carpus.ui.controls.button import Button
 from carpus.ui.controls.card import Card
 from carpus.ui.controls.column import ScrolledColumn, scroll_area
+from carpus.ui.controls.default_answer import ENTER
 from carpus.ui.controls.field import Choices
 from carpus.ui.controls.text import REGULAR, SEMIBOLD, Text, caption, heading
 from carpus.ui.theme import GAP_PX, MARGIN_PX, Theme
@@ -52,7 +53,7 @@ class BoardBeginning(QWidget):
             theme, [(False, self.tr("The camera")), (True, self.tr("Simulated camera, to practise"))], False
         )
         self.camera_words = Text(theme, "", 14, REGULAR, "text2", wrap=True)
-        self.begin_button = Button(theme, self.tr("Begin"), "primary", icon="camera", hint=self.tr("Enter"))
+        self.begin_button = Button(theme, self.tr("Begin"), "primary", icon="camera", hint=ENTER)
         self._lay_out()
         self.print_button.clicked.connect(lambda: self.printed.emit(self.choice))
         self.begin_button.clicked.connect(lambda: self.begun.emit(self.choice))

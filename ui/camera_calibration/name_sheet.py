@@ -29,7 +29,7 @@ class CameraNameSheet(Sheet):
         self.line.setPlaceholderText(self.tr("Name of the camera"))
         self.line.setAccessibleName(self.tr("Name of the camera"))
         self.line.setMinimumHeight(theme.px(44))
-        self.take = Button(theme, self.tr("Go on"), "primary", height_px=44, hint=self.tr("Enter"))
+        self.take = Button(theme, self.tr("Go on"), "primary", height_px=44)
         self.stop = Button(theme, self.tr("Stop"), "plain", height_px=44, hint=self.tr("Esc"))
         body = self.card.body
         body.setSpacing(12)
@@ -41,8 +41,8 @@ class CameraNameSheet(Sheet):
         row.addWidget(self.take)
         body.addLayout(row)
         self.line.textChanged.connect(lambda text: self.take.setEnabled(bool(text.strip())))
-        self.line.returnPressed.connect(self.take.click)
         self.take.clicked.connect(self._take)
+        self.set_default(self.take)
         self.stop.clicked.connect(self.leave)
         self.closed.connect(self._closed)
 

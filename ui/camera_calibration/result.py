@@ -13,6 +13,7 @@ from carpus.ui.camera_calibration.words import effect_rows, headline, kept_words
 from carpus.ui.controls.button import Button
 from carpus.ui.controls.card import Card, Line
 from carpus.ui.controls.column import ScrolledColumn, scroll_area
+from carpus.ui.controls.default_answer import ENTER
 from carpus.ui.controls.text import MEDIUM, REGULAR, SEMIBOLD, StateSign, Text, caption, heading
 from carpus.ui.theme import GAP_PX, MARGIN_PX, Theme
 
@@ -33,7 +34,7 @@ class BoardResultView(QWidget):
         self.map = LandingMap(theme)
         self.again_button = Button(theme, self.tr("Take &again"), icon="rotate-ccw")
         self.page_button = Button(theme, self.tr("One page…"), "quiet", hint="Ctrl+P")
-        self.use_button = Button(theme, self.tr("Use this calibration"), "primary", icon="check", hint=self.tr("Enter"))
+        self.use_button = Button(theme, self.tr("Use this calibration"), "primary", icon="check", hint=ENTER)
         self._table, self._effect = Card(theme, 20), Card(theme, 20)
         self._next = Text(theme, "", 14, REGULAR, "text2", wrap=True)
         self._lay_out()

@@ -6,7 +6,7 @@ from PySide6.QtCore import Qt, Signal
 from PySide6.QtGui import QPainter, QResizeEvent
 from PySide6.QtWidgets import QGridLayout, QHBoxLayout, QVBoxLayout, QWidget
 
-from carpus.core.types import ByteImage
+from carpus.core.types import Frame
 from carpus.ui.camera_calibration.maps import FieldMap
 from carpus.ui.camera_calibration.overlay import paint_corners, paint_target
 from carpus.ui.camera_calibration.values import BoardProgress
@@ -23,6 +23,9 @@ from carpus.ui.theme import GAP_PX, MARGIN_PX, Theme
 
 COLUMN_PX = 376
 EMPTY: Row = ("open", "", "", "")
+RINGS_LAST_S = 0.6
+"""A picture that was looked at longer ago gives way to the newest one, without rings: the search for corners takes its
+time where there are none."""
 CHECKS = 5
 """Rows of what is there and what is missing."""
 
@@ -40,6 +43,7 @@ class BoardShowing(QWidget):
         self._theme = theme
         self.progress: BoardProgress | None = None
         self.simulated = False
+        self.has_rings = False
         self._note = ""
         self.picture = PictureView(theme, (832, 624))
         self.picture.show_whole(True)
@@ -152,9 +156,14 @@ class BoardShowing(QWidget):
         self.how.setText(self.tr("All of it, flat towards the camera, about 60 cm away."))
         self.picture.setFocus(Qt.FocusReason.OtherFocusReason)
 
-    def show_frame(self, color_rgb: ByteImage) -> None:
-        """The newest picture."""
-        self.picture.show_frame(color_rgb)
+    def show_frame(self, newest: Frame) -> None:
+        """The newest picture; while the board is found, the one that it was found in, so that rings lie on corners."""
+        now = self.progress
+        shown = newest
+        if now is not None and now.look.found is not None and newest.timestamp_s - now.frame.timestamp_s < RINGS_LAST_S:
+            shown = now.frame
+        self.has_rings = now is not None and now.look.found is not None and shown is now.frame
+        self.picture.show_frame(shown.color_rgb)
 
     def show_lost(self, words: str) -> None:
         """The camera sends nothing: why, and what to do; what was taken stays."""
@@ -221,7 +230,7 @@ class BoardShowing(QWidget):
         now = self.progress
         if now is None:
             return
-        found = now.look.found
+        found = now.look.found if self.has_rings else None
         if now.target is not None:
             side = now.step.side if now.step.kind in ("place", "tilt") else None
             words = self.tr("Hold it here")

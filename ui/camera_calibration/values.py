@@ -10,7 +10,7 @@ from carpus.core.camera_calibration.effect import Effect
 from carpus.core.camera_calibration.guidance import Look, Step
 from carpus.core.camera_calibration.sheet import RULER_MM, Paper
 from carpus.core.camera_calibration.views import Judgement
-from carpus.core.types import FloatArray
+from carpus.core.types import FloatArray, Frame
 
 
 @dataclass(frozen=True, slots=True)
@@ -32,7 +32,8 @@ class BoardChoice:
 @dataclass(frozen=True, slots=True)
 class BoardProgress:
     """How far the showing of the board is: the newest ``look``, all that was kept, the next ``step``, and where the
-    board is wanted (4, 2) in the picture, None for nowhere in particular; ``asked`` so many pictures."""
+    board is wanted (4, 2) in the picture, None for nowhere in particular; ``asked`` so many pictures. ``frame`` is the
+    one that was looked at: its corners are drawn on it and on no other."""
 
     look: Look
     judgement: Judgement
@@ -40,6 +41,7 @@ class BoardProgress:
     target: FloatArray | None
     corner_count: int
     asked: int
+    frame: Frame
 
 
 @dataclass(frozen=True, slots=True)

@@ -15,6 +15,7 @@ from carpus.ui.check_card.words import cause_words, check_day, figure_rows, head
 from carpus.ui.controls.button import Button
 from carpus.ui.controls.card import Card, Line
 from carpus.ui.controls.column import ScrolledColumn, scroll_area, scrolled
+from carpus.ui.controls.default_answer import ENTER
 from carpus.ui.controls.field import Choices
 from carpus.ui.controls.progress_bar import ThinBar
 from carpus.ui.controls.text import MEDIUM, REGULAR, SEMIBOLD, StateSign, Text, caption, heading
@@ -52,7 +53,7 @@ class CardScreen(QWidget):
         self.camera = Choices(theme, [(False, self.tr("The camera")), (True, self.tr("Simulated camera"))], False)
         self.answer = heading(theme, wrap=True)
         self.basis = Text(theme, "", 16, REGULAR, "text2", wrap=True)
-        self.check_button = Button(theme, "", "primary", icon="play", hint=self.tr("Enter"))
+        self.check_button = Button(theme, "", "primary", icon="play", hint=ENTER)
         self.charts = ControlCharts(theme)
         self._figures, self._out = Card(theme, 16), Card(theme, 16)
         self.paper = Choices(theme, [("a4", "A4"), ("letter", "Letter")], "a4")

@@ -6,14 +6,16 @@ from typing import Literal
 
 from PySide6.QtCore import QEvent, QPointF, QRectF, QSize, Qt
 from PySide6.QtGui import QColor, QFont, QFontMetricsF, QHelpEvent, QKeyEvent, QPainter, QPaintEvent, QPen
-from PySide6.QtWidgets import QPushButton, QSizePolicy, QToolTip
+from PySide6.QtWidgets import QApplication, QPushButton, QSizePolicy, QToolTip
 
+from carpus.ui.controls.default_answer import ENTER, is_enter, says_enter
 from carpus.ui.fonts import MEDIUM, SEMIBOLD, font
 from carpus.ui.icons import paint_icon
 from carpus.ui.keys import key_name
 from carpus.ui.theme import CONTROL_RADIUS_PX, Theme
 
 Kind = Literal["primary", "plain", "quiet", "well"]
+OnEnter = Literal["press", "pass", "nothing"]
 LEAST_PAD_PX = 6
 HEIGHT_PX = {"primary": 52, "plain": 44, "quiet": 44, "well": 40}
 
@@ -21,27 +23,52 @@ HEIGHT_PX = {"primary": 52, "plain": 44, "quiet": 44, "well": 40}
 class Button(QPushButton):
     """``primary`` one per screen, ``plain`` outlined, ``quiet`` without outline, ``well`` a filled small one.
 
-    ``hint`` is the key shown beside the text; ``icon`` a line icon before it; a mnemonic (&) is underlined.
+    ``hint`` is the key shown beside the text, "Enter" on a default button (:mod:`ui.controls.default_answer`);
+    ``icon`` a line icon before it; a mnemonic (&) is underlined.
     """
 
     def __init__(
         self, theme: Theme, text: str = "", kind: Kind = "plain", *, icon: str = "", hint: str = "", height_px: int = 0
     ) -> None:
         super().__init__(text)
-        self._theme, self._kind, self._icon, self._hint = theme, kind, icon, key_name(hint)
+        self._theme, self._kind, self._icon, self._key = theme, kind, icon, hint
+        self.on_enter: OnEnter = "press"
+        """What Enter does while it has the keyboard; ``pass``: it goes to the card or screen that it stands on."""
         self._height_px = height_px or HEIGHT_PX[kind]
         self.setCursor(Qt.CursorShape.PointingHandCursor)
         self.setSizePolicy(QSizePolicy.Policy.Minimum, QSizePolicy.Policy.Fixed)
         self.setAccessibleName(text.replace("&", ""))
         self.setAutoDefault(False)
         theme.changed.connect(self._take_theme)
+        application = QApplication.instance()
+        if isinstance(application, QApplication):
+            application.focusChanged.connect(self._look_at_keyboard)
+
+    def _look_at_keyboard(self, *_: object) -> None:
+        if self._key == ENTER:
+            self.update()
+
+    @property
+    def key(self) -> str:
+        """The key that presses it, as the table of keys names it."""
+        return self._key
+
+    @property
+    def shown_key(self) -> str:
+        """The key that is written on it now."""
+        return "" if self._key == ENTER and not says_enter(self) else self._key
+
+    @property
+    def _hint(self) -> str:
+        """The key as the person's keyboard has it; its room stays while it is not written."""
+        return key_name(self._key)
 
     def set_face(self, text: str, *, icon: str | None = None, hint: str | None = None) -> None:
         """Change text, icon and key hint together."""
         icon = self._icon if icon is None else icon
-        hint = self._hint if hint is None else key_name(hint)
-        if (text, icon, hint) != (self.text(), self._icon, self._hint):
-            self._icon, self._hint = icon, hint
+        key = self._key if hint is None else hint
+        if (text, icon, key) != (self.text(), self._icon, self._key):
+            self._icon, self._key = icon, key
             self.setText(text)
             self.setAccessibleName(text.replace("&", ""))
             self._take_theme()
@@ -117,8 +144,10 @@ class Button(QPushButton):
 
     def keyPressEvent(self, event: QKeyEvent) -> None:
         """Enter presses as the space bar does; Qt gives it to dialogs only."""
-        if event.key() in (Qt.Key.Key_Return, Qt.Key.Key_Enter):
-            self.click()
+        if is_enter(event):
+            event.setAccepted(self.on_enter != "pass")
+            if self.on_enter == "press":
+                self.click()
         else:
             super().keyPressEvent(event)
 
@@ -151,7 +180,7 @@ class Button(QPushButton):
         painter.setPen(text_color)
         flags = Qt.AlignmentFlag.AlignVCenter | Qt.AlignmentFlag.AlignLeft | Qt.TextFlag.TextShowMnemonic
         painter.drawText(QRectF(left, 0, text + 4, self.height()), int(flags), words)
-        if hint:
+        if hint and self.shown_key:
             painter.setFont(self._hint_font())
             painter.setPen(hint_color)
             painter.drawText(

@@ -88,9 +88,16 @@ class KeyCaps(QWidget):
     def __init__(self, theme: Theme, keys: Sequence[tuple[str, str]], gap_px: int = 16) -> None:
         super().__init__()
         self._theme, self._gap_px = theme, gap_px
-        self._keys = tuple((key_name(cap), word) for cap, word in keys)
+        self._keys: tuple[tuple[str, str], ...] = ()
+        self.set_keys(keys)
         self.setSizePolicy(QSizePolicy.Policy.Maximum, QSizePolicy.Policy.Fixed)
         theme.changed.connect(self.updateGeometry)
+
+    def set_keys(self, keys: Sequence[tuple[str, str]]) -> None:
+        """Show others."""
+        self._keys = tuple((key_name(cap), word) for cap, word in keys)
+        self.updateGeometry()
+        self.update()
 
     def minimumSizeHint(self) -> QSize:
         return QSize(0, self.sizeHint().height())

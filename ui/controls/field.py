@@ -6,7 +6,7 @@ import math
 from collections.abc import Sequence
 
 from PySide6.QtCore import QRectF, Qt, Signal
-from PySide6.QtGui import QKeyEvent, QPainter, QPaintEvent
+from PySide6.QtGui import QPainter, QPaintEvent
 from PySide6.QtWidgets import QButtonGroup, QHBoxLayout, QLineEdit, QSpinBox, QVBoxLayout, QWidget
 
 from carpus.ui import numbers
@@ -129,8 +129,6 @@ class Choices(QWidget):
     """Exclusive choices side by side; arrow keys move, the chosen one is filled and says so by its check state."""
 
     chosen = Signal(object)
-    accepted = Signal()
-    """Enter on one of them: goes on, as everywhere; the space bar chooses."""
 
     def __init__(self, theme: Theme, options: Sequence[tuple[object, str]], current: object = None) -> None:
         super().__init__()
@@ -141,7 +139,6 @@ class Choices(QWidget):
         self._values: list[object] = []
         for number, (value, text) in enumerate(options):
             button = ChoiceButton(theme, text)
-            button.accepted.connect(self.accepted)
             self._group.addButton(button, number)
             self._values.append(value)
             row.addWidget(button)
@@ -171,18 +168,11 @@ class Choices(QWidget):
 
 
 class ChoiceButton(Button):
-    """One of several; chosen = accent outline, soft fill and a check. Enter is not its own: ``accepted``."""
-
-    accepted = Signal()
-
-    def keyPressEvent(self, event: QKeyEvent) -> None:
-        if event.key() in (Qt.Key.Key_Return, Qt.Key.Key_Enter):
-            self.accepted.emit()
-        else:
-            super().keyPressEvent(event)
+    """One of several; chosen = accent outline, soft fill and a check. The space bar chooses; Enter is not its own."""
 
     def __init__(self, theme: Theme, text: str) -> None:
         super().__init__(theme, text, "plain", height_px=40)
+        self.on_enter = "pass"
         self.setCheckable(True)
         self.toggled.connect(lambda on: self.set_face(self.text(), icon="check" if on else ""))
 

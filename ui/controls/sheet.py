@@ -7,7 +7,9 @@ from PySide6.QtGui import QColor, QKeyEvent, QKeySequence, QPainter, QPaintEvent
 from PySide6.QtWidgets import QAbstractButton, QApplication, QHBoxLayout, QVBoxLayout, QWidget
 from shiboken6 import isValid
 
+from carpus.ui.controls.button import Button
 from carpus.ui.controls.card import Card
+from carpus.ui.controls.default_answer import ENTER, is_enter, press
 from carpus.ui.controls.host import host_of
 from carpus.ui.theme import Theme
 
@@ -34,7 +36,8 @@ _HELD = frozenset((QEvent.Type.ShortcutOverride, QEvent.Type.KeyPress, QEvent.Ty
 
 class Sheet(QWidget):
     """Covers ``host`` while open. Every key of the window is the topmost sheet's, whatever lies below or beside it; Tab
-    stays inside; Esc closes when ``may_close``. Where it must be answered the mouse is held to it too."""
+    stays inside; Esc closes when ``may_close``, Enter presses the ``default`` button. Where it must be answered the
+    mouse is held to it too."""
 
     closed = Signal()
 
@@ -47,6 +50,7 @@ class Sheet(QWidget):
         self._width_px = width_px
         self._focus_before: QWidget | None = None
         self._first: QWidget | None = None
+        self.default: Button | None = None
         self.card = Card(theme, 24)
         across = QHBoxLayout()
         across.addStretch(1)
@@ -73,8 +77,16 @@ class Sheet(QWidget):
         self._take_room()
         super().resizeEvent(event)
 
+    def set_default(self, button: Button) -> None:
+        """What Enter answers: it loses nothing."""
+        if self.default is not None and self.default is not button and isValid(self.default):
+            self.default.set_face(self.default.text(), hint="")
+        self.default = button
+        button.set_face(button.text(), hint=ENTER)
+
     def open(self, first: QWidget | None = None) -> None:
-        """Show over the host and give the keyboard to ``first``."""
+        """Show over the host and give the keyboard to ``first``, a field, or else to the default button."""
+        first = first or self.default
         now: QWidget | None = self.window().focusWidget()
         if now is None or not self.isAncestorOf(now):
             self._focus_before = now
@@ -115,6 +127,8 @@ class Sheet(QWidget):
     def keyPressEvent(self, event: QKeyEvent) -> None:
         if event.key() == Qt.Key.Key_Escape:
             self.leave()
+        elif is_enter(event):
+            press(self.default)
         elif event.modifiers() == Qt.KeyboardModifier.AltModifier:
             self._press_mnemonic(event)
         event.accept()  # nothing goes through to what lies below

@@ -66,11 +66,12 @@ class ResultsSheet(Sheet):
         self.stop = Button(theme, self.tr("&Stop"), "plain", height_px=44)
         self.keep = Button(theme, self.tr("&Keep the old one"), "plain", height_px=44)
         self.use = Button(theme, self.tr("&Use the new result"), "plain", height_px=44)
-        self.later = Button(theme, "", "plain", hint=self.tr("Esc"), height_px=44)
+        self.later = Button(theme, "", "plain", height_px=44)
         self.stop.clicked.connect(self.stop_wanted)
         self.keep.clicked.connect(self.keep_wanted)
         self.use.clicked.connect(self.use_wanted)
         self.later.clicked.connect(self.close_sheet)
+        self.set_default(self.later)
         body = self.card.body
         body.setSpacing(8)
         for widget in (self.title, self.whose, self.bar, self.words, self.legend, self.finger):
@@ -127,7 +128,7 @@ class ResultsSheet(Sheet):
 
     def begin(self) -> None:
         """Open; what is shown was told before."""
-        self.open(self.later)
+        self.open()
 
     def _show(self, title: str, whose: str) -> None:
         self.title.setText(title)

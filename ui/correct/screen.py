@@ -18,6 +18,7 @@ from carpus.ui.background import Background
 from carpus.ui.controls.button import Button
 from carpus.ui.controls.card import Card, KeyCaps
 from carpus.ui.controls.column import scrolled
+from carpus.ui.controls.default_answer import ENTER
 from carpus.ui.controls.text import REGULAR, SEMIBOLD, StateText, Text
 from carpus.ui.correct.picture import CorrectionPicture
 from carpus.ui.correct.places import Places
@@ -70,7 +71,7 @@ class CorrectScreen(QWidget):
         self._rows.setSpacing(0)
         self.next_doubtful = Button(theme, self.tr("Next doubtful picture"), "quiet", hint="D", height_px=36)
         self.hide_button = Button(theme, self.tr("Not to be seen here"), "quiet", hint="H", height_px=36)
-        self.primary = Button(theme, self.tr("Track again from here"), "primary", hint=self.tr("Enter"))
+        self.primary = Button(theme, self.tr("Track again from here"), "primary", hint=ENTER)
         self.cancel = Button(theme, self.tr("Cancel"), height_px=52)
         self.cancel.setToolTip(self.tr("Back to the review (Esc)"))
         self._lay_out()
@@ -128,7 +129,7 @@ class CorrectScreen(QWidget):
         self._column.setFixedWidth(self._theme.px(376))
         self.curves.setVisible(not tight and self.height() >= 600 * self._theme.text_scale)
         self.next_doubtful.setVisible(bool(self._doubtful().size) and not self.although.isVisibleTo(self))
-        self.primary.set_face(self.primary.text(), hint="" if tight else self.tr("Enter"))
+        self.primary.set_face(self.primary.text(), hint="" if tight else ENTER)
 
     def resizeEvent(self, event: QResizeEvent) -> None:
         self._fit()

@@ -56,9 +56,10 @@ class ExportSheet(Sheet):
         body.addWidget(self.bar)
         body.addSpacing(8)
         self.close_button = Button(theme, self.tr("Cancel"), "plain", hint=self.tr("Esc"), height_px=44)
-        self.take = Button(theme, self.tr("Choose the folder…"), "primary", hint=self.tr("Enter"), height_px=44)
+        self.take = Button(theme, self.tr("Choose the folder…"), "primary", height_px=44)
         self.close_button.clicked.connect(self.leave)
         self.take.clicked.connect(self._take)
+        self.set_default(self.take)
         self.compare_button = Button(theme, self.tr("Compare with a &reference…"), "quiet", height_px=44)
         self.compare_button.clicked.connect(self._compare)
         row = QHBoxLayout()
@@ -105,7 +106,6 @@ class ExportSheet(Sheet):
 
     def _tick(self, words: str) -> Tick:
         tick = Tick(self._theme, words)
-        tick.accepted.connect(self._take)
         row = QHBoxLayout()
         row.addWidget(tick)
         row.addStretch(1)

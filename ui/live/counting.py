@@ -32,6 +32,8 @@ class RunningCount:
         self.repetitions = 0
         self.found = 0
         """As counted now: with what comes later a repetition may turn out to be none."""
+        self.last_end_s = math.nan
+        """When the last one found was over, on the clock of the frames."""
         self.recorded_s = 0.0
         self.best_positive_deg = math.nan
         self.best_negative_deg = math.nan
@@ -74,7 +76,9 @@ class RunningCount:
         if self._counts and len(self._times) > 2:
             valid = None if self._figure >= 0 else np.array(self._valid, dtype=bool)
             signal = even_signal(np.array(self._times), np.array(self._values), valid)
-            self.found = len(find_repetitions(signal).repetitions) if len(signal.time_s) else 0
+            found = find_repetitions(signal).repetitions if len(signal.time_s) else ()
+            self.found = len(found)
+            self.last_end_s = found[-1].end_s if found else math.nan
             self.repetitions = max(self.repetitions, self.found)  # what was done stays done
         return self.repetitions
 

@@ -26,7 +26,7 @@ class NoteSheet(Sheet):
         self.line = QLineEdit()
         self.line.setPlaceholderText(self.tr("What happened? No names."))
         self.line.setAccessibleName(self.tr("Note"))
-        keep = Button(theme, self.tr("Keep note"), "primary", hint=self.tr("Enter"), height_px=44)
+        keep = Button(theme, self.tr("Keep note"), "primary", height_px=44)
         close = Button(theme, self.tr("Close"), "plain", hint=self.tr("Esc"))
         self.card.body.addWidget(Text(theme, self.tr("Note at this moment"), 16, SEMIBOLD))
         row = QHBoxLayout()
@@ -46,9 +46,9 @@ class NoteSheet(Sheet):
             quick.addWidget(button)
         quick.addStretch(1)
         self.card.body.addLayout(quick)
-        self.line.returnPressed.connect(lambda: self._keep(self.line.text()))
         keep.clicked.connect(lambda: self._keep(self.line.text()))
         close.clicked.connect(self.close_sheet)
+        self.set_default(keep)
 
     def begin(self) -> None:
         """Open empty."""
@@ -81,8 +81,9 @@ class PainSheet(Sheet):
         below = QHBoxLayout()
         advice = self.tr("At 5 or more, or 2 more than before: stop the exercise. Keys: 0 to 9; 1 and 0 for 10.")
         below.addWidget(Text(theme, advice, 14, token="text2", wrap=True), 1)
-        close = Button(theme, self.tr("Close"), "quiet", hint=self.tr("Esc"), height_px=36)
+        close = Button(theme, self.tr("Close"), "quiet", height_px=36)
         close.clicked.connect(self.close_sheet)
+        self.set_default(close)
         below.addWidget(close)
         self.card.body.addLayout(below)
         self._one = QTimer(self)
@@ -92,8 +93,8 @@ class PainSheet(Sheet):
         self.closed.connect(self._one.stop)
 
     def begin(self) -> None:
-        """Open with the keyboard on 0."""
-        self.open(self.buttons[0])
+        """Open; nothing is chosen until a person does."""
+        self.open()
 
     def _keep(self, score: int) -> None:
         self.close_sheet()
@@ -111,7 +112,7 @@ class PainSheet(Sheet):
             self._keep(int(digit))
         elif step:
             now = self.window().focusWidget()
-            place = self.buttons.index(now) if now in self.buttons else 0
+            place = self.buttons.index(now) if now in self.buttons else -1 if step > 0 else 0
             self.buttons[(place + step) % len(self.buttons)].setFocus(Qt.FocusReason.TabFocusReason)
         else:
             super().keyPressEvent(event)

@@ -29,6 +29,8 @@ LARGE_PX = (640, 300)
 """The large view is this card, as many times as large as it fits."""
 PRESSED_PX = 26
 """With large text the card may be lower by so much: the dots of the repetitions give way."""
+STILL_DEG_S = 10.0
+"""The tracker's own noise: below it no speed is told."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -53,6 +55,13 @@ class Reading:
     """Whether the joint went out of sight beyond the best that was seen."""
     target_positive_deg: float = math.nan
     target_negative_deg: float = math.nan
+
+
+def speed_words(speed_deg_s: float) -> str:
+    """``38°/s``; a still hand seems to move at up to 10 degrees a second, and that is all that is said of it."""
+    if abs(speed_deg_s) < STILL_DEG_S:
+        return f"<{numbers.NARROW_GAP}{numbers.speed(STILL_DEG_S)}"
+    return numbers.speed(speed_deg_s)
 
 
 class NumberCard(QWidget):
@@ -232,8 +241,8 @@ class NumberCard(QWidget):
         left = self._across - self._right_px()
         y = 16.0
         if reading.repetitions_asked:
-            self._text(painter, self.tr("Repetition"), left, y, 14, REGULAR, "text2")
-            number = min(reading.repetitions_done + (1 if reading.repetition_running else 0), 99)
+            self._text(painter, self.tr("Repetitions"), left, y, 14, REGULAR, "text2")
+            number = min(reading.repetitions_done, 99)  # the running one is a half dot: it may turn out to be none
             painter.setFont(font(44, SEMIBOLD))
             metrics = QFontMetricsF(painter.font())
             baseline = y + 22 * scale + metrics.capHeight() + 6
@@ -247,7 +256,7 @@ class NumberCard(QWidget):
                 self._paint_dots(painter, left, baseline + 19)
         y = 114 * (0.65 + 0.35 * scale) + max(self._number_px() - NUMBER_PX, 0.0) / 3 - self._pressed_px()
         self._text(painter, self.tr("Speed"), left, y, 14, REGULAR, "text2")
-        self._text(painter, numbers.speed(reading.speed_deg_s), left, y + 21 * scale, 20, SEMIBOLD, "text")
+        self._text(painter, speed_words(reading.speed_deg_s), left, y + 21 * scale, 20, SEMIBOLD, "text")
         positive = reading.figure is not None or self._word == SIDES[reading.angle][0]
         best = reading.best_positive_deg if positive else reading.best_negative_deg
         across = left + 0.487 * self._right_px()

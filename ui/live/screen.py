@@ -656,7 +656,9 @@ class LiveScreen(QWidget):
         if self._measuring is not None:
             self.counted.emit(self._measuring.feed.counters())
         if self._count is not None:
-            self._count.count()
+            before = self._count.repetitions
+            if self._count.count() > before and self._measuring is not None:
+                self._measuring.feed.tell("repetition", self._count.last_end_s)
         self._show_buttons()
 
     def _show_buttons(self) -> None:

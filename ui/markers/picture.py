@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Sequence
+from dataclasses import dataclass
 from functools import partial
 from itertools import pairwise
 
 import numpy as np
-from PySide6.QtCore import QPointF, QRectF, QSizeF, Qt, Signal
+from PySide6.QtCore import QLineF, QPointF, QRectF, QSizeF, Qt, Signal
 from PySide6.QtGui import QColor, QFontMetricsF, QKeyEvent, QMouseEvent, QPainter, QPaintEvent, QPen, QWheelEvent
 
 from carpus.core.types import FloatArray
@@ -47,6 +48,16 @@ FEW = 6
 """So many discs each carry their name."""
 
 
+@dataclass(frozen=True, slots=True)
+class NamePlate:
+    """Where a name stands, and the line from it to its ring where it stands further off."""
+
+    name: str
+    words: str
+    plate: QRectF
+    line: QLineF | None
+
+
 def rays(markers: Sequence[str]) -> list[list[str]]:
     """Marker names finger by finger from the wrist, of those the protocol has."""
     fingers = [["WRIST", "CMC1", "MCP1", "IP1", "TIP1"]]
@@ -68,6 +79,7 @@ class MarkerPicture(PictureView):
         self.found: FoundMarker | None = None
         self.wrong: frozenset[str] = frozenset()
         self.spots: list[tuple[tuple[float, ...], str]] = []
+        self.discs_px: FloatArray = np.empty((0, 2))
         self.no_marker_words = ""
         self._dragging = False
         self._zoom = LEAST_ZOOM
@@ -86,6 +98,11 @@ class MarkerPicture(PictureView):
     def show_spots(self, spots: Sequence[tuple[Sequence[float], str]]) -> None:
         """Mark spots (u, v) without a name, each with the marker that it may be, or nothing."""
         self.spots = [(tuple(pixel), name) for pixel, name in spots]
+        self.update()
+
+    def show_discs(self, pixel: FloatArray) -> None:
+        """Everything (D, 2) that may be clicked: no name covers it."""
+        self.discs_px = pixel
         self.update()
 
     def forget_cursor(self) -> None:
@@ -199,12 +216,10 @@ class MarkerPicture(PictureView):
 
     def _paint_proposals(self, painter: QPainter, clicking: Clicking, rings: list[tuple[str, QPointF, float]]) -> None:
         """Proposed names as dashed rings, each finger's discs joined: a wrong name shows as a crossing line."""
-        if not clicking.protocol.has_fingers:
-            return
         places = {name: one.pixel for name, one in clicking.proposed.items()} | clicking.pixel
         at = {name: self.to_screen(*map(float, pixel)) for name, pixel in places.items()}
         painter.setPen(QPen(QColor(255, 255, 255, 170), 1.5))
-        for ray in rays(clicking.protocol.markers):
+        for ray in rays(clicking.protocol.markers) if clicking.protocol.has_fingers else ():
             known = [at[name] for name in ray if name in at]
             for a, b in pairwise(known):
                 painter.drawLine(a, b)
@@ -242,22 +257,27 @@ class MarkerPicture(PictureView):
         full = len(clicking.order) <= FEW or under_cursor or name in self.wrong or (one is not None and not one.is_sure)
         if full or name in ("WRIST", "CMC1") or (name == clicking.current and name not in clicking.proposed):
             words = marker_name(name)
-            doubtful = one is not None and not one.is_sure
-            return self.tr("{marker}?").format(marker=words) if doubtful else words
+            asked = one is not None and (len(clicking.order) <= FEW or not one.is_sure)
+            return self.tr("{marker}?").format(marker=words) if asked else words
         return finger_name(name[-1]) if name.startswith("TIP") else ""
 
     def _cross(self, painter: QPainter, at: QPointF, arm: float) -> None:
         painter.drawLine(QPointF(at.x() - arm, at.y()), QPointF(at.x() + arm, at.y()))
         painter.drawLine(QPointF(at.x(), at.y() - arm), QPointF(at.x(), at.y() + arm))
 
-    def _paint_names(self, painter: QPainter, rings: list[tuple[str, QPointF, float]], proposed: str) -> None:
-        """Each name beside its ring, where it covers no ring and no other name."""
-        painter.setFont(font(12 * self._theme.text_scale, SEMIBOLD))
-        metrics = QFontMetricsF(painter.font())
-        discs = [QRectF(at.x() - r, at.y() - r, 2 * r, 2 * r) for _, at, r in rings]
-        taken = [*discs, QRectF(self.loupe_box()), QRectF(0, self.height() - 160, 176, 160)]
+    def name_plates(self, rings: Sequence[tuple[str, QPointF, float]], proposed: str) -> list[NamePlate]:
+        """Each name beside its ring, clear of every disc, named or not, of the loupe, other names and their lines."""
+        metrics = QFontMetricsF(font(12 * self._theme.text_scale, SEMIBOLD))
+        named = [QRectF(at.x() - r, at.y() - r, 2 * r, 2 * r) for _, at, r in rings]
+        bare = [self.to_screen(*map(float, pixel)) for pixel in self.discs_px]
+        bare = [at for at in bare if not any(box.contains(at) for box in named)]
+        ring = QPointF(RING_LEAST_PX, RING_LEAST_PX)
+        free = [QRectF(at - ring, at + ring) for at in bare]
+        taken = [*named, *free, QRectF(0, self.height() - 160, 176, 160)]
+        taken += [self.loupe_box()] if self.cursor_px is not None else []
         taken += [self._spot_plate(pixel, name) for pixel, name in self.spots]
         assert self.clicking is not None
+        out: list[NamePlate] = []
         for name, at, radius in rings:
             words = marker_name(name) if name == proposed else self._words_for(name, self.clicking)
             if not words:
@@ -266,19 +286,26 @@ class MarkerPicture(PictureView):
                 words = self.tr("{marker}?").format(marker=words)
             wrong = name in self.wrong
             width = metrics.horizontalAdvance(words) + (30 if wrong else 12)
-            others = [other for one, other, _ in rings if one != name]
+            others = [other for one, other, _ in rings if one != name] + bare
+            lines = [one.line for one in out if one.line is not None]
             size = QSizeF(width, metrics.height() + 5)
-            found = place_for(size, at, radius, taken, others, QRectF(self.rect()).adjusted(4, 4, -4, -4))
+            inside = QRectF(self.rect()).adjusted(4, 4, -4, -4)
+            found = place_for(size, at, radius, taken, others, inside, lines)
             if found is None:
                 continue  # a name over another, or at another's disc, says something wrong
-            plate, line = found
-            taken.append(plate)
-            if line is not None:
-                haloed(painter, ON_PICTURE_LINE, 1.5, lambda line=line: painter.drawLine(line))  # type: ignore[misc]
-            if wrong:
-                paint_wrong_label(painter, self._theme, words, plate)
+            taken.append(found[0])
+            out.append(NamePlate(name, words, *found))
+        return out
+
+    def _paint_names(self, painter: QPainter, rings: list[tuple[str, QPointF, float]], proposed: str) -> None:
+        painter.setFont(font(12 * self._theme.text_scale, SEMIBOLD))
+        for one in self.name_plates(rings, proposed):
+            if one.line is not None:
+                haloed(painter, ON_PICTURE_LINE, 1.5, partial(painter.drawLine, one.line))
+            if one.name in self.wrong:
+                paint_wrong_label(painter, self._theme, one.words, one.plate)
             else:
-                paint_label(painter, self._theme, words, plate.left(), plate.top())
+                paint_label(painter, self._theme, one.words, one.plate.left(), one.plate.top())
 
     def loupe_box(self) -> QRectF:
         """Where the loupe is: in the upper corner that covers fewer discs, never over the place one looks at."""

@@ -29,10 +29,12 @@ def words_for(clicking: Clicking) -> ProposalWords:
     """Which names need a look, and what Enter does."""
     asked, open_names, doubtful = len(clicking.order), clicking.unnamed, clicking.doubtful
     named = len(clicking.proposed)
-    primary = tr("Take all names") if not open_names else tr("Take {count} names").format(count=named)
+    primary = tr("Names are right") if not open_names else tr("Take {count} names").format(count=named)
     if not open_names and not doubtful:
         whole = tr("All {count} markers found").format(count=asked)
-        todo = tr("Each finger’s line runs from the wrist to its tip. Drag a name to another disc to change it.")
+        todo = tr("Drag a name to another disc to change it.")
+        if clicking.protocol.has_fingers:
+            todo = tr("Each finger’s line runs from the wrist to its tip. Drag a name to another disc to change it.")
         return ProposalWords("good", whole, tr("Are these names right?"), todo, primary)
     if doubtful:
         step = (

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import Literal
 
 from carpus.core.calibration.result import Verdict
+from carpus.ui.controls.default_answer import ENTER
 from carpus.ui.translate import tr
 
 Remedy = Literal["swap", "click_these", "correct", "take_spot", "new_picture"]
@@ -36,7 +37,7 @@ def remedy_of(verdict: Verdict, *, is_live: bool) -> Remedy:
 def face(remedy: Remedy) -> tuple[str, str]:
     """Words and key of the primary button."""
     return {
-        "swap": (tr("Swap the two"), tr("Enter")),
+        "swap": (tr("Swap the two"), ENTER),
         "click_these": (tr("Click again"), "C"),
         "correct": (tr("Correct names"), ""),
         "take_spot": (tr("Take that spot"), ""),

@@ -17,6 +17,7 @@ from carpus.ui import terms
 from carpus.ui.background import Background
 from carpus.ui.controls.button import Button
 from carpus.ui.controls.card import KeyCaps
+from carpus.ui.controls.default_answer import ENTER
 from carpus.ui.controls.text import MEDIUM, REGULAR, StateText, Text, heading
 from carpus.ui.hand_drawing import HandDrawing, MarkerState
 from carpus.ui.keys import Keys, bind
@@ -81,12 +82,13 @@ class MarkersScreen(QWidget):
         self.second = Button(theme, "", "plain", height_px=52)
         self.start_angle = Button(theme, self.tr("Wrist cannot lie straight…"), "quiet", height_px=32)
         self.although = Button(theme, self.tr("Start although &doubtful"), "quiet", height_px=32)
-        self.take_rest = Button(theme, self.tr("Take all names"), "quiet", height_px=32)
+        self.take_rest = Button(theme, self.tr("All names are right"), "quiet", height_px=32)
         self.take_rest.hide()
         self.click_all = Button(theme, self.tr("Click all again"), "quiet", hint="C", height_px=32)
         self.new_picture = Button(theme, self.tr("New picture"), "quiet", hint="N", height_px=32)
         self.hint = Text(theme, "", 14, REGULAR, "text2", wrap=True)
         self.angle_sheet = StartAngleSheet(self, theme)
+        self.caps = KeyCaps(theme, self._keys_now())
         self._lay_out()
         self._connect(keys)
         self._preview = QTimer(self)
@@ -94,16 +96,11 @@ class MarkersScreen(QWidget):
         self._preview.timeout.connect(self._show_newest)
 
     def _lay_out(self) -> None:
-        keys = [
-            (self.tr("Space"), self.tr("accept")), (self.tr("Backspace"), self.tr("undo")),
-            ("← ↑ → ↓", self.tr("move 1 px")), ("+ −", self.tr("zoom")), (self.tr("Tab"), self.tr("next marker")),
-            ("M", self.tr("larger last picture")),
-        ]  # fmt: skip
         left = QVBoxLayout()
         left.setSpacing(8)
         left.addWidget(self.picture, 1)
         caps = QHBoxLayout()
-        caps.addWidget(KeyCaps(self._theme, keys))
+        caps.addWidget(self.caps)
         caps.addStretch(1)
         left.addLayout(caps)
         self._below = QWidget()
@@ -146,6 +143,17 @@ class MarkersScreen(QWidget):
         columns.addWidget(self._column)
         self._theme.changed.connect(self._fit)
         self._fit()
+
+    def _keys_now(self) -> list[tuple[str, str]]:
+        """What the keys do: Enter presses the button at the right, Space takes the spot under the cursor."""
+        clicks = self._held and self.clicking is not None and bool(self.clicking.missing)
+        keys = [("Space", self.tr("accept"))] if clicks else []
+        if not clicks or (self.clicking is not None and self.clicking.proposed):
+            keys.insert(0, ("Enter", self.tr("go on")))
+        return [
+            *keys, ("Backspace", self.tr("undo")), ("← ↑ → ↓", self.tr("move 1 px")), ("+ −", self.tr("zoom")),
+            ("Tab", self.tr("next marker")), ("M", self.tr("larger last picture")),
+        ]  # fmt: skip
 
     def _fit(self) -> None:
         """The column keeps its width whatever the words, so that the picture never moves under the cursor."""
@@ -257,7 +265,8 @@ class MarkersScreen(QWidget):
         self.picture.show_frame(frame.color_rgb)
         room = HAND_ROOM if self._calibrator.protocol.has_fingers else PALM_ROOM
         self.picture.set_hand_area(self._calibrator.hand_area(), room)
-        self._by_hand = not self._calibrator.protocol.has_fingers
+        self._by_hand = False
+        self.picture.show_discs(self._calibrator.discs_px())
         self._ask_for_names()
         self._refresh()
         self.picture.setFocus(Qt.FocusReason.OtherFocusReason)
@@ -275,6 +284,11 @@ class MarkersScreen(QWidget):
         if self._judged is None:
             return "clicking"
         return "checked" if self._judged.verdict.is_good else "doubtful"
+
+    @property
+    def has_names(self) -> bool:
+        """Whether a person has named a disc of this picture."""
+        return self._held and self.clicking is not None and bool(self.clicking.pixel)
 
     # --- clicking -----------------------------------------------------------------------------------------
     def _look(self, pixel: FloatArray) -> None:
@@ -518,6 +532,7 @@ class MarkersScreen(QWidget):
         if self._calibrator is None:
             return
         self.new_picture.setEnabled(self._held)
+        self.caps.set_keys(self._keys_now())
         self.take_rest.hide()
         named = self._held and self.clicking is not None and self.clicking.complete
         self.straight.setVisible(bool(named) and self._calibrator.protocol.has_fingers)
@@ -547,7 +562,7 @@ class MarkersScreen(QWidget):
         self.hand.show_markers(self._calibrator.side, dict.fromkeys(order, "later"))
         self.panel.show_rows(self.tr("Checks"), "none", rows_before(0, len(order), self._calibrator.limits))
         self.primary.setEnabled(True)
-        self.primary.set_face(self.tr("Take the picture"), icon="", hint=self.tr("Space"))
+        self.primary.set_face(self.tr("Take the picture"), icon="", hint=ENTER)
         self.second.hide()
         self.hint.setText("")
 
@@ -592,7 +607,7 @@ class MarkersScreen(QWidget):
         self.title.setText(words.title)
         self.place.setText(words.place)
         self.primary.setEnabled(True)
-        self.primary.set_face(words.primary, icon="", hint=self.tr("Enter"))
+        self.primary.set_face(words.primary, icon="", hint=ENTER)
         self.second.set_face(self.tr("Click by hand"), hint="C")
         self.second.show()
         self.take_rest.setVisible(bool(clicking.doubtful))
@@ -617,7 +632,7 @@ class MarkersScreen(QWidget):
             self.step.show_state("good", self.tr("All markers found"))
             self.title.setText(self.tr("Ready to measure"))
             self.place.setText(self.tr("Hold the hand in this position until the measuring begins."))
-            self.primary.set_face(self.tr("Start measuring"), icon="play", hint=self.tr("Enter"))
+            self.primary.set_face(self.tr("Start measuring"), icon="play", hint=ENTER)
             self.second.hide()
             self.primary.setFocus(Qt.FocusReason.OtherFocusReason)
             return

@@ -54,6 +54,7 @@ class StartAngleSheet(Sheet):
         straight.clicked.connect(lambda: self._keep(np.zeros(3)))
         keep = Button(theme, self.tr("Use these angles"), "primary")
         keep.clicked.connect(lambda: self._keep(self.angles_rad()))
+        self.set_default(keep)
         buttons.addStretch(1)
         buttons.addWidget(straight)
         buttons.addWidget(keep)

@@ -22,15 +22,18 @@ WIDTH_PX = 720
 
 @dataclass(frozen=True, slots=True)
 class Answer:
-    """A button that says what it does; ``key`` a letter or name of a key that presses it."""
+    """A button that says what it does; ``key`` a letter that presses it. ``risky`` where something would be lost, or be
+    kept that may be wrong: never the default."""
 
     text: str
     action: Callable[[], object]
     key: str = ""
+    risky: bool = False
 
 
 class StopCard(Sheet):
-    """Shows :class:`Words` with up to two answers; the last one is the primary and has the keyboard."""
+    """Shows :class:`Words` with up to two answers; the last one is the primary, has the keyboard, and
+    loses nothing."""
 
     def __init__(self, host: QWidget, theme: Theme) -> None:
         super().__init__(host, theme, WIDTH_PX, may_close=False)
@@ -46,7 +49,6 @@ class StopCard(Sheet):
         self._buttons = QHBoxLayout()
         self._buttons.setSpacing(12)
         self._answers: list[tuple[Button, Answer]] = []
-        self._keys: dict[QKeySequence, Button] = {}
         body = self.card.body
         body.setContentsMargins(32, 24, 32, 24)
         body.setSpacing(14)
@@ -85,6 +87,8 @@ class StopCard(Sheet):
         self.waiting.setText("")
         self.card.set_colors("surface", *(("bad", 2.0) if alarm else ("line", 1.0)))
         self.setAccessibleName(" ".join((words.what, detail, words.safe, safe_detail, words.todo)))
+        if answers and answers[-1].risky:
+            raise ValueError(f"what Enter answers loses nothing: {answers[-1].text}")
         while (item := self._buttons.takeAt(0)) is not None:
             if (widget := item.widget()) is not None:
                 widget.hide()
@@ -96,7 +100,9 @@ class StopCard(Sheet):
             button.clicked.connect(lambda _=False, answer=answer: self._take(answer))
             self._buttons.addWidget(button)
             self._answers.append((button, answer))
-        self.open(self._answers[-1][0] if self._answers else None)
+        if self._answers:
+            self.set_default(self._answers[-1][0])
+        self.open()
 
     def _set_row(self, head: Text, small: Text, text: str, detail: str) -> None:
         head.setText(text)
@@ -118,9 +124,6 @@ class StopCard(Sheet):
 
     def keyPressEvent(self, event: QKeyEvent) -> None:
         pressed = QKeySequence(event.key())
-        if event.key() in (Qt.Key.Key_Return, Qt.Key.Key_Enter) and self._answers:
-            self._answers[-1][0].click()
-            return
         for button, answer in self._answers:
             if answer.key and pressed.matches(QKeySequence(answer.key)) == QKeySequence.SequenceMatch.ExactMatch:
                 button.click()

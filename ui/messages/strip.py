@@ -20,7 +20,7 @@ class NoticeStrip(Card):
     answered = Signal()
     later = Signal()
 
-    def __init__(self, theme: Theme, words: Words, button: str, icon: str = "history") -> None:
+    def __init__(self, theme: Theme, words: Words, button: str, icon: str = "history", later: str = "") -> None:
         super().__init__(theme, 0, "soft", "accent")
         self.words = words
         texts = QVBoxLayout()
@@ -30,7 +30,7 @@ class NoticeStrip(Card):
             if line:
                 texts.addWidget(Text(theme, line, 14, REGULAR, wrap=True))
         self.button = Button(theme, button, "plain", height_px=40)
-        self.later_button = Button(theme, self.tr("Later"), "quiet", hint=self.tr("Esc"), height_px=36)
+        self.later_button = Button(theme, later or self.tr("Later"), "quiet", hint=self.tr("Esc"), height_px=36)
         buttons = QVBoxLayout()
         buttons.setSpacing(4)
         buttons.addWidget(self.button)

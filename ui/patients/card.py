@@ -11,6 +11,7 @@ from carpus.ui import numbers, terms
 from carpus.ui.controls.button import Button
 from carpus.ui.controls.card import Card, Line
 from carpus.ui.controls.column import scroll_area
+from carpus.ui.controls.default_answer import ENTER
 from carpus.ui.controls.text import MEDIUM, REGULAR, SEMIBOLD, ElidedText, Text, caption
 from carpus.ui.controls.tooltip import plain_tooltip
 from carpus.ui.figures import figure_of, followed_name
@@ -48,9 +49,7 @@ class PatientCardView(Card):
         self._results.setSpacing(0)
         self._note_when = caption(theme)
         self._note = Text(theme, "", 14, wrap=True)
-        self.start_button = Button(
-            theme, self.tr("Start session, same set-up"), "primary", icon="play", hint=self.tr("Enter")
-        )
+        self.start_button = Button(theme, self.tr("Start session, same set-up"), "primary", icon="play", hint=ENTER)
         self.bubble = BubbleView(theme)
         self.edit_button = Button(theme, self.tr("&Edit…"), "quiet", height_px=32)
         self.change_button = Button(theme, self.tr("&Change…"))

@@ -54,7 +54,7 @@ class PatientForm(Sheet):
         self.note = QPlainTextEdit()
         self.note.setTabChangesFocus(True)
         self.note.setFixedHeight(theme.px(NOTE_HEIGHT_PX))
-        self.save = Button(theme, "", "primary", hint=self.tr("Enter"))
+        self.save = Button(theme, "", "primary")
         cancel = Button(theme, self.tr("Close without saving"), "plain", hint=self.tr("Esc"), height_px=52)
         self.body = self.card.body
         self.body.setSpacing(16)
@@ -83,25 +83,30 @@ class PatientForm(Sheet):
         buttons.addWidget(cancel)
         buttons.addWidget(self.save)
         self.body.addLayout(buttons)
-        self.name.returnPressed.connect(self._accept)
-        self.real_name.returnPressed.connect(self._accept)
         self.save.clicked.connect(self._accept)
         for chips in (self.side, self.dominance):
-            chips.accepted.connect(self._accept)
+            chips.chosen.connect(lambda _: self._judge())
+        self.set_default(self.save)
         cancel.clicked.connect(self.close_sheet)
         self._taken: frozenset[str] = frozenset()
+        self._words = ""
 
     def begin(self, entry: PatientEntry | None, taken: frozenset[str], name: str = "") -> None:
         """Open for a new patient (optionally with a name already typed) or with an entry to change."""
         self._taken = taken
         self._title.setText(self.tr("New patient") if entry is None else self.tr("Change patient"))
-        self.save.set_face(self.tr("Add patient") if entry is None else self.tr("Keep changes"))
+        self._words = self.tr("Add patient") if entry is None else self.tr("Keep changes")
         self.remove.setVisible(entry is not None)
-        entry = entry or PatientEntry(name or self._suggest(), "right", "right")
+        is_new = entry is None
+        entry = entry or PatientEntry(name or self._suggest(), "right", "unknown")
         self.name.setMaxLength(max(MOST_LETTERS, len(entry.pseudonym)))  # a longer one of old is not cut
         self.name.setText(entry.pseudonym)
         self.side.choose(entry.side)
         self.dominance.choose(entry.dominance if entry.dominance != "both" else "unknown")
+        if is_new:  # a hand that nobody chose would be a wrong record
+            self.side.choose_nothing()
+            self.dominance.choose_nothing()
+        self._judge()
         self.real_name.setText(entry.name)
         self.note.setPlainText(entry.note)
         self._fault.hide()
@@ -109,6 +114,13 @@ class PatientForm(Sheet):
         self._scroll.setFixedHeight(min(self._fields.sizeHint().height() + 2, max(room, 160)))
         self.open(self.name)
         self.name.selectAll()
+
+    def _judge(self) -> None:
+        """What is still to be said stands on the button."""
+        no_side, no_dominance = self.side.value() is None, self.dominance.value() is None
+        words = self.tr("Which hand is affected?") if no_side else self.tr("Which hand writes?")
+        self.save.set_face(words if no_side or no_dominance else self._words)
+        self.save.setEnabled(not (no_side or no_dominance))
 
     def _say_too_long(self) -> None:
         """A letter, or the end of what was pasted, had no more room: never cut without a word."""

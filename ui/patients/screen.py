@@ -19,18 +19,19 @@ from carpus.ui.controls.text import MEDIUM, REGULAR, Text, heading
 from carpus.ui.patients.card import PatientCardView
 from carpus.ui.patients.entry import PatientForm
 from carpus.ui.patients.listing import ListHeader, PatientList
-from carpus.ui.ports import PatientEntry, PatientRow, PatientStore
+from carpus.ui.ports import MOST_ROWS, PatientEntry, PatientRow, PatientStore
 from carpus.ui.theme import GAP_PX, MARGIN_PX, Theme
 from carpus.ui.welcome.panel import WelcomePanel
 
 LIST_WIDTH_PX = 824
 LOOK_AT_DAY_MS = 30_000
+ARCHIVED_NAMED = 3
 LIST_KEYS = (Qt.Key.Key_Up, Qt.Key.Key_Down, Qt.Key.Key_PageUp, Qt.Key.Key_PageDown)
 
 
 class PatientsScreen(QWidget):
     """Signals carry the patient's identity; ``start`` keeps the last set-up, ``set_up`` asks for another;
-    ``erase_wanted`` a patient to be archived or erased."""
+    ``erase_wanted`` a patient to be archived or erased. ``archive_wanted`` asks for those who are in the archive."""
 
     start = Signal(str)
     set_up = Signal(str)
@@ -38,6 +39,7 @@ class PatientsScreen(QWidget):
     progress = Signal(str)
     sessions = Signal(str)
     erase_wanted = Signal(str)
+    archive_wanted = Signal()
 
     def __init__(self, theme: Theme, store: PatientStore, today: Callable[[], date]) -> None:
         """``today`` is asked each time: the program may stand open for days."""
@@ -58,6 +60,9 @@ class PatientsScreen(QWidget):
         self.notice_place = QVBoxLayout()
         self.welcome: WelcomePanel | None = None
         self._nobody = _Nobody(theme)
+        self.archive_button = Button(theme, "", "quiet", icon="archive", height_px=36)
+        self.archive_button.hide()
+        self._archived: tuple[str, ...] = ()
         self.form = PatientForm(self, theme, store.suggest_pseudonym)
         self._changing = ""
         self._lay_out()
@@ -83,6 +88,7 @@ class PatientsScreen(QWidget):
         left.addWidget(self.header)
         left.addWidget(self.list, 1)
         left.addWidget(self._nobody)
+        left.addWidget(self.archive_button, 0, Qt.AlignmentFlag.AlignLeft)
         self._above_welcome = QWidget()
         self._above_welcome.setFixedHeight(GAP_PX)
         self._above_welcome.hide()
@@ -130,6 +136,7 @@ class PatientsScreen(QWidget):
         self.card.sessions.connect(lambda: self.sessions.emit(self._chosen_id()))
         self.card.edit.connect(lambda: self.change_patient(self._chosen_id()))
         self.form.accepted.connect(self._store_entry)
+        self.archive_button.clicked.connect(self.archive_wanted)
         self.form.removal_wanted.connect(lambda: self.erase_wanted.emit(self._changing))
 
     def look_at_day(self) -> None:
@@ -144,6 +151,7 @@ class PatientsScreen(QWidget):
         self.look_at_day()
         practice = PatientRow(PRACTICE_PATIENT, self.tr("Practice patient"), "right")
         self._rows = (*self._store.patients(), practice)
+        self._archived = tuple(self._store.archived())
         self._filter(choose or self._chosen_id())
 
     def set_camera_ready(self, ready: bool) -> None:
@@ -167,14 +175,15 @@ class PatientsScreen(QWidget):
     def new_patient(self, name: str | bool = "") -> None:
         """Open the form. What a button sends with its click is no name."""
         self._changing = ""
-        taken = frozenset(row.pseudonym.casefold() for row in self._rows)
+        taken = frozenset(name.casefold() for name in (*(row.pseudonym for row in self._rows), *self._archived))
         self.form.begin(None, taken, name if isinstance(name, str) else "")
 
     def change_patient(self, patient_id: str) -> None:
         """Open the form with a patient's entry."""
         row = next(row for row in self._rows if row.patient_id == patient_id)
         self._changing = patient_id
-        taken = frozenset(other.pseudonym.casefold() for other in self._rows if other is not row)
+        others = (other.pseudonym for other in self._rows if other is not row)
+        taken = frozenset(name.casefold() for name in (*others, *self._archived))
         self.form.begin(PatientEntry(row.pseudonym, row.side, row.dominance, row.note, row.name), taken)
 
     def _store_entry(self, entry: PatientEntry) -> None:
@@ -189,16 +198,27 @@ class PatientsScreen(QWidget):
 
     def _filter(self, choose: str) -> None:
         wanted = self.search.text().casefold().split()
-        shown = [row for row in self._rows if _matches(row, wanted)]
+        rows = self._rows
+        if wanted and len(rows) > MOST_ROWS:  # with the practice patient: there may be more than are shown
+            rows = (*self._store.patients(self.search.text()), rows[-1])
+        shown = [row for row in rows if _matches(row, wanted)]
         self.list.rows.show_rows(shown)
         self.list.setVisible(bool(shown))
         self.header.setVisible(bool(shown))
         only_practice = len(self._rows) == 1 and self.welcome is None
         self._nobody.show_for("" if shown and not only_practice else self.search.text(), only_practice, bool(shown))
+        self._show_archived(wanted)
         row = max(0, self.list.rows.find(choose))
         if shown:
             self.list.setCurrentIndex(self.list.rows.index(row))
         self._show_chosen()
+
+    def _show_archived(self, wanted: list[str]) -> None:
+        """Who was archived and would be found: said where the row was, and one press away."""
+        found = [name for name in self._archived if all(word in name.casefold() for word in wanted)]
+        names = ", ".join(found[:ARCHIVED_NAMED]) + (" …" if len(found) > ARCHIVED_NAMED else "")
+        self.archive_button.setVisible(bool(found))
+        self.archive_button.set_face(self.tr("In the archi&ve: {names}").format(names=names.replace("&", "&&")))
 
     def _chosen_id(self) -> str:
         index: QModelIndex = self.list.currentIndex()

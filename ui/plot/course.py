@@ -12,11 +12,11 @@ from PySide6.QtGui import QFontMetricsF, QPainter, QPen, QPolygonF
 
 from carpus.core.by_hand.measures import measure_named
 from carpus.core.by_hand.values import HandValue
-from carpus.core.output.exercises import Movement
+from carpus.core.output.exercises import EXERCISES, Movement
 from carpus.core.output.goals import row_aimed_at
-from carpus.core.output.joint_content import USUAL_TOTAL_DEG
+from carpus.core.output.norms import total_norm, wrist_norm
 from carpus.core.output.range_rows import RangeRow, RowKey, is_total
-from carpus.core.output.report_content import Progress, usual_deg
+from carpus.core.output.report_content import Progress
 from carpus.ui import numbers, terms
 from carpus.ui.figures import figure_of
 from carpus.ui.fonts import SEMIBOLD, font
@@ -35,6 +35,8 @@ DOT_RADIUS, CAP_REACH = 3.5, 7.0
 MOST_PANELS = 3
 ROOMY_EM = 12.0
 """Width of a panel, in sizes of its letters, from which its first and last point carry their figures."""
+VALUES_APART_EM = 4.0
+"""Between first and last point, in the same, from which both figures have room; else only the last one stands."""
 PAD_SHARE = 1 / 15
 """Of the time from the first to the last session, left free before and after."""
 ALONE_S = 86_400.0
@@ -136,10 +138,12 @@ def still(progress: Progress, key: RowKey) -> list[Mark]:
     joint, movement, angle = key
     out: list[Mark] = []
     labels: list[tuple[float, str, str]] = []
-    total = USUAL_TOTAL_DEG[int(joint[-1])] if is_total(joint) else math.nan
-    usual = (total, total) if is_total(joint) else None if joint else usual_deg(movement, angle)
-    if usual is not None:
-        low, high = usual
+    exercise = progress.points[-1].figures.exercise if progress.points else EXERCISES[-1]
+    norm = total_norm(int(joint[-1]), exercise) if is_total(joint) else None
+    if not joint:
+        norm = wrist_norm(movement, angle, exercise)
+    if norm is not None:
+        low, high = norm.low_deg, norm.high_deg
         span = f"{low:.0f}°" if low == high else f"{low:.0f}–{high:.0f}°"
         out.append(Across(low, high, "norm"))
         labels.append((0.5 * (low + high), tr("Usual, adults {span}").format(span=span), "text2"))
@@ -263,7 +267,8 @@ class Points:
                 painter.setBrush(Qt.BrushStyle.NoBrush)
                 painter.drawEllipse(QPointF(x, middle), 9 * unit, 9 * unit)
         roomy = panel.box.width() >= ROOMY_EM * style.end_label.pixelSize()  # else they cover what is beside them
-        for x, row in fair[:1] + fair[-1:] if roomy else []:
+        apart = len(fair) > 1 and fair[-1][0] - fair[0][0] >= VALUES_APART_EM * style.end_label.pixelSize()
+        for x, row in (fair[:1] if apart else []) + fair[-1:] if roomy else []:
             if panel.box.left() - 1 <= x <= panel.box.right() + 1:
                 self._paint_value(painter, style, panel, x, row)
 

@@ -13,6 +13,8 @@ from PySide6.QtGui import QColor, QImage, QPainter
 from PySide6.QtSvg import QSvgGenerator
 
 from carpus.core.errors import OutputNotWritable
+from carpus.core.formats.new_output import plain_cell
+from carpus.core.private import private
 from carpus.ui.plot.style import PlotStyle, paper_style
 from carpus.ui.theme import LIGHT
 
@@ -87,7 +89,7 @@ def table(plot: Printable) -> str:
     text = io.StringIO()
     writer = csv.writer(text)
     writer.writerow(head)
-    writer.writerows(rows)
+    writer.writerows([plain_cell(str(cell)) for cell in row] for row in rows)
     return text.getvalue()
 
 
@@ -105,6 +107,7 @@ def save(plot: Printable, path: Path) -> None:
         picture(plot).save(buffer, "PNG")  # type: ignore[call-overload]
         content = bytes(store.data())
     try:
-        path.write_bytes(content)
+        with open(path, "wb", opener=private) as file:
+            file.write(content)
     except OSError as cause:
         raise OutputNotWritable(path, cause.strerror or "") from cause

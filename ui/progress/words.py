@@ -45,7 +45,7 @@ def headline(progress: Progress) -> tuple[str, str]:
     elif main.verdict == "worse":
         answer = tr("{name} has lost {size} since {day}.").format(name=name, size=size, day=day)
     elif main.verdict == "no_change":
-        answer = tr("No change beyond measurement error since {day}.").format(day=day)
+        answer = tr("No change proven since {day}.").format(day=day)
     elif main.joint and min(first.counted, last.counted) >= FEWEST_FOR_SPREAD:
         return tr("Not judged: the joints were hidden in part."), tr("What is hidden does not count.")
     else:
@@ -89,7 +89,7 @@ def _rest(item: Comparison) -> str:
         if item.at_least:
             change = tr("at least {change}").format(change=change)
         return tr("{name}: {change}.").format(name=name, change=change)
-    return tr("{name}: no change beyond measurement error.").format(name=name)
+    return tr("{name}: no change proven.").format(name=name)
 
 
 def before_after(item: Comparison) -> str:

@@ -37,6 +37,8 @@ class BackupCard(Card):
     restore = Signal()
     place_wanted = Signal()
     hour_chosen = Signal(int)
+    seal = Signal()
+    unseal = Signal()
 
     def __init__(self, theme: Theme, hour: int) -> None:
         super().__init__(theme, 24)
@@ -76,6 +78,16 @@ class BackupCard(Card):
         top.addLayout(acts)
         top.addLayout(again)
         self.body.addLayout(top)
+        self.seal_button = Button(theme, self.tr("&Seal into one file…"), icon="lock", height_px=40)
+        self.unseal_button = Button(theme, self.tr("Back from a sealed file…"), height_px=40)
+        sealing = QHBoxLayout()
+        sealing.setSpacing(12)
+        sealing.addWidget(self.seal_button)
+        sealing.addWidget(self.unseal_button)
+        sealing.addWidget(caption(theme, self.tr("closed with a passphrase, to carry away or send"), wrap=True), 1)
+        self.body.addLayout(sealing)
+        self.seal_button.clicked.connect(self.seal)
+        self.unseal_button.clicked.connect(self.unseal)
         self.place = Text(theme, "", 14, MEDIUM, wrap=True)
         self.place_state = StateText(theme, 12, MEDIUM, 16)
         self.place_button = Button(theme, self.tr("Change…"), height_px=36)
@@ -115,7 +127,8 @@ class BackupCard(Card):
         """While it runs; None when it does not."""
         running = percent is not None
         self.now_button.setEnabled(not running)
-        self.restore_button.setEnabled(not running)
+        for button in (self.restore_button, self.seal_button, self.unseal_button):
+            button.setEnabled(not running)
         words = self.tr("{percent} %").format(percent=percent) if running else self.tr("then read back and compared")
         self.progress.setText(words)
 
@@ -130,10 +143,14 @@ class LockCard(Card):
         super().__init__(theme, 24)
         self.body.addWidget(Text(theme, self.tr("Lock"), 20, SEMIBOLD))
         words = self.tr(
-            "A PIN hides names and pictures from those who pass by. Alone it protects no file: for that there is "
-            "encryption, below, and that of the computer’s own disk."
+            "A PIN hides names and pictures from those who pass by. It protects no file: whoever has this computer’s "
+            "account or disk reads them without it."
         )
         self.body.addWidget(Text(theme, words, 14, REGULAR, "text2", wrap=True))
+        self.disk = StateText(theme, 14, SEMIBOLD)
+        self.disk_remedy = Text(theme, "", 14, REGULAR, "text2", wrap=True)
+        self.body.addWidget(self.disk)
+        self.body.addWidget(self.disk_remedy)
         self.minutes = Choices(
             theme,
             [
@@ -156,6 +173,12 @@ class LockCard(Card):
         self.body.addLayout(row)
         self.pin_button.clicked.connect(self.pin_wanted)
         self.minutes.chosen.connect(lambda minutes: self.minutes_chosen.emit(minutes))
+
+    def show_disk(self, state: State, words: str, remedy: str) -> None:
+        """Whether the disk is encrypted, which is what protects the files."""
+        self.disk.show_state(state, words)
+        self.disk_remedy.setText(remedy)
+        self.disk_remedy.setVisible(bool(remedy))
 
     def show_pin(self, *, is_set: bool) -> None:
         """Whether there is one."""

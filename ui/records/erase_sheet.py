@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from PySide6.QtCore import QRectF, QSize, Qt, Signal
-from PySide6.QtGui import QKeyEvent, QPainter, QPaintEvent, QResizeEvent
+from PySide6.QtGui import QPainter, QPaintEvent, QResizeEvent
 from PySide6.QtWidgets import QHBoxLayout, QLineEdit, QVBoxLayout, QWidget
 
 from carpus.ui import numbers, terms
@@ -18,10 +18,12 @@ from carpus.ui.theme import Theme
 from carpus.ui.translate import inside
 
 ICON_PX, COLUMN_PX = 26, 72
+MOST_PATHS = 3
 
 
 class EraseSheet(Sheet):
-    """``erase`` only after the pseudonym was typed, and never by Enter; ``archive`` is the primary."""
+    """``erase`` only after the pseudonym was typed, and never by Enter; ``archive`` is the primary, which Enter takes,
+    also from the line to type in: what is typed presses nothing."""
 
     erase = Signal()
     archive = Signal()
@@ -37,12 +39,14 @@ class EraseSheet(Sheet):
         self.line = QLineEdit()
         self.line.setMinimumWidth(theme.px(200))
         self.line.textChanged.connect(self._check)
-        self.for_good = _NeverByEnter(theme, self.tr("Erase for good"), "plain", height_px=52)
+        self.for_good = Button(theme, self.tr("Erase for good"), "plain", height_px=52)
+        self.for_good.on_enter = "nothing"  # what cannot be undone takes the mouse or the space bar
         self.cancel = Button(theme, self.tr("Cancel"), "plain", hint=self.tr("Esc"), height_px=52)
-        self.instead = Button(theme, self.tr("Archive instead"), "primary", hint=self.tr("Enter"))
+        self.instead = Button(theme, self.tr("Archive instead"), "primary")
         self.for_good.clicked.connect(self._erase)
         self.cancel.clicked.connect(self.close_sheet)
         self.instead.clicked.connect(self._archive)
+        self.set_default(self.instead)
         self._lay_out(theme)
 
     def _lay_out(self, theme: Theme) -> None:
@@ -105,7 +109,7 @@ class EraseSheet(Sheet):
         self.line.clear()
         self.line.setAccessibleName(self.label.text())
         self._check()
-        self.open(self.instead)
+        self.open(self.line)
         self._fit()
 
     def _fit(self) -> None:
@@ -136,19 +140,15 @@ class EraseSheet(Sheet):
                 "The patient’s entry, real name and notes, and {count} sessions with all angles, pictures and notes "
                 "({files}, {size} MB)."
             )
+            if facts.sessions == 1:
+                what = self.tr(
+                    "The patient’s entry, real name and notes, and 1 session with all angles, pictures and notes "
+                    "({files}, {size} MB)."
+                )
             words = what.format(count=facts.sessions, files=files, size=size)
         else:
             what = self.tr("Angles, pictures, notes and pain scores of this session ({files}, {size} MB).")
             words = what.format(files=files, size=size)
-        made = []
-        if facts.exports:
-            made.append(self.tr("1 export") if facts.exports == 1 else self.tr("{n} exports").format(n=facts.exports))
-        if facts.reports:
-            made.append(self.tr("1 report") if facts.reports == 1 else self.tr("{n} reports").format(n=facts.reports))
-        if made:
-            words += " " + self.tr("The {made} that Carpus made from it go too.").format(
-                made=made[0] if len(made) == 1 else self.tr("{one} and {other}").format(one=made[0], other=made[1])
-            )
         return words
 
     def _stays(self, facts: ErasureFacts) -> str:
@@ -163,11 +163,10 @@ class EraseSheet(Sheet):
             )
         else:
             parts.append(self.tr("Files copied elsewhere: Carpus cannot reach them."))
-        if facts.changed:
-            parts.append(self.tr("Exports and reports that were changed since: {n}.").format(n=facts.changed))
-        if facts.not_found:
-            words = self.tr("Exports and reports that are not where Carpus put them: {n}, look for them yourself.")
-            parts.append(words.format(n=facts.not_found))
+        if facts.made:
+            words = self.tr("Reports and exports saved elsewhere, delete them yourself ({n}): {path}")
+            paths = ", ".join(facts.made[:MOST_PATHS]) + (", …" if len(facts.made) > MOST_PATHS else "")
+            parts.append(words.format(n=len(facts.made), path=paths))
         parts.append(self.tr("The log keeps that it was erased, no name."))
         return " ".join(parts)
 
@@ -194,14 +193,6 @@ class EraseSheet(Sheet):
     def _archive(self) -> None:
         self.close_sheet()
         self.archive.emit()
-
-
-class _NeverByEnter(Button):
-    """What cannot be undone takes the mouse or the space bar."""
-
-    def keyPressEvent(self, event: QKeyEvent) -> None:
-        if event.key() not in (Qt.Key.Key_Return, Qt.Key.Key_Enter):
-            super().keyPressEvent(event)
 
 
 class _Sign(QWidget):

@@ -13,7 +13,7 @@ from carpus.ui.controls.card import Line
 from carpus.ui.controls.column import ScrolledColumn, scroll_area
 from carpus.ui.controls.host import host_of
 from carpus.ui.controls.sheet import Sheet
-from carpus.ui.controls.text import MEDIUM, REGULAR, SEMIBOLD, StateText, Text
+from carpus.ui.controls.text import MEDIUM, REGULAR, SEMIBOLD, Text
 from carpus.ui.fonts import font
 from carpus.ui.records.ports import ListedRecord, LoggedDeed
 from carpus.ui.theme import Theme
@@ -36,8 +36,9 @@ class RecordsSheet(Sheet):
         self._inside = ScrolledColumn()
         self._inside.setLayout(self.rows)
         self._scroll = scroll_area(self._inside)
-        self.done = Button(theme, self.tr("Done"), "primary", hint=self.tr("Esc"), height_px=44)
+        self.done = Button(theme, self.tr("Done"), "primary", height_px=44)
         self.done.clicked.connect(self.close_sheet)
+        self.set_default(self.done)
         self.card.body.setSpacing(12)
         self.card.body.addWidget(self.title)
         self.card.body.addWidget(self.words)
@@ -58,7 +59,7 @@ class RecordsSheet(Sheet):
             self.rows.addWidget(self._row(record))
             self.rows.addWidget(Line(self._theme))
         self.rows.addStretch(1)
-        self.open(self.done)
+        self.open()
 
     def _take_room(self) -> None:
         super()._take_room()
@@ -89,15 +90,14 @@ class RecordsSheet(Sheet):
 
 
 class LogSheet(Sheet):
-    """The log, newest first; whether it is whole stands above it."""
+    """The log, newest first."""
 
     def __init__(self, host: QWidget, theme: Theme) -> None:
         super().__init__(host, theme, 1080)
         self.title = Text(theme, self.tr("Log"), 20, SEMIBOLD)
-        self.state = StateText(theme, 14, MEDIUM)
         words = self.tr(
-            "Only ever added to. In the file patients and sessions are numbers: names are put to them here, as long as "
-            "they are in the list."
+            "Only ever added to, which protects against mistakes, not against the owner of the computer: a back-up "
+            "kept elsewhere shows a later change. Names are put to it here, as long as they are in the list."
         )
         self.table = QTableWidget(0, 5)
         heads = (self.tr("When"), self.tr("Who"), self.tr("What"), self.tr("Of whom"), self.tr("Details"))
@@ -109,28 +109,24 @@ class LogSheet(Sheet):
         self.table.horizontalHeader().setStretchLastSection(True)
         self.table.setShowGrid(False)
         self.table.setAccessibleName(self.tr("Log"))
-        self.done = Button(theme, self.tr("Done"), "primary", hint=self.tr("Esc"), height_px=44)
+        self.done = Button(theme, self.tr("Done"), "primary", height_px=44)
         self.done.clicked.connect(self.close_sheet)
+        self.set_default(self.done)
         self.card.body.setSpacing(10)
         self.card.body.addWidget(self.title)
-        self.card.body.addWidget(self.state)
         self.card.body.addWidget(Text(theme, words, 14, REGULAR, "text2", wrap=True))
         self.card.body.addWidget(self.table)
         self.card.body.addWidget(self.done, 0, Qt.AlignmentFlag.AlignRight)
 
-    def begin(self, deeds: Sequence[LoggedDeed], changed_at: Sequence[int]) -> None:
-        """Show the deeds; ``changed_at`` the numbers of lines before which something was changed."""
-        if changed_at:
-            words = self.tr("The log was changed at or before line {line}.").format(line=changed_at[0])
-            self.state.show_state("bad", words, token="bad")
-        else:
-            self.state.show_state("good", self.tr("Whole: {n} lines, none changed.").format(n=len(deeds)))
+    def begin(self, deeds: Sequence[LoggedDeed]) -> None:
+        """Show the deeds."""
+        self.title.setText(self.tr("Log: {n} lines").format(n=len(deeds)))
         self.table.setRowCount(len(deeds))
         for row, deed in enumerate(reversed(deeds)):
             when = numbers.report_date(deed.when)
             for column, text in enumerate((when, deed.who or numbers.UNKNOWN, deed.what, deed.of_whom, deed.detail)):
                 self.table.setItem(row, column, QTableWidgetItem(text))
-        self.open(self.done)
+        self.open()
 
     def _take_room(self) -> None:
         super()._take_room()

@@ -27,8 +27,6 @@ class LockSheet(Sheet):
     def __init__(self, host: QWidget, theme: Theme) -> None:
         super().__init__(host, theme, 480, may_close=False)
         self._pause_s = 0
-        self.is_encrypted = False
-        """Whether the PIN opens the files too."""
         self._says_why = False
         self.badge = _Badge(theme)
         self.title = Text(theme, self.tr("Locked"), 28, SEMIBOLD)
@@ -37,10 +35,10 @@ class LockSheet(Sheet):
         self.line.setEchoMode(QLineEdit.EchoMode.Password)
         self.line.setMaxLength(MOST_SIGNS)
         self.line.setAccessibleName(self.tr("PIN"))
-        self.line.returnPressed.connect(self._try)
         self.said = Text(theme, "", 14, SEMIBOLD, "bad", wrap=True)
-        self.unlock = Button(theme, self.tr("Unlock"), "primary", hint=self.tr("Enter"))
+        self.unlock = Button(theme, self.tr("Unlock"), "primary")
         self.unlock.clicked.connect(self._try)
+        self.set_default(self.unlock)
         self.safe = StateText(theme, 14, MEDIUM)
         self.hidden = StateText(theme, 14, REGULAR)
         self.forgotten = Text(theme, "", 14, REGULAR, "text2", wrap=True)
@@ -78,11 +76,6 @@ class LockSheet(Sheet):
         self.line.setEnabled(True)
         self.unlock.setEnabled(True)
         self.open(self.line)
-
-    def begin_encrypted(self) -> None:
-        """Before anything is opened: what is stored is encrypted."""
-        self.is_encrypted = True
-        self.begin(self.tr("What is stored here is encrypted."), stored=False)
 
     def reason(self, when: datetime, minutes: int) -> str:
         """Why it is locked: by key, or after so many minutes."""
@@ -151,12 +144,7 @@ class LockSheet(Sheet):
 
     def _say_forgotten(self, *, help_shown: bool) -> None:
         words = self.tr("PIN forgotten? F1 says what can be done.")
-        if help_shown and self.is_encrypted:
-            words = self.tr(
-                "Type the recovery code instead, which was shown when the encryption was switched on. Without PIN and "
-                "code nobody can read what is stored."
-            )
-        elif help_shown:
+        if help_shown:
             words = self.tr(
                 "Whoever looks after this computer takes the file pin.json out of the data folder and starts Carpus "
                 "again: nothing is lost. A PIN hides; it does not protect the files."

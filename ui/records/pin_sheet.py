@@ -27,13 +27,13 @@ class PinSheet(Sheet):
         for line in (self.old, self.new, self.again):
             line.setEchoMode(QLineEdit.EchoMode.Password)
             line.setMaxLength(MOST_SIGNS)
-            line.returnPressed.connect(self._keep)
         self._old_row = Labelled(theme, self.tr("&PIN until now"), self.old)
         self.said = Text(theme, "", 14, SEMIBOLD, "bad", wrap=True)
-        self.keep = Button(theme, self.tr("Keep this PIN"), "primary", hint=self.tr("Enter"))
+        self.keep = Button(theme, self.tr("Keep this PIN"), "primary")
         self.remove = Button(theme, self.tr("&Take the PIN away"), "plain", height_px=52)
         cancel = Button(theme, self.tr("Cancel"), "plain", hint=self.tr("Esc"), height_px=52)
         self.keep.clicked.connect(self._keep)
+        self.set_default(self.keep)
         self.remove.clicked.connect(lambda: self.chosen.emit(self.old.text(), ""))
         cancel.clicked.connect(self.close_sheet)
         words = self.tr(

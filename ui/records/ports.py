@@ -10,9 +10,8 @@ from datetime import date, datetime
 class ErasureFacts:
     """What is said before a session, or with ``when`` None a patient, is erased.
 
-    ``exports`` and ``reports`` that Carpus made elsewhere go too; ``changed`` ones stay, ``not_found`` ones are not
-    reached. ``others`` counts the patient's sessions that stay. ``kept_until`` None where no years are set,
-    ``last_backup`` None before the first.
+    ``made``: reports and exports that Carpus saved elsewhere; they stay. ``others`` counts the patient's sessions that
+    stay. ``kept_until`` None where no years are set, ``last_backup`` None before the first.
     """
 
     pseudonym: str
@@ -22,10 +21,7 @@ class ErasureFacts:
     sessions: int
     files: int
     size_mb: float
-    exports: int
-    reports: int
-    changed: int
-    not_found: int
+    made: tuple[str, ...]
     others: int
     last_backup: datetime | None
     kept_until: date | None

@@ -7,23 +7,24 @@ from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from PySide6.QtCore import QBuffer, QByteArray, QIODevice, QMarginsF, QPointF, QRectF
+from PySide6.QtCore import QBuffer, QByteArray, QIODevice, QMarginsF, QPointF, QRectF, Qt
 from PySide6.QtGui import QColor, QImage, QPageLayout, QPageSize, QPainter, QPdfWriter
 
 from carpus.core.formats.new_output import new_bytes
-from carpus.ui.agreement.words import angle_name, share, tenths
+from carpus.ui.agreement.words import angle_name, remark_words, share, tenths
 from carpus.ui.fonts import SEMIBOLD, font
 from carpus.ui.plot.agreement import AgreementPlot
 from carpus.ui.plot.style import paper_style
 from carpus.ui.report.pdf import ensure_application
 from carpus.ui.theme import LIGHT
-from carpus.ui.translate import tr
+from carpus.ui.translate import say, tr
 
 if TYPE_CHECKING:  # a window loads nothing that reads files
     from carpus.core.agreement.compare import Compared, Pairs
 
 WIDTH, HEIGHT = 1120.0, 480.0
 PICTURE_SCALE = 2
+REMARK = Qt.TextFlag.TextWordWrap | Qt.AlignmentFlag.AlignLeft | Qt.AlignmentFlag.AlignTop
 POINT_PX = 4.0 / 3.0
 """Painter units a point: the page is drawn in design pixels."""
 
@@ -90,12 +91,27 @@ def _paint(painter: QPainter, pairs: Pairs, compared: Compared, limit_deg: float
     painter.setFont(font(20, SEMIBOLD))
     painter.drawText(QPointF(24, 34), angle_name(pairs.name))
     painter.setFont(font(13))
-    said = [f"RMSE {tenths(f.rmse)}", f"r {share(f.correlation)}", f"ICC(2,1) {share(f.icc)}"]
+    said = [
+        f"RMSE {tenths(f.rmse)}",
+        f"r {share(f.correlation)}",
+        f"ICC(2,1) {share(f.icc)}",
+        f"ICC(3,1) {share(f.icc_3_1)}",
+    ]
     if math.isfinite(f.cmc):
         said.append(f"CMC {share(f.cmc)}")
-    said.append(tr("{count} pairs of one session, against {kind}").format(count=f.count, kind=compared.kind))
+    words = (
+        tr("{count} pairs, {kind}") if compared.pictures == 0 else tr("{count} pairs of one session, against {kind}")
+    )
+    said.append(words.format(count=f.count, kind=say(compared.kind)))
     painter.drawText(QPointF(24, 58), "   ".join(said))
+    top = 84.0
+    for words in remark_words(compared, pairs.name):
+        painter.setPen(QColor(LIGHT.warn))
+        box = painter.boundingRect(QRectF(24, top - 16, WIDTH - 48, 200), REMARK, words)
+        painter.drawText(box, REMARK, words)
+        top = box.bottom() + 20.0
     style, over_time = paper_style(POINT_PX), compared.shift is not None
     plot = AgreementPlot(pairs, limit_deg, over_time, "curves")
-    plot.paint(painter, style, QRectF(24, 84, 500, 372))
-    replace(plot, view="differences").paint(painter, style, QRectF(548, 84, 556, 372))
+    height = HEIGHT - 24.0 - top
+    plot.paint(painter, style, QRectF(24, top, 500, height))
+    replace(plot, view="differences").paint(painter, style, QRectF(548, top, 556, height))

@@ -9,13 +9,14 @@ from dataclasses import dataclass
 from carpus.core.measures.grade import Grade
 from carpus.core.output.further_measures import GradedTotal, graded_totals
 from carpus.core.output.joint_content import WITHOUT_TOTAL, finger_keys, spread_keys, thumb_keys
+from carpus.core.output.norms import total_norm
 from carpus.core.output.range_rows import RangeRow, RowKey
 from carpus.core.output.report_content import SessionFigures, compare_rows
 from carpus.ui import numbers
 from carpus.ui.figures import FINGERS, Figure, Row, figure_of, with_side
 from carpus.ui.marker_words import finger_name
 from carpus.ui.report.further_rows import main_words
-from carpus.ui.translate import inside, tr
+from carpus.ui.translate import inside, say, tr
 from carpus.ui.verdicts import change_short, reason_words
 
 COLUMNS: tuple[Row, ...] = ("knuckle", "middle", "end", "spread", "tam")
@@ -58,7 +59,7 @@ def finger_rows(
 ) -> list[FingerRow]:
     """Thumb to little finger; last time and change are those of the total, of spreading or of the middle joint,
     whichever the exercise is about. ``other`` the other hand, of which a total is a share."""
-    graded = {grade.finger: grade for grade in graded_totals(figures.joint_rows, _rows_of(other))}
+    graded = {grade.finger: grade for grade in graded_totals(figures.joint_rows, figures.exercise, _rows_of(other))}
     return [_finger_row(finger, figures, previous, graded.get(finger)) for finger in FINGERS]
 
 
@@ -82,7 +83,7 @@ def _share_cell(graded: GradedTotal | None, row: RangeRow | None) -> FingerCell:
 
 def of_other_hand(figures: SessionFigures, other: SessionFigures | None) -> bool:
     """Whether totals are shares of the other hand's, not of the usual ones."""
-    graded = graded_totals(figures.joint_rows, _rows_of(other))
+    graded = graded_totals(figures.joint_rows, figures.exercise, _rows_of(other))
     return bool(graded) and all(grade.of_other_hand for grade in graded)
 
 
@@ -90,7 +91,7 @@ def column_heads(
     figures: SessionFigures, previous: SessionFigures | None, other: SessionFigures | None = None
 ) -> list[str]:
     """Heads after the finger's name: the columns, the share of the total, last time, the change."""
-    day = numbers.day_beside(previous.when, figures.when) if previous else ""
+    day = numbers.since(previous.when, figures.when) if previous else ""
     compared = {"tam": tr("TAM"), "spread": tr("spread"), "middle": tr("PIP")}[compared_row(figures)]
     if trains_thumb(figures):
         compared = tr("lift")
@@ -180,13 +181,15 @@ def total_words(figures: SessionFigures) -> list[str]:
         words.append(tr("It is missing where a finger’s joints were never all seen at once."))
     if any(row.inferred for row in totals):
         words.append(tr("DIP not measured: TAM takes it as two thirds of PIP."))
-    if any(row.count for row in totals):
+    norm = total_norm(2, figures.exercise)
+    if any(row.count for row in totals) and norm is not None:
         words.append(
             tr(
                 "Share of the other hand’s TAM, else of the usual 260° (thumb 140°): excellent from 100 %, good above "
                 "75 %, fair above 50 %, else poor (ASSH)."
             )
         )
+        words.append(say(norm.sentence()))
     return words
 
 
@@ -233,7 +236,7 @@ def hand_since_words(figures: SessionFigures, before: SessionFigures, when: str)
         return tr("Change since {when} is not judged: {why}.").format(when=when, why=why) if changes else ""
     rest = tr("What was hidden in part is not judged.") if len(judged) < len(changes) else ""
     if not beyond:
-        return f"{tr('No change beyond measurement error since {when}.').format(when=when)} {rest}".strip()
+        return f"{tr('No change proven since {when}.').format(when=when)} {rest}".strip()
     words = []
     for item in beyond:
         size = numbers.degrees(item.shown_difference_deg)

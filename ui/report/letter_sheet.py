@@ -69,6 +69,7 @@ class LetterSheet(Sheet):
         self.names.toggled.connect(self.names_note.setVisible)
         self.close_button.clicked.connect(self.leave)
         self.take.clicked.connect(self._take)
+        self.set_default(self.take)
 
     def begin(self, known: Sequence[str], *, has_name: bool) -> None:
         """Ask; the name is never ticked by itself."""

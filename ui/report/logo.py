@@ -4,16 +4,17 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from PySide6.QtCore import QBuffer, QByteArray, QIODevice, QRectF, Qt
-from PySide6.QtGui import QImage, QImageReader, QPainter
-from PySide6.QtSvg import QSvgRenderer
+from PySide6.QtCore import QBuffer, QByteArray, QIODevice, Qt
+from PySide6.QtGui import QImage, QImageReader
 
 from carpus.ui.translate import tr
 
 MOST_BYTES = 8_000_000
 LONGEST_PX = 1200
 LEAST_PX = 32
-KINDS = (b"png", b"jpeg", b"svg")
+MOST_PIXELS = 40_000_000
+KINDS = (b"png", b"jpeg")
+"""A drawing (SVG) is a program of its own: it may load other files and take any time."""
 
 
 class LogoRefused(ValueError):
@@ -26,12 +27,12 @@ def logo_png(path: Path) -> bytes:
         size = path.stat().st_size
         data = path.read_bytes() if size <= MOST_BYTES else b""
     except OSError:
-        raise LogoRefused(tr("This picture cannot be read. Choose a PNG, JPEG or SVG file.")) from None
+        raise LogoRefused(tr("This picture cannot be read. Choose a PNG or JPEG file.")) from None
     if size > MOST_BYTES:
         raise LogoRefused(tr("This picture is larger than 8 MB. Choose a smaller one."))
-    image = _of_svg(data) if path.suffix.lower() == ".svg" else _of_pixels(data)
+    image = _of_pixels(data)
     if image.isNull():
-        raise LogoRefused(tr("This file is no picture that Carpus can read. Choose a PNG, JPEG or SVG file."))
+        raise LogoRefused(tr("This file is no picture that Carpus can read. Choose a PNG or JPEG file."))
     if min(image.width(), image.height()) < LEAST_PX:
         raise LogoRefused(tr("This picture is too small to print. Choose one of at least 32 pixels each way."))
     if max(image.width(), image.height()) > LONGEST_PX:
@@ -52,19 +53,7 @@ def _of_pixels(data: bytes) -> QImage:
     reader = QImageReader(buffer)
     reader.setAutoTransform(True)
     reader.setDecideFormatFromContent(True)
-    if bytes(reader.format().data()).lower() not in KINDS:
+    size = reader.size()  # as its head says, before anything is unpacked
+    if bytes(reader.format().data()).lower() not in KINDS or size.width() * size.height() > MOST_PIXELS:
         return QImage()
     return reader.read()
-
-
-def _of_svg(data: bytes) -> QImage:
-    drawing = QSvgRenderer(QByteArray(data))
-    size = drawing.defaultSize()
-    if not drawing.isValid() or size.isEmpty():
-        return QImage()
-    image = QImage(size.scaled(LONGEST_PX, LONGEST_PX, Qt.AspectRatioMode.KeepAspectRatio), QImage.Format.Format_ARGB32)
-    image.fill(Qt.GlobalColor.transparent)
-    painter = QPainter(image)
-    drawing.render(painter, QRectF(image.rect()))
-    painter.end()
-    return image

@@ -29,6 +29,7 @@ from carpus.core.output.report_content import (
     session_figures,
 )
 from carpus.core.output.report_form import PAPER_PT, ReportForm
+from carpus.core.private import private
 from carpus.core.provenance import said_in, with_revision
 from carpus.core.session.values import Session
 from carpus.ui.fonts import load_fonts
@@ -220,7 +221,7 @@ def _layout(size_mm: QSizeF | None) -> QPageLayout:
 
 def _store(path: Path, content: bytes) -> None:
     try:
-        with path.open("xb") as file:
+        with open(path, "xb", opener=private) as file:
             file.write(content)
     except FileExistsError:
         raise OutputExists(path) from None

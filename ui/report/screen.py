@@ -205,12 +205,13 @@ class ReportScreen(QWidget):
 
 
 def suggested_name(report: Report) -> str:
-    """``Linden-42_2026-11-20_report.pdf``: the made-up name and the day."""
-    if isinstance(report, SessionReport):
-        when, kind = report.figures.when, "report"
-    elif isinstance(report, LetterReport):
-        when, kind = report.report.figures.when, "letter"
-    elif isinstance(report, BesideReport):
+    """``Linden-42_2026-11-20_15-29_wrist-fe_report.pdf``: the made-up name, when, and what was done."""
+    if isinstance(report, SessionReport | LetterReport):
+        figures = report.figures if isinstance(report, SessionReport) else report.report.figures
+        what = figures.exercise.id.lower().replace("_", "-")
+        name, kind = report.pseudonym.replace(" ", "-"), "report" if isinstance(report, SessionReport) else "letter"
+        return f"{name}_{figures.when:%Y-%m-%d_%H-%M}_{what}_{kind}.pdf"
+    if isinstance(report, BesideReport):
         when, kind = max(figures.when for figures in report.sessions), "side-by-side"
     else:
         when, kind = report.progress.points[-1].figures.when, "progress"

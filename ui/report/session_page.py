@@ -13,7 +13,8 @@ from carpus.core.by_hand.values import HandValue
 from carpus.core.output.exercises import AXIS_TICK_DEG, SIDES
 from carpus.core.output.joint_content import JointCurves
 from carpus.core.output.motion_curves import MotionCurves
-from carpus.core.output.report_content import Curves, SessionFigures, compare_rows, usual_deg
+from carpus.core.output.norms import wrist_norm
+from carpus.core.output.report_content import Curves, SessionFigures, compare_rows
 from carpus.core.output.report_form import USUAL_FORM, ReportForm
 from carpus.ui import numbers, terms
 from carpus.ui.by_hand.names import day_words
@@ -24,7 +25,7 @@ from carpus.ui.plot.style import CURVE_TOKENS
 from carpus.ui.report.hand_part import paint_finger_curves, paint_finger_table, paint_wrist_line
 from carpus.ui.report.hand_rows import compared_figures, hand_summary
 from carpus.ui.report.page import A4_PT, MARGIN_PT, Page
-from carpus.ui.report.tables import TableRow, column_names, repetition_words, table_rows
+from carpus.ui.report.tables import TableRow, column_names, norm_words, repetition_words, table_rows
 from carpus.ui.report.words import corrected_words, method, other_lines, quality_lines, summary, warnings
 from carpus.ui.theme import LIGHT
 from carpus.ui.translate import inside, tr
@@ -190,6 +191,11 @@ def _paint_table(page: Page, report: SessionReport, top: float) -> float:
         weights = [MEDIUM, SEMIBOLD, REGULAR, REGULAR, REGULAR, REGULAR, MEDIUM]
         _paint_row(page, row, baseline, 9.0, ["text"] * 7, weights)
     page.rule(baseline + 4.5)
+    source = norm_words(figures)
+    if source:
+        baseline += 10.0
+        size = min(7.5, 7.5 * (page.right - page.left) / page.width_of(source, 7.5))
+        page.text(source, page.left, baseline + 4.0, size, REGULAR, "text2")
     return baseline + 4.5
 
 
@@ -251,9 +257,9 @@ def _paint_bars(page: Page, report: SessionReport, top: float) -> float:
 
     upper, lower = SIDES[angles[0]]
     for movement, sign in ((upper, 1.0), (lower, -1.0)):
-        usual = usual_deg(movement, angles[0])
-        if usual is not None and len(angles) == 1:
-            ends = sorted((x(sign * usual[0]), x(sign * usual[1])))
+        norm = wrist_norm(movement, angles[0], figures.exercise)
+        if norm is not None:
+            ends = sorted((x(sign * norm.low_deg), x(sign * norm.high_deg)))
             width = max(ends[1] - ends[0], 1.5)
             page.painter.fillRect(page.box(ends[0], area_top, width, height), QColor(LIGHT.norm))
     step = tick / 4
@@ -271,7 +277,7 @@ def _paint_bars(page: Page, report: SessionReport, top: float) -> float:
     if len(angles) == 1:
         page.text(terms.movement_name(lower), left, foot, 8.5, REGULAR, "text2")
         page.text_right(terms.movement_name(upper), right, foot, 8.5, REGULAR, "text2")
-        if usual_deg(upper, angles[0]) is not None:
+        if wrist_norm(upper, angles[0], figures.exercise) is not None:
             words = tr("grey: usual in adults (AMA, AAOS)")
             page.text(words, 0.5 * (left + right) - page.width_of(words, 8.5) / 2, foot, 8.5, REGULAR, "text2")
     return foot + 2

@@ -5,11 +5,12 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass, replace
 
+from carpus.core.output.norms import wrist_norm
 from carpus.core.output.range_rows import RangeRow
-from carpus.core.output.report_content import Comparison, SessionFigures, compare, usual_deg
+from carpus.core.output.report_content import Comparison, SessionFigures, compare
 from carpus.ui import numbers, terms
 from carpus.ui.plot.style import CURVE_TOKENS
-from carpus.ui.translate import tr
+from carpus.ui.translate import say, tr
 from carpus.ui.verdicts import change_short, change_with_limit, reason_words
 
 
@@ -31,7 +32,7 @@ class TableRow:
 
 def column_names(figures: SessionFigures, previous: SessionFigures | None, other: SessionFigures | None) -> TableRow:
     """Heads of the columns; a column without content has an empty head."""
-    day = numbers.day_beside(previous.when, figures.when) if previous else ""
+    day = numbers.since(previous.when, figures.when) if previous else ""
     return TableRow(
         movement=tr("Movement"),
         today=tr("Today, mean ± sd"),
@@ -55,6 +56,12 @@ def table_rows(
     if figures.peak_speed.count or too_slow(figures):
         out.append(_speed_row(figures, previous, other))
     return out
+
+
+def norm_words(figures: SessionFigures) -> str:
+    """Where the usual values are from and whom they cover; empty where none is shown."""
+    norms = [wrist_norm(row.movement, row.angle, figures.exercise) for row in figures.rows]
+    return next((say(norm.sentence()) for norm in norms if norm is not None), "")
 
 
 def too_slow(figures: SessionFigures) -> bool:
@@ -142,13 +149,13 @@ def _range_row(
     if row.limited:
         words = "; ".join(part for part in (words, tr("limited by the camera's view")) if part)
         short = "; ".join(part for part in (short, tr("limited by view")) if part)
-    usual = usual_deg(row.movement, row.angle)
+    norm = wrist_norm(row.movement, row.angle, figures.exercise)
     return TableRow(
         movement=name,
         today=mean_words(row),
         best=numbers.degrees(row.best_deg),
         other_hand=terms.end_words(beside.mean_deg) if beside else "",
-        usual=numbers.UNKNOWN if usual is None else _range(*usual),
+        usual=numbers.UNKNOWN if norm is None else _range(norm.low_deg, norm.high_deg),
         last=terms.end_words(before.mean_deg) if before else "",
         change=words,
         short_change=short or words,

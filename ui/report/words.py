@@ -58,7 +58,7 @@ def since_words(changes: tuple[Comparison, ...], when: str) -> str:
         why = reason_words([reason for item in changes for reason in item.reasons])
         return tr("Change since {when} is not judged: {why}.").format(when=when, why=why) if changes else ""
     if not beyond:
-        return tr("No change beyond measurement error since {when}.").format(when=when)
+        return tr("No change proven since {when}.").format(when=when)
     words = []
     for item in beyond:
         name = tr("whole arc") if item.movement == "arc" else inside(terms.movement_long_name(item.movement))
@@ -240,6 +240,11 @@ def other_lines(figures: SessionFigures) -> list[tuple[str, str]]:
         )
         value = numbers.fixed(smooth.mean, 1).replace("-", "\N{MINUS SIGN}")
         lines.append((tr("Smoothness (SPARC; 0 is smoothest)"), f"{value}{spread}"))
+    if figures.speed is not None and figures.speed.pauses.count:
+        pauses, pause_s = figures.speed.pauses.mean, figures.speed.pause_time.mean
+        words = tr("{count} per stroke, {seconds} s in all") if pauses else tr("none")
+        count, seconds = numbers.fixed(pauses, 1), numbers.fixed(pause_s, 1)
+        lines.append((tr("Stops on the way, mean"), words.format(count=count, seconds=seconds)))
     if targets := target_words(figures):
         lines.append((tr("Target"), targets))
     if len(figures.pain) > 1:

@@ -34,7 +34,7 @@ class PeopleSheet(Sheet):
         body.addWidget(self._scroll)
         self.ticks: dict[str, Tick] = {}
         close = Button(theme, self.tr("Cancel"), "plain", hint=self.tr("Esc"), height_px=44)
-        self.take = Button(theme, self.tr("These take part"), "primary", hint=self.tr("Enter"), height_px=44)
+        self.take = Button(theme, self.tr("These take part"), "primary", height_px=44)
         row = QHBoxLayout()
         row.setSpacing(10)
         row.addStretch(1)
@@ -43,6 +43,7 @@ class PeopleSheet(Sheet):
         body.addLayout(row)
         close.clicked.connect(self.close_sheet)
         self.take.clicked.connect(self._take)
+        self.set_default(self.take)
 
     def begin(self, people: Sequence[tuple[str, str, int]], chosen: Sequence[str]) -> None:
         """Identity, pseudonym and number of sessions of everybody, and who takes part already."""
@@ -54,7 +55,6 @@ class PeopleSheet(Sheet):
         for identity, name, sessions in people:
             count = self.tr("1 session") if sessions == 1 else self.tr("{count} sessions").format(count=sessions)
             tick = Tick(self._theme, f"{name.replace('&', '&&')} · {count}")
-            tick.accepted.connect(self._take)
             tick.setChecked(identity in chosen)
             line = QHBoxLayout()
             line.addWidget(tick)

@@ -37,18 +37,27 @@ class ReasonSheet(Sheet):
         self.line = QLineEdit()
         self.line.setPlaceholderText(self.tr("Another reason"))
         self.line.setAccessibleName(self.tr("Another reason"))
-        self.line.returnPressed.connect(lambda: self._keep(self.line.text().strip()))
-        close = Button(theme, self.tr("Keep it in"), "plain", hint=self.tr("Esc"))
-        close.clicked.connect(self.close_sheet)
+        self.line.textChanged.connect(self._written)
+        self._take = Button(theme, self.tr("Leave it out"), "plain")
+        self._take.clicked.connect(lambda: self._keep(self.line.text().strip()))
+        self._close = Button(theme, self.tr("Keep it in"), "plain")
+        self._close.clicked.connect(self.close_sheet)
         row.addWidget(self.line, 1)
-        row.addWidget(close)
+        row.addWidget(self._take)
+        row.addWidget(self._close)
         body.addLayout(row)
 
     def begin(self, number: int) -> None:
         """Ask about a repetition, counted from 1."""
         self._title.setText(self.tr("Leave repetition {number} out?").format(number=number))
         self.line.clear()
-        self.open(self.buttons[0])
+        self._written("")
+        self.open()
+
+    def _written(self, text: str) -> None:
+        """Who writes a reason means it; without one nothing is left out by Enter."""
+        self._take.setEnabled(bool(text.strip()))
+        self.set_default(self._take if text.strip() else self._close)
 
     def _keep(self, reason: str) -> None:
         if reason:

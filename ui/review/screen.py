@@ -130,7 +130,7 @@ class ReviewScreen(QWidget):
         fingers += [(finger, finger_name(str(finger))) for finger in FINGERS]
         self.finger = Choices(theme, [*fingers, (WRIST, self.tr("Wrist"))])
         self.notes = Text(theme, "", 14, REGULAR, wrap=True)
-        self.title = Text(theme, self.tr("Range of motion"), 20, SEMIBOLD)
+        self.title = Text(theme, self.tr("Range of motion"), 16, SEMIBOLD)
         self.count = ElidedText(theme, "", 14, REGULAR, "text2")  # one line: what it says comes when all has its place
         self.again_button = Button(theme, self.tr("Another set"), "quiet", icon="plus")
         self.count_button = Button(theme, self.tr("Do not count"), "quiet")
@@ -177,18 +177,15 @@ class ReviewScreen(QWidget):
         card = Card(self._theme, 20)
         head = QHBoxLayout()
         head.setSpacing(12)
-        named = QVBoxLayout()
-        named.setSpacing(0)
-        named.addWidget(self.title)
-        named.addWidget(self.count)
-        head.addLayout(named, 1)
+        head.addWidget(self.count, 1)
         head.addWidget(self.count_button)
         head.addWidget(self.beside_button)
         head.addWidget(self.again_button)
         head.addWidget(self.export_button)
         head.addWidget(self.report_button)
-        card.body.setContentsMargins(24, 10, 16, 10)
+        card.body.setContentsMargins(24, 4, 16, 4)
         card.body.setSpacing(4)
+        card.body.addWidget(self.title)
         card.body.addLayout(head)
         self._scroll = QScrollArea()
         tables = ScrolledColumn()
@@ -308,6 +305,13 @@ class ReviewScreen(QWidget):
         self._background.run(read, self._show, self.told.emit, self)
         self.setFocus(Qt.FocusReason.OtherFocusReason)
 
+    def _session_words(self) -> str:
+        """What was done, with which hand and when."""
+        assert self.figures is not None
+        of = self.figures
+        hand = inside(terms.hand_name(of.side))
+        return f"{terms.exercise_name(of.exercise.id)}, {hand} · {numbers.short_date(of.when)} {of.when:%H:%M}"
+
     def end(self) -> None:
         """Stop playing."""
         self._stop()
@@ -397,6 +401,7 @@ class ReviewScreen(QWidget):
             self._below.insertWidget(0 if figures.exercise.id in FIRST else last, self.further)
         said = " · ".join(filter(None, (repetition_words(figures), corrected_words(figures).rstrip("."))))
         self.count.setText(said)
+        self.title.setText(self._session_words())
         self.count.setToolTip(plain_tooltip(said))
         said = "  ".join(f"{numbers.clock(time_s)} “{text}”" for time_s, text in figures.notes)
         words = [self.tr("Notes: {notes}").format(notes=said)] if said else []

@@ -20,7 +20,7 @@ ROW_PX = 58
 TICK_PX, TICK_LEFT_PX = 20, 18
 MOST_TICKED = 2
 SIGN_PX = 16
-COLUMNS = (0.062, 0.224, 0.482, 0.688, 0.775, 0.985)
+COLUMNS = (0.062, 0.242, 0.490, 0.680, 0.760, 0.985)
 """Left edges as shares of the width: date, exercise and hand, main figure, counted, remark; the last is the end."""
 TWO_LINES_BELOW_PX, TWO_LINES = 720, (0.42, 0.84, 1.0)
 """In a narrower list, text at 100 %, date, figure and what counted stand over exercise and remark: right edges as

@@ -13,6 +13,7 @@ from carpus.ui.background import Background
 from carpus.ui.controls.button import Button
 from carpus.ui.controls.card import Card
 from carpus.ui.controls.column import scroll_area
+from carpus.ui.controls.default_answer import ENTER
 from carpus.ui.controls.text import REGULAR, SEMIBOLD, Text, heading
 from carpus.ui.keys import Keys, bind
 from carpus.ui.ports import SessionLine, SessionShelf
@@ -24,13 +25,15 @@ from carpus.ui.theme import MARGIN_PX, Theme
 class SessionsScreen(QWidget):
     """``opened`` carries a session to be reviewed, ``progress`` one to be compared with, ``reference_wanted`` one to be
     compared with another measurement, ``pair_wanted`` two to be shown side by side, ``erase_wanted`` one to be archived
-    or erased; ``told`` a fault; ``changed`` that something of the patient's sessions is different now."""
+    or erased, ``archive_wanted`` the patient whose archived ones are asked for; ``told`` a fault; ``changed`` that
+    something of the patient's sessions is different now."""
 
     opened = Signal(str)
     progress = Signal(str)
     reference_wanted = Signal(str)
     erase_wanted = Signal(str)
     pair_wanted = Signal(str, str)
+    archive_wanted = Signal(str)
     told = Signal(object)
     changed = Signal()
 
@@ -41,12 +44,14 @@ class SessionsScreen(QWidget):
         self._round = 0
         self.title = heading(theme)
         self.none = Text(theme, self.tr("No session yet."), 16, REGULAR, "text2")
+        self.notice_place = QVBoxLayout()
         self.list = SessionList(theme)
+        self.archive_button = Button(theme, "", "quiet", icon="archive", height_px=36)
         self.what = Text(theme, "", 20, SEMIBOLD, wrap=True)
         self.figure = Text(theme, "", 28, SEMIBOLD, wrap=True)
         self.facts = Text(theme, "", 14, REGULAR, "text2", wrap=True)
         self.remark = Text(theme, "", 14, SEMIBOLD, "warn", wrap=True)
-        self.open_button = Button(theme, self.tr("Open in review"), "primary", hint=self.tr("Enter"))
+        self.open_button = Button(theme, self.tr("Open in review"), "primary", hint=ENTER)
         self.pair_button = Button(theme, "", height_px=40)
         self.compare_button = Button(theme, self.tr("Compare in &progress"), height_px=40)
         self.reference_button = Button(theme, self.tr("Compare with a &reference…"), height_px=40)
@@ -65,8 +70,11 @@ class SessionsScreen(QWidget):
         left = QVBoxLayout()
         left.setSpacing(12)
         left.addWidget(self.title)
+        left.addLayout(self.notice_place)
         left.addWidget(self.none)
         left.addWidget(self.list, 1)
+        left.addWidget(self.archive_button, 0, Qt.AlignmentFlag.AlignLeft)
+        left.addStretch(0)
         self._card = Card(self._theme, 20)
         body = self._card.body
         body.setSpacing(10)
@@ -104,6 +112,7 @@ class SessionsScreen(QWidget):
         self.move_button.clicked.connect(self._ask_move)
         self.rename_button.clicked.connect(self._ask_rename)
         self.erase_button.clicked.connect(self._ask_erase)
+        self.archive_button.clicked.connect(lambda: self.archive_wanted.emit(self._patient_id))
         self.aside_sheet.kept.connect(self._set_aside)
         self.move_sheet.chosen.connect(
             lambda patient_id: self._do(lambda line: self._shelf.move(line.session_id, patient_id))
@@ -122,6 +131,9 @@ class SessionsScreen(QWidget):
         self.title.setText(self.tr("Sessions of {name}").format(name=pseudonym))
         self.list.rows.show_lines(lines)
         self._show_ticks()
+        archived = self._shelf.archived(patient_id)
+        self.archive_button.setVisible(archived > 0)
+        self.archive_button.set_face(self.tr("In the archi&ve: {n}").format(n=archived))
         self.none.setVisible(not lines)
         self.list.setVisible(bool(lines))
         row = max(0, self.list.rows.find(choose))

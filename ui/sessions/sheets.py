@@ -53,16 +53,24 @@ class SetAsideSheet(_Asking):
         self.line = QLineEdit()
         self.line.setPlaceholderText(self.tr("Another reason"))
         self.line.setAccessibleName(self.tr("Another reason"))
-        self.line.returnPressed.connect(lambda: self._keep(self.line.text().strip()))
+        self.take = Button(theme, self.tr("Set it aside"), "plain")
+        self.take.clicked.connect(lambda: self._keep(self.line.text().strip()))
+        self.line.textChanged.connect(self._written)
         self.card.body.addWidget(self.line)
-        close = Button(theme, self.tr("Let it count"), "plain", hint=self.tr("Esc"))
-        close.clicked.connect(self.close_sheet)
-        self._buttons(close)
+        self.close_button = Button(theme, self.tr("Let it count"), "plain")
+        self.close_button.clicked.connect(self.close_sheet)
+        self._buttons(self.take, self.close_button)
 
     def begin(self) -> None:
         """Ask for the reason."""
         self.line.clear()
-        self.open(self.buttons[0])
+        self._written("")
+        self.open()
+
+    def _written(self, text: str) -> None:
+        """Who writes a reason means it; without one nothing is set aside by Enter."""
+        self.take.setEnabled(bool(text.strip()))
+        self.set_default(self.take if text.strip() else self.close_button)
 
     def _keep(self, reason: str) -> None:
         if reason:
@@ -82,9 +90,10 @@ class ChooseSheet(_Asking):
         self.card.body.addWidget(self.box)
         self.take = Button(theme, "", "primary", height_px=44)
         self.take.clicked.connect(self._take)
-        close = Button(theme, self.tr("Leave it as it is"), "plain", hint=self.tr("Esc"))
+        close = Button(theme, self.tr("Leave it as it is"), "plain", height_px=44)
         close.clicked.connect(self.close_sheet)
-        self._buttons(close, self.take)
+        self.set_default(close)
+        self._buttons(self.take, close)
 
     def begin(self, title: str, words: str, take: str, choices: Sequence[tuple[str, str]]) -> None:
         """Ask for one of the (key, text); ``take`` is what the button says."""
@@ -95,7 +104,7 @@ class ChooseSheet(_Asking):
         for key, text in choices:
             self.box.addItem(text, key)
         self.take.setEnabled(bool(choices))
-        self.open(self.box)
+        self.open(self.box if self.take.isEnabled() else None)
 
     def _take(self) -> None:
         key = self.box.currentData()

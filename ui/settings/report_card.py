@@ -68,7 +68,7 @@ class ReportCard(Card):
 
     def ask_logo(self) -> None:
         """Ask for a picture and take it."""
-        kinds = self.tr("Pictures (*.png *.jpg *.jpeg *.svg)")
+        kinds = self.tr("Pictures (*.png *.jpg *.jpeg)")
         path, _ = QFileDialog.getOpenFileName(self, self.tr("Choose a logo"), "", kinds)
         if path:
             self.take_picture(Path(path))

@@ -12,6 +12,7 @@ from carpus.core.output.exercises import Exercise
 from carpus.ui import terms
 from carpus.ui.controls.button import Button
 from carpus.ui.controls.card import Card
+from carpus.ui.controls.default_answer import ENTER
 from carpus.ui.controls.text import REGULAR, SEMIBOLD, Text, heading
 from carpus.ui.setup.choice import SourceChoice, SourceKind
 from carpus.ui.setup.option import Options
@@ -57,7 +58,7 @@ class CameraScreen(QWidget):
         self.progress.setTextVisible(False)
         self.progress.setAccessibleName(self.tr("Progress"))
         self.bubble = BubbleView(theme)
-        self.primary = Button(theme, "", "primary", hint=self.tr("Enter"))
+        self.primary = Button(theme, "", "primary", hint=ENTER)
         self._lay_out()
         self.sources.chosen.connect(self._show)
         self.sources.accepted.connect(self._open)
@@ -184,7 +185,7 @@ class CameraScreen(QWidget):
         if self._opening:
             words = self.tr("Opening…")
         self.primary.setEnabled(not missing and not self._opening)
-        self.primary.set_face(words, hint=self.tr("Enter") if self.primary.isEnabled() else "")
+        self.primary.set_face(words, hint=ENTER if self.primary.isEnabled() else "")
 
     def _open(self) -> None:
         if self.primary.isEnabled():

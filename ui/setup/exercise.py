@@ -6,6 +6,7 @@ import math
 from collections.abc import Sequence
 
 from PySide6.QtCore import Qt, Signal
+from PySide6.QtGui import QKeyEvent
 from PySide6.QtWidgets import QHBoxLayout, QVBoxLayout, QWidget
 
 from carpus.core.hand.marker_protocol import MarkerProtocol
@@ -20,6 +21,7 @@ from carpus.ui import numbers, terms
 from carpus.ui.controls.button import Button
 from carpus.ui.controls.card import Card
 from carpus.ui.controls.column import scrolled
+from carpus.ui.controls.default_answer import ENTER, is_enter, press
 from carpus.ui.controls.field import Choices, DegreesField, Labelled, number_field
 from carpus.ui.controls.text import SEMIBOLD, Text, caption, heading
 from carpus.ui.figures import figure_of
@@ -73,13 +75,11 @@ class ExerciseScreen(QWidget):
         self.audience = Choices(theme, audiences)
         keep: list[tuple[object, str]] = [(False, self.tr("No")), (True, self.tr("Yes"))]
         self.pictures = Choices(theme, keep)
-        self.primary = Button(theme, self.tr("Next: the camera"), "primary", icon="arrow-right", hint=self.tr("Enter"))
+        self.primary = Button(theme, self.tr("Next: the camera"), "primary", icon="arrow-right", hint=ENTER)
         self._lay_out()
         self._listen()
         self.sets_button.clicked.connect(self.sets_wanted)
         self.protocol.chosen.connect(self._show_protocol)
-        for chips in (self.protocol, self.side, self.ends, self.audience, self.pictures):
-            chips.accepted.connect(self._go_on)
         self.primary.clicked.connect(self._go_on)
         self.side.chosen.connect(lambda _: self._show_side())
         self.accept.clicked.connect(self._use_proposal)
@@ -326,6 +326,7 @@ class ExerciseScreen(QWidget):
         for one in self._proposed:
             self.targets[0 if one.direction > 0 else 1].set_value(one.goal_deg)
         self._show_problem()
+        self.primary.setFocus(Qt.FocusReason.OtherFocusReason)  # where Enter stands
 
     def _show_protocol(self, *_: object) -> None:
         for name, options in self.lists.items():
@@ -339,6 +340,10 @@ class ExerciseScreen(QWidget):
         to_choose = self.side.value() is None
         self.primary.setEnabled(not words and not to_choose)
         self.primary.set_face(self.tr("Which hand is measured?") if to_choose else self.tr("Next: the camera"))
+
+    def keyPressEvent(self, event: QKeyEvent) -> None:
+        if not (is_enter(event) and press(self.primary)):
+            super().keyPressEvent(event)
 
     def _go_on(self) -> None:
         if self.primary.isEnabled():

@@ -122,6 +122,7 @@ class SetSheet(Sheet):
         self.add.clicked.connect(self._add)
         self.delete.clicked.connect(self._delete)
         self.keep.clicked.connect(self._keep)
+        self.set_default(self.keep)
         self.close_button.clicked.connect(self.close_sheet)
 
     def _lay_out(self) -> None:

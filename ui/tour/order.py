@@ -70,7 +70,9 @@ def words_of(bubble: Bubble) -> str:
         "patient": tr("Choose in the list who is measured and start here; the practice patient is simulated."),
         "camera": tr("Choose where the pictures come from, then go on here."),
         "aim": tr("Take the picture when the hand lies flat and every disc is to be seen."),
-        "click": tr("Click the blue discs in the picture, each as it is asked for above."),
+        "click": tr(
+            "Look whether every name is on its disc, then press Enter; click the discs that are asked for above."
+        ),
         "check": tr("Every disc has its name and every check is good: start here."),
         "record": tr("The joints are followed already; the space bar starts the recording."),
         "stop": tr("Let the hand move a few times; the space bar then stores it all."),

@@ -10,12 +10,14 @@ from PySide6.QtCore import QRectF, QSize, Qt, Signal
 from PySide6.QtGui import QPainter, QPaintEvent
 from PySide6.QtWidgets import QHBoxLayout, QVBoxLayout, QWidget
 
+from carpus.core.purpose import PURPOSE
 from carpus.ui.controls.button import Button
 from carpus.ui.controls.card import Card, Line
 from carpus.ui.controls.column import scrolled
 from carpus.ui.controls.text import MEDIUM, REGULAR, SEMIBOLD, Text, paint_status
 from carpus.ui.icons import State
 from carpus.ui.theme import Theme
+from carpus.ui.translate import say
 
 CheckState = Literal["good", "warning", "bad"]
 _ICONS: dict[CheckState, State] = {"good": "good", "warning": "warn", "bad": "bad"}
@@ -29,6 +31,11 @@ class Check:
     state: CheckState
     found: str
     remedy: str = ""
+
+
+def purpose_lines() -> str:
+    """The five things that Carpus does, a line each."""
+    return "\n".join(f"{say(word)}: {say(meaning)}" for word, meaning in PURPOSE)
 
 
 class WelcomePanel(Card):
@@ -70,6 +77,8 @@ class WelcomePanel(Card):
         text = QVBoxLayout()
         text.setSpacing(8)
         text.addWidget(Text(theme, self.tr("Welcome to Carpus"), 20, SEMIBOLD))
+        self.purpose = Text(theme, purpose_lines(), 14, REGULAR, "text2", wrap=True)
+        text.addWidget(self.purpose)
         head = QHBoxLayout()
         head.addWidget(self.state, 1)
         head.addWidget(self.again_button)

@@ -1,0 +1,46 @@
+"""``carpus log``: what was done with patients' data, by whom and when."""
+
+from __future__ import annotations
+
+import argparse
+import csv
+from pathlib import Path
+
+from carpus.app.settings import load_sound_settings
+from carpus.core.errors import FolderMissing, OutputExists
+from carpus.core.private import private
+
+EXAMPLE = "carpus log --output log.csv"
+HEAD = ("number", "when", "who", "by", "did", "kind", "subject", "facts")
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument("--data-folder", type=Path, metavar="FOLDER", help="patients and sessions (default: your own)")
+    parser.add_argument("--output", type=Path, metavar="TABLE.csv", help="as a table, never overwritten")
+
+
+def run(arguments: argparse.Namespace) -> int:
+    from carpus.core.records.log import read_log
+    from carpus.core.records.store import Store
+
+    folder: Path = arguments.data_folder or load_sound_settings()[0].data_folder
+    if not folder.is_dir():
+        raise FolderMissing(folder)
+    if arguments.output is not None and arguments.output.exists():
+        raise OutputExists(arguments.output)
+    with Store(folder) as store:
+        deeds = read_log(store)
+    rows = []
+    for deed in deeds:
+        facts = " ".join(f"{name}={value}" for name, value in deed.facts.items())
+        when = deed.when.astimezone().isoformat(timespec="seconds")
+        rows.append((deed.number, when, deed.who, deed.by, deed.did, deed.kind, deed.subject, facts))
+    if arguments.output is not None:
+        with open(arguments.output, "x", newline="", encoding="utf-8", opener=private) as file:
+            csv.writer(file).writerows([HEAD, *rows])
+        print(f"Written: {arguments.output}")
+        return 0
+    for number, when, who, by, did, kind, subject, facts in rows:
+        print(f"{number:6d}  {when}  {who or '-':12}  {by:7}  {did:15} {kind} {subject} {facts}".rstrip())
+    print(f"{len(rows)} lines.")
+    return 0

@@ -1,0 +1,33 @@
+"""Carpus for Python: ``import carpus`` finds the program's parts as ``carpus.core``, ``carpus.ui`` and ``carpus.app``.
+
+It offers :func:`track`, :func:`write_session`, :func:`open_session`, :func:`simulate`, :func:`propose_clicks`,
+:func:`export` and :func:`compare`, loaded when first asked for. In a checkout the parts are links to the folders
+beside this one; installed, they are folders.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from carpus.app.python_face import compare, export, open_session, propose_clicks, simulate, track, write_session
+
+__version__ = "0.1.0"
+
+__all__ = [
+    "__version__", "compare", "export", "open_session", "propose_clicks", "simulate", "track", "write_session",
+]  # fmt: skip
+
+
+def __getattr__(name: str) -> Any:
+    """The functions for researchers, which bring NumPy and the tracker with them."""
+    if name not in __all__:
+        raise AttributeError(f"module 'carpus' has no attribute {name!r}")
+    from carpus.app import python_face
+
+    return getattr(python_face, name)
+
+
+def __dir__() -> list[str]:
+    """What there is, also what is loaded only when it is asked for."""
+    return sorted({*globals(), *__all__})

@@ -1,0 +1,7 @@
+"""`python -m carpus`."""
+
+import sys
+
+from carpus.app.__main__ import main
+
+sys.exit(main())

@@ -1,0 +1,43 @@
+"""What a pseudonym, a name or a passphrase may be: one rule for window, commands, store and files."""
+
+from __future__ import annotations
+
+import re
+import unicodedata
+
+from carpus.core.errors import NameUnsuited
+from carpus.core.phrase import phrase
+
+MOST_CHARACTERS = 100
+LEAST_OF_PASSPHRASE = 10
+"""Signs: a sealed file can be carried away and tried as often as a computer can."""
+_UNSEEN = {"\u034f", "\u115f", "\u1160", "\u2800", "\u3164", "\uffa0", *map(chr, range(0xFE00, 0xFE10))}
+"""Fillers, joiners and selectors, which count as letters or marks and show nothing."""
+
+
+def name_of(text: str) -> str:
+    """The text as it is kept: composed (NFC), blanks single and none around it. Raises :class:`NameUnsuited`.
+
+    Signs that nobody sees (soft hyphens, joiners, direction marks, controls) are refused: two names that look the same
+    would be two.
+
+    >>> name_of(" Linden 42 ")
+    'Linden 42'
+    """
+    name = re.sub(" +", " ", unicodedata.normalize("NFC", text).strip())
+    if sign := next((one for one in name if not one.isprintable() or one in _UNSEEN), ""):
+        called = unicodedata.name(sign, f"U+{ord(sign):04X}").lower()
+        raise NameUnsuited(called, phrase("it holds a sign that cannot be seen"))
+    if len(name) > MOST_CHARACTERS:
+        raise NameUnsuited(str(len(name)), phrase("more than {count} signs", count=MOST_CHARACTERS))
+    return name
+
+
+def folded(text: str) -> str:
+    """A name as it is compared: capitals and kinds of the same letter do not count."""
+    return unicodedata.normalize("NFKC", unicodedata.normalize("NFKC", text).casefold()).strip()
+
+
+def is_passphrase(text: str) -> bool:
+    """Whether it is long enough to keep a file closed that others can try as often as they like."""
+    return len(text) >= LEAST_OF_PASSPHRASE

@@ -1,0 +1,238 @@
+"""The repetitions of a session with what each of them measures: the one account that the file, review, report and
+every export have. A person's choices (left out, moved) come on top and stay outside of the file."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field, replace
+
+import numpy as np
+
+from carpus.core.hand.sites import WRIST_ANGLES
+from carpus.core.measures.fingers import JointTrack, joint_range
+from carpus.core.measures.motion_range import LEAST_VALID_SHARE, MotionRange, motion_range
+from carpus.core.measures.noise import HIGHEST_CUTOFF_HZ
+from carpus.core.measures.repetitions import COUNTING_CUTOFF_HZ, Repetition, find_repetitions
+from carpus.core.measures.repetitions import Exercise as Found
+from carpus.core.measures.signals import BoolArray, Signal, even_signal, low_pass, stretches
+from carpus.core.measures.speed import StrokeMeasures, measure_stroke
+from carpus.core.measures.validity import settled, valid_view, valid_wrist_angles
+from carpus.core.output.exercises import Exercise, exercise_named
+from carpus.core.output.joint_content import joint_tracks
+from carpus.core.output.range_rows import best_motion
+from carpus.core.session.values import RepetitionRow, Repetitions, Session
+
+HELD_SHARE = 0.98
+"""Of the way out: who stays beyond it holds the peak, and which moment of a hold is the highest only noise says."""
+HIDDEN = "hidden"
+"""Why a repetition does not count that was not seen well enough to be measured."""
+
+
+@dataclass(frozen=True, slots=True)
+class RepetitionChoices:
+    """A person's corrections, by the number of the repetition as found (from 0).
+
+    ``left_out`` reasons in words; ``edges_s`` start and end in seconds after the first frame; ``not_counted``: the
+    whole session is shown, and compared with none.
+    """
+
+    left_out: Mapping[int, str] = field(default_factory=dict)
+    edges_s: Mapping[int, tuple[float, float]] = field(default_factory=dict)
+    not_counted: bool = False
+    not_counted_reason: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class Trained:
+    """The angle that an exercise trains: ``found`` in it, ``seen`` and its sd where it may be measured, ``tracked``
+    where repetitions are counted, ``range_of`` some of them. Times after the first frame, rad."""
+
+    name: str
+    found: Found
+    seen: Signal
+    seen_sd: Signal
+    tracked: Signal
+    looked_back: bool
+    range_of: Callable[[Sequence[Repetition]], MotionRange]
+
+
+@dataclass(frozen=True, slots=True)
+class Measured:
+    """One repetition: ``window`` over which its range is measured, holds included, its strokes, and its row with times
+    after the first frame."""
+
+    window: Repetition
+    strokes: tuple[StrokeMeasures, ...]
+    row: RepetitionRow
+
+
+def repetitions_of(session: Session) -> Repetitions:
+    """What ``/repetitions`` of a session holds, on the clock of its frames."""
+    exercise = exercise_named(session.header.exercise)
+    trained = trained_angle(exercise, wrist_signals(session, seen_well(session)), joint_tracks(session), session)
+    if trained is None:
+        return Repetitions("", ())
+    start_s = float(session.timestamp_s[0])
+    rows = (one.row for one in measured_repetitions(trained, RepetitionChoices()))
+    return Repetitions(trained.name, tuple(on_clock(row, start_s) for row in rows))
+
+
+def trained_name(session: Session) -> str:
+    """Name of the angle whose repetitions are counted, as in every file; empty where none is."""
+    exercise = exercise_named(session.header.exercise)
+    if exercise.joint in session.header.joint_names:
+        return exercise.joint
+    return "" if exercise.angle is None else WRIST_ANGLES[exercise.angle]
+
+
+def on_clock(row: RepetitionRow, start_s: float) -> RepetitionRow:
+    """A row whose times count from the first frame, on the clock on which that was at ``start_s``."""
+    return replace(row, start_s=row.start_s + start_s, peak_s=row.peak_s + start_s, end_s=row.end_s + start_s)
+
+
+def seen_well(session: Session) -> BoolArray:
+    """Frames (N,) that the camera saw well enough to measure the wrist."""
+    motion, palm = best_motion(session), list(session.header.protocol.palm)
+    view = valid_view(
+        session.status, session.markers.measured_px[:, palm], motion.rotation_w2_w0, session.calibration.rotation_w0_cam
+    )
+    return settled(view, session.timestamp_s - session.timestamp_s[:1])
+
+
+def wrist_signals(session: Session, view: BoolArray) -> list[Signal]:
+    """The wrist's three angles, each with its sd as a second column, with gaps where it was not seen well."""
+    motion = best_motion(session)
+    valid = valid_wrist_angles(view, motion.angles_rad, motion.angles_sd_rad)
+    time_s = session.timestamp_s - session.timestamp_s[:1]
+    return [
+        even_signal(time_s, np.column_stack((motion.angles_rad[:, k], motion.angles_sd_rad[:, k])), valid[:, k])
+        for k in range(3)
+    ]
+
+
+def trained_angle(
+    exercise: Exercise, signals: Sequence[Signal], tracks: Mapping[str, JointTrack], session: Session
+) -> Trained | None:
+    """None where no angle is trained, or nothing was seen of it."""
+    looked_back = session.smoothed is not None
+    track = tracks.get(exercise.joint)
+    if track is not None and track.known:
+        return Trained(
+            exercise.joint, find_repetitions(track.tracked), track.seen, track.seen_sd, track.tracked, looked_back,
+            lambda some: joint_range(track, some),
+        )  # fmt: skip
+    if exercise.angle is None or not len(signals[exercise.angle].time_s):
+        return None
+    signal = signals[exercise.angle]
+    angle, smooth = signal.column(0), low_pass(signal, HIGHEST_CUTOFF_HZ).column(0)
+    return Trained(
+        WRIST_ANGLES[exercise.angle], find_repetitions(angle), angle, signal.column(1), angle, looked_back,
+        lambda some: motion_range(smooth, signal.column(1), tuple(some), smoothed=looked_back),
+    )  # fmt: skip
+
+
+def measured_repetitions(trained: Trained, choices: RepetitionChoices) -> tuple[Measured, ...]:
+    """Every repetition with its measures, counted or not."""
+    strokes = [
+        measure_stroke(trained.seen, stroke, trained.seen_sd, smoothed=trained.looked_back)
+        for stroke in trained.found.strokes
+    ]
+    return tuple(
+        _measured(trained, rep, strokes, choices.edges_s.get(number), choices.left_out.get(number, ""))
+        for number, rep in enumerate(trained.found.repetitions)
+    )
+
+
+def _measured(
+    trained: Trained,
+    rep: Repetition,
+    strokes: Sequence[StrokeMeasures],
+    edges_s: tuple[float, float] | None,
+    left_out: str,
+) -> Measured:
+    window = rep if edges_s is None else Repetition(*edges_s, rep.valid_share)
+    # Motion cut in the middle is cut within strokes: each belongs where it ends, unless a person cut there.
+    belongs_s = _end_s if edges_s is None else _middle_s
+    own = tuple(one for one in strokes if window.start_s < belongs_s(one) <= window.end_s)
+    start_s, end_s = edges_s or _left_and_reached(rep, own)
+    hidden = rep.valid_share < LEAST_VALID_SHARE
+    peak_s, is_high = _furthest(trained.tracked, window, None if edges_s is not None else _turns_high(rep, own))
+    both_ways = own if edges_s is not None or len(own) > 1 else ()
+    measured = trained.range_of((window,))
+    known = measured.repetitions == 1 and len(measured.arc.values) == 1
+    turned = measured.maximum if is_high else measured.minimum
+    return Measured(
+        window,
+        own,
+        RepetitionRow(
+            start_s=start_s,
+            peak_s=peak_s,
+            end_s=end_s,
+            angle_rad=float(turned.values[0]) if known else math.nan,
+            arc_rad=float(measured.arc.values[0]) if known else math.nan,
+            arc_sd_rad=measured.arc.measurement_sd if known else math.nan,
+            peak_speed_rad_s=_over(own, "peak_speed_rad_s", max),
+            peak_speed_sd_rad_s=_over(own, "peak_speed_sd_rad_s", max),
+            movement_time_s=_over(both_ways, "movement_time_s", math.fsum),
+            sparc=_over(own, "sparc", _mean),
+            movement_units=_over(both_ways, "peaks", math.fsum),
+            pauses=_over(both_ways, "pauses", math.fsum),
+            pause_s=_over(both_ways, "pause_s", math.fsum),
+            counted=not left_out and not hidden,
+            reason=left_out or (HIDDEN if hidden else ""),
+        ),
+    )
+
+
+def _end_s(stroke: StrokeMeasures) -> float:
+    return stroke.stroke.end_s
+
+
+def _middle_s(stroke: StrokeMeasures) -> float:
+    return 0.5 * (stroke.stroke.start_s + stroke.stroke.end_s)
+
+
+def _left_and_reached(rep: Repetition, strokes: Sequence[StrokeMeasures]) -> tuple[float, float]:
+    """When the first stroke left its turning place and the last reached its own; where that is not known, or the
+    repetition is cut in the middle and not at turning places, its own start and end."""
+    start_s, end_s = rep.start_s, rep.end_s
+    if strokes and abs(strokes[0].stroke.start_s - start_s) <= 1e-6 and strokes[0].onset_s >= start_s:
+        start_s = strokes[0].onset_s
+    if strokes and abs(strokes[-1].stroke.end_s - end_s) <= 1e-6 and strokes[-1].offset_s <= end_s:
+        end_s = strokes[-1].offset_s
+    return start_s, end_s
+
+
+def _turns_high(rep: Repetition, strokes: Sequence[StrokeMeasures]) -> bool | None:
+    """Whether the first turn within a repetition is a high one: its first stroke leads there, or begins there."""
+    if not strokes:
+        return None
+    first = strokes[0].stroke
+    return first.rising == (first.start_s <= rep.start_s + 1e-6)
+
+
+def _furthest(tracked: Signal, window: Repetition, turns_high: bool | None) -> tuple[float, bool]:
+    """When the angle was furthest on its way there, in the middle of a hold, and whether it was high there; furthest
+    from where it began where it is not known which way that was."""
+    part = low_pass(tracked, COUNTING_CUTOFF_HZ).between(window.start_s, window.end_s)
+    known = part.value[part.finite]
+    if not len(known):
+        return math.nan, True
+    away = part.value - known[0]
+    if turns_high is None:
+        turns_high = bool(away[int(np.nanargmax(np.abs(away)))] >= 0.0)
+    away = away if turns_high else -away
+    at = int(np.nanargmax(away))
+    held = next(run for run in stretches(away >= HELD_SHARE * away[at]) if run.start <= at < run.stop)
+    return float(part.time_s[held].mean()), turns_high
+
+
+def _over(strokes: Sequence[StrokeMeasures], name: str, join: Callable[[Sequence[float]], float]) -> float:
+    """A figure of all strokes together; not known where that of one is not."""
+    values = [getattr(stroke, name) for stroke in strokes]
+    return join(values) if values and all(map(math.isfinite, values)) else math.nan
+
+
+def _mean(values: Sequence[float]) -> float:
+    return math.fsum(values) / len(values)

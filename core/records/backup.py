@@ -1,0 +1,529 @@
+"""A back-up of everything in a data folder, made while Carpus runs, read back and compared, and restored.
+
+A folder for back-ups holds ``objects/``, every content once under its SHA-256, and ``backups/``, one JSON for each
+back-up that says which file has which content. So fourteen back-ups take little more room than one, and any of them is
+whole. The JSON is written last: a back-up that was cut short is none. Nothing is compressed or hidden: with the JSON
+beside it every file can be found again without Carpus. The store is taken first, as of one moment, and every session
+that it knows must be among the files. Linked folders and files are followed.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import hashlib
+import json
+import os
+import re
+import sqlite3
+import uuid
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from datetime import UTC, datetime, timedelta
+from pathlib import Path, PureWindowsPath
+from typing import Any, BinaryIO
+
+from carpus.core.durable import sync_folder, write_fault
+from carpus.core.errors import (
+    BackupIncomplete,
+    BackupPlaceUnsuited,
+    BackupUnequal,
+    BackupUnreadable,
+    FolderMissing,
+    OutputExists,
+)
+from carpus.core.phrase import phrase
+from carpus.core.private import make_private, private
+from carpus.core.records.database import STORE_FILE
+from carpus.core.records.staging import Staged, remove_left_behind
+from carpus.core.session import heartbeat
+from carpus.core.session.disk import is_being_written
+
+FORMAT, FORMAT_VERSION = "carpus-backup", 1
+OBJECTS, BACKUPS = "objects", "backups"
+SETTINGS_PREFIX, SESSIONS_PREFIX = "@settings/", "sessions/"
+LEFT_OUT = (".alive", "-wal", "-shm", "-journal", ".lock", ".new")
+BLOCK = 1 << 20
+_SHA256 = re.compile(r"[0-9a-f]{64}")
+_MOST = 1 << 62
+
+Progress = Callable[[int, int], None]
+
+
+@dataclass(frozen=True, slots=True)
+class Kept:
+    """A file of a back-up: ``path`` in the data folder, with slashes."""
+
+    path: str
+    sha256: str
+    size: int
+    changed_ns: int
+
+
+Content = Callable[[Kept], BinaryIO]
+"""Where the content of a file of a back-up is read; FileNotFoundError or KeyError where it is not."""
+
+
+@dataclass(frozen=True, slots=True)
+class Backup:
+    """One back-up. ``sessions`` counts session files, ``running`` how many recordings ran and are not in it,
+    ``lacking`` what should be in it and could not be read."""
+
+    name: str
+    made: datetime
+    files: tuple[Kept, ...]
+    sessions: int
+    size_bytes: int
+    running: int
+    lacking: int
+    software_version: str
+
+
+@dataclass(frozen=True, slots=True)
+class RestorePlan:
+    """What a restore would change: session files that come, change and go, by their paths."""
+
+    added: tuple[str, ...]
+    replaced: tuple[str, ...]
+    lost: tuple[str, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Sources:
+    """What a back-up is made of: ``snapshot`` of the store, empty for none; path in the back-up, file and size of all
+    else; how many recordings run; names of what is missing or cannot be read."""
+
+    snapshot: bytes
+    files: tuple[tuple[str, Path, int], ...]
+    running: int
+    lacking: tuple[str, ...]
+
+    @property
+    def size_bytes(self) -> int:
+        """Of all together."""
+        return len(self.snapshot) + sum(size for _, _, size in self.files)
+
+
+def back_up(
+    data_folder: Path,
+    place: Path,
+    *,
+    software_version: str,
+    settings_folder: Path | None = None,
+    now: datetime | None = None,
+    progress: Progress = lambda _done, _total: None,
+) -> Backup:
+    """Copy everything that is not in the place yet, read all of it back, and write down what is where.
+
+    Raises :class:`BackupPlaceUnsuited`, :class:`BackupUnequal` where what is read back differs, :class:`DiskFull` and
+    :class:`OutputNotWritable`; the back-ups that were there before are as they were. Raises :class:`BackupIncomplete`
+    where a file cannot be read or a session that the store knows has none; all else is backed up then.
+    """
+    check_place(data_folder, place)
+    sources = gather(data_folder, place, settings_folder)
+    for folder in (place, place / OBJECTS, place / BACKUPS):
+        make_private(folder)
+    before = backups(place)
+    known = {one.path: one for one in before[0].files} if before else {}
+    done, total = 0, 2 * sources.size_bytes or 1
+    files, lacking = list[Kept](), list(sources.lacking)
+    if sources.snapshot:
+        files.append(_stored(place, STORE_FILE, iter((sources.snapshot,)), 0))
+    for path, source, size in sources.files:
+        try:
+            files.append(_kept(path, source, place, known.get(path)))
+        except FileNotFoundError:
+            pass  # taken away meanwhile
+        except SourceFails:
+            lacking.append(path)
+        done += size
+        progress(done, total)
+    for one in files:
+        _compare(place, one)
+        done += one.size
+        progress(min(done, total), total)
+    when = (now or datetime.now().astimezone()).replace(microsecond=0)
+    name = _free_name(place, f"{when:%Y-%m-%dT%H%M%S}")
+    made = backup_of(name, when, files, sources.running, len(lacking), software_version)
+    _write(place / BACKUPS / f"{made.name}.json", told(made))
+    if lacking:
+        raise BackupIncomplete(lacking[0], str(len(lacking)))
+    return made
+
+
+def backup_of(
+    name: str, when: datetime, files: list[Kept], running: int, lacking: int, software_version: str
+) -> Backup:
+    """A back-up by its files."""
+    sessions = sum(one.path.endswith(".h5") for one in files)
+    return Backup(
+        name, when, tuple(files), sessions, sum(one.size for one in files), running, lacking, software_version
+    )
+
+
+def gather(data_folder: Path, place: Path, settings_folder: Path | None) -> Sources:
+    """Everything that a back-up of a data folder holds. Raises :class:`FolderMissing`, :class:`BackupUnreadable` for a
+    store that cannot be read, :class:`BackupPlaceUnsuited` for a place that a link leads into."""
+    if not data_folder.is_dir():
+        raise FolderMissing(data_folder)
+    snapshot, wanted = _of_store(data_folder / STORE_FILE)
+    lacking: list[str] = []
+    there = dict(_walk(data_folder, place.resolve(), lacking))
+    parts = [path for name, path in there.items() if name.endswith(".part")]
+    beating = heartbeat.still_beating(parts)
+    busy = {path for path in parts if path in beating or _is_written(path)}
+    stems = {path.name.split(".")[0] for path in busy}
+    files = [
+        (name, path)
+        for name, path in sorted(there.items())
+        if not name.endswith(LEFT_OUT) and name != STORE_FILE and path.name.split(".")[0] not in stems
+    ]
+    lacking += sorted(f"{SESSIONS_PREFIX}{one}" for one in wanted if f"{SESSIONS_PREFIX}{one}" not in there)
+    for path in sorted(settings_folder.glob("*.toml")) if settings_folder else ():
+        files.append((f"{SETTINGS_PREFIX}{path.name}", path))
+    sized = []
+    for name, path in files:
+        with contextlib.suppress(FileNotFoundError):
+            sized.append((name, path, path.stat().st_size))
+    return Sources(snapshot, tuple(sized), len(busy), tuple(lacking))
+
+
+def backups(place: Path) -> list[Backup]:
+    """The back-ups of a place that can be read, newest first."""
+    found = []
+    for path in sorted((place / BACKUPS).glob("*.json")):
+        with contextlib.suppress(BackupUnreadable):
+            found.append(read_backup(path))
+    return sorted(found, key=lambda one: one.made, reverse=True)
+
+
+def read_backup(path: Path) -> Backup:
+    """One back-up by its JSON. Raises :class:`BackupUnreadable`, also for one of a newer Carpus."""
+    try:
+        return parsed(path.stem, path.read_text(encoding="utf-8"))
+    except (OSError, ValueError, KeyError, TypeError, AttributeError, RecursionError, OverflowError) as cause:
+        raise BackupUnreadable(path, str(cause)[:80]) from cause
+
+
+def parsed(name: str, text: str) -> Backup:
+    """A back-up as it was written down. Raises :class:`BackupUnreadable` for one of a newer Carpus or with paths that
+    lead out of the folder, and whatever else a wrong JSON makes Python raise."""
+    said = json.loads(text)
+    if said["format"] != FORMAT:
+        raise BackupUnreadable(name, phrase("not a back-up"))
+    if _count(said["format_version"]) > FORMAT_VERSION:
+        newer = "version {version}, this Carpus reads up to {format_version}"
+        raise BackupUnreadable(name, phrase(newer, version=said["format_version"], format_version=FORMAT_VERSION))
+    files = tuple(Kept(str(p), str(h), _count(size), _count(ns)) for p, h, size, ns in said["files"])
+    if not all(_is_inside(one.path) and _SHA256.fullmatch(one.sha256) for one in files):
+        raise BackupUnreadable(name, phrase("paths that lead out of the folder"))
+    made = datetime.fromisoformat(said["made"])
+    if made.tzinfo is None or not 2000 <= made.year < 9000 or len({one.path for one in files}) != len(files):
+        raise ValueError("no such back-up was made")
+    return Backup(
+        name, made, files, _count(said["sessions"]), _count(said["size_bytes"]), _count(said["running"]),
+        _count(said["lacking"]), str(said["software_version"]),
+    )  # fmt: skip
+
+
+def content_of(place: Path) -> Content:
+    """Contents of the back-ups in a folder."""
+    return lambda one: _object(place, one.sha256).open("rb")
+
+
+def compare(place: Path, backup: Backup, progress: Progress = lambda _done, _total: None) -> None:
+    """Read every content of a back-up. Raises :class:`BackupUnequal` at the first that is not what it was."""
+    for number, one in enumerate(backup.files, 1):
+        _compare(place, one)
+        progress(number, len(backup.files))
+
+
+def thin_out(place: Path, keep: int, months: int, now: datetime) -> int:
+    """Keep the newest ``keep`` back-ups and the newest of each month for so many months; how many were taken away,
+    with every content that no back-up needs. Nothing is touched that a link leads to, nor what is no content."""
+    there = backups(place)
+    kept = {one.name for one in there[:keep]}
+    for month in {(one.made.year, one.made.month) for one in there}:
+        newest = max((one for one in there if (one.made.year, one.made.month) == month), key=lambda one: one.made)
+        if newest.made > now - timedelta(days=31 * months):
+            kept.add(newest.name)
+    gone = [one for one in there if one.name not in kept]
+    for one in gone:
+        (place / BACKUPS / f"{one.name}.json").unlink(missing_ok=True)
+    if gone and not _unreadable(place):
+        needed = {one.sha256 for backup in backups(place) for one in backup.files}
+        for path in _objects(place):
+            if path.name not in needed:
+                path.unlink(missing_ok=True)
+    return len(gone)
+
+
+def plan_restore(backup: Backup, data_folder: Path) -> RestorePlan:
+    """What of the sessions that are there now would be different."""
+    old = {one.path: one for one in backup.files if one.path.endswith(".h5")}
+    now = {name: path for name, path in _walk(data_folder, None, []) if name.endswith(".h5")}
+    changed = (path for path in old.keys() & now.keys() if _hash(now[path]) != old[path].sha256)
+    return RestorePlan(
+        tuple(sorted(old.keys() - now.keys())), tuple(sorted(changed)), tuple(sorted(now.keys() - old.keys()))
+    )
+
+
+def restore(
+    backup: Backup,
+    content: Content,
+    target: Path,
+    *,
+    settings_folder: Path | None = None,
+    progress: Progress = lambda _done, _total: None,
+    replaces: bool = False,
+) -> Staged:
+    """Write a back-up beside ``target``, every content checked on its way; :meth:`Staged.put_in_place` gives it the
+    name. Settings come only where there are none. What a killed one left behind is removed first.
+
+    Raises :class:`OutputExists` for a folder with something in it unless it is to be replaced, :class:`BackupUnequal`,
+    :class:`DiskFull`, :class:`OutputNotWritable`; then nothing is left.
+    """
+    remove_left_behind(target)
+    if not replaces and target.exists() and (not target.is_dir() or any(target.iterdir())):
+        raise OutputExists(target)
+    staged = Staged.begin(target)
+    try:
+        done, total = 0, backup.size_bytes or 1
+        for one in backup.files:
+            if one.path.startswith(SETTINGS_PREFIX):
+                into = settings_folder / one.path.removeprefix(SETTINGS_PREFIX) if settings_folder else None
+                if into is None or into.exists():
+                    continue
+                make_private(into.parent)
+            else:
+                into = staged.folder / one.path
+                for folder in reversed(into.relative_to(staged.folder).parents):
+                    make_private(staged.folder / folder)
+            _fetch(content, one, into)
+            done += one.size
+            progress(done, total)
+        staged.complete()
+    except BaseException:
+        staged.drop()
+        raise
+    return staged
+
+
+def is_due(made: datetime | None, days: int, now: datetime) -> bool:
+    """Whether a person should be reminded: no back-up for so many days although there is something to lose."""
+    return made is None or now.astimezone(UTC) - made.astimezone(UTC) > timedelta(days=days)
+
+
+def told(made: Backup) -> dict[str, Any]:
+    """A back-up as it is written down."""
+    return {
+        "format": FORMAT,
+        "format_version": FORMAT_VERSION,
+        "made": made.made.isoformat(),
+        "software_version": made.software_version,
+        "sessions": made.sessions,
+        "size_bytes": made.size_bytes,
+        "running": made.running,
+        "lacking": made.lacking,
+        "files": [[one.path, one.sha256, one.size, one.changed_ns] for one in made.files],
+    }
+
+
+def check_place(data_folder: Path, place: Path) -> None:
+    """Raise :class:`BackupPlaceUnsuited` for a place in the data folder, or around it."""
+    data, there = data_folder.resolve(), place.resolve()
+    if data == there or data in there.parents or there in data.parents:
+        raise BackupPlaceUnsuited(place, phrase("in the data folder, or around it"))
+
+
+def _walk(folder: Path, place: Path | None, lacking: list[str]) -> Iterator[tuple[str, Path]]:
+    """Every file by its path with slashes, links followed, each folder once; what leads nowhere or cannot be read is
+    added to ``lacking``."""
+    seen: set[tuple[int, int]] = set()
+    waiting = [("", folder)]
+    while waiting:
+        name, here = waiting.pop()
+        try:
+            state = here.stat()
+            entries = sorted(os.scandir(here), key=lambda one: one.name)
+        except OSError:
+            lacking.append(name.rstrip("/"))
+            continue
+        if place is not None and place.is_relative_to(here.resolve()):
+            raise BackupPlaceUnsuited(place, phrase("in the data folder, or around it"))
+        if (state.st_dev, state.st_ino) in seen:
+            continue
+        seen.add((state.st_dev, state.st_ino))
+        for entry in entries:
+            path = f"{name}{entry.name}"
+            if entry.is_dir():
+                waiting.append((f"{path}/", Path(entry.path)))
+            elif entry.is_file():
+                yield path, Path(entry.path)
+            elif entry.is_symlink():
+                lacking.append(path)
+
+
+def _is_written(part: Path) -> bool:
+    try:
+        return is_being_written(part)
+    except OSError:
+        return True
+
+
+def _of_store(path: Path) -> tuple[bytes, list[str]]:
+    """The store as it is between two transactions, whoever has it open, and the paths of the sessions that it knows."""
+    if not path.exists():
+        return b"", []
+    try:
+        with (
+            contextlib.closing(sqlite3.connect(f"{path.absolute().as_uri()}?mode=rw", uri=True, timeout=30.0)) as old,
+            contextlib.closing(sqlite3.connect(":memory:")) as new,
+        ):
+            old.backup(new)
+            wanted = [str(one) for (one,) in new.execute("SELECT path FROM session WHERE erasing = 0")]
+            return new.serialize(), wanted
+    except sqlite3.Error as cause:
+        raise BackupUnreadable(path, str(cause)) from cause
+
+
+class SourceFails(Exception):
+    """A file of the data folder that cannot be read."""
+
+
+def _blocks(source: Path) -> Iterator[bytes]:
+    try:
+        with source.open("rb") as file:
+            while block := file.read(BLOCK):
+                yield block
+    except FileNotFoundError:
+        raise
+    except OSError as cause:
+        raise SourceFails from cause
+
+
+def _kept(path: str, source: Path, place: Path, before: Kept | None) -> Kept:
+    """The content of a file, copied unless it is there already."""
+    try:
+        state = source.stat()
+    except FileNotFoundError:
+        raise
+    except OSError as cause:
+        raise SourceFails from cause
+    changed_ns = max(0, state.st_mtime_ns)
+    same = before is not None and (before.size, before.changed_ns) == (state.st_size, changed_ns)
+    if before is not None and same and _object(place, before.sha256).is_file():
+        return before
+    return _stored(place, path, _blocks(source), changed_ns)
+
+
+def _stored(place: Path, path: str, blocks: Iterator[bytes], changed_ns: int) -> Kept:
+    part = place / OBJECTS / f".{uuid.uuid4().hex}"
+    digest, size = hashlib.sha256(), 0
+    try:
+        with open(part, "wb", opener=private) as copy:
+            for block in blocks:
+                digest.update(block)
+                copy.write(block)
+                size += len(block)
+            copy.flush()
+            os.fsync(copy.fileno())
+        target = _object(place, digest.hexdigest())
+        make_private(target.parent)
+        part.replace(target)
+        sync_folder(target.parent)
+    except (FileNotFoundError, SourceFails):
+        raise
+    except OSError as cause:
+        raise write_fault(place, cause) from cause
+    finally:
+        part.unlink(missing_ok=True)
+    return Kept(path, digest.hexdigest(), size, changed_ns)
+
+
+def _object(place: Path, sha256: str) -> Path:
+    return place / OBJECTS / sha256[:2] / sha256
+
+
+def _objects(place: Path) -> Iterator[Path]:
+    """Contents that lie in the place itself, and parts of a back-up that was killed."""
+    root = place / OBJECTS
+    for folder in () if root.is_symlink() else root.iterdir():
+        if folder.is_dir() and not folder.is_symlink():
+            yield from (one for one in folder.iterdir() if _SHA256.fullmatch(one.name) and not one.is_symlink())
+        elif re.fullmatch(r"\.[0-9a-f]{32}", folder.name):
+            yield folder
+
+
+def _compare(place: Path, one: Kept) -> None:
+    if _hash(_object(place, one.sha256), afresh=True) != one.sha256:
+        raise BackupUnequal(one.sha256[:12], Path(one.path).suffix)
+
+
+def _fetch(content: Content, one: Kept, into: Path) -> None:
+    digest = hashlib.sha256()
+    try:
+        with content(one) as file, open(into, "xb", opener=private) as copy:
+            while block := file.read(BLOCK):
+                digest.update(block)
+                copy.write(block)
+            copy.flush()
+            os.fsync(copy.fileno())
+        with contextlib.suppress(OverflowError):
+            os.utime(into, ns=(one.changed_ns, one.changed_ns))
+    except (FileNotFoundError, KeyError) as cause:
+        raise BackupUnequal(one.sha256[:12], Path(one.path).suffix) from cause
+    except OSError as cause:
+        raise write_fault(into, cause) from cause
+    if digest.hexdigest() != one.sha256:
+        into.unlink(missing_ok=True)
+        raise BackupUnequal(one.sha256[:12], Path(one.path).suffix)
+
+
+def _hash(path: Path, *, afresh: bool = False) -> str:
+    """SHA-256 of a file, ``afresh`` from the disk and not from memory where the system can; empty without one."""
+    try:
+        with path.open("rb") as file:
+            if afresh and hasattr(os, "posix_fadvise"):
+                os.posix_fadvise(file.fileno(), 0, 0, os.POSIX_FADV_DONTNEED)
+            return hashlib.file_digest(file, "sha256").hexdigest()
+    except OSError:
+        return ""
+
+
+def _is_inside(path: str) -> bool:
+    parts = path.removeprefix(SETTINGS_PREFIX).split("/")
+    absolute = Path(path).is_absolute() or (os.name == "nt" and bool(PureWindowsPath(path).drive))
+    return not absolute and not {"", ".", ".."} & set(parts) and "\\" not in path and "\0" not in path
+
+
+def _count(value: object) -> int:
+    if isinstance(value, bool) or not isinstance(value, int) or not 0 <= value <= _MOST:
+        raise ValueError("no count")
+    return value
+
+
+def _unreadable(place: Path) -> bool:
+    """Whether there is a back-up that cannot be read: then nobody knows which contents it needs."""
+    return len(backups(place)) != len(list((place / BACKUPS).glob("*.json")))
+
+
+def _free_name(place: Path, name: str) -> str:
+    """Two back-ups of one second are two all the same."""
+    candidate, number = name, 1
+    while (place / BACKUPS / f"{candidate}.json").exists():
+        number += 1
+        candidate = f"{name}-{number}"
+    return candidate
+
+
+def _write(path: Path, content: dict[str, Any]) -> None:
+    part = path.with_name(f".{path.name}.new")
+    try:
+        with open(part, "w", encoding="utf-8", opener=private) as file:
+            json.dump(content, file, indent=1)
+            file.flush()
+            os.fsync(file.fileno())
+        part.replace(path)
+        sync_folder(path.parent)
+    except OSError as cause:
+        raise write_fault(path, cause) from cause

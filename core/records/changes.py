@@ -1,0 +1,187 @@
+"""A change of the store: rows that come, change and go together, told so that it can wait and be made elsewhere.
+
+The same change is made in the copy of this computer and on a clinic's server, and there once, however often it is
+sent. Where two people change one row, the second change finds another version than the one it was made from, and is
+refused.
+"""
+
+from __future__ import annotations
+
+import json
+import secrets
+from collections.abc import Mapping, Sequence
+from dataclasses import astuple, dataclass, field
+from typing import Any, Literal
+
+from sqlalchemy import Connection, RowMapping, Table, delete, func, insert, select, update
+from sqlalchemy.dialects import postgresql, sqlite
+from sqlalchemy.exc import IntegrityError
+
+from carpus.core.errors import CarpusFault, ChangedMeanwhile, PseudonymTaken
+from carpus.core.records.schema import PATIENT, SESSION, SHARED
+
+PRACTICE = "practice"
+"""Identity of the practice patient, of whom simulated sessions count, and who is on no server."""
+
+_MOST_VERSION = 1 << 30
+Way = Literal["new", "change", "keep", "drop", "join"]
+
+
+@dataclass(frozen=True, slots=True)
+class Row:
+    """What becomes of one row. ``new`` must not be there; ``change`` must be, in ``version`` unless that is 0; ``keep``
+    makes it or changes it, whatever is there; ``drop`` takes it away with all that belongs to it; ``join`` makes it
+    unless it is there.
+
+    ``mark`` is the change's own by chance, and a version tells the changes that a row has seen: two rows that were
+    changed equally often, but otherwise, are never taken for the same."""
+
+    way: Way
+    table: str
+    id: str
+    values: Mapping[str, Any]
+    version: int = 0
+    mark: int = field(default_factory=lambda: secrets.randbelow(_MOST_VERSION))
+
+    def after(self, version: Any) -> Any:
+        """The version that a row has then, which had ``version``; 0 for one that was not there."""
+        return (version + self.mark) % _MOST_VERSION + 1
+
+
+Change = Sequence[Row]
+
+
+def new(table: Table, id: str, **values: Any) -> Row:
+    """A row that is not there yet."""
+    return Row("new", table.name, id, _storable(values))
+
+
+def changed(table: Table, id: str, version: int = 0, **values: Any) -> Row:
+    """A row that is there, as it was read."""
+    return Row("change", table.name, id, _storable(values), version)
+
+
+def kept(table: Table, id: str, **values: Any) -> Row:
+    """A row as it is from now on."""
+    return Row("keep", table.name, id, _storable(values))
+
+
+def dropped(table: Table, id: str) -> Row:
+    """A row that goes."""
+    return Row("drop", table.name, id, {})
+
+
+def _storable(values: Mapping[str, Any]) -> Mapping[str, Any]:
+    """Texts without signs that no database takes: zeros, halves of a sign."""
+    return {
+        name: value.replace("\0", "\N{REPLACEMENT CHARACTER}").encode("utf-8", "replace").decode()
+        if isinstance(value, str) else value
+        for name, value in values.items()
+    }  # fmt: skip
+
+
+def joining(table: Table, rows: Sequence[RowMapping]) -> Change:
+    """Rows of a copy, for a server that may know them."""
+    return [
+        Row("join", table.name, row["id"], {k: v for k, v in row.items() if k not in ("id", "step")}) for row in rows
+    ]
+
+
+def told(change: Change) -> str:
+    """As JSON."""
+    return json.dumps([astuple(row) for row in change], ensure_ascii=False)
+
+
+def read_back(text: str) -> Change:
+    """What :func:`told` wrote."""
+    return [Row(*row) for row in json.loads(text)]
+
+
+def make(connection: Connection, change: Change) -> None:
+    """Make a change in an open transaction.
+
+    Raises :class:`ChangedMeanwhile` for a row that is another by now or gone, :class:`PseudonymTaken`; then the
+    transaction must end without effect.
+    """
+    owners: set[str] = set()
+    for row in change:
+        if row.table == "session":
+            before = connection.execute(select(SESSION.c.patient_id).where(SESSION.c.id == row.id)).scalar()
+            owners |= {one for one in (before, row.values.get("patient_id")) if one}
+        try:
+            _MAKING[row.way](connection, SHARED[row.table], row)
+        except IntegrityError as cause:
+            raise _refused(row, cause) from cause
+    for patient_id in sorted(owners):
+        _count(connection, patient_id)
+
+
+def _refused(row: Row, cause: IntegrityError) -> CarpusFault:
+    if "folded" in str(cause.orig):
+        return PseudonymTaken(row.values.get("pseudonym", ""))
+    return ChangedMeanwhile(row.table)
+
+
+def _new(connection: Connection, table: Table, row: Row) -> None:
+    connection.execute(insert(table).values(id=row.id, version=row.after(0), **row.values))
+
+
+def _changed(connection: Connection, table: Table, row: Row) -> None:
+    these = update(table).where(table.c.id == row.id)
+    if row.version:
+        these = these.where(table.c.version == row.version)
+    if connection.execute(these.values(version=row.after(table.c.version), **row.values)).rowcount != 1:
+        raise ChangedMeanwhile(row.table)
+
+
+def _kept(connection: Connection, table: Table, row: Row) -> None:
+    kind = sqlite if connection.dialect.name == "sqlite" else postgresql
+    these = kind.insert(table).values(id=row.id, version=row.after(0), **row.values)
+    then = {**row.values, "version": row.after(table.c.version)}
+    connection.execute(these.on_conflict_do_update(index_elements=["id"], set_=then))
+
+
+def _joined(connection: Connection, table: Table, row: Row) -> None:
+    kind = sqlite if connection.dialect.name == "sqlite" else postgresql
+    made = kind.insert(table).values(id=row.id, **row.values)
+    connection.execute(made.on_conflict_do_nothing(index_elements=["id"]))
+
+
+def _dropped(connection: Connection, table: Table, row: Row) -> None:
+    connection.execute(delete(table).where(table.c.id == row.id))
+
+
+_MAKING = {"new": _new, "change": _changed, "keep": _kept, "drop": _dropped, "join": _joined}
+
+
+def is_practice(connection: Connection, row: Row) -> bool:
+    """Whether a row is the practice patient's, and so of this computer alone."""
+    if row.table == "patient":
+        return row.id == PRACTICE
+    owner = row.values.get("patient_id")
+    session_id = row.id if row.table == "session" else row.values.get("session_id")
+    if owner is None and row.table == "correction":
+        session_id = row.id
+    if owner is None and session_id is not None:
+        owner = connection.execute(select(SESSION.c.patient_id).where(SESSION.c.id == session_id)).scalar()
+    return bool(owner == PRACTICE)
+
+
+def _count(connection: Connection, patient_id: str) -> None:
+    """What a patient's row says of the sessions: a recording counts once, an archived or simulated one not."""
+    mine = [SESSION.c.patient_id == patient_id, SESSION.c.archived == "", SESSION.c.erasing == 0]
+    if patient_id != PRACTICE:
+        mine.append(SESSION.c.simulated == 0)
+    recordings, results = connection.execute(
+        select(func.count(SESSION.c.recording_id.distinct()), func.count()).where(*mine)
+    ).one()
+    last = connection.execute(
+        select(SESSION.c.recorded, SESSION.c.recorded_s, SESSION.c.exercise)
+        .where(*mine)
+        .order_by(SESSION.c.recorded_s.desc(), SESSION.c.created_s.desc())
+        .limit(1)
+    ).one_or_none() or ("", 0.0, "")
+    said = dict(zip(("last", "last_s", "last_exercise"), last, strict=True))
+    connection.execute(
+        update(PATIENT).where(PATIENT.c.id == patient_id).values(sessions=recordings, results=results, **said)
+    )

@@ -1,0 +1,156 @@
+"""The store's file: SQLite for its owner only, what is taken out of it overwritten, complaints as faults."""
+
+from __future__ import annotations
+
+import contextlib
+import sqlite3
+import threading
+from collections.abc import Iterator
+from datetime import datetime
+from pathlib import Path
+from typing import Any
+
+from sqlalchemy import Connection, create_engine, event, inspect, select
+from sqlalchemy.exc import DBAPIError
+
+from carpus.core.errors import DiskFull, OutputNotWritable, RegisterBusy, RegisterDamaged, RegisterUnreadable
+from carpus.core.phrase import phrase
+from carpus.core.private import make_private_file
+from carpus.core.records.schema import METADATA, VERSION
+
+STORE_FILE = "records.sqlite3"
+SMALL_BYTES = 64 << 20
+"""A file up to this size is looked through when it is opened; a larger one would hold up the start, and its damage is
+met where it is."""
+
+
+class Database:
+    """Reading never waits for writing; one writes at a time, also among several programs.
+
+    ``is_new`` tells that the tables had to be made. Raises :class:`RegisterUnreadable`, or :class:`RegisterDamaged`
+    where waiting does not help, :class:`OutputNotWritable`, :class:`DiskFull`.
+    """
+
+    def __init__(self, path: Path) -> None:
+        self._path, self._writing = path, threading.RLock()
+        make_private_file(path)
+        self._engine = create_engine(f"sqlite:///{path}", connect_args={"isolation_level": None, "timeout": 5.0})
+        event.listen(self._engine, "connect", _prepare)
+        event.listen(self._engine, "begin", _begin)
+        try:
+            with self.writing() as connection:
+                self._check(connection)
+                self.is_new = up_to_date(connection, path)
+                for table in METADATA.sorted_tables:
+                    connection.execute(select(table).limit(0))
+        except (DBAPIError, sqlite3.Error) as cause:
+            self.close()
+            raise RegisterDamaged(path, str(getattr(cause, "orig", cause))) from cause
+        except BaseException:
+            self.close()
+            raise
+
+    def close(self) -> None:
+        """May be called twice."""
+        self._engine.dispose()
+
+    @contextlib.contextmanager
+    def reading(self) -> Iterator[Connection]:
+        """What is stored, as of one moment."""
+        with self._complaints(), self._engine.begin() as connection:
+            yield connection
+
+    @contextlib.contextmanager
+    def writing(self) -> Iterator[Connection]:
+        """All of it is stored, or, after an exception, nothing."""
+        with self._writing, self._complaints(), self._engine.connect() as connection:
+            writes = connection.execution_options(writes=True)
+            with writes.begin():
+                yield writes
+
+    def leave_no_trace(self) -> None:
+        """Empty the write-ahead log, which keeps what was overwritten; another program may hold that up a little."""
+        with self._writing, self._complaints():
+            raw = self._engine.raw_connection()
+            try:
+                raw.execute("PRAGMA wal_checkpoint(TRUNCATE)")
+            finally:
+                raw.close()
+
+    def _check(self, connection: Connection) -> None:
+        if self._path.stat().st_size <= SMALL_BYTES:
+            found = connection.exec_driver_sql("PRAGMA quick_check(1)").scalar()
+            if found != "ok":
+                raise RegisterDamaged(self._path, phrase("damaged"))
+
+    @contextlib.contextmanager
+    def _complaints(self) -> Iterator[None]:
+        try:
+            yield
+        except (DBAPIError, sqlite3.Error) as cause:  # what SQLite says at a connection comes as it is
+            said = getattr(cause, "orig", cause)
+            code = getattr(said, "sqlite_errorcode", 0) & 0xFF
+            if code == sqlite3.SQLITE_FULL:
+                raise DiskFull(self._path) from cause
+            if code in (sqlite3.SQLITE_READONLY, sqlite3.SQLITE_CANTOPEN):
+                raise OutputNotWritable(self._path, str(said)) from cause
+            if code in (sqlite3.SQLITE_CORRUPT, sqlite3.SQLITE_NOTADB):
+                raise RegisterDamaged(self._path, str(said)) from cause
+            if code in (sqlite3.SQLITE_BUSY, sqlite3.SQLITE_LOCKED):
+                raise RegisterBusy(self._path, str(said)) from cause
+            if code == sqlite3.SQLITE_IOERR:
+                raise RegisterUnreadable(self._path, str(said)) from cause
+            raise
+
+
+def up_to_date(connection: Connection, name: Path | str) -> bool:
+    """Bring the tables of a database to this version; whether there were none before. Alembic is loaded only then.
+
+    Raises :class:`RegisterUnreadable` for one of a newer Carpus, :class:`RegisterDamaged` for what is no store.
+    """
+    tables = set(inspect(connection).get_table_names())
+    found = connection.exec_driver_sql("SELECT version_num FROM alembic_version").scalar() if (
+        "alembic_version" in tables
+    ) else None  # fmt: skip
+    if found == VERSION:
+        return False
+    if found is None and tables:
+        raise RegisterDamaged(name, phrase("damaged"))
+    from alembic.command import upgrade
+    from alembic.config import Config
+    from alembic.util.exc import CommandError
+
+    config = Config()
+    config.set_main_option("script_location", str(Path(__file__).parent / "migrations").replace("%", "%%"))
+    config.attributes["connection"] = connection
+    try:
+        upgrade(config, "head")
+    except CommandError as cause:
+        said = phrase("version {version}, this Carpus reads up to {count}", version=found or "", count=VERSION)
+        raise RegisterUnreadable(name, said) from cause
+    return found is None
+
+
+def set_aside(path: Path, now: datetime) -> Path:
+    """Give a damaged database and its journals another name, so that a new one can be made; where it is now."""
+    aside = path.with_name(f"{path.stem}.damaged-{now:%Y%m%d-%H%M%S}{path.suffix}")
+    try:
+        for tail in ("", "-wal", "-shm"):
+            old = path.with_name(path.name + tail)
+            if old.exists():
+                old.rename(aside.with_name(aside.name + tail))
+    except OSError as cause:
+        raise OutputNotWritable(path, cause.strerror or "") from cause
+    return aside
+
+
+def _prepare(connection: Any, _: object) -> None:
+    connection.text_factory = lambda stored: stored.decode("utf-8", "replace")
+    connection.execute("PRAGMA journal_mode = WAL")
+    connection.execute("PRAGMA foreign_keys = ON")
+    connection.execute("PRAGMA secure_delete = ON")  # what is taken out is overwritten, not only forgotten
+
+
+def _begin(connection: Connection) -> None:
+    writes = connection.get_execution_options().get("writes", False)
+    connection.exec_driver_sql("BEGIN IMMEDIATE" if writes else "BEGIN")

@@ -1,0 +1,198 @@
+"""A session, or a patient, deleted with everything: rows are marked, then files go, then the rows.
+
+An erasure that is cut short is finished when the store is opened next. Only files in the folder of the sessions, and
+what Carpus keeps beside it, are touched: by relative paths without links; reports and exports that were saved elsewhere
+are named, and so are back-ups, which stay. What is deleted is overwritten in the store; what the disk itself keeps of
+deleted files only its encryption protects.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import glob
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+from sqlalchemy import delete, select
+
+from carpus.core.errors import ErasureUnfinished, SessionUnreadable
+from carpus.core.names import folded
+from carpus.core.records.changes import Row, changed, dropped
+from carpus.core.records.database import STORE_FILE
+from carpus.core.records.log import Kind, Log
+from carpus.core.records.of_sessions import MadeFile, made_from
+from carpus.core.records.patients import Patients
+from carpus.core.records.schema import PATIENT, RECIPIENT, SEEN, SESSION
+from carpus.core.records.session_list import FilesOfSessions, SessionList
+from carpus.core.records.store import Store
+from carpus.core.records.values import SessionEntry
+from carpus.core.session.reader import read_outline
+
+TRIALS_FOLDER = "corrections"
+"""In the data folder: sessions tracked again that nobody has decided about."""
+
+
+@dataclass(frozen=True, slots=True)
+class ErasurePlan:
+    """What would go. ``sessions`` counts recordings; ``files`` lie in the data folder; ``made`` are files that Carpus
+    made elsewhere and does not touch; ``others`` counts the patient's recordings that stay."""
+
+    kind: Kind
+    identity: str
+    patient_id: str
+    pseudonym: str
+    results: tuple[SessionEntry, ...]
+    sessions: int
+    files: tuple[Path, ...]
+    size_bytes: int
+    made: tuple[MadeFile, ...]
+    others: int = 0
+
+
+def plan_session(store: Store, session_id: str) -> ErasurePlan:
+    """One recording with all its results. Raises KeyError for a session that is not in the store."""
+    sessions = SessionList(store)
+    results, patient_id = sessions.results_of(session_id), sessions.owner(session_id)
+    mine = {one.recording_id for one in sessions.of_patient(patient_id, archived=True)} if patient_id else set()
+    return _plan(store, "session", session_id, patient_id, results, len(mine - {results[0].recording_id}))
+
+
+def plan_patient(store: Store, patient_id: str) -> ErasurePlan:
+    """A patient with all sessions. Raises KeyError for one that is not in the store."""
+    Patients(store).one(patient_id)
+    results = SessionList(store).of_patient(patient_id, archived=True)
+    return _plan(store, "patient", patient_id, patient_id, results, 0)
+
+
+def _plan(
+    store: Store, kind: Kind, identity: str, patient_id: str, results: Sequence[SessionEntry], others: int
+) -> ErasurePlan:
+    going = [patient_id] if kind == "patient" else []
+    files = sorted(_files(store, going, [one.session_id for one in results]))
+    return ErasurePlan(
+        kind, identity, patient_id, Patients(store).one(patient_id).entry.pseudonym if patient_id else "",
+        tuple(results), len({one.recording_id for one in results}), tuple(files),
+        sum(path.lstat().st_size for path in files), tuple(made_from(store, [one.session_id for one in results])),
+        others,
+    )  # fmt: skip
+
+
+def erase(store: Store, plan: ErasurePlan, log: Log) -> int:
+    """Do it; how many files went. What cannot be deleted now is tried again whenever the store is opened.
+
+    Raises :class:`ErasureUnfinished` where files are left, :class:`OutputNotWritable` where it could not be logged and
+    so was not begun.
+    """
+    log.note("erase_begun", plan.kind, plan.identity, files=len(plan.files))
+    marked = [changed(SESSION, one.session_id, erasing=1) for one in plan.results]
+    store.do([*marked, *([changed(PATIENT, plan.patient_id, erasing=1)] if plan.kind == "patient" else [])])
+    left = _go_on(store)
+    if left:
+        log.note("erase_begun", plan.kind, plan.identity, left=len(left))
+        raise ErasureUnfinished(left[0].name, f"{len(left)}")
+    log.note("erased", plan.kind, plan.identity, files=len(plan.files))
+    return len(plan.files)
+
+
+def finish_erasing(store: Store, log: Log) -> None:
+    """What an erasure that was cut short has left; called when the store is opened."""
+    if store.row(select(SESSION.c.id).where(SESSION.c.erasing == 1)) or store.row(
+        select(PATIENT.c.id).where(PATIENT.c.erasing == 1)
+    ):
+        left = _go_on(store)
+        log.note("erase_begun" if left else "erased", "everything", late=1, left=len(left))
+    store.leave_no_trace()  # of a program that was killed before it did so
+
+
+def _go_on(store: Store) -> list[Path]:
+    """Delete the files of what is marked, then its rows; files that could not be deleted."""
+    people = store.rows(select(PATIENT).where(PATIENT.c.erasing == 1))
+    patients = [str(row.id) for row in people]
+    mine = (SESSION.c.erasing == 1) | SESSION.c.patient_id.in_(patients)
+    rows = store.rows(select(SESSION.c.id, SESSION.c.path).where(mine))
+    sessions = [str(row.id) for row in rows]
+    files = _files(store, patients, sessions)
+    left = [path for path in sorted(files) if not _gone(path)]
+    for folder in sorted({path.parent for path in files} | {store.sessions_folder / one for one in patients}):
+        if folder.is_relative_to(store.sessions_folder) and folder != store.sessions_folder:
+            with contextlib.suppress(OSError):  # another patient's session is in it
+                folder.rmdir()
+    if left:
+        return left
+    names = [name for row in people for name in (row.folded, folded(row.name)) if name]
+    # What is of this computer alone goes first: as long as the rows are marked, a kill in between is made good.
+    paths = [path.relative_to(store.sessions_folder).as_posix() for path in files if _is_session_file(store, path)]
+    store.own(
+        *(delete(SEEN).where(SEEN.c.path == path) for path in [*paths, *(str(row.path) for row in rows)]),
+        *(delete(SEEN).where(SEEN.c.reason.endswith(str(row.path), autoescape=True)) for row in rows),
+    )
+    letters = _letters_to(store, names)
+    store.forget_waiting([*patients, *sessions, *(row.id for row in letters)])
+    store.do([*(dropped(SESSION, one) for one in sessions), *(dropped(PATIENT, one) for one in patients), *letters])
+    store.leave_no_trace()
+    return []
+
+
+def _letters_to(store: Store, names: Sequence[str]) -> list[Row]:
+    """Letters that went to the patient, or about the patient, named no other."""
+    addresses = store.rows(select(RECIPIENT)) if names else ()
+    return [dropped(RECIPIENT, row.id) for row in addresses if any(name in folded(row.address) for name in names)]
+
+
+def _files(store: Store, patients: Sequence[str], sessions: Sequence[str]) -> set[Path]:
+    """Every file of these: the sessions' own with what lies beside them and copies, all that is left in the folders of
+    the patients, new results that wait for a decision, and damaged stores that were set aside, which may hold names."""
+    rows = store.rows(select(SESSION.c.id, SESSION.c.path))
+    going = set(sessions)
+    others = {path for row in rows if row.id not in going for path in _beside(store, row.path)}
+    found = {path for row in rows if row.id in going for path in _beside(store, row.path)}
+    files = FilesOfSessions(store)
+    found |= {path for row in rows if row.id in going for path in files.copies_of(row.path) if path.is_file()}
+    for patient_id in patients:
+        folder = _inside(store.sessions_folder, patient_id)
+        found |= set(_plain_files(folder)) if folder is not None else set()
+    found |= set(_trials(store.folder / TRIALS_FOLDER, going))
+    stem, suffix = STORE_FILE.split(".")
+    return (found | set(store.folder.glob(f"{stem}.damaged-*.{suffix}*"))) - others
+
+
+def _beside(store: Store, stored: str) -> set[Path]:
+    """A session's file and all that lies beside it under its name; nothing for a path that leads elsewhere."""
+    path = _inside(store.sessions_folder, stored)
+    return set() if path is None else {
+        one for one in path.parent.glob(f"{glob.escape(path.stem)}.*") if one.is_file() or one.is_symlink()
+    }  # fmt: skip
+
+
+def _inside(folder: Path, stored: str) -> Path | None:
+    """The path below a folder, None where it would lead out of it, by its name or by a link on its way."""
+    path = folder / stored
+    parts = Path(stored).parts
+    if not parts or Path(stored).is_absolute() or ".." in parts:
+        return None
+    return None if any(one.is_symlink() for one in [*path.parents][: len(parts) - 1]) else path
+
+
+def _plain_files(folder: Path) -> Iterator[Path]:
+    if not folder.is_symlink():
+        yield from (path for path in folder.rglob("*") if path.is_symlink() or path.is_file())
+
+
+def _trials(folder: Path, going: Iterable[str]) -> Iterator[Path]:
+    for path in folder.glob("*.h5") if not folder.is_symlink() else ():
+        with contextlib.suppress(SessionUnreadable):
+            if read_outline(path).header.origin in set(going):
+                yield path
+
+
+def _is_session_file(store: Store, path: Path) -> bool:
+    return path.is_relative_to(store.sessions_folder)
+
+
+def _gone(path: Path) -> bool:
+    try:
+        path.unlink(missing_ok=True)
+    except OSError:
+        return False
+    return True

@@ -1,0 +1,56 @@
+"""What belongs to the clinic and to no patient: to whom letters are written, and the back-ups that were made."""
+
+from __future__ import annotations
+
+import time
+import uuid
+from dataclasses import dataclass
+from datetime import datetime
+
+from sqlalchemy import select
+
+from carpus.core.records.changes import kept, new
+from carpus.core.records.schema import BACKUP, RECIPIENT, SESSION
+from carpus.core.records.store import Store, new_id
+from carpus.core.records.values import moment
+
+MOST_RECIPIENTS = 50
+
+
+def recipients(store: Store) -> list[str]:
+    """Addresses of letters, the last used first."""
+    query = select(RECIPIENT.c.address).order_by(RECIPIENT.c.used_s.desc()).limit(MOST_RECIPIENTS)
+    return [str(row.address) for row in store.rows(query)]
+
+
+def remember_recipient(store: Store, address: str) -> None:
+    """Take down an address."""
+    row_id = uuid.uuid5(uuid.NAMESPACE_OID, address).hex
+    store.do([kept(RECIPIENT, row_id, address=address, used_s=time.time())])
+
+
+@dataclass(frozen=True, slots=True)
+class LastBackup:
+    """The last back-up of a store; ``missing`` counts sessions made since."""
+
+    made: datetime
+    place: str
+    sessions: int
+    size_bytes: int
+    missing: int
+
+
+def note_backup(store: Store, made: datetime, place: str, sessions: int, size_bytes: int) -> None:
+    """Take down that a back-up was made."""
+    row = {"made": made.isoformat(), "place": place, "sessions": sessions, "size_bytes": size_bytes}
+    store.do([new(BACKUP, new_id(), **row)])
+
+
+def last_backup(store: Store) -> LastBackup | None:
+    """None before the first."""
+    row = max(store.rows(select(BACKUP)), key=lambda one: moment(one.made, 0.0), default=None)
+    if row is None:
+        return None
+    made = moment(row.made, 0.0)
+    later = store.rows(select(SESSION.c.id).where(SESSION.c.created_s > made.timestamp(), SESSION.c.erasing == 0))
+    return LastBackup(made, row.place, row.sessions, row.size_bytes, len(later))

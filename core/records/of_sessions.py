@@ -1,0 +1,127 @@
+"""What people write about a session: comments in all versions, what they left out or moved, what was made of it."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import time
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from datetime import UTC, datetime
+from pathlib import Path
+from typing import Literal
+
+from sqlalchemy import select
+
+from carpus.core.output.report_content import RepetitionChoices
+from carpus.core.records.changes import Row, changed, dropped, new
+from carpus.core.records.schema import COMMENT, CORRECTION, MADE
+from carpus.core.records.store import Store, new_id
+from carpus.core.records.values import moment
+
+MOST_CHARACTERS = 20_000
+MadeKind = Literal["report", "export"]
+State = Literal["as_made", "changed", "not_found"]
+
+
+@dataclass(frozen=True, slots=True)
+class Comment:
+    """What was written, by whose initials, and when; an empty text took the one before away."""
+
+    text: str
+    by: str
+    entered: datetime
+
+
+def comments(store: Store, session_id: str) -> tuple[Comment, ...]:
+    """All of a session, oldest first; the last one holds."""
+    query = select(COMMENT).where(COMMENT.c.session_id == session_id).order_by(COMMENT.c.entered_ns, COMMENT.c.id)
+    return tuple(Comment(row.text, row.by, moment(row.entered, row.entered_ns / 1e9)) for row in store.rows(query))
+
+
+def latest(written: Sequence[Comment]) -> str:
+    """The comment that holds; empty where there is none."""
+    return written[-1].text if written else ""
+
+
+def add_comment(store: Store, session_id: str, text: str, by: str) -> None:
+    """Add one, which holds from now on; what was written before stays readable."""
+    entered = datetime.now(UTC).isoformat(timespec="seconds")
+    row = {"session_id": session_id, "text": text, "by": by, "entered": entered, "entered_ns": time.time_ns()}
+    store.do([new(COMMENT, new_id(), **row)])
+
+
+def choices(store: Store, session_id: str) -> tuple[RepetitionChoices, int]:
+    """What a person left out or moved, and its version; nothing and 0 where nothing is."""
+    row = store.row(select(CORRECTION).where(CORRECTION.c.session_id == session_id))
+    if row is None:
+        return RepetitionChoices(), 0
+    left_out = {int(number): str(reason) for number, reason in json.loads(row.left_out).items()}
+    edges_s = {int(number): (start, end) for number, (start, end) in json.loads(row.edges_s).items()}
+    return RepetitionChoices(left_out, edges_s, bool(row.not_counted), row.reason), row.version
+
+
+def keep_choices(store: Store, session_id: str, kept: RepetitionChoices, version: int) -> int:
+    """Store them in place of the ``version`` that they were made from (0 for none); the version that they have now.
+
+    Raises :class:`ChangedMeanwhile` where somebody else was quicker.
+    """
+    values = {
+        "left_out": json.dumps(kept.left_out, ensure_ascii=False), "edges_s": json.dumps(kept.edges_s),
+        "not_counted": int(kept.not_counted), "reason": kept.not_counted_reason,
+    }  # fmt: skip
+    change = changed(CORRECTION, session_id, version, **values)
+    if not version:
+        change = new(CORRECTION, session_id, session_id=session_id, **values)
+    store.do([change])
+    return int(change.after(version))
+
+
+@dataclass(frozen=True, slots=True)
+class MadeFile:
+    """A file outside the data folder as it was made, and what has become of it."""
+
+    path: Path
+    kind: MadeKind
+    state: State
+    size_bytes: int
+
+
+def remember_made(store: Store, paths: Iterable[Path], kind: MadeKind, session_ids: Sequence[str]) -> None:
+    """Take down files that were just made from these sessions; one that cannot be read is not there to be erased. A
+    file is known again by its content: what a person changed since, or put in its place, is left alone."""
+    change = []
+    for path in paths:
+        content = content_of(path)
+        for session_id in session_ids if content else ():
+            row = {"session_id": session_id, "path": str(path.absolute()), "kind": kind, "content": content}
+            change.append(new(MADE, new_id(), **row))
+    store.do(change)
+
+
+def made_from(store: Store, session_ids: Iterable[str]) -> list[MadeFile]:
+    """What was made from any of these sessions, alone or with others."""
+    found: dict[str, MadeFile] = {}
+    for row in store.rows(select(MADE).where(MADE.c.session_id.in_(list(session_ids)))):
+        path = Path(row.path)
+        now = content_of(path)
+        state: State = "not_found" if not now else "as_made" if now == row.content else "changed"
+        found[row.path] = MadeFile(path, row.kind, state, path.stat().st_size if now else 0)
+    return [found[path] for path in sorted(found)]
+
+
+def forget_made(store: Store, paths: Iterable[Path]) -> list[Row]:
+    """The change that forgets files which are gone, or nobody's business any more."""
+    these = select(MADE.c.id).where(MADE.c.path.in_([str(path) for path in paths]))
+    return [dropped(MADE, row.id) for row in store.rows(these)]
+
+
+def content_of(path: Path) -> str:
+    """SHA-256 of a plain file; empty where there is none that can be read."""
+    try:
+        if path.is_symlink() or not path.is_file():
+            return ""
+        with path.open("rb") as file:
+            return hashlib.file_digest(file, "sha256").hexdigest()
+    except OSError:
+        return ""

@@ -1,0 +1,124 @@
+"""Who is behind a pseudonym: names are in the store and nowhere else."""
+
+from __future__ import annotations
+
+import random
+from collections.abc import Sequence
+from datetime import UTC, datetime
+from typing import Any
+
+from sqlalchemy import ColumnElement, Row, func, select
+
+from carpus.core.names import folded
+from carpus.core.records.changes import PRACTICE, changed, new
+from carpus.core.records.pseudonyms import suggest_pseudonym
+from carpus.core.records.schema import PATIENT
+from carpus.core.records.store import Store, new_id
+from carpus.core.records.values import (
+    AGE_BANDS,
+    DOMINANCES,
+    SIDES,
+    PatientEntry,
+    PatientRecord,
+    moment,
+    one_of,
+)
+
+
+class Patients:
+    """The list of patients of a store; the practice patient is in no list."""
+
+    def __init__(self, store: Store) -> None:
+        self._store = store
+
+    def listed(self, search: str = "", *, archived: bool = False, most: int | None = None) -> list[PatientRecord]:
+        """Patients whose pseudonym, name or note holds every word of ``search``; last session first, ``most`` of them.
+
+        Without those in the archive, unless ``archived``, and without archived sessions in the counts.
+        """
+        these: list[ColumnElement[bool]] = [PATIENT.c.id != PRACTICE, PATIENT.c.erasing == 0]
+        if not archived:
+            these.append(PATIENT.c.archived == "")
+        words = folded(search).split()
+        these += [func.instr(PATIENT.c.search, word) > 0 for word in words]
+        order = (PATIENT.c.last_s.desc(), PATIENT.c.added_s.desc())
+        query = select(PATIENT).where(*these)
+        if words:  # the index has all that is needed to find them; whole rows are read of those alone
+            found = select(PATIENT.c.id).with_hint(PATIENT, "INDEXED BY patient_copy_found").where(*these)
+            found = found.order_by(*order).limit(most)
+            rows = self._store.rows(select(PATIENT).where(PATIENT.c.id.in_(found)))
+            return [_record(row) for row in sorted(rows, key=lambda row: (-row.last_s, -row.added_s))]
+        return [_record(row) for row in self._store.rows(query.order_by(*order).limit(most))]
+
+    def one(self, patient_id: str) -> PatientRecord:
+        """Raises KeyError for an identity that is not in the store."""
+        row = self._store.row(select(PATIENT).where(PATIENT.c.id == patient_id))
+        if row is None:
+            raise KeyError(patient_id)
+        return _record(row)
+
+    def called(self, pseudonym: str) -> str:
+        """The identity behind a pseudonym; empty for nobody's."""
+        row = self._store.row(select(PATIENT.c.id).where(PATIENT.c.folded == folded(pseudonym)))
+        return str(row[0]) if row else ""
+
+    def suggest_pseudonym(self, chance: random.Random | None = None) -> str:
+        """A random pseudonym that no patient has."""
+        return suggest_pseudonym([str(row[0]) for row in self._store.rows(select(PATIENT.c.pseudonym))], chance)
+
+    def add(self, entry: PatientEntry, now: datetime | None = None) -> str:
+        """Enter a new patient; returns the identity given. Raises :class:`PseudonymTaken`, :class:`NameUnsuited`."""
+        patient_id = new_id()
+        self._store.do([new(PATIENT, patient_id, **columns(entry), added_s=(now or datetime.now(UTC)).timestamp())])
+        return patient_id
+
+    def change(self, patient_id: str, entry: PatientEntry, version: int = 0) -> None:
+        """Replace what is written of a patient, as it was read in ``version``; the sessions stay.
+
+        Raises :class:`PseudonymTaken`, :class:`NameUnsuited`, :class:`ChangedMeanwhile`. Files recorded under an
+        earlier pseudonym keep it.
+        """
+        self._store.do([changed(PATIENT, patient_id, version, **columns(entry))])
+        self._store.leave_no_trace()  # of a name that was taken away
+
+    def archive(self, patient_id: str, now: datetime | None = None) -> None:
+        """Out of every list and count."""
+        since = (now or datetime.now(UTC)).isoformat(timespec="seconds")
+        self._store.do([changed(PATIENT, patient_id, archived=since)])
+
+    def bring_back(self, patient_id: str) -> None:
+        """Undo :meth:`archive`."""
+        self._store.do([changed(PATIENT, patient_id, archived="")])
+
+    def archived(self) -> dict[str, datetime]:
+        """Patients in the archive, and since when."""
+        rows = self._store.rows(select(PATIENT).where(PATIENT.c.archived != ""))
+        return {str(row.id): moment(row.archived, row.added_s) for row in rows}
+
+    def taking_part(self) -> Sequence[str]:
+        """Identities of those who take part in the clinic's test and retest."""
+        return [str(row[0]) for row in self._store.rows(select(PATIENT.c.id).where(PATIENT.c.takes_part == 1))]
+
+    def let_take_part(self, patient_ids: Sequence[str]) -> None:
+        """Let these take part from now on, and nobody else."""
+        before, now = set(self.taking_part()), set(patient_ids)
+        self._store.do([changed(PATIENT, one, takes_part=int(one in now)) for one in sorted(before ^ now)])
+
+
+def columns(entry: PatientEntry) -> dict[str, Any]:
+    """An entry as it is stored. Raises :class:`NameUnsuited`."""
+    own = entry.as_kept()
+    return {
+        "pseudonym": own.pseudonym, "name": own.name, "side": own.side, "dominance": own.dominance,
+        "age_band": own.age_band, "note": own.note, "folded": folded(own.pseudonym),
+        "search": folded(f"{own.pseudonym} {own.name} {own.note}"),
+    }  # fmt: skip
+
+
+def _record(row: Row[Any]) -> PatientRecord:
+    entry = PatientEntry(
+        row.pseudonym.strip() or "?", one_of(SIDES, row.side), one_of(DOMINANCES, row.dominance),
+        one_of(AGE_BANDS, row.age_band), row.note, row.name,
+    )  # fmt: skip
+    last = moment(row.last, row.last_s) if row.last else None
+    return PatientRecord(row.id, entry, row.sessions, last, row.last_exercise, row.results, row.version)

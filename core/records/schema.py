@@ -1,0 +1,182 @@
+"""The tables of the store, the same in SQLite and in PostgreSQL.
+
+Every shared row has an ``id``; a ``version`` that rises when the row is changed, so that two people who change one
+thing notice; and a ``step``, the number that the server gave to its last change (0 without a server). Times are ISO
+8601 texts with zone; ``*_s`` are seconds since 1970, ``*_ns`` nanoseconds, to put rows in order.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+from sqlalchemy import REAL, BigInteger, Column, Double, ForeignKey, Index, Integer, MetaData, Table, Text
+from sqlalchemy.dialects import postgresql, sqlite
+from sqlalchemy.schema import CreateIndex, CreateTable
+from sqlalchemy.types import TypeEngine
+
+VERSION = "1"
+"""Of the schema; each has its script among the migrations."""
+METADATA = MetaData()
+_REAL: TypeEngine[float] = Double().with_variant(REAL(), "sqlite")
+_LONG: TypeEngine[int] = BigInteger().with_variant(Integer(), "sqlite")
+
+
+def _texts(*names: str) -> list[Column[Any]]:
+    return [Column(name, Text, nullable=False, server_default="") for name in names]
+
+
+def _numbers(*names: str) -> list[Column[Any]]:
+    return [Column(name, Integer, nullable=False, server_default="0") for name in names]
+
+
+def _reals(*names: str, nullable: bool = False) -> list[Column[Any]]:
+    default = None if nullable else "0"
+    return [Column(name, _REAL, nullable=nullable, server_default=default) for name in names]
+
+
+def _of(table: str) -> Column[Any]:
+    return Column(f"{table}_id", Text, ForeignKey(f"{table}.id", ondelete="CASCADE"), nullable=False, index=True)
+
+
+def _shared(name: str, *columns: Column[Any] | list[Column[Any]]) -> Table:
+    flat = [one for part in columns for one in (part if isinstance(part, list) else [part])]
+    return Table(
+        name, METADATA, Column("id", Text, primary_key=True), *flat,
+        Column("version", Integer, nullable=False, server_default="1"),
+        Column("step", _LONG, nullable=False, server_default="0", index=True),
+        sqlite_strict=True,
+    )  # fmt: skip
+
+
+def _local(name: str, *columns: Column[Any]) -> Table:
+    return Table(name, METADATA, *columns, sqlite_strict=True)
+
+
+PATIENT = _shared(
+    "patient",
+    Column("folded", Text, nullable=False, unique=True),
+    _texts("pseudonym", "name", "side", "dominance", "age_band", "note", "search", "archived", "last", "last_exercise"),
+    _numbers("sessions", "results", "erasing", "takes_part"),
+    _reals("added_s", "last_s"),
+)
+"""``folded``: the pseudonym as it is compared. ``archived``: since when, empty in the lists. What is counted, and
+``last``, is of recordings that are in the lists and not simulated; it is worked out whenever a session changes."""
+Index("patient_last", PATIENT.c.last_s, PATIENT.c.added_s)
+Index(
+    "patient_copy_found", PATIENT.c.search, PATIENT.c.archived, PATIENT.c.erasing, PATIENT.c.last_s, PATIENT.c.added_s,
+    PATIENT.c.id,
+)  # fmt: skip
+
+SESSION = _shared(
+    "session",
+    Column("patient_id", Text, ForeignKey("patient.id", ondelete="SET NULL")),
+    Column("path", Text, nullable=False, unique=True),
+    Column("recording_id", Text, nullable=False, index=True),
+    _texts("seal", "recorded", "created", "exercise", "hand", "by", "archived"),
+    _numbers("frames", "complete", "simulated", "erasing"),
+    _reals("recorded_s", "created_s", "duration_s"),
+    Column("size", _LONG, nullable=False, server_default="0"),
+)
+"""``path`` with slashes, in the folder of the sessions. ``seal``: SHA-256 over all that the file says, as in the file;
+empty for one that was cut short. ``by``: initials of who recorded."""
+Index("session_of_patient", SESSION.c.patient_id, SESSION.c.recorded_s)
+
+COMMENT = _shared("comment", _of("session"), _texts("text", "by", "entered"), Column("entered_ns", _LONG))
+CORRECTION = _shared(
+    "correction",
+    Column("session_id", Text, ForeignKey("session.id", ondelete="CASCADE"), nullable=False, unique=True),
+    _texts("left_out", "edges_s", "reason"),
+    _numbers("not_counted"),
+)
+"""``left_out`` and ``edges_s`` as JSON, by the number of the repetition."""
+MEASURED = _shared(
+    "measured", _of("patient"), _texts("measure", "way", "side", "day", "tries", "place", "by", "entered"),
+    Column("entered_ns", _LONG, nullable=False),
+)  # fmt: skip
+"""By a person with a goniometer, a dynamometer, a questionnaire; ``tries`` as JSON."""
+SET_UP = _shared(
+    "set_up", _of("patient"), _texts("side", "exercise", "discs", "set_id"),
+    _numbers("repetitions", "keep_pictures", "ends_free", "for_child"),
+    _reals("positive_deg", "negative_deg", nullable=True),
+)  # fmt: skip
+GOAL = _shared(
+    "goal", _of("patient"), _texts("exercise", "side"), _reals("positive_deg", "negative_deg", nullable=True)
+)
+EXERCISE_SET = _shared("exercise_set", _texts("name", "discs", "parts"), _numbers("place", "gone"))
+REPORT_FORM = _shared("report_form", _texts("name", "address", "logo", "paper", "left_out", "sentences"))
+RECIPIENT = _shared("recipient", _texts("address"), _reals("used_s"))
+MADE = _shared("made", _of("session"), _texts("path", "kind", "content"))
+"""Files outside the data folder that were made from a session; ``content`` their SHA-256."""
+BACKUP = _shared("backup", _texts("made", "place"), _numbers("sessions"), Column("size_bytes", _LONG, nullable=False))
+DEED = _shared("deed", _texts("at", "who", "by", "did", "kind", "subject", "facts"), Column("at_ns", _LONG, index=True))
+"""Only ever added to. ``subject``: a fingerprint of the patient's or session's id, so that what was erased is
+nobody's."""
+
+TOMBSTONE = Table(
+    "tombstone", METADATA, Column("id", Text, primary_key=True), Column("of_table", Text, nullable=False),
+    Column("step", _LONG, nullable=False, server_default="0", index=True), sqlite_strict=True,
+)  # fmt: skip
+"""On a server: rows that are gone, so that other computers let them go too."""
+DELIVERED = _local("delivered", Column("id", Text, primary_key=True), Column("at_s", _REAL, nullable=False))
+"""On a server: changes that have arrived."""
+OUTBOX = _local(
+    "outbox", Column("number", Integer, primary_key=True), Column("id", Text, nullable=False),
+    Column("change", Text, nullable=False), Column("refused", Text, nullable=False, server_default=""),
+)  # fmt: skip
+"""Changes on their way to the server, in order; ``refused`` says why one was not taken."""
+SEEN = _local(
+    "seen", Column("path", Text, primary_key=True), Column("size", _LONG, nullable=False),
+    Column("changed_ns", _LONG, nullable=False), Column("reason", Text, nullable=False),
+)  # fmt: skip
+"""How files looked when they were last read; ``reason`` why one is no session."""
+OWN = _local("own", Column("name", Text, primary_key=True), Column("value", Text, nullable=False))
+"""What this copy knows of itself: how far it has read the server."""
+
+COPIED = (
+    PATIENT, SESSION, COMMENT, CORRECTION, MEASURED, SET_UP, GOAL, EXERCISE_SET, REPORT_FORM, RECIPIENT, MADE, BACKUP,
+)  # fmt: skip
+"""What every computer has a copy of, in an order in which no row comes before what it belongs to."""
+SHARED = {table.name: table for table in (*COPIED, DEED)}
+
+_SQLITE_LOG = """
+CREATE TRIGGER deed_stays BEFORE UPDATE ON deed BEGIN SELECT RAISE(ABORT, 'the log is only added to'); END;
+CREATE TRIGGER deed_is_kept BEFORE DELETE ON deed BEGIN SELECT RAISE(ABORT, 'the log is only added to'); END;
+"""
+_POSTGRESQL = """
+CREATE SEQUENCE carpus_step;
+CREATE FUNCTION carpus_next_step() RETURNS trigger LANGUAGE plpgsql AS $$ BEGIN
+  PERFORM pg_advisory_xact_lock(2026);
+  NEW.step := nextval('carpus_step'); RETURN NEW; END $$;
+CREATE FUNCTION carpus_gone() RETURNS trigger LANGUAGE plpgsql AS $$ BEGIN
+  INSERT INTO tombstone (id, of_table) VALUES (OLD.id, TG_TABLE_NAME) ON CONFLICT DO NOTHING; RETURN OLD; END $$;
+CREATE FUNCTION carpus_only_added() RETURNS trigger LANGUAGE plpgsql AS $$ BEGIN
+  RAISE EXCEPTION 'the log is only added to'; END $$;
+CREATE TRIGGER deed_stays BEFORE UPDATE OR DELETE OR TRUNCATE ON deed EXECUTE FUNCTION carpus_only_added();
+"""
+"""One change at a time gets its step, and so steps come in the order in which changes can be seen."""
+
+
+def statements(dialect_name: str) -> str:
+    """The script that makes all tables: what the first migration holds."""
+    dialect = sqlite.dialect() if dialect_name == "sqlite" else postgresql.dialect()  # type: ignore[no-untyped-call]
+    out = []
+    for table in METADATA.sorted_tables:
+        out.append(str(CreateTable(table).compile(dialect=dialect)).strip())
+        indices = sorted(table.indexes, key=lambda one: str(one.name))
+        other = (
+            "_step" if dialect_name == "sqlite" else "_found"
+        )  # only the server tells steps, only copies are searched
+        indices = [one for one in indices if not str(one.name).endswith(other)]
+        out += [str(CreateIndex(index).compile(dialect=dialect)).strip() for index in indices]
+    text = "".join(f"{' '.join(one.split())};\n" for one in out)
+    if dialect_name == "sqlite":
+        return text + _SQLITE_LOG
+    steps = "".join(
+        f"CREATE TRIGGER step BEFORE INSERT OR UPDATE ON {name} FOR EACH ROW EXECUTE FUNCTION carpus_next_step();\n"
+        for name in [*SHARED, "tombstone"]
+    )
+    gone = "".join(
+        f"CREATE TRIGGER gone AFTER DELETE ON {table.name} FOR EACH ROW EXECUTE FUNCTION carpus_gone();\n"
+        for table in COPIED
+    )
+    return text + _POSTGRESQL + steps + gone

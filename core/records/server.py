@@ -1,0 +1,306 @@
+"""A clinic's PostgreSQL behind the copies of its computers: own changes are delivered, those of others fetched.
+
+Everything is read of this computer's own copy, and every change is made there first and laid into an outbox in the same
+transaction; so nothing ever waits for a server that is gone. A change has an identity, which the server takes down in
+the transaction that makes it: it arrives once, however often it is sent. One that the server refuses, since somebody
+else was quicker, is told; the copy then has what the server has.
+"""
+
+from __future__ import annotations
+
+import pickle
+import tempfile
+import threading
+import time
+import uuid
+from collections.abc import Callable, Sequence
+from contextlib import suppress
+from dataclasses import replace
+from typing import Any
+
+from sqlalchemy import Connection, Row, Select, Table, create_engine, delete, func, select, text, update
+from sqlalchemy.dialects import postgresql, sqlite
+from sqlalchemy.exc import DataError, DBAPIError, IntegrityError
+
+from carpus.core.errors import CarpusFault, ChangedMeanwhile, ChangeRefused, PseudonymGiven, PseudonymTaken, ServerGone
+from carpus.core.records.changes import Change, is_practice, joining, make, read_back
+from carpus.core.records.changes import Row as Changed
+from carpus.core.records.database import Database, up_to_date
+from carpus.core.records.outbox import lay_out
+from carpus.core.records.schema import COPIED, DEED, DELIVERED, OUTBOX, OWN, PATIENT, SEEN, SHARED, TOMBSTONE
+
+LOOK_S, RETRY_S, KEEP_DELIVERED_S = 2.0, 5.0, 90 * 86_400.0
+AT_ONCE, PAGE = 500, 5000
+IN_MEMORY_BYTES = 64 << 20
+MOST_NAMESAKES = 99
+_OPTIONS = {
+    "connect_timeout": 3, "tcp_user_timeout": 4000, "keepalives_idle": 5, "keepalives_interval": 5,
+    "keepalives_count": 3, "application_name": "carpus",
+    "options": "-c statement_timeout=60000 -c lock_timeout=5000",
+}  # fmt: skip
+_UNIQUE = {"patient": "folded", "session": "path"}
+
+
+class Server:
+    """Delivers and fetches in a thread of its own; ``tell`` is called from there."""
+
+    def __init__(self, url: str, copy: Database, tell: Callable[[CarpusFault], None]) -> None:
+        plain = url.removeprefix("postgresql+psycopg").removeprefix("postgresql").removeprefix("postgres")
+        self._engine = create_engine(f"postgresql+psycopg{plain}", connect_args=_OPTIONS, pool_size=1, max_overflow=1)
+        self._name = self._engine.url.render_as_string(hide_password=True).split("@")[-1]
+        self._copy, self._tell = copy, tell
+        self._fetched = -1
+        self._work, self._ends = threading.Event(), threading.Event()
+        self._rounds = threading.Condition()
+        self._round, self._refused = 0, dict[str, CarpusFault]()
+        self.is_there = False
+        """Whether it answered last time."""
+        self._answers = True
+        """Whether nobody has waited for it in vain since then."""
+        self._has_looked = False
+        self._leaves_traces = False
+        """Whether something was taken out of the copy of which its write-ahead log still tells."""
+        self._thread = threading.Thread(target=self._run, name="records", daemon=True)
+        self._thread.start()
+
+    def close(self) -> None:
+        """Ends the thread; what is not delivered waits for the next start."""
+        self._ends.set()
+        self._work.set()
+        self._thread.join(10.0)
+        self._engine.dispose()
+
+    def wake(self) -> None:
+        """There is something to deliver."""
+        self._work.set()
+
+    def delivered(self, change_id: str, most_s: float) -> None:
+        """Wait for a change to arrive, if the server is there; raises what the server had against it."""
+        end = time.monotonic() + most_s
+        with self._rounds:
+            while self.is_there and self._answers and time.monotonic() < end:
+                if change_id in self._refused:
+                    raise self._refused.pop(change_id)
+                with self._copy.reading() as connection:
+                    if connection.execute(select(OUTBOX.c.id).where(OUTBOX.c.id == change_id)).first() is None:
+                        return
+                self._work.set()
+                self._rounds.wait(0.05)
+            self._answers = self._answers and time.monotonic() < end
+
+    def rows(self, query: Select[Any]) -> Sequence[Row[Any]]:
+        """What is stored there. Raises :class:`ServerGone`."""
+        try:
+            with self._engine.connect() as connection:
+                return connection.execute(query).all()
+        except DBAPIError as cause:
+            raise ServerGone(self._name, _said(cause)) from cause
+
+    def _run(self) -> None:
+        pause = 0.0
+        while not self._ends.is_set():
+            self._work.wait(pause)
+            self._work.clear()
+            pause = LOOK_S
+            try:
+                if not self._has_looked:
+                    self._tell_late()
+                self._go_round()
+                self._has_looked = self.is_there = self._answers = True
+            except Exception as cause:  # whatever a server says, the copy goes on
+                pause = RETRY_S
+                if self.is_there or not self._has_looked:
+                    said = cause if isinstance(cause, CarpusFault) else ServerGone(self._name, _said(cause))
+                    self._tell(said)
+                self._has_looked, self.is_there = True, False
+                if not self._ends.is_set():
+                    self._ends.wait(0.5)
+            with self._rounds:
+                self._round += 1
+                self._rounds.notify_all()
+
+    def _go_round(self) -> None:
+        self._join()
+        while self._deliver():
+            pass
+        self._fetch()
+        if self._leaves_traces:
+            self._copy.leave_no_trace()
+            self._leaves_traces = False
+
+    # --- to the server ------------------------------------------------------------------------------------
+    def _join(self) -> None:
+        """The first time that this copy meets this server: tables are made, and what is here goes there."""
+        with self._engine.begin() as there:
+            name = there.execute(text("SELECT system_identifier || '/' || current_database() FROM pg_control_system()"))
+            known = str(name.scalar())
+            with self._copy.reading() as connection:
+                if connection.execute(select(OWN.c.value).where(OWN.c.name == "server")).scalar() == known:
+                    return
+            there.execute(text("SELECT pg_advisory_xact_lock(2025)"))
+            up_to_date(there, self._name)
+        with self._copy.writing() as connection:
+            for table in SHARED.values():
+                rows = connection.execute(select(table)).mappings().all()
+                mine = [row for row in joining(table, rows) if not is_practice(connection, row)]
+                for start in range(0, len(mine), AT_ONCE):
+                    lay_out(connection, mine[start : start + AT_ONCE], uuid.uuid4().hex)
+            for key, value in (("server", known), ("step", "0")):
+                made = sqlite.insert(OWN).values(name=key, value=value)
+                connection.execute(made.on_conflict_do_update(index_elements=["name"], set_={"value": value}))
+
+    def _deliver(self) -> bool:
+        """Send the changes that wait, in order; whether there were any."""
+        with self._copy.reading() as connection:
+            query = select(OUTBOX).where(OUTBOX.c.refused == "").order_by(OUTBOX.c.number).limit(AT_ONCE)
+            waiting = connection.execute(query).all()
+        for row in waiting:
+            change, fault = read_back(row.change), None
+            try:
+                self._send(row.id, change)
+            except (CarpusFault, IntegrityError, DataError) as cause:  # all else waits: no right, read-only
+                fault = cause if isinstance(cause, CarpusFault) else ChangeRefused(self._name, _said(cause))
+            there = self._as_there(change) if fault is not None else []
+            with self._copy.writing() as connection:
+                done = OUTBOX.c.number == row.number
+                if fault is None:
+                    connection.execute(delete(OUTBOX).where(done))
+                    self._leaves_traces |= any(one.way == "drop" for one in change)
+                else:
+                    connection.execute(update(OUTBOX).where(done).values(refused=type(fault).__name__))
+                    for one, found in there:
+                        _put_back(connection, one, found)
+            if fault is not None:
+                self._refuse(row.id, fault)
+                self._forget(row.id)
+        return bool(waiting)
+
+    def _forget(self, change_id: str) -> None:
+        with self._copy.writing() as connection:
+            connection.execute(delete(OUTBOX).where(OUTBOX.c.id == change_id))
+
+    def _tell_late(self) -> None:
+        """What was refused when the program ended before it could say so."""
+        with self._copy.reading() as connection:
+            untold = connection.execute(select(OUTBOX).where(OUTBOX.c.refused != "")).all()
+        for row in untold:
+            self._tell(ChangedMeanwhile(read_back(row.change)[0].table))
+            self._forget(row.id)
+
+    def _refuse(self, change_id: str, fault: CarpusFault) -> None:
+        """Whoever waits for it is told; else it is told as news."""
+        with self._rounds:
+            self._refused[change_id] = fault
+            self._rounds.notify_all()
+            self._rounds.wait(0.2)
+            untold = self._refused.pop(change_id, None)
+        if untold is not None:
+            self._tell(untold)
+
+    def _send(self, change_id: str, change: Change) -> None:
+        """Make a change there, once. A new patient whose pseudonym somebody else has taken meanwhile is not lost: a
+        number is put to the name, which is told."""
+        taken = ""
+        for number in range(1, MOST_NAMESAKES):
+            try:
+                with self._engine.begin() as there:
+                    taken_down = postgresql.insert(DELIVERED).values(id=change_id, at_s=time.time())
+                    there.execute(text("SELECT pg_advisory_xact_lock(2026)"))  # one at a time, before any row is held
+                    if there.execute(taken_down.on_conflict_do_nothing().returning(DELIVERED.c.id)).first():
+                        make(there, change if number == 1 else _numbered(change, number))
+            except PseudonymTaken as fault:
+                if not any(row.table == "patient" and row.way in ("new", "join") for row in change):
+                    raise
+                taken = fault.subject
+                continue
+            if number > 1:
+                self._tell(PseudonymGiven(taken, f"{number}"))
+            return
+        raise ChangeRefused(self._name, "")
+
+    def _as_there(self, change: Change) -> list[tuple[Changed, dict[str, Any] | None]]:
+        """Rows of a refused change, as the server has them."""
+        with self._engine.connect() as there:
+            rows = [one for one in change if one.table != DEED.name]
+            tables = [SHARED[one.table] for one in rows]
+            found = [
+                there.execute(select(table).where(table.c.id == one.id)).mappings().first()
+                for one, table in zip(rows, tables, strict=True)
+            ]
+        return [(one, None if row is None else dict(row)) for one, row in zip(rows, found, strict=True)]
+
+    # --- from the server ----------------------------------------------------------------------------------
+    def _fetch(self) -> None:
+        """Bring the copy up to date with what others have changed. All of it is read first: whoever writes into the
+        copy does not wait for a server that falls silent."""
+        with tempfile.SpooledTemporaryFile(max_size=IN_MEMORY_BYTES) as file:
+            with self._engine.connect().execution_options(isolation_level="REPEATABLE READ") as there, there.begin():
+                newest = int(there.execute(text("SELECT last_value FROM carpus_step")).scalar() or 0)
+                if newest == self._fetched:
+                    return
+                with self._copy.reading() as connection:
+                    last = int(connection.execute(select(OWN.c.value).where(OWN.c.name == "step")).scalar() or 0)
+                gone = there.execute(select(TOMBSTONE).where(TOMBSTONE.c.step > last)).all()
+                seen = max([last, *(row.step for row in gone)])
+                for table in COPIED:
+                    after = last
+                    while part := there.execute(_next(table, after)).mappings().all():
+                        after = part[-1]["step"]
+                        pickle.dump((table.name, [dict(row) for row in part]), file)
+                    seen = max(seen, after)
+                newest_deed = there.execute(select(func.max(DEED.c.step))).scalar() or 0
+            pickle.dump(("", []), file)
+            file.seek(0)
+            with self._copy.writing() as connection:
+                if connection.execute(select(func.count()).where(OUTBOX.c.refused == "")).scalar():
+                    self._work.set()
+                    return  # changed meanwhile: delivered first
+                connection.exec_driver_sql("PRAGMA defer_foreign_keys = ON")
+                self._leaves_traces |= bool(gone)
+                for row in gone:
+                    table = SHARED[row.of_table]
+                    connection.execute(delete(table).where(table.c.id == row.id))
+                while (part := pickle.load(file))[0]:
+                    _put(connection, *part)
+                connection.execute(update(OWN).where(OWN.c.name == "step").values(value=str(seen)))
+        # A number that is given and cannot be seen yet is of a change that is about to come: looked for again.
+        self._fetched = max(seen, newest_deed)
+        with suppress(DBAPIError), self._engine.begin() as there:
+            there.execute(delete(DELIVERED).where(DELIVERED.c.at_s < time.time() - KEEP_DELIVERED_S))
+
+
+def _put_back(connection: Connection, refused: Changed, found: dict[str, Any] | None) -> None:
+    table = SHARED[refused.table]
+    if found is not None:
+        _put(connection, table.name, [found])
+    elif refused.way != "join":
+        connection.execute(delete(table).where(table.c.id == refused.id))
+        connection.execute(delete(SEEN).where(SEEN.c.path == refused.values.get("path")))
+
+
+def _next(table: Table, after: int) -> Select[Any]:
+    return select(table).where(table.c.step > after).order_by(table.c.step).limit(PAGE)
+
+
+def _put(connection: Connection, name: str, rows: Sequence[dict[str, Any]]) -> None:
+    table = SHARED[name]
+    if name in _UNIQUE:  # what is unique there may have changed hands: the names that come are free first
+        unique = table.c[_UNIQUE[name]]
+        these = unique.in_([row[unique.name] for row in rows]) | table.c.id.in_([row["id"] for row in rows])
+        connection.execute(update(table).where(these).values({unique.name: "\N{BULLET}" + table.c.id}))
+    made = sqlite.insert(table)
+    values = {column.name: made.excluded[column.name] for column in table.c if column.name != "id"}
+    connection.execute(made.on_conflict_do_update(index_elements=["id"], set_=values), rows)
+
+
+def _numbered(change: Change, number: int) -> Change:
+    """The same with a number behind the pseudonym of each new patient."""
+
+    def name(values: dict[str, Any]) -> dict[str, Any]:
+        return values | {key: f"{values[key]} ({number})" for key in ("pseudonym", "folded") if key in values}
+
+    return [replace(row, values=name(dict(row.values))) if row.table == PATIENT.name else row for row in change]
+
+
+def _said(cause: Exception) -> str:
+    return " ".join(str(getattr(cause, "orig", cause)).split())[:200]

@@ -1,0 +1,280 @@
+"""Which sessions there are: found in the store by identity, in the folder by path, and made anew from the files."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable
+from datetime import UTC, datetime
+from pathlib import Path
+from typing import Any
+
+from sqlalchemy import Row, delete, select
+
+from carpus.core.errors import CarpusFault, SessionUnreadable
+from carpus.core.names import folded
+from carpus.core.phrase import phrase
+from carpus.core.private import make_private
+from carpus.core.records import changes
+from carpus.core.records.changes import PRACTICE, changed, kept, new
+from carpus.core.records.patients import columns
+from carpus.core.records.schema import PATIENT, SEEN, SESSION
+from carpus.core.records.seen_files import COPY, Seen, can_be_stored, files_there, remembered, stored
+from carpus.core.records.store import Store, new_id
+from carpus.core.records.values import AffectedSide, PatientEntry, Rebuilt, SessionEntry, moment
+from carpus.core.session.reader import read_outline
+from carpus.core.session.values import SessionOutline
+from carpus.core.types import Side
+
+MOST_LETTERS = 40
+"""Of a pseudonym in a file's name, which no system lets be as long as one likes."""
+NOWHERE = "lost/"
+"""Begins the path of a session in whose place a file of another lies, and whose own was not found."""
+AT_ONCE = 500
+"""Rows of one change when the list is made anew."""
+
+
+class SessionList:
+    """The sessions of a store."""
+
+    def __init__(self, store: Store) -> None:
+        self._store = store
+        self.folder = store.sessions_folder
+        self._resolved = self.folder.resolve()  # asked of every file whenever the list is made
+
+    def of_patient(self, patient_id: str, *, archived: bool = False) -> list[SessionEntry]:
+        """The patient's sessions, newest first, every result of a recording; without those in the archive, unless
+        ``archived``."""
+        query = select(SESSION).where(SESSION.c.patient_id == patient_id, SESSION.c.erasing == 0)
+        if not archived:
+            query = query.where(SESSION.c.archived == "")
+        order = (SESSION.c.recorded_s.desc(), SESSION.c.created_s.desc(), SESSION.c.path.desc())
+        return [self._entry(row) for row in self._store.rows(query.order_by(*order))]
+
+    def one(self, session_id: str) -> SessionEntry:
+        """Raises KeyError for an identity that is not in the store."""
+        return self._entry(self._row(session_id))
+
+    def owner(self, session_id: str) -> str:
+        """The patient whose session it is, empty for nobody's; raises KeyError for one that is not in the store."""
+        return self._row(session_id).patient_id or ""
+
+    def _row(self, session_id: str) -> Row[Any]:
+        row = self._store.row(select(SESSION).where(SESSION.c.id == session_id, SESSION.c.erasing == 0))
+        if row is None:
+            raise KeyError(session_id)
+        return row
+
+    def of_recording(self, recording_id: str) -> list[SessionEntry]:
+        """Every session file that came of one recording, whoever it belongs to, the first one first."""
+        query = select(SESSION).where(SESSION.c.recording_id == recording_id, SESSION.c.erasing == 0)
+        return [self._entry(row) for row in self._store.rows(query.order_by(SESSION.c.created_s, SESSION.c.path))]
+
+    def results_of(self, session_id: str) -> list[SessionEntry]:
+        """Every result of the recording of a session, the first one first. Raises KeyError."""
+        return self.of_recording(self._row(session_id).recording_id)
+
+    def new_path(self, patient_id: str, pseudonym: str, exercise: str, hand: Side, when: datetime) -> Path:
+        """A free path for a session that begins now, in the patient's own private folder, which has the patient's
+        identity for a name."""
+        folder = self.folder / patient_id
+        make_private(folder)
+        stem = f"{_file_name(pseudonym) or 'patient'}_{when:%Y-%m-%d_%H%M%S}_{_file_name(exercise) or 'session'}_{hand}"
+        candidate, number = folder / f"{stem}.h5", 1
+        while candidate.exists():
+            number += 1
+            candidate = folder / f"{stem}-{number}.h5"
+        return candidate
+
+    def enter(self, path: Path, patient_id: str, by: str = "") -> SessionEntry:
+        """Take a finished session file into the list. Raises :class:`SessionUnreadable`."""
+        outline = read_outline(path)
+        before = self.of_recording(outline.header.recording_id)
+        archived = self._row(before[0].session_id).archived if before else ""
+        columns = _columns(self.stored_path(path), patient_id, outline)
+        self._store.do([kept(SESSION, outline.header.session_id, **columns, by=by, archived=archived)])
+        state = path.stat()
+        self._store.own(*stored({self.stored_path(path): Seen(state.st_size, state.st_mtime_ns)}))
+        return self.one(outline.header.session_id)
+
+    def move(self, session_id: str, patient_id: str) -> None:
+        """Give a session to another patient; the file keeps the pseudonym under which it was recorded."""
+        self._store.do([changed(SESSION, session_id, patient_id=patient_id)])
+
+    def rename_exercise(self, session_id: str, exercise: str) -> None:
+        """List a session as another exercise; the file keeps what was chosen then."""
+        self._store.do([changed(SESSION, session_id, exercise=exercise)])
+
+    def archive(self, session_id: str, now: datetime | None = None) -> None:
+        """Take a recording with all its results out of every list and count."""
+        self._mark(session_id, archived=(now or datetime.now(UTC)).isoformat(timespec="seconds"))
+
+    def bring_back(self, session_id: str) -> None:
+        """Undo :meth:`archive`."""
+        self._mark(session_id, archived="")
+
+    def _mark(self, session_id: str, **values: Any) -> None:
+        self._store.do([changed(SESSION, one.session_id, **values) for one in self.results_of(session_id)])
+
+    def archived(self) -> list[tuple[SessionEntry, str, datetime]]:
+        """Of each archived recording the first result, whose it is and since when."""
+        query = select(SESSION).where(SESSION.c.archived != "", SESSION.c.erasing == 0).order_by(SESSION.c.created_s)
+        found: dict[str, Row[Any]] = {}
+        for row in self._store.rows(query):
+            found.setdefault(row.recording_id, row)
+        return [(self._entry(row), row.patient_id or "", moment(row.archived, row.created_s)) for row in found.values()]
+
+    def stored_path(self, path: Path) -> str:
+        """Relative to the sessions' folder, so that the data folder can be moved as a whole.
+
+        Raises :class:`SessionUnreadable` for a file that lies elsewhere.
+        """
+        for one, folder in ((path, self.folder), (path.resolve(), self._resolved)):
+            if one.is_relative_to(folder):
+                return one.relative_to(folder).as_posix()
+        raise SessionUnreadable(path, phrase("not in the folder of the sessions"))
+
+    def _entry(self, row: Row[Any]) -> SessionEntry:
+        return SessionEntry(
+            row.id, self.folder / row.path, moment(row.recorded, row.recorded_s), moment(row.created, row.created_s),
+            row.recording_id, row.exercise, row.hand, row.frames, row.duration_s, bool(row.complete),
+            bool(row.simulated), row.by,
+        )  # fmt: skip
+
+
+class FilesOfSessions:
+    """Brings the list up to date with the files that are there, or makes it anew: all but names, notes and what people
+    wrote comes of the files."""
+
+    def __init__(self, store: Store) -> None:
+        self._store, self._list = store, SessionList(store)
+        self._folder = store.sessions_folder
+
+    def take_in(self) -> Rebuilt:
+        """Read what was copied in or changed since the last look; a session whose file is gone stays in the list.
+
+        A pseudonym without a patient becomes one; a file without a pseudonym is listed without a patient.
+        """
+        before, (there, nameless) = remembered(self._store), self._there()
+        known = {row.path: row for row in self._store.rows(select(SESSION))}
+        now_seen: dict[str, Seen] = {}
+        found: list[tuple[str, SessionOutline]] = []
+        faults: list[CarpusFault] = []
+        for path, look in there.items():
+            old = before.get(path)
+            if old and old.is_still(look) and (old.reason[: len(COPY)] != COPY if old.reason else path in known):
+                continue
+            now_seen[path] = look
+            try:
+                if look.reason:
+                    raise SessionUnreadable(self._folder / path, look.reason)
+                found.append((path, read_outline(self._folder / path)))
+            except SessionUnreadable as fault:
+                now_seen[path] = Seen(look.size, look.changed_ns, fault.detail or "cannot be read")
+                faults.append(fault)
+        if now_seen:  # of what has no name that can be kept nobody knows whether it was told
+            faults += [SessionUnreadable(ascii(Path(one).name), phrase("a name that is no text")) for one in nameless]
+        gone = [path for path in before if path not in there and not self._is_part(path)]
+        taken, added = self._enter(found, known, there.keys(), now_seen)
+        self._store.own(*stored(now_seen), *(delete(SEEN).where(SEEN.c.path == path) for path in gone))
+        return Rebuilt(taken, added, tuple(faults))
+
+    def _enter(
+        self,
+        found: list[tuple[str, SessionOutline]],
+        known: dict[str, Row[Any]],
+        there: Iterable[str],
+        now_seen: dict[str, Seen],
+    ) -> tuple[int, int]:
+        """Put what was read into the list; a further copy of a session counts once: the one that is known, of new ones
+        the longest, then the first by name."""
+        there, rows = set(there), {row.id: row for row in known.values()}
+        holds = {path: outline.header.session_id for path, outline in found}
+        other = {row.id for path, row in known.items() if holds.get(path, row.id) != row.id}
+        place = {row.id: path for path, row in known.items() if path in there and row.id not in other}
+        people = {str(row.folded): str(row.id) for row in self._store.rows(select(PATIENT.c.id, PATIENT.c.folded))}
+        change: list[changes.Row] = []
+        added = taken = 0
+        for path, outline in sorted(found, key=lambda one: (one[0] not in known, -one[1].frames, one[0])):
+            session_id = outline.header.session_id
+            if place.get(session_id, path) != path:
+                now_seen[path] = Seen(now_seen[path].size, now_seen[path].changed_ns, f"{COPY}{place[session_id]}")
+                continue
+            place[session_id], subject = path, outline.header.subject_id.strip()
+            owner = PRACTICE if path.startswith(f"{PRACTICE}/") else people.get(folded(subject))
+            if owner is None and subject and session_id not in rows:
+                owner, added = people.setdefault(folded(subject), new_id()), added + 1
+                hands = {one.header.hand for _, one in found if folded(one.header.subject_id) == folded(subject)}
+                side: AffectedSide = "both" if len(hands) == 2 else outline.header.hand
+                change.append(new(PATIENT, owner, **columns(PatientEntry(subject, side)), added_s=0.0))
+            before, values = rows.get(session_id), _columns(path, owner, outline)
+            if before is not None:  # what a person said of it stays
+                values |= {"patient_id": before.patient_id, "exercise": before.exercise}
+            if before is None or any(getattr(before, name) != value for name, value in values.items()):
+                change.append(kept(SESSION, session_id, **values))
+                taken += 1
+        # Files that a person exchanged or put in another's place: the names are free before others take them.
+        change = [changed(SESSION, one, path=f"{NOWHERE}{one}") for one in sorted(other)] + change
+        for start in range(0, len(change), AT_ONCE):
+            self._store.do(change[start : start + AT_ONCE])
+        return taken, added
+
+    def _there(self) -> tuple[dict[str, Seen], list[str]]:
+        """Files named like sessions, but for those that are being erased; and those whose names cannot be kept."""
+        going = {str(row[0]) for row in self._store.rows(select(SESSION.c.path).where(SESSION.c.erasing == 1))}
+        found = {path.relative_to(self._folder).as_posix(): look for path, look in files_there(self._folder).items()}
+        there = {path: look for path, look in found.items() if path not in going and can_be_stored(path)}
+        return there, [path for path in found if not can_be_stored(path)]
+
+    def first_told(self, faults: Iterable[CarpusFault]) -> list[CarpusFault]:
+        """Of faults with files of this folder those that are new, or whose file has changed; remembers them."""
+        fresh: list[CarpusFault] = []
+        before = remembered(self._store)
+        for fault in faults:
+            try:
+                state = Path(fault.subject).lstat()
+                path = self._list.stored_path(Path(fault.subject))
+            except (OSError, ValueError, SessionUnreadable):
+                fresh.append(fault)
+                continue
+            look = Seen(state.st_size, state.st_mtime_ns, fault.detail or "cannot be read")
+            known = before.get(path)
+            if known is None or not known.is_still(look):
+                fresh.append(fault)
+                if can_be_stored(path):
+                    self._store.own(*stored({path: look}))
+        return fresh
+
+    def given_up(self) -> set[Path]:
+        """Part files that could not be finished and have not changed since."""
+        found = set()
+        for name, look in remembered(self._store).items():
+            path = self._folder / name
+            if path.suffix == ".part" and path.is_file():
+                state = path.stat()
+                if look.is_still(Seen(state.st_size, state.st_mtime_ns)):
+                    found.add(path)
+        return found
+
+    def copies_of(self, path: str) -> list[Path]:
+        """Files that were set apart as copies of a session's."""
+        return [self._folder / name for name, one in remembered(self._store).items() if one.reason == f"{COPY}{path}"]
+
+    def _is_part(self, path: str) -> bool:
+        """Whether a path is of a part file that is still there and could not be finished."""
+        return path.endswith(".part") and (self._folder / path).exists()
+
+
+def _columns(path: str, patient_id: str | None, outline: SessionOutline) -> dict[str, Any]:
+    header = outline.header
+    created = datetime.fromisoformat(header.created)
+    return {
+        "patient_id": patient_id or None, "path": path, "recording_id": header.recording_id, "seal": outline.seal,
+        "recorded": header.when.isoformat(), "recorded_s": header.when.timestamp(), "created": header.created,
+        "created_s": created.timestamp(), "exercise": header.exercise, "hand": header.hand, "frames": outline.frames,
+        "duration_s": outline.duration_s, "complete": int(outline.complete), "simulated": int(header.simulated),
+        "size": outline.size_bytes,
+    }  # fmt: skip
+
+
+def _file_name(text: str) -> str:
+    return re.sub(r"\W+", "-", text)[:MOST_LETTERS].strip("-")

@@ -1,0 +1,150 @@
+"""The open store of one data folder: rows are read of this computer's file, and changed by whole changes."""
+
+from __future__ import annotations
+
+import uuid
+from collections.abc import Callable, Collection, Sequence
+from contextlib import suppress
+from datetime import datetime
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, Self
+
+from sqlalchemy import Delete, Insert, Row, Select, Update, select
+
+from carpus.core.errors import CarpusFault, RegisterDamaged, RegisterSetAside, ServerGone
+from carpus.core.private import make_private
+from carpus.core.records.changes import PRACTICE, Change, is_practice, make, new
+from carpus.core.records.database import STORE_FILE, Database, set_aside
+from carpus.core.records.outbox import forget, is_shared, lay_out
+from carpus.core.records.schema import PATIENT
+
+if TYPE_CHECKING:
+    from carpus.core.records.server import Server
+
+SESSIONS_FOLDER = "sessions"
+MOST_WAIT_S = 2.0
+"""For the server's word on what somebody else may have changed too."""
+CONTESTED = ("patient", "correction", "exercise_set", "report_form")
+
+
+class Store:
+    """May be used from several threads and programs at once. A damaged file is set aside, told, and made again.
+
+    With the ``url`` of a PostgreSQL server changes are delivered there and fetched from there
+    (:mod:`core.records.server`); what is found meanwhile is told from its thread. Raises what :class:`Database` does.
+    """
+
+    def __init__(
+        self,
+        folder: Path,
+        sessions_folder: Path | None = None,
+        url: str = "",
+        tell: Callable[[CarpusFault], None] = lambda _: None,
+    ) -> None:
+        self.folder = folder
+        self.sessions_folder = sessions_folder or folder / SESSIONS_FOLDER
+        make_private(folder)
+        make_private(self.sessions_folder)
+        self.told: list[CarpusFault] = []
+        """What was found when the store was opened."""
+        self._database = self._opened(folder / STORE_FILE)
+        if not self.rows(select(PATIENT.c.id).where(PATIENT.c.id == PRACTICE)):
+            self._make([new(PATIENT, PRACTICE, folded=f"\N{BULLET}{PRACTICE}", pseudonym=PRACTICE, side="right")], "")
+        self._server: Server | None = None
+        if url:
+            from carpus.core.records.server import Server
+
+            self._server = Server(url, self._database, tell)
+
+    def _opened(self, path: Path) -> Database:
+        try:
+            return Database(path)
+        except RegisterDamaged as fault:
+            aside = set_aside(path, datetime.now())
+            self.told.append(RegisterSetAside(aside, fault.detail))
+            return Database(path)
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self.close()
+
+    def close(self) -> None:
+        """May be called twice."""
+        if self._server is not None:
+            self._server.close()
+            self._server = None
+        self._database.close()
+
+    @property
+    def is_new(self) -> bool:
+        """Whether there was none before."""
+        return self._database.is_new
+
+    def rows(self, query: Select[Any]) -> Sequence[Row[Any]]:
+        """What is stored."""
+        with self._database.reading() as connection:
+            return connection.execute(query).all()
+
+    def row(self, query: Select[Any]) -> Row[Any] | None:
+        """The first row, None for none."""
+        with self._database.reading() as connection:
+            return connection.execute(query).first()
+
+    def do(self, change: Change) -> None:
+        """Make a change, whole or not at all. What two people could do at once waits for the server a moment, if that
+        is there: what it refuses is told here.
+
+        Raises :class:`ChangedMeanwhile`, :class:`PseudonymTaken` and the faults of writing.
+        """
+        change_id = new_id()
+        self._make(change, change_id)
+        if self._server is not None:
+            self._server.wake()
+            if any(row.version or (row.way == "new" and row.table in CONTESTED) for row in change):
+                self._server.delivered(change_id, MOST_WAIT_S)
+
+    def _make(self, change: Change, change_id: str) -> None:
+        with self._database.writing() as connection:
+            make(connection, change)
+            shared = [row for row in change if change_id and not is_practice(connection, row)]
+            if shared and is_shared(connection):
+                lay_out(connection, shared, change_id)
+
+    def rows_there(self, query: Select[Any]) -> Sequence[Row[Any]]:
+        """What the server has, of what is copied nowhere; this computer's own where there is none, or it is gone."""
+        if self._server is not None:
+            with suppress(ServerGone):
+                return self._server.rows(query)
+        return self.rows(query)
+
+    @property
+    def is_behind(self) -> bool:
+        """Whether there is a server that does not answer."""
+        return self._server is not None and not self._server.is_there
+
+    def own(self, *statements: Insert | Delete | Update) -> None:
+        """Change what is of this computer alone."""
+        with self._database.writing() as connection:
+            for statement in statements:
+                connection.execute(statement)
+
+    def forget_waiting(self, ids: Collection[str]) -> None:
+        """Take what is erased out of the changes that wait for the server; that it goes is told there all the same."""
+        with self._database.writing() as connection:
+            forget(connection, ids)
+
+    def leave_no_trace(self) -> None:
+        """Bring what was taken out to the disk as taken out."""
+        self._database.leave_no_trace()
+
+
+def new_id() -> str:
+    """Of a row."""
+    return uuid.uuid4().hex
+
+
+def is_kept_in(folder: Path) -> bool:
+    """Whether there is a store in a folder."""
+    return (folder / STORE_FILE).is_file()

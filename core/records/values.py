@@ -1,0 +1,123 @@
+"""What the store says of patients and sessions, as values."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass, replace
+from datetime import UTC, datetime
+from pathlib import Path
+from typing import Literal, TypeVar
+
+from carpus.core.dates import is_moment
+from carpus.core.errors import CarpusFault
+from carpus.core.names import name_of
+from carpus.core.session.values import SessionOutline
+from carpus.core.types import Side
+
+AffectedSide = Literal["right", "left", "both"]
+Dominance = Literal["right", "left", "both", "unknown"]
+SIDES: tuple[AffectedSide, ...] = ("both", "right", "left")
+DOMINANCES: tuple[Dominance, ...] = ("unknown", "right", "left", "both")
+AGE_BANDS = ("", "0-9", "10-19", "20-29", "30-39", "40-49", "50-59", "60-69", "70-79", "80 and over")
+
+
+@dataclass(frozen=True, slots=True)
+class PatientEntry:
+    """What a person writes down of a patient. ``name`` is optional and stays in the store."""
+
+    pseudonym: str
+    side: AffectedSide
+    dominance: Dominance = "unknown"
+    age_band: str = ""
+    note: str = ""
+    name: str = ""
+
+    def __post_init__(self) -> None:
+        if not self.pseudonym.strip():
+            raise ValueError("no pseudonym")
+        if self.age_band not in AGE_BANDS:
+            raise ValueError(f"age band {self.age_band!r}")
+
+    def as_kept(self) -> PatientEntry:
+        """The same with names as they are kept. Raises :class:`NameUnsuited`."""
+        return replace(self, pseudonym=name_of(self.pseudonym), name=name_of(self.name))
+
+
+@dataclass(frozen=True, slots=True)
+class PatientRecord:
+    """A patient of the store; ``last_session`` None and ``last_exercise`` empty before the first session.
+
+    ``session_count`` counts a recording once, however often it was tracked; ``result_count`` counts every file.
+    Sessions of a simulated hand are nobody's movement: they are neither counted nor the last one. ``version`` rises
+    with every change of the entry.
+    """
+
+    patient_id: str
+    entry: PatientEntry
+    session_count: int
+    last_session: datetime | None
+    last_exercise: str
+    result_count: int = 0
+    version: int = 0
+
+
+@dataclass(frozen=True, slots=True)
+class SessionEntry:
+    """One session file as the store knows it.
+
+    ``recorded`` when the hand moved, ``created`` when the file was made; ``recording_id`` as in the file; ``by`` the
+    initials of who recorded it.
+    """
+
+    session_id: str
+    path: Path
+    recorded: datetime
+    created: datetime
+    recording_id: str
+    exercise: str
+    hand: Side
+    frames: int
+    duration_s: float
+    complete: bool
+    simulated: bool = False
+    by: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class Rebuilt:
+    """What a look at the files found: sessions entered, patients added, and one fault for each file it could not
+    read."""
+
+    sessions: int
+    patients_added: int
+    faults: tuple[CarpusFault, ...]
+
+
+T = TypeVar("T")
+
+
+def one_of(choices: Sequence[T], stored: T) -> T:
+    """What is stored where it is one of the choices, else the first: a row that another program wrote."""
+    return stored if stored in choices else choices[0]
+
+
+def moment(stored: str, stamp_s: float) -> datetime:
+    """A time as it is stored, by its stamp where another program wrote what is none, or none with a zone."""
+    return datetime.fromisoformat(stored) if is_moment(stored) else datetime.fromtimestamp(stamp_s, UTC)
+
+
+def newest_results(entries: Iterable[SessionEntry]) -> list[SessionEntry]:
+    """Of every recording its newest result, the recordings newest first."""
+    newest: dict[str, SessionEntry] = {}
+    for entry in sorted(entries, key=lambda entry: (entry.created.timestamp(), str(entry.path))):
+        newest[entry.recording_id] = entry
+    return sorted(newest.values(), key=lambda entry: (entry.recorded.timestamp(), str(entry.path)), reverse=True)
+
+
+def entry_of(path: Path, outline: SessionOutline) -> SessionEntry:
+    """A session as the store would know it, of a file that is not in it."""
+    header = outline.header
+    return SessionEntry(
+        header.session_id, path, header.when, datetime.fromisoformat(header.created), header.recording_id,
+        header.exercise, header.hand, outline.frames, outline.duration_s, outline.complete, header.simulated,
+    )  # fmt: skip

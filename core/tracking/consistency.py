@@ -1,0 +1,100 @@
+"""The consistency test: when what is seen contradicts what is stated. No disc in plain sight is dropped in silence.
+
+A disc that goes unused although a blob lies at its place, or innovations that stay outside their bounds, make a frame
+doubtful: the stated standard deviations grow, and the screen says which disc it is.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from carpus.core.types import FloatArray
+
+
+@dataclass(frozen=True, slots=True)
+class ConsistencySettings:
+    """``unused_s``: for how long a disc may go unused while a blob lies within ``near_m`` of its place and
+    ``near_depth_m`` of its depth; ``average_s`` over which innovations are averaged, and ``most_nis``, how large they
+    may be on average for each component; ``unused_widens`` the standard deviations by this factor."""
+
+    unused_s: float = 0.3
+    near_m: float = 0.010
+    near_depth_m: float = 0.015
+    average_s: float = 0.3
+    most_nis: float = 2.5
+    unused_widens: float = 1.5
+
+
+@dataclass(frozen=True, slots=True)
+class Doubt:
+    """``doubted`` (M,) markers in question; ``widens`` factor on the standard deviations, 1 without doubt."""
+
+    doubted: NDArray[np.bool_]
+    widens: float
+
+    @property
+    def is_any(self) -> bool:
+        return self.widens > 1.0
+
+
+class ConsistencyTest:
+    """Remembers for how long each disc has gone unused, and how large the innovations have been lately."""
+
+    def __init__(self, markers: int, settings: ConsistencySettings) -> None:
+        self._settings = settings
+        self._unused_s = np.zeros(markers)
+        self._mean_nis = 1.0
+
+    def forget(self) -> None:
+        """The hand is lost, or begins anew: nothing is contradicted."""
+        self._unused_s[:] = 0.0
+        self._mean_nis = 1.0
+
+    def watch(self, dt_s: float, unused: NDArray[np.bool_], nis: float, dof: int, worst: int) -> Doubt:
+        """The doubt after one more frame. ``unused`` (M,) discs passed over while a blob lies there, ``nis`` with
+        ``dof`` of all that was measured, ``worst`` the marker that contributes most."""
+        settings = self._settings
+        self._unused_s = np.where(unused, self._unused_s + dt_s, 0.0)
+        if dof and math.isfinite(nis):
+            weight = 1.0 - math.exp(-dt_s / settings.average_s)
+            self._mean_nis += weight * (nis / dof - self._mean_nis)
+        doubted = self._unused_s > settings.unused_s
+        widens = settings.unused_widens if doubted.any() else 1.0
+        if self._mean_nis > settings.most_nis:
+            widens = max(widens, math.sqrt(self._mean_nis))
+            doubted = doubted.copy()
+            doubted[worst] = True
+        return Doubt(doubted, widens)
+
+
+def passed_over(
+    disc_px: FloatArray,
+    disc_depth_m: FloatArray,
+    taken: NDArray[np.int64],
+    blob_px: FloatArray,
+    blob_depth_m: FloatArray,
+    focal_px: float,
+    settings: ConsistencySettings,
+) -> NDArray[np.bool_]:
+    """Markers (M,) without a blob although one that is nobody's lies at their place ``disc_px`` (M, 2).
+
+    ``taken`` (M,) blob of every marker or -1; ``blob_px`` (B, 2) and ``blob_depth_m`` (B,) of all blobs.
+    """
+    out = np.zeros(taken.size, dtype=bool)
+    missing = np.flatnonzero(taken < 0)
+    if not missing.size:
+        return out
+    is_spare = np.ones(len(blob_px), dtype=bool)
+    is_spare[taken[taken >= 0]] = False
+    spare = np.flatnonzero(is_spare)
+    if not spare.size:
+        return out
+    apart_px = np.linalg.norm(blob_px[spare][None] - disc_px[missing][:, None], axis=-1)
+    near = apart_px < settings.near_m * focal_px / disc_depth_m[missing][:, None]
+    deep = np.abs(blob_depth_m[spare][None] - disc_depth_m[missing][:, None]) < settings.near_depth_m
+    out[missing] = (near & (deep | ~np.isfinite(blob_depth_m[spare])[None])).any(axis=1)
+    return out

@@ -1,0 +1,324 @@
+"""The filter's cycle on one hand: predict, associate, update.
+
+The palm is associated and updated by its discs, then by the surface of the back of the hand; thumb and fingers follow
+on the palm as updated, by the blobs that are left. An update is a trial: nothing is remembered until it is accepted.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from carpus.core.calibration.result import Calibration
+from carpus.core.camera import Camera
+from carpus.core.tracking.adaptive_noise import adapted_factor
+from carpus.core.tracking.disc_anew import disc_anew, with_discs_as_known
+from carpus.core.tracking.finger_model import seat_of
+from carpus.core.tracking.finger_smoother import FingerStart, FingerStep
+from carpus.core.tracking.fingers import Fingers, FingerTrial
+from carpus.core.tracking.geometry import palm_of
+from carpus.core.tracking.hand_geometry import RAYS, JointMoment
+from carpus.core.tracking.kernel import Bank, carried, mixed
+from carpus.core.tracking.motion import PalmMotion, palm_step, slowing, slowing_unseen, unseen_turns
+from carpus.core.tracking.operator_hints import NamedSpot
+from carpus.core.tracking.palm_association import Measurements, UpdatedPalm, associate_and_update, measurements_of
+from carpus.core.tracking.palm_smoother import FilterStep
+from carpus.core.tracking.palm_state import (
+    LEARNT,
+    POSE,
+    RELIEF,
+    SHAPE,
+    SIZE,
+    SKIN,
+    TURN,
+    InitialSd,
+    PalmBelief,
+    resting_belief,
+)
+from carpus.core.tracking.palm_view import View, recentred
+from carpus.core.tracking.predicted_measurement import MarkerOrder, PredictedMeasurement, predicted_measurement
+from carpus.core.tracking.reacquire import Facing, FoundPalm, find_palm
+from carpus.core.tracking.readout import Readout
+from carpus.core.tracking.settings import TrackerSettings
+from carpus.core.tracking.shape_learning import fresh_share, hidden_by_calibration, shape_covariance, shape_shares
+from carpus.core.tracking.soft_tissue import always_pushed, resting_or_moving, settled_covariance
+from carpus.core.tracking.surface_fit import calibrated_covariance, levelled_bank, surface_measurement
+from carpus.core.types import Detections, FloatArray
+
+_NEAREST_M = 0.1
+"""No camera sees a hand nearer: keeps the size of a disc finite."""
+
+
+@dataclass(frozen=True, slots=True)
+class Scan:
+    """What one frame brings: its time and the time since the last, the blobs where an ideal camera would see them, and
+    these as measurements."""
+
+    timestamp_s: float
+    dt_s: float
+    ideal: Detections
+    blobs: Measurements
+
+    def without_blobs(self) -> Scan:
+        """The scan as if no blob were in it."""
+        none = np.zeros(len(self.ideal), dtype=bool)
+        blobs = Measurements(self.blobs.value[none], self.blobs.variance[none])
+        return replace(self, ideal=self.ideal.only(none), blobs=blobs)
+
+
+def as_ideal(detections: Detections, camera: Camera) -> Detections:
+    """Blobs and readings where a camera without distortion would see them."""
+    if not camera.is_distorted:
+        return detections
+    surface, fingers = (
+        None if some is None else replace(some, pixel=camera.undistort(some.pixel))
+        for some in (detections.surface, detections.fingers)
+    )
+    return replace(detections, pixel=camera.undistort(detections.pixel), surface=surface, fingers=fingers)
+
+
+@dataclass(frozen=True, slots=True)
+class Posterior:
+    """The hand updated by one scan from what was ``predicted``: the ``palm`` as associated, its modes as errors from
+    ``belief``, and the fingers on it.
+
+    ``seen`` discs of the palm; ``spare`` (D,) blobs that are neither's, ``is_finger`` (D,) blobs that are the fingers';
+    ``levelled``: the back of the hand was measured too.
+    """
+
+    predicted: PredictedMeasurement
+    palm: UpdatedPalm
+    belief: PalmBelief
+    bank: Bank
+    seen: int
+    fingers: FingerTrial | None
+    spare: NDArray[np.bool_]
+    is_finger: NDArray[np.bool_]
+    levelled: bool
+
+    @property
+    def turn_sd_rad(self) -> float:
+        """How surely the hand's turn was predicted, all axes and modes together."""
+        return math.sqrt(float(np.trace(self.predicted.nominal.covariance[TURN, TURN])))
+
+
+class HandFilter:
+    """The state estimate of one calibrated hand, and what was learnt of it that outlives a lost track."""
+
+    def __init__(self, calibration: Calibration, camera: Camera, settings: TrackerSettings) -> None:
+        self._settings = settings
+        self.fingers = Fingers(calibration, camera, settings) if calibration.clicks.protocol.has_fingers else None
+        protocol = calibration.clicks.protocol
+        rows = np.array(protocol.palm)
+        if self.fingers is None:
+            self.order = MarkerOrder(rows, np.empty((0, 3), dtype=np.int64), np.zeros(RAYS, dtype=bool))
+        else:
+            self.order = MarkerOrder(rows, self.fingers.model.markers, self.fingers.model.has_discs)
+        self._surface = calibration.surface if settings.use_surface and settings.use_depth else None
+        calibration = palm_of(calibration)
+        self.view = View(
+            camera,
+            calibration.rotation_w0_cam,
+            calibration.translation_w0_cam_m,
+            calibration.marker_position_w0_m,
+            hidden_by_calibration(calibration, settings.shape_hidden),
+        )
+        self.readout = Readout(calibration, settings.readout, camera, settings.marker_radius_m)
+        # Blobs alone do not tell tissue that rests from a hand that moves.
+        tissue = always_pushed(settings.tissue) if self._surface is None else resting_or_moving(settings.tissue)
+        self.motion = PalmMotion(
+            settings.motion_noise, tissue, np.array(settings.mode_scales), settings.unseen_scale, settings.mode_dwell_s
+        )
+        self._calibrated = self._as_calibrated(calibration)
+        self._settled = settled_covariance(settings.tissue)
+        self._resolution_px2 = float(camera.width_px * camera.height_px)
+        self._noise_factor = np.ones((rows.size, 3))
+        self._placed_anew = np.zeros(rows.size, dtype=bool)
+        self._ahead: tuple[object, object, float, PredictedMeasurement] | None = None
+        self.begin_at_neutral()
+
+    def begin_at_neutral(self) -> None:
+        """Start (again) from the calibrated pose, the hand at rest."""
+        self._learnt, self._learnt_covariance = np.zeros(LEARNT.stop - LEARNT.start), self._calibrated
+        start = resting_belief(self._settings.initial, self._learnt_covariance)
+        self.begin(start, self.motion.at_rest)
+        self._placed_anew[:] = False
+        if self.fingers is not None:
+            self.fingers.begin_at_neutral()
+
+    def _as_calibrated(self, calibration: Calibration) -> FloatArray:
+        """Covariance (21, 21) of what the calibration says of the discs' places and of the back of the hand."""
+        settings, shapes = self._settings, SHAPE.stop - SHAPE.start
+        out = np.zeros((LEARNT.stop - LEARNT.start,) * 2)
+        out[:shapes, :shapes] = shape_covariance(calibration, self.view.camera.sensor, settings.noise)
+        out[shapes:, shapes:] = np.eye(3)
+        if self._surface is not None:
+            out[shapes:, shapes:] = calibrated_covariance(self._surface, self.view, settings.surface)
+        return out
+
+    def begin(self, belief: PalmBelief, probability: FloatArray | None = None) -> None:
+        """Start from a state estimate of the palm, its modes of a ``probability`` (K,), or all alike."""
+        bank = self._resting_bank(belief)
+        bank = bank if probability is None else replace(bank, probability=probability[None])
+        self._known: tuple[PalmBelief, Bank] | None = (belief, bank)
+        self._unseen: NDArray[np.float64] | None = None
+
+    def _resting_bank(self, belief: PalmBelief) -> Bank:
+        return Bank.alike(np.zeros((1, SIZE)), belief.covariance[None], self.motion.modes)
+
+    def lose(self) -> None:
+        """Nothing is known any more but the hand's anatomy."""
+        self._known = None
+        if self.fingers is not None:
+            self.fingers.begin_anywhere()
+
+    def predict(self, dt_s: float) -> PredictedMeasurement:
+        """The state ``dt_s`` after the last frame, and what the camera should see of it; worked out once."""
+        assert self._known is not None
+        fingers = None if self.fingers is None else self.fingers.known
+        if self._ahead is None or not (
+            self._ahead[0] is self._known and self._ahead[1] is fingers and self._ahead[2] == dt_s
+        ):
+            self._ahead = self._known, fingers, dt_s, self._predicted(*self._known, dt_s)
+        return self._ahead[3]
+
+    def _predicted(self, belief: PalmBelief, bank: Bank, dt_s: float) -> PredictedMeasurement:
+        settings, fresh = self._settings, 0.0
+        if dt_s > 0.0:
+            before, step = belief, palm_step(belief.rate_rad_s, self.motion, dt_s, self._unseen)
+            bank = carried(mixed(bank, self.motion.switch(belief.rate_rad_s, dt_s)), step, belief.value)
+            belief = replace(step.carries(belief, dt_s), covariance=bank.merged()[1][0])
+            fresh = fresh_share(self.view.discs_cam_m(before), self.view.discs_cam_m(belief), self.view.camera)
+        shares = shape_shares(settings.shape_news * max(fresh, settings.shape_stale))
+        digits = None if self.fingers is None else self.fingers.ahead(dt_s)
+        return predicted_measurement(belief, bank, self.view, settings.spread, shares, digits, self.order)
+
+    def scan(self, predicted: PredictedMeasurement, ideal: Detections, timestamp_s: float, dt_s: float) -> Scan:
+        """The blobs as measurements at the distance at which the hand was predicted."""
+        depth_m, camera = max(float(predicted.mean[0, 2]), _NEAREST_M), self.view.camera
+        radius_px = camera.fx_px * self._settings.marker_radius_m / depth_m
+        return Scan(timestamp_s, dt_s, ideal, measurements_of(ideal, radius_px, self._settings, camera.sensor))
+
+    def update(self, predicted: PredictedMeasurement, scan: Scan) -> Posterior:
+        """Associate the blobs with the discs that were predicted and update by them."""
+        blobs, enough = scan.blobs, self._settings.holding.least_discs + 1
+        palm = associate_and_update(predicted, blobs, enough, self._resolution_px2, self._noise_factor, self._settings)
+        belief, bank = recentred(predicted.nominal, palm.bank)
+        by_surface = self._by_surface(scan, belief, bank, predicted.shares)
+        belief, bank = by_surface or (belief, bank)
+        spare, is_finger = np.ones(len(blobs), dtype=bool), np.zeros(len(blobs), dtype=bool)
+        is_named = palm.taken >= 0
+        spare[palm.taken[is_named]] = False
+        fingers = None
+        if self.fingers is not None and predicted.digits is not None:
+            seat = seat_of(belief, self.view, self.readout)
+            fingers = self.fingers.weigh(
+                predicted.digits, scan.dt_s, seat, blobs, scan.ideal.area_px, spare, scan.ideal.fingers
+            )
+            is_finger[fingers.blob[fingers.blob >= 0]] = True
+        seen, levelled = int(np.count_nonzero(is_named)), by_surface is not None
+        return Posterior(predicted, palm, belief, bank, seen, fingers, spare & ~is_finger, is_finger, levelled)
+
+    def _by_surface(
+        self, scan: Scan, belief: PalmBelief, bank: Bank, shares: tuple[FloatArray, FloatArray] | None
+    ) -> tuple[PalmBelief, Bank] | None:
+        """The palm updated by the surface of the back of the hand; None where that says nothing."""
+        if self._surface is None or scan.ideal.surface is None:
+            return None
+        own = self._settings.surface
+        found = surface_measurement(belief, scan.ideal.surface, self._surface, self.view, own)
+        levelled = None if found is None else levelled_bank(bank, found, shares, own)
+        return None if levelled is None else recentred(belief, levelled)
+
+    def fits(self, posterior: Posterior) -> bool:
+        """Whether the discs lie where the updated pose puts them."""
+        return bool((np.abs(posterior.palm.raw_residual) <= self._settings.noise.outlier_sd).all())
+
+    def learn(self, posterior: Posterior, dt_s: float) -> None:
+        """Take what outlives a lost track: each disc's noise, and the palm's shape."""
+        palm, noise = posterior.palm, self._settings.noise
+        self._noise_factor = adapted_factor(self._noise_factor, palm.raw_residual, palm.measured, dt_s, noise)
+        self._learnt = posterior.belief.value[LEARNT]
+        self._learnt_covariance = posterior.belief.covariance[LEARNT, LEARNT]
+
+    def accept(
+        self, posterior: Posterior, scan: Scan, *, is_seen: bool, linked: bool
+    ) -> tuple[FilterStep, FingerStep | None]:
+        """Go on from an update; what the smoother needs of it. ``is_seen``: enough discs tell the palm's pose;
+        ``linked``: the step follows from the one before."""
+        unseen, self._unseen = self._unseen, None
+        kept = float(np.exp(-scan.dt_s / self._settings.rate_memory_s))
+        belief, bank = posterior.belief, posterior.bank
+        if not is_seen:
+            # An unseen hand is not taken to go on for ever: its velocity fades, its uncertainty grows.
+            belief, bank = _slowed(belief, bank, np.diag(slowing(kept)))
+        elif not posterior.levelled:
+            self._unseen = unseen_turns(self.view.palm_m[posterior.palm.taken >= 0], self._settings.holding.narrow_m)
+            if self._unseen is not None:
+                belief, bank = _slowed(belief, bank, slowing_unseen(kept, self._unseen))
+        self._known = belief, bank
+        fingers = None
+        if self.fingers is not None and posterior.fingers is not None:
+            fingers = self.fingers.accept(posterior.fingers, scan.timestamp_s, scan.dt_s)
+        return FilterStep(scan.timestamp_s, belief, posterior.bank.probability[0], linked, unseen), fingers
+
+    def finger_start(self, timestamp_s: float) -> FingerStart | None:
+        """What is believed of the fingers now, for smoothing over the frames to come."""
+        return None if self.fingers is None else self.fingers.start(timestamp_s, self._known is None)
+
+    def find(self, ideal: Detections, facing: Facing) -> FoundPalm | None:
+        """The palm as the blobs show it without any prediction; as calibrated, but for discs that a person showed
+        elsewhere."""
+        shapes = SHAPE.stop - SHAPE.start
+        view = with_discs_as_known(self.view, self._learnt[:shapes], self._placed_anew)
+        strays = self._settled[SKIN, SKIN] + self._learnt_covariance[:shapes, :shapes]
+        reach = None if self.fingers is None else self.fingers.reach
+        return find_palm(ideal, view, strays, facing, self._settings.finding, reach)
+
+    def estimate_at(self, found: FoundPalm) -> PalmBelief:
+        """The state estimate of a palm found without any prediction."""
+        finding = self._settings.finding
+        initial = InitialSd(velocity_m_s=finding.velocity_m_s, rate_rad_s=finding.rate_rad_s)
+        belief = resting_belief(initial, self._learnt_covariance)
+        belief.covariance[POSE[:, None], POSE] = found.pose_covariance(self.view.palm_m, finding)
+        belief.covariance[SKIN, SKIN] = self._settled[SKIN, SKIN]
+        belief.covariance[RELIEF, RELIEF] = self._settled[RELIEF, RELIEF]
+        belief.value[LEARNT], belief.value[:3] = self._learnt, found.position_m
+        return replace(belief, rotation_w2_w0=found.rotation_w2_w0)
+
+    def predicted_at(self, found: FoundPalm, predicted: PredictedMeasurement) -> PredictedMeasurement:
+        """What was predicted, should the palm be where it was found."""
+        belief = self.estimate_at(found)
+        return predicted.about(belief, self._resting_bank(belief))
+
+    def place_disc(self, named: NamedSpot, predicted: PredictedMeasurement, scan: Scan) -> PredictedMeasurement | None:
+        """The prediction with a disc of the palm begun anew where a person says that it is; None for another disc."""
+        if named.marker not in self.order.palm:
+            return None
+        disc = int(np.flatnonzero(self.order.palm == named.marker)[0])
+        belief, bank, self.view = disc_anew(predicted, self.view, disc, named.blob, scan.blobs, self._settings)
+        self._noise_factor[disc] = 1.0
+        self._placed_anew[disc] = True
+        self._known = belief, bank
+        return predicted.about(belief, bank, self.view)
+
+    def look_anew(self, named: NamedSpot) -> None:
+        """Look for the digit anew of which a person has said which spot a disc is."""
+        digits = np.flatnonzero(self.order.has_discs)[(self.order.digits == named.marker).any(axis=1)]
+        if self.fingers is not None and digits.size:
+            self.fingers.look_anew(int(digits[0]))
+
+    def joints(self, posterior: Posterior) -> JointMoment | None:
+        """Thumb and fingers after that update was accepted."""
+        if self.fingers is None or posterior.fingers is None:
+            return None
+        return self.fingers.read(posterior.fingers)
+
+
+def _slowed(belief: PalmBelief, bank: Bank, kept: NDArray[np.float64]) -> tuple[PalmBelief, Bank]:
+    """Velocities faded: the estimate times ``kept`` (n, n)."""
+    belief = PalmBelief(belief.rotation_w2_w0, kept @ belief.value, kept @ belief.covariance @ kept.T)
+    return belief, Bank(bank.mean @ kept.T, kept @ bank.covariance @ kept.T, bank.probability)

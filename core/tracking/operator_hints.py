@@ -1,0 +1,224 @@
+"""Operator hints, a layer over association: what a person said of blue spots while measuring.
+
+A spot that is no disc is left out before blobs are associated; one that is a marker is associated as said. A spot is
+followed from picture to picture, so that what was said of it goes on holding while it moves, and for a while after it
+went out of sight.
+"""
+
+from __future__ import annotations
+
+import math
+from collections import deque
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from carpus.core.spot_answer import SpotAnswer
+from carpus.core.types import BoolArray, Detections, FloatArray
+
+
+@dataclass(frozen=True, slots=True)
+class SaidSettings:
+    """What becomes of what a person says of spots.
+
+    A spot is followed from picture to picture no further than ``step_px``; so near as ``back_within_px`` to where it
+    was, in the picture or beside its marker, one that comes back is the same. One that is no disc stays so for
+    ``holds_s``: then it is asked about again, if there is still something to ask. ``kept_pictures`` in which a spot
+    that was spoken of is looked for; what was said waits ``answer_holds_s`` for a picture that shows it. A disc shown
+    elsewhere may be as far as ``anywhere_m`` from where the one picture shows it: more than any depth errs. A blob
+    within ``same_px`` of the spot that was followed is that spot.
+    """
+
+    step_px: float = 8.0
+    back_within_px: float = 12.0
+    holds_s: float = 60.0
+    kept_pictures: int = 60
+    answer_holds_s: float = 0.5
+    anywhere_m: float = 0.02
+    same_px: float = 0.5
+
+
+class RecentSpots:
+    """The spots of the last pictures: what was said of one, a moment ago, is found in the newest."""
+
+    def __init__(self, settings: SaidSettings) -> None:
+        self._step_px = settings.step_px
+        self._pictures: deque[tuple[int, FloatArray]] = deque(maxlen=settings.kept_pictures)
+
+    def keep(self, index: int, pixel: FloatArray) -> None:
+        """Remember the spots (D, 2) of a picture."""
+        self._pictures.append((index, pixel))
+
+    def now_px(self, index: int, place_px: FloatArray) -> FloatArray | None:
+        """Where the spot that lay at ``place_px`` (2,) in picture ``index`` lies in the newest; None when lost."""
+        place = np.asarray(place_px, dtype=np.float64)
+        for number, pixel in self._pictures:
+            if number < index or not len(pixel):
+                continue
+            away = np.linalg.norm(pixel - place, axis=1)
+            if away.min() <= self._step_px:
+                place = pixel[int(away.argmin())]
+        return place if len(self._pictures) and len(self._pictures[-1][1]) and self._is_seen(place) else None
+
+    def _is_seen(self, place: FloatArray) -> bool:
+        return bool(np.linalg.norm(self._pictures[-1][1] - place, axis=1).min() < 1e-6)
+
+
+class NoDisc:
+    """A spot that a person said is not a marker, row ``marker`` of the protocol."""
+
+    def __init__(
+        self, marker: int, place_px: FloatArray, beside_px: FloatArray, time_s: float, settings: SaidSettings
+    ) -> None:
+        self.marker, self._settings = marker, settings
+        self._place_px, self._beside_px, self._said_s = place_px, beside_px, time_s
+        self._was_seen = True
+
+    def holds(self, time_s: float) -> bool:
+        """Whether what was said of it still counts."""
+        return time_s - self._said_s <= self._settings.holds_s
+
+    def find(self, pixel: FloatArray, expected_px: FloatArray, held: BoolArray) -> int:
+        """Which of the spots (D, 2) it is, -1 for none. ``expected_px`` (M, 2) where the markers should be; those
+        ``held`` (M,) a moment ago keep the spots that are nearer to them."""
+        if not len(pixel):
+            self._was_seen = False
+            return -1
+        marker_px = expected_px[self.marker]
+        guesses = [self._place_px] if self._was_seen else [self._place_px, marker_px + self._beside_px]
+        reach_px = self._settings.step_px if self._was_seen else self._settings.back_within_px
+        away = np.min([np.linalg.norm(pixel - guess, axis=1) for guess in guesses if np.isfinite(guess).all()], axis=0)
+        claims = expected_px[held & np.isfinite(expected_px).all(axis=1)]
+        if len(claims):
+            claimed = np.linalg.norm(pixel[:, None] - claims[None], axis=-1).min(axis=1)
+            away = np.where(claimed < away, math.inf, away)
+        best = int(away.argmin())
+        self._was_seen = bool(away[best] <= reach_px)
+        if not self._was_seen:
+            return -1
+        self._place_px = pixel[best]
+        if np.isfinite(marker_px).all():
+            self._beside_px = self._place_px - marker_px
+        return best
+
+
+@dataclass(frozen=True, slots=True)
+class NamedSpot:
+    """An answer of which the spot is seen: ``blob`` of the picture is the protocol's ``marker``."""
+
+    answer: SpotAnswer
+    marker: int
+    blob: int
+
+
+@dataclass(frozen=True, slots=True)
+class Hinted:
+    """The blobs of a picture that may be discs, which ``no_disc`` (D,) of all were left out, and the one that a person
+    has just named."""
+
+    detections: Detections
+    no_disc: BoolArray
+    named: NamedSpot | None
+
+
+class OperatorHints:
+    """Remembers what a person said, and finds the spots again in every picture."""
+
+    def __init__(self, markers: Sequence[str], settings: SaidSettings) -> None:
+        self._markers, self._settings = markers, settings
+        self._spots = RecentSpots(settings)
+        self._answers: list[tuple[SpotAnswer, float]] = []
+        self._taken_up: list[SpotAnswer] = []
+        self._no_discs: list[NoDisc] = []
+        self._held = np.zeros(len(markers), dtype=bool)
+
+    def hear(self, answer: SpotAnswer) -> None:
+        """Something said of a picture shown a moment ago, from the next picture on."""
+        self._answers.append((answer, math.nan))
+
+    def taken_up(self) -> list[SpotAnswer]:
+        """The answers taken up since the last call, with the spots as they lay in the picture that took them."""
+        out, self._taken_up = self._taken_up, []
+        return out
+
+    def take_up(self, named: NamedSpot) -> None:
+        """The spot was associated as said."""
+        self._taken_up.append(named.answer)
+
+    def hold(self, measured_px: FloatArray) -> None:
+        """Which markers a picture was measured by, (M, 2) NaN where not: they keep the spots nearer to them."""
+        self._held = np.isfinite(measured_px[:, 0])
+
+    def screened(
+        self, index: int, timestamp_s: float, detections: Detections, expected_px: Callable[[], FloatArray]
+    ) -> Hinted:
+        """A picture in the light of what was said; ``expected_px`` (M, 2) where its markers should be, NaN while the
+        hand is lost."""
+        self._spots.keep(index, detections.pixel)
+        heard = self._heard(index, timestamp_s)
+        if heard is not None:
+            self._add_no_discs(heard, timestamp_s, expected_px)
+        no_disc = self._without(timestamp_s, detections.pixel, expected_px)
+        left = detections.only(~no_disc)
+        return Hinted(left, no_disc, None if heard is None else self._named(heard, left.pixel))
+
+    def _heard(self, index: int, timestamp_s: float) -> SpotAnswer | None:
+        """The answer to take up now, its spots followed to this picture: the first of which a spot is seen."""
+        waiting, self._answers = self._answers, []
+        found: SpotAnswer | None = None
+        for answer, since_s in waiting:
+            asked_s = timestamp_s if math.isnan(since_s) else since_s
+            now = None if found is not None else self._now(answer)
+            if now is not None:
+                found = replace(now, index=index)
+            elif timestamp_s - asked_s < self._settings.answer_holds_s and answer.marker in self._markers:
+                self._answers.append((answer, asked_s))
+        return found
+
+    def _now(self, answer: SpotAnswer) -> SpotAnswer | None:
+        """The answer with its spots where they lie in the newest picture; None while the spot it names is not seen."""
+        if answer.marker not in self._markers:
+            return None
+
+        def now_px(place: tuple[float, float]) -> tuple[float, float] | None:
+            found = self._spots.now_px(answer.index, np.array(place))
+            return None if found is None else (float(found[0]), float(found[1]))
+
+        place = None if answer.place_px is None else now_px(answer.place_px)
+        others = tuple(spot for one in answer.not_px if (spot := now_px(one)) is not None)
+        if place is None and (answer.place_px is not None or not others):
+            return None
+        return replace(answer, place_px=place, not_px=others)
+
+    def _add_no_discs(self, answer: SpotAnswer, timestamp_s: float, expected_px: Callable[[], FloatArray]) -> None:
+        marker = self._markers.index(answer.marker)
+        for place in answer.not_px:
+            place_px = np.array(place)
+            beside_px = place_px - expected_px()[marker]
+            self._no_discs.append(NoDisc(marker, place_px, beside_px, timestamp_s, self._settings))
+        self._held[marker] = False
+        if answer.place_px is None:
+            self._taken_up.append(answer)
+
+    def _without(self, timestamp_s: float, pixel: FloatArray, expected_px: Callable[[], FloatArray]) -> BoolArray:
+        """Which spots (D, 2) a person said are none of the markers they were asked about."""
+        out = np.zeros(len(pixel), dtype=bool)
+        self._no_discs = [one for one in self._no_discs if one.holds(timestamp_s)]
+        for one in self._no_discs:
+            found = one.find(pixel, expected_px(), self._held)
+            if found >= 0:
+                out[found] = True
+        return out
+
+    def _named(self, heard: SpotAnswer, pixel: FloatArray) -> NamedSpot | None:
+        """The blob (D, 2) that was shown, if it is one of those left."""
+        if heard.place_px is None or not len(pixel):
+            return None
+        away_px = np.linalg.norm(pixel - heard.place_px, axis=1)
+        blob = int(away_px.argmin())
+        return (
+            NamedSpot(heard, self._markers.index(heard.marker), blob)
+            if away_px[blob] <= self._settings.same_px
+            else None
+        )

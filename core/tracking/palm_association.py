@@ -1,0 +1,204 @@
+"""Which blob is which disc of the palm, and the update by them.
+
+The easy association first; the joint one where that is not jointly compatible.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from carpus.core.depth_sensor import DepthSensor
+from carpus.core.tracking import association
+from carpus.core.tracking.joint_association import JointAssociation, associate_jointly, is_jointly_compatible
+from carpus.core.tracking.kernel import Bank, corrected
+from carpus.core.tracking.predicted_measurement import PredictedMeasurement
+from carpus.core.tracking.settings import MeasurementNoise, TrackerSettings
+from carpus.core.types import Detections, FloatArray
+
+
+@dataclass(frozen=True, slots=True)
+class Measurements:
+    """Blobs as measurements (D, 3): pixel u, v and depth (NaN when unknown), with noise variances (D, 3)."""
+
+    value: FloatArray
+    variance: FloatArray
+
+    def __len__(self) -> int:
+        return int(self.value.shape[0])
+
+
+@dataclass(frozen=True, slots=True)
+class UpdatedPalm:
+    """All modes corrected by the blobs as named.
+
+    ``taken`` (M,) blob of every marker or -1; ``nis`` over all modes with ``dof``; ``measured`` (M, 3) whether each
+    component was, and its ``residual`` (M, 3) in standard deviations, ``raw_residual`` (M, 3) before the worst were
+    given more noise; both 0 where nothing was measured.
+    """
+
+    bank: Bank
+    taken: NDArray[np.int64]
+    nis: float
+    dof: int
+    measured: NDArray[np.bool_]
+    residual: FloatArray
+    raw_residual: FloatArray
+
+
+def measurements_of(
+    blobs: Detections, radius_px: float, settings: TrackerSettings, sensor: DepthSensor
+) -> Measurements:
+    """Blobs with the noise of each: what its picture and its depth are worth.
+
+    ``radius_px`` of a disc at the hand's distance: a blob much smaller than it is half hidden, and its centre
+    not the disc's.
+    """
+    noise = settings.noise
+    depth = blobs.depth_m if settings.use_depth else np.full_like(blobs.depth_m, np.nan)
+    shown = blobs.area_px / (np.pi * radius_px**2)
+    wander_px = noise.shade_share * radius_px * np.maximum(noise.whole_from - shown, 0.0)
+    value = np.empty((len(blobs), 3))
+    value[:, :2], value[:, 2] = blobs.pixel, depth
+    known = np.isfinite(depth)
+    at_m, sd_m = depth, blobs.depth_sd_m
+    if not known.all():
+        at_m, sd_m = np.where(known, depth, 1.0), np.where(known, sd_m, 1.0)
+    book2 = sensor.disc_sd_m(at_m, blobs.area_px) ** 2
+    beyond2 = np.maximum(sd_m**2 - book2, 0.0)
+    variance = np.empty((len(blobs), 3))
+    variance[:, :2] = (noise.pixel_sd_px**2 + wander_px**2)[:, None]
+    variance[:, 2] = noise.depth_ratio**2 * book2 + beyond2 + sensor.stays_sd_m(at_m) ** 2
+    return Measurements(value, variance)
+
+
+def update(
+    predicted: PredictedMeasurement,
+    blobs: Measurements,
+    taken: NDArray[np.int64],
+    with_depth: NDArray[np.bool_],
+    noise_factor: FloatArray,
+) -> UpdatedPalm:
+    """Every mode corrected by the named blobs; ``noise_factor`` (M, 3) multiplies the variances."""
+    used = np.empty((taken.size, 3), dtype=bool)
+    used[:] = (taken >= 0)[:, None]
+    used[:, 2] &= with_depth
+    if not used.any():
+        nothing = np.zeros(used.shape)
+        return UpdatedPalm(predicted.bank, taken, float("nan"), 0, used, nothing, nothing)
+    value = np.where(used, blobs.value.take(taken, 0), np.nan)
+    variance = blobs.variance.take(taken, 0) * noise_factor
+    found = corrected(
+        predicted.bank, predicted.line, value.reshape(1, -1), variance.reshape(1, -1), shares=predicted.shares
+    )
+    residual = found.residual.reshape(used.shape)
+    return UpdatedPalm(found.bank, taken, float(found.nis[0]), int(found.dof[0]), used, residual, residual)
+
+
+def associate_and_update(
+    predicted: PredictedMeasurement,
+    blobs: Measurements,
+    enough: int,
+    resolution_px2: float,
+    noise_factor: FloatArray,
+    settings: TrackerSettings,
+) -> UpdatedPalm:
+    """Names by (12), each marker judged by itself; where the whole does not hold together, all jointly.
+
+    Holding together: the joint NIS is credible, and ``enough`` markers are named unless no blob is left that could
+    be one.
+    """
+    mean, covariance = predicted.mean, predicted.covariance
+    markers = len(mean)
+    if not len(blobs):
+        nothing = np.full(markers, -1, dtype=np.int64)
+        return update(predicted, blobs, nothing, nothing > 0, noise_factor)
+    odds = association.log_odds(
+        mean,
+        covariance,
+        blobs.value,
+        blobs.variance,
+        resolution_px2,
+        settings.noise.depth_outlier,
+        settings.association,
+    )
+    taken = association.resolve(odds.value)
+    with_depth = odds.with_depth[np.arange(markers), taken]
+    taken = _in_company(taken, with_depth, blobs, settings.association)
+    simple = update(predicted, blobs, taken, with_depth, noise_factor)
+    named = np.count_nonzero(taken >= 0)
+    if (named >= enough or named == len(blobs)) and is_jointly_compatible(simple.nis, simple.dof, settings.association):
+        return _without_outliers(simple, predicted, blobs, with_depth, noise_factor, settings.noise)
+    found = _by_any_mode(predicted, blobs, resolution_px2, settings)
+    taken = _in_company(found.taken, found.with_depth, blobs, settings.association)
+    jointly = update(predicted, blobs, taken, found.with_depth, noise_factor)
+    return _without_outliers(jointly, predicted, blobs, found.with_depth, noise_factor, settings.noise)
+
+
+def _in_company(
+    taken: NDArray[np.int64],
+    with_depth: NDArray[np.bool_],
+    blobs: Measurements,
+    settings: association.AssociationSettings,
+) -> NDArray[np.int64]:
+    """The names without those of blobs at another depth, unless enough discs where they should be bear them out.
+
+    What covers the hand may have blue on it: alone, a blob before or behind a disc's place is not that disc.
+    """
+    elsewhere = (taken >= 0) & ~with_depth
+    if not elsewhere.any():
+        return taken
+    elsewhere &= np.isfinite(blobs.value[taken, 2])
+    if not elsewhere.any() or np.count_nonzero((taken >= 0) & ~elsewhere) >= settings.least_company:
+        return taken
+    return np.where(elsewhere, -1, taken)
+
+
+def _by_any_mode(
+    predicted: PredictedMeasurement, blobs: Measurements, resolution_px2: float, settings: TrackerSettings
+) -> JointAssociation:
+    """The likeliest joint names over all motion modes.
+
+    While the hand rests the mixture of the modes is as narrow as the calm one; a start is seen by the lively one.
+    """
+    every = [
+        associate_jointly(
+            mean,
+            covariance,
+            blobs.value,
+            blobs.variance,
+            resolution_px2,
+            settings.noise.depth_outlier,
+            settings.association,
+        )
+        for mean, covariance in zip(*predicted.by_mode(), strict=True)
+    ]
+    score = [one.log_posterior for one in every] + np.log(predicted.bank.probability[0])
+    return every[int(np.argmax(score))]
+
+
+def _without_outliers(
+    named: UpdatedPalm,
+    predicted: PredictedMeasurement,
+    blobs: Measurements,
+    with_depth: NDArray[np.bool_],
+    noise_factor: FloatArray,
+    noise: MeasurementNoise,
+) -> UpdatedPalm:
+    """The correction again, the worst measurement given the noise that its residual shows, one after the other.
+
+    A disc half behind the rim is still that disc, but its middle is not where it seems.
+    """
+    factor = noise_factor
+    for _ in range(noise.most_outliers):
+        marker, axis = divmod(int(np.abs(named.residual).argmax()), 3)
+        size = abs(float(named.residual[marker, axis]))
+        if size <= noise.outlier_sd:
+            break
+        factor = factor.copy()
+        factor[marker, 2:] *= size**2 if axis == 2 else 1.0
+        factor[marker, :2] *= 1.0 if axis == 2 else size**2
+        named = replace(update(predicted, blobs, named.taken, with_depth, factor), raw_residual=named.raw_residual)
+    return named

@@ -1,0 +1,160 @@
+"""What the camera should see of the hand at one moment: the state estimate predicted for it, and h linearised there."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from carpus.core.tracking.finger_model import ray_view
+from carpus.core.tracking.hand_geometry import DISCS, RAYS, PalmInBody
+from carpus.core.tracking.kernel import Bank, Line
+from carpus.core.tracking.palm_state import PALM_DISCS, PalmBelief
+from carpus.core.tracking.palm_view import View, sight
+from carpus.core.tracking.ray_filter import RayPoints
+from carpus.core.tracking.unscented import Spread, weights_for
+from carpus.core.types import FloatArray
+
+BACK_DISCS, KNUCKLES = np.arange(4), slice(2, 6)
+"""WRIST, CMC1, MCP2, MCP3, which span the surface of the fixed unit."""
+_DISC = np.arange(PALM_DISCS)
+
+
+@dataclass(frozen=True, slots=True)
+class MarkerOrder:
+    """Rows of the protocol: ``palm`` (6,) of the palm's discs, ``digits`` (R, 3) of those that move against it, of the
+    digits that carry discs, ``has_discs`` (5,)."""
+
+    palm: NDArray[np.int64]
+    digits: NDArray[np.int64]
+    has_discs: NDArray[np.bool_]
+
+    _source: NDArray[np.int64] = field(init=False, repr=False, compare=False)
+    """Where each marker's row stands among the palm's and, after them, those of all digits."""
+
+    def __post_init__(self) -> None:
+        source = np.empty(self.palm.size + self.digits.size, dtype=np.int64)
+        source[self.palm] = np.arange(self.palm.size)
+        source[self.digits] = self.palm.size + np.arange(RAYS * DISCS).reshape(RAYS, DISCS)[self.has_discs]
+        object.__setattr__(self, "_source", source)
+
+    def by_marker(self, palm: NDArray[Any], digits: NDArray[Any] | None) -> NDArray[Any]:
+        """Rows (M, ...) of the protocol from those of the palm (6, ...) and of the digits' discs (5, 3, ...)."""
+        if digits is None:
+            return palm
+        every = digits.reshape(RAYS * DISCS, *palm.shape[1:])
+        return np.asarray(np.concatenate((palm, every)).take(self._source, 0))
+
+
+@dataclass(frozen=True, slots=True)
+class PredictedDigits:
+    """Thumb and fingers as predicted, and sigma points of them on the ``palm`` as it was known last."""
+
+    beliefs: Bank
+    points: RayPoints
+    palm: PalmInBody
+
+    def image(self, belief: PalmBelief, view: View, spread: Spread) -> tuple[FloatArray, FloatArray, FloatArray]:
+        """Pixels (5, 3, 2) with covariance (5, 3, 2, 2) given the palm, and depths (5, 3)."""
+        image = ray_view(belief, view, self.palm).observe(self.points.disc_m)
+        count = self.points.unroot.shape[-1]
+        half = image[:, 1 : count + 1, :, :2] - image[:, count + 1 :, :, :2]
+        by_disc = half.transpose(0, 2, 3, 1) * (0.5 / weights_for(count, spread).scale)
+        return image[:, 0, :, :2], by_disc @ np.swapaxes(by_disc, -1, -2), image[:, 0, :, 2]
+
+
+@dataclass(frozen=True)
+class PredictedMeasurement:
+    """The palm's state predicted, all modes as errors from ``nominal``, and what the camera should see of the hand.
+
+    ``bank`` (1, K, n), ``line`` of the measurement; of each of the palm's discs ``mean`` (6, 3) and ``covariance``
+    (6, 3, 3) of its own u, v and z over all modes. ``shares`` of an update that the numbers take; ``digits`` where
+    there are any. As properties, for the search of the picture, all markers in the protocol's ``order``.
+    """
+
+    nominal: PalmBelief
+    bank: Bank
+    line: Line
+    mean: FloatArray
+    covariance: FloatArray
+    view: View
+    spread: Spread
+    shares: tuple[FloatArray, FloatArray] | None = None
+    digits: PredictedDigits | None = None
+    order: MarkerOrder | None = None
+
+    def about(self, nominal: PalmBelief, bank: Bank, view: View | None = None) -> PredictedMeasurement:
+        """The same moment, should the palm be there."""
+        view = self.view if view is None else view
+        return predicted_measurement(nominal, bank, view, self.spread, self.shares, self.digits, self.order)
+
+    def by_mode(self) -> tuple[FloatArray, FloatArray]:
+        """Of all the palm's discs together, without the measurement noise, in every mode: mean (K, 18) as in (10) and
+        covariance (K, 18, 18) as in (11)."""
+        slope = self.line.slope[0]
+        return self.line.value + self.bank.mean[0] @ slope.T, slope @ self.bank.covariance[
+            0
+        ] @ slope.T + self.line.error
+
+    @cached_property
+    def _digit_image(self) -> tuple[FloatArray, FloatArray, FloatArray] | None:
+        return None if self.digits is None else self.digits.image(self.nominal, self.view, self.spread)
+
+    def _by_marker(self, palm: FloatArray, digits: FloatArray | None) -> FloatArray:
+        return palm if self.order is None else self.order.by_marker(palm, digits)
+
+    @property
+    def pixel(self) -> FloatArray:
+        """Where the discs should be (M, 2)."""
+        image = self._digit_image
+        return self._by_marker(self.mean[:, :2], None if image is None else image[0])
+
+    @property
+    def covariance_px2(self) -> FloatArray:
+        """Covariance (M, 2, 2) of that; a digit's goes with the palm wherever that is."""
+        own, image = self.covariance[:, :2, :2], self._digit_image
+        return self._by_marker(own, None if image is None else image[1] + own.max(axis=0))
+
+    @property
+    def depth_m(self) -> FloatArray:
+        """Their depths (M,)."""
+        image = self._digit_image
+        return self._by_marker(self.mean[:, 2], None if image is None else image[2])
+
+    @property
+    def back_px(self) -> FloatArray:
+        """Discs (4, 2) that span the surface of the back of the hand."""
+        return self.mean[BACK_DISCS, :2]
+
+    @property
+    def finger_px(self) -> FloatArray:
+        """Discs (F, 2) on long fingers and their knuckles."""
+        image = self._digit_image
+        if image is None or self.order is None:
+            return self.mean[:0, :2]
+        return np.concatenate((self.mean[KNUCKLES, :2], image[0][1:][self.order.has_discs[1:]].reshape(-1, 2)))
+
+
+def predicted_measurement(
+    nominal: PalmBelief,
+    bank: Bank,
+    view: View,
+    spread: Spread,
+    shares: tuple[FloatArray, FloatArray] | None = None,
+    digits: PredictedDigits | None = None,
+    order: MarkerOrder | None = None,
+) -> PredictedMeasurement:
+    """What to expect of a bank of errors about ``nominal``, whose covariance is that of the whole bank."""
+    line = sight(nominal, view, spread)
+    slope = line.slope[0]
+    mean = line.value[0] + slope @ (bank.probability[0] @ bank.mean[0])
+    # A line: what it makes of the whole bank's covariance is that of what it makes of the modes.
+    whole = slope @ nominal.covariance @ slope.T
+    whole += line.error[0]
+    own = whole.reshape(PALM_DISCS, 3, PALM_DISCS, 3)[_DISC, :, _DISC, :]
+    return PredictedMeasurement(
+        nominal, bank, line, mean.reshape(PALM_DISCS, 3), own, view, spread, shares, digits, order
+    )

@@ -1,0 +1,180 @@
+"""When a hand counts as seen, coasted or lost, found again and confirmed, by what it shows."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from enum import Enum, auto
+
+import numpy as np
+
+from carpus.core import so3
+from carpus.core.tracking.reacquire import Facing, FoundPalm
+from carpus.core.types import FloatArray, TrackStatus
+
+
+@dataclass(frozen=True, slots=True)
+class HoldingSettings:
+    """Discs that lie within ``narrow_m`` (rms) of one line say nothing of turning about it.
+
+    ``least_discs`` of the palm that tell its pose, below which a frame is predicted. A hand found again out of
+    nothing must keep showing for ``probation_s``; four discs among those of fingers must do so for ``suspected_s``
+    before they are believed. ``share_window_s`` over which the share of direct measurements is told.
+
+    Expecting the hand's turn less surely than ``vague_rad`` the filter may settle on wrong names or at a wrong pose;
+    less surely than ``too_vague_rad`` sigma points reach too far for a correction to be trusted even by the right
+    names. Less surely than ``blind_rad`` any so many blobs would do for discs: none, one, two, three of them;
+    ``blind_among_fingers_rad`` where there are discs on fingers, which can look like some of the palm, even like five.
+
+    A hand gone from sight is not found turned further than it may have turned meanwhile (``turn_slack_rad`` and
+    ``most_rate_rad_s``), nor ever the other way (``most_turn_rad``); lost and looked for anywhere, it is turned no
+    further than that from the neutral pose.
+    """
+
+    narrow_m: float = 0.008
+    least_discs: int = 3
+    probation_s: float = 0.2
+    suspected_s: float = 0.09
+    share_window_s: float = 1.0
+    vague_rad: float = 0.15
+    too_vague_rad: float = 0.5
+    blind_rad: tuple[float, ...] = (0.1, 0.1, 0.15, 0.35)
+    blind_among_fingers_rad: tuple[float, ...] = (0.1, 0.06, 0.15, 0.25, 0.35, 0.5)
+    turn_slack_rad: float = 0.35
+    most_rate_rad_s: float = 12.0
+    most_turn_rad: float = 1.9
+
+
+class TrackStage(Enum):
+    """What is thought of the one track: seen by so few discs that it may be something else, believed, believed and
+    out of sight, given up."""
+
+    TENTATIVE = auto()
+    CONFIRMED = auto()
+    COASTED = auto()
+    LOST = auto()
+
+
+class TrackManager:
+    """Begins, confirms, coasts and deletes the track of one hand; it knows times and counts, and moves no filter.
+
+    ``least_found`` discs by which a hand can be found, ``amid_digits``: there are discs on fingers as well.
+    """
+
+    def __init__(self, settings: HoldingSettings, least_found: int, lost_after_s: float, *, amid_digits: bool) -> None:
+        self._settings = settings
+        self._least_found, self._lost_after_s, self._amid_digits = least_found, lost_after_s, amid_digits
+        self._blind_rad = settings.blind_among_fingers_rad if amid_digits else settings.blind_rad
+        self.stage = TrackStage.CONFIRMED
+        self._time_s: float | None = None
+        self._seen_s = self._begun_s = self._found_s = -math.inf
+        self._begins = True
+        self._candidate: tuple[float, FoundPalm] | None = None
+        self._candidate_before: tuple[float, FoundPalm] | None = None
+
+    def begin_at_neutral(self, at_s: float | None = None) -> None:
+        """A person has the hand at the calibrated pose; at that time, or else with the next frame."""
+        if at_s is not None:
+            self._time_s = self._seen_s = at_s
+        self.stage, self._begins = TrackStage.CONFIRMED, True
+
+    @property
+    def is_lost(self) -> bool:
+        return self.stage is TrackStage.LOST
+
+    def since_last_s(self, timestamp_s: float) -> float:
+        """Time since the last frame, 0 at the first."""
+        return 0.0 if self._time_s is None else timestamp_s - self._time_s
+
+    def is_past(self, timestamp_s: float) -> bool:
+        """Whether no picture came for so long that where the hand was says nothing of where it is."""
+        return self._time_s is not None and timestamp_s - self._time_s > self._lost_after_s
+
+    def next_frame(self, timestamp_s: float) -> bool:
+        """A frame comes; whether it follows from the one before."""
+        self._candidate_before, self._candidate = self._candidate, None
+        is_linked, self._begins = not self._begins, False
+        if not is_linked:
+            self._begun_s = timestamp_s
+        return is_linked
+
+    def initiates(self, found: FoundPalm | None, timestamp_s: float) -> bool:
+        """Whether a track begins with what was found without any prediction."""
+        if found is None or not self.is_borne_out(found, timestamp_s):
+            return False
+        self.take_for(found)
+        self._time_s = self._seen_s = self._found_s = timestamp_s
+        return True
+
+    def take_for(self, found: FoundPalm) -> None:
+        """The track is where a palm was found: by just so many discs as will do it is tentative."""
+        self.stage = TrackStage.CONFIRMED if found.count > self._least_found else TrackStage.TENTATIVE
+
+    def is_borne_out(self, found: FoundPalm, timestamp_s: float) -> bool:
+        """Whether a palm found out of nothing is to be believed: among the discs of fingers some four often look like
+        one, and only the palm goes on doing so."""
+        if not self._amid_digits or found.count > self._least_found:
+            return True
+        since_s = timestamp_s
+        if self._candidate_before is not None:
+            first_s, before = self._candidate_before
+            goes_on = turned_rad(before.rotation_w2_w0, found.rotation_w2_w0) < self._settings.turn_slack_rad
+            if goes_on and np.array_equal(before.matched, found.matched):
+                since_s = first_s
+        self._candidate = since_s, found
+        return timestamp_s - since_s >= self._settings.suspected_s
+
+    def facing(self, rotation_w2_w0: FloatArray, timestamp_s: float) -> Facing:
+        """How far a hand can have turned since it was last seen; a tentative one anyhow."""
+        if self.stage is TrackStage.TENTATIVE:
+            return self.anyhow()
+        gone_s, own = timestamp_s - max(self._seen_s, self._begun_s), self._settings
+        return Facing(rotation_w2_w0, min(own.turn_slack_rad + own.most_rate_rad_s * gone_s, own.most_turn_rad))
+
+    def anyhow(self) -> Facing:
+        """How far a hand can be turned of which nothing is known."""
+        return Facing(np.eye(3), self._settings.most_turn_rad)
+
+    def is_vague(self, turn_sd_rad: float) -> bool:
+        """Whether a turn was predicted so unsurely that the filter may settle at a wrong one."""
+        return turn_sd_rad > self._settings.vague_rad
+
+    def looks_anew(self, seen: int, spare: int, turn_sd_rad: float) -> bool:
+        """Whether to look for the palm, of which ``seen`` discs are where they were predicted, without a prediction as
+        well: ``spare`` blobs are left over."""
+        few = seen <= self._settings.least_discs or self.stage is TrackStage.TENTATIVE
+        return (few or self.is_vague(turn_sd_rad)) and spare + seen > self._settings.least_discs
+
+    def is_ambiguous(self, seen: int, turn_sd_rad: float) -> bool:
+        """Whether any so many blobs would do for discs of a hand whose turn was predicted so unsurely."""
+        return seen < len(self._blind_rad) and turn_sd_rad > self._blind_rad[seen]
+
+    def is_refuted(self, seen: int, timestamp_s: float) -> bool:
+        """Whether the hand was found a moment ago and the next pictures do not bear it out."""
+        least = self._settings.least_discs
+        if timestamp_s == self._found_s:
+            return seen < least + 1
+        return timestamp_s - self._found_s < self._settings.probation_s and seen < least
+
+    def status_after(self, timestamp_s: float, seen: int, *, fits: bool) -> TrackStatus:
+        """The track confirmed, coasted or given up after a frame that showed so many of its discs, where the updated
+        pose puts them (``fits``) or not."""
+        self._time_s = timestamp_s
+        is_believed = self.stage is not TrackStage.TENTATIVE or (seen > self._least_found and fits)
+        if seen >= self._settings.least_discs:
+            self._seen_s = timestamp_s
+            self.stage = TrackStage.CONFIRMED if is_believed else TrackStage.TENTATIVE
+            return TrackStatus.TRACKED
+        if timestamp_s - max(self._seen_s, self._begun_s) > self._lost_after_s:
+            return TrackStatus.LOST
+        self.stage = TrackStage.COASTED if is_believed else TrackStage.TENTATIVE
+        return TrackStatus.PREDICTED
+
+    def lose(self, timestamp_s: float) -> None:
+        """The track is given up."""
+        self.stage, self._time_s = TrackStage.LOST, timestamp_s
+
+
+def turned_rad(one: FloatArray, other: FloatArray) -> float:
+    """By how much two rotations (3, 3) are turned against each other."""
+    return float(np.linalg.norm(so3.log(one.T @ other)))

@@ -1,0 +1,97 @@
+"""Two curves whose lag, sign and drift are known: found, or said to be not sure."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from carpus.core.agreement.clocks import Curves, Shift, best_shift, with_drift
+from carpus.core.types import FloatArray
+
+
+def sine(time_s: FloatArray) -> FloatArray:
+    return 40.0 * np.sin(2.0 * np.pi * time_s / 3.224)
+
+
+def hand(time_s: FloatArray) -> FloatArray:
+    """Repetitions that differ a little, as people's do."""
+    phase = 2.0 * np.pi * time_s / 3.2
+    bent = 40.0 * np.sin(phase + 0.4 * np.sin(time_s / 3.0)) * (1.0 + 0.1 * np.sin(0.7 * time_s))
+    return np.asarray(bent + 5.0 * np.cos(2.0 * phase))
+
+
+def curves(
+    way: Callable[[FloatArray], FloatArray], lag_s: float, *, length_s: float = 30.0, drift: float = 0.0,
+    sign: float = 1.0, noise_deg: float = 0.3,
+) -> Curves:  # fmt: skip
+    rng = np.random.default_rng(4)
+    time_s, other_s = np.arange(0.0, length_s, 1 / 30), np.arange(0.0, length_s + 6.0, 0.01)
+    mine = way(time_s) + rng.normal(0.0, noise_deg, len(time_s))
+    other = sign * way((other_s - lag_s) / (1.0 + drift)) + rng.normal(0.0, noise_deg, len(other_s))
+    return Curves(time_s, mine[:, None], other_s, other[:, None], either_sign=True)
+
+
+@pytest.mark.parametrize(("lag_s", "noise_deg"), [(3.0, 0.3), (-1.6, 0.3), (1.2, 15.0)])
+def test_a_lag_longer_than_half_a_repetition_is_found(lag_s: float, noise_deg: float) -> None:
+    found = best_shift(curves(hand, lag_s, noise_deg=noise_deg), 10.0)
+    assert found.reference_later_s == pytest.approx(lag_s, abs=0.02)
+    assert found.match > 0.8
+    if noise_deg < 1.0:
+        assert found.rivals == ()
+
+
+def test_a_turned_sign_is_no_shift_of_half_a_repetition() -> None:
+    for way, lag_s in ((sine, 0.0), (hand, 0.4)):
+        found = best_shift(curves(way, lag_s, sign=-1.0), 10.0)
+        assert found.reference_later_s == pytest.approx(lag_s, abs=0.01)
+        assert found.match < -0.99
+
+
+def test_one_turned_sign_of_two_is_seen_all_the_same() -> None:
+    one, other = curves(hand, 0.4), curves(hand, 0.4, sign=-1.0)
+    both = replace(one, mine=np.hstack((one.mine, other.mine)), other=np.hstack((one.other, other.other)))
+    assert best_shift(both, 10.0).reference_later_s == pytest.approx(0.4, abs=0.01)
+
+
+def test_what_repeats_itself_exactly_has_rivals_which_are_named() -> None:
+    found = best_shift(curves(sine, 3.0), 10.0)
+    named = [found.reference_later_s, *(later_s for later_s, _ in found.rivals)]
+    assert any(abs(later_s - 3.0) < 0.01 for later_s in named)
+    assert abs(found.reference_later_s) == min(map(abs, named)), "of equals the smallest"
+    assert len(found.rivals) == 3
+
+
+def test_drift_and_a_turned_sign_do_not_hide_behind_a_shift() -> None:
+    one, other = (curves(sine, 0.2, length_s=30.0, drift=0.01, sign=sign) for sign in (1.0, -1.0))
+    both = replace(one, mine=np.hstack((other.mine, 0.2 * one.mine)), other=np.hstack((other.other, 0.2 * one.other)))
+    for each in (one, other, both):
+        found = with_drift(each, best_shift(each, 10.0))
+        assert found.drift_found == pytest.approx(0.01, abs=5e-4)
+        assert found.lag_without_drift_s == pytest.approx(0.2, abs=0.02)
+
+
+def test_the_end_of_the_search_is_said() -> None:
+    assert best_shift(curves(hand, 3.0), 2.9).at_edge
+    assert not best_shift(curves(hand, 3.0), 10.0).at_edge
+
+
+@pytest.mark.parametrize("drift", [0.01, -0.004])
+def test_drift_is_found_with_the_lag_that_goes_with_it(drift: float) -> None:
+    both = curves(hand, 0.5, length_s=60.0, drift=drift)
+    found = with_drift(both, best_shift(both, 10.0))
+    assert found.drift_found == pytest.approx(drift, abs=2e-4)
+    assert found.lag_without_drift_s == pytest.approx(0.5, abs=0.01)
+    taken = Shift(found.lag_without_drift_s, 1.0, drift=found.drift_found)
+    assert both.match(taken) > 0.999 > both.match(found)
+    assert np.isnan(with_drift(both, taken).drift_found), "nothing is left"
+
+
+@pytest.mark.parametrize("noise_deg", [0.3, 10.0])
+def test_clocks_that_agree_have_no_drift(noise_deg: float) -> None:
+    both = curves(hand, 0.5, length_s=60.0, noise_deg=noise_deg)
+    assert np.isnan(with_drift(both, best_shift(both, 10.0)).drift_found)
+    short = curves(hand, 0.5, length_s=8.0, drift=0.01)
+    assert np.isnan(with_drift(short, best_shift(short, 10.0)).drift_found), "too short to tell"

@@ -1,0 +1,281 @@
+"""Every command with bad input of each kind: one line on stderr, no traceback, the right exit code.
+
+A command that is new needs its lines in :data:`WRONG`; an option that is new is tried by itself.
+"""
+
+from __future__ import annotations
+
+import argparse
+import re
+import shlex
+import sqlite3
+from collections.abc import Iterator
+from importlib import import_module
+from pathlib import Path
+
+import pytest
+from tqdm import tqdm
+
+from carpus.app.__main__ import main, parser
+from carpus.app.command_line import CommandParser
+from carpus.app.commands import COMMANDS
+from carpus.core.capture import cameras
+from carpus.core.records.database import STORE_FILE
+from carpus.core.records.values import PatientEntry
+from tests.formats.takes import stored
+from tests.records.samples import opened
+
+WRONG: dict[str, list[tuple[str, int, str]]] = {
+    "demo": [("--data-folder", 2, "--data-folder")],
+    "review": [("", 2, "SESSION.h5"), ("{gone}.h5", 1, "gone.h5")],
+    "track": [
+        ("", 2, "--output"),
+        ("{gone} --output {new}.h5", 1, "There is no recording"),
+        ("{file} --output {new}.h5", 2, "--calibration"),
+        ("{file} --calibration {gone} --output {new}.h5", 1, "{file}"),
+        ("{empty} --output {new}", 1, "no recording in this folder"),
+        ("{session} --output {session}", 1, "never overwrites|There is a file already"),
+        ("{file} --output {new}.h5 --profile slwo", 2, "did you mean “slow”? There are: slow, standard, brisk"),
+        ("{file} --output {new}.h5 --exercise wrist_ff", 2, "did you mean “WRIST_F"),
+        ("{file} --output {new}.h5 --calibraton x", 2, "did you mean “--calibration”"),
+        ("{file} --output {new}.h5 --recorded yesterday", 2, "2023-04-05"),
+        ("{session} --output {new}.h5 --subject A", 2, "leave out --subject"),
+        ("{file} --output {new}.h5 --jobs 2", 2, "many recordings"),
+    ],
+    "record": [
+        ("", 2, "--output"),
+        ("--output {file}", 1, "There is a file already"),
+        ("--output {new} --from {gone}", 1, "There is no recording"),
+        ("--output {new} --from {file}", 1, "{file}"),
+        ("--output {new} --seconds soon", 2, "“soon” is no number from 0.1 to 86400"),
+        ("--output {new} --lossless --format tum", 2, "--lossless is for --format raw"),
+        ("--output {new} --camera realsnse", 2, "did you mean “realsense”? There are: xtion, realsense, orbbec, astra"),
+    ],
+    "simulate": [
+        ("", 2, "--output"),
+        ("--output {file}", 1, "{file}"),
+        ("--output {new} --motion flexon", 2, "did you mean “flexion”"),
+        ("--output {new} --habit tenodesi", 2, "did you mean “tenodesis”"),
+        ("--output {new} --seed many", 2, "“many” is no whole number"),
+        ("--output {new} --seconds -1", 1, "seconds"),
+    ],
+    "info": [("", 2, "FILE"), ("{gone}", 1, "{gone}"), ("{junk}", 1, "{junk}"), ("{empty}", 1, "{empty}")],
+    "verify": [("", 2, "FILE"), ("{gone}", 1, "{gone}"), ("{junk}", 1, "{junk}"), ("{empty}", 1, "{empty}")],
+    "report": [
+        ("{session}", 2, "--output"),
+        ("{gone} --output {new}.pdf", 1, "gone"),
+        ("{junk} --output {new}.pdf", 1, "{junk}"),
+        ("{session} --output {file}", 1, "There is a file already"),
+        ("{session} --output {new}.pdf --language fr", 2, "There are: en, de, it|there are: en, de, it"),
+    ],
+    "progress": [
+        ("", 2, "PSEUDONYM"),
+        ("Lindn --sessions {session}", 1, "There is no patient Lindn (did you mean “Linden 42”? There are: Linden 42)"),
+        ("nobody", 1, "There is no patient nobody (there are none yet)"),
+        ("all --sessions {empty}", 1, "There is no session in {empty}"),
+        ("all --sessions {gone}", 1, "There is no folder {gone}"),
+        ("all --output {new}.pdf", 2, "one patient"),
+        ("all --sessions {session} --output {file}", 1, "There is a file already"),
+    ],
+    "export": [
+        ("{session}", 2, "--output"),
+        ("{session} --format cvs --output {new}", 2, "did you mean “csv”"),
+        ("{gone} --output {new}", 1, "gone"),
+        ("{junk} --output {new}", 1, "{junk}"),
+        ("{empty} --output {new}", 1, "There is no session in {empty}"),
+        ("{session} --output {file}", 1, "{file}"),
+    ],
+    "compare": [
+        ("{session}", 2, "a session and its reference"),
+        ("--study {gone}", 1, "gone"),
+        ("{session} {session} --drift 50", 2, "“50” is no number from -10 to 10 percent"),
+        ("{gone} {session}", 1, "gone"),
+        ("{session} {gone}", 1, "gone"),
+        ("{session} {junk}", 1, "{junk}"),
+        ("{session} {session} --markers WRST=a", 2, "did you mean “WRIST”"),
+        ("{session} {session} --columns flexion", 2, "NAME=THEIRS"),
+        ("{session} {session} --max-shift x", 2, "“x” is no number"),
+    ],
+    "retest": [
+        ("", 2, "SESSION.h5"),
+        ("{gone}", 1, "There is no folder {gone}"),
+        ("{empty}", 1, "no session can be read"),
+        ("{session} --raters {gone}", 1, "columns session and rater"),
+    ],
+    "log": [("--data-folder {gone}", 1, "There is no folder {gone}")],
+    "erase": [
+        ("", 2, "PSEUDONYM"),
+        ("{session}", 1, "lies in no data folder"),
+        ("{gone}.h5", 1, "gone.h5"),
+        ("'Fern 21'", 1, "There is no patient Fern 21 (did you mean “Fern 12”? There are: Fern 12)"),
+        ("'Fern 12' --data-folder {gone}", 1, "There is no folder {gone}"),
+    ],
+    "backup": [
+        ("", 2, "FOLDER"),
+        ("{empty} --list", 1, "There is no back-up in {empty}"),
+        ("{empty} --data-folder {gone}", 1, "{gone}"),
+    ],
+    "restore": [
+        ("", 2, "FOLDER"),
+        ("{empty}", 2, "--into FOLDER"),
+        ("{empty} --into {new}", 1, "There is no back-up in {empty}"),
+    ],
+    "recover": [("", 2, "FOLDER"), ("{gone}", 1, "There is no folder {gone}"), ("{file}", 1, "There is no folder")],
+    "calibrate-camera": [
+        ("{gone}", 1, "There is no recording"),
+        ("--board {file}", 1, "There is a file already"),
+        ("{file} --board {new}.pdf", 2, "--board only prints"),
+        ("--square-mm 2", 2, "“2” is no number from 5 to 200 mm"),
+        ("--pattern chesboard", 2, "did you mean “chessboard”"),
+    ],
+    "check-card": [
+        ("{gone}", 1, "There is no recording"),
+        ("--card {file}", 1, "There is a file already"),
+        ("{file} --card {new}.pdf", 2, "--card only prints"),
+        ("--card {new}.pdf --paper a5", 2, "there are: a4, letter"),
+    ],
+    "doctor": [("--camera foo", 2, "no kind of camera is called “foo”; there are: xtion, realsense, orbbec, astra")],
+}
+"""Of each command the words after it, the exit code, and what stderr says (one of several, by |)."""
+
+ROWS = [(name, *row) for name, rows in WRONG.items() for row in rows]
+METAVAR = re.compile(
+    r"(RECORDING|SESSION\.h5(\|PSEUDONYM)?|FILE|FOLDER|REFERENCE|PSEUDONYM|EXERCISE|DATE|ADDRESS|SERIAL|BACKUP|N|SECONDS|MINUTES|PERCENT|"
+    r"METRES|MM|DEGREES|PIXELS|HZ|SHARE|KIND\[:WHICH\]|DEVIATION|FLEXION|SUPINATION|"
+    r"(CLICKS|REPORT|TABLE|BOARD|CARD|RESULT|CAMERA)\.[a-z]+|[A-Z]+(=[A-Z]+)?(,|\+)\.\.\.)"
+)
+
+
+@pytest.fixture(autouse=True)
+def _quiet_bars(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(tqdm, "monitor_interval", 0)  # the bars' own thread would outlive the test
+
+
+@pytest.fixture(scope="module")
+def session(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    return stored(tmp_path_factory.mktemp("session"), frames=30, moving=True)
+
+
+@pytest.fixture
+def places(session: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> dict[str, Path]:
+    """What stands in braces in :data:`WRONG`; the data folder has one patient and no session."""
+    (tmp_path / "empty").mkdir()
+    for name in ("file", "junk.h5"):
+        (tmp_path / name).write_bytes(b"neither this nor that")
+    data = tmp_path / "data"
+    data.mkdir()
+    with opened(data) as house:
+        house.patients.add(PatientEntry("Fern 12", "right"))
+    monkeypatch.setenv("CARPUS_DATA", str(data))
+    names = {name: tmp_path / name for name in ("gone", "new", "empty", "file")}
+    return names | {"session": session, "junk": tmp_path / "junk.h5"}
+
+
+def ended(words: list[str]) -> int:
+    """The exit code, however it comes."""
+    try:
+        return main(words)
+    except SystemExit as end:
+        return int(end.code or 0)
+
+
+def command_parser(name: str) -> CommandParser:
+    top = parser([name])
+    (chosen,) = (action for action in top._actions if isinstance(action, argparse._SubParsersAction))
+    sub = chosen.choices[name]
+    assert isinstance(sub, CommandParser)
+    return sub
+
+
+def options(name: str) -> Iterator[argparse.Action]:
+    yield from (one for one in command_parser(name)._actions if not isinstance(one, argparse._HelpAction))
+
+
+def test_every_command_is_tried() -> None:
+    assert set(WRONG) == set(COMMANDS)
+
+
+@pytest.mark.parametrize(("name", "words", "code", "said"), ROWS, ids=[f"{row[0]} {row[1]}" for row in ROWS])
+def test_wrong_input_is_told_in_one_line(
+    name: str, words: str, code: int, said: str, places: dict[str, Path], capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert ended([name, *shlex.split(words.format(**places))]) == code
+    out, err = capsys.readouterr()
+    assert err.startswith("carpus")
+    assert err.count("\n") == 1
+    assert err.endswith("\n")
+    assert any(each in err for each in said.format(**places).split("|")), err
+    assert not re.search(r"Traceback|unforeseen|invalid|usage:|[a-z]+_[a-z]+ value", err)
+    assert "Written" not in out
+
+
+@pytest.mark.parametrize("name", COMMANDS)
+def test_every_option_refuses_what_it_cannot_read(name: str, capsys: pytest.CaptureFixture[str]) -> None:
+    """A value that no option of its kind can have, given to each; with what else it needs left out."""
+    for option in options(name):
+        if not option.option_strings or option.nargs == 0 or (option.type in (None, Path) and not option.choices):
+            continue
+        values = ["no such\nthing"] * (option.nargs if isinstance(option.nargs, int) else 1)
+        assert ended([name, option.option_strings[0], *values]) == 2, option.dest
+        err = capsys.readouterr().err
+        assert err.count("\n") == 1
+        assert err.startswith(f"carpus {name}: {option.option_strings[0]}"), err
+        assert "invalid" not in err
+    assert ended([name, "--no-such-option"]) == 2
+    assert capsys.readouterr().err.count("\n") == 1
+
+
+@pytest.mark.parametrize("name", COMMANDS)
+def test_help_shows_examples_that_can_be_typed(name: str, capsys: pytest.CaptureFixture[str]) -> None:
+    example = import_module(f"carpus.app.commands.{name.replace('-', '_')}").EXAMPLE
+    for line in example.splitlines():
+        program, *words = shlex.split(line)
+        assert (program, words[0]) == ("carpus", name)
+        parser(words).parse_args(words)
+    assert ended([name, "--help"]) == 0
+    told = capsys.readouterr().out
+    assert all(line in told for line in example.splitlines())
+
+
+@pytest.mark.parametrize("name", COMMANDS)
+def test_options_say_what_they_are_and_what_they_take_in_the_same_words(name: str) -> None:
+    for option in options(name):
+        if option.nargs == 0 or option.choices or isinstance(option, argparse.BooleanOptionalAction):
+            assert option.help, option.dest
+            continue
+        metavars = option.metavar if isinstance(option.metavar, tuple) else (option.metavar,)
+        assert all(one and METAVAR.fullmatch(one) for one in metavars), (option.dest, option.metavar)
+        assert option.help or not option.option_strings, option.dest
+
+
+def test_an_unknown_command_is_told_with_what_was_meant(capsys: pytest.CaptureFixture[str]) -> None:
+    assert ended(["trak", "recording"]) == 2
+    said = capsys.readouterr().err
+    assert said.count("\n") == 1
+    assert "did you mean “track”" in said
+    assert all(name in said for name in COMMANDS)
+
+
+def test_a_list_of_patients_that_another_program_holds_is_left_where_it_is(
+    places: dict[str, Path], capsys: pytest.CaptureFixture[str]
+) -> None:
+    path = places["empty"].parent / "data" / STORE_FILE
+    holding = sqlite3.connect(path, isolation_level=None)
+    holding.execute("PRAGMA locking_mode = EXCLUSIVE")
+    holding.execute("BEGIN EXCLUSIVE")
+    holding.execute("UPDATE patient SET note = ''")
+    try:
+        assert ended(["erase", "Fern 12"]) == 1
+    finally:
+        holding.close()
+    said = capsys.readouterr().err
+    assert "close Carpus first" in said
+    assert "move" not in said
+    assert said.count("\n") == 1
+
+
+def test_an_address_of_openni2_needs_no_kind() -> None:
+    for address in ("", "xtion", "realsense:123", "1d27/0601@1/7", "xtion:1d27/0601@1/7"):
+        cameras.check_address(address)
+    with pytest.raises(cameras.CameraUnknown):
+        cameras.open_camera("relsense")

@@ -1,0 +1,106 @@
+"""How long lists, search and progress of a large store take: 100,000 patients and a million sessions, generated."""
+
+from __future__ import annotations
+
+import random
+import statistics
+import sys
+import tempfile
+import time
+from collections.abc import Callable
+from datetime import UTC, datetime, timedelta
+from pathlib import Path
+
+from sqlalchemy import insert
+
+from carpus.core.names import folded
+from carpus.core.records.database import STORE_FILE
+from carpus.core.records.of_sessions import comments
+from carpus.core.records.patients import Patients
+from carpus.core.records.pseudonyms import WORDS
+from carpus.core.records.schema import COMMENT, PATIENT, SESSION
+from carpus.core.records.session_list import SessionList
+from carpus.core.records.store import Store
+
+PATIENTS, SESSIONS_EACH, AT_ONCE = 100_000, 10, 2_000
+FIRST = datetime(2016, 1, 1, 8, tzinfo=UTC)
+
+
+def fill(store: Store, patients: int) -> None:
+    """People with names, notes, and ten sessions each over ten years; every tenth session has a comment."""
+    rng = random.Random(7)
+    for start in range(0, patients, AT_ONCE):
+        people, sessions, said = [], [], []
+        for number in range(start, min(start + AT_ONCE, patients)):
+            patient_id, pseudonym = f"{number:032x}", f"{rng.choice(WORDS)} {number}"
+            name = f"{rng.choice(WORDS)}mann, {rng.choice(WORDS)}"
+            days = sorted(rng.randrange(3650) for _ in range(SESSIONS_EACH))
+            when = [FIRST + timedelta(days=day, minutes=rng.randrange(600)) for day in days]
+            people.append({
+                "id": patient_id, "folded": folded(pseudonym), "pseudonym": pseudonym, "name": name, "side": "right",
+                "dominance": "right", "note": "distal radius", "search": folded(f"{pseudonym} {name} distal radius"),
+                "sessions": SESSIONS_EACH, "results": SESSIONS_EACH, "last": when[-1].isoformat(),
+                "last_s": when[-1].timestamp(), "last_exercise": "WRIST_FE", "added_s": when[0].timestamp(),
+            })  # fmt: skip
+            for place, at in enumerate(when):
+                session_id = f"{number:024x}{place:08x}"
+                sessions.append({
+                    "id": session_id, "patient_id": patient_id, "path": f"{patient_id}/{at:%Y-%m-%d_%H%M%S}_{place}.h5",
+                    "recording_id": session_id, "seal": "sha256:" + "0" * 64, "recorded": at.isoformat(),
+                    "recorded_s": at.timestamp(), "created": at.isoformat(), "created_s": at.timestamp(),
+                    "exercise": "WRIST_FE", "hand": "right", "frames": 900, "duration_s": 30.0, "complete": 1,
+                    "size": 4_000_000,
+                })  # fmt: skip
+            said.append({"id": f"c{number:031x}", "session_id": sessions[-1]["id"], "text": "Less swelling.",
+                         "by": "AB", "entered": when[-1].isoformat(), "entered_ns": 0})  # fmt: skip
+        with store._database.writing() as connection:
+            connection.execute(insert(PATIENT), people)
+            connection.execute(insert(SESSION), sessions)
+            connection.execute(insert(COMMENT), said)
+
+
+def timed(what: Callable[[], object]) -> str:
+    """Median and worst of twenty calls, and the processor's time of one, which other programs do not lengthen."""
+    took = []
+    busy = time.process_time()
+    for _ in range(20):
+        begin = time.perf_counter()
+        what()
+        took.append(time.perf_counter() - begin)
+    busy = (time.process_time() - busy) / len(took)
+    return f"{statistics.median(took) * 1e3:7.1f} ms, worst {max(took) * 1e3:7.1f} ms, processor {busy * 1e3:7.1f} ms"
+
+
+def main() -> None:
+    patients = int(sys.argv[1]) if len(sys.argv) > 1 else PATIENTS
+    with tempfile.TemporaryDirectory() as folder:
+        begin = time.perf_counter()
+        store = Store(Path(folder))
+        fill(store, patients)
+        print(f"{patients} patients, {patients * SESSIONS_EACH} sessions: made in {time.perf_counter() - begin:.0f} s")
+        store.close()
+        print(f"size {(Path(folder) / STORE_FILE).stat().st_size / 1e6:.0f} MB")
+        begin = time.perf_counter()
+        store = Store(Path(folder))
+        print(f"opened in {(time.perf_counter() - begin) * 1e3:.0f} ms")
+        people, sessions = Patients(store), SessionList(store)
+        somebody = f"{patients // 2:032x}"
+        last = sessions.of_patient(somebody)[0].session_id
+        for name, what in {
+            "list, the last 200": lambda: people.listed(most=200),
+            "search of a part of a name": lambda: people.listed("kestrelmann lin", most=200),
+            "search of a number": lambda: people.listed(str(patients // 2), most=200),
+            "search of nothing there": lambda: people.listed("zzzz", most=200),
+            "sessions of a patient": lambda: sessions.of_patient(somebody),
+            "progress: sessions and comments": lambda: [
+                comments(store, one.session_id) for one in sessions.of_patient(somebody)
+            ],
+            "one session by identity": lambda: sessions.one(last),
+            "a patient changed": lambda: people.let_take_part([somebody]) or people.let_take_part([]),
+        }.items():
+            print(f"{name:34} {timed(what)}")
+        store.close()
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,36 @@
+"""Where depth readings are taken from picture to picture, and which when there are too many."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from carpus.core.detection.surface_samples import SamplingSettings, finger_samples, surface_samples
+from carpus.core.types import FINGER_STEP_PX, Frame
+
+OWN = SamplingSettings()
+FULL = Frame(0, 0.0, np.zeros((480, 640, 3), np.uint8), np.full((480, 640), 700, np.uint16), 1e-3)
+
+
+@pytest.mark.parametrize("shift_px", [0.0, 0.7, 1.9])
+def test_the_lattice_of_the_back_stays_where_it_is_while_the_hand_moves(shift_px: float) -> None:
+    corners = np.array([[300.0, 200.0], [340.0, 205.0], [345.0, 260.0], [298.0, 255.0]]) + shift_px
+    found = surface_samples(FULL, corners, OWN)
+    assert found is not None
+    assert not np.any(found.pixel % OWN.step_px)
+
+
+def test_of_too_many_readings_about_the_fingers_those_nearest_to_a_disc_are_taken() -> None:
+    discs = np.array([[300.0, 200.0], [360.0, 210.0]])
+    few = SamplingSettings(most_finger=20)
+    every, some = finger_samples(FULL, discs, OWN), finger_samples(FULL, discs, few)
+    assert every is not None
+    assert some is not None
+    assert not np.any(every.pixel % FINGER_STEP_PX)
+    assert len(every.pixel) > 40
+    assert len(some.pixel) == 20
+
+    def away_px(pixel: np.ndarray) -> np.ndarray:
+        return np.asarray(np.abs(pixel[:, None] - discs).sum(axis=-1).min(axis=1))
+
+    assert away_px(some.pixel).max() <= np.sort(away_px(every.pixel))[19]

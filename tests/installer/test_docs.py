@@ -1,0 +1,60 @@
+"""The documentation site: every page is in it once, and its tools are pinned apart from what runs."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+from types import ModuleType
+
+import pytest
+
+from tests.installer.test_package import script
+
+ROOT = Path(__file__).parents[2]
+
+
+@pytest.fixture
+def docs(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> ModuleType:
+    module = script(ROOT / "installer" / "docs.py", monkeypatch)
+    monkeypatch.setattr(module, "PAGES", tmp_path / "docs")
+    module.lay_out()
+    return module
+
+
+def pages(entry: object) -> list[str]:
+    if isinstance(entry, str):
+        return [entry]
+    found = entry.values() if isinstance(entry, dict) else entry
+    assert not isinstance(found, int)
+    return [page for one in found for page in pages(one)]  # type: ignore[attr-defined]
+
+
+def test_every_page_is_in_the_site_once(docs: ModuleType) -> None:
+    named = pages(docs.navigation())
+    there = {str(path.relative_to(docs.PAGES)) for path in docs.PAGES.rglob("*.md")}
+    assert sorted(named) == sorted(there)
+    kept = {str(path.relative_to(ROOT)) for path in [*ROOT.glob("*.md"), *(ROOT / "resources").rglob("*.md")]}
+    assert kept <= there, "a page that nobody can find"
+
+
+def test_pictures_of_the_guide_are_found_and_no_warning_is_kept_quiet(docs: ModuleType) -> None:
+    shown = [
+        (path, name)
+        for path in docs.PAGES.rglob("*.md")
+        for name in re.findall(r"!\[[^\]]*\]\(([^)]+)\)", path.read_text())
+    ]
+    assert len(shown) > 40
+    assert all((path.parent / name).is_file() for path, name in shown)
+    assert "--quiet" not in Path(docs.__file__).read_text(), "MkDocs counts only the warnings that it says"
+
+
+def test_a_new_page_is_in_the_site_by_itself(docs: ModuleType) -> None:
+    (docs.PAGES / "resources" / "new.md").write_text("# New\n")
+    assert "resources/new.md" in pages(docs.navigation())
+
+
+def test_the_tools_are_pinned_and_apart_from_what_runs() -> None:
+    pinned = [line for line in (ROOT / "requirements-docs.lock").read_text().splitlines() if not line.startswith("#")]
+    assert all(re.fullmatch(r"[\w.-]+==[\w.]+", line) for line in pinned)
+    assert any(line.startswith("mkdocs-material==") for line in pinned)
+    assert "mkdocs" not in (ROOT / "requirements.lock").read_text()

@@ -1,0 +1,153 @@
+"""Strokes of a hand that stops on its way: pauses are part of them, counted and timed."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from carpus.core.measures.motion_range import motion_range
+from carpus.core.measures.noise import SMOOTHER_CORRELATION_S, Noise
+from carpus.core.measures.repetitions import find_repetitions
+from carpus.core.measures.signals import even_signal, low_pass
+from carpus.core.measures.smoothness import log_dimensionless_jerk, sparc
+from carpus.core.measures.speed import StrokeMeasures, measure_stroke
+from carpus.core.types import FloatArray
+from tests.measures.test_noise import angle_of
+from tests.measures.tracked import tracked
+from tests.measures.ways import RATE, Part, way
+
+
+def there_and_back(parts: list[Part], hold_s: float = 1.0) -> FloatArray:
+    """A repetition between two holds, radians."""
+    arc, hold = sum(part[0] for part in parts), np.ones(round(hold_s * RATE))
+    out = way(parts)
+    return np.radians(np.concatenate((0.0 * hold, out, arc * hold, (arc - out), 0.0 * hold)))
+
+
+def strokes_of(angle: FloatArray, sd_deg: float = 0.0) -> list[StrokeMeasures]:
+    time_s = np.arange(len(angle)) / RATE
+    signal = even_signal(time_s, angle)
+    sd = even_signal(time_s, np.full(len(angle), math.radians(sd_deg))) if sd_deg else None
+    return [measure_stroke(signal, stroke, sd) for stroke in find_repetitions(signal).strokes]
+
+
+def true_speed(parts: list[Part]) -> FloatArray:
+    """Degrees a second, by the formula."""
+    out = []
+    for arc, duration_s in parts:
+        tau = np.arange(round(duration_s * RATE)) / round(duration_s * RATE)
+        out.append(30.0 * arc / duration_s * (tau**2 - 2 * tau**3 + tau**4))
+    return np.concatenate(out)
+
+
+@pytest.mark.parametrize(
+    ("parts", "published", "pauses"),
+    [
+        ([(60.0, 1.0)], -1.40, 0),
+        ([(20.0, 0.6)] * 3, -2.70, 0),
+        ([(25.0, 0.8), (0.0, 0.6), (25.0, 0.8)], -3.62, 1),
+    ],
+    ids=["smooth", "three stops", "a pause"],
+)
+def test_a_stop_inside_a_stroke_is_part_of_it(parts: list[Part], published: float, pauses: int) -> None:
+    found = strokes_of(there_and_back(parts))
+    assert len(found) == 2
+    duration_s = sum(part[1] for part in parts)
+    moves = [part for part in parts if part[0]]
+    for stroke in found:
+        assert stroke.sparc == pytest.approx(published, abs=0.08)
+        assert stroke.sparc == pytest.approx(sparc(true_speed(parts), RATE), abs=0.08)
+        assert stroke.ldlj == pytest.approx(log_dimensionless_jerk(true_speed(parts), RATE), abs=0.35)
+        # A minimum-jerk movement passes 5 % of its peak speed after 5.9 % of its time, 10 % after 8.7 %.
+        assert stroke.movement_time_s == pytest.approx(duration_s - 2 * 0.0594 * moves[0][1], abs=0.03)
+        assert math.degrees(stroke.arc_rad) == pytest.approx(sum(part[0] for part in parts), abs=0.1)
+        assert stroke.mean_speed_rad_s == pytest.approx(stroke.arc_rad / stroke.movement_time_s, rel=0.02)
+        assert math.degrees(stroke.peak_speed_rad_s) == pytest.approx(1.875 * moves[0][0] / moves[0][1], rel=0.02)
+        assert stroke.peaks == len(moves)
+        assert stroke.pauses == pauses
+    if parts[1:] and not parts[1][0]:
+        assert found[0].pause_s == pytest.approx(0.6 + 2 * 0.0865 * 0.8, abs=0.03)
+
+
+parts_of_people = st.lists(
+    st.tuples(st.floats(0.0, 40.0), st.floats(0.3, 3.0)).map(lambda part: (part[0] if part[0] > 3.0 else 0.0, part[1])),
+    min_size=1,
+    max_size=6,
+)
+
+
+@given(parts=parts_of_people, noise_deg=st.sampled_from([0.0, 0.1, 0.3, 0.6]), seed=st.integers(0, 99))
+def test_the_mean_speed_is_never_above_the_peak_and_pauses_are_within_the_movement(
+    parts: list[Part], noise_deg: float, seed: int
+) -> None:
+    angle = there_and_back(parts)
+    drawn = Noise(math.radians(noise_deg), SMOOTHER_CORRELATION_S).drawn(len(angle), RATE)[seed % 64]
+    for stroke in strokes_of(angle + drawn, 2.0 * noise_deg):
+        assert not stroke.mean_speed_rad_s > stroke.peak_speed_rad_s
+        assert not stroke.pause_s > stroke.movement_time_s
+        assert not stroke.movement_time_s > stroke.stroke.end_s - stroke.stroke.start_s + 2.0
+        assert not stroke.peaks < 1.0  # none is "not known"
+        assert not stroke.sparc > -1.0
+
+
+def test_units_of_a_movement_too_slow_for_them_are_not_known() -> None:
+    for stroke in strokes_of(there_and_back([(12.0, 8.0)], hold_s=2.0)):
+        assert math.degrees(stroke.arc_rad) == pytest.approx(12.0, abs=0.1)
+        assert math.degrees(stroke.peak_speed_rad_s) == pytest.approx(1.875 * 12.0 / 8.0, rel=0.03)
+        assert math.isnan(stroke.peaks)
+
+
+def test_who_creeps_on_in_the_turning_place_has_arrived() -> None:
+    settling = [(58.0, 1.0), (0.0, 0.5), (2.0, 1.5)]
+    out, _ = strokes_of(there_and_back(settling))
+    assert out.movement_time_s == pytest.approx(1.0 - 2 * 0.0594, abs=0.03)
+    assert out.pauses == 0.0
+
+
+@pytest.mark.parametrize("hold_s", [0.5, 2.0, 6.0])
+def test_a_hold_makes_no_arc_of_its_noise(hold_s: float) -> None:
+    noise, off_deg, plain_deg = Noise(math.radians(0.4), SMOOTHER_CORRELATION_S), [], []
+    one = there_and_back([(60.0, 1.0)], hold_s)
+    for drawn in noise.drawn(3 * len(one), RATE)[:12]:
+        time_s = np.arange(len(drawn)) / RATE
+        both = even_signal(time_s, np.column_stack((np.tile(one, 3) + drawn, np.full(len(drawn), math.radians(0.8)))))
+        found = find_repetitions(both.column(0))
+        smooth = low_pass(both.column(0), 10.0)
+        arcs = motion_range(smooth, both.column(1), found.repetitions, smoothed=True).arc.values
+        off_deg += np.degrees(arcs).tolist()
+        plain_deg += np.degrees(motion_range(smooth, both.column(1), found.repetitions).arc.values).tolist()
+        strokes = [measure_stroke(both.column(0), stroke, both.column(1)) for stroke in found.strokes]
+        off_deg += [math.degrees(stroke.arc_rad) for stroke in strokes]
+    assert np.mean(plain_deg) > 61.0
+    assert np.mean(off_deg) == pytest.approx(60.0, abs=0.6)
+
+
+@pytest.mark.parametrize("smoothed", [True, False], ids=["looked back", "live"])
+@pytest.mark.parametrize(("seconds", "speed_hz", "share", "fewest"), [(24.0, 0.15, 1.0, 0), (12.0, 0.5, 1.5, 3)])
+def test_a_tracked_patient_who_stops_is_not_called_smooth(
+    seconds: float, speed_hz: float, share: float, fewest: int, smoothed: bool
+) -> None:
+    take = tracked("flexion", seconds, speed_hz, seed=5, share=share, stops=True)
+    true = even_signal(take.truth.timestamp_s, take.truth.angles_rad[:, 1])
+    angle = angle_of(take, 1, smoothed=smoothed)
+    pairs = [
+        (measure_stroke(true, stroke), measure_stroke(angle.column(0), stroke, angle.column(1), smoothed=smoothed))
+        for stroke in find_repetitions(true).strokes
+    ]
+    known = [(one, other) for one, other in pairs if math.isfinite(one.movement_time_s + other.movement_time_s)]
+    assert len(known) >= 4
+    times = np.array([(one.movement_time_s, other.movement_time_s) for one, other in known])
+    assert times[:, 1].mean() == pytest.approx(times[:, 0].mean(), rel=0.07)
+    tops = np.array([(one.peak_speed_rad_s, other.peak_speed_rad_s) for one, other in known])
+    assert tops[:, 1].mean() == pytest.approx(tops[:, 0].mean(), rel=0.1)
+    for one, other in known:
+        assert other.movement_time_s == pytest.approx(one.movement_time_s, rel=0.25)
+        # The smoother itself takes up to a quarter off pieces of 0.3 s.
+        assert other.peak_speed_rad_s == pytest.approx(one.peak_speed_rad_s, rel=0.3)
+        assert math.isnan(other.sparc) or other.sparc == pytest.approx(one.sparc, abs=0.6)
+        assert math.isnan(other.pauses) or abs(other.pauses - one.pauses) <= 1.0
+    assert sum(math.isfinite(other.sparc) for _, other in known) >= (fewest if smoothed else min(fewest, 1))

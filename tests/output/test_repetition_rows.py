@@ -1,0 +1,160 @@
+"""One account of the repetitions: in the file, in what is shown of it, and after a person's choices."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import astuple, replace
+from pathlib import Path
+
+import h5py
+import numpy as np
+import pytest
+
+from carpus.core.measures.motion_range import motion_range
+from carpus.core.measures.repetitions import Exercise as Found
+from carpus.core.measures.repetitions import Repetition, Stroke, find_repetitions
+from carpus.core.measures.signals import even_signal
+from carpus.core.output.repetition_rows import (
+    HIDDEN,
+    RepetitionChoices,
+    Trained,
+    measured_repetitions,
+    on_clock,
+    repetitions_of,
+)
+from carpus.core.output.report_content import session_figures
+from carpus.core.session import schema
+from carpus.core.session.reader import read_session, verify
+from carpus.core.session.values import Session
+from carpus.core.summary import repetition_lines
+from tests.formats.takes import stopping
+from tests.ui.fakes import session as simulated
+
+
+@pytest.fixture(scope="module")
+def path(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    return stopping(tmp_path_factory.mktemp("repetitions"))
+
+
+@pytest.fixture(scope="module")
+def session(path: Path) -> Session:
+    return read_session(path)
+
+
+def test_a_stop_is_in_the_table_of_the_file(path: Path, session: Session) -> None:
+    with h5py.File(path) as file:
+        table = file["/repetitions"]
+        assert table.fletcher32
+        assert table.attrs["angle"] == "flexion"
+        units = dict(zip(table.dtype.names, table.attrs["column_units"], strict=True))
+        rows = table[()]
+    assert verify(path).sealed
+    assert {units[name] for name in ("start", "peak", "end", "pause_time")} == {"s"}
+    assert (units["arc"], units["peak_speed"]) == ("rad", "rad/s")
+    assert len(rows) == 3
+    first = float(session.timestamp_s[0])
+    for k, row in enumerate(rows):
+        # A second of rest, 2.2 s up with a stop, one second of hold, one back; 5 % of the peak 5.9 % into a movement.
+        begun = first + 5.2 * k + 1.0
+        assert row["start"] == pytest.approx(begun + 0.0594 * 0.8, abs=0.06)
+        assert row["peak"] == pytest.approx(begun + 2.2 + 0.5, abs=0.05), "the middle of the hold"
+        assert row["end"] == pytest.approx(begun + 4.2 - 0.0594, abs=0.04)
+        assert np.degrees([row["angle"], row["arc"]]) == pytest.approx([50.0, 50.0], abs=0.2)
+        assert math.degrees(row["peak_speed"]) == pytest.approx(1.875 * 50.0, rel=0.03)
+        assert row["movement_time"] == pytest.approx(2.2 - 2 * 0.0594 * 0.8 + 1.0 - 2 * 0.0594, abs=0.06)
+        assert row["sparc"] == pytest.approx(0.5 * (-3.62 - 1.40), abs=0.1)
+        assert (row["pauses"], row["movement_units"]) == (1.0, 3.0)
+        assert row["pause_time"] == pytest.approx(0.74, abs=0.05)
+        assert row["counted"] == 1
+        assert row["reason"] == b""
+
+
+@pytest.mark.parametrize("which", ["stopping", "both sides"])
+def test_file_figures_and_recount_are_the_same(which: str, session: Session) -> None:
+    chosen = session if which == "stopping" else simulated()
+    found = repetitions_of(chosen)
+    shown = session_figures(chosen).repetitions
+    start_s = float(chosen.timestamp_s[0])
+    assert len(found.rows) == len(shown) >= 3
+    for row, one in zip(found.rows, shown, strict=True):
+        assert one.row is not None
+        assert astuple(on_clock(one.row, start_s)) == pytest.approx(astuple(row), nan_ok=True)
+        assert (one.start_s + start_s, one.end_s + start_s) == pytest.approx((row.start_s, row.end_s))
+        assert row.start_s < row.peak_s < row.end_s
+    if which == "stopping":
+        assert chosen.repetitions is not None
+        assert list(map(astuple, chosen.repetitions.rows)) == [
+            pytest.approx(astuple(row), nan_ok=True) for row in found.rows
+        ]
+
+
+def test_choices_of_a_person_change_what_is_shown_and_not_the_file(session: Session) -> None:
+    figures = session_figures(session, RepetitionChoices({1: "pain"}, {2: (11.0, 15.0)}))
+    rows = [one.row for one in figures.repetitions]
+    assert [row.reason for row in rows if row] == ["", "pain", ""]
+    assert [row.counted for row in rows if row] == [True, False, True]
+    assert rows[2] is not None
+    assert (rows[2].start_s, rows[2].end_s) == (11.0, 15.0)
+    assert session.repetitions is not None
+    assert all(row.counted for row in session.repetitions.rows)
+
+
+def test_a_repetition_that_was_hardly_seen_says_so(session: Session) -> None:
+    time_s = session.timestamp_s - session.timestamp_s[0]
+    status = np.asarray(session.status).copy()
+    status[(time_s > 6.5) & (time_s < 7.4) | (time_s > 7.6) & (time_s < 8.5)] = 1
+    rows = repetitions_of(replace(session, status=status)).rows
+    assert [row.reason for row in rows] == ["", HIDDEN, ""]
+    assert [row.counted for row in rows] == [True, False, True]
+
+
+def test_every_column_says_what_it_is() -> None:
+    assert all(column.description for column in schema.REPETITION_COLUMNS)
+    page = Path("resources/session-format.md").read_text(encoding="utf-8")
+    assert all(f"| `{column.name}` |" in page for column in schema.REPETITION_COLUMNS)
+
+
+def test_the_summary_has_a_line_for_each(session: Session) -> None:
+    lines = repetition_lines(session, RepetitionChoices({1: "pain"}))
+    assert len(lines) == 3
+    assert "arc 50.0 deg" in lines[0]
+    assert "SPARC -2.5" in lines[0]
+    assert "1 stops of 0.7 s in all" in lines[0]
+    assert "not counted: pain" in lines[1]
+
+
+def trained_in(knots_s: list[float], knots_deg: list[float], found: Found | None = None) -> Trained:
+    """Straight ways between knots, with noise."""
+    time_s = np.arange(0.0, knots_s[-1], 1 / 60)
+    noise_deg = np.random.default_rng(4).normal(0.0, 0.2, len(time_s))
+    angle = even_signal(time_s, np.radians(np.interp(time_s, knots_s, knots_deg) + noise_deg))
+    sd = replace(angle, value=np.full(len(angle.value), 0.01))
+    return Trained(
+        "flexion", found or find_repetitions(angle), angle, sd, angle, False, lambda some: motion_range(angle, sd, some)
+    )
+
+
+def test_motion_to_both_sides_lies_within_its_repetitions() -> None:
+    # Up and down about the middle, with holds of 0.6 s in which noise says where the turn is.
+    knots_s = np.cumsum([0.0, 1.0, *[0.8, 0.6] * 6, 0.8, 2.0])
+    knots_deg = [0.0, 0.0, *[side for side in (40.0, -40.0) * 3 for _ in range(2)], 0.0, 0.0]
+    trained = trained_in(knots_s.tolist(), knots_deg)
+    rows = [one.row for one in measured_repetitions(trained, RepetitionChoices())]
+    assert len(rows) == 3
+    for k, row in enumerate(rows):
+        high_s, low_s = 2.1 + 2.8 * k, 3.5 + 2.8 * k
+        assert row.start_s < high_s - 0.3
+        assert low_s + 0.3 < row.end_s
+        assert row.peak_s == pytest.approx(high_s, abs=0.3), "its first turn, and not on either side by chance"
+        assert math.degrees(row.angle_rad) == pytest.approx(40.0, abs=1.0)
+    # The first way from rest is no stroke: one of two is not all of it.
+    assert math.isnan(rows[0].movement_time_s)
+    assert [round(row.movement_time_s / 0.8) for row in rows[1:]] == [2, 2]
+
+
+def test_who_comes_back_too_far_has_the_peak_at_the_turn() -> None:
+    whole = Found((Repetition(1.0, 5.0, 1.0),), (Stroke(1.0, 2.4, True), Stroke(2.4, 5.0, False)))
+    trained = trained_in([0.0, 1.0, 2.0, 2.8, 4.4, 5.5], [0.0, 0.0, 50.0, 50.0, -60.0, -60.0], whole)
+    (one,) = measured_repetitions(trained, RepetitionChoices())
+    assert one.row.peak_s == pytest.approx(2.4, abs=0.2)
+    assert math.degrees(one.row.angle_rad) == pytest.approx(50.0, abs=1.0)

@@ -1,0 +1,89 @@
+"""A data folder with patients and sessions, and a look for traces in it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
+from datetime import UTC, datetime
+from pathlib import Path
+
+from carpus.core.errors import CarpusFault
+from carpus.core.hand.protocols import WRIST6
+from carpus.core.records.log import Log
+from carpus.core.records.patients import Patients
+from carpus.core.records.session_list import FilesOfSessions, SessionList
+from carpus.core.records.store import Store
+from carpus.core.records.values import PatientEntry
+from carpus.core.session.values import new_header
+from carpus.core.session.writer import SessionWriter
+from tests.session.samples import CAMERA, make_calibration, make_frame
+
+T0 = datetime(2026, 10, 9, 9, 51, tzinfo=UTC)
+LINDEN = PatientEntry("Linden 42", "right", "left", "40-49", "flexor tendon", "Erika Mustermann")
+HERON = PatientEntry("Heron 17", "left", name="Otto Normal")
+
+
+@dataclass(frozen=True)
+class House:
+    """A store and what is asked of it."""
+
+    store: Store
+    patients: Patients
+    index: SessionList
+    files: FilesOfSessions
+    log: Log
+
+    def names(self, search: str = "") -> list[str]:
+        """Who is in the list."""
+        return [record.entry.pseudonym for record in self.patients.listed(search)]
+
+
+@contextmanager
+def opened(
+    folder: Path, url: str = "", tell: Callable[[CarpusFault], None] = lambda _: None, sessions: Path | None = None
+) -> Iterator[House]:
+    """The store of a folder, open."""
+    with Store(folder, sessions, url, tell) as store:
+        yield House(store, Patients(store), SessionList(store), FilesOfSessions(store), Log(store, "window"))
+
+
+def record(
+    path: Path, subject: str, when: datetime, hand: str = "right", frames: int = 4, recording_id: str = ""
+) -> Path:
+    """A session file."""
+    path.parent.mkdir(parents=True, exist_ok=True)
+    header = new_header(
+        hand="right" if hand == "right" else "left",
+        protocol=WRIST6,
+        software_version="0",
+        subject_id=subject,
+        exercise="WRIST_FE",
+        now=when,
+        recorded=when.isoformat(),
+        recording_id=recording_id,
+    )
+    with SessionWriter.create(path, header, CAMERA, make_calibration()) as writer:
+        for row in range(frames):
+            writer.append(make_frame(row))
+    return path
+
+
+def measure(house: House, patient_id: str, when: datetime, recording_id: str = "") -> str:
+    """One session of a patient with all that may lie beside it; its identity."""
+    pseudonym = house.patients.one(patient_id).entry.pseudonym
+    path = house.index.new_path(patient_id, pseudonym, "WRIST_FE", "right", when)
+    record(path, pseudonym, when, recording_id=recording_id)
+    path.with_suffix(".carpusraw").write_bytes(b"pictures of " + pseudonym.encode())
+    path.with_suffix(".markers.jpg").write_bytes(b"photo")
+    return house.index.enter(path, patient_id, "AB").session_id
+
+
+def traces(folder: Path, *words: str) -> list[str]:
+    """Files whose name or content holds one of the words, also in free pages and in the write-ahead log."""
+    found = []
+    for path in sorted(folder.rglob("*")):
+        content = path.read_bytes() if path.is_file() else b""
+        if any(word.encode() in content or word in str(path.relative_to(folder)) for word in words):
+            found.append(path.name)
+    return found

@@ -1,0 +1,300 @@
+"""Everything comes back from a back-up, bit by bit, and nothing damaged does."""
+
+from __future__ import annotations
+
+import json
+from datetime import UTC, datetime, timedelta
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from carpus.core.errors import BackupIncomplete, BackupPlaceUnsuited, BackupUnequal, BackupUnreadable, OutputExists
+from carpus.core.records import backup as module
+from carpus.core.records.backup import (
+    BACKUPS,
+    OBJECTS,
+    Backup,
+    back_up,
+    backups,
+    compare,
+    content_of,
+    is_due,
+    plan_restore,
+    read_backup,
+    restore,
+    thin_out,
+)
+from carpus.core.records.staging import remove_left_behind
+from carpus.core.session.writer import SessionWriter
+from tests.records.samples import LINDEN, T0, measure, opened
+from tests.session.samples import CAMERA, make_calibration, make_frame, make_header
+
+NOW = datetime(2026, 11, 20, 18, 0, tzinfo=UTC)
+
+
+@pytest.fixture
+def data(tmp_path: Path) -> Path:
+    folder = tmp_path / "data"
+    with opened(folder) as house:
+        linden = house.patients.add(LINDEN)
+        measure(house, linden, T0)
+        measure(house, linden, T0 + timedelta(days=1))
+        house.log.note("opened", "patient", linden)
+    (folder / "set_ups.json").write_text("{}")
+    return folder
+
+
+def contents(folder: Path) -> dict[str, bytes]:
+    """All but the store, whose journal comes and goes."""
+    return {
+        path.relative_to(folder).as_posix(): path.read_bytes()
+        for path in folder.rglob("*")
+        if path.is_file() and ".sqlite3" not in path.name
+    }
+
+
+def restored(place: Path, made: Backup, target: Path, settings: Path | None = None) -> None:
+    restore(made, content_of(place), target, settings_folder=settings).put_in_place(NOW)
+
+
+def test_everything_is_restored_on_another_computer(data: Path, tmp_path: Path) -> None:
+    settings = tmp_path / "settings"
+    settings.mkdir()
+    (settings / "preferences.toml").write_text("x = 1")
+    with opened(data) as house:  # it runs
+        made = back_up(data, tmp_path / "disk", software_version="1", settings_folder=settings, now=NOW)
+        first = [entry.session_id for entry in house.index.of_patient(house.patients.listed()[0].patient_id)]
+    assert (made.sessions, made.running) == (2, 0)
+    new, new_settings = tmp_path / "new" / "carpus", tmp_path / "new settings"
+    restored(tmp_path / "disk", made, new, new_settings)
+    assert contents(new) == contents(data)
+    assert (new_settings / "preferences.toml").read_text() == "x = 1"
+    assert {path.stat().st_mode & 0o077 for path in new.rglob("*")} == {0}
+    with opened(new) as house:
+        (patient,) = house.patients.listed()
+        assert patient.entry == LINDEN
+        assert [entry.session_id for entry in house.index.of_patient(patient.patient_id)] == first
+        assert house.files.take_in().sessions == 0
+    with pytest.raises(OutputExists):
+        restored(tmp_path / "disk", made, new)
+
+
+def test_a_running_recording_is_left_out_and_said(data: Path, tmp_path: Path) -> None:
+    path = data / "sessions" / "running.h5"
+    with SessionWriter.create(path, make_header(), CAMERA, make_calibration()) as writer:
+        writer.append(make_frame(0))
+        (path.with_suffix(".carpusraw")).write_bytes(b"growing")
+        made = back_up(data, tmp_path / "disk", software_version="1", now=NOW)
+        assert made.running == 1
+        assert not [one.path for one in made.files if "running" in one.path]
+
+
+def test_the_same_content_is_stored_once(data: Path, tmp_path: Path) -> None:
+    place = tmp_path / "disk"
+    first = back_up(data, place, software_version="1", now=NOW)
+    objects = {path: path.stat().st_mtime_ns for path in (place / OBJECTS).glob("*/*")}
+    second = back_up(data, place, software_version="1", now=NOW + timedelta(days=1))
+    assert [one.name for one in backups(place)] == [second.name, first.name]
+    after = {path: path.stat().st_mtime_ns for path in (place / OBJECTS).glob("*/*")}
+    kept = [path for path in objects if objects[path] == after.get(path)]
+    assert len(after) <= len(objects) + 1
+    assert len(kept) >= len(objects) - 1, "only the store is copied anew"
+
+
+@pytest.mark.parametrize("place", [0, -1])
+def test_a_flipped_bit_is_noticed(data: Path, tmp_path: Path, place: int) -> None:
+    disk = tmp_path / "disk"
+    made = back_up(data, disk, software_version="1", now=NOW)
+    compare(disk, made)
+    one = next(file for file in made.files if file.path.endswith(".h5"))
+    content = disk / OBJECTS / one.sha256[:2] / one.sha256
+    damaged = bytearray(content.read_bytes())
+    damaged[place] ^= 1
+    content.write_bytes(bytes(damaged))
+    with pytest.raises(BackupUnequal):
+        compare(disk, made)
+    with pytest.raises(BackupUnequal):
+        restored(disk, made, tmp_path / "new")
+    assert not list(tmp_path.glob("*new*")), "nothing is left"
+    with pytest.raises(BackupUnequal):
+        back_up(data, disk, software_version="1", now=NOW + timedelta(days=1))
+    assert [one.name for one in backups(disk)] == [made.name], "what could not be compared is no back-up"
+
+
+def test_a_back_up_that_was_cut_short_is_none(data: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    def cut(*_: object) -> None:
+        raise KeyboardInterrupt
+
+    with monkeypatch.context() as broken:
+        broken.setattr(module, "_compare", cut)
+        with pytest.raises(KeyboardInterrupt):
+            back_up(data, tmp_path / "disk", software_version="1", now=NOW)
+    assert backups(tmp_path / "disk") == []
+    assert back_up(data, tmp_path / "disk", software_version="1", now=NOW).sessions == 2
+
+
+@pytest.mark.parametrize("where", [".", "sessions/backup", ".."])
+def test_a_place_in_or_around_the_data_is_refused(data: Path, where: str) -> None:
+    with pytest.raises(BackupPlaceUnsuited):
+        back_up(data, data / where, software_version="1")
+
+
+def test_what_a_restore_changes_is_known_before_and_the_old_folder_is_kept(data: Path, tmp_path: Path) -> None:
+    place = tmp_path / "disk"
+    made = back_up(data, place, software_version="1", now=NOW)
+    gone, changed = sorted((data / "sessions").rglob("*.h5"))
+    gone.unlink()
+    changed.write_bytes(b"changed")
+    (data / "sessions" / "new.h5").write_bytes(b"new")
+    plan = plan_restore(made, data)
+    assert plan.added == (gone.relative_to(data).as_posix(),)
+    assert plan.replaced == (changed.relative_to(data).as_posix(),)
+    assert plan.lost == ("sessions/new.h5",)
+    old = restore(made, content_of(place), data, replaces=True).put_in_place(NOW)
+    assert old is not None
+    assert (old / "sessions" / "new.h5").read_bytes() == b"new"
+    assert gone.exists()
+    assert plan_restore(made, data).replaced == ()
+
+
+def test_the_newest_and_one_of_each_month_are_kept(data: Path, tmp_path: Path) -> None:
+    place = tmp_path / "disk"
+    for days in (0, 1, 2, 40, 41, 70, 900):
+        (data / "set_ups.json").write_text(json.dumps({"day": days}))
+        back_up(data, place, software_version="1", now=NOW - timedelta(days=days))
+    assert thin_out(place, 2, 24, NOW) == 3
+    left = [(NOW - one.made).days for one in backups(place)]
+    assert left == [0, 1, 40, 70]
+    for one in backups(place):
+        compare(place, one)
+    needed = {file.sha256 for one in backups(place) for file in one.files}
+    assert {path.name for path in (place / OBJECTS).glob("*/*")} == needed
+
+
+def test_a_newer_or_foreign_list_is_refused(data: Path, tmp_path: Path) -> None:
+    place = tmp_path / "disk"
+    path = place / BACKUPS / f"{back_up(data, place, software_version='1', now=NOW).name}.json"
+    told = json.loads(path.read_text())
+    for change in (
+        {"format_version": 2},
+        {"format": "x"},
+        {"files": [["../../evil", "0" * 64, 1, 1]]},
+        {"files": [["/etc/passwd", "0" * 64, 1, 1]]},
+        {"files": [["a", "../../../etc/passwd", 1, 1]]},
+        {"made": "yesterday"},
+        {"made": "2026-11-20T18:00:00"},
+        {"running": 1e999},
+        {"made": "9999-12-31T23:59:59-23:59"},
+        {"sessions": True},
+        {"files": [["a", "0" * 64, -1, 1]]},
+        {"files": [["a", "0" * 64, 1, 1 << 80]]},
+        {"files": [["a", "0" * 64, 1, 1], ["a", "1" * 64, 1, 1]]},
+    ):
+        path.write_text(json.dumps(told | change))
+        with pytest.raises(BackupUnreadable):
+            read_backup(path)
+    assert thin_out(place, 0, 0, NOW) == 0, "nothing is taken away that an unread list may need"
+
+
+def test_when_a_person_is_reminded() -> None:
+    assert is_due(None, 3, NOW)
+    assert not is_due(NOW, 3, NOW + timedelta(days=3))
+    assert is_due(NOW, 3, NOW + timedelta(days=3, minutes=1))
+
+
+def test_two_of_one_second_are_two(data: Path, tmp_path: Path) -> None:
+    for _ in range(2):
+        back_up(data, tmp_path / "disk", software_version="1", now=NOW)
+    assert len(backups(tmp_path / "disk")) == 2
+
+
+@pytest.mark.parametrize("text", ['{"running": 1e999}', "[", "[1]", '"x"', "null", "\udcff", "[" * 5000])
+def test_one_damaged_entry_harms_no_other(data: Path, tmp_path: Path, text: str) -> None:
+    place = tmp_path / "disk"
+    first = back_up(data, place, software_version="1", now=NOW)
+    path = place / BACKUPS / f"{first.name}.json"
+    said = json.dumps(json.loads(path.read_text()) | {"running": 0}).replace('"running": 0', '"running": 1e999')
+    bad = said if "running" in text else text
+    (place / BACKUPS / "2026-11-20T180001.json").write_bytes(bad.encode("utf-8", "surrogateescape"))
+    assert backups(place) == [first]
+    second = back_up(data, place, software_version="1", now=NOW + timedelta(days=1))
+    restored(place, second, tmp_path / "new")
+    assert contents(tmp_path / "new") == contents(data)
+
+
+def test_linked_folders_and_files_are_followed(data: Path, tmp_path: Path) -> None:
+    elsewhere = tmp_path / "large disk" / "sessions"
+    elsewhere.parent.mkdir()
+    (data / "sessions").rename(elsewhere)
+    (data / "sessions").symlink_to(elsewhere)
+    (data / "sessions" / "around").symlink_to(data)  # in a circle
+    (data / "limits.json").symlink_to(data / "set_ups.json")
+    made = back_up(data, tmp_path / "disk", software_version="1", now=NOW)
+    assert made.sessions == 2
+    restored(tmp_path / "disk", made, tmp_path / "new")
+    assert len([path for path in (tmp_path / "new" / "sessions").rglob("*.h5") if not path.is_symlink()]) == 2
+    assert (tmp_path / "new" / "limits.json").read_text() == "{}"
+    with pytest.raises(BackupPlaceUnsuited):
+        back_up(data, elsewhere / "backup", software_version="1")
+
+
+@pytest.mark.parametrize("lost", ["file", "folder", "link"])
+def test_fewer_files_than_the_store_knows_is_no_success(data: Path, tmp_path: Path, lost: str) -> None:
+    sessions = data / "sessions"
+    if lost == "file":
+        next(iter(sessions.rglob("*.h5"))).unlink()
+    else:
+        sessions.rename(tmp_path / "away")
+    if lost == "link":
+        sessions.symlink_to(tmp_path / "nowhere")
+    with pytest.raises(BackupIncomplete) as told:
+        back_up(data, tmp_path / "disk", software_version="1", now=NOW)
+    assert int(told.value.detail) == {"file": 1, "folder": 2, "link": 3}[lost]
+    (made,) = backups(tmp_path / "disk")
+    assert made.lacking == int(told.value.detail)
+    assert "set_ups.json" in {one.path for one in made.files}, "all else is in it"
+
+
+def test_thinning_out_touches_nothing_that_a_link_leads_to(data: Path, tmp_path: Path) -> None:
+    place, mine = tmp_path / "disk", tmp_path / "mine"
+    for days in (0, 40):
+        (data / "set_ups.json").write_text(json.dumps({"day": days}))
+        back_up(data, place, software_version="1", now=NOW - timedelta(days=days))
+    mine.mkdir()
+    for name in ("thesis.txt", "0" * 64):
+        (mine / name).write_text("years of work")
+    (place / OBJECTS / "zz").symlink_to(mine)
+    (place / OBJECTS / "00").mkdir(exist_ok=True)
+    (place / OBJECTS / "00" / "note.txt").write_text("mine too")
+    assert thin_out(place, 1, 0, NOW) == 1
+    assert sorted(path.name for path in mine.iterdir()) == ["0" * 64, "thesis.txt"]
+    assert (place / OBJECTS / "00" / "note.txt").exists()
+
+
+def test_a_file_that_cannot_be_read_is_told_and_the_rest_is_in_it(
+    data: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    real = Path.open
+
+    def refused(path: Path, *told: Any, **named: Any) -> Any:
+        if path.name == "set_ups.json":
+            raise PermissionError(13, "no", str(path))
+        return real(path, *told, **named)
+
+    monkeypatch.setattr(Path, "open", refused)
+    with pytest.raises(BackupIncomplete, match=r"set_ups\.json"):
+        back_up(data, tmp_path / "disk", software_version="1", now=NOW)
+    assert backups(tmp_path / "disk")[0].sessions == 2
+
+
+def test_what_a_killed_restore_left_goes_and_one_that_runs_is_left_alone(data: Path, tmp_path: Path) -> None:
+    place, target = tmp_path / "disk", tmp_path / "new"
+    made = back_up(data, place, software_version="1", now=NOW)
+    running = restore(made, content_of(place), target)
+    remove_left_behind(target)
+    assert running.folder.is_dir(), "its program lives"
+    running._lock.close()  # it was killed between writing and naming
+    remove_left_behind(target)
+    assert contents(target) == contents(data), "it was whole, and has the name now"
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["data", "disk", "new"]

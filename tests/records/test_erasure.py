@@ -1,0 +1,288 @@
+"""Erased is erased: files, rows, journals, what was set aside; and nothing of anybody else, nothing outside."""
+
+from __future__ import annotations
+
+import shutil
+from collections.abc import Iterator
+from datetime import date, timedelta
+from pathlib import Path
+
+import pytest
+from sqlalchemy import select, update
+
+from carpus.core.by_hand.values import HandValue
+from carpus.core.errors import ErasureUnfinished, OutputNotWritable
+from carpus.core.library.corrections import Corrections
+from carpus.core.library.library import Library
+from carpus.core.library.set_up import SetUp
+from carpus.core.library.set_ups import keep_set_up
+from carpus.core.output.exercises import exercise_named
+from carpus.core.output.report_content import RepetitionChoices
+from carpus.core.records import erasure, of_clinic, of_patients, of_sessions
+from carpus.core.records.log import read_log
+from carpus.core.records.retention import due, kept_until
+from carpus.core.records.schema import SESSION
+from carpus.core.session.values import new_header
+from carpus.core.session.writer import SessionWriter
+from tests.records.samples import HERON, LINDEN, T0, House, measure, opened, record, traces
+from tests.session.samples import CAMERA, make_calibration, make_frame
+
+NAMES = ("Linden", "Erika Mustermann", "flexor tendon")
+
+
+@pytest.fixture
+def folder(tmp_path: Path) -> Path:
+    return tmp_path / "data"
+
+
+@pytest.fixture
+def house(folder: Path) -> Iterator[House]:
+    with opened(folder) as found:
+        yield found
+
+
+def deeds(house: House) -> list[str]:
+    return [entry.did for entry in read_log(house.store)]
+
+
+def erase_session(house: House, session_id: str) -> int:
+    return erasure.erase(house.store, erasure.plan_session(house.store, session_id), house.log)
+
+
+def erase_patient(house: House, patient_id: str) -> int:
+    return erasure.erase(house.store, erasure.plan_patient(house.store, patient_id), house.log)
+
+
+def test_a_session_goes_with_its_files_and_rows_and_the_others_stay(folder: Path, house: House) -> None:
+    linden = house.patients.add(LINDEN)
+    first, second = measure(house, linden, T0), measure(house, linden, T0 + timedelta(days=7))
+    path = house.index.one(second).path
+    kept = set(path.parent.glob(path.stem + ".*"))
+    plan = erasure.plan_session(house.store, first)
+    assert (plan.sessions, len(plan.files), plan.others, plan.pseudonym) == (1, 3, 1, "Linden 42")
+    assert plan.size_bytes == sum(path.stat().st_size for path in plan.files)
+    assert erasure.erase(house.store, plan, house.log) == 3
+    assert [entry.session_id for entry in house.index.of_patient(linden)] == [second]
+    assert set(path.parent.iterdir()) == kept
+    assert deeds(house) == ["erase_begun", "erased"]
+    assert traces(folder, first) == []
+    assert house.patients.one(linden).session_count == 1
+    assert house.files.take_in().sessions == 0
+
+
+def test_earlier_results_and_copies_of_a_recording_go_too(folder: Path, house: House) -> None:
+    linden = house.patients.add(LINDEN)
+    first = measure(house, linden, T0)
+    recording = house.index.of_patient(linden)[0].recording_id
+    measure(house, linden, T0 + timedelta(hours=1), recording)
+    copy = folder / "sessions" / "a copy.h5"
+    shutil.copy(house.index.one(first).path, copy)
+    house.files.take_in()
+    plan = erasure.plan_session(house.store, first)
+    assert plan.sessions == 1
+    assert copy in plan.files
+    erasure.erase(house.store, plan, house.log)
+    assert house.files.take_in().sessions == 0
+    assert house.index.of_patient(linden) == []
+
+
+def fill(house: House, patient_id: str) -> list[str]:
+    """Everything that can be written about a patient; the identities of the sessions."""
+    sessions = [measure(house, patient_id, T0 + timedelta(days=day)) for day in range(3)]
+    entry = house.patients.one(patient_id).entry
+    for session_id in sessions:
+        of_sessions.add_comment(house.store, session_id, f"{entry.pseudonym} is well", "AB")
+        of_sessions.keep_choices(house.store, session_id, RepetitionChoices({0: entry.pseudonym}), 0)
+        of_sessions.remember_made(house.store, [house.index.one(session_id).path], "export", [session_id])
+    value = HandValue("WRIST_ROUND", "", "right", date(2026, 10, 9), (17.0,), entry.pseudonym)
+    of_patients.enter_by_hand(house.store, patient_id, [value])
+    keep_set_up(house.store, SetUp(patient_id, entry.pseudonym, "right", exercise_named("WRIST_FE"), 8, 25.0, -20.0))
+    house.patients.let_take_part([*house.patients.taking_part(), patient_id])
+    of_clinic.remember_recipient(house.store, f"{entry.name}\nOak Street 1")
+    house.log.note("opened", "patient", patient_id)
+    return sessions
+
+
+def test_of_an_erased_patient_there_is_not_a_byte_in_the_folder(folder: Path) -> None:
+    with opened(folder) as house:
+        linden, heron = house.patients.add(LINDEN), house.patients.add(HERON)
+        sessions = fill(house, linden)
+        fill(house, heron)
+        (folder / "records.damaged-20261009-120000.sqlite3").write_bytes(b"no store, but Linden 42 is in it")
+        (folder / "sessions" / linden / "left over.part").write_bytes(b"x")
+        plan = erasure.plan_patient(house.store, linden)
+        assert (plan.sessions, len(plan.files)) == (3, 11)
+        erasure.erase(house.store, plan, house.log)
+        assert traces(folder, *NAMES, linden, *sessions) == [], "while it is open: also free pages and journals"
+        assert house.names() == ["Heron 17"]
+        (other,) = house.patients.listed()
+        assert (other.entry, other.session_count) == (HERON, 3)
+        assert [len(of_sessions.comments(house.store, one.session_id)) for one in house.index.of_patient(heron)] == [
+            1
+        ] * 3
+        assert of_clinic.recipients(house.store) == [f"{HERON.name}\nOak Street 1"]
+    assert traces(folder, *NAMES, linden, *sessions) == []
+
+
+def test_new_results_that_wait_go_with_their_session(folder: Path) -> None:
+    library = Library(folder)
+    with opened(folder) as house:
+        linden = house.patients.add(LINDEN)
+        session_id = measure(house, linden, T0)
+        trial = Corrections(library).trial_path(session_id)
+        header = new_header(
+            hand="right", protocol=make_calibration().clicks.protocol, software_version="0", subject_id="Linden 42",
+            exercise="WRIST_FE", origin=session_id,
+        )  # fmt: skip
+        with SessionWriter.create(trial, header, CAMERA, make_calibration()) as writer:
+            writer.append(make_frame(0))
+        assert len(Corrections(library).waiting()) == 1
+        erase_session(house, session_id)
+        assert not trial.exists()
+    library.close()
+
+
+def test_a_session_moved_to_another_patient_stays_with_that_one(house: House) -> None:
+    linden, heron = house.patients.add(LINDEN), house.patients.add(HERON)
+    moved, own = measure(house, linden, T0), measure(house, linden, T0 + timedelta(days=1))
+    house.index.move(moved, heron)
+    erase_patient(house, linden)
+    assert house.index.one(moved).path.exists()
+    assert house.index.one(moved).path.with_suffix(".carpusraw").exists()
+    with pytest.raises(KeyError):
+        house.index.one(own)
+
+
+def test_files_made_elsewhere_are_named_and_never_touched(tmp_path: Path, folder: Path, house: House) -> None:
+    mine = measure(house, house.patients.add(LINDEN), T0)
+    out = tmp_path / "papers"
+    out.mkdir()
+    paths = {name: out / name for name in ("report.pdf", "edited.csv", "gone.csv")}
+    for name, path in paths.items():
+        path.write_text(name)
+    of_sessions.remember_made(house.store, paths.values(), "export", [mine])
+    paths["edited.csv"].write_text("with the therapist's own notes")
+    paths["gone.csv"].unlink()
+    plan = erasure.plan_session(house.store, mine)
+    states = {"report.pdf": "as_made", "edited.csv": "changed", "gone.csv": "not_found"}
+    assert {one.path.name: one.state for one in plan.made} == states
+    erasure.erase(house.store, plan, house.log)
+    assert sorted(path.name for path in out.iterdir()) == ["edited.csv", "report.pdf"]
+    assert traces(folder, "edited.csv", "gone.csv") == []
+
+
+def test_no_row_and_no_link_leads_out_of_the_folder(tmp_path: Path, folder: Path, house: House) -> None:
+    mine = tmp_path / "mine"
+    record(mine / "a.h5", "Linden 42", T0)
+    (mine / "b.h5").write_text("a letter")
+    linden = house.patients.add(LINDEN)
+    ids = [measure(house, linden, T0 + timedelta(days=day)) for day in range(3)]
+    (folder / "sessions" / "link").symlink_to(mine)
+    for session_id, path in zip(ids, (str(mine / "b.h5"), "../../mine/b.h5", "link/b.h5"), strict=True):
+        house.store.own(update(SESSION).where(SESSION.c.id == session_id).values(path=path))
+    shutil.rmtree(folder / "sessions" / linden)
+    (folder / "sessions" / linden).symlink_to(mine)
+    erase_patient(house, linden)
+    assert sorted(path.name for path in mine.iterdir()) == ["a.h5", "b.h5"]
+    assert house.store.rows(select(SESSION)) == []
+
+
+@pytest.mark.parametrize("after", ["mark", "files"])
+def test_an_erasure_that_is_cut_short_ends_at_the_next_start(
+    folder: Path, monkeypatch: pytest.MonkeyPatch, after: str
+) -> None:
+    with opened(folder) as house:
+        linden = house.patients.add(LINDEN)
+        sessions = fill(house, linden)
+        plan = erasure.plan_patient(house.store, linden)
+
+        def cut(*_: object) -> None:
+            raise KeyboardInterrupt
+
+        with monkeypatch.context() as broken:
+            broken.setattr(erasure, "_go_on" if after == "mark" else "dropped", cut)
+            with pytest.raises(KeyboardInterrupt):
+                erasure.erase(house.store, plan, house.log)
+        assert any(path.exists() for path in plan.files) == (after == "mark")
+        assert house.names() == []
+        assert house.files.take_in().sessions == 0, "what is to go does not come back"
+    Library(folder).close()
+    assert not any(path.exists() for path in plan.files)
+    assert traces(folder, *NAMES, linden, *sessions) == []
+
+
+def test_what_cannot_be_deleted_is_told_and_tried_again(
+    folder: Path, house: House, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    linden = house.patients.add(LINDEN)
+    plan = erasure.plan_session(house.store, measure(house, linden, T0))
+    held, real = plan.files[0], Path.unlink
+
+    def unlink(path: Path, missing_ok: bool = False) -> None:
+        if path == held:
+            raise PermissionError(13, "Permission denied", str(path))
+        real(path, missing_ok=missing_ok)
+
+    with monkeypatch.context() as locked:
+        locked.setattr(Path, "unlink", unlink)
+        with pytest.raises(ErasureUnfinished) as told:
+            erasure.erase(house.store, plan, house.log)
+    assert (told.value.subject, told.value.detail) == (held.name, "1")
+    assert [path for path in plan.files if path.exists()] == [held]
+    assert "erased" not in deeds(house)
+    assert house.index.of_patient(linden) == []
+    erasure.finish_erasing(house.store, house.log)
+    assert not held.exists()
+    assert deeds(house)[-1] == "erased"
+
+
+def test_what_cannot_be_logged_is_not_begun(house: House, monkeypatch: pytest.MonkeyPatch) -> None:
+    linden = house.patients.add(LINDEN)
+    plan = erasure.plan_session(house.store, measure(house, linden, T0))
+
+    def full(*_: object, **__: object) -> None:
+        raise OutputNotWritable("log")
+
+    monkeypatch.setattr(type(house.log), "note", full)
+    with pytest.raises(OutputNotWritable):
+        erasure.erase(house.store, plan, house.log)
+    assert all(path.exists() for path in plan.files)
+    assert len(house.index.of_patient(linden)) == 1
+
+
+def test_the_archive_takes_out_of_lists_and_counts_and_gives_back(house: House) -> None:
+    linden, heron = house.patients.add(LINDEN), house.patients.add(HERON)
+    first, second = measure(house, linden, T0), measure(house, linden, T0 + timedelta(days=1))
+    house.index.archive(second, T0)
+    assert [entry.session_id for entry in house.index.of_patient(linden)] == [first]
+    assert house.patients.one(linden).session_count == 1
+    house.patients.archive(linden, T0)
+    assert [record.patient_id for record in house.patients.listed()] == [heron]
+    assert house.patients.one(linden).entry == LINDEN
+    assert house.patients.archived() == {linden: T0}
+    assert [entry.session_id for entry, _, _ in house.index.archived()] == [second]
+    again = measure(house, linden, T0 + timedelta(days=2), house.index.one(second).recording_id)
+    assert again not in [one.session_id for one in house.index.of_patient(linden)], "tracked again, it stays archived"
+    house.files.take_in()
+    assert house.names() == ["Heron 17"]
+    house.patients.bring_back(linden)
+    house.index.bring_back(second)
+    assert house.patients.one(linden).session_count == 2
+    assert house.patients.one(linden).result_count == 3
+
+
+def test_what_is_due_is_decided_by_the_last_session(house: House) -> None:
+    linden, heron = house.patients.add(LINDEN), house.patients.add(HERON)
+    for years in (12, 11):
+        measure(house, linden, T0 - timedelta(days=366 * years))
+    measure(house, heron, T0 - timedelta(days=366 * 12))
+    measure(house, heron, T0)
+    found = due(house.store, 10, date(2026, 11, 20))
+    assert [(one.pseudonym, one.sessions, one.archived) for one in found] == [("Linden 42", 2, False)]
+    assert found[0].until == kept_until(T0 - timedelta(days=366 * 11), 10)
+    house.patients.archive(linden)
+    assert [one.archived for one in due(house.store, 10, date(2026, 11, 20))] == [True]
+    assert due(house.store, 0, date(2026, 11, 20)) == []
+    last_day = found[0].until
+    assert due(house.store, 10, last_day) == []
+    assert len(due(house.store, 10, last_day + timedelta(days=1))) == 1

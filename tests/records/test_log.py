@@ -1,0 +1,90 @@
+"""The log of deeds: only ever added to, by many programs at once, without names; and what ``carpus log`` writes."""
+
+from __future__ import annotations
+
+import csv
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+from sqlalchemy import delete, update
+from sqlalchemy.exc import DatabaseError
+
+from carpus.app.__main__ import main
+from carpus.core.errors import OutputNotWritable
+from carpus.core.records.log import Log, fingerprint, read_log
+from carpus.core.records.schema import DEED
+from carpus.core.records.store import Store
+from tests.records.samples import opened, traces
+
+
+def test_a_line_is_neither_changed_nor_taken_out(tmp_path: Path) -> None:
+    with opened(tmp_path) as house:
+        house.log.who = lambda: "AB"
+        house.log.note("opened", "session", "0" * 32)
+        house.log.note("erased", "patient", "1" * 32, files=3)
+        before = read_log(house.store)
+        for change in (update(DEED).values(who="XY"), delete(DEED)):
+            with pytest.raises(DatabaseError, match="only added to"):
+                house.store.own(change)
+        assert read_log(house.store) == before
+        assert [(one.number, one.who, one.did, dict(one.facts)) for one in before] == [
+            (1, "AB", "opened", {}), (2, "AB", "erased", {"files": 3}),
+        ]  # fmt: skip
+        assert before[0].subject == fingerprint("0" * 32)
+
+
+def test_programs_write_at_the_same_time(tmp_path: Path) -> None:
+    Store(tmp_path).close()
+    code = (
+        "import sys; from pathlib import Path; from carpus.core.records.log import Log\n"
+        "from carpus.core.records.store import Store\n"
+        "with Store(Path(sys.argv[1])) as store:\n"
+        "    for number in range(20): Log(store, 'command').note('opened', 'session', str(number))"
+    )
+    running = [subprocess.Popen([sys.executable, "-c", code, str(tmp_path)]) for _ in range(3)]
+    assert [one.wait(60) for one in running] == [0, 0, 0]
+    with Store(tmp_path) as store:
+        assert len(read_log(store)) == 60
+
+
+@pytest.mark.parametrize("facts", [{"path": "/data/sessions/Linden-42/s.h5"}, {"name": "Ada"}, {"name": "x" * 65}])
+def test_a_name_is_refused(tmp_path: Path, facts: dict[str, str]) -> None:
+    with opened(tmp_path) as house:
+        with pytest.raises(ValueError):
+            house.log.note("opened", "patient", "", **facts)
+        assert read_log(house.store) == ()
+
+
+def test_no_identity_stands_in_it_whatever_a_damaged_file_says_it_is(tmp_path: Path) -> None:
+    said = (" ", "Linden 42", "wr\udc80st", "x" * 65)
+    with opened(tmp_path) as house:
+        for identity in said:
+            house.log.note("recovered", "session", identity)
+        assert len({one.subject for one in read_log(house.store)}) == len(said)
+        assert traces(tmp_path, "Linden") == []
+
+
+def test_a_log_that_cannot_be_written_is_told(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    with opened(tmp_path) as house:
+        house.store.own()
+        monkeypatch.setattr(house.store, "do", lambda _: (_ for _ in ()).throw(OutputNotWritable(tmp_path)))
+        with pytest.raises(OutputNotWritable):
+            house.log.note("locked", "program")
+
+
+def test_the_command_says_it_and_writes_a_table(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    with Store(tmp_path) as store:
+        Log(store, "window", lambda: "AB").note("backed_up", "everything", sessions=7)
+    assert main(["log", "--data-folder", str(tmp_path)]) == 0
+    said = capsys.readouterr().out
+    assert "AB" in said
+    assert "backed_up" in said
+    assert "sessions=7" in said
+    table = tmp_path / "log.csv"
+    assert main(["log", "--data-folder", str(tmp_path), "--output", str(table)]) == 0
+    with table.open(newline="", encoding="utf-8") as file:
+        (row,) = csv.DictReader(file)
+    assert (row["who"], row["did"], row["facts"]) == ("AB", "backed_up", "sessions=7")
+    assert main(["log", "--data-folder", str(tmp_path), "--output", str(table)]) == 1

@@ -1,0 +1,313 @@
+"""A clinic's PostgreSQL: two computers, each with its copy; the server gone, back, slow to agree; nothing lost, nothing
+twice, nothing overwritten in silence. Against a real server that the tests start."""
+
+from __future__ import annotations
+
+import time
+import uuid
+from collections.abc import Callable
+from datetime import timedelta
+from pathlib import Path
+
+import pytest
+from sqlalchemy import create_engine, func, select, text, update
+from sqlalchemy.exc import DBAPIError
+from sqlalchemy.pool import NullPool
+
+from carpus.core.errors import CarpusFault, ChangedMeanwhile, PseudonymGiven, PseudonymTaken, ServerGone
+from carpus.core.output.report_content import RepetitionChoices
+from carpus.core.records import erasure, of_sessions
+from carpus.core.records.changes import PRACTICE
+from carpus.core.records.log import read_log
+from carpus.core.records.schema import COMMENT, DEED, OUTBOX, PATIENT, SESSION
+from carpus.core.records.server import Server
+from carpus.core.records.values import PatientEntry
+from tests.records.postgres import Cluster
+from tests.records.samples import HERON, LINDEN, T0, House, measure, opened, traces
+from tests.torture.wire import Wire
+
+LONG_S = 30.0
+
+
+@pytest.fixture
+def there(cluster: Cluster) -> str:
+    """The url of an empty database."""
+    return cluster.new_database(f"c{uuid.uuid4().hex[:12]}")
+
+
+def until(what: Callable[[], bool]) -> None:
+    end = time.monotonic() + LONG_S
+    while not what():
+        assert time.monotonic() < end
+        time.sleep(0.02)
+
+
+def settled(house: House) -> None:
+    """Everything of a computer has arrived."""
+    until(lambda: not house.store.is_behind and not waiting(house))
+
+
+def waiting(house: House) -> int:
+    return len(house.store.rows(select(OUTBOX).where(OUTBOX.c.refused == "")))
+
+
+def count(url: str, table: str) -> int:
+    engine = create_engine(url.replace("postgresql", "postgresql+psycopg"), poolclass=NullPool)
+    with engine.connect() as connection:
+        return int(connection.execute(text(f"SELECT count(*) FROM {table}")).scalar() or 0)
+
+
+def test_what_one_computer_enters_the_other_has(tmp_path: Path, there: str) -> None:
+    sessions = tmp_path / "share"
+    with opened(tmp_path / "a", there, sessions=sessions) as a, opened(tmp_path / "b", there, sessions=sessions) as b:
+        linden = a.patients.add(LINDEN)
+        session_id = measure(a, linden, T0)
+        measure(a, PRACTICE, T0)
+        of_sessions.add_comment(a.store, session_id, "Less swelling.", "AB")
+        until(lambda: bool(b.store.rows(select(COMMENT))))
+        assert (b.patients.one(linden).entry, b.patients.one(linden).session_count) == (LINDEN, 1)
+        assert b.index.one(session_id) == a.index.one(session_id)
+        assert b.index.one(session_id).path.exists()
+        assert b.files.take_in().sessions == 1, "the practice patient's, which is of nobody"
+        assert len(b.index.of_patient(linden)) == 1
+        settled(a)
+        assert count(there, "patient") == count(there, "session") == 1, "of the practice patient nothing is sent"
+        erasure.erase(a.store, erasure.plan_patient(a.store, linden), a.log)
+        until(lambda: not b.store.rows(select(SESSION.c.id).where(SESSION.c.id == session_id)))
+        assert b.names() == []
+        assert count(there, "patient") == count(there, "session") == count(there, "comment") == 0
+    assert traces(tmp_path / "a", "Linden", linden, session_id) == []
+
+
+def test_two_people_change_one_thing_and_the_second_is_told(tmp_path: Path, there: str) -> None:
+    with opened(tmp_path / "a", there) as a, opened(tmp_path / "b", there) as b:
+        linden = a.patients.add(LINDEN)
+        session_id = measure(a, linden, T0)
+        settled(a)
+        until(lambda: bool(b.store.rows(select(SESSION.c.id).where(SESSION.c.id == session_id))))
+        for house, note in ((a, "mine"), (b, "yours")):
+            version = house.patients.one(linden).version
+            entry = PatientEntry("Linden 42", "right", note=note)
+            if house is a:
+                house.patients.change(linden, entry, version)
+            else:
+                with pytest.raises(ChangedMeanwhile):
+                    house.patients.change(linden, entry, version)
+        assert b.patients.one(linden).entry.note == "mine", "the copy has what holds"
+        of_sessions.keep_choices(a.store, session_id, RepetitionChoices({0: "a"}), 0)
+        with pytest.raises(ChangedMeanwhile):
+            of_sessions.keep_choices(b.store, session_id, RepetitionChoices({1: "b"}), 0)
+        assert of_sessions.choices(b.store, session_id)[0].left_out == {0: "a"}
+        until(lambda: bool(b.patients.called("Linden 42")))
+        with pytest.raises(PseudonymTaken):
+            b.patients.add(PatientEntry("LINDEN 42", "left"))
+
+
+def test_what_was_changed_twice_while_away_overwrites_nobody(tmp_path: Path, there: str) -> None:
+    """The second change was made from what the first one left, which nobody else has ever seen."""
+    told: list[CarpusFault] = []
+    with opened(tmp_path / "a", there) as a, opened(tmp_path / "b", there) as b:
+        linden = a.patients.add(LINDEN)
+        until(lambda: b.names() == ["Linden 42"])
+        settled(a)
+        a.store.close()
+        with opened(tmp_path / "a") as away:
+            for note in ("first", "second"):
+                version = away.patients.one(linden).version
+                away.patients.change(linden, PatientEntry("Linden 42", "right", note=note), version)
+        b.patients.change(linden, PatientEntry("Linden 42", "right", note="yours"), b.patients.one(linden).version)
+        settled(b)
+        with opened(tmp_path / "a", there, told.append) as back:
+            until(lambda: len(told) == 2)
+            until(lambda: not back.store.rows(select(OUTBOX)))
+            assert back.patients.one(linden).entry.note == b.patients.one(linden).entry.note == "yours"
+    assert [type(one) for one in told] == [ChangedMeanwhile, ChangedMeanwhile]
+
+
+def test_what_was_refused_as_the_program_ended_is_told_at_the_next_start(tmp_path: Path, there: str) -> None:
+    told: list[CarpusFault] = []
+    with opened(tmp_path, there) as house:
+        measure(house, house.patients.add(LINDEN), T0)
+        settled(house)
+        house.store.close()
+    with opened(tmp_path) as house:
+        house.patients.add(HERON)
+        house.store.own(update(OUTBOX).values(refused="ChangedMeanwhile"))
+    with opened(tmp_path, there, told.append) as house:
+        until(lambda: not house.store.rows(select(OUTBOX)))
+    assert [(type(one), one.subject) for one in told] == [(ChangedMeanwhile, "patient")]
+
+
+def test_a_server_that_falls_silent_while_it_is_read_holds_up_nobody(tmp_path: Path, cluster: Cluster) -> None:
+    there = cluster.new_database(f"c{uuid.uuid4().hex[:12]}")
+    wire = Wire(cluster.port)
+    with opened(tmp_path, there.replace(str(cluster.port), str(wire.port))) as house:
+        session_id = measure(house, house.patients.add(LINDEN), T0)
+        settled(house)
+        wire.answers_come = False
+        begin = time.monotonic()
+        for number in range(30):
+            of_sessions.add_comment(house.store, session_id, str(number), "AB")
+            time.sleep(0.1)
+        for _ in range(3):
+            house.patients.change(house.patients.called("Linden 42"), LINDEN, house.patients.listed()[0].version)
+        assert time.monotonic() - begin < 7.0, "one waits for the server's word, and nobody after that"
+        wire.cut()
+        wire.answers_come = True
+        settled(house)
+    wire.close()
+    assert count(there, "comment") == 30
+
+
+def test_measuring_never_waits_and_what_is_new_arrives_once(tmp_path: Path, cluster: Cluster) -> None:
+    there = cluster.new_database(f"c{uuid.uuid4().hex[:12]}")
+    told_a: list[CarpusFault] = []
+    told_b: list[CarpusFault] = []
+    with opened(tmp_path / "a", there, told_a.append) as a, opened(tmp_path / "b", there, told_b.append) as b:
+        linden = a.patients.add(LINDEN)
+        settled(a)
+        until(lambda: b.names() == ["Linden 42"])
+        cluster.stop()
+        try:
+            until(lambda: a.store.is_behind and b.store.is_behind)
+            begin = time.monotonic()
+            session_id = measure(a, linden, T0)
+            for number in range(20):
+                of_sessions.add_comment(a.store, session_id, str(number), "AB")
+            a.patients.change(linden, PatientEntry("Linden 42", "right", note="mine"), a.patients.one(linden).version)
+            b.patients.change(linden, PatientEntry("Linden 42", "right", note="yours"), b.patients.one(linden).version)
+            heron_a, heron_b = a.patients.add(HERON), b.patients.add(HERON)
+            measure(b, heron_b, T0)
+            a.log.note("opened", "session", session_id)
+            assert time.monotonic() - begin < 30.0, "one wait for a server that is gone, times what is done here"
+            assert b.names() == ["Heron 17", "Linden 42"], "patients as last known, with what is new here"
+            assert waiting(a) == 24
+            assert [type(one) for one in told_a].count(ServerGone) == 1, "told once, not at every try"
+        finally:
+            cluster.start()
+        settled(a)
+        settled(b)
+        until(lambda: len(a.names()) == len(b.names()) == 3)
+        assert sorted(a.names()) == sorted(b.names()) == ["Heron 17", "Heron 17 (2)", "Linden 42"]
+        assert any(isinstance(one, PseudonymGiven) for one in told_a + told_b), "told, and nothing of it lost"
+        assert any(isinstance(one, ChangedMeanwhile) for one in told_a + told_b)
+        until(lambda: a.patients.one(linden).entry == b.patients.one(linden).entry)
+        assert a.patients.one(heron_a).session_count + a.patients.one(heron_b).session_count == 1
+        assert [one.text for one in of_sessions.comments(b.store, session_id)] == [str(n) for n in range(20)]
+        assert [one.did for one in read_log(b.store)] == ["opened"], "the log is read of the server"
+
+
+def test_a_change_whose_answer_is_lost_is_made_once(
+    tmp_path: Path, there: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """The connection breaks right after the server has taken it: it is sent again, and there once."""
+    real, broken = Server._send, list[str]()
+
+    def send(self: Server, change_id: str, change: object) -> None:
+        real(self, change_id, change)  # type: ignore[arg-type]
+        if change_id not in broken:
+            broken.append(change_id)
+            raise _cut()
+
+    with opened(tmp_path / "a", there) as a:
+        session_id = measure(a, a.patients.add(LINDEN), T0)
+        settled(a)
+        monkeypatch.setattr(Server, "_send", send)
+        for number in range(2):
+            of_sessions.add_comment(a.store, session_id, str(number), "AB")
+        a.log.note("opened", "session", session_id)
+        until(lambda: waiting(a) == 0)
+        assert len(broken) == 3
+    assert (count(there, "comment"), count(there, "deed")) == (2, 1)
+
+
+def _cut() -> DBAPIError:
+    from sqlalchemy.exc import OperationalError
+
+    return OperationalError("", {}, Exception("server closed the connection unexpectedly"))
+
+
+def test_a_computer_that_joins_brings_what_it_has(tmp_path: Path, there: str) -> None:
+    with opened(tmp_path / "a") as a:
+        linden = a.patients.add(LINDEN)
+        session_id = measure(a, linden, T0)
+        of_sessions.add_comment(a.store, measure(a, PRACTICE, T0), "of nobody", "")
+        of_sessions.add_comment(a.store, session_id, "before", "AB")
+        a.log.note("opened", "session", session_id)
+    with opened(tmp_path / "b") as b:
+        b.patients.add(HERON)
+    with opened(tmp_path / "a", there) as a, opened(tmp_path / "b", there) as b:
+        until(lambda: sorted(a.names()) == sorted(b.names()) == ["Heron 17", "Linden 42"])
+        until(lambda: [one.text for one in of_sessions.comments(b.store, session_id)] == ["before"])
+        settled(a)
+        assert count(there, "deed") == 1
+        assert b.patients.one(linden).session_count == 1
+
+
+def test_the_log_of_the_server_is_only_added_to_as_well(tmp_path: Path, there: str) -> None:
+    with opened(tmp_path / "a", there) as a:
+        a.log.note("locked", "program")
+        settled(a)
+    engine = create_engine(there.replace("postgresql", "postgresql+psycopg"), poolclass=NullPool)
+    for statement in ("UPDATE deed SET who = 'XY'", "DELETE FROM deed", "TRUNCATE deed"):
+        with pytest.raises(DBAPIError, match="only added to"), engine.begin() as connection:
+            connection.execute(text(statement))
+    with engine.connect() as connection:
+        assert connection.execute(select(func.count()).select_from(DEED)).scalar() == 1
+        assert connection.execute(select(func.count()).select_from(PATIENT)).scalar() == 0
+
+
+def test_no_server_at_all_is_told_and_holds_up_nothing(tmp_path: Path) -> None:
+    told: list[CarpusFault] = []
+    begin = time.monotonic()
+    with opened(tmp_path, "postgresql://carpus@127.0.0.1:9/carpus", told.append) as house:
+        house.patients.add(LINDEN)
+        assert time.monotonic() - begin < 3.0
+        until(lambda: bool(told))
+        assert isinstance(told[0], ServerGone)
+        assert house.names() == ["Linden 42"]
+
+
+def test_erased_while_the_server_is_away_leaves_no_name_in_what_waits(tmp_path: Path, cluster: Cluster) -> None:
+    there = cluster.new_database(f"c{uuid.uuid4().hex[:12]}")
+    with opened(tmp_path, there) as house:
+        settled(house)
+        cluster.stop()
+        try:
+            linden, heron = house.patients.add(LINDEN), house.patients.add(HERON)
+            session_id, given = measure(house, linden, T0), measure(house, linden, T0 + timedelta(days=1))
+            house.index.move(given, heron)
+            house.index.one(given).path.with_suffix(".carpusraw").unlink()
+            of_sessions.add_comment(house.store, session_id, "Linden 42 is well", "AB")
+            erasure.erase(house.store, erasure.plan_patient(house.store, linden), house.log)
+            outbox = " ".join(row.change for row in house.store.rows(select(OUTBOX)))
+            assert "Erika Mustermann" not in outbox
+            assert "is well" not in outbox
+            assert traces(tmp_path, "Erika Mustermann", "is well") == []
+        finally:
+            cluster.start()
+        settled(house)
+        assert house.index.owner(given) == heron
+        assert (count(there, "patient"), count(there, "session")) == (1, 1)
+        until(lambda: traces(tmp_path, session_id) == [])
+
+
+def test_what_the_server_may_not_write_waits(tmp_path: Path, there: str) -> None:
+    name = there.rsplit("/", 1)[1]
+    with opened(tmp_path, there) as house:
+        session_id = measure(house, house.patients.add(LINDEN), T0)
+        settled(house)
+    engine = create_engine(there.replace("postgresql", "postgresql+psycopg"), poolclass=NullPool)
+    for only_read in (True, False):
+        with engine.connect().execution_options(isolation_level="AUTOCOMMIT") as connection:
+            connection.execute(text("SET default_transaction_read_only = off"))
+            connection.execute(text(f"ALTER DATABASE {name} SET default_transaction_read_only = {only_read}"))
+        with opened(tmp_path, there) as house:
+            until(lambda: house.store._server is not None and house.store._server._has_looked)
+            if only_read:
+                of_sessions.add_comment(house.store, session_id, "a\0b \ud800", "AB")
+                until(lambda: house.store.is_behind)
+            else:
+                settled(house)
+            assert [one.text for one in of_sessions.comments(house.store, session_id)] == ["a\ufffdb ?"]
+    assert count(there, "comment") == 1

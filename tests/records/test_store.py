@@ -1,0 +1,466 @@
+"""The store of what people type: private, searchable, its list of sessions made anew from files, safe to open twice."""
+
+from __future__ import annotations
+
+import contextlib
+import os
+import random
+import shutil
+import sqlite3
+import stat
+import subprocess
+import sys
+import threading
+from datetime import date, datetime, timedelta
+from pathlib import Path
+
+import pytest
+from sqlalchemy import select, update
+
+from carpus.app.settings import default_data_folder
+from carpus.core.errors import (
+    ChangedMeanwhile,
+    NameUnsuited,
+    OutputNotWritable,
+    PseudonymTaken,
+    RegisterSetAside,
+    RegisterUnreadable,
+    SessionUnreadable,
+)
+from carpus.core.names import name_of
+from carpus.core.output.report_content import RepetitionChoices
+from carpus.core.records import of_clinic, of_sessions, schema
+from carpus.core.records.changes import PRACTICE, new
+from carpus.core.records.database import STORE_FILE
+from carpus.core.records.log import read_log
+from carpus.core.records.pseudonyms import WORDS, suggest_pseudonym
+from carpus.core.records.retention import due
+from carpus.core.records.store import Store
+from carpus.core.records.values import PatientEntry
+from carpus.core.session.reader import read_outline
+from tests.records.samples import HERON, LINDEN, T0, House, measure, opened, record
+
+VERSIONS = Path(schema.__file__).parent / "migrations" / "versions"
+
+
+def test_what_is_entered_is_found_again(tmp_path: Path) -> None:
+    with opened(tmp_path) as house:
+        patient_id = house.patients.add(LINDEN)
+        session_id = measure(house, patient_id, T0)
+    with opened(tmp_path) as house:
+        (found,) = house.patients.listed()
+        assert (found.patient_id, found.entry) == (patient_id, LINDEN)
+        assert (found.session_count, found.last_session, found.last_exercise) == (1, T0, "WRIST_FE")
+        (session,) = house.index.of_patient(patient_id)
+        assert (session.session_id, session.created, session.hand, session.frames) == (session_id, T0, "right", 4)
+        assert session.path.parent.name == patient_id
+        assert session.duration_s == pytest.approx(0.1)
+        assert (session.complete, session.by) == (True, "AB")
+        assert house.index.one(session_id) == session
+        row = house.store.row(select(schema.SESSION))
+        assert row is not None
+        assert (row.seal, row.size) == (read_outline(session.path).seal, session.path.stat().st_size)
+        assert row.seal.startswith("sha256:")
+
+
+def test_the_last_session_comes_first(tmp_path: Path) -> None:
+    with opened(tmp_path) as house:
+        never = house.patients.add(PatientEntry("Fir 12", "left"), T0 + timedelta(days=9))
+        linden, heron = house.patients.add(LINDEN, T0), house.patients.add(HERON, T0)
+        measure(house, linden, T0 + timedelta(days=2))
+        measure(house, heron, T0 + timedelta(days=1))
+        assert house.names() == ["Linden 42", "Heron 17", "Fir 12"]
+        # another zone: ten in the morning in Sydney is before nine in the evening in London
+        later = datetime.fromisoformat("2026-11-13T21:00:00+00:00")
+        measure(house, linden, datetime.fromisoformat("2026-11-14T07:00:00+11:00"))
+        measure(house, heron, later)
+        assert house.names() == ["Heron 17", "Linden 42", "Fir 12"]
+        assert house.patients.one(heron).last_session == later
+        assert [s.created.day for s in house.index.of_patient(linden)] == [14, 11]
+        assert house.index.of_patient(never) == []
+
+
+@pytest.mark.parametrize(
+    ("search", "found"),
+    [
+        ("", {"Linden 42", "Heron 17"}),
+        ("lind", {"Linden 42"}),
+        ("42 linden", {"Linden 42"}),
+        ("MUSTER", {"Linden 42"}),
+        ("tendon", {"Linden 42"}),
+        ("17", {"Heron 17"}),
+        ("heron 42", set()),
+        ("%", set()),
+    ],
+)
+def test_search(tmp_path: Path, search: str, found: set[str]) -> None:
+    with opened(tmp_path) as house:
+        house.patients.add(LINDEN)
+        house.patients.add(HERON)
+        assert set(house.names(search)) == found
+
+
+def test_a_pseudonym_belongs_to_one_patient(tmp_path: Path) -> None:
+    with opened(tmp_path) as house:
+        linden, heron = house.patients.add(LINDEN), house.patients.add(HERON)
+        for taken in ("LINDEN 42", " linden 42", "Ｌinden 42"):
+            with pytest.raises(PseudonymTaken):
+                house.patients.add(PatientEntry(taken, "left"))
+        with pytest.raises(PseudonymTaken):
+            house.patients.change(heron, PatientEntry("linden 42", "left"))
+        house.patients.change(linden, PatientEntry("linden 42", "both", note="changed"))
+        assert house.patients.one(linden).entry.note == "changed"
+        assert house.patients.one(heron).entry == HERON
+        assert house.patients.called("LINDEN 42") == linden
+        with pytest.raises(ChangedMeanwhile):
+            house.patients.change("nobody", PatientEntry("Oak 11", "left"))
+        with pytest.raises(KeyError):
+            house.patients.one("nobody")
+        with pytest.raises(KeyError):
+            house.index.one("nothing")
+
+
+def test_a_new_name_keeps_the_sessions_through_a_rebuild(tmp_path: Path) -> None:
+    with opened(tmp_path) as house:
+        patient_id = house.patients.add(LINDEN)
+        measure(house, patient_id, T0)
+        house.patients.change(patient_id, PatientEntry("Oak 11", "right"))
+        house.files.take_in()
+        assert house.names() == ["Oak 11"]
+        assert len(house.index.of_patient(patient_id)) == 1
+
+
+def test_a_lost_list_of_sessions_is_made_again_from_the_files(tmp_path: Path) -> None:
+    with opened(tmp_path) as house:
+        linden, heron = house.patients.add(LINDEN), house.patients.add(HERON)
+        before = {measure(house, linden, T0 + timedelta(days=day)) for day in range(3)} | {measure(house, heron, T0)}
+    for path in tmp_path.glob(f"{STORE_FILE}*"):
+        path.unlink()
+    with opened(tmp_path) as house:
+        assert house.files.take_in().patients_added == 2
+        assert house.names() == ["Linden 42", "Heron 17"]
+        people = house.patients.listed()
+        assert {e.session_id for one in people for e in house.index.of_patient(one.patient_id)} == before
+        entry = people[0].entry
+        assert (entry.side, entry.name, entry.note) == ("right", "", "")  # names were only in the store
+
+
+def test_a_look_finds_what_was_copied_in_and_loses_nothing_whose_file_is_away(tmp_path: Path) -> None:
+    with opened(tmp_path) as house:
+        linden, folder = house.patients.add(LINDEN), house.store.sessions_folder
+        away = house.index.one(measure(house, linden, T0))
+        of_sessions.add_comment(house.store, away.session_id, "still written", "AB")
+        away.path.rename(folder / "moved.h5")
+        record(folder / "from elsewhere" / "a.h5", "linden 42", T0 + timedelta(days=1))
+        record(folder / "b.h5", "Wren 33", T0, "left")
+        record(folder / "c.h5", "Wren 33", T0, "right")
+        record(folder / "d.h5", "", T0)
+        (folder / "e.h5").write_bytes((folder / "d.h5").read_bytes())
+        (folder / "junk.h5").write_text("not a session")
+        (folder / "s.h5.12345678.part").write_text("being recorded")
+        found = house.files.take_in()
+        assert (found.sessions, found.patients_added) == (5, 1)
+        assert [fault.subject for fault in found.faults] == [str(folder / "junk.h5")]
+        assert house.patients.one(linden).entry == LINDEN
+        assert [entry.path.name for entry in house.index.of_patient(linden)] == ["a.h5", "moved.h5"]
+        assert house.patients.one(house.patients.called("Wren 33")).session_count == 2
+        assert house.patients.one(house.patients.called("Wren 33")).entry.side == "both"
+        (folder / "moved.h5").unlink()
+        again = house.files.take_in()
+        assert (again.sessions, again.patients_added, again.faults) == (0, 0, ())
+        assert house.index.one(away.session_id).path == folder / "moved.h5", "opening it tells that its file is away"
+        assert [one.text for one in of_sessions.comments(house.store, away.session_id)] == ["still written"]
+
+
+@pytest.mark.parametrize("how", ["exchanged", "moved over", "copied over", "another's"])
+def test_a_file_in_another_s_place_is_listed_as_what_it_is(tmp_path: Path, how: str) -> None:
+    with opened(tmp_path) as house:
+        ids = [measure(house, house.patients.add(entry), T0) for entry in (LINDEN, HERON)]
+        of_sessions.add_comment(house.store, ids[0], "mine", "AB")
+        mine, other = (house.index.one(one).path for one in ids)
+        if how == "exchanged":
+            mine.rename(tmp_path / "aside")
+            other.rename(mine)
+            (tmp_path / "aside").rename(other)
+        elif how == "moved over":
+            other.rename(mine)
+        elif how == "copied over":
+            shutil.copy(other, mine)
+        else:
+            mine.unlink()
+            record(mine, "Wren 12", T0 + timedelta(days=1))
+        for path in (mine, other):
+            if path.exists():
+                os.utime(path, ns=(1, 1))
+        for _ in range(2):
+            house.files.take_in()
+            for session_id in ids:
+                path = house.index.one(session_id).path
+                assert not path.exists() or read_outline(path).header.session_id == session_id
+            assert house.index.one(ids[1]).path.exists()
+            assert [one.text for one in of_sessions.comments(house.store, ids[0])] == ["mine"]
+        assert house.names("Wren") == (["Wren 12"] if how == "another's" else [])
+
+
+def test_a_time_that_is_none_hides_nothing(tmp_path: Path) -> None:
+    with opened(tmp_path) as house:
+        linden = house.patients.add(LINDEN, T0)
+        session_id = measure(house, linden, T0)
+        of_sessions.add_comment(house.store, session_id, "well", "AB")
+        of_clinic.note_backup(house.store, T0, "place", 1, 1)
+        house.store.do([new(schema.DEED, "0", at="soon", at_ns=0, facts="{}")])
+        house.index.archive(session_id)
+        house.patients.archive(linden)
+        for table, names in {
+            schema.SESSION: ("archived", "recorded", "created"), schema.PATIENT: ("archived", "last"),
+            schema.COMMENT: ("entered",), schema.BACKUP: ("made",),
+        }.items():  # fmt: skip
+            unzoned = dict.fromkeys(names, "2026-10-09T09:51")
+            house.store.own(update(table).where(table.c.id != PRACTICE).values(unzoned))
+        assert [(one.session_id, when) for one, _, when in house.index.archived()] == [(session_id, T0)]
+        assert house.patients.archived() == {linden: T0}
+        assert [one.text for one in of_sessions.comments(house.store, session_id)] == ["well"]
+        last = of_clinic.last_backup(house.store)
+        assert last is not None
+        assert last.missing == 1, "nobody knows since when"
+        assert [one.patient_id for one in due(house.store, 10, date(2050, 1, 1))] == [linden]
+        assert len(read_log(house.store)) == 1
+
+
+def test_the_data_folder_can_be_moved(tmp_path: Path) -> None:
+    with opened(tmp_path / "old") as house:
+        patient_id = house.patients.add(LINDEN)
+        measure(house, patient_id, T0)
+    (tmp_path / "old").rename(tmp_path / "new")
+    with opened(tmp_path / "new") as house:
+        (session,) = house.index.of_patient(patient_id)
+        assert session.path.is_file()
+        assert session.path.is_relative_to(tmp_path / "new")
+
+
+def test_folders_and_files_are_for_their_owner_only(tmp_path: Path) -> None:
+    folder = tmp_path / "data"
+    folder.mkdir(mode=0o755)
+    with opened(folder) as house:
+        patient_id = house.patients.add(LINDEN)
+        path = house.index.new_path(patient_id, "Linden 42", "WRIST_FE", "right", T0)
+        found = {p: stat.S_IMODE(p.stat().st_mode) for p in (folder, *folder.rglob("*"))}
+    assert path.parent in found
+    assert any(p.name.endswith("-wal") for p in found)
+    for p, mode in found.items():
+        assert mode == (0o700 if p.is_dir() else 0o600), p
+
+
+def test_names_are_in_the_store_only(tmp_path: Path) -> None:
+    with opened(tmp_path) as house:
+        measure(house, house.patients.add(LINDEN), T0)
+    holding = {p.name for p in tmp_path.rglob("*") if p.is_file() and b"Mustermann" in p.read_bytes()}
+    assert holding == {STORE_FILE}
+
+
+def test_paths_of_new_sessions_are_free_and_speak(tmp_path: Path) -> None:
+    with opened(tmp_path) as house:
+        patient_id = house.patients.add(LINDEN)
+        first = house.index.new_path(patient_id, "Linden 42", "wrist: up/down", "left", T0)
+        assert first.name == "Linden-42_2026-10-09_095100_wrist-up-down_left.h5"
+        first.write_text("")
+        second = house.index.new_path(patient_id, "Linden 42", "wrist: up/down", "left", T0)
+        assert second != first
+        assert second.parent == first.parent
+
+
+def test_several_threads_and_two_programs_at_once(tmp_path: Path) -> None:
+    faults: list[BaseException] = []
+
+    def work(house: House, start: int) -> None:
+        try:
+            for number in range(start, start + 20):
+                house.patients.add(PatientEntry(f"Oak {number}", "left"))
+                house.patients.listed("oak")
+        except BaseException as fault:
+            faults.append(fault)
+
+    with opened(tmp_path) as one, opened(tmp_path) as other:
+        threads = [
+            threading.Thread(target=work, args=(house, start))
+            for house, start in ((one, 100), (one, 200), (other, 300), (other, 400))
+        ]
+        for thread in threads:
+            thread.start()
+        for thread in threads:
+            thread.join()
+        assert not faults
+        assert len(one.names()) == len(other.names()) == 80
+
+
+def test_a_data_folder_that_cannot_be_made(tmp_path: Path) -> None:
+    (tmp_path / "file").write_text("")
+    with pytest.raises(OutputNotWritable):
+        Store(tmp_path / "file" / "data")
+
+
+def test_the_data_folder_is_the_user_s(own_folders: Path) -> None:
+    assert default_data_folder().name == "carpus"
+    assert default_data_folder().is_relative_to(own_folders)
+
+
+def test_pseudonyms_are_speakable_free_and_without_end() -> None:
+    assert len(set(WORDS)) == len(WORDS)
+    assert all(word.isalpha() and len(word) <= 8 for word in WORDS)
+    taken = {f"{word} {number}" for word in WORDS for number in range(10, 100)}
+    free = sorted(taken)[17]
+    assert suggest_pseudonym(taken - {free}) == free
+    assert suggest_pseudonym({name.upper() for name in taken}) == f"{WORDS[0]} 100"
+    assert suggest_pseudonym((), random.Random(1)) == suggest_pseudonym((), random.Random(1))
+    assert len({suggest_pseudonym((), random.Random(seed)) for seed in range(50)}) > 40
+
+
+def test_the_store_suggests_what_nobody_has(tmp_path: Path) -> None:
+    with opened(tmp_path) as house:
+        first = house.patients.suggest_pseudonym(random.Random(3))
+        house.patients.add(PatientEntry(first, "left"))
+        assert house.patients.suggest_pseudonym(random.Random(3)) != first
+
+
+def test_an_entry_needs_a_pseudonym_and_a_known_age_band() -> None:
+    with pytest.raises(ValueError, match="pseudonym"):
+        PatientEntry("  ", "left")
+    with pytest.raises(ValueError, match="age band"):
+        PatientEntry("Oak 11", "left", age_band="43")
+
+
+def test_what_a_damaged_file_says_of_itself_keeps_no_start_from_going_on(tmp_path: Path) -> None:
+    """Bytes in a file that are no text come out of HDF5 as lone surrogates, which no database and no log takes."""
+    with opened(tmp_path) as house:
+        path = house.store.sessions_folder / "1.h5.part"
+        path.write_bytes(b"nothing")
+        fault = SessionUnreadable(path, "unknown protocol 'wr\udc80st6'")
+        assert house.files.first_told([fault]) == [fault]
+        assert house.files.first_told([fault]) == []
+        assert "wr\\udc80st6" in fault.detail
+        str(fault).encode("utf-8")
+
+
+def test_two_people_change_one_thing_and_the_second_is_told(tmp_path: Path) -> None:
+    with opened(tmp_path) as one, opened(tmp_path) as other:
+        linden = one.patients.add(LINDEN)
+        session_id = measure(one, linden, T0)
+        read = other.patients.one(linden)
+        one.patients.change(linden, PatientEntry("Linden 42", "right", note="mine"), read.version)
+        with pytest.raises(ChangedMeanwhile):
+            other.patients.change(linden, PatientEntry("Linden 42", "right", note="yours"), read.version)
+        assert other.patients.one(linden).entry.note == "mine"
+        for mine, yours in (({0: "pain"}, {1: ""}), ({2: ""}, {3: ""})):
+            _, version = of_sessions.choices(other.store, session_id)
+            of_sessions.keep_choices(one.store, session_id, RepetitionChoices(mine), version)
+            with pytest.raises(ChangedMeanwhile):
+                of_sessions.keep_choices(other.store, session_id, RepetitionChoices(yours), version)
+            assert of_sessions.choices(other.store, session_id)[0].left_out == mine
+
+
+def test_a_session_that_comes_meanwhile_is_no_change_of_the_patient_s_entry(tmp_path: Path) -> None:
+    with opened(tmp_path) as house:
+        linden = house.patients.add(LINDEN)
+        version = house.patients.one(linden).version
+        measure(house, linden, T0)
+        house.patients.change(linden, HERON, version)
+
+
+def test_programs_comment_on_one_session_at_once_and_nothing_is_lost(tmp_path: Path) -> None:
+    with opened(tmp_path) as house:
+        session_id = measure(house, house.patients.add(LINDEN), T0)
+        code = (
+            "import sys; from pathlib import Path; from carpus.core.records.of_sessions import add_comment\n"
+            "from carpus.core.records.store import Store\n"
+            "with Store(Path(sys.argv[1])) as store:\n"
+            "    for number in range(40): add_comment(store, sys.argv[2], f'{sys.argv[3]} {number}', 'AB')"
+        )
+        running = [
+            subprocess.Popen([sys.executable, "-c", code, str(tmp_path), session_id, name]) for name in ("one", "other")
+        ]
+        assert [one.wait(120) for one in running] == [0, 0]
+        texts = [one.text for one in of_sessions.comments(house.store, session_id)]
+        assert sorted(texts) == sorted(f"{name} {number}" for name in ("one", "other") for number in range(40))
+        assert [text for text in texts if text.startswith("one")] == [f"one {number}" for number in range(40)]
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "Lin\u00adden 42",
+        "Linden\u200b 42",
+        "\u202eLinden",
+        "Lin\nden",
+        "Lin\ud800den",
+        "Lin\0den",
+        "Lin\u3164den",
+        "Fir\ufe0f",
+        "x" * 101,
+    ],
+)
+def test_a_name_with_signs_that_nobody_sees_is_refused(tmp_path: Path, text: str) -> None:
+    with opened(tmp_path) as house:
+        with pytest.raises(NameUnsuited):
+            house.patients.add(PatientEntry(text, "left"))
+        with pytest.raises(NameUnsuited):
+            house.patients.add(PatientEntry("Oak 11", "left", name=text))
+        assert house.names() == []
+
+
+def test_names_are_composed_and_of_any_language() -> None:
+    assert name_of("Zoe\u0308 3") == "Zo\u00eb 3"
+    assert name_of("Fir  11") == "Fir 11"
+    for name in ("Müller-Lüdenscheidt", "李 小龍", "Ольга 7", "O’Neill 12"):
+        assert name_of(f"  {name} ") == name
+
+
+def test_pseudonyms_that_differ_by_a_stroke_share_no_folder(tmp_path: Path) -> None:
+    with opened(tmp_path) as house:
+        folders = set()
+        for pseudonym in ("Fir 11", "Fir-11", "Fir_11", "fir.11"):
+            patient_id = house.patients.add(PatientEntry(pseudonym, "left"))
+            folders.add(house.index.new_path(patient_id, pseudonym, "WRIST_FE", "left", T0).parent)
+        assert len(folders) == 4
+
+
+@pytest.mark.parametrize("content", [b"this is no store at all" * 100, b"SQLite format 3\0" + b"x" * 5000])
+def test_a_damaged_store_is_set_aside_told_and_made_again(tmp_path: Path, content: bytes) -> None:
+    (tmp_path / STORE_FILE).write_bytes(content)
+    with Store(tmp_path) as store:
+        (fault,) = store.told
+        assert isinstance(fault, RegisterSetAside)
+        assert Path(fault.subject).read_bytes() == content
+
+
+def test_a_store_of_a_newer_carpus_is_told_and_left_as_it_is(tmp_path: Path) -> None:
+    Store(tmp_path).close()
+    with contextlib.closing(sqlite3.connect(tmp_path / STORE_FILE)) as database:
+        database.execute("UPDATE alembic_version SET version_num = '99'")
+        database.commit()
+    with pytest.raises(RegisterUnreadable, match="version 99, this Carpus reads up to 1"):
+        Store(tmp_path)
+    assert not list(tmp_path.glob("*damaged*"))
+
+
+def test_the_first_version_is_read_and_its_script_is_what_the_tables_say(tmp_path: Path) -> None:
+    """The golden file was made by the first version; when the tables change, a second script comes beside the first,
+    and this file is raised by it."""
+    golden = Path(__file__).with_name("golden") / "version-1.sqlite3"
+    (tmp_path / STORE_FILE).write_bytes(golden.read_bytes())
+    with opened(tmp_path) as house:
+        (linden,) = house.patients.listed("muster")
+        (session,) = house.index.of_patient(linden.patient_id)
+        assert (linden.entry, session.exercise) == (LINDEN, "WRIST_FE")
+        assert [one.text for one in of_sessions.comments(house.store, session.session_id)] == ["Less swelling."]
+    assert schema.VERSION == "1"
+    for dialect in ("sqlite", "postgresql"):
+        assert (VERSIONS / f"1.{dialect}.sql").read_text(encoding="utf-8") == schema.statements(dialect)
+
+
+def test_tracking_a_file_loads_no_database(tmp_path: Path) -> None:
+    code = (
+        "import sys; import carpus.app.commands.track, carpus.core.pipeline.track, carpus; carpus.track\n"
+        "print([one for one in sys.modules if one.split('.')[0] in ('sqlalchemy', 'alembic', 'psycopg', 'sqlite3')])"
+    )
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    assert done.stdout.strip() == "[]"

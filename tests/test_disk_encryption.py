@@ -1,0 +1,138 @@
+"""Whether a disk is encrypted, of systems that are files here: mounts and devices as Linux shows them."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+
+import pytest
+
+from carpus.core.disk_encryption import (
+    bitlocker_state,
+    disk_encryption_finding,
+    disk_state,
+    filevault_state,
+    linux_state,
+    switching_on,
+)
+
+HOME = Path("/home/ada/Carpus data")
+
+
+class System:
+    """A root with mounts and devices."""
+
+    def __init__(self, root: Path) -> None:
+        self.root = root
+        for folder in ("proc/self", "sys/dev/block", "sys/class/block", "sys/devices", "dev/mapper"):
+            (root / folder).mkdir(parents=True)
+        self.mounts: list[str] = []
+
+    def device(self, name: str, number: str, *, uuid: str = "", on: Sequence[str] = ()) -> None:
+        device = self.root / "sys/devices" / name
+        (device / "slaves").mkdir(parents=True)
+        if uuid:
+            (device / "dm").mkdir()
+            (device / "dm/uuid").write_text(f"{uuid}\n")
+        for under in on:
+            (device / "slaves" / under).symlink_to(self.root / "sys/devices" / under)
+        (self.root / "sys/dev/block" / number).symlink_to(device)
+        (self.root / "sys/class/block" / name).symlink_to(device)
+        (self.root / "dev" / name).touch()
+
+    def mount(self, number: str, place: str, kind: str, source: str) -> None:
+        self.mounts.append(f"{30 + len(self.mounts)} 1 {number} / {place} rw shared:1 - {kind} {source} rw")
+        (self.root / "proc/self/mountinfo").write_text("\n".join(self.mounts) + "\n")
+
+    def state(self, folder: Path = HOME) -> str:
+        return linux_state(folder, self.root)
+
+
+@pytest.fixture
+def system(tmp_path: Path) -> System:
+    made = System(tmp_path)
+    made.device("sda1", "8:1")
+    made.device("sda2", "8:2")
+    made.mount("8:1", "/", "ext4", "/dev/sda1")
+    return made
+
+
+def test_a_partition_is_plain_and_one_that_luks_opened_is_encrypted(system: System) -> None:
+    assert system.state() == "plain"
+    system.device("dm-0", "254:0", uuid="CRYPT-LUKS2-0c2f-home", on=["sda2"])
+    system.mount("254:0", "/home", "ext4", "/dev/mapper/home")
+    assert system.state() == "encrypted"
+    assert system.state(Path("/srv/data")) == "plain", "another mount"
+
+
+def test_volumes_are_encrypted_where_everything_under_them_is(system: System) -> None:
+    system.device("dm-0", "254:0", uuid="CRYPT-LUKS2-0c2f-all", on=["sda2"])
+    system.device("dm-1", "254:1", uuid="LVM-abcdef", on=["dm-0"])
+    system.mount("254:1", "/home", "xfs", "/dev/mapper/vg-home")
+    assert system.state() == "encrypted"
+    system.device("dm-2", "254:2", uuid="LVM-ghijkl", on=["dm-0", "sda1"])
+    system.mount("254:2", "/home/ada", "xfs", "/dev/mapper/vg-ada")
+    assert system.state() == "plain", "half of it lies on a plain disk"
+
+
+def test_btrfs_shows_no_number_and_is_found_by_the_name_of_its_device(system: System) -> None:
+    system.device("dm-0", "254:0", uuid="CRYPT-LUKS2-0c2f-all", on=["sda2"])
+    (system.root / "dev/mapper/luks-0c2f").symlink_to("../dm-0")
+    system.mount("0:32", "/home", "btrfs", "/dev/mapper/luks-0c2f")
+    assert system.state() == "encrypted"
+    system.mount("0:33", "/home/ada", "btrfs", "/dev/sda2")
+    assert system.state() == "plain"
+
+
+def test_a_place_with_a_blank_is_found_and_of_two_mounts_on_one_place_the_later(system: System) -> None:
+    system.device("dm-0", "254:0", uuid="CRYPT-LUKS2-0c2f", on=["sda2"])
+    system.mount("254:0", "/home/ada/Carpus\\040data", "ext4", "/dev/mapper/x")
+    assert system.state() == "encrypted"
+    system.mount("8:1", "/home/ada/Carpus\\040data", "ext4", "/dev/sda1")
+    assert system.state() == "plain"
+
+
+def test_what_lies_elsewhere_is_not_known(system: System) -> None:
+    for kind, source in (("overlay", "overlay"), ("nfs4", "server:/share"), ("cifs", "//server/share"), ("zfs", "p/x")):
+        system.mount("0:44", "/home", kind, source)
+        assert system.state() == "unknown", kind
+
+
+def test_a_device_that_is_not_there_a_file_as_disk_and_no_system_at_all_are_not_known(system: System) -> None:
+    system.mount("9:9", "/home", "ext4", "/dev/sdz9")
+    assert system.state() == "unknown"
+    system.device("loop0", "7:0")
+    (system.root / "sys/devices/loop0/loop").mkdir()
+    system.mount("7:0", "/home/ada", "ext4", "/dev/loop0")
+    assert system.state() == "unknown"
+
+
+def test_a_file_system_that_encrypts_by_itself(system: System) -> None:
+    system.mount("0:50", "/home/ada", "ecryptfs", "/home/.ecryptfs/ada")
+    assert system.state() == "encrypted"
+
+
+def test_bitlocker_and_filevault() -> None:
+    answers = {"1\r\n": "encrypted", "2\n": "plain", "3\n": "plain", "6\n": "unknown", "": "unknown"}
+    for said, state in answers.items():
+        assert bitlocker_state(Path("C:/data"), lambda _, said=said: said) == state  # type: ignore[misc]
+    root = Path("/")
+    assert filevault_state(root, lambda _: "  Mounted:   Yes\n  FileVault:     Yes (Unlocked)\n") == "encrypted"
+    assert filevault_state(root, lambda _: "  Mounted:   Yes\n  FileVault:     No\n") == "plain"
+    assert filevault_state(root, lambda _: "  Encrypted:     Yes\n") == "encrypted"
+    assert filevault_state(root, lambda command: " ".join(command)) == "unknown"
+
+
+def test_this_computer_answers_without_a_fault(tmp_path: Path) -> None:
+    assert disk_state(tmp_path / "not there yet") in ("encrypted", "plain", "unknown")
+
+
+def test_only_an_encrypted_disk_is_good_and_every_other_has_a_remedy() -> None:
+    assert disk_encryption_finding("encrypted").state == "good"
+    for state in ("plain", "unknown"):
+        finding = disk_encryption_finding(state)  # type: ignore[arg-type]
+        assert finding.state == "warning"
+        assert switching_on() in finding.remedy
+    assert "BitLocker" in switching_on("win32")
+    assert "FileVault" in switching_on("darwin")
+    assert "LUKS" in switching_on("linux")

@@ -1,0 +1,120 @@
+"""The store killed while it writes: comments, corrections, an erasure, deliveries to a server. What was said to be done
+is there once, nothing is half, nothing is left of what was erased."""
+
+from __future__ import annotations
+
+import shutil
+import subprocess
+import sys
+import time
+import uuid
+from pathlib import Path
+
+import numpy as np
+from sqlalchemy import create_engine, text
+from sqlalchemy.pool import NullPool
+
+from carpus.core.library.library import Library
+from carpus.core.records import erasure, of_sessions
+from tests.records.postgres import Cluster
+from tests.records.samples import HERON, LINDEN, T0, House, measure, opened, traces
+from tests.torture.kills import ROOT
+
+KINDS = ("comment", "correction", "erasure", "delivery")
+LONGEST_S = 0.4
+NAMES = ("Linden", "Erika Mustermann")
+CHILD = """
+import itertools, sys
+from pathlib import Path
+from carpus.core.output.report_content import RepetitionChoices
+from carpus.core.records import erasure, of_sessions
+from tests.records.samples import opened
+kind, folder, session_id, url = sys.argv[1:]
+with opened(Path(folder), url) as house:
+    print("begun", flush=True)
+    if kind == "erasure":
+        erasure.erase(house.store, erasure.plan_patient(house.store, house.index.owner(session_id)), house.log)
+        print("done", flush=True)
+    version = 0
+    for number in itertools.count() if kind != "erasure" else ():
+        if kind == "correction":
+            version = of_sessions.keep_choices(house.store, session_id, RepetitionChoices({0: str(number)}), version)
+        else:
+            of_sessions.add_comment(house.store, session_id, str(number), "AB")
+        print(number, flush=True)
+"""
+
+
+def line(kind: str, count: int, folder: Path) -> str:
+    """So many kills of a kind, each looked at; AssertionError for anything lost, half, twice or left."""
+    folder.mkdir(parents=True)
+    cluster = Cluster() if kind == "delivery" else None
+    try:
+        done = [_kill(kind, number, folder / str(number), cluster) for number in range(count)]
+    finally:
+        if cluster is not None:
+            cluster.end()
+    return f"kills, {kind}: {count}, {sum(done)} after something was said to be done; nothing lost, half, twice or left"
+
+
+def _kill(kind: str, number: int, folder: Path, cluster: Cluster | None) -> bool:
+    url = "" if cluster is None else cluster.new_database(f"c{uuid.uuid4().hex[:12]}")
+    with opened(folder) as house:
+        linden, heron = house.patients.add(LINDEN), house.patients.add(HERON)
+        session_id, other = measure(house, linden, T0), measure(house, heron, T0)
+    command = [sys.executable, "-c", CHILD, kind, str(folder), session_id, url]
+    with subprocess.Popen(command, cwd=ROOT, stdout=subprocess.PIPE, text=True) as child:
+        assert child.stdout is not None
+        assert child.stdout.readline() == "begun\n"
+        time.sleep(np.random.default_rng(number).uniform(0.0, 0.1 if kind == "erasure" else LONGEST_S))
+        child.kill()
+        said = child.stdout.read().split()
+    said = said if not said or said[-1].isdigit() or said[-1] == "done" else said[:-1]
+    if kind == "erasure":
+        _check_erased(folder, linden, session_id, bool(said))
+    else:
+        with opened(folder, url) as house:
+            _check_written(house, kind, session_id, [int(one) for one in said])
+            assert house.store.told == [], "the store was not damaged"
+            if url:
+                _check_delivered(url, len(of_sessions.comments(house.store, session_id)))
+    with opened(folder) as house:
+        assert house.index.one(other).path.exists()
+    shutil.rmtree(folder)
+    return bool(said)
+
+
+def _check_written(house: House, kind: str, session_id: str, said: list[int]) -> None:
+    if kind == "correction":
+        choices, _ = of_sessions.choices(house.store, session_id)
+        assert not said or int(choices.left_out[0]) in (said[-1], said[-1] + 1)
+    else:
+        there = [int(one.text) for one in of_sessions.comments(house.store, session_id)]
+        assert there == list(range(len(there)))
+        assert len(there) - len(said) in (0, 1)
+
+
+def _check_delivered(url: str, wanted: int) -> None:
+    engine = create_engine(url.replace("postgresql", "postgresql+psycopg"), poolclass=NullPool)
+    end = time.monotonic() + 60.0
+    while True:
+        with engine.connect() as connection:
+            made = bool(connection.execute(text("SELECT to_regclass('comment')")).scalar())
+            query = "SELECT count(*), count(DISTINCT text) FROM comment"
+            found = tuple(connection.execute(text(query)).one()) if made else (0, 0)
+        if found == (wanted, wanted):
+            return
+        assert time.monotonic() < end, f"{found} delivered of {wanted}"
+        time.sleep(0.1)
+
+
+def _check_erased(folder: Path, patient_id: str, session_id: str, done: bool) -> None:
+    Library(folder).close()  # the next start
+    with opened(folder) as house:
+        begun = "Linden 42" not in house.names()
+        assert begun or not done
+        if not begun:
+            assert house.index.one(session_id).path.exists()
+            assert erasure.plan_patient(house.store, patient_id).files
+    if begun:
+        assert traces(folder, *NAMES, patient_id, session_id) == []

@@ -1,0 +1,93 @@
+"""How a disc's noise follows its residuals, and its size what is seen of it."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from carpus.core.depth_sensor import AZURE_KINECT, D435, PRIMESENSE, DepthSensor
+from carpus.core.tracking.adaptive_noise import adapted_factor
+from carpus.core.tracking.finger_settings import FingerSettings
+from carpus.core.tracking.fingers import learnt_sizes
+from carpus.core.tracking.palm_association import measurements_of
+from carpus.core.tracking.settings import MeasurementNoise, TrackerSettings
+from carpus.core.types import Detections, FloatArray
+
+NOISE = MeasurementNoise()
+DT_S = 1.0 / 30.0
+ALL = np.ones((1, 3), dtype=bool)
+
+
+def after(seconds: float, residual: tuple[float, float, float], dt_s: float = DT_S) -> FloatArray:
+    """The factors (3,) of a disc whose residuals stay so."""
+    factor = np.ones((1, 3))
+    for _ in range(round(seconds / dt_s)):
+        factor = adapted_factor(factor, np.array([residual]), ALL, dt_s, NOISE)
+    return np.asarray(factor[0])
+
+
+def test_what_goes_wrong_sideways_makes_both_pixels_unsure_and_leaves_the_depth() -> None:
+    u, v, depth = after(0.2, (3.0, 0.0, 1.0))
+    assert u == pytest.approx(v)
+    assert u > 1.5
+    assert depth == pytest.approx(1.0)
+    assert after(0.2, (1.0, 1.0, 3.0))[2] > 1.5
+
+
+def test_residuals_of_either_pixel_are_averaged_not_added() -> None:
+    assert after(1.0, (math.sqrt(2.0), 0.0, 1.0))[:2] == pytest.approx([1.0, 1.0])
+    assert after(1.0, (1.0, 1.0, 1.0)) == pytest.approx([1.0, 1.0, 1.0])
+
+
+def test_noise_is_judged_over_half_a_second_whatever_the_rate_of_pictures() -> None:
+    assert after(0.5, (1.5, 1.5, 1.0))[0] == pytest.approx(math.exp(1.25), rel=0.12)
+    assert after(0.5, (1.5, 1.5, 1.0), DT_S / 4.0)[0] == pytest.approx(math.exp(1.25), rel=0.03)
+
+
+def test_factors_stay_within_their_bounds_and_unmeasured_ones_where_they_were() -> None:
+    assert after(5.0, (20.0, 20.0, 20.0)) == pytest.approx(np.full(3, NOISE.most_adapted))
+    assert after(5.0, (0.0, 0.0, 0.0)) == pytest.approx(np.full(3, NOISE.least_adapted))
+    factor = np.array([[2.0, 2.0, 3.0]])
+    nothing = np.zeros((1, 3), dtype=bool)
+    assert np.array_equal(adapted_factor(factor, np.full((1, 3), 9.0), nothing, DT_S, NOISE), factor)
+    without_depth = np.array([[True, True, False]])
+    assert adapted_factor(factor, np.full((1, 3), 9.0), without_depth, DT_S, NOISE)[0, 2] == 3.0
+
+
+@pytest.mark.parametrize("sensor", [PRIMESENSE, D435, AZURE_KINECT], ids=lambda sensor: sensor.kind)
+def test_a_depth_is_worth_what_the_still_hand_showed_and_what_stays_besides(sensor: DepthSensor) -> None:
+    """Twice the book's scatter is four times its variance; the sensor's pattern and a steep slope come on top."""
+    settings = TrackerSettings(noise=replace(NOISE, depth_ratio=2.0))
+    area, steep_m = np.full(2, math.pi * 25.0), 0.002
+    book_m, pattern_m = float(sensor.disc_sd_m(np.array(0.7), area[0])), float(sensor.stays_sd_m(np.array(0.7)))
+    said_m = np.array([book_m, math.hypot(book_m, steep_m)])
+    seen = Detections(np.zeros((2, 2)), np.full(2, 0.7), said_m, area, np.ones(2))
+    flat, steep = measurements_of(seen, 5.0, settings, sensor).variance[:, 2]
+    assert flat == pytest.approx(4.0 * book_m**2 + pattern_m**2)
+    assert steep == pytest.approx(flat + steep_m**2)
+
+
+def sizes(pictures: int, known: float, seen: float) -> float:
+    size = np.array([[known]])
+    for _ in range(pictures):
+        size = learnt_sizes(size, np.array([[seen]]), FingerSettings())
+    return float(size[0, 0])
+
+
+def test_a_disc_half_hidden_at_first_has_its_size_within_half_a_second() -> None:
+    assert sizes(15, 50.0, 100.0) > 97.0
+    assert sizes(2, 50.0, 100.0) < 72.0, "one bad picture is not believed"
+
+
+def test_a_disc_half_hidden_for_half_a_second_keeps_its_size() -> None:
+    assert 80.0 < sizes(15, 100.0, 50.0) < 92.0
+    assert sizes(300, 100.0, 50.0) < 52.0, "in the long run what is seen is believed"
+
+
+def test_a_disc_not_seen_keeps_its_size_and_the_first_picture_gives_one() -> None:
+    assert sizes(9, 70.0, math.nan) == 70.0
+    assert sizes(1, math.nan, 80.0) == 80.0
+    assert math.isnan(sizes(3, math.nan, math.nan))

@@ -1,0 +1,26 @@
+"""Coupled end joints have one meaning: two thirds of the middle joint, in the angles and in the joint centres."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from tests.measures.tracked import tracked
+
+
+@pytest.mark.parametrize("smoothed", [False, True], ids=["live", "looked back"])
+def test_joint_centres_bend_at_the_end_joint_by_two_thirds_of_the_middle_one(smoothed: bool) -> None:
+    take = tracked("hook", 6.0, 0.4, discs="hand21")
+    motion = take.smoothed if smoothed else take.causal
+    assert motion.joint_angles_rad.shape[1] == 17, "coupled"
+    known = np.isfinite(motion.joint_angles_rad).all(axis=1)
+    angles, names = np.degrees(motion.joint_angles_rad[known]), list(take.truth.joint_names)
+    for finger in (2, 3, 4, 5):
+        rows = [5 + 4 * (finger - 2) + k for k in range(4)]  # MCPk, PIPk, DIPk, TIPk of the whole hand's markers
+        bones = np.diff(motion.joint_position_m[known][:, rows], axis=1)
+        middle, end = bones[:, 1], bones[:, 2]
+        cosine = np.vecdot(middle, end) / np.linalg.norm(middle, axis=1) / np.linalg.norm(end, axis=1)
+        shown = np.degrees(np.arccos(np.clip(cosine, -1.0, 1.0)))
+        pip = angles[:, names.index(f"PIP{finger}_flexion")]
+        assert pip.max() > 40.0
+        assert shown == pytest.approx(np.abs(2.0 / 3.0 * pip), abs=0.5)

@@ -1,0 +1,60 @@
+"""What a frame's row says of what was measured, and for how long it doubts."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+from carpus.core.calibration.settings import CalibrationSettings
+from carpus.core.hand.protocols import WRIST6
+from carpus.core.simulation.measurements import measurement_sequence
+from carpus.core.simulation.spec import RecordingSpec
+from carpus.core.tracking.frame_result import FrameResults
+from carpus.core.tracking.hand_filter import HandFilter
+from carpus.core.tracking.settings import TrackerSettings
+from carpus.core.tracking.tracker import Tracker
+from carpus.core.types import Detections, TrackedFrame, TrackStatus
+from tests.accuracy.carpus import measured_hand
+from tests.tracking.hands import CAMERA, DT_S, MCP3, Pose, blobs, calibration
+
+
+def test_a_disc_passed_over_is_doubted_for_as_long_as_the_hand_is_the_same() -> None:
+    settings = TrackerSettings()
+    own = HandFilter(calibration(), CAMERA, settings)
+    results = FrameResults(WRIST6, own.order, None, own.readout, settings)
+    seen = blobs(Pose())
+    beside = replace(seen, pixel=seen.pixel + np.where(np.arange(6) == MCP3, 6.5, 0.0)[:, None] * [0.8, 0.6])
+
+    def row(index: int) -> TrackedFrame:
+        """Of a hand at rest that was there the moment before; nothing is accepted."""
+        predicted = own.predict(0.0)
+        scan = own.scan(predicted, beside, index * DT_S, DT_S)
+        posterior = own.update(predicted, scan)
+        assert posterior.palm.taken[MCP3] < 0
+        return results.told(index, TrackStatus.TRACKED, posterior, scan, None, beside, 0)
+
+    patient = int(settings.doubt.unused_s / DT_S) + 1
+    rows = [row(index) for index in range(patient + 3)]
+    assert rows[0].status is TrackStatus.TRACKED
+    assert rows[-1].status is TrackStatus.DOUBTFUL
+    assert rows[-1].doubted.tolist() == [marker == MCP3 for marker in range(6)]
+    assert np.all(rows[-1].moment.angles_sd_rad > 1.4 * rows[0].moment.angles_sd_rad)
+    assert results.lost(99, 99 * DT_S, Detections.none(), 0).status is TrackStatus.LOST
+    assert row(100).status is TrackStatus.TRACKED, "another hand: nothing is contradicted yet"
+    np.testing.assert_allclose(row(101).measured_share, 5.0 / 6.0 * 2.0 / 3.0)
+
+
+def test_a_picture_in_which_nothing_was_measured_has_no_nis() -> None:
+    sequence = measurement_sequence(RecordingSpec(seed=3, protocol="hand21", motion="rest", seconds=1.5))
+    hand, _ = measured_hand(sequence, CalibrationSettings())
+    assert hand.calibration is not None
+    tracker = Tracker(hand.calibration, sequence.truth.camera, TrackerSettings())
+    times_s = sequence.truth.timestamp_s
+    some = tracker.step(0, float(times_s[0]), sequence.detections[0])
+    none = tracker.step(1, float(times_s[1]), Detections.none())
+    assert some.nis_dof > 30
+    assert np.isfinite(some.nis)
+    assert none.status is TrackStatus.PREDICTED
+    assert none.nis_dof == 0
+    assert np.isnan(none.nis)

@@ -1,0 +1,99 @@
+"""The filter's cycle alone: what an accepted update leaves behind, and what is worked out once."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import pytest
+
+from carpus.core.tracking import hand_filter
+from carpus.core.tracking.hand_filter import HandFilter, Posterior, Scan
+from carpus.core.tracking.palm_state import RATE, SHAPE, SKIN
+from carpus.core.tracking.reacquire import Facing, FoundPalm
+from carpus.core.tracking.settings import TrackerSettings
+from carpus.core.tracking.soft_tissue import settled_covariance
+from tests.tracking.hands import CAMERA, CMC1, DT_S, MCP2, MCP3, MCP4, MCP5, WRIST, Pose, blobs, calibration, swing
+
+FOUND = FoundPalm(np.array([0.02, 0.01, -0.01]), np.eye(3), np.ones(6, dtype=bool))
+
+
+def updated(own: HandFilter, at_s: float, pose: Pose, hidden: tuple[int, ...] = ()) -> tuple[Posterior, Scan]:
+    predicted = own.predict(DT_S)
+    scan = own.scan(predicted, blobs(pose, hidden=hidden), at_s, DT_S)
+    return own.update(predicted, scan), scan
+
+
+def run(own: HandFilter, frames: int = 40) -> None:
+    """A few frames of a hand that flexes."""
+    motion, rng = swing(1, 40.0, 1.0), np.random.default_rng(4)
+    for k in range(frames):
+        predicted = own.predict(DT_S if k else 0.0)
+        scan = own.scan(predicted, blobs(motion(k * DT_S), rng), k * DT_S, DT_S)
+        posterior = own.update(predicted, scan)
+        own.learn(posterior, DT_S)
+        own.accept(posterior, scan, is_seen=True, linked=True)
+
+
+def test_what_was_learnt_of_the_palm_outlives_a_lost_track() -> None:
+    own = HandFilter(calibration(sd_m=2e-3), CAMERA, TrackerSettings())
+    calibrated = own.estimate_at(FOUND)
+    run(own)
+    learnt = own.predict(0.0).nominal
+    own.lose()
+    begun = own.estimate_at(FOUND)
+    assert not np.any(calibrated.value[SHAPE])
+    assert np.abs(learnt.value[SHAPE]).max() > 1e-5
+    np.testing.assert_allclose(begun.value[SHAPE], learnt.value[SHAPE])
+    np.testing.assert_allclose(begun.covariance[SHAPE, SHAPE], learnt.covariance[SHAPE, SHAPE])
+    own.begin_at_neutral()
+    assert not np.any(own.predict(0.0).nominal.value[SHAPE])
+
+
+def test_a_palm_is_looked_for_with_its_discs_where_skin_may_have_carried_them(monkeypatch: pytest.MonkeyPatch) -> None:
+    asked: list[Any] = []
+    monkeypatch.setattr(hand_filter, "find_palm", lambda *arguments: asked.append(arguments))
+    settings = TrackerSettings()
+    own = HandFilter(calibration(), CAMERA, settings)
+    own.find(blobs(Pose()), Facing(np.eye(3), 1.0))
+    by_skin = settled_covariance(settings.tissue)[SKIN, SKIN]
+    assert np.linalg.eigvalsh(asked[0][2] - by_skin).min() > 0.0
+
+
+def test_the_rate_about_a_line_of_discs_fades_while_no_other_is_seen() -> None:
+    own = HandFilter(calibration(), CAMERA, TrackerSettings(use_surface=False))
+    run(own, 10)
+    posterior, scan = updated(own, 10 * DT_S, swing(1, 40.0, 1.0)(10 * DT_S), (WRIST, CMC1, MCP2))
+    assert np.count_nonzero(posterior.palm.taken >= 0) == 3
+    assert (posterior.palm.taken[[MCP3, MCP4, MCP5]] >= 0).all()
+    own.accept(posterior, scan, is_seen=True, linked=True)
+    line = np.array([0.016, 0.033, 0.0]) / np.hypot(0.016, 0.033)
+    before, after = posterior.belief.value[RATE], own.predict(0.0).nominal.value[RATE]
+    assert abs(line @ before) > 0.05
+    kept = np.exp(-DT_S / TrackerSettings().rate_memory_s)
+    assert line @ after == pytest.approx(kept * (line @ before), rel=0.05)
+    across = before - line * (line @ before)
+    np.testing.assert_allclose(after - line * (line @ after), across, atol=0.02 * np.linalg.norm(before))
+
+
+def test_a_scan_without_blobs_is_one_of_nothing() -> None:
+    own = HandFilter(calibration(), CAMERA, TrackerSettings())
+    predicted = own.predict(0.0)
+    scan = own.scan(predicted, blobs(Pose()), 0.0, 0.0).without_blobs()
+    assert len(scan.blobs) == len(scan.ideal) == 0
+    posterior = own.update(predicted, scan)
+    assert posterior.seen == posterior.palm.dof == 0
+    assert (posterior.palm.taken == -1).all()
+
+
+def test_a_prediction_is_worked_out_once_and_of_another_time_anew() -> None:
+    own = HandFilter(calibration(), CAMERA, TrackerSettings())
+    run(own, 10)
+    first = own.predict(DT_S)
+    assert own.predict(DT_S) is first
+    assert own.predict(2.0 * DT_S) is not first
+    assert np.trace(own.predict(5.0 * DT_S).nominal.covariance) > np.trace(first.nominal.covariance)
+    again = own.predict(DT_S)
+    posterior, scan = updated(own, 1.0, swing(1, 40.0, 1.0)(10 * DT_S))
+    own.accept(posterior, scan, is_seen=True, linked=True)
+    assert own.predict(DT_S) is not again, "the state is another"

@@ -1,0 +1,62 @@
+"""The filter as written down is the filter that is computed."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from carpus.core.tracking.hand_geometry import CONSTANTS, DISCS, RAYS, SLOTS
+from carpus.core.tracking.motion import MotionNoise, PalmMotion, palm_step
+from carpus.core.tracking.palm_state import MOVING, PALM_DISCS, SIZE
+from carpus.core.tracking.ray_filter import RAY_SIZE, RayMotion
+from carpus.core.tracking.settings import TrackerSettings
+from carpus.core.tracking.soft_tissue import resting_or_moving
+from carpus.core.tracking.state_model import (
+    DIGIT_MEASUREMENTS,
+    DIGIT_STATE,
+    PALM_MEASUREMENTS,
+    PALM_STATE,
+    StatePart,
+)
+from carpus.core.types import FloatArray
+from tests.test_document_names import is_there
+
+
+@pytest.mark.parametrize(("parts", "size"), [(PALM_STATE, SIZE), (DIGIT_STATE, RAY_SIZE)])
+def test_every_number_of_the_state_is_told_once(parts: tuple[StatePart, ...], size: int) -> None:
+    rows = [row for part in parts for row in range(part.rows.start, part.rows.stop)]
+    assert rows == list(range(size))
+
+
+def test_every_name_that_is_told_is_in_the_program() -> None:
+    told = [name for part in (*PALM_STATE, *DIGIT_STATE) for name in part.source]
+    told += [name for part in (*PALM_MEASUREMENTS, *DIGIT_MEASUREMENTS) for name in (*part.h, *part.r)]
+    assert [name for name in told if not is_there(name)] == []
+    assert PALM_MEASUREMENTS[0].size == 3 * PALM_DISCS
+    assert DIGIT_MEASUREMENTS[0].size == 3 * DISCS
+
+
+def moved_by(forward: FloatArray, parts: tuple[StatePart, ...]) -> dict[str, tuple[str, ...]]:
+    """What a transition puts into each part, beside itself."""
+    return {
+        into.name: tuple(of.name for of in parts if of is not into and np.any(forward[into.rows, of.rows]))
+        for into in parts
+    }
+
+
+def test_the_palm_moves_as_told() -> None:
+    settings = TrackerSettings()
+    motion = PalmMotion(MotionNoise(), resting_or_moving(settings.tissue), np.array(settings.mode_scales))
+    step = palm_step(np.array([0.3, -0.2, 0.5]), motion, 0.03)
+    moving = tuple(part for part in PALM_STATE if part.rows.stop <= MOVING.stop)
+    assert moved_by(step.moving, moving) == {part.name: part.moved_by for part in moving}
+    assert all(not part.moved_by for part in PALM_STATE if part not in moving)
+    assert all(np.diagonal(step.driven[0])[part.rows].min() > 0.0 for part in moving)
+
+
+def test_a_digit_moves_as_told() -> None:
+    free = np.ones((RAYS, SLOTS))
+    motion = RayMotion(free, np.array([1.0]), np.ones((RAYS, CONSTANTS)), np.zeros((RAYS, SLOTS)), 1.0)
+    forward, noise = motion.step(0.03, np.ones(RAYS), None)
+    assert moved_by(forward[2], DIGIT_STATE) == {part.name: part.moved_by for part in DIGIT_STATE}
+    assert np.diagonal(noise[2]).min() > 0.0

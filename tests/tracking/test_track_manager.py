@@ -1,0 +1,131 @@
+"""When a track begins, is confirmed, coasts and is given up, by times and counts alone."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from carpus.core import so3
+from carpus.core.tracking.reacquire import FoundPalm
+from carpus.core.tracking.track_manager import HoldingSettings, TrackManager, TrackStage
+from carpus.core.types import TrackStatus
+
+LOST_AFTER_S, LEAST_FOUND = 1.5, 4
+OWN = HoldingSettings()
+
+
+def manager(*, amid_digits: bool = False) -> TrackManager:
+    out = TrackManager(OWN, LEAST_FOUND, LOST_AFTER_S, amid_digits=amid_digits)
+    out.begin_at_neutral()
+    return out
+
+
+def found(count: int, turned_rad: float = 0.0) -> FoundPalm:
+    return FoundPalm(np.zeros(3), so3.exp(np.array([turned_rad, 0.0, 0.0])), np.arange(6) < count)
+
+
+def seen(track: TrackManager, at_s: float, count: int, *, fits: bool = True) -> TrackStatus:
+    track.next_frame(at_s)
+    return track.status_after(at_s, count, fits=fits)
+
+
+def test_a_hand_out_of_sight_coasts_and_is_given_up_after_its_time() -> None:
+    track = manager()
+    assert seen(track, 0.0, 6) is TrackStatus.TRACKED
+    assert seen(track, 0.1, OWN.least_discs) is TrackStatus.TRACKED
+    assert seen(track, 0.1 + LOST_AFTER_S, OWN.least_discs - 1) is TrackStatus.PREDICTED
+    assert track.stage is TrackStage.COASTED
+    assert seen(track, 0.2 + LOST_AFTER_S, 0) is TrackStatus.LOST
+    assert seen(manager(), 9.0, 0) is TrackStatus.PREDICTED, "the time runs from when it began"
+
+
+def test_no_picture_for_so_long_ends_a_track_and_nothing_shorter_does() -> None:
+    track = manager()
+    assert not track.is_past(99.0), "before the first frame there is nothing to be late for"
+    seen(track, 2.0, 6)
+    assert not track.is_past(2.0 + LOST_AFTER_S)
+    assert track.is_past(2.01 + LOST_AFTER_S)
+    assert track.since_last_s(2.5) == 0.5
+    track.begin_at_neutral(5.0)
+    assert track.since_last_s(5.25) == 0.25
+    assert not track.next_frame(5.25)
+    assert track.next_frame(5.5)
+
+
+@pytest.mark.parametrize(("count", "stage"), [(4, TrackStage.TENTATIVE), (5, TrackStage.CONFIRMED)])
+def test_what_just_enough_discs_found_is_tentative_until_more_bear_it_out(count: int, stage: TrackStage) -> None:
+    track = manager()
+    track.lose(1.0)
+    assert track.is_lost
+    assert track.initiates(found(count), 1.1)
+    assert track.stage is stage
+    assert track.looks_anew(5, 0, 0.0) == (stage is TrackStage.TENTATIVE)
+    assert track.facing(np.eye(3), 1.1).most_rad == (
+        OWN.most_turn_rad if stage is TrackStage.TENTATIVE else pytest.approx(OWN.turn_slack_rad)
+    )
+    seen(track, 1.2, 5, fits=False)
+    assert track.stage is stage
+    seen(track, 1.3, 4)
+    assert track.stage is stage
+    seen(track, 1.4, 5)
+    assert track.stage is TrackStage.CONFIRMED
+
+
+def test_a_hand_found_again_is_refuted_by_the_next_pictures_and_by_no_later_ones() -> None:
+    track = manager()
+    track.lose(1.0)
+    track.initiates(found(6), 1.1)
+    least = OWN.least_discs
+    assert track.is_refuted(least, 1.1)
+    assert not track.is_refuted(least + 1, 1.1)
+    assert track.is_refuted(least - 1, 1.1 + 0.9 * OWN.probation_s)
+    assert not track.is_refuted(least, 1.1 + 0.9 * OWN.probation_s)
+    assert not track.is_refuted(0, 1.1 + 1.1 * OWN.probation_s)
+
+
+def test_four_discs_among_those_of_fingers_must_go_on_being_the_same_palm() -> None:
+    assert manager().initiates(found(4), 0.0)
+    assert manager(amid_digits=True).initiates(found(5), 0.0)
+    step_s = 0.4 * OWN.suspected_s
+
+    def begun(*turned_rad: float, counts: tuple[int, ...] = (4, 4, 4, 4)) -> list[bool]:
+        track = manager(amid_digits=True)
+        track.lose(0.0)
+        out = []
+        for k, (turn, count) in enumerate(zip(turned_rad, counts, strict=True)):
+            track.next_frame(k * step_s)
+            out.append(track.initiates(found(count, turn), k * step_s) if count else False)
+        return out
+
+    assert begun(0.0, 0.1, 0.2, 0.3) == [False, False, False, True]
+    assert not any(begun(0.0, 0.1, 0.1 + 1.1 * OWN.turn_slack_rad, 0.1 + 1.1 * OWN.turn_slack_rad))
+    assert not any(begun(0.0, 0.0, 0.0, 0.0, counts=(4, 4, 0, 4))), "not seen for a picture it begins anew"
+
+
+def test_where_a_hand_can_be_turned_grows_with_the_time_it_was_gone_up_to_the_most() -> None:
+    track, turned = manager(), so3.exp(np.array([0.0, 0.4, 0.0]))
+    seen(track, 0.0, 6)
+    at = [track.facing(turned, gone_s) for gone_s in (0.0, 0.05, 9.0)]
+    assert [one.most_rad for one in at] == pytest.approx(
+        [OWN.turn_slack_rad, OWN.turn_slack_rad + 0.05 * OWN.most_rate_rad_s, OWN.most_turn_rad]
+    )
+    assert all(one.rotation_w2_w0 is turned for one in at)
+    assert np.array_equal(track.anyhow().rotation_w2_w0, np.eye(3))
+
+
+@pytest.mark.parametrize("amid_digits", [False, True])
+def test_so_few_discs_of_a_hand_foreseen_so_unsurely_could_be_anything(amid_digits: bool) -> None:
+    track = manager(amid_digits=amid_digits)
+    most_rad = OWN.blind_among_fingers_rad if amid_digits else OWN.blind_rad
+    for count, most in enumerate(most_rad):
+        assert not track.is_ambiguous(count, most)
+        assert track.is_ambiguous(count, 1.01 * most)
+    assert not track.is_ambiguous(len(most_rad), 9.0)
+
+
+def test_the_palm_is_looked_for_anew_where_little_of_it_or_little_is_sure_and_enough_blobs_are_there() -> None:
+    track, least = manager(), OWN.least_discs
+    assert track.looks_anew(least, 1, 0.0)
+    assert not track.looks_anew(least, 0, 0.0)
+    assert not track.looks_anew(least + 1, 9, OWN.vague_rad)
+    assert track.looks_anew(least + 1, 0, 1.01 * OWN.vague_rad)

@@ -1,0 +1,224 @@
+"""One rule for Enter, held over every card and sheet of the program.
+
+Each is opened as the program opens it. The keyboard is in a field or on the default button; "Enter" stands on that
+button alone; Enter presses it and nothing else; and it is the answer that loses nothing.
+"""
+
+from __future__ import annotations
+
+import ast
+import importlib
+import pkgutil
+from collections.abc import Callable, Iterator
+from pathlib import Path
+
+import numpy as np
+import pytest
+from PySide6.QtCore import Qt
+from PySide6.QtWidgets import QApplication, QComboBox, QLineEdit, QPlainTextEdit, QPushButton, QSpinBox, QWidget
+from pytestqt.qtbot import QtBot
+
+import carpus.app
+import carpus.ui
+from carpus.core.agreement.reference import Outline
+from carpus.core.library.exercise_sets import USUAL_SETS
+from carpus.ui.agreement.reference_sheet import ColumnsSheet, ReferenceSheet
+from carpus.ui.camera_calibration.name_sheet import CameraNameSheet
+from carpus.ui.controls.button import Button
+from carpus.ui.controls.default_answer import ENTER, takes_enter
+from carpus.ui.controls.sheet import Sheet
+from carpus.ui.correct.results_sheet import ResultsSheet
+from carpus.ui.export.sheet import ExportSheet
+from carpus.ui.live.notes import NoteSheet, PainSheet
+from carpus.ui.markers.start_angle import StartAngleSheet
+from carpus.ui.messages.stop_card import Answer, StopCard
+from carpus.ui.patients.entry import PatientForm
+from carpus.ui.ports import ReferenceChoice, Words
+from carpus.ui.records.erase_sheet import EraseSheet
+from carpus.ui.records.list_sheets import LogSheet, RecordsSheet
+from carpus.ui.records.lock_sheet import LockSheet
+from carpus.ui.records.passphrase_sheet import PassphraseSheet
+from carpus.ui.records.pin_sheet import PinSheet
+from carpus.ui.records.ports import ListedRecord
+from carpus.ui.report.letter_sheet import LetterSheet
+from carpus.ui.retest.people_sheet import PeopleSheet
+from carpus.ui.review.reason import ReasonSheet
+from carpus.ui.sessions.sheets import ChooseSheet, SetAsideSheet
+from carpus.ui.setup.set_sheet import SetSheet
+from carpus.ui.theme import Theme
+from tests.ui.gallery import ERASED_SESSION
+
+FIELDS = (QLineEdit, QPlainTextEdit, QComboBox, QSpinBox)
+Opened = tuple[Sheet, str]
+"""A sheet that is open, and the answer that loses nothing."""
+
+
+def _opened(kind: Callable[..., Sheet], answer: str, *begin: object, **named: object) -> Callable[..., Opened]:
+    def open_it(host: QWidget, theme: Theme) -> Opened:
+        sheet = kind(host, theme)
+        sheet.begin(*begin, **named)  # type: ignore[attr-defined]
+        return sheet, answer
+
+    return open_it
+
+
+def _patient(host: QWidget, theme: Theme) -> Opened:
+    sheet = PatientForm(host, theme, lambda: "Alder 51")
+    sheet.begin(None, frozenset())
+    for choices in (sheet.side, sheet.dominance):
+        choices.buttons()[0].click()
+    return sheet, "Add patient"
+
+
+def _card(host: QWidget, theme: Theme) -> Opened:
+    card = StopCard(host, theme)
+    answers = (Answer("Let them go", lambda: None, "L", risky=True), Answer("Back to the form", lambda: None))
+    card.show_words(Words("Leave without saving?", "", ""), answers, alarm=False)
+    return card, "Back to the form"
+
+
+def _columns(host: QWidget, theme: Theme) -> Opened:
+    sheet = ColumnsSheet(host, theme)
+    outline = Outline(Path("gonio.csv"), "angles", ("time", "flexion"), {"time": "time", "flexion": "flexion"})
+    sheet.begin(outline, ("time", "flexion"), ReferenceChoice("gonio.csv"))
+    return sheet, "Compare"
+
+
+SHEETS: dict[type[Sheet], Callable[[QWidget, Theme], Opened]] = {
+    StopCard: _card,
+    PatientForm: _patient,
+    ColumnsSheet: _columns,
+    ReferenceSheet: _opened(ReferenceSheet, "Choose a &file…", [("s1", "Mon 1 Nov")]),
+    CameraNameSheet: _opened(CameraNameSheet, "Go on", "Window"),
+    ResultsSheet: _opened(ResultsSheet, ""),
+    ExportSheet: _opened(ExportSheet, "Choose the folder…"),
+    NoteSheet: _opened(NoteSheet, "Keep note"),
+    PainSheet: _opened(PainSheet, "Close"),
+    StartAngleSheet: _opened(StartAngleSheet, "Use these angles", np.zeros(3)),
+    EraseSheet: _opened(EraseSheet, "Archive instead", ERASED_SESSION),
+    RecordsSheet: _opened(RecordsSheet, "Done", "Archive", "", [ListedRecord("a", "Heron 17", "1 session", True)]),
+    LogSheet: _opened(LogSheet, "Done", []),
+    PassphraseSheet: _opened(PassphraseSheet, "Seal it", print, seals=True),
+    LockSheet: _opened(LockSheet, "Unlock", "", stored=True),
+    PinSheet: _opened(PinSheet, "Keep this PIN", is_set=True),
+    LetterSheet: _opened(LetterSheet, "Show the letter", ["Dr A"], has_name=True),
+    PeopleSheet: _opened(PeopleSheet, "These take part", [("a", "P01", 2)], []),
+    ReasonSheet: _opened(ReasonSheet, "Keep it in", 3),
+    SetAsideSheet: _opened(SetAsideSheet, "Let it count"),
+    ChooseSheet: _opened(ChooseSheet, "Leave it as it is", "To whom?", "", "Move it there", [("a", "Heron 17")]),
+    SetSheet: _opened(SetSheet, "Keep the set", USUAL_SETS, "wrist6"),
+}
+"""Every sheet of the program, opened with something in it."""
+
+
+def _all_sheets() -> set[type[Sheet]]:
+    """Every kind that can be opened, of every module of the window."""
+    for package in (carpus.ui, carpus.app):
+        for module in pkgutil.walk_packages(package.__path__, f"{package.__name__}."):
+            if not module.name.endswith("__main__"):
+                importlib.import_module(module.name)
+    found, waiting = set(), [Sheet]
+    while waiting:
+        for kind in waiting.pop().__subclasses__():
+            waiting.append(kind)
+            if kind.__module__.startswith("carpus.") and not kind.__name__.startswith("_"):
+                found.add(kind)
+    return found
+
+
+def test_no_sheet_is_forgotten() -> None:
+    assert _all_sheets() == set(SHEETS)
+
+
+@pytest.fixture
+def host(qtbot: QtBot) -> Iterator[QWidget]:
+    widget = QWidget()
+    qtbot.addWidget(widget)
+    widget.resize(1280, 800)
+    widget.show()
+    qtbot.waitExposed(widget)
+    widget.activateWindow()
+    yield widget
+    for sheet in widget.findChildren(Sheet):
+        sheet.close_sheet()
+
+
+def _pressed(sheet: Sheet) -> list[str]:
+    """What is pressed from now on."""
+    said: list[str] = []
+    for button in sheet.findChildren(QPushButton):
+        button.clicked.connect(lambda _=False, button=button: said.append(button.text()))
+    return said
+
+
+@pytest.mark.parametrize("kind", SHEETS, ids=lambda kind: kind.__name__)
+def test_enter_is_the_answer_that_says_so_and_loses_nothing(
+    qtbot: QtBot, theme: Theme, host: QWidget, kind: type[Sheet]
+) -> None:
+    sheet, answer = SHEETS[kind](host, theme)
+    focused = host.focusWidget()
+    assert sheet.default is not None
+    if answer:
+        assert sheet.default.text() == answer
+    assert focused is sheet.default or isinstance(focused, FIELDS) or not takes_enter(focused)
+    marked = [one.text() for one in sheet.findChildren(Button) if one.isVisible() and one.shown_key == ENTER]
+    assert marked == [sheet.default.text()]
+    if isinstance(focused, QPlainTextEdit):
+        sheet.default.setFocus()  # a text of several lines takes Enter for a new line
+        focused = sheet.default
+    said = _pressed(sheet)
+    qtbot.keyClick(focused, Qt.Key.Key_Return)
+    assert said == [marked[0]]
+
+
+def test_another_button_with_the_keyboard_takes_enter_and_its_sign(qtbot: QtBot, theme: Theme, host: QWidget) -> None:
+    sheet, _ = _card(host, theme)
+    other, default = sheet.findChildren(Button)
+    other.setFocus()
+    QApplication.processEvents()
+    assert default.shown_key == "", "the label would lie"
+    said = _pressed(sheet)
+    qtbot.keyClick(other, Qt.Key.Key_Return)
+    assert said == [other.text()]
+
+
+def test_a_risky_answer_is_never_the_default(theme: Theme, host: QWidget) -> None:
+    with pytest.raises(ValueError, match="Erase it"):
+        StopCard(host, theme).show_words(Words("", "", ""), [Answer("Erase it", lambda: None, risky=True)])
+
+
+def _cards() -> Iterator[tuple[str, list[ast.Call]]]:
+    """The answers of every card that the program shows, as written."""
+    for path in sorted((Path(__file__).parents[2] / "app").rglob("*.py")):
+        for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+            if isinstance(node, ast.Tuple | ast.List):
+                calls = [
+                    one for one in node.elts
+                    if isinstance(one, ast.Call) and isinstance(one.func, ast.Name) and one.func.id == "Answer"
+                ]  # fmt: skip
+                if calls:
+                    yield f"{path.name}:{node.lineno}", calls
+
+
+HARMLESS = {
+    "Go on", "Go on measuring", "Leave it as it is", "Back to the form", "Choose the source again", "Open it again",
+    "Stay here",
+}  # fmt: skip
+"""Last answers of cards: each leaves everything as it is, or only reads something again."""
+
+
+def test_the_last_answer_of_every_card_loses_nothing() -> None:
+    seen = 0
+    for place, calls in _cards():
+        seen += 1
+        last = calls[-1]
+        assert not any(one.arg == "risky" for one in last.keywords), place
+        assert len(last.args) == 2, f"{place}: the default answer's key is Enter"
+        words = [node.value for node in ast.walk(last.args[0]) if isinstance(node, ast.Constant)]
+        if words:
+            assert words[0] in HARMLESS, place
+        for other in calls[:-1]:
+            risky = any(one.arg == "risky" for one in other.keywords)
+            text = [node.value for node in ast.walk(other.args[0]) if isinstance(node, ast.Constant)]
+            assert risky or not text or text[0] in HARMLESS | {"Open the folder"}, f"{place}: {text}"
+    assert seen >= 8
