@@ -22,6 +22,8 @@ STORE_FILE = "records.sqlite3"
 SMALL_BYTES = 64 << 20
 """A file up to this size is looked through when it is opened; a larger one would hold up the start, and its damage is
 met where it is."""
+_MIGRATING = threading.Lock()
+"""Alembic keeps the migration that runs in globals of its own: one at a time in a process."""
 
 
 class Database:
@@ -124,7 +126,8 @@ def up_to_date(connection: Connection, name: Path | str) -> bool:
     config.set_main_option("script_location", str(Path(__file__).parent / "migrations").replace("%", "%%"))
     config.attributes["connection"] = connection
     try:
-        upgrade(config, "head")
+        with _MIGRATING:
+            upgrade(config, "head")
     except CommandError as cause:
         said = phrase("version {version}, this Carpus reads up to {count}", version=found or "", count=VERSION)
         raise RegisterUnreadable(name, said) from cause

@@ -28,7 +28,7 @@ def forget(connection: Connection, ids: Collection[str]) -> None:
         change = read_back(waiting.change)
         left = [one for row in change if (one := _without(row, ids)) is not None]
         if left != change:
-            these = OUTBOX.c.number == waiting.number
+            these = OUTBOX.c.id == waiting.id
             rewritten = update(OUTBOX).where(these).values(change=told(left))
             connection.execute(rewritten if left else delete(OUTBOX).where(these))
 

@@ -162,7 +162,7 @@ class Server:
                 fault = cause if isinstance(cause, CarpusFault) else ChangeRefused(self._name, _said(cause))
             there = self._as_there(change) if fault is not None else []
             with self._copy.writing() as connection:
-                done = OUTBOX.c.number == row.number
+                done = OUTBOX.c.id == row.id  # a number is given again once its row is gone
                 if fault is None:
                     connection.execute(delete(OUTBOX).where(done))
                     self._leaves_traces |= any(one.way == "drop" for one in change)
