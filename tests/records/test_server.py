@@ -17,7 +17,7 @@ from sqlalchemy.pool import NullPool
 from carpus.core.errors import CarpusFault, ChangedMeanwhile, PseudonymGiven, PseudonymTaken, ServerGone
 from carpus.core.output.report_content import RepetitionChoices
 from carpus.core.records import erasure, of_sessions
-from carpus.core.records.changes import PRACTICE
+from carpus.core.records.changes import PRACTICE, Change
 from carpus.core.records.log import read_log
 from carpus.core.records.schema import COMMENT, DEED, OUTBOX, PATIENT, SESSION
 from carpus.core.records.server import Server
@@ -219,6 +219,29 @@ def test_a_change_whose_answer_is_lost_is_made_once(
         until(lambda: waiting(a) == 0)
         assert len(broken) == 3
     assert (count(there, "comment"), count(there, "deed")) == (2, 1)
+
+
+def test_what_is_laid_out_while_a_forgotten_change_is_sent_arrives_too(
+    tmp_path: Path, there: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """The new change gets the number in the outbox that the forgotten one had, and is another all the same."""
+    real, sent = Server._send, list[str]()
+    with opened(tmp_path, there) as house:
+        session_id = measure(house, house.patients.add(LINDEN), T0)
+        settled(house)
+
+        def send(self: Server, change_id: str, change: Change) -> None:
+            real(self, change_id, change)
+            sent.append(change_id)
+            if len(sent) == 1:
+                house.store.forget_waiting([row.id for row in change])
+                of_sessions.add_comment(house.store, session_id, "second", "AB")
+
+        monkeypatch.setattr(Server, "_send", send)
+        of_sessions.add_comment(house.store, session_id, "first", "AB")
+        settled(house)
+        until(lambda: len(sent) == 2)
+    assert count(there, "comment") == 2
 
 
 def _cut() -> DBAPIError:
