@@ -225,7 +225,8 @@ class TakesDrawn:
     def start(self) -> None:
         """Begin with what is not there yet."""
         if len(self._drawn) < len(self._set_ups):
-            threading.Thread(target=self._run, name="practice takes", daemon=True).start()
+            # No daemon: one that still draws while the program ends would be cut off in the middle, which aborts it.
+            threading.Thread(target=self._run, name="practice takes", daemon=False).start()
 
     def choose(self, exercise: str) -> None:
         """The exercise that the patient does next, as soon as it is drawn."""
@@ -239,6 +240,7 @@ class TakesDrawn:
             for name, set_up in self._set_ups.items():
                 if name in self._drawn:
                     continue
+                self._on_the_way(0, 1)
                 take, _ = self._draw(set_up, self._on_the_way)
                 with self._turn:
                     self._drawn[name] = take
